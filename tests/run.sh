@@ -222,7 +222,7 @@ if [ -n "$all" ]; then
     # for gcc needs minutes to build this. The fuzz targets come from the same build.
     lines=-gline-tables-only
     coverage="-fsanitize=fuzzer-no-link -fno-sanitize-coverage=trace-cmp $lines"
-    fuzzed='lattice manifest report obj gltf glb ply off stl png jpeg'
+    fuzzed='lattice manifest report clip obj gltf glb ply off stl png jpeg'
     if build asan 'unit property fuzz golden cli' clang clang++ -Dbuildtype=debug -Doptimization=1 \
         -Db_sanitize=address,undefined -Db_lundef=false -Dfuzzers=true -Dc_args="$coverage" -Dcpp_args="$coverage"; then
         suites asan asan --no-suite oracle --no-suite rules --no-suite bench --no-suite node --no-suite slow \

@@ -115,6 +115,10 @@ typedef struct ffd_flaw {
    with the nearest kind. */
 FFD_API ffd_status ffd_selector_check(const char *text, ffd_error *error);
 
+/* Whether text is an animation of weights as ffd_deform_desc's clips take it. Errors: FFD_E_ARGUMENT, with
+   what stands where something else should, FFD_E_MEMORY. */
+FFD_API ffd_status ffd_clip_check(const char *text, ffd_error *error);
+
 /* The files that one run has written so far. Jobs that share the record neither replace nor read what an
    earlier one of them wrote: two names can lead to one file. One thread at a time. */
 typedef struct ffd_written ffd_written;
@@ -196,6 +200,18 @@ typedef struct ffd_deform_desc {
     const char *as_morph; /* to glTF: leave the base shape and add the deformation as a morph target of this
                              name, weight 0, or replace the one of this name, whose weight stays; NULL: deform
                              it. ffd_check_run does not look at it. */
+    /* To glTF: lattice_count names, each another, or NULL. The base shape is left, and each lattice by itself
+       makes the morph target of its name, as as_morph makes one, in one pass over the mesh. Not with
+       as_morph, blocks or, of several, embedding, and not for ffd_check_run and ffd_view_run. */
+    const char *const *morphs;
+    /* clip_count animations of the weights of morph targets, or NULL: texts "NAME: TIME TARGET=WEIGHT ...,
+       TIME ..." (ffd_clip_check), seconds that ascend, between which weights are linear; a target that a time
+       does not name has the weight 0 there. They name targets of morphs and of the file (FFD_E_ARGUMENT for
+       others); targets that are neither keep their default weights. One of a clip's name is replaced. Only
+       with morphs. */
+    const char *const *clips;
+    size_t clip_count;
+    struct ffd_job_result *morph_results; /* filled: lattice_count, of each of morphs; or NULL */
     /* only_count selectors "KIND:NAME", or NULL: only what at least one of them names is moved, counted in
        the result and the gates, and inside of a lattice whose box is "mesh"; all else keeps every byte. glTF
        has the kinds node (with all below it), mesh, material; OBJ group, object, material; other formats have
@@ -338,6 +354,14 @@ typedef struct ffd_job_result {
     size_t flaw_count;
     uint64_t indices_left; /* indices in extensions of a glTF that do not follow its deformed meshes */
     const char *picture;   /* what ffd_view_run has written, lent by its description; else NULL */
+    /* With morphs: their names, lattices and, where the description has room for them, figures: morph_count
+       each (up to the one that a gate refuses), lent by the description. The figures above are then the worst ones of a target: counts of the one
+       with the fewest vertices inside, what tears of the one with the largest step, folds of all, after round
+       all. */
+    size_t morph_count;
+    const char *const *morphs;
+    const char *const *morph_lattices;
+    const struct ffd_job_result *morph_results;
     double seconds_read, seconds_embed, seconds_deform, seconds_judge, seconds_write;
 } ffd_job_result;
 

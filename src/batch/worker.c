@@ -25,6 +25,7 @@ typedef struct batch_worker {
     size_t word_capacity;
     byte_buffer log, entry, rule, figures; /* of the answer */
     byte_buffer message;                   /* the whole answer */
+    void *opened; /* of the task: what its description and its result lend; or NULL */
 } batch_worker;
 
 /* The word after this one. */
@@ -315,8 +316,8 @@ static ffd_status run_words(batch_worker *worker, const wire_task *task, wire_an
     for (uint32_t i = 0; i < task->content_words; i++)
         origin = next_word(origin);
     ffd_deform_desc desc;
-    void *const opened = worker->program->open((int)task->word_count, worker->words, &desc, &result->error);
-    if (!opened)
+    worker->opened = worker->program->open((int)task->word_count, worker->words, &desc, &result->error);
+    if (!worker->opened)
         return blame_manifest(origin, task, &result->error);
     job_log log = {&worker->log, desc.input.path, task->quiet, task->verbose};
     desc.log = log_line;
@@ -331,7 +332,6 @@ static ffd_status run_words(batch_worker *worker, const wire_task *task, wire_an
         worker->rule.size = 0;
     if (status && status != FFD_E_ARGUMENT)
         ffd_fail_name_file(&result->error, desc.input.path);
-    worker->program->close(opened);
     return status ? blame_manifest(origin, task, &result->error) : FFD_OK;
 }
 
@@ -373,6 +373,9 @@ static void answer_task(batch_worker *worker, const wire_task *task, wire_answer
     }
     if (task->report && !answer->looked && answer->outcome != OUTCOME_SKIPPED)
         make_entry(worker, task, answer, &result);
+    if (worker->opened)
+        worker->program->close(worker->opened);
+    worker->opened = NULL;
 }
 
 /* Sent at once: each part would wake the first process. If memory runs out for the message, its head says

@@ -20,7 +20,7 @@ typedef struct settings {
 
 /* Options that a job can have and that say something of the batch here. */
 static const char *const common[] = {"lattice", "out-dir", "report",  "report-stable", "threads", "quiet",
-                                     "verbose", "help",    "depfile", "shared-box",    NULL};
+                                     "verbose", "help",    "depfile", "shared-box",    "morph",   NULL};
 
 static bool set_shard(void *context, const cli_option *option, const char *value)
 {
@@ -99,11 +99,13 @@ static const char *wrong(const settings *s, const cli_words *words)
     if (!manifest && !s->table && !s->pattern)
         return "needs MANIFEST, or --in, or --csv";
     if (manifest && (s->table || s->pattern || jobs->out_dir || jobs->job.lattice_count))
-        return "MANIFEST cannot be used with --in, --csv, --lattice or --out-dir";
+        return "MANIFEST cannot be used with --in, --csv, --lattice, --morph or --out-dir";
     if (s->ignored && !s->table)
         return "--csv-ignore needs --csv";
     if (!manifest && !s->table && !jobs->job.lattice_count)
         return "--in needs a lattice (-l FILE)";
+    if (jobs->job.morph_count > 0 && jobs->job.lattice_count > jobs->job.morph_count)
+        return "-l cannot be used with --morph: each --morph names its own lattice";
     if (!manifest && !s->table && !jobs->out_dir && !jobs->in_place)
         return "--in needs --out-dir or --in-place";
     if (jobs->in_place && jobs->out_dir)
@@ -135,6 +137,7 @@ static int run_batch(const settings *s, const cli_words *words)
                                       .pattern = s->pattern,
                                       .lattices = job->lattices,
                                       .lattice_count = job->lattice_count,
+                                      .morphs = job->morph_count ? job->morphs : NULL,
                                       .out_dir = s->jobs.out_dir,
                                       .defaults = s->defaults,
                                       .default_count = s->default_count,

@@ -1,6 +1,7 @@
 /* deform.c - ffd deform: one mesh to a file, many to a folder; and the same for the jobs of a batch. */
 #include "cli/deform.h"
 #include "base/file/folder.h"
+#include "cli/morphs.h"
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,6 +11,12 @@ typedef cli_deform_settings settings;
 
 #define AT(field) offsetof(settings, field)
 const cli_option cli_deform_options[] = {
+    {"morph", 0, "NAME=LATTICE",
+     "glTF out, in place of -l: as --as-morph, for this lattice; repeatable, in one pass", cli_add_morph, 0,
+     NULL},
+    {"clip", 0, "CLIP",
+     "with --morph: animate weights, \"NAME: TIME TARGET=W ..., TIME ...\"; seconds; repeatable",
+     cli_add_clip, 0, NULL},
     {"out-dir", 0, "DIR", "write every IN under its own name into this folder", cli_set_text, AT(out_dir),
      NULL},
     {"in-place", 0, NULL, "overwrite IN", cli_set_flag, AT(in_place), NULL},
@@ -94,7 +101,7 @@ static int refuse_missing_folder(const char *folder)
     return ffd_status_exit_code(FFD_E_IO);
 }
 
-static void describe(settings *s, const char *input, const char *output, ffd_deform_desc *desc)
+static bool describe(settings *s, const char *input, const char *output, ffd_deform_desc *desc)
 {
     cli_job_describe(&s->job, input, desc);
     desc->output = s->in_place ? NULL : output;
@@ -104,13 +111,15 @@ static void describe(settings *s, const char *input, const char *output, ffd_def
     desc->if_changed = s->if_changed;
     desc->depfile = s->depfile;
     desc->in_place = s->in_place;
+    return cli_morphs_describe(&s->job, desc);
 }
 
 static int deform(settings *s, const char *input, const char *output, ffd_report *report)
 {
     ffd_job_result result;
     ffd_deform_desc desc;
-    describe(s, input, output, &desc);
+    if (!describe(s, input, output, &desc))
+        return ffd_status_exit_code(FFD_E_MEMORY);
     if (!ffd_deform_run(&desc, &result, NULL) && s->job.logging.verbose && !s->job.logging.quiet)
         cli_complain("%s: %llu of %llu %s moved, by %g at most", cli_display_name(input),
                      (unsigned long long)result.moved, (unsigned long long)result.vertices,
@@ -241,20 +250,25 @@ static const cli_example examples[] = {
     {"bend a mesh", "ffd deform robot.glb bent.glb -l bend.json"},
     {"many meshes into a folder, with a report",
      "mkdir -p bent && ffd deform cow.obj vase.obj --out-dir bent -l twist.json --report report.json"},
+    {"two shapes to animate, and an animation of them",
+     "ffd deform robot.glb moves.glb --morph bow=bend.json --morph turn=twist.json --clip 'hi: 0, 0.5 bow=1, "
+     "1 turn=1'"},
     {"from a stream to a stream",
      "ffd deform - - --input-format obj --output-format ply -l bend.json <cow.obj >cow.ply"},
     {NULL, NULL},
 };
 
-const cli_command cli_deform = {"deform",
-                                "move meshes with a lattice",
-                                "usage: ffd deform IN OUT -l LATTICE [-l LATTICE ...] [options]\n"
-                                "       ffd deform IN... --out-dir DIR -l LATTICE [options]\n"
-                                "       ffd deform IN... --in-place -l LATTICE [options]\n",
-                                {.first = cli_job_options, .more = cli_deform_options},
-                                run,
-                                "MESH",
-                                examples};
+const cli_command cli_deform = {
+    "deform",
+    "move meshes with a lattice",
+    "usage: ffd deform IN OUT -l LATTICE [-l LATTICE ...] [options]\n"
+    "       ffd deform IN... --out-dir DIR -l LATTICE [options]\n"
+    "       ffd deform IN... --in-place -l LATTICE [options]\n"
+    "       ffd deform IN OUT --morph NAME=LATTICE [--morph ...] [--clip CLIP] [options]\n",
+    {.first = cli_job_options, .more = cli_deform_options},
+    run,
+    "MESH",
+    examples};
 
 /* A job of a batch. */
 typedef struct batch_opened {
@@ -281,8 +295,12 @@ void *cli_deform_open(int count, char **words, ffd_deform_desc *desc, ffd_error 
         snprintf(error->message, sizeof error->message, "%s", complaint);
         return NULL;
     }
-    describe(s, opened->words.words[0], s->output, desc);
-    return opened;
+    if (describe(s, opened->words.words[0], s->output, desc))
+        return opened;
+    cli_deform_close(opened);
+    *error = (ffd_error){.status = FFD_E_MEMORY};
+    snprintf(error->message, sizeof error->message, "out of memory");
+    return NULL;
 }
 
 void cli_deform_close(void *context)

@@ -2,6 +2,7 @@
 #include "base/file/folder.h"
 #include "cli/nearest.h"
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -170,10 +171,20 @@ const cli_option cli_job_options[] = {
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
 
+static void free_morphs(cli_job *job)
+{
+    for (size_t i = 0; i < job->morph_count; i++)
+        free((char *)(uintptr_t)job->morphs[i]);
+    free(job->morphs);
+    free(job->morph_results);
+    cli_names_free(&job->clips);
+}
+
 static void free_lists(cli_job *job)
 {
     cli_values_free(&job->values);
     cli_names_free(&job->allowed);
+    free_morphs(job);
     free(job->lattices);
     free(job->only);
 }
@@ -234,6 +245,17 @@ static const char *wrong_report(const cli_job *job, const cli_words *words)
     return NULL;
 }
 
+static const char *wrong_morphs(const cli_job *job)
+{
+    if (job->morph_count == 0)
+        return job->clips.count ? "--clip needs --morph" : NULL;
+    if (job->lattice_count > job->morph_count)
+        return "-l cannot be used with --morph: each --morph names its own lattice";
+    if (job->as_morph)
+        return "--as-morph cannot be used with --morph";
+    return job->blocks ? "--blocks cannot be used with --morph" : NULL;
+}
+
 const char *cli_job_option_mistake(const cli_job *job, const cli_words *words, size_t inputs)
 {
     if (job->falloff > 0 && job->outside != FFD_OUTSIDE_EXTEND)
@@ -245,9 +267,12 @@ const char *cli_job_option_mistake(const cli_job *job, const cli_words *words, s
     if (job->embedding && job->blocks)
         return "--embedding works with one lattice, and not with --blocks";
     if (job->embedding && job->lattice_count > 1)
-        return "--embedding works with one lattice, but several -l are given";
+        return job->morph_count ? "--embedding works with one lattice, but several --morph are given"
+                                : "--embedding works with one lattice, but several -l are given";
     if (job->embedding && inputs > 1)
         return "--embedding works with one mesh, but several IN are given";
+    if (wrong_morphs(job))
+        return wrong_morphs(job);
     if (job->stable && !job->report)
         return "--report-stable needs --report";
     const char *why = wrong_streams(job, words, inputs);

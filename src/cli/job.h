@@ -20,7 +20,11 @@ typedef struct cli_job {
     bool blocks;
     const char *embedding;
     const char *as_morph;
-    unsigned fail_on; /* of ffd_gate, with the values of some: */
+    const char **morphs; /* morph_count names, owned: of the targets that the lattices make */
+    size_t morph_count;
+    cli_names clips;
+    ffd_job_result *morph_results; /* of the job that was last, morph_count */
+    unsigned fail_on;              /* of ffd_gate, with the values of some: */
     double tear_most, edges_most;
     uint64_t flipped_most;
     const char *report;

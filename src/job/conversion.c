@@ -3,6 +3,7 @@
 #include "base/text/words.h"
 #include "io/formats.h"
 #include "io/write/write.h"
+#include "mesh/morph/morph_clip.h"
 #include <math.h>
 
 bool ffd_conversion_needed(const mesh_document *document, ffd_format format)
@@ -24,18 +25,18 @@ static bool fits(double value, const model_target *target)
     return fabs(value) <= target->largest_coordinate || (target->takes_not_finite && !isfinite(value));
 }
 
-static double coordinate(const mesh_model *model, size_t i, bool morph)
+/* morph: one more than the target's number; 0: of the shape that stays. */
+static double coordinate(const mesh_model *model, size_t i, size_t morph)
 {
-    return morph ? model->morph_positions[i] - model->positions[i] : model->positions[i];
+    return morph ? model->morphs[morph - 1].positions[i] - model->positions[i] : model->positions[i];
 }
 
 /* The first coordinate, or (morph) offset to one, that the target's numbers cannot hold, of the positions
    with a mark (NULL: of all); SIZE_MAX: there is none. */
 static size_t find_unfit(const mesh_model *model, const model_target *target, const uint8_t *marks,
-                         bool *morph)
+                         size_t *morph)
 {
-    for (int pass = 0; pass < (model->morph_positions ? 2 : 1); pass++) {
-        *morph = pass == 1;
+    for (*morph = 0; *morph <= model->morph_count; ++*morph) {
         for (size_t i = 0; i < 3 * model->position_count; i++)
             if ((!marks || marks[i / 3]) && !fits(coordinate(model, i, *morph), target))
                 return i;
@@ -56,7 +57,7 @@ static uint8_t *mark_held(const mesh_model *model, const model_target *target)
     return marks;
 }
 
-static ffd_status refuse(const mesh_model *model, const model_target *target, size_t i, bool morph,
+static ffd_status refuse(const mesh_model *model, const model_target *target, size_t i, size_t morph,
                          const char *path, ffd_error *error)
 {
     const double value = coordinate(model, i, morph);
@@ -79,7 +80,7 @@ static ffd_status refuse(const mesh_model *model, const model_target *target, si
 static ffd_status check_range(const mesh_model *model, const model_target *target, const char *path,
                               ffd_error *error)
 {
-    bool morph;
+    size_t morph;
     size_t unfit = find_unfit(model, target, NULL, &morph);
     if (unfit != SIZE_MAX && !(target->holds & MODEL_HAS_LOOSE)) {
         uint8_t *const marks = mark_held(model, target);
@@ -139,8 +140,7 @@ static void limit_colours(mesh_model *model, const model_target *target, const m
                      ffd_plural(limited, "colour", "colours"));
 }
 
-static void warn(const mesh_model *model, const conversion_morph *morph, const model_target *target,
-                 const mesh_log *log)
+static void warn(const mesh_model *model, const model_target *target, const mesh_log *log)
 {
     char lost[800];
     ffd_model_describe_loss(model, target->holds, lost, sizeof lost);
@@ -148,8 +148,16 @@ static void warn(const mesh_model *model, const conversion_morph *morph, const m
         ffd_log_line(log, FFD_LOG_WARNING, "%s cannot hold: %s", target->name, lost);
     if (model->position_count == 0 && model->features & MODEL_HAS_HIDDEN)
         ffd_log_line(log, FFD_LOG_WARNING, "the displayed scene is empty: the output has no vertices");
-    if (morph && !ffd_model_morphs(model))
-        ffd_log_line(log, FFD_LOG_WARNING, "no vertex moves: all offsets of the morph target are 0");
+    for (size_t k = 0; k < model->morph_count; k++) {
+        mesh_log_label label;
+        const mesh_log labelled = ffd_log_morph(log, model->morphs[k].name, &label);
+        if (!ffd_model_morphs(model, k))
+            ffd_log_line(model->morph_count > 1 ? &labelled : log, FFD_LOG_WARNING,
+                         "no vertex moves: all offsets of the morph target are 0");
+    }
+    if (model->morph_count > MORPHS_PLAYED)
+        ffd_log_line(log, FFD_LOG_WARNING, "%zu morph targets: some viewers play only %d", model->morph_count,
+                     MORPHS_PLAYED);
 }
 
 /* The model as it is to be written; models take what they need from the budget. */
@@ -163,6 +171,8 @@ static ffd_status make_model(const mesh_document *document, const conversion_mor
     }
     *model = *morph->base;
     *morph->base = (mesh_model){0};
+    if (!morph->name)
+        return FFD_OK;
     ffd_status status = document->format->model(document, &after, error);
     if (status == FFD_OK)
         status = ffd_model_add_morph(model, &after, morph->name, error);
@@ -186,7 +196,7 @@ ffd_status ffd_conversion_save(const mesh_document *document, const conversion_m
         status = target->write(&model, options, output, log, error);
     }
     if (status == FFD_OK)
-        warn(&model, morph, target, log);
+        warn(&model, target, log);
     ffd_model_free(&model);
     return status;
 }

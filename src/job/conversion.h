@@ -10,8 +10,8 @@ bool ffd_conversion_needed(const mesh_document *document, ffd_format format);
 /* Refuses (FFD_E_UNSUPPORTED) a conversion that this build does not have. */
 ffd_status ffd_conversion_check(const mesh_document *document, ffd_format format, ffd_error *error);
 
-/* The deformation becomes a morph target of this name, and the shape is that of base, which the document's
-   model was before it had results; base is taken. */
+/* The deformation becomes a morph target of this name (NULL: base has its targets), and the shape is that of
+   base, which the document's model was before it had results; base is taken. */
 typedef struct conversion_morph {
     const char *name;
     mesh_model *base;

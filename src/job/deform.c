@@ -8,6 +8,8 @@
 #include "job/deform_job.h"
 #include "job/input/shown_box.h"
 #include "job/input/source.h"
+#include "job/judge/result.h"
+#include "job/morphs.h"
 #include "job/report/depfile.h"
 #include "job/report/output_set.h"
 #include <string.h>
@@ -72,10 +74,10 @@ static ffd_status write_mesh(deform_job *job, const mesh_save_options *options, 
                              ffd_error *error)
 {
     const conversion_morph morph = {job->desc->as_morph, &job->base};
+    const bool morphs = job->desc->as_morph || job->desc->morphs;
     if (!ffd_conversion_needed(job->document, options->format))
         return job->document->format->save(job->document, options, output, &job->log, error);
-    return ffd_conversion_save(job->document, job->desc->as_morph ? &morph : NULL, options, output, &job->log,
-                               error);
+    return ffd_conversion_save(job->document, morphs ? &morph : NULL, options, output, &job->log, error);
 }
 
 static void warn_of_name(const deform_job *job, const char *name)
@@ -211,10 +213,11 @@ static ffd_status rehearse(deform_job *job, const mesh_save_options *options, ff
 static ffd_status check_morph(const deform_job *job, const mesh_save_options *options, ffd_error *error)
 {
     const bool morphs = options->format == FFD_FORMAT_GLTF || options->format == FFD_FORMAT_GLB;
-    if (!job->desc->as_morph || morphs)
+    if ((!job->desc->as_morph && !job->desc->morphs) || morphs)
         return FFD_OK;
     return ffd_fail_file(error, FFD_E_ARGUMENT, options->path,
-                         "cannot hold a morph target: only .gltf and .glb can (--as-morph)");
+                         "cannot hold a morph target: only .gltf and .glb can (--%s)",
+                         job->desc->morphs ? "morph" : "as-morph");
 }
 
 static ffd_status check_rig(const deform_job *job, const mesh_save_options *options, ffd_error *error)
@@ -254,6 +257,8 @@ static ffd_status run(deform_job *job, ffd_job_result *result, ffd_error *error)
         status = resolve_output(job->desc, &options, error);
     if (!status)
         status = check_morph(job, &options, error);
+    if (!status)
+        status = ffd_morphs_begin(job, error);
     job->only_positions = !status && needs_only_positions(job->desc, &options);
     if (!status)
         status = ffd_deform_job_open(job, result, error);
@@ -266,7 +271,8 @@ static ffd_status run(deform_job *job, ffd_job_result *result, ffd_error *error)
     if (!status)
         job->document->converted = ffd_conversion_needed(job->document, options.format);
     if (!status)
-        status = ffd_deform_job_run(job, result, error);
+        status =
+            job->desc->morphs ? ffd_morphs_run(job, result, error) : ffd_deform_job_run(job, result, error);
     if (status || job->desc->dry_run)
         return status ? status : rehearse(job, &options, error);
     const double start = ffd_clock_seconds();
@@ -276,11 +282,29 @@ static ffd_status run(deform_job *job, ffd_job_result *result, ffd_error *error)
     return status;
 }
 
-ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
+static ffd_status run_job(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
 {
     deform_job job;
     ffd_status status = ffd_deform_job_begin(&job, desc, false, result);
     if (!status)
         status = run(&job, result, &result->error);
+    ffd_morphs_end(&job);
     return ffd_deform_job_end(&job, status, result, error);
+}
+
+/* The targets of a job have where its vertices are in a rest volume in common. */
+ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
+{
+    ffd_share *share = NULL;
+    if (desc->struct_size != sizeof *desc || !desc->morphs || ffd_cache_holds_meshes(desc->share))
+        return run_job(desc, result, error);
+    ffd_deform_desc own = *desc;
+    if (ffd_cache_create_for_job(&share, error)) {
+        ffd_result_clear(result);
+        return result->status = ffd_fail_memory(&result->error);
+    }
+    own.share = share;
+    const ffd_status status = run_job(&own, result, error);
+    ffd_share_destroy(&share);
+    return status;
 }

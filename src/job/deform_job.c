@@ -45,7 +45,7 @@ static ffd_status check_embedding(const ffd_deform_desc *desc, ffd_error *error)
 static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
 {
     if (desc->struct_size != sizeof *desc || !desc->input.path || (desc->lattice_count && !desc->lattices) ||
-        (desc->only_count && !desc->only))
+        (desc->only_count && !desc->only) || (desc->clip_count && !desc->clips))
         return ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete");
     if (!(desc->falloff >= 0 && isfinite(desc->falloff)))
         return ffd_fail(error, FFD_E_ARGUMENT, "the falloff %g is not a length", desc->falloff);
@@ -68,11 +68,14 @@ ffd_status ffd_deform_job_begin(deform_job *job, const ffd_deform_desc *desc, bo
 {
     ffd_result_clear(result);
     *job = (deform_job){.desc = desc, .check = check, .losses = ffd_mapping_losses()};
-    const ffd_status status = check_desc(desc, &result->error);
+    ffd_status status = check_desc(desc, &result->error);
+    if (!status && check && desc->morphs)
+        status = ffd_fail(&result->error, FFD_E_ARGUMENT,
+                          "several morph targets are made by a deformation only (--morph)");
     if (status)
         return status;
     job->threads = desc->threads > 0 ? desc->threads : ffd_processor_count();
-    job->log = (mesh_log){desc->log, desc->log_user};
+    job->log = job->file_log = (mesh_log){desc->log, desc->log_user};
     return FFD_OK;
 }
 
@@ -185,14 +188,14 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, ffd_error *err
     if (!status && !job->details)
         status = check_unknown(job, error);
     if (!status)
-        status = ffd_mesh_warn(job->document, &job->log, error);
+        status = ffd_mesh_warn(job->document, &job->file_log, error);
     job->recomputes = job->desc->normals == FFD_NORMALS_RECOMPUTE && has_normals(job->document);
-    job->document->results_replace =
-        !ffd_cache_holds_meshes(job->desc->share) && !wants_figures(job) && !job->recomputes;
+    job->document->results_replace = !ffd_cache_holds_meshes(job->desc->share) && !wants_figures(job) &&
+                                     !job->recomputes && !job->desc->morphs;
     if (!status)
         status = format->begin_results(job->document, attributes, attributes, error);
     if (job->desc->normals == FFD_NORMALS_RECOMPUTE && !job->recomputes && !format->normals_of_faces)
-        ffd_log_line(&job->log, FFD_LOG_WARNING, "has no normals to recompute");
+        ffd_log_line(&job->file_log, FFD_LOG_WARNING, "has no normals to recompute");
     arrays->budget = job->document->budget;
     if (!status)
         status = ffd_lattice_memory_share(&job->chain, &arrays->budget, error);
@@ -297,7 +300,8 @@ static ffd_status send(deform_job *job, const mesh_pass *pass, ffd_error *error)
 
 static ffd_status deform(deform_job *job, const figure_arrays *arrays, ffd_error *error)
 {
-    ffd_share *const share = job->chain.count == 1 && !job->desc->embedding ? job->desc->share : NULL;
+    const bool keeps = job->chain.count == 1 && !job->desc->embedding && !job->forgets_locations;
+    ffd_share *const share = keeps ? job->desc->share : NULL;
     const hash128 rest = located_in(&job->chain.links[0]);
     bool is_located;
     ffd_location *const locations =
@@ -388,7 +392,7 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
     }
     status = ffd_mapping_judge(job->losses, status, error);
     if (!status)
-        ffd_flaws_warn(&job->document->flaws, NULL, &job->log);
+        ffd_flaws_warn(&job->document->flaws, NULL, &job->file_log);
     if (!status)
         status = ffd_overlaps_warn(&job->chain, &job->log, error);
     if (!status)
@@ -396,7 +400,7 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
     if (!status)
         warn_of_left(job, result);
     if (!status && job->totals.vertices == 0)
-        ffd_log_line(&job->log, FFD_LOG_WARNING, "%s",
+        ffd_log_line(&job->file_log, FFD_LOG_WARNING, "%s",
                      job->desc->only_count ? "--only selects no vertices"
                                            : "there are no vertices to deform");
     if (!status && !job->check) {

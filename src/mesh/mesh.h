@@ -231,6 +231,9 @@ typedef void mesh_read_transforms_function(const mesh_document *document, size_t
 typedef void mesh_read_offsets_function(const mesh_document *document, size_t part, size_t shape,
                                         mesh_stream stream, size_t first, size_t count, double *xyz);
 typedef ffd_status mesh_keep_base_function(mesh_document *document, const char *name, ffd_error *error);
+typedef struct morph_clip morph_clip; /* morph/morph_clip.h */
+typedef ffd_status mesh_keep_clips_function(mesh_document *document, const morph_clip *clips, size_t count,
+                                            const char *const *names, size_t name_count, ffd_error *error);
 typedef ffd_status mesh_begin_results_function(mesh_document *document, bool normals, bool tangents,
                                                ffd_error *error);
 typedef void mesh_write_function(mesh_document *document, size_t part, size_t first, size_t count,
@@ -332,9 +335,14 @@ typedef struct mesh_format {
        where no part has shapes. */
     mesh_read_offsets_function *read_offsets;
 
-    /* From now on the base shape stays, and results are offsets of a further morph target of this name. At
-     * most once, before begin_results. NULL: the format has no morph targets. */
+    /* From now on the base shape stays, and results are offsets of a further morph target of this name.
+       Before begin_results; once more for each further target, where the results of the one before are
+       complete. NULL: the format has no morph targets. */
     mesh_keep_base_function *keep_base;
+    /* Has further animations of the weights saved with them, which stay the caller's and name these targets
+       or others of the file. Before keep_base; names: of all targets to come. Errors: FFD_E_ARGUMENT for a
+       clip that names another target. */
+    mesh_keep_clips_function *keep_clips;
 
     /* Results. begin_results must come first: it allocates memory, and frees what an earlier deformation of
        the document has left. The writers may run in several threads on disjoint ranges, which begin at
@@ -406,6 +414,8 @@ struct mesh_document {
     bool shown;
     /* Results are offsets of a morph target of its own (keep_base): the others stay. */
     bool keeps_base;
+    /* Set by a job before it saves: of such targets only offsets other than 0 need be stored. */
+    bool sparse_targets;
 };
 
 /* Whether some part shows more than its own vertices. */

@@ -1,4 +1,5 @@
 #include "mesh/mesh_log.h"
+#include "base/text/words.h"
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -12,4 +13,17 @@ void ffd_log_line(const mesh_log *log, ffd_log_level level, const char *format, 
     vsnprintf(line, sizeof line, format, arguments);
     va_end(arguments);
     log->function(log->user, level, line);
+}
+
+static void send_labelled(void *user, ffd_log_level level, const char *line)
+{
+    const mesh_log_label *const label = user;
+    ffd_log_line(&label->log, level, "morph target \"%s\": %s", label->name, line);
+}
+
+mesh_log ffd_log_morph(const mesh_log *log, const char *name, mesh_log_label *label)
+{
+    label->log = log ? *log : (mesh_log){0};
+    ffd_name_shown(name, label->name, sizeof label->name);
+    return (mesh_log){label->log.function ? send_labelled : NULL, label};
 }

@@ -10,6 +10,16 @@ typedef struct mesh_log {
     void *user;
 } mesh_log;
 
+/* The lines of one of several morph targets. */
+typedef struct mesh_log_label {
+    mesh_log log; /* where they go */
+    char name[80];
+} mesh_log_label;
+
+/* Returns a log that puts the morph target's name before each line. It lasts as long as label,
+   which is filled. */
+mesh_log ffd_log_morph(const mesh_log *log, const char *name, mesh_log_label *label);
+
 /* Sends one line to a log. Does nothing if the log is NULL or has no function. */
 void ffd_log_line(const mesh_log *log, ffd_log_level level, const char *format, ...) FFD_PRINTF(3, 4);
 

@@ -9,8 +9,11 @@ void ffd_model_free(mesh_model *model)
     ffd_free(model->positions);
     ffd_free(model->texcoords);
     ffd_free(model->normals);
-    ffd_free(model->morph_positions);
-    ffd_free(model->morph_normals);
+    for (size_t k = 0; k < model->morph_count; k++) {
+        ffd_free(model->morphs[k].positions);
+        ffd_free(model->morphs[k].normals);
+    }
+    ffd_free(model->morphs);
     ffd_free(model->colours);
     for (int k = 0; k < MODEL_KINDS; k++) {
         ffd_free(model->lists[k].starts);

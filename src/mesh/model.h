@@ -80,12 +80,19 @@ typedef enum model_feature {
     MODEL_HAS_RATIONAL = 1 << 30,   /* a fourth coordinate, w, other than 1 */
 } model_feature;
 
+/* A morph target. */
+typedef struct model_morph {
+    double *positions, *normals; /* where it brings each position and normal of the model */
+    const char *name;            /* lent */
+} model_morph;
+
 typedef struct mesh_model {
     double *positions, *texcoords, *normals; /* 3, 2 and 3 numbers each; texture coordinates with v upwards */
     size_t position_count, texcoord_count, normal_count;
-    /* Where a morph target brings each position and normal; NULL: there is no target. */
-    double *morph_positions, *morph_normals;
-    const char *morph_name; /* of the target, lent */
+    model_morph *morphs; /* morph_count */
+    size_t morph_count, morph_capacity;
+    const struct morph_clip *clips; /* clip_count, lent: animations of their weights */
+    size_t clip_count;
     double *colours;     /* 4 a position, red green blue alpha, 0 to 1, in sRGB; NULL where there are none */
     bool coarse_colours; /* they were linear bytes: bytes of sRGB are as fine */
     model_list lists[MODEL_KINDS];
@@ -131,11 +138,12 @@ ffd_status ffd_model_check_memory(const mesh_model *model, size_t corner_bytes, 
    become points; and features describe the content. */
 ffd_status ffd_model_finish(mesh_model *model, ffd_error *error);
 
-/* Makes what the same document gave before and after it got results one model: the shape before, with a morph
-   target that leads to the shape after. after is left empty. Errors: FFD_E_MEMORY. */
+/* Makes what the same document gave before and after it got results one model: the shape before, with a
+   further morph target that leads to the shape after. after is left empty. Errors: FFD_E_LIMIT, FFD_E_MEMORY.
+ */
 ffd_status ffd_model_add_morph(mesh_model *before, mesh_model *after, const char *name, ffd_error *error);
-/* Whether the morph target moves anything. */
-bool ffd_model_morphs(const mesh_model *model);
+/* Whether a morph target moves anything. */
+bool ffd_model_morphs(const mesh_model *model, size_t morph);
 
 /* The corners of element i. */
 static inline const model_corner *model_element(const model_list *list, size_t i, size_t *count)

@@ -53,6 +53,7 @@ COMMANDS = {
     "report": ["deform", "IN", "out.ENDING", "-l", "l.json", "--force", "--report", "r.json"],
     "recompute": ["deform", "IN", "out.ENDING", "-l", "l.json", "--force", "--normals", "recompute"],
     "morph": ["deform", "IN", "out.glb", "-l", "l.json", "--force", "--as-morph", "x"],
+    "morphs": ["deform", "IN", "out.glb", "--force", "--morph", "x=l.json", "--morph", "y=l.json", "--clip", "c: 0, 1 x=1"],
     "check": ["check", "IN", "-l", "l.json"],
     "embed": ["embed", "IN", "-l", "l.json", "-o", "e.npy", "--force"],
     "info": ["info", "IN", "--json"],
@@ -129,7 +130,7 @@ def of_text(ending):
 def compressed_by_draco(run):
     for kind, side, refused in (("edgebreaker", 500, False), ("edgebreaker", 1100, True), ("sequential", 400, False)):
         subprocess.run([PACKED_GLB, kind, str(side), run.path("a.glb")], check=True)
-        codes = run_all(run, "a.glb", OF_GLTF if refused else EACH_WAY if kind == "edgebreaker" else ["deform", "info", "obj"])
+        codes = run_all(run, "a.glb", OF_GLTF if refused else EACH_WAY if kind == "edgebreaker" else ["deform", "morphs", "info", "obj"])
         equal(codes["deform"], LIMIT if refused else OK, f"{kind} {side}")
         if refused:
             code, peak, line = measure(run, ["deform", "a.glb", "b.glb", "-l", "l.json", "--memory", "1G"])
@@ -154,7 +155,7 @@ def quantized_vectors(run):
     """What the larger file is refused for, the smaller one has memory for."""
     both = ["recompute", "check"]
     equal(run_all(run, "small.glb", both), dict.fromkeys(both, OK))
-    codes = run_all(run, "large.glb", [*both, "deform", "morph", "embed", "info", "obj", "stl"])
+    codes = run_all(run, "large.glb", [*both, "deform", "morph", "morphs", "embed", "info", "obj", "stl"])
     equal(codes, {**dict.fromkeys(codes, OK), **dict.fromkeys(both, LIMIT)})
 
 

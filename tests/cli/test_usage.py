@@ -8,7 +8,7 @@ COMMANDS = ["deform", "check", "embed", "compare", "info", "view", "lattice new"
 OPTIONS = {
     "deform": {"--lattice", "--set", "--shared-box", "--out-dir", "--outside", "--falloff", "--snap", "--blocks", "--normals", "--rig", "--only", "--space", "--embedding", "--as-morph", "--fail-on",
                "--resources", "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory", "--strict", "--allow-extension",
-               "--output-format"},
+               "--output-format", "--morph", "--clip"},
     "check": {"--picture", "--lattice", "--set", "--shared-box", "--outside", "--falloff", "--snap", "--blocks", "--normals", "--rig", "--only", "--space", "--embedding", "--as-morph", "--fail-on", "--resources",
               "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory", "--strict", "--allow-extension"},
     "embed": {"--lattice", "--set", "--output", "--status", "--space", "--snap", "--threads", "--force", "--input-format", "--memory", "--strict", "--allow-extension"},

@@ -22,6 +22,8 @@ SKIPPED = 77
 HERE = os.path.dirname(os.path.abspath(__file__))
 DATA = os.path.join(os.path.dirname(os.path.dirname(HERE)), "data")
 LATTICES = ("twist", "local")
+MORPHS = "morphs"  # both as morph targets, with an animation: of every MORPHS_EACH-th model
+MORPHS_EACH = 5
 INVALID = 4
 UNSUPPORTED = 6
 
@@ -80,7 +82,10 @@ def model_roots():
 def job(lattice, source, target):
     """A job of a manifest; the target's folder is made."""
     os.makedirs(os.path.dirname(target), exist_ok=True)
-    return {"in": source, "out": target, "lattice": os.path.join(DATA, "lattices", lattice + ".json")}
+    paths = {name: os.path.join(DATA, "lattices", name + ".json") for name in LATTICES}
+    if lattice == MORPHS:
+        return {"in": source, "out": target, "morph": paths, "clip": "hop: 0 twist=1, 0.5 local=0.5, 1"}
+    return {"in": source, "out": target, "lattice": paths[lattice]}
 
 
 def judge(before, after):
@@ -100,6 +105,9 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         chosen = [(model, lattice, os.path.join(root, model), os.path.join(folder, str(number), lattice, model))
                   for number, root in enumerate(model_roots()) for model in models(root) for lattice in LATTICES]
+        for number, root in enumerate(model_roots()):
+            chosen += [(model, MORPHS, os.path.join(root, model), os.path.join(folder, str(number), MORPHS, model))
+                       for model in list(models(root))[::MORPHS_EACH]]
         ended = deform_all(ffd, folder, [job(lattice, source, target) for _, lattice, source, target in chosen])
         runs = [(*one, *end) for one, end in zip(chosen, ended)]
         paths = sorted({source for _, _, source, _, _, _ in runs} |

@@ -631,7 +631,8 @@ m("colours-of-255", "check left out", "cli_convert", "value > 255 || floor(value
 m("colours-above-1", "check left out", "cli_convert", "limit_colours(&model, target, log);", "")
 m("zeros-are-blank", "check left out", "cli_batch, cli_batch_table", "line->data[i] == 0 || !strchr(", "!strchr(")
 m("lone-returns-not-seen", "check left out", "cli_batch_table", "if (has_lone_return(name))", "if (!name)")
-m("glb-stride", "stride", "cli_convert, validator", "{12, 12, 8, glb_colour_size(w), 12, 12, 0, 0}",
+m("glb-stride", "stride", "cli_convert, validator", "{12, 12, 8, glb_colour_size(w), 12, 12, 0, 0, 0}",
+  "{12, 12, 12, glb_colour_size(w), 12, 12, 0, 0, 0}", "{12, 12, 8, glb_colour_size(w), 12, 12, 0, 0}",
   "{12, 12, 12, glb_colour_size(w), 12, 12, 0, 0}")
 m("alpha-is-linear", "check left out", "cli_convert", "c < 3 ? ffd_srgb_to_linear(colour[c]) : colour[c];",
   "ffd_srgb_to_linear(colour[c]);")
@@ -717,9 +718,43 @@ m("shapes-outside", "error code", "cli_outside, cli_gltf_scene, cli_errors",
   "return ffd_fail_file(error, FFD_E_EMBEDDING,",
   "if (desc->outside == FFD_OUTSIDE_ERROR && (totals->shapes_outside || totals->shown_outside))\n"
   "        return ffd_fail_file(error, FFD_E_INVALID,")
-m("range-of-offsets", "sign", "cli_as_morph, cli_convert", "morph ? model->morph_positions[i] - model->positions[i]",
+m("range-of-offsets", "sign", "cli_as_morph, cli_convert", "morph ? model->morphs[morph - 1].positions[i] - model->positions[i]",
+  "morph ? model->morphs[morph - 1].positions[i] + model->positions[i]", "morph ? model->morph_positions[i] - model->positions[i]",
   "morph ? model->morph_positions[i] + model->positions[i]", "less ? values[i] - less[i] : values[i];",
   "less ? values[i] + less[i] : values[i];")
+m("clip-times-ascend", "bound", "morph_clip, cli_morphs, replay clip", "!(rounded > clip->times[clip->key_count - 1])",
+  "!(rounded >= clip->times[clip->key_count - 1])")
+m("clip-of-doubles", "rounding", "cli_morphs", "const float rounded = (float)time + 0.0f;", "const double rounded = time + 0.0;")
+m("clip-two-weights", "check left out", "morph_clip, cli_morphs, replay clip", "if (p->last_key[target] == clip->key_count)",
+  "if (p->last_key[target] > clip->key_count)")
+m("clip-target-not-known", "check left out", "morph_clip, cli_morphs", "if (!ffd_intern_find(known, name, strlen(name), &number))",
+  "if (!ffd_intern_find(known, name, strlen(name), &number) && !name)")
+m("clip-weight-stays", "state", "cli_morphs", "weights[clip->weights[i].target] = 0;", "weights[clip->weights[i].target] += 0;")
+m("clip-default-weights", "condition", "cli_morphs", "if (names[t] == KEEPS && !ffd_gltf_weight(d, default_value, &row[t]))",
+  "if (names[t] == IS_ZERO && !ffd_gltf_weight(d, default_value, &row[t]))")
+m("clip-weights-of-a-node", "condition", "cli_morphs", "size_t sampler = own ? GLTF_NONE : w->samplers[mesh];",
+  "size_t sampler = w->samplers[mesh];")
+m("clip-replaced", "left out", "cli_morphs", "ffd_json_span_string_is(tree, name, w->clip->name)", "ffd_json_span_string_is(tree, name, \"\")")
+m("clip-of-a-conversion", "stride", "cli_morphs", "clip->key_count * target_count(plan, m), NULL", "clip->key_count * 1, NULL")
+m("morph-in-its-place", "operand", "cli_morphs, cli_as_morph", "ffd_gltf_target_place(&file->model.meshes[m].primitives[p], marks->named[m]);",
+  "ffd_gltf_target_place(&d->model.meshes[m].primitives[p], marks->named[m]);")
+m("morph-normals-of-pairs", "operand", "cli_morphs", "replace(&after->normals, &pairs, 1)", "replace(&after->normals, &pairs, 0)")
+m("morph-worst-counts", "condition", "cli_morphs", "target->counts[FFD_INSIDE] < all->counts[FFD_INSIDE]",
+  "target->counts[FFD_INSIDE] > all->counts[FFD_INSIDE]")
+m("morph-file-warned-again", "condition", "cli_morphs", "job->file_log = k == 0 ? *log : (mesh_log){0};", "job->file_log = *log;")
+m("morph-failure-unnamed", "left out", "cli_morphs", "if (count < 2 || error->status == FFD_E_MEMORY)", "if (count < 200)")
+m("morph-name-in-a-batch", "format", "cli_morphs", "if (*c == '\\'') ffd_buffer_append(text, c, 1);",
+  "if (*c == '\"')\n            ffd_buffer_append(text, c, 1);")
+m("morph-name-not-resumed", "left out", "cli_morphs", 'ffd_buffer_text(content, "--morph="); quote_name(name, content);',
+  'ffd_buffer_text(content, "--morph=");')
+m("sparse-too-soon", "bound", "cli_morphs", "if (sparse->count <= count / 3)", "if (sparse->count <= count / 2)")
+m("sparse-short-numbers", "bound", "cli_morphs", "sparse->index_size = count <= SHORT_INDICES ? 2 : 4;",
+  "sparse->index_size = count <= SHORT_INDICES + 1 ? 2 : 4;")
+m("sparse-as-morph", "condition", "cli_morphs", "return d->base.sparse_targets && version->accessor >=", "return version->accessor >=")
+m("sparse-target-of-a-view", "format", "cli_morphs", "if (!append->sparse) write_target(saver, version->accessor, text);",
+  "write_target(saver, version->accessor, text);")
+m("morph-limit-of-viewers", "bound", "cli_morphs", "if (count <= MORPHS_PLAYED || count <= ffd_gltf_target_count(d, m))",
+  "if (count < MORPHS_PLAYED || count <= ffd_gltf_target_count(d, m))")
 m("changed-corners", "bound", "changed_faces", "if (filler->corner < filler->corners && vertex < filler->faces->vertex_count)",
   "if (filler->corner < filler->corners || vertex < filler->faces->vertex_count)")
 m("changed-normals", "check left out", "changed_faces", "if (found == count || corner.vertex != faces->corners[found])", "if (found == count)")

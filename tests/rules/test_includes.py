@@ -20,6 +20,7 @@ LAYERS = {
     "io/gltf/file": {"base", "base/file", "base/memory", "base/text", "json"},
     "io/gltf/model": {"base", "base/memory", "base/system", "json"},
     "mesh": {"base", "base/file", "base/memory", "base/text", "base/vector", "json"},
+    "mesh/morph": {"base", "base/memory", "base/text", "json", "mesh"},
     "mesh/meshopt": {"base", "base/system", "base/text"},
     "mesh/resource": {"base", "base/file", "base/memory", "base/system", "base/text", "mesh"},
     "picture/image": {"base", "base/memory", "base/system", "mesh"},
@@ -48,9 +49,14 @@ LAYERS = {
         "base", "base/file", "base/memory", "base/system", "base/text", "io/gltf/decode", "io/gltf/document",
         "io/gltf/file", "io/gltf/refer", "io/gltf/rig", "io/gltf/scene", "json", "mesh", "mesh/resource",
     },
+    "io/gltf/morph": {
+        "base", "base/file", "base/memory", "base/text", "io/gltf/decode", "io/gltf/document", "io/gltf/refer", "io/gltf/save",
+        "io/gltf/scene", "json", "mesh", "mesh/morph",
+    },
     "io/gltf": {
         "base/file", "base/memory", "base/system", "base/vector", "io/gltf/decode", "io/gltf/document",
-        "io/gltf/file", "io/gltf/model", "io/gltf/rig", "io/gltf/save", "io/gltf/scene", "json", "mesh", "mesh/resource",
+        "io/gltf/file", "io/gltf/model", "io/gltf/morph", "io/gltf/rig", "io/gltf/save", "io/gltf/scene", "json",
+        "mesh", "mesh/resource",
     },
     "io/openmesh": {"base/memory", "base/system", "base/vector", "mesh"},
     "io/text": {"base", "base/file", "base/memory", "base/text", "mesh"},
@@ -64,7 +70,7 @@ LAYERS = {
     "io": {"base/file", "io/gltf", "io/obj", "io/off", "io/ply", "io/stl", "io/text", "mesh"},
     "io/write": {
         "base", "base/file", "base/memory", "base/text", "base/vector", "io/gltf/file", "io/stl", "json",
-        "mesh",
+        "mesh", "mesh/morph",
     },
     "view": {
         "base", "base/file", "base/memory", "base/text", "base/vector", "json", "mesh", "mesh/meshopt", "picture",
@@ -123,8 +129,8 @@ LAYERS = {
     "cli/pages": {"cli"},
     "job": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io", "io/npy",
-        "io/openmesh", "io/write", "job/chain", "job/input", "job/judge", "job/pass", "job/report", "job/rig",
-        "json", "lattice", "lattice/file", "mesh",
+        "io/openmesh", "io/write", "job/chain", "job/input", "job/judge", "job/pass", "job/report", "job/rig", "json",
+        "lattice", "lattice/file", "mesh", "mesh/morph",
     },
 }
 

@@ -243,6 +243,79 @@ static void a_depfile_names_output_and_inputs(void **state)
     (void)state;
 }
 
+static void morph_targets_have_figures_of_their_own(void **state)
+{
+    const char *const names[] = {"bent", "more"}, *const clips[] = {"hop: 0 bent=1, 1 more=1"};
+    ffd_deform_desc desc = describe();
+    ffd_job_result result, alone, results[2];
+    (void)state;
+    char glb[64];
+    strcpy(glb, in_folder("m.glb"));
+    desc.output = glb;
+    desc.lattice_count = 2;
+    desc.morphs = names;
+    desc.clips = clips;
+    desc.clip_count = 1;
+    assert_int_equal(ffd_deform_run(&desc, &result, NULL), FFD_OK);
+    assert_int_equal(result.morph_count, 2);
+    assert_null(result.morph_results);
+    assert_string_equal(result.morphs[1], "more");
+    assert_string_equal(result.morph_lattices[1], lattice);
+    desc.morph_results = results;
+    assert_int_equal(ffd_deform_run(&desc, &result, NULL), FFD_OK);
+    assert_ptr_equal(result.morph_results, results);
+    desc = describe();
+    assert_int_equal(ffd_check_run(&desc, &alone, NULL), FFD_OK);
+    for (size_t k = 0; k < 2; k++) {
+        assert_int_equal(results[k].counts[FFD_INSIDE], alone.counts[FFD_INSIDE]);
+        assert_int_equal(results[k].moved, alone.moved);
+        assert_memory_equal(&results[k].displacement_max, &alone.displacement_max, sizeof(double));
+    }
+    assert_int_equal(result.moved, alone.moved);
+    assert_int_equal(result.vertices, alone.vertices);
+    unlink(glb);
+}
+
+static void wrong_morph_targets_are_refused(void **state)
+{
+    const char *const names[] = {"bent", "more"}, *const twice[] = {"bent", "bent"},
+                      *const empty[] = {"bent", ""}, *const bytes[] = {"bent", "\xff"};
+    const char *const clips[] = {"hop: 0 bent"}, *const unknown[] = {"hop: 0 bend=1"};
+    ffd_deform_desc desc = describe();
+    ffd_job_result result;
+    (void)state;
+    unlink(output); /* of a test before */
+    desc.output_format = FFD_FORMAT_GLB;
+    desc.lattice_count = 2;
+    desc.morphs = twice;
+    refuse(&desc);
+    desc.morphs = empty;
+    refuse(&desc);
+    desc.morphs = bytes;
+    refuse(&desc);
+    desc.morphs = names;
+    desc.blocks = true;
+    refuse(&desc);
+    desc.blocks = false;
+    desc.as_morph = "x";
+    refuse(&desc);
+    desc.as_morph = NULL;
+    desc.clips = clips;
+    desc.clip_count = 1;
+    refuse(&desc);
+    desc.clips = unknown;
+    refuse(&desc);
+    desc.clips = NULL;
+    refuse(&desc);
+    desc.clip_count = 0;
+    desc.output_format = FFD_FORMAT_AUTO; /* OBJ */
+    refuse(&desc);
+    desc.morphs = NULL;
+    desc.clips = unknown;
+    desc.clip_count = 1;
+    assert_int_equal(ffd_deform_run(&desc, &result, NULL), FFD_E_ARGUMENT);
+}
+
 static void each_failed_allocation_is_reported(void **state)
 {
     ffd_deform_desc desc = describe();
@@ -294,6 +367,8 @@ int main(void)
         cmocka_unit_test(costly_figures_are_there_when_asked_for),
         cmocka_unit_test(what_stays_behind_is_in_the_result),
         cmocka_unit_test(a_depfile_names_output_and_inputs),
+        cmocka_unit_test(morph_targets_have_figures_of_their_own),
+        cmocka_unit_test(wrong_morph_targets_are_refused),
         cmocka_unit_test(each_failed_allocation_is_reported),
         cmocka_unit_test(only_what_a_selector_names_is_counted),
     };

@@ -10,6 +10,8 @@ typedef enum job_part {
     JOB_INPUT,   /* a path */
     JOB_OUTPUT,  /* likewise */
     JOB_LATTICE, /* likewise; each of several */
+    JOB_MORPH,   /* the name of a morph target, and its lattice */
+    JOB_CLIP,    /* an animation of weights; each of several */
     JOB_OPTION,  /* a name and a value */
     JOB_FLAG,    /* the name of an option that takes no value */
     JOB_UNSET,   /* the name of an option that the job does without */

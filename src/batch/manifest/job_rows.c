@@ -70,7 +70,10 @@ static void add_path(job_description *job, job_part part, const char *folder, co
 static void add_lattices(job_description *job, const job_commons *commons)
 {
     for (size_t i = 0; i < commons->lattice_count; i++)
-        ffd_description_add(job, JOB_LATTICE, NULL, commons->lattices[i]);
+        if (commons->morphs)
+            ffd_description_add(job, JOB_MORPH, commons->morphs[i], commons->lattices[i]);
+        else
+            ffd_description_add(job, JOB_LATTICE, NULL, commons->lattices[i]);
 }
 
 /* In the folder of outputs, the output has the name of the input; of one that makes several, with the number

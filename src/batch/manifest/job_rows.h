@@ -13,8 +13,9 @@ typedef struct job_commons {
     const char *input;           /* of rows that have none; or NULL */
     const char *const *lattices; /* of jobs that have none */
     size_t lattice_count;
-    const char *ignored; /* columns "a,b" that are left out; or NULL */
-    bool decimal_comma;  /* numbers may have one */
+    const char *const *morphs; /* lattice_count names of the morph targets that they make; or NULL */
+    const char *ignored;       /* columns "a,b" that are left out; or NULL */
+    bool decimal_comma;        /* numbers may have one */
 } job_commons;
 
 /* A number in a row that JSON writes otherwise. All zeros: there is none. */

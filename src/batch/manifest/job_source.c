@@ -124,6 +124,7 @@ static job_commons list_commons(const job_source *source)
                          .input = desc->pattern,
                          .lattices = desc->lattices,
                          .lattice_count = desc->lattice_count,
+                         .morphs = desc->morphs,
                          .ignored = desc->ignored,
                          .decimal_comma = source->separator == ';'};
 }

@@ -13,7 +13,8 @@ typedef struct job_source_desc {
     const char *pattern;  /* of a table's rows that have no "in": the mesh; else a pattern for meshes */
     const char *const *lattices; /* with table and pattern: of all jobs that name none */
     size_t lattice_count;
-    const char *ignored; /* columns "a,b" of the table that are left out; or NULL */
+    const char *const *morphs; /* lattice_count names of the morph targets that they make; or NULL */
+    const char *ignored;       /* columns "a,b" of the table that are left out; or NULL */
     const char *out_dir; /* with pattern: where files keep their names; with table: the folder of "out" */
     const batch_default *defaults;
     size_t default_count;

@@ -18,7 +18,7 @@ typedef struct job_maker {
 static const char *const reserved[] = {
     "jobs",    "shard", "resume",  "journal",    "timeout",    "stop",   "keep-going",    "dry-run",
     "in",      "csv",   "lattice", "depfile",    "out-dir",    "report", "report-stable", "quiet",
-    "verbose", "help",  "set",     "shared-box", "csv-ignore", "view"};
+    "verbose", "help",  "set",     "shared-box", "csv-ignore", "view",   "morph",         "clip"};
 enum { RESERVED = sizeof reserved / sizeof *reserved };
 
 /* Options whose values are files, whose relative paths start where the manifest's do. */
@@ -126,6 +126,75 @@ static bool add_lattices(job_maker *maker)
     return true;
 }
 
+/* The name of a morph target as the command line takes it. */
+static void quote_name(const char *name, byte_buffer *text)
+{
+    ffd_buffer_text(text, "'");
+    for (const char *c = name; *c; c++) {
+        ffd_buffer_append(text, c, 1);
+        if (*c == '\'')
+            ffd_buffer_append(text, c, 1);
+    }
+    ffd_buffer_text(text, "'");
+}
+
+/* A word "--morph='NAME'=PATH", of which the path is no content. */
+static bool add_morph(job_maker *maker, const char *name, const char *path)
+{
+    byte_buffer *const words = &maker->job->words, *const content = &maker->job->content;
+    char *const resolved = resolve(maker->frame, path);
+    if (!resolved) {
+        ffd_fail_memory(&maker->job->error);
+        return false;
+    }
+    ffd_buffer_text(words, "--morph=");
+    quote_name(name, words);
+    ffd_buffer_text(words, "=");
+    add_word(words, resolved);
+    maker->job->word_count++;
+    ffd_buffer_text(content, "--morph=");
+    quote_name(name, content);
+    add_word(content, "");
+    ffd_free(resolved);
+    return true;
+}
+
+/* Each lattice that makes a morph target of its own, in place of those that act together. */
+static bool add_morphs(job_maker *maker)
+{
+    const job_description *const description = maker->description;
+    const char *const wrong = ffd_description_wrong(description, "morph");
+    if (wrong)
+        return refuse(maker, "%s", wrong);
+    if (!ffd_description_find(description, JOB_MORPH))
+        return true;
+    if (ffd_description_find(description, JOB_LATTICE))
+        return refuse(maker, "\"lattice\" and \"morph\" cannot be used together");
+    if (maker->frame->pictures)
+        return refuse(maker, "\"morph\" cannot be used with --view: a picture shows one deformation");
+    for (size_t i = 0; i < description->count; i++) {
+        const job_statement *const statement = &description->statements[i];
+        const char *const path = ffd_description_value(description, statement);
+        if (statement->part == JOB_MORPH &&
+            !(check_path(maker, path, "morph") &&
+              add_morph(maker, ffd_description_name(description, statement), path)))
+            return false;
+    }
+    return true;
+}
+
+static bool add_clips(job_maker *maker)
+{
+    const job_description *const description = maker->description;
+    const char *const wrong = ffd_description_wrong(description, "clip");
+    if (wrong)
+        return refuse(maker, "%s", wrong);
+    for (size_t i = 0; i < description->count; i++)
+        if (description->statements[i].part == JOB_CLIP)
+            add_argument(maker->job, "clip", ffd_description_value(description, &description->statements[i]));
+    return true;
+}
+
 static bool is_option(const job_statement *statement)
 {
     return statement->part == JOB_OPTION || statement->part == JOB_FLAG || statement->part == JOB_UNSET;
@@ -197,6 +266,8 @@ static bool overrides(const job_description *description, const job_statement *s
     const char *const name = ffd_description_name(description, statement);
     if (is_option(statement))
         return strcmp(name, option->name) == 0;
+    if (statement->part == JOB_CLIP)
+        return strcmp("clip", option->name) == 0;
     if (statement->part != JOB_SETTING || strcmp(option->name, "set") != 0)
         return false;
     const size_t length = strlen(name);
@@ -265,7 +336,9 @@ static bool add_files(job_maker *maker)
     if (output && (!check_path(maker, output, "out") || !keep_name(maker, output, &job->output)))
         return false;
     if (!ffd_description_find(maker->description, JOB_LATTICE) &&
-        !ffd_description_wrong(maker->description, "lattice"))
+        !ffd_description_find(maker->description, JOB_MORPH) &&
+        !ffd_description_wrong(maker->description, "lattice") &&
+        !ffd_description_wrong(maker->description, "morph"))
         return refuse(maker, "\"lattice\" is missing");
     if (!add_file(maker, NULL, input) || (output && !add_file(maker, NULL, output)))
         return false;
@@ -273,7 +346,7 @@ static bool add_files(job_maker *maker)
     job->words.failed = job->words.failed || !job->target;
     add_word(&job->content, input);
     add_word(&job->content, output ? output : "");
-    return add_lattices(maker);
+    return add_lattices(maker) && add_morphs(maker) && add_clips(maker);
 }
 
 static bool make_words(job_maker *maker)

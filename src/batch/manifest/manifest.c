@@ -13,7 +13,7 @@ typedef struct line_parser {
     job_description description;
 } line_parser;
 
-static const char *const members[] = {"in", "out", "lattice", "options", "set"};
+static const char *const members[] = {"in", "out", "lattice", "morph", "clip", "options", "set"};
 enum { MEMBERS = sizeof members / sizeof *members };
 
 /* Something is wrong with a member. */
@@ -63,6 +63,32 @@ static void read_lattices(line_parser *parser, uint32_t value)
         for (uint32_t v = ffd_json_span_first(parser->tree, value); v != JSON_NONE;
              v = ffd_json_span_after(parser->tree, v))
             read_path(parser, JOB_LATTICE, "lattice", v);
+}
+
+static void read_morph(line_parser *parser, const char *name, uint32_t value)
+{
+    if (is_kind(parser, value, JSON_STRING))
+        add_string(parser, JOB_MORPH, name, value);
+    else
+        refuse(parser, "morph", "\"morph\": \"%.60s\" is not the name of a lattice file", name);
+}
+
+static void read_clip(line_parser *parser, uint32_t value)
+{
+    if (is_kind(parser, value, JSON_STRING))
+        add_string(parser, JOB_CLIP, NULL, value);
+    else
+        refuse(parser, "clip", "\"clip\" is not a text or a list of texts");
+}
+
+static void read_clips(line_parser *parser, uint32_t value)
+{
+    if (!is_kind(parser, value, JSON_ARRAY))
+        read_clip(parser, value);
+    for (uint32_t v = is_kind(parser, value, JSON_ARRAY) ? ffd_json_span_first(parser->tree, value)
+                                                         : JSON_NONE;
+         v != JSON_NONE; v = ffd_json_span_after(parser->tree, v))
+        read_clip(parser, v);
 }
 
 /* A whole number is taken as it is written, which can be more exact than a double. */
@@ -147,13 +173,20 @@ static void read_member(line_parser *parser, const char *name, uint32_t value)
         read_path(parser, JOB_OUTPUT, name, value);
     else if (strcmp(name, "lattice") == 0)
         read_lattices(parser, value);
+    else if (strcmp(name, "clip") == 0)
+        read_clips(parser, value);
     else if (!ffd_word_is_known(name, members, MEMBERS))
         refuse(parser, "", "unknown key \"%.60s\" (nearest: \"%s\")", name,
                ffd_nearest_word(name, members, MEMBERS));
     else if (!is_kind(parser, value, JSON_OBJECT))
-        refuse(parser, strcmp(name, "set") == 0 ? name : "", "\"%s\" is not an object", name);
+        refuse(parser, strcmp(name, "options") == 0 ? "" : name, "\"%s\" is not an object", name);
+    else if (strcmp(name, "morph") == 0 && parser->tree->values[value].count == 0)
+        refuse(parser, name, "\"morph\" is an empty object");
     else
-        read_members(parser, value, strcmp(name, "set") == 0 ? read_setting : read_option);
+        read_members(parser, value,
+                     strcmp(name, "set") == 0     ? read_setting
+                     : strcmp(name, "morph") == 0 ? read_morph
+                                                  : read_option);
 }
 
 ffd_status ffd_job_parse(const batch_frame *frame, const char *text, size_t size, batch_job *job)

@@ -1,18 +1,44 @@
-/* gltf_as_morph.c - the deformation as a further morph target, or in place of one with its name. The file
-   with a target of zeros is opened as a document of its own; the results of this document become the results
-   of that target, and that document is saved. */
+/* gltf_as_morph.c - deformations as further morph targets, or in place of those with their names. The file
+   with targets of zeros is opened as a document of its own; the results of this document become the results
+   of these targets, and that document is saved. */
 #include "io/gltf/gltf_as_morph.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "io/gltf/gltf_open.h"
-#include "io/gltf/save/gltf_morph_text.h"
+#include "io/gltf/morph/gltf_clip.h"
+#include "io/gltf/morph/gltf_morph_text.h"
+#include "io/gltf/morph/gltf_morph_weights.h"
 #include "io/gltf/save/gltf_save.h"
 #include "io/gltf/scene/gltf_results.h"
 #include <string.h>
 
+/* Takes the results of the target under way, which are complete, out of the streams. */
+static ffd_status finish_target(gltf_document *d, ffd_error *error)
+{
+    const size_t count = d->base.part_count * GLTF_DEFORMED;
+    gltf_morph morph = {.name = d->morph_name, .normals = d->morph_normals, .result_count = count};
+    if (!ffd_grow((void **)&d->morphs, &d->morph_capacity, d->morph_count + 1, sizeof *d->morphs))
+        return ffd_fail_memory(error);
+    morph.results = ffd_alloc_zero(count, sizeof *morph.results);
+    if (!morph.results)
+        return ffd_fail_memory(error);
+    for (size_t i = 0; i < count; i++) {
+        gltf_stream *const stream = &d->parts[i / GLTF_DEFORMED].streams[i % GLTF_DEFORMED];
+        morph.results[i] = stream->result;
+        stream->result = NULL;
+        ffd_gltf_free_result(stream);
+    }
+    d->morphs[d->morph_count++] = morph;
+    d->morph_name = NULL;
+    return FFD_OK;
+}
+
 ffd_status ffd_gltf_keep_base(mesh_document *document, const char *name, ffd_error *error)
 {
     gltf_document *d = (gltf_document *)document;
+    const ffd_status status = d->morph_name ? finish_target(d, error) : FFD_OK;
+    if (status)
+        return status;
     d->morph_name = ffd_text_copy(name);
     if (!d->morph_name)
         return ffd_fail_memory(error);
@@ -20,9 +46,21 @@ ffd_status ffd_gltf_keep_base(mesh_document *document, const char *name, ffd_err
     return FFD_OK;
 }
 
-static bool is_moved(const gltf_document *d, size_t part, size_t semantic)
+ffd_status ffd_gltf_keep_clips(mesh_document *document, const morph_clip *clips, size_t count,
+                               const char *const *names, size_t name_count, ffd_error *error)
 {
-    const float *result = d->parts[part].streams[semantic].result;
+    gltf_document *d = (gltf_document *)document;
+    d->clips = clips;
+    d->clip_count = count;
+    const ffd_status status = ffd_gltf_check_clips(d, clips, count, names, name_count, error);
+    if (status)
+        ffd_fail_name_file(error, d->name);
+    return status;
+}
+
+static bool is_moved(const gltf_document *d, const gltf_morph *morph, size_t part, size_t semantic)
+{
+    const float *result = ffd_gltf_morph_result(morph, part, semantic);
     for (size_t i = 0; result && i < 3 * d->mesh_parts[part].vertex_count; i++)
         if (result[i] < 0 || result[i] > 0)
             return true;
@@ -30,26 +68,55 @@ static bool is_moved(const gltf_document *d, size_t part, size_t semantic)
 }
 
 /* moved caches the answers, one per stream of a part: 1 + the answer; 0: not known yet. */
-static bool is_stream_moved(const gltf_document *d, size_t part, size_t semantic, unsigned char *moved)
+static bool is_stream_moved(const gltf_document *d, const gltf_morph *morph, size_t part, size_t semantic,
+                            unsigned char *moved)
 {
     if (part == GLTF_NONE)
         return false;
     unsigned char *known = &moved[part * GLTF_DEFORMED + semantic];
     if (*known == 0)
-        *known = (unsigned char)(1 + is_moved(d, part, semantic));
+        *known = (unsigned char)(1 + is_moved(d, morph, part, semantic));
     return *known > 1;
 }
 
-/* The meshes that get the target. */
+/* The meshes that get a target. */
 typedef struct morph_marks {
-    bool *meshes;    /* gets it */
-    bool *selected;  /* some node shows it, and is selected */
-    size_t *named;   /* its target of the name (ffd_gltf_find_target) */
-    bool any, moved; /* some mesh gets it; some mesh changed */
+    const gltf_morph *morph;
+    unsigned char *known; /* of is_stream_moved */
+    bool *meshes;         /* gets it */
+    bool *selected;       /* some node shows it, and is selected */
+    size_t *named;        /* its target of the name (ffd_gltf_find_target) */
+    size_t *places;       /* of the target among the mesh's own; GLTF_NONE: it does not get it */
+    size_t *in_primitive; /* of each primitive, among its own */
+    bool any, moved;      /* some mesh gets it; some mesh changed */
 } morph_marks;
 
+static bool make_marks(const gltf_document *d, const gltf_morph *morph, morph_marks *marks)
+{
+    const size_t count = d->model.mesh_count;
+    *marks = (morph_marks){.morph = morph,
+                           .known = ffd_alloc_zero(d->base.part_count, GLTF_DEFORMED),
+                           .meshes = ffd_alloc_zero(count, sizeof *marks->meshes),
+                           .selected = ffd_alloc_zero(count, sizeof *marks->selected),
+                           .named = ffd_alloc(count, sizeof *marks->named),
+                           .places = ffd_alloc(count, sizeof *marks->places),
+                           .in_primitive = ffd_alloc(d->primitive_values.count, sizeof *marks->in_primitive)};
+    return marks->known && marks->meshes && marks->selected && marks->named && marks->places &&
+           marks->in_primitive;
+}
+
+static void free_marks(morph_marks *marks)
+{
+    ffd_free(marks->known);
+    ffd_free(marks->meshes);
+    ffd_free(marks->selected);
+    ffd_free(marks->named);
+    ffd_free(marks->places);
+    ffd_free(marks->in_primitive);
+}
+
 /* Marks the meshes that are selected, and those of them that changed under some node. */
-static void mark_moved(const gltf_document *d, unsigned char *moved, morph_marks *marks)
+static void mark_moved(const gltf_document *d, morph_marks *marks)
 {
     const gltf_instance *instance = d->instances;
     for (size_t m = 0; m < d->model.mesh_count; m++)
@@ -58,25 +125,31 @@ static void mark_moved(const gltf_document *d, unsigned char *moved, morph_marks
             const bool shown = instance->selected && instance->part[GLTF_POSITION] != GLTF_NONE;
             marks->selected[m] = marks->selected[m] || shown;
             for (size_t s = 0; s < GLTF_DEFORMED && instance->selected && !marks->meshes[m]; s++)
-                marks->meshes[m] = is_stream_moved(d, instance->part[s], s, moved);
+                marks->meshes[m] = is_stream_moved(d, marks->morph, instance->part[s], s, marks->known);
             marks->moved = marks->moved || marks->meshes[m];
         }
 }
 
 /* A mesh gets the target where it changed, and where it has one of the name, which would be out of date;
-   where nothing changed at all, every mesh does. */
-static void mark_meshes(const gltf_document *d, unsigned char *moved, morph_marks *marks)
+   where nothing changed at all, every mesh does. file: the document, which may have got other targets. */
+static void mark_meshes(const gltf_document *d, const gltf_document *file, morph_marks *marks)
 {
-    mark_moved(d, moved, marks);
+    mark_moved(d, marks);
     for (size_t m = 0; m < d->model.mesh_count; m++) {
-        marks->named[m] = ffd_gltf_find_target(d, m);
+        marks->named[m] = ffd_gltf_find_target(file, m, marks->morph->name);
         marks->meshes[m] =
             marks->meshes[m] || (marks->selected[m] && (!marks->moved || marks->named[m] != GLTF_NONE));
         marks->any = marks->any || marks->meshes[m];
+        marks->places[m] = !marks->meshes[m]              ? GLTF_NONE
+                           : marks->named[m] != GLTF_NONE ? marks->named[m]
+                                                          : ffd_gltf_target_count(file, m);
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
+            marks->in_primitive[d->first_primitive[m] + p] =
+                ffd_gltf_target_place(&file->model.meshes[m].primitives[p], marks->named[m]);
     }
 }
 
-/* Lends the results to the targets of the other document's primitives, or takes them back. Both have the same
+/* Lends a target's results to the other document's primitives, or takes them back. Both have the same
    instances in the same order. */
 static void lend_results(const gltf_document *d, const morph_marks *marks, bool back, gltf_document *other)
 {
@@ -89,79 +162,155 @@ static void lend_results(const gltf_document *d, const morph_marks *marks, bool 
                 to->selected = from->selected;
                 if (!marks->meshes[m] || !from->selected)
                     continue;
-                const size_t place =
-                    ffd_gltf_target_place(&d->model.meshes[m].primitives[p], marks->named[m]);
+                const size_t place = marks->in_primitive[d->first_primitive[m] + p];
                 const size_t shape = other->targets[to->first_target + place];
                 for (size_t s = 0; s < GLTF_DEFORMED && shape != GLTF_NONE; s++)
                     if (other->parts[shape].streams[s].accessor != GLTF_NONE && from->part[s] != GLTF_NONE)
                         other->parts[shape].streams[s].result =
-                            back ? NULL : d->parts[from->part[s]].streams[s].result;
+                            back ? NULL : marks->morph->results[from->part[s] * GLTF_DEFORMED + s];
             }
 }
 
-static ffd_status save_with_target(const gltf_document *d, const morph_marks *marks,
-                                   const mesh_save_options *options, file_output *output, const mesh_log *log,
-                                   ffd_error *error)
+/* The file on its way to all targets. */
+typedef struct morph_file {
+    const gltf_document *source;
+    mesh_document *made; /* NULL: still the source */
+    file_input bytes;    /* its */
+} morph_file;
+
+static const gltf_document *current(const morph_file *file)
 {
+    return file->made ? ffd_gltf_of(file->made) : file->source;
+}
+
+static void close_file(morph_file *file)
+{
+    ffd_gltf_close(file->made);
+    ffd_file_unload(&file->bytes);
+    file->made = NULL;
+    file->bytes = (file_input){0};
+}
+
+/* Goes on with a file that was made of this one, which it takes. */
+static ffd_status reopen(morph_file *file, file_input *bytes, ffd_error *error)
+{
+    const gltf_document *const d = file->source;
     const ffd_format format = d->binary ? FFD_FORMAT_GLB : FFD_FORMAT_GLTF;
     const ffd_source source = {.path = d->path, .format = format, .space = d->space};
     memory_budget budget = d->base.budget;
     budget.is_shared = true;
-    mesh_document *other = NULL;
-    file_input file = {0};
-    ffd_status status = ffd_gltf_add_target(d, marks->meshes, marks->named, log, &file, error);
-    if (status == FFD_OK)
-        status = ffd_budget_take(&budget, file.size, 1, error);
-    if (status == FFD_OK)
-        status = ffd_gltf_open_within(&file, &source, &budget, &other, error);
-    if (status == FFD_OK) {
-        ((gltf_document *)other)->own_accessors =
-            ffd_gltf_of(other)->model.accessor_count - d->model.accessor_count;
-        lend_results(d, marks, false, (gltf_document *)other);
-        status = ffd_gltf_save_results(other, options, output, log, error);
-        lend_results(d, marks, true, (gltf_document *)other);
+    close_file(file);
+    file->bytes = *bytes;
+    *bytes = (file_input){0};
+    const ffd_status status = ffd_budget_take(&budget, file->bytes.size, 1, error);
+    return status ? status : ffd_gltf_open_within(&file->bytes, &source, &budget, &file->made, error);
+}
+
+/* Adds the target to the file. */
+static ffd_status add_target(morph_file *file, morph_marks *marks, const mesh_log *log, ffd_error *error)
+{
+    const morph_request request = {file->source, marks->morph, marks->meshes, marks->named, log};
+    file_input bytes = {0};
+    mark_meshes(file->source, current(file), marks);
+    if (!marks->any) {
+        ffd_log_line(log, FFD_LOG_WARNING, "the file has no mesh that could get the morph target");
+        return FFD_OK;
     }
-    ffd_gltf_close(other);
-    ffd_file_unload(&file);
+    if (!marks->moved)
+        ffd_log_line(log, FFD_LOG_WARNING, "no vertex moves: all offsets of the morph target are 0");
+    ffd_status status = ffd_gltf_add_target(current(file), &request, &bytes, error);
+    if (status == FFD_OK)
+        status = reopen(file, &bytes, error);
+    ffd_file_unload(&bytes);
     return status;
 }
 
-static void drop_results(gltf_document *d)
+static ffd_status add_targets(morph_file *file, morph_marks *marks, const mesh_log *log, ffd_error *error)
 {
-    for (size_t i = 0; i < d->base.part_count; i++)
-        for (int s = 0; s < GLTF_DEFORMED; s++)
-            ffd_gltf_free_result(&d->parts[i].streams[s]);
-    ffd_free(d->morph_name);
-    d->morph_name = NULL;
+    const gltf_document *const d = file->source;
+    ffd_status status = FFD_OK;
+    for (size_t k = 0; k < d->morph_count && !status; k++) {
+        mesh_log_label label;
+        if (!make_marks(d, &d->morphs[k], &marks[k]))
+            return ffd_fail_memory(error);
+        const mesh_log labelled = ffd_log_morph(log, d->morphs[k].name, &label);
+        status = add_target(file, &marks[k], d->morph_count > 1 ? &labelled : log, error);
+    }
+    return status;
+}
+
+static ffd_status add_clips(morph_file *file, const morph_marks *marks, const mesh_log *log, ffd_error *error)
+{
+    const gltf_document *const d = file->source;
+    file_input bytes = {0};
+    clip_target *const targets = ffd_alloc(d->morph_count, sizeof *targets);
+    if (!targets)
+        return ffd_fail_memory(error);
+    for (size_t k = 0; k < d->morph_count; k++)
+        targets[k] = (clip_target){d->morphs[k].name, marks[k].places};
+    ffd_status status = ffd_gltf_add_clips(current(file), d->clips, d->clip_count, targets, d->morph_count,
+                                           log, &bytes, error);
+    if (!status && bytes.data)
+        status = reopen(file, &bytes, error);
+    ffd_file_unload(&bytes);
+    ffd_free(targets);
+    return status;
+}
+
+/* Says that a mesh that gets targets has more than many viewers play. */
+static void warn_of_many(const gltf_document *d, const gltf_document *file, const mesh_log *log)
+{
+    size_t meshes = 0, most = 0;
+    for (size_t m = 0; m < d->model.mesh_count; m++) {
+        const size_t count = ffd_gltf_target_count(file, m);
+        if (count <= MORPHS_PLAYED || count <= ffd_gltf_target_count(d, m))
+            continue;
+        meshes++;
+        most = count > most ? count : most;
+    }
+    if (meshes > 0)
+        ffd_log_line(log, FFD_LOG_WARNING, "%zu %s %zu morph targets: some viewers play only %d", meshes,
+                     meshes == 1 ? "mesh has" : "meshes have up to", most, MORPHS_PLAYED);
+}
+
+static ffd_status save_file(const morph_file *file, const morph_marks *marks,
+                            const mesh_save_options *options, file_output *output, const mesh_log *log,
+                            ffd_error *error)
+{
+    const gltf_document *const d = file->source;
+    gltf_document *const other = (gltf_document *)file->made;
+    other->base.sparse_targets = d->base.sparse_targets;
+    other->own_accessors = other->model.accessor_count - d->model.accessor_count;
+    for (size_t k = 0; k < d->morph_count; k++)
+        lend_results(d, &marks[k], false, other);
+    const ffd_status status = ffd_gltf_save_results(&other->base, options, output, log, error);
+    for (size_t k = 0; k < d->morph_count; k++)
+        lend_results(d, &marks[k], true, other);
+    return status;
 }
 
 static ffd_status save_as_morph(mesh_document *document, const mesh_save_options *options,
                                 file_output *output, const mesh_log *log, ffd_error *error)
 {
     gltf_document *d = (gltf_document *)document;
-    morph_marks marks = {.meshes = ffd_alloc_zero(d->model.mesh_count, sizeof *marks.meshes),
-                         .selected = ffd_alloc_zero(d->model.mesh_count, sizeof *marks.selected),
-                         .named = ffd_alloc(d->model.mesh_count, sizeof *marks.named)};
-    unsigned char *moved = ffd_alloc_zero(d->base.part_count, GLTF_DEFORMED);
-    const bool allocated = marks.meshes && marks.selected && marks.named && moved;
-    ffd_status status;
-    if (allocated)
-        mark_meshes(d, moved, &marks);
-    if (!allocated) {
+    morph_file file = {.source = d};
+    ffd_status status = finish_target(d, error);
+    morph_marks *const marks = ffd_alloc_zero(d->morph_count, sizeof *marks);
+    if (!status && !marks)
         status = ffd_fail_memory(error);
-    } else if (marks.any) {
-        if (!marks.moved)
-            ffd_log_line(log, FFD_LOG_WARNING, "no vertex moves: all offsets of the morph target are 0");
-        status = save_with_target(d, &marks, options, output, log, error);
-    } else {
-        ffd_log_line(log, FFD_LOG_WARNING, "the file has no mesh that could get the morph target");
-        drop_results(d);
-        status = ffd_gltf_save_results(document, options, output, log, error);
-    }
-    ffd_free(marks.meshes);
-    ffd_free(marks.selected);
-    ffd_free(marks.named);
-    ffd_free(moved);
+    if (!status)
+        status = add_targets(&file, marks, log, error);
+    if (!status && d->clip_count > 0)
+        status = add_clips(&file, marks, log, error);
+    if (!status)
+        warn_of_many(d, current(&file), log);
+    if (!status)
+        status = file.made ? save_file(&file, marks, options, output, log, error)
+                           : ffd_gltf_save_results(document, options, output, log, error);
+    close_file(&file);
+    for (size_t k = 0; k < d->morph_count && marks; k++)
+        free_marks(&marks[k]);
+    ffd_free(marks);
     return status;
 }
 

@@ -1,4 +1,4 @@
-/* gltf_as_morph.h - the deformation as a further morph target. */
+/* gltf_as_morph.h - deformations as further morph targets. */
 #ifndef FFD_IO_GLTF_GLTF_AS_MORPH_H
 #define FFD_IO_GLTF_GLTF_AS_MORPH_H
 
@@ -6,6 +6,9 @@
 
 /* mesh_format's keep_base: results become offsets of a further morph target of this name. */
 mesh_keep_base_function ffd_gltf_keep_base;
+
+/* mesh_format's keep_clips. */
+mesh_keep_clips_function ffd_gltf_keep_clips;
 
 /* mesh_format's save: with a further morph target after ffd_gltf_keep_base, else as
    ffd_gltf_save_results does. */

@@ -80,6 +80,7 @@ const mesh_format ffd_gltf_format = {
     .count_skins = ffd_gltf_count_skins,
     .follow = ffd_gltf_follow,
     .keep_base = ffd_gltf_keep_base,
+    .keep_clips = ffd_gltf_keep_clips,
     .largest_coordinate = FLT_MAX,
     .selector_kinds = SELECTOR_BIT(SELECT_NODE) | SELECTOR_BIT(SELECT_MESH) | SELECTOR_BIT(SELECT_MATERIAL),
     .select = ffd_gltf_select,

@@ -269,6 +269,18 @@ static void free_decoded(gltf_document *d)
     ffd_free(d->draco_problems);
 }
 
+static void free_morphs(gltf_document *d)
+{
+    for (size_t k = 0; k < d->morph_count; k++) {
+        for (size_t i = 0; i < d->morphs[k].result_count; i++)
+            ffd_free(d->morphs[k].results[i]);
+        ffd_free(d->morphs[k].results);
+        ffd_free(d->morphs[k].name);
+    }
+    ffd_free(d->morphs);
+    ffd_free(d->morph_name);
+}
+
 static void free_document(gltf_document *d)
 {
     gltf_values *const lists[] = {&d->buffer_values,   &d->view_values,     &d->accessor_values,
@@ -307,7 +319,7 @@ static void free_document(gltf_document *d)
     ffd_free(d->shapes);
     ffd_free(d->targets);
     ffd_free(d->instanced_nodes);
-    ffd_free(d->morph_name);
+    free_morphs(d);
     ffd_free(d->path);
     ffd_free(d);
 }

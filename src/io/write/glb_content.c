@@ -74,7 +74,7 @@ static void put_colour(gltf_writer *w, const model_corner *vertex)
     }
 }
 
-static void put_vertex(gltf_writer *w, const model_corner *vertex, int view)
+static void put_vertex(gltf_writer *w, const model_corner *vertex, int view, size_t morph)
 {
     float values[3] = {0, 0, 0};
     switch (view) {
@@ -88,10 +88,10 @@ static void put_vertex(gltf_writer *w, const model_corner *vertex, int view)
         ffd_glb_texcoord(w->model, vertex->texcoord, values);
         break;
     case VIEW_POSITION_OFFSETS:
-        ffd_glb_position_offset(w->model, vertex->position, values);
+        ffd_glb_position_offset(w->model, morph, vertex->position, values);
         break;
     case VIEW_NORMAL_OFFSETS:
-        ffd_glb_normal_offset(w->model, vertex->normal, values);
+        ffd_glb_normal_offset(w->model, morph, vertex->normal, values);
         break;
     default:
         put_colour(w, vertex);
@@ -117,10 +117,8 @@ static bool has_view(const gltf_writer *w, const glb_primitive *primitive, int v
         return primitive->normals;
     case VIEW_TEXCOORDS:
         return primitive->texcoords;
-    case VIEW_POSITION_OFFSETS:
-        return primitive->morphs;
     case VIEW_NORMAL_OFFSETS:
-        return primitive->morphs && primitive->normals;
+        return primitive->normals;
     case VIEW_SHORT:
         return glb_has_short_indices(primitive);
     case VIEW_LONG:
@@ -130,19 +128,37 @@ static bool has_view(const gltf_writer *w, const glb_primitive *primitive, int v
     }
 }
 
+static void put_vertices(gltf_writer *w, const glb_primitive *primitive, int view, size_t morph)
+{
+    for (size_t v = 0; v < primitive->vertex_count; v++)
+        put_vertex(w, &w->plan.vertices[primitive->first_vertex + v], view, morph);
+}
+
+/* Those of all morph targets, one after the other. */
+static void put_offsets(gltf_writer *w, const glb_primitive *primitive, int view)
+{
+    for (size_t k = 0; k < w->model->morph_count; k++)
+        if (glb_has_morph(&w->plan, primitive, k))
+            put_vertices(w, primitive, view, k);
+}
+
 void ffd_glb_put_content(gltf_writer *w)
 {
     static const unsigned char padding[3] = {0};
     for (int view = 0; view < VIEW_COUNT; view++) {
         for (size_t i = 0; i < w->plan.primitive_count && w->sink.status == FFD_OK; i++) {
             const glb_primitive *primitive = &w->plan.primitives[w->plan.by_mesh[i]];
-            if (!has_view(w, primitive, view))
+            if (view == VIEW_CLIPS || !has_view(w, primitive, view))
                 continue;
             if (view >= VIEW_SHORT)
                 put_indices(w, primitive);
-            for (size_t v = 0; v < primitive->vertex_count && view < VIEW_SHORT; v++)
-                put_vertex(w, &w->plan.vertices[primitive->first_vertex + v], view);
+            else if (view == VIEW_POSITION_OFFSETS || view == VIEW_NORMAL_OFFSETS)
+                put_offsets(w, primitive, view);
+            else
+                put_vertices(w, primitive, view, 0);
         }
+        if (view == VIEW_CLIPS)
+            put_bytes(w, (const unsigned char *)w->clips.bytes.data, w->clips.bytes.size);
         put_bytes(w, padding, (4 - w->sizes[view] % 4) % 4);
     }
     if (w->base64)

@@ -11,7 +11,7 @@ enum { TARGET_VERTICES = 34962, TARGET_INDICES = 34963 };
 
 static void add_views(gltf_writer *w)
 {
-    const size_t strides[VIEW_COUNT] = {12, 12, 8, glb_colour_size(w), 12, 12, 0, 0};
+    const size_t strides[VIEW_COUNT] = {12, 12, 8, glb_colour_size(w), 12, 12, 0, 0, 0};
     ffd_json_array(&w->json, "bufferViews", false);
     for (int v = 0; v < VIEW_COUNT; v++) {
         if (w->sizes[v] == 0)
@@ -22,7 +22,8 @@ static void add_views(gltf_writer *w)
         ffd_json_count(&w->json, "byteLength", w->sizes[v]);
         if (strides[v] > 0)
             ffd_json_count(&w->json, "byteStride", strides[v]);
-        ffd_json_count(&w->json, "target", strides[v] > 0 ? TARGET_VERTICES : TARGET_INDICES);
+        if (v != VIEW_CLIPS)
+            ffd_json_count(&w->json, "target", strides[v] > 0 ? TARGET_VERTICES : TARGET_INDICES);
         ffd_json_end(&w->json, '}');
     }
     ffd_json_end(&w->json, ']');
@@ -40,8 +41,8 @@ static void begin_accessor(gltf_writer *w, int view, size_t element, int compone
     w->filled[view] += element * count;
 }
 
-/* Of positions, or of their offsets. */
-static void add_bounds(gltf_writer *w, const glb_primitive *primitive, int view)
+/* Of positions, or of their offsets in a morph target. */
+static void add_bounds(gltf_writer *w, const glb_primitive *primitive, int view, size_t morph)
 {
     double least[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, largest[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (size_t i = 0; i < primitive->vertex_count; i++) {
@@ -50,7 +51,7 @@ static void add_bounds(gltf_writer *w, const glb_primitive *primitive, int view)
         if (view == VIEW_POSITIONS)
             ffd_glb_position(w->model, w->origin, position, values);
         else
-            ffd_glb_position_offset(w->model, position, values);
+            ffd_glb_position_offset(w->model, morph, position, values);
         for (size_t a = 0; a < 3; a++) {
             const double value = values[a];
             least[a] = value < least[a] ? value : least[a];
@@ -61,10 +62,10 @@ static void add_bounds(gltf_writer *w, const glb_primitive *primitive, int view)
     ffd_json_vector(&w->json, "max", largest, 3);
 }
 
-static void add_offsets_of(gltf_writer *w, const glb_primitive *primitive)
+static void add_offsets_of(gltf_writer *w, const glb_primitive *primitive, size_t morph)
 {
     begin_accessor(w, VIEW_POSITION_OFFSETS, 12, TYPE_FLOAT, primitive->vertex_count, "VEC3");
-    add_bounds(w, primitive, VIEW_POSITION_OFFSETS);
+    add_bounds(w, primitive, VIEW_POSITION_OFFSETS, morph);
     ffd_json_end(&w->json, '}');
     if (!primitive->normals)
         return;
@@ -76,7 +77,7 @@ static void add_accessors_of(gltf_writer *w, const glb_primitive *primitive)
 {
     const size_t count = primitive->vertex_count;
     begin_accessor(w, VIEW_POSITIONS, 12, TYPE_FLOAT, count, "VEC3");
-    add_bounds(w, primitive, VIEW_POSITIONS);
+    add_bounds(w, primitive, VIEW_POSITIONS, 0);
     ffd_json_end(&w->json, '}');
     if (primitive->normals) {
         begin_accessor(w, VIEW_NORMALS, 12, TYPE_FLOAT, count, "VEC3");
@@ -99,8 +100,9 @@ static void add_accessors_of(gltf_writer *w, const glb_primitive *primitive)
                        primitive->index_count, "SCALAR");
         ffd_json_end(&w->json, '}');
     }
-    if (primitive->morphs)
-        add_offsets_of(w, primitive);
+    for (size_t k = 0; k < w->model->morph_count; k++)
+        if (glb_has_morph(&w->plan, primitive, k))
+            add_offsets_of(w, primitive, k);
 }
 
 static void add_accessors(gltf_writer *w)
@@ -108,6 +110,7 @@ static void add_accessors(gltf_writer *w)
     ffd_json_array(&w->json, "accessors", false);
     for (size_t i = 0; i < w->plan.primitive_count; i++)
         add_accessors_of(w, &w->plan.primitives[w->plan.by_mesh[i]]);
+    ffd_glb_add_clip_accessors(&w->clips, w->numbers[VIEW_CLIPS], &w->json);
     ffd_json_end(&w->json, ']');
 }
 
@@ -132,26 +135,42 @@ static void add_name(gltf_writer *w, uint32_t mesh)
     ffd_free(name);
 }
 
-static void add_target(gltf_writer *w, const glb_primitive *primitive)
+static bool has_morphs(const gltf_writer *w, const glb_primitive *primitive)
+{
+    for (size_t k = 0; k < w->model->morph_count; k++)
+        if (glb_has_morph(&w->plan, primitive, k))
+            return true;
+    return false;
+}
+
+static void add_targets(gltf_writer *w, const glb_primitive *primitive)
 {
     ffd_json_array(&w->json, "targets", true);
-    ffd_json_object(&w->json, NULL, true);
-    ffd_json_count(&w->json, "POSITION", w->accessors++);
-    if (primitive->normals)
-        ffd_json_count(&w->json, "NORMAL", w->accessors++);
-    ffd_json_end(&w->json, '}');
+    for (size_t k = 0; k < w->model->morph_count; k++) {
+        if (!glb_has_morph(&w->plan, primitive, k))
+            continue;
+        ffd_json_object(&w->json, NULL, true);
+        ffd_json_count(&w->json, "POSITION", w->accessors++);
+        if (primitive->normals)
+            ffd_json_count(&w->json, "NORMAL", w->accessors++);
+        ffd_json_end(&w->json, '}');
+    }
     ffd_json_end(&w->json, ']');
 }
 
-/* The target's weight and name. */
-static void add_morph(gltf_writer *w)
+/* The targets' weights and names; primitive: one of the mesh. */
+static void add_morphs(gltf_writer *w, const glb_primitive *primitive)
 {
     ffd_json_array(&w->json, "weights", true);
-    ffd_json_count(&w->json, NULL, 0);
+    for (size_t k = 0; k < w->model->morph_count; k++)
+        if (glb_has_morph(&w->plan, primitive, k))
+            ffd_json_count(&w->json, NULL, 0);
     ffd_json_end(&w->json, ']');
     ffd_json_object(&w->json, "extras", true);
     ffd_json_array(&w->json, "targetNames", true);
-    ffd_json_string(&w->json, NULL, w->model->morph_name);
+    for (size_t k = 0; k < w->model->morph_count; k++)
+        if (glb_has_morph(&w->plan, primitive, k))
+            ffd_json_string(&w->json, NULL, w->model->morphs[k].name);
     ffd_json_end(&w->json, ']');
     ffd_json_end(&w->json, '}');
 }
@@ -174,8 +193,8 @@ static void add_primitive(gltf_writer *w, const glb_primitive *primitive)
     if (primitive->material != MODEL_NONE)
         ffd_json_count(&w->json, "material", primitive->material);
     ffd_json_count(&w->json, "mode", modes[primitive->kind]);
-    if (primitive->morphs)
-        add_target(w, primitive);
+    if (has_morphs(w, primitive))
+        add_targets(w, primitive);
     ffd_json_end(&w->json, '}');
 }
 
@@ -187,15 +206,16 @@ static void add_meshes(gltf_writer *w)
     for (uint32_t m = 0; m < plan->meshes.count; m++) {
         ffd_json_object(&w->json, NULL, false);
         add_name(w, m);
-        bool morphs = false;
+        const glb_primitive *morphs = NULL;
         ffd_json_array(&w->json, "primitives", false);
         for (; i < plan->primitive_count && plan->primitives[plan->by_mesh[i]].mesh == m; i++) {
             add_primitive(w, &plan->primitives[plan->by_mesh[i]]);
-            morphs = plan->primitives[plan->by_mesh[i]].morphs;
+            if (has_morphs(w, &plan->primitives[plan->by_mesh[i]]))
+                morphs = &plan->primitives[plan->by_mesh[i]];
         }
         ffd_json_end(&w->json, ']');
         if (morphs)
-            add_morph(w);
+            add_morphs(w, morphs);
         ffd_json_end(&w->json, '}');
     }
     ffd_json_end(&w->json, ']');
@@ -278,6 +298,7 @@ size_t ffd_glb_make_json(gltf_writer *w, bool on_one_line, const char *uri)
         add_meshes(w);
         if (w->plan.materials.count > 0)
             add_materials(w);
+        ffd_glb_add_clips(&w->clips, w->accessors, &w->json);
         add_accessors(w);
         add_views(w);
         uri_end = add_buffer(w, uri);

@@ -34,11 +34,11 @@ static bool read_texcoord(const mesh_model *model, uint32_t number, float *value
     return true;
 }
 
-/* With the offset, where there is a morph target. */
+/* With the offsets of morph targets. */
 static bool read_normal(const mesh_model *model, uint32_t number, float *values)
 {
-    if (model->morph_normals)
-        ffd_glb_normal_offset(model, number, values + 3);
+    for (size_t k = 0; k < model->morph_count; k++)
+        ffd_glb_normal_offset(model, k, number, values + 3 + 3 * k);
     return ffd_glb_normal(model, number, values);
 }
 
@@ -51,11 +51,11 @@ static ffd_status join_values(planner *p, size_t count, value_reader *read, size
     intern_table values = {0};
     ffd_status status = FFD_OK;
     uint32_t *first = ffd_alloc(count, sizeof *first);
+    float *const value = ffd_alloc(size, sizeof *value);
     *numbers = ffd_alloc(count, sizeof **numbers);
-    if (!*numbers || !first)
+    if (!*numbers || !first || !value)
         status = ffd_fail_memory(p->error);
     for (size_t i = 0; i < count && status == FFD_OK; i++) {
-        float value[6];
         uint32_t number;
         const size_t known = values.count;
         (*numbers)[i] = MODEL_NONE;
@@ -71,6 +71,7 @@ static ffd_status join_values(planner *p, size_t count, value_reader *read, size
     }
     ffd_intern_free(&values);
     ffd_free(first);
+    ffd_free(value);
     return status;
 }
 
@@ -323,36 +324,42 @@ static bool is_zero(const float values[3])
     return true;
 }
 
-static bool is_moved(const glb_plan *plan, const glb_primitive *primitive)
+static bool is_moved(const glb_plan *plan, const glb_primitive *primitive, size_t morph)
 {
     for (size_t i = 0; i < primitive->vertex_count; i++) {
         const model_corner *vertex = &plan->vertices[primitive->first_vertex + i];
         float offset[3], turn[3] = {0, 0, 0};
-        ffd_glb_position_offset(plan->model, vertex->position, offset);
+        ffd_glb_position_offset(plan->model, morph, vertex->position, offset);
         if (primitive->normals)
-            ffd_glb_normal_offset(plan->model, vertex->normal, turn);
+            ffd_glb_normal_offset(plan->model, morph, vertex->normal, turn);
         if (!is_zero(offset) || !is_zero(turn))
             return true;
     }
     return false;
 }
 
-/* A mesh has the target where something in it moves: then all its primitives have it. Where nothing moves at
+/* A mesh has a target where something in it moves: then all its primitives have it. Where nothing moves at
    all every mesh has it. */
-static ffd_status mark_morphs(glb_plan *plan, ffd_error *error)
+static void mark_morph(glb_plan *plan, size_t morph)
 {
-    bool *meshes = ffd_alloc_zero(plan->meshes.count, sizeof *meshes);
-    if (!meshes)
-        return ffd_fail_memory(error);
+    const size_t morphs = plan->model->morph_count;
     bool any = false;
     for (size_t i = 0; i < plan->primitive_count; i++) {
-        bool *const moved = &meshes[plan->primitives[i].mesh];
-        *moved = *moved || is_moved(plan, &plan->primitives[i]);
+        bool *const moved = &plan->morphed[plan->primitives[i].mesh * morphs + morph];
+        *moved = *moved || is_moved(plan, &plan->primitives[i], morph);
         any = any || *moved;
     }
-    for (size_t i = 0; i < plan->primitive_count; i++)
-        plan->primitives[i].morphs = !any || meshes[plan->primitives[i].mesh];
-    ffd_free(meshes);
+    for (size_t m = 0; m < plan->meshes.count && !any; m++)
+        plan->morphed[m * morphs + morph] = true;
+}
+
+static ffd_status mark_morphs(glb_plan *plan, ffd_error *error)
+{
+    plan->morphed = ffd_alloc_zero(plan->meshes.count, plan->model->morph_count * sizeof *plan->morphed);
+    if (!plan->morphed)
+        return ffd_fail_memory(error);
+    for (size_t k = 0; k < plan->model->morph_count; k++)
+        mark_morph(plan, k);
     return FFD_OK;
 }
 
@@ -364,7 +371,7 @@ ffd_status ffd_glb_make_plan(const mesh_model *model, glb_plan *plan, ffd_error 
     if (status == FFD_OK)
         status = join_values(&p, model->texcoord_count, read_texcoord, 2, &p.texcoords);
     if (status == FFD_OK)
-        status = join_values(&p, model->normal_count, read_normal, model->morph_normals ? 6 : 3, &p.normals);
+        status = join_values(&p, model->normal_count, read_normal, 3 + 3 * model->morph_count, &p.normals);
     if (status == FFD_OK)
         status = assign_all(&p);
     if (status == FFD_OK)
@@ -373,7 +380,7 @@ ffd_status ffd_glb_make_plan(const mesh_model *model, glb_plan *plan, ffd_error 
         status = sort_primitives(&p);
     if (status == FFD_OK)
         status = make_vertices(&p);
-    if (status == FFD_OK && model->morph_positions)
+    if (status == FFD_OK && model->morph_count > 0)
         status = mark_morphs(plan, error);
     for (int k = 0; k < MODEL_KINDS; k++) {
         ffd_free(p.primitive_of[k]);
@@ -395,5 +402,6 @@ void ffd_glb_free_plan(glb_plan *plan)
     ffd_free(plan->by_mesh);
     ffd_free(plan->vertices);
     ffd_free(plan->indices);
+    ffd_free(plan->morphed);
     *plan = (glb_plan){0};
 }

@@ -9,7 +9,6 @@ typedef struct glb_primitive {
     uint32_t mesh, material; /* material: MODEL_NONE: none */
     model_kind kind;
     bool normals, texcoords;
-    bool morphs;                       /* has a morph target, as all primitives of its mesh */
     size_t first_vertex, vertex_count; /* in plan->vertices */
     size_t first_index, index_count;   /* in plan->indices; points have none */
     size_t elements;                   /* of the model */
@@ -26,7 +25,14 @@ typedef struct glb_plan {
     size_t vertex_count;
     uint32_t *indices; /* each counts from its primitive's first vertex */
     size_t index_count;
+    bool *morphed; /* of each mesh and morph target of the model: all primitives of the mesh have it */
 } glb_plan;
+
+/* Whether a primitive has a morph target of the model. */
+static inline bool glb_has_morph(const glb_plan *plan, const glb_primitive *primitive, size_t morph)
+{
+    return plan->morphed[primitive->mesh * plan->model->morph_count + morph];
+}
 
 /* Errors: FFD_E_LIMIT, FFD_E_MEMORY. Must be freed in every case. */
 ffd_status ffd_glb_make_plan(const mesh_model *model, glb_plan *plan, ffd_error *error);

@@ -35,19 +35,19 @@ void ffd_glb_position(const mesh_model *model, const double origin[3], uint32_t 
         values[a] = (float)(model->positions[3 * (size_t)number + a] - origin[a]);
 }
 
-void ffd_glb_position_offset(const mesh_model *model, uint32_t number, float values[3])
+void ffd_glb_position_offset(const mesh_model *model, size_t morph, uint32_t number, float values[3])
 {
     for (size_t a = 0; a < 3; a++) {
         const size_t i = 3 * (size_t)number + a;
-        values[a] = finite_float(model->morph_positions[i] - model->positions[i]);
+        values[a] = finite_float(model->morphs[morph].positions[i] - model->positions[i]);
     }
 }
 
-void ffd_glb_normal_offset(const mesh_model *model, uint32_t number, float values[3])
+void ffd_glb_normal_offset(const mesh_model *model, size_t morph, uint32_t number, float values[3])
 {
     float base[3] = {0, 0, 0}, moved[3] = {0, 0, 0};
-    const bool both =
-        ffd_glb_normal(model, number, base) && direction(model->morph_normals + 3 * (size_t)number, moved);
+    const bool both = ffd_glb_normal(model, number, base) &&
+                      direction(model->morphs[morph].normals + 3 * (size_t)number, moved);
     for (size_t a = 0; a < 3; a++)
         values[a] = both ? moved[a] - base[a] : 0;
 }

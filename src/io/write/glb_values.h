@@ -12,9 +12,9 @@ void ffd_glb_texcoord(const mesh_model *model, uint32_t number, float values[2])
 bool ffd_glb_normal(const mesh_model *model, uint32_t number, float values[3]);
 /* The position of a vertex, from where its node stands. */
 void ffd_glb_position(const mesh_model *model, const double origin[3], uint32_t number, float values[3]);
-/* What the morph target adds to it. */
-void ffd_glb_position_offset(const mesh_model *model, uint32_t number, float values[3]);
+/* What a morph target adds to it. */
+void ffd_glb_position_offset(const mesh_model *model, size_t morph, uint32_t number, float values[3]);
 /* What it adds to the normal. */
-void ffd_glb_normal_offset(const mesh_model *model, uint32_t number, float values[3]);
+void ffd_glb_normal_offset(const mesh_model *model, size_t morph, uint32_t number, float values[3]);
 
 #endif

@@ -19,14 +19,17 @@ static void measure(gltf_writer *w)
         w->sizes[VIEW_NORMALS] += primitive->normals ? 12 * primitive->vertex_count : 0;
         w->sizes[VIEW_TEXCOORDS] += primitive->texcoords ? 8 * primitive->vertex_count : 0;
         w->sizes[VIEW_COLOURS] += w->model->colours ? glb_colour_size(w) * primitive->vertex_count : 0;
-        w->sizes[VIEW_POSITION_OFFSETS] += primitive->morphs ? 12 * primitive->vertex_count : 0;
-        w->sizes[VIEW_NORMAL_OFFSETS] +=
-            primitive->morphs && primitive->normals ? 12 * primitive->vertex_count : 0;
+        for (size_t k = 0; k < w->model->morph_count; k++) {
+            const size_t offsets = glb_has_morph(&w->plan, primitive, k) ? 12 * primitive->vertex_count : 0;
+            w->sizes[VIEW_POSITION_OFFSETS] += offsets;
+            w->sizes[VIEW_NORMAL_OFFSETS] += primitive->normals ? offsets : 0;
+        }
         if (glb_has_short_indices(primitive))
             w->sizes[VIEW_SHORT] += 2 * primitive->index_count;
         else
             w->sizes[VIEW_LONG] += 4 * primitive->index_count;
     }
+    w->sizes[VIEW_CLIPS] = w->clips.bytes.size;
     size_t number = 0;
     for (int v = 0; v < VIEW_COUNT; v++) {
         w->begins[v] = w->total;
@@ -43,7 +46,9 @@ static ffd_status begin(gltf_writer *w, const mesh_model *model, ffd_error *erro
     w->byte_colours = ffd_model_colours_fit_bytes(model);
     for (unsigned byte = 0; byte < 256 && model->colours && w->byte_colours; byte++)
         w->linear_of_bytes[byte] = ffd_srgb_byte_to_linear(byte);
-    const ffd_status status = ffd_glb_make_plan(model, &w->plan, error);
+    ffd_status status = ffd_glb_make_plan(model, &w->plan, error);
+    if (!status)
+        status = ffd_glb_make_clips(&w->plan, &w->clips, error);
     if (status)
         return status;
     w->is_far = ffd_glb_origin(&w->plan, w->origin);
@@ -54,6 +59,7 @@ static ffd_status begin(gltf_writer *w, const mesh_model *model, ffd_error *erro
 static void end(gltf_writer *w)
 {
     ffd_buffer_free(&w->text);
+    ffd_glb_free_clips(&w->clips);
     ffd_glb_free_plan(&w->plan);
     ffd_free(w);
 }

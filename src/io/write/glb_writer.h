@@ -3,6 +3,7 @@
 #ifndef FFD_IO_WRITE_GLB_WRITER_H
 #define FFD_IO_WRITE_GLB_WRITER_H
 
+#include "io/write/glb_clips.h"
 #include "io/write/glb_plan.h"
 #include "io/write/sink.h"
 #include "json/json_text.h"
@@ -19,10 +20,11 @@ enum {
     VIEW_NORMALS,
     VIEW_TEXCOORDS,
     VIEW_COLOURS,
-    VIEW_POSITION_OFFSETS, /* of the morph target */
+    VIEW_POSITION_OFFSETS, /* of the morph targets */
     VIEW_NORMAL_OFFSETS,
     VIEW_SHORT,
     VIEW_LONG,
+    VIEW_CLIPS, /* times and weights of animations */
     VIEW_COUNT
 };
 
@@ -34,6 +36,7 @@ typedef struct gltf_writer {
     bool byte_colours;             /* colours are bytes of sRGB, which 16 linear bits tell apart */
     uint16_t linear_of_bytes[256]; /* what these are */
     size_t sizes[VIEW_COUNT], begins[VIEW_COUNT], numbers[VIEW_COUNT], filled[VIEW_COUNT], total;
+    glb_clips clips;
     byte_buffer text;
     json_text json;
     size_t accessors;

@@ -167,7 +167,7 @@ ffd_status ffd_chain_load(const chain_files *files, const chain_outside *outside
     for (size_t i = 0; i < chain->count && !status; i++)
         status = load_link(files, used, chain, i, error);
     if (!status)
-        status = refuse_unused(files, used, share != NULL, error);
+        status = refuse_unused(files, used, ffd_cache_is_of_batch(share), error);
     ffd_free(used);
     if (status)
         ffd_chain_free(chain);
@@ -188,6 +188,26 @@ ffd_status ffd_chain_check(const chain_files *files, ffd_error *error)
         status = refuse_unused(files, used, true, error);
     ffd_free(used);
     return status;
+}
+
+lattice_chain ffd_chain_link_alone(const lattice_chain *whole, size_t link)
+{
+    lattice_chain alone = *whole;
+    alone.links = &whole->links[link];
+    alone.count = 1;
+    alone.blocks = false;
+    alone.boxes = NULL;
+    alone.seams = NULL;
+    alone.seam_count = 0;
+    alone.tree = (box_tree){0};
+    return alone;
+}
+
+void ffd_chain_end_alone(lattice_chain *alone)
+{
+    ffd_free(alone->boxes);
+    ffd_free(alone->seams);
+    ffd_box_tree_free(&alone->tree);
 }
 
 /* Hashes the rest volume and how it is searched: one volume may be known as a box or by its points, with

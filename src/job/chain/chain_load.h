@@ -31,6 +31,11 @@ ffd_status ffd_chain_check(const chain_files *files, ffd_error *error);
 /* Frees what the chain owns: what is lent stays. Leaves an empty chain. */
 void ffd_chain_free(lattice_chain *chain);
 
+/* A chain of one link of another one, which has neither boxes nor seams yet and lends the link. */
+lattice_chain ffd_chain_link_alone(const lattice_chain *whole, size_t link);
+/* Frees what such a chain has made for itself. */
+void ffd_chain_end_alone(lattice_chain *alone);
+
 /* Makes the locator and border of a link whose lattice is fitted. */
 ffd_status ffd_chain_prepare(lattice_chain *chain, size_t link, ffd_error *error);
 

@@ -26,7 +26,7 @@ typedef struct kept_rest {
 } kept_rest;
 
 struct ffd_share {
-    bool only_lattices;
+    bool only_lattices, is_of_job;
     mesh_document *document; /* NULL: none, or in a job's hands */
     bool is_noted;           /* what follows is known of it */
     ffd_source source;       /* its path is owned; of the extensions that it allows only rules knows */
@@ -68,6 +68,19 @@ ffd_status ffd_share_create_for_lattices(ffd_share **share, ffd_error *error)
     if (!status)
         (*share)->only_lattices = true;
     return status;
+}
+
+ffd_status ffd_cache_create_for_job(ffd_share **share, ffd_error *error)
+{
+    const ffd_status status = ffd_share_create(share, error);
+    if (!status)
+        (*share)->is_of_job = true;
+    return status;
+}
+
+bool ffd_cache_is_of_batch(const ffd_share *share)
+{
+    return share && !share->is_of_job;
 }
 
 bool ffd_cache_holds_meshes(const ffd_share *share)
@@ -140,7 +153,7 @@ static bool same_source(const ffd_share *share, const ffd_deform_desc *desc, boo
 /* A job that changes the document itself, or its file, leaves nothing for the next one. */
 static bool leaves_mesh(const ffd_deform_desc *desc)
 {
-    return !desc->as_morph && !desc->in_place && !ffd_file_is_stream(desc->input.path);
+    return !desc->as_morph && !desc->morphs && !desc->in_place && !ffd_file_is_stream(desc->input.path);
 }
 
 mesh_document *ffd_cache_take_mesh(ffd_share *share, const ffd_deform_desc *desc, bool only_positions)

@@ -9,6 +9,10 @@
 #include "job/chain/mesh_boxes.h"
 #include "mesh/mesh.h"
 
+/* A share for one job alone, which goes over its mesh several times. */
+ffd_status ffd_cache_create_for_job(ffd_share **share, ffd_error *error);
+/* Whether it is one that several jobs have. share may be NULL. */
+bool ffd_cache_is_of_batch(const ffd_share *share);
 /* Whether meshes, and where their vertices are, are kept at all. */
 bool ffd_cache_holds_meshes(const ffd_share *share);
 /* Returns the mesh that desc asks for, opened and with its selection applied, if it is the cached one and its

@@ -95,7 +95,7 @@ static int rank(ffd_fold_verdict verdict)
     return verdict == FFD_FOLDS_SOME ? 2 : verdict == FFD_FOLDS_UNKNOWN ? 1 : 0;
 }
 
-static void join_folds(ffd_folds *all, const ffd_folds *next)
+void ffd_figures_join_folds(ffd_folds *all, const ffd_folds *next)
 {
     const ffd_folds before = *all;
     if (!all->has_witness && next->has_witness)
@@ -122,7 +122,7 @@ ffd_status ffd_figures_folds(lattice_chain *chain, int threads, ffd_job_result *
         if (l == 0)
             result->folds = link->folds;
         else
-            join_folds(&result->folds, &link->folds);
+            ffd_figures_join_folds(&result->folds, &link->folds);
     }
     result->has_folds = true;
     return FFD_OK;

@@ -19,6 +19,7 @@ typedef struct deform_job {
     unsigned losses;     /* of inputs, before this job (base/file/mapping.h) */
     int threads;
     mesh_log log;
+    mesh_log file_log; /* of what concerns the file, and not its deformation */
     lattice_chain chain;
     mesh_document *document;
     bool document_is_shared;  /* it is the last job's */
@@ -29,6 +30,10 @@ typedef struct deform_job {
     uint8_t *kept;        /* marks of the pass (job/chain/chain.h); NULL: no vertices */
     job_details *details; /* to be filled, or NULL */
     mesh_model base; /* the shape before, where a conversion adds the deformation to it as a morph target */
+    bool forgets_locations; /* u,v,w are not kept for passes to come: there is no memory for them, or no such
+                               pass */
+    morph_clip *clips;      /* clip_count, of the weights of several morph targets */
+    size_t clip_count;
 } deform_job;
 
 #endif

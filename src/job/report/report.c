@@ -221,7 +221,8 @@ static void write_rig(json_text *json, const ffd_rig_result *rig)
     ffd_json_end(json, '}');
 }
 
-static void write_figures(json_text *json, const ffd_job_result *result)
+/* What a deformation does to the vertices, from where they are to the folds of its volume. */
+static void write_deformation(json_text *json, const ffd_job_result *result)
 {
     static const char *const names[] = {"inside", "outside", "multiple", "singular", "invalid"};
     ffd_json_count(json, "vertices", result->vertices);
@@ -247,8 +248,10 @@ static void write_figures(json_text *json, const ffd_job_result *result)
         ffd_json_null(json, "flipped_faces");
     write_tear(json, result);
     write_determinants(json, result);
-    write_edges(json, result);
-    write_weights(json, result);
+}
+
+static void write_reach(json_text *json, const ffd_job_result *result)
+{
     ffd_json_object(json, "bounds", false);
     write_bounds(json, "before", &result->before);
     write_bounds(json, "after", &result->after);
@@ -257,8 +260,34 @@ static void write_figures(json_text *json, const ffd_job_result *result)
     ffd_json_number(json, "max", result->displacement_max);
     ffd_json_number(json, "rms", result->displacement_rms);
     ffd_json_end(json, '}');
+}
+
+/* Only where the job made several morph targets: what each does by itself. */
+static void write_morphs(json_text *json, const ffd_job_result *result)
+{
+    if (!result->morph_results)
+        return;
+    ffd_json_array(json, "morphs", false);
+    for (size_t k = 0; k < result->morph_count; k++) {
+        ffd_json_object(json, NULL, false);
+        ffd_json_string(json, "name", result->morphs[k]);
+        ffd_json_string(json, "lattice", result->morph_lattices[k]);
+        write_deformation(json, &result->morph_results[k]);
+        write_reach(json, &result->morph_results[k]);
+        ffd_json_end(json, '}');
+    }
+    ffd_json_end(json, ']');
+}
+
+static void write_figures(json_text *json, const ffd_job_result *result)
+{
+    write_deformation(json, result);
+    write_edges(json, result);
+    write_weights(json, result);
+    write_reach(json, result);
     write_behind(json, result);
     write_rig(json, &result->rig);
+    write_morphs(json, result);
     write_indices_left(json, result);
     write_flaws(json, result);
 }

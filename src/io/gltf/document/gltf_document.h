@@ -105,6 +105,14 @@ typedef struct gltf_mesh_uses {
     bool used_outside_scene; /* a node outside the scene has it, or none does */
 } gltf_mesh_uses;
 
+/* A further morph target, whose results are complete. */
+typedef struct gltf_morph {
+    char *name;
+    bool normals;    /* it has offsets of normals and tangents too */
+    float **results; /* GLTF_DEFORMED per part, as streams have them */
+    size_t result_count;
+} gltf_morph;
+
 typedef struct gltf_document {
     mesh_document base;
     char *path;       /* "-" for standard input */
@@ -163,7 +171,11 @@ typedef struct gltf_document {
     mesh_part *mesh_parts;
     mesh_shape *shapes; /* morph targets of all parts, those of one part consecutive */
     size_t shape_count;
-    char *morph_name;     /* results are offsets of a further morph target of this name; NULL: they are not */
+    char *morph_name;   /* results are offsets of a further morph target of this name; NULL: they are not */
+    gltf_morph *morphs; /* morph_count, before it */
+    size_t morph_count, morph_capacity;
+    const morph_clip *clips; /* clip_count, lent: animations to be added */
+    size_t clip_count;
     bool morph_normals;   /* of normals and tangents too */
     size_t own_accessors; /* the last ones, which the file did not have: zeros without bytes */
     gltf_instanced_node *instanced_nodes; /* by node */
@@ -213,6 +225,12 @@ static inline gltf_instance *ffd_gltf_instances(const gltf_document *document, s
 static inline bool ffd_gltf_is_hidden(const gltf_document *document, size_t node)
 {
     return document->hidden && node != GLTF_NONE && document->hidden[node];
+}
+
+/* Returns the result of an attribute of a part for a further morph target; NULL: there is none. */
+static inline const float *ffd_gltf_morph_result(const gltf_morph *morph, size_t part, size_t semantic)
+{
+    return morph->results[part * GLTF_DEFORMED + semantic];
 }
 
 /* Returns the JSON value of a primitive of a mesh. */

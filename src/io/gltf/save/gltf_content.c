@@ -4,6 +4,7 @@
 #include "io/gltf/decode/gltf_encode.h"
 #include "io/gltf/decode/gltf_read.h"
 #include "io/gltf/save/gltf_plan.h"
+#include "io/gltf/save/gltf_sparse.h"
 #include "io/gltf/save/gltf_unpack.h"
 #include <stdlib.h>
 #include <string.h>
@@ -174,7 +175,11 @@ static ffd_status list_appends(gltf_saver *saver, ffd_error *error)
         const gltf_version *version = &saver->plan.versions[number];
         const size_t stride = ffd_gltf_align(element_size(d, version));
         const size_t size = ffd_gltf_version_count(d, version) * stride;
-        const gltf_append append = {.size = size, .stride = stride, .version = number};
+        const gltf_stored_part *const sparse = &saver->sparse[i];
+        const gltf_append append = {.size = sparse->bytes ? sparse->size : size,
+                                    .stride = stride,
+                                    .version = number,
+                                    .sparse = sparse->bytes};
         status = add_append(saver, ffd_gltf_append_buffer(d, version->accessor), append, error);
     }
     return status;
@@ -183,6 +188,8 @@ static ffd_status list_appends(gltf_saver *saver, ffd_error *error)
 ffd_status ffd_gltf_make_content(gltf_saver *saver, ffd_error *error)
 {
     ffd_status status = ffd_gltf_list_unpackings(saver, error);
+    if (status == FFD_OK)
+        status = ffd_gltf_list_sparse(saver, error);
     if (status == FFD_OK)
         status = make_buffers(saver, error);
     if (status == FFD_OK)
@@ -282,6 +289,10 @@ static void apply_overwrites(const gltf_document *d, const gltf_new_buffer *buff
 static void apply_append(const gltf_saver *saver, const gltf_append *append, size_t offset, size_t size,
                          unsigned char *bytes)
 {
+    if (append->sparse) {
+        copy_common(append->sparse, append->offset, append->size, offset, size, bytes);
+        return;
+    }
     if (append->version == GLTF_NONE) {
         copy_common(saver->unpackings[append->unpacking].bytes, append->offset, append->size, offset, size,
                     bytes);

@@ -9,6 +9,7 @@
 #include "io/gltf/save/gltf_follow.h"
 #include "io/gltf/save/gltf_json_insert.h"
 #include "io/gltf/save/gltf_plan.h"
+#include "io/gltf/save/gltf_sparse.h"
 #include "io/gltf/save/gltf_unpack.h"
 
 static const json_value *value_of(const gltf_saver *saver, uint32_t value)
@@ -97,9 +98,10 @@ static void write_view(const gltf_saver *saver, const gltf_append *append, size_
         ffd_gltf_version_numbers(saver->document, version) * ffd_gltf_component_size(version->component);
     ffd_buffer_format(text, "%s{\"buffer\":%zu,\"byteOffset\":%zu,\"byteLength\":%zu",
                       text->size > 0 ? "," : "", buffer, append->offset, append->size);
-    if (append->stride > element)
+    if (append->stride > element && !append->sparse)
         ffd_buffer_format(text, ",\"byteStride\":%zu", append->stride);
-    write_target(saver, version, text);
+    if (!append->sparse)
+        write_target(saver, version, text);
     ffd_buffer_text(text, "}");
 }
 
@@ -148,6 +150,20 @@ static void edit_storage(const gltf_saver *saver, const gltf_version *version, s
     ffd_edits_remove(edits, tree, accessor, gone, gone_count);
 }
 
+/* Edits an accessor of zeros to have the elements that are not. */
+static void edit_sparse(const gltf_saver *saver, const gltf_version *version, const gltf_stored_part *sparse,
+                        size_t view, json_edits *edits)
+{
+    const uint32_t inside =
+        value_of(saver, saver->document->accessor_values.values[version->accessor])->begin + 1;
+    byte_buffer text = {0};
+    ffd_gltf_write_sparse(sparse, view, &text);
+    edits->failed = edits->failed || text.failed;
+    if (!text.failed)
+        ffd_edits_replace(edits, inside, inside, text.data, text.size);
+    ffd_buffer_free(&text);
+}
+
 static void announce_floats(const gltf_saver *saver, const gltf_version *version)
 {
     const int component = saver->document->model.accessors[version->accessor].component;
@@ -178,7 +194,10 @@ static void add_accessors(gltf_saver *saver)
             add_matrices(saver, version, d->view_values.count + i);
             continue;
         }
-        edit_storage(saver, version, d->view_values.count + i, own);
+        if (saver->sparse[i].bytes)
+            edit_sparse(saver, version, &saver->sparse[i], d->view_values.count + i, own);
+        else
+            edit_storage(saver, version, d->view_values.count + i, own);
         ffd_gltf_edit_bounds(saver, version, own);
         if (version->rebinds)
             continue;

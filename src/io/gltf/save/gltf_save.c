@@ -12,6 +12,7 @@
 #include "io/gltf/save/gltf_plan.h"
 #include "io/gltf/save/gltf_resources.h"
 #include "io/gltf/save/gltf_saver.h"
+#include "io/gltf/save/gltf_sparse.h"
 #include "io/gltf/save/gltf_unpack.h"
 #include "io/gltf/scene/gltf_results.h"
 #include <string.h>
@@ -233,6 +234,7 @@ ffd_status ffd_gltf_save_results(mesh_document *document, const mesh_save_option
         status = put_files(&saver, error);
     ((gltf_document *)document)->is_present = status == FFD_OK && d->keeps_pages;
     ffd_gltf_free_content(&saver);
+    ffd_gltf_free_sparse(&saver);
     ffd_gltf_free_unpackings(&saver);
     ffd_gltf_free_plan(&saver.plan);
     ffd_edits_free(&saver.edits);

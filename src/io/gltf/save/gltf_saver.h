@@ -27,7 +27,15 @@ typedef struct gltf_append {
     size_t offset, size, stride; /* size: all of it; stride: a multiple of 4, as attributes need */
     size_t version;              /* GLTF_NONE: unpacked data */
     size_t unpacking;
+    const unsigned char *sparse; /* what is stored of the version; NULL: all of it */
 } gltf_append;
+
+/* The elements of an appended version that are not 0, where the others are not stored: their numbers, then
+ * values. */
+typedef struct gltf_stored_part {
+    unsigned char *bytes; /* size, owned; NULL: all elements are stored */
+    size_t size, values_at, count, index_size;
+} gltf_stored_part;
 
 typedef struct gltf_new_buffer {
     const gltf_buffer *old;     /* the document's; an empty one if the buffer is added */
@@ -49,6 +57,7 @@ typedef struct gltf_saver {
     gltf_plan plan;
     gltf_unpacking *unpackings; /* those of accessors come first */
     size_t unpacking_count, unpacked_accessor_count;
+    gltf_stored_part *sparse;                      /* of each version in plan.appended */
     size_t *view_unpackings, *accessor_unpackings; /* numbers in it; GLTF_NONE: none */
     gltf_new_buffer *buffers;                      /* those of the document, then possibly an added one */
     size_t buffer_count; /* one more than the document has if none of those can grow */

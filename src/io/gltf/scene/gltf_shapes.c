@@ -165,18 +165,18 @@ static ffd_status add_shapes(gltf_document *d, const target_table *table, size_t
     return FFD_OK;
 }
 
-/* The default weights that a node or mesh states; JSON_NONE where they are no array. */
-static uint32_t weights_of(const gltf_document *d, uint32_t object)
+uint32_t ffd_gltf_weights_of(const gltf_document *d, uint32_t object)
 {
     const uint32_t array = ffd_json_span_member(&d->tree, object, "weights");
     return array != JSON_NONE && d->tree.values[array].kind == JSON_ARRAY ? array : JSON_NONE;
 }
 
-/* The first of the default weights of a node, or else of its mesh. */
-static uint32_t first_weight(const gltf_document *d, size_t mesh, size_t node)
+uint32_t ffd_gltf_first_weight(const gltf_document *d, size_t mesh, size_t node)
 {
-    const uint32_t of_node = node == GLTF_NONE ? JSON_NONE : weights_of(d, d->node_values.values[node]);
-    const uint32_t array = of_node == JSON_NONE ? weights_of(d, d->mesh_values.values[mesh]) : of_node;
+    const uint32_t of_node =
+        node == GLTF_NONE ? JSON_NONE : ffd_gltf_weights_of(d, d->node_values.values[node]);
+    const uint32_t array =
+        of_node == JSON_NONE ? ffd_gltf_weights_of(d, d->mesh_values.values[mesh]) : of_node;
     return ffd_json_span_first(&d->tree, array);
 }
 
@@ -221,7 +221,7 @@ static ffd_status set_weights(gltf_document *d, ffd_error *error)
                     continue;
                 is_set[part] = true;
                 add_weights(d, instance, d->model.meshes[m].primitives[p].target_count,
-                            first_weight(d, m, uses->nodes ? uses->nodes[n] : GLTF_NONE));
+                            ffd_gltf_first_weight(d, m, uses->nodes ? uses->nodes[n] : GLTF_NONE));
             }
     note_shown(d);
     ffd_free(is_set);

@@ -1,4 +1,4 @@
-#include "io/gltf/save/gltf_morph_reuse.h"
+#include "io/gltf/morph/gltf_morph_reuse.h"
 #include "base/memory/memory.h"
 #include "io/gltf/refer/gltf_accessor_users.h"
 
@@ -38,19 +38,21 @@ unsigned char *ffd_gltf_count_users(const gltf_document *d)
 
 /* Whether every selected use of the primitive has results: where one has none the old offsets stay, which is
    right only for what is not selected. */
-static bool has_results(const gltf_document *d, const morph_place *place)
+static bool has_results(const gltf_document *d, const gltf_morph *morph, const morph_place *place)
 {
     const gltf_instance *const instances = ffd_gltf_instances(d, place->mesh, place->primitive);
     const size_t uses = d->mesh_uses[place->mesh].node_count;
     for (size_t n = 0; n < uses; n++) {
         const size_t part = instances[n].part[place->semantic];
-        if (instances[n].selected && (part == GLTF_NONE || !d->parts[part].streams[place->semantic].result))
+        if (instances[n].selected &&
+            (part == GLTF_NONE || !ffd_gltf_morph_result(morph, part, place->semantic)))
             return false;
     }
     return uses > 0;
 }
 
-bool ffd_gltf_can_reuse(const gltf_document *d, const unsigned char *users, const morph_place *place)
+bool ffd_gltf_can_reuse(const gltf_document *d, const unsigned char *users, const morph_place *place,
+                        const gltf_document *source, const gltf_morph *morph)
 {
     const gltf_primitive *const primitive = &d->model.meshes[place->mesh].primitives[place->primitive];
     const int number = primitive->target_accessors[GLTF_DEFORMED * place->target + place->semantic];
@@ -61,5 +63,6 @@ bool ffd_gltf_can_reuse(const gltf_document *d, const unsigned char *users, cons
     return accessor->component == GLTF_FLOAT && accessor->columns == 1 && accessor->rows == 3 &&
            !accessor->sparse.present && accessor->view >= 0 &&
            accessor->count == d->model.accessors[primitive->accessor[place->semantic]].count &&
-           layout->readable && layout->data && layout->packing == GLTF_PLAIN && has_results(d, place);
+           layout->readable && layout->data && layout->packing == GLTF_PLAIN &&
+           has_results(source, morph, place);
 }

@@ -1,4 +1,4 @@
-#include "io/gltf/save/gltf_morph_weights.h"
+#include "io/gltf/morph/gltf_morph_weights.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include "io/gltf/decode/gltf_read.h"

@@ -1,7 +1,7 @@
 /* gltf_morph_reuse.h - which accessors of a morph target that is replaced can hold the new offsets, so that a
    file whose target is replaced again and again does not grow. */
-#ifndef FFD_IO_GLTF_SAVE_GLTF_MORPH_REUSE_H
-#define FFD_IO_GLTF_SAVE_GLTF_MORPH_REUSE_H
+#ifndef FFD_IO_GLTF_MORPH_GLTF_MORPH_REUSE_H
+#define FFD_IO_GLTF_MORPH_GLTF_MORPH_REUSE_H
 
 #include "io/gltf/document/gltf_document.h"
 
@@ -15,7 +15,9 @@ typedef struct morph_place {
 unsigned char *ffd_gltf_count_users(const gltf_document *document);
 
 /* Whether an attribute's accessor has nothing but its offsets, as floats in bytes of its own, and all
-   selected ones get results; what is not selected keeps the old ones then. users: of ffd_gltf_count_users. */
-bool ffd_gltf_can_reuse(const gltf_document *document, const unsigned char *users, const morph_place *place);
+   selected ones get results, those of a target of source, whose instances are the document's; what is not
+   selected keeps the old ones then. users: of ffd_gltf_count_users. */
+bool ffd_gltf_can_reuse(const gltf_document *document, const unsigned char *users, const morph_place *place,
+                        const gltf_document *source, const gltf_morph *morph);
 
 #endif

@@ -1,0 +1,329 @@
+#include "io/gltf/morph/gltf_clip.h"
+#include "base/little_endian.h"
+#include "base/memory/memory.h"
+#include "base/text/number.h"
+#include "base/text/words.h"
+#include "io/gltf/morph/gltf_grown.h"
+#include "io/gltf/morph/gltf_morph_text.h"
+#include "io/gltf/morph/gltf_morph_weights.h"
+#include "io/gltf/save/gltf_json_insert.h"
+#include "io/gltf/scene/gltf_shapes.h"
+#include "json/json_text.h"
+#include <stdio.h>
+#include <string.h>
+
+/* A target that no clip drives; one that is driven, but not named. */
+#define KEEPS UINT32_MAX
+#define IS_ZERO (UINT32_MAX - 1)
+
+typedef struct clip_writer {
+    gltf_grown file;
+    memory_budget budget;
+    const clip_target *targets;
+    size_t target_count;
+    const morph_clip *clip; /* the one that is written */
+    size_t input;           /* the accessor of its times; GLTF_NONE: not yet */
+    size_t *samplers;       /* of each mesh with its own default weights; GLTF_NONE: not yet */
+    size_t sampler_count, channel_count;
+    byte_buffer sampler_text, channel_text;
+    byte_buffer added; /* animations that are not there yet, with commas */
+    ffd_error *error;
+} clip_writer;
+
+/* Adds the names of all meshes' targets. */
+static bool list_names(const gltf_document *d, intern_table *all)
+{
+    bool added = true;
+    for (size_t m = 0; m < d->model.mesh_count && added; m++) {
+        const size_t count = ffd_gltf_target_count(d, m);
+        uint32_t value = ffd_json_span_first(&d->tree, ffd_gltf_target_names(d, m));
+        for (size_t t = 0; t < count && value != JSON_NONE && added; t++) {
+            char *const name = d->tree.values[value].kind == JSON_STRING
+                                   ? ffd_json_span_string(&d->tree, value, NULL)
+                                   : NULL;
+            uint32_t number;
+            if (name)
+                added = ffd_intern(all, name, strlen(name), &number);
+            ffd_free(name);
+            value = ffd_json_span_after(&d->tree, value);
+        }
+    }
+    return added;
+}
+
+ffd_status ffd_gltf_check_clips(const gltf_document *d, const morph_clip *clips, size_t count,
+                                const char *const *names, size_t name_count, ffd_error *error)
+{
+    intern_table all = {0};
+    uint32_t number;
+    bool listed = true;
+    for (size_t i = 0; i < name_count && listed; i++)
+        listed = ffd_intern(&all, names[i], strlen(names[i]), &number);
+    const ffd_status status = listed && list_names(d, &all) ? ffd_morph_clips_check(clips, count, &all, error)
+                                                            : ffd_fail_memory(error);
+    ffd_intern_free(&all);
+    return status;
+}
+
+static void put_float(double value, byte_buffer *out)
+{
+    unsigned char bytes[4];
+    store_float(bytes, (float)value);
+    ffd_buffer_append(out, bytes, sizeof bytes);
+}
+
+/* Appends a name as a JSON string. */
+static void put_name(const char *name, byte_buffer *text)
+{
+    json_text json;
+    ffd_json_begin(&json, text);
+    ffd_json_string(&json, NULL, name);
+}
+
+/* The name that a value states, to be freed; NULL: it states none. */
+static char *target_name(clip_writer *w, uint32_t value)
+{
+    const json_span *const tree = &w->file.saver.document->tree;
+    if (value == JSON_NONE || tree->values[value].kind != JSON_STRING)
+        return NULL;
+    char *const name = ffd_json_span_string(tree, value, NULL);
+    w->file.saver.edits.failed = w->file.saver.edits.failed || !name;
+    return name;
+}
+
+/* Adds an accessor of count floats, which are appended from now on. extra: further members. Returns its
+ * number. */
+static size_t add_accessor(clip_writer *w, size_t count, const char *extra)
+{
+    morph_data *const data = &w->file.data;
+    const gltf_document *const d = w->file.saver.document;
+    ffd_buffer_format(&data->accessors,
+                      "%s{\"bufferView\":%zu,\"byteOffset\":%zu,\"componentType\":5126,\"count\":%zu,"
+                      "\"type\":\"SCALAR\"%s}",
+                      data->accessor_count > 0 ? "," : "", d->view_values.count, data->bytes.size, count,
+                      extra);
+    return d->model.accessor_count + data->accessor_count++;
+}
+
+static void add_times(clip_writer *w)
+{
+    const morph_clip *const clip = w->clip;
+    char bounds[2 * FFD_NUMBER_CAPACITY + 32], least[FFD_NUMBER_CAPACITY + 1], most[FFD_NUMBER_CAPACITY + 1];
+    least[ffd_number_format_float(clip->times[0], least)] = 0;
+    most[ffd_number_format_float(clip->times[clip->key_count - 1], most)] = 0;
+    snprintf(bounds, sizeof bounds, ",\"min\":[%s],\"max\":[%s]", least, most);
+    w->input = add_accessor(w, clip->key_count, bounds);
+    for (size_t k = 0; k < clip->key_count; k++)
+        put_float((double)clip->times[k], &w->file.data.bytes);
+}
+
+/* Finds which of a mesh's targets the clip drives, and by which name. Returns whether there is one. */
+static bool find_driven(clip_writer *w, size_t mesh, uint32_t *names, size_t count)
+{
+    const gltf_document *const d = w->file.saver.document;
+    uint32_t value = ffd_json_span_first(&d->tree, ffd_gltf_target_names(d, mesh));
+    bool any = false;
+    for (size_t t = 0; t < count; t++) {
+        char *const name = target_name(w, value);
+        names[t] = KEEPS;
+        if (name && ffd_intern_find(&w->clip->names, name, strlen(name), &names[t]))
+            any = true;
+        ffd_free(name);
+        value = value == JSON_NONE ? JSON_NONE : ffd_json_span_after(&d->tree, value);
+    }
+    /* Those to come are known by their places: extras need not have room for their names. */
+    for (size_t k = 0; k < w->target_count; k++) {
+        const size_t place = w->targets[k].places[mesh];
+        const char *const name = w->targets[k].name;
+        if (place >= count)
+            continue;
+        if (!ffd_intern_find(&w->clip->names, name, strlen(name), &names[place]))
+            names[place] = IS_ZERO;
+        any = true;
+    }
+    return any;
+}
+
+/* Finds the weights of the targets that a clip does not drive. default_value: the first default weight. */
+static void find_defaults(const gltf_document *d, const uint32_t *names, size_t count, uint32_t default_value,
+                          double *row)
+{
+    for (size_t t = 0; t < count; t++) {
+        row[t] = 0;
+        if (default_value == JSON_NONE)
+            continue;
+        if (names[t] == KEEPS && !ffd_gltf_weight(d, default_value, &row[t]))
+            row[t] = 0;
+        default_value = ffd_json_span_after(&d->tree, default_value);
+    }
+}
+
+/* Appends the weights of all keys. Returns false if memory runs out. */
+static bool put_weights(clip_writer *w, const uint32_t *names, size_t count, uint32_t default_value)
+{
+    const morph_clip *const clip = w->clip;
+    double *const row = ffd_alloc(count, sizeof *row);
+    double *const weights = ffd_alloc_zero(clip->names.count, sizeof *weights); /* of a key, by name */
+    const bool done = row && weights;
+    if (done)
+        find_defaults(w->file.saver.document, names, count, default_value, row);
+    for (size_t k = 0; done && k < clip->key_count; k++) {
+        for (size_t i = clip->starts[k]; i < clip->starts[k + 1]; i++)
+            weights[clip->weights[i].target] = clip->weights[i].weight;
+        for (size_t t = 0; t < count; t++)
+            put_float(names[t] < IS_ZERO ? weights[names[t]] : row[t], &w->file.data.bytes);
+        for (size_t i = clip->starts[k]; i < clip->starts[k + 1]; i++)
+            weights[clip->weights[i].target] = 0;
+    }
+    ffd_free(row);
+    ffd_free(weights);
+    return done;
+}
+
+/* Adds a sampler for a node with the mesh. */
+static ffd_status add_sampler(clip_writer *w, const uint32_t *names, size_t count, uint32_t default_value)
+{
+    const uint64_t numbers = (uint64_t)w->clip->key_count * count;
+    const ffd_status status = ffd_budget_take(&w->budget, numbers, sizeof(float), w->error);
+    if (status)
+        return status;
+    if (w->input == GLTF_NONE)
+        add_times(w);
+    const size_t output = add_accessor(w, (size_t)numbers, "");
+    ffd_buffer_format(&w->sampler_text, "%s{\"input\":%zu,\"interpolation\":\"LINEAR\",\"output\":%zu}",
+                      w->sampler_count++ > 0 ? "," : "", w->input, output);
+    return put_weights(w, names, count, default_value) ? FFD_OK : ffd_fail_memory(w->error);
+}
+
+/* Adds the channel of a node, if its mesh has a target that is driven. names: memory for all of its targets.
+ */
+static ffd_status add_channel(clip_writer *w, size_t node, uint32_t *names)
+{
+    const gltf_document *const d = w->file.saver.document;
+    if (d->model.nodes[node].mesh < 0)
+        return FFD_OK;
+    const size_t mesh = (size_t)d->model.nodes[node].mesh, count = ffd_gltf_target_count(d, mesh);
+    const bool own = ffd_gltf_weights_of(d, d->node_values.values[node]) != JSON_NONE;
+    size_t sampler = own ? GLTF_NONE : w->samplers[mesh];
+    if (sampler == GLTF_NONE) {
+        if (!find_driven(w, mesh, names, count))
+            return FFD_OK;
+        sampler = w->sampler_count;
+        const ffd_status status = add_sampler(w, names, count, ffd_gltf_first_weight(d, mesh, node));
+        if (status)
+            return status;
+        if (!own)
+            w->samplers[mesh] = sampler;
+    }
+    ffd_buffer_format(&w->channel_text, "%s{\"sampler\":%zu,\"target\":{\"node\":%zu,\"path\":\"weights\"}}",
+                      w->channel_count++ > 0 ? "," : "", sampler, node);
+    return FFD_OK;
+}
+
+/* Returns the animation with the clip's name; JSON_NONE: there is none. */
+static uint32_t find_animation(const clip_writer *w, uint32_t animations)
+{
+    const json_span *const tree = &w->file.saver.document->tree;
+    for (uint32_t v = ffd_json_span_first(tree, animations); v != JSON_NONE;
+         v = ffd_json_span_after(tree, v)) {
+        const uint32_t name = ffd_json_span_member(tree, v, "name");
+        if (name != JSON_NONE && ffd_json_span_string_is(tree, name, w->clip->name))
+            return v;
+    }
+    return JSON_NONE;
+}
+
+/* Puts the clip in place of the animation of its name, or among those that are added. */
+static void place_clip(clip_writer *w, uint32_t animations)
+{
+    gltf_saver *const saver = &w->file.saver;
+    const json_span *const tree = &saver->document->tree;
+    const uint32_t old = find_animation(w, animations);
+    char shown[80];
+    byte_buffer text = {0};
+    ffd_name_shown(w->clip->name, shown, sizeof shown);
+    ffd_buffer_text(&text, old == JSON_NONE && w->added.size > 0 ? ",{\"name\":" : "{\"name\":");
+    put_name(w->clip->name, &text);
+    ffd_buffer_text(&text, ",\"channels\":[");
+    ffd_buffer_append(&text, w->channel_text.data, w->channel_text.size);
+    ffd_buffer_text(&text, "],\"samplers\":[");
+    ffd_buffer_append(&text, w->sampler_text.data, w->sampler_text.size);
+    ffd_buffer_text(&text, "]}");
+    text.failed = text.failed || w->channel_text.failed || w->sampler_text.failed;
+    if (old != JSON_NONE)
+        ffd_log_line(saver->log, FFD_LOG_WARNING, "has an animation \"%s\" already: it is replaced", shown);
+    if (old != JSON_NONE && !text.failed)
+        ffd_edits_replace(&saver->edits, tree->values[old].begin, tree->values[old].end, text.data,
+                          text.size);
+    else if (!text.failed)
+        ffd_buffer_append(&w->added, text.data, text.size);
+    saver->edits.failed = saver->edits.failed || text.failed || w->added.failed;
+    ffd_log_line(saver->log, FFD_LOG_INFO, "animation \"%s\": %zu %s of %zu %s", shown, w->clip->key_count,
+                 ffd_plural(w->clip->key_count, "key", "keys"), w->channel_count,
+                 ffd_plural(w->channel_count, "node", "nodes"));
+    ffd_buffer_free(&text);
+}
+
+static ffd_status add_clip(clip_writer *w, const morph_clip *clip, uint32_t *names, uint32_t animations)
+{
+    const gltf_document *const d = w->file.saver.document;
+    char shown[80];
+    ffd_status status = FFD_OK;
+    w->clip = clip;
+    w->input = GLTF_NONE;
+    w->sampler_count = w->channel_count = w->sampler_text.size = w->channel_text.size = 0;
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        w->samplers[m] = GLTF_NONE;
+    for (size_t n = 0; n < d->model.node_count && !status; n++)
+        status = add_channel(w, n, names);
+    if (status)
+        return status;
+    ffd_name_shown(clip->name, shown, sizeof shown);
+    if (w->channel_count > 0)
+        place_clip(w, animations);
+    else
+        ffd_log_line(w->file.saver.log, FFD_LOG_WARNING,
+                     "no node has a morph target for the animation \"%s\": it is left out", shown);
+    return FFD_OK;
+}
+
+static ffd_status add_all(clip_writer *w, const morph_clip *clips, size_t count, file_input *made)
+{
+    const gltf_document *const d = w->file.saver.document;
+    const uint32_t animations = ffd_json_span_member(&d->tree, 0, "animations");
+    size_t most = 0;
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        most = ffd_gltf_target_count(d, m) > most ? ffd_gltf_target_count(d, m) : most;
+    uint32_t *const names = ffd_alloc(most, sizeof *names);
+    w->samplers = ffd_alloc(d->model.mesh_count, sizeof *w->samplers);
+    ffd_status status = names && w->samplers ? FFD_OK : ffd_fail_memory(w->error);
+    for (size_t c = 0; c < count && !status; c++)
+        status = add_clip(w, &clips[c], names, animations);
+    ffd_free(names);
+    if (status || w->file.data.accessor_count == 0)
+        return status;
+    if (animations == JSON_NONE)
+        ffd_gltf_add_elements(&w->file.saver, &(gltf_values){0}, "animations", &w->added);
+    else if (w->added.size > 0)
+        ffd_gltf_insert_last(&w->file.saver, animations, &w->added);
+    return ffd_gltf_grown_write(&w->file, made, w->error);
+}
+
+ffd_status ffd_gltf_add_clips(const gltf_document *d, const morph_clip *clips, size_t clip_count,
+                              const clip_target *targets, size_t target_count, const mesh_log *log,
+                              file_input *made, ffd_error *error)
+{
+    clip_writer w = {.file.saver = {.document = d, .log = log},
+                     .budget = d->base.budget,
+                     .targets = targets,
+                     .target_count = target_count,
+                     .error = error};
+    *made = (file_input){0};
+    const ffd_status status = add_all(&w, clips, clip_count, made);
+    ffd_free(w.samplers);
+    ffd_buffer_free(&w.sampler_text);
+    ffd_buffer_free(&w.channel_text);
+    ffd_buffer_free(&w.added);
+    ffd_gltf_grown_free(&w.file);
+    return status;
+}

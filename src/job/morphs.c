@@ -1,0 +1,212 @@
+#include "job/morphs.h"
+#include "base/memory/memory.h"
+#include "base/text/words.h"
+#include "job/chain/chain_load.h"
+#include "job/deform_job.h"
+#include "job/judge/morph_result.h"
+#include "job/judge/result.h"
+#include "json/json_chars.h"
+#include <stdio.h>
+#include <string.h>
+
+/* Of a vertex, for what a target makes of it. */
+#define TARGET_BYTES 64
+
+static ffd_status check_name(const char *name, ffd_error *error)
+{
+    char shown[80];
+    if (name && *name && ffd_utf8_is_valid(name, strlen(name)))
+        return FFD_OK;
+    ffd_name_shown(name ? name : "", shown, sizeof shown);
+    return ffd_fail(error, FFD_E_ARGUMENT, "--morph: \"%s\" is not the name of a morph target in UTF-8",
+                    shown);
+}
+
+static ffd_status check_names(const ffd_deform_desc *desc, ffd_error *error)
+{
+    intern_table names = {0};
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < desc->lattice_count && !status; i++) {
+        uint32_t number;
+        char shown[80];
+        status = check_name(desc->morphs[i], error);
+        if (!status && !ffd_intern(&names, desc->morphs[i], strlen(desc->morphs[i]), &number))
+            status = ffd_fail_memory(error);
+        if (status || number == i)
+            continue;
+        ffd_name_shown(desc->morphs[i], shown, sizeof shown);
+        status = ffd_fail(error, FFD_E_ARGUMENT, "--morph: two morph targets are called \"%s\"", shown);
+    }
+    ffd_intern_free(&names);
+    return status;
+}
+
+static ffd_status check(const deform_job *job, ffd_error *error)
+{
+    const ffd_deform_desc *const desc = job->desc;
+    if (!desc->morphs)
+        return desc->clip_count == 0 ? FFD_OK : ffd_fail(error, FFD_E_ARGUMENT, "--clip needs --morph");
+    if (desc->as_morph)
+        return ffd_fail(error, FFD_E_ARGUMENT, "--as-morph cannot be used with --morph");
+    if (desc->blocks)
+        return ffd_fail(error, FFD_E_ARGUMENT, "--blocks cannot be used with --morph");
+    return check_names(desc, error);
+}
+
+ffd_status ffd_morphs_begin(deform_job *job, ffd_error *error)
+{
+    const ffd_deform_desc *const desc = job->desc;
+    ffd_status status = check(job, error);
+    if (status || desc->clip_count == 0)
+        return status;
+    job->clips = ffd_alloc_zero(desc->clip_count, sizeof *job->clips);
+    if (!job->clips)
+        return ffd_fail_memory(error);
+    job->clip_count = desc->clip_count;
+    for (size_t c = 0; c < desc->clip_count && !status; c++)
+        status = ffd_morph_clip_parse(desc->clips[c], &job->clips[c], error);
+    return status;
+}
+
+void ffd_morphs_end(deform_job *job)
+{
+    for (size_t c = 0; c < job->clip_count; c++)
+        ffd_morph_clip_free(&job->clips[c]);
+    ffd_free(job->clips);
+    job->clips = NULL;
+    job->clip_count = 0;
+}
+
+/* Hands the clips to what will write them. A conversion knows no other targets than the new ones. */
+static ffd_status keep_clips(const deform_job *job, ffd_error *error)
+{
+    const ffd_deform_desc *const desc = job->desc;
+    intern_table names = {0};
+    uint32_t number;
+    bool listed = true;
+    if (!job->document->converted && job->document->format->keep_clips)
+        return job->document->format->keep_clips(job->document, job->clips, job->clip_count, desc->morphs,
+                                                 desc->lattice_count, error);
+    for (size_t i = 0; i < desc->lattice_count && listed; i++)
+        listed = ffd_intern(&names, desc->morphs[i], strlen(desc->morphs[i]), &number);
+    const ffd_status status =
+        listed ? ffd_morph_clips_check(job->clips, job->clip_count, &names, error) : ffd_fail_memory(error);
+    ffd_intern_free(&names);
+    return status;
+}
+
+/* Begins a conversion with the shape that stays. */
+static ffd_status begin(deform_job *job, ffd_error *error)
+{
+    if (!job->document->converted)
+        return FFD_OK;
+    job->base.budget = &job->document->budget;
+    const ffd_status status = job->document->format->model(job->document, &job->base, error);
+    job->base.clips = job->clips;
+    job->base.clip_count = job->clip_count;
+    return status;
+}
+
+/* Keeps what the pass of a target has made of a document that becomes another format. */
+static ffd_status keep_shape(deform_job *job, const char *name, ffd_error *error)
+{
+    mesh_model after = {.budget = &job->document->budget};
+    ffd_status status = job->document->format->model(job->document, &after, error);
+    if (!status)
+        status = ffd_model_add_morph(&job->base, &after, name, error);
+    ffd_model_free(&after);
+    return status;
+}
+
+/* Says in a failure which target it is of. */
+static void name_target(const char *name, size_t count, ffd_error *error)
+{
+    char shown[80], message[sizeof error->message];
+    if (count < 2 || error->status == FFD_E_MEMORY)
+        return;
+    ffd_name_shown(name, shown, sizeof shown);
+    snprintf(message, sizeof message, "morph target \"%s\": %.400s", shown, error->message);
+    memcpy(error->message, message, sizeof message);
+}
+
+/* The pass of one target. Its warnings name it; those of the file come with the first. */
+static ffd_status run_one(deform_job *job, size_t k, const mesh_log *log, ffd_job_result *result,
+                          ffd_error *error)
+{
+    const ffd_deform_desc *const all = job->desc;
+    const char *const name = all->morphs[k];
+    mesh_log_label label;
+    ffd_deform_desc one = *all;
+    one.lattices = all->lattices + k;
+    one.lattice_count = 1;
+    one.as_morph = name;
+    ffd_result_clear(result);
+    job->desc = &one;
+    job->log = all->lattice_count > 1 ? ffd_log_morph(log, name, &label) : *log;
+    job->file_log = k == 0 ? *log : (mesh_log){0};
+    lattice_chain whole = job->chain;
+    job->chain = ffd_chain_link_alone(&whole, k);
+    ffd_status status =
+        job->document->converted ? FFD_OK : job->document->format->keep_base(job->document, name, error);
+    if (!status)
+        status = ffd_deform_job_run(job, result, error);
+    if (!status && job->document->converted)
+        status = keep_shape(job, name, error);
+    if (status)
+        name_target(name, all->lattice_count, error);
+    ffd_chain_end_alone(&job->chain);
+    job->chain = whole;
+    job->document_is_shared = true; /* where its vertices are in a rest volume is known from now on */
+    job->desc = all;
+    job->log = job->file_log = *log;
+    return status;
+}
+
+/* Whether there is memory for u,v,w of all vertices beside what the targets need, of which there are some. */
+static bool has_room(const deform_job *job, size_t targets)
+{
+    return targets > 1 && ffd_budget_check(&job->document->budget, ffd_mesh_vertex_count(job->document),
+                                           sizeof(ffd_location) + targets * TARGET_BYTES, NULL) == FFD_OK;
+}
+
+/* done: how many have figures afterwards, also one that a gate refuses. */
+static ffd_status run_all(deform_job *job, ffd_job_result *results, size_t *done, ffd_error *error)
+{
+    const mesh_log log = job->log;
+    const size_t count = job->desc->lattice_count;
+    job->document->sparse_targets = true;
+    job->forgets_locations = !has_room(job, count);
+    ffd_status status = keep_clips(job, error);
+    if (!status)
+        status = begin(job, error);
+    for (size_t k = 0; k < count && !status; k++) {
+        status = run_one(job, k, &log, &results[k], error);
+        *done += !status || status == FFD_E_GATE;
+        if (!status)
+            ffd_log_line(&log, FFD_LOG_INFO, "morph target \"%s\": %llu of %llu %s moved, by %g at most",
+                         job->desc->morphs[k], (unsigned long long)results[k].moved,
+                         (unsigned long long)results[k].vertices,
+                         ffd_plural(results[k].vertices, "vertex", "vertices"), results[k].displacement_max);
+    }
+    return status;
+}
+
+ffd_status ffd_morphs_run(deform_job *job, ffd_job_result *result, ffd_error *error)
+{
+    const ffd_deform_desc *const desc = job->desc;
+    ffd_job_result *const own = desc->morph_results ? NULL : ffd_alloc_zero(desc->lattice_count, sizeof *own);
+    ffd_job_result *const results = desc->morph_results ? desc->morph_results : own;
+    if (!results)
+        return ffd_fail_memory(error);
+    size_t done = 0;
+    const ffd_status status = run_all(job, results, &done, error);
+    if (!status || status == FFD_E_GATE) {
+        ffd_morph_results_join(results, done, result);
+        result->morph_count = done;
+        result->morphs = desc->morphs;
+        result->morph_lattices = desc->lattices;
+        result->morph_results = desc->morph_results;
+    }
+    ffd_free(own);
+    return status;
+}
