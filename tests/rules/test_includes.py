@@ -38,7 +38,7 @@ LAYERS = {
     },
     "io/gltf/animation": {
         "base/memory", "base/text", "base/vector", "io/gltf/decode", "io/gltf/document", "io/gltf/refer",
-        "io/gltf/scene",
+        "io/gltf/scene", "mesh",
     },
     "io/gltf/rig": {
         "base", "base/memory", "base/text", "base/vector", "io/gltf/animation", "io/gltf/decode", "io/gltf/document",
@@ -49,7 +49,7 @@ LAYERS = {
         "io/gltf/file", "io/gltf/refer", "io/gltf/rig", "io/gltf/scene", "json", "mesh", "mesh/resource",
     },
     "io/gltf": {
-        "base/file", "base/memory", "base/system", "base/vector", "io/gltf/decode", "io/gltf/document",
+        "base/file", "base/memory", "base/system", "base/vector", "io/gltf/animation", "io/gltf/decode", "io/gltf/document",
         "io/gltf/file", "io/gltf/model", "io/gltf/rig", "io/gltf/save", "io/gltf/scene", "json", "mesh", "mesh/resource",
     },
     "io/openmesh": {"base/memory", "base/system", "base/vector", "mesh"},

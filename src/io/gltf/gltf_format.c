@@ -1,5 +1,6 @@
 /* gltf_format.c - the table of functions for .gltf and .glb files. */
 #include "io/gltf/gltf_format.h"
+#include "io/gltf/animation/gltf_rig.h"
 #include "io/gltf/decode/gltf_read.h"
 #include "io/gltf/gltf_as_morph.h"
 #include "io/gltf/gltf_compare.h"
@@ -103,6 +104,8 @@ const mesh_format ffd_gltf_format = {
     .corner_normals = ffd_gltf_corner_normals,
     .model = ffd_gltf_extract,
     .list_materials = ffd_gltf_list_materials,
+    .read_skeleton = ffd_gltf_read_skeleton,
+    .read_anchors = ffd_gltf_read_anchors,
     .describe = ffd_gltf_describe,
     .compare = ffd_gltf_compare,
 };

@@ -26,4 +26,7 @@ void ffd_gltf_free_pose(gltf_pose *pose);
 void ffd_gltf_set_pose(const gltf_document *document, const gltf_animation *animation, double time,
                        gltf_pose *pose);
 
+/* Takes the matrix of a node apart into translation, rotation and scale, as viewers do; it has none then. */
+void ffd_gltf_take_apart(gltf_node *node);
+
 #endif
