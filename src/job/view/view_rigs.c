@@ -1,0 +1,240 @@
+#include "job/view/view_rigs.h"
+#include "base/memory/memory.h"
+#include "base/text/words.h"
+#include <stdio.h>
+#include <string.h>
+
+#define SHOWN 8 /* names in a message */
+#define NAME 36 /* bytes of each */
+
+/* The name of an animation; "animation 3" where it has none, by which it is chosen too. */
+static char *name_of(const mesh_skeleton *skeleton, size_t animation)
+{
+    const char *const name = skeleton->animations[animation].name;
+    byte_buffer text = {0};
+    if (name && *name)
+        ffd_buffer_text(&text, name);
+    else
+        ffd_buffer_format(&text, "animation %zu", animation);
+    return ffd_buffer_finish(&text);
+}
+
+static ffd_status read_skeleton(mesh_document *document, view_rig *rig, ffd_error *error)
+{
+    const mesh_format *const format = document->format;
+    return format->read_skeleton ? format->read_skeleton(document, &rig->skeleton, error) : FFD_OK;
+}
+
+static ffd_status list_animations(view_scene *scene, ffd_error *error)
+{
+    const mesh_skeleton *const from = scene->rigs[0].skeleton;
+    const size_t count = from ? from->animation_count : 0;
+    scene->animations = ffd_alloc_zero(count, sizeof *scene->animations);
+    if (!scene->animations)
+        return ffd_fail_memory(error);
+    for (size_t a = 0; a < count; a++) {
+        view_animation *const to = &scene->animations[scene->animation_count++];
+        *to = (view_animation){.name = name_of(from, a), .of = {a, a}};
+        if (!to->name)
+            return ffd_fail_memory(error);
+    }
+    return FFD_OK;
+}
+
+/* "a", "b", "c" and 4 more */
+static void tell_names(const view_scene *scene, char *text, size_t capacity)
+{
+    size_t length = 0;
+    for (size_t a = 0; a < scene->animation_count && a < SHOWN; a++) {
+        char name[NAME];
+        ffd_name_shown(scene->animations[a].name, name, sizeof name);
+        length += (size_t)snprintf(text + length, capacity - length, "%s\"%s\"", a > 0 ? ", " : "", name);
+    }
+    if (scene->animation_count > SHOWN)
+        snprintf(text + length, capacity - length, " and %zu more", scene->animation_count - SHOWN);
+}
+
+static ffd_status refuse_name(const view_rigs_desc *desc, const view_scene *scene, ffd_error *error)
+{
+    char names[SHOWN * (NAME + 4) + 40], wanted[NAME], shown[NAME] = "";
+    const char *nearest = NULL;
+    size_t least = 0;
+    if (scene->animation_count == 0)
+        return ffd_fail_file(error, FFD_E_ARGUMENT, desc->before_name,
+                             "--animation: there are no animations that can be shown");
+    for (size_t a = 0; a < scene->animation_count; a++) {
+        const size_t distance = ffd_word_distance(desc->animation, scene->animations[a].name);
+        if (nearest && distance >= least)
+            continue;
+        nearest = scene->animations[a].name;
+        least = distance;
+    }
+    ffd_name_shown(desc->animation, wanted, sizeof wanted);
+    ffd_name_shown(nearest, shown, sizeof shown);
+    tell_names(scene, names, sizeof names);
+    return ffd_fail_file(error, FFD_E_ARGUMENT, desc->before_name,
+                         "--animation: none is called \"%s\" (nearest: \"%s\"; there %s %s)", wanted, shown,
+                         ffd_plural(scene->animation_count, "is", "are"), names);
+}
+
+/* Of several of one name the first is meant. */
+static ffd_status choose(const view_rigs_desc *desc, view_scene *scene, ffd_error *error)
+{
+    size_t alike = 0;
+    scene->animation = RIG_NONE;
+    for (size_t a = 0; a < scene->animation_count && desc->animation; a++) {
+        if (strcmp(scene->animations[a].name, desc->animation) != 0)
+            continue;
+        scene->animation = alike ? scene->animation : a;
+        alike++;
+    }
+    if (desc->animation && !alike)
+        return refuse_name(desc, scene, error);
+    if (alike > 1)
+        ffd_log_line(desc->log, FFD_LOG_WARNING, "--animation: %zu have this name, and the first is shown",
+                     alike);
+    return FFD_OK;
+}
+
+/* Finds the animations of the deformed file by their names; those without one by their number. */
+static void match(const view_scene *scene)
+{
+    const mesh_skeleton *const other = scene->rigs[1].skeleton;
+    for (size_t a = 0; a < scene->animation_count; a++) {
+        const char *const name = scene->rigs[0].skeleton->animations[a].name;
+        size_t *const of = &scene->animations[a].of[1];
+        *of = RIG_NONE;
+        for (size_t b = 0; other && b < other->animation_count && *of == RIG_NONE; b++) {
+            /* Files of one origin have them in one order. */
+            const size_t candidate = (a + b) % other->animation_count;
+            const char *const its = other->animations[candidate].name;
+            if (name && *name ? its && strcmp(its, name) == 0 : candidate == a && !(its && *its))
+                *of = candidate;
+        }
+    }
+}
+
+static bool is_wanted(const view_rigs_desc *desc, const view_scene *scene, size_t animation)
+{
+    return desc->all || animation == scene->animation;
+}
+
+/* Loads the keys of an animation on one side. On a page one that is not valid is left out. */
+static ffd_status load(const view_rigs_desc *desc, view_scene *scene, int side, size_t animation,
+                       ffd_error *error)
+{
+    mesh_skeleton *const skeleton = scene->rigs[side].skeleton;
+    size_t *const of = &scene->animations[animation].of[side];
+    ffd_error own = {0};
+    if (!skeleton || *of == RIG_NONE)
+        return FFD_OK;
+    const ffd_status status = skeleton->load(skeleton, *of, &own);
+    const bool is_broken = status == FFD_E_INVALID || status == FFD_E_UNSUPPORTED;
+    if (is_broken && animation != scene->animation) {
+        char name[NAME];
+        ffd_name_shown(scene->animations[animation].name, name, sizeof name);
+        ffd_log_line(desc->log, FFD_LOG_WARNING, "the animation \"%s\" is left out: %s: %s", name,
+                     own.pointer, own.message);
+        *of = RIG_NONE;
+        return FFD_OK;
+    }
+    if (status && error)
+        *error = own;
+    return status;
+}
+
+static ffd_status load_all(const view_rigs_desc *desc, view_scene *scene, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    for (size_t a = 0; a < scene->animation_count && !status; a++) {
+        if (!is_wanted(desc, scene, a))
+            continue;
+        status = load(desc, scene, 0, a, error);
+        if (!status && scene->rigs[1].skeleton != scene->rigs[0].skeleton)
+            status = load(desc, scene, 1, a, error);
+        if (scene->rigs[1].skeleton == scene->rigs[0].skeleton)
+            scene->animations[a].of[1] = scene->animations[a].of[0];
+    }
+    return status;
+}
+
+static ffd_status read_anchors(const view_rigs_desc *desc, mesh_document *document, bool after, view_rig *rig,
+                               ffd_error *error)
+{
+    if (!rig->skeleton || !rig->skeleton->starts)
+        return FFD_OK;
+    document->shown = desc->shown && ffd_mesh_shows_shapes(document);
+    const ffd_status status = document->format->read_anchors(rig->skeleton, after, &rig->anchors, error);
+    document->shown = false;
+    return status;
+}
+
+/* Says what an animation that is shown leaves out. */
+static void warn(const view_rigs_desc *desc, const view_scene *scene)
+{
+    size_t left = 0, unmatched = 0;
+    for (size_t a = 0; a < scene->animation_count; a++) {
+        if (!is_wanted(desc, scene, a) || scene->animations[a].of[0] == RIG_NONE)
+            continue;
+        left += scene->rigs[0].skeleton->animations[scene->animations[a].of[0]].left;
+        unmatched += scene->rigs[1].skeleton != scene->rigs[0].skeleton && desc->after &&
+                     scene->animations[a].of[1] == RIG_NONE;
+    }
+    if (left)
+        ffd_log_line(desc->log, FFD_LOG_WARNING,
+                     "not played: %zu %s of KHR_animation_pointer that %s no node", left,
+                     ffd_plural(left, "channel", "channels"), ffd_plural(left, "drives", "drive"));
+    if (unmatched)
+        ffd_log_line(desc->log, FFD_LOG_WARNING, "%s has not %zu of the animations: it stands still there",
+                     desc->after_name, unmatched);
+    if (scene->rigs[1].anchors.keeps_offsets)
+        ffd_log_line(
+            desc->log, FFD_LOG_WARNING,
+            "after: animated morph targets move by the offsets at rest, since default weights are shown");
+}
+
+static ffd_status make_both(const view_rigs_desc *desc, view_scene *scene, ffd_error *error)
+{
+    view_rig *const before = &scene->rigs[0], *const after = &scene->rigs[1];
+    ffd_status status = read_skeleton(desc->before, before, error);
+    if (!status && desc->after)
+        status = read_skeleton(desc->after, after, error);
+    else if (!status)
+        after->skeleton = before->skeleton;
+    if (!status)
+        status = list_animations(scene, error);
+    if (!status)
+        status = choose(desc, scene, error);
+    if (status)
+        return status;
+    if (desc->after)
+        match(scene);
+    status = load_all(desc, scene, error);
+    if (!status)
+        status = read_anchors(desc, desc->before, false, before, error);
+    if (!status && (desc->after || desc->deformed))
+        status = read_anchors(desc, desc->after ? desc->after : desc->before, desc->deformed, after, error);
+    if (!status)
+        warn(desc, scene);
+    return status;
+}
+
+/* Animations that nobody asked for are no reason to fail. */
+ffd_status ffd_view_make_rigs(const view_rigs_desc *desc, view_scene *scene, ffd_error *error)
+{
+    ffd_error own = {0};
+    scene->animation = RIG_NONE;
+    if (!desc->all && !desc->animation)
+        return FFD_OK;
+    const ffd_status status = make_both(desc, scene, &own);
+    if (status == FFD_E_LIMIT && !desc->animation) {
+        ffd_log_line(desc->log, FFD_LOG_WARNING, "the animations are left out: %s", own.message);
+        ffd_view_scene_free_rigs(scene);
+        return FFD_OK;
+    }
+    if (status && error)
+        *error = own;
+    if (status && error)
+        ffd_fail_name_file(error, desc->before_name);
+    return status;
+}
