@@ -69,7 +69,7 @@ async function sliderGoesFromBeforeToAfter() {
   const {page, end} = await open('torn');
   assert.equal(await page.getAttribute('html', 'data-ready'), 'picture');
   const after = await picture(page);
-  const slider = page.locator('input[type=range]');
+  const slider = page.locator('#blend');
   await slider.focus();
   await changes(page, 'Home on the slider', () => page.keyboard.press('Home'));
   assert.equal(await slider.getAttribute('aria-valuetext'), 'before');
@@ -187,7 +187,7 @@ async function aRealFoldIsPicked() {
   await changes(page, 'a flipped face', () => page.locator('#findings .row:not(#go-witness)').first().click());
   assert.match(await text(page, '#said'), /Flipped triangle\s/);
   for (const key of ['status', 'det', 'plain', 'displacement']) await changes(page, key, () => page.locator('#color-' + key).check({force: true}));
-  await page.locator('input[type=range]').focus();
+  await page.locator('#blend').focus();
   await changes(page, 'the slider', () => page.keyboard.press('Home'));
   await end();
 }
@@ -211,7 +211,7 @@ async function filesAreColouredByDisplacement() {
   assert.ok(await page.locator('#color-displacement').isChecked(), 'det F is not known');
   assert.equal(await page.locator('#color-det, #color-status').count(), 0);
   assert.equal(await text(page, '#name'), 'low.obj \u2192 high.obj');
-  await changes(page, 'the slider', () => page.locator('input[type=range]').fill('0'));
+  await changes(page, 'the slider', () => page.locator('#blend').fill('0'));
   await end();
 }
 

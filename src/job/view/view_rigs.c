@@ -1,6 +1,7 @@
 #include "job/view/view_rigs.h"
 #include "base/memory/memory.h"
 #include "base/text/words.h"
+#include "base/vector/vec.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -169,6 +170,20 @@ static ffd_status read_anchors(const view_rigs_desc *desc, mesh_document *docume
     return status;
 }
 
+/* A job that deforms what default weights show has no targets of its own: to first order, which is exact
+   where the deformation is affine, offsets go by its gradient. */
+static void turn_offsets(const view_rigs_desc *desc, mesh_anchors *anchors)
+{
+    for (size_t t = 0; t < anchors->target_count && anchors->keeps_offsets && desc->gradients; t++)
+        for (size_t i = 0; i < anchors->targets[t].count; i++) {
+            const double *const g = desc->gradients + 9 * (anchors->targets[t].first + i);
+            double *const offset = anchors->targets[t].offsets + 3 * i, by[3];
+            mat_apply(g, offset, by);
+            for (int a = 0; a < 3; a++)
+                offset[a] += isfinite(by[a]) ? by[a] : 0;
+        }
+}
+
 /* Says what an animation that is shown leaves out. */
 static void warn(const view_rigs_desc *desc, const view_scene *scene)
 {
@@ -190,7 +205,8 @@ static void warn(const view_rigs_desc *desc, const view_scene *scene)
     if (scene->rigs[1].anchors.keeps_offsets)
         ffd_log_line(
             desc->log, FFD_LOG_WARNING,
-            "after: animated morph targets move by the offsets at rest, since default weights are shown");
+            "after: animated morph targets are turned by the gradient of the deformation, which is exact to "
+            "first order only: default weights are shown");
 }
 
 static ffd_status make_both(const view_rigs_desc *desc, view_scene *scene, ffd_error *error)
@@ -214,9 +230,11 @@ static ffd_status make_both(const view_rigs_desc *desc, view_scene *scene, ffd_e
         status = read_anchors(desc, desc->before, false, before, error);
     if (!status && (desc->after || desc->deformed))
         status = read_anchors(desc, desc->after ? desc->after : desc->before, desc->deformed, after, error);
-    if (!status)
-        warn(desc, scene);
-    return status;
+    if (status)
+        return status;
+    turn_offsets(desc, &after->anchors);
+    warn(desc, scene);
+    return FFD_OK;
 }
 
 /* Animations that nobody asked for are no reason to fail. */
