@@ -249,6 +249,38 @@ async function realHostileNamesAreText() {
   await end();
 }
 
+async function animationsArePlayed() {
+  const {page, end} = await open('real_arm');
+  const list = page.locator('#animation'), time = page.locator('#time');
+  assert.deepEqual(await list.locator('option').allInnerTexts(),
+    ['At rest', 'turn', '</script><img src=x onerror=alert(4)>\\n\\u{202e}']);
+  assert.equal(await list.inputValue(), '0', 'the one that was asked for');
+  assert.ok(await page.locator('#show-showJoints').isChecked(), 'joints are shown');
+  const first = await picture(page);
+  await changes(page, 'the time', () => time.fill('100'));
+  assert.equal(await text(page, '#clock'), '1.00\u00a0s');
+  assert.equal(await time.getAttribute('aria-valuetext'), '1.00 of 2.00 seconds');
+  await changes(page, 'before', () => page.locator('#blend').fill('0'));
+  await changes(page, 'joints', () => page.locator('#show-showJoints').uncheck());
+  await page.locator('#view').focus();
+  for (const key of ['j', '.', ',']) await changes(page, 'key ' + key, () => page.keyboard.press(key));
+  await page.click('#run');
+  assert.equal(await text(page, '#run'), 'Pause');
+  await page.waitForFunction(() => !document.getElementById('clock').textContent.startsWith('1.0'));
+  await page.locator('#view').focus();
+  await page.keyboard.press('p');
+  assert.equal(await text(page, '#run'), 'Animate');
+  await page.locator('#blend').fill('100');
+  await time.fill('0');
+  assert.equal(await picture(page), first, 'the way back ends where it began');
+  await changes(page, 'another animation', async () => { await list.selectOption('1'); await time.fill('150'); });
+  await changes(page, 'rest', () => list.selectOption(''));
+  assert.ok(await page.locator('#run').isDisabled() && await time.isDisabled(), 'nothing to play at rest');
+  await page.setViewportSize(PHONE);
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth), 'nothing is beside the screen');
+  await end();
+}
+
 async function largeAndEmptyMeshesOpen() {
   const large = await open('large');
   assert.match(await text(large.page, '#notice'), /1\d{5} of 271441 vertices are drawn: the mesh is simplified/);
@@ -323,7 +355,7 @@ async function thePolicyForbidsRequests() {
 let failed = 0;
 for (const test of [sliderGoesFromBeforeToAfter, coloursAndMarksAreChosen, aWitnessIsPicked, tornEdgesAreListed,
   mouseAndKeysMoveTheCamera, hostileNamesAreText, aRealFoldIsPicked, realTearsAreListed,
-  filesAreColouredByDisplacement, aMeshAloneHasNoSlider, farControlPointsLeaveTheMeshItsSize, realHostileNamesAreText, largeAndEmptyMeshesOpen, aCutPageSaysSo, withoutWebGLThereAreFigures,
+  filesAreColouredByDisplacement, aMeshAloneHasNoSlider, farControlPointsLeaveTheMeshItsSize, realHostileNamesAreText, animationsArePlayed, largeAndEmptyMeshesOpen, aCutPageSaysSo, withoutWebGLThereAreFigures,
   phonesAndDarkAreServed, thePolicyForbidsRequests]) {
   const began = Date.now();
   try {
