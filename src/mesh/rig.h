@@ -53,7 +53,7 @@ typedef struct rig_animation {
     double begin, end;
     rig_channel *channels; /* of what is seen; NULL until it is loaded */
     size_t channel_count;
-    size_t left; /* channels that drive what is no node, and are left out */
+    size_t left; /* channels that drive something else, or nothing, and are left out */
 } rig_animation;
 
 typedef struct mesh_skeleton mesh_skeleton;

@@ -1,4 +1,5 @@
 #include "job/view/view_rigs.h"
+#include "base/memory/intern.h"
 #include "base/memory/memory.h"
 #include "base/text/words.h"
 #include "base/vector/vec.h"
@@ -97,22 +98,51 @@ static ffd_status choose(const view_rigs_desc *desc, view_scene *scene, ffd_erro
     return FFD_OK;
 }
 
-/* Finds the animations of the deformed file by their names; those without one by their number. */
-static void match(const view_scene *scene)
+/* Numbers the names of a skeleton's animations: first has the first of each name. */
+static ffd_status number_names(const mesh_skeleton *skeleton, intern_table *names, size_t *first,
+                               ffd_error *error)
 {
-    const mesh_skeleton *const other = scene->rigs[1].skeleton;
-    for (size_t a = 0; a < scene->animation_count; a++) {
-        const char *const name = scene->rigs[0].skeleton->animations[a].name;
-        size_t *const of = &scene->animations[a].of[1];
-        *of = RIG_NONE;
-        for (size_t b = 0; other && b < other->animation_count && *of == RIG_NONE; b++) {
-            /* Files of one origin have them in one order. */
-            const size_t candidate = (a + b) % other->animation_count;
-            const char *const its = other->animations[candidate].name;
-            if (name && *name ? its && strcmp(its, name) == 0 : candidate == a && !(its && *its))
-                *of = candidate;
-        }
+    for (size_t a = 0; a < skeleton->animation_count; a++) {
+        const char *const name = skeleton->animations[a].name ? skeleton->animations[a].name : "";
+        const size_t known = names->count;
+        uint32_t number;
+        if (!ffd_intern(names, name, strlen(name), &number))
+            return ffd_fail_memory(error);
+        if (number == known)
+            first[number] = a;
     }
+    return FFD_OK;
+}
+
+static bool has_name(const rig_animation *animation, const char *name)
+{
+    return strcmp(animation->name ? animation->name : "", name) == 0;
+}
+
+/* Finds the animations of the deformed file by their names: the one of the same number, if it has the name,
+   else the first; those without a name by their number. */
+static ffd_status match(const view_scene *scene, ffd_error *error)
+{
+    const mesh_skeleton *const own = scene->rigs[0].skeleton, *const other = scene->rigs[1].skeleton;
+    const size_t count = other ? other->animation_count : 0;
+    intern_table names = {0};
+    size_t *const first = ffd_alloc(count, sizeof *first);
+    ffd_status status = !first  ? ffd_fail_memory(error)
+                        : other ? number_names(other, &names, first, error)
+                                : FFD_OK;
+    for (size_t a = 0; a < scene->animation_count && !status; a++) {
+        const char *const name = own->animations[a].name ? own->animations[a].name : "";
+        size_t *const of = &scene->animations[a].of[1];
+        uint32_t number;
+        *of = RIG_NONE;
+        if (a < count && has_name(&other->animations[a], name))
+            *of = a;
+        else if (*name && ffd_intern_find(&names, name, strlen(name), &number))
+            *of = first[number];
+    }
+    ffd_intern_free(&names);
+    ffd_free(first);
+    return status;
 }
 
 static bool is_wanted(const view_rigs_desc *desc, const view_scene *scene, size_t animation)
@@ -197,8 +227,8 @@ static void warn(const view_rigs_desc *desc, const view_scene *scene)
     }
     if (left)
         ffd_log_line(desc->log, FFD_LOG_WARNING,
-                     "not played: %zu %s of KHR_animation_pointer that %s no node", left,
-                     ffd_plural(left, "channel", "channels"), ffd_plural(left, "drives", "drive"));
+                     "not played: %zu %s no translation, rotation, scale or weights of a node that is there",
+                     left, ffd_plural(left, "channel that drives", "channels that drive"));
     if (unmatched)
         ffd_log_line(desc->log, FFD_LOG_WARNING, "%s has not %zu of the animations: it stands still there",
                      desc->after_name, unmatched);
@@ -224,8 +254,9 @@ static ffd_status make_both(const view_rigs_desc *desc, view_scene *scene, ffd_e
     if (status)
         return status;
     if (desc->after)
-        match(scene);
-    status = load_all(desc, scene, error);
+        status = match(scene, error);
+    if (!status)
+        status = load_all(desc, scene, error);
     if (!status)
         status = read_anchors(desc, desc->before, false, before, error);
     if (!status && (desc->after || desc->deformed))

@@ -243,11 +243,13 @@ function jointMarks(scene, animation, time) {
     const to = isOne || 12 * n + 12 > places[1].length ? from : at(places[1]);
     list.push(...from, ...to.map((x, a) => x - from[a]));
   };
-  for (let n = 0; n < parents.length / 2; n++) {
-    if (!(parents[2 * n + 1] & FLAG_JOINT)) continue;
+  const joints = new Int32Array(parents.length / 2);  // of each node: it, or the next joint above it
+  for (let n = 0; n < joints.length; n++) {
+    const above = parents[2 * n] < 0 ? -1 : joints[parents[2 * n]];
+    const isJoint = parents[2 * n + 1] & FLAG_JOINT;
+    joints[n] = isJoint ? n : above;
+    if (!isJoint) continue;
     put(points, n);
-    let above = parents[2 * n];
-    while (above >= 0 && !(parents[2 * above + 1] & FLAG_JOINT)) above = parents[2 * above];
     if (above < 0) continue;
     put(lines, n);
     put(lines, above);

@@ -22,19 +22,16 @@ static bool has_vertices(const gltf_document *d, size_t part)
     return !d->mesh_parts[part].repeats_positions && d->parts[part].node != GLTF_NONE;
 }
 
-/* Marks the nodes that vertices follow, with those above them: their place is no longer GLTF_NONE. */
+/* Marks the nodes of the bones, with those above them: their place is no longer GLTF_NONE. */
 static void mark_needed(gltf_rig *rig)
 {
     const gltf_document *const d = rig->document;
-    for (size_t p = 0; p < d->base.part_count; p++) {
-        const gltf_skin *const skin = d->parts[p].skin;
-        if (!has_vertices(d, p))
-            continue;
-        for (size_t j = 0; skin && j < skin->joint_count; j++)
-            rig->places[skin->joints[j]] = 0;
-        if (!skin)
-            rig->places[d->parts[p].node] = 0;
-    }
+    for (size_t n = 0; n < d->model.node_count; n++)
+        if (rig->node_bone[n] != GLTF_NONE)
+            rig->places[n] = 0;
+    for (size_t s = 0; s < d->skin_values.count; s++)
+        for (size_t j = 0; rig->skin_bone[s] != GLTF_NONE && j < d->skins[s].joint_count; j++)
+            rig->places[d->skins[s].joints[j]] = 0;
     for (size_t i = rig->pose.order_count; i-- > 0;) {
         const size_t node = rig->pose.order[i], parent = d->parents[node];
         if (parent != GLTF_NONE && rig->places[node] != GLTF_NONE)
@@ -182,9 +179,12 @@ static ffd_status list_animations(gltf_rig *rig, ffd_error *error)
     if (!base->animations)
         return ffd_fail_memory(error);
     base->animation_count = count;
-    for (size_t a = 0; a < count; a++)
-        base->animations[a] = (rig_animation){.name = rig->animations.list[a].name,
-                                              .left = rig->animations.list[a].pointer_count};
+    for (size_t a = 0; a < count; a++) {
+        const gltf_animation *const from = &rig->animations.list[a];
+        base->animations[a].name = from->name;
+        for (size_t c = 0; c < from->channel_count; c++)
+            base->animations[a].left += !ffd_gltf_channel_drives(&from->channels[c]);
+    }
     return FFD_OK;
 }
 
@@ -305,8 +305,8 @@ static ffd_status make_rig(gltf_rig *rig, ffd_error *error)
         status = make_tables(rig, error);
     if (status)
         return status;
-    mark_needed(rig);
     count_bones(rig);
+    mark_needed(rig);
     status = make_nodes(rig, error);
     if (!status)
         status = make_bones(rig, error);
