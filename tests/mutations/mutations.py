@@ -971,7 +971,7 @@ m("last-corner-of-an-stl-vertex", "order", "cli_view", "for (size_t i = faces->c
   "for (size_t i = 0; i < faces->corner_count; i++) e->model->numbers")
 m("page-over-an-input", "check left out", "cli_view",
   "is_input = is_input || ffd_file_same(job->lattices[i], desc->output);", "is_input = is_input || ffd_file_same(job->lattices[i], job->input.path);")
-m("page-of-two-meshes", "check left out", "cli_view", "if (!status && ffd_mesh_vertex_count(other) != count)", "if (!status && ffd_mesh_vertex_count(other) < count)")
+m("page-of-two-meshes", "check left out", "cli_view", "if (!status && ffd_mesh_vertex_count(work->other) != count)", "if (!status && ffd_mesh_vertex_count(other) < count)")
 m("det-without-its-diagonal", "term left out", "cli_view", "for (size_t a = 0; a < 3; a++) f[4 * a] += 1;",
   "for (size_t a = 1; a < 3; a++)\n            f[4 * a] += 1;")
 m("flipped-by-the-first-face", "index", "cli_view", "const size_t face = faces[t];", "const size_t face = faces[t / 2];")
