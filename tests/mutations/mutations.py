@@ -577,14 +577,16 @@ m("falling-times", "bound", "gltf_animation, cli_view_animation", "if (i > 0 && 
   "if (i > 1 && sampler->times[i] < sampler->times[i - 1])")
 m("keys-of-nothing-are-checked", "condition", "gltf_animation", "if (ffd_gltf_channel_drives(&animation->channels[c])) status = load_channel(",
   "if (animation->channels[c].sampler != GLTF_NONE) status = load_channel(")
-m("pose-adds-up", "state", "gltf_animation", "set_default(d, pose); for (size_t c = 0; animation", "for (size_t c = 0; animation")
+m("weights-of-nodes-only", "condition", "gltf_animation", "return value != JSON_NONE || d->model.nodes[n].mesh < 0",
+  "return value == JSON_NONE || d->model.nodes[n].mesh < 0")
 m("matrix-not-taken-apart", "left out", "gltf_animation", "if (channel->path < GLTF_WEIGHTS && node->has_matrix)",
   "if (channel->path > GLTF_WEIGHTS && node->has_matrix)")
 m("list-keeps-its-memory", "clean-up", "gltf_animation, view_pose", "ffd_budget_return(&d->base.budget, 1, animations->taken);", ";")
 m("weights-not-divided", "left out", "view_pose", "(float)(weights[i] / total)", "(float)(weights[i])")
 m("anchors-before-are-after", "condition", "view_pose, page_rig", "if (w->after) put_results(&d->parts[part].streams",
   "if (!w->after) put_results(&d->parts[part].streams")
-m("offsets-in-the-file", "left out", "view_pose", "mat_apply(rest, to->offsets + 3 * i, to->offsets + 3 * i);", ";")
+m("offsets-of-the-first", "index", "view_pose", "mat_apply(rest, to->offsets + 3 * i, to->offsets + 3 * i);",
+  "mat_apply(rest, to->offsets, to->offsets);")
 m("bones-of-no-bind", "left out", "view_pose, page_rig", "ffd_gltf_join_matrix(binds + 12 * j, back, back + 9, bone->bind);",
   "memcpy(bone->bind, binds + 12 * j, sizeof bone->bind);")
 
@@ -1044,8 +1046,9 @@ m("row-of-the-first", "index", "cli_view_animation", ".top = ffd_layout_row(by, 
 m("poses-of-one-side", "condition", "cli_view_animation", "const int side = number < w->options->frames ? 0 : 1;", "const int side = 0 * (int)number;")
 m("last-pose-too-early", "off by one", "cli_view_animation", "(of->end - of->begin) * (double)i / (double)(count - 1);",
   "(of->end - of->begin) * (double)i / (double)count;")
-m("still-keys-of-a-spline", "condition", "page_rig", "return channel->interpolation != RIG_CUBICSPLINE; }", "return true; }")
+m("still-by-the-first-numbers", "bound", "page_rig, cli_view_animation", "i < channel->key_count * channel->width; i++)", "i < channel->key_count; i++)")
 m("joints-are-nodes", "flag", "cli_view_animation, page_rig", "(node->is_joint ? 1u : 0)", "(node->is_joint ? 0u : 0)")
-m("times-once-an-accessor", "left out", "cli_view_animation", "if (*place == SIZE_MAX) { *place = to->size / 4;", "if (*place != 0) { *place = to->size / 4;")
+m("times-of-each-channel", "condition", "cli_view_animation", "if (*place == SIZE_MAX) { *place = to->size / 4;",
+  "if (*place == SIZE_MAX || *place == 0) { *place = to->size / 4;")
 m("broken-animation-stops-all", "condition", "cli_view_animation", "if (is_broken && animation != scene->animation)", "if (!is_broken && animation != scene->animation)")
 m("first-of-two-names", "condition", "cli_view_animation", "scene->animation = alike ? scene->animation : a;", "scene->animation = a;")
