@@ -1,13 +1,13 @@
 /* gltf_anchors.c - the vertices of a file, and the offsets of its morph targets, in a skeleton. */
 #include "base/memory/memory.h"
-#include "io/gltf/animation/gltf_rig.h"
+#include "io/gltf/animation/gltf_skeleton.h"
 #include "io/gltf/decode/gltf_read.h"
 #include "io/gltf/scene/gltf_scene.h"
 #include "io/gltf/scene/gltf_shown.h"
 #include <string.h>
 
 typedef struct anchor_work {
-    const gltf_rig *rig;
+    const gltf_skeleton *rig;
     bool after;
     mesh_anchors *anchors;
     size_t *first; /* of each part, the number of its first vertex */
@@ -125,8 +125,8 @@ static ffd_status count_target(anchor_work *w, size_t part, size_t target, size_
     (void)target;
     (void)weight;
     w->anchors->target_count++;
-    return ffd_gltf_rig_take((gltf_rig *)w->rig, w->rig->document->mesh_parts[part].vertex_count,
-                             3 * sizeof(double), w->error);
+    return ffd_gltf_skeleton_take((gltf_skeleton *)w->rig, w->rig->document->mesh_parts[part].vertex_count,
+                                  3 * sizeof(double), w->error);
 }
 
 static ffd_status make_targets(anchor_work *w)
@@ -145,7 +145,7 @@ static ffd_status make_targets(anchor_work *w)
 
 static void mark_driven(const anchor_work *w)
 {
-    const gltf_rig *const rig = w->rig;
+    const gltf_skeleton *const rig = w->rig;
     for (size_t a = 0; a < rig->animations.count; a++)
         for (size_t c = 0; rig->base.animations[a].channels && c < rig->animations.list[a].channel_count; c++)
             if (rig->animations.list[a].channels[c].path == GLTF_WEIGHTS)
@@ -160,7 +160,7 @@ static ffd_status make_anchors(anchor_work *w)
     w->is_done = ffd_alloc_zero(d->base.part_count, sizeof *w->is_done);
     if (!w->driven || !w->is_done)
         return ffd_fail_memory(w->error);
-    ffd_status status = ffd_gltf_rig_take((gltf_rig *)w->rig, count, 3 * sizeof(double), w->error);
+    ffd_status status = ffd_gltf_skeleton_take((gltf_skeleton *)w->rig, count, 3 * sizeof(double), w->error);
     if (!status)
         status = ffd_parts_number(&d->base, &w->first, w->error);
     if (status)
@@ -178,7 +178,8 @@ static ffd_status make_anchors(anchor_work *w)
 ffd_status ffd_gltf_read_anchors(const mesh_skeleton *skeleton, bool after, mesh_anchors *anchors,
                                  ffd_error *error)
 {
-    anchor_work w = {.rig = (const gltf_rig *)skeleton, .after = after, .anchors = anchors, .error = error};
+    anchor_work w = {
+        .rig = (const gltf_skeleton *)skeleton, .after = after, .anchors = anchors, .error = error};
     *anchors = (mesh_anchors){0};
     const ffd_status status = make_anchors(&w);
     ffd_free(w.first);

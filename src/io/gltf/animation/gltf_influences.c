@@ -1,12 +1,12 @@
 /* gltf_influences.c - which bones each vertex of a file follows. */
 #include "base/memory/memory.h"
-#include "io/gltf/animation/gltf_rig.h"
+#include "io/gltf/animation/gltf_skeleton.h"
 #include "io/gltf/decode/gltf_read.h"
 
 #define MOST 64 /* influences of a vertex: of 16 sets */
 
 typedef struct filler {
-    const gltf_rig *rig;
+    const gltf_skeleton *rig;
     rig_influence *to;
     size_t count; /* so far */
 } filler;
@@ -64,7 +64,7 @@ static void add_part(filler *f, size_t p, size_t *starts)
     }
 }
 
-ffd_status ffd_gltf_make_influences(gltf_rig *rig, ffd_error *error)
+ffd_status ffd_gltf_make_influences(gltf_skeleton *rig, ffd_error *error)
 {
     const gltf_document *const d = rig->document;
     mesh_skeleton *const base = &rig->base;
@@ -72,9 +72,9 @@ ffd_status ffd_gltf_make_influences(gltf_rig *rig, ffd_error *error)
     base->vertex_count = (size_t)ffd_mesh_vertex_count(&d->base);
     for (size_t p = 0; p < d->base.part_count; p++)
         most += d->mesh_parts[p].repeats_positions ? 0 : most_of(&d->parts[p], d->mesh_parts[p].vertex_count);
-    ffd_status status = ffd_gltf_rig_take(rig, most, sizeof *base->influences, error);
+    ffd_status status = ffd_gltf_skeleton_take(rig, most, sizeof *base->influences, error);
     if (!status)
-        status = ffd_gltf_rig_take(rig, base->vertex_count + 1, sizeof *base->starts, error);
+        status = ffd_gltf_skeleton_take(rig, base->vertex_count + 1, sizeof *base->starts, error);
     if (status)
         return status;
     base->influences = ffd_alloc(most, sizeof *base->influences);

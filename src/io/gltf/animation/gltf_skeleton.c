@@ -1,4 +1,4 @@
-#include "io/gltf/animation/gltf_rig.h"
+#include "io/gltf/animation/gltf_skeleton.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "io/gltf/scene/gltf_scene.h"
@@ -7,7 +7,7 @@
 
 static const double identity[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
 
-ffd_status ffd_gltf_rig_take(gltf_rig *rig, uint64_t count, uint64_t size, ffd_error *error)
+ffd_status ffd_gltf_skeleton_take(gltf_skeleton *rig, uint64_t count, uint64_t size, ffd_error *error)
 {
     memory_budget *const budget = &rig->document->base.budget;
     const uint64_t before = budget->taken;
@@ -23,7 +23,7 @@ static bool has_vertices(const gltf_document *d, size_t part)
 }
 
 /* Marks the nodes of the bones, with those above them: their place is no longer GLTF_NONE. */
-static void mark_needed(gltf_rig *rig)
+static void mark_needed(gltf_skeleton *rig)
 {
     const gltf_document *const d = rig->document;
     for (size_t n = 0; n < d->model.node_count; n++)
@@ -39,7 +39,7 @@ static void mark_needed(gltf_rig *rig)
     }
 }
 
-static void fill_node(const gltf_rig *rig, const gltf_node *from, size_t parent, rig_node *to)
+static void fill_node(const gltf_skeleton *rig, const gltf_node *from, size_t parent, rig_node *to)
 {
     *to = (rig_node){.parent = parent == GLTF_NONE ? RIG_NONE : rig->places[parent],
                      .has_matrix = from->has_matrix};
@@ -51,7 +51,7 @@ static void fill_node(const gltf_rig *rig, const gltf_node *from, size_t parent,
 }
 
 /* A node that an animation drives has no matrix. */
-static void mark_animated(const gltf_rig *rig, bool *animated)
+static void mark_animated(const gltf_skeleton *rig, bool *animated)
 {
     for (size_t a = 0; a < rig->animations.count; a++)
         for (size_t c = 0; c < rig->animations.list[a].channel_count; c++) {
@@ -61,7 +61,7 @@ static void mark_animated(const gltf_rig *rig, bool *animated)
         }
 }
 
-static ffd_status make_nodes(gltf_rig *rig, ffd_error *error)
+static ffd_status make_nodes(gltf_skeleton *rig, ffd_error *error)
 {
     const gltf_document *const d = rig->document;
     const size_t count = d->model.node_count;
@@ -106,7 +106,7 @@ static bool invert(const double matrix[12], double inverse[12])
     return true;
 }
 
-static void count_bones(gltf_rig *rig)
+static void count_bones(gltf_skeleton *rig)
 {
     const gltf_document *const d = rig->document;
     for (size_t p = 0; p < d->base.part_count; p++) {
@@ -121,7 +121,7 @@ static void count_bones(gltf_rig *rig)
 
 /* A skin's vertices are kept where its first joint has them at rest: most are there then, and all are as
    large as the scene. unmoved: the identity for each node. */
-static ffd_status fill_skin(gltf_rig *rig, size_t s, const double *unmoved, ffd_error *error)
+static ffd_status fill_skin(gltf_skeleton *rig, size_t s, const double *unmoved, ffd_error *error)
 {
     const gltf_skin *const skin = &rig->document->skins[s];
     double *const rest = rig->skin_rest + 12 * s;
@@ -141,7 +141,7 @@ static ffd_status fill_skin(gltf_rig *rig, size_t s, const double *unmoved, ffd_
     return status;
 }
 
-static ffd_status fill_bones(gltf_rig *rig, ffd_error *error)
+static ffd_status fill_bones(gltf_skeleton *rig, ffd_error *error)
 {
     const gltf_document *const d = rig->document;
     ffd_status status = FFD_OK;
@@ -162,16 +162,17 @@ static ffd_status fill_bones(gltf_rig *rig, ffd_error *error)
     return status;
 }
 
-static ffd_status make_bones(gltf_rig *rig, ffd_error *error)
+static ffd_status make_bones(gltf_skeleton *rig, ffd_error *error)
 {
-    const ffd_status status = ffd_gltf_rig_take(rig, rig->base.bone_count, sizeof *rig->base.bones, error);
+    const ffd_status status =
+        ffd_gltf_skeleton_take(rig, rig->base.bone_count, sizeof *rig->base.bones, error);
     if (status)
         return status;
     rig->base.bones = ffd_alloc(rig->base.bone_count, sizeof *rig->base.bones);
     return rig->base.bones ? fill_bones(rig, error) : ffd_fail_memory(error);
 }
 
-static ffd_status list_animations(gltf_rig *rig, ffd_error *error)
+static ffd_status list_animations(gltf_skeleton *rig, ffd_error *error)
 {
     mesh_skeleton *const base = &rig->base;
     const size_t count = rig->animations.count;
@@ -189,13 +190,13 @@ static ffd_status list_animations(gltf_rig *rig, ffd_error *error)
 }
 
 /* Whether a channel drives what is seen. */
-static bool is_seen(const gltf_rig *rig, const gltf_channel *channel)
+static bool is_seen(const gltf_skeleton *rig, const gltf_channel *channel)
 {
     return ffd_gltf_channel_drives(channel) &&
            (channel->path == GLTF_WEIGHTS || rig->places[channel->node] != GLTF_NONE);
 }
 
-static void fill_channel(const gltf_rig *rig, const gltf_animation *of, const gltf_channel *from,
+static void fill_channel(const gltf_skeleton *rig, const gltf_animation *of, const gltf_channel *from,
                          rig_channel *to)
 {
     static const rig_interpolation kinds[] = {RIG_STEP, RIG_LINEAR, RIG_CUBICSPLINE};
@@ -214,13 +215,13 @@ static void fill_channel(const gltf_rig *rig, const gltf_animation *of, const gl
 
 static ffd_status load(mesh_skeleton *skeleton, size_t number, ffd_error *error)
 {
-    gltf_rig *const rig = (gltf_rig *)skeleton;
+    gltf_skeleton *const rig = (gltf_skeleton *)skeleton;
     gltf_animation *const from = &rig->animations.list[number];
     rig_animation *const to = &skeleton->animations[number];
     ffd_status status = to->channels ? FFD_OK : ffd_gltf_load_animation(rig->document, from, error);
     if (status || to->channels)
         return status;
-    status = ffd_gltf_rig_take(rig, from->channel_count, sizeof *to->channels, error);
+    status = ffd_gltf_skeleton_take(rig, from->channel_count, sizeof *to->channels, error);
     if (status)
         return status;
     to->channels = ffd_alloc(from->channel_count, sizeof *to->channels);
@@ -236,7 +237,7 @@ static ffd_status load(mesh_skeleton *skeleton, size_t number, ffd_error *error)
 
 static void pose(mesh_skeleton *skeleton, size_t animation, double time, double *worlds, double *weights)
 {
-    gltf_rig *const rig = (gltf_rig *)skeleton;
+    gltf_skeleton *const rig = (gltf_skeleton *)skeleton;
     const gltf_animation *const of = animation == RIG_NONE ? NULL : &rig->animations.list[animation];
     ffd_gltf_set_pose(rig->document, of, time, &rig->pose);
     for (size_t n = 0; n < skeleton->node_count; n++)
@@ -247,7 +248,7 @@ static void pose(mesh_skeleton *skeleton, size_t animation, double time, double 
 
 static void free_rig(mesh_skeleton *skeleton)
 {
-    gltf_rig *const rig = (gltf_rig *)skeleton;
+    gltf_skeleton *const rig = (gltf_skeleton *)skeleton;
     for (size_t a = 0; a < skeleton->animation_count; a++)
         ffd_free(skeleton->animations[a].channels);
     void *const blocks[] = {skeleton->nodes,  skeleton->weights,    skeleton->bones, skeleton->animations,
@@ -261,7 +262,7 @@ static void free_rig(mesh_skeleton *skeleton)
     ffd_free(rig);
 }
 
-static ffd_status make_tables(gltf_rig *rig, ffd_error *error)
+static ffd_status make_tables(gltf_skeleton *rig, ffd_error *error)
 {
     const gltf_document *const d = rig->document;
     const size_t nodes = d->model.node_count, skins = d->skin_values.count;
@@ -278,7 +279,7 @@ static ffd_status make_tables(gltf_rig *rig, ffd_error *error)
     return FFD_OK;
 }
 
-static ffd_status keep_weights(gltf_rig *rig, ffd_error *error)
+static ffd_status keep_weights(gltf_skeleton *rig, ffd_error *error)
 {
     const size_t count = rig->pose.first_weight[rig->document->model.node_count];
     rig->base.weights = ffd_alloc(count, sizeof *rig->base.weights);
@@ -293,10 +294,10 @@ static ffd_status keep_weights(gltf_rig *rig, ffd_error *error)
 /* What a node takes: its pose, its place in three lists, and itself. */
 #define NODE_BYTES (sizeof(gltf_node) + 12 * sizeof(double) + 6 * sizeof(size_t) + sizeof(rig_node) + 1)
 
-static ffd_status make_rig(gltf_rig *rig, ffd_error *error)
+static ffd_status make_rig(gltf_skeleton *rig, ffd_error *error)
 {
     const gltf_document *const d = rig->document;
-    ffd_status status = ffd_gltf_rig_take(rig, d->model.node_count, NODE_BYTES, error);
+    ffd_status status = ffd_gltf_skeleton_take(rig, d->model.node_count, NODE_BYTES, error);
     if (!status)
         status = ffd_gltf_list_animations(rig->document, &rig->animations, error);
     if (!status)
@@ -328,7 +329,7 @@ ffd_status ffd_gltf_read_skeleton(mesh_document *document, mesh_skeleton **skele
     *skeleton = NULL;
     if (d->space == FFD_SPACE_MESH || (!has_any(d, "animations") && !has_any(d, "skins")))
         return FFD_OK;
-    gltf_rig *const rig = ffd_alloc_zero(1, sizeof *rig);
+    gltf_skeleton *const rig = ffd_alloc_zero(1, sizeof *rig);
     if (!rig)
         return ffd_fail_memory(error);
     rig->document = d;

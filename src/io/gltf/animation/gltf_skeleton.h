@@ -1,12 +1,12 @@
-/* gltf_rig.h - a file's animations as any format has them (mesh/rig.h). gltf_anchors.c has
+/* gltf_skeleton.h - a file's animations as any format has them (mesh/rig.h). gltf_anchors.c has
    ffd_gltf_read_anchors, gltf_influences.c ffd_gltf_make_influences. */
-#ifndef FFD_IO_GLTF_ANIMATION_GLTF_RIG_H
-#define FFD_IO_GLTF_ANIMATION_GLTF_RIG_H
+#ifndef FFD_IO_GLTF_ANIMATION_GLTF_SKELETON_H
+#define FFD_IO_GLTF_ANIMATION_GLTF_SKELETON_H
 
 #include "io/gltf/animation/gltf_pose.h"
 #include "mesh/rig.h"
 
-typedef struct gltf_rig {
+typedef struct gltf_skeleton {
     mesh_skeleton base;
     gltf_document *document;
     gltf_animations animations;
@@ -17,16 +17,16 @@ typedef struct gltf_rig {
     size_t *skin_bone; /* of each skin: the bone of its first joint; GLTF_NONE: it is not used */
     double *skin_rest; /* of each skin: what takes its vertices to where they are at rest, or near there */
     uint64_t taken;    /* of the document's budget */
-} gltf_rig;
+} gltf_skeleton;
 
 /* mesh_format's read_skeleton and read_anchors. */
 mesh_read_skeleton_function ffd_gltf_read_skeleton;
 mesh_read_anchors_function ffd_gltf_read_anchors;
 
 /* Takes memory from the document's budget until the rig is freed. Errors: FFD_E_LIMIT. */
-ffd_status ffd_gltf_rig_take(gltf_rig *rig, uint64_t count, uint64_t size, ffd_error *error);
+ffd_status ffd_gltf_skeleton_take(gltf_skeleton *rig, uint64_t count, uint64_t size, ffd_error *error);
 
 /* Fills the skeleton's influences. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
-ffd_status ffd_gltf_make_influences(gltf_rig *rig, ffd_error *error);
+ffd_status ffd_gltf_make_influences(gltf_skeleton *rig, ffd_error *error);
 
 #endif
