@@ -252,7 +252,7 @@ typedef ffd_status mesh_corner_normals_function(const mesh_document *document, c
 typedef ffd_status mesh_model_function(const mesh_document *document, mesh_model *model, ffd_error *error);
 typedef ffd_status mesh_list_materials_function(mesh_document *document, const mesh_log *log,
                                                 mesh_materials *materials, ffd_error *error);
-typedef ffd_status mesh_read_skeleton_function(mesh_document *document, mesh_skeleton **skeleton,
+typedef ffd_status mesh_read_skeleton_function(mesh_document *document, bool after, mesh_skeleton **skeleton,
                                                ffd_error *error);
 typedef ffd_status mesh_read_anchors_function(const mesh_skeleton *skeleton, bool after,
                                               mesh_anchors *anchors, ffd_error *error);
@@ -383,7 +383,8 @@ typedef struct mesh_format {
        FFD_E_MEMORY, FFD_E_LIMIT. */
     mesh_list_materials_function *list_materials;
     /* Makes the skeleton of a document with animations or skins, none of whose keys are loaded; to be freed
-       before the document is closed. *skeleton is NULL where there are none. NULL: the format has none.
+       before the document is closed. after: that of the deformed mesh, where follow has moved it.
+       *skeleton is NULL where there are none. NULL: the format has none.
        Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
     mesh_read_skeleton_function *read_skeleton;
     /* Fills anchors, which the caller frees in every case, with the vertices as the file has them, or as the

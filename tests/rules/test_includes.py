@@ -38,6 +38,10 @@ LAYERS = {
     },
     "io/gltf/animation": {
         "base/memory", "base/text", "base/vector", "io/gltf/decode", "io/gltf/document", "io/gltf/refer",
+        "io/gltf/scene",
+    },
+    "io/gltf/skeleton": {
+        "base/memory", "base/vector", "io/gltf/animation", "io/gltf/decode", "io/gltf/document", "io/gltf/rig",
         "io/gltf/scene", "mesh",
     },
     "io/gltf/rig": {
@@ -49,8 +53,8 @@ LAYERS = {
         "io/gltf/file", "io/gltf/refer", "io/gltf/rig", "io/gltf/scene", "json", "mesh", "mesh/resource",
     },
     "io/gltf": {
-        "base/file", "base/memory", "base/system", "base/vector", "io/gltf/animation", "io/gltf/decode", "io/gltf/document",
-        "io/gltf/file", "io/gltf/model", "io/gltf/rig", "io/gltf/save", "io/gltf/scene", "json", "mesh", "mesh/resource",
+        "base/file", "base/memory", "base/system", "base/vector", "io/gltf/decode", "io/gltf/document", "io/gltf/file",
+        "io/gltf/model", "io/gltf/rig", "io/gltf/save", "io/gltf/scene", "io/gltf/skeleton", "json", "mesh", "mesh/resource",
     },
     "io/openmesh": {"base/memory", "base/system", "base/vector", "mesh"},
     "io/text": {"base", "base/file", "base/memory", "base/text", "mesh"},

@@ -188,7 +188,7 @@ static void open_fixture(fixture *f)
     assert_int_equal(
         open_bytes(f->text, strlen(f->text), "t.gltf", FFD_FORMAT_GLTF, FFD_SPACE_SCENE, &f->document, NULL),
         FFD_OK);
-    assert_int_equal(gltf->read_skeleton(f->document, &skeleton, NULL), FFD_OK);
+    assert_int_equal(gltf->read_skeleton(f->document, false, &skeleton, NULL), FFD_OK);
     assert_int_equal(skeleton->animation_count, 1);
     assert_int_equal(skeleton->load(skeleton, 0, NULL), FFD_OK);
     f->scene.rigs[0].skeleton = f->scene.rigs[1].skeleton = skeleton;
@@ -297,7 +297,7 @@ static void memory_that_runs_out_is_said(void **state)
         view_scene scene = {0};
         double *positions = NULL;
         ffd_alloc_fail_after(successes);
-        status = gltf->read_skeleton(f.document, &skeleton, NULL);
+        status = gltf->read_skeleton(f.document, false, &skeleton, NULL);
         scene.rigs[0].skeleton = skeleton;
         if (!status)
             status = skeleton->load(skeleton, 0, NULL);

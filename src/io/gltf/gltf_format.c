@@ -1,6 +1,6 @@
 /* gltf_format.c - the table of functions for .gltf and .glb files. */
 #include "io/gltf/gltf_format.h"
-#include "io/gltf/animation/gltf_skeleton.h"
+#include "io/gltf/skeleton/gltf_skeleton.h"
 #include "io/gltf/decode/gltf_read.h"
 #include "io/gltf/gltf_as_morph.h"
 #include "io/gltf/gltf_compare.h"

@@ -133,6 +133,7 @@ static ffd_status make_rigs(view_work *work, bool deformed, ffd_error *error)
     const view_rigs_desc rigs = {.before = work->job.document,
                                  .after = work->other,
                                  .deformed = deformed,
+                                 .follows = deformed && desc->job->rig == FFD_RIG_FOLLOW,
                                  .gradients = work->details.gradients,
                                  .shown = !desc->as_stored,
                                  .before_name = ffd_source_name(&desc->job->input),

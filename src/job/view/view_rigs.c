@@ -21,10 +21,10 @@ static char *name_of(const mesh_skeleton *skeleton, size_t animation)
     return ffd_buffer_finish(&text);
 }
 
-static ffd_status read_skeleton(mesh_document *document, view_rig *rig, ffd_error *error)
+static ffd_status read_skeleton(mesh_document *document, bool after, view_rig *rig, ffd_error *error)
 {
     const mesh_format *const format = document->format;
-    return format->read_skeleton ? format->read_skeleton(document, &rig->skeleton, error) : FFD_OK;
+    return format->read_skeleton ? format->read_skeleton(document, after, &rig->skeleton, error) : FFD_OK;
 }
 
 static ffd_status list_animations(view_scene *scene, ffd_error *error)
@@ -242,9 +242,9 @@ static void warn(const view_rigs_desc *desc, const view_scene *scene)
 static ffd_status make_both(const view_rigs_desc *desc, view_scene *scene, ffd_error *error)
 {
     view_rig *const before = &scene->rigs[0], *const after = &scene->rigs[1];
-    ffd_status status = read_skeleton(desc->before, before, error);
-    if (!status && desc->after)
-        status = read_skeleton(desc->after, after, error);
+    ffd_status status = read_skeleton(desc->before, false, before, error);
+    if (!status && (desc->after || desc->follows))
+        status = read_skeleton(desc->after ? desc->after : desc->before, desc->follows, after, error);
     else if (!status)
         after->skeleton = before->skeleton;
     if (!status)
@@ -253,7 +253,7 @@ static ffd_status make_both(const view_rigs_desc *desc, view_scene *scene, ffd_e
         status = choose(desc, scene, error);
     if (status)
         return status;
-    if (desc->after)
+    if (desc->after || desc->follows)
         status = match(scene, error);
     if (!status)
         status = load_all(desc, scene, error);

@@ -12,6 +12,7 @@
 typedef struct view_rigs_desc {
     mesh_document *before, *after; /* after: NULL, or the deformed mesh as a file */
     bool deformed;                 /* before has results: they are the mesh after */
+    bool follows;                  /* and its nodes have moved with it */
     const double *gradients;       /* of the displacement, 9 a vertex; or NULL */
     bool shown;                    /* default weights of morph targets count */
     const char *before_name, *after_name;

@@ -84,7 +84,7 @@ static void set_default(const gltf_document *d, gltf_pose *pose)
 {
     const size_t count = d->model.node_count;
     if (count > 0)
-        memcpy(pose->nodes, d->model.nodes, count * sizeof *pose->nodes);
+        memcpy(pose->nodes, pose->rest ? pose->rest : d->model.nodes, count * sizeof *pose->nodes);
     for (size_t n = 0; n < count; n++) {
         uint32_t value = first_weight(d, n);
         for (size_t w = pose->first_weight[n]; w < pose->first_weight[n + 1]; w++) {

@@ -1,4 +1,4 @@
-#include "io/gltf/animation/gltf_skeleton.h"
+#include "io/gltf/skeleton/gltf_skeleton.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "io/gltf/scene/gltf_scene.h"
@@ -76,7 +76,7 @@ static ffd_status make_nodes(gltf_skeleton *rig, ffd_error *error)
     mark_animated(rig, animated);
     for (size_t i = 0; i < rig->pose.order_count; i++) {
         const size_t node = rig->pose.order[i];
-        gltf_node own = d->model.nodes[node];
+        gltf_node own = rig->nodes ? rig->nodes[node] : d->model.nodes[node];
         if (rig->places[node] == GLTF_NONE)
             continue;
         if (own.has_matrix && animated[node])
@@ -128,8 +128,10 @@ static ffd_status fill_skin(gltf_skeleton *rig, size_t s, const double *unmoved,
     double back[12], *const binds = ffd_alloc(skin->joint_count, 12 * sizeof *binds);
     ffd_status status = binds ? FFD_OK : ffd_fail_memory(error);
     if (!status)
-        status = ffd_gltf_joint_matrices(rig->document, skin, unmoved, binds, error);
-    memcpy(rest, skin->matrices, sizeof identity);
+        status = ffd_gltf_skeleton_binds(rig, s, unmoved, binds, error);
+    memcpy(rest, identity, sizeof identity);
+    if (!status && skin->joint_count > 0)
+        ffd_gltf_join_matrix(ffd_gltf_skeleton_world(rig, skin->joints[0]), binds, binds + 9, rest);
     if (!invert(rest, back))
         memcpy(rest, identity, sizeof identity);
     for (size_t j = 0; j < skin->joint_count && !status; j++) {
@@ -153,7 +155,7 @@ static ffd_status fill_bones(gltf_skeleton *rig, ffd_error *error)
         if (rig->node_bone[n] == GLTF_NONE)
             continue;
         rig->base.bones[rig->node_bone[n]].node = rig->places[n];
-        invert(d->world + 12 * n, rig->base.bones[rig->node_bone[n]].bind);
+        invert(ffd_gltf_skeleton_world(rig, n), rig->base.bones[rig->node_bone[n]].bind);
     }
     for (size_t s = 0; s < d->skin_values.count && !status; s++)
         if (rig->skin_bone[s] != GLTF_NONE)
@@ -221,6 +223,9 @@ static ffd_status load(mesh_skeleton *skeleton, size_t number, ffd_error *error)
     ffd_status status = to->channels ? FFD_OK : ffd_gltf_load_animation(rig->document, from, error);
     if (status || to->channels)
         return status;
+    status = ffd_gltf_follow_keys(rig, number, error);
+    if (status)
+        return status;
     status = ffd_gltf_skeleton_take(rig, from->channel_count, sizeof *to->channels, error);
     if (status)
         return status;
@@ -253,7 +258,7 @@ static void free_rig(mesh_skeleton *skeleton)
         ffd_free(skeleton->animations[a].channels);
     void *const blocks[] = {skeleton->nodes,  skeleton->weights,    skeleton->bones, skeleton->animations,
                             skeleton->starts, skeleton->influences, rig->places,     rig->order,
-                            rig->node_bone,   rig->skin_bone,       rig->skin_rest};
+                            rig->node_bone,   rig->skin_bone,       rig->skin_rest,  rig->nodes};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
         ffd_free(blocks[i]);
     ffd_gltf_free_pose(&rig->pose);
@@ -303,6 +308,9 @@ static ffd_status make_rig(gltf_skeleton *rig, ffd_error *error)
     if (!status)
         status = ffd_gltf_make_pose(d, &rig->pose, error);
     if (!status)
+        status = ffd_gltf_follow_transforms(rig, error);
+    rig->pose.rest = rig->nodes;
+    if (!status)
         status = make_tables(rig, error);
     if (status)
         return status;
@@ -323,7 +331,8 @@ static bool has_any(const gltf_document *d, const char *list)
     return ffd_gltf_first(d, 0, list) != JSON_NONE;
 }
 
-ffd_status ffd_gltf_read_skeleton(mesh_document *document, mesh_skeleton **skeleton, ffd_error *error)
+ffd_status ffd_gltf_read_skeleton(mesh_document *document, bool after, mesh_skeleton **skeleton,
+                                  ffd_error *error)
 {
     gltf_document *const d = (gltf_document *)document;
     *skeleton = NULL;
@@ -333,6 +342,7 @@ ffd_status ffd_gltf_read_skeleton(mesh_document *document, mesh_skeleton **skele
     if (!rig)
         return ffd_fail_memory(error);
     rig->document = d;
+    rig->follows = after && d->rig;
     rig->base.load = load;
     rig->base.pose = pose;
     rig->base.free = free_rig;

@@ -1,9 +1,9 @@
 /* gltf_anchors.c - the vertices of a file, and the offsets of its morph targets, in a skeleton. */
 #include "base/memory/memory.h"
-#include "io/gltf/animation/gltf_skeleton.h"
 #include "io/gltf/decode/gltf_read.h"
 #include "io/gltf/scene/gltf_scene.h"
 #include "io/gltf/scene/gltf_shown.h"
+#include "io/gltf/skeleton/gltf_skeleton.h"
 #include <string.h>
 
 typedef struct anchor_work {
@@ -24,8 +24,9 @@ static const double *rest_of(const anchor_work *w, size_t part)
     const gltf_skin *const skin = d->parts[part].skin;
     if (skin)
         return w->rig->skin_rest + 12 * (skin - d->skins);
-    return d->mesh_parts[part].singular || d->mesh_parts[part].identity ? identity
-                                                                        : d->world + 12 * d->parts[part].node;
+    const double *const world = ffd_gltf_skeleton_world(w->rig, d->parts[part].node);
+    double inverse[9];
+    return mat_invert(world, inverse) ? world : identity;
 }
 
 /* Puts the results of a stream over its values where they differ; integers may be more precise than floats.

@@ -1,7 +1,7 @@
 /* gltf_influences.c - which bones each vertex of a file follows. */
 #include "base/memory/memory.h"
-#include "io/gltf/animation/gltf_skeleton.h"
 #include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/skeleton/gltf_skeleton.h"
 
 #define MOST 64 /* influences of a vertex: of 16 sets */
 
