@@ -157,4 +157,22 @@ def a_deformed_file_moves_as_it_says(run):
     equal(page.scene["rig"]["animations"][0]["channels"][1], None, "no channels after")
 
 
+@case
+def a_rig_that_follows_moves_the_mesh_after(run):
+    """As the file does that is written: a lattice that turns the arm by 40 degrees and makes it longer."""
+    moves = [{"rotate": {"axis": "z", "degrees": 40, "about": [0, 0, 0]}}, {"scale": {"factor": [1.2] * 3, "about": [0, 0, 0]}}]
+    work = start(run, moves)
+    run.ffd("deform", "a.gltf", "b.gltf", "-l", "l.json", "--rig", "follow")
+    shown = ["--animation", "turn", "--size", "160x160", "--frames", "3", "--camera", "front", "--color", "plain"]
+    followed = picture(run, *work, *shown, "--rig", "follow")
+    check(followed == picture(run, "a.gltf", "b.gltf", *shown), "the file and the deformation in memory")
+    check(followed != picture(run, *work, *shown, err=lambda said: None), "a rig that stays")
+    page = read(run, *work, "--rig", "follow")
+    equal([page.scene["rig"]["isShared"], page.scene["rig"]["hasAfter"]], [False, True], "a rig of its own")
+    other = read(run, "a.gltf", "b.gltf")
+    for name, code, width in (("value", "f", 1), ("bind", "f", 12), ("node", "f", 12), ("anchor", "f", 3)):
+        block = f"data-rig-after-{name}"
+        near(page.rows(block, code, width), other.rows(block, code, width), 1e-6, block)
+
+
 main()
