@@ -18,8 +18,9 @@ typedef struct layout {
 
 /* Finds the places. */
 layout ffd_layout_make(const picture *of);
-/* The first pixel of a column of panels, or of a row of them; of their number: the end of the last. */
+/* The first pixel of a column of panels; of their number: the end of the last. */
 int32_t ffd_layout_column(const layout *by, size_t column);
+/* The same of a row of them. */
 int32_t ffd_layout_row(const layout *by, size_t row);
 /* The background of a row. */
 uint64_t ffd_layout_background(const layout *by, const linear_tables *tables, int32_t row);

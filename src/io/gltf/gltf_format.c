@@ -1,6 +1,5 @@
 /* gltf_format.c - the table of functions for .gltf and .glb files. */
 #include "io/gltf/gltf_format.h"
-#include "io/gltf/skeleton/gltf_skeleton.h"
 #include "io/gltf/decode/gltf_read.h"
 #include "io/gltf/gltf_as_morph.h"
 #include "io/gltf/gltf_compare.h"
@@ -25,6 +24,7 @@
 #include "io/gltf/scene/gltf_shown.h"
 #include "io/gltf/scene/gltf_skin.h"
 #include "io/gltf/scene/gltf_used.h"
+#include "io/gltf/skeleton/gltf_skeleton.h"
 #include <float.h>
 
 static ffd_status check(const mesh_document *document, ffd_error *error)

@@ -7,15 +7,6 @@
 
 static const double identity[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
 
-ffd_status ffd_gltf_skeleton_take(gltf_skeleton *rig, uint64_t count, uint64_t size, ffd_error *error)
-{
-    memory_budget *const budget = &rig->document->base.budget;
-    const uint64_t before = budget->taken;
-    const ffd_status status = ffd_budget_take(budget, count, size, error);
-    rig->taken += budget->taken - before;
-    return status;
-}
-
 /* Whether the vertices of a part are among those that a job counts. */
 static bool has_vertices(const gltf_document *d, size_t part)
 {

@@ -27,7 +27,15 @@ mesh_read_skeleton_function ffd_gltf_read_skeleton;
 mesh_read_anchors_function ffd_gltf_read_anchors;
 
 /* Takes memory from the document's budget until the rig is freed. Errors: FFD_E_LIMIT. */
-ffd_status ffd_gltf_skeleton_take(gltf_skeleton *rig, uint64_t count, uint64_t size, ffd_error *error);
+static inline ffd_status ffd_gltf_skeleton_take(gltf_skeleton *skeleton, uint64_t count, uint64_t size,
+                                                ffd_error *error)
+{
+    memory_budget *const budget = &skeleton->document->base.budget;
+    const uint64_t before = budget->taken;
+    const ffd_status status = ffd_budget_take(budget, count, size, error);
+    skeleton->taken += budget->taken - before;
+    return status;
+}
 
 /* The matrix of a node by default. */
 const double *ffd_gltf_skeleton_world(const gltf_skeleton *skeleton, size_t node);
