@@ -402,8 +402,13 @@ typedef struct ffd_view_desc {
     /* Of a picture, or of each in a row, in pixels; 0: 1600 and 900. A page is as large as its window. */
     uint32_t width, height;
     uint32_t frames; /* pictures in a row, from rest to deformed: 2 to 64; 0: before and after share one */
-    bool as_stored;  /* shapes are those that the file stores, as ffd_check_run judges them; else those that
-                        default weights of morph targets show */
+    /* Of the input, by its name; one without a name is "animation N", N from 0. A picture shows frames poses
+       (0: 5) over its time in a row, and those of the deformed mesh in a row below; the lattices are not
+       drawn. A page, which has all animations, opens with this one. NULL: none. The deformed mesh moves as
+       its own file says, or where it is in memory as the input does. */
+    const char *animation;
+    bool as_stored; /* shapes are those that the file stores, as ffd_check_run judges them; else those that
+                       default weights of morph targets show */
 } ffd_view_desc;
 
 /* Shows before and after, colours by displacement, is not full. */

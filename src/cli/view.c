@@ -7,6 +7,7 @@
 typedef struct settings {
     cli_job job;
     const char *output, *deformed; /* deformed: the second mesh; NULL: there is none */
+    const char *animation;
     double camera[3];
     int color;
     uint32_t size[2], frames;
@@ -107,6 +108,9 @@ static const cli_option options[] = {
     {"size", 0, "WxH", "pixels of the picture, or of each in a row; default 1600x900", set_size, 0, NULL},
     {"frames", 0, "N", "so many pictures in a row, from rest to deformed; default before and after in one",
      set_frames, 0, NULL},
+    {"animation", 0, "NAME",
+     "poses of this animation, 5 or --frames of them, and below them deformed; a page opens with it",
+     cli_set_text, AT(animation), NULL},
     {"camera", 0, "front|back|left|right|top|iso|x,y,z",
      "where one looks from, y upwards; default iso, right above in front", set_camera, 0, camera_names},
     {"color", 0, "displacement|status|det|plain",
@@ -136,6 +140,7 @@ static int show(cli_job *job, const char *input, ffd_report *report)
     view.width = s->size[0];
     view.height = s->size[1];
     view.frames = s->frames;
+    view.animation = s->animation;
     memcpy(view.camera, s->camera, sizeof view.camera);
     if (s->deformed) {
         deformed = desc.input;
@@ -215,6 +220,8 @@ static const cli_example examples[] = {
     {"a picture, before and after side by side", "ffd view cow.obj -l bend.json -o bend.png --camera front"},
     {"a row of five pictures, from rest to deformed",
      "ffd view cow.obj -l bend.json -o row.png --frames 5 --size 300x400"},
+    {"five poses of an animation, and below them deformed",
+     "ffd view knight.glb -l tall.json -o walk.png --animation Walking_A --size 300x400"},
     {NULL, NULL},
 };
 

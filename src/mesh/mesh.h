@@ -18,6 +18,7 @@
 #include "mesh/memory_budget.h"
 #include "mesh/mesh_log.h"
 #include "mesh/model.h"
+#include "mesh/rig.h"
 #include "mesh/rounding.h"
 #include "mesh/selector.h"
 #include "json/json_text.h"
@@ -254,6 +255,10 @@ typedef ffd_status mesh_corner_normals_function(const mesh_document *document, c
 typedef ffd_status mesh_model_function(const mesh_document *document, mesh_model *model, ffd_error *error);
 typedef ffd_status mesh_list_materials_function(mesh_document *document, const mesh_log *log,
                                                 mesh_materials *materials, ffd_error *error);
+typedef ffd_status mesh_read_skeleton_function(mesh_document *document, bool after, mesh_skeleton **skeleton,
+                                               ffd_error *error);
+typedef ffd_status mesh_read_anchors_function(const mesh_skeleton *skeleton, bool after,
+                                              mesh_anchors *anchors, ffd_error *error);
 typedef ffd_status mesh_describe_function(const mesh_document *document, json_text *json, ffd_error *error);
 typedef ffd_status mesh_compare_function(const mesh_document *a, const mesh_document *b,
                                          ffd_comparison *comparison, ffd_error *error);
@@ -385,6 +390,15 @@ typedef struct mesh_format {
        from the document's memory budget, for as long as it is open. NULL: there are none. Errors:
        FFD_E_MEMORY, FFD_E_LIMIT. */
     mesh_list_materials_function *list_materials;
+    /* Makes the skeleton of a document with animations or skins, none of whose keys are loaded; to be freed
+       before the document is closed. after: that of the deformed mesh, where follow has moved it.
+       *skeleton is NULL where there are none. NULL: the format has none.
+       Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
+    mesh_read_skeleton_function *read_skeleton;
+    /* Fills anchors, which the caller frees in every case, with the vertices as the file has them, or as the
+       results of a deformation are; the targets are those that animations drive which are loaded. shown: as
+       for read_positions. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
+    mesh_read_anchors_function *read_anchors;
     mesh_describe_function *describe;
 
     /* Compares two documents of this format (see ffd_compare_run). The comparison is begun

@@ -25,26 +25,33 @@ static double scale_height(const picture_scale *scale)
 
 layout ffd_layout_make(const picture *of)
 {
-    const double panel = (double)of->width / (double)(of->panel_count ? of->panel_count : 1);
-    layout by = {.of = of};
+    layout by = {.of = of, .rows = of->rows ? of->rows : 1};
+    by.columns = of->panel_count > by.rows ? of->panel_count / by.rows : 1;
+    const double panel = (double)of->width / (double)by.columns, row = of->height / (double)by.rows;
     /* Letters of a size that a tenth of the height holds well, in halves of a pixel, so that they are sharp.
      */
-    by.dot = larger_of(1, lesser_of(4, floor(lesser_of(of->height / 360.0, panel / 240) * 2) / 2));
-    by.line = larger_of(0.6, lesser_of(3, lesser_of(of->height, panel) / 500));
+    by.dot = larger_of(1, lesser_of(4, floor(lesser_of(row / 360.0, panel / 240) * 2) / 2));
+    by.line = larger_of(0.6, lesser_of(3, lesser_of(row, panel) / 500));
     by.margin = MARGIN * by.dot;
     by.top = by.margin;
-    by.bottom = of->height - by.margin;
     for (size_t i = 0; i < of->panel_count; i++)
         if (of->panels[i].caption)
             by.top = (2 * MARGIN + LETTER_ROWS) * by.dot;
-    if (of->scale)
-        by.bottom -= (scale_height(of->scale) + GAP) * by.dot;
+    by.row_height = of->height - (of->scale ? (scale_height(of->scale) + GAP) * by.dot : 0);
+    if (by.rows > 1)
+        by.row_height = floor(by.row_height / (double)by.rows);
+    by.bottom = by.row_height - by.margin;
     return by;
 }
 
-int32_t ffd_layout_column(const layout *by, size_t panel)
+int32_t ffd_layout_column(const layout *by, size_t column)
 {
-    return (int32_t)((uint64_t)by->of->width * panel / (by->of->panel_count ? by->of->panel_count : 1));
+    return (int32_t)((uint64_t)by->of->width * column / by->columns);
+}
+
+int32_t ffd_layout_row(const layout *by, size_t row)
+{
+    return row < by->rows ? (int32_t)(by->row_height * (double)row) : (int32_t)by->of->height;
 }
 
 uint64_t ffd_layout_background(const layout *by, const linear_tables *tables, int32_t row)
@@ -133,13 +140,17 @@ static void draw_scale(const layout *by, const linear_tables *tables, const stro
 
 void ffd_layout_draw(const layout *by, const linear_tables *tables, const stroke_target *into)
 {
-    const double divided = by->of->scale ? by->bottom + by->margin : by->of->height;
+    const double divided = by->of->scale ? by->row_height * (double)by->rows : by->of->height;
     for (size_t i = 0; i < by->of->panel_count; i++) {
-        const int32_t left = ffd_layout_column(by, i), right = ffd_layout_column(by, i + 1);
-        if (i > 0)
+        const size_t column = i % by->columns, row = i / by->columns;
+        const int32_t left = ffd_layout_column(by, column), right = ffd_layout_column(by, column + 1),
+                      top = ffd_layout_row(by, row);
+        if (column > 0 && row == 0)
             fill(into, left, 0, left + 1, divided, from_bytes(tables, divider));
-        if (by->of->panels[i].caption && into->top < by->top)
-            write_middle(by, into, by->of->panels[i].caption, (left + right) / 2.0, by->margin,
+        if (row > 0 && column == 0)
+            fill(into, 0, top, by->of->width, top + 1, from_bytes(tables, divider));
+        if (by->of->panels[i].caption && into->top < top + by->top)
+            write_middle(by, into, by->of->panels[i].caption, (left + right) / 2.0, top + by->margin,
                          from_bytes(tables, ink));
     }
     if (by->of->scale)

@@ -70,14 +70,17 @@ ffd_status ffd_panel_make(const layout *by, size_t number, const ffd_bounds *see
     const picture_panel *const of = &by->of->panels[number];
     *result = (panel){.of = of,
                       .layout = by,
-                      .left = ffd_layout_column(by, number),
-                      .right = ffd_layout_column(by, number + 1),
+                      .left = ffd_layout_column(by, number % by->columns),
+                      .right = ffd_layout_column(by, number % by->columns + 1),
+                      .top = ffd_layout_row(by, number / by->columns),
+                      .bottom = ffd_layout_row(by, number / by->columns + 1),
                       .meshes = ffd_alloc_zero(of->mesh_count, sizeof *result->meshes),
                       .cages = ffd_alloc_zero(of->cage_count, sizeof *result->cages)};
     /* Panels whose widths differ by a pixel have one scale still. */
-    const double width = floor((double)by->of->width / (double)by->of->panel_count) - 2 * by->margin;
-    const projection to = ffd_camera_fit(&by->of->camera, seen, floor((result->left + result->right) / 2.0),
-                                         (by->top + by->bottom) / 2, width, by->bottom - by->top);
+    const double width = floor((double)by->of->width / (double)by->columns) - 2 * by->margin;
+    const projection to =
+        ffd_camera_fit(&by->of->camera, seen, floor((result->left + result->right) / 2.0),
+                       result->top + (by->top + by->bottom) / 2, width, by->bottom - by->top);
     ffd_status status = result->meshes && result->cages ? FFD_OK : ffd_fail_memory(error);
     for (size_t i = 0; !status && i < of->mesh_count; i++)
         status = make_mesh(&of->meshes[i], &to, by->of, means, &result->meshes[i], error);

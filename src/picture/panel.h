@@ -21,7 +21,7 @@ typedef struct panel_cage {
 typedef struct panel {
     const picture_panel *of;
     const layout *layout;
-    int32_t left, right; /* columns */
+    int32_t left, right, top, bottom; /* columns and rows */
     panel_mesh *meshes;
     panel_cage *cages;
 } panel;

@@ -32,7 +32,7 @@ static ffd_status check_size(const picture *of, const memory_budget *budget, ffd
     const uint64_t pixels = (uint64_t)of->width * of->height;
     if (of->width == 0 || of->height == 0 || of->width > PICTURE_MOST_SIDE ||
         of->height > PICTURE_MOST_SIDE || pixels > PICTURE_MOST_PIXELS || of->panel_count == 0 ||
-        of->panel_count > of->width)
+        of->panel_count > of->width || of->rows > of->height || (of->rows && of->panel_count % of->rows))
         return ffd_fail(error, FFD_E_ARGUMENT,
                         "a picture of %lu x %lu pixels; it has 1 to %d a side, and %llu at most",
                         (unsigned long)of->width, (unsigned long)of->height, PICTURE_MOST_SIDE,
@@ -78,7 +78,7 @@ static ffd_bounds find_bounds(const picture *of)
 /* Columns of the widest panel at most. */
 static size_t widest_of(const picture *of)
 {
-    return of->width / of->panel_count + 1;
+    return of->width / (of->panel_count / (of->rows ? of->rows : 1)) + 1;
 }
 
 static ffd_status make(drawing *d, ffd_error *error)
@@ -142,14 +142,17 @@ static void put_bytes(const drawing *d, const stroke_target *from)
     }
 }
 
-/* Draws what is in the panel's columns of a band. */
+/* Draws what of a band is the panel's. */
 static void draw_band(void *context, size_t band, size_t begin, size_t end, int worker)
 {
     const drawing *const d = context;
     const panel *const of = &d->drawn;
     const scratch *const s = &d->scratch[worker];
-    samples at = {of->left, (int32_t)begin, of->right - of->left, (int32_t)(end - begin), s->depth,
-                  s->color, s->blocks};
+    const int32_t top = (int32_t)begin > of->top ? (int32_t)begin : of->top,
+                  bottom = (int32_t)end < of->bottom ? (int32_t)end : of->bottom;
+    if (top >= bottom)
+        return;
+    samples at = {of->left, top, of->right - of->left, bottom - top, s->depth, s->color, s->blocks};
     stroke_target into = {at.left, at.top, at.width, at.rows, s->color, &at};
     clear(d, &at);
     ffd_panel_draw_meshes(of, &d->tables, band, &at);

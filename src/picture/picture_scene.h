@@ -67,8 +67,9 @@ typedef struct picture_scale {
 /* All panels have one camera and one scale, so that lengths compare. */
 typedef struct picture {
     uint32_t width, height;      /* of all, in pixels */
-    const picture_panel *panels; /* side by side, of the same width */
+    const picture_panel *panels; /* row by row, side by side, of the same size */
     size_t panel_count;
+    size_t rows;                /* each of as many panels; 0: one */
     const picture_scale *scale; /* or NULL */
     camera camera;
     /* What is to be seen, along the camera's axes (ffd_camera_widen); NULL: all points of all panels. */

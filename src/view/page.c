@@ -15,6 +15,7 @@ typedef struct page_work {
     const view_page_options *options;
     page_mesh mesh;
     page_data data;
+    page_rig rig;
     page_description description;
     bool *has_cage;
     page_writer writer;
@@ -77,6 +78,25 @@ static void say_what_is_left_out(page_work *work, size_t used)
         give_notice(work, "the mesh has no vertices");
 }
 
+/* Animations that a page cannot have are left out, and said. */
+static ffd_status make_rig(page_work *work, ffd_error *error)
+{
+    ffd_error own = {0};
+    const ffd_status status = ffd_page_rig_make(&work->mesh, &work->rig, &own);
+    if (work->rig.reduced)
+        give_notice(work, "%zu %s more than %d joints (up to %zu): animations move %s by the largest weights",
+                    work->rig.reduced, ffd_plural(work->rig.reduced, "vertex follows", "vertices follow"),
+                    PAGE_BONES, work->rig.most_bones, ffd_plural(work->rig.reduced, "it", "them"));
+    if (status == FFD_E_LIMIT) {
+        ffd_page_rig_free(&work->rig);
+        give_notice(work, "the animations are left out: %s", own.message);
+        return FFD_OK;
+    }
+    if (status && error)
+        *error = own;
+    return status;
+}
+
 static ffd_status prepare(page_work *work, ffd_error *error)
 {
     ffd_status status = ffd_page_mesh_take(work->scene, &work->mesh, error);
@@ -91,7 +111,8 @@ static ffd_status prepare(page_work *work, ffd_error *error)
         return status;
     ffd_page_data_measure(&work->mesh, &work->data);
     say_what_is_left_out(work, used);
-    return choose_cages(work, error);
+    status = make_rig(work, error);
+    return status ? status : choose_cages(work, error);
 }
 
 static void write_json(page_work *work, const char *id, byte_buffer *json)
@@ -127,6 +148,7 @@ static void write_data(page_work *work)
     ffd_page_describe(&work->description, &description);
     write_json(work, "scene", &description);
     ffd_page_data_write(&work->data, &work->writer);
+    ffd_page_rig_write(&work->rig, &work->writer);
     for (size_t i = 0; i < scene->cage_count; i++) {
         char id[40];
         snprintf(id, sizeof id, "data-cage-%zu", i);
@@ -140,6 +162,7 @@ ffd_status ffd_view_page_write(const view_scene *scene, const view_page_options 
 {
     page_work work = {.scene = scene, .options = options};
     work.description.data = &work.data;
+    work.description.rig = &work.rig;
     work.description.options = options;
     ffd_status status = prepare(&work, error);
     if (!status && !ffd_page_writer_begin(&work.writer, output, error)) {
@@ -152,6 +175,7 @@ ffd_status ffd_view_page_write(const view_scene *scene, const view_page_options 
     if (!status)
         status = ffd_page_writer_end(&work.writer);
     ffd_page_mesh_free(&work.mesh);
+    ffd_page_rig_free(&work.rig);
     ffd_free(work.has_cage);
     return status;
 }

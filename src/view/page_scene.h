@@ -4,12 +4,14 @@
 
 #include "view/page_data.h"
 #include "view/page_options.h"
+#include "view/page_rig.h"
 
 /* Where a page shows less than its scene has, in sentences. */
-#define PAGE_NOTICES 4
+#define PAGE_NOTICES 6
 
 typedef struct page_description {
     const page_data *data;
+    const page_rig *rig;
     const view_page_options *options;
     const bool *has_cage; /* one a cage: the page has its points */
     char notices[PAGE_NOTICES][160];

@@ -1,10 +1,12 @@
 #include "view/view_picture.h"
 #include "base/memory/memory.h"
 #include "base/text/words.h"
+#include "mesh/bounds.h"
 #include "picture/image/image.h"
 #include "view/view_cages.h"
 #include "view/view_fit.h"
 #include "view/view_palette.h"
+#include "view/view_pose.h"
 #include "view/view_surface.h"
 #include <inttypes.h>
 #include <math.h>
@@ -16,10 +18,14 @@
 /* Meshes of a panel: what is as it was, and what is flipped. */
 #define MESHES 2
 
-/* One step of the way from before to after. */
+/* Bytes of a caption. */
+#define CAPTION 40
+
+/* One step of the way from before to after, or a pose of either. */
 typedef struct step {
-    double share;      /* of the way: 0 to 1 */
-    double *positions; /* owned where it is neither before nor after */
+    double share; /* of the way: 0 to 1 */
+    double *positions;
+    bool owns_positions;
     uint8_t *colors;
     picture_mesh meshes[MESHES];
     view_cages cages;
@@ -34,7 +40,7 @@ typedef struct picture_work {
     uint32_t *twins, *white; /* white: the material of each triangle that is coloured by a palette */
     step step;               /* the one that is drawn */
     picture_panel *panels;
-    char (*captions)[16]; /* of each panel */
+    char (*captions)[CAPTION]; /* of each panel */
     size_t step_count;
     camera camera;
     ffd_bounds seen; /* along the camera's axes */
@@ -55,7 +61,8 @@ static uint32_t height_of(const view_picture_options *options)
 
 ffd_status ffd_view_picture_check(const view_picture_options *options, ffd_error *error)
 {
-    const uint32_t width = width_of(options), height = height_of(options), frames = options->frames;
+    const uint32_t width = width_of(options), frames = options->frames;
+    const uint64_t height = (uint64_t)height_of(options) * (options->rows ? options->rows : 1);
     const uint64_t all = (uint64_t)width * (frames ? frames : 1);
     if (frames == 1 || frames > VIEW_FRAMES)
         return ffd_fail(error, FFD_E_ARGUMENT, "%u frames are not possible: 2 to %d are", (unsigned)frames,
@@ -63,9 +70,9 @@ ffd_status ffd_view_picture_check(const view_picture_options *options, ffd_error
     if (all > PICTURE_MOST_SIDE || height > PICTURE_MOST_SIDE || all * height > PICTURE_MOST_PIXELS)
         return ffd_fail(
             error, FFD_E_ARGUMENT,
-            "a picture of %llu x %u pixels is not possible: %d is the longest side, %llu the most "
+            "a picture of %llu x %llu pixels is not possible: %d is the longest side, %llu the most "
             "pixels",
-            (unsigned long long)all, (unsigned)height, PICTURE_MOST_SIDE,
+            (unsigned long long)all, (unsigned long long)height, PICTURE_MOST_SIDE,
             (unsigned long long)PICTURE_MOST_PIXELS);
     return FFD_OK;
 }
@@ -74,7 +81,7 @@ ffd_status ffd_view_picture_check(const view_picture_options *options, ffd_error
 static size_t count_steps(const view_scene *scene, const view_picture_options *options)
 {
     if (options->frames)
-        return options->frames;
+        return options->frames * (options->rows ? options->rows : 1);
     return scene->statuses || scene->output || scene->cage_count ? 2 : 1;
 }
 
@@ -132,13 +139,43 @@ static void say_what_is_left_out(const picture_work *w)
                      scene->tear_count, scene->tear_edges);
 }
 
-static ffd_status place(picture_work *w, step *s)
+/* The time of the animation that a panel shows: from its first key to its last. */
+static double time_of(const picture_work *w, size_t number)
 {
     const view_scene *const scene = w->scene;
+    const size_t count = w->options->frames, i = number % count;
+    const rig_animation *const of =
+        &scene->rigs[0].skeleton->animations[scene->animations[scene->animation].of[0]];
+    return i + 1 == count ? of->end : of->begin + (of->end - of->begin) * (double)i / (double)(count - 1);
+}
+
+/* The mesh before in the first row, after in the second. */
+static ffd_status pose(picture_work *w, size_t number, step *s)
+{
+    const int side = number < w->options->frames ? 0 : 1;
+    const ffd_status status =
+        ffd_view_pose(w->scene, side, w->scene->animation, time_of(w, number), &s->positions, w->error);
+    s->share = side;
+    s->owns_positions = true;
+    for (size_t i = 0; w->used && s->positions && i < 3 * w->scene->vertex_count; i++)
+        if (!w->used[i / 3])
+            s->positions[i] = NAN;
+    return status;
+}
+
+static ffd_status place(picture_work *w, size_t number, step *s)
+{
+    const view_scene *const scene = w->scene;
+    if (w->options->rows)
+        return pose(w, number, s);
+    s->share = number + 1 == w->step_count && number ? 1
+               : number                              ? (double)number / (double)(w->step_count - 1)
+                                                     : 0;
     if (!w->used && (s->share <= 0 || s->share >= 1)) {
         s->positions = s->share <= 0 ? scene->before : scene->after;
         return FFD_OK;
     }
+    s->owns_positions = true;
     s->positions = ffd_alloc(scene->vertex_count, 3 * sizeof *s->positions);
     for (size_t i = 0; s->positions && i < 3 * scene->vertex_count; i++)
         s->positions[i] = w->used && !w->used[i / 3] ? NAN
@@ -196,18 +233,24 @@ static void make_meshes(const picture_work *w, step *s, bool is_plain)
     s->meshes[1] = mesh;
 }
 
-static void name_step(const picture_work *w, size_t number, char caption[16])
+static void name_step(const picture_work *w, size_t number, char caption[CAPTION])
 {
-    if (w->step_count == 2)
-        snprintf(caption, 16, "%s", number ? "after" : "before");
+    if (w->options->rows)
+        snprintf(caption, CAPTION, "%s%.2f s",
+                 w->options->rows == 1         ? ""
+                 : number < w->options->frames ? "before "
+                                               : "after ",
+                 time_of(w, number));
+    else if (w->step_count == 2)
+        snprintf(caption, CAPTION, "%s", number ? "after" : "before");
     else
-        snprintf(caption, 16, "%zu %%", (100 * number + (w->step_count - 1) / 2) / (w->step_count - 1));
+        snprintf(caption, CAPTION, "%zu %%", (100 * number + (w->step_count - 1) / 2) / (w->step_count - 1));
 }
 
 static void free_step(picture_work *w)
 {
     step *const s = &w->step;
-    if (s->positions != w->scene->before && s->positions != w->scene->after)
+    if (s->owns_positions)
         ffd_free(s->positions);
     ffd_free(s->colors);
     ffd_view_cages_free(&s->cages);
@@ -224,6 +267,18 @@ static void say_which_are_left_out(const picture_work *w)
                      ffd_plural(all, "lattice is", "lattices are"), VIEW_PICTURE_CONTROLS);
 }
 
+/* The lattices stand round the mesh at rest, and so does a witness: with poses they are not drawn. */
+static ffd_status make_cages(const picture_work *w, step *s, ffd_error *error)
+{
+    view_scene scene = *w->scene;
+    if (w->options->rows) {
+        scene.cage_count = 0;
+        scene.has_witness = false;
+    }
+    return ffd_view_cages_make(&scene, s->share, s->positions, height_of(w->options), VIEW_PICTURE_CONTROLS,
+                               &s->cages, error);
+}
+
 /* One step is there at a time: each has its own places and colours of all vertices. */
 static ffd_status make_step(void *context, size_t number, ffd_error *error)
 {
@@ -231,17 +286,13 @@ static ffd_status make_step(void *context, size_t number, ffd_error *error)
     step *const s = &w->step;
     view_palette own;
     free_step(w);
-    s->share = number + 1 == w->step_count && number ? 1
-               : number                              ? (double)number / (double)(w->step_count - 1)
-                                                     : 0;
-    ffd_status status = place(w, s);
+    ffd_status status = place(w, number, s);
     if (!status)
         status = paint(w, s, &own);
     if (status)
         return status;
     make_meshes(w, s, own.color == VIEW_BY_MATERIAL);
-    status = ffd_view_cages_make(w->scene, s->share, s->positions, height_of(w->options),
-                                 VIEW_PICTURE_CONTROLS, &s->cages, error);
+    status = make_cages(w, s, error);
     if (!status && number == 0)
         say_which_are_left_out(w);
     picture_panel *const panel = &w->panels[number];
@@ -263,6 +314,20 @@ static ffd_status name_panels(picture_work *w)
         w->panels[i].caption = w->captions[i];
     }
     return FFD_OK;
+}
+
+/* All poses are in the picture. */
+static ffd_status find_posed(picture_work *w)
+{
+    ffd_status status = FFD_OK;
+    w->seen = ffd_bounds_empty();
+    for (size_t i = 0; i < w->step_count && !status; i++) {
+        free_step(w);
+        status = pose(w, i, &w->step);
+        if (!status)
+            ffd_camera_widen(&w->camera, w->step.positions, w->scene->vertex_count, &w->seen);
+    }
+    return status;
 }
 
 static void find_seen(picture_work *w)
@@ -304,6 +369,8 @@ static ffd_status prepare(picture_work *w)
         status = find_used(scene, &w->used, w->error);
     if (!status)
         status = name_panels(w);
+    if (!status && options->rows)
+        return find_posed(w);
     if (!status)
         find_seen(w);
     return status;
@@ -329,9 +396,10 @@ static ffd_status draw(picture_work *w, file_output *output)
 {
     const view_picture_options *const options = w->options;
     const picture of = {.width = width_of(options) * (options->frames ? options->frames : 1),
-                        .height = height_of(options),
+                        .height = height_of(options) * (options->rows ? options->rows : 1),
                         .panels = w->panels,
                         .panel_count = w->step_count,
+                        .rows = options->rows,
                         .scale = w->palette.has_scale ? &w->palette.scale : NULL,
                         .camera = w->camera,
                         .seen = &w->seen,

@@ -17,6 +17,7 @@
 typedef struct view_picture_options {
     uint32_t width, height; /* of each picture, in pixels; 0: those above */
     uint32_t frames;        /* pictures in one row, 2 or more; 0: before and after share one */
+    uint32_t rows;          /* of poses of scene->animation: 2, or 1 where nothing is deformed; 0: no poses */
     view_page_color color;
     double camera[3]; /* as of a page */
     int threads;

@@ -12,6 +12,32 @@ static void free_lists(view_scene *scene)
         ffd_free(scene->parts[i].name);
 }
 
+static void free_anchors(mesh_anchors *anchors)
+{
+    for (size_t t = 0; t < anchors->target_count; t++)
+        ffd_free(anchors->targets[t].offsets);
+    ffd_free(anchors->targets);
+    ffd_free(anchors->points);
+    *anchors = (mesh_anchors){0};
+}
+
+void ffd_view_scene_free_rigs(view_scene *scene)
+{
+    mesh_skeleton *const before = scene->rigs[0].skeleton, *const after = scene->rigs[1].skeleton;
+    for (int side = 0; side < 2; side++)
+        free_anchors(&scene->rigs[side].anchors);
+    if (before)
+        before->free(before);
+    if (after && after != before)
+        after->free(after);
+    scene->rigs[0].skeleton = scene->rigs[1].skeleton = NULL;
+    for (size_t i = 0; i < scene->animation_count; i++)
+        ffd_free(scene->animations[i].name);
+    ffd_free(scene->animations);
+    scene->animations = NULL;
+    scene->animation_count = 0;
+}
+
 void ffd_view_scene_free(view_scene *scene)
 {
     void *const blocks[] = {
@@ -19,6 +45,7 @@ void ffd_view_scene_free(view_scene *scene)
         scene->dets,   scene->colors, scene->triangles, scene->texcoords, scene->flipped, scene->segments,
         scene->points, scene->parts,  scene->cages,     scene->tears,     scene->report};
     free_lists(scene);
+    ffd_view_scene_free_rigs(scene);
     ffd_materials_free(&scene->materials);
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
         ffd_free(blocks[i]);

@@ -5,6 +5,7 @@
 
 #include "base/fail.h"
 #include "mesh/material.h"
+#include "mesh/rig.h"
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -34,6 +35,18 @@ typedef struct view_tear {
     double step;
 } view_tear;
 
+/* What moves the mesh before, or after. */
+typedef struct view_rig {
+    mesh_skeleton *skeleton; /* NULL: nothing does; that after may be the one before */
+    mesh_anchors anchors;
+} view_rig;
+
+/* An animation of the mesh before and the one of the same name after. */
+typedef struct view_animation {
+    char *name;
+    size_t of[2]; /* in the skeleton before and in that after; RIG_NONE: it has none, or it cannot be read */
+} view_animation;
+
 typedef struct view_scene {
     char *name;   /* of the mesh, for a title */
     char *output; /* of the deformed mesh, or NULL: it is in memory only */
@@ -62,11 +75,17 @@ typedef struct view_scene {
     double witness_rest[3], witness_deformed[3], witness_uvw[3], witness_det;
     size_t witness_cage;
     double displacement_max;
+    view_rig rigs[2]; /* before and after */
+    view_animation *animations;
+    size_t animation_count;
+    size_t animation;      /* that is shown first; animation_count or more: none */
     char *report;          /* JSON as data/schema/formats.md 2 has it; NULL: there is none */
     uint64_t vertices_all; /* of the mesh, where vertex_count is what a reduction left; else equal */
 } view_scene;
 
-/* Frees what a scene holds; leaves an empty one. */
+/* Frees its rigs and animations, whose documents must still be open. */
+void ffd_view_scene_free_rigs(view_scene *scene);
+/* Frees what a scene holds, its rigs too; leaves an empty one. */
 void ffd_view_scene_free(view_scene *scene);
 
 #endif

@@ -565,6 +565,31 @@ m("compressed-image-as-it-is", "wrong source", "materials", "view == GLTF_NONE ?
   "view == GLTF_NONE\n                                           ? NULL\n                                           : d->buffers[0].data + d->model.views[view].offset;")
 m("image-of-a-view-twice", "cache left out", "materials", 'v == GLTF_NONE ? image : v);', 'image);')
 
+# io/gltf/animation
+
+m("key-at-its-time", "bound", "gltf_animation, page_rig", "if (sampler->times[middle] <= time) low = middle;",
+  "if (sampler->times[middle] < time) low = middle;")
+m("slerp-the-long-way", "sign", "gltf_animation, cli_view_animation", "sign = cosine >= 0 ? 1 : -1", "sign = 1")
+m("spline-not-normalized", "left out", "gltf_animation", "if (is_rotation) normalize(value);", "if (!is_rotation) normalize(value);")
+m("spline-tangents-swapped", "operand", "gltf_animation", "const double *const in = out + width, *const v1 = in + width;",
+  "const double *const in = out + width, *const v1 = out + width;")
+m("falling-times", "bound", "gltf_animation, cli_view_animation", "if (i > 0 && sampler->times[i] < sampler->times[i - 1])",
+  "if (i > 1 && sampler->times[i] < sampler->times[i - 1])")
+m("keys-of-nothing-are-checked", "condition", "gltf_animation", "if (ffd_gltf_channel_drives(&animation->channels[c])) status = load_channel(",
+  "if (animation->channels[c].sampler != GLTF_NONE) status = load_channel(")
+m("weights-of-nodes-only", "condition", "gltf_animation", "return value != JSON_NONE || d->model.nodes[n].mesh < 0",
+  "return value == JSON_NONE || d->model.nodes[n].mesh < 0")
+m("matrix-not-taken-apart", "left out", "gltf_animation", "if (channel->path < GLTF_WEIGHTS && node->has_matrix)",
+  "if (channel->path > GLTF_WEIGHTS && node->has_matrix)")
+m("list-keeps-its-memory", "clean-up", "gltf_animation, view_pose", "ffd_budget_return(&d->base.budget, 1, animations->taken);", ";")
+m("weights-not-divided", "left out", "view_pose", "(float)(weights[i] / total)", "(float)(weights[i])")
+m("anchors-before-are-after", "condition", "view_pose, page_rig", "if (w->after) put_results(&d->parts[part].streams",
+  "if (!w->after) put_results(&d->parts[part].streams")
+m("offsets-of-the-first", "index", "view_pose", "mat_apply(rest, to->offsets + 3 * i, to->offsets + 3 * i);",
+  "mat_apply(rest, to->offsets, to->offsets);")
+m("bones-of-no-bind", "left out", "view_pose, page_rig", "ffd_gltf_join_matrix(binds + 12 * j, back, back + 9, bone->bind);",
+  "memcpy(bone->bind, binds + 12 * j, sizeof bone->bind);")
+
 # io/ply
 
 m("ply-big-endian", "endian", "ply", "(8 * (encoding == PLY_BIG_ENDIAN ? size - 1 - i : i))",
@@ -983,7 +1008,7 @@ m("last-corner-of-an-stl-vertex", "order", "cli_view", "for (size_t i = faces->c
   "for (size_t i = 0; i < faces->corner_count; i++) e->model->numbers")
 m("page-over-an-input", "check left out", "cli_view",
   "is_input = is_input || ffd_file_same(job->lattices[i], desc->output);", "is_input = is_input || ffd_file_same(job->lattices[i], job->input.path);")
-m("page-of-two-meshes", "check left out", "cli_view", "if (!status && ffd_mesh_vertex_count(other) != count)", "if (!status && ffd_mesh_vertex_count(other) < count)")
+m("page-of-two-meshes", "check left out", "cli_view", "if (!status && ffd_mesh_vertex_count(work->other) != count)", "if (!status && ffd_mesh_vertex_count(other) < count)")
 m("det-without-its-diagonal", "term left out", "cli_view", "for (size_t a = 0; a < 3; a++) f[4 * a] += 1;",
   "for (size_t a = 1; a < 3; a++)\n            f[4 * a] += 1;")
 m("flipped-by-the-first-face", "index", "cli_view", "const size_t face = faces[t];", "const size_t face = faces[t / 2];")
@@ -1049,3 +1074,18 @@ m("rig-lag-of-cameras", "selection", "cli_stays_behind, cli_rig", "const double 
 m("rig-small-lags-said", "threshold", "cli_rig", "#define LAG_SAID 1e-3", "#define LAG_SAID 1e-6")
 m("rig-by-a-morph", "check left out", "rig", "desc->rig == FFD_RIG_FOLLOW && (desc->as_morph || desc->input.space == FFD_SPACE_MESH)",
   "desc->rig == FFD_RIG_FOLLOW && desc->input.space == FFD_SPACE_MESH")
+
+# animations of views
+
+m("row-of-the-first", "index", "cli_view_animation", ".top = ffd_layout_row(by, number / by->columns),", ".top = ffd_layout_row(by, 0),")
+m("poses-of-one-side", "condition", "cli_view_animation", "const int side = number < w->options->frames ? 0 : 1;", "const int side = 0 * (int)number;")
+m("last-pose-too-early", "off by one", "cli_view_animation", "(of->end - of->begin) * (double)i / (double)(count - 1);",
+  "(of->end - of->begin) * (double)i / (double)count;")
+m("still-by-the-first-numbers", "bound", "page_rig, cli_view_animation", "i < channel->key_count * channel->width; i++)", "i < channel->key_count; i++)")
+m("joints-are-nodes", "flag", "cli_view_animation, page_rig", "(node->is_joint ? 1u : 0)", "(node->is_joint ? 0u : 0)")
+m("times-of-each-channel", "condition", "cli_view_animation", "if (*place == SIZE_MAX) { *place = to->size / 4;",
+  "if (*place == SIZE_MAX || *place == 0) { *place = to->size / 4;")
+m("broken-animation-stops-all", "condition", "cli_view_animation", "if (is_broken && animation != scene->animation)", "if (!is_broken && animation != scene->animation)")
+m("first-of-two-names", "condition", "cli_view_animation", "scene->animation = alike ? scene->animation : a;", "scene->animation = a;")
+m("smallest-of-many-bones", "condition", "view_page", "chosen[at - 1].weight < s->influences[i].weight", "chosen[at - 1].weight > s->influences[i].weight")
+m("follows-of-other-vertices", "index", "view_page", "if (follows) put_follow(rig, side, number_of(mesh, v));", "if (follows) put_follow(rig, side, v);")

@@ -41,6 +41,10 @@ LAYERS = {
         "base/memory", "base/text", "base/vector", "io/gltf/decode", "io/gltf/document", "io/gltf/refer",
         "io/gltf/scene",
     },
+    "io/gltf/skeleton": {
+        "base/memory", "base/vector", "io/gltf/animation", "io/gltf/decode", "io/gltf/document", "io/gltf/rig",
+        "io/gltf/scene", "mesh",
+    },
     "io/gltf/rig": {
         "base", "base/memory", "base/text", "base/vector", "io/gltf/animation", "io/gltf/decode", "io/gltf/document",
         "io/gltf/refer", "io/gltf/scene", "json", "mesh",
@@ -54,9 +58,9 @@ LAYERS = {
         "io/gltf/scene", "json", "mesh", "mesh/morph",
     },
     "io/gltf": {
-        "base/file", "base/memory", "base/system", "base/vector", "io/gltf/decode", "io/gltf/document",
-        "io/gltf/file", "io/gltf/model", "io/gltf/morph", "io/gltf/rig", "io/gltf/save", "io/gltf/scene", "json",
-        "mesh", "mesh/resource",
+        "base/file", "base/memory", "base/system", "base/vector", "io/gltf/decode", "io/gltf/document", "io/gltf/file",
+        "io/gltf/model", "io/gltf/morph", "io/gltf/rig", "io/gltf/save", "io/gltf/scene", "io/gltf/skeleton", "json", "mesh",
+        "mesh/resource",
     },
     "io/openmesh": {"base/memory", "base/system", "base/vector", "mesh"},
     "io/text": {"base", "base/file", "base/memory", "base/text", "mesh"},

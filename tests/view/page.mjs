@@ -69,7 +69,7 @@ async function sliderGoesFromBeforeToAfter() {
   const {page, end} = await open('torn');
   assert.equal(await page.getAttribute('html', 'data-ready'), 'picture');
   const after = await picture(page);
-  const slider = page.locator('input[type=range]');
+  const slider = page.locator('#blend');
   await slider.focus();
   await changes(page, 'Home on the slider', () => page.keyboard.press('Home'));
   assert.equal(await slider.getAttribute('aria-valuetext'), 'before');
@@ -187,7 +187,7 @@ async function aRealFoldIsPicked() {
   await changes(page, 'a flipped face', () => page.locator('#findings .row:not(#go-witness)').first().click());
   assert.match(await text(page, '#said'), /Flipped triangle\s/);
   for (const key of ['status', 'det', 'plain', 'displacement']) await changes(page, key, () => page.locator('#color-' + key).check({force: true}));
-  await page.locator('input[type=range]').focus();
+  await page.locator('#blend').focus();
   await changes(page, 'the slider', () => page.keyboard.press('Home'));
   await end();
 }
@@ -211,7 +211,7 @@ async function filesAreColouredByDisplacement() {
   assert.ok(await page.locator('#color-displacement').isChecked(), 'det F is not known');
   assert.equal(await page.locator('#color-det, #color-status').count(), 0);
   assert.equal(await text(page, '#name'), 'low.obj \u2192 high.obj');
-  await changes(page, 'the slider', () => page.locator('input[type=range]').fill('0'));
+  await changes(page, 'the slider', () => page.locator('#blend').fill('0'));
   await end();
 }
 
@@ -246,6 +246,38 @@ async function realHostileNamesAreText() {
   assert.equal(await page.locator('img, iframe, object, link, #panel b').count(), 0);
   assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth), 'nothing is beside the screen');
   await changes(page, 'hiding a part', () => page.locator('[data-part="3"]').uncheck());
+  await end();
+}
+
+async function animationsArePlayed() {
+  const {page, end} = await open('real_arm');
+  const list = page.locator('#animation'), time = page.locator('#time');
+  assert.deepEqual(await list.locator('option').allInnerTexts(),
+    ['At rest', 'turn', '</script><img src=x onerror=alert(4)>\\n\\u{202e}']);
+  assert.equal(await list.inputValue(), '0', 'the one that was asked for');
+  assert.ok(await page.locator('#show-showJoints').isChecked(), 'joints are shown');
+  const first = await picture(page);
+  await changes(page, 'the time', () => time.fill('100'));
+  assert.equal(await text(page, '#clock'), '1.00\u00a0s');
+  assert.equal(await time.getAttribute('aria-valuetext'), '1.00 of 2.00 seconds');
+  await changes(page, 'before', () => page.locator('#blend').fill('0'));
+  await changes(page, 'joints', () => page.locator('#show-showJoints').uncheck());
+  await page.locator('#view').focus();
+  for (const key of ['j', '.', ',']) await changes(page, 'key ' + key, () => page.keyboard.press(key));
+  await page.click('#run');
+  assert.equal(await text(page, '#run'), 'Pause');
+  await page.waitForFunction(() => !document.getElementById('clock').textContent.startsWith('1.0'));
+  await page.locator('#view').focus();
+  await page.keyboard.press('p');
+  assert.equal(await text(page, '#run'), 'Animate');
+  await page.locator('#blend').fill('100');
+  await time.fill('0');
+  assert.equal(await picture(page), first, 'the way back ends where it began');
+  await changes(page, 'another animation', async () => { await list.selectOption('1'); await time.fill('150'); });
+  await changes(page, 'rest', () => list.selectOption(''));
+  assert.ok(await page.locator('#run').isDisabled() && await time.isDisabled(), 'nothing to play at rest');
+  await page.setViewportSize(PHONE);
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth), 'nothing is beside the screen');
   await end();
 }
 
@@ -323,7 +355,7 @@ async function thePolicyForbidsRequests() {
 let failed = 0;
 for (const test of [sliderGoesFromBeforeToAfter, coloursAndMarksAreChosen, aWitnessIsPicked, tornEdgesAreListed,
   mouseAndKeysMoveTheCamera, hostileNamesAreText, aRealFoldIsPicked, realTearsAreListed,
-  filesAreColouredByDisplacement, aMeshAloneHasNoSlider, farControlPointsLeaveTheMeshItsSize, realHostileNamesAreText, largeAndEmptyMeshesOpen, aCutPageSaysSo, withoutWebGLThereAreFigures,
+  filesAreColouredByDisplacement, aMeshAloneHasNoSlider, farControlPointsLeaveTheMeshItsSize, realHostileNamesAreText, animationsArePlayed, largeAndEmptyMeshesOpen, aCutPageSaysSo, withoutWebGLThereAreFigures,
   phonesAndDarkAreServed, thePolicyForbidsRequests]) {
   const began = Date.now();
   try {

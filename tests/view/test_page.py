@@ -18,8 +18,11 @@ import subprocess
 import sys
 import tempfile
 
-SKIPPED = 77
 HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(HERE, "..", "cli"))
+from gltf_arm import arm  # noqa: E402 (a neighbour of this folder)
+
+SKIPPED = 77
 KINDS = ("torn", "fold", "hostile", "large", "empty")
 # Control points of a real mesh: two that turn its middle inside out; one at the border of a box that ends in the mesh.
 FOLD = {"size": [4, 4, 4], "rest": {"box": "mesh"},
@@ -29,6 +32,9 @@ TEAR = {"size": [3, 3, 3], "rest": {"box": {"min": [-1, -0.5, -1], "max": [0.1, 
 # One that moves nothing, very far away.
 FAR = {"size": [5, 2, 2], "degree": [1, 1, 1], "rest": {"box": {"min": [-2, -2, -2], "max": [2, 2, 2]}},
        "moves": [{"at": [4, 1, 1], "by": [0, 1e4, 0]}]}
+# An arm that becomes twice as wide.
+WIDE = {"size": [3, 3, 3], "rest": {"box": {"min": [-3, -3, -3], "max": [3, 3, 3]}},
+        "moves": [{"scale": {"factor": [1, 2, 1], "about": [0, 0, 0]}}]}
 NAMES = ["</script><script>document.title='taken'</script>", "<img src=x onerror=alert(1)>", "\u202egpj.exe\n\"'&amp;",
          "__proto__", "x" * 100000]
 
@@ -70,6 +76,9 @@ def make_real(ffd, model, folder):
             file.write(f"v 0 0 0\nv 1 0 0\nv 0 {height} 0\nf 1 2 3\n")
     subprocess.run([ffd, "view", "low.obj", "high.obj", "--color", "det", "-o", "real_pair.html", "-q"], cwd=folder, check=True)
     subprocess.run([ffd, "view", "high.obj", "-o", "real_alone.html", "-q"], cwd=folder, check=True)
+    write("arm.gltf", arm(names=("turn", "</script><img src=x onerror=alert(4)>\n\u202e")))
+    wide = write("wide.json", {"format": "ffd-lattice", "version": 1, **WIDE})
+    subprocess.run([ffd, "view", "arm.gltf", "-l", wide, "--animation", "turn", "-o", "real_arm.html", "-q"], cwd=folder, check=True)
     for kind, mesh, moves in (("far", "high.obj", FAR), ("fold", "fold.obj", FOLD), ("tear", "a.obj", TEAR), ("hostile", os.path.basename(hostile), FOLD)):
         lattice = write("<b>cage.json" if kind == "hostile" else kind + ".json",
                         {"format": "ffd-lattice", "version": 1, **moves})

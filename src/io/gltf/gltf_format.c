@@ -24,6 +24,7 @@
 #include "io/gltf/scene/gltf_shown.h"
 #include "io/gltf/scene/gltf_skin.h"
 #include "io/gltf/scene/gltf_used.h"
+#include "io/gltf/skeleton/gltf_skeleton.h"
 #include <float.h>
 
 static ffd_status check(const mesh_document *document, ffd_error *error)
@@ -104,6 +105,8 @@ const mesh_format ffd_gltf_format = {
     .corner_normals = ffd_gltf_corner_normals,
     .model = ffd_gltf_extract,
     .list_materials = ffd_gltf_list_materials,
+    .read_skeleton = ffd_gltf_read_skeleton,
+    .read_anchors = ffd_gltf_read_anchors,
     .describe = ffd_gltf_describe,
     .compare = ffd_gltf_compare,
 };

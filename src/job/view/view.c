@@ -14,6 +14,7 @@
 #include "job/view/view_inputs.h"
 #include "job/view/view_marks.h"
 #include "job/view/view_mesh.h"
+#include "job/view/view_rigs.h"
 #include "view/page.h"
 #include "view/view_picture.h"
 #include <math.h>
@@ -26,7 +27,8 @@ typedef struct view_work {
     job_details details;
     mesh_model model;
     view_scene scene;
-    uint32_t *faces; /* the polygon of each triangle */
+    uint32_t *faces;      /* the polygon of each triangle */
+    mesh_document *other; /* the deformed mesh, while its animations are needed */
 } view_work;
 
 void ffd_view_desc_init(ffd_view_desc *desc)
@@ -40,12 +42,20 @@ static bool is_page(const char *path)
     return ffd_path_has_ending(path, ".html") || ffd_path_has_ending(path, ".htm");
 }
 
+/* Whether there is something to show after: a deformation, or another file. */
+static bool has_after(const ffd_view_desc *desc)
+{
+    return desc->deformed || desc->job->lattice_count > 0;
+}
+
 static view_picture_options describe_picture(const view_work *work)
 {
     const ffd_view_desc *const desc = work->desc;
+    const bool has_poses = desc->animation && !is_page(desc->output);
     return (view_picture_options){.width = desc->width,
                                   .height = desc->height,
-                                  .frames = desc->frames,
+                                  .frames = has_poses && !desc->frames ? VIEW_POSES : desc->frames,
+                                  .rows = has_poses ? has_after(desc) ? 2 : 1 : 0,
                                   .color = (view_page_color)desc->color,
                                   .camera = {desc->camera[0], desc->camera[1], desc->camera[2]},
                                   .threads = work->job.threads,
@@ -56,9 +66,9 @@ static view_picture_options describe_picture(const view_work *work)
 static ffd_status check_desc(const view_work *work, ffd_error *error)
 {
     const ffd_view_desc *const desc = work->desc;
-    const view_picture_options picture = describe_picture(work);
     if (desc->struct_size != sizeof *desc || !desc->output || (desc->deformed && !desc->deformed->path))
         return ffd_fail(error, FFD_E_ARGUMENT, "the view's description is not complete");
+    const view_picture_options picture = describe_picture(work);
     for (int a = 0; a < 3; a++)
         if (!isfinite(desc->camera[a]))
             return ffd_fail(error, FFD_E_ARGUMENT, "the camera's direction is not finite");
@@ -116,6 +126,24 @@ static ffd_status name_scene(view_work *work, ffd_error *error)
     return work->scene.name && (work->scene.output || !deformed) ? FFD_OK : ffd_fail_memory(error);
 }
 
+/* What moves the mesh before and after, which has to be there until the output is written. */
+static ffd_status make_rigs(view_work *work, bool deformed, ffd_error *error)
+{
+    const ffd_view_desc *const desc = work->desc;
+    const view_rigs_desc rigs = {.before = work->job.document,
+                                 .after = work->other,
+                                 .deformed = deformed,
+                                 .follows = deformed && desc->job->rig == FFD_RIG_FOLLOW,
+                                 .gradients = work->details.gradients,
+                                 .shown = !desc->as_stored,
+                                 .before_name = ffd_source_name(&desc->job->input),
+                                 .after_name = desc->deformed ? ffd_source_name(desc->deformed) : NULL,
+                                 .animation = desc->animation,
+                                 .all = is_page(desc->output),
+                                 .log = &work->job.log};
+    return ffd_view_make_rigs(&rigs, &work->scene, error);
+}
+
 /* What the job found becomes marks, and a report that says so. */
 static ffd_status take_findings(view_work *work, const ffd_job_result *result, ffd_error *error)
 {
@@ -127,6 +155,8 @@ static ffd_status take_findings(view_work *work, const ffd_job_result *result, f
         status = ffd_view_add_marks(job, result, &work->model, work->faces, &work->scene, error);
     if (!status)
         status = ffd_view_add_cages(&job->chain, work->desc->job->lattices, &work->scene, error);
+    if (!status)
+        status = make_rigs(work, true, error);
     return status ? status : make_report(work, result, error);
 }
 
@@ -219,19 +249,17 @@ static ffd_status read_deformed(view_work *work, ffd_error *error)
 {
     const ffd_source *const deformed = work->desc->deformed;
     const uint64_t count = ffd_mesh_vertex_count(work->job.document);
-    mesh_document *other = NULL;
     double *positions = NULL;
-    ffd_status status = open_mesh(work, deformed, &other, error);
-    if (!status && ffd_mesh_vertex_count(other) != count)
+    ffd_status status = open_mesh(work, deformed, &work->other, error);
+    if (!status && ffd_mesh_vertex_count(work->other) != count)
         status = ffd_fail_file(error, FFD_E_INVALID, ffd_source_name(deformed),
                                "has %llu vertices, and %s has %llu: they are not one mesh before and after",
-                               (unsigned long long)ffd_mesh_vertex_count(other),
+                               (unsigned long long)ffd_mesh_vertex_count(work->other),
                                ffd_source_name(&work->desc->job->input), (unsigned long long)count);
     if (!status)
-        status = read_positions(work, other, &positions, error);
+        status = read_positions(work, work->other, &positions, error);
     if (!status)
         status = ffd_view_place_after(&work->model, positions, &work->scene, error);
-    ffd_source_close(&other);
     ffd_free(positions);
     return status;
 }
@@ -247,7 +275,9 @@ static ffd_status read_files(view_work *work, ffd_error *error)
     if (!status)
         status = work->desc->deformed ? read_deformed(work, error)
                                       : ffd_view_place_after(&work->model, NULL, &work->scene, error);
-    return status ? status : load_cages(work, error);
+    if (!status)
+        status = load_cages(work, error);
+    return status ? status : make_rigs(work, false, error);
 }
 
 static ffd_status write_page(const view_work *work, file_output *output, ffd_error *error)
@@ -325,13 +355,14 @@ static ffd_status run(view_work *work, ffd_job_result *result, ffd_error *error)
 static void free_work(view_work *work)
 {
     free_sources(work);
-    ffd_view_scene_free(&work->scene);
+    ffd_view_scene_free(&work->scene); /* with skeletons of documents that are open */
+    ffd_source_close(&work->other);
 }
 
 ffd_status ffd_view_run(const ffd_view_desc *desc, ffd_job_result *result, ffd_error *error)
 {
     static const ffd_deform_desc none = {0};
-    view_work work = {.desc = desc};
+    view_work work = {.desc = desc, .scene = {.animation = RIG_NONE}};
     ffd_error own;
     ffd_status status = ffd_deform_job_begin(&work.job, desc->job ? desc->job : &none, true, result);
     if (!status) {

@@ -63,6 +63,7 @@ function addKeys(canvas, viewer) {
     '+': () => viewer.camera.zoom(0.85), '=': () => viewer.camera.zoom(0.85), '-': () => viewer.camera.zoom(1 / 0.85),
     Home: view('fit'), f: view('front'), b: view('back'), l: view('left'), r: view('right'), t: view('top'), i: view('iso'),
     c: () => viewer.toggle('showCage'), w: () => viewer.toggle('showEdges'), ' ': () => viewer.play(),
+    j: () => viewer.toggle('showJoints'), p: () => viewer.motionRow.toggle(), ',': () => viewer.motionRow.step(-1), '.': () => viewer.motionRow.step(1),
     Escape: () => viewer.clearChoice(),
   };
   canvas.addEventListener('keydown', (event) => {

@@ -54,8 +54,10 @@ function makeSurface(gl, scene) {
   const {sources, indices, drawn} = split;
   const array = gl.createVertexArray();
   gl.bindVertexArray(array);
-  bindAttribute(gl, 0, makeBuffer(gl, gl.ARRAY_BUFFER, gather(scene.before, sources)), 3, gl.FLOAT, false, 0, 0);
-  bindAttribute(gl, 1, makeBuffer(gl, gl.ARRAY_BUFFER, gather(scene.move, sources)), 3, gl.FLOAT, false, 0, 0);
+  const before = makeBuffer(gl, gl.ARRAY_BUFFER, gather(scene.before, sources));
+  bindAttribute(gl, 0, before, 3, gl.FLOAT, false, 0, 0);
+  const move = makeBuffer(gl, gl.ARRAY_BUFFER, gather(scene.move, sources));
+  bindAttribute(gl, 1, move, 3, gl.FLOAT, false, 0, 0);
   const normals = makeBuffer(gl, gl.ARRAY_BUFFER, split.normals);
   bindAttribute(gl, 2, normals, 3, gl.SHORT, true, 16, 0);
   bindAttribute(gl, 3, normals, 3, gl.SHORT, true, 16, 8);
@@ -66,7 +68,7 @@ function makeSurface(gl, scene) {
   gl.bindVertexArray(null);
   const list = (from) => makeBuffer(gl, gl.ELEMENT_ARRAY_BUFFER, from.map((v) => drawn[v]));
   return {
-    array, values, colors, sources, indices,
+    array, before, move, normals, split, values, colors, sources, indices,
     triangles: makeBuffer(gl, gl.ELEMENT_ARRAY_BUFFER, indices),
     segments: list(scene.segmentIndices),
     points: list(scene.pointIndices),
@@ -185,6 +187,17 @@ class Renderer {
     surface.flipped.count = flipped.length;
   }
 
+  // Brings the mesh to where its scene has been posed (rig.js).
+  setPose(poses) {
+    const {gl, scene, surface} = this;
+    const normals = poses[0] || poses[1] ? poseNormals(surface.split, poses, surface.split.normals) : surface.split.normals;
+    for (const [buffer, values] of [[surface.before, gather(scene.before, surface.sources)],
+      [surface.move, gather(scene.move, surface.sources)], [surface.normals, normals]]) {
+      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+      gl.bufferData(gl.ARRAY_BUFFER, values, gl.DYNAMIC_DRAW);
+    }
+  }
+
   // Lines and discs under a name, in place of those that it had.
   setMarks(name, floats, perMark) {
     freeMarks(this.gl, this.marks[name]);
@@ -226,8 +239,13 @@ class Renderer {
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     gl.depthMask(false);
-    this.drawCage();
-    if (state.showTears) this.drawLines('tears', 3.4, state.colors.tear, 0.55, state.blend);
+    // What stands round the mesh at rest has no place in a pose.
+    if (!state.isPosed) this.drawCage();
+    if (state.showJoints) {
+      this.drawLines('joints', 2.6, state.colors.joint, 0.6, state.blend);
+      this.drawDiscs('jointPoints', 7, state.colors.joint, state.colors.rim, 0.6, state.blend);
+    }
+    if (state.showTears && !state.isPosed) this.drawLines('tears', 3.4, state.colors.tear, 0.55, state.blend);
     this.drawLines('chosen', 6, state.colors.chosen, 0.8, state.blend);
     this.drawDiscs('chosenPoint', 13, state.colors.chosen, state.colors.rim, 1, state.blend);
     gl.depthMask(true);

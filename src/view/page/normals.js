@@ -63,13 +63,13 @@ function listCorners(triangles, ids, places) {
 }
 
 // Which of a place's sides a face belongs to; a new one where none is near.
-function findSide(sides, x, y, z) {
+function findSide(sides, shapes, x, y, z) {
   const length = Math.hypot(x, y, z);
   let best = -1, most = CREASE;
   for (let s = 0; s < sides.length; s++) {
-    const side = sides[s];
-    const size = Math.hypot(side.x, side.y, side.z);
-    const cosine = size > 0 && length > 0 ? (side.x * x + side.y * y + side.z * z) / (size * length) : 1;
+    const [sx, sy, sz] = sides[s].sums;
+    const size = Math.hypot(sx, sy, sz);
+    const cosine = size > 0 && length > 0 ? (sx * x + sy * y + sz * z) / (size * length) : 1;
     if (cosine >= most) {
       most = cosine;
       best = s;
@@ -77,7 +77,7 @@ function findSide(sides, x, y, z) {
   }
   if (best < 0 && sides.length < MOST_SIDES) {
     best = sides.length;
-    sides.push({x: 0, y: 0, z: 0, ax: 0, ay: 0, az: 0, drawn: []});
+    sides.push({sums: new Float64Array(3 * shapes), drawn: []});
   }
   return Math.max(best, 0);
 }
@@ -89,30 +89,36 @@ function storeNormal(normals, at, x, y, z) {
   normals[at + 2] = z * factor;
 }
 
-// What is drawn: `sources` names the vertex of each drawn one, `indices` the corners of the triangles.
+// Normals of the faces before and after; and where animations move the mesh, of its anchors before and after.
+function listFaces(scene) {
+  const {before, move, triangleIndices: triangles, rig} = scene;
+  const faces = [faceNormals(before, move, triangles, 0), faceNormals(before, move, triangles, 1)];
+  const sides = rig ? rig.sides.filter((side) => side && side.anchors.length) : [];
+  for (const {anchors} of sides) faces.push(faceNormals(anchors, anchors, triangles, 0));
+  return faces;
+}
+
+// What is drawn: `sources` names the vertex of each drawn one, `indices` the corners of the triangles. `normals` are
+// those before and after, `anchorNormals` those of listFaces, three floats a vertex each.
 function splitVertices(scene) {
   const triangles = scene.triangleIndices;
   const {ids, places} = weld(scene.quantized, scene.moves, scene.vertices);
-  const faceBefore = faceNormals(scene.before, scene.move, triangles, 0);
-  const faceAfter = faceNormals(scene.before, scene.move, triangles, 1);
+  const faces = listFaces(scene);
   const {starts, corners} = listCorners(triangles, ids, places);
   const indices = new Uint32Array(triangles.length);
-  const sources = [], normalsBefore = [], normalsAfter = [];
+  const sources = [], sums = faces.map(() => []);
   const drawn = new Int32Array(scene.vertices).fill(-1);
   const sideOf = [];
   for (let place = 0; place < places; place++) {
     const sides = [];
     for (let i = starts[place]; i < starts[place + 1]; i++) {
       const face = corners[i] - (corners[i] % 3);
-      const number = findSide(sides, faceBefore[face], faceBefore[face + 1], faceBefore[face + 2]);
+      const number = findSide(sides, faces.length, faces[0][face], faces[0][face + 1], faces[0][face + 2]);
       const side = sides[number];
       sideOf[i - starts[place]] = number;
-      side.x += faceBefore[face];
-      side.y += faceBefore[face + 1];
-      side.z += faceBefore[face + 2];
-      side.ax += faceAfter[face];
-      side.ay += faceAfter[face + 1];
-      side.az += faceAfter[face + 2];
+      for (let s = 0; s < faces.length; s++) {
+        for (let a = 0; a < 3; a++) side.sums[3 * s + a] += faces[s][face + a];
+      }
     }
     for (let i = starts[place]; i < starts[place + 1]; i++) {
       const vertex = triangles[corners[i]];
@@ -121,8 +127,7 @@ function splitVertices(scene) {
       if (at === undefined) {
         at = sources.push(vertex) - 1;
         side.drawn.push(at);
-        normalsBefore.push(side.x, side.y, side.z);
-        normalsAfter.push(side.ax, side.ay, side.az);
+        for (let s = 0; s < faces.length; s++) sums[s].push(side.sums[3 * s], side.sums[3 * s + 1], side.sums[3 * s + 2]);
         drawn[vertex] = at;
       }
       indices[corners[i]] = at;
@@ -131,14 +136,32 @@ function splitVertices(scene) {
   for (let v = 0; v < scene.vertices; v++) {
     if (drawn[v] >= 0) continue;
     drawn[v] = sources.push(v) - 1;
-    normalsBefore.push(0, 0, 1);
-    normalsAfter.push(0, 0, 1);
+    for (const list of sums) list.push(0, 0, 1);
   }
   const count = sources.length;
   const normals = new Int16Array(8 * count);
   for (let i = 0; i < count; i++) {
-    storeNormal(normals, 8 * i, normalsBefore[3 * i], normalsBefore[3 * i + 1], normalsBefore[3 * i + 2]);
-    storeNormal(normals, 8 * i + 4, normalsAfter[3 * i], normalsAfter[3 * i + 1], normalsAfter[3 * i + 2]);
+    for (const s of [0, 1]) storeNormal(normals, 8 * i + 4 * s, sums[s][3 * i], sums[s][3 * i + 1], sums[s][3 * i + 2]);
   }
-  return {sources: Uint32Array.from(sources), indices, normals, drawn};
+  return {sources: Uint32Array.from(sources), indices, normals, drawn, anchorNormals: sums.slice(2).map((list) => Float32Array.from(list))};
+}
+
+// The normals of what is drawn in a pose (rig.js), as splitVertices has them at rest.
+function poseNormals(split, poses, restNormals) {
+  const normals = restNormals.slice(), matrix = new Float64Array(12);
+  [0, 1].forEach((number) => {
+    const pose = poses[number];
+    if (!pose) return;
+    const from = split.anchorNormals[poses[0] === poses[1] || split.anchorNormals.length < 2 ? 0 : number];
+    for (let i = 0; i < split.sources.length; i++) {
+      blendBones(pose.side, pose.bones, split.sources[i], matrix);
+      const [a, b, c, d, e, f, g, h, k] = matrix;
+      const x = from[3 * i], y = from[3 * i + 1], z = from[3 * i + 2];
+      // Cofactors: they turn normals as the matrix turns surfaces.
+      storeNormal(normals, 8 * i + 4 * number, (e * k - f * h) * x + (f * g - d * k) * y + (d * h - e * g) * z,
+        (c * h - b * k) * x + (a * k - c * g) * y + (b * g - a * h) * z,
+        (b * f - c * e) * x + (c * d - a * f) * y + (a * e - b * d) * z);
+    }
+  });
+  return normals;
 }

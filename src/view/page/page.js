@@ -84,6 +84,7 @@ function start() {
     startControls(viewer);
   }
   showPanel(viewer);
+  if (viewer.renderer) viewer.motionRow.start();
   document.documentElement.dataset.ready = viewer.renderer ? 'picture' : 'figures';
 }
 

@@ -53,8 +53,13 @@ function showSection(viewer) {
   }
   if (scene.tears.length) add('showTears', 'Torn edges', make('i', 'mark tear'));
   if (scene.flippedFaces) add('showFlipped', 'Flipped faces', make('i', 'mark flipped'));
+  const joints = countJoints(scene.rig);
+  if (joints) add('showJoints', 'Joints', make('span', 'count', numberText(joints)));
   add('showEdges', 'Edges of triangles');
   add('isSmooth', 'Smooth shading');
+  if (scene.rig && scene.rig.animations.length && scene.cages.length) {
+    list.append(make('p', 'more', 'Animations hide the cage, torn edges and the fold: these are of the mesh at rest.'));
+  }
   return section('Show', list);
 }
 

@@ -73,7 +73,7 @@ function* listControls(scene, blend) {
 function pick(viewer, x, y) {
   const {scene, settings} = viewer;
   const {blend} = settings;
-  const control = settings.showCage ? findNearest(viewer, listControls(scene, blend), x, y, CONTROL_PIXELS) : null;
+  const control = settings.showCage && !settings.isPosed ? findNearest(viewer, listControls(scene, blend), x, y, CONTROL_PIXELS) : null;
   if (control) return control;
   const ray = viewer.camera.ray(x, y, viewer.canvas.clientWidth, viewer.canvas.clientHeight);
   const triangle = findTriangle(scene, viewer.hidden, blend, viewer.matrices.eye, ray);

@@ -12,6 +12,7 @@ function palette(isDark) {
     tear: [0.9, 0.1, 0.12, 1],
     chosen: [1, 0.78, 0.1, 1],
     edge: [0.01, 0.012, 0.016, 0.32],
+    joint: isDark ? [1, 0.62, 0.9, 0.95] : [0.72, 0.06, 0.5, 0.9],
   };
 }
 
@@ -49,12 +50,14 @@ class Viewer {
     this.paints = listPaints(scene);
     const named = (key) => this.paints.find((paint) => paint.key === key);
     this.paint = named(scene.view.color) || named('displacement') || named('plain');
-    this.settings = {blend: 1, showCage: true, showRest: false, showTears: true, showFlipped: true, showEdges: false, isSmooth: true};
+    this.settings = {blend: 1, showCage: true, showRest: false, showTears: true, showFlipped: true, showEdges: false, isSmooth: true,
+      showJoints: false, isPosed: false};
     this.camera = new Camera(listFitPoints(scene));
     if (scene.view.camera.some((x) => x !== 0)) [this.camera.yaw, this.camera.pitch] = anglesOf(scene.view.camera);
     this.renderer = null;
     this.waiting = false;
     this.motion = 0;
+    this.motionRow = new Motion(this);
   }
 
   // Once there is a renderer.
@@ -65,6 +68,7 @@ class Viewer {
     this.resize();
     this.setPaint(this.paint);
     this.partsChanged();
+    if (this.scene.rig) this.showJoints(null, 0);
     addPointers(this.canvas, this);
     addKeys(this.canvas, this);
     new ResizeObserver(() => this.resize()).observe(this.canvas);
@@ -87,6 +91,28 @@ class Viewer {
       this.renderer.draw({...this.settings, matrices: this.matrices, colors: palette(document.documentElement.dataset.theme === 'dark')});
       this.placeWitness();
     });
+  }
+
+  // Brings mesh and joints to a time of an animation; null: to rest.
+  pose(animation, time) {
+    const {scene, renderer} = this;
+    if (!animation && !this.settings.isPosed) return;
+    renderer.setPose(poseScene(scene, animation, time));
+    this.settings.isPosed = animation !== null;
+    this.showJoints(animation, time);
+    if (this.chosenVertex !== undefined) this.markVertex(this.chosenVertex);
+    this.redraw();
+  }
+
+  showJoints(animation, time) {
+    const {lines, points} = jointMarks(this.scene, animation, time);
+    this.renderer.setMarks('joints', lines, 12);
+    this.renderer.setMarks('jointPoints', points, 6);
+  }
+
+  markVertex(vertex) {
+    const {before, move} = this.scene;
+    this.renderer.setMarks('chosenPoint', [...before.subarray(3 * vertex, 3 * vertex + 3), ...move.subarray(3 * vertex, 3 * vertex + 3)], 6);
   }
 
   project(point) {
@@ -206,6 +232,7 @@ class Viewer {
     for (const [label, value] of rows) list.append(make('div', '', make('dt', '', label), make('dd', '', value)));
     const close = button('\u00d7', () => this.clearChoice(), 'close');
     close.setAttribute('aria-label', 'Close');
+    this.chosenVertex = undefined;
     byId('said').replaceChildren(make('p', 'title', title, close), list);
     this.renderer.setMarks('chosen', marks.lines || [], 12);
     this.renderer.setMarks('chosenPoint', marks.points || [], 6);
@@ -213,6 +240,7 @@ class Viewer {
   }
 
   clearChoice() {
+    this.chosenVertex = undefined;
     byId('said').replaceChildren();
     this.renderer.setMarks('chosen', [], 12);
     this.renderer.setMarks('chosenPoint', [], 6);
@@ -240,14 +268,16 @@ class Viewer {
   chooseVertex(vertex) {
     const {scene} = this;
     const before = vertexBefore(scene, vertex), move = vertexMove(scene, vertex);
-    const rows = [['Before', pointText(before)], ['After', pointText(before.map((x, a) => x + move[a]))],
+    const rest = this.settings.isPosed ? ', at rest' : '';
+    const rows = [['Before' + rest, pointText(before)], ['After' + rest, pointText(before.map((x, a) => x + move[a]))],
       ['Displacement', numberText(Math.hypot(...move))]];
     if (scene.statuses) rows.push(['Status', STATUS_NAMES[scene.statuses[vertex]] || 'unknown']);
     if (scene.dets && !Number.isNaN(scene.dets[vertex])) rows.push(['det F', numberText(scene.dets[vertex])]);
     const part = scene.parts[this.partOf[vertex]];
     if (part && part.name) rows.push(['Part', nameElement(part.name)]);
-    const at = [0, 1, 2].map((a) => scene.before[3 * vertex + a]), by = [0, 1, 2].map((a) => scene.move[3 * vertex + a]);
-    this.choose('Vertex ' + numberText(vertexNumber(scene, vertex)), rows, {points: [...at, ...by]});
+    this.choose('Vertex ' + numberText(vertexNumber(scene, vertex)), rows, {});
+    this.chosenVertex = vertex;
+    this.markVertex(vertex);
   }
 
   chooseTear(tear) {
@@ -289,7 +319,7 @@ class Viewer {
 
   placeWitness() {
     const pin = byId('witness');
-    const seen = this.scene.witness ? this.project(this.witnessPoint()) : null;
+    const seen = this.scene.witness && !this.settings.isPosed ? this.project(this.witnessPoint()) : null;
     const {clientWidth: width, clientHeight: height} = this.canvas;
     pin.hidden = !seen || seen.x < 0 || seen.y < 0 || seen.x > width || seen.y > height;
     if (!pin.hidden) pin.style.transform = `translate(${seen.x}px, ${seen.y}px)`;

@@ -110,30 +110,38 @@ static size_t count_of(const gltf_document *d, uint32_t object, const char *key)
     return array != JSON_NONE && d->tree.values[array].kind == JSON_ARRAY ? d->tree.values[array].count : 0;
 }
 
-static ffd_status make_arrays(gltf_document *d, gltf_animation *animation, ffd_error *error)
+/* Takes memory from the document's budget until the list is freed. */
+static ffd_status take(gltf_document *d, gltf_animations *of, size_t count, size_t size, ffd_error *error)
+{
+    const uint64_t before = d->base.budget.taken;
+    const ffd_status status = ffd_budget_take(&d->base.budget, count, size, error);
+    of->taken += d->base.budget.taken - before;
+    return status;
+}
+
+static ffd_status make_arrays(gltf_document *d, gltf_animations *of, gltf_animation *animation,
+                              ffd_error *error)
 {
     const size_t samplers = count_of(d, animation->value, "samplers");
     const size_t channels = count_of(d, animation->value, "channels");
-    ffd_status status = ffd_budget_take(&d->base.budget, samplers, sizeof *animation->samplers, error);
+    ffd_status status = take(d, of, samplers, sizeof *animation->samplers, error);
+    if (!status)
+        status = take(d, of, channels, sizeof *animation->channels, error);
     if (status)
         return status;
     animation->samplers = ffd_alloc_zero(samplers, sizeof *animation->samplers);
     animation->sampler_count = animation->samplers ? samplers : 0;
-    if (!animation->samplers)
-        return ffd_fail_memory(error);
-    status = ffd_budget_take(&d->base.budget, channels, sizeof *animation->channels, error);
-    if (status)
-        return status;
     animation->channels = ffd_alloc_zero(channels, sizeof *animation->channels);
-    return animation->channels ? FFD_OK : ffd_fail_memory(error);
+    return animation->samplers && animation->channels ? FFD_OK : ffd_fail_memory(error);
 }
 
-static ffd_status read_animation(gltf_document *d, gltf_animation *animation, ffd_error *error)
+static ffd_status read_animation(gltf_document *d, gltf_animations *of, gltf_animation *animation,
+                                 ffd_error *error)
 {
     const json_span *const tree = &d->tree;
     const uint32_t name = ffd_json_span_member(tree, animation->value, "name");
     size_t s = 0;
-    ffd_status status = make_arrays(d, animation, error);
+    ffd_status status = make_arrays(d, of, animation, error);
     if (status)
         return status;
     if (name != JSON_NONE && tree->values[name].kind == JSON_STRING) {
@@ -157,19 +165,17 @@ ffd_status ffd_gltf_list_animations(gltf_document *d, gltf_animations *animation
 {
     const size_t count = count_of(d, 0, "animations");
     *animations = (gltf_animations){0};
-    ffd_status status = ffd_budget_take(&d->base.budget, count, sizeof *animations->list, error);
+    ffd_status status = take(d, animations, count, sizeof *animations->list, error);
     if (status)
         return status;
     animations->list = ffd_alloc_zero(count, sizeof *animations->list);
-    if (!animations->list) {
-        ffd_budget_return(&d->base.budget, count, sizeof *animations->list);
+    if (!animations->list)
         return ffd_fail_memory(error);
-    }
     for (uint32_t v = ffd_gltf_first(d, 0, "animations"); v != JSON_NONE && status == FFD_OK;
          v = ffd_json_span_after(&d->tree, v)) {
         gltf_animation *const animation = &animations->list[animations->count++];
         animation->value = v;
-        status = read_animation(d, animation, error);
+        status = read_animation(d, animations, animation, error);
     }
     return status;
 }
@@ -177,11 +183,6 @@ ffd_status ffd_gltf_list_animations(gltf_document *d, gltf_animations *animation
 static void free_animation(gltf_document *d, gltf_animation *animation)
 {
     ffd_gltf_unload_animation(d, animation);
-    if (animation->samplers)
-        ffd_budget_return(&d->base.budget, animation->sampler_count, sizeof *animation->samplers);
-    if (animation->channels)
-        ffd_budget_return(&d->base.budget, count_of(d, animation->value, "channels"),
-                          sizeof *animation->channels);
     for (size_t c = 0; c < animation->channel_count; c++)
         ffd_free(animation->channels[c].pointer);
     ffd_free(animation->samplers);
@@ -191,11 +192,9 @@ static void free_animation(gltf_document *d, gltf_animation *animation)
 
 void ffd_gltf_free_animations(gltf_document *d, gltf_animations *animations)
 {
-    if (!animations->list)
-        return;
     for (size_t a = 0; a < animations->count; a++)
         free_animation(d, &animations->list[a]);
-    ffd_budget_return(&d->base.budget, count_of(d, 0, "animations"), sizeof *animations->list);
+    ffd_budget_return(&d->base.budget, 1, animations->taken);
     ffd_free(animations->list);
     *animations = (gltf_animations){0};
 }

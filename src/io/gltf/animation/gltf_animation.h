@@ -60,6 +60,7 @@ typedef struct gltf_animation {
 typedef struct gltf_animations {
     gltf_animation *list;
     size_t count;
+    uint64_t taken; /* of the document's memory budget, by the list */
 } gltf_animations;
 
 /* Lists the animations of a file, without their keys; to be freed in any case. Errors: FFD_E_LIMIT,

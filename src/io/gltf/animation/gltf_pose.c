@@ -56,7 +56,7 @@ static void quaternion_of(const double m[9], double q[4])
 }
 
 /* As three.js: scales are the lengths of the columns, and the first one carries the sign. */
-static void take_apart(gltf_node *node)
+void ffd_gltf_take_apart(gltf_node *node)
 {
     double linear[9];
     ffd_gltf_local_matrix(node, linear, node->translation);
@@ -84,7 +84,7 @@ static void set_default(const gltf_document *d, gltf_pose *pose)
 {
     const size_t count = d->model.node_count;
     if (count > 0)
-        memcpy(pose->nodes, d->model.nodes, count * sizeof *pose->nodes);
+        memcpy(pose->nodes, pose->rest ? pose->rest : d->model.nodes, count * sizeof *pose->nodes);
     for (size_t n = 0; n < count; n++) {
         uint32_t value = first_weight(d, n);
         for (size_t w = pose->first_weight[n]; w < pose->first_weight[n + 1]; w++) {
@@ -101,7 +101,7 @@ static void apply_channel(const gltf_animation *animation, const gltf_channel *c
     const gltf_animation_sampler *const sampler = &animation->samplers[channel->sampler];
     gltf_node *const node = &pose->nodes[channel->node];
     if (channel->path < GLTF_WEIGHTS && node->has_matrix)
-        take_apart(node);
+        ffd_gltf_take_apart(node);
     double *const values[] = {[GLTF_TRANSLATION] = node->translation,
                               [GLTF_ROTATION] = node->rotation,
                               [GLTF_SCALE] = node->scale,

@@ -6,9 +6,10 @@
 #include "io/gltf/animation/gltf_animation.h"
 
 typedef struct gltf_pose {
-    gltf_node *nodes;     /* per node: its own transform; children are lent by the model */
-    double *world;        /* per node, as gltf_document's */
-    double *weights;      /* of all nodes */
+    const gltf_node *rest; /* per node: its transform by default, lent; NULL: the file's */
+    gltf_node *nodes;      /* per node: its own transform; children are lent by the model */
+    double *world;         /* per node, as gltf_document's */
+    double *weights;       /* of all nodes */
     size_t *first_weight; /* per node, and the end: its weights are from here on, one for each morph target */
     size_t *order;        /* nodes, parents first */
     size_t order_count;   /* below the number of nodes where the file's nodes form no forest */
@@ -25,5 +26,8 @@ void ffd_gltf_free_pose(gltf_pose *pose);
    scale first, as viewers do. */
 void ffd_gltf_set_pose(const gltf_document *document, const gltf_animation *animation, double time,
                        gltf_pose *pose);
+
+/* Takes the matrix of a node apart into translation, rotation and scale, as viewers do; it has none then. */
+void ffd_gltf_take_apart(gltf_node *node);
 
 #endif

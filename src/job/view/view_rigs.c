@@ -1,0 +1,289 @@
+#include "job/view/view_rigs.h"
+#include "base/memory/intern.h"
+#include "base/memory/memory.h"
+#include "base/text/words.h"
+#include "base/vector/vec.h"
+#include <stdio.h>
+#include <string.h>
+
+#define SHOWN 8 /* names in a message */
+#define NAME 36 /* bytes of each */
+
+/* The name of an animation; "animation 3" where it has none, by which it is chosen too. */
+static char *name_of(const mesh_skeleton *skeleton, size_t animation)
+{
+    const char *const name = skeleton->animations[animation].name;
+    byte_buffer text = {0};
+    if (name && *name)
+        ffd_buffer_text(&text, name);
+    else
+        ffd_buffer_format(&text, "animation %zu", animation);
+    return ffd_buffer_finish(&text);
+}
+
+static ffd_status read_skeleton(mesh_document *document, bool after, view_rig *rig, ffd_error *error)
+{
+    const mesh_format *const format = document->format;
+    return format->read_skeleton ? format->read_skeleton(document, after, &rig->skeleton, error) : FFD_OK;
+}
+
+static ffd_status list_animations(view_scene *scene, ffd_error *error)
+{
+    const mesh_skeleton *const from = scene->rigs[0].skeleton;
+    const size_t count = from ? from->animation_count : 0;
+    scene->animations = ffd_alloc_zero(count, sizeof *scene->animations);
+    if (!scene->animations)
+        return ffd_fail_memory(error);
+    for (size_t a = 0; a < count; a++) {
+        view_animation *const to = &scene->animations[scene->animation_count++];
+        *to = (view_animation){.name = name_of(from, a), .of = {a, a}};
+        if (!to->name)
+            return ffd_fail_memory(error);
+    }
+    return FFD_OK;
+}
+
+/* "a", "b", "c" and 4 more */
+static void tell_names(const view_scene *scene, char *text, size_t capacity)
+{
+    size_t length = 0;
+    for (size_t a = 0; a < scene->animation_count && a < SHOWN; a++) {
+        char name[NAME];
+        ffd_name_shown(scene->animations[a].name, name, sizeof name);
+        length += (size_t)snprintf(text + length, capacity - length, "%s\"%s\"", a > 0 ? ", " : "", name);
+    }
+    if (scene->animation_count > SHOWN)
+        snprintf(text + length, capacity - length, " and %zu more", scene->animation_count - SHOWN);
+}
+
+static ffd_status refuse_name(const view_rigs_desc *desc, const view_scene *scene, ffd_error *error)
+{
+    char names[SHOWN * (NAME + 4) + 40], wanted[NAME], shown[NAME] = "";
+    const char *nearest = NULL;
+    size_t least = 0;
+    if (scene->animation_count == 0)
+        return ffd_fail_file(error, FFD_E_ARGUMENT, desc->before_name,
+                             "--animation: there are no animations that can be shown");
+    for (size_t a = 0; a < scene->animation_count; a++) {
+        const size_t distance = ffd_word_distance(desc->animation, scene->animations[a].name);
+        if (nearest && distance >= least)
+            continue;
+        nearest = scene->animations[a].name;
+        least = distance;
+    }
+    ffd_name_shown(desc->animation, wanted, sizeof wanted);
+    ffd_name_shown(nearest, shown, sizeof shown);
+    tell_names(scene, names, sizeof names);
+    return ffd_fail_file(error, FFD_E_ARGUMENT, desc->before_name,
+                         "--animation: none is called \"%s\" (nearest: \"%s\"; there %s %s)", wanted, shown,
+                         ffd_plural(scene->animation_count, "is", "are"), names);
+}
+
+/* Of several of one name the first is meant. */
+static ffd_status choose(const view_rigs_desc *desc, view_scene *scene, ffd_error *error)
+{
+    size_t alike = 0;
+    scene->animation = RIG_NONE;
+    for (size_t a = 0; a < scene->animation_count && desc->animation; a++) {
+        if (strcmp(scene->animations[a].name, desc->animation) != 0)
+            continue;
+        scene->animation = alike ? scene->animation : a;
+        alike++;
+    }
+    if (desc->animation && !alike)
+        return refuse_name(desc, scene, error);
+    if (alike > 1)
+        ffd_log_line(desc->log, FFD_LOG_WARNING, "--animation: %zu have this name, and the first is shown",
+                     alike);
+    return FFD_OK;
+}
+
+/* Numbers the names of a skeleton's animations: first has the first of each name. */
+static ffd_status number_names(const mesh_skeleton *skeleton, intern_table *names, size_t *first,
+                               ffd_error *error)
+{
+    for (size_t a = 0; a < skeleton->animation_count; a++) {
+        const char *const name = skeleton->animations[a].name ? skeleton->animations[a].name : "";
+        const size_t known = names->count;
+        uint32_t number;
+        if (!ffd_intern(names, name, strlen(name), &number))
+            return ffd_fail_memory(error);
+        if (number == known)
+            first[number] = a;
+    }
+    return FFD_OK;
+}
+
+static bool has_name(const rig_animation *animation, const char *name)
+{
+    return strcmp(animation->name ? animation->name : "", name) == 0;
+}
+
+/* Finds the animations of the deformed file by their names: the one of the same number, if it has the name,
+   else the first; those without a name by their number. */
+static ffd_status match(const view_scene *scene, ffd_error *error)
+{
+    const mesh_skeleton *const own = scene->rigs[0].skeleton, *const other = scene->rigs[1].skeleton;
+    const size_t count = other ? other->animation_count : 0;
+    intern_table names = {0};
+    size_t *const first = ffd_alloc(count, sizeof *first);
+    ffd_status status = !first  ? ffd_fail_memory(error)
+                        : other ? number_names(other, &names, first, error)
+                                : FFD_OK;
+    for (size_t a = 0; a < scene->animation_count && !status; a++) {
+        const char *const name = own->animations[a].name ? own->animations[a].name : "";
+        size_t *const of = &scene->animations[a].of[1];
+        uint32_t number;
+        *of = RIG_NONE;
+        if (a < count && has_name(&other->animations[a], name))
+            *of = a;
+        else if (*name && ffd_intern_find(&names, name, strlen(name), &number))
+            *of = first[number];
+    }
+    ffd_intern_free(&names);
+    ffd_free(first);
+    return status;
+}
+
+static bool is_wanted(const view_rigs_desc *desc, const view_scene *scene, size_t animation)
+{
+    return desc->all || animation == scene->animation;
+}
+
+/* Loads the keys of an animation on one side. On a page one that is not valid is left out. */
+static ffd_status load(const view_rigs_desc *desc, view_scene *scene, int side, size_t animation,
+                       ffd_error *error)
+{
+    mesh_skeleton *const skeleton = scene->rigs[side].skeleton;
+    size_t *const of = &scene->animations[animation].of[side];
+    ffd_error own = {0};
+    if (!skeleton || *of == RIG_NONE)
+        return FFD_OK;
+    const ffd_status status = skeleton->load(skeleton, *of, &own);
+    const bool is_broken = status == FFD_E_INVALID || status == FFD_E_UNSUPPORTED;
+    if (is_broken && animation != scene->animation) {
+        char name[NAME];
+        ffd_name_shown(scene->animations[animation].name, name, sizeof name);
+        ffd_log_line(desc->log, FFD_LOG_WARNING, "the animation \"%s\" is left out: %s: %s", name,
+                     own.pointer, own.message);
+        *of = RIG_NONE;
+        return FFD_OK;
+    }
+    if (status && error)
+        *error = own;
+    return status;
+}
+
+static ffd_status load_all(const view_rigs_desc *desc, view_scene *scene, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    for (size_t a = 0; a < scene->animation_count && !status; a++) {
+        if (!is_wanted(desc, scene, a))
+            continue;
+        status = load(desc, scene, 0, a, error);
+        if (!status && scene->rigs[1].skeleton != scene->rigs[0].skeleton)
+            status = load(desc, scene, 1, a, error);
+        if (scene->rigs[1].skeleton == scene->rigs[0].skeleton)
+            scene->animations[a].of[1] = scene->animations[a].of[0];
+    }
+    return status;
+}
+
+static ffd_status read_anchors(const view_rigs_desc *desc, mesh_document *document, bool after, view_rig *rig,
+                               ffd_error *error)
+{
+    if (!rig->skeleton || !rig->skeleton->starts)
+        return FFD_OK;
+    document->shown = desc->shown && ffd_mesh_shows_shapes(document);
+    const ffd_status status = document->format->read_anchors(rig->skeleton, after, &rig->anchors, error);
+    document->shown = false;
+    return status;
+}
+
+/* A job that deforms what default weights show has no targets of its own: to first order, which is exact
+   where the deformation is affine, offsets go by its gradient. */
+static void turn_offsets(const view_rigs_desc *desc, mesh_anchors *anchors)
+{
+    for (size_t t = 0; t < anchors->target_count && anchors->keeps_offsets && desc->gradients; t++)
+        for (size_t i = 0; i < anchors->targets[t].count; i++) {
+            const double *const g = desc->gradients + 9 * (anchors->targets[t].first + i);
+            double *const offset = anchors->targets[t].offsets + 3 * i, by[3];
+            mat_apply(g, offset, by);
+            for (int a = 0; a < 3; a++)
+                offset[a] += isfinite(by[a]) ? by[a] : 0;
+        }
+}
+
+/* Says what an animation that is shown leaves out. */
+static void warn(const view_rigs_desc *desc, const view_scene *scene)
+{
+    size_t left = 0, unmatched = 0;
+    for (size_t a = 0; a < scene->animation_count; a++) {
+        if (!is_wanted(desc, scene, a) || scene->animations[a].of[0] == RIG_NONE)
+            continue;
+        left += scene->rigs[0].skeleton->animations[scene->animations[a].of[0]].left;
+        unmatched += scene->rigs[1].skeleton != scene->rigs[0].skeleton && desc->after &&
+                     scene->animations[a].of[1] == RIG_NONE;
+    }
+    if (left)
+        ffd_log_line(desc->log, FFD_LOG_WARNING,
+                     "not played: %zu %s no translation, rotation, scale or weights of a node that is there",
+                     left, ffd_plural(left, "channel that drives", "channels that drive"));
+    if (unmatched)
+        ffd_log_line(desc->log, FFD_LOG_WARNING, "%s has not %zu of the animations: it stands still there",
+                     desc->after_name, unmatched);
+    if (scene->rigs[1].anchors.keeps_offsets)
+        ffd_log_line(
+            desc->log, FFD_LOG_WARNING,
+            "after: animated morph targets are turned by the gradient of the deformation, which is exact to "
+            "first order only: default weights are shown");
+}
+
+static ffd_status make_both(const view_rigs_desc *desc, view_scene *scene, ffd_error *error)
+{
+    view_rig *const before = &scene->rigs[0], *const after = &scene->rigs[1];
+    ffd_status status = read_skeleton(desc->before, false, before, error);
+    if (!status && (desc->after || desc->follows))
+        status = read_skeleton(desc->after ? desc->after : desc->before, desc->follows, after, error);
+    else if (!status)
+        after->skeleton = before->skeleton;
+    if (!status)
+        status = list_animations(scene, error);
+    if (!status)
+        status = choose(desc, scene, error);
+    if (status)
+        return status;
+    if (desc->after || desc->follows)
+        status = match(scene, error);
+    if (!status)
+        status = load_all(desc, scene, error);
+    if (!status)
+        status = read_anchors(desc, desc->before, false, before, error);
+    if (!status && (desc->after || desc->deformed))
+        status = read_anchors(desc, desc->after ? desc->after : desc->before, desc->deformed, after, error);
+    if (status)
+        return status;
+    turn_offsets(desc, &after->anchors);
+    warn(desc, scene);
+    return FFD_OK;
+}
+
+/* Animations that nobody asked for are no reason to fail. */
+ffd_status ffd_view_make_rigs(const view_rigs_desc *desc, view_scene *scene, ffd_error *error)
+{
+    ffd_error own = {0};
+    scene->animation = RIG_NONE;
+    if (!desc->all && !desc->animation)
+        return FFD_OK;
+    const ffd_status status = make_both(desc, scene, &own);
+    if (status == FFD_E_LIMIT && !desc->animation) {
+        ffd_log_line(desc->log, FFD_LOG_WARNING, "the animations are left out: %s", own.message);
+        ffd_view_scene_free_rigs(scene);
+        return FFD_OK;
+    }
+    if (status && error)
+        *error = own;
+    if (status && error)
+        ffd_fail_name_file(error, desc->before_name);
+    return status;
+}
