@@ -763,7 +763,6 @@ m("clip-replaced", "left out", "cli_morphs", "ffd_json_span_string_is(tree, name
 m("clip-of-a-conversion", "stride", "cli_morphs", "clip->key_count * target_count(plan, m), NULL", "clip->key_count * 1, NULL")
 m("morph-in-its-place", "operand", "cli_morphs, cli_as_morph", "ffd_gltf_target_place(&file->model.meshes[m].primitives[p], marks->named[m]);",
   "ffd_gltf_target_place(&d->model.meshes[m].primitives[p], marks->named[m]);")
-m("morph-normals-of-pairs", "operand", "cli_morphs", "replace(&after->normals, &pairs, 1)", "replace(&after->normals, &pairs, 0)")
 m("morph-worst-counts", "condition", "cli_morphs", "target->counts[FFD_INSIDE] < all->counts[FFD_INSIDE]",
   "target->counts[FFD_INSIDE] > all->counts[FFD_INSIDE]")
 m("morph-file-warned-again", "condition", "cli_morphs", "job->file_log = k == 0 ? *log : (mesh_log){0};", "job->file_log = *log;")
