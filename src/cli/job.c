@@ -253,6 +253,8 @@ static const char *wrong_morphs(const cli_job *job)
         return "-l cannot be used with --morph: each --morph names its own lattice";
     if (job->as_morph)
         return "--as-morph cannot be used with --morph";
+    if (job->rig == FFD_RIG_FOLLOW)
+        return "--rig follow moves the shape itself, which --morph leaves";
     return job->blocks ? "--blocks cannot be used with --morph" : NULL;
 }
 

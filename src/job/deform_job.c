@@ -53,9 +53,12 @@ static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
         return ffd_fail(error, FFD_E_ARGUMENT, "the snap %g is not a length", desc->snap);
     if (desc->falloff > 0 && desc->outside != FFD_OUTSIDE_EXTEND)
         return ffd_fail(error, FFD_E_ARGUMENT, "--falloff needs --outside extend");
-    if (desc->rig == FFD_RIG_FOLLOW && (desc->as_morph || desc->input.space == FFD_SPACE_MESH))
+    if (desc->rig == FFD_RIG_FOLLOW &&
+        (desc->as_morph || desc->morphs || desc->input.space == FFD_SPACE_MESH))
         return ffd_fail(error, FFD_E_ARGUMENT, "--rig follow cannot be used with %s",
-                        desc->as_morph ? "--as-morph" : "--space mesh");
+                        desc->as_morph ? "--as-morph"
+                        : desc->morphs ? "--morph"
+                                       : "--space mesh");
     if (!ffd_isa_available(desc->isa))
         return ffd_fail(error, FFD_E_ARGUMENT,
                         "this build or this processor does not support the instruction set %s",

@@ -281,6 +281,7 @@ def what_does_not_go_together(run):
     for options, said in ((("-l", "shear.json"), "-l cannot be used with --morph: each --morph names its own lattice"),
                           (("--as-morph", "x"), "--as-morph cannot be used with --morph"),
                           (("--blocks",), "--blocks cannot be used with --morph"),
+                          (("--rig", "follow"), "--rig follow moves the shape itself, which --morph leaves"),
                           (("--embedding", "e.npy"), "--embedding works with one lattice, but several --morph are given")):
         done = run.ffd("deform", "in.glb", "out.glb", *MORPHS, *options, code=USAGE)
         check(said in done.err[0], done.err)
@@ -320,21 +321,28 @@ def a_conversion_gets_all_targets(run):
         done = run.ffd("deform", "m.obj", name, *morphs, "--clip", "c: 0, 1 all=1", "-q", *options, data=True)
         text = json.loads(done.out if name == "-" else run.text(name))
         equal([(a["name"], len(a["channels"])) for a in text["animations"]], [("c", 2)])
-    # Normals that the targets split in different ways.
+    # Normals that corners share in one shape, and not in another.
     run.write("n.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nvn 0 0 1\nf 1//1 2//1 3//1\nf 2//1 4//1 3//1\n")
-    run.write("twist.json", lattice(low=(-1, -1, -1), high=(2, 2, 2), moves=[{"twist": {"axis": "z", "degrees": 70}}]))
-    # One moves all corners, the other only the last.
+    run.write("lean.json", lattice(low=(-1, -1, -1), high=(2, 2, 2), moves=[{"bend": {"axis": "x", "toward": [0, 0, 1], "degrees": 70}}]))
     run.write("tip.json", lattice(size=(3, 3, 3), degree=[1, 1, 1], moves=[{"at": [2, 2, 2], "by": [0, 0.5, 0.3]}]))
-    morphs = ("--morph", "twist=twist.json", "--morph", "corner=tip.json")
-    run.ffd("deform", "n.obj", "n.glb", *morphs, "-q")
-    asset, data = glb_split(run.read("n.glb"))
-    corners = {tuple(p): (tuple(twist), tuple(corner)) for p, twist, corner in zip(
-        read_all(asset, data, 0), *(targets_of(asset, data)[0][name][0]["NORMAL"] for name in ("twist", "corner")))}
-    for k, (name, file) in enumerate((("twist", "twist.json"), ("corner", "tip.json"))):
-        run.ffd("deform", "n.obj", "one.glb", "--force", "-l", file, "--as-morph", name, "-q")
-        one, one_data = glb_split(run.read("one.glb"))
-        equal({tuple(p): tuple(n) for p, n in zip(read_all(one, one_data, 0), targets_of(one, one_data)[0][name][0]["NORMAL"])},
-              {p: normals[k] for p, normals in corners.items()}, name)
+    run.write("still.json", lattice(low=(50, 50, 50), high=(60, 60, 60), moves=[{"by": [1, 0, 0]}]))
+    expected = {}
+    for name in ("lean", "tip", "still"):
+        run.ffd("deform", "n.obj", "one.glb", "--force", "-l", f"{name}.json", "--as-morph", name, "-q")
+        expected[name] = normals_at_corners(*glb_split(run.read("one.glb")), name)
+    check(len({n for _, n in expected["lean"].values()}) == 4, expected)
+    for names in (("lean", "tip", "still"), ("still", "lean", "tip"), ("tip", "still", "lean")):
+        run.ffd("deform", "n.obj", "n.glb", "--force", *(word for name in names for word in ("--morph", f"{name}={name}.json")), "-q")
+        made = glb_split(run.read("n.glb"))
+        equal({name: normals_at_corners(*made, name) for name in names}, expected, str(names))
+
+
+def normals_at_corners(asset, data, name):
+    """position -> the normal of the one mesh there, and its offset in the target."""
+    attributes = asset["meshes"][0]["primitives"][0]["attributes"]
+    offset, = targets_of(asset, data)[0][name]
+    rows = zip(*(read_all(asset, data, attributes[key]) for key in ("POSITION", "NORMAL")), offset["NORMAL"])
+    return {tuple(position): (tuple(normal), tuple(added)) for position, normal, added in rows}
 
 
 @case

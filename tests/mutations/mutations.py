@@ -763,7 +763,6 @@ m("clip-replaced", "left out", "cli_morphs", "ffd_json_span_string_is(tree, name
 m("clip-of-a-conversion", "stride", "cli_morphs", "clip->key_count * target_count(plan, m), NULL", "clip->key_count * 1, NULL")
 m("morph-in-its-place", "operand", "cli_morphs, cli_as_morph", "ffd_gltf_target_place(&file->model.meshes[m].primitives[p], marks->named[m]);",
   "ffd_gltf_target_place(&d->model.meshes[m].primitives[p], marks->named[m]);")
-m("morph-normals-of-pairs", "operand", "cli_morphs", "replace(&after->normals, &pairs, 1)", "replace(&after->normals, &pairs, 0)")
 m("morph-worst-counts", "condition", "cli_morphs", "target->counts[FFD_INSIDE] < all->counts[FFD_INSIDE]",
   "target->counts[FFD_INSIDE] > all->counts[FFD_INSIDE]")
 m("morph-file-warned-again", "condition", "cli_morphs", "job->file_log = k == 0 ? *log : (mesh_log){0};", "job->file_log = *log;")
@@ -775,9 +774,8 @@ m("morph-name-not-resumed", "left out", "cli_morphs", 'ffd_buffer_text(content, 
 m("sparse-too-soon", "bound", "cli_morphs", "if (sparse->count <= count / 3)", "if (sparse->count <= count / 2)")
 m("sparse-short-numbers", "bound", "cli_morphs", "sparse->index_size = count <= SHORT_INDICES ? 2 : 4;",
   "sparse->index_size = count <= SHORT_INDICES + 1 ? 2 : 4;")
-m("sparse-as-morph", "condition", "cli_morphs", "return d->base.sparse_targets && version->accessor >=", "return version->accessor >=")
-m("sparse-target-of-a-view", "format", "cli_morphs", "if (!append->sparse) write_target(saver, version->accessor, text);",
-  "write_target(saver, version->accessor, text);")
+m("sparse-as-morph", "condition", "cli_morphs", "if (!d->base.sparse_targets || version->accessor == GLTF_NONE)", "if (version->accessor == GLTF_NONE)")
+m("sparse-target-of-a-view", "format", "cli_morphs", "if (!append->sparse) write_target(saver, version, text);", "write_target(saver, version, text);")
 m("morph-limit-of-viewers", "bound", "cli_morphs", "if (count <= MORPHS_PLAYED || count <= ffd_gltf_target_count(d, m))",
   "if (count < MORPHS_PLAYED || count <= ffd_gltf_target_count(d, m))")
 m("changed-corners", "bound", "changed_faces", "if (filler->corner < filler->corners && vertex < filler->faces->vertex_count)",
@@ -1072,7 +1070,9 @@ m("rig-left-for-the-next-job", "clean-up left out", "rig", "ffd_gltf_free_rig((g
 m("rig-lag-of-cameras", "selection", "cli_stays_behind, cli_rig", "const double lag = kinds & OF_THE_RIG ? ffd_rig_lag(&rig->moves[i], diagonal) : 0;",
   "const double lag = ffd_rig_lag(&rig->moves[i], diagonal);")
 m("rig-small-lags-said", "threshold", "cli_rig", "#define LAG_SAID 1e-3", "#define LAG_SAID 1e-6")
-m("rig-by-a-morph", "check left out", "rig", "desc->rig == FFD_RIG_FOLLOW && (desc->as_morph || desc->input.space == FFD_SPACE_MESH)",
+m("rig-by-a-morph", "check left out", "rig", "desc->rig == FFD_RIG_FOLLOW && (desc->as_morph || desc->morphs || desc->input.space == FFD_SPACE_MESH)",
+  "desc->rig == FFD_RIG_FOLLOW && desc->input.space == FFD_SPACE_MESH",
+  "desc->rig == FFD_RIG_FOLLOW && (desc->as_morph || desc->input.space == FFD_SPACE_MESH)",
   "desc->rig == FFD_RIG_FOLLOW && desc->input.space == FFD_SPACE_MESH")
 
 # animations of views
