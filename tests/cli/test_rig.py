@@ -177,6 +177,8 @@ def equal_bytes_for_any_threads_and_kernels(run):
         deform(run, arm(), BEND, "--rig", "follow", *options)
         found.add(run.read("f.glb"))
     equal(len(found), 1)
+    done, _ = deform(run, arm(), BEND, "--rig", "follow", "-v")
+    told(done, "4 nodes follow the deformation, and with them 1 skin and 1 animation")
 
 
 @case
@@ -383,6 +385,23 @@ def spring_bones_and_shapes_are_said(run):
     told(done, "eyes")
     done, _ = deform(run, made, [], "--rig", "follow")
     equal(done.err, [])
+
+
+@case
+def pointers_that_are_not_followed_and_shapes_are_said(run):
+    made = arm()
+    pointer = lambda where: {"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": where}}}
+    made.asset["animations"][0]["channels"] += [{"sampler": 3, "target": pointer(where)} for where in
+                                                ("/nodes/1/matrix", "/nodes/0/matrix", "/materials/0/alphaCutoff")]
+    shape = {"KHR_physics_rigid_bodies": {"collider": {"geometry": {"shape": 0}}}}
+    made.asset["nodes"][3]["extensions"] = shape
+    made.asset |= {"extensions": {"KHR_implicit_shapes": {"shapes": [{"type": "sphere", "sphere": {"radius": 1}}]}},
+                   "extensionsUsed": ["KHR_implicit_shapes", "KHR_physics_rigid_bodies", "KHR_animation_pointer"]}
+    done, follow = deform(run, made, BEND, "--rig", "follow")
+    told(done, "1 channel of KHR_animation_pointer drives a node that has moved")
+    told(done, "1 physics shape goes with its node")
+    equal(follow.nodes[3]["extensions"], shape)
+    told(deform(run, made, BEND)[0], "1 physics shape stays where it is")
 
 
 @case

@@ -45,12 +45,27 @@ static void warn_of_vrm(const gltf_document *d, const gltf_rig *rig, const mesh_
         ffd_log_line(log, FFD_LOG_WARNING, "the offset of the eyes from the head bone (VRM) stays");
 }
 
+/* What is written otherwise. */
+static void tell(const gltf_document *d, const gltf_rig *rig, const mesh_log *log)
+{
+    size_t skins = 0, animations = 0;
+    for (size_t s = 0; s < d->skin_values.count; s++)
+        skins += rig->skin_contents[s] != GLTF_NONE;
+    for (size_t a = 0; a < rig->animations.count; a++)
+        animations += rig->changes[a].contents != NULL;
+    ffd_log_line(log, FFD_LOG_INFO, "%zu %s the deformation, and with %s %zu %s and %zu %s", rig->node_count,
+                 ffd_plural(rig->node_count, "node follows", "nodes follow"),
+                 ffd_plural(rig->node_count, "it", "them"), skins, ffd_plural(skins, "skin", "skins"),
+                 animations, ffd_plural(animations, "animation", "animations"));
+}
+
 void ffd_gltf_warn_of_rig(const gltf_document *d, const mesh_places *places, const gltf_rig *rig,
                           const mesh_log *log)
 {
     const size_t shapes = count_shapes(places, rig);
     if (rig->node_count == 0)
         return;
+    tell(d, rig, log);
     if (shapes)
         ffd_log_line(log, FFD_LOG_WARNING, "%zu physics %s", shapes,
                      ffd_plural(shapes, "shape goes with its node, but keeps its size",

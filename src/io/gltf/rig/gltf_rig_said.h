@@ -1,11 +1,11 @@
-/* gltf_rig_said.h - what does not go along with nodes that follow the deformation. */
+/* gltf_rig_said.h - what goes along, and what does not, with nodes that follow the deformation. */
 #ifndef FFD_IO_GLTF_RIG_GLTF_RIG_SAID_H
 #define FFD_IO_GLTF_RIG_GLTF_RIG_SAID_H
 
 #include "io/gltf/rig/gltf_rig.h"
 
-/* Warns of it, a line a kind: physics shapes, spring bones and look-at offsets of VRM, rest rotations of VRM
-   0.x, channels whose pointers are not followed. */
+/* Says what goes along (-v), and warns of what does not, a line a kind: physics shapes, spring bones and
+   look-at offsets of VRM, rest rotations of VRM 0.x, channels whose pointers are not followed. */
 void ffd_gltf_warn_of_rig(const gltf_document *document, const mesh_places *places, const gltf_rig *rig,
                           const mesh_log *log);
 
