@@ -38,12 +38,17 @@ function listFitPoints(scene) {
 
 class Camera {
   constructor(points) {
-    this.points = points;  // when it fits, all of them are in the picture as far as FIT_REACH goes
-    this.radius = points.reduce((most, p) => Math.max(most, Math.hypot(...p)), 0) || 1;
+    this.hold(points);
     this.aspect = 1;
     this.target = [0, 0, 0];
     [this.yaw, this.pitch] = VIEWS.iso;
     this.distance = 4 * this.radius;
+  }
+
+  // When it fits, all of these points are in the picture as far as FIT_REACH goes.
+  hold(points) {
+    this.points = points;
+    this.radius = points.reduce((most, p) => Math.max(most, Math.hypot(...p)), 0) || 1;
   }
 
   // Right, up and backwards, as the world has them.

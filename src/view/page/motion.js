@@ -45,6 +45,7 @@ class Motion {
       this.viewer.set('showJoints', true);
     }
     this.viewer.clearChoice();
+    if (animation) this.viewer.fitTo(animation);
     this.show(animation ? animation.begin : 0);
   }
 

@@ -1,6 +1,7 @@
 // viewer.js - the state of the page and what changes it; a picture is drawn when something did.
 
 const MOTION = 350;   // milliseconds of a camera's way
+const FIT_POSES = 6;  // of an animation, that the camera makes room for
 const PLAY = 1600;    // of a way from before to after
 
 function palette(isDark) {
@@ -102,6 +103,19 @@ class Viewer {
     this.showJoints(animation, time);
     if (this.chosenVertex !== undefined) this.markVertex(this.chosenVertex);
     this.redraw();
+  }
+
+  // Makes room for all of an animation, by some of its poses; as long as nobody has moved the camera it moves there.
+  fitTo(animation) {
+    const {scene, camera} = this;
+    poseScene(scene, null, 0);
+    const points = listFitPoints(scene);
+    for (let i = 0; animation && i < FIT_POSES; i++) {
+      poseScene(scene, animation, animation.begin + (animation.end - animation.begin) * i / FIT_POSES);
+      points.push(...listFitPoints({...scene, cages: []}));
+    }
+    camera.hold(points);
+    if (!this.touched) Object.assign(camera, camera.fit());
   }
 
   showJoints(animation, time) {
