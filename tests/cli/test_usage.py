@@ -12,6 +12,8 @@ OPTIONS = {
     "check": {"--picture", "--lattice", "--set", "--shared-box", "--outside", "--falloff", "--snap", "--blocks", "--normals", "--rig", "--only", "--space", "--embedding", "--as-morph", "--fail-on", "--resources",
               "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory", "--strict", "--allow-extension"},
     "embed": {"--lattice", "--set", "--output", "--status", "--space", "--snap", "--threads", "--force", "--input-format", "--memory", "--strict", "--allow-extension"},
+    "jacobian": {"--lattice", "--output", "--wrt", "--components", "--of", "--times", "--transposed", "--check", "--set", "--outside", "--falloff", "--snap", "--space",
+                 "--only", "--threads", "--isa", "--memory", "--allow-extension", "--strict", "--input-format", "--force"},
     "compare": {"--tolerance", "--normal-tolerance", "--json", "--input-format", "--memory", "--strict"},
     "info": {"--json", "--parts", "--set", "--input-format", "--memory", "--strict"},
     "view": {"--output", "--size", "--camera", "--color", "--frames", "--animation", "--full", "--lattice", "--set", "--shared-box", "--outside", "--falloff", "--snap", "--blocks", "--normals", "--rig", "--only", "--space", "--embedding",
