@@ -327,6 +327,23 @@ def only_moves_the_nodes_of_what_it_selects(run):
 
 
 @case
+def a_mesh_at_a_joint_that_is_not_selected_stays_where_it_is(run):
+    """Its node goes along as a joint: the vertices and their morph targets are brought back."""
+    made = arm()
+    made.asset["nodes"][2]["mesh"] = 1
+    made.asset["meshes"][1]["primitives"][0]["targets"] = [{"POSITION": made.add([[0.5, 0, 0], [0, 0, 0], [0, 0.25, 0]], bounds=True)}]
+    _, keep, follow = both(run, made, BEND, "--only", "node:skinned")
+    before = Posed(run.read("a.glb"))
+    check(follow.nodes[2] != before.nodes[2], "a joint follows")
+    near(follow.vertices()[2, 0], before.vertices()[2, 0], 1e-6)
+    for posed in (before, follow):
+        primitive = posed.asset["meshes"][posed.nodes[2]["mesh"]]["primitives"][0]
+        rows = zip(*map(posed.read, (primitive["attributes"]["POSITION"], primitive["targets"][0]["POSITION"])))
+        posed.shown = [point(posed.worlds()[2], [a + b for a, b in zip(p, m)]) for p, m in rows]
+    near(follow.shown, before.shown, 1e-6, "the target in full")
+
+
+@case
 def a_mesh_that_is_selected_in_part_keeps_its_node(run):
     made = arm()
     made.asset["materials"] = [{"name": "red"}, {"name": "blue"}]

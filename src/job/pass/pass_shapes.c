@@ -77,6 +77,12 @@ static void read_position_offsets(const shape_work *work)
     }
 }
 
+/* Whether a vertex is looked at: one that is not selected only where what shows it is moved. */
+static bool takes_part(const shape_work *work, size_t i)
+{
+    return work->part->part->carried || ffd_part_selects(work->part->part, work->first + i);
+}
+
 /* Lists the vertices that the target moves, with their positions in the lattice's space. */
 static void place_moved(const shape_work *work)
 {
@@ -86,7 +92,7 @@ static void place_moved(const shape_work *work)
         const double *m = s->offsets + 3 * i;
         double *x = s->position + 3 * s->moved_count;
         s->gradients[i] = work->tile->gradient + 9 * i;
-        if (!ffd_part_selects(work->part->part, work->first + i) || (m[0] == 0 && m[1] == 0 && m[2] == 0))
+        if (!takes_part(work, i) || (m[0] == 0 && m[1] == 0 && m[2] == 0))
             continue;
         const vertex_transform transform = ffd_vertex_transform_of(&work->tile->transforms, i);
         for (size_t a = 0; a < 3; a++)
@@ -129,6 +135,21 @@ static void find_rounding(const void *context, size_t point, bool is_first, cons
     ffd_vertex_rounding_place(&transform, half);
 }
 
+/* A vertex that is not selected stays where the target shows it. */
+static void hold(const shape_work *work, size_t k, bool gradients)
+{
+    shape_scratch *s = work->scratch;
+    const size_t i = s->moved[k];
+    const vertex_transform transform = ffd_vertex_transform_of(&work->tile->transforms, i);
+    for (size_t a = 0; a < 3; a++)
+        s->position[3 * k + a] = s->base[3 * i + a] + s->offsets[3 * i + a];
+    ffd_vertex_transform_point(&transform, s->position + 3 * k);
+    memset(s->moved_delta + 3 * k, 0, 3 * sizeof *s->moved_delta);
+    if (gradients)
+        memset(s->moved_gradient + 9 * k, 0, 9 * sizeof *s->moved_gradient);
+    s->moved_outcomes[k] = (point_outcome){0};
+}
+
 /* As for the base: the offset is what is between two places that are carried alike. */
 static void carry(const shape_work *work, size_t k, bool gradients)
 {
@@ -160,6 +181,8 @@ static ffd_status send_moved(const shape_work *work, bool gradients, ffd_error *
     for (size_t k = 0; k < s->moved_count && !status; k++) {
         const size_t i = s->moved[k];
         const vertex_transform transform = ffd_vertex_transform_of(&work->tile->transforms, i);
+        if (work->part->part->carried && !ffd_part_selects(work->part->part, work->first + i))
+            hold(work, k, gradients);
         if (work->part->part->carried)
             carry(work, k, gradients);
         if (gradients)
@@ -236,7 +259,7 @@ static void deform_normals(const shape_work *work)
         double *n = s->normals + 3 * i;
         for (size_t a = 0; a < 3; a++)
             n[a] = s->base[3 * i + a] + s->offsets[3 * i + a];
-        if (!ffd_part_selects(work->part->part, work->first + i))
+        if (!takes_part(work, i))
             continue;
         ffd_deform_normal(s->gradients[i], n, n, NULL);
         take_direction(s->base + 3 * i, work->tile->normals + 3 * i, n, s->offsets + 3 * i, &s->changed[i]);
@@ -258,7 +281,7 @@ static void deform_tangents(const shape_work *work)
         double t[3];
         for (size_t a = 0; a < 3; a++)
             t[a] = base[a] + s->offsets[3 * i + a];
-        if (!ffd_part_selects(work->part->part, work->first + i))
+        if (!takes_part(work, i))
             continue;
         const double *n = work->part->part->normal_count ? s->normals + 3 * i : NULL;
         ffd_deform_tangent(s->gradients[i], t, n, t, NULL);

@@ -3,6 +3,7 @@
 #include "base/vector/polar.h"
 #include "base/vector/vec.h"
 #include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/scene/gltf_results.h"
 #include "io/gltf/scene/gltf_scene.h"
 #include <float.h>
 #include <string.h>
@@ -272,6 +273,9 @@ ffd_status ffd_gltf_follow_skins(gltf_document *d, const mesh_places *places, co
     }
     if (status == FFD_OK)
         carry_parts(d, rig, inverses);
+    for (size_t i = 0; i < d->base.part_count && status == FFD_OK; i++)
+        if (d->mesh_parts[i].carried && d->mesh_parts[i].skipped)
+            status = ffd_gltf_add_results(d, i, error);
     ffd_free(inverses);
     ffd_free(shown);
     ffd_free(partial);

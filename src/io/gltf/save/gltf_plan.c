@@ -10,7 +10,8 @@ size_t ffd_gltf_version_at(const gltf_document *d, const gltf_plan *plan, size_t
     if (use == GLTF_NONE)
         return GLTF_NONE;
     const gltf_instance *instance = &ffd_gltf_instances(d, mesh, p)[use];
-    if (!instance->selected)
+    const size_t owner = instance->part[GLTF_POSITION];
+    if (!instance->selected && !(owner != GLTF_NONE && d->mesh_parts[owner].carried))
         return GLTF_NONE;
     const size_t part = slot < GLTF_DEFORMED ? instance->part[slot]
                                              : d->targets[instance->first_target + slot / GLTF_DEFORMED - 1];

@@ -147,6 +147,19 @@ static void drop_result(gltf_document *d, size_t part, gltf_semantic semantic)
     ffd_gltf_free_result(stream);
 }
 
+ffd_status ffd_gltf_add_results(gltf_document *d, size_t part, ffd_error *error)
+{
+    const size_t shapes = d->base.part_count + d->parts[part].first_shape;
+    ffd_status status = FFD_OK;
+    for (size_t k = 0; k <= d->mesh_parts[part].shape_count; k++)
+        for (int s = 0; s < GLTF_DEFORMED && status == FFD_OK; s++) {
+            const bool repeats = k == 0 && s == GLTF_POSITION && d->mesh_parts[part].repeats_positions;
+            if (!repeats && (s == GLTF_POSITION || d->morph_normals))
+                status = make_result(d, k == 0 ? part : shapes + k - 1, (gltf_semantic)s, error);
+        }
+    return status;
+}
+
 ffd_status ffd_gltf_begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error)
 {
     gltf_document *d = (gltf_document *)document;

@@ -20,4 +20,8 @@ void ffd_gltf_free_result(gltf_stream *stream);
 /* Returns the bounds of count vectors; NaNs are ignored. */
 gltf_tile_bounds ffd_gltf_find_bounds(const float *xyz, size_t count);
 
+/* Makes the results of a part that has none as it is not selected. After ffd_gltf_begin_results. Errors:
+   FFD_E_LIMIT, FFD_E_MEMORY. */
+ffd_status ffd_gltf_add_results(gltf_document *document, size_t part, ffd_error *error);
+
 #endif
