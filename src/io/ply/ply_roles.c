@@ -82,16 +82,6 @@ static void find_face_normals(ply_document *d)
         d->face_normals[a] = there && !whole ? found[a] : NULL;
 }
 
-/* The properties of 3D Gaussian splatting: a splat is longest along one of its own axes, and turned. */
-static bool has_splats(const ply_document *d)
-{
-    static const char *const names[] = {"rot_0", "rot_1", "rot_2", "rot_3", "scale_0", "scale_1"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (!ffd_ply_find_property(d->vertex, names[i]))
-            return false;
-    return true;
-}
-
 ffd_status ffd_ply_find_roles(ply_document *d, ffd_error *error)
 {
     d->vertex = ffd_ply_find_element(&d->header, "vertex");
@@ -106,8 +96,7 @@ ffd_status ffd_ply_find_roles(ply_document *d, ffd_error *error)
     find_normals(d);
     find_faces(d);
     find_face_normals(d);
-    d->file.part.splats = has_splats(d);
-    d->file.part.place = MESH_NO_PLACE;
+    ffd_ply_find_splats(d);
     return FFD_OK;
 }
 

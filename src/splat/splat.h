@@ -1,0 +1,50 @@
+/* splat.h - Gaussian splats under a deformation gradient F = I + gradient (src/maths.md 9.5): the turn of what is
+   seen from a direction, and the ellipsoid. */
+#ifndef FFD_SPLAT_SPLAT_H
+#define FFD_SPLAT_SPLAT_H
+
+#include <stdbool.h>
+
+/* How a file holds the sizes of its splats. */
+typedef struct splat_form {
+    bool is_logarithmic; /* natural logarithms of the standard deviations; else these themselves */
+    bool is_flat;        /* a disk: there is no third size */
+    int degree;          /* of the spherical harmonics that turn; 0: there are none */
+} splat_form;
+
+/* The covariance is R S S R^T: R of the rotation, S of the sizes along its axes. */
+typedef struct splat_ellipsoid {
+    double rotation[4]; /* a quaternion w, x, y, z of any length */
+    double scale[3];
+} splat_ellipsoid;
+
+/* How directions turn. */
+typedef struct splat_turn {
+    double quaternion[4]; /* of length 1, w not negative */
+    bool is_turn;         /* false: it is the identity, and mirrors nothing */
+    bool is_mirrored;     /* directions are turned, and then reversed */
+} splat_turn;
+
+typedef enum splat_outcome {
+    SPLAT_KEPT,      /* F is the identity */
+    SPLAT_CARRIED,   /* it follows F */
+    SPLAT_FLATTENED, /* it follows F, which has no inverse: a size is only that of a rounding */
+    SPLAT_BROKEN     /* it has no rotation or sizes that are numbers, or F is not a number: it stays */
+} splat_outcome;
+
+/* Finds the orthogonal factor of the polar decomposition of F. Returns whether F is other than the identity and
+   of numbers; else the turn is the identity. */
+bool ffd_splat_find_turn(const double gradient[9], splat_turn *turn);
+
+/* Turns a turn into that of a space from which `frame` (invertible) leads to the gradient's. */
+void ffd_splat_turn_to_file(const double frame[9], splat_turn *turn);
+
+/* The covariance becomes F covariance F^T. Of the axes that it can have the ones that are nearest to the turned old
+   ones are taken; the quaternion keeps its length. */
+splat_outcome ffd_splat_deform(const double gradient[9], const splat_turn *turn, const splat_form *form,
+                               splat_ellipsoid *splat);
+
+/* The matrix of a quaternion of length 1. */
+void ffd_splat_matrix(const double quaternion[4], double matrix[9]);
+
+#endif
