@@ -21,8 +21,8 @@
 #include "mesh/rig.h"
 #include "mesh/rounding.h"
 #include "mesh/selector.h"
-#include "json/json_text.h"
 #include "splat/splat.h"
+#include "json/json_text.h"
 #include <ffd/job.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -247,7 +247,8 @@ typedef void mesh_write_offsets_function(mesh_document *document, size_t part, s
 typedef void mesh_read_splats_function(const mesh_document *document, size_t part, size_t first, size_t count,
                                        splat_ellipsoid *splats);
 typedef void mesh_write_splats_function(mesh_document *document, size_t part, size_t first, size_t count,
-                                        const splat_ellipsoid *splats, const splat_turn *turns, const uint8_t *changed);
+                                        const splat_ellipsoid *splats, const splat_turn *turns,
+                                        const uint8_t *changed);
 typedef ffd_status mesh_save_function(mesh_document *document, const mesh_save_options *options,
                                       file_output *output, const mesh_log *log, ffd_error *error);
 typedef ffd_status mesh_faces_function(const mesh_document *document, mesh_faces *faces, ffd_error *error);

@@ -40,12 +40,14 @@ void ffd_harmonics_values(int degree, const double direction[3], double values[7
     }
 }
 
-/* A function of a degree is a sum of lobes round as many directions as it has coefficients (Nowrouzezahrai, Simari
-   and Fiume, Sparse Zonal Harmonic Factorization, 2012); turned, it is the same sum round the turned directions. */
+/* A function of a degree is a sum of lobes round as many directions as it has coefficients (Nowrouzezahrai,
+   Simari and Fiume, Sparse Zonal Harmonic Factorization, 2012); turned, it is the same sum round the turned
+   directions. */
 #define LOBES 7
 
 /* Along z, y, y + z, x + y, x + y + z, x, x - y: degree 2 takes the first five, degree 3 all. */
-static const double axes[LOBES][3] = {{0, 0, 1}, {0, 1, 0}, {0, 1, 1}, {1, 1, 0}, {1, 1, 1}, {1, 0, 0}, {1, -1, 0}};
+static const double axes[LOBES][3] = {{0, 0, 1}, {0, 1, 0}, {0, 1, 1}, {1, 1, 0},
+                                      {1, 1, 1}, {1, 0, 0}, {1, -1, 0}};
 #define ROOT_2 1.4142135623730950488
 #define ROOT_3 1.7320508075688772935
 static const double lengths[LOBES] = {1, 1, ROOT_2, ROOT_2, ROOT_3, 1, ROOT_2};
@@ -57,10 +59,10 @@ typedef struct lobe_term {
 } lobe_term;
 
 static const lobe_term terms2[] = {
-    {0, 0, 0.91529123286376899335},  {0, 1, 0.91529123286376899335},  {0, 2, 1.5853309190424044053},
-    {0, 4, -0.91529123286376899335}, {1, 1, 0.91529123286376899335},  {1, 3, -0.91529123286376899335},
-    {1, 4, -1.8305824657275379867},  {2, 1, -1.8305824657275379867},  {2, 3, 1.8305824657275379867},
-    {3, 0, 1.8305824657275379867},   {3, 3, 1.8305824657275379867},   {4, 3, -2.7458736985913069801},
+    {0, 0, 0.91529123286376899335},  {0, 1, 0.91529123286376899335}, {0, 2, 1.5853309190424044053},
+    {0, 4, -0.91529123286376899335}, {1, 1, 0.91529123286376899335}, {1, 3, -0.91529123286376899335},
+    {1, 4, -1.8305824657275379867},  {2, 1, -1.8305824657275379867}, {2, 3, 1.8305824657275379867},
+    {3, 0, 1.8305824657275379867},   {3, 3, 1.8305824657275379867},  {4, 3, -2.7458736985913069801},
 };
 
 static const lobe_term terms3[] = {

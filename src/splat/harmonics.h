@@ -14,8 +14,8 @@ static inline int harmonics_count(int degree)
     return (degree + 1) * (degree + 1) - 1;
 }
 
-/* Values of the functions of a degree at a direction of length 1, m from -degree to degree. The functions are those
-   of 3D Gaussian splatting and of KHR_gaussian_splatting: with the Condon-Shortley phase. */
+/* Values of the functions of a degree at a direction of length 1, m from -degree to degree. The functions are
+   those of 3D Gaussian splatting and of KHR_gaussian_splatting: with the Condon-Shortley phase. */
 void ffd_harmonics_values(int degree, const double direction[3], double values[7]);
 
 /* Replaces the coefficients of degrees 1 to `degree`, by degree and m, with those of the turned function. */

@@ -9,8 +9,9 @@
 #define STILL 0x1p-48
 /* Directions that turn by less than this are not turned: coefficients of 0 stay 0. */
 #define NO_TURN 0x1p-46
-/* Part of a size that is left of one that F takes away. */
-#define NOTHING (16 * DBL_EPSILON)
+/* Part of a size that is left of one that F takes away: above the rounding of F, whose entries are sums over
+   control points. */
+#define NOTHING 1e-12
 /* Entries of F that can be squared and multiplied freely. */
 #define LEAST_F 1e-30
 #define LARGEST_F 1e30
@@ -42,22 +43,20 @@ static double square_sum(const double m[9])
     return vec_dot(m, m) + vec_dot(m + 3, m + 3) + vec_dot(m + 6, m + 6);
 }
 
-/* Whether the determinant is no more than the rounding of its terms. */
-static bool is_flattening(const double f[9], double determinant)
+/* Whether the least singular value, which is the determinant by the product of the others, is nothing beside
+   the largest. */
+static bool is_flattening(const double f[9], const double cofactor[9])
 {
-    double sizes = 1;
-    for (int c = 0; c < 3; c++)
-        sizes *= f[c] * f[c] + f[3 + c] * f[3 + c] + f[6 + c] * f[6 + c];
-    return !(fabs(determinant) > NOTHING * sqrt(sizes));
+    return !(fabs(vec_dot(f, cofactor)) > NOTHING * largest_entry(f) * sqrt(square_sum(cofactor)));
 }
 
 /* Steps of Newton's iteration; it doubles the digits at the end, and scaling brings it near at once. */
 #define NEWTON_STEPS 30
-#define NEWTON_NEAR 1e-2   /* the square of a change after which scaling would disturb */
+#define NEWTON_NEAR 1e-2    /* the square of a change after which scaling would disturb */
 #define NEWTON_ENOUGH 1e-18 /* the square of a change after which the next one is below rounding */
 
-/* Replaces x, which has an inverse, with the orthogonal factor of its polar decomposition (Higham, Functions of
-   Matrices, 8.3 and 8.6). */
+/* Replaces x, which has an inverse, with the orthogonal factor of its polar decomposition (Higham, Functions
+   of Matrices, 8.3 and 8.6). */
 static void orthogonalise(double x[9])
 {
     bool is_near = false;
@@ -92,12 +91,13 @@ void ffd_splat_matrix(const double q[4], double m[9])
     m[8] = 1 - 2 * (x * x + y * y);
 }
 
-/* The quaternion of a rotation, of length 1, by its largest component (Shepperd, Quaternion from rotation matrix,
-   1978). */
+/* The quaternion of a rotation, of length 1, by its largest component (Shepperd, Quaternion from rotation
+   matrix, 1978). */
 static void find_quaternion(const double m[9], double q[4])
 {
     const double trace = m[0] + m[4] + m[8];
-    const double size[4] = {trace, m[0], m[4], m[8]}; /* of component i the square is (1 + 2 size - trace)/4 */
+    const double size[4] = {trace, m[0], m[4],
+                            m[8]}; /* of component i the square is (1 + 2 size - trace)/4 */
     int largest = 0;
     for (int i = 1; i < 4; i++)
         largest = size[i] > size[largest] ? i : largest;
@@ -141,18 +141,17 @@ bool ffd_splat_find_turn(const double gradient[9], splat_turn *turn)
     if (largest_entry(f) < LEAST_F)
         return true;
     mat_cofactor(f, cofactor);
-    double determinant = vec_dot(f, cofactor);
-    if (is_flattening(f, determinant)) {
+    if (is_flattening(f, cofactor)) {
         /* Cofactors have the directions of F, with a size across the plane that it leaves. */
         const double size = sqrt(square_sum(f));
         for (int i = 0; i < 9; i++)
             f[i] += cofactor[i] / size;
-        determinant = mat_determinant(f);
-        if (is_flattening(f, determinant))
+        mat_cofactor(f, cofactor);
+        if (is_flattening(f, cofactor))
             return true; /* a line or a point is left */
     }
+    turn->is_mirrored = vec_dot(f, cofactor) < 0;
     orthogonalise(f);
-    turn->is_mirrored = determinant < 0;
     for (int i = 0; i < 9 && turn->is_mirrored; i++)
         f[i] = -f[i];
     find_turn_quaternion(f, turn->quaternion);
@@ -227,8 +226,8 @@ static bool find_unit(const double q[4], double unit[4])
     return true;
 }
 
-/* Columns whose angle is nearer to a right one than this are left: it is far below a float's step, and above the
-   rounding of F, so that a turn keeps the axes of splats with equal sizes. */
+/* Columns whose angle is nearer to a right one than this are left: it is far below a float's step, and above
+   the rounding of F, so that a turn keeps the axes of splats with equal sizes. */
 #define RIGHT 1e-12
 #define SWEEPS 20
 
@@ -261,8 +260,8 @@ static void part_columns(double columns[3][3])
     }
 }
 
-/* Makes the columns unit vectors, and their lengths at least `least` each. Directions of those that are shorter are
-   chosen perpendicular to the others. */
+/* Makes the columns unit vectors, and their lengths at least `least` each. Directions of those that are
+   shorter are chosen perpendicular to the others. */
 static void unit_columns(double columns[3][3], const double least[3], double lengths[3])
 {
     bool is_there[3];
@@ -288,7 +287,8 @@ static void unit_columns(double columns[3][3], const double least[3], double len
             vec_cross(columns[(j + 1) % 3], columns[(j + 2) % 3], columns[j]);
 }
 
-/* How well columns, in an order, fit three axes as a right-handed frame: the sum of cosines. signs: of the columns.
+/* How well columns, in an order, fit three axes as a right-handed frame: the sum of cosines. signs: of the
+ * columns.
  */
 static double fit(const double axes[9], const double columns[3][3], const int order[3], bool is_right,
                   double signs[3])
@@ -338,8 +338,10 @@ static void choose_axes(const double axes[9], const double columns[3][3], bool i
             rotation[3 * k + i] = best_signs[i] * columns[order[i]][k];
 }
 
-/* Gives the quaternion of a rotation the length of another one, and the sign nearer to the turned other one. */
-static void replace_rotation(const double rotation[9], const double turn[4], const double unit[4], double q[4])
+/* Gives the quaternion of a rotation the length of another one, and the sign nearer to the turned other one.
+ */
+static void replace_rotation(const double rotation[9], const double turn[4], const double unit[4],
+                             double q[4])
 {
     const double turned[4] = {turn[0] * unit[0] - turn[1] * unit[1] - turn[2] * unit[2] - turn[3] * unit[3],
                               turn[0] * unit[1] + turn[1] * unit[0] + turn[2] * unit[3] - turn[3] * unit[2],
@@ -369,7 +371,8 @@ static void find_columns(const double f[9], const double rotation[9], const doub
 splat_outcome ffd_splat_deform(const double gradient[9], const splat_turn *turn, const splat_form *form,
                                splat_ellipsoid *splat)
 {
-    double f[9], unit[4], parts[3], old[9], turning[9], axes[9], columns[3][3], least[3], lengths[3], made[9];
+    double f[9], unit[4], parts[3], old[9], turning[9], axes[9], columns[3][3], least[3], lengths[3], made[9],
+        cofactor[9];
     int order[3];
     if (!is_usable(gradient) || !find_unit(splat->rotation, unit) || !find_parts(form, splat->scale, parts))
         return SPLAT_BROKEN;
@@ -392,5 +395,6 @@ splat_outcome ffd_splat_deform(const double gradient[9], const splat_turn *turn,
         const double ratio = lengths[order[i]] / parts[order[i]], from = scale[order[i]];
         splat->scale[i] = form->is_logarithmic ? from + ffd_log(ratio) : from * ratio;
     }
-    return is_flattening(f, mat_determinant(f)) ? SPLAT_FLATTENED : SPLAT_CARRIED;
+    mat_cofactor(f, cofactor);
+    return is_flattening(f, cofactor) ? SPLAT_FLATTENED : SPLAT_CARRIED;
 }

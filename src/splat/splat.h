@@ -1,5 +1,5 @@
-/* splat.h - Gaussian splats under a deformation gradient F = I + gradient (src/maths.md 9.5): the turn of what is
-   seen from a direction, and the ellipsoid. */
+/* splat.h - Gaussian splats under a deformation gradient F = I + gradient (src/maths.md 9.5): the turn of
+   what is seen from a direction, and the ellipsoid. */
 #ifndef FFD_SPLAT_SPLAT_H
 #define FFD_SPLAT_SPLAT_H
 
@@ -32,15 +32,15 @@ typedef enum splat_outcome {
     SPLAT_BROKEN     /* it has no rotation or sizes that are numbers, or F is not a number: it stays */
 } splat_outcome;
 
-/* Finds the orthogonal factor of the polar decomposition of F. Returns whether F is other than the identity and
-   of numbers; else the turn is the identity. */
+/* Finds the orthogonal factor of the polar decomposition of F. Returns whether F is other than the identity
+   and of numbers; else the turn is the identity. */
 bool ffd_splat_find_turn(const double gradient[9], splat_turn *turn);
 
 /* Turns a turn into that of a space from which `frame` (invertible) leads to the gradient's. */
 void ffd_splat_turn_to_file(const double frame[9], splat_turn *turn);
 
-/* The covariance becomes F covariance F^T. Of the axes that it can have the ones that are nearest to the turned old
-   ones are taken; the quaternion keeps its length. */
+/* The covariance becomes F covariance F^T. Of the axes that it can have the ones that are nearest to the
+   turned old ones are taken; the quaternion keeps its length. */
 splat_outcome ffd_splat_deform(const double gradient[9], const splat_turn *turn, const splat_form *form,
                                splat_ellipsoid *splat);
 

@@ -1,5 +1,5 @@
-/* exponential.h - e^x and the natural logarithm by additions, multiplications and divisions alone, whose bits are
-   the same on every machine: those of the C library are not. */
+/* exponential.h - e^x and the natural logarithm by additions, multiplications and divisions alone, whose bits
+   are the same on every machine: those of the C library are not. */
 #ifndef FFD_BASE_VECTOR_EXPONENTIAL_H
 #define FFD_BASE_VECTOR_EXPONENTIAL_H
 

@@ -32,7 +32,7 @@ typedef struct ply_document {
     bool has_normals, has_whole_normals; /* the latter: nx ny nz of a whole type, which are not shown */
     size_t behind;                       /* offset after the last row */
     int threads;                         /* for writing */
-    splat_ellipsoid *splats;                       /* one a vertex, where the part has ellipsoids; else NULL */
+    splat_ellipsoid *splats;             /* one a vertex, where the part has ellipsoids; else NULL */
     ply_splat *new_splats;               /* results; NULL before begin_results */
     size_t rest_count;                   /* properties f_rest_0 and so on, whether they turn or not */
 } ply_document;
@@ -68,8 +68,9 @@ void ffd_ply_find_splats(ply_document *document);
 double *ffd_ply_splat_number(splat_ellipsoid *splat, size_t slot);
 /* Makes room for the results of splats, of which none is changed. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_ply_begin_splats(ply_document *document, ffd_error *error);
-/* Turns the coefficients of a changed splat: values[i] is of slot PLY_REST_SLOT + i, as the file has it, and then
-   rounded to its type. Returns false, and leaves those of a channel as they are, where they are not numbers. */
+/* Turns the coefficients of a changed splat: values[i] is of slot PLY_REST_SLOT + i, as the file has it, and
+   then rounded to its type. Returns false, and leaves those of a channel as they are, where they are not
+   numbers. */
 bool ffd_ply_turn_rests(const ply_document *document, const splat_turn *turn, double *values);
 
 /* The entries of the format's table. */

@@ -13,8 +13,8 @@
 /* Elements, and properties of all elements together, that a header may have. */
 #define PLY_DECLARATIONS_MAX 4096
 
-/* What a property of the vertices is: x y z, nx ny nz, and of Gaussian splats rot_0 to rot_3, scale_0 to scale_2,
-   f_rest_0 and so on. */
+/* What a property of the vertices is: x y z, nx ny nz, and of Gaussian splats rot_0 to rot_3, scale_0 to
+   scale_2, f_rest_0 and so on. */
 enum {
     PLY_NORMAL_SLOT = 3,
     PLY_ROTATION_SLOT = 6,

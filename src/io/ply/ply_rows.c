@@ -34,7 +34,8 @@ static void change_rests(const ply_document *d, const ply_splat *result, row_cha
     const size_t count = HARMONICS_CHANNELS * (size_t)harmonics_count(d->file.part.form.degree);
     double before[PLY_SLOT_COUNT - PLY_REST_SLOT];
     for (size_t i = 0; i < count; i++)
-        ffd_ply_load(d->header.encoding, d->types[PLY_REST_SLOT + i], row->words[PLY_REST_SLOT + i], &before[i]);
+        ffd_ply_load(d->header.encoding, d->types[PLY_REST_SLOT + i], row->words[PLY_REST_SLOT + i],
+                     &before[i]);
     double *const after = row->values + PLY_REST_SLOT;
     memcpy(after, before, count * sizeof *before);
     row->unturned += !ffd_ply_turn_rests(d, &result->turn, after);
@@ -171,13 +172,11 @@ static void write_tile(void *context, size_t tile, size_t first, size_t last, in
 static size_t write_fixed(const ply_document *d, file_splice *splice)
 {
     const int slots = ffd_ordered_slots(d->threads);
-    row_writer w = {.document = d,
-                    .splice = splice,
-                    .texts = ffd_alloc_zero((size_t)slots, sizeof *w.texts)};
+    row_writer w = {.document = d, .splice = splice, .texts = ffd_alloc_zero((size_t)slots, sizeof *w.texts)};
     atomic_init(&w.is_over, false);
     atomic_init(&w.unturned, 0);
-    if (!w.texts || !ffd_parallel_in_order(d->file.part.vertex_count, ROW_TILE, d->threads, make_tile,
-                                           write_tile, &w))
+    if (!w.texts ||
+        !ffd_parallel_in_order(d->file.part.vertex_count, ROW_TILE, d->threads, make_tile, write_tile, &w))
         splice->status = ffd_fail_memory(splice->error);
     for (int i = 0; w.texts && i < slots; i++)
         ffd_buffer_free(&w.texts[i]);

@@ -24,7 +24,8 @@ ffd_status ffd_ply_save(mesh_document *document, const mesh_save_options *option
     const size_t unturned = d->file.new_positions ? write_elements(d, &splice) : 0;
     if (unturned > 0)
         ffd_log_line(log, FFD_LOG_WARNING,
-                     "%zu Gaussian splat%s spherical harmonics that are not numbers, or too large: they are not turned",
+                     "%zu Gaussian splat%s spherical harmonics that are not numbers, or too large: they are "
+                     "not turned",
                      unturned, unturned == 1 ? " has" : "s have");
     if (d->file.new_positions && d->renew_normals && d->has_whole_face_normals)
         ffd_log_line(log, FFD_LOG_WARNING, "nx ny nz of the faces are not all float or double: they stay");

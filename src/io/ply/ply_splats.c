@@ -1,6 +1,6 @@
-/* ply_splats.c - the Gaussian splats of a PLY file, as programs of 3D Gaussian splatting write them: rot_0 to rot_3 are
-   w, x, y, z of a quaternion, scale_0 to scale_2 natural logarithms, f_rest_0 and so on the spherical harmonics of
-   degrees 1 to 3, those of red first. */
+/* ply_splats.c - the Gaussian splats of a PLY file, as programs of 3D Gaussian splatting write them: rot_0 to
+   rot_3 are w, x, y, z of a quaternion, scale_0 to scale_2 natural logarithms, f_rest_0 and so on the
+   spherical harmonics of degrees 1 to 3, those of red first. */
 #include "base/memory/memory.h"
 #include "io/ply/ply_document.h"
 #include "splat/harmonics.h"
@@ -137,10 +137,11 @@ ffd_status ffd_ply_warn(const mesh_document *document, const mesh_log *log, ffd_
     if (!d->file.part.splats)
         warn_of_part(d, log);
     else if (d->rest_count > 0 && d->file.part.has_ellipsoids && d->file.part.form.degree == 0)
-        ffd_log_line(log, FFD_LOG_WARNING,
-                     "element vertex has %zu properties f_rest, not 9, 24 or 45 that are float or double: the "
-                     "spherical harmonics of its Gaussian splats are not turned",
-                     d->rest_count);
+        ffd_log_line(
+            log, FFD_LOG_WARNING,
+            "element vertex has %zu properties f_rest, not 9, 24 or 45 that are float or double: the "
+            "spherical harmonics of its Gaussian splats are not turned",
+            d->rest_count);
     return FFD_OK;
 }
 
@@ -168,7 +169,8 @@ ffd_status ffd_ply_begin_splats(ply_document *d, ffd_error *error)
     return FFD_OK;
 }
 
-void ffd_ply_read_splats(const mesh_document *document, size_t part, size_t first, size_t count, splat_ellipsoid *splats)
+void ffd_ply_read_splats(const mesh_document *document, size_t part, size_t first, size_t count,
+                         splat_ellipsoid *splats)
 {
     (void)part; /* there is one */
     memcpy(splats, ffd_ply_of(document)->splats + first, count * sizeof *splats);
@@ -181,8 +183,7 @@ void ffd_ply_write_splats(mesh_document *document, size_t part, size_t first, si
     (void)part;
     for (size_t i = 0; d->new_splats && i < count; i++)
         if (changed[i])
-            d->new_splats[first + i] =
-                (ply_splat){.splat = splats[i], .turn = turns[i], .is_changed = true};
+            d->new_splats[first + i] = (ply_splat){.splat = splats[i], .turn = turns[i], .is_changed = true};
 }
 
 /* Whether a channel's turned coefficients are numbers of their types. */

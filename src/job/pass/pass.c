@@ -537,7 +537,8 @@ static tile_scratch *make_scratch(const mesh_pass *pass)
             scratch[i].splat = ffd_alloc(1, sizeof *scratch[i].splat);
         if (pass->kept)
             scratch[i].kept = ffd_alloc_zero(ffd_kept_planes(ffd_chain_marked(pass->chain)), CHAIN_RUN);
-        if ((shapes && !scratch[i].shape) || (splats && !scratch[i].splat) || (pass->kept && !scratch[i].kept)) {
+        if ((shapes && !scratch[i].shape) || (splats && !scratch[i].splat) ||
+            (pass->kept && !scratch[i].kept)) {
             free_scratch(scratch, pass->threads);
             return NULL;
         }

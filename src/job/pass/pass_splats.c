@@ -18,8 +18,8 @@ void ffd_tile_splats(const part_work *work, tile_scratch *scratch, size_t first,
     splat_scratch *const tile = scratch->splat;
     document->format->read_splats(document, work->part_number, first, count, tile->splats);
     for (size_t i = 0; i < count; i++) {
-        const splat_outcome outcome = ffd_splat_deform(scratch->gradient + 9 * i, &tile->turns[i],
-                                                       &work->part->form, &tile->splats[i]);
+        const splat_outcome outcome =
+            ffd_splat_deform(scratch->gradient + 9 * i, &tile->turns[i], &work->part->form, &tile->splats[i]);
         tile->changed[i] = outcome == SPLAT_CARRIED || outcome == SPLAT_FLATTENED;
         totals->splats_carried += tile->changed[i];
         totals->splats_flattened += outcome == SPLAT_FLATTENED;
