@@ -250,9 +250,10 @@ def more_kinds_of_physics_and_pivots(run):
 
 
 def splats(points):
+    """Their rotations and scales are whole numbers, which cannot follow."""
     names = ["x", "y", "z", "f_dc_0", "f_dc_1", "f_dc_2", "opacity", "scale_0", "scale_1", "scale_2", "rot_0", "rot_1", "rot_2", "rot_3"]
     rows = [" ".join(map(str, [*p, 0.1, 0.1, 0.1, 1, -1, -4, -4, 1, 0, 0, 0])) for p in points]
-    return ("ply\nformat ascii 1.0\nelement vertex %d\n" % len(points) + "".join(f"property float {name}\n" for name in names)
+    return ("ply\nformat ascii 1.0\nelement vertex %d\n" % len(points) + "".join(f"property {'short' if name[0] in 'rs' else 'float'} {name}\n" for name in names)
             + "end_header\n" + "\n".join(rows) + "\n")
 
 
