@@ -472,6 +472,10 @@ bool ffd_used_keep(mesh_document *document, size_t count, uint8_t **used);
    positions do not count. */
 uint64_t ffd_mesh_vertex_count(const mesh_document *document);
 
+/* For formats: says how many Gaussian splats there are, and the highest degree of their harmonics. Nothing
+   where there are none. */
+void ffd_mesh_describe_splats(const mesh_document *document, json_text *json);
+
 /* The number of each part's first vertex in the document; of a part that repeats positions it is that of the
    part which it repeats. *first is the caller's to free, NULL after a failure. Errors: FFD_E_MEMORY. */
 ffd_status ffd_parts_number(const mesh_document *document, size_t **first, ffd_error *error);

@@ -8,6 +8,8 @@ import random
 import struct
 from decimal import Decimal
 
+from gltf_build import Scene
+from gltf_reader import Gltf
 from harness import INVALID, case, check, equal, lattice, main
 from said import anything, lines_with, told
 
@@ -353,6 +355,180 @@ def a_cloud_is_described(run):
         run.write("a.ply", ply(cloud(4, rests, "float")))
         equal(run.ffd("info", "a.ply", "--json", data=True).json["contents"]["gaussian_splats"], {"count": 4, "sh_degree": degree})
     check("gaussian splats" in run.ffd("info", "a.ply", data=True).text, "the text")
+
+
+# glTF
+
+PREFIX = "KHR_gaussian_splatting:"
+HARMONICS = [f"SH_DEGREE_{n}_COEF_{i}" for n in (1, 2, 3) for i in range(2 * n + 1)]
+
+
+def unit(q):
+    length = math.hypot(*q)
+    return [x / length for x in q]
+
+
+def splats_of(rows, rests, made, rotation=None, scale=None):
+    """The attributes of the rows of a cloud in a scene. rotation, scale: members of these accessors, and the numbers of
+    their steps."""
+    def add(values, shape, steps=None, component=5126, **members):
+        return made.add([[round(x * steps) if steps else x for x in v] for v in values], component, shape, **members)
+    count = rests // 3
+    attributes = {"POSITION": made.add([[row[n] for n in "xyz"] for row in rows], bounds=True),
+                  PREFIX + "ROTATION": add([(lambda w, x, y, z: [x, y, z, w])(*unit(quaternion(row))) for row in rows], "VEC4", **rotation or {}),
+                  PREFIX + "SCALE": add([[math.exp(row[f"scale_{i}"]) for i in range(3)] for row in rows], "VEC3", **scale or {}),
+                  PREFIX + "OPACITY": made.add([[0.5]] * len(rows), shape="SCALAR"),
+                  PREFIX + "SH_DEGREE_0_COEF_0": made.add([[0.1, 0.2, 0.3]] * len(rows))}
+    for i, name in enumerate(HARMONICS[:count]):
+        attributes[PREFIX + name] = made.add([[row[f"f_rest_{count * k + i}"] for k in range(3)] for row in rows])
+    return attributes
+
+
+def scene(attributes, made, nodes=({},), **members):
+    made.asset |= {"nodes": [{"mesh": 0} | node for node in nodes], "scene": 0, "scenes": [{"nodes": list(range(len(nodes)))}],
+                   "extensionsUsed": ["KHR_gaussian_splatting"],
+                   "meshes": [{"primitives": [{"attributes": attributes, "mode": 0, "extensions": {
+                       "KHR_gaussian_splatting": {"kernel": "ellipse", "colorSpace": "srgb_rec709_display"}}} | members]}]}
+    return made.glb()
+
+
+def rows_of(file, mesh, names):
+    """As rows of a PLY file."""
+    attributes = file.asset["meshes"][mesh]["primitives"][0]["attributes"]
+    read = {name: file.decoded(number) for name, number in attributes.items()}
+    rows = []
+    for i, q in enumerate(read[PREFIX + "ROTATION"]):
+        row = dict(zip("xyz", read["POSITION"][i])) | {f"rot_{k}": q[k - 1] for k in range(4)}
+        row |= {f"scale_{k}": math.log(s) for k, s in enumerate(read[PREFIX + "SCALE"][i])}
+        row |= {f"f_rest_{len(names) * k + n}": read[PREFIX + name][i][k] for n, name in enumerate(names) for k in range(3)}
+        rows.append(row)
+    return rows
+
+
+def deform_glb(run, data, box, *options, warned=0):
+    run.write("a.glb", data)
+    run.write("l.json", box)
+    done = run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", "--force", "--report", "r.json", *options, err=anything)
+    equal(len(lines_with(done, "plat")), warned, done.err)
+    return Gltf(run.path("a.glb")), Gltf(run.path("b.glb"))
+
+
+@case
+def a_sheared_gltf(run):
+    k = 0.7
+    shear = [[1, k, 0], [0, 1, 0], [0, 0, 1]]
+    for rests in (45, 24, 9, 0):
+        made = Scene()
+        names = HARMONICS[:rests // 3]
+        a, b = deform_glb(run, scene(splats_of(cloud(20, rests, "float", seed=11), rests, made), made), by(shear))
+        before, after = rows_of(a, 0, names), rows_of(b, 0, names)
+        check_covariances(before, after, [shear] * 20, 3e-4)
+        check_colours(before, after, rests, matrix(turn_of([0, 0, -1], math.degrees(math.atan(k / 2)))), 2e-6)
+        equal(len(b.asset["accessors"]), len(a.asset["accessors"]), "they are written in place")
+    equal(entry(run)["splats"], {"carried": 20, "flattened": 0, "broken": 0})
+    deform_glb(run, scene(splats_of(cloud(5, 45, "float"), 45, made := Scene()), made), by([[1, 0, 0], [0, 1, 0], [0, 0, 1]]))
+    equal(run.read("a.glb") == run.read("b.glb"), True, "nothing changes")
+
+
+@case
+def nodes_that_turn_and_stretch(run):
+    """Two nodes show one mesh, each somewhere else: each of them gets what its own splats become in the scene."""
+    box = lattice(low=(-10, -10, -10), high=(10, 10, 10), moves=[{"matrix": [1, 0.5, 0, 0, 0, 1, 0, 0, 0, 0.2, 1.1, 0, 0, 0, 0, 1], "weight": 1}])
+    world = [[1, 0.5, 0], [0, 1, 0], [0, 0.2, 1.1]]
+    polar = world
+    for _ in range(60):  # Newton, in another form than the program's: X' = (X + inverse transposed)/2
+        cofactors = [[polar[(r + 1) % 3][(c + 1) % 3] * polar[(r + 2) % 3][(c + 2) % 3]
+                      - polar[(r + 1) % 3][(c + 2) % 3] * polar[(r + 2) % 3][(c + 1) % 3] for c in range(3)] for r in range(3)]
+        size = sum(x * y for x, y in zip(polar[0], cofactors[0]))
+        polar = [[(x + y / size) / 2 for x, y in zip(r, s)] for r, s in zip(polar, cofactors)]
+    turns = [turn_of([1, 1, 0], 50), turn_of([0, 2, 1], -110)]
+    scales = [[0.5, 0.5, 0.5], [1.5, 0.4, 0.8]]
+    nodes = [{"rotation": [*q[1:], q[0]], "scale": s} for q, s in zip(turns, scales)]
+    made = Scene()
+    a, b = deform_glb(run, scene(splats_of(cloud(9, 45, "float", seed=12, span=2), 45, made), made, nodes), box)
+    meshes = [node["mesh"] for node in b.asset["nodes"]]
+    equal(sorted(meshes), [0, 1])
+    for mesh, q, s in zip(meshes, turns, scales):
+        place = [[x * y for x, y in zip(row, s)] for row in matrix(q)]
+        before, after = rows_of(a, 0, HARMONICS), rows_of(b, mesh, HARMONICS)
+        check_placed(before, after, place, world)
+        back = product(transposed(matrix(q)), product(polar, matrix(q)))
+        check_colours(before, after, 45, back, 3e-6)
+    check("KHR_gaussian_splatting" in b.asset["meshes"][1]["primitives"][0]["extensions"], "a copy is of splats")
+
+
+def check_placed(before, after, place, f):
+    place, f = [[[Decimal(x) for x in line] for line in m] for m in (place, f)]
+    for row, made in zip(before, after):
+        shown = [product(product(place, covariance(r)), transposed(place)) for r in (row, made)]
+        exact = product(product(f, shown[0]), transposed(f))
+        for i in range(3):
+            for j in range(3):
+                check(abs(exact[i][j] - shown[1][i][j]) <= Decimal(3e-4) * (exact[i][i] * exact[j][j]).sqrt(), row, made)
+
+
+@case
+def whole_numbers_of_gltf(run):
+    """Rotations in steps of 1/32767 and scales in steps of 1/65535 stay in these types while they fit."""
+    rows = [row | {f"scale_{i}": -1.0 - i for i in range(3)} for row in cloud(20, 9, "float", seed=13)]
+    turn = matrix(turn_of([1, 2, 3], 40))
+    for grown in (1, 4):
+        made = Scene()
+        data = scene(splats_of(rows, 9, made, {"component": 5122, "normalized": True, "steps": 32767},
+                               {"component": 5123, "normalized": True, "steps": 65535}), made)
+        f = [[grown * x for x in line] for line in turn]
+        a, b = deform_glb(run, data, by(f))
+        types = [b.asset["accessors"][b.asset["meshes"][0]["primitives"][0]["attributes"][PREFIX + n]]["componentType"]
+                 for n in ("ROTATION", "SCALE")]
+        equal(types, [5122, 5123 if grown == 1 else 5126])
+        check_covariances(rows_of(a, 0, HARMONICS[:3]), rows_of(b, 0, HARMONICS[:3]), [f] * 20, 4e-3)
+
+
+@case
+def harmonics_that_share_an_accessor(run):
+    """All coefficients are one accessor, and a second primitive shows its numbers as something else."""
+    made = Scene()
+    rows = cloud(6, 45, "float", seed=14)
+    attributes = splats_of(rows, 45, made)
+    shared = attributes[PREFIX + HARMONICS[0]]
+    attributes |= {PREFIX + name: shared for name in HARMONICS} | {"_OTHER": shared}
+    turn = matrix(turn_of([1, 2, 3], 40))
+    a, b = deform_glb(run, scene(attributes, made), by(turn))
+    check_colours(rows_of(a, 0, HARMONICS), rows_of(b, 0, HARMONICS), 45, turn, 3e-6)
+    other = b.asset["meshes"][0]["primitives"][0]["attributes"]["_OTHER"]
+    equal(b.decoded(other), a.decoded(shared))
+
+
+@case
+def gltf_that_is_not_quite_of_splats(run):
+    turn = by(matrix(turn_of([1, 2, 3], 30)))
+    made, rows = Scene(), cloud(4, 9, "float", seed=15)
+    attributes = splats_of(rows, 9, made)
+    logarithms = attributes | {PREFIX + "SCALE": made.add([[row[f"scale_{i}"] for i in range(3)] for row in rows])}
+    a, b = deform_glb(run, scene(logarithms, made), turn, warned=1)
+    number = logarithms[PREFIX + "SCALE"]
+    equal(b.decoded(number), a.decoded(number), "as PLY files have them")
+    told(run.ffd("check", "a.glb", "-l", "l.json", err=anything), "negative", "logarithms")
+    run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", "--force", "--strict", code=INVALID, err=anything)
+    some = {name: number for name, number in attributes.items() if not name.endswith("SH_DEGREE_1_COEF_1")}
+    a, b = deform_glb(run, scene(some, made), turn, warned=1)
+    told(run.ffd("check", "a.glb", "-l", "l.json", err=anything), "not complete", "not turned")
+    equal(b.decoded(some[PREFIX + "SH_DEGREE_1_COEF_0"]), a.decoded(some[PREFIX + "SH_DEGREE_1_COEF_0"]))
+    without = {name: number for name, number in attributes.items() if not name.endswith("ROTATION")}
+    a, b = deform_glb(run, scene(without, made), turn, warned=1)
+    equal(b.decoded(attributes[PREFIX + "SCALE"]), a.decoded(attributes[PREFIX + "SCALE"]))
+    broken = attributes | {PREFIX + "SH_DEGREE_1_COEF_1": made.add([[math.nan, 0, 0]] * 4)}
+    deform_glb(run, scene(broken, made), turn, warned=1)
+    a, b = deform_glb(run, scene(attributes, made), turn, "--as-morph", "turned", warned=1)
+    equal(b.decoded(attributes[PREFIX + "ROTATION"]), a.decoded(attributes[PREFIX + "ROTATION"]))
+    equal(entry(run)["behind"][0]["kind"], "splat")
+
+
+@case
+def a_gltf_of_splats_is_described(run):
+    made = Scene()
+    run.write("a.glb", scene(splats_of(cloud(4, 24, "float"), 24, made), made, [{}, {"translation": [1, 2, 3]}]))
+    equal(run.ffd("info", "a.glb", "--json", data=True).json["contents"]["gaussian_splats"], {"count": 8, "sh_degree": 2})
 
 
 if __name__ == "__main__":

@@ -96,17 +96,11 @@ ffd_status ffd_ply_describe(const mesh_document *document, json_text *json, ffd_
         {"triangle_strips", row_count(ffd_ply_find_element(&d->header, "tristrips"))},
         {"bytes_behind", d->file.input.size - d->behind},
     };
-    const mesh_part *const part = &d->file.part;
     bool done = true;
     ffd_json_string(json, "encoding", encodings[d->header.encoding]);
     ffd_json_string(json, "line_endings", d->header.line_end);
     ffd_json_counts(json, members, sizeof members / sizeof *members);
-    if (part->splats) {
-        ffd_json_object(json, "gaussian_splats", true);
-        ffd_json_count(json, "count", d->vertex->count);
-        ffd_json_count(json, "sh_degree", (uint64_t)part->form.degree);
-        ffd_json_end(json, '}');
-    }
+    ffd_mesh_describe_splats(document, json);
     ffd_json_array(json, "elements", false);
     for (size_t i = 0; done && i < d->header.element_count; i++)
         done = write_element(json, &d->header.elements[i]);
