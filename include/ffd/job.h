@@ -314,9 +314,9 @@ typedef struct ffd_job_result {
     uint64_t disagreeing; /* blocks: vertices on a face of theirs that another block moves otherwise */
     double disagreement;  /* the largest difference from the block that has the vertex */
     uint64_t normals_collapsed;
-    uint64_t splats_carried;   /* Gaussian splats whose rotations, scales and harmonics follow; */
-    uint64_t splats_flattened; /* of these, those that lose a size, since F has no inverse there */
-    uint64_t splats_broken;    /* that move without, since their rotation or scales are not numbers */
+    uint64_t splats_carried;      /* Gaussian splats whose rotations, scales and harmonics follow; */
+    uint64_t splats_flattened;    /* of these, those that lose a size, since F has no inverse there */
+    uint64_t splats_broken;       /* that move without, since their rotation or scales are not numbers */
     uint64_t normals_carried;     /* RECOMPUTE: those without a face to be computed from, which
                                      follow the deformation */
     uint64_t transforms_singular; /* vertices kept because their node's or skin's matrix has no inverse */

@@ -273,10 +273,10 @@ size_t ffd_gltf_node(const gltf_document *document, uint32_t value);
 /* Returns the first element of an array that is a member of an object; JSON_NONE if there is none. */
 uint32_t ffd_gltf_first(const gltf_document *document, uint32_t object, const char *key);
 
-/* The name of the attribute of splats in a slot behind those of vectors: the rotation, the scales, and the
-   harmonics of degrees 1 to 3. */
+/* The attributes of splats, in the order of their slots behind those of vectors. */
 #define GLTF_SPLAT_NAME 48
 enum { GLTF_SPLAT_ROTATION, GLTF_SPLAT_SCALE, GLTF_SPLAT_HARMONICS, GLTF_SPLAT_ATTRIBUTES = 17 };
+/* Writes the name of one: "KHR_gaussian_splatting:ROTATION" and so on. */
 void ffd_gltf_splat_name(size_t attribute, char name[GLTF_SPLAT_NAME]);
 
 /* The names of the deformed attributes: "POSITION" and so on. */
