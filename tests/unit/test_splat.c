@@ -13,6 +13,8 @@
 #include <math.h>
 #include <string.h>
 
+static const splat_form logarithms = {.is_logarithmic = true};
+
 static void check_close(double found, double expected, double allowed)
 {
     if (!(fabs(found - expected) <= allowed))
@@ -118,7 +120,7 @@ static void sizes_of_a_stretched_splat(void **state)
     check_close(splat.scale[2], 2, 1e-15);
     check_close(splat.rotation[0], 3, 1e-15); /* its length stays */
     splat = (splat_ellipsoid){{1, 0, 0, 0}, {-INFINITY, 5, 1}};
-    assert_int_equal(deform(f, &(splat_form){.is_logarithmic = true}, &splat), SPLAT_CARRIED);
+    assert_int_equal(deform(f, &logarithms, &splat), SPLAT_CARRIED);
     assert_true(splat.scale[0] < -DBL_MAX);
     check_close(splat.scale[1], 5 + log(3), 1e-15);
     check_close(splat.scale[2], 1 - log(2), 1e-15);
@@ -131,11 +133,11 @@ static void a_sheared_splat(void **state)
     const double k = 0.5, f[9] = {1, k, 0, 0, 1, 0, 0, 0, 1}, large = 0.5 * (k + sqrt(k * k + 4));
     splat_ellipsoid ball = {{1, 0, 0, 0}, {0, 0, 0}};
     double matrix[9];
-    assert_int_equal(deform(f, &(splat_form){.is_logarithmic = true}, &ball), SPLAT_CARRIED);
+    assert_int_equal(deform(f, &logarithms, &ball), SPLAT_CARRIED);
     check_close(fabs(ball.scale[0]), log(large), 1e-15);
     check_close(ball.scale[0] + ball.scale[1], 0, 1e-15);
     splat_ellipsoid needle = {{1, 0, 0, 0}, {-40, 0, -40}};
-    assert_int_equal(deform(f, &(splat_form){.is_logarithmic = true}, &needle), SPLAT_CARRIED);
+    assert_int_equal(deform(f, &logarithms, &needle), SPLAT_CARRIED);
     ffd_splat_matrix(needle.rotation, matrix);
     check_close(matrix[1] / matrix[4], k, 1e-15);
     check_close(needle.scale[0], -40 - 0.5 * log(1 + k * k), 2e-14);
@@ -147,7 +149,7 @@ static void outcomes(void **state)
     (void)state;
     const double same[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, plane[9] = {1, 0, 0, 0, 1, 0, 0, 0, 0},
                  wild[9] = {NAN, 0, 0, 0, 1, 0, 0, 0, 1};
-    const splat_form linear = {0}, logarithmic = {.is_logarithmic = true};
+    const splat_form linear = {0};
     const splat_ellipsoid good = {{1, 2, 3, 4}, {1, 2, 3}};
     splat_ellipsoid splat = good;
     assert_int_equal(deform(same, &linear, &splat), SPLAT_KEPT);
@@ -162,11 +164,66 @@ static void outcomes(void **state)
                                    {{1, 2, INFINITY, 4}, {1, 2, 3}}};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         splat = bad[i];
-        assert_int_equal(deform(plane, &logarithmic, &splat), SPLAT_BROKEN);
+        assert_int_equal(deform(plane, &logarithms, &splat), SPLAT_BROKEN);
         assert_memory_equal(&splat, &bad[i], sizeof splat);
     }
     splat = (splat_ellipsoid){{1, 2, 3, 4}, {1, -2, 3}};
     assert_int_equal(deform(plane, &linear, &splat), SPLAT_BROKEN);
+}
+
+/* A draw from -1 to 1, always the same ones. */
+static double draw(uint32_t *state)
+{
+    *state = *state * 1664525 + 1013904223;
+    return *state / 2147483648.0 - 1;
+}
+
+/* How well a frame fits another: the sum of cosines of its axes, in an order and with signs. */
+static double fit(const double axes[9], const double frame[9], const int order[3], const double signs[3])
+{
+    double sum = 0;
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            sum += axes[3 * k + i] * signs[i] * frame[3 * k + order[i]];
+    return sum;
+}
+
+/* Of the 24 right-handed frames along the axes of an ellipsoid none is nearer to the turned old one. */
+static void the_nearest_axes(void **state)
+{
+    (void)state;
+    static const int orders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {1, 0, 2}, {0, 2, 1}, {2, 1, 0}};
+    uint32_t seed = 1;
+    for (int n = 0; n < 2000; n++) {
+        double f[9], old[9], turning[9], axes[9], frame[9];
+        splat_ellipsoid splat;
+        for (int i = 0; i < 9; i++)
+            f[i] = draw(&seed);
+        for (int i = 0; i < 4; i++)
+            splat.rotation[i] = draw(&seed);
+        for (int i = 0; i < 3; i++)
+            splat.scale[i] = n % 2 ? 0 : draw(&seed);
+        const splat_turn turn = turn_of(f);
+        double length = 0, unit[4];
+        for (int i = 0; i < 4; i++)
+            length += splat.rotation[i] * splat.rotation[i];
+        for (int i = 0; i < 4; i++)
+            unit[i] = splat.rotation[i] / sqrt(length);
+        ffd_splat_matrix(unit, old);
+        ffd_splat_matrix(turn.quaternion, turning);
+        mat_multiply(turning, old, axes);
+        assert_int_equal(deform(f, &logarithms, &splat), SPLAT_CARRIED);
+        for (int i = 0; i < 4; i++)
+            unit[i] = splat.rotation[i] / sqrt(length);
+        ffd_splat_matrix(unit, frame);
+        const double found = fit(axes, frame, orders[0], (double[3]){1, 1, 1});
+        for (int o = 0; o < 6; o++)
+            for (int s = 0; s < 8; s++) {
+                const double signs[3] = {s & 1 ? -1 : 1, s & 2 ? -1 : 1, s & 4 ? -1 : 1};
+                if ((signs[0] * signs[1] * signs[2] > 0) == (o < 3))
+                    assert_true(fit(axes, frame, orders[o], signs) <= found + 1e-9);
+            }
+    }
 }
 
 /* The turned function has the values that the function had in the directions turned back. */
@@ -210,6 +267,7 @@ int main(void)
         cmocka_unit_test(turns_in_another_space),
         cmocka_unit_test(sizes_of_a_stretched_splat),
         cmocka_unit_test(a_sheared_splat),
+        cmocka_unit_test(the_nearest_axes),
         cmocka_unit_test(outcomes),
         cmocka_unit_test(harmonics),
     };
