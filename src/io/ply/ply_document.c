@@ -67,6 +67,23 @@ static ffd_status read_vertex(ply_document *d, ply_walk *walk, uint64_t row, ffd
     return status;
 }
 
+/* Rows of one size, whose numbers are where they are in the first: harmonics stay in the file. */
+static void read_fixed(ply_document *d)
+{
+    size_t slots[PLY_REST_SLOT], slot_count = 0;
+    for (size_t slot = 0; slot < PLY_REST_SLOT; slot++)
+        if (d->offsets[slot] != PLY_NOWHERE)
+            slots[slot_count++] = slot;
+    for (size_t row = 0; row < (size_t)d->vertex->count; row++) {
+        const char *const at = ply_row(d, row);
+        for (size_t i = 0; i < slot_count; i++) {
+            const size_t slot = slots[i];
+            *place_of(d, slot, row, NULL) =
+                ply_load_binary(d->header.encoding, d->types[slot], at + d->offsets[slot]);
+        }
+    }
+}
+
 static ffd_status read_vertices(ply_document *d, ffd_error *error)
 {
     const size_t count = (size_t)d->vertex->count;
@@ -80,6 +97,10 @@ static ffd_status read_vertices(ply_document *d, ffd_error *error)
     if (!d->file.positions || (d->has_normals && !d->file.directions) ||
         (d->file.part.has_ellipsoids && !d->splats))
         return ffd_fail_memory(error);
+    if (d->has_fixed_rows) {
+        read_fixed(d);
+        return FFD_OK;
+    }
     ffd_ply_document_walk(d, d->vertex, &walk);
     for (uint64_t row = 0; status == FFD_OK && row < count; row++)
         status = read_vertex(d, &walk, row, error);

@@ -29,6 +29,8 @@ typedef struct ply_document {
     bool has_whole_face_normals;         /* those of a whole type, which are kept */
     bool renew_normals;                  /* of faces, with the results */
     ply_type types[PLY_SLOT_COUNT];      /* by slot */
+    bool has_fixed_rows;            /* binary, without lists: vertices are of one size, and have by slot */
+    size_t offsets[PLY_SLOT_COUNT]; /* where in a row the number is; PLY_NOWHERE: there is none */
     bool has_normals, has_whole_normals; /* the latter: nx ny nz of a whole type, which are not shown */
     size_t behind;                       /* offset after the last row */
     int threads;                         /* for writing */
@@ -36,6 +38,15 @@ typedef struct ply_document {
     ply_splat *new_splats;               /* results; NULL before begin_results */
     size_t rest_count;                   /* properties f_rest_0 and so on, whether they turn or not */
 } ply_document;
+
+#define PLY_NOWHERE SIZE_MAX
+
+/* A row of fixed size. */
+static inline const char *ply_row(const ply_document *document, size_t vertex)
+{
+    const size_t begin = document->vertex->begin + vertex * document->vertex->least;
+    return (const char *)document->file.input.data + begin;
+}
 
 static inline const ply_document *ffd_ply_of(const mesh_document *document)
 {

@@ -82,6 +82,20 @@ static void find_face_normals(ply_document *d)
         d->face_normals[a] = there && !whole ? found[a] : NULL;
 }
 
+static void find_offsets(ply_document *d)
+{
+    size_t offset = 0;
+    d->has_fixed_rows = d->header.encoding != PLY_ASCII && !d->vertex->has_lists;
+    for (size_t slot = 0; slot < PLY_SLOT_COUNT; slot++)
+        d->offsets[slot] = PLY_NOWHERE;
+    for (size_t i = 0; i < d->vertex->property_count && d->has_fixed_rows; i++) {
+        const ply_property *const property = &d->vertex->properties[i];
+        if (property->slot != PLY_NO_SLOT)
+            d->offsets[property->slot] = offset;
+        offset += ffd_ply_type_size(property->type);
+    }
+}
+
 ffd_status ffd_ply_find_roles(ply_document *d, ffd_error *error)
 {
     d->vertex = ffd_ply_find_element(&d->header, "vertex");
@@ -97,6 +111,7 @@ ffd_status ffd_ply_find_roles(ply_document *d, ffd_error *error)
     find_faces(d);
     find_face_normals(d);
     ffd_ply_find_splats(d);
+    find_offsets(d);
     return FFD_OK;
 }
 

@@ -6,7 +6,8 @@
 #include <stdatomic.h>
 #include <string.h>
 
-/* What a row has by slot: where its numbers are, what they become, and whether that is something else. */
+/* What a row has by slot: where its numbers are (of a walk), what they become, and whether that is something
+ * else. */
 typedef struct row_change {
     text_word words[PLY_SLOT_COUNT];
     double values[PLY_SLOT_COUNT];
@@ -29,13 +30,18 @@ static void change_vector(const double *before, const double *after, size_t firs
     }
 }
 
-static void change_rests(const ply_document *d, const ply_splat *result, row_change *row)
+static void change_rests(const ply_document *d, size_t number, const ply_splat *result, row_change *row)
 {
     const size_t count = HARMONICS_CHANNELS * (size_t)harmonics_count(d->file.part.form.degree);
     double before[PLY_SLOT_COUNT - PLY_REST_SLOT];
-    for (size_t i = 0; i < count; i++)
-        ffd_ply_load(d->header.encoding, d->types[PLY_REST_SLOT + i], row->words[PLY_REST_SLOT + i],
-                     &before[i]);
+    for (size_t i = 0; i < count; i++) {
+        const size_t slot = PLY_REST_SLOT + i;
+        if (d->has_fixed_rows)
+            before[i] =
+                ply_load_binary(d->header.encoding, d->types[slot], ply_row(d, number) + d->offsets[slot]);
+        else
+            ffd_ply_load(d->header.encoding, d->types[slot], row->words[slot], &before[i]);
+    }
     double *const after = row->values + PLY_REST_SLOT;
     memcpy(after, before, count * sizeof *before);
     row->unturned += !ffd_ply_turn_rests(d, &result->turn, after);
@@ -57,7 +63,7 @@ static void change_splat(const ply_document *d, size_t number, row_change *row)
         row->changed[slot] = differ(ffd_ply_splat_number(&before, slot), &row->values[slot]);
     }
     if (result->turn.is_turn)
-        change_rests(d, result, row);
+        change_rests(d, number, result, row);
 }
 
 static void change_row(const ply_document *d, size_t number, row_change *row)
@@ -110,30 +116,13 @@ typedef struct row_writer {
 
 #define ROW_TILE ((size_t)1024)
 
-static const char *row_at(const ply_document *d, size_t number)
-{
-    return (const char *)d->file.input.data + d->vertex->begin + number * d->vertex->least;
-}
-
 static void store_row(const ply_document *d, size_t number, row_change *row, char *at)
 {
-    const char *const from = row_at(d, number), *word = from;
-    for (size_t i = 0; i < d->vertex->property_count; i++) {
-        const ply_property *property = &d->vertex->properties[i];
-        const size_t size = ffd_ply_type_size(property->type);
-        if (property->slot != PLY_NO_SLOT)
-            row->words[property->slot] = (text_word){word, word + size};
-        word += size;
-    }
     change_row(d, number, row);
-    memcpy(at, from, d->vertex->least);
-    for (size_t slot = 0; slot < PLY_SLOT_COUNT; slot++) {
-        char bytes[FFD_NUMBER_CAPACITY];
-        if (!row->changed[slot])
-            continue;
-        const size_t size = ffd_ply_store(d->header.encoding, d->types[slot], row->values[slot], bytes);
-        memcpy(at + (row->words[slot].first - from), bytes, size);
-    }
+    memcpy(at, ply_row(d, number), d->vertex->least);
+    for (size_t slot = 0; slot < PLY_SLOT_COUNT; slot++)
+        if (row->changed[slot])
+            ply_store_binary(d->header.encoding, d->types[slot], row->values[slot], at + d->offsets[slot]);
 }
 
 static void make_tile(void *context, size_t tile, size_t first, size_t last, int worker)
@@ -148,7 +137,7 @@ static void make_tile(void *context, size_t tile, size_t first, size_t last, int
     if (atomic_load(&w->is_over))
         return;
     char *const at = ffd_buffer_reserve(&text, size);
-    ffd_file_prefault(row_at(d, first), size);
+    ffd_file_prefault(ply_row(d, first), size);
     for (size_t number = first; at && number < last; number++)
         store_row(d, number, &row, at + (number - first) * d->vertex->least);
     text.size = at ? size : 0;
@@ -164,7 +153,7 @@ static void write_tile(void *context, size_t tile, size_t first, size_t last, in
         return;
     if (w->texts[worker].failed)
         w->splice->status = ffd_fail_memory(w->splice->error);
-    ffd_splice_part(w->splice, row_at(w->document, first), row_at(w->document, last), &w->texts[worker]);
+    ffd_splice_part(w->splice, ply_row(w->document, first), ply_row(w->document, last), &w->texts[worker]);
     if (w->splice->status)
         atomic_store(&w->is_over, true);
 }
@@ -186,6 +175,5 @@ static size_t write_fixed(const ply_document *d, file_splice *splice)
 
 size_t ffd_ply_write_vertices(const ply_document *d, file_splice *splice)
 {
-    const bool is_fixed = d->header.encoding != PLY_ASCII && !d->vertex->has_lists;
-    return d->new_splats && is_fixed ? write_fixed(d, splice) : write_walked(d, splice);
+    return d->has_fixed_rows ? write_fixed(d, splice) : write_walked(d, splice);
 }
