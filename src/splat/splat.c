@@ -2,6 +2,7 @@
 #include "base/vector/direction.h"
 #include "base/vector/exponential.h"
 #include "base/vector/vec.h"
+#include "splat/splat_iterations.h"
 #include <float.h>
 #include <string.h>
 
@@ -48,33 +49,6 @@ static double square_sum(const double m[9])
 static bool is_flattening(const double f[9], const double cofactor[9])
 {
     return !(fabs(vec_dot(f, cofactor)) > NOTHING * largest_entry(f) * sqrt(square_sum(cofactor)));
-}
-
-/* Steps of Newton's iteration; it doubles the digits at the end, and scaling brings it near at once. */
-#define NEWTON_STEPS 30
-#define NEWTON_NEAR 1e-2    /* the square of a change after which scaling would disturb */
-#define NEWTON_ENOUGH 1e-18 /* the square of a change after which the next one is below rounding */
-
-/* Replaces x, which has an inverse, with the orthogonal factor of its polar decomposition (Higham, Functions
-   of Matrices, 8.3 and 8.6). */
-static void orthogonalise(double x[9])
-{
-    bool is_near = false;
-    for (int step = 0; step < NEWTON_STEPS; step++) {
-        double cofactor[9], change = 0;
-        mat_cofactor(x, cofactor);
-        const double determinant = vec_dot(x, cofactor);
-        const double inverse_sum = square_sum(cofactor) / (determinant * determinant);
-        const double scale = is_near ? 1 : sqrt(sqrt(inverse_sum / square_sum(x)));
-        for (int i = 0; i < 9; i++) {
-            const double next = 0.5 * (scale * x[i] + cofactor[i] / (determinant * scale));
-            change += (next - x[i]) * (next - x[i]);
-            x[i] = next;
-        }
-        is_near = is_near || change < NEWTON_NEAR;
-        if (change < NEWTON_ENOUGH)
-            return;
-    }
 }
 
 void ffd_splat_matrix(const double q[4], double m[9])
@@ -129,17 +103,20 @@ static void find_turn_quaternion(const double rotation[9], double q[4])
     q[0] = fabs(q[0]);
 }
 
-bool ffd_splat_find_turn(const double gradient[9], splat_turn *turn)
+/* Splats that are looked at together. */
+#define RUN ((size_t)64)
+
+/* Finds a matrix with an inverse that has the same turn as F. Returns false where there is none to look for.
+ */
+static bool prepare_turn(const double gradient[9], splat_turn *turn, double f[9])
 {
-    double f[9], cofactor[9];
+    double cofactor[9];
     *turn = (splat_turn){.quaternion = {1, 0, 0, 0}};
-    if (!is_usable(gradient))
-        return false;
-    if (largest_entry(gradient) <= STILL)
+    if (!is_usable(gradient) || largest_entry(gradient) <= STILL)
         return false;
     add_identity(gradient, f);
     if (largest_entry(f) < LEAST_F)
-        return true;
+        return false;
     mat_cofactor(f, cofactor);
     if (is_flattening(f, cofactor)) {
         /* Cofactors have the directions of F, with a size across the plane that it leaves. */
@@ -148,10 +125,14 @@ bool ffd_splat_find_turn(const double gradient[9], splat_turn *turn)
             f[i] += cofactor[i] / size;
         mat_cofactor(f, cofactor);
         if (is_flattening(f, cofactor))
-            return true; /* a line or a point is left */
+            return false; /* a line or a point is left */
     }
     turn->is_mirrored = vec_dot(f, cofactor) < 0;
-    orthogonalise(f);
+    return true;
+}
+
+static void finish_turn(double f[9], splat_turn *turn)
+{
     for (int i = 0; i < 9 && turn->is_mirrored; i++)
         f[i] = -f[i];
     find_turn_quaternion(f, turn->quaternion);
@@ -160,20 +141,34 @@ bool ffd_splat_find_turn(const double gradient[9], splat_turn *turn)
     turn->is_turn = turn->is_turn || turn->is_mirrored;
     if (!turn->is_turn)
         *turn = (splat_turn){.quaternion = {1, 0, 0, 0}};
-    return true;
+}
+
+void ffd_splats_find_turns(ffd_isa isa, const double *gradients, size_t count, splat_turn *turns)
+{
+    double nines[RUN][9];
+    size_t numbers[RUN];
+    for (size_t first = 0; first < count; first += RUN) {
+        const size_t last = count - first < RUN ? count : first + RUN;
+        size_t open = 0;
+        for (size_t i = first; i < last; i++)
+            if (prepare_turn(gradients + 9 * i, &turns[i], nines[open]))
+                numbers[open++] = i;
+        ffd_splats_orthogonalise(isa, nines, open);
+        for (size_t k = 0; k < open; k++)
+            finish_turn(nines[k], &turns[numbers[k]]);
+    }
 }
 
 void ffd_splat_turn_to_file(const double frame[9], splat_turn *turn)
 {
-    double axes[9], rotation[9], product[9], turned[9];
+    double nines[1][9], rotation[9], product[9], turned[9], *const axes = nines[0];
     if (!turn->is_turn)
         return;
     /* A mirror in the frame cancels: it is there twice. */
-    memcpy(axes, frame, sizeof axes);
-    const double largest = largest_entry(axes);
+    const double largest = largest_entry(frame);
     for (int i = 0; i < 9; i++)
-        axes[i] /= largest;
-    orthogonalise(axes);
+        axes[i] = frame[i] / largest;
+    ffd_splats_orthogonalise(FFD_ISA_SCALAR, nines, 1);
     ffd_splat_matrix(turn->quaternion, rotation);
     mat_multiply(rotation, axes, product);
     for (int r = 0; r < 3; r++)
@@ -224,40 +219,6 @@ static bool find_unit(const double q[4], double unit[4])
     for (int i = 0; i < 4; i++)
         unit[i] /= sqrt(sum);
     return true;
-}
-
-/* Columns whose angle is nearer to a right one than this are left: it is far below a float's step, and above
-   the rounding of F, so that a turn keeps the axes of splats with equal sizes. */
-#define RIGHT 1e-12
-#define SWEEPS 20
-
-/* One rotation of two columns that makes them perpendicular. Returns false where they are. */
-static bool rotate(double p[3], double q[3])
-{
-    const double a = vec_dot(p, p), b = vec_dot(q, q), off = vec_dot(p, q);
-    if (!(off * off > RIGHT * RIGHT * a * b))
-        return false;
-    const double tau = (b - a) / (2 * off);
-    const double t = (tau >= 0 ? 1 : -1) / (fabs(tau) + sqrt(1 + tau * tau));
-    const double c = 1 / sqrt(1 + t * t), s = t * c;
-    for (int k = 0; k < 3; k++) {
-        const double x = p[k], y = q[k];
-        p[k] = c * x - s * y;
-        q[k] = s * x + c * y;
-    }
-    return true;
-}
-
-/* Makes three columns perpendicular by Jacobi's method from one side (Golub & Van Loan, Matrix Computations,
-   8.6.3), which finds small sizes beside large ones to all digits. */
-static void part_columns(double columns[3][3])
-{
-    bool any = true;
-    for (int sweep = 0; sweep < SWEEPS && any; sweep++) {
-        any = rotate(columns[0], columns[1]);
-        any = rotate(columns[0], columns[2]) || any;
-        any = rotate(columns[1], columns[2]) || any;
-    }
 }
 
 /* Makes the columns unit vectors, and their lengths at least `least` each. Directions of those that are
@@ -357,44 +318,75 @@ static void replace_rotation(const double rotation[9], const double turn[4], con
         q[i] = (along < 0 ? -length : length) * made[i];
 }
 
-/* The columns of F R S. */
-static void find_columns(const double f[9], const double rotation[9], const double parts[3],
-                         double columns[3][3])
+/* A splat between the two iterations. */
+typedef struct ellipsoid_work {
+    size_t number;
+    double unit[4], old[9], parts[3]; /* the quaternion, its matrix, the sizes */
+    double largest;                   /* entry of F */
+    bool is_flattened;
+} ellipsoid_work;
+
+/* Finds the columns of F R S. Returns false, with the outcome, where there is nothing to do. */
+static bool prepare_ellipsoid(const double gradient[9], const splat_form *form, const splat_ellipsoid *splat,
+                              ellipsoid_work *work, double columns[9], uint8_t *outcome)
 {
-    double product[9];
-    mat_multiply(f, rotation, product);
+    double f[9], cofactor[9], product[9];
+    *outcome = SPLAT_BROKEN;
+    if (!is_usable(gradient) || !find_unit(splat->rotation, work->unit) ||
+        !find_parts(form, splat->scale, work->parts))
+        return false;
+    *outcome = SPLAT_KEPT;
+    if (largest_entry(gradient) <= STILL)
+        return false;
+    add_identity(gradient, f);
+    mat_cofactor(f, cofactor);
+    work->is_flattened = is_flattening(f, cofactor);
+    work->largest = larger_of(largest_entry(f), LEAST_F);
+    ffd_splat_matrix(work->unit, work->old);
+    mat_multiply(f, work->old, product);
     for (int j = 0; j < 3; j++)
         for (int k = 0; k < 3; k++)
-            columns[j][k] = product[3 * k + j] * parts[j];
+            columns[3 * j + k] = product[3 * k + j] * work->parts[j];
+    *outcome = work->is_flattened ? SPLAT_FLATTENED : SPLAT_CARRIED;
+    return true;
 }
 
-splat_outcome ffd_splat_deform(const double gradient[9], const splat_turn *turn, const splat_form *form,
-                               splat_ellipsoid *splat)
+static void finish_ellipsoid(const ellipsoid_work *work, double columns[3][3], const splat_turn *turn,
+                             const splat_form *form, splat_ellipsoid *splat)
 {
-    double f[9], unit[4], parts[3], old[9], turning[9], axes[9], columns[3][3], least[3], lengths[3], made[9],
-        cofactor[9];
+    double turning[9], axes[9], least[3], lengths[3], made[9];
     int order[3];
-    if (!is_usable(gradient) || !find_unit(splat->rotation, unit) || !find_parts(form, splat->scale, parts))
-        return SPLAT_BROKEN;
-    if (largest_entry(gradient) <= STILL)
-        return SPLAT_KEPT;
-    add_identity(gradient, f);
-    ffd_splat_matrix(unit, old);
     ffd_splat_matrix(turn->quaternion, turning);
-    mat_multiply(turning, old, axes);
-    find_columns(f, old, parts, columns);
-    const double largest = larger_of(largest_entry(f), LEAST_F);
+    mat_multiply(turning, work->old, axes);
     for (int j = 0; j < 3; j++)
-        least[j] = NOTHING * largest * parts[j];
-    part_columns(columns);
+        least[j] = NOTHING * work->largest * work->parts[j];
     unit_columns(columns, least, lengths);
     choose_axes(axes, (const double(*)[3])columns, form->is_flat, order, made);
-    replace_rotation(made, turn->quaternion, unit, splat->rotation);
+    replace_rotation(made, turn->quaternion, work->unit, splat->rotation);
     const double scale[3] = {splat->scale[0], splat->scale[1], splat->scale[2]};
     for (int i = 0; i < (form->is_flat ? 2 : 3); i++) {
-        const double ratio = lengths[order[i]] / parts[order[i]], from = scale[order[i]];
+        const double ratio = lengths[order[i]] / work->parts[order[i]], from = scale[order[i]];
         splat->scale[i] = form->is_logarithmic ? from + ffd_log(ratio) : from * ratio;
     }
-    mat_cofactor(f, cofactor);
-    return is_flattening(f, cofactor) ? SPLAT_FLATTENED : SPLAT_CARRIED;
+}
+
+void ffd_splats_deform(ffd_isa isa, const double *gradients, const splat_turn *turns, const splat_form *form,
+                       size_t count, splat_ellipsoid *splats, uint8_t *outcomes)
+{
+    double nines[RUN][9];
+    ellipsoid_work work[RUN];
+    for (size_t first = 0; first < count; first += RUN) {
+        const size_t last = count - first < RUN ? count : first + RUN;
+        size_t open = 0;
+        for (size_t i = first; i < last; i++)
+            if (prepare_ellipsoid(gradients + 9 * i, form, &splats[i], &work[open], nines[open],
+                                  &outcomes[i]))
+                work[open++].number = i;
+        ffd_splats_part_columns(isa, nines, open);
+        for (size_t k = 0; k < open; k++) {
+            double columns[3][3];
+            memcpy(columns, nines[k], sizeof columns);
+            finish_ellipsoid(&work[k], columns, &turns[work[k].number], form, &splats[work[k].number]);
+        }
+    }
 }

@@ -3,7 +3,10 @@
 #ifndef FFD_SPLAT_SPLAT_H
 #define FFD_SPLAT_SPLAT_H
 
+#include "base/vector/isa.h"
 #include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
 
 /* How a file holds the sizes of its splats. */
 typedef struct splat_form {
@@ -32,17 +35,19 @@ typedef enum splat_outcome {
     SPLAT_BROKEN     /* it has no rotation or sizes that are numbers, or F is not a number: it stays */
 } splat_outcome;
 
-/* Finds the orthogonal factor of the polar decomposition of F. Returns whether F is other than the identity
-   and of numbers; else the turn is the identity. */
-bool ffd_splat_find_turn(const double gradient[9], splat_turn *turn);
+/* Finds the orthogonal factors of the polar decompositions of F, of `count` gradients of nine numbers. Where
+   F is the identity, or is not of numbers, the turn is the identity. The bits are the same whatever the
+   instruction set. */
+void ffd_splats_find_turns(ffd_isa isa, const double *gradients, size_t count, splat_turn *turns);
 
 /* Turns a turn into that of a space from which `frame` (invertible) leads to the gradient's. */
 void ffd_splat_turn_to_file(const double frame[9], splat_turn *turn);
 
-/* The covariance becomes F covariance F^T. Of the axes that it can have the ones that are nearest to the
-   turned old ones are taken; the quaternion keeps its length. */
-splat_outcome ffd_splat_deform(const double gradient[9], const splat_turn *turn, const splat_form *form,
-                               splat_ellipsoid *splat);
+/* The covariances become F covariance F^T. Of the axes that one can have those are taken that are nearest to
+   the turned old ones; the quaternion keeps its length. outcomes: a splat_outcome of each. The bits are the
+   same whatever the instruction set. */
+void ffd_splats_deform(ffd_isa isa, const double *gradients, const splat_turn *turns, const splat_form *form,
+                       size_t count, splat_ellipsoid *splats, uint8_t *outcomes);
 
 /* The matrix of a quaternion of length 1. */
 void ffd_splat_matrix(const double quaternion[4], double matrix[9]);

@@ -251,7 +251,7 @@ m("splat-flattened", "figure", "splat, cli_splats", "return is_flattening(f, cof
 m("harmonics-lobe", "sign", "splat, cli_splats", "{4, 1, 1.7975962960832887629}", "{4, 1, -1.7975962960832887629}")
 m("harmonics-odd-mirrored", "condition", "splat, cli_splats", "if (turn->is_mirrored && degree >= 3)",
   "if (turn->is_mirrored && degree > 3)")
-m("logarithm-terms", "bound", "splat", "#define ARTANH_TERMS 11", "#define ARTANH_TERMS 6")
+m("logarithm-terms", "bound", "splat", "for (int i = ARTANH_TERMS; i-- > 0;)", "for (int i = 5; i-- > 0;)")
 
 # embed
 

@@ -46,7 +46,7 @@ static splat_turn turn_of(const double f[9])
     double gradient[9];
     splat_turn turn;
     make_gradient(f, gradient);
-    ffd_splat_find_turn(gradient, &turn);
+    ffd_splats_find_turns(FFD_ISA_SCALAR, gradient, 1, &turn);
     return turn;
 }
 
@@ -55,7 +55,9 @@ static splat_outcome deform(const double f[9], const splat_form *form, splat_ell
     double gradient[9];
     const splat_turn turn = turn_of(f);
     make_gradient(f, gradient);
-    return ffd_splat_deform(gradient, &turn, form, splat);
+    uint8_t outcome;
+    ffd_splats_deform(FFD_ISA_SCALAR, gradient, &turn, form, 1, splat, &outcome);
+    return (splat_outcome)outcome;
 }
 
 /* The rotation of the polar decomposition is the product of what it is made of, whatever the stretch. */
@@ -226,6 +228,50 @@ static void the_nearest_axes(void **state)
     }
 }
 
+/* Any number of splats, some of them odd, with any instruction set. */
+static void all_instruction_sets_give_the_same_bits(void **state)
+{
+    (void)state;
+    enum { MOST = 133 };
+    static const ffd_isa sets[] = {FFD_ISA_SSE2, FFD_ISA_AVX2, FFD_ISA_AVX512};
+    double gradients[9 * MOST];
+    splat_ellipsoid splats[MOST];
+    uint32_t seed = 7;
+    for (int i = 0; i < 9 * MOST; i++)
+        gradients[i] = i / 9 % 11 == 3   ? 0
+                       : i / 9 % 13 == 5 ? NAN
+                       : i / 9 % 7       ? draw(&seed)
+                                         : 1e-3 * draw(&seed);
+    for (int i = 0; i < MOST; i++)
+        for (int k = 0; k < 4; k++) {
+            splats[i].rotation[k] = i % 17 == 6 ? 0 : draw(&seed);
+            if (k < 3)
+                splats[i].scale[k] = i % 5 ? 20 * draw(&seed) : 1;
+            if (k < 3 && i % 19 == 8) /* F takes a direction away */
+                gradients[9 * i + 3 + k] = k == 1 ? -1 : 0;
+        }
+    for (size_t count = 1; count <= MOST; count += count < 20 ? 1 : 56)
+        for (size_t s = 0; s < sizeof sets / sizeof *sets; s++) {
+            splat_turn turns[2][MOST];
+            splat_ellipsoid made[2][MOST];
+            uint8_t outcomes[2][MOST];
+            if (!ffd_isa_available(sets[s]))
+                continue;
+            for (int k = 0; k < 2; k++) {
+                const ffd_isa isa = k ? sets[s] : FFD_ISA_SCALAR;
+                memset(turns[k], 0, sizeof turns[k]);
+                memcpy(made[k], splats, sizeof splats);
+                ffd_splats_find_turns(isa, gradients, count, turns[k]);
+                ffd_splats_deform(isa, gradients, turns[k], &logarithms, count, made[k], outcomes[k]);
+            }
+            for (size_t i = 0; i < count; i++)
+                assert_memory_equal(turns[0][i].quaternion, turns[1][i].quaternion,
+                                    sizeof turns[0][i].quaternion);
+            assert_memory_equal(made[0], made[1], count * sizeof **made);
+            assert_memory_equal(outcomes[0], outcomes[1], count);
+        }
+}
+
 /* The turned function has the values that the function had in the directions turned back. */
 static void harmonics(void **state)
 {
@@ -269,6 +315,7 @@ int main(void)
         cmocka_unit_test(a_sheared_splat),
         cmocka_unit_test(the_nearest_axes),
         cmocka_unit_test(outcomes),
+        cmocka_unit_test(all_instruction_sets_give_the_same_bits),
         cmocka_unit_test(harmonics),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -18,7 +18,7 @@ static void write_vectors(double *results, const ply_type types[3], size_t first
 {
     for (size_t i = 0; results && i < count; i++)
         for (size_t a = 0; a < 3 && changed[i]; a++)
-            results[3 * (first + i) + a] = ffd_ply_round(types[a], xyz[3 * i + a]);
+            results[3 * (first + i) + a] = ply_round(types[a], xyz[3 * i + a]);
 }
 
 void ffd_ply_write_positions(mesh_document *document, size_t part, size_t first, size_t count,

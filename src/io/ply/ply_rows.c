@@ -59,7 +59,7 @@ static void change_splat(const ply_document *d, size_t number, row_change *row)
         splat_ellipsoid before = d->splats[number], after = result->splat;
         if (slot == PLY_REST_SLOT - 1 && d->file.part.form.is_flat)
             break;
-        row->values[slot] = ffd_ply_round(d->types[slot], *ffd_ply_splat_number(&after, slot));
+        row->values[slot] = ply_round(d->types[slot], *ffd_ply_splat_number(&after, slot));
         row->changed[slot] = differ(ffd_ply_splat_number(&before, slot), &row->values[slot]);
     }
     if (result->turn.is_turn)

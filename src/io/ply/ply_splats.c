@@ -211,7 +211,7 @@ bool ffd_ply_turn_rests(const ply_document *d, const splat_turn *turn, double *v
             continue;
         }
         for (int m = 0; m < count; m++)
-            values[k * count + m] = ffd_ply_round(types[m], c[m][k]);
+            values[k * count + m] = ply_round(types[m], c[m][k]);
     }
     return all;
 }

@@ -53,8 +53,12 @@ static inline double ply_load_binary(ply_encoding encoding, ply_type type, const
 bool ffd_ply_load_count(ply_encoding encoding, ply_type type, text_word word, size_t *count);
 
 /* value as a float or double holds it. */
-double ffd_ply_round(ply_type type, double value);
-/* Writes a value that ffd_ply_round gave: the bytes, or the shortest text that reads back. Returns the size.
+static inline double ply_round(ply_type type, double value)
+{
+    return type == PLY_FLOAT ? (double)(float)value : value;
+}
+
+/* Writes a value that ply_round gave: the bytes, or the shortest text that reads back. Returns the size.
  */
 size_t ffd_ply_store(ply_encoding encoding, ply_type type, double value, char bytes[FFD_NUMBER_CAPACITY]);
 

@@ -436,7 +436,7 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
     if (!part->repeats_positions)
         finish_positions(work, scratch, first, count, totals);
     if (splats)
-        ffd_tile_splat_turns(scratch, count);
+        ffd_tile_splat_turns(work, scratch, count);
     if (attributes || splats)
         bring_back_gradients(work, scratch, count);
     if (attributes)

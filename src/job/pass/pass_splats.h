@@ -6,7 +6,7 @@
 
 /* Finds how directions turn at the tile's vertices, whose gradients are in the lattice's space: as they are
    seen there, in the file's space. */
-void ffd_tile_splat_turns(tile_scratch *scratch, size_t count);
+void ffd_tile_splat_turns(const part_work *work, tile_scratch *scratch, size_t count);
 
 /* Deforms the splats [first, first + count) of the part, whose gradients are in the file's space by now, and
    hands them back. */

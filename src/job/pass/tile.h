@@ -29,7 +29,7 @@ typedef struct shape_scratch {
 typedef struct splat_scratch {
     splat_ellipsoid splats[PASS_TILE];
     splat_turn turns[PASS_TILE];
-    uint8_t changed[PASS_TILE];
+    uint8_t outcomes[PASS_TILE], changed[PASS_TILE];
 } splat_scratch;
 
 /* What one worker needs for a tile. */
