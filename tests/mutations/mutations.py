@@ -234,7 +234,7 @@ m("lanes-of-tangents", "kernel", "attribute_batch", "const lanes along = lanes_d
 
 m("splat-sizes", "operation", "splat, cli_splats", "lengths[order[i]] / parts[order[i]]", "lengths[order[i]] * parts[order[i]]")
 m("splat-axes-as-they-come", "check left out", "splat, cli_splats", "for (int o = 0; o < (is_flat ? 2 : 6); o++)",
-  "for (int o = 0; o < 1; o++)")
+  "for (int o = 0; o < (is_flat ? 2 : 1); o++)")
 m("splat-axes-left-handed", "condition", "splat, cli_splats", "is_right = is_right == (cosine >= 0);", "is_right = is_right && cosine < 2;")
 m("splat-quaternion-length", "operation", "splat, cli_splats", "(along < 0 ? -length : length) * made[i]", "(along < 0 ? -1 : 1) * made[i]")
 m("splat-quaternion-sign", "sign", "cli_splats", "(along < 0 ? -length : length) * made[i]", "length * made[i]")
