@@ -255,6 +255,7 @@ static void all_instruction_sets_give_the_same_bits(void **state)
             splat_turn turns[2][MOST];
             splat_ellipsoid made[2][MOST];
             uint8_t outcomes[2][MOST];
+            harmonics_block c[2][MOST];
             if (!ffd_isa_available(sets[s]))
                 continue;
             for (int k = 0; k < 2; k++) {
@@ -263,12 +264,16 @@ static void all_instruction_sets_give_the_same_bits(void **state)
                 memcpy(made[k], splats, sizeof splats);
                 ffd_splats_find_turns(isa, gradients, count, turns[k]);
                 ffd_splats_deform(isa, gradients, turns[k], &logarithms, count, made[k], outcomes[k]);
+                for (size_t i = 0; i < count * HARMONICS_MOST * HARMONICS_CHANNELS; i++)
+                    ((double *)c[k])[i] = sin((double)i);
+                ffd_harmonics_turn(isa, turns[k], 1 + (int)count % 3, count, c[k]);
             }
             for (size_t i = 0; i < count; i++)
                 assert_memory_equal(turns[0][i].quaternion, turns[1][i].quaternion,
                                     sizeof turns[0][i].quaternion);
             assert_memory_equal(made[0], made[1], count * sizeof **made);
             assert_memory_equal(outcomes[0], outcomes[1], count);
+            assert_memory_equal(c[0], c[1], count * sizeof **c);
         }
 }
 
@@ -279,11 +284,12 @@ static void harmonics(void **state)
     const double directions[][3] = {{1, 0, 0}, {0, 0.6, 0.8}, {-0.48, 0.6, 0.64}, {0, 0, -1}};
     for (int mirrored = 0; mirrored < 2; mirrored++) {
         const splat_turn turn = {{0.5, -0.1, 0.7, 0.5}, true, mirrored}; /* of length 1 */
-        double before[HARMONICS_MOST][HARMONICS_CHANNELS], after[HARMONICS_MOST][HARMONICS_CHANNELS], m[9];
+        harmonics_block before, after;
+        double m[9];
         for (int i = 0; i < HARMONICS_MOST; i++)
             for (int k = 0; k < HARMONICS_CHANNELS; k++)
                 before[i][k] = after[i][k] = sin(1 + i + 20 * k);
-        ffd_harmonics_turn(&turn, 3, after);
+        ffd_harmonics_turn(FFD_ISA_SCALAR, &turn, 3, 1, &after);
         ffd_splat_matrix(turn.quaternion, m);
         for (size_t d = 0; d < sizeof directions / sizeof *directions; d++)
             for (int degree = 1, at = 0; degree <= 3; at += 2 * degree++ + 1) {

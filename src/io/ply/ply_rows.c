@@ -12,7 +12,7 @@ typedef struct row_change {
     text_word words[PLY_SLOT_COUNT];
     double values[PLY_SLOT_COUNT];
     bool changed[PLY_SLOT_COUNT];
-    size_t unturned; /* rows so far with harmonics that are not numbers */
+    bool turns; /* its harmonics are to be turned */
 } row_change;
 
 /* Whether the bits of two numbers differ. */
@@ -30,25 +30,6 @@ static void change_vector(const double *before, const double *after, size_t firs
     }
 }
 
-static void change_rests(const ply_document *d, size_t number, const ply_splat *result, row_change *row)
-{
-    const size_t count = HARMONICS_CHANNELS * (size_t)harmonics_count(d->file.part.form.degree);
-    double before[PLY_SLOT_COUNT - PLY_REST_SLOT];
-    for (size_t i = 0; i < count; i++) {
-        const size_t slot = PLY_REST_SLOT + i;
-        if (d->has_fixed_rows)
-            before[i] =
-                ply_load_binary(d->header.encoding, d->types[slot], ply_row(d, number) + d->offsets[slot]);
-        else
-            ffd_ply_load(d->header.encoding, d->types[slot], row->words[slot], &before[i]);
-    }
-    double *const after = row->values + PLY_REST_SLOT;
-    memcpy(after, before, count * sizeof *before);
-    row->unturned += !ffd_ply_turn_rests(d, &result->turn, after);
-    for (size_t i = 0; i < count; i++)
-        row->changed[PLY_REST_SLOT + i] = differ(before + i, after + i);
-}
-
 static void change_splat(const ply_document *d, size_t number, row_change *row)
 {
     const ply_splat *const result = &d->new_splats[number];
@@ -62,13 +43,14 @@ static void change_splat(const ply_document *d, size_t number, row_change *row)
         row->values[slot] = ply_round(d->types[slot], *ffd_ply_splat_number(&after, slot));
         row->changed[slot] = differ(ffd_ply_splat_number(&before, slot), &row->values[slot]);
     }
-    if (result->turn.is_turn)
-        change_rests(d, number, result, row);
+    row->turns = result->turn.is_turn;
 }
 
+/* All but harmonics. */
 static void change_row(const ply_document *d, size_t number, row_change *row)
 {
     const double *const directions = d->file.new_directions;
+    row->turns = false;
     change_vector(d->file.positions + 3 * number, d->file.new_positions + 3 * number, 0, row);
     change_vector(directions ? d->file.directions + 3 * number : NULL,
                   directions ? directions + 3 * number : NULL, PLY_NORMAL_SLOT, row);
@@ -76,11 +58,52 @@ static void change_row(const ply_document *d, size_t number, row_change *row)
         change_splat(d, number, row);
 }
 
+static void load_rests(const ply_document *d, size_t number, const row_change *row, double *values)
+{
+    const size_t count = HARMONICS_CHANNELS * (size_t)harmonics_count(d->file.part.form.degree);
+    for (size_t i = 0; i < count; i++) {
+        const size_t slot = PLY_REST_SLOT + i;
+        if (d->has_fixed_rows)
+            values[i] =
+                ply_load_binary(d->header.encoding, d->types[slot], ply_row(d, number) + d->offsets[slot]);
+        else
+            ffd_ply_load(d->header.encoding, d->types[slot], row->words[slot], &values[i]);
+    }
+}
+
+/* Changes PLY_ROWS rows at most, from a number on. Returns how many have harmonics that are not numbers. */
+static size_t change_rows(const ply_document *d, size_t first, size_t count, row_change *rows)
+{
+    const size_t rests = HARMONICS_CHANNELS * (size_t)harmonics_count(d->file.part.form.degree);
+    double before[PLY_ROWS][PLY_RESTS], after[PLY_ROWS][PLY_RESTS];
+    splat_turn turns[PLY_ROWS];
+    size_t turned[PLY_ROWS], open = 0;
+    for (size_t i = 0; i < count; i++) {
+        change_row(d, first + i, &rows[i]);
+        if (!rows[i].turns || rests == 0)
+            continue;
+        load_rests(d, first + i, &rows[i], before[open]);
+        memcpy(after[open], before[open], sizeof after[open]);
+        turns[open] = d->new_splats[first + i].turn;
+        turned[open++] = i;
+    }
+    if (open == 0)
+        return 0;
+    const size_t unturned = ffd_ply_turn_rests(d, turns, open, after);
+    for (size_t k = 0; k < open; k++)
+        for (size_t i = 0; i < rests; i++) {
+            rows[turned[k]].values[PLY_REST_SLOT + i] = after[k][i];
+            rows[turned[k]].changed[PLY_REST_SLOT + i] = differ(&before[k][i], &after[k][i]);
+        }
+    return unturned;
+}
+
 /* Rows whose numbers must be looked for one after the other. */
 static size_t write_walked(const ply_document *d, file_splice *splice)
 {
     ply_walk walk;
-    row_change row = {.unturned = 0};
+    row_change row = {.turns = false};
+    size_t unturned = 0;
     ffd_ply_document_walk(d, d->vertex, &walk);
     for (size_t number = 0; splice->status == FFD_OK && number < d->file.part.vertex_count; number++) {
         ffd_ply_walk_row(&walk);
@@ -91,7 +114,7 @@ static size_t write_walked(const ply_document *d, file_splice *splice)
             else
                 ffd_ply_walk_value(&walk, property->type, &row.words[property->slot]);
         }
-        change_row(d, number, &row);
+        unturned += change_rows(d, number, 1, &row);
         for (size_t i = 0; i < d->vertex->property_count; i++) {
             const ply_property *property = &d->vertex->properties[i];
             char bytes[FFD_NUMBER_CAPACITY];
@@ -102,7 +125,7 @@ static size_t write_walked(const ply_document *d, file_splice *splice)
             ffd_splice_replace(splice, row.words[property->slot], bytes, size);
         }
     }
-    return row.unturned;
+    return unturned;
 }
 
 /* Rows of one size: threads change copies of them. */
@@ -116,13 +139,27 @@ typedef struct row_writer {
 
 #define ROW_TILE ((size_t)1024)
 
-static void store_row(const ply_document *d, size_t number, row_change *row, char *at)
+static void store_row(const ply_document *d, size_t number, const row_change *row, char *at)
 {
-    change_row(d, number, row);
     memcpy(at, ply_row(d, number), d->vertex->least);
     for (size_t slot = 0; slot < PLY_SLOT_COUNT; slot++)
         if (row->changed[slot])
             ply_store_binary(d->header.encoding, d->types[slot], row->values[slot], at + d->offsets[slot]);
+}
+
+/* Returns how many have harmonics that are not numbers. */
+static size_t store_rows(const ply_document *d, size_t first, size_t last, char *at)
+{
+    row_change rows[PLY_ROWS];
+    size_t unturned = 0;
+    memset(rows, 0, sizeof rows);
+    for (size_t number = first; number < last; number += PLY_ROWS) {
+        const size_t count = last - number < PLY_ROWS ? last - number : PLY_ROWS;
+        unturned += change_rows(d, number, count, rows);
+        for (size_t i = 0; i < count; i++)
+            store_row(d, number + i, &rows[i], at + (number + i - first) * d->vertex->least);
+    }
+    return unturned;
 }
 
 static void make_tile(void *context, size_t tile, size_t first, size_t last, int worker)
@@ -131,17 +168,15 @@ static void make_tile(void *context, size_t tile, size_t first, size_t last, int
     const ply_document *const d = w->document;
     const size_t size = (last - first) * d->vertex->least;
     byte_buffer text = w->texts[worker]; /* a local copy: entries of the list share cache lines */
-    row_change row = {.unturned = 0};
     (void)tile;
     text.size = 0;
     if (atomic_load(&w->is_over))
         return;
     char *const at = ffd_buffer_reserve(&text, size);
     ffd_file_prefault(ply_row(d, first), size);
-    for (size_t number = first; at && number < last; number++)
-        store_row(d, number, &row, at + (number - first) * d->vertex->least);
+    if (at)
+        atomic_fetch_add(&w->unturned, store_rows(d, first, last, at));
     text.size = at ? size : 0;
-    atomic_fetch_add(&w->unturned, row.unturned);
     w->texts[worker] = text;
 }
 

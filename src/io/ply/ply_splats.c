@@ -195,23 +195,34 @@ static bool fit(const ply_type *types, const double (*c)[HARMONICS_CHANNELS], in
     return true;
 }
 
-bool ffd_ply_turn_rests(const ply_document *d, const splat_turn *turn, double *values)
+/* Takes over the turned coefficients, rounded to their types. Returns false where some are no numbers of
+ * these. */
+static bool take_turned(const ply_document *d, const double (*c)[HARMONICS_CHANNELS], double *values)
 {
-    const int degree = d->file.part.form.degree, count = harmonics_count(degree);
-    double c[HARMONICS_MOST][HARMONICS_CHANNELS];
+    const int count = harmonics_count(d->file.part.form.degree);
     bool all = true;
-    for (int k = 0; k < HARMONICS_CHANNELS; k++)
-        for (int m = 0; m < count; m++)
-            c[m][k] = values[k * count + m];
-    ffd_harmonics_turn(turn, degree, c);
     for (int k = 0; k < HARMONICS_CHANNELS; k++) {
         const ply_type *const types = d->types + PLY_REST_SLOT + k * count;
-        if (!fit(types, (const double(*)[HARMONICS_CHANNELS])c, k, count)) {
-            all = false;
-            continue;
-        }
-        for (int m = 0; m < count; m++)
+        const bool fits = fit(types, c, k, count);
+        for (int m = 0; m < count && fits; m++)
             values[k * count + m] = ply_round(types[m], c[m][k]);
+        all = all && fits;
     }
     return all;
+}
+
+size_t ffd_ply_turn_rests(const ply_document *d, const splat_turn *turns, size_t count,
+                          double (*values)[PLY_RESTS])
+{
+    const int degree = d->file.part.form.degree, functions = harmonics_count(degree);
+    harmonics_block c[PLY_ROWS];
+    size_t unturned = 0;
+    for (size_t i = 0; i < count; i++)
+        for (int k = 0; k < HARMONICS_CHANNELS; k++)
+            for (int m = 0; m < functions; m++)
+                c[i][m][k] = values[i][k * functions + m];
+    ffd_harmonics_turn(FFD_ISA_AUTO, turns, degree, count, c);
+    for (size_t i = 0; i < count; i++)
+        unturned += !take_turned(d, (const double(*)[HARMONICS_CHANNELS])c[i], values[i]);
+    return unturned;
 }

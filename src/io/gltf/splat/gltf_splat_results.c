@@ -6,6 +6,7 @@
 #include "splat/harmonics.h"
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 /* Splats that are read at a time. */
 #define STEP ((size_t)64)
@@ -111,47 +112,61 @@ static bool fit(const double (*c)[HARMONICS_CHANNELS], int channel, int count)
     return true;
 }
 
-/* Coefficients of some splats, by attribute. */
-typedef struct splat_harmonics {
-    double values[HARMONICS_MOST][STEP][HARMONICS_CHANNELS];
-} splat_harmonics;
-
-/* Turns those of splat i; channels that are not numbers stay. */
-static bool turn(const splat_turn *turn, int degree, size_t i, splat_harmonics *harmonics)
+/* Takes over turned coefficients. Returns false where those of a channel cannot be held, and stay. */
+static bool take_turned(const double (*turned)[HARMONICS_CHANNELS], int count,
+                        double (*c)[HARMONICS_CHANNELS])
 {
-    const int count = harmonics_count(degree);
-    double c[HARMONICS_MOST][HARMONICS_CHANNELS];
     bool all = true;
-    for (int m = 0; m < count; m++)
-        for (int k = 0; k < HARMONICS_CHANNELS; k++)
-            c[m][k] = harmonics->values[m][i][k];
-    ffd_harmonics_turn(turn, degree, c);
     for (int k = 0; k < HARMONICS_CHANNELS; k++) {
-        const bool fits = fit((const double(*)[HARMONICS_CHANNELS])c, k, count);
+        const bool fits = fit(turned, k, count);
         for (int m = 0; m < count && fits; m++)
-            harmonics->values[m][i][k] = c[m][k];
+            c[m][k] = turned[m][k];
         all = all && fits;
     }
     return all;
+}
+
+/* Turns the coefficients of those of STEP splats at most that are listed. Returns how many keep some. */
+static size_t turn_listed(const splat_turn *turns, int degree, const size_t *listed, size_t count,
+                          harmonics_block *c)
+{
+    harmonics_block turned[STEP];
+    splat_turn own[STEP];
+    size_t unturned = 0;
+    if (count == 0)
+        return 0;
+    for (size_t k = 0; k < count; k++) {
+        memcpy(turned[k], c[listed[k]], sizeof turned[k]);
+        own[k] = turns[listed[k]];
+    }
+    ffd_harmonics_turn(FFD_ISA_AUTO, own, degree, count, turned);
+    for (size_t k = 0; k < count; k++)
+        unturned += !take_turned((const double(*)[HARMONICS_CHANNELS])turned[k], harmonics_count(degree),
+                                 c[listed[k]]);
+    return unturned;
 }
 
 static void write_harmonics(gltf_document *d, size_t part, size_t first, size_t count,
                             const splat_turn *turns, const uint8_t *changed)
 {
     const int degree = d->mesh_parts[part].form.degree, functions = harmonics_count(degree);
-    splat_harmonics harmonics;
-    size_t unturned = 0;
-    for (int m = 0; m < functions; m++)
+    harmonics_block c[STEP] = {{{0}}};
+    size_t listed[STEP], open = 0;
+    for (int m = 0; m < functions; m++) {
+        double values[STEP][HARMONICS_CHANNELS];
         ffd_gltf_read(d, stream_of(d, part, GLTF_SPLAT_HARMONICS + (size_t)m)->accessor, first, count,
-                      HARMONICS_CHANNELS, harmonics.values[m][0]);
+                      HARMONICS_CHANNELS, values[0]);
+        for (size_t i = 0; i < count; i++)
+            memcpy(c[i][m], values[i], sizeof c[i][m]);
+    }
     for (size_t i = 0; i < count && functions > 0; i++)
         if (changed[i] && turns[i].is_turn)
-            unturned += !turn(&turns[i], degree, i, &harmonics);
+            listed[open++] = i;
+    const size_t unturned = turn_listed(turns, degree, listed, open, c);
     for (int m = 0; m < functions; m++) {
         const gltf_stream *const stream = stream_of(d, part, GLTF_SPLAT_HARMONICS + (size_t)m);
         for (size_t i = 0; i < count; i++)
-            write_element(d, stream, first + i,
-                          changed[i] && turns[i].is_turn ? harmonics.values[m][i] : NULL);
+            write_element(d, stream, first + i, changed[i] && turns[i].is_turn ? c[i][m] : NULL);
     }
     if (unturned > 0)
         atomic_fetch_add(&d->unturned, unturned);
