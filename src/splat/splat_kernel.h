@@ -1,4 +1,5 @@
-/* splat_kernel.h - the two iterations of splats, on several matrices at a time. */
+/* splat_kernel.h - the two iterations of splats, on several matrices at a time. Declares splat_iterations.c.
+ */
 #ifndef FFD_SPLAT_SPLAT_KERNEL_H
 #define FFD_SPLAT_SPLAT_KERNEL_H
 

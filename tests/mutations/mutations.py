@@ -232,7 +232,7 @@ m("lanes-of-tangents", "kernel", "attribute_batch", "const lanes along = lanes_d
 
 # splat
 
-m("splat-sizes", "operation", "splat, cli_splats", "lengths[order[i]] / parts[order[i]]", "lengths[order[i]] * parts[order[i]]")
+m("splat-sizes", "operation", "splat, cli_splats", "lengths[order[i]] / work->parts[order[i]]", "lengths[order[i]] * work->parts[order[i]]")
 m("splat-axes-as-they-come", "check left out", "splat, cli_splats", "for (int o = 0; o < (is_flat ? 2 : 6); o++)",
   "for (int o = 0; o < (is_flat ? 2 : 1); o++)")
 m("splat-axes-left-handed", "condition", "splat, cli_splats", "is_right = is_right == (cosine >= 0);", "is_right = is_right && cosine < 2;")
@@ -244,14 +244,20 @@ m("splat-turn-of-a-plane", "left out", "splat", "f[i] += cofactor[i] / size;", "
 m("splat-frame", "transposition", "splat, cli_splats",
   "axes[r] * product[c] + axes[3 + r] * product[3 + c] + axes[6 + r] * product[6 + c]",
   "axes[3 * r] * product[c] + axes[3 * r + 1] * product[3 + c] + axes[3 * r + 2] * product[6 + c]")
-m("splat-jacobi-ends", "loop", "splat, cli_splats", "sweep < SWEEPS && any", "sweep < 1 && any")
+m("splat-jacobi-ends", "loop", "splat, cli_splats", "bool any = true; for (int sweep = 0; sweep < SWEEPS && any; sweep++) { any = rotate(columns, columns + 3);",
+  "bool any = true;\n    for (int sweep = 0; sweep < 1 && any; sweep++) {\n        any = rotate(columns, columns + 3);")
 m("splat-round-axes", "tolerance", "cli_splats", "#define RIGHT 1e-12", "#define RIGHT 1e-17")
-m("splat-flattened", "figure", "splat, cli_splats", "return is_flattening(f, cofactor) ? SPLAT_FLATTENED : SPLAT_CARRIED;",
-  "return SPLAT_CARRIED;")
+m("splat-flattened", "figure", "splat, cli_splats", "*outcome = work->is_flattened ? SPLAT_FLATTENED : SPLAT_CARRIED;",
+  "*outcome = SPLAT_CARRIED;")
 m("harmonics-lobe", "sign", "splat, cli_splats", "{4, 1, 1.7975962960832887629}", "{4, 1, -1.7975962960832887629}")
 m("harmonics-odd-mirrored", "condition", "splat, cli_splats", "if (turn->is_mirrored && degree >= 3)",
   "if (turn->is_mirrored && degree > 3)")
 m("logarithm-terms", "bound", "splat", "for (int i = ARTANH_TERMS; i-- > 0;)", "for (int i = 5; i-- > 0;)")
+
+m("polar-lanes-go-on", "mask", "splat", "x[i] = lanes_choose(is_open, next, x[i]);", "x[i] = next;")
+m("columns-lanes-that-rest", "mask", "splat", "p[k] = lanes_choose(turns, c * x - s * y, x);", "p[k] = c * x - s * y;")
+m("harmonics-rest-of-a-run", "left out", "splat, cli_splats", "kernel ? kernel(rotations, degree, some, c + first) : 0; i < some; i++)",
+  "kernel ? kernel(rotations, degree, some, c + first) + 1 : 0; i < some; i++)")
 
 # embed
 
@@ -636,8 +642,8 @@ m("ply-normals-mixed", "stride", "ply, cli_ply",
   "property->slot <= PLY_NORMAL_SLOT ? d->file.positions : d->file.directions",
   "property->slot < PLY_NORMAL_SLOT ? d->positions : d->directions",
   "property->slot <= PLY_NORMAL_SLOT ? d->positions : d->directions")
-m("ply-rests-by-coefficient", "stride", "cli_splats", "c[m][k] = values[k * count + m];",
-  "c[m][k] = values[m * HARMONICS_CHANNELS + k];")
+m("ply-rests-by-coefficient", "stride", "cli_splats", "c[i][m][k] = values[i][k * functions + m];",
+  "c[i][m][k] = values[i][m * HARMONICS_CHANNELS + k];")
 m("ply-seven-rests", "condition", "cli_splats", "if (d->rest_count == count && have_fractions(", "if (d->rest_count >= count && have_fractions(")
 m("ply-splat-of-a-walk", "left out", "cli_splats", "property->slot == PLY_NO_SLOT || !row.changed[property->slot]",
   "property->slot >= PLY_ROTATION_SLOT || !row.changed[property->slot]")

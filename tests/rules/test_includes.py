@@ -19,7 +19,7 @@ LAYERS = {
     "json": {"base", "base/memory", "base/text"},
     "io/gltf/file": {"base", "base/file", "base/memory", "base/text", "json"},
     "io/gltf/model": {"base", "base/memory", "base/system", "json"},
-    "splat": {"base/vector"},
+    "splat": {"base", "base/vector"},
     "mesh": {"base", "base/file", "base/memory", "base/text", "base/vector", "json", "splat"},
     "mesh/morph": {"base", "base/memory", "base/text", "json", "mesh"},
     "mesh/meshopt": {"base", "base/system", "base/text"},

@@ -79,10 +79,11 @@ void ffd_ply_find_splats(ply_document *document);
 double *ffd_ply_splat_number(splat_ellipsoid *splat, size_t slot);
 /* Makes room for the results of splats, of which none is changed. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_ply_begin_splats(ply_document *document, ffd_error *error);
+/* Splats whose coefficients are turned together. */
+#define PLY_ROWS ((size_t)16)
 /* Turns the coefficients of PLY_ROWS splats at most: values[k][i] is splat k's of slot PLY_REST_SLOT + i, as
    the file has it, and then rounded to its type. Returns how many have channels that are not numbers, which
    stay. */
-#define PLY_ROWS ((size_t)16)
 size_t ffd_ply_turn_rests(const ply_document *document, const splat_turn *turns, size_t count,
                           double (*values)[PLY_RESTS]);
 
