@@ -1,4 +1,4 @@
-/* harmonics.h - turning real spherical harmonics of degrees 1 to 3 (src/maths.md 9.5). */
+/* harmonics.h - turning real spherical harmonics of degrees 1 to 3 (src/maths.md 9.6). */
 #ifndef FFD_SPLAT_HARMONICS_H
 #define FFD_SPLAT_HARMONICS_H
 

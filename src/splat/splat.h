@@ -1,4 +1,4 @@
-/* splat.h - Gaussian splats under a deformation gradient F = I + gradient (src/maths.md 9.5): the turn of
+/* splat.h - Gaussian splats under a deformation gradient F = I + gradient (src/maths.md 9.6): the turn of
    what is seen from a direction, and the ellipsoid. */
 #ifndef FFD_SPLAT_SPLAT_H
 #define FFD_SPLAT_SPLAT_H

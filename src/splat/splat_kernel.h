@@ -25,11 +25,11 @@ splat_kernel ffd_columns_kernel_sse2, ffd_columns_kernel_avx2, ffd_columns_kerne
 #define RIGHT 1e-12
 #define SWEEPS 20
 
-/* Replaces x, which has an inverse, with the orthogonal factor of its polar decomposition (src/maths.md 9.5).
+/* Replaces x, which has an inverse, with the orthogonal factor of its polar decomposition (src/maths.md 9.6).
  */
 void ffd_splat_orthogonalise(double x[9]);
 
-/* Makes the columns of a matrix, one after the other, perpendicular (src/maths.md 9.5). */
+/* Makes the columns of a matrix, one after the other, perpendicular (src/maths.md 9.6). */
 void ffd_splat_part_columns(double columns[9]);
 
 #endif

@@ -1,4 +1,4 @@
-/* pass_splats.h - Gaussian splats in a tile of a pass (src/maths.md 9.5). */
+/* pass_splats.h - Gaussian splats in a tile of a pass (src/maths.md 9.6). */
 #ifndef FFD_JOB_PASS_PASS_SPLATS_H
 #define FFD_JOB_PASS_PASS_SPLATS_H
 
