@@ -1,6 +1,7 @@
 /* harmonics_kernel.c - compiled once for each instruction set with lanes: FFD_HARMONICS_KERNEL is the
    function's name, FFD_LANES the number of SIMD lanes, each with one splat. */
 #include "base/vector/lanes.h"
+#include "splat/harmonics.h"
 
 typedef lanes number;
 #include "splat/harmonics_turn.h"

@@ -4,7 +4,6 @@
 #define FFD_SPLAT_HARMONICS_TURN_H
 
 #include "base/inline.h"
-#include "splat/harmonics.h"
 #include <string.h>
 
 /* Normalising factors: sqrt(3/4pi), sqrt(15/4pi), sqrt(5/16pi), sqrt(15/16pi), sqrt(35/32pi), sqrt(105/4pi),

@@ -1111,8 +1111,8 @@ m("rig-outputs-overwritten", "left out", "cli_rig", "if (!change->contents || ch
   "(void)change;")
 m("rig-values-not-counted", "limit left out", "cli_rig", "ffd_budget_take(rig->budget, content->count, size, error)",
   "ffd_budget_take(rig->budget, 0, size, error)")
-m("rig-left-for-the-next-job", "clean-up left out", "rig", "ffd_gltf_free_rig((gltf_document *)document); return ffd_gltf_begin_results(",
-  "return ffd_gltf_begin_results(")
+m("rig-left-for-the-next-job", "clean-up left out", "rig", "ffd_gltf_free_rig((gltf_document *)document); const ffd_status status = ffd_gltf_begin_results(",
+  "const ffd_status status = ffd_gltf_begin_results(")
 m("rig-lag-of-cameras", "selection", "cli_stays_behind, cli_rig", "const double lag = kinds & OF_THE_RIG ? ffd_rig_lag(&rig->moves[i], diagonal) : 0;",
   "const double lag = ffd_rig_lag(&rig->moves[i], diagonal);")
 m("rig-small-lags-said", "threshold", "cli_rig", "#define LAG_SAID 1e-3", "#define LAG_SAID 1e-6")

@@ -148,8 +148,8 @@ static bool agree(const gltf_document *d, const gltf_plan *plan, const byte_user
     const gltf_accessor *first = &d->model.accessors[x->accessor], *second = &d->model.accessors[y->accessor];
     const size_t values = (a->width ? a->width : a->components) * (size_t)first->count;
     return first->component == second->component && first->normalized == second->normalized &&
-           first->rows == second->rows && first->count == second->count && a->width == b->width && a->components == b->components &&
-           memcmp(a->values, b->values, values * sizeof *a->values) == 0;
+           first->rows == second->rows && first->count == second->count && a->width == b->width &&
+           a->components == b->components && memcmp(a->values, b->values, values * sizeof *a->values) == 0;
 }
 
 /* Visits all pairs that share bytes; returns whether any version was taken back. */
