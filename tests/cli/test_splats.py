@@ -468,6 +468,20 @@ def check_placed(before, after, place, f):
 
 
 @case
+def a_node_that_follows(run):
+    """With --rig follow the node turns, and its splats do what is left of the deformation."""
+    world = [[0.8, -0.7, 0], [0.6, 0.9, 0.1], [0, 0.2, 1.1]]
+    q, made = turn_of([1, 1, 0], 50), Scene()
+    a, b = deform_glb(run, scene(splats_of(cloud(9, 45, "float", seed=16, span=2), 45, made), made, [{"rotation": [*q[1:], q[0]]}]),
+                      by(world), "--rig", "follow")
+    x, y, z, w = b.asset["nodes"][0]["rotation"]
+    check(abs(w - q[0]) > 1e-3, "the node turns")
+    before, after = rows_of(a, 0, HARMONICS), rows_of(b, 0, HARMONICS)
+    turned = matrix([w, x, y, z])
+    check_covariances(before, after, [product(transposed(turned), product(world, matrix(q)))] * 9, 3e-4)
+
+
+@case
 def whole_numbers_of_gltf(run):
     """Rotations in steps of 1/32767 and scales in steps of 1/65535 stay in these types while they fit."""
     rows = [row | {f"scale_{i}": -1.0 - i for i in range(3)} for row in cloud(20, 9, "float", seed=13)]
