@@ -257,8 +257,8 @@ typedef enum ffd_behind_kind {
     FFD_BEHIND_JOINT,
     FFD_BEHIND_PIVOT, /* a node whose translation, rotation or scale is animated */
     FFD_BEHIND_PHYSICS_SHAPE,
-    FFD_BEHIND_SPLAT, /* a Gaussian splat that is moved, by more than a translation of all: its rotation and
-                         scale stay */
+    FFD_BEHIND_SPLAT, /* a Gaussian splat that is moved, by more than a translation of all, and whose rotation
+                         and scale cannot follow: see splats_carried */
     FFD_BEHIND_KIND_COUNT
 } ffd_behind_kind;
 
@@ -314,6 +314,9 @@ typedef struct ffd_job_result {
     uint64_t disagreeing; /* blocks: vertices on a face of theirs that another block moves otherwise */
     double disagreement;  /* the largest difference from the block that has the vertex */
     uint64_t normals_collapsed;
+    uint64_t splats_carried;      /* Gaussian splats whose rotations, scales and harmonics follow; */
+    uint64_t splats_flattened;    /* of these, those that lose a size, since F has no inverse there */
+    uint64_t splats_broken;       /* that move without, since their rotation or scales are not numbers */
     uint64_t normals_carried;     /* RECOMPUTE: those without a face to be computed from, which
                                      follow the deformation */
     uint64_t transforms_singular; /* vertices kept because their node's or skin's matrix has no inverse */

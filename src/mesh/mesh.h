@@ -21,6 +21,7 @@
 #include "mesh/rig.h"
 #include "mesh/rounding.h"
 #include "mesh/selector.h"
+#include "splat/splat.h"
 #include "json/json_text.h"
 #include <ffd/job.h>
 #include <stdbool.h>
@@ -71,8 +72,9 @@ typedef struct mesh_part {
     const uint8_t *selected, *selected_normals;
     bool skipped; /* nothing of the part is selected */
 
-    /* The vertices are the centres of Gaussian splats, whose rotations and scales the streams do not show. */
-    bool splats;
+    bool splats;         /* the vertices are the centres of Gaussian splats */
+    bool has_ellipsoids; /* whose rotations and sizes read_splats gives; else these stay as they are */
+    splat_form form;     /* of ellipsoids */
     size_t place; /* of splats: the number by which place_name knows what shows them; or MESH_NO_PLACE */
 
     /* What shows the part is moved itself (follow): deformed points are taken through y + (carry y +
@@ -242,6 +244,11 @@ typedef void mesh_write_function(mesh_document *document, size_t part, size_t fi
 typedef void mesh_write_offsets_function(mesh_document *document, size_t part, size_t shape,
                                          mesh_stream stream, size_t first, size_t count, const double *xyz,
                                          const uint8_t *changed);
+typedef void mesh_read_splats_function(const mesh_document *document, size_t part, size_t first, size_t count,
+                                       splat_ellipsoid *splats);
+typedef void mesh_write_splats_function(mesh_document *document, size_t part, size_t first, size_t count,
+                                        const splat_ellipsoid *splats, const splat_turn *turns,
+                                        const uint8_t *changed);
 typedef ffd_status mesh_save_function(mesh_document *document, const mesh_save_options *options,
                                       file_output *output, const mesh_log *log, ffd_error *error);
 typedef ffd_status mesh_faces_function(const mesh_document *document, mesh_faces *faces, ffd_error *error);
@@ -360,6 +367,11 @@ typedef struct mesh_format {
 
     mesh_write_offsets_function *write_offsets;
 
+    /* Ellipsoids of Gaussian splats, and what becomes of them: the harmonics of splat i turn by turns[i]. Of
+       parts that have them; NULL where none has. */
+    mesh_read_splats_function *read_splats;
+    mesh_write_splats_function *write_splats;
+
     /* Writes the file (and what belongs to it) into output; byte-identical to the input
        where nothing changed. */
     mesh_save_function *save;
@@ -459,6 +471,10 @@ bool ffd_used_keep(mesh_document *document, size_t count, uint8_t **used);
 /* The number of the document's vertices, in the order of `ffd embed`: parts that repeat
    positions do not count. */
 uint64_t ffd_mesh_vertex_count(const mesh_document *document);
+
+/* For formats: says how many Gaussian splats there are, and the highest degree of their harmonics. Nothing
+   where there are none. */
+void ffd_mesh_describe_splats(const mesh_document *document, json_text *json);
 
 /* The number of each part's first vertex in the document; of a part that repeats positions it is that of the
    part which it repeats. *first is the caller's to free, NULL after a failure. Errors: FFD_E_MEMORY. */

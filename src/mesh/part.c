@@ -92,3 +92,22 @@ bool ffd_used_keep(mesh_document *document, size_t count, uint8_t **used)
     ffd_budget_return(&document->budget, count, 1);
     return false;
 }
+
+void ffd_mesh_describe_splats(const mesh_document *document, json_text *json)
+{
+    uint64_t count = 0;
+    int degree = 0;
+    for (size_t i = 0; i < document->part_count; i++) {
+        const mesh_part *const part = &document->parts[i];
+        if (!part->splats || part->repeats_positions)
+            continue;
+        count += part->vertex_count;
+        degree = part->form.degree > degree ? part->form.degree : degree;
+    }
+    if (count == 0)
+        return;
+    ffd_json_object(json, "gaussian_splats", true);
+    ffd_json_count(json, "count", count);
+    ffd_json_count(json, "sh_degree", (uint64_t)degree);
+    ffd_json_end(json, '}');
+}

@@ -36,6 +36,7 @@ SUBJECTS = {
     "threads": jobs.threads,
     "inversion": jobs.inversion,
     "tears": jobs.tears,
+    "splats": jobs.splats,
     "displacement": kernels.displacement,
     "embedding": kernels.embedding,
     "arrays": kernels.arrays,

@@ -166,6 +166,19 @@ def tears(bench):
         bench.table.add(f"{kind}: 5 % outside, peak memory", partly.megabytes, "MB", row, "<= 1.1")
 
 
+def splats(bench):
+    """Gaussian splats beside vertices with normals of as many bytes."""
+    bench.table.title(f"Gaussian splats (binary PLY, 248 bytes a vertex, {vertices(bench.side)})")
+    sources = [bench.mesh(name, meshes.write_splats, bench.side, are_splats)
+               for name, are_splats in (("values.ply", False), ("splats.ply", True))]
+    for name, lattice in bench.lattices.items():
+        plain, turned = programs.in_turns([bench.deform(source, lattice) for source in sources], bench.runs)
+        row = bench.table.add(f"{name}: vertices with normals", plain.seconds, "s")
+        bench.table.add(f"{name}: Gaussian splats", turned.seconds, "s", row, "<= 2")
+        row = bench.table.add(f"{name}: vertices with normals, peak memory", plain.megabytes, "MB")
+        bench.table.add(f"{name}: Gaussian splats, peak memory", turned.megabytes, "MB", row)
+
+
 def large(bench):
     """Time and memory of a file of many gigabytes, once."""
     bench.table.title(f"Large OBJ, {bench.large:g} GB, --normals keep")

@@ -163,6 +163,25 @@ def write_binary_ply(path, side):
             file.write(struct.pack("<B3i", 3, *indices[k:k + 3]))
 
 
+# What 3D Gaussian splatting writes, with harmonics up to degree 3.
+SPLAT_NAMES = (["f_dc_0", "f_dc_1", "f_dc_2"] + [f"f_rest_{i}" for i in range(45)] + ["opacity", "scale_0", "scale_1", "scale_2"]
+               + [f"rot_{i}" for i in range(4)])
+
+
+def write_splats(path, side, are_splats):
+    """Vertices of 62 floats: Gaussian splats, or with other names for all but the positions and normals."""
+    positions, normals = surface(side)
+    names = SPLAT_NAMES if are_splats else [f"value_{i}" for i in range(len(SPLAT_NAMES))]
+    tails = [struct.pack("<56f", *(math.sin(7 * i + k) - (4 if 49 <= k < 52 else 0) for k in range(56))) for i in range(97)]
+    with open(path, "wb", buffering=1 << 22) as file:
+        file.write(("ply\nformat binary_little_endian 1.0\nelement vertex %d\n" % (side * side)
+                    + "".join(f"property float {name}\n" for name in ["x", "y", "z", "nx", "ny", "nz", *names])
+                    + "end_header\n").encode("ascii"))
+        for k in range(0, len(positions), 3):
+            normal = (0, 0, 0) if are_splats else normals[k:k + 3]
+            file.write(struct.pack("<6f", *positions[k:k + 3], *normal) + tails[k // 3 % len(tails)])
+
+
 def write_off(path, side):
     positions, _ = surface(side)
     indices = triangles(side)

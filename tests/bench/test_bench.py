@@ -29,6 +29,7 @@ SUBJECTS = {
     "Inversion": ["certified vertices"],
     "Torn edges": [".glb: all inside", ".glb: 5 % outside", ".obj: 5 % outside, peak memory", ".ply, ascii: 5 % outside",
                    ".ply, binary: 5 % outside", ".off: 5 % outside"],
+    "Gaussian splats": ["box: vertices with normals", "box: Gaussian splats", "warped: Gaussian splats, peak memory"],
     "Displacement": ["copy", "kernel alone, box, scalar", "8^3 box, scalar", "64^3 general, scalar, with gradient"],
     "Finding u,v,w": ["smooth warp 8x8x8, degree 3"],
     "Arrays in memory": ["float32: kernels", "float32: one call", "float64, gradients: one call", "u,v,w: one call",

@@ -250,9 +250,10 @@ def more_kinds_of_physics_and_pivots(run):
 
 
 def splats(points):
+    """Their rotations and scales are whole numbers, which cannot follow."""
     names = ["x", "y", "z", "f_dc_0", "f_dc_1", "f_dc_2", "opacity", "scale_0", "scale_1", "scale_2", "rot_0", "rot_1", "rot_2", "rot_3"]
     rows = [" ".join(map(str, [*p, 0.1, 0.1, 0.1, 1, -1, -4, -4, 1, 0, 0, 0])) for p in points]
-    return ("ply\nformat ascii 1.0\nelement vertex %d\n" % len(points) + "".join(f"property float {name}\n" for name in names)
+    return ("ply\nformat ascii 1.0\nelement vertex %d\n" % len(points) + "".join(f"property {'short' if name[0] in 'rs' else 'float'} {name}\n" for name in names)
             + "end_header\n" + "\n".join(rows) + "\n")
 
 
@@ -282,12 +283,12 @@ def splats_that_are_only_translated(run):
 
 @case
 def splats_of_gltf(run):
-    """Two of the three in each of two nodes; the third node is far away."""
+    """Two of the three in each of two nodes; the third node is far away. Rotations of three numbers cannot follow."""
     made = Scene(nodes=[{"mesh": 0, "name": "rose"}, {"mesh": 0, "name": "thorn"}, {"mesh": 0, "name": "far", "translation": [90, 0, 0]}],
                  scene=0, scenes=[{"nodes": [0, 1, 2]}], extensionsUsed=["KHR_gaussian_splatting"],
                  extensionsRequired=["KHR_gaussian_splatting"])
     attributes = {"POSITION": made.add([[1, 0, 0], [2, 0, 0], [50, 0, 0]], bounds=True),
-                  "KHR_gaussian_splatting:ROTATION": made.add([[0, 0, 0, 1]] * 3, shape="VEC4"),
+                  "KHR_gaussian_splatting:ROTATION": made.add([[0, 0, 0]] * 3),
                   "KHR_gaussian_splatting:SCALE": made.add([[-1, -4, -4]] * 3)}
     made.asset["meshes"] = [{"primitives": [{"attributes": attributes, "mode": 0,
                                              "extensions": {"KHR_gaussian_splatting": {"kernel": "ellipse"}}}]}]

@@ -230,6 +230,35 @@ m("fade-slope", "sign", "extension", "*slope = -30 * (s * s) * (rest * rest) / f
 m("lanes-of-tangents", "kernel", "attribute_batch", "const lanes along = lanes_dot(carried, normal);",
   "const lanes along = lanes_dot(tangent, normal);")
 
+# splat
+
+m("splat-sizes", "operation", "splat, cli_splats", "lengths[order[i]] / work->parts[order[i]]", "lengths[order[i]] * work->parts[order[i]]")
+m("splat-axes-as-they-come", "check left out", "splat, cli_splats", "for (int o = 0; o < (is_flat ? 2 : 6); o++)",
+  "for (int o = 0; o < (is_flat ? 2 : 1); o++)")
+m("splat-axes-left-handed", "condition", "splat, cli_splats", "is_right = is_right == (cosine >= 0);", "is_right = is_right && cosine < 2;")
+m("splat-quaternion-length", "operation", "splat, cli_splats", "(along < 0 ? -length : length) * made[i]", "(along < 0 ? -1 : 1) * made[i]")
+m("splat-quaternion-sign", "sign", "cli_splats", "(along < 0 ? -length : length) * made[i]", "length * made[i]")
+m("splat-mirrored", "condition", "splat, cli_splats", "turn->is_mirrored = vec_dot(f, cofactor) < 0;",
+  "turn->is_mirrored = vec_dot(f, cofactor) < -1e300;")
+m("splat-turn-of-a-plane", "left out", "splat", "f[i] += cofactor[i] / size;", "f[i] += 0 * cofactor[i] / size;")
+m("splat-frame", "transposition", "splat, cli_splats",
+  "axes[r] * product[c] + axes[3 + r] * product[3 + c] + axes[6 + r] * product[6 + c]",
+  "axes[3 * r] * product[c] + axes[3 * r + 1] * product[3 + c] + axes[3 * r + 2] * product[6 + c]")
+m("splat-jacobi-ends", "loop", "splat, cli_splats", "bool any = true; for (int sweep = 0; sweep < SWEEPS && any; sweep++) { any = rotate(columns, columns + 3);",
+  "bool any = true;\n    for (int sweep = 0; sweep < 1 && any; sweep++) {\n        any = rotate(columns, columns + 3);")
+m("splat-round-axes", "tolerance", "cli_splats", "#define RIGHT 1e-12", "#define RIGHT 1e-17")
+m("splat-flattened", "figure", "splat, cli_splats", "*outcome = work->is_flattened ? SPLAT_FLATTENED : SPLAT_CARRIED;",
+  "*outcome = SPLAT_CARRIED;")
+m("harmonics-lobe", "sign", "splat, cli_splats", "{4, 1, 1.7975962960832887629}", "{4, 1, -1.7975962960832887629}")
+m("harmonics-odd-mirrored", "condition", "splat, cli_splats", "if (turn->is_mirrored && degree >= 3)",
+  "if (turn->is_mirrored && degree > 3)")
+m("logarithm-terms", "bound", "splat", "for (int i = ARTANH_TERMS; i-- > 0;)", "for (int i = 5; i-- > 0;)")
+
+m("polar-lanes-go-on", "mask", "splat", "x[i] = lanes_choose(is_open, next, x[i]);", "x[i] = next;")
+m("columns-lanes-that-rest", "mask", "splat", "p[k] = lanes_choose(turns, c * x - s * y, x);", "p[k] = c * x - s * y;")
+m("harmonics-rest-of-a-run", "left out", "splat, cli_splats", "kernel ? kernel(rotations, degree, some, c + first) : 0; i < some; i++)",
+  "kernel ? kernel(rotations, degree, some, c + first) + 1 : 0; i < some; i++)")
+
 # embed
 
 m("separable-stride", "stride", "locator", "a == 1 ? lattice->size[0] : lattice->size[0] * lattice->size[1];",
@@ -589,6 +618,12 @@ m("offsets-of-the-first", "index", "view_pose", "mat_apply(rest, to->offsets + 3
   "mat_apply(rest, to->offsets, to->offsets);")
 m("bones-of-no-bind", "left out", "view_pose, page_rig", "ffd_gltf_join_matrix(binds + 12 * j, back, back + 9, bone->bind);",
   "memcpy(bone->bind, binds + 12 * j, sizeof bone->bind);")
+m("gltf-quaternion-order", "order", "cli_splats", ".rotation = {q[3], q[0], q[1], q[2]}", ".rotation = {q[0], q[1], q[2], q[3]}")
+m("gltf-splats-not-in-place", "left out", "cli_splats", "primitive->attributes[k].semantic = GLTF_SPLAT;",
+  "primitive->attributes[k].semantic = GLTF_OTHER;")
+m("gltf-scales-of-drafts", "condition", "cli_splats", "if (scales[i] < 0)", "if (scales[i] < -1e30)")
+m("gltf-splats-of-a-copy", "left out", "cli_splats", "edit_splats(saver, mesh, p, attributes, use, edits);", "(void)&edit_splats;")
+m("gltf-rotation-of-three", "bound", "cli_splats", "slot == GLTF_SPLAT_ROTATION ? 4 : 3", "slot == GLTF_SPLAT_ROTATION ? 3 : 3")
 
 # io/ply
 
@@ -601,10 +636,17 @@ m("ply-rows-do-not-fit", "limit", "ply, cli_ply, replay ply", "e->count > left /
 m("ply-colour-of-shorts", "factor", "ply, model, cli_convert", "type == PLY_USHORT ? 65535 : 1",
   "type == PLY_USHORT ? 65536 : 1")
 m("ply-normals-mixed", "stride", "ply, cli_ply",
+  "slot < PLY_NORMAL_SLOT ? d->file.positions : d->file.directions",
+  "slot <= PLY_NORMAL_SLOT ? d->file.positions : d->file.directions",
   "property->slot < PLY_NORMAL_SLOT ? d->file.positions : d->file.directions",
   "property->slot <= PLY_NORMAL_SLOT ? d->file.positions : d->file.directions",
   "property->slot < PLY_NORMAL_SLOT ? d->positions : d->directions",
   "property->slot <= PLY_NORMAL_SLOT ? d->positions : d->directions")
+m("ply-rests-by-coefficient", "stride", "cli_splats", "c[i][m][k] = values[i][k * functions + m];",
+  "c[i][m][k] = values[i][m * HARMONICS_CHANNELS + k];")
+m("ply-seven-rests", "condition", "cli_splats", "if (d->rest_count == count && have_fractions(", "if (d->rest_count >= count && have_fractions(")
+m("ply-splat-of-a-walk", "left out", "cli_splats", "property->slot == PLY_NO_SLOT || !row.changed[property->slot]",
+  "property->slot >= PLY_ROTATION_SLOT || !row.changed[property->slot]")
 m("ply-newer-version", "error code", "ply, cli_ply",
   'if (!ffd_text_is(version, "1.0")) return ffd_fail_line(r->error, FFD_E_UNSUPPORTED,',
   'if (!ffd_text_is(version, "1.0"))\n        return ffd_fail_line(r->error, FFD_E_INVALID,')
@@ -678,6 +720,10 @@ m("behind-a-morph", "check left out", "cli_stays_behind",
   "return !job->desc->as_morph && (!job->document->converted || job->details);",
   "return !job->document->converted || job->details;")
 m("splats-moved", "figure", "cli_stays_behind, job", "totals->splats_moved += moved;", "totals->splats_moved = moved;")
+m("splats-in-the-scene", "left out", "cli_splats", "if (!transform.identity && !transform.singular) ffd_splat_turn_to_file",
+  "if (transform.singular)\n            ffd_splat_turn_to_file")
+m("splats-broken", "figure", "cli_splats", "totals->splats_broken += outcome == SPLAT_BROKEN && scratch->changed[i];",
+  "totals->splats_broken += outcome == SPLAT_BROKEN && scratch->changed[i] > 1;")
 m("report-rms", "figure", "cli_deform",
   'ffd_json_number(json, "rms", result->residual_rms);', 'ffd_json_number(json, "rms", result->residual_max);')
 m("report-member", "member name", "cli_report_schema", '"displacement", true); ffd_json_number(json, "max"',
@@ -1065,8 +1111,8 @@ m("rig-outputs-overwritten", "left out", "cli_rig", "if (!change->contents || ch
   "(void)change;")
 m("rig-values-not-counted", "limit left out", "cli_rig", "ffd_budget_take(rig->budget, content->count, size, error)",
   "ffd_budget_take(rig->budget, 0, size, error)")
-m("rig-left-for-the-next-job", "clean-up left out", "rig", "ffd_gltf_free_rig((gltf_document *)document); return ffd_gltf_begin_results(",
-  "return ffd_gltf_begin_results(")
+m("rig-left-for-the-next-job", "clean-up left out", "rig", "ffd_gltf_free_rig((gltf_document *)document); const ffd_status status = ffd_gltf_begin_results(",
+  "const ffd_status status = ffd_gltf_begin_results(")
 m("rig-lag-of-cameras", "selection", "cli_stays_behind, cli_rig", "const double lag = kinds & OF_THE_RIG ? ffd_rig_lag(&rig->moves[i], diagonal) : 0;",
   "const double lag = ffd_rig_lag(&rig->moves[i], diagonal);")
 m("rig-small-lags-said", "threshold", "cli_rig", "#define LAG_SAID 1e-3", "#define LAG_SAID 1e-6")

@@ -19,7 +19,8 @@ LAYERS = {
     "json": {"base", "base/memory", "base/text"},
     "io/gltf/file": {"base", "base/file", "base/memory", "base/text", "json"},
     "io/gltf/model": {"base", "base/memory", "base/system", "json"},
-    "mesh": {"base", "base/file", "base/memory", "base/text", "base/vector", "json"},
+    "splat": {"base", "base/vector"},
+    "mesh": {"base", "base/file", "base/memory", "base/text", "base/vector", "json", "splat"},
     "mesh/morph": {"base", "base/memory", "base/text", "json", "mesh"},
     "mesh/meshopt": {"base", "base/system", "base/text"},
     "mesh/resource": {"base", "base/file", "base/memory", "base/system", "base/text", "mesh"},
@@ -49,6 +50,7 @@ LAYERS = {
         "base", "base/memory", "base/text", "base/vector", "io/gltf/animation", "io/gltf/decode", "io/gltf/document",
         "io/gltf/refer", "io/gltf/scene", "json", "mesh",
     },
+    "io/gltf/splat": {"base/memory", "io/gltf/decode", "io/gltf/document", "splat"},
     "io/gltf/save": {
         "base", "base/file", "base/memory", "base/system", "base/text", "io/gltf/decode", "io/gltf/document",
         "io/gltf/file", "io/gltf/refer", "io/gltf/rig", "io/gltf/scene", "json", "mesh", "mesh/resource",
@@ -59,7 +61,7 @@ LAYERS = {
     },
     "io/gltf": {
         "base/file", "base/memory", "base/system", "base/vector", "io/gltf/decode", "io/gltf/document", "io/gltf/file",
-        "io/gltf/model", "io/gltf/morph", "io/gltf/rig", "io/gltf/save", "io/gltf/scene", "io/gltf/skeleton", "json", "mesh",
+        "io/gltf/model", "io/gltf/morph", "io/gltf/rig", "io/gltf/save", "io/gltf/scene", "io/gltf/skeleton", "io/gltf/splat", "json", "mesh",
         "mesh/resource",
     },
     "io/openmesh": {"base/memory", "base/system", "base/vector", "mesh"},
@@ -69,7 +71,9 @@ LAYERS = {
         "base", "base/file", "base/memory", "base/system", "base/text", "io/obj/resource", "io/text", "mesh",
     },
     "io/off": {"base/file", "base/memory", "base/text", "io/text", "mesh"},
-    "io/ply": {"base", "base/file", "base/memory", "base/text", "base/vector", "io/text", "mesh"},
+    "io/ply": {
+        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/text", "mesh", "splat",
+    },
     "io/stl": {"base", "base/file", "base/memory", "base/text", "base/vector", "io/text", "mesh"},
     "io": {"base/file", "io/gltf", "io/obj", "io/off", "io/ply", "io/stl", "io/text", "mesh"},
     "io/write": {

@@ -52,7 +52,7 @@ static void every_integer_comes_back(void **state)
             assert_memory_equal(&rounded, results, sizeof rounded);
             assert_true(ffd_gltf_fits(&a, results, 3));
             write_integer(a.component, q < 0 ? 1 : q + 1 > largest ? 0 : q + 1, others);
-            ffd_gltf_encode(&a, a.component, others, results, element);
+            ffd_gltf_encode(&a, a.component, others, results, 3, element);
             const bool is_minus_one = a.normalized && q == -largest - 1; /* twice in the type */
             write_integer(a.component, is_minus_one ? q + 1 : q, bytes);
             assert_memory_equal(element, bytes, size);
@@ -112,9 +112,9 @@ static void only_what_changes_is_encoded(void **state)
     const unsigned char original[4] = {0x80, 0x81, 64, 0x81};
     unsigned char element[GLTF_LARGEST_VECTOR];
     const float values[3] = {-1, -1, 1};
-    ffd_gltf_encode(&a, GLTF_I8, original, values, element);
+    ffd_gltf_encode(&a, GLTF_I8, original, values, 3, element);
     assert_memory_equal(element, "\x80\x81\x7f\x81", 4);
-    ffd_gltf_encode(&a, GLTF_FLOAT, original, values, element);
+    ffd_gltf_encode(&a, GLTF_FLOAT, original, values, 3, element);
     assert_memory_equal(element, "\0\0\x80\xbf\0\0\x80\xbf\0\0\x80\x3f\0\0\x80\xbf", 16);
 }
 

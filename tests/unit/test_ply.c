@@ -104,7 +104,7 @@ static void ascii_numbers_are_rounded_and_written_by_type(void **state)
     assert_true(value == 0 && signbit(value));
     assert_false(ffd_ply_load(PLY_ASCII, PLY_FLOAT, word_of("1x", 2), &value));
     assert_false(ffd_ply_load(PLY_ASCII, PLY_INT, word_of("one", 3), &value));
-    assert_int_equal(ffd_ply_store(PLY_ASCII, PLY_FLOAT, ffd_ply_round(PLY_FLOAT, 0.1), text), 3);
+    assert_int_equal(ffd_ply_store(PLY_ASCII, PLY_FLOAT, ply_round(PLY_FLOAT, 0.1), text), 3);
     assert_memory_equal(text, "0.1", 3);
     assert_int_equal(ffd_ply_store(PLY_ASCII, PLY_DOUBLE, (double)0.1F, text), 19);
     assert_memory_equal(text, "0.10000000149011612", 19);
@@ -242,7 +242,7 @@ static void put(sample *s, ply_type type, double value)
     char bytes[FFD_NUMBER_CAPACITY];
     const ply_encoding encoding = s->kind.encoding;
     if (encoding == PLY_ASCII || !ply_is_whole(type)) {
-        size_t size = ffd_ply_store(encoding, type, ffd_ply_round(type, value), bytes);
+        size_t size = ffd_ply_store(encoding, type, ply_round(type, value), bytes);
         ffd_buffer_append(&s->bytes, bytes, size);
         if (encoding == PLY_ASCII)
             ffd_buffer_text(&s->bytes, " ");

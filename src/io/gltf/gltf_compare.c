@@ -53,7 +53,7 @@ static void note_kinds(gltf_comparer *c)
     for (size_t m = 0; m < d->model.mesh_count; m++)
         for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++) {
             const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
-            for (size_t s = 0; s < gltf_slot_count(primitive); s++)
+            for (size_t s = 0; s < gltf_vector_slots(primitive); s++)
                 note_kind(c, gltf_slot_accessor(primitive, s), (ffd_difference_kind)(s % GLTF_DEFORMED));
             note_kind(c, primitive->indices, FFD_DIFFERENCE_TOPOLOGY);
             note_texcoords(c, ffd_gltf_primitive_value(d, m, p));

@@ -170,6 +170,7 @@ ffd_status ffd_gltf_describe(const mesh_document *document, json_text *json, ffd
         status = describe_storage(d, json, error);
     if (status)
         return status;
+    ffd_mesh_describe_splats(document, json);
     describe_strings(d, "extensionsUsed", json, &failed);
     describe_strings(d, "extensionsRequired", json, &failed);
     describe_buffers(d, json);

@@ -25,6 +25,7 @@
 #include "io/gltf/scene/gltf_skin.h"
 #include "io/gltf/scene/gltf_used.h"
 #include "io/gltf/skeleton/gltf_skeleton.h"
+#include "io/gltf/splat/gltf_splats.h"
 #include <float.h>
 
 static ffd_status check(const mesh_document *document, ffd_error *error)
@@ -60,7 +61,15 @@ static void read_offsets(const mesh_document *document, size_t part, size_t shap
 static ffd_status begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error)
 {
     ffd_gltf_free_rig((gltf_document *)document);
-    return ffd_gltf_begin_results(document, normals, tangents, error);
+    const ffd_status status = ffd_gltf_begin_results(document, normals, tangents, error);
+    return status ? status : ffd_gltf_begin_splats((gltf_document *)document, error);
+}
+
+static ffd_status save(mesh_document *document, const mesh_save_options *options, file_output *output,
+                       const mesh_log *log, ffd_error *error)
+{
+    ffd_gltf_warn_of_splats(ffd_gltf_of(document), log);
+    return ffd_gltf_save(document, options, output, log, error);
 }
 
 const mesh_format ffd_gltf_format = {
@@ -92,12 +101,14 @@ const mesh_format ffd_gltf_format = {
     .read_tangents = read_tangents,
     .read_transforms = ffd_gltf_read_transforms,
     .read_offsets = read_offsets,
+    .read_splats = ffd_gltf_read_splats,
+    .write_splats = ffd_gltf_write_splats,
     .begin_results = begin_results,
     .write_positions = ffd_gltf_write_positions,
     .write_normals = ffd_gltf_write_normals,
     .write_tangents = ffd_gltf_write_tangents,
     .write_offsets = ffd_gltf_write_offsets,
-    .save = ffd_gltf_save,
+    .save = save,
     .check_save = ffd_gltf_save,
     .faces = ffd_gltf_faces,
     .mixed_faces = ffd_gltf_mixed_faces,

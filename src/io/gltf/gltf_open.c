@@ -15,6 +15,7 @@
 #include "io/gltf/scene/gltf_scene.h"
 #include "io/gltf/scene/gltf_shapes.h"
 #include "io/gltf/scene/gltf_skin.h"
+#include "io/gltf/splat/gltf_splats.h"
 #include "json/json_parse.h"
 #include <stdlib.h>
 #include <string.h>
@@ -367,9 +368,9 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
     if (status == FFD_OK)
         status = ffd_gltf_make_parts(d, error);
     if (status == FFD_OK)
-        ffd_gltf_mark_splats(d);
-    if (status == FFD_OK)
         status = ffd_gltf_make_shapes(d, error);
+    if (status == FFD_OK)
+        status = ffd_gltf_find_splats(d, error);
     if (status == FFD_OK)
         d->instancing_status = ffd_gltf_find_instanced_nodes(d, &d->instancing_error);
     if (status == FFD_OK)

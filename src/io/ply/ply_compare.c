@@ -171,7 +171,7 @@ static void compare_scalar(comparer *c, const ply_property *property)
     text_word a, b;
     ffd_ply_walk_value(&c->in_a, property->type, &a);
     ffd_ply_walk_value(&c->in_b, property->type, &b);
-    if (property->slot == PLY_NO_SLOT && !same_value(c, property->type, a, b))
+    if (property->slot >= PLY_ROTATION_SLOT && !same_value(c, property->type, a, b))
         differ_in_values(c, property, property->type, a, b);
 }
 

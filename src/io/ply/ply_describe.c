@@ -100,6 +100,7 @@ ffd_status ffd_ply_describe(const mesh_document *document, json_text *json, ffd_
     ffd_json_string(json, "encoding", encodings[d->header.encoding]);
     ffd_json_string(json, "line_endings", d->header.line_end);
     ffd_json_counts(json, members, sizeof members / sizeof *members);
+    ffd_mesh_describe_splats(document, json);
     ffd_json_array(json, "elements", false);
     for (size_t i = 0; done && i < d->header.element_count; i++)
         done = write_element(json, &d->header.elements[i]);

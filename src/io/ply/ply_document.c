@@ -1,5 +1,6 @@
 #include "io/ply/ply_document.h"
 #include "base/memory/memory.h"
+#include "base/system/thread.h"
 #include <float.h>
 #include <inttypes.h>
 #include <string.h>
@@ -26,11 +27,21 @@ ffd_status ffd_ply_refuse_vertex(const ply_document *d, const ply_walk *walk, co
                          text ? word.first : number.text, d->file.part.vertex_count);
 }
 
+/* Where the number of a slot is held; of harmonics, which stay in the file, nowhere. */
+static double *place_of(ply_document *d, size_t slot, size_t row, double *nowhere)
+{
+    if (slot >= PLY_REST_SLOT)
+        return nowhere;
+    if (slot >= PLY_ROTATION_SLOT)
+        return ffd_ply_splat_number(&d->splats[row], slot);
+    double *const list = slot < PLY_NORMAL_SLOT ? d->file.positions : d->file.directions;
+    return &list[3 * row + slot % PLY_NORMAL_SLOT];
+}
+
 static ffd_status read_number(ply_document *d, const ply_walk *walk, const ply_property *property,
                               text_word word, uint64_t row, ffd_error *error)
 {
-    double *list = property->slot < PLY_NORMAL_SLOT ? d->file.positions : d->file.directions;
-    double *value = &list[3 * (size_t)row + property->slot % PLY_NORMAL_SLOT];
+    double nowhere, *const value = place_of(d, property->slot, (size_t)row, &nowhere);
     if (ffd_ply_load(d->header.encoding, property->type, word, value))
         return FFD_OK;
     return ffd_fail_line(error, FFD_E_INVALID, d->file.name, walk->line,
@@ -56,6 +67,23 @@ static ffd_status read_vertex(ply_document *d, ply_walk *walk, uint64_t row, ffd
     return status;
 }
 
+/* Rows of one size, whose numbers are where they are in the first: harmonics stay in the file. */
+static void read_fixed(ply_document *d)
+{
+    size_t slots[PLY_REST_SLOT], slot_count = 0;
+    for (size_t slot = 0; slot < PLY_REST_SLOT; slot++)
+        if (d->offsets[slot] != PLY_NOWHERE)
+            slots[slot_count++] = slot;
+    for (size_t row = 0; row < (size_t)d->vertex->count; row++) {
+        const char *const at = ply_row(d, row);
+        for (size_t i = 0; i < slot_count; i++) {
+            const size_t slot = slots[i];
+            *place_of(d, slot, row, NULL) =
+                ply_load_binary(d->header.encoding, d->types[slot], at + d->offsets[slot]);
+        }
+    }
+}
+
 static ffd_status read_vertices(ply_document *d, ffd_error *error)
 {
     const size_t count = (size_t)d->vertex->count;
@@ -64,8 +92,15 @@ static ffd_status read_vertices(ply_document *d, ffd_error *error)
     d->file.positions = ffd_alloc(count, 3 * sizeof *d->file.positions);
     if (d->has_normals)
         d->file.directions = ffd_alloc(count, 3 * sizeof *d->file.directions);
-    if (!d->file.positions || (d->has_normals && !d->file.directions))
+    if (d->file.part.has_ellipsoids)
+        d->splats = ffd_alloc(count, sizeof *d->splats);
+    if (!d->file.positions || (d->has_normals && !d->file.directions) ||
+        (d->file.part.has_ellipsoids && !d->splats))
         return ffd_fail_memory(error);
+    if (d->has_fixed_rows) {
+        read_fixed(d);
+        return FFD_OK;
+    }
     ffd_ply_document_walk(d, d->vertex, &walk);
     for (uint64_t row = 0; status == FFD_OK && row < count; row++)
         status = read_vertex(d, &walk, row, error);
@@ -110,17 +145,23 @@ ffd_status ffd_ply_open(file_input *input, const ffd_source *source, mesh_docume
         status = read_vertices(d, error);
     if (status) {
         ffd_ply_header_free(&d->header);
+        ffd_free(d->splats);
         ffd_file_document_free(&d->file);
         return status;
     }
     describe_part(d);
+    d->threads = source->threads > 0 ? source->threads : ffd_processor_count();
     *document = ffd_file_document_ready(&d->file, d->header.encoding == PLY_ASCII, source);
     return FFD_OK;
 }
 
 void ffd_ply_close(mesh_document *document)
 {
-    if (document)
-        ffd_ply_header_free(&((ply_document *)document)->header);
+    ply_document *const d = (ply_document *)document;
+    if (d) {
+        ffd_ply_header_free(&d->header);
+        ffd_free(d->splats);
+        ffd_free(d->new_splats);
+    }
     ffd_file_document_close(document);
 }

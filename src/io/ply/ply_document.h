@@ -1,5 +1,5 @@
 /* ply_document.h - a PLY file as a mesh document: one part, in the lattice's space. Declares ply_document.c,
-   ply_roles.c, ply_faces.c.
+   ply_roles.c, ply_faces.c, ply_splats.c.
 
    Every row of element vertex is a vertex, in the order of the file; its normal is nx ny nz. Their numbers
    are held as doubles (each one that its type has); all else stays in the file's bytes, which are read again
@@ -9,6 +9,13 @@
 
 #include "io/ply/ply_walk.h"
 #include "io/text/file_document.h"
+
+/* What becomes of a splat. */
+typedef struct ply_splat {
+    splat_ellipsoid splat;
+    splat_turn turn; /* of its harmonics, which are turned when they are written */
+    bool is_changed;
+} ply_splat;
 
 typedef struct ply_document {
     file_document file;
@@ -21,10 +28,25 @@ typedef struct ply_document {
     const ply_property *face_normals[3]; /* nx ny nz of the faces, with a fraction; NULL: there are none */
     bool has_whole_face_normals;         /* those of a whole type, which are kept */
     bool renew_normals;                  /* of faces, with the results */
-    ply_type types[PLY_SLOT_COUNT];      /* of x y z nx ny nz */
+    ply_type types[PLY_SLOT_COUNT];      /* by slot */
+    bool has_fixed_rows;            /* binary, without lists: vertices are of one size, and have by slot */
+    size_t offsets[PLY_SLOT_COUNT]; /* where in a row the number is; PLY_NOWHERE: there is none */
     bool has_normals, has_whole_normals; /* the latter: nx ny nz of a whole type, which are not shown */
     size_t behind;                       /* offset after the last row */
+    int threads;                         /* for writing */
+    splat_ellipsoid *splats;             /* one a vertex, where the part has ellipsoids; else NULL */
+    ply_splat *new_splats;               /* results; NULL before begin_results */
+    size_t rest_count;                   /* properties f_rest_0 and so on, whether they turn or not */
 } ply_document;
+
+#define PLY_NOWHERE SIZE_MAX
+
+/* A row of fixed size. */
+static inline const char *ply_row(const ply_document *document, size_t vertex)
+{
+    const size_t begin = document->vertex->begin + vertex * document->vertex->least;
+    return (const char *)document->file.input.data + begin;
+}
 
 static inline const ply_document *ffd_ply_of(const mesh_document *document)
 {
@@ -51,7 +73,24 @@ const ply_element *ffd_ply_find_edges(const ply_document *document);
 /* Refuses corners of faces that are not numbers of vertices. */
 ffd_status ffd_ply_check_faces(const ply_document *document, ffd_error *error);
 
+/* Finds the properties of Gaussian splats. */
+void ffd_ply_find_splats(ply_document *document);
+/* Where the number of a slot from PLY_ROTATION_SLOT to before PLY_REST_SLOT goes. */
+double *ffd_ply_splat_number(splat_ellipsoid *splat, size_t slot);
+/* Makes room for the results of splats, of which none is changed. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
+ffd_status ffd_ply_begin_splats(ply_document *document, ffd_error *error);
+/* Splats whose coefficients are turned together. */
+#define PLY_ROWS ((size_t)16)
+/* Turns the coefficients of PLY_ROWS splats at most: values[k][i] is splat k's of slot PLY_REST_SLOT + i, as
+   the file has it, and then rounded to its type. Returns how many have channels that are not numbers, which
+   stay. */
+size_t ffd_ply_turn_rests(const ply_document *document, const splat_turn *turns, size_t count,
+                          double (*values)[PLY_RESTS]);
+
 /* The entries of the format's table. */
+mesh_warn_function ffd_ply_warn;
+mesh_read_splats_function ffd_ply_read_splats;
+mesh_write_splats_function ffd_ply_write_splats;
 mesh_open_function ffd_ply_open;
 mesh_close_function ffd_ply_close;
 mesh_check_function ffd_ply_check;

@@ -13,8 +13,17 @@
 /* Elements, and properties of all elements together, that a header may have. */
 #define PLY_DECLARATIONS_MAX 4096
 
-/* What a property of the vertices is: 0 to 2 are x y z, 3 to 5 are nx ny nz. */
-enum { PLY_NORMAL_SLOT = 3, PLY_SLOT_COUNT = 6, PLY_NO_SLOT = PLY_SLOT_COUNT };
+/* What a property of the vertices is: x y z, nx ny nz, and of Gaussian splats rot_0 to rot_3, scale_0 to
+   scale_2, f_rest_0 and so on. */
+enum {
+    PLY_NORMAL_SLOT = 3,
+    PLY_ROTATION_SLOT = 6,
+    PLY_SCALE_SLOT = 10,
+    PLY_REST_SLOT = 13,
+    PLY_RESTS = 45,
+    PLY_SLOT_COUNT = PLY_REST_SLOT + PLY_RESTS,
+    PLY_NO_SLOT = PLY_SLOT_COUNT
+};
 
 typedef struct ply_property {
     text_word name;

@@ -234,7 +234,7 @@ static uint32_t features_of(const extractor *e)
     const ply_element *edges = ffd_ply_find_edges(d);
     uint32_t found = 0;
     for (size_t i = 0; i < d->vertex->property_count; i++)
-        if (d->vertex->properties[i].slot == PLY_NO_SLOT &&
+        if (d->vertex->properties[i].slot >= PLY_ROTATION_SLOT &&
             role_of(e, &d->vertex->properties[i]) == ROLE_COUNT)
             found |= MODEL_HAS_MORE;
     for (size_t i = 0; d->face && i < d->face->property_count; i++) {

@@ -8,7 +8,8 @@ ffd_status ffd_ply_begin_results(mesh_document *document, bool normals, bool tan
     if (normals && d->has_whole_normals)
         return ffd_fail_line(error, FFD_E_UNSUPPORTED, d->file.name, d->vertex->line,
                              "nx ny nz are not all float or double: such normals can only be kept");
-    return ffd_file_document_begin_results(document, normals, tangents, error);
+    const ffd_status status = ffd_ply_begin_splats(d, error);
+    return status ? status : ffd_file_document_begin_results(document, normals, tangents, error);
 }
 
 /* Copies vectors that are marked as changed, rounded to their types. */
@@ -17,7 +18,7 @@ static void write_vectors(double *results, const ply_type types[3], size_t first
 {
     for (size_t i = 0; results && i < count; i++)
         for (size_t a = 0; a < 3 && changed[i]; a++)
-            results[3 * (first + i) + a] = ffd_ply_round(types[a], xyz[3 * i + a]);
+            results[3 * (first + i) + a] = ply_round(types[a], xyz[3 * i + a]);
 }
 
 void ffd_ply_write_positions(mesh_document *document, size_t part, size_t first, size_t count,

@@ -82,14 +82,18 @@ static void find_face_normals(ply_document *d)
         d->face_normals[a] = there && !whole ? found[a] : NULL;
 }
 
-/* The properties of 3D Gaussian splatting: a splat is longest along one of its own axes, and turned. */
-static bool has_splats(const ply_document *d)
+static void find_offsets(ply_document *d)
 {
-    static const char *const names[] = {"rot_0", "rot_1", "rot_2", "rot_3", "scale_0", "scale_1"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (!ffd_ply_find_property(d->vertex, names[i]))
-            return false;
-    return true;
+    size_t offset = 0;
+    d->has_fixed_rows = d->header.encoding != PLY_ASCII && !d->vertex->has_lists;
+    for (size_t slot = 0; slot < PLY_SLOT_COUNT; slot++)
+        d->offsets[slot] = PLY_NOWHERE;
+    for (size_t i = 0; i < d->vertex->property_count && d->has_fixed_rows; i++) {
+        const ply_property *const property = &d->vertex->properties[i];
+        if (property->slot != PLY_NO_SLOT)
+            d->offsets[property->slot] = offset;
+        offset += ffd_ply_type_size(property->type);
+    }
 }
 
 ffd_status ffd_ply_find_roles(ply_document *d, ffd_error *error)
@@ -106,8 +110,8 @@ ffd_status ffd_ply_find_roles(ply_document *d, ffd_error *error)
     find_normals(d);
     find_faces(d);
     find_face_normals(d);
-    d->file.part.splats = has_splats(d);
-    d->file.part.place = MESH_NO_PLACE;
+    ffd_ply_find_splats(d);
+    find_offsets(d);
     return FFD_OK;
 }
 

@@ -105,11 +105,6 @@ bool ffd_ply_load_count(ply_encoding encoding, ply_type type, text_word word, si
     return (double)whole == value && *count == whole;
 }
 
-double ffd_ply_round(ply_type type, double value)
-{
-    return type == PLY_FLOAT ? (double)(float)value : value;
-}
-
 static size_t store_text(ply_type type, double value, char *text)
 {
     return type == PLY_FLOAT ? ffd_number_format_float((float)value, text) : ffd_number_format(value, text);

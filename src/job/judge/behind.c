@@ -89,12 +89,13 @@ static bool only_translates(const lattice_chain *chain)
 ffd_status ffd_behind_find(const deform_job *job, ffd_job_result *result, ffd_error *error)
 {
     /* A conversion has neither nodes nor properties of splats. */
-    if (job->totals.moved == 0 || job->desc->as_morph || (job->document->converted && !job->details))
+    if (job->totals.moved == 0 || (job->document->converted && !job->details))
         return FFD_OK;
     ffd_status status = FFD_OK;
     if (job->totals.splats_moved > 0 && !only_translates(&job->chain))
         status = find_splats(job, &result->behind[FFD_BEHIND_SPLAT], error);
-    return status ? status : find_places(job, result, error);
+    /* The base shape is where it was, and so is all that belongs to it. */
+    return status || job->desc->as_morph ? status : find_places(job, result, error);
 }
 
 /* "hand, foot, tail and 2 more"; more: how many there are in all, 0 where the names are not of each. */

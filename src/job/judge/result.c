@@ -51,6 +51,9 @@ void ffd_result_fill(ffd_job_result *result, const pass_totals *totals, double s
     result->disagreement = totals->disagreement;
     result->normals_collapsed = totals->normals_collapsed;
     result->normals_carried = totals->normals_carried;
+    result->splats_carried = totals->splats_carried;
+    result->splats_flattened = totals->splats_flattened;
+    result->splats_broken = totals->splats_broken;
     result->transforms_singular = totals->transforms_singular;
     result->weights_off = totals->weights.off;
     result->weights_farthest = totals->weights.farthest;
@@ -208,6 +211,20 @@ static void warn_of_shapes(const pass_totals *totals, const lattice_chain *chain
                      ffd_plural(totals->shapes_invalid, "it is", "they are"));
 }
 
+static void warn_of_splats(const pass_totals *totals, const mesh_log *log)
+{
+    const uint64_t flattened = totals->splats_flattened, broken = totals->splats_broken;
+    if (flattened)
+        ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " Gaussian %s flattened: the deformation collapses %s",
+                     flattened, ffd_plural(flattened, "splat is", "splats are"),
+                     ffd_plural(flattened, "it", "them"));
+    if (broken)
+        ffd_log_line(log, FFD_LOG_WARNING,
+                     "%" PRIu64 " Gaussian %s without %s rotation and scales, which are not numbers or 0",
+                     broken, ffd_plural(broken, "splat moves", "splats move"),
+                     ffd_plural(broken, "its", "their"));
+}
+
 void ffd_result_warn(const pass_totals *totals, const lattice_chain *chain, bool deformed,
                      const mesh_log *log)
 {
@@ -247,4 +264,5 @@ void ffd_result_warn(const pass_totals *totals, const lattice_chain *chain, bool
                      totals->normals_collapsed,
                      ffd_plural(totals->normals_collapsed, "normal is", "normals are"),
                      ffd_plural(totals->normals_collapsed, "it", "them"));
+    warn_of_splats(totals, log);
 }

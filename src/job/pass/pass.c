@@ -8,6 +8,7 @@
 #include "job/chain/recalled.h"
 #include "job/chain/seams.h"
 #include "job/pass/pass_shapes.h"
+#include "job/pass/pass_splats.h"
 #include "job/pass/tile_totals.h"
 #include "job/pass/vertex_rounding.h"
 #include <ffd/deform.h>
@@ -191,14 +192,18 @@ static void deform_tangents(const part_work *work, tile_scratch *scratch, size_t
                                      scratch->tangents_changed);
 }
 
+static void bring_back_gradients(const part_work *work, tile_scratch *scratch, size_t count)
+{
+    for (size_t i = 0; i < count && !work->part->identity; i++) {
+        const vertex_transform transform = ffd_vertex_transform_of(&scratch->transforms, i);
+        ffd_gradient_to_file(&transform, scratch->gradient + 9 * i);
+    }
+}
+
 static void finish_attributes(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
                               pass_totals *totals)
 {
     const mesh_part *part = work->part;
-    for (size_t i = 0; i < count && !part->identity; i++) {
-        const vertex_transform transform = ffd_vertex_transform_of(&scratch->transforms, i);
-        ffd_gradient_to_file(&transform, scratch->gradient + 9 * i);
-    }
     if (part->normal_count && part->normal_start)
         deform_listed_normals(work, scratch, first, count, totals);
     else if (part->normal_count)
@@ -410,8 +415,9 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
     const bool shapes = ffd_pass_takes_shapes(pass, part);
     const bool wanted = pass->attributes && (!pass->only_offsets || shapes);
     const bool attributes = wanted && !part->singular && (part->normal_count || part->has_tangents);
+    const bool splats = ffd_pass_takes_splats(pass, part);
     const bool gradients =
-        attributes || ((pass->gradients || pass->determinants) && !part->repeats_positions);
+        attributes || splats || ((pass->gradients || pass->determinants) && !part->repeats_positions);
 
     ffd_totals_clear(totals);
     if (atomic_load(&work->stopped))
@@ -429,8 +435,14 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
     bring_back(work, scratch, count);
     if (!part->repeats_positions)
         finish_positions(work, scratch, first, count, totals);
+    if (splats)
+        ffd_tile_splat_turns(work, scratch, count);
+    if (attributes || splats)
+        bring_back_gradients(work, scratch, count);
     if (attributes)
         finish_attributes(work, scratch, first, count, totals);
+    if (splats)
+        ffd_tile_splats(work, scratch, first, count, totals);
     if (shapes)
         ffd_tile_shapes(work, scratch, first, count, totals);
 }
@@ -486,13 +498,15 @@ int ffd_pass_threads(const memory_budget *budget, size_t edge_links, int threads
     return ffd_budget_threads(budget, threads, THREAD_BYTES + edge_links * THREAD_LINK_BYTES);
 }
 
-_Static_assert(sizeof(tile_scratch) - sizeof(kept_cells) + sizeof(shape_scratch) < THREAD_BYTES,
+_Static_assert(sizeof(tile_scratch) - sizeof(kept_cells) + sizeof(shape_scratch) + sizeof(splat_scratch) <
+                   THREAD_BYTES,
                "a thread takes more than is counted");
 
 static void free_scratch(tile_scratch *scratch, int workers)
 {
     for (int i = 0; scratch && i < workers; i++) {
         ffd_free(scratch[i].shape);
+        ffd_free(scratch[i].splat);
         ffd_free(scratch[i].kept);
     }
     ffd_free(scratch);
@@ -501,24 +515,30 @@ static void free_scratch(tile_scratch *scratch, int workers)
 /* NULL if memory runs out. */
 static tile_scratch *make_scratch(const mesh_pass *pass)
 {
-    bool shapes = false;
-    for (size_t i = 0; i < pass->document->part_count; i++)
+    bool shapes = false, splats = false;
+    for (size_t i = 0; i < pass->document->part_count; i++) {
         shapes = shapes || ffd_pass_takes_shapes(pass, &pass->document->parts[i]);
+        splats = splats || ffd_pass_takes_splats(pass, &pass->document->parts[i]);
+    }
     /* Megabytes, of which a small mesh needs little: only what must be cleared is. */
     tile_scratch *scratch = ffd_alloc((size_t)pass->threads, sizeof *scratch);
     for (int i = 0; scratch && i < pass->threads; i++) {
         ffd_displacement_scratch_clear(&scratch[i].chain.displacement);
         scratch[i].chain.displacement.kept.threads = pass->threads;
         scratch[i].shape = NULL;
+        scratch[i].splat = NULL;
         scratch[i].kept = NULL;
         scratch[i].status = FFD_OK;
     }
     for (int i = 0; scratch && i < pass->threads; i++) {
         if (shapes)
             scratch[i].shape = ffd_alloc(1, sizeof *scratch[i].shape);
+        if (splats)
+            scratch[i].splat = ffd_alloc(1, sizeof *scratch[i].splat);
         if (pass->kept)
             scratch[i].kept = ffd_alloc_zero(ffd_kept_planes(ffd_chain_marked(pass->chain)), CHAIN_RUN);
-        if ((shapes && !scratch[i].shape) || (pass->kept && !scratch[i].kept)) {
+        if ((shapes && !scratch[i].shape) || (splats && !scratch[i].splat) ||
+            (pass->kept && !scratch[i].kept)) {
             free_scratch(scratch, pass->threads);
             return NULL;
         }
@@ -540,7 +560,7 @@ ffd_status ffd_pass_run(const mesh_pass *pass, pass_totals *totals, ffd_error *e
         work.part_number = i;
         const uint64_t moved = totals->moved;
         status = run_part(&work, totals, error);
-        if (work.part->splats)
+        if (work.part->splats && !ffd_pass_takes_splats(pass, work.part))
             ffd_totals_note_splats(totals, i, totals->moved - moved);
         if (!work.part->repeats_positions)
             work.first_vertex += work.part->vertex_count;

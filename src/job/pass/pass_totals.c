@@ -70,6 +70,9 @@ void ffd_totals_join(const pass_totals *tile, pass_totals *all)
     all->first_shape_outside = least(all->first_shape_outside, tile->first_shape_outside);
     all->shapes_invalid += tile->shapes_invalid;
     all->normals_collapsed += tile->normals_collapsed;
+    all->splats_carried += tile->splats_carried;
+    all->splats_flattened += tile->splats_flattened;
+    all->splats_broken += tile->splats_broken;
     all->transforms_singular += tile->transforms_singular;
     all->weights.off += tile->weights.off;
     all->weights.none += tile->weights.none;

@@ -36,7 +36,10 @@ typedef struct pass_totals {
     uint64_t normals_collapsed, transforms_singular;
     skin_weights weights;
     uint64_t normals_carried;             /* not by a pass: see ffd_job_result */
-    uint64_t splats_moved;                /* vertices of parts of splats */
+    uint64_t splats_carried;              /* whose rotations or sizes follow, */
+    uint64_t splats_flattened;            /* of these: that lose a size, */
+    uint64_t splats_broken;               /* and those that move without, since they are no numbers */
+    uint64_t splats_moved;                /* vertices of parts of splats that do not follow */
     size_t splat_parts[FFD_BEHIND_NAMES]; /* the first parts of these */
     int splat_part_count;
     double det_outside;         /* the least det F of vertices that are extended, as det_min; else infinite */

@@ -25,6 +25,13 @@ typedef struct shape_scratch {
     uint8_t changed[PASS_TILE];
 } shape_scratch;
 
+/* What the Gaussian splats of a tile need. */
+typedef struct splat_scratch {
+    splat_ellipsoid splats[PASS_TILE];
+    splat_turn turns[PASS_TILE];
+    uint8_t outcomes[PASS_TILE], changed[PASS_TILE];
+} splat_scratch;
+
 /* What one worker needs for a tile. */
 typedef struct tile_scratch {
     double raw[3 * PASS_TILE]; /* positions as the file has them */
@@ -45,6 +52,7 @@ typedef struct tile_scratch {
     uint8_t outcomes[PASS_TILE];   /* what became of these */
     uint8_t *kept;                 /* marks of the chain, all 0 between tiles; NULL where none are wanted */
     shape_scratch *shape;          /* NULL where the document has no morph targets */
+    splat_scratch *splat;          /* NULL where no splats follow */
     ffd_status status;             /* of the first tile of this worker that failed, and what it said */
     ffd_error error;
 } tile_scratch;
@@ -64,6 +72,13 @@ static inline bool ffd_pass_takes_shapes(const mesh_pass *pass, const mesh_part 
 {
     const bool deforms = (pass->write || pass->counts_shapes) && !pass->document->keeps_base;
     return part->shape_count > 0 && !pass->document->shown && (deforms || pass->bounds_shapes);
+}
+
+/* Whether rotations and sizes of a part's splats follow the pass. */
+static inline bool ffd_pass_takes_splats(const mesh_pass *pass, const mesh_part *part)
+{
+    return pass->write && part->has_ellipsoids && !part->singular && !part->repeats_positions &&
+           !pass->document->keeps_base && !pass->document->converted;
 }
 
 /* Whether the totals' bounds are of another shape of the part than its own vertices. */

@@ -141,6 +141,18 @@ static void write_behind(json_text *json, const ffd_job_result *result)
     ffd_json_end(json, ']');
 }
 
+/* Only where there are some. */
+static void write_splats(json_text *json, const ffd_job_result *result)
+{
+    if (result->splats_carried == 0 && result->splats_broken == 0)
+        return;
+    ffd_json_object(json, "splats", true);
+    ffd_json_count(json, "carried", result->splats_carried);
+    ffd_json_count(json, "flattened", result->splats_flattened);
+    ffd_json_count(json, "broken", result->splats_broken);
+    ffd_json_end(json, '}');
+}
+
 /* Only where there is something to say. */
 static void write_weights(json_text *json, const ffd_job_result *result)
 {
@@ -284,6 +296,7 @@ static void write_figures(json_text *json, const ffd_job_result *result)
     write_deformation(json, result);
     write_edges(json, result);
     write_weights(json, result);
+    write_splats(json, result);
     write_reach(json, result);
     write_behind(json, result);
     write_rig(json, &result->rig);

@@ -69,7 +69,7 @@ static void put_integer(double integer, size_t size, unsigned char *bytes)
 }
 
 void ffd_gltf_encode(const gltf_accessor *accessor, int component, const unsigned char *original,
-                     const float values[3], unsigned char *element)
+                     const float *values, size_t components, unsigned char *element)
 {
     const size_t count = (size_t)accessor->rows, size = ffd_gltf_component_size(accessor->component);
     if (component == accessor->component)
@@ -77,7 +77,7 @@ void ffd_gltf_encode(const gltf_accessor *accessor, int component, const unsigne
     for (size_t c = 0; c < count; c++) {
         const unsigned char *at = original + c * size;
         const double old = ffd_gltf_read_number(at, accessor->component, accessor->normalized);
-        const float wanted = c < 3 ? values[c] : (float)old;
+        const float wanted = c < components ? values[c] : (float)old;
         if (component == GLTF_FLOAT)
             store_float(element + 4 * c, wanted);
         else if (wanted < (float)old || wanted > (float)old)

@@ -18,10 +18,10 @@ double ffd_gltf_step(const gltf_accessor *accessor);
 /* Whether the accessor's type represents all of these results exactly. */
 bool ffd_gltf_fits(const gltf_accessor *accessor, const float *values, size_t count);
 
-/* Writes the bytes of an element with values as its first 3 components, in the accessor's type or as
+/* Writes the bytes of an element with values as its first components, in the accessor's type or as
    GLTF_FLOAT. Other components stay, and in the accessor's type so do the bytes of a component whose
    value is unchanged. */
 void ffd_gltf_encode(const gltf_accessor *accessor, int component, const unsigned char *original,
-                     const float values[3], unsigned char *element);
+                     const float *values, size_t components, unsigned char *element);
 
 #endif

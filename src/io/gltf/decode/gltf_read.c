@@ -115,7 +115,7 @@ void ffd_gltf_originals(const gltf_document *d, size_t a, size_t first, size_t c
     const gltf_accessor *accessor = &d->model.accessors[a];
     if (accessor->component != GLTF_FLOAT || accessor->sparse.present || !layout->data) {
         for (size_t i = 0; i < count; i++)
-            ffd_gltf_original(d, a, first + i, values + 3 * i);
+            ffd_gltf_original(d, a, first + i, 3, values + 3 * i);
         return;
     }
     const unsigned char *at = layout->data + first * layout->stride;
@@ -126,20 +126,20 @@ void ffd_gltf_originals(const gltf_document *d, size_t a, size_t first, size_t c
         }
 }
 
-void ffd_gltf_original(const gltf_document *d, size_t a, size_t i, float values[3])
+void ffd_gltf_original(const gltf_document *d, size_t a, size_t i, size_t components, float *values)
 {
     const gltf_accessor *accessor = &d->model.accessors[a];
     const unsigned char *element = ffd_gltf_element(d, a, i);
     if (accessor->component == GLTF_FLOAT) {
-        for (size_t c = 0; c < 3; c++) {
+        for (size_t c = 0; c < components; c++) {
             const uint32_t bits = load_u32(element + 4 * c);
             memcpy(values + c, &bits, sizeof bits);
         }
         return;
     }
-    double numbers[3];
-    read_element(accessor, element, 3, numbers);
-    for (size_t c = 0; c < 3; c++)
+    double numbers[4];
+    read_element(accessor, element, components, numbers);
+    for (size_t c = 0; c < components; c++)
         values[c] = (float)numbers[c];
 }
 

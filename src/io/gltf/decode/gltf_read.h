@@ -17,8 +17,9 @@ uint32_t ffd_gltf_read_indices(const gltf_document *document, size_t accessor, s
 /* Returns the bytes of element i of a readable accessor: of its sparse value, of its bufferView, or zeros. */
 const unsigned char *ffd_gltf_element(const gltf_document *document, size_t accessor, size_t i);
 
-/* Reads the first 3 components of an element as results hold them (gltf_stream): floats bit for bit. */
-void ffd_gltf_original(const gltf_document *document, size_t accessor, size_t i, float values[3]);
+/* Reads the first components of an element as results hold them (gltf_stream): floats bit for bit. */
+void ffd_gltf_original(const gltf_document *document, size_t accessor, size_t i, size_t components,
+                       float *values);
 
 /* Reads elements [first, first + count) like ffd_gltf_original. */
 void ffd_gltf_originals(const gltf_document *document, size_t accessor, size_t first, size_t count,

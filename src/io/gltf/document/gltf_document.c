@@ -1,5 +1,20 @@
 #include "io/gltf/document/gltf_document.h"
 #include <math.h>
+#include <stdio.h>
+
+void ffd_gltf_splat_name(size_t attribute, char name[GLTF_SPLAT_NAME])
+{
+    static const char prefix[] = "KHR_gaussian_splatting";
+    if (attribute < GLTF_SPLAT_HARMONICS) {
+        snprintf(name, GLTF_SPLAT_NAME, "%s:%s", prefix,
+                 attribute == GLTF_SPLAT_ROTATION ? "ROTATION" : "SCALE");
+        return;
+    }
+    size_t degree = 1, number = attribute - GLTF_SPLAT_HARMONICS;
+    for (; number > 2 * degree; degree++)
+        number -= 2 * degree + 1;
+    snprintf(name, GLTF_SPLAT_NAME, "%s:SH_DEGREE_%zu_COEF_%zu", prefix, degree, number);
+}
 
 const char *const ffd_gltf_semantic_names[GLTF_DEFORMED] = {"POSITION", "NORMAL", "TANGENT"};
 

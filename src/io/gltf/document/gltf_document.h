@@ -8,6 +8,7 @@
 #include "mesh/mesh.h"
 #include "json/json_span.h"
 #include <stdarg.h>
+#include <stdatomic.h>
 
 #define GLTF_NONE SIZE_MAX
 
@@ -47,11 +48,12 @@ typedef struct gltf_tile_bounds {
     float least[3], largest[3];
 } gltf_tile_bounds;
 
-/* One deformed attribute under one node. Its result has 3 components per element, as float whatever the
-   accessor's type is, rounded to what that type can represent. */
+/* One deformed attribute under one node. Its result has 3 components per element (a rotation has 4), as float
+   whatever the accessor's type is, rounded to what that type can represent. */
 typedef struct gltf_stream {
     size_t accessor; /* GLTF_NONE: the part has none */
-    float *result;   /* 3 * count; NULL before begin_results, and in a part that repeats another */
+    size_t components;
+    float *result; /* components * count; NULL before begin_results, and in a part that repeats another */
     /* One for each tile of MESH_RANGE_STEP vectors of the result; 0: the tile is not written yet. NULL: all
        tiles are written. */
     uint8_t *filled;
@@ -75,6 +77,9 @@ typedef struct gltf_part {
     uint8_t *used;      /* and used */
     bool is_all_used;   /* a primitive without indices draws all vertices */
     size_t first_shape; /* document->shapes holds the part's morph targets from here */
+    /* document->parts holds the attributes of the part's splats from here, GLTF_DEFORMED each; GLTF_NONE
+       where there are none that change. */
+    size_t first_splat, splat_groups;
 } gltf_part;
 
 /* A node with EXT_mesh_gpu_instancing, and its instances. */
@@ -91,6 +96,7 @@ typedef struct gltf_instanced_node {
 typedef struct gltf_instance {
     size_t part[GLTF_DEFORMED]; /* that deforms its attribute; GLTF_NONE: it has none, or cannot be read */
     size_t first_target;        /* its morph targets in document->targets */
+    size_t first_splat;         /* its splats in document->parts; GLTF_NONE: they do not change */
     bool selected;              /* false: it keeps its original content */
 } gltf_instance;
 
@@ -171,6 +177,8 @@ typedef struct gltf_document {
     mesh_part *mesh_parts;
     mesh_shape *shapes; /* morph targets of all parts, those of one part consecutive */
     size_t shape_count;
+    size_t splat_groups;    /* in parts, behind those of shapes */
+    atomic_size_t unturned; /* results of splats whose harmonics are not numbers */
     char *morph_name;   /* results are offsets of a further morph target of this name; NULL: they are not */
     gltf_morph *morphs; /* morph_count, before it */
     size_t morph_count, morph_capacity;
@@ -209,9 +217,15 @@ static inline const gltf_document *ffd_gltf_of(const mesh_document *document)
 }
 
 /* Returns the number of parts and shapes together. */
-static inline size_t ffd_gltf_part_count(const gltf_document *document)
+static inline size_t ffd_gltf_shape_end(const gltf_document *document)
 {
     return document->base.part_count + document->shape_count;
+}
+
+/* And of those that hold results of splats. */
+static inline size_t ffd_gltf_part_count(const gltf_document *document)
+{
+    return ffd_gltf_shape_end(document) + document->splat_groups;
 }
 
 /* Returns the instances of a primitive of a mesh, one for each use of the mesh. */
@@ -258,6 +272,12 @@ size_t ffd_gltf_node(const gltf_document *document, uint32_t value);
 
 /* Returns the first element of an array that is a member of an object; JSON_NONE if there is none. */
 uint32_t ffd_gltf_first(const gltf_document *document, uint32_t object, const char *key);
+
+/* The attributes of splats, in the order of their slots behind those of vectors. */
+#define GLTF_SPLAT_NAME 48
+enum { GLTF_SPLAT_ROTATION, GLTF_SPLAT_SCALE, GLTF_SPLAT_HARMONICS, GLTF_SPLAT_ATTRIBUTES = 17 };
+/* Writes the name of one: "KHR_gaussian_splatting:ROTATION" and so on. */
+void ffd_gltf_splat_name(size_t attribute, char name[GLTF_SPLAT_NAME]);
 
 /* The names of the deformed attributes: "POSITION" and so on. */
 extern const char *const ffd_gltf_semantic_names[GLTF_DEFORMED];

@@ -18,9 +18,10 @@ typedef enum gltf_component {
     GLTF_FLOAT = 5126
 } gltf_component;
 
-/* The attributes that a deformation changes; all others are GLTF_OTHER. */
-typedef enum gltf_semantic { GLTF_POSITION, GLTF_NORMAL, GLTF_TANGENT, GLTF_OTHER } gltf_semantic;
-#define GLTF_DEFORMED 3 /* of them */
+/* The attributes that a deformation changes; all others are GLTF_OTHER, those of splats that can be changed
+   GLTF_SPLAT, once they are found. */
+typedef enum gltf_semantic { GLTF_POSITION, GLTF_NORMAL, GLTF_TANGENT, GLTF_OTHER, GLTF_SPLAT } gltf_semantic;
+#define GLTF_DEFORMED 3 /* of vectors */
 
 /* What a primitive draws; MODE_UNKNOWN: its mode or its indices are not valid (then there are no indices). */
 enum {
@@ -73,21 +74,32 @@ typedef struct gltf_primitive {
     size_t attribute_count;
     gltf_attribute *targets; /* the attributes of all morph targets */
     size_t target_attribute_count, target_count;
-    int *target_accessors;      /* GLTF_DEFORMED per target */
+    int *target_accessors; /* GLTF_DEFORMED per target */
+    /* Of Gaussian splats: GLTF_DEFORMED per group, -1 where there is none; set after parsing, for those that
+       can be changed. */
+    int *splat_accessors;
+    size_t splat_groups;
     gltf_influence *influences; /* n from 0 until neither is there */
     size_t influence_count;
     int indices, mode;
 } gltf_primitive;
 
 /* The deformed attributes of a primitive are numbered by slots: slot s is its own attribute of semantic
-   s, slot GLTF_DEFORMED * (t + 1) + s is that of its morph target t. */
-static inline size_t gltf_slot_count(const gltf_primitive *primitive)
+   s, slot GLTF_DEFORMED * (t + 1) + s is that of its morph target t; those of splats follow. */
+static inline size_t gltf_vector_slots(const gltf_primitive *primitive)
 {
     return GLTF_DEFORMED * (1 + primitive->target_count);
 }
 
+static inline size_t gltf_slot_count(const gltf_primitive *primitive)
+{
+    return gltf_vector_slots(primitive) + GLTF_DEFORMED * primitive->splat_groups;
+}
+
 static inline int gltf_slot_accessor(const gltf_primitive *primitive, size_t slot)
 {
+    if (slot >= gltf_vector_slots(primitive))
+        return primitive->splat_accessors[slot - gltf_vector_slots(primitive)];
     return slot < GLTF_DEFORMED ? primitive->accessor[slot]
                                 : primitive->target_accessors[slot - GLTF_DEFORMED];
 }

@@ -290,22 +290,3 @@ char *ffd_gltf_place_name(const mesh_document *document, size_t number)
     ffd_buffer_format(&text, "node %zu", number);
     return ffd_buffer_finish(&text);
 }
-
-void ffd_gltf_mark_splats(gltf_document *d)
-{
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++) {
-            const uint32_t value = ffd_gltf_primitive_value(d, m, p);
-            const gltf_instance *instances = ffd_gltf_instances(d, m, p);
-            if (!ffd_gltf_has_extension(d, value, "KHR_gaussian_splatting"))
-                continue;
-            for (size_t n = 0; n < d->mesh_uses[m].node_count; n++) {
-                const size_t part = instances[n].part[GLTF_POSITION];
-                if (part == GLTF_NONE)
-                    continue;
-                d->mesh_parts[part].splats = true;
-                d->mesh_parts[part].place =
-                    d->parts[part].node == GLTF_NONE ? MESH_NO_PLACE : d->parts[part].node;
-            }
-        }
-}

@@ -18,7 +18,4 @@ mesh_count_skins_function ffd_gltf_count_skins;
 /* mesh_format's place_name: the name of a node, "node N" where it has none. */
 mesh_place_name_function ffd_gltf_place_name;
 
-/* Marks the parts whose vertices are Gaussian splats (KHR_gaussian_splatting). */
-void ffd_gltf_mark_splats(gltf_document *document);
-
 #endif

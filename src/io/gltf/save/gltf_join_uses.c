@@ -28,17 +28,19 @@ static slot_values values_of(const gltf_document *d, const gltf_plan *plan, size
                          .version = version == GLTF_NONE ? NULL : &plan->versions[version]};
 }
 
-static void read_vector(const slot_values *values, size_t i, float vector[3])
+/* Reads a vector of so many components; the others are 0. */
+static void read_vector(const slot_values *values, size_t i, size_t components, float vector[4])
 {
+    memset(vector, 0, 4 * sizeof *vector);
     if (values->version)
-        memcpy(vector, values->version->values + 3 * i, 3 * sizeof *vector);
+        memcpy(vector, values->version->values + components * i, components * sizeof *vector);
     else
-        ffd_gltf_original(values->document, values->accessor, i, vector);
+        ffd_gltf_original(values->document, values->accessor, i, components, vector);
 }
 
-static float largest_of(const float v[3])
+static float largest_of(const float v[4])
 {
-    return fmaxf(fabsf(v[0]), fmaxf(fabsf(v[1]), fabsf(v[2])));
+    return fmaxf(fmaxf(fabsf(v[0]), fabsf(v[1])), fmaxf(fabsf(v[2]), fabsf(v[3])));
 }
 
 /* The step from a float to the next one away from 0. */
@@ -66,7 +68,7 @@ static shared_mesh describe(const gltf_document *d, const gltf_plan *plan, size_
             (size_t)gltf_slot_accessor(&d->model.meshes[mesh].primitives[p], GLTF_POSITION);
         for (size_t i = 0; i < d->model.accessors[accessor].count; i++) {
             float at[3];
-            ffd_gltf_original(d, accessor, i, at);
+            ffd_gltf_original(d, accessor, i, 3, at);
             for (int c = 0; c < 3; c++)
                 made.size[c] = larger_of(made.size[c], fabs((double)at[c]));
         }
@@ -83,9 +85,10 @@ typedef struct slack {
 } slack;
 
 /* What the rounding of doubles comes to in the file's space: positions go to the world and come back. */
-static void find_rounding(const slack *allowed, const float x[3], const float y[3], double rounding[3])
+static void find_rounding(const slack *allowed, const float x[4], const float y[4], double rounding[4])
 {
     double size[3];
+    rounding[3] = ROUNDINGS * DBL_EPSILON; /* of quaternions, which are directions */
     for (int c = 0; c < 3; c++) {
         size[c] = larger_of(allowed->size[c], larger_of(fabs((double)x[c]), fabs((double)y[c])));
         rounding[c] = allowed->along ? 1 : size[c];
@@ -111,14 +114,14 @@ static void find_rounding(const slack *allowed, const float x[3], const float y[
         rounding[c] *= ROUNDINGS * DBL_EPSILON;
 }
 
-static bool are_equal(const float a[3], const float b[3])
+static bool are_equal(const float a[4], const float b[4])
 {
-    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2] && a[3] == b[3];
 }
 
 /* The file's own rounding may part the results of two uses by a step of coordinate c, unless one of them is
    the original: what is not moved keeps its bits, whatever moves elsewhere. */
-static double file_rounding(const slack *allowed, const float x[3], const float y[3], int c)
+static double file_rounding(const slack *allowed, const float x[4], const float y[4], int c)
 {
     if (allowed->step > 0)
         return allowed->step * (1 + 1e-6);
@@ -127,16 +130,18 @@ static double file_rounding(const slack *allowed, const float x[3], const float 
 
 static bool agree_at(const slot_values *a, const slot_values *b, size_t i, const slack *allowed)
 {
-    float x[3], y[3], original[3];
-    double rounding[3];
-    read_vector(a, i, x);
-    read_vector(b, i, y);
+    const size_t components = a->version ? a->version->components : b->version->components;
+    const slot_values file = {a->document, a->accessor, NULL};
+    float x[4], y[4], original[4];
+    double rounding[4];
+    read_vector(a, i, components, x);
+    read_vector(b, i, components, y);
     if (are_equal(x, y))
         return true;
-    ffd_gltf_original(a->document, a->accessor, i, original);
+    read_vector(&file, i, components, original);
     const bool stays = are_equal(x, original) || are_equal(y, original);
     find_rounding(allowed, x, y, rounding);
-    for (int c = 0; c < 3; c++) {
+    for (int c = 0; c < (int)components; c++) {
         const double most = rounding[c] + (stays ? 0 : file_rounding(allowed, x, y, c));
         if (!(fabs((double)x[c] - (double)y[c]) <= most))
             return false;
@@ -164,8 +169,9 @@ static bool agree_in_slot(const shared_mesh *mesh, size_t p, size_t slot, const 
                       b = values_of(d, mesh->plan, mesh->number, p, slot, use[1]);
     const gltf_accessor *const accessor = &d->model.accessors[a.accessor];
     const int component = component_of(d, &a);
+    const size_t vectors = gltf_vector_slots(&d->model.meshes[mesh->number].primitives[p]);
     const slack allowed = {.step = component == GLTF_FLOAT ? 0 : ffd_gltf_step(accessor),
-                           .along = slot % GLTF_DEFORMED != GLTF_POSITION,
+                           .along = slot % GLTF_DEFORMED != GLTF_POSITION || slot >= vectors,
                            .size = {mesh->size[0], mesh->size[1], mesh->size[2]},
                            .placed = {part_of(mesh, p, use[0]), part_of(mesh, p, use[1])}};
     if (component != component_of(d, &b))

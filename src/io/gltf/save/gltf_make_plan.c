@@ -18,15 +18,16 @@ typedef struct candidate {
     size_t accessor, order;
     uint64_t hash;
     const float *values;
-    size_t size; /* bytes */
+    size_t components, size; /* size: bytes */
 } candidate;
 
 static bool is_changed(const gltf_document *d, size_t part, const gltf_stream *stream)
 {
     for (size_t i = 0; i < d->mesh_parts[part].vertex_count; i++) {
-        float original[3];
-        ffd_gltf_original(d, stream->accessor, i, original);
-        if (memcmp(original, stream->result + 3 * i, sizeof original) != 0)
+        float original[4];
+        const size_t components = stream->components;
+        ffd_gltf_original(d, stream->accessor, i, components, original);
+        if (memcmp(original, stream->result + components * i, components * sizeof *original) != 0)
             return true;
     }
     return false;
@@ -76,11 +77,12 @@ static size_t list_candidates(const gltf_document *d, candidate *candidates)
     for (size_t i = 0; i < ffd_gltf_part_count(d); i++)
         for (size_t s = 0; s < GLTF_DEFORMED; s++) {
             const gltf_stream *stream = &d->parts[i].streams[s];
-            const size_t values = 3 * d->mesh_parts[i].vertex_count;
+            const size_t values = stream->components * d->mesh_parts[i].vertex_count;
             if (!stream->result || !is_changed(d, i, stream))
                 continue;
-            candidates[count++] = (candidate){stream->accessor, i * GLTF_DEFORMED + s, 0, stream->result,
-                                              values * sizeof *stream->result};
+            candidates[count++] =
+                (candidate){stream->accessor, i * GLTF_DEFORMED + s, 0,
+                            stream->result,   stream->components,    values * sizeof *stream->result};
         }
     if (count == 0)
         return 0;
@@ -101,11 +103,14 @@ static void join_candidates(const candidate *candidates, size_t count, gltf_plan
     for (size_t i = 0; i < count; i++) {
         const candidate *c = &candidates[i];
         gltf_version *last = plan->version_count ? &plan->versions[plan->version_count - 1] : NULL;
-        const bool same =
-            last && last->accessor == c->accessor && memcmp(last->values, c->values, c->size) == 0;
+        const bool same = last && last->accessor == c->accessor && last->components == c->components &&
+                          memcmp(last->values, c->values, c->size) == 0;
         if (!same)
-            plan->versions[plan->version_count++] = (gltf_version){
-                .accessor = c->accessor, .values = c->values, .order = c->order, .output = GLTF_NONE};
+            plan->versions[plan->version_count++] = (gltf_version){.accessor = c->accessor,
+                                                                   .values = c->values,
+                                                                   .components = c->components,
+                                                                   .order = c->order,
+                                                                   .output = GLTF_NONE};
         /* The order of its version stands for the version until these are sorted. */
         plan->part_versions[c->order] = plan->versions[plan->version_count - 1].order;
     }
@@ -114,7 +119,7 @@ static void join_candidates(const candidate *candidates, size_t count, gltf_plan
 static void choose_component(const gltf_document *d, gltf_version *version)
 {
     const gltf_accessor *accessor = &d->model.accessors[version->accessor];
-    const bool fits = ffd_gltf_fits(accessor, version->values, 3 * (size_t)accessor->count);
+    const bool fits = ffd_gltf_fits(accessor, version->values, version->components * (size_t)accessor->count);
     version->component = fits ? accessor->component : GLTF_FLOAT;
 }
 

@@ -146,10 +146,10 @@ static bool agree(const gltf_document *d, const gltf_plan *plan, const byte_user
     const gltf_version *a = &plan->versions[plan->in_place[x->accessor]];
     const gltf_version *b = &plan->versions[plan->in_place[y->accessor]];
     const gltf_accessor *first = &d->model.accessors[x->accessor], *second = &d->model.accessors[y->accessor];
-    const size_t values = (a->width ? a->width : 3) * (size_t)first->count;
+    const size_t values = (a->width ? a->width : a->components) * (size_t)first->count;
     return first->component == second->component && first->normalized == second->normalized &&
            first->rows == second->rows && first->count == second->count && a->width == b->width &&
-           memcmp(a->values, b->values, values * sizeof *a->values) == 0;
+           a->components == b->components && memcmp(a->values, b->values, values * sizeof *a->values) == 0;
 }
 
 /* Visits all pairs that share bytes; returns whether any version was taken back. */

@@ -34,6 +34,25 @@ static void edit_slots(const gltf_saver *saver, size_t mesh, size_t p, uint32_t 
     }
 }
 
+/* The same for the attributes of splats. */
+static void edit_splats(const gltf_saver *saver, size_t mesh, size_t p, uint32_t attributes, size_t use,
+                        json_edits *edits)
+{
+    const gltf_document *d = saver->document;
+    const gltf_primitive *const primitive = &d->model.meshes[mesh].primitives[p];
+    const size_t vectors = gltf_vector_slots(primitive);
+    for (size_t slot = vectors; slot < gltf_slot_count(primitive); slot++) {
+        const size_t version = ffd_gltf_version_at(d, &saver->plan, mesh, p, slot, use);
+        char name[GLTF_SPLAT_NAME];
+        if (version == GLTF_NONE ||
+            saver->plan.versions[version].output == saver->plan.versions[version].accessor)
+            continue;
+        ffd_gltf_splat_name(slot - vectors, name);
+        const json_value *value = value_of(saver, ffd_json_span_member(&d->tree, attributes, name));
+        ffd_edits_format(edits, value->begin, value->end, "%zu", saver->plan.versions[version].output);
+    }
+}
+
 /* Edits a mesh to name the accessors that hold its content for a use. */
 static void edit_attributes(const gltf_saver *saver, size_t mesh, size_t use, json_edits *edits)
 {
@@ -41,9 +60,10 @@ static void edit_attributes(const gltf_saver *saver, size_t mesh, size_t use, js
     for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++) {
         const uint32_t primitive = ffd_gltf_primitive_value(d, mesh, p);
         const uint32_t targets = ffd_json_span_member(&d->tree, primitive, "targets");
+        const uint32_t attributes = ffd_json_span_member(&d->tree, primitive, "attributes");
         size_t first = 0;
-        edit_slots(saver, mesh, p, ffd_json_span_member(&d->tree, primitive, "attributes"), first, use,
-                   edits);
+        edit_slots(saver, mesh, p, attributes, first, use, edits);
+        edit_splats(saver, mesh, p, attributes, use, edits);
         for (uint32_t t = ffd_json_span_first(&d->tree, targets); t != JSON_NONE;
              t = ffd_json_span_after(&d->tree, t)) {
             first += GLTF_DEFORMED;

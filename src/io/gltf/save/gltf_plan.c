@@ -4,6 +4,19 @@
 #include "io/gltf/decode/gltf_encode.h"
 #include "io/gltf/decode/gltf_read.h"
 
+/* The part that holds the results of a slot; GLTF_NONE: there are none. */
+static size_t part_of_slot(const gltf_document *d, const gltf_primitive *primitive,
+                           const gltf_instance *instance, size_t slot)
+{
+    const size_t vectors = gltf_vector_slots(primitive);
+    if (slot < GLTF_DEFORMED)
+        return instance->part[slot];
+    if (slot < vectors)
+        return d->targets[instance->first_target + slot / GLTF_DEFORMED - 1];
+    return instance->first_splat == GLTF_NONE ? GLTF_NONE
+                                              : instance->first_splat + (slot - vectors) / GLTF_DEFORMED;
+}
+
 size_t ffd_gltf_version_at(const gltf_document *d, const gltf_plan *plan, size_t mesh, size_t p, size_t slot,
                            size_t use)
 {
@@ -13,8 +26,7 @@ size_t ffd_gltf_version_at(const gltf_document *d, const gltf_plan *plan, size_t
     const size_t owner = instance->part[GLTF_POSITION];
     if (!instance->selected && !(owner != GLTF_NONE && d->mesh_parts[owner].carried))
         return GLTF_NONE;
-    const size_t part = slot < GLTF_DEFORMED ? instance->part[slot]
-                                             : d->targets[instance->first_target + slot / GLTF_DEFORMED - 1];
+    const size_t part = part_of_slot(d, &d->model.meshes[mesh].primitives[p], instance, slot);
     return part == GLTF_NONE ? GLTF_NONE : plan->part_versions[part * GLTF_DEFORMED + slot % GLTF_DEFORMED];
 }
 
@@ -25,7 +37,8 @@ void ffd_gltf_version_encode(const gltf_document *d, const gltf_version *version
         store_float(element + 4 * c, version->values[version->width * i + c]);
     if (version->width == 0)
         ffd_gltf_encode(&d->model.accessors[version->accessor], version->component,
-                        ffd_gltf_element(d, version->accessor, i), version->values + 3 * i, element);
+                        ffd_gltf_element(d, version->accessor, i), version->values + version->components * i,
+                        version->components, element);
 }
 
 void ffd_gltf_free_plan(gltf_plan *plan)

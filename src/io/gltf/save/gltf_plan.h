@@ -8,11 +8,12 @@
 /* A new content of an accessor. The number GLTF_NONE means the original content. */
 typedef struct gltf_version {
     size_t accessor; /* GLTF_NONE: a new one, of MAT4 */
-    /* 3 * count, owned by a part: the first numbers of each element. Of a rig's content: `width` numbers an
-       element, all of them, of `count` elements; they are written as floats. */
+    /* components * count, owned by a part: the first numbers of each element. Of a rig's content: `width`
+       numbers an element, all of them, of `count` elements; they are written as floats. */
     const float *values;
     size_t width, count; /* width is 0 otherwise */
-    size_t order;        /* of the first part and attribute that has it */
+    size_t components;
+    size_t order; /* of the first part and attribute that has it */
     bool needed;
     int component; /* of its numbers: the accessor's, or GLTF_FLOAT if that cannot represent them */
     size_t output; /* the accessor that holds it in the output; GLTF_NONE: none yet */

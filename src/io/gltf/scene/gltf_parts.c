@@ -111,9 +111,11 @@ static size_t add_part(gltf_document *d, const gltf_part *part, size_t repeated)
 /* Returns the part that a primitive under a node needs. */
 static gltf_part describe_part(const gltf_document *d, const gltf_primitive *primitive, size_t node)
 {
-    gltf_part part = {.node = node};
-    for (int s = 0; s < GLTF_DEFORMED; s++)
+    gltf_part part = {.node = node, .first_splat = GLTF_NONE};
+    for (int s = 0; s < GLTF_DEFORMED; s++) {
         part.streams[s].accessor = readable_accessor(d, primitive, (gltf_semantic)s);
+        part.streams[s].components = 3;
+    }
     if (part.streams[GLTF_NORMAL].accessor == GLTF_NONE)
         part.streams[GLTF_TANGENT].accessor = GLTF_NONE; /* ignored without normals (glTF 2.0, 3.7.2.1) */
     if (node != GLTF_NONE && d->model.nodes[node].skin >= 0) {
@@ -133,6 +135,7 @@ static void add_instance(gltf_document *d, const part_table *table, size_t mesh,
     for (int s = 0; s < GLTF_DEFORMED; s++)
         instance->part[s] = GLTF_NONE;
     instance->selected = true;
+    instance->first_splat = GLTF_NONE;
     if (wanted.streams[GLTF_POSITION].accessor == GLTF_NONE)
         return;
     size_t *const head = find_slot(d, table, &wanted);

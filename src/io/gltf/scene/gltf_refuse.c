@@ -32,7 +32,7 @@ static ffd_status refuse_primitive(const gltf_document *d, size_t m, size_t p, f
     if (primitive->accessor[GLTF_POSITION] < 0)
         return FFD_OK;
     ffd_status status = ffd_gltf_refuse_unreadable(d, m, p, primitive->accessor[GLTF_POSITION], error);
-    for (size_t s = GLTF_DEFORMED; s < gltf_slot_count(primitive) && status == FFD_OK; s++)
+    for (size_t s = GLTF_DEFORMED; s < gltf_vector_slots(primitive) && status == FFD_OK; s++)
         if (gltf_slot_accessor(primitive, s) >= 0)
             status = ffd_gltf_refuse_unreadable(d, m, p, gltf_slot_accessor(primitive, s), error);
     return status;
@@ -120,7 +120,7 @@ ffd_status ffd_gltf_refuse_store(const gltf_document *d, bool normals, bool tang
             const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
             const bool wanted[GLTF_DEFORMED] = {true, normals,
                                                 tangents && primitive->accessor[GLTF_NORMAL] >= 0};
-            for (size_t s = 0; s < gltf_slot_count(primitive) && primitive->accessor[GLTF_POSITION] >= 0;
+            for (size_t s = 0; s < gltf_vector_slots(primitive) && primitive->accessor[GLTF_POSITION] >= 0;
                  s++) {
                 const int accessor = gltf_slot_accessor(primitive, s);
                 if (!wanted[s % GLTF_DEFORMED] || accessor < 0)

@@ -170,7 +170,7 @@ ffd_status ffd_gltf_begin_results(mesh_document *document, bool normals, bool ta
     d->morph_normals = normals;
     /* What is converted has no morph targets. */
     const bool targets = !d->morph_name && !d->base.converted;
-    for (size_t i = 0; i < (targets ? ffd_gltf_part_count(d) : d->base.part_count); i++)
+    for (size_t i = 0; i < (targets ? ffd_gltf_shape_end(d) : d->base.part_count); i++)
         for (int s = 0; s < GLTF_DEFORMED && status == FFD_OK; s++)
             if (!wanted[s])
                 drop_result(d, i, (gltf_semantic)s);

@@ -120,10 +120,11 @@ static void sort_targets(gltf_document *d, const target_table *table, size_t *nu
 static void fill_shape(gltf_document *d, const target *from, size_t number)
 {
     const size_t index = d->base.part_count + number;
-    d->parts[index] = (gltf_part){.node = d->parts[from->part].node};
+    d->parts[index] = (gltf_part){.node = d->parts[from->part].node, .first_splat = GLTF_NONE};
     d->mesh_parts[index] = (mesh_part){.vertex_count = d->mesh_parts[from->part].vertex_count};
     for (int s = 0; s < GLTF_DEFORMED; s++) {
         d->parts[index].streams[s].accessor = from->accessors[s];
+        d->parts[index].streams[s].components = 3;
         d->shapes[number].has[s] = from->accessors[s] != GLTF_NONE;
     }
     if (d->shapes[number].has[GLTF_POSITION])

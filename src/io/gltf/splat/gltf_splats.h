@@ -1,0 +1,22 @@
+/* gltf_splats.h - the Gaussian splats of a glTF file (KHR_gaussian_splatting): their rotations, scales and
+   spherical harmonics, and what becomes of these. Declares gltf_splats.c, gltf_splat_results.c. */
+#ifndef FFD_IO_GLTF_SPLAT_GLTF_SPLATS_H
+#define FFD_IO_GLTF_SPLAT_GLTF_SPLATS_H
+
+#include "io/gltf/document/gltf_document.h"
+
+/* Marks the parts whose vertices are splats. Where the file holds rotations and scales that can be changed it
+   sets up what their results need: after the parts and shapes are made. Notes scales that are logarithms.
+   Errors: those of a flaw, FFD_E_MEMORY, FFD_E_LIMIT. */
+ffd_status ffd_gltf_find_splats(gltf_document *document, ffd_error *error);
+
+/* Makes the results of splats. Errors: FFD_E_MEMORY, FFD_E_LIMIT. */
+ffd_status ffd_gltf_begin_splats(gltf_document *document, ffd_error *error);
+
+/* Says which harmonics could not turn with their splats. */
+void ffd_gltf_warn_of_splats(const gltf_document *document, const mesh_log *log);
+
+mesh_read_splats_function ffd_gltf_read_splats;
+mesh_write_splats_function ffd_gltf_write_splats;
+
+#endif

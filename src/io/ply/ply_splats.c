@@ -1,0 +1,228 @@
+/* ply_splats.c - the Gaussian splats of a PLY file, as programs of 3D Gaussian splatting write them: rot_0 to
+   rot_3 are w, x, y, z of a quaternion, scale_0 to scale_2 natural logarithms, f_rest_0 and so on the
+   spherical harmonics of degrees 1 to 3, those of red first. */
+#include "base/memory/memory.h"
+#include "io/ply/ply_document.h"
+#include "splat/harmonics.h"
+#include <float.h>
+#include <stdio.h>
+#include <string.h>
+
+#define SPLAT_NAME 24
+
+/* "rot_2" for slot PLY_ROTATION_SLOT + 2. */
+static void name_slot(size_t slot, char name[SPLAT_NAME])
+{
+    if (slot >= PLY_REST_SLOT)
+        snprintf(name, SPLAT_NAME, "f_rest_%zu", slot - PLY_REST_SLOT);
+    else if (slot >= PLY_SCALE_SLOT)
+        snprintf(name, SPLAT_NAME, "scale_%zu", slot - PLY_SCALE_SLOT);
+    else
+        snprintf(name, SPLAT_NAME, "rot_%zu", slot - PLY_ROTATION_SLOT);
+}
+
+static const ply_property *find(const ply_document *d, size_t slot)
+{
+    char name[SPLAT_NAME];
+    name_slot(slot, name);
+    return ffd_ply_find_property(d->vertex, name);
+}
+
+/* Whether the slots [first, last) are there as numbers with a fraction. */
+static bool have_fractions(const ply_document *d, size_t first, size_t last)
+{
+    for (size_t slot = first; slot < last; slot++) {
+        const ply_property *const property = find(d, slot);
+        if (!property || property->is_list || ply_is_whole(property->type))
+            return false;
+    }
+    return true;
+}
+
+static bool are_there(const ply_document *d, size_t first, size_t last)
+{
+    for (size_t slot = first; slot < last; slot++)
+        if (!find(d, slot))
+            return false;
+    return true;
+}
+
+static void fill_slots(ply_document *d, size_t first, size_t last)
+{
+    for (size_t slot = first; slot < last; slot++) {
+        ply_property *const property = &d->header.properties[find(d, slot) - d->header.properties];
+        property->slot = (unsigned char)slot;
+        d->types[slot] = property->type;
+    }
+}
+
+/* The number of properties whose names begin with "f_rest_". */
+static size_t count_rests(const ply_document *d)
+{
+    static const char start[] = "f_rest_";
+    size_t count = 0;
+    for (size_t i = 0; i < d->vertex->property_count; i++) {
+        const text_word name = d->vertex->properties[i].name;
+        count += (size_t)(name.last - name.first) >= sizeof start - 1 &&
+                 memcmp(name.first, start, sizeof start - 1) == 0;
+    }
+    return count;
+}
+
+/* The degree of the harmonics; 0: there are none, or they are not as they should be. */
+static int find_degree(const ply_document *d)
+{
+    for (int degree = 1; degree <= HARMONICS_DEGREES; degree++) {
+        const size_t count = HARMONICS_CHANNELS * (size_t)harmonics_count(degree);
+        if (d->rest_count == count && have_fractions(d, PLY_REST_SLOT, PLY_REST_SLOT + count))
+            return degree;
+    }
+    return 0;
+}
+
+void ffd_ply_find_splats(ply_document *d)
+{
+    mesh_part *const part = &d->file.part;
+    const bool is_flat = !find(d, PLY_SCALE_SLOT + 2);
+    const size_t scales = is_flat ? PLY_REST_SLOT - 1 : PLY_REST_SLOT;
+    part->place = MESH_NO_PLACE;
+    /* A splat is longest along one of its own axes, and turned: two sizes are the least. */
+    part->splats = are_there(d, PLY_ROTATION_SLOT, PLY_SCALE_SLOT + 2);
+    part->has_ellipsoids = part->splats && have_fractions(d, PLY_ROTATION_SLOT, scales);
+    d->rest_count = count_rests(d);
+    if (!part->has_ellipsoids)
+        return;
+    part->form = (splat_form){.is_logarithmic = true, .is_flat = is_flat, .degree = find_degree(d)};
+    fill_slots(d, PLY_ROTATION_SLOT, scales);
+    fill_slots(d, PLY_REST_SLOT,
+               PLY_REST_SLOT + HARMONICS_CHANNELS * (size_t)harmonics_count(part->form.degree));
+}
+
+/* The first slot of [first, last) that is missing. */
+static size_t find_missing(const ply_document *d, size_t first, size_t last)
+{
+    while (first < last && find(d, first))
+        first++;
+    return first;
+}
+
+/* The first one that is there. */
+static size_t find_present(const ply_document *d, size_t first, size_t last)
+{
+    while (first < last && !find(d, first))
+        first++;
+    return first;
+}
+
+/* Some properties of splats, and not all. */
+static void warn_of_part(const ply_document *d, const mesh_log *log)
+{
+    char there[SPLAT_NAME], missing[SPLAT_NAME];
+    const size_t rotation = find_present(d, PLY_ROTATION_SLOT, PLY_SCALE_SLOT);
+    const size_t scale = find_present(d, PLY_SCALE_SLOT, PLY_REST_SLOT);
+    if (rotation == PLY_SCALE_SLOT || scale == PLY_REST_SLOT)
+        return; /* they may be anything */
+    name_slot(rotation, there);
+    name_slot(find_missing(d, PLY_ROTATION_SLOT, PLY_SCALE_SLOT + 2), missing);
+    ffd_log_line(log, FFD_LOG_WARNING,
+                 "element vertex has %s but no %s: its vertices are points, not Gaussian splats, and their "
+                 "rotations and scales stay",
+                 there, missing);
+}
+
+ffd_status ffd_ply_warn(const mesh_document *document, const mesh_log *log, ffd_error *error)
+{
+    const ply_document *d = ffd_ply_of(document);
+    (void)error;
+    if (!d->file.part.splats)
+        warn_of_part(d, log);
+    else if (d->rest_count > 0 && d->file.part.has_ellipsoids && d->file.part.form.degree == 0)
+        ffd_log_line(
+            log, FFD_LOG_WARNING,
+            "element vertex has %zu properties f_rest, not 9, 24 or 45 that are float or double: the "
+            "spherical harmonics of its Gaussian splats are not turned",
+            d->rest_count);
+    return FFD_OK;
+}
+
+double *ffd_ply_splat_number(splat_ellipsoid *splat, size_t slot)
+{
+    return slot < PLY_SCALE_SLOT ? &splat->rotation[slot - PLY_ROTATION_SLOT]
+                                 : &splat->scale[slot - PLY_SCALE_SLOT];
+}
+
+ffd_status ffd_ply_begin_splats(ply_document *d, ffd_error *error)
+{
+    const size_t count = d->file.part.vertex_count;
+    if (!d->splats || d->file.base.converted)
+        return FFD_OK;
+    if (!d->new_splats) {
+        const ffd_status status = ffd_budget_take(&d->file.base.budget, count, sizeof *d->new_splats, error);
+        if (status)
+            return status;
+        d->new_splats = ffd_alloc(count, sizeof *d->new_splats);
+        if (!d->new_splats)
+            return ffd_fail_memory(error);
+    }
+    for (size_t i = 0; i < count; i++)
+        d->new_splats[i].is_changed = false;
+    return FFD_OK;
+}
+
+void ffd_ply_read_splats(const mesh_document *document, size_t part, size_t first, size_t count,
+                         splat_ellipsoid *splats)
+{
+    (void)part; /* there is one */
+    memcpy(splats, ffd_ply_of(document)->splats + first, count * sizeof *splats);
+}
+
+void ffd_ply_write_splats(mesh_document *document, size_t part, size_t first, size_t count,
+                          const splat_ellipsoid *splats, const splat_turn *turns, const uint8_t *changed)
+{
+    const ply_document *d = ffd_ply_of(document);
+    (void)part;
+    for (size_t i = 0; d->new_splats && i < count; i++)
+        if (changed[i])
+            d->new_splats[first + i] = (ply_splat){.splat = splats[i], .turn = turns[i], .is_changed = true};
+}
+
+/* Whether a channel's turned coefficients are numbers of their types. */
+static bool fit(const ply_type *types, const double (*c)[HARMONICS_CHANNELS], int channel, int count)
+{
+    for (int m = 0; m < count; m++)
+        if (!(fabs(c[m][channel]) <= (types[m] == PLY_FLOAT ? FLT_MAX : DBL_MAX)))
+            return false;
+    return true;
+}
+
+/* Takes over the turned coefficients, rounded to their types. Returns false where some are no numbers of
+ * these. */
+static bool take_turned(const ply_document *d, const double (*c)[HARMONICS_CHANNELS], double *values)
+{
+    const int count = harmonics_count(d->file.part.form.degree);
+    bool all = true;
+    for (int k = 0; k < HARMONICS_CHANNELS; k++) {
+        const ply_type *const types = d->types + PLY_REST_SLOT + k * count;
+        const bool fits = fit(types, c, k, count);
+        for (int m = 0; m < count && fits; m++)
+            values[k * count + m] = ply_round(types[m], c[m][k]);
+        all = all && fits;
+    }
+    return all;
+}
+
+size_t ffd_ply_turn_rests(const ply_document *d, const splat_turn *turns, size_t count,
+                          double (*values)[PLY_RESTS])
+{
+    const int degree = d->file.part.form.degree, functions = harmonics_count(degree);
+    harmonics_block c[PLY_ROWS];
+    size_t unturned = 0;
+    for (size_t i = 0; i < count; i++)
+        for (int k = 0; k < HARMONICS_CHANNELS; k++)
+            for (int m = 0; m < functions; m++)
+                c[i][m][k] = values[i][k * functions + m];
+    ffd_harmonics_turn(FFD_ISA_AUTO, turns, degree, count, c);
+    for (size_t i = 0; i < count; i++)
+        unturned += !take_turned(d, (const double(*)[HARMONICS_CHANNELS])c[i], values[i]);
+    return unturned;
+}

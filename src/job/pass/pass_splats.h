@@ -1,0 +1,16 @@
+/* pass_splats.h - Gaussian splats in a tile of a pass (src/maths.md 9.6). */
+#ifndef FFD_JOB_PASS_PASS_SPLATS_H
+#define FFD_JOB_PASS_PASS_SPLATS_H
+
+#include "job/pass/tile.h"
+
+/* Finds how directions turn at the tile's vertices, whose gradients are in the lattice's space: as they are
+   seen there, in the file's space. */
+void ffd_tile_splat_turns(const part_work *work, tile_scratch *scratch, size_t count);
+
+/* Deforms the splats [first, first + count) of the part, whose gradients are in the file's space by now, and
+   hands them back. */
+void ffd_tile_splats(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
+                     pass_totals *totals);
+
+#endif

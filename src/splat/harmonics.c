@@ -1,0 +1,52 @@
+#include "splat/harmonics.h"
+
+typedef double number;
+#include "splat/harmonics_turn.h"
+
+void ffd_harmonics_values(int degree, const double direction[3], double values[7])
+{
+    find_values(degree, direction, values);
+}
+
+/* A reversed direction changes the sign of odd degrees. */
+static void reverse(double (*c)[HARMONICS_CHANNELS], int count)
+{
+    for (int m = 0; m < count; m++)
+        for (int k = 0; k < HARMONICS_CHANNELS; k++)
+            c[m][k] = -c[m][k];
+}
+
+static void mirror(const splat_turn *turn, int degree, harmonics_block c)
+{
+    if (turn->is_mirrored && degree >= 1)
+        reverse(c, 3);
+    if (turn->is_mirrored && degree >= 3)
+        reverse(c + 8, 7);
+}
+
+static harmonics_kernel *const kernels[] = {
+    [FFD_ISA_SCALAR] = NULL,
+#ifdef FFD_X86
+    [FFD_ISA_SSE2] = ffd_harmonics_kernel_sse2,
+    [FFD_ISA_AVX2] = ffd_harmonics_kernel_avx2,
+    [FFD_ISA_AVX512] = ffd_harmonics_kernel_avx512,
+#endif
+};
+
+/* Splats that are looked at together. */
+#define RUN ((size_t)16)
+
+void ffd_harmonics_turn(ffd_isa isa, const splat_turn *turns, int degree, size_t count, harmonics_block *c)
+{
+    harmonics_kernel *const kernel = kernels[ffd_isa_resolve(isa)];
+    double rotations[RUN][9];
+    for (size_t first = 0; first < count; first += RUN) {
+        const size_t some = count - first < RUN ? count - first : RUN;
+        for (size_t i = 0; i < some; i++)
+            ffd_splat_matrix(turns[first + i].quaternion, rotations[i]);
+        for (size_t i = kernel ? kernel(rotations, degree, some, c + first) : 0; i < some; i++)
+            turn_degrees(rotations[i], degree, c[first + i]);
+        for (size_t i = 0; i < some; i++)
+            mirror(&turns[first + i], degree, c[first + i]);
+    }
+}

@@ -1,0 +1,36 @@
+/* harmonics.h - turning real spherical harmonics of degrees 1 to 3 (src/maths.md 9.6). */
+#ifndef FFD_SPLAT_HARMONICS_H
+#define FFD_SPLAT_HARMONICS_H
+
+#include "splat/splat.h"
+
+#define HARMONICS_DEGREES 3
+#define HARMONICS_MOST 15 /* coefficients of degrees 1 to 3 */
+#define HARMONICS_CHANNELS 3
+
+/* The number of coefficients of degrees 1 to this one. */
+static inline int harmonics_count(int degree)
+{
+    return (degree + 1) * (degree + 1) - 1;
+}
+
+/* Values of the functions of a degree at a direction of length 1, m from -degree to degree. The functions are
+   those of 3D Gaussian splatting and of KHR_gaussian_splatting: with the Condon-Shortley phase. */
+void ffd_harmonics_values(int degree, const double direction[3], double values[7]);
+
+/* The coefficients of a splat, by degree and m. */
+typedef double harmonics_block[HARMONICS_MOST][HARMONICS_CHANNELS];
+
+/* Replaces the coefficients of degrees 1 to `degree` with those of the turned functions. The bits are the
+   same whatever the instruction set. */
+void ffd_harmonics_turn(ffd_isa isa, const splat_turn *turns, int degree, size_t count, harmonics_block *c);
+
+/* Does so for as many splats as fill lanes, with the matrices of their turns, which mirror nothing. Returns
+   how many these are. One function for each instruction set that has lanes. */
+typedef size_t harmonics_kernel(double (*rotations)[9], int degree, size_t count, harmonics_block *c);
+
+#ifdef FFD_X86
+harmonics_kernel ffd_harmonics_kernel_sse2, ffd_harmonics_kernel_avx2, ffd_harmonics_kernel_avx512;
+#endif
+
+#endif

@@ -1,0 +1,392 @@
+#include "splat/splat.h"
+#include "base/vector/direction.h"
+#include "base/vector/exponential.h"
+#include "base/vector/vec.h"
+#include "splat/splat_iterations.h"
+#include <float.h>
+#include <string.h>
+
+/* What the gradient of a lattice that does not turn or stretch may be by rounding. */
+#define STILL 0x1p-48
+/* Directions that turn by less than this are not turned: coefficients of 0 stay 0. */
+#define NO_TURN 0x1p-46
+/* Part of a size that is left of one that F takes away: above the rounding of F, whose entries are sums over
+   control points. */
+#define NOTHING 1e-12
+/* Entries of F that can be squared and multiplied freely. */
+#define LEAST_F 1e-30
+#define LARGEST_F 1e30
+
+static double largest_entry(const double m[9])
+{
+    double largest = 0;
+    for (int i = 0; i < 9; i++)
+        largest = fabs(m[i]) > largest ? fabs(m[i]) : largest;
+    return largest;
+}
+
+static bool is_usable(const double gradient[9])
+{
+    for (int r = 0; r < 9; r += 3)
+        if (!vec_is_finite(gradient + r))
+            return false;
+    return largest_entry(gradient) <= LARGEST_F;
+}
+
+static void add_identity(const double gradient[9], double f[9])
+{
+    for (int i = 0; i < 9; i++)
+        f[i] = gradient[i] + (i % 4 == 0 ? 1 : 0);
+}
+
+static double square_sum(const double m[9])
+{
+    return vec_dot(m, m) + vec_dot(m + 3, m + 3) + vec_dot(m + 6, m + 6);
+}
+
+/* Whether the least singular value, which is the determinant by the product of the others, is nothing beside
+   the largest. */
+static bool is_flattening(const double f[9], const double cofactor[9])
+{
+    return !(fabs(vec_dot(f, cofactor)) > NOTHING * largest_entry(f) * sqrt(square_sum(cofactor)));
+}
+
+void ffd_splat_matrix(const double q[4], double m[9])
+{
+    const double w = q[0], x = q[1], y = q[2], z = q[3];
+    m[0] = 1 - 2 * (y * y + z * z);
+    m[1] = 2 * (x * y - w * z);
+    m[2] = 2 * (x * z + w * y);
+    m[3] = 2 * (x * y + w * z);
+    m[4] = 1 - 2 * (x * x + z * z);
+    m[5] = 2 * (y * z - w * x);
+    m[6] = 2 * (x * z - w * y);
+    m[7] = 2 * (y * z + w * x);
+    m[8] = 1 - 2 * (x * x + y * y);
+}
+
+/* The quaternion of a rotation, of length 1, by its largest component (Shepperd, Quaternion from rotation
+   matrix, 1978). */
+static void find_quaternion(const double m[9], double q[4])
+{
+    const double trace = m[0] + m[4] + m[8];
+    const double size[4] = {trace, m[0], m[4],
+                            m[8]}; /* of component i the square is (1 + 2 size - trace)/4 */
+    int largest = 0;
+    for (int i = 1; i < 4; i++)
+        largest = size[i] > size[largest] ? i : largest;
+    const double w = m[7] - m[5], x = m[2] - m[6], y = m[3] - m[1];
+    switch (largest) {
+    case 0:
+        q[0] = 1 + trace, q[1] = w, q[2] = x, q[3] = y;
+        break;
+    case 1:
+        q[0] = w, q[1] = 1 + m[0] - m[4] - m[8], q[2] = m[1] + m[3], q[3] = m[2] + m[6];
+        break;
+    case 2:
+        q[0] = x, q[1] = m[1] + m[3], q[2] = 1 - m[0] + m[4] - m[8], q[3] = m[5] + m[7];
+        break;
+    default:
+        q[0] = y, q[1] = m[2] + m[6], q[2] = m[5] + m[7], q[3] = 1 - m[0] - m[4] + m[8];
+    }
+    const double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    for (int i = 0; i < 4; i++)
+        q[i] /= length;
+}
+
+/* Makes w not negative. */
+static void find_turn_quaternion(const double rotation[9], double q[4])
+{
+    find_quaternion(rotation, q);
+    for (int i = 1; i < 4 && q[0] < 0; i++)
+        q[i] = -q[i];
+    q[0] = fabs(q[0]);
+}
+
+/* Splats that are looked at together. */
+#define RUN ((size_t)64)
+
+/* Finds a matrix with an inverse that has the same turn as F. Returns false where there is none to look for.
+ */
+static bool prepare_turn(const double gradient[9], splat_turn *turn, double f[9])
+{
+    double cofactor[9];
+    *turn = (splat_turn){.quaternion = {1, 0, 0, 0}};
+    if (!is_usable(gradient) || largest_entry(gradient) <= STILL)
+        return false;
+    add_identity(gradient, f);
+    if (largest_entry(f) < LEAST_F)
+        return false;
+    mat_cofactor(f, cofactor);
+    if (is_flattening(f, cofactor)) {
+        /* Cofactors have the directions of F, with a size across the plane that it leaves. */
+        const double size = sqrt(square_sum(f));
+        for (int i = 0; i < 9; i++)
+            f[i] += cofactor[i] / size;
+        mat_cofactor(f, cofactor);
+        if (is_flattening(f, cofactor))
+            return false; /* a line or a point is left */
+    }
+    turn->is_mirrored = vec_dot(f, cofactor) < 0;
+    return true;
+}
+
+static void finish_turn(double f[9], splat_turn *turn)
+{
+    for (int i = 0; i < 9 && turn->is_mirrored; i++)
+        f[i] = -f[i];
+    find_turn_quaternion(f, turn->quaternion);
+    for (int i = 1; i < 4; i++)
+        turn->is_turn = turn->is_turn || fabs(turn->quaternion[i]) > NO_TURN;
+    turn->is_turn = turn->is_turn || turn->is_mirrored;
+    if (!turn->is_turn)
+        *turn = (splat_turn){.quaternion = {1, 0, 0, 0}};
+}
+
+void ffd_splats_find_turns(ffd_isa isa, const double *gradients, size_t count, splat_turn *turns)
+{
+    double nines[RUN][9];
+    size_t numbers[RUN];
+    for (size_t first = 0; first < count; first += RUN) {
+        const size_t last = count - first < RUN ? count : first + RUN;
+        size_t open = 0;
+        for (size_t i = first; i < last; i++)
+            if (prepare_turn(gradients + 9 * i, &turns[i], nines[open]))
+                numbers[open++] = i;
+        ffd_splats_orthogonalise(isa, nines, open);
+        for (size_t k = 0; k < open; k++)
+            finish_turn(nines[k], &turns[numbers[k]]);
+    }
+}
+
+void ffd_splat_turn_to_file(const double frame[9], splat_turn *turn)
+{
+    double nines[1][9], rotation[9], product[9], turned[9], *const axes = nines[0];
+    if (!turn->is_turn)
+        return;
+    /* A mirror in the frame cancels: it is there twice. */
+    const double largest = largest_entry(frame);
+    for (int i = 0; i < 9; i++)
+        axes[i] = frame[i] / largest;
+    ffd_splats_orthogonalise(FFD_ISA_SCALAR, nines, 1);
+    ffd_splat_matrix(turn->quaternion, rotation);
+    mat_multiply(rotation, axes, product);
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++)
+            turned[3 * r + c] =
+                axes[r] * product[c] + axes[3 + r] * product[3 + c] + axes[6 + r] * product[6 + c];
+    find_turn_quaternion(turned, turn->quaternion);
+}
+
+/* Sizes as they are computed with: parts of the largest, none of which is 0. */
+#define LEAST_LOG (-150.0)
+#define LEAST_PART 7e-66
+
+/* Sets the parts. Returns false where sizes are not numbers. */
+static bool find_parts(const splat_form *form, const double scale[3], double parts[3])
+{
+    const int count = form->is_flat ? 2 : 3;
+    double largest = scale[0];
+    for (int i = 0; i < count; i++) {
+        if (isnan(scale[i]) || scale[i] > DBL_MAX || (!form->is_logarithmic && !(scale[i] >= 0)))
+            return false;
+        largest = scale[i] > largest ? scale[i] : largest;
+    }
+    parts[2] = LEAST_PART;
+    for (int i = 0; i < count; i++)
+        if (form->is_logarithmic)
+            parts[i] = largest < -DBL_MAX ? 1 : ffd_exp(larger_of(scale[i] - largest, LEAST_LOG));
+        else
+            parts[i] = largest > 0 ? larger_of(scale[i] / largest, LEAST_PART) : 1;
+    return true;
+}
+
+/* A unit quaternion; false where it has no direction. */
+static bool find_unit(const double q[4], double unit[4])
+{
+    double largest = 0, sum = 0;
+    for (int i = 0; i < 4; i++) {
+        if (!(fabs(q[i]) <= DBL_MAX))
+            return false;
+        largest = fabs(q[i]) > largest ? fabs(q[i]) : largest;
+    }
+    if (largest == 0)
+        return false;
+    for (int i = 0; i < 4; i++) {
+        unit[i] = q[i] / largest;
+        sum += unit[i] * unit[i];
+    }
+    for (int i = 0; i < 4; i++)
+        unit[i] /= sqrt(sum);
+    return true;
+}
+
+/* Makes the columns unit vectors, and their lengths at least `least` each. Directions of those that are
+   shorter are chosen perpendicular to the others. */
+static void unit_columns(double columns[3][3], const double least[3], double lengths[3])
+{
+    bool is_there[3];
+    int there = 0, one = 0;
+    for (int j = 0; j < 3; j++) {
+        lengths[j] = vec_length(columns[j]);
+        is_there[j] = lengths[j] > least[j];
+        for (int k = 0; k < 3 && is_there[j]; k++)
+            columns[j][k] /= lengths[j];
+        if (!is_there[j])
+            lengths[j] = least[j];
+        there += is_there[j];
+        one = is_there[j] ? j : one;
+    }
+    if (there == 3)
+        return;
+    if (there == 0)
+        memcpy(columns[0], (double[3]){1, 0, 0}, sizeof columns[0]);
+    if (there <= 1)
+        ffd_direction_default_zero(columns[one], columns[(one + 1) % 3]);
+    for (int j = 0; j < 3; j++)
+        if (there <= 1 ? j == (one + 2) % 3 : !is_there[j])
+            vec_cross(columns[(j + 1) % 3], columns[(j + 2) % 3], columns[j]);
+}
+
+/* How well columns, in an order, fit three axes as a right-handed frame: the sum of cosines. signs: of the
+ * columns.
+ */
+static double fit(const double axes[9], const double columns[3][3], const int order[3], bool is_right,
+                  double signs[3])
+{
+    double sum = 0, least = HUGE_VAL;
+    int weakest = 0;
+    for (int i = 0; i < 3; i++) {
+        const double *const u = columns[order[i]];
+        const double cosine = axes[i] * u[0] + axes[3 + i] * u[1] + axes[6 + i] * u[2];
+        signs[i] = cosine < 0 ? -1 : 1;
+        is_right = is_right == (cosine >= 0);
+        sum += fabs(cosine);
+        if (fabs(cosine) < least) {
+            least = fabs(cosine);
+            weakest = i;
+        }
+    }
+    if (is_right)
+        return sum;
+    signs[weakest] = -signs[weakest];
+    return sum - 2 * least;
+}
+
+/* Orders of three columns; the first two leave the last one where it is. Even ones keep the handedness. */
+static const int orders[6][3] = {{0, 1, 2}, {1, 0, 2}, {1, 2, 0}, {0, 2, 1}, {2, 0, 1}, {2, 1, 0}};
+
+/* Takes the columns as axes, in the order and with the signs that are nearest to the old ones. */
+static void choose_axes(const double axes[9], const double columns[3][3], bool is_flat, int order[3],
+                        double rotation[9])
+{
+    double across[3], best = -HUGE_VAL, best_signs[3] = {1, 1, 1};
+    vec_cross(columns[0], columns[1], across);
+    const bool is_right = vec_dot(across, columns[2]) > 0;
+    int chosen = 0;
+    for (int o = 0; o < (is_flat ? 2 : 6); o++) {
+        double signs[3];
+        const double sum = fit(axes, columns, orders[o], is_right == (o % 2 == 0), signs);
+        if (sum > best) {
+            best = sum;
+            chosen = o;
+            memcpy(best_signs, signs, sizeof signs);
+        }
+    }
+    memcpy(order, orders[chosen], sizeof orders[chosen]);
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            rotation[3 * k + i] = best_signs[i] * columns[order[i]][k];
+}
+
+/* Gives the quaternion of a rotation the length of another one, and the sign nearer to the turned other one.
+ */
+static void replace_rotation(const double rotation[9], const double turn[4], const double unit[4],
+                             double q[4])
+{
+    const double turned[4] = {turn[0] * unit[0] - turn[1] * unit[1] - turn[2] * unit[2] - turn[3] * unit[3],
+                              turn[0] * unit[1] + turn[1] * unit[0] + turn[2] * unit[3] - turn[3] * unit[2],
+                              turn[0] * unit[2] - turn[1] * unit[3] + turn[2] * unit[0] + turn[3] * unit[1],
+                              turn[0] * unit[3] + turn[1] * unit[2] - turn[2] * unit[1] + turn[3] * unit[0]};
+    double made[4], along = 0, length = 0;
+    find_quaternion(rotation, made);
+    for (int i = 0; i < 4; i++) {
+        along += made[i] * turned[i];
+        length += q[i] * unit[i]; /* unit is q divided by its length */
+    }
+    for (int i = 0; i < 4; i++)
+        q[i] = (along < 0 ? -length : length) * made[i];
+}
+
+/* A splat between the two iterations. */
+typedef struct ellipsoid_work {
+    size_t number;
+    double unit[4], old[9], parts[3]; /* the quaternion, its matrix, the sizes */
+    double largest;                   /* entry of F */
+    bool is_flattened;
+} ellipsoid_work;
+
+/* Finds the columns of F R S. Returns false, with the outcome, where there is nothing to do. */
+static bool prepare_ellipsoid(const double gradient[9], const splat_form *form, const splat_ellipsoid *splat,
+                              ellipsoid_work *work, double columns[9], uint8_t *outcome)
+{
+    double f[9], cofactor[9], product[9];
+    *outcome = SPLAT_BROKEN;
+    if (!is_usable(gradient) || !find_unit(splat->rotation, work->unit) ||
+        !find_parts(form, splat->scale, work->parts))
+        return false;
+    *outcome = SPLAT_KEPT;
+    if (largest_entry(gradient) <= STILL)
+        return false;
+    add_identity(gradient, f);
+    mat_cofactor(f, cofactor);
+    work->is_flattened = is_flattening(f, cofactor);
+    work->largest = larger_of(largest_entry(f), LEAST_F);
+    ffd_splat_matrix(work->unit, work->old);
+    mat_multiply(f, work->old, product);
+    for (int j = 0; j < 3; j++)
+        for (int k = 0; k < 3; k++)
+            columns[3 * j + k] = product[3 * k + j] * work->parts[j];
+    *outcome = work->is_flattened ? SPLAT_FLATTENED : SPLAT_CARRIED;
+    return true;
+}
+
+static void finish_ellipsoid(const ellipsoid_work *work, double columns[3][3], const splat_turn *turn,
+                             const splat_form *form, splat_ellipsoid *splat)
+{
+    double turning[9], axes[9], least[3], lengths[3], made[9];
+    int order[3];
+    ffd_splat_matrix(turn->quaternion, turning);
+    mat_multiply(turning, work->old, axes);
+    for (int j = 0; j < 3; j++)
+        least[j] = NOTHING * work->largest * work->parts[j];
+    unit_columns(columns, least, lengths);
+    choose_axes(axes, (const double(*)[3])columns, form->is_flat, order, made);
+    replace_rotation(made, turn->quaternion, work->unit, splat->rotation);
+    const double scale[3] = {splat->scale[0], splat->scale[1], splat->scale[2]};
+    for (int i = 0; i < (form->is_flat ? 2 : 3); i++) {
+        const double ratio = lengths[order[i]] / work->parts[order[i]], from = scale[order[i]];
+        splat->scale[i] = form->is_logarithmic ? from + ffd_log(ratio) : from * ratio;
+    }
+}
+
+void ffd_splats_deform(ffd_isa isa, const double *gradients, const splat_turn *turns, const splat_form *form,
+                       size_t count, splat_ellipsoid *splats, uint8_t *outcomes)
+{
+    double nines[RUN][9];
+    ellipsoid_work work[RUN];
+    for (size_t first = 0; first < count; first += RUN) {
+        const size_t last = count - first < RUN ? count : first + RUN;
+        size_t open = 0;
+        for (size_t i = first; i < last; i++)
+            if (prepare_ellipsoid(gradients + 9 * i, form, &splats[i], &work[open], nines[open],
+                                  &outcomes[i]))
+                work[open++].number = i;
+        ffd_splats_part_columns(isa, nines, open);
+        for (size_t k = 0; k < open; k++) {
+            double columns[3][3];
+            memcpy(columns, nines[k], sizeof columns);
+            finish_ellipsoid(&work[k], columns, &turns[work[k].number], form, &splats[work[k].number]);
+        }
+    }
+}

@@ -1,0 +1,86 @@
+/* splat_iterations.c - the two iterations of splats: for one matrix, which is the reference, and for many. */
+#include "splat/splat_iterations.h"
+#include "base/vector/vec.h"
+#include "splat/splat_kernel.h"
+
+static double square_sum(const double m[9])
+{
+    return vec_dot(m, m) + vec_dot(m + 3, m + 3) + vec_dot(m + 6, m + 6);
+}
+
+void ffd_splat_orthogonalise(double x[9])
+{
+    bool is_near = false;
+    for (int step = 0; step < NEWTON_STEPS; step++) {
+        double cofactor[9], change = 0;
+        mat_cofactor(x, cofactor);
+        const double determinant = vec_dot(x, cofactor);
+        const double inverse_sum = square_sum(cofactor) / (determinant * determinant);
+        const double scale = is_near ? 1 : sqrt(sqrt(inverse_sum / square_sum(x)));
+        const double back = 1 / (determinant * scale);
+        for (int i = 0; i < 9; i++) {
+            const double next = 0.5 * (scale * x[i] + cofactor[i] * back);
+            change += (next - x[i]) * (next - x[i]);
+            x[i] = next;
+        }
+        is_near = is_near || change < NEWTON_NEAR;
+        if (change < NEWTON_ENOUGH)
+            return;
+    }
+}
+
+/* One rotation of two columns that makes them perpendicular. Returns false where they are. */
+static bool rotate(double p[3], double q[3])
+{
+    const double a = vec_dot(p, p), b = vec_dot(q, q), off = vec_dot(p, q);
+    if (!(off * off > RIGHT * RIGHT * a * b))
+        return false;
+    const double tau = (b - a) / (2 * off);
+    const double t = (tau >= 0 ? 1 : -1) / (fabs(tau) + sqrt(1 + tau * tau));
+    const double c = 1 / sqrt(1 + t * t), s = t * c;
+    for (int k = 0; k < 3; k++) {
+        const double x = p[k], y = q[k];
+        p[k] = c * x - s * y;
+        q[k] = s * x + c * y;
+    }
+    return true;
+}
+
+/* Jacobi's method from one side (Golub & Van Loan, Matrix Computations, 8.6.3) finds small sizes beside large
+   ones to all digits. */
+void ffd_splat_part_columns(double columns[9])
+{
+    bool any = true;
+    for (int sweep = 0; sweep < SWEEPS && any; sweep++) {
+        any = rotate(columns, columns + 3);
+        any = rotate(columns, columns + 6) || any;
+        any = rotate(columns + 3, columns + 6) || any;
+    }
+}
+
+typedef struct splat_way {
+    splat_kernel *polar, *columns; /* NULL: the functions for one */
+} splat_way;
+
+static const splat_way ways[] = {
+    [FFD_ISA_SCALAR] = {NULL, NULL},
+#ifdef FFD_X86
+    [FFD_ISA_SSE2] = {ffd_polar_kernel_sse2, ffd_columns_kernel_sse2},
+    [FFD_ISA_AVX2] = {ffd_polar_kernel_avx2, ffd_columns_kernel_avx2},
+    [FFD_ISA_AVX512] = {ffd_polar_kernel_avx512, ffd_columns_kernel_avx512},
+#endif
+};
+
+void ffd_splats_orthogonalise(ffd_isa isa, double (*nines)[9], size_t count)
+{
+    splat_kernel *const kernel = ways[ffd_isa_resolve(isa)].polar;
+    for (size_t i = kernel ? kernel(nines, count) : 0; i < count; i++)
+        ffd_splat_orthogonalise(nines[i]);
+}
+
+void ffd_splats_part_columns(ffd_isa isa, double (*nines)[9], size_t count)
+{
+    splat_kernel *const kernel = ways[ffd_isa_resolve(isa)].columns;
+    for (size_t i = kernel ? kernel(nines, count) : 0; i < count; i++)
+        ffd_splat_part_columns(nines[i]);
+}

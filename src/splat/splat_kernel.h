@@ -1,0 +1,35 @@
+/* splat_kernel.h - the two iterations of splats, on several matrices at a time. Declares splat_iterations.c.
+ */
+#ifndef FFD_SPLAT_SPLAT_KERNEL_H
+#define FFD_SPLAT_SPLAT_KERNEL_H
+
+#include <stddef.h>
+
+/* Does for matrices of nine numbers, in place, what ffd_splat_orthogonalise, or ffd_splat_part_columns, does
+   for one, with the same bits. Returns how many are done: the last few may be left. One function for each
+   instruction set that has lanes. */
+typedef size_t splat_kernel(double (*nines)[9], size_t count);
+
+#ifdef FFD_X86
+splat_kernel ffd_polar_kernel_sse2, ffd_polar_kernel_avx2, ffd_polar_kernel_avx512;
+splat_kernel ffd_columns_kernel_sse2, ffd_columns_kernel_avx2, ffd_columns_kernel_avx512;
+#endif
+
+/* Steps of Newton's iteration; it doubles the digits at the end, and scaling brings it near at once. */
+#define NEWTON_STEPS 30
+#define NEWTON_NEAR 1e-2    /* the square of a change after which scaling would disturb */
+#define NEWTON_ENOUGH 1e-18 /* the square of a change after which the next one is below rounding */
+
+/* Columns whose angle is nearer to a right one than this are left: it is far below a float's step, and above
+   the rounding of F, so that a turn keeps the axes of splats with equal sizes. */
+#define RIGHT 1e-12
+#define SWEEPS 20
+
+/* Replaces x, which has an inverse, with the orthogonal factor of its polar decomposition (src/maths.md 9.6).
+ */
+void ffd_splat_orthogonalise(double x[9]);
+
+/* Makes the columns of a matrix, one after the other, perpendicular (src/maths.md 9.6). */
+void ffd_splat_part_columns(double columns[9]);
+
+#endif
