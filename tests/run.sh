@@ -159,7 +159,7 @@ drop() {
     [ -n "$keep" ] || rm -rf "${work:?}/$1"
 }
 
-# The validator, independent readers of glTF and what drives a browser come from npm, by the lock file, into the build folder.
+# The validator, independent readers of glTF, three.js and what drives a browser come from npm, by the lock file, into the build folder.
 install_node_packages() {
     mkdir -p "$work/node" || return 1
     cmp -s "$root/tests/golden/package-lock.json" "$work/node/package-lock.json" &&

@@ -18,6 +18,13 @@ def basis(t, i, degree, u):
         (t[i + degree + 1] - u) / right * basis(t, i + 1, degree - 1, u) if right else 0.0)
 
 
+def slope(t, i, degree, u):
+    """The derivative of a basis function."""
+    left, right = t[i + degree] - t[i], t[i + degree + 1] - t[i + 1]
+    return degree * ((basis(t, i, degree - 1, u) / left if left else 0.0)
+                     - (basis(t, i + 1, degree - 1, u) / right if right else 0.0))
+
+
 class BoxVolume:
     """The affine volume over a box; its control points, u fastest, are moved by what move(point) gives."""
 
@@ -37,3 +44,20 @@ class BoxVolume:
 
     def deform(self, p):
         return [x + d for x, d in zip(p, self.displacement(p))]
+
+    def holds(self, p):
+        return all(a <= x <= b for x, a, b in zip(p, self.low, self.high))
+
+    def gradient(self, p):
+        """The deformation's, as three rows of four with nothing in the last column."""
+        uvw = [(x - a) / (b - a) for x, a, b in zip(p, self.low, self.high)]
+        n = [[basis(t, i, d, x) for i in range(len(t) - d - 1)] for t, d, x in zip(self.knots, self.degree, uvw)]
+        s = [[slope(t, i, d, x) / (b - a) for i in range(len(t) - d - 1)]
+             for t, d, x, a, b in zip(self.knots, self.degree, uvw, self.low, self.high)]
+        rows = [[float(row == column) for column in range(3)] for row in range(3)]
+        for column in range(3):
+            u, v, w = (s[a] if a == column else n[a] for a in range(3))
+            factors = [x * y * z for z in w for y in v for x in u]
+            for row in range(3):
+                rows[row][column] += sum(f * offset[row] for f, offset in zip(factors, self.offsets))
+        return tuple(x for row in rows for x in (*row, 0.0))
