@@ -137,12 +137,11 @@ static int run(const cli_command *command, int count, char **arguments)
 }
 
 static const cli_example examples[] = {
-    {"how each vertex follows the control points", "ffd jacobian wing.ply -l wing.json -o J.npz"},
+    {"how each vertex follows the control points", "ffd jacobian vase.obj -l bend.json -o J.npz"},
     {"how they follow the parameters of a design, checked against differences",
-     "ffd jacobian wing.ply -l wing.json --set SWEEP=30 --wrt parameters --check -o J.npy"},
+     "ffd jacobian vase.obj -l swept.json --set SWEEP=30 --wrt parameters --check -o J.npy"},
     {"the gradient of an objective by control points",
-     "ffd jacobian wing.ply -l wing.json --transposed dFdX.npy "
-     "-o dFdQ.npy"},
+     "ffd jacobian vase.obj -l bend.json --transposed dFdX.npy -o dFdQ.npy"},
     {NULL, NULL},
 };
 

@@ -221,7 +221,7 @@ static const cli_example examples[] = {
     {"a row of five pictures, from rest to deformed",
      "ffd view cow.obj -l bend.json -o row.png --frames 5 --size 300x400"},
     {"five poses of an animation, and below them deformed",
-     "ffd view knight.glb -l tall.json -o walk.png --animation Walking_A --size 300x400"},
+     "ffd view robot.glb -l tall.json -o walk.png --animation walk --size 300x400"},
     {NULL, NULL},
 };
 

@@ -5,6 +5,7 @@ with the files that they speak of. FFD_DATA names data/."""
 import json
 import os
 import shutil
+import struct
 import subprocess
 
 from harness import FFD, SECONDS, case, check, main
@@ -12,7 +13,7 @@ from harness import FFD, SECONDS, case, check, main
 DATA = os.environ["FFD_DATA"]
 FILES = {"cow.obj": "models/spot.obj", "robot.glb": "models/character.glb", "vase.obj": "models/vase.obj",
          "old.obj": "models/vase.obj", "new.obj": "models/vase.obj", "column.obj": "models/column.obj",
-         "bend.json": "lattices/bend.json", "twist.json": "lattices/twist.json"}
+         "knight.glb": "models/knight.glb", "tall.json": "lattices/taller.json", "bend.json": "lattices/bend.json", "twist.json": "lattices/twist.json"}
 
 
 def commands(run):
@@ -36,6 +37,14 @@ def write_batch(work):
     with open(os.path.join(work, "jobs.jsonl"), "w", encoding="ascii") as file:
         for name in ("cow.obj", "vase.obj"):
             file.write(json.dumps({"in": name, "lattice": "bend.json", "out": "bent-" + name}) + "\n")
+    with open(os.path.join(work, "swept.json"), "w", encoding="ascii") as file:
+        json.dump({"format": "ffd-lattice", "version": 1, "size": [4, 4, 6], "rest": {"box": "mesh"},
+                   "moves": [{"twist": {"axis": "y", "degrees": {"$": "SWEEP"}}}]}, file)
+    with open(os.path.join(work, "vase.obj"), encoding="ascii") as file:
+        numbers = 3 * sum(line.startswith("v ") for line in file)
+    head = f"{{'descr': '<f8', 'fortran_order': False, 'shape': ({numbers},), }}\n".encode()
+    with open(os.path.join(work, "dFdX.npy"), "wb") as file:
+        file.write(b"\x93NUMPY\x01\x00" + struct.pack("<H", len(head)) + head + bytes(8 * numbers))
     os.mkdir(os.path.join(work, "out"))
     os.mkdir(os.path.join(work, "meshes"))
     for name in ("cow.obj", "column.obj"):

@@ -237,7 +237,8 @@ def wild_04_splat_ply(run):
     check(run.read("splat.ply") != run.read("out.ply"), "they turn")
     rows = [[float(x) for x in line.split()] for line in run.text("out.ply").partition("end_header\n")[2].splitlines()]
     near([row[:3] for row in rows], [[0, 1, 0], [0, 2, 0]], 1e-6)
-    equal([row[6:] for row in rows], [[.1, .1, .1, 1, -1, -4, -4, 1, 0, 0, 0]] * 2)
+    equal([row[6:13] for row in rows], [[.1, .1, .1, 1, -1, -4, -4]] * 2, "colour, opacity and scales")
+    near([row[13:] for row in rows], [[.5 ** .5, 0, 0, .5 ** .5]] * 2, 1e-6, "rotations")
 
 
 @case
