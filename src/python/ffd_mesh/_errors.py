@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from ._declarations import ENUMERATIONS
 
 _STATUS: dict[str, int] = ENUMERATIONS["ffd_status"]
@@ -24,11 +26,12 @@ class Error(Exception):
         self.status = type(self).status if status is None else status
         self.message, self.file, self.line, self.pointer = message, file, line, pointer
 
-    def __reduce__(self):
+    def __reduce__(self) -> Any:
         return _again, (type(self), self.message, self.status, self.file, self.line, self.pointer, self.__dict__)
 
 
-def _again(kind, message, status, file, line, pointer, members):
+def _again(kind: type[Error], message: str, status: int, file: str | None, line: int | None, pointer: str | None,
+           members: dict[str, Any]) -> Error:
     error = kind(message, status=status, file=file, line=line, pointer=pointer)
     error.__dict__.update(members)
     return error
@@ -84,9 +87,10 @@ for _name, _kind in {
     _KINDS[_kind.status] = _kind
 
 
-def failure(status: int, error) -> Error:
+def failure(status: int, error: Any) -> Error:
     """The exception for a status and what ffd_error has."""
     def text(data: bytes) -> str:
+        """A member of ffd_error."""
         return data.decode("utf-8", "backslashreplace")
     return _KINDS.get(status, Error)(text(error.message), status=status, file=text(error.file) or None,
                                      line=error.line or None, pointer=text(error.pointer) or None)

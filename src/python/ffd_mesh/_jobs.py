@@ -110,9 +110,9 @@ def _texts(value: Any, what: str) -> Any:
 
 
 def _set_snap(desc: Any, value: Any) -> None:
-    """A length, or a text "0.1%": a part of the rest lattice's diagonal."""
-    relative = isinstance(value, str) and value.endswith("%")
-    desc.snap = float(value[:-1]) / 100 if relative else float(value)
+    """A length, or a text "0.001r": a part of the rest lattice's diagonal."""
+    relative = isinstance(value, str) and value.endswith("r")
+    desc.snap = float(value[:-1] if relative else value)
     desc.snap_relative = relative
 
 
@@ -203,7 +203,7 @@ def deform_file(source: Any, output: Any, lattices: Any, **options: Any) -> Resu
 
     source, output: paths; output None: in place. lattices: a `Lattice` or a path, or several, in their order
     options, as those of the program (data/reference.md):
-      set={"NAME": value}, outside="keep" | "extend" | "error", falloff=, snap=LENGTH or "0.1%", blocks=True,
+      set={"NAME": value}, outside="keep" | "extend" | "error", falloff=, snap=LENGTH or "0.001r", blocks=True,
       normals="transform" | "keep" | "recompute", as_morph="NAME", only=["node:NAME"], embedding="uvw.npy",
       fail_on=["folds", "tear=0.1"], quality=True (fills the figures of `check_file`), space="scene" | "mesh",
       resources="copy" | "reference", force=True (replace the output), if_changed=True, dry_run=True, threads=,

@@ -119,7 +119,7 @@ class Lattice:
         owned = Owned(lib.ffd_lattice_destroy)
         call(make, *arguments, ctypes.byref(owned.pointer))
         self = cls.__new__(cls)
-        self._owned, self._parameters = owned, parameters
+        self._owned, self._parameters, self._bounds = owned, parameters, None
         size, degree = (ctypes.c_size_t * 3)(), (ctypes.c_int * 3)()
         lib.ffd_lattice_get_size(owned.pointer, size)
         lib.ffd_lattice_get_degree(owned.pointer, degree)
@@ -252,7 +252,7 @@ class Lattice:
     @property
     def needs_points(self) -> bool:
         """Whether its box goes round a mesh that is not known yet: see `fit`."""
-        return lib.ffd_lattice_needs_bounds(self._pointer)
+        return not lib.ffd_lattice_get_points(self._pointer, REST)
 
     @property
     def parameters(self) -> dict[str, Parameter]:
@@ -273,16 +273,20 @@ class Lattice:
     # -- others like it
 
     def fit(self, points: Any) -> Lattice:
-        """This lattice round the finite ones of points (N, 3), where its box goes round a mesh; else this one."""
+        """This lattice round the finite ones of points (N, 3), where its file has the box "mesh"; else this one. Its text and
+        file have that box still: `deform_file` lays it round the mesh of the file."""
         points = arrays.vectors(points, "points")
-        if not self.needs_points:
+        if not lib.ffd_lattice_needs_bounds(self._pointer):
             return self
         finite = points[np.isfinite(points).all(axis=1)]
         if not len(finite):
             raise ValueError("points has no finite point")
+        return self._fit(np.array([finite.min(axis=0), finite.max(axis=0)], np.float64))
+
+    def _fit(self, bounds: np.ndarray) -> Lattice:
         copy = self._copy()
-        low, high = (np.ascontiguousarray(edge, np.float64) for edge in (finite.min(axis=0), finite.max(axis=0)))
-        call(lib.ffd_lattice_fit, copy._pointer, arrays.address(low), arrays.address(high))
+        call(lib.ffd_lattice_fit, copy._pointer, arrays.address(bounds[0]), arrays.address(bounds[1]))
+        copy._bounds = bounds
         return copy
 
     def moved(self, Q: Any = None, *, offsets: Any = None, weights: Any = None) -> Lattice:
@@ -439,7 +443,7 @@ class Lattice:
         return self
 
     def __reduce__(self) -> Any:
-        return Lattice.parse, (self.text,)
+        return _again, (self.text, self._bounds, None if self.needs_points else self.offsets)
 
     # -- inside
 
@@ -465,7 +469,9 @@ class Lattice:
         return self._controls(where) if where else None
 
     def _copy(self) -> Lattice:
-        return Lattice._new(lib.ffd_lattice_copy, self._pointer, parameters=self._parameters)
+        copy = Lattice._new(lib.ffd_lattice_copy, self._pointer, parameters=self._parameters)
+        copy._bounds = self._bounds
+        return copy
 
     def _columns(self) -> np.ndarray:
         """The library's number of a control point -> Python's."""
@@ -498,6 +504,12 @@ class Lattice:
         if points is not None and not arrays.same_place(source, out) and arrays.overlap(source, out):
             raise ValueError("out and points overlap and are not the same array")
         return source, out
+
+
+def _again(text: str, bounds: np.ndarray | None, offsets: np.ndarray | None) -> Lattice:
+    """A pickled lattice."""
+    lattice = Lattice.parse(text)
+    return lattice if bounds is None else lattice._fit(bounds).moved(offsets=offsets)
 
 
 def _shape(size: Any, degree: Any) -> tuple[list[int], list[int]]:
