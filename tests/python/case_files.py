@@ -37,13 +37,14 @@ class Files(unittest.TestCase):
         self.assertTrue(filecmp.cmp("ours.obj", "theirs.obj", shallow=False))
         self.assertEqual((result.vertices, result.moved, sum(result.counts.values())), (11533, 11533, 11533))
         self.assertIsNone(result.folds)
+        self.assertEqual(ffd.deform_file(SPOT, "ours.obj", TWIST, force=True, quality=True).folds.verdict, "none")
 
     def test_options_are_those_of_the_program(self):
         lattice = part_of_spot()
         lattice.save("part.json", force=True)
         model = os.path.join(support.DATA, "models", "character.glb")
         for words, options in ((["--outside", "extend", "--falloff", "0.5"], {"outside": "extend", "falloff": 0.5}),
-                               (["--snap", "0.01r", "--quality"], {"snap": "0.01r", "quality": True}),
+                               (["--snap", "0.01r"], {"snap": "0.01r"}),
                                (["--as-morph", "wide", "--space", "mesh"], {"as_morph": "wide", "space": "mesh"}),
                                (["--only", "node:arm-left", "--resources", "reference"],
                                 {"only": "node:arm-left", "resources": "reference"})):

@@ -71,9 +71,11 @@ class Declarations(unittest.TestCase):
 
 
 class Pages(unittest.TestCase):
-    def test_the_page_runs(self):
-        with open(os.path.join(support.DATA, "python.md"), encoding="utf-8") as file:
-            blocks = re.findall(r"^```python\n(.*?)^```$", file.read(), re.M | re.S)
+    def test_the_pages_run(self):
+        blocks = []
+        for page in ("README.md", "data/python.md"):
+            with open(os.path.join(support.SOURCE, page), encoding="utf-8") as file:
+                blocks += re.findall(r"^```python\n(.*?)^```$", file.read(), re.M | re.S)
         self.assertGreater(len(blocks), 4)
         with tempfile.TemporaryDirectory() as folder:
             shutil.copytree(support.DATA, os.path.join(folder, "data"))
