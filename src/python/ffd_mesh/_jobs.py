@@ -40,7 +40,7 @@ class Result:
 
     def __init__(self, found: Any, warnings: list[str]) -> None:
         for name, kind in found._fields_:
-            if name not in ("status", "error", "picture"):
+            if name not in ("struct_size", "status", "error", "picture"):
                 self.__dict__[name] = _plain(getattr(found, name))
         words = [word.removeprefix("point_") for word in library.WORDS["ffd_vertex_status"]]
         self.counts = dict(zip(words, found.counts))
@@ -132,7 +132,7 @@ def _set_gates(desc: Any, value: Any) -> None:
 
 
 # Option -> enumeration, and whether it is the input's.
-_ENUMERATIONS = {"outside": "ffd_outside", "normals": "ffd_normals", "resources": "ffd_resources", "isa": "ffd_isa",
+_ENUMERATIONS = {"outside": "ffd_outside", "normals": "ffd_normals", "resources": "ffd_resources", "rig": "ffd_rig", "isa": "ffd_isa",
                  "output_format": "ffd_format"}
 _INPUT_ENUMERATIONS = {"input_format": ("format", "ffd_format"), "space": ("space", "ffd_space")}
 _SWITCHES = ("blocks", "quality", "force", "if_changed", "dry_run")
@@ -183,7 +183,7 @@ def _set_options(desc: Any, options: dict[str, Any]) -> list[Any]:
 
 
 def _run(function: Any, desc: Any, warnings: list[str]) -> Any:
-    result, error = declared.ffd_job_result(), declared.ffd_error()
+    result, error = library.empty("ffd_job_result"), declared.ffd_error()
     status = function(ctypes.byref(desc), ctypes.byref(result), ctypes.byref(error))
     return result, (failure(status, error) if status else None)
 
@@ -206,7 +206,7 @@ def deform_file(source: Any, output: Any, lattices: Any, **options: Any) -> Resu
       set={"NAME": value}, outside="keep" | "extend" | "error", falloff=, snap=LENGTH or "0.001r", blocks=True,
       normals="transform" | "keep" | "recompute", as_morph="NAME", only=["node:NAME"], embedding="uvw.npy",
       fail_on=["folds", "tear=0.1"], quality=True (fills the figures of `check_file`), space="scene" | "mesh",
-      resources="copy" | "reference", force=True (replace the output), if_changed=True, dry_run=True, threads=,
+      resources="copy" | "reference", rig="keep" | "follow", force=True (replace the output), if_changed=True, dry_run=True, threads=,
       memory=BYTES, strict=True, allow_extensions=["NAME"], input_format="ply", output_format="glb", isa="auto"
     """
     with _described(source, lattices, options) as (desc, warnings):

@@ -376,7 +376,7 @@ class Lattice:
         weights: deformed ones (nu, nv, nw); None: this lattice's. Rows of points that do not move are empty.
         """
         self._check_same(embedding)
-        matrix = declared.ffd_csr()
+        matrix = library.empty("ffd_csr")
         kept = self._weights_for_library(weights)
         try:
             Run(threads, isa, progress)(lib.ffd_embedding_basis, embedding._pointer,
@@ -429,7 +429,7 @@ class Lattice:
     def folds(self, Q: Any = None, *, offsets: Any = None, weights: Any = None, threads: int = 0) -> Folds:
         """Whether the deformed volume folds anywhere: a proof over the whole volume. Q, ..: as `moved` takes them."""
         lattice = self.moved(Q, offsets=offsets, weights=weights)
-        found = declared.ffd_folds()
+        found = library.empty("ffd_folds")
         call(lib.ffd_folds_find, lattice._pointer, library.integer(threads, "threads"), ctypes.byref(found))
         return folds_of(found)
 

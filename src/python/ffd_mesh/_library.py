@@ -56,6 +56,14 @@ def text(data: bytes | None) -> str | None:
     return None if data is None else data.decode("utf-8", "backslashreplace")
 
 
+def empty(name: str) -> Any:
+    """A structure for results; those that know their size have it."""
+    structure = getattr(declared, name)()
+    if hasattr(structure, "struct_size"):
+        structure.struct_size = ctypes.sizeof(structure)
+    return structure
+
+
 def filled(name: str) -> Any:
     """A structure with the library's defaults."""
     structure = getattr(declared, name)()
