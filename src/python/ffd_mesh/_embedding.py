@@ -31,6 +31,7 @@ class Embedding:
 
     lattice: Lattice
     points: np.ndarray
+    _owned: Owned
 
     def __init__(self) -> None:
         raise TypeError("use Lattice.embed")

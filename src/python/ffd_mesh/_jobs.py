@@ -8,7 +8,7 @@ import json
 import logging
 import os
 import tempfile
-from typing import Any, Iterator, Mapping, Sequence
+from typing import Any, Iterator, Mapping, Sequence, Union
 
 from . import _declarations as declared
 from . import _library as library
@@ -20,8 +20,7 @@ _LOG = logging.getLogger("ffd_mesh")
 _LOG.addHandler(logging.NullHandler())
 _LEVELS = {0: logging.WARNING, 1: logging.INFO, 2: logging.DEBUG}
 
-Path = "str | os.PathLike[str]"
-Lattices = "Lattice | str | os.PathLike[str] | Sequence[Lattice | str | os.PathLike[str]]"
+Path = Union[str, "os.PathLike[str]"]
 
 
 class Result:
@@ -37,6 +36,8 @@ class Result:
     folds: Folds | None
     vertices: int
     moved: int
+    behind: Any
+    flaws: Any
 
     def __init__(self, found: Any, warnings: list[str]) -> None:
         for name, kind in found._fields_:
@@ -182,7 +183,7 @@ def _set_options(desc: Any, options: dict[str, Any]) -> list[Any]:
     return kept
 
 
-def _run(function: Any, desc: Any, warnings: list[str]) -> Any:
+def _run(function: Any, desc: Any) -> tuple[Any, Error | None]:
     result, error = library.empty("ffd_job_result"), declared.ffd_error()
     status = function(ctypes.byref(desc), ctypes.byref(result), ctypes.byref(error))
     return result, (failure(status, error) if status else None)
@@ -198,7 +199,7 @@ def _finish(found: Any, raised: Error | None, warnings: list[str]) -> Result:
     raise raised
 
 
-def deform_file(source: Any, output: Any, lattices: Any, **options: Any) -> Result:
+def deform_file(source: Path, output: Path | None, lattices: Lattice | Path | Sequence[Lattice | Path], **options: Any) -> Result:
     """Deforms a mesh file as `ffd deform` does; the output is complete or absent.
 
     source, output: paths; output None: in place. lattices: a `Lattice` or a path, or several, in their order
@@ -214,19 +215,19 @@ def deform_file(source: Any, output: Any, lattices: Any, **options: Any) -> Resu
             desc.in_place = True
         else:
             desc.output = os.fsencode(output)
-        found, raised = _run(lib.ffd_deform_run, desc, warnings)
+        found, raised = _run(lib.ffd_deform_run, desc)
     return _finish(found, raised, warnings)
 
 
-def check_file(source: Any, lattices: Any, **options: Any) -> Result:
+def check_file(source: Path, lattices: Lattice | Path | Sequence[Lattice | Path], **options: Any) -> Result:
     """Everything that `deform_file` does but the writing, with all figures: folds, flipped faces, torn edges, .. Options as
     there; fail_on raises `GateError`, which has the result."""
     with _described(source, lattices, options) as (desc, warnings):
-        found, raised = _run(lib.ffd_check_run, desc, warnings)
+        found, raised = _run(lib.ffd_check_run, desc)
     return _finish(found, raised, warnings)
 
 
-def info(path: Any, *, parts: bool = False, set: Mapping[str, Any] | None = None) -> dict[str, Any]:
+def info(path: Path, *, parts: bool = False, set: Mapping[str, Any] | None = None) -> dict[str, Any]:
     """Describes a mesh or lattice file, as `ffd info --json` does. parts: the names that only= can have; set: values for the
     placeholders of a lattice."""
     desc = library.filled("ffd_info_desc")

@@ -108,6 +108,12 @@ class Lattice:
     the C library have u fastest.) World units are those of the points.
     """
 
+    _owned: Owned
+    _parameters: tuple[Parameter, ...]
+    _bounds: np.ndarray | None  # that it was fitted to
+    _size: tuple[int, int, int]
+    _degree: tuple[int, int, int]
+
     def __init__(self) -> None:
         raise TypeError("use Lattice.around, .load, .parse, .box or .from_points")
 
@@ -123,7 +129,7 @@ class Lattice:
         size, degree = (ctypes.c_size_t * 3)(), (ctypes.c_int * 3)()
         lib.ffd_lattice_get_size(owned.pointer, size)
         lib.ffd_lattice_get_degree(owned.pointer, degree)
-        self._size, self._degree = tuple(size), tuple(degree)
+        self._size, self._degree = (size[0], size[1], size[2]), (degree[0], degree[1], degree[2])
         return self
 
     @classmethod
@@ -201,10 +207,11 @@ class Lattice:
     @property
     def size(self) -> tuple[int, int, int]:
         """(nu, nv, nw)"""
-        return self._size  # type: ignore[return-value]
+        return self._size
 
     @property
     def degree(self) -> tuple[int, int, int]:
+        """The degrees of u, v, w."""
         return self._degree  # type: ignore[return-value]
 
     @property
@@ -566,12 +573,12 @@ def _directions(run: Run, out: np.ndarray, gradients: np.ndarray, normals: Any, 
 
 def _csr(values: np.ndarray, columns: np.ndarray, starts: np.ndarray, shape: tuple[int, int]) -> Any:
     """The matrix with its columns ascending in each row."""
-    rows = np.repeat(np.arange(shape[0]), np.diff(starts.astype(np.int64)))
+    rows = np.repeat(np.arange(shape[0]), np.diff(starts).astype(np.intp))
     order = np.lexsort((columns, rows))
     kind = np.int32 if max(len(values), *shape) < 2**31 else np.int64
     parts = (values[order], columns[order].astype(kind), starts.astype(kind))
     try:
-        from scipy.sparse import csr_array
+        from scipy.sparse import csr_array  # type: ignore[import-untyped]
     except ImportError:
         return Csr(*parts, shape)
     return csr_array(parts, shape=shape)

@@ -75,5 +75,6 @@ def _deform_pyvista(mesh: Any, lattice: Lattice, normals: bool, embed: dict[str,
     copy = mesh.copy(deep=True)
     copy.points = found
     if name:
-        copy.point_data.active_normals = carried
+        copy.point_data[name] = carried
+        copy.point_data.active_normals_name = name
     return copy
