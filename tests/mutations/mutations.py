@@ -1146,7 +1146,7 @@ m("columns-in-c-order", "order", "python_package", "self._columns()[indices]", "
 m("read-only-written", "check left out", "python_package", "if not array.flags.writeable:", "if not array.flags.writeable and len(array) == 0:")
 m("embedded-points-written", "check left out", "python_package", "if arrays.overlap(out, embedding.points):",
   "if out is None:")
-m("handle-not-freed", "freed resource", "python_package", "if self.pointer: self._destroy(ctypes.byref(self.pointer))", "self.freed = True")
+m("handle-not-freed", "freed resource", "python_package", "if self.pointer: self._destroy(byref(self.pointer))", "self.freed = True")
 m("other-threads-wait", "lock", "python_package", "ctypes.CDLL(_native.__file__)", "ctypes.PyDLL(_native.__file__)")
 m("repeated-rows-as-packed", "check left out", "python_package", "return array.copy() if _repeats(array) else array", "return array")
 m("fit-lost-in-pickle", "member left out", "python_package", "return _again, (self.text, self._bounds,", "return _again, (self.text, None,")

@@ -66,6 +66,24 @@ class Files(unittest.TestCase):
         self.assertEqual(caught.exception.status, -1)
         self.assertTrue(ffd.check_file(SPOT, part_of_spot()).warnings)
 
+    def test_derivatives_of_files_are_those_of_arrays(self):
+        from scipy import sparse
+        lattice, points = part_of_spot(), support.rng("jacobian").uniform(-0.5, 0.5, (60, 3))
+        with open("cloud.ply", "wb") as file:
+            file.write(support.ply(points))
+        found = ffd.jacobian_file("cloud.ply", "j.npz", lattice, check=True)
+        embedding = lattice.embed(points)
+        B = lattice.basis(embedding)
+        self.assertEqual((found["vertices"], found["rows"], found["columns"], found["entries"]), (60, *B.shape, B.nnz))
+        self.assertLess(found["worst"], 1e-6)
+        columns = np.arange(125).reshape(5, 5, 5).transpose(2, 1, 0).ravel()  # u fastest in files
+        theirs = sparse.load_npz("j.npz").toarray()
+        self.assertEqual(theirs.tobytes(), B.toarray()[:, columns].tobytes())
+        with self.assertRaises(ffd.ExistsError):
+            ffd.jacobian_file("cloud.ply", "j.npz", lattice)
+        with self.assertRaisesRegex(ValueError, "'points', 'parameters'"):
+            ffd.jacobian_file("cloud.ply", "k.npz", lattice, by="weights")
+
     def test_failures_of_files(self):
         lattice = part_of_spot()
         with open("there.obj", "w", encoding="ascii") as file:

@@ -70,6 +70,15 @@ class Declarations(unittest.TestCase):
         self.assertEqual(meta["Version"], ffd.__version__)
 
 
+    def test_arrays_need_no_other_library(self):
+        script = ("import sys, numpy as np, ffd_mesh as ffd; lattice = ffd.Lattice.box((0, 0, 0), (1, 1, 1)); "
+                  "points = np.random.default_rng(1).random((10, 3)); lattice.deform(lattice.embed(points), lattice.rest + 1); "
+                  "print(open('/proc/self/maps').read())")
+        maps = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout
+        self.assertIn("_native.abi3.so", maps)
+        self.assertIsNone(re.search("OpenMesh|libpng|libjpeg|draco|meshopt|tinygltf", maps))
+
+
 class Pages(unittest.TestCase):
     def test_the_pages_run(self):
         blocks = []

@@ -16,8 +16,6 @@ from ._errors import Error, GateError, failure
 from ._lattice import Folds, Lattice, folds_of, settings
 from ._library import lib
 
-_LOG = logging.getLogger("ffd_mesh")
-_LOG.addHandler(logging.NullHandler())
 _LEVELS = {0: logging.WARNING, 1: logging.INFO, 2: logging.DEBUG}
 
 Path = Union[str, "os.PathLike[str]"]
@@ -81,7 +79,7 @@ def _described(source: Any, lattices: Any, options: dict[str, Any]) -> Iterator[
             yield desc, warnings
         finally:
             for level, line in lines:
-                _LOG.log(_LEVELS.get(level, logging.DEBUG), "%s", line)
+                library.LOG.log(_LEVELS.get(level, logging.DEBUG), "%s", line)
                 if level == 0:
                     warnings.append(line)
     del kept
@@ -227,6 +225,29 @@ def check_file(source: Path, lattices: Lattice | Path | Sequence[Lattice | Path]
     return _finish(found, raised, warnings)
 
 
+def jacobian_file(source: Path, output: Path, lattices: Lattice | Path | Sequence[Lattice | Path], *, by: str = "points",
+                  components: bool = False, of: int | None = None, times: Path | None = None, transposed: Path | None = None,
+                  check: bool = False, **options: Any) -> dict[str, Any]:
+    """Writes the derivative of a file's positions, as `ffd jacobian` does: by control points, u fastest, or by="parameters", the
+    placeholders of their moves. Returns rows, columns, entries, vertices, moving, and with check worst.
+
+    output: .npz (scipy.sparse.load_npz), .mtx or .npy. times, transposed: an .npy that is multiplied instead, output an .npy
+    of: the lattice of several, from 0; None: the last. options: those of `deform_file` that positions depend on, and force
+    """
+    desc, result = library.filled("ffd_jacobian_desc"), library.empty("ffd_jacobian_result")
+    desc.output, desc.by = os.fsencode(output), library.number_of("ffd_jacobian_by", by, "by")
+    desc.components, desc.check = bool(components), bool(check)
+    if of is not None:
+        desc.of = library.integer(of, "of")
+    desc.times, desc.transposed = (None if path is None else os.fsencode(path) for path in (times, transposed))
+    with _described(source, lattices, options) as (job, _):
+        desc.job = ctypes.pointer(job)
+        library.call(lib.ffd_jacobian_run, ctypes.byref(desc), ctypes.byref(result))
+    found = _plain(result)
+    del found["struct_size"]
+    return found if check else {name: value for name, value in found.items() if name != "worst"}
+
+
 def info(path: Path, *, parts: bool = False, set: Mapping[str, Any] | None = None) -> dict[str, Any]:
     """Describes a mesh or lattice file, as `ffd info --json` does. parts: the names that only= can have; set: values for the
     placeholders of a lattice."""
@@ -242,5 +263,5 @@ def info(path: Path, *, parts: bool = False, set: Mapping[str, Any] | None = Non
     finally:
         lib.ffd_text_free(text)
         for level, line in lines:
-            _LOG.log(_LEVELS.get(level, logging.DEBUG), "%s", line)
+            library.LOG.log(_LEVELS.get(level, logging.DEBUG), "%s", line)
     return found

@@ -568,6 +568,8 @@ def _directions(run: Run, out: np.ndarray, gradients: np.ndarray, normals: Any, 
         elif len(out):
             run(lib.ffd_tangents_deform, arrays.address(gradients), packed if made[0] is None else arrays.span(made[0]), *spans)
         total += collapsed.value
+        if collapsed.value:
+            library.LOG.warning("%d %s have no direction any more, and keep theirs", collapsed.value, what)
     return Deformed(out, made[0], made[1], gradients if wanted else None, total)
 
 

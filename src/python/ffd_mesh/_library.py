@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import logging
 import operator
 from typing import Any, Callable
 
@@ -11,6 +12,9 @@ from . import _native  # type: ignore[attr-defined]
 from ._errors import Cancelled, failure
 
 Progress = Callable[[float], "bool | None"]
+
+LOG = logging.getLogger("ffd_mesh")
+LOG.addHandler(logging.NullHandler())
 
 _LIBRARY = ctypes.CDLL(_native.__file__)
 for _name, (_result, _arguments) in declared.FUNCTIONS.items():
@@ -127,9 +131,10 @@ class Owned:
         self.pointer = ctypes.c_void_p()
         self._destroy = destroy
 
-    def __del__(self) -> None:
+    # At the end of the interpreter the module may be gone before its last object.
+    def __del__(self, byref: Any = ctypes.byref) -> None:
         if self.pointer:
-            self._destroy(ctypes.byref(self.pointer))
+            self._destroy(byref(self.pointer))
 
 
 def take_bytes(pointer: ctypes.c_void_p, size: int) -> bytes:
