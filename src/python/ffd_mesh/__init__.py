@@ -13,9 +13,10 @@ from ._embedding import Embedding, Status
 from ._errors import (ArgumentError, Cancelled, EmbeddingError, Error, ExistsError, FileError, GateError, InvalidError,
                       LimitError, OutOfMemoryError, UnsupportedError)
 from ._jobs import Result, check_file, deform_file, info, jacobian_file
-from ._lattice import Csr, Deformed, Folds, Lattice, Parameter, parameters
+from ._lattice import Lattice
 from ._library import lib as _lib
 from ._meshes import deform_mesh
+from ._values import Csr, Deformed, Folds, Parameter, parameters
 
 __version__: str = _lib.ffd_version().decode()
 

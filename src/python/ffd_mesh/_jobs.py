@@ -13,8 +13,9 @@ from typing import Any, Iterator, Mapping, Sequence, Union
 from . import _declarations as declared
 from . import _library as library
 from ._errors import Error, GateError, failure
-from ._lattice import Folds, Lattice, folds_of, settings
+from ._lattice import Lattice
 from ._library import lib
+from ._values import Folds, folds_of, settings
 
 _LEVELS = {0: logging.WARNING, 1: logging.INFO, 2: logging.DEBUG}
 

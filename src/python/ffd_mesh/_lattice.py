@@ -5,8 +5,7 @@ from __future__ import annotations
 import ctypes
 import json
 import os
-from dataclasses import dataclass
-from typing import Any, Mapping, NamedTuple
+from typing import Any, Mapping
 
 import numpy as np
 
@@ -15,90 +14,9 @@ from . import _declarations as declared
 from . import _library as library
 from ._embedding import Embedding
 from ._library import Owned, Progress, Run, call, lib
+from ._values import Deformed, Folds, Parameter, csr, described, folds_of, parameters, parameters_of, settings, shape_of, three, vertices_of
 
 REST, DEFORMED = declared.ENUMERATIONS["ffd_volume"].values()
-
-
-class Parameter(NamedTuple):
-    """A placeholder of a lattice file, as the file declares it. default: None where there is none."""
-
-    name: str
-    default: Any
-    unit: str | None
-    comment: str | None
-    min: float
-    max: float
-
-
-class Deformed(NamedTuple):
-    """What `Lattice.deform` returns where more than points is asked for; None for what was not.
-
-    points: (N, 3); normals, tangents: (N, 3); gradients: (N, 3, 3) float64, d displacement_r / d p_c
-    collapsed: how many normals and tangents have no direction any more, and keep theirs
-    """
-
-    points: np.ndarray
-    normals: np.ndarray | None = None
-    tangents: np.ndarray | None = None
-    gradients: np.ndarray | None = None
-    collapsed: int = 0
-
-
-class Csr(NamedTuple):
-    """A sparse matrix by rows, where scipy is not installed: the entries of row i are indptr[i] to indptr[i+1]-1."""
-
-    data: np.ndarray
-    indices: np.ndarray
-    indptr: np.ndarray
-    shape: tuple[int, int]
-
-
-@dataclass(frozen=True)
-class Folds:
-    """What is proven of a deformed volume (ffd/fold.h). verdict: "none", "some", or "unknown".
-
-    cells, folded_cells, unknown_cells: span cells
-    min_det: a lower bound of the determinant, relative to the mean at rest
-    witness_uvw, witness_xyz, witness_rest: (3,) of a place that folds, and witness_det there; None without one
-    """
-
-    verdict: str
-    cells: int
-    folded_cells: int
-    unknown_cells: int
-    min_det: float
-    witness_uvw: np.ndarray | None
-    witness_xyz: np.ndarray | None
-    witness_rest: np.ndarray | None
-    witness_det: float | None
-
-
-def folds_of(found: Any) -> Folds:
-    """Folds of the library's ffd_folds."""
-    has = found.has_witness
-    uvw, xyz, rest = (np.array(v) if has else None for v in (found.witness_uvw, found.witness_xyz, found.witness_rest))
-    return Folds(library.NAMES["ffd_fold_verdict"][found.verdict], found.cells, found.folded_cells, found.unknown_cells,
-                 found.min_det, uvw, xyz, rest, found.witness_det if has else None)
-
-
-def settings(values: Mapping[str, Any] | None) -> tuple[Any, int]:
-    """Values of placeholders as ffd_setting; texts as they are, all else as JSON."""
-    items = list((values or {}).items())
-    made = (declared.ffd_setting * len(items))()
-    for setting, (name, value) in zip(made, items):
-        value = value.tolist() if isinstance(value, (np.ndarray, np.generic)) else value
-        setting.name = name.encode()
-        setting.value = (value if isinstance(value, str) else json.dumps(value)).encode()
-    return made, len(items)
-
-
-def _three(value: Any, what: str) -> tuple[Any, Any, Any]:
-    """One value for all of u, v, w, or one for each."""
-    if isinstance(value, (list, tuple, np.ndarray)):
-        if len(value) != 3:
-            raise ValueError(f"{what} must be one value, or three, not {len(value)}")
-        return tuple(value)  # type: ignore[return-value]
-    return value, value, value
 
 
 class Lattice:
@@ -145,10 +63,10 @@ class Lattice:
         desc = library.filled("ffd_lattice_desc")
         desc.shape = library.number_of("ffd_lattice_shape", shape, "shape")
         desc.spacing = library.number_of("ffd_spacing", spacing, "spacing")
-        desc.size[:], desc.degree[:] = _shape(size, degree)
-        desc.knots[:] = [library.number_of("ffd_knots", word, "knots") for word in _three(knots, "knots")]
-        desc.margin[:] = [float(value) for value in _three(margin, "margin")]
-        desc.axis[:] = [float(value) for value in _three(axis, "axis")]
+        desc.size[:], desc.degree[:] = shape_of(size, degree)
+        desc.knots[:] = [library.number_of("ffd_knots", word, "knots") for word in three(knots, "knots")]
+        desc.margin[:] = [float(value) for value in three(margin, "margin")]
+        desc.axis[:] = [float(value) for value in three(axis, "axis")]
         desc.principal = bool(principal)
         xyz = np.ascontiguousarray(arrays.vectors(points, "points"), dtype=np.float64)
         return cls._new(lib.ffd_lattice_create, ctypes.byref(desc), arrays.address(xyz), len(xyz))
@@ -169,7 +87,7 @@ class Lattice:
     def parse(cls, text: str | bytes | dict[str, Any], name: str = "lattice") -> Lattice:
         """A lattice of the text of a file, or of what json.loads makes of it. Failures have the name as their file."""
         data = json.dumps(text).encode() if isinstance(text, dict) else text.encode() if isinstance(text, str) else bytes(text)
-        found = _parameters(data, name)
+        found = parameters_of(data, name)
         return cls._new(lib.ffd_lattice_parse, data, len(data), name.encode(), parameters=tuple(found.values()))
 
     @classmethod
@@ -178,7 +96,7 @@ class Lattice:
 
         axes: (3, 3), orthogonal unit vectors row by row, along which low and high are measured; None: x, y, z
         """
-        made, kept = _described(size, degree, knots)
+        made, kept = described(size, degree, knots)
         made.box_min[:], made.box_max[:] = arrays.doubles(low, "low", (3,)), arrays.doubles(high, "high", (3,))
         if axes is not None:
             made.axes[:] = arrays.doubles(axes, "axes", (3, 3)).ravel()
@@ -194,7 +112,7 @@ class Lattice:
         shape = np.shape(points)
         if len(shape) != 4 or shape[3] != 3:
             raise ValueError(f"points must have the shape (nu, nv, nw, 3), not {shape}")
-        made, kept = _described(shape[:3], degree, knots)
+        made, kept = described(shape[:3], degree, knots)
         rest = arrays.to_library(arrays.doubles(points, "points", shape))
         made.rest = arrays.address(rest)
         if weights is not None:
@@ -366,7 +284,7 @@ class Lattice:
         if vertices is None:
             run(lib.ffd_embedding_deform, embedding._pointer, lattice._pointer, *arguments)
         else:
-            listed = _vertices(vertices, count)
+            listed = vertices_of(vertices, count)
             run(lib.ffd_embedding_deform_some, embedding._pointer, lattice._pointer, arrays.address(listed), len(listed),
                 *arguments)
         if found is None:
@@ -395,7 +313,7 @@ class Lattice:
             values = np.array(arrays.lent(None, matrix.values, (count,), np.float64))
         finally:
             lib.ffd_csr_free(ctypes.byref(matrix))
-        return _csr(values, self._columns()[indices], starts, (rows, columns))
+        return csr(values, self._columns()[indices], starts, (rows, columns))
 
     def basis_times(self, embedding: Embedding, D: Any, *, weights: Any = None, threads: int = 0, isa: str = "auto",
                     progress: Progress | None = None) -> np.ndarray:
@@ -519,38 +437,6 @@ def _again(text: str, bounds: np.ndarray | None, offsets: np.ndarray | None) -> 
     return lattice if bounds is None else lattice._fit(bounds).moved(offsets=offsets)
 
 
-def _shape(size: Any, degree: Any) -> tuple[list[int], list[int]]:
-    sizes = [library.integer(value, "size", 1, 2**62) for value in _three(size, "size")]
-    degrees = [0 if value is None else library.integer(value, "degree", 1, 9) for value in _three(degree, "degree")]
-    return sizes, degrees
-
-
-def _described(size: Any, degree: Any, knots: Any) -> tuple[Any, list[np.ndarray]]:
-    """An ffd_lattice_arrays, and the arrays that it points to."""
-    made, kept = library.filled("ffd_lattice_arrays"), []
-    made.size[:], made.degree[:] = _shape(size, degree)
-    one = isinstance(knots, str) or isinstance(knots, tuple) and len(knots) == 2 and knots[0] == "closed"
-    for direction, knot in enumerate((knots,) * 3 if one else _three(knots, "knots")):
-        word, values = (knot, None) if isinstance(knot, str) else knot if isinstance(knot, tuple) and knot[0] == "closed" \
-            else ("default", knot)
-        made.knots[direction] = library.number_of("ffd_knots", word, "knots")
-        if values is not None:
-            kept.append(arrays.doubles(values, "knots", (len(values),)))
-            made.knot_values[direction] = arrays.address(kept[-1])
-            made.knot_count[direction] = len(kept[-1])
-    return made, kept
-
-
-def _vertices(value: Any, count: int) -> np.ndarray:
-    """Numbers of points as the library takes them."""
-    array = np.asarray(value)
-    if array.ndim != 1 or array.dtype.kind not in "iu" and array.size:
-        raise TypeError("vertices must be a list of integers")
-    if array.size and (array.min() < 0 or array.max() >= count):
-        raise ValueError(f"vertices must be 0 to {count - 1}")
-    return np.ascontiguousarray(array, dtype=np.uint32)
-
-
 def _directions(run: Run, out: np.ndarray, gradients: np.ndarray, normals: Any, tangents: Any, wanted: bool) -> Deformed:
     """Carries normals and tangents by the gradients."""
     made: list[np.ndarray | None] = [None, None]
@@ -571,27 +457,3 @@ def _directions(run: Run, out: np.ndarray, gradients: np.ndarray, normals: Any, 
         if collapsed.value:
             library.LOG.warning("%d %s have no direction any more, and keep theirs", collapsed.value, what)
     return Deformed(out, made[0], made[1], gradients if wanted else None, total)
-
-
-def _csr(values: np.ndarray, columns: np.ndarray, starts: np.ndarray, shape: tuple[int, int]) -> Any:
-    """The matrix with its columns ascending in each row."""
-    rows = np.repeat(np.arange(shape[0]), np.diff(starts).astype(np.intp))
-    order = np.lexsort((columns, rows))
-    kind = np.int32 if max(len(values), *shape) < 2**31 else np.int64
-    parts = (values[order], columns[order].astype(kind), starts.astype(kind))
-    try:
-        from scipy.sparse import csr_array  # type: ignore[import-untyped]
-    except ImportError:
-        return Csr(*parts, shape)
-    return csr_array(parts, shape=shape)
-
-
-def _parameters(data: bytes, name: str) -> dict[str, Parameter]:
-    return {row[0]: Parameter(row[0], None if row[1] is None else json.loads(row[1]), *row[2:])
-            for row in library.list_parameters(data, name)}
-
-
-def parameters(path: str | os.PathLike[str]) -> dict[str, Parameter]:
-    """The placeholders that a lattice file declares, by name; they need no values."""
-    with open(path, "rb") as file:
-        return _parameters(file.read(), os.fspath(path))
