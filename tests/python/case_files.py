@@ -46,11 +46,20 @@ class Files(unittest.TestCase):
         for words, options in ((["--outside", "extend", "--falloff", "0.5"], {"outside": "extend", "falloff": 0.5}),
                                (["--snap", "0.01r"], {"snap": "0.01r"}),
                                (["--as-morph", "wide", "--space", "mesh"], {"as_morph": "wide", "space": "mesh"}),
+                               (["--rig", "follow"], {"rig": "follow"}),
                                (["--only", "node:arm-left", "--resources", "reference"],
                                 {"only": "node:arm-left", "resources": "reference"})):
             support.program("deform", model, "theirs.glb", "-l", "part.json", "--force", *words)
             ffd.deform_file(model, "ours.glb", lattice, force=True, **options)
             self.assertTrue(filecmp.cmp("ours.glb", "theirs.glb", shallow=False), options)
+
+    def test_several_morph_targets(self):
+        lattice, clip = part_of_spot(), "bow: 0, 0.5 part=1, 1"
+        lattice.save("part.json")
+        model = os.path.join(support.DATA, "models", "character.glb")
+        support.program("deform", model, "theirs.glb", "--morph", "part=part.json", "--morph", f"turn={TWIST}", "--clip", clip)
+        ffd.deform_file(model, "ours.glb", {"part": lattice, "turn": TWIST}, clips=[clip])
+        self.assertTrue(filecmp.cmp("ours.glb", "theirs.glb", shallow=False))
 
     def test_checks_and_gates(self):
         result = ffd.check_file(SPOT, TWIST)

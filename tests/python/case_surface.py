@@ -13,7 +13,7 @@ import unittest
 
 import ffd_mesh as ffd
 import support
-from ffd_mesh import _declarations, _jobs, _library
+from ffd_mesh import _declarations, _library
 
 EXAMPLES = os.path.join(support.DATA, "examples", "python")
 
@@ -37,15 +37,6 @@ class Declarations(unittest.TestCase):
                          [name.split("_")[-1] for name in _declarations.ENUMERATIONS["ffd_vertex_status"]])
         kinds = {kind.status for kind in vars(ffd).values() if isinstance(kind, type) and issubclass(kind, ffd.Error)}
         self.assertEqual(kinds, set(_declarations.ENUMERATIONS["ffd_status"].values()) - {0})
-
-    def test_every_member_of_a_job_is_an_option(self):
-        """A new one must be offered, or be named here."""
-        ours = {"struct_size", "input", "output", "lattices", "lattice_count", "set_count", "snap_relative", "tear_most", "flipped_most",
-                "edges_most", "only_count", "in_place", "log", "log_user"}
-        of_runs = {"written", "share", "shared_box", "depfile"}
-        members = {name for name, _ in _declarations.ffd_deform_desc._fields_}
-        self.assertEqual(members - ours - of_runs - _jobs._OPTIONS, set())
-        self.assertEqual({"memory", "strict", "space", "allow_extensions"} - {name for name, _ in _declarations.ffd_source._fields_}, set())
 
     def test_what_is_offered_is_documented_and_typed(self):
         for name in ffd.__all__:

@@ -40,7 +40,7 @@ class Result:
 
     def __init__(self, found: Any, warnings: list[str]) -> None:
         for name, kind in found._fields_:
-            if name not in ("struct_size", "status", "error", "picture"):
+            if name not in ("struct_size", "status", "error", "picture") and not name.startswith("morph"):
                 self.__dict__[name] = _plain(getattr(found, name))
         words = [word.removeprefix("point_") for word in library.WORDS["ffd_vertex_status"]]
         self.counts = dict(zip(words, found.counts))
@@ -88,9 +88,12 @@ def _described(source: Any, lattices: Any, options: dict[str, Any]) -> Iterator[
 
 def _set_lattices(desc: Any, lattices: Any, folder: str) -> None:
     """Names the lattices; those that are objects become files of a folder."""
-    several = lattices if isinstance(lattices, (list, tuple)) else [lattices]
+    named = isinstance(lattices, Mapping)
+    several = list(lattices.values()) if named else lattices if isinstance(lattices, (list, tuple)) else [lattices]
     if not several:
         raise ValueError("no lattice is given")
+    if named:
+        desc.morphs = (ctypes.c_char_p * len(several))(*(str(name).encode() for name in lattices))
     paths = (ctypes.c_char_p * len(several))()
     for i, lattice in enumerate(several):
         path = lattice
@@ -136,7 +139,7 @@ _ENUMERATIONS = {"outside": "ffd_outside", "normals": "ffd_normals", "resources"
                  "output_format": "ffd_format"}
 _INPUT_ENUMERATIONS = {"input_format": ("format", "ffd_format"), "space": ("space", "ffd_space")}
 _SWITCHES = ("blocks", "quality", "force", "if_changed", "dry_run")
-_OPTIONS = {*_ENUMERATIONS, *_INPUT_ENUMERATIONS, *_SWITCHES, "set", "falloff", "snap", "embedding", "fail_on", "as_morph", "only",
+_OPTIONS = {*_ENUMERATIONS, *_INPUT_ENUMERATIONS, *_SWITCHES, "set", "falloff", "snap", "embedding", "fail_on", "as_morph", "only", "clips",
             "threads", "memory", "strict", "allow_extensions"}
 
 
@@ -169,6 +172,8 @@ def _set_options(desc: Any, options: dict[str, Any]) -> list[Any]:
             desc.as_morph = str(value).encode()
         elif name == "only":
             desc.only, desc.only_count = _texts(value, name)
+        elif name == "clips":
+            desc.clips, desc.clip_count = _texts(value, name)
         elif name == "threads":
             desc.threads = library.integer(value, name)
         elif name == "memory":
@@ -198,10 +203,12 @@ def _finish(found: Any, raised: Error | None, warnings: list[str]) -> Result:
     raise raised
 
 
-def deform_file(source: Path, output: Path | None, lattices: Lattice | Path | Sequence[Lattice | Path], **options: Any) -> Result:
+def deform_file(source: Path, output: Path | None, lattices: Lattice | Path | Sequence[Lattice | Path] | Mapping[str, Lattice | Path],
+                **options: Any) -> Result:
     """Deforms a mesh file as `ffd deform` does; the output is complete or absent.
 
-    source, output: paths; output None: in place. lattices: a `Lattice` or a path, or several, in their order
+    source, output: paths; output None: in place. lattices: a `Lattice` or a path, or several, in their order; of a glTF also a
+      dict of names: each makes the morph target of its name, and clips=["NAME: TIME TARGET=WEIGHT, .."] animate these
     options, as those of the program (data/reference.md):
       set={"NAME": value}, outside="keep" | "extend" | "error", falloff=, snap=LENGTH or "0.001r", blocks=True,
       normals="transform" | "keep" | "recompute", as_morph="NAME", only=["node:NAME"], embedding="uvw.npy",

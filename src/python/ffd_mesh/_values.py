@@ -97,6 +97,7 @@ def three(value: Any, what: str) -> tuple[Any, Any, Any]:
 
 
 def shape_of(size: Any, degree: Any) -> tuple[list[int], list[int]]:
+    """Sizes and degrees as the library takes them: 0 for a degree that is not given."""
     sizes = [library.integer(value, "size", 1, 2**62) for value in three(size, "size")]
     degrees = [0 if value is None else library.integer(value, "degree", 1, 9) for value in three(degree, "degree")]
     return sizes, degrees
@@ -142,6 +143,7 @@ def csr(values: np.ndarray, columns: np.ndarray, starts: np.ndarray, shape: tupl
 
 
 def parameters_of(data: bytes, name: str) -> dict[str, Parameter]:
+    """The placeholders that the text of a lattice file declares."""
     return {row[0]: Parameter(row[0], None if row[1] is None else json.loads(row[1]), *row[2:])
             for row in library.list_parameters(data, name)}
 
