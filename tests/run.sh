@@ -1,7 +1,7 @@
 #!/bin/sh
 # Builds ffd and runs its tests, in build folders of its own under .build-test/.
 #     sh tests/run.sh                 the gcc build, every quick suite
-#     sh tests/run.sh --suite NAME    the gcc build, one suite (unit property oracle fuzz golden cli rules bench slow)
+#     sh tests/run.sh --suite NAME    the gcc build, one suite (unit property oracle fuzz golden cli rules python bench slow)
 #                                     or one tag (threads compilers text)
 #     sh tests/run.sh --all           and: slow suites, release, clang with sanitizers, valgrind, fuzzing, the demo, the wraps
 #     sh tests/run.sh --soak          the gcc build, what takes hours, with other random numbers every time
@@ -53,6 +53,19 @@ else
     echo "FFD_MODELS is not set: tests on the sample models are skipped"
 fi
 
+# The suite python builds a wheel, optimized: in --all it follows the stage that has compiled the same. Its tools come from a
+# package index, which a machine need not reach (.ci/setup).
+python='--suite python'
+no_python=
+skipped=0
+if ! cmp -s "$root/tests/python/requirements.txt" "$work/wheels/requirements.txt"; then
+    python=
+    no_python='--no-suite python'
+    skipped=1
+    [ "$suite" != python ] || may_skip=--may-skip
+    echo "the wheels of tests/python are not there: the suite python is skipped"
+fi
+
 # A sanitizer's finding ends the program at once, with an exit code that no test expects.
 export ASAN_OPTIONS="halt_on_error=1:exitcode=99:detect_leaks=1:allocator_may_return_null=1"
 export UBSAN_OPTIONS="halt_on_error=1:exitcode=99:print_stacktrace=1"
@@ -70,7 +83,6 @@ fi
 
 passed=0
 failed=0
-skipped=0
 started=$(date +%s)
 
 # say STAGE TEXT...
@@ -194,22 +206,24 @@ if build gcc '' gcc g++ -Dbuildtype=debugoptimized -Dc_args=-g1 -Dcpp_args=-g1; 
     if [ -n "$suite" ]; then
         suites gcc gcc --suite "$suite" --no-suite soak
     elif [ -n "$all" ]; then
-        suites gcc gcc --no-suite soak
+        suites gcc gcc --no-suite python --no-suite soak
     elif [ -n "$soak" ]; then
         FFD_SEED=${FFD_SEED-$started}
         export FFD_SEED
         echo "FFD_SEED=$FFD_SEED"
         suites soak gcc --suite soak --timeout-multiplier 0
     else
-        suites gcc gcc --no-suite slow --no-suite soak
+        # shellcheck disable=SC2086 # words, or nothing
+        suites gcc gcc $no_python --no-suite slow --no-suite soak
     fi
 fi
 
 if [ -n "$all" ]; then
     # As it is delivered: without assertions, with every optimization. A rule on the text of the sources says nothing new,
     # nor do the validator and the browser, where the files and pages are byte for byte those of the gcc build.
-    if build release 'golden rules property compilers' gcc g++ -Dbuildtype=release; then
-        suites release release --suite golden --suite rules --suite property --suite compilers \
+    if build release 'golden rules property compilers python' gcc g++ -Dbuildtype=release; then
+        # shellcheck disable=SC2086 # words, or nothing
+        suites release release --suite golden --suite rules --suite property --suite compilers $python \
             --no-suite text --no-suite node --no-suite slow --no-suite soak
         [ ! -x "$work/gcc/src/cli/ffd" ] || case_of release pages compare_pages
     fi

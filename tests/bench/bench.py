@@ -3,7 +3,7 @@
 with their spread, and of the bars that they are to reach.
 
     bench.py --ffd PATH [--runs 5] [--side 1000] [--jobs 1000] [--threads N] [--only SUBJECT...] [--large GB]
-             [--blender PATH] [--folder DIR] [--csv FILE]
+             [--blender PATH] [--python PATH] [--folder DIR] [--csv FILE]
 
 The meshes are made first (at the default size a GLB of 48 MB and an OBJ of v, vt, vn and quads of about 160 MB).
 What is compared is run in turns. Time is wall-clock, memory the largest resident set of the process.
@@ -23,6 +23,7 @@ import meshes
 import peers
 import pictures
 import programs
+import pythons
 import table
 
 SUBJECTS = {
@@ -40,6 +41,7 @@ SUBJECTS = {
     "displacement": kernels.displacement,
     "embedding": kernels.embedding,
     "arrays": kernels.arrays,
+    "python": pythons.calls,
     "picture": pictures.picture,
     "batch": batches.batch,
     "sweep": batches.sweep,
@@ -51,6 +53,7 @@ class Bench:
 
     def __init__(self, arguments, folder):
         self.ffd, self.blender, self.large = arguments.ffd, arguments.blender, arguments.large
+        self.python = arguments.python
         self.runs, self.side, self.jobs, self.threads = (arguments.runs, arguments.side, arguments.jobs,
                                                          arguments.threads)
         self.build, self.folder, self.table = machine.build_folder(arguments.ffd), folder, table.Table()
@@ -99,6 +102,7 @@ def parse():
                         help=", ".join(SUBJECTS))
     parser.add_argument("--large", type=float, metavar="GB", help="also an OBJ of this many gigabytes")
     parser.add_argument("--blender", metavar="PATH", help="compare Blender too")
+    parser.add_argument("--python", metavar="PATH", help="a Python that has ffd_mesh")
     parser.add_argument("--folder", help="where the files are made (default: a temporary folder)")
     parser.add_argument("--csv", metavar="FILE", help="the table, with the values of all runs (of the kernels: least, median, greatest)")
     arguments = parser.parse_args()

@@ -43,7 +43,7 @@ SUBJECTS = {
 if platform.machine() == "x86_64":
     SUBJECTS["Displacement"] += ["multiplications alone, sse2", "kernel alone, general, sse2, with gradient"]
 # Peers that need not be there: a row, or a line that says so.
-MAY_MISS = ["tinyobjloader", "assimp", "SciPy", "VTK"]
+MAY_MISS = ["tinyobjloader", "assimp", "SciPy", "VTK", "ffd_mesh"]
 # Takes the arguments after -- as Blender hands them to its script.
 STUB = '#!/bin/sh\nwhile [ "$1" != -- ]; do shift; done\ncp "$2" "$3"\n'
 

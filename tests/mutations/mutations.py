@@ -1135,3 +1135,18 @@ m("broken-animation-stops-all", "condition", "cli_view_animation", "if (is_broke
 m("first-of-two-names", "condition", "cli_view_animation", "scene->animation = alike ? scene->animation : a;", "scene->animation = a;")
 m("smallest-of-many-bones", "condition", "view_page", "chosen[at - 1].weight < s->influences[i].weight", "chosen[at - 1].weight > s->influences[i].weight")
 m("follows-of-other-vertices", "index", "view_page", "if (follows) put_follow(rig, side, number_of(mesh, v));", "if (follows) put_follow(rig, side, v);")
+
+# python
+
+m("interrupt-not-noticed", "check left out", "python_package", "PyErr_CheckSignals() == 0 ? ask(PyList_GetItem(list, 0), done) : -1",
+  "ask(PyList_GetItem(list, 0), done)")
+m("control-points-in-c-order", "order", "python_package", "return np.ascontiguousarray(array.transpose(2, 1, 0, *range(3, array.ndim)))",
+  "return np.ascontiguousarray(array)")
+m("columns-in-c-order", "order", "python_package", "self._columns()[indices]", "indices")
+m("read-only-written", "check left out", "python_package", "if not array.flags.writeable:", "if not array.flags.writeable and len(array) == 0:")
+m("embedded-points-written", "check left out", "python_package", "if arrays.overlap(out, embedding.points):",
+  "if out is None:")
+m("handle-not-freed", "freed resource", "python_package", "if self.pointer: self._destroy(byref(self.pointer))", "self.freed = True")
+m("other-threads-wait", "lock", "python_package", "ctypes.CDLL(_native.__file__)", "ctypes.PyDLL(_native.__file__)")
+m("repeated-rows-as-packed", "check left out", "python_package", "return array.copy() if _repeats(array) else array", "return array")
+m("fit-lost-in-pickle", "member left out", "python_package", "return _again, (self.text, self._bounds,", "return _again, (self.text, None,")

@@ -27,7 +27,7 @@ import time
 
 from mutations import MUTATIONS
 
-SUFFIXES = (".c", ".cpp", ".h")
+SUFFIXES = (".c", ".cpp", ".h", ".py")
 SHOWN = 300  # characters of what a failing test says
 
 

@@ -20,7 +20,7 @@ import tempfile
 import zlib
 
 PAGES = ("README.md", "data/promises.md", "data/reference.md")
-LINKED = PAGES + ("CONTRIBUTING.md", "data/README.md", "data/schema/formats.md", "data/schema/lattice.md", "src/README.md",
+LINKED = PAGES + ("CONTRIBUTING.md", "data/README.md", "data/python.md", "data/schema/formats.md", "data/schema/lattice.md", "src/README.md",
                   "tests/README.md")
 
 INDENTED = {

@@ -135,6 +135,7 @@ LAYERS = {
     },
     "cli": {"base/file", "batch"},
     "cli/pages": {"cli"},
+    "python": set(),
     "job": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io", "io/npy",
         "io/openmesh", "io/write", "job/chain", "job/input", "job/judge", "job/pass", "job/report", "job/rig", "json",
@@ -149,6 +150,7 @@ OUTSIDE = [
     (r"draco/", {"io/gltf/decode"}),
     (r"meshoptimizer\.h", {"mesh/meshopt"}),
     (r"png\.h|jpeglib\.h|jerror\.h", {"picture/image"}),
+    (r"Python\.h", {"python"}),
     (r"xxhash\.h|xxh3\.h", {"base/memory"}),
     (r"sys/platform/", {"base/vector"}),
     (r"unistd\.h|fcntl\.h|pthread\.h|sys/(?!platform/)|dirent\.h|dlfcn\.h|sched\.h|spawn\.h|glob\.h|poll\.h|windows\.h",

@@ -1,0 +1,28 @@
+"""Free-form deformation of points and meshes with B-spline lattices.
+
+    lattice = ffd_mesh.Lattice.around(points, size=(6, 6, 6), degree=3)
+    embedding = lattice.embed(points)
+    Q = lattice.rest.copy()
+    Q[5, 2, 2] += (0, 0, 0.3)
+    moved = lattice.deform(embedding, Q)
+
+Points are arrays (N, 3) of float32 or float64; control points are (nu, nv, nw, 3). Failures are `Error`; nothing is printed.
+"""
+
+from ._embedding import Embedding, Status
+from ._errors import (ArgumentError, Cancelled, EmbeddingError, Error, ExistsError, FileError, GateError, InvalidError,
+                      LimitError, OutOfMemoryError, UnsupportedError)
+from ._jobs import Result, check_file, deform_file, info, jacobian_file
+from ._lattice import Lattice
+from ._library import lib as _lib
+from ._meshes import deform_mesh
+from ._values import Csr, Deformed, Folds, Parameter, parameters
+
+__version__: str = _lib.ffd_version().decode()
+
+__all__ = [
+    "ArgumentError", "Cancelled", "Csr", "Deformed", "Embedding", "EmbeddingError", "Error", "ExistsError", "FileError", "Folds",
+    "GateError", "InvalidError", "Lattice", "LimitError", "OutOfMemoryError", "Parameter", "Result", "Status", "UnsupportedError",
+    "check_file", "deform_file", "deform_mesh", "info", "jacobian_file",
+    "parameters",
+]

@@ -1,0 +1,115 @@
+"""Arrays between numpy and the library."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ._declarations import ENUMERATIONS, ffd_span
+
+_NUMBERS = {np.dtype(np.float64): ENUMERATIONS["ffd_number"]["FFD_FLOAT64"],
+            np.dtype(np.float32): ENUMERATIONS["ffd_number"]["FFD_FLOAT32"]}
+
+
+def vectors(value: Any, what: str, count: int | None = None) -> np.ndarray:
+    """value as an array (N, 3) of float32 or float64, whose numbers are not copied. Lists become float64."""
+    array = value if isinstance(value, np.ndarray) else np.asarray(value)
+    if isinstance(array, np.ma.MaskedArray):
+        raise TypeError(f"{what} must not be a masked array: its mask would be ignored")
+    if isinstance(value, (list, tuple)) and array.dtype.kind in "iu":
+        array = array.astype(np.float64)
+    if array.dtype not in _NUMBERS:
+        raise TypeError(f"{what} must be float32 or float64 in the machine's byte order, not {array.dtype}")
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise ValueError(f"{what} must have the shape (N, 3), not {array.shape}")
+    if count is not None and len(array) != count:
+        raise ValueError(f"{what} must have {count} rows, not {len(array)}")
+    return array
+
+
+def output(value: Any, what: str, count: int) -> np.ndarray:
+    """An array that results can be written to."""
+    if not isinstance(value, np.ndarray):
+        raise TypeError(f"{what} must be an array of numpy, not {type(value).__name__}")
+    array = vectors(value, what, count)
+    if not array.flags.writeable:
+        raise ValueError(f"{what} is read-only")
+    if _repeats(array):
+        raise ValueError(f"{what} has rows or columns that share their memory")
+    return array
+
+
+def _repeats(array: np.ndarray) -> bool:
+    """Whether numbers of (N, 3) share memory by a stride of 0, which is no stride that the library knows."""
+    return array.size > 0 and (array.strides[1] == 0 or (len(array) > 1 and array.strides[0] == 0))
+
+
+def overlap(a: np.ndarray, b: np.ndarray) -> bool:
+    """Whether two arrays share memory; true where that takes long to find out."""
+    if not np.may_share_memory(a, b):
+        return False
+    try:
+        return np.shares_memory(a, b, max_work=100_000)  # type: ignore[arg-type]
+    except np.exceptions.TooHardError:
+        return True
+
+
+def same_place(a: np.ndarray, b: np.ndarray) -> bool:
+    """Whether two arrays of one shape are the same numbers."""
+    return (a.dtype == b.dtype and a.strides == b.strides
+            and a.__array_interface__["data"][0] == b.__array_interface__["data"][0])
+
+
+def readable(array: np.ndarray) -> np.ndarray:
+    """The array, or a copy where it repeats its numbers (numpy.broadcast_to)."""
+    return array.copy() if _repeats(array) else array
+
+
+def span(array: np.ndarray) -> ffd_span:
+    """The library's view of (N, 3); the array must outlive it."""
+    if array.size == 0:
+        return ffd_span(None, 0, _NUMBERS[array.dtype], 0, 0)
+    return ffd_span(address(array), len(array), _NUMBERS[array.dtype], array.strides[0], array.strides[1])
+
+
+def address(array: np.ndarray) -> int:
+    return array.__array_interface__["data"][0]
+
+
+def doubles(value: Any, what: str, shape: tuple[int, ...]) -> np.ndarray:
+    """value as packed float64 of a shape, in C order; copied where it is not that."""
+    array = np.asarray(value)
+    if isinstance(array, np.ma.MaskedArray):
+        raise TypeError(f"{what} must not be a masked array: its mask would be ignored")
+    if array.dtype.kind not in "fiu":
+        raise TypeError(f"{what} must hold real numbers, not {array.dtype}")
+    if array.shape != shape:
+        raise ValueError(f"{what} must have the shape {shape}, not {array.shape}")
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def to_library(array: np.ndarray) -> np.ndarray:
+    """(nu, nv, nw, ...) in Python's order, w fastest, as the library and files have it, u fastest. A copy."""
+    return np.ascontiguousarray(array.transpose(2, 1, 0, *range(3, array.ndim)))
+
+
+class _Lent:
+    """Memory of an object of the library, which lives as long as the array that is made of this."""
+
+    def __init__(self, owner: Any, where: int, shape: tuple[int, ...], kind: str) -> None:
+        self._owner = owner
+        self.__array_interface__ = {"data": (where, True), "shape": shape, "typestr": kind, "version": 3}
+
+
+def lent(owner: Any, where: int | None, shape: tuple[int, ...], dtype: Any) -> np.ndarray:
+    """A read-only array of what owner lends."""
+    if not where or 0 in shape:
+        return np.empty(shape, dtype)
+    return np.asarray(_Lent(owner, where, shape, np.dtype(dtype).str))
+
+
+def lent_controls(owner: Any, where: int | None, size: tuple[int, int, int], *more: int) -> np.ndarray:
+    """Numbers of control points, which the library has u fastest, as a view (nu, nv, nw, ...)."""
+    array = lent(owner, where, size[::-1] + more, np.float64)
+    return array.transpose(2, 1, 0, *range(3, array.ndim))

@@ -1,0 +1,113 @@
+"""Embeddings: u, v, w of points in a lattice at rest."""
+
+from __future__ import annotations
+
+import ctypes
+import enum
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _arrays as arrays
+from . import _library as library
+from ._library import Owned, call, lib
+
+if TYPE_CHECKING:
+    from ._lattice import Lattice
+
+
+class Status(enum.IntEnum):
+    """What is known of a point: the numbers of `Embedding.status`."""
+
+    INSIDE = 0
+    OUTSIDE = 1
+    MULTIPLE = 2
+    SINGULAR = 3
+    INVALID = 4
+
+
+class Embedding:
+    """u, v, w of N points, made by `Lattice.embed`. Never changes: any number of threads may use it. It can be pickled."""
+
+    lattice: Lattice
+    points: np.ndarray
+    _owned: Owned
+
+    def __init__(self) -> None:
+        raise TypeError("use Lattice.embed")
+
+    @classmethod
+    def _of(cls, owned: Owned, lattice: Lattice, points: np.ndarray) -> Embedding:
+        self = cls.__new__(cls)
+        self._owned, self.lattice, self.points = owned, lattice, points
+        return self
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+    @property
+    def uvw(self) -> np.ndarray:
+        """(N, 3) float64, in the knots' range; NaN where there is none. A read-only view."""
+        return arrays.lent(self._owned, lib.ffd_embedding_get_uvw(self._pointer), (len(self), 3), np.float64)
+
+    @property
+    def status(self) -> np.ndarray:
+        """(N,) uint8, of `Status`. A read-only view."""
+        return arrays.lent(self._owned, lib.ffd_embedding_get_status(self._pointer), (len(self),), np.uint8)
+
+    @property
+    def counts(self) -> dict[Status, int]:
+        """How many points have each status."""
+        counts = np.bincount(self.status, minlength=len(Status))
+        return {status: int(counts[status]) for status in Status}
+
+    def affected(self, control_points: Any) -> np.ndarray:
+        """The numbers of the points that some control points act on, ascending, uint32: no other point follows them.
+
+        control_points: (M, 3) integers i, j, k, or a mask (nu, nv, nw) of bool
+        """
+        size = self.lattice.size
+        chosen = np.asarray(control_points)
+        if chosen.dtype == bool and chosen.shape == size:
+            chosen = np.argwhere(chosen)
+        if chosen.ndim != 2 or chosen.shape[1] != 3 or chosen.dtype.kind not in "iu":
+            raise ValueError(f"control_points must be integers (M, 3) or a mask {size}")
+        if chosen.size and ((chosen < 0) | (chosen >= size)).any():
+            raise ValueError(f"control_points must be below {size}")
+        numbers = (chosen @ [1, size[0], size[0] * size[1]]).astype(np.uintp)
+        found, count = ctypes.c_void_p(), ctypes.c_size_t()
+        call(lib.ffd_embedding_affected, self._pointer, arrays.address(numbers), len(numbers), ctypes.byref(found),
+             ctypes.byref(count))
+        return np.frombuffer(library.take_bytes(found, 4 * count.value), np.uint32).copy()
+
+    def to_bytes(self) -> bytes:
+        """u, v, w and statuses as bytes, for this version of the library on such machines: see `from_bytes`."""
+        data, size = ctypes.c_void_p(), ctypes.c_size_t()
+        call(lib.ffd_embedding_save, self._pointer, ctypes.byref(data), ctypes.byref(size))
+        return library.take_bytes(data, size.value)
+
+    @classmethod
+    def from_bytes(cls, data: bytes, lattice: Lattice, points: Any) -> Embedding:
+        """The embedding of these points (N, 3) that `to_bytes` made; lattice has the same volume at rest."""
+        owned = Owned(lib.ffd_embedding_destroy)
+        data = bytes(data)
+        call(lib.ffd_embedding_load, data, len(data), lattice._fitted, ctypes.byref(owned.pointer))
+        count = lib.ffd_embedding_get_count(owned.pointer)
+        return cls._of(owned, lattice, arrays.readable(arrays.vectors(points, "points", count)))
+
+    def __repr__(self) -> str:
+        said = ", ".join(f"{count} {status.name.lower()}" for status, count in self.counts.items() if count)
+        return f"<Embedding of {len(self)} points: {said or 'none'}>"
+
+    def __copy__(self) -> Embedding:
+        return self
+
+    def __deepcopy__(self, memo: Any) -> Embedding:
+        return self
+
+    def __reduce__(self) -> Any:
+        return Embedding.from_bytes, (self.to_bytes(), self.lattice, self.points)
+
+    @property
+    def _pointer(self) -> ctypes.c_void_p:
+        return self._owned.pointer

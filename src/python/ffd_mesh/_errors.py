@@ -1,0 +1,96 @@
+"""Failures of the library as exceptions."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ._declarations import ENUMERATIONS
+
+_STATUS: dict[str, int] = ENUMERATIONS["ffd_status"]
+
+
+class Error(Exception):
+    """What the library says of a failure.
+
+    status: the library's number of it (ffd/error.h), below 0
+    message: what is wrong, with the value
+    file, line, pointer: where, in a file: its name, the line from 1, the JSON pointer; None where there is none
+    """
+
+    status: int = -10
+
+    def __init__(self, message: str, *, status: int | None = None, file: str | None = None, line: int | None = None,
+                 pointer: str | None = None) -> None:
+        place = f"{file}:{line}: " if file and line else f"{file}:{pointer}: " if file and pointer else f"{file}: " if file else ""
+        super().__init__(place + message)
+        self.status = type(self).status if status is None else status
+        self.message, self.file, self.line, self.pointer = message, file, line, pointer
+
+    def __reduce__(self) -> Any:
+        return _again, (type(self), self.message, self.status, self.file, self.line, self.pointer, self.__dict__)
+
+
+def _again(kind: type[Error], message: str, status: int, file: str | None, line: int | None, pointer: str | None,
+           members: dict[str, Any]) -> Error:
+    error = kind(message, status=status, file=file, line=line, pointer=pointer)
+    error.__dict__.update(members)
+    return error
+
+
+class GateError(Error):
+    """A gate of fail_on is violated. result: the figures of the job (Result)."""
+
+
+class ArgumentError(Error, ValueError):
+    """The library does not take these arguments."""
+
+
+class FileError(Error, OSError):
+    """A file cannot be read or written."""
+
+
+class ExistsError(FileError):
+    """The output exists, and force was not given."""
+
+
+class InvalidError(Error, ValueError):
+    """A mesh, a lattice or a result is not valid."""
+
+
+class EmbeddingError(Error):
+    """A point is outside, with outside="error"."""
+
+
+class UnsupportedError(Error):
+    """Valid, but this build cannot do it."""
+
+
+class OutOfMemoryError(Error, MemoryError):
+    """Memory ran out."""
+
+
+class LimitError(Error):
+    """A documented limit is passed."""
+
+
+class Cancelled(Error):
+    """The progress function returned False."""
+
+
+_KINDS: dict[int, type[Error]] = {}
+for _name, _kind in {
+    "GATE": GateError, "ARGUMENT": ArgumentError, "IO": FileError, "EXISTS": ExistsError, "INVALID": InvalidError,
+    "EMBEDDING": EmbeddingError, "UNSUPPORTED": UnsupportedError, "MEMORY": OutOfMemoryError, "LIMIT": LimitError,
+    "CANCELLED": Cancelled,
+}.items():
+    _kind.status = _STATUS["FFD_E_" + _name]
+    _KINDS[_kind.status] = _kind
+
+
+def failure(status: int, error: Any) -> Error:
+    """The exception for a status and what ffd_error has."""
+    def text(data: bytes) -> str:
+        """A member of ffd_error."""
+        return data.decode("utf-8", "backslashreplace")
+    return _KINDS.get(status, Error)(text(error.message), status=status, file=text(error.file) or None,
+                                     line=error.line or None, pointer=text(error.pointer) or None)

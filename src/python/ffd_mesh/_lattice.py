@@ -1,0 +1,459 @@
+"""Lattices: control points, and what they do to embedded points."""
+
+from __future__ import annotations
+
+import ctypes
+import json
+import os
+from typing import Any, Mapping
+
+import numpy as np
+
+from . import _arrays as arrays
+from . import _declarations as declared
+from . import _library as library
+from ._embedding import Embedding
+from ._library import Owned, Progress, Run, call, lib
+from ._values import Deformed, Folds, Parameter, csr, described, folds_of, parameters, parameters_of, settings, shape_of, three, vertices_of
+
+REST, DEFORMED = declared.ENUMERATIONS["ffd_volume"].values()
+
+
+class Lattice:
+    """A control lattice: a B-spline volume with (nu, nv, nw) control points, each at rest and deformed. Never changes.
+
+    Arrays of control points have the shape (nu, nv, nw, 3), in Python's order: P[i, j, k], w fastest. (Lattice files and
+    the C library have u fastest.) World units are those of the points.
+    """
+
+    _owned: Owned
+    _parameters: tuple[Parameter, ...]
+    _bounds: np.ndarray | None  # that it was fitted to
+    _size: tuple[int, int, int]
+    _degree: tuple[int, int, int]
+
+    def __init__(self) -> None:
+        raise TypeError("use Lattice.around, .load, .parse, .box or .from_points")
+
+    # -- making one
+
+    @classmethod
+    def _new(cls, make: Any, *arguments: Any, parameters: tuple[Parameter, ...] = ()) -> Lattice:
+        """What a function makes that takes an ffd_lattice ** and an ffd_error last."""
+        owned = Owned(lib.ffd_lattice_destroy)
+        call(make, *arguments, ctypes.byref(owned.pointer))
+        self = cls.__new__(cls)
+        self._owned, self._parameters, self._bounds = owned, parameters, None
+        size, degree = (ctypes.c_size_t * 3)(), (ctypes.c_int * 3)()
+        lib.ffd_lattice_get_size(owned.pointer, size)
+        lib.ffd_lattice_get_degree(owned.pointer, degree)
+        self._size, self._degree = (size[0], size[1], size[2]), (degree[0], degree[1], degree[2])
+        return self
+
+    @classmethod
+    def around(cls, points: Any, size: Any = 4, degree: Any = None, *, knots: Any = "default", margin: Any = 0.05,
+               shape: str = "box", spacing: str = "greville", axis: Any = (0, 0, 1), principal: bool = False) -> Lattice:
+        """A lattice round points (N, 3), undeformed, as `ffd lattice new` makes it. Points that are not finite do not count.
+
+        size: control points along u, v, w: one number, or three; degree: 1 to 9, or None: 3, or size-1 where that is less
+        knots: "clamped", "open", "uniform", "closed", one or three
+        margin: a fraction of the extent that is added on both sides, one or three
+        shape: "box" (principal: along the points' principal axes), or "cylinder" round axis
+        """
+        desc = library.filled("ffd_lattice_desc")
+        desc.shape = library.number_of("ffd_lattice_shape", shape, "shape")
+        desc.spacing = library.number_of("ffd_spacing", spacing, "spacing")
+        desc.size[:], desc.degree[:] = shape_of(size, degree)
+        desc.knots[:] = [library.number_of("ffd_knots", word, "knots") for word in three(knots, "knots")]
+        desc.margin[:] = [float(value) for value in three(margin, "margin")]
+        desc.axis[:] = [float(value) for value in three(axis, "axis")]
+        desc.principal = bool(principal)
+        xyz = np.ascontiguousarray(arrays.vectors(points, "points"), dtype=np.float64)
+        return cls._new(lib.ffd_lattice_create, ctypes.byref(desc), arrays.address(xyz), len(xyz))
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str], values: Mapping[str, Any] | None = None) -> Lattice:
+        """A lattice file (data/schema/lattice.md), with values for the placeholders of its moves."""
+        made, count = settings(values)
+        used = (ctypes.c_bool * count)()
+        self = cls._new(lib.ffd_lattice_load_set, os.fsencode(path), made, count, used)
+        unused = [name for name, is_used in zip(values or {}, used) if not is_used]
+        if unused:
+            raise ValueError(f"{os.fspath(path)} has no placeholder {', '.join(map(repr, unused))}")
+        self._parameters = tuple(parameters(path).values())
+        return self
+
+    @classmethod
+    def parse(cls, text: str | bytes | dict[str, Any], name: str = "lattice") -> Lattice:
+        """A lattice of the text of a file, or of what json.loads makes of it. Failures have the name as their file."""
+        data = json.dumps(text).encode() if isinstance(text, dict) else text.encode() if isinstance(text, str) else bytes(text)
+        found = parameters_of(data, name)
+        return cls._new(lib.ffd_lattice_parse, data, len(data), name.encode(), parameters=tuple(found.values()))
+
+    @classmethod
+    def box(cls, low: Any, high: Any, size: Any = 4, degree: Any = None, *, knots: Any = "default", axes: Any = None) -> Lattice:
+        """A lattice whose control points at rest fill a box from low (3,) to high (3,), so that u, v, w are affine.
+
+        axes: (3, 3), orthogonal unit vectors row by row, along which low and high are measured; None: x, y, z
+        """
+        made, kept = described(size, degree, knots)
+        made.box_min[:], made.box_max[:] = arrays.doubles(low, "low", (3,)), arrays.doubles(high, "high", (3,))
+        if axes is not None:
+            made.axes[:] = arrays.doubles(axes, "axes", (3, 3)).ravel()
+        return cls._new(lib.ffd_lattice_from_arrays, ctypes.byref(made))
+
+    @classmethod
+    def from_points(cls, points: Any, degree: Any = None, *, knots: Any = "default", weights: Any = None) -> Lattice:
+        """A lattice with the control points at rest points (nu, nv, nw, 3) and positive weights (nu, nv, nw).
+
+        knots: "clamped", "open", "uniform", "closed", or a vector of size+degree+1 knots; one, or three.
+               ("closed", breakpoints): the size+1 breakpoints of one period
+        """
+        shape = np.shape(points)
+        if len(shape) != 4 or shape[3] != 3:
+            raise ValueError(f"points must have the shape (nu, nv, nw, 3), not {shape}")
+        made, kept = described(shape[:3], degree, knots)
+        rest = arrays.to_library(arrays.doubles(points, "points", shape))
+        made.rest = arrays.address(rest)
+        if weights is not None:
+            kept.append(arrays.to_library(arrays.doubles(weights, "weights", shape[:3])))
+            made.rest_weights = arrays.address(kept[-1])
+        return cls._new(lib.ffd_lattice_from_arrays, ctypes.byref(made))
+
+    # -- what it is
+
+    @property
+    def size(self) -> tuple[int, int, int]:
+        """(nu, nv, nw)"""
+        return self._size
+
+    @property
+    def degree(self) -> tuple[int, int, int]:
+        """The degrees of u, v, w."""
+        return self._degree  # type: ignore[return-value]
+
+    @property
+    def knots(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The knot vectors of u, v, w, read-only."""
+        found = []
+        for direction in range(3):
+            knots = ctypes.c_void_p()
+            count = lib.ffd_lattice_get_knots(self._pointer, direction, ctypes.byref(knots))
+            found.append(arrays.lent(self._owned, knots.value, (count,), np.float64))
+        return tuple(found)  # type: ignore[return-value]
+
+    @property
+    def domain(self) -> np.ndarray:
+        """(2, 3): the least and the greatest u, v, w."""
+        low, high = (ctypes.c_double * 3)(), (ctypes.c_double * 3)()
+        lib.ffd_lattice_get_domain(self._pointer, low, high)
+        return np.array([low[:], high[:]])
+
+    @property
+    def rest(self) -> np.ndarray:
+        """The control points at rest (nu, nv, nw, 3), a read-only view of the library's memory, where u is fastest."""
+        return self._controls(lib.ffd_lattice_get_points(self._fitted, REST), 3)
+
+    @property
+    def deformed(self) -> np.ndarray:
+        """The deformed control points, as `rest`."""
+        return self._controls(lib.ffd_lattice_get_points(self._fitted, DEFORMED), 3)
+
+    @property
+    def offsets(self) -> np.ndarray:
+        """The displacements of the control points, as `rest`."""
+        return self._controls(lib.ffd_lattice_get_offsets(self._fitted), 3)
+
+    @property
+    def rest_weights(self) -> np.ndarray | None:
+        """(nu, nv, nw), a read-only view, or None where all are 1."""
+        return self._weights(REST)
+
+    @property
+    def weights(self) -> np.ndarray | None:
+        """The deformed weights, as `rest_weights`."""
+        return self._weights(DEFORMED)
+
+    @property
+    def needs_points(self) -> bool:
+        """Whether its box goes round a mesh that is not known yet: see `fit`."""
+        return not lib.ffd_lattice_get_points(self._pointer, REST)
+
+    @property
+    def parameters(self) -> dict[str, Parameter]:
+        """The placeholders that its file declares, by name."""
+        return {parameter.name: parameter for parameter in self._parameters}
+
+    @property
+    def text(self) -> str:
+        """The text of its file. Control points that were set are offsets in it."""
+        data, size = ctypes.c_void_p(), ctypes.c_size_t()
+        call(lib.ffd_lattice_text, self._pointer, ctypes.byref(data), ctypes.byref(size))
+        return library.take_bytes(data, size.value).decode()
+
+    def save(self, path: str | os.PathLike[str], *, force: bool = False) -> None:
+        """Writes its file, complete or not at all. force: replace an existing one."""
+        call(lib.ffd_lattice_save, self._pointer, os.fsencode(path), bool(force))
+
+    # -- others like it
+
+    def fit(self, points: Any) -> Lattice:
+        """This lattice round the finite ones of points (N, 3), where its file has the box "mesh"; else this one. Its text and
+        file have that box still: `deform_file` lays it round the mesh of the file."""
+        points = arrays.vectors(points, "points")
+        if not lib.ffd_lattice_needs_bounds(self._pointer):
+            return self
+        finite = points[np.isfinite(points).all(axis=1)]
+        if not len(finite):
+            raise ValueError("points has no finite point")
+        return self._fit(np.array([finite.min(axis=0), finite.max(axis=0)], np.float64))
+
+    def _fit(self, bounds: np.ndarray) -> Lattice:
+        copy = self._copy()
+        call(lib.ffd_lattice_fit, copy._pointer, arrays.address(bounds[0]), arrays.address(bounds[1]))
+        copy._bounds = bounds
+        return copy
+
+    def moved(self, Q: Any = None, *, offsets: Any = None, weights: Any = None) -> Lattice:
+        """This lattice with other deformed control points Q, or their offsets from rest (nu, nv, nw, 3), and weights
+        (nu, nv, nw). What is None stays. Offsets are used as they are: 0 moves nothing, to the bit."""
+        if Q is not None and offsets is not None:
+            raise ValueError("give Q or offsets, not both")
+        self._fitted
+        if Q is None and offsets is None and weights is None:
+            return self
+        copy = self._copy()
+        for function, value, what, more in ((lib.ffd_lattice_set_points, Q, "Q", (3,)),
+                                            (lib.ffd_lattice_set_offsets, offsets, "offsets", (3,)),
+                                            (lib.ffd_lattice_set_weights, weights, "weights", ())):
+            if value is not None:
+                numbers = arrays.to_library(arrays.doubles(value, what, self.size + more))
+                call(function, copy._pointer, None, self._count, arrays.address(numbers))
+        return copy
+
+    # -- what it does
+
+    def embed(self, points: Any, *, outside: str = "keep", falloff: float = 0.0, snap: float = 0.0, threads: int = 0,
+              isa: str = "auto", progress: Progress | None = None) -> Embedding:
+        """Finds u, v, w of points (N, 3), float32 or float64 with any strides, in the volume at rest: certified, with a
+        status each. Points that are not finite have the status INVALID.
+
+        The embedding keeps a reference to points, no copy: do not change them while it is used, or give `deform` points=.
+
+        outside: points without u, v, w "keep" their place, or "extend" (they follow the nearest point of the border; with
+                 falloff, in world units, less and less), or are an "error"
+        snap: a point that misses the volume by no more than this is inside, at the border
+        threads: 0: all cores. progress: called now and then with the part that is done, 0 to 1; False cancels
+        """
+        points = arrays.readable(arrays.vectors(points, "points"))
+        self._fitted
+        desc = library.filled("ffd_embedding_desc")
+        desc.lattice, desc.points = self._pointer, arrays.span(points)
+        desc.outside = library.number_of("ffd_outside", outside, "outside")
+        desc.falloff, desc.snap = float(falloff), float(snap)
+        owned = Owned(lib.ffd_embedding_destroy)
+        Run(threads, isa, progress)(lib.ffd_embedding_create, ctypes.byref(desc), last=(ctypes.byref(owned.pointer),))
+        return Embedding._of(owned, self, points)
+
+    def deform(self, embedding: Embedding, Q: Any = None, *, offsets: Any = None, weights: Any = None, points: Any = None,
+               out: np.ndarray | None = None, vertices: Any = None, normals: Any = None, tangents: Any = None,
+               gradients: bool = False, threads: int = 0, isa: str = "auto",
+               progress: Progress | None = None) -> Any:
+        """The embedded points (N, 3), deformed: an array of the points' type, computed in double and rounded once. With
+        normals, tangents or gradients a `Deformed`.
+
+        Q, offsets, weights: as `moved` takes them; none of them: this lattice's own deformed control points
+        points: the points that were embedded, where they are not those of `embed` any more
+        out: (N, 3), float32 or float64 with any strides, to write to; may be points=
+        vertices: only these, ascending; other rows of out are left as they are, or, without out, at rest
+        normals, tangents: (N, 3), carried to the deformed surface; unit vectors of their own type
+        gradients: (N, 3, 3) too
+
+        Points that do not move keep their bits. After a failure or an interrupt what out holds is not defined.
+        """
+        lattice = self.moved(Q, offsets=offsets, weights=weights)
+        source, out = self._source_and_out(embedding, points, out, vertices)
+        run = Run(threads, isa, progress)
+        wanted = gradients or normals is not None or tangents is not None
+        if vertices is not None and wanted:
+            raise ValueError("normals, tangents and gradients need all vertices")
+        count = len(source)
+        found = np.empty((count, 3, 3)) if wanted else None
+        where = arrays.address(found) if found is not None and count else None
+        arguments = (arrays.span(source), arrays.span(out), where)
+        if vertices is None:
+            run(lib.ffd_embedding_deform, embedding._pointer, lattice._pointer, *arguments)
+        else:
+            listed = vertices_of(vertices, count)
+            run(lib.ffd_embedding_deform_some, embedding._pointer, lattice._pointer, arrays.address(listed), len(listed),
+                *arguments)
+        if found is None:
+            return out
+        return _directions(run, out, found, normals, tangents, gradients)
+
+    def basis(self, embedding: Embedding, *, weights: Any = None, threads: int = 0, isa: str = "auto",
+              progress: Progress | None = None) -> Any:
+        """dX/dQ, (N, nu*nv*nw): a scipy.sparse.csr_array, or without scipy a `Csr`. Row i has, for each control point, the
+        derivative of a coordinate of point i by the same coordinate of the control point: B @ D.reshape(-1, 3) are the
+        displacements for offsets D (nu, nv, nw, 3).
+
+        Columns are in Python's order, as reshape makes it, w fastest. (The C library and files have u fastest.)
+        weights: deformed ones (nu, nv, nw); None: this lattice's. Rows of points that do not move are empty.
+        """
+        self._check_same(embedding)
+        matrix = library.empty("ffd_csr")
+        kept = self._weights_for_library(weights)
+        try:
+            Run(threads, isa, progress)(lib.ffd_embedding_basis, embedding._pointer,
+                                        None if kept is None else arrays.address(kept), ctypes.byref(matrix))
+            rows, columns = matrix.rows, matrix.columns
+            starts = np.array(arrays.lent(None, matrix.starts, (rows + 1,), np.uintp))
+            count = int(starts[-1]) if len(starts) else 0
+            indices = np.array(arrays.lent(None, matrix.indices, (count,), np.uint32))
+            values = np.array(arrays.lent(None, matrix.values, (count,), np.float64))
+        finally:
+            lib.ffd_csr_free(ctypes.byref(matrix))
+        return csr(values, self._columns()[indices], starts, (rows, columns))
+
+    def basis_times(self, embedding: Embedding, D: Any, *, weights: Any = None, threads: int = 0, isa: str = "auto",
+                    progress: Progress | None = None) -> np.ndarray:
+        """`basis` @ D.reshape(-1, 3), for offsets D (nu, nv, nw, 3), without the matrix: (N, 3) float64."""
+        self._check_same(embedding)
+        numbers = arrays.to_library(arrays.doubles(D, "D", self.size + (3,)))
+        kept = self._weights_for_library(weights)
+        out = np.empty((len(embedding), 3))
+        Run(threads, isa, progress)(lib.ffd_embedding_basis_times, embedding._pointer,
+                                    None if kept is None else arrays.address(kept), arrays.address(numbers), arrays.address(out))
+        return out
+
+    def basis_transposed(self, embedding: Embedding, dfdx: Any, *, weights: Any = None, threads: int = 0, isa: str = "auto",
+                         progress: Progress | None = None) -> np.ndarray:
+        """`basis`.T @ dfdx, for the derivative of a number by the points (N, 3), without the matrix: the derivative by the
+        control points, (nu, nv, nw, 3) float64."""
+        self._check_same(embedding)
+        numbers = arrays.doubles(dfdx, "dfdx", (len(embedding), 3))
+        kept = self._weights_for_library(weights)
+        out = np.empty(self.size[::-1] + (3,))
+        Run(threads, isa, progress)(lib.ffd_embedding_basis_transposed, embedding._pointer,
+                                    None if kept is None else arrays.address(kept), arrays.address(numbers), arrays.address(out))
+        return np.ascontiguousarray(out.transpose(2, 1, 0, 3))
+
+    def evaluate(self, uvw: Any, *, volume: str = "deformed", jacobians: bool = False, threads: int = 0, isa: str = "auto",
+                 progress: Progress | None = None) -> Any:
+        """The volume's points at uvw (N, 3): (N, 3) float64. volume: "rest", "deformed". With jacobians also (N, 3, 3),
+        [C_u C_v C_w] in columns."""
+        self._fitted
+        uvw = np.ascontiguousarray(arrays.vectors(uvw, "uvw"), dtype=np.float64)
+        out = np.empty_like(uvw)
+        found = np.empty((len(uvw), 3, 3)) if jacobians else None
+        number = library.number_of("ffd_volume", volume, "volume")
+        Run(threads, isa, progress)(lib.ffd_lattice_evaluate_many, self._pointer, number, arrays.address(uvw), len(uvw),
+                                    arrays.address(out), None if found is None else arrays.address(found))
+        return out if found is None else (out, found)
+
+    def folds(self, Q: Any = None, *, offsets: Any = None, weights: Any = None, threads: int = 0) -> Folds:
+        """Whether the deformed volume folds anywhere: a proof over the whole volume. Q, ..: as `moved` takes them."""
+        lattice = self.moved(Q, offsets=offsets, weights=weights)
+        found = library.empty("ffd_folds")
+        call(lib.ffd_folds_find, lattice._pointer, library.integer(threads, "threads"), ctypes.byref(found))
+        return folds_of(found)
+
+    def __repr__(self) -> str:
+        return f"<Lattice {'x'.join(map(str, self.size))}, degree {', '.join(map(str, self.degree))}>"
+
+    def __copy__(self) -> Lattice:
+        return self
+
+    def __deepcopy__(self, memo: Any) -> Lattice:
+        return self
+
+    def __reduce__(self) -> Any:
+        return _again, (self.text, self._bounds, None if self.needs_points else self.offsets)
+
+    # -- inside
+
+    @property
+    def _pointer(self) -> ctypes.c_void_p:
+        return self._owned.pointer
+
+    @property
+    def _fitted(self) -> ctypes.c_void_p:
+        if self.needs_points:
+            raise ValueError("the lattice's box goes round a mesh that is not known: use the lattice that fit(points) returns")
+        return self._pointer
+
+    @property
+    def _count(self) -> int:
+        return self.size[0] * self.size[1] * self.size[2]
+
+    def _controls(self, where: int | None, *more: int) -> np.ndarray:
+        return arrays.lent_controls(self._owned, where, self.size, *more)
+
+    def _weights(self, volume: int) -> np.ndarray | None:
+        where = lib.ffd_lattice_get_weights(self._fitted, volume)
+        return self._controls(where) if where else None
+
+    def _copy(self) -> Lattice:
+        copy = Lattice._new(lib.ffd_lattice_copy, self._pointer, parameters=self._parameters)
+        copy._bounds = self._bounds
+        return copy
+
+    def _columns(self) -> np.ndarray:
+        """The library's number of a control point -> Python's."""
+        nu, nv, nw = self.size
+        return np.arange(self._count).reshape(nu, nv, nw).transpose(2, 1, 0).ravel()
+
+    def _weights_for_library(self, weights: Any) -> np.ndarray | None:
+        weights = self.weights if weights is None else weights
+        return None if weights is None else arrays.to_library(arrays.doubles(weights, "weights", self.size))
+
+    def _check_same(self, embedding: Embedding) -> None:
+        if not isinstance(embedding, Embedding):
+            raise TypeError(f"embedding must be what embed returns, not {type(embedding).__name__}")
+        if embedding.lattice is self:
+            return
+        if embedding.lattice.size != self.size or not np.array_equal(embedding.lattice.rest, self.rest):
+            raise ValueError("the embedding was made with another lattice")
+
+    def _source_and_out(self, embedding: Embedding, points: Any, out: Any, vertices: Any) -> tuple[np.ndarray, np.ndarray]:
+        """The points at rest, and the array for the results."""
+        if not isinstance(embedding, Embedding):
+            raise TypeError(f"embedding must be what embed returns, not {type(embedding).__name__}")
+        count = len(embedding)
+        source = embedding.points if points is None else arrays.readable(arrays.vectors(points, "points", count))
+        if out is None:
+            return source, np.empty((count, 3), source.dtype) if vertices is None else np.array(source)
+        out = arrays.output(out, "out", count)
+        if arrays.overlap(out, embedding.points):
+            raise ValueError("out is memory of the points that were embedded, which a later call starts from: embed a copy")
+        if points is not None and not arrays.same_place(source, out) and arrays.overlap(source, out):
+            raise ValueError("out and points overlap and are not the same array")
+        return source, out
+
+
+def _again(text: str, bounds: np.ndarray | None, offsets: np.ndarray | None) -> Lattice:
+    """A pickled lattice."""
+    lattice = Lattice.parse(text)
+    return lattice if bounds is None else lattice._fit(bounds).moved(offsets=offsets)
+
+
+def _directions(run: Run, out: np.ndarray, gradients: np.ndarray, normals: Any, tangents: Any, wanted: bool) -> Deformed:
+    """Carries normals and tangents by the gradients."""
+    made: list[np.ndarray | None] = [None, None]
+    total = 0
+    packed = arrays.span(np.empty((0, 3)))
+    for i, (value, what) in enumerate(((normals, "normals"), (tangents, "tangents"))):
+        if value is None:
+            continue
+        source = arrays.readable(arrays.vectors(value, what, len(out)))
+        result = made[i] = np.empty(source.shape, source.dtype)
+        collapsed = ctypes.c_size_t()
+        spans = (arrays.span(source), arrays.span(result), ctypes.byref(collapsed))
+        if len(out) and what == "normals":
+            run(lib.ffd_normals_deform, arrays.address(gradients), *spans)
+        elif len(out):
+            run(lib.ffd_tangents_deform, arrays.address(gradients), packed if made[0] is None else arrays.span(made[0]), *spans)
+        total += collapsed.value
+        if collapsed.value:
+            library.LOG.warning("%d %s have no direction any more, and keep theirs", collapsed.value, what)
+    return Deformed(out, made[0], made[1], gradients if wanted else None, total)

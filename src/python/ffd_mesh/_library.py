@@ -1,0 +1,145 @@
+"""The library: its functions by ctypes, which lets other threads of Python run during a call."""
+
+from __future__ import annotations
+
+import ctypes
+import logging
+import operator
+from typing import Any, Callable
+
+from . import _declarations as declared
+from . import _native  # type: ignore[attr-defined]
+from ._errors import Cancelled, failure
+
+Progress = Callable[[float], "bool | None"]
+
+LOG = logging.getLogger("ffd_mesh")
+LOG.addHandler(logging.NullHandler())
+
+_LIBRARY = ctypes.CDLL(_native.__file__)
+for _name, (_result, _arguments) in declared.FUNCTIONS.items():
+    _function = getattr(_LIBRARY, _name)
+    _function.restype, _function.argtypes = _result, _arguments
+lib = _LIBRARY
+
+
+def _words(names: dict[str, int]) -> dict[str, int]:
+    """FFD_NORMALS_KEEP, ... -> keep, ...: without the words that all have in common."""
+    split = [name.split("_") for name in names]
+    common = 0
+    while all(len(words) > common + 1 and words[common] == split[0][common] for words in split):
+        common += 1
+    return {"_".join(words[common:]).lower(): number for words, number in zip(split, names.values())}
+
+
+# Enumeration -> word -> number; and back.
+WORDS = {name: _words(names) for name, names in declared.ENUMERATIONS.items()}
+NAMES = {name: {number: word for word, number in words.items()} for name, words in WORDS.items()}
+
+
+def number_of(enumeration: str, word: Any, what: str) -> int:
+    """The number of a word such as "extend"; a ValueError names what there is."""
+    words = WORDS[enumeration]
+    if not isinstance(word, str) or word not in words:
+        raise ValueError(f"{what} must be one of {', '.join(map(repr, words))}, not {word!r}")
+    return words[word]
+
+
+def integer(value: Any, what: str, least: int = 0, most: int = 2**31 - 1) -> int:
+    """An int of Python, of numpy or of what else has __index__, within bounds: ctypes would cut it."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{what} must be an integer, not {type(value).__name__}") from None
+    if not least <= number <= most:
+        raise ValueError(f"{what} must be {least} to {most}, not {number}")
+    return number
+
+
+def text(data: bytes | None) -> str | None:
+    return None if data is None else data.decode("utf-8", "backslashreplace")
+
+
+def empty(name: str) -> Any:
+    """A structure for results; those that know their size have it."""
+    structure = getattr(declared, name)()
+    if hasattr(structure, "struct_size"):
+        structure.struct_size = ctypes.sizeof(structure)
+    return structure
+
+
+def filled(name: str) -> Any:
+    """A structure with the library's defaults."""
+    structure = getattr(declared, name)()
+    init = getattr(lib, name + "_init")
+    if len(init.argtypes) == 2:
+        init(ctypes.byref(structure), ctypes.sizeof(structure))
+    else:
+        init(ctypes.byref(structure))
+    return structure
+
+
+def call(function: Any, *arguments: Any) -> None:
+    """Calls a function that takes an ffd_error last; raises what it says."""
+    error = declared.ffd_error()
+    status = function(*arguments, ctypes.byref(error))
+    if status != 0:
+        raise failure(status, error)
+
+
+class Run:
+    """How a call runs: an ffd_run, and what its progress has to say."""
+
+    def __init__(self, threads: int, isa: str, progress: Progress | None) -> None:
+        if progress is not None and not callable(progress):
+            raise TypeError(f"progress must be a function, not {type(progress).__name__}")
+        self._said: list[Any] = [progress]
+        self.run = filled("ffd_run")
+        self.run.threads = integer(threads, "threads")
+        self.run.isa = number_of("ffd_isa", isa, "isa")
+        self.run.progress = _native.progress
+        self.run.user = id(self._said)
+
+    def __call__(self, function: Any, *arguments: Any, last: tuple[Any, ...] = ()) -> None:
+        """Calls a function that takes an ffd_run, what is last, and an ffd_error."""
+        try:
+            call(function, *arguments, ctypes.byref(self.run), *last)
+        except Cancelled:
+            if len(self._said) > 1:
+                raise self._said[1] from None
+            raise
+        if len(self._said) > 1:
+            raise self._said[1]
+
+
+def log_into(structure: Any, lines: list[Any]) -> None:
+    """Lets a job's structure append (level, line) to a list, which must outlive the call."""
+    structure.log = _native.log
+    structure.log_user = id(lines)
+
+
+def list_parameters(data: bytes, name: str) -> list[Any]:
+    found: list[Any] = []
+    call(lib.ffd_lattice_list_parameters, data, len(data), name.encode(), _native.parameter, id(found))
+    return found
+
+
+class Owned:
+    """An object of the library, which is freed with this one."""
+
+    def __init__(self, destroy: Any) -> None:
+        self.pointer = ctypes.c_void_p()
+        self._destroy = destroy
+
+    # At the end of the interpreter the module may be gone before its last object.
+    def __del__(self, byref: Any = ctypes.byref) -> None:
+        if self.pointer:
+            self._destroy(byref(self.pointer))
+
+
+def take_bytes(pointer: ctypes.c_void_p, size: int) -> bytes:
+    """Copies what the library hands over, and frees it."""
+    try:
+        return ctypes.string_at(pointer, size)
+    finally:
+        lib.ffd_free(pointer)

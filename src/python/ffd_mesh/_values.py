@@ -1,0 +1,154 @@
+"""What lattices are made of, and what they answer with, apart from arrays of points."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass
+from typing import Any, Mapping, NamedTuple
+
+import numpy as np
+
+from . import _arrays as arrays
+from . import _declarations as declared
+from . import _library as library
+
+
+class Parameter(NamedTuple):
+    """A placeholder of a lattice file, as the file declares it. default: None where there is none."""
+
+    name: str
+    default: Any
+    unit: str | None
+    comment: str | None
+    min: float
+    max: float
+
+
+class Deformed(NamedTuple):
+    """What `Lattice.deform` returns where more than points is asked for; None for what was not.
+
+    points: (N, 3); normals, tangents: (N, 3); gradients: (N, 3, 3) float64, d displacement_r / d p_c
+    collapsed: how many normals and tangents have no direction any more, and keep theirs
+    """
+
+    points: np.ndarray
+    normals: np.ndarray | None = None
+    tangents: np.ndarray | None = None
+    gradients: np.ndarray | None = None
+    collapsed: int = 0
+
+
+class Csr(NamedTuple):
+    """A sparse matrix by rows, where scipy is not installed: the entries of row i are indptr[i] to indptr[i+1]-1."""
+
+    data: np.ndarray
+    indices: np.ndarray
+    indptr: np.ndarray
+    shape: tuple[int, int]
+
+
+@dataclass(frozen=True)
+class Folds:
+    """What is proven of a deformed volume (ffd/fold.h). verdict: "none", "some", or "unknown".
+
+    cells, folded_cells, unknown_cells: span cells
+    min_det: a lower bound of the determinant, relative to the mean at rest
+    witness_uvw, witness_xyz, witness_rest: (3,) of a place that folds, and witness_det there; None without one
+    """
+
+    verdict: str
+    cells: int
+    folded_cells: int
+    unknown_cells: int
+    min_det: float
+    witness_uvw: np.ndarray | None
+    witness_xyz: np.ndarray | None
+    witness_rest: np.ndarray | None
+    witness_det: float | None
+
+
+def folds_of(found: Any) -> Folds:
+    """Folds of the library's ffd_folds."""
+    has = found.has_witness
+    uvw, xyz, rest = (np.array(v) if has else None for v in (found.witness_uvw, found.witness_xyz, found.witness_rest))
+    return Folds(library.NAMES["ffd_fold_verdict"][found.verdict], found.cells, found.folded_cells, found.unknown_cells,
+                 found.min_det, uvw, xyz, rest, found.witness_det if has else None)
+
+
+def settings(values: Mapping[str, Any] | None) -> tuple[Any, int]:
+    """Values of placeholders as ffd_setting; texts as they are, all else as JSON."""
+    items = list((values or {}).items())
+    made = (declared.ffd_setting * len(items))()
+    for setting, (name, value) in zip(made, items):
+        value = value.tolist() if isinstance(value, (np.ndarray, np.generic)) else value
+        setting.name = name.encode()
+        setting.value = (value if isinstance(value, str) else json.dumps(value)).encode()
+    return made, len(items)
+
+
+def three(value: Any, what: str) -> tuple[Any, Any, Any]:
+    """One value for all of u, v, w, or one for each."""
+    if isinstance(value, (list, tuple, np.ndarray)):
+        if len(value) != 3:
+            raise ValueError(f"{what} must be one value, or three, not {len(value)}")
+        return tuple(value)  # type: ignore[return-value]
+    return value, value, value
+
+
+def shape_of(size: Any, degree: Any) -> tuple[list[int], list[int]]:
+    """Sizes and degrees as the library takes them: 0 for a degree that is not given."""
+    sizes = [library.integer(value, "size", 1, 2**62) for value in three(size, "size")]
+    degrees = [0 if value is None else library.integer(value, "degree", 1, 9) for value in three(degree, "degree")]
+    return sizes, degrees
+
+
+def described(size: Any, degree: Any, knots: Any) -> tuple[Any, list[np.ndarray]]:
+    """An ffd_lattice_arrays, and the arrays that it points to."""
+    made, kept = library.filled("ffd_lattice_arrays"), []
+    made.size[:], made.degree[:] = shape_of(size, degree)
+    one = isinstance(knots, str) or isinstance(knots, tuple) and len(knots) == 2 and knots[0] == "closed"
+    for direction, knot in enumerate((knots,) * 3 if one else three(knots, "knots")):
+        word, values = (knot, None) if isinstance(knot, str) else knot if isinstance(knot, tuple) and knot[0] == "closed" \
+            else ("default", knot)
+        made.knots[direction] = library.number_of("ffd_knots", word, "knots")
+        if values is not None:
+            kept.append(arrays.doubles(values, "knots", (len(values),)))
+            made.knot_values[direction] = arrays.address(kept[-1])
+            made.knot_count[direction] = len(kept[-1])
+    return made, kept
+
+
+def vertices_of(value: Any, count: int) -> np.ndarray:
+    """Numbers of points as the library takes them."""
+    array = np.asarray(value)
+    if array.ndim != 1 or array.dtype.kind not in "iu" and array.size:
+        raise TypeError("vertices must be a list of integers")
+    if array.size and (array.min() < 0 or array.max() >= count):
+        raise ValueError(f"vertices must be 0 to {count - 1}")
+    return np.ascontiguousarray(array, dtype=np.uint32)
+
+
+def csr(values: np.ndarray, columns: np.ndarray, starts: np.ndarray, shape: tuple[int, int]) -> Any:
+    """The matrix with its columns ascending in each row."""
+    rows = np.repeat(np.arange(shape[0]), np.diff(starts).astype(np.intp))
+    order = np.lexsort((columns, rows))
+    kind = np.int32 if max(len(values), *shape) < 2**31 else np.int64
+    parts = (values[order], columns[order].astype(kind), starts.astype(kind))
+    try:
+        from scipy.sparse import csr_array  # type: ignore[import-untyped]
+    except ImportError:
+        return Csr(*parts, shape)
+    return csr_array(parts, shape=shape)
+
+
+def parameters_of(data: bytes, name: str) -> dict[str, Parameter]:
+    """The placeholders that the text of a lattice file declares."""
+    return {row[0]: Parameter(row[0], None if row[1] is None else json.loads(row[1]), *row[2:])
+            for row in library.list_parameters(data, name)}
+
+
+def parameters(path: str | os.PathLike[str]) -> dict[str, Parameter]:
+    """The placeholders that a lattice file declares, by name; they need no values."""
+    with open(path, "rb") as file:
+        return parameters_of(file.read(), os.fspath(path))

@@ -1,0 +1,164 @@
+"""Arrays of any shape, stride and type are taken as they are, or refused with a clear exception."""
+
+import unittest
+
+import ffd_mesh as ffd
+import numpy as np
+import support
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+RANDOM = support.rng("arrays")
+LATTICE = support.curved(RANDOM)
+Q = support.pushed(RANDOM, LATTICE)
+
+coordinates = st.one_of(st.floats(-0.5, 1.5, width=32), st.sampled_from([np.nan, np.inf, -0.0, 1e30]))
+clouds = st.sampled_from([np.float32, np.float64]).flatmap(
+    lambda kind: st.integers(0, 12).flatmap(lambda n: arrays(kind, (n, 3), elements=coordinates)))
+layouts = st.sampled_from(["C", "Fortran", "interleaved", "reversed", "backwards", "every second", "unaligned"])
+
+
+def laid_out(points, layout):
+    """The same numbers with other strides."""
+    n = len(points)
+    if layout == "Fortran":
+        return np.asfortranarray(points)
+    if layout == "interleaved":
+        wide = np.full((n, 8), 7, points.dtype)
+        wide[:, 2:5] = points
+        return wide[:, 2:5]
+    if layout == "reversed":
+        return np.ascontiguousarray(points[::-1])[::-1]
+    if layout == "backwards":
+        return np.ascontiguousarray(points[:, ::-1])[:, ::-1]
+    if layout == "every second":
+        return np.repeat(points, 2, axis=0)[::2]
+    if layout == "unaligned":
+        raw = np.frombuffer(bytearray(1 + points.nbytes), np.uint8)[1:]
+        view = raw.view(points.dtype).reshape(points.shape) if n else points
+        view[...] = points
+        return view
+    return points
+
+
+class Layouts(unittest.TestCase):
+    @settings(max_examples=150, deadline=None, derandomize=True, database=None)
+    @given(clouds, layouts, layouts)
+    def test_strides_change_no_bit(self, points, there, back):
+        points = np.where(np.abs(points) < 1e20, points, points) if len(points) else points
+        plain = LATTICE.embed(points)
+        wanted = LATTICE.deform(plain, Q)
+        self.assertEqual(wanted.dtype, points.dtype)
+        view = laid_out(points, there)
+        embedding = LATTICE.embed(view)
+        self.assertIs(embedding.points, view)
+        self.assertEqual(embedding.uvw.tobytes(), plain.uvw.tobytes())
+        out = laid_out(np.zeros_like(points), back)
+        self.assertIs(LATTICE.deform(embedding, Q, out=out), out)
+        self.assertEqual(np.ascontiguousarray(out).tobytes(), wanted.tobytes())
+        finite = np.isfinite(points).all(axis=1)
+        self.assertTrue(np.array_equal(embedding.status == ffd.Status.INVALID, ~finite))
+        self.assertEqual(wanted[~finite].tobytes(), points[~finite].tobytes())
+        self.assertTrue(np.isfinite(wanted[finite]).all())
+
+    @settings(max_examples=60, deadline=None, derandomize=True, database=None)
+    @given(st.tuples(*[st.integers(2, 5)] * 3), st.integers(0, 2**32 - 1))
+    def test_control_points_come_and_go_in_pythons_order(self, size, seed):
+        random = np.random.default_rng(seed)
+        grid = np.stack(np.meshgrid(*(np.linspace(0, 1, n) for n in size), indexing="ij"), axis=-1)
+        weights = random.uniform(0.5, 2, size)
+        lattice = ffd.Lattice.from_points(grid, weights=weights)
+        self.assertEqual(lattice.size, size)
+        self.assertTrue(np.array_equal(lattice.rest, grid) and np.array_equal(lattice.rest_weights, weights))
+        wanted = random.standard_normal(grid.shape)
+        for given_as in (wanted, np.asfortranarray(wanted), wanted[::-1][::-1]):
+            self.assertTrue(np.array_equal(lattice.moved(offsets=given_as).offsets, wanted))
+        lattice = ffd.Lattice.parse(lattice.moved(offsets=wanted).text)
+        self.assertTrue(np.array_equal(lattice.offsets, wanted))
+
+    def test_a_type_may_differ_from_that_of_the_result(self):
+        points = RANDOM.uniform(0, 1, (20, 3)).astype(np.float32)
+        embedding = LATTICE.embed(points)
+        wide = LATTICE.deform(embedding, Q, out=np.empty((20, 3)))
+        self.assertTrue(np.array_equal(wide.astype(np.float32), LATTICE.deform(embedding, Q)))
+
+    def test_views_live_as_long_as_they_are_used(self):
+        uvw = LATTICE.embed(RANDOM.uniform(0, 1, (1000, 3))).uvw
+        rest = support.curved(support.rng("views")).rest
+        other = [LATTICE.embed(RANDOM.uniform(0, 1, (1000, 3))) for _ in range(20)]
+        self.assertTrue(((uvw >= 0) & (uvw <= 1))[np.isfinite(uvw)].all() and len(other) == 20)
+        self.assertTrue(np.array_equal(rest, support.curved(support.rng("views")).rest))
+        for view in (uvw, rest, other[0].status):
+            self.assertFalse(view.flags.writeable)
+
+    def test_repeated_rows_are_taken(self):
+        points = np.broadcast_to(np.float32(0.5), (4, 3))
+        out = LATTICE.deform(LATTICE.embed(points), Q)
+        self.assertTrue((out == out[0]).all())
+
+
+class Refusals(unittest.TestCase):
+    def refused(self, kind, words, function, *arguments, **more):
+        with self.assertRaisesRegex(kind, words):
+            function(*arguments, **more)
+
+    def test_points(self):
+        good = RANDOM.uniform(0, 1, (5, 3))
+        for bad in (good[:, :2], good.ravel(), good[None], good[:, :0], np.float64(3), []):
+            self.refused(ValueError, r"points must have the shape \(N, 3\)", LATTICE.embed, bad)
+        for bad in (good.astype(np.float16), good.astype(">f8"), good.astype(int), good.astype(complex), good.astype(object), "xyz", None):
+            self.refused(TypeError, "points must be float32 or float64", LATTICE.embed, bad)
+        self.refused(TypeError, "mask", LATTICE.embed, np.ma.masked_array(good))
+
+    def test_out(self):
+        embedding = LATTICE.embed(RANDOM.uniform(0, 1, (5, 3)))
+        frozen = np.empty((5, 3))
+        frozen.flags.writeable = False
+        for bad in (np.empty((4, 3)), np.empty((5, 4)), np.empty(15), frozen, np.lib.stride_tricks.as_strided(np.empty(3), (5, 3), (0, 8)),
+                    embedding.points, embedding.points[::-1]):
+            self.refused(ValueError, "out", LATTICE.deform, embedding, Q, out=bad)
+        for bad in ([[0.0] * 3] * 5, np.empty((5, 3), np.float16), np.empty((5, 3), int)):
+            self.refused(TypeError, "out", LATTICE.deform, embedding, Q, out=bad)
+        both = np.array(np.hstack([embedding.points, embedding.points]))
+        self.assertTrue(np.array_equal(LATTICE.deform(embedding, Q, points=both[:, :3], out=both[:, 3:]), LATTICE.deform(embedding, Q)))
+        self.assertTrue(np.array_equal(LATTICE.deform(embedding, Q, points=both[:, :3], out=both[:, :3]), LATTICE.deform(embedding, Q)))
+        self.refused(ValueError, "overlap", LATTICE.deform, embedding, Q, points=both[:, :3], out=both[:, 1:4])
+
+    def test_control_points(self):
+        embedding = LATTICE.embed(RANDOM.uniform(0, 1, (5, 3)))
+        for bad in (Q[:-1], Q.reshape(-1, 3), Q[..., :2]):
+            self.refused(ValueError, "Q must have the shape", LATTICE.deform, embedding, bad)
+        self.refused(TypeError, "Q must hold real numbers", LATTICE.deform, embedding, Q.astype(complex))
+        self.refused(ffd.InvalidError, "finite", LATTICE.deform, embedding, Q * np.nan)
+        self.refused(ValueError, "not both", LATTICE.deform, embedding, Q, offsets=Q)
+        self.refused(ValueError, "weights must have the shape", LATTICE.deform, embedding, weights=np.ones(3))
+        self.refused(ffd.InvalidError, "weight", LATTICE.deform, embedding, weights=-np.ones(LATTICE.size))
+        self.refused(ValueError, "another lattice", support.curved(RANDOM).basis, embedding)
+        self.refused(ffd.InvalidError, "", support.curved(RANDOM).deform, embedding)
+        self.refused(ValueError, "control_points", embedding.affected, [[9, 0, 0]])
+        self.refused(ValueError, "vertices", LATTICE.deform, embedding, Q, vertices=[-1])
+        self.refused(ffd.ArgumentError, "", LATTICE.deform, embedding, Q, vertices=[2, 1])
+
+    def test_options(self):
+        points = RANDOM.uniform(0, 1, (5, 3))
+        self.refused(ValueError, "'keep', 'extend', 'error'", LATTICE.embed, points, outside="kept")
+        self.refused(ValueError, "threads", LATTICE.embed, points, threads=2**40)
+        self.refused(TypeError, "threads", LATTICE.embed, points, threads=1.5)
+        self.refused(TypeError, "progress", LATTICE.embed, points, progress=3)
+        self.refused(ffd.ArgumentError, "falloff", LATTICE.embed, points, outside="extend", falloff=-1)
+        self.refused(ValueError, "size", ffd.Lattice.around, points, size=(3, -1, 3))
+        self.refused(ValueError, "three", ffd.Lattice.around, points, size=(3, 3))
+        self.refused(ffd.InvalidError, "", ffd.Lattice.around, points * np.nan)
+
+    def test_errors_say_where(self):
+        with self.assertRaises(ffd.InvalidError) as caught:
+            ffd.Lattice.parse('{"format": "ffd-lattice",\n "version": 1,\n oops}', "my.json")
+        self.assertEqual((caught.exception.file, caught.exception.line, caught.exception.status), ("my.json", 3, -30))
+        with self.assertRaises(ffd.InvalidError) as caught:
+            ffd.Lattice.parse(ffd.Lattice.box((0, 0, 0), (1, 1, 1)).text.replace('"degree"', '"degrees"'))
+        self.assertTrue(caught.exception.pointer)
+        with self.assertRaises(ffd.FileError) as caught:
+            ffd.Lattice.load("absent.json")
+        self.assertEqual(caught.exception.file, "absent.json")
+        self.assertIsInstance(caught.exception, OSError)

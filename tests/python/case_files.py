@@ -1,0 +1,183 @@
+"""Files and the meshes of other packages."""
+
+import filecmp
+import json
+import os
+import tempfile
+import unittest
+
+import ffd_mesh as ffd
+import numpy as np
+import support
+
+SPOT = os.path.join(support.DATA, "models", "spot.obj")
+TWIST = os.path.join(support.DATA, "lattices", "twist.json")
+
+
+def part_of_spot():
+    """A lattice that holds a part of the cow, and a push of it."""
+    lattice = ffd.Lattice.box((-0.6, 0.0, -0.8), (0.6, 1.2, 1.2), size=5)
+    Q = lattice.rest.copy()
+    Q[2, 3, 2] += (0.1, 0.2, 0.0)
+    return lattice.moved(Q)
+
+
+class Files(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(folder.name)
+
+    def test_a_file_becomes_what_the_program_makes_of_it(self):
+        lattice = part_of_spot()
+        lattice.save("part.json", force=True)
+        support.program("deform", SPOT, "theirs.obj", "-l", "part.json", "-l", TWIST, "--normals", "recompute", "--force")
+        result = ffd.deform_file(SPOT, "ours.obj", [lattice, TWIST], normals="recompute", force=True)
+        self.assertTrue(filecmp.cmp("ours.obj", "theirs.obj", shallow=False))
+        self.assertEqual((result.vertices, result.moved, sum(result.counts.values())), (11533, 11533, 11533))
+        self.assertIsNone(result.folds)
+        self.assertEqual(ffd.deform_file(SPOT, "ours.obj", TWIST, force=True, quality=True).folds.verdict, "none")
+
+    def test_options_are_those_of_the_program(self):
+        lattice = part_of_spot()
+        lattice.save("part.json", force=True)
+        model = os.path.join(support.DATA, "models", "character.glb")
+        for words, options in ((["--outside", "extend", "--falloff", "0.5"], {"outside": "extend", "falloff": 0.5}),
+                               (["--snap", "0.01r"], {"snap": "0.01r"}),
+                               (["--as-morph", "wide", "--space", "mesh"], {"as_morph": "wide", "space": "mesh"}),
+                               (["--rig", "follow"], {"rig": "follow"}),
+                               (["--only", "node:arm-left", "--resources", "reference"],
+                                {"only": "node:arm-left", "resources": "reference"})):
+            support.program("deform", model, "theirs.glb", "-l", "part.json", "--force", *words)
+            ffd.deform_file(model, "ours.glb", lattice, force=True, **options)
+            self.assertTrue(filecmp.cmp("ours.glb", "theirs.glb", shallow=False), options)
+
+    def test_several_morph_targets(self):
+        lattice, clip = part_of_spot(), "bow: 0, 0.5 part=1, 1"
+        lattice.save("part.json")
+        model = os.path.join(support.DATA, "models", "character.glb")
+        support.program("deform", model, "theirs.glb", "--morph", "part=part.json", "--morph", f"turn={TWIST}", "--clip", clip)
+        ffd.deform_file(model, "ours.glb", {"part": lattice, "turn": TWIST}, clips=[clip])
+        self.assertTrue(filecmp.cmp("ours.glb", "theirs.glb", shallow=False))
+
+    def test_checks_and_gates(self):
+        result = ffd.check_file(SPOT, TWIST)
+        self.assertEqual(result.folds.verdict, "none")
+        report = "report.json"
+        support.program("check", SPOT, "-l", TWIST, "--report", report)
+        with open(report, encoding="utf-8") as file:
+            theirs = json.load(file)["jobs"][0]
+        self.assertEqual(result.displacement_max, theirs["displacement"]["max"])
+        with self.assertRaisesRegex(ffd.GateError, "outside") as caught:
+            ffd.check_file(SPOT, part_of_spot(), fail_on=["outside", "folds", "tear=0.5"])
+        self.assertGreater(caught.exception.result.counts["outside"], 0)
+        self.assertEqual(caught.exception.status, -1)
+        self.assertTrue(ffd.check_file(SPOT, part_of_spot()).warnings)
+
+    def test_derivatives_of_files_are_those_of_arrays(self):
+        from scipy import sparse
+        lattice, points = part_of_spot(), support.rng("jacobian").uniform(-0.5, 0.5, (60, 3))
+        with open("cloud.ply", "wb") as file:
+            file.write(support.ply(points))
+        found = ffd.jacobian_file("cloud.ply", "j.npz", lattice, check=True)
+        embedding = lattice.embed(points)
+        B = lattice.basis(embedding)
+        self.assertEqual((found["vertices"], found["rows"], found["columns"], found["entries"]), (60, *B.shape, B.nnz))
+        self.assertLess(found["worst"], 1e-6)
+        columns = np.arange(125).reshape(5, 5, 5).transpose(2, 1, 0).ravel()  # u fastest in files
+        theirs = sparse.load_npz("j.npz").toarray()
+        self.assertEqual(theirs.tobytes(), B.toarray()[:, columns].tobytes())
+        with self.assertRaises(ffd.ExistsError):
+            ffd.jacobian_file("cloud.ply", "j.npz", lattice)
+        with self.assertRaisesRegex(ValueError, "'points', 'parameters'"):
+            ffd.jacobian_file("cloud.ply", "k.npz", lattice, by="weights")
+
+    def test_failures_of_files(self):
+        lattice = part_of_spot()
+        with open("there.obj", "w", encoding="ascii") as file:
+            file.write("mine\n")
+        with self.assertRaises(ffd.ExistsError):
+            ffd.deform_file(SPOT, "there.obj", lattice)
+        with open("there.obj", encoding="ascii") as file:
+            self.assertEqual(file.read(), "mine\n")
+        with open("bad.obj", "w", encoding="ascii") as file:
+            file.write("v 0 0 0\nv 1 x 0\n")
+        with self.assertRaises(ffd.InvalidError) as caught:
+            ffd.deform_file("bad.obj", "out.obj", lattice)
+        self.assertEqual((caught.exception.file, caught.exception.line), ("bad.obj", 2))
+        self.assertFalse(os.path.exists("out.obj"))
+        with self.assertRaisesRegex(TypeError, "unknown option 'outsid'"):
+            ffd.deform_file(SPOT, "out.obj", lattice, outsid="keep")
+        with self.assertRaisesRegex(ValueError, "fail_on"):
+            ffd.deform_file(SPOT, "out.obj", lattice, fail_on=["edges"])
+
+    def test_placeholders(self):
+        text = json.loads(part_of_spot().text)
+        del text["deformed"]
+        text["parameters"] = {"lift": {"default": 0.1, "min": 0, "max": 1, "unit": "m", "comment": "how far"}}
+        text["moves"] = [{"at": [2, 3, 2], "by": [0, {"$": "lift"}, 0]}]
+        with open("lift.json", "w", encoding="utf-8") as file:
+            json.dump(text, file)
+        self.assertEqual(ffd.parameters("lift.json")["lift"], ("lift", 0.1, "m", "how far", 0, 1))
+        self.assertEqual(ffd.Lattice.load("lift.json").offsets[2, 3, 2].tolist(), [0, 0.1, 0])
+        lattice = ffd.Lattice.load("lift.json", {"lift": 0.25})
+        self.assertEqual((lattice.offsets[2, 3, 2, 1], list(lattice.parameters)), (0.25, ["lift"]))
+        with self.assertRaisesRegex(ValueError, "'lifted'"):
+            ffd.Lattice.load("lift.json", {"lifted": 1})
+        self.assertEqual(ffd.info("lift.json", set={"lift": 0.25})["kind"], "lattice")
+        self.assertEqual(ffd.info(SPOT)["vertices"], 11533)
+        ffd.deform_file(SPOT, "lifted.obj", "lift.json", set={"lift": 0.25}, force=True)
+
+
+class Meshes(unittest.TestCase):
+    def setUp(self):
+        random = support.rng("meshes")
+        self.lattice = support.curved(random)
+        self.Q = support.pushed(random, self.lattice)
+        self.points = random.uniform(0.1, 0.9, (30, 3))
+        self.normals = random.standard_normal((30, 3))
+        self.normals /= np.linalg.norm(self.normals, axis=1, keepdims=True)
+        self.faces = np.arange(30).reshape(10, 3)
+        self.wanted = self.lattice.deform(self.lattice.embed(self.points), self.Q, normals=self.normals)
+
+    def test_trimesh(self):
+        import trimesh
+        mesh = trimesh.Trimesh(self.points, self.faces, vertex_normals=self.normals, process=False)
+        found = ffd.deform_mesh(mesh, self.lattice, self.Q)
+        self.assertIsInstance(found, trimesh.Trimesh)
+        self.assertTrue(np.array_equal(found.vertices, self.wanted.points) and np.array_equal(found.faces, self.faces))
+        self.assertLess(np.abs(found.vertex_normals - self.wanted.normals).max(), 1e-15)
+        self.assertTrue(np.array_equal(mesh.vertices, self.points))
+        cloud = ffd.deform_mesh(trimesh.PointCloud(self.points), self.lattice, self.Q)
+        self.assertTrue(np.array_equal(cloud.vertices, self.wanted.points))
+        with self.assertRaisesRegex(TypeError, "Scene"):
+            ffd.deform_mesh(trimesh.Scene(mesh), self.lattice, self.Q)
+
+    def test_meshio(self):
+        import meshio
+        mesh = meshio.Mesh(self.points, [("triangle", self.faces)], point_data={"Normals": self.normals, "heat": self.points[:, 0]})
+        found = ffd.deform_mesh(mesh, self.lattice, self.Q)
+        self.assertTrue(np.array_equal(found.points, self.wanted.points) and np.array_equal(mesh.points, self.points))
+        self.assertTrue(np.array_equal(found.point_data["Normals"], self.wanted.normals))
+        self.assertTrue(np.array_equal(found.point_data["heat"], self.points[:, 0]))
+        with self.assertRaisesRegex(ValueError, "shape"):
+            ffd.deform_mesh(meshio.Mesh(self.points[:, :2], []), self.lattice)
+
+    def test_pyvista(self):
+        try:
+            import pyvista
+        except ImportError:
+            self.skipTest("pyvista is not among the pinned wheels")
+        mesh = pyvista.PolyData(self.points, np.hstack([np.full((10, 1), 3), self.faces]))
+        mesh.point_data["n"] = self.normals
+        mesh.point_data.active_normals_name = "n"
+        found = ffd.deform_mesh(mesh, self.lattice, self.Q)
+        self.assertTrue(np.array_equal(found.points, self.wanted.points) and np.array_equal(mesh.points, self.points))
+        self.assertTrue(np.array_equal(found.point_data["n"], self.wanted.normals))
+        with self.assertRaises(TypeError):
+            ffd.deform_mesh(pyvista.MultiBlock([mesh]), self.lattice)
+
+    def test_other_things(self):
+        with self.assertRaisesRegex(TypeError, "no mesh"):
+            ffd.deform_mesh(self.points, self.lattice)

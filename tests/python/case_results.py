@@ -1,0 +1,158 @@
+"""Results are those of the program, to the bit, and those that others compute."""
+
+import glob
+import os
+import pickle
+import unittest
+
+import ffd_mesh as ffd
+import numpy as np
+import support
+
+
+class Bits(unittest.TestCase):
+    def test_control_points_that_were_set_do_what_a_file_of_them_does(self):
+        random = support.rng("bits")
+        for dtype in (np.float32, np.float64):
+            for weights in (False, True):
+                lattice = support.curved(random, weights=weights)
+                Q = support.pushed(random, lattice)
+                points = random.uniform(-0.2, 1.2, (300, 3)).astype(dtype)
+                for outside in ("keep", "extend"):
+                    embedding = lattice.embed(points, outside=outside)
+                    found = lattice.deform(embedding, Q)
+                    wanted = support.deformed_by_program(points, lattice.moved(Q), "--outside", outside)
+                    self.assertEqual(found.tobytes(), wanted.tobytes(), (dtype, weights, outside))
+                    self.assertTrue(np.array_equal(lattice.deform(embedding), points))
+
+    def test_files_with_moves_and_normals(self):
+        random = support.rng("files")
+        points = random.uniform(-1, 1, (400, 3)).astype(np.float32)
+        normals = random.standard_normal((400, 3)).astype(np.float32)
+        normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+        for path in sorted(glob.glob(os.path.join(support.DATA, "lattices", "*.json"))):
+            if ffd.parameters(path):
+                continue
+            lattice = ffd.Lattice.load(path).fit(points)
+            found = lattice.deform(lattice.embed(points), normals=normals)
+            wanted = support.deformed_by_program(points, lattice, normals=normals)
+            self.assertEqual(found.points.tobytes(), np.ascontiguousarray(wanted[:, :3]).tobytes(), path)
+            self.assertEqual(found.normals.tobytes(), np.ascontiguousarray(wanted[:, 3:]).tobytes(), path)
+
+    def test_a_lattice_round_points_is_that_of_lattice_new(self):
+        points = support.rng("around").uniform(-1, 2, (50, 3))
+        with open("cloud.ply", "wb") as file:
+            file.write(support.ply(points))
+        support.program("lattice", "new", "cloud.ply", "-o", "new.json", "--force", "--size", "5,4,3", "--degree", "3,2,1", "--margin", "0.1")
+        theirs = ffd.Lattice.load("new.json").fit(points)
+        ours = ffd.Lattice.around(points, size=(5, 4, 3), degree=(3, 2, 1), margin=0.1)
+        self.assertTrue(np.array_equal(ours.rest, theirs.rest))
+        self.assertEqual([list(k) for k in ours.knots], [list(k) for k in theirs.knots])
+
+    def test_text_and_pickles_keep_every_bit(self):
+        random = support.rng("text")
+        lattice = support.curved(random, weights=True)
+        lattice = lattice.moved(support.pushed(random, lattice), weights=random.uniform(0.5, 2, lattice.size))
+        points = random.uniform(-0.1, 1.1, (100, 3))
+        embedding = lattice.embed(points, outside="extend", falloff=0.5)
+        found = lattice.deform(embedding)
+        for again in (ffd.Lattice.parse(lattice.text), pickle.loads(pickle.dumps(lattice))):
+            for name in ("rest", "offsets", "deformed", "rest_weights", "weights"):
+                self.assertTrue(np.array_equal(getattr(again, name), getattr(lattice, name)), name)
+            self.assertEqual(again.deform(embedding).tobytes(), found.tobytes())
+        other = pickle.loads(pickle.dumps(embedding))
+        self.assertEqual(other.uvw.tobytes(), embedding.uvw.tobytes())
+        self.assertEqual(other.lattice.deform(other).tobytes(), found.tobytes())
+        with self.assertRaises(ffd.InvalidError):
+            ffd.Embedding.from_bytes(embedding.to_bytes()[:-1], lattice, points)
+
+    def test_threads_and_instruction_sets_change_nothing(self):
+        random = support.rng("threads")
+        lattice = support.curved(random)
+        points = random.uniform(-0.1, 1.1, (9000, 3)).astype(np.float32)
+        Q = support.pushed(random, lattice)
+        wanted = lattice.deform(lattice.embed(points, threads=1, isa="scalar"), Q, threads=1, isa="scalar").tobytes()
+        self.assertEqual(lattice.deform(lattice.embed(points, threads=5), Q, threads=7).tobytes(), wanted)
+
+
+class Calculus(unittest.TestCase):
+    def test_the_basis_is_the_derivative_by_the_control_points(self):
+        random = support.rng("derivative")
+        for weights in (False, True):
+            lattice = support.curved(random, size=(4, 3, 5), weights=weights)
+            Q = support.pushed(random, lattice)
+            embedding = lattice.embed(random.uniform(-0.2, 1.2, (60, 3)), outside="extend", falloff=0.4)
+            B = lattice.basis(embedding)
+            self.assertEqual(B.shape, (60, 60))
+            self.assertTrue(B.has_canonical_format)
+            for i, j, k in ((0, 0, 0), (3, 1, 2), (1, 2, 4)):
+                step = np.zeros(lattice.rest.shape)
+                step[i, j, k, 2] = 1e-5
+                slope = (lattice.deform(embedding, Q + step) - lattice.deform(embedding, Q - step)) / 2e-5
+                column = B[:, [(i * 3 + j) * 5 + k]].toarray().ravel()
+                self.assertLess(np.abs(slope[:, 2] - column).max(), 1e-6)
+            D, dfdx = random.standard_normal(lattice.rest.shape), random.standard_normal((60, 3))
+            self.assertLess(np.abs(B @ D.reshape(-1, 3) - lattice.basis_times(embedding, D)).max(), 1e-12)
+            self.assertLess(np.abs((B.T @ dfdx).reshape(D.shape) - lattice.basis_transposed(embedding, dfdx)).max(), 1e-12)
+            moved = np.abs(lattice.deform(embedding, offsets=D) - lattice.basis_times(embedding, D) - embedding.points).max()
+            self.assertLess(moved, 1e-12)
+
+    def test_only_what_is_affected_moves(self):
+        random = support.rng("affected")
+        lattice = support.curved(random, size=(7, 6, 5), degree=2)
+        embedding = lattice.embed(random.uniform(-0.1, 1.1, (500, 3)))
+        Q = lattice.rest.copy()
+        Q[2, 3, 1] += 0.05
+        out = lattice.deform(embedding, Q)
+        moved = np.flatnonzero((out != embedding.points).any(axis=1))
+        affected = embedding.affected([[2, 3, 1]])
+        self.assertTrue(set(moved) <= set(affected) and len(affected) < 500)
+        mask = np.zeros(lattice.size, bool)
+        mask[2, 3, 1] = True
+        self.assertTrue(np.array_equal(embedding.affected(mask), affected))
+        self.assertTrue(np.array_equal(lattice.deform(embedding, Q, vertices=affected), out))
+
+    def test_gradients_are_those_of_the_displacement(self):
+        random = support.rng("gradients")
+        lattice = support.curved(random)
+        Q, points = support.pushed(random, lattice), random.uniform(0.2, 0.8, (40, 3))
+        found = lattice.deform(lattice.embed(points), Q, gradients=True).gradients
+        for c in range(3):
+            step = 1e-6 * np.eye(3)[c]
+            ahead, behind = points + step, points - step
+            slope = (lattice.deform(lattice.embed(ahead), Q) - ahead - lattice.deform(lattice.embed(behind), Q) + behind) / 2e-6
+            self.assertLess(np.abs(slope - found[:, :, c]).max(), 1e-6)
+
+    def test_evaluation_is_that_of_geomdl(self):
+        from geomdl import NURBS
+        random = support.rng("geomdl")
+        lattice = support.curved(random, size=(4, 5, 3), degree=2, weights=True)
+        volume = NURBS.Volume()
+        volume.degree = lattice.degree
+        # Theirs has v fastest, then u, then w.
+        weights, points = (np.ascontiguousarray(a.transpose(2, 0, 1, *range(3, a.ndim))) for a in (lattice.rest_weights, lattice.rest))
+        weighted = np.concatenate([points * weights[..., None], weights[..., None]], axis=-1).reshape(-1, 4)
+        volume.set_ctrlpts(weighted.tolist(), *lattice.size)
+        volume.knotvector = [list(knots) for knots in lattice.knots]
+        uvw = random.uniform(0, 1, (20, 3))
+        theirs = np.array(volume.evaluate_list(uvw.tolist()))
+        self.assertLess(np.abs(lattice.evaluate(uvw, volume="rest") - theirs).max(), 1e-12)
+
+    def test_evaluation_undoes_embedding(self):
+        random = support.rng("evaluate")
+        lattice = support.curved(random, weights=True)
+        points = random.uniform(0.2, 0.8, (50, 3))
+        embedding = lattice.embed(points)
+        found, jacobians = lattice.evaluate(embedding.uvw, volume="rest", jacobians=True)
+        self.assertLess(np.abs(found - points).max(), 1e-13)
+        self.assertTrue((np.linalg.det(jacobians) > 0).all())
+
+    def test_folds_are_found_and_excluded(self):
+        lattice = ffd.Lattice.box((0, 0, 0), (1, 1, 1), size=4)
+        self.assertEqual(lattice.folds().verdict, "none")
+        Q = lattice.rest.copy()
+        Q[1, :, :, 0] += 2
+        folds = lattice.folds(Q)
+        self.assertEqual(folds.verdict, "some")
+        jacobian = lattice.moved(Q).evaluate(folds.witness_uvw[None], jacobians=True)[1][0]
+        self.assertLess(np.linalg.det(jacobian), 0)

@@ -1,0 +1,109 @@
+"""What the package offers is what the headers and the pages have: declarations, options, the page, the examples."""
+
+import ast
+import glob
+import importlib.metadata
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import ffd_mesh as ffd
+import support
+from ffd_mesh import _declarations, _library
+
+EXAMPLES = os.path.join(support.DATA, "examples", "python")
+
+
+def headers():
+    for path in glob.glob(os.path.join(support.SOURCE, "include", "ffd", "*.h")):
+        with open(path, encoding="utf-8") as file:
+            yield re.sub(r"/\*.*?\*/", "", file.read(), flags=re.S)
+
+
+class Declarations(unittest.TestCase):
+    def test_every_function_is_declared_and_there(self):
+        names = {name for text in headers() for name in re.findall(r"\bFFD_API\b[^;(#]*?\b(ffd_\w+)\s*\(", text)}
+        self.assertEqual(names, set(_declarations.FUNCTIONS))
+        self.assertGreater(len(names), 50)
+        for name in names:
+            self.assertTrue(getattr(_library.lib, name))
+
+    def test_statuses_and_errors_have_names(self):
+        self.assertEqual([status.name for status in ffd.Status],
+                         [name.split("_")[-1] for name in _declarations.ENUMERATIONS["ffd_vertex_status"]])
+        kinds = {kind.status for kind in vars(ffd).values() if isinstance(kind, type) and issubclass(kind, ffd.Error)}
+        self.assertEqual(kinds, set(_declarations.ENUMERATIONS["ffd_status"].values()) - {0})
+
+    def test_what_is_offered_is_documented_and_typed(self):
+        for name in ffd.__all__:
+            thing = getattr(ffd, name)
+            self.assertTrue(thing.__doc__, name)
+        folder = os.path.dirname(ffd.__file__)
+        self.assertTrue(os.path.exists(os.path.join(folder, "py.typed")))
+        for path in glob.glob(os.path.join(folder, "*.py")):
+            if path.endswith("_declarations.py"):
+                continue
+            with open(path, encoding="utf-8") as file:
+                for node in ast.walk(ast.parse(file.read())):
+                    if isinstance(node, ast.FunctionDef) and not node.name.startswith("_"):
+                        given = [a for a in node.args.args + node.args.kwonlyargs if a.arg not in ("self", "cls")]
+                        self.assertTrue(node.returns and all(a.annotation for a in given), f"{path}: {node.name}")
+                        self.assertTrue(ast.get_docstring(node) or path.rpartition("_")[2] in ("library.py", "arrays.py", "errors.py")
+                                        or node.name in ("degree", "text"), f"{path}: {node.name}")
+
+    def test_numpy_is_the_only_requirement(self):
+        meta = importlib.metadata.metadata("ffd-mesh")
+        self.assertEqual([word.split()[0].split(">")[0] for word in meta.get_all("Requires-Dist")], ["numpy"])
+        self.assertEqual(meta["Version"], ffd.__version__)
+
+
+    def test_arrays_need_no_other_library(self):
+        script = ("import sys, numpy as np, ffd_mesh as ffd; lattice = ffd.Lattice.box((0, 0, 0), (1, 1, 1)); "
+                  "points = np.random.default_rng(1).random((10, 3)); lattice.deform(lattice.embed(points), lattice.rest + 1); "
+                  "print(open('/proc/self/maps').read())")
+        maps = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout
+        self.assertIn("_native.abi3.so", maps)
+        self.assertIsNone(re.search("OpenMesh|libpng|libjpeg|draco|meshopt|tinygltf", maps))
+
+
+class Pages(unittest.TestCase):
+    def test_the_pages_run(self):
+        blocks = []
+        for page in ("README.md", "data/python.md"):
+            with open(os.path.join(support.SOURCE, page), encoding="utf-8") as file:
+                blocks += re.findall(r"^```python\n(.*?)^```$", file.read(), re.M | re.S)
+        self.assertGreater(len(blocks), 4)
+        with tempfile.TemporaryDirectory() as folder:
+            shutil.copytree(support.DATA, os.path.join(folder, "data"))
+            with open(os.path.join(folder, "page.py"), "w", encoding="utf-8") as file:
+                file.write("\n".join(blocks))
+            done = subprocess.run([sys.executable, "../page.py"], cwd=os.path.join(folder, "data"), capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def example(self, name):
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run([sys.executable, os.path.join(EXAMPLES, name)], cwd=folder, capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), name)
+        return done.stdout
+
+    def test_an_optimisation_needs_few_evaluations(self):
+        evaluations, first, last, area = map(float, re.findall(r"-?\d[\d.e+-]*", self.example("optimise.py")))
+        self.assertLess(evaluations, 60)
+        self.assertLess(last, first / 50)
+        self.assertLess(abs(area), 1e-9)
+
+    def test_variants_fill_one_array(self):
+        self.assertRegex(self.example("variants.py"), r"^500 variants of \d+ points, [1-9]\d* that fold")
+
+    def test_meshes_of_other_packages(self):
+        self.assertIn("volume", self.example("with_trimesh.py"))
+        self.assertIn("points", self.example("with_meshio.py"))
+        try:
+            import pyvista
+        except ImportError:
+            self.skipTest("pyvista is not among the pinned wheels")
+        self.assertIn("volume", self.example("with_pyvista.py"))

@@ -1,0 +1,80 @@
+#!/usr/bin/env python3
+"""Builds the Python package as a wheel, installs it in a fresh environment, and runs the cases (case_*.py) there.
+
+    test_package.py SOURCE BUILD-FOLDER CC CXX [CASE...]       CASE: as unittest names it, "case_results.Bits"
+
+All that it installs are the wheels of requirements.txt, which .ci/setup has fetched to .build-test/wheels (FFD_WHEELS names
+another folder): no index is asked. Without them, or with another Python than they are for, it is skipped.
+"""
+
+import glob
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+SKIPPED = 77
+
+
+def skip(reason):
+    print(f"SKIP: {reason}")
+    sys.exit(SKIPPED)
+
+
+def run(*command, **more):
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, stdin=subprocess.DEVNULL,
+                          check=False, **more)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(command)}\nended with {done.returncode}:\n{done.stdout[-20000:]}")
+    return done.stdout
+
+
+def make_environment(folder, wheels):
+    """A fresh environment that has the pinned wheels; returns its Python."""
+    run(sys.executable, "-m", "venv", folder)
+    python = os.path.join(folder, "bin", "python")
+    pip = [python, "-m", "pip", "install", "--quiet", "--no-index", "--no-deps", "--no-compile", "--disable-pip-version-check"]
+    tried = subprocess.run([*pip, "--require-hashes", "--find-links", wheels, "-r", os.path.join(HERE, "requirements.txt")],
+                           capture_output=True, text=True, check=False)
+    if tried.returncode != 0 and "No matching distribution" in tried.stderr:
+        skip(f"the pinned wheels are not for Python {sys.version.split()[0]} here")
+    if tried.returncode != 0:
+        sys.exit(tried.stderr)
+    return python, pip
+
+
+def build_wheel(python, source, build, folder, compilers):
+    """The wheel; what it was compiled to stays beside the build folder, for the next time."""
+    kept = os.path.join(os.path.dirname(os.path.abspath(build)), ".build-python")
+    environment = dict(os.environ, PATH=os.path.dirname(python) + os.pathsep + os.environ["PATH"], CC=compilers[0], CXX=compilers[1])
+    if os.path.isdir(kept):  # the environment that it was set up with is gone
+        shutil.rmtree(kept)
+    run(python, "-m", "pip", "wheel", "--no-index", "--no-build-isolation", "--no-deps", "--disable-pip-version-check",
+        "-C", f"build-dir={kept}", "-w", folder, source, env=environment)
+    (wheel,) = glob.glob(os.path.join(folder, "*.whl"))
+    return wheel
+
+
+def main():
+    source, build, cc, cxx, *chosen = sys.argv[1:]
+    wheels = os.environ.get("FFD_WHEELS") or os.path.join(source, ".build-test", "wheels")
+    if not glob.glob(os.path.join(wheels, "*.whl")):
+        skip(f"no wheels in {wheels}: .ci/setup could not fetch them")
+    with tempfile.TemporaryDirectory() as folder:
+        python, pip = make_environment(os.path.join(folder, "venv"), wheels)
+        wheel = build_wheel(python, source, build, os.path.join(folder, "dist"), (cc, cxx))
+        if "-cp311-abi3-" not in wheel:
+            sys.exit(f"{os.path.basename(wheel)} is not for every CPython from 3.11 on")
+        run(*pip, wheel)
+        environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+        environment |= {"FFD_SOURCE": source, "PYTHONDONTWRITEBYTECODE": "1", "PYTHONPATH": HERE, "TMPDIR": folder}
+        done = subprocess.run([python, "-m", "unittest", *(chosen or ["discover", "-s", HERE, "-p", "case_*.py"]), "--durations=5"]
+                              if sys.version_info >= (3, 12) else
+                              [python, "-m", "unittest", *(chosen or ["discover", "-s", HERE, "-p", "case_*.py"])],
+                              cwd=folder, env=environment, stdin=subprocess.DEVNULL, check=False)
+    sys.exit(1 if done.returncode else 0)
+
+
+main()

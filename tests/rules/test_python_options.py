@@ -1,0 +1,28 @@
+#!/usr/bin/env python3
+"""What a job on a file can be told, the Python package offers: each member of ffd_deform_desc and ffd_source is named in
+src/python/ffd_mesh/_jobs.py, or below with the reason that it is not."""
+
+import re
+
+import tree
+
+# Of runs of several jobs, and what the program decides by itself.
+NOT_OFFERED = {"struct_size", "written", "share", "shared_box", "depfile", "morph_results", "only_positions"}
+
+
+def members(name, text):
+    """The members of a structure, without comments."""
+    body = re.search(r"typedef struct " + name + r" \{(.*?)\n\} " + name + ";", text, re.S).group(1)
+    return re.findall(r"(\w+)(?:\[[^\]]*\])?\s*[;,]", body)
+
+
+def main():
+    header = re.sub(r"/\*.*?\*/", "", tree.read("include/ffd/job.h"), flags=re.S)
+    package = tree.read("src/python/ffd_mesh/_jobs.py") + tree.read("src/python/ffd_mesh/_library.py")
+    offered = set(re.findall(r"\w+", package))
+    names = members("ffd_deform_desc", header) + members("ffd_source", header)
+    tree.finish(len(names), "members", [f"{name}: not offered by src/python/ffd_mesh/_jobs.py" for name in names
+                                        if name not in offered | NOT_OFFERED])
+
+
+main()
