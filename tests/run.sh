@@ -121,7 +121,10 @@ case_of() {
     fi
 }
 
-# build STAGE "SUITES" C-COMPILER C++-COMPILER OPTIONS...: builds what these suites need, everything for none
+# build STAGE "SUITES" C-COMPILER C++-COMPILER OPTIONS...: builds what these suites need, everything for none. What ahead
+# has begun is ended first; what failed there fails again, and is told of.
+lower=
+builder=
 build() {
     stage=$1
     chosen=$2
@@ -129,16 +132,42 @@ build() {
     cxx=$4
     shift 4
     began=$(date +%s)
+    [ -n "$lower" ] || [ -z "$builder" ] || wait "$builder"
+    builder=
     if [ ! -f "$work/$stage/build.ninja" ]; then
         rm -rf "${work:?}/$stage"
-        step "$stage" setup env CC="$ccache$c" CXX="$ccache$cxx" meson setup -Dwerror=true -Dtests=enabled "$@" \
+        # shellcheck disable=SC2086 # words
+        step "$stage" setup $lower env CC="$ccache$c" CXX="$ccache$cxx" meson setup -Dwerror=true -Dtests=enabled "$@" \
             "$work/$stage" "$root" || return 1
     fi
     # shellcheck disable=SC2086 # words
-    step "$stage" build sh -c 'targets=$(python3 "$1/tests/targets.py" "$2" $3) && ninja -C "$2" $targets' sh \
+    step "$stage" build $lower sh -c 'targets=$(python3 "$1/tests/targets.py" "$2" $3) && ninja -C "$2" $targets' sh \
         "$root" "$work/$stage" "$chosen" || return 1
     clock=$began
     say "$stage" built
+}
+
+# build_stage STAGE: a build that only --all has
+lines=-gline-tables-only
+coverage="-fsanitize=fuzzer-no-link -fno-sanitize-coverage=trace-cmp $lines"
+build_stage() {
+    case "$1" in
+    release) build release 'golden rules property compilers python' gcc g++ -Dbuildtype=release ;;
+    asan)
+        build asan 'unit property fuzz golden cli' clang clang++ -Dbuildtype=debug -Doptimization=1 \
+            -Db_sanitize=address,undefined -Db_lundef=false -Dfuzzers=true -Dc_args="$coverage" -Dcpp_args="$coverage"
+        ;;
+    clang)
+        build clang 'threads compilers property' clang clang++ -Dbuildtype=debugoptimized -Db_sanitize=thread \
+            -Db_lundef=false -Dc_args="$lines" -Dcpp_args="$lines"
+        ;;
+    esac
+}
+
+# ahead STAGE: begins the build of the next stage, which takes what the tests beside it leave of the processors.
+ahead() {
+    { lower='nice -n 19'; build_stage "$1"; } >/dev/null 2>&1 </dev/null &
+    builder=$!
 }
 
 # suites STAGE BUILD MESON-TEST-ARGUMENTS...: runs tests of a build and adds up their results
@@ -206,6 +235,7 @@ if build gcc '' gcc g++ -Dbuildtype=debugoptimized -Dc_args=-g1 -Dcpp_args=-g1; 
     if [ -n "$suite" ]; then
         suites gcc gcc --suite "$suite" --no-suite soak
     elif [ -n "$all" ]; then
+        ahead release
         suites gcc gcc --no-suite python --no-suite soak
     elif [ -n "$soak" ]; then
         FFD_SEED=${FFD_SEED-$started}
@@ -221,7 +251,8 @@ fi
 if [ -n "$all" ]; then
     # As it is delivered: without assertions, with every optimization. A rule on the text of the sources says nothing new,
     # nor do the validator and the browser, where the files and pages are byte for byte those of the gcc build.
-    if build release 'golden rules property compilers python' gcc g++ -Dbuildtype=release; then
+    if build_stage release; then
+        ahead asan
         # shellcheck disable=SC2086 # words, or nothing
         suites release release --suite golden --suite rules --suite property --suite compilers $python \
             --no-suite text --no-suite node --no-suite slow --no-suite soak
@@ -234,11 +265,9 @@ if [ -n "$all" ]; then
     # fuzz targets, which go through the same parts of the library. The validator in node judges files, not memory.
     # Tests repeat themselves less there (tests/support/repetitions.h, repetitions() of tests/cli/harness.py). clang,
     # for gcc needs minutes to build this. The fuzz targets come from the same build.
-    lines=-gline-tables-only
-    coverage="-fsanitize=fuzzer-no-link -fno-sanitize-coverage=trace-cmp $lines"
     fuzzed='lattice manifest report clip obj gltf glb ply off stl png jpeg'
-    if build asan 'unit property fuzz golden cli' clang clang++ -Dbuildtype=debug -Doptimization=1 \
-        -Db_sanitize=address,undefined -Db_lundef=false -Dfuzzers=true -Dc_args="$coverage" -Dcpp_args="$coverage"; then
+    if build_stage asan; then
+        ahead clang
         suites asan asan --no-suite oracle --no-suite rules --no-suite bench --no-suite node --no-suite slow \
             --no-suite soak --timeout-multiplier 6
 
@@ -254,19 +283,18 @@ if [ -n "$all" ]; then
     fi
     drop asan
 
+    # The demo runs beside what comes next, as the builds do.
+    { nice -n 19 sh "$root/data/demo.sh" "$work/demo" >"$logs/demo.out" 2>&1 </dev/null; echo $? >"$logs/demo.status"; } &
+
     # What is only to be found with clang and optimization: other code for the kernels and what is around them (suite
     # compilers; the same bytes are promised). The thread sanitizer adds its checks after the optimizer, so that one build
     # serves for both. It finds something only where there are threads. All else of clang is in the build above.
     # The address space must not be shuffled more than the thread sanitizer of Debian 12 copes with.
-    if build clang 'threads compilers property' clang clang++ -Dbuildtype=debugoptimized -Db_sanitize=thread \
-        -Db_lundef=false -Dc_args="$lines" -Dcpp_args="$lines"; then
+    if build_stage clang; then
         suites clang clang --suite threads --suite compilers --suite property --no-suite slow --no-suite soak \
             --wrap "setarch -R" --timeout-multiplier 10
     fi
     drop clang
-
-    # The demo runs beside what comes next: much of it takes one processor.
-    { sh "$root/data/demo.sh" "$work/demo" >"$logs/demo.out" 2>&1 </dev/null; echo $? >"$logs/demo.status"; } &
 
     # What the sanitizers do not see: memory that is read before it is written. The unit tests reach all of the library.
     if [ -f "$work/gcc/build.ninja" ]; then
