@@ -1,4 +1,10 @@
-/* ffd.h - free-form deformation of meshes with B-spline lattices: the whole public interface. */
+/* ffd.h - free-form deformation of meshes with B-spline lattices: the whole public interface.
+
+   Structs that may grow begin with struct_size, the size that the caller's header has: descriptions get it
+   from their _init(&desc, sizeof desc), results from their caller (result.struct_size = sizeof result). A
+   smaller size than the library's is taken: members that the caller does not have keep their defaults, and
+   nothing is written behind the others. A larger one is refused (FFD_E_ARGUMENT): the library is older than
+   the header. All other structs keep their size for good. */
 #ifndef FFD_FFD_H
 #define FFD_FFD_H
 

@@ -238,7 +238,7 @@ typedef struct ffd_deform_desc {
     void *log_user;
 } ffd_deform_desc;
 
-FFD_API void ffd_deform_desc_init(ffd_deform_desc *desc);
+FFD_API void ffd_deform_desc_init(ffd_deform_desc *desc, size_t size);
 
 /* Widens the box by the mesh of a job, or what its selectors leave, as the file has it. To be done for all
    jobs before the first of them runs. Errors: those of reading the mesh, and FFD_E_ARGUMENT for a stream,
@@ -287,6 +287,7 @@ typedef struct ffd_rig_result {
 /* What a job did: the figures of the report (data/schema/formats.md 2). Lengths in world units
    unless said otherwise. */
 typedef struct ffd_job_result {
+    size_t struct_size; /* sizeof(ffd_job_result) of the caller, set before the call */
     ffd_status status;
     ffd_error error;
     uint64_t vertices;
@@ -415,7 +416,7 @@ typedef struct ffd_view_desc {
 } ffd_view_desc;
 
 /* Shows before and after, colours by displacement, is not full. */
-FFD_API void ffd_view_desc_init(ffd_view_desc *desc);
+FFD_API void ffd_view_desc_init(ffd_view_desc *desc, size_t size);
 /* Writes the output; it is complete or absent. A violated gate of the job ends in FFD_E_GATE after it was
    written. An image of the mesh that is missing or broken is grey in a picture, and warned of. result is
    filled in every case (not NULL): where lattices deform, as by ffd_check_run, of the shapes that are
@@ -442,7 +443,7 @@ typedef struct ffd_embed_desc {
     size_t set_count;
 } ffd_embed_desc;
 
-FFD_API void ffd_embed_desc_init(ffd_embed_desc *desc);
+FFD_API void ffd_embed_desc_init(ffd_embed_desc *desc, size_t size);
 FFD_API ffd_status ffd_embed_run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_error *error);
 
 /* What it is that differs between two files. A position, normal, tangent or texture coordinate is one
@@ -469,7 +470,8 @@ typedef struct ffd_difference {
 } ffd_difference;
 
 typedef struct ffd_comparison {
-    bool equal; /* no differences */
+    size_t struct_size; /* sizeof(ffd_comparison) of the caller, set before the call */
+    bool equal;         /* no differences */
     /* false: the differences keep what follows from being matched (other formats, other numbers of vertices,
        another kind of statement): there may be more of them than were counted. */
     bool complete;
@@ -502,7 +504,7 @@ typedef struct ffd_compare_desc {
 } ffd_compare_desc;
 
 /* No tolerances: both must be equal as numbers (0 and -0 are, two NaN are). */
-FFD_API void ffd_compare_desc_init(ffd_compare_desc *desc);
+FFD_API void ffd_compare_desc_init(ffd_compare_desc *desc, size_t size);
 
 /* `ffd compare`: are a and b the same mesh, positions and directions within their tolerances and all else
    equal? What is not part of a mesh is not compared: blanks, comments, the way a number is written, the
@@ -532,7 +534,7 @@ typedef struct ffd_info_desc {
     void *log_user;
 } ffd_info_desc;
 
-FFD_API void ffd_info_desc_init(ffd_info_desc *desc);
+FFD_API void ffd_info_desc_init(ffd_info_desc *desc, size_t size);
 
 /* `ffd info`: describes a mesh or lattice file. *text is the caller's, freed with ffd_text_free, ends in a
    line break and 0; NULL after a failure. */
@@ -555,7 +557,7 @@ typedef struct ffd_lattice_new_desc {
     void *log_user;
 } ffd_lattice_new_desc;
 
-FFD_API void ffd_lattice_new_desc_init(ffd_lattice_new_desc *desc);
+FFD_API void ffd_lattice_new_desc_init(ffd_lattice_new_desc *desc, size_t size);
 FFD_API ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *desc, ffd_error *error);
 
 /* The report (data/schema/formats.md 2). Entries are added in the order of the jobs, and

@@ -49,7 +49,7 @@ typedef struct ffd_lattice_desc {
     bool principal; /* box: along the principal axes of the points instead of x,y,z */
 } ffd_lattice_desc;
 
-FFD_API void ffd_lattice_desc_init(ffd_lattice_desc *desc);
+FFD_API void ffd_lattice_desc_init(ffd_lattice_desc *desc, size_t size);
 
 /* Reads a lattice file (JSON; data/schema/lattice.md). On success *lattice is the caller's, to be destroyed.
    A file of one line can have 2^26 control points, which take 5 GB: jobs (ffd/job.h) count them against the

@@ -12,6 +12,9 @@
 ffd_status ffd_struct_take(void *own, size_t own_size, const void *callers, const char *name,
                            ffd_error *error);
 
+/* Whether a struct that will be filled begins with a size that this library knows. Errors: FFD_E_ARGUMENT. */
+ffd_status ffd_struct_check(size_t own_size, const void *callers, const char *name, ffd_error *error);
+
 /* Fills the caller's struct of size bytes with as much of own as it has room for; its size is the caller's.
  */
 void ffd_struct_give(const void *own, size_t own_size, void *callers, size_t size);

@@ -53,7 +53,7 @@ ffd_status ffd_job_picture_write(const char *path, const ffd_deform_desc *desc, 
     char *folder;
     size_t made;
     job.share = NULL; /* the picture is made of the mesh at rest, which has no results of the job yet */
-    ffd_view_desc_init(&view);
+    ffd_view_desc_init(&view, sizeof view);
     view.job = &job;
     view.output = path;
     view.force = force;

@@ -128,7 +128,7 @@ static ffd_status run_job(const settings *s, const ffd_deform_desc *desc, ffd_jo
     ffd_view_desc view;
     if (!s->picture)
         return ffd_check_run(desc, result, NULL);
-    ffd_view_desc_init(&view);
+    ffd_view_desc_init(&view, sizeof view);
     view.job = desc;
     view.output = s->picture;
     view.force = s->force;
@@ -139,7 +139,7 @@ static ffd_status run_job(const settings *s, const ffd_deform_desc *desc, ffd_jo
 static int check(cli_job *job, const char *input, ffd_report *report)
 {
     ffd_deform_desc desc;
-    ffd_job_result result;
+    ffd_job_result result = {.struct_size = sizeof result};
     cli_job_describe(job, input, &desc);
     const ffd_status status = run_job((settings *)job, &desc, &result);
     const bool reported = job->report && cli_is_stream(job->report);

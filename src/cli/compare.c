@@ -99,7 +99,7 @@ static int print_verdict(const settings *s, const ffd_comparison *comparison, co
 static int compare(settings *s, const char *a, const char *b)
 {
     ffd_compare_desc desc;
-    ffd_compare_desc_init(&desc);
+    ffd_compare_desc_init(&desc, sizeof desc);
     desc.a = source(s, a, b);
     desc.b = source(s, b, a);
     desc.tolerance = s->tolerance.value;
@@ -111,7 +111,7 @@ static int compare(settings *s, const char *a, const char *b)
     desc.log_user = &s->logging;
     if (!cli_knows_format(a, desc.a.format) || !cli_knows_format(b, desc.b.format))
         return EXIT_USAGE;
-    ffd_comparison comparison;
+    ffd_comparison comparison = {.struct_size = sizeof comparison};
     ffd_error error;
     if (ffd_compare_run(&desc, &comparison, &error))
         return cli_fail(&error);

@@ -116,7 +116,7 @@ static bool describe(settings *s, const char *input, const char *output, ffd_def
 
 static int deform(settings *s, const char *input, const char *output, ffd_report *report)
 {
-    ffd_job_result result;
+    ffd_job_result result = {.struct_size = sizeof result};
     ffd_deform_desc desc;
     if (!describe(s, input, output, &desc))
         return ffd_status_exit_code(FFD_E_MEMORY);

@@ -47,9 +47,9 @@ static const cli_option options[] = {
 static int embed(settings *s, const char *input)
 {
     ffd_embed_desc desc;
-    ffd_job_result result;
+    ffd_job_result result = {.struct_size = sizeof result};
     ffd_error error;
-    ffd_embed_desc_init(&desc);
+    ffd_embed_desc_init(&desc, sizeof desc);
     desc.input = (ffd_source){.path = input,
                               .format = s->input_format,
                               .space = (ffd_space)s->space,

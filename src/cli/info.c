@@ -33,7 +33,7 @@ static int describe(settings *s, const char *file)
     ffd_info_desc desc;
     ffd_error error;
     char *text;
-    ffd_info_desc_init(&desc);
+    ffd_info_desc_init(&desc, sizeof desc);
     desc.file =
         (ffd_source){.path = file, .format = s->input_format, .memory = s->memory, .strict = s->strict};
     desc.json = s->json;

@@ -296,7 +296,7 @@ bool cli_job_knows_formats(const cli_job *job, const cli_words *words, size_t in
 
 void cli_job_describe(cli_job *job, const char *input, ffd_deform_desc *desc)
 {
-    ffd_deform_desc_init(desc);
+    ffd_deform_desc_init(desc, sizeof *desc);
     desc->input = (ffd_source){.path = input,
                                .format = job->input_format,
                                .space = (ffd_space)job->space,

@@ -208,7 +208,7 @@ static int create(settings *s, const cli_words *words)
                                  .allow_extension_count = s->allowed.count};
     s->desc.shape = (ffd_lattice_shape)s->shape;
     s->desc.spacing = (ffd_spacing)s->spacing;
-    ffd_lattice_new_desc_init(&desc);
+    ffd_lattice_new_desc_init(&desc, sizeof desc);
     desc.meshes = meshes;
     desc.mesh_count = words->count;
     desc.only = s->only;
@@ -262,7 +262,7 @@ static int act(const cli_command *command, void *context, const cli_words *words
 static int run(const cli_command *command, int count, char **arguments)
 {
     settings s = {0};
-    ffd_lattice_desc_init(&s.desc);
+    ffd_lattice_desc_init(&s.desc, sizeof s.desc);
     s.only = calloc((size_t)count + 1, sizeof *s.only);
     if (!s.only) {
         cli_complain("out of memory");

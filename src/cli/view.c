@@ -129,9 +129,9 @@ static int show(cli_job *job, const char *input, ffd_report *report)
     ffd_deform_desc desc;
     ffd_view_desc view;
     ffd_source deformed;
-    ffd_job_result result;
+    ffd_job_result result = {.struct_size = sizeof result};
     cli_job_describe(job, input, &desc);
-    ffd_view_desc_init(&view);
+    ffd_view_desc_init(&view, sizeof view);
     view.job = &desc;
     view.output = s->output;
     view.force = s->force;

@@ -1,5 +1,6 @@
 /* compare.c - the job of `ffd compare`, and its result as JSON. */
 #include "base/file/mapping.h"
+#include "base/struct_size.h"
 #include "job/input/source.h"
 #include "mesh/bounds.h"
 #include "mesh/difference.h"
@@ -8,10 +9,10 @@
 #include <math.h>
 #include <string.h>
 
-void ffd_compare_desc_init(ffd_compare_desc *desc)
+void ffd_compare_desc_init(ffd_compare_desc *desc, size_t size)
 {
-    memset(desc, 0, sizeof *desc);
-    desc->struct_size = sizeof *desc;
+    const ffd_compare_desc defaults = {.struct_size = sizeof defaults};
+    ffd_struct_give(&defaults, sizeof defaults, desc, size);
 }
 
 static ffd_status open_source(const ffd_source *given, mesh_document **document, ffd_error *error)
@@ -51,11 +52,11 @@ static ffd_status compare(const ffd_compare_desc *desc, const mesh_document *a, 
     return FFD_OK;
 }
 
-ffd_status ffd_compare_run(const ffd_compare_desc *desc, ffd_comparison *comparison, ffd_error *error)
+static ffd_status run(const ffd_compare_desc *desc, ffd_comparison *comparison, ffd_error *error)
 {
     const mesh_log log = {desc->log, desc->log_user};
     mesh_document *first = NULL, *second = NULL;
-    if (desc->struct_size != sizeof *desc || !desc->a.path || !desc->b.path)
+    if (!desc->a.path || !desc->b.path)
         return ffd_fail(error, FFD_E_ARGUMENT, "the description of the comparison is not complete");
     if (!(desc->tolerance >= 0) || !(desc->direction_tolerance >= 0))
         return ffd_fail(error, FFD_E_ARGUMENT, "a tolerance must not be negative");
@@ -72,6 +73,21 @@ ffd_status ffd_compare_run(const ffd_compare_desc *desc, ffd_comparison *compari
     }
     ffd_source_close(&second);
     ffd_source_close(&first);
+    return status;
+}
+
+ffd_status ffd_compare_run(const ffd_compare_desc *callers, ffd_comparison *comparison, ffd_error *error)
+{
+    ffd_compare_desc desc;
+    ffd_comparison own = {.struct_size = sizeof own};
+    ffd_compare_desc_init(&desc, sizeof desc);
+    ffd_status status = ffd_struct_take(&desc, sizeof desc, callers, "ffd_compare_desc", error);
+    if (!status)
+        status = ffd_struct_check(sizeof own, comparison, "ffd_comparison", error);
+    if (status)
+        return status;
+    status = run(&desc, &own, error);
+    ffd_struct_give(&own, sizeof own, comparison, comparison->struct_size);
     return status;
 }
 
@@ -118,9 +134,14 @@ static void write_comparison(json_text *json, const ffd_comparison *comparison, 
     ffd_json_end(json, '}');
 }
 
-ffd_status ffd_comparison_json(const ffd_comparison *comparison, const char *a, const char *b, char **text,
+ffd_status ffd_comparison_json(const ffd_comparison *callers, const char *a, const char *b, char **text,
                                ffd_error *error)
 {
+    ffd_comparison own = {.struct_size = sizeof own};
+    const ffd_comparison *const comparison = &own;
+    const ffd_status taken = ffd_struct_take(&own, sizeof own, callers, "ffd_comparison", error);
+    if (taken)
+        return taken;
     byte_buffer buffer = {0};
     json_text json;
     ffd_json_begin(&json, &buffer);

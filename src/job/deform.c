@@ -1,6 +1,7 @@
 /* deform.c - the job of `ffd deform`. */
 #include "base/file/mapping.h"
 #include "base/file/path.h"
+#include "base/struct_size.h"
 #include "base/system/clock.h"
 #include "io/formats.h"
 #include "job/chain/job_cache.h"
@@ -14,10 +15,10 @@
 #include "job/report/output_set.h"
 #include <string.h>
 
-void ffd_deform_desc_init(ffd_deform_desc *desc)
+void ffd_deform_desc_init(ffd_deform_desc *desc, size_t size)
 {
-    memset(desc, 0, sizeof *desc);
-    desc->struct_size = sizeof *desc;
+    const ffd_deform_desc defaults = {.struct_size = sizeof defaults};
+    ffd_struct_give(&defaults, sizeof defaults, desc, size);
 }
 
 /* What a killed run had set aside comes back before it is read. */
@@ -293,10 +294,10 @@ static ffd_status run_job(const ffd_deform_desc *desc, ffd_job_result *result, f
 }
 
 /* The targets of a job have where its vertices are in a rest volume in common. */
-ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
+static ffd_status deform(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
 {
     ffd_share *share = NULL;
-    if (desc->struct_size != sizeof *desc || !desc->morphs || ffd_cache_holds_meshes(desc->share))
+    if (!desc->morphs || ffd_cache_holds_meshes(desc->share))
         return run_job(desc, result, error);
     ffd_deform_desc own = *desc;
     if (ffd_cache_create_for_job(&share, error)) {
@@ -307,4 +308,9 @@ ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, f
     const ffd_status status = run_job(&own, result, error);
     ffd_share_destroy(&share);
     return status;
+}
+
+ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
+{
+    return ffd_job_for_caller(deform, desc, result, error);
 }

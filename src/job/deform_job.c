@@ -1,6 +1,7 @@
 #include "job/deform_job.h"
 #include "base/file/mapping.h"
 #include "base/memory/memory.h"
+#include "base/struct_size.h"
 #include "base/system/clock.h"
 #include "base/system/thread.h"
 #include "base/vector/isa.h"
@@ -44,8 +45,8 @@ static ffd_status check_embedding(const ffd_deform_desc *desc, ffd_error *error)
 
 static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
 {
-    if (desc->struct_size != sizeof *desc || !desc->input.path || (desc->lattice_count && !desc->lattices) ||
-        (desc->only_count && !desc->only) || (desc->clip_count && !desc->clips))
+    if (!desc->input.path || (desc->lattice_count && !desc->lattices) || (desc->only_count && !desc->only) ||
+        (desc->clip_count && !desc->clips))
         return ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete");
     if (!(desc->falloff >= 0 && isfinite(desc->falloff)))
         return ffd_fail(error, FFD_E_ARGUMENT, "the falloff %g is not a length", desc->falloff);
@@ -64,6 +65,52 @@ static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
                         "this build or this processor does not support the instruction set %s",
                         ffd_isa_name(desc->isa));
     return check_embedding(desc, error);
+}
+
+/* Hands the results of morph targets to the caller, whose structs are one after the other, size bytes each.
+ */
+static void give_morphs(const ffd_job_result *own, size_t count, ffd_job_result *callers, size_t size)
+{
+    for (size_t k = 0; k < count; k++)
+        ffd_struct_give(&own[k], sizeof own[k], (char *)callers + k * size, size);
+}
+
+/* A job with structs of the library's size. */
+static ffd_status run_own(deform_job_function run, ffd_deform_desc *desc, ffd_job_result *result, size_t size,
+                          ffd_error *error)
+{
+    ffd_job_result *const callers = desc->morph_results;
+    desc->morph_results = callers ? ffd_alloc_zero(desc->lattice_count, sizeof *callers) : NULL;
+    if (callers && !desc->morph_results)
+        return ffd_fail_memory(error);
+    const ffd_status status = run(desc, result, error);
+    if (callers)
+        give_morphs(desc->morph_results, desc->lattice_count, callers, size);
+    if (result->morph_results)
+        result->morph_results = callers;
+    ffd_free(desc->morph_results);
+    return status;
+}
+
+ffd_status ffd_job_for_caller(deform_job_function run, const ffd_deform_desc *callers,
+                              ffd_job_result *callers_result, ffd_error *error)
+{
+    ffd_deform_desc desc;
+    ffd_job_result result;
+    ffd_deform_desc_init(&desc, sizeof desc);
+    ffd_result_clear(&result);
+    ffd_status status = ffd_struct_check(sizeof result, callers_result, "ffd_job_result", error);
+    if (status)
+        return status;
+    const size_t size = callers_result->struct_size;
+    status = ffd_struct_take(&desc, sizeof desc, callers, "ffd_deform_desc", &result.error);
+    if (!status)
+        status = run_own(run, &desc, &result, size, error);
+    else if (error)
+        *error = result.error;
+    result.status = status;
+    ffd_struct_give(&result, sizeof result, callers_result, size);
+    return status;
 }
 
 ffd_status ffd_deform_job_begin(deform_job *job, const ffd_deform_desc *desc, bool check,

@@ -4,6 +4,14 @@
 
 #include "job/judge/job_state.h"
 
+/* What a job does with a description and a result of this library's sizes. */
+typedef ffd_status (*deform_job_function)(const ffd_deform_desc *desc, ffd_job_result *result,
+                                          ffd_error *error);
+
+/* Does a job for a caller whose description and result may be those of an older header. */
+ffd_status ffd_job_for_caller(deform_job_function run, const ffd_deform_desc *desc, ffd_job_result *result,
+                              ffd_error *error);
+
 /* Clears result and takes desc, after checking the options that do not concern the output. Errors:
    FFD_E_ARGUMENT, FFD_E_EXISTS, in result. */
 ffd_status ffd_deform_job_begin(deform_job *job, const ffd_deform_desc *desc, bool check,

@@ -3,6 +3,7 @@
 #include "base/file/mapping.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/struct_size.h"
 #include "base/system/clock.h"
 #include "base/system/thread.h"
 #include "io/npy/npy.h"
@@ -16,10 +17,10 @@
 #include <math.h>
 #include <string.h>
 
-void ffd_embed_desc_init(ffd_embed_desc *desc)
+void ffd_embed_desc_init(ffd_embed_desc *desc, size_t size)
 {
-    memset(desc, 0, sizeof *desc);
-    desc->struct_size = sizeof *desc;
+    const ffd_embed_desc defaults = {.struct_size = sizeof defaults};
+    ffd_struct_give(&defaults, sizeof defaults, desc, size);
 }
 
 /* The arrays of one embedding, and what they are of. */
@@ -94,7 +95,7 @@ static bool is_one_file(const char *a, const char *b)
 
 static ffd_status check_outputs(const ffd_embed_desc *desc, ffd_error *error)
 {
-    if (desc->struct_size != sizeof *desc || !desc->input.path || !desc->lattice || !desc->output)
+    if (!desc->input.path || !desc->lattice || !desc->output)
         return ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete");
     if (!(desc->snap >= 0 && isfinite(desc->snap)))
         return ffd_fail(error, FFD_E_ARGUMENT, "the snap %g is not a length", desc->snap);
@@ -214,13 +215,20 @@ static ffd_status run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_er
     return status;
 }
 
-ffd_status ffd_embed_run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_error *error)
+ffd_status ffd_embed_run(const ffd_embed_desc *callers, ffd_job_result *callers_result, ffd_error *error)
 {
-    ffd_job_result own;
-    ffd_job_result *figures = result ? result : &own;
-    memset(figures, 0, sizeof *figures);
-    figures->status = run(desc, figures, &figures->error);
-    if (figures->status && error)
-        *error = figures->error;
-    return figures->status;
+    ffd_embed_desc desc;
+    ffd_job_result result = {.struct_size = sizeof result};
+    ffd_embed_desc_init(&desc, sizeof desc);
+    ffd_status status = ffd_struct_take(&desc, sizeof desc, callers, "ffd_embed_desc", error);
+    if (!status && callers_result)
+        status = ffd_struct_check(sizeof result, callers_result, "ffd_job_result", error);
+    if (status)
+        return status;
+    result.status = run(&desc, &result, &result.error);
+    if (result.status && error)
+        *error = result.error;
+    if (callers_result)
+        ffd_struct_give(&result, sizeof result, callers_result, callers_result->struct_size);
+    return result.status;
 }

@@ -2,22 +2,23 @@
 #include "base/file/mapping.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/struct_size.h"
 #include "job/info_lattice.h"
 #include "job/info_mesh.h"
 #include "job/info_text.h"
 #include "job/input/source.h"
 #include <string.h>
 
-void ffd_info_desc_init(ffd_info_desc *desc)
+void ffd_info_desc_init(ffd_info_desc *desc, size_t size)
 {
-    memset(desc, 0, sizeof *desc);
-    desc->struct_size = sizeof *desc;
+    const ffd_info_desc defaults = {.struct_size = sizeof defaults};
+    ffd_struct_give(&defaults, sizeof defaults, desc, size);
 }
 
 /* What is asked for must be there in a file of its kind. */
 static ffd_status check_desc(const ffd_info_desc *desc, bool lattice, ffd_error *error)
 {
-    if (desc->struct_size != sizeof *desc || !desc->file.path)
+    if (!desc->file.path)
         return ffd_fail(error, FFD_E_ARGUMENT, "the description of what to describe is not complete");
     if (lattice && desc->parts)
         return ffd_fail_file(error, FFD_E_ARGUMENT, ffd_source_name(&desc->file),
@@ -51,12 +52,18 @@ static ffd_status write_facts(const ffd_info_desc *desc, byte_buffer *out, ffd_e
     return out->failed ? ffd_fail_memory(error) : FFD_OK;
 }
 
-ffd_status ffd_info_run(const ffd_info_desc *desc, char **text, ffd_error *error)
+ffd_status ffd_info_run(const ffd_info_desc *callers, char **text, ffd_error *error)
 {
+    ffd_info_desc own;
+    const ffd_info_desc *const desc = &own;
     byte_buffer facts = {0};
     const unsigned losses = ffd_mapping_losses();
     *text = NULL;
-    ffd_status status = write_facts(desc, &facts, error);
+    ffd_info_desc_init(&own, sizeof own);
+    ffd_status status = ffd_struct_take(&own, sizeof own, callers, "ffd_info_desc", error);
+    if (status)
+        return status;
+    status = write_facts(desc, &facts, error);
     status = ffd_mapping_judge(losses, status, error);
     if (status == FFD_OK && !desc->json)
         status = ffd_info_render(facts.data, facts.size, text, error);

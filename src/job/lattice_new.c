@@ -1,6 +1,7 @@
 /* lattice_new.c - the job of `ffd lattice new`. */
 #include "base/file/mapping.h"
 #include "base/memory/memory.h"
+#include "base/struct_size.h"
 #include "job/chain/lattice_memory.h"
 #include "job/input/selection.h"
 #include "job/input/source.h"
@@ -8,10 +9,10 @@
 #include <math.h>
 #include <string.h>
 
-void ffd_lattice_new_desc_init(ffd_lattice_new_desc *desc)
+void ffd_lattice_new_desc_init(ffd_lattice_new_desc *desc, size_t size)
 {
-    memset(desc, 0, sizeof *desc);
-    desc->struct_size = sizeof *desc;
+    const ffd_lattice_new_desc defaults = {.struct_size = sizeof defaults};
+    ffd_struct_give(&defaults, sizeof defaults, desc, size);
 }
 
 /* Places in the lattice's space. */
@@ -116,8 +117,8 @@ static ffd_status create_round(const ffd_lattice_new_desc *desc, ffd_lattice **l
 
 static ffd_status check_desc(const ffd_lattice_new_desc *desc, ffd_error *error)
 {
-    if (desc->struct_size != sizeof *desc || !desc->meshes || desc->mesh_count == 0 || !desc->lattice ||
-        !desc->output || (desc->only_count && !desc->only))
+    if (!desc->meshes || desc->mesh_count == 0 || !desc->lattice || !desc->output ||
+        (desc->only_count && !desc->only))
         return ffd_fail(error, FFD_E_ARGUMENT, "the description of the new lattice is not complete");
     for (size_t i = 0; i < desc->mesh_count && !ffd_output_is_stream(desc->output); i++)
         if (ffd_file_same(desc->meshes[i].path, desc->output))
@@ -125,10 +126,15 @@ static ffd_status check_desc(const ffd_lattice_new_desc *desc, ffd_error *error)
     return ffd_output_check(desc->output, desc->force, error);
 }
 
-ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *desc, ffd_error *error)
+ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *callers, ffd_error *error)
 {
+    ffd_lattice_new_desc own;
+    const ffd_lattice_new_desc *const desc = &own;
     ffd_lattice *lattice = NULL;
-    ffd_status status = check_desc(desc, error);
+    ffd_lattice_new_desc_init(&own, sizeof own);
+    ffd_status status = ffd_struct_take(&own, sizeof own, callers, "ffd_lattice_new_desc", error);
+    if (!status)
+        status = check_desc(desc, error);
     if (!status)
         status = check_memory(desc, error);
     if (!status)

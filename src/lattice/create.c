@@ -1,6 +1,7 @@
 /* create.c - a lattice from a description of the library's caller. */
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/struct_size.h"
 #include "base/vector/direction.h"
 #include "base/vector/principal.h"
 #include "base/vector/vec.h"
@@ -10,10 +11,11 @@
 #include "lattice/spec.h"
 #include <float.h>
 
-void ffd_lattice_desc_init(ffd_lattice_desc *desc)
+void ffd_lattice_desc_init(ffd_lattice_desc *desc, size_t size)
 {
-    *desc = (ffd_lattice_desc){
-        .struct_size = sizeof *desc, .size = {4, 4, 4}, .margin = {0.05, 0.05, 0.05}, .axis = {0, 0, 1}};
+    const ffd_lattice_desc defaults = {
+        .struct_size = sizeof defaults, .size = {4, 4, 4}, .margin = {0.05, 0.05, 0.05}, .axis = {0, 0, 1}};
+    ffd_struct_give(&defaults, sizeof defaults, desc, size);
 }
 
 static ffd_status check_counts(const ffd_lattice_desc *desc, ffd_error *error)
@@ -59,9 +61,6 @@ static ffd_status check_knots(const ffd_lattice_desc *desc, ffd_error *error)
 
 static ffd_status check_desc(const ffd_lattice_desc *desc, ffd_error *error)
 {
-    if (desc->struct_size != sizeof *desc)
-        return ffd_fail(error, FFD_E_ARGUMENT, "the lattice description has %zu bytes, this library's %zu",
-                        desc->struct_size, sizeof *desc);
     const bool cylinder = desc->shape == FFD_SHAPE_CYLINDER;
     if (!cylinder && desc->shape != FFD_SHAPE_BOX)
         return ffd_fail(error, FFD_E_ARGUMENT, "%d is not a shape of lattices", (int)desc->shape);
@@ -244,11 +243,16 @@ static ffd_status fill_cylinder(const ffd_lattice_desc *desc, const double *xyz,
                     spec->radius[1], spec->height);
 }
 
-ffd_status ffd_lattice_create(const ffd_lattice_desc *desc, const double *xyz, size_t count,
+ffd_status ffd_lattice_create(const ffd_lattice_desc *callers, const double *xyz, size_t count,
                               ffd_lattice **lattice, ffd_error *error)
 {
+    ffd_lattice_desc own;
+    const ffd_lattice_desc *const desc = &own;
     *lattice = NULL;
-    ffd_status status = check_desc(desc, error);
+    ffd_lattice_desc_init(&own, sizeof own);
+    ffd_status status = ffd_struct_take(&own, sizeof own, callers, "ffd_lattice_desc", error);
+    if (!status)
+        status = check_desc(desc, error);
     if (status)
         return status;
     lattice_spec *const spec = ffd_alloc_zero(1, sizeof *spec);

@@ -215,9 +215,9 @@ static bool deform(const trial *of, mesh_document *document, uint64_t *moved)
 {
     const char *const lattices[] = {of->lattice};
     ffd_deform_desc desc;
-    ffd_job_result result;
+    ffd_job_result result = {.struct_size = sizeof result};
     deform_job job;
-    ffd_deform_desc_init(&desc);
+    ffd_deform_desc_init(&desc, sizeof desc);
     desc.input.path = of->input;
     desc.input.space = of->space;
     desc.lattices = lattices;

@@ -70,7 +70,7 @@ static inline bool use_document(mesh_document *document)
     const mesh_format *format = document->format;
     const bool may_refuse = format->format == FFD_FORMAT_PLY;
     mesh_faces faces;
-    ffd_comparison comparison;
+    ffd_comparison comparison = {.struct_size = sizeof comparison};
     byte_buffer buffer = {0};
     json_text json;
     ffd_json_begin(&json, &buffer);

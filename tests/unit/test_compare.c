@@ -19,7 +19,7 @@
 static ffd_compare_desc description(void)
 {
     ffd_compare_desc desc;
-    ffd_compare_desc_init(&desc);
+    ffd_compare_desc_init(&desc, sizeof desc);
     desc.a.path = in_folder("a.obj");
     desc.b.path = in_folder("b.obj");
     put_text("a.obj", "v 0 0 0\nv 3 4 0\nvn 0 0 1\n");
@@ -29,9 +29,10 @@ static ffd_compare_desc description(void)
 
 static ffd_comparison run(const ffd_compare_desc *desc)
 {
-    ffd_comparison comparison;
+    ffd_comparison comparison = {.struct_size = sizeof comparison};
     ffd_error error = {0};
     memset(&comparison, 0xff, sizeof comparison); /* all of it is to be filled in */
+    comparison.struct_size = sizeof comparison;
     if (ffd_compare_run(desc, &comparison, &error))
         fail_msg("%s", error.message);
     return comparison;
@@ -84,7 +85,7 @@ static void only_positions_does_not_hide_normals(void **state)
 static void wrong_descriptions_and_missing_files_are_refused(void **state)
 {
     (void)state;
-    ffd_comparison comparison;
+    ffd_comparison comparison = {.struct_size = sizeof comparison};
     const double wrong[] = {-1, -1e-300, NAN, -INFINITY};
     for (size_t i = 0; i < 2 * sizeof wrong / sizeof *wrong; i++) {
         ffd_compare_desc desc = description();
@@ -92,7 +93,7 @@ static void wrong_descriptions_and_missing_files_are_refused(void **state)
         assert_int_equal(ffd_compare_run(&desc, &comparison, NULL), FFD_E_ARGUMENT);
     }
     ffd_compare_desc desc = description();
-    desc.struct_size--;
+    desc.struct_size += 8;
     assert_int_equal(ffd_compare_run(&desc, &comparison, NULL), FFD_E_ARGUMENT);
     desc = description();
     desc.b.path = NULL;
@@ -135,7 +136,7 @@ static void the_worst_is_the_first_largest_of_the_first_kind(void **state)
         {FFD_DIFFERENCE_POSITION, INFINITY, "p4\n", "p4?: x: inf and 0"},
         {FFD_DIFFERENCE_POSITION, 1e300, "p5", "p4?: x: inf and 0"},
     };
-    ffd_comparison c;
+    ffd_comparison c = {.struct_size = sizeof c};
     ffd_difference_begin(&c, 0, 0);
     for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
         const double a[3] = {steps[i].amount}, b[3] = {0};

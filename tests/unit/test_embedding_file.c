@@ -646,7 +646,7 @@ static void embed_writes_what_belongs_to_mesh_and_lattice(void **state)
     put("l.json", lattice_text, sizeof lattice_text - 1);
 
     ffd_embed_desc desc;
-    ffd_embed_desc_init(&desc);
+    ffd_embed_desc_init(&desc, sizeof desc);
     char mesh_path[200], lattice_path[200], output_path[200];
     snprintf(mesh_path, sizeof mesh_path, "%s", in_folder("m.obj"));
     snprintf(lattice_path, sizeof lattice_path, "%s", in_folder("l.json"));

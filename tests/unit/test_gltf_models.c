@@ -110,7 +110,7 @@ static void check_same(const char *path, const char *output)
     ffd_file_unload(&before);
     ffd_file_unload(&after);
     mesh_document *a = NULL, *b = NULL;
-    ffd_comparison comparison;
+    ffd_comparison comparison = {.struct_size = sizeof comparison};
     assert_int_equal(open_file(path, FFD_SPACE_MESH, &a, NULL), FFD_OK);
     assert_int_equal(open_file(output, FFD_SPACE_MESH, &b, NULL), FFD_OK);
     ffd_difference_begin(&comparison, 0, 0);

@@ -588,7 +588,7 @@ static void check_comparison(const char *first, const char *second, double toler
                              const char *difference)
 {
     mesh_document *a = open_text(first), *b = open_text(second);
-    ffd_comparison comparison;
+    ffd_comparison comparison = {.struct_size = sizeof comparison};
     ffd_difference_begin(&comparison, tolerance, 0);
     assert_int_equal(gltf->compare(a, b, &comparison, NULL), FFD_OK);
     assert_string_equal(comparison.first.text, difference);

@@ -622,7 +622,7 @@ static void an_image_is_not_overwritten(void **state)
 static void check_comparison(const char *first, const char *second, double tolerance, const char *difference)
 {
     mesh_document *a = NULL, *b = NULL;
-    ffd_comparison comparison;
+    ffd_comparison comparison = {.struct_size = sizeof comparison};
     assert_int_equal(open_bytes(first, strlen(first), "a", FFD_FORMAT_GLTF, FFD_SPACE_SCENE, &a, NULL),
                      FFD_OK);
     assert_int_equal(open_bytes(second, strlen(second), "b", FFD_FORMAT_GLTF, FFD_SPACE_SCENE, &b, NULL),

@@ -21,7 +21,7 @@
 static ffd_info_desc describe(const char *path, bool json)
 {
     ffd_info_desc desc;
-    ffd_info_desc_init(&desc);
+    ffd_info_desc_init(&desc, sizeof desc);
     desc.file.path = path;
     desc.json = json;
     return desc;
@@ -468,9 +468,9 @@ static ffd_status new_lattice(const char *mesh, const char *output, bool force, 
     const ffd_source source = {.path = mesh};
     ffd_lattice_desc lattice;
     ffd_lattice_new_desc desc;
-    ffd_lattice_desc_init(&lattice);
+    ffd_lattice_desc_init(&lattice, sizeof lattice);
     lattice.margin[0] = lattice.margin[1] = lattice.margin[2] = 0.5;
-    ffd_lattice_new_desc_init(&desc);
+    ffd_lattice_new_desc_init(&desc, sizeof desc);
     desc.meshes = &source;
     desc.mesh_count = 1;
     desc.lattice = &lattice;

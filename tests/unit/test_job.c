@@ -45,7 +45,7 @@ static int tear_down(void **state)
 static ffd_deform_desc describe(void)
 {
     ffd_deform_desc desc;
-    ffd_deform_desc_init(&desc);
+    ffd_deform_desc_init(&desc, sizeof desc);
     desc.input.path = mesh;
     desc.output = output;
     desc.lattices = lattices;
@@ -57,7 +57,7 @@ static ffd_deform_desc describe(void)
 
 static void refuse(const ffd_deform_desc *desc)
 {
-    ffd_job_result result;
+    ffd_job_result result = {.struct_size = sizeof result};
     ffd_error error;
     assert_int_equal(ffd_deform_run(desc, &result, &error), FFD_E_ARGUMENT);
     assert_int_equal(result.status, FFD_E_ARGUMENT);
@@ -70,7 +70,7 @@ static void refuse(const ffd_deform_desc *desc)
 static void wrong_descriptions_are_refused(void **state)
 {
     ffd_deform_desc desc = describe();
-    desc.struct_size--;
+    desc.struct_size += 8;
     refuse(&desc);
     desc = describe();
     desc.input.path = NULL;
@@ -98,7 +98,7 @@ static void wrong_descriptions_are_refused(void **state)
 /* Figures that cost are there when they are asked for. */
 static void costly_figures_are_there_when_asked_for(void **state)
 {
-    ffd_job_result result;
+    ffd_job_result result = {.struct_size = sizeof result};
     ffd_deform_desc desc = describe();
     assert_int_equal(ffd_deform_run(&desc, &result, NULL), FFD_OK);
     assert_false(result.has_folds || result.has_flipped || result.has_edges);
@@ -135,7 +135,7 @@ static void fail_everywhere(ffd_status (*run)(const ffd_deform_desc *, ffd_job_r
 {
     long failures = 0;
     for (ffd_status status = FFD_E_MEMORY; status; failures++) {
-        ffd_job_result result;
+        ffd_job_result result = {.struct_size = sizeof result};
         ffd_error error = {0};
         ffd_alloc_fail_after(failures);
         status = run(desc, &result, &error);
@@ -194,7 +194,7 @@ static void put_scene(void)
 static void what_stays_behind_is_in_the_result(void **state)
 {
     char input[64];
-    ffd_job_result result;
+    ffd_job_result result = {.struct_size = sizeof result};
     ffd_deform_desc desc = describe();
     strcpy(input, in_folder("a.gltf"));
     put_scene();
@@ -226,7 +226,7 @@ static void what_stays_behind_is_in_the_result(void **state)
 static void a_depfile_names_output_and_inputs(void **state)
 {
     ffd_deform_desc desc = describe();
-    ffd_job_result result;
+    ffd_job_result result = {.struct_size = sizeof result};
     char expected[400];
     assert_int_equal(run_with_depfile(&desc, &result, NULL), FFD_OK);
     FILE *file = fopen(in_folder("d"), "r");
@@ -247,7 +247,7 @@ static void morph_targets_have_figures_of_their_own(void **state)
 {
     const char *const names[] = {"bent", "more"}, *const clips[] = {"hop: 0 bent=1, 1 more=1"};
     ffd_deform_desc desc = describe();
-    ffd_job_result result, alone, results[2];
+    ffd_job_result result = {.struct_size = sizeof result}, alone = result, results[2];
     (void)state;
     char glb[64];
     strcpy(glb, in_folder("m.glb"));
@@ -282,7 +282,7 @@ static void wrong_morph_targets_are_refused(void **state)
                       *const empty[] = {"bent", ""}, *const bytes[] = {"bent", "\xff"};
     const char *const clips[] = {"hop: 0 bent"}, *const unknown[] = {"hop: 0 bend=1"};
     ffd_deform_desc desc = describe();
-    ffd_job_result result;
+    ffd_job_result result = {.struct_size = sizeof result};
     (void)state;
     unlink(output); /* of a test before */
     desc.output_format = FFD_FORMAT_GLB;
@@ -338,7 +338,7 @@ static void each_failed_allocation_is_reported(void **state)
 /* Only what a selector names is counted; a kind or name that is not there is the caller's mistake. */
 static void only_what_a_selector_names_is_counted(void **state)
 {
-    ffd_job_result result;
+    ffd_job_result result = {.struct_size = sizeof result};
     ffd_deform_desc desc = describe();
     static const char *const known[] = {"group:default"}, *const unknown[] = {"group:default", "material:x"},
                              *const wrong[] = {"groups:x"};

@@ -56,7 +56,7 @@ static void a_mesh_is_lent_only_while_nothing_changed(void **state)
     ffd_deform_desc desc, differs;
     file_stamp stamp;
     assert_int_equal(ffd_share_create(&share, NULL), FFD_OK);
-    ffd_deform_desc_init(&desc);
+    ffd_deform_desc_init(&desc, sizeof desc);
     put_text("m.obj", one);
     desc.input.path = in_folder("m.obj");
     assert_true(ffd_file_stamp(desc.input.path, &stamp));
@@ -110,7 +110,7 @@ static void a_mesh_that_has_changed_has_another_state(void **state)
     ffd_deform_desc desc;
     hash128 first, again, late;
     assert_int_equal(ffd_share_create(&share, NULL), FFD_OK);
-    ffd_deform_desc_init(&desc);
+    ffd_deform_desc_init(&desc, sizeof desc);
     put_text("m.obj", one);
     desc.input.path = in_folder("m.obj");
     assert_true(state_of(share, &desc, &first));
@@ -141,7 +141,7 @@ static void a_mesh_is_lent_only_for_the_same_selection(void **state)
     ffd_deform_desc desc;
     file_stamp stamp;
     assert_int_equal(ffd_share_create(&share, NULL), FFD_OK);
-    ffd_deform_desc_init(&desc);
+    ffd_deform_desc_init(&desc, sizeof desc);
     put_text("g.obj", "g a\nv 0 0 0\ng b\nv 1 0 0\n");
     desc.input.path = in_folder("g.obj");
     desc.only = only;
@@ -247,7 +247,7 @@ static void folds_and_border_are_lent_once_asked_for(void **state)
     const char *const paths[] = {path};
     const chain_files files = {.paths = paths, .count = 1};
     const boundary *first = NULL, *border;
-    ffd_job_result result, again;
+    ffd_job_result result = {.struct_size = sizeof result}, again = result;
     ffd_share *share;
     put_text("f.json", BENT("0"));
     assert_int_equal(ffd_share_create_for_lattices(&share, NULL), FFD_OK);
@@ -283,7 +283,7 @@ static void a_share_for_lattices_keeps_no_mesh(void **state)
     ffd_deform_desc desc;
     ffd_share *share;
     file_stamp stamp;
-    ffd_deform_desc_init(&desc);
+    ffd_deform_desc_init(&desc, sizeof desc);
     put_text("o.obj", one);
     desc.input.path = in_folder("o.obj");
     assert_true(ffd_file_stamp(desc.input.path, &stamp));

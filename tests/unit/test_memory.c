@@ -52,7 +52,7 @@ static ffd_deform_desc describe(void)
 {
     static const char *const lattices[] = {lattice};
     ffd_deform_desc desc;
-    ffd_deform_desc_init(&desc);
+    ffd_deform_desc_init(&desc, sizeof desc);
     desc.input.path = input;
     desc.output = output;
     desc.lattices = lattices;
@@ -64,7 +64,7 @@ static ffd_deform_desc describe(void)
 static ffd_status run_deform(ffd_error *error)
 {
     const ffd_deform_desc desc = describe();
-    ffd_job_result result;
+    ffd_job_result result = {.struct_size = sizeof result};
     return ffd_deform_run(&desc, &result, error);
 }
 
@@ -72,7 +72,7 @@ static ffd_status run_deform(ffd_error *error)
 static ffd_status run_convert(ffd_error *error)
 {
     ffd_deform_desc desc = describe();
-    ffd_job_result result;
+    ffd_job_result result = {.struct_size = sizeof result};
     char converted[PATH];
     path_of("converted", converted);
     desc.output = converted;
@@ -86,7 +86,7 @@ static ffd_status run_convert(ffd_error *error)
 static ffd_status run_as_morph(ffd_error *error)
 {
     ffd_deform_desc desc = describe();
-    ffd_job_result result;
+    ffd_job_result result = {.struct_size = sizeof result};
     desc.as_morph = "bent";
     desc.output_format = FFD_FORMAT_GLB;
     return ffd_deform_run(&desc, &result, error);
@@ -95,7 +95,7 @@ static ffd_status run_as_morph(ffd_error *error)
 static ffd_status run_morphs(ffd_error *error)
 {
     ffd_deform_desc desc = describe();
-    ffd_job_result result;
+    ffd_job_result result = {.struct_size = sizeof result};
     const char *const lattices[] = {lattice, lattice}, *const names[] = {"bent", "again"};
     const char *const clips[] = {"a: 0 bent=1, 1", "b: 1 again=1"};
     desc.lattices = lattices;
@@ -110,7 +110,7 @@ static ffd_status run_morphs(ffd_error *error)
 static ffd_status run_check(ffd_error *error)
 {
     ffd_deform_desc desc = describe();
-    ffd_job_result result;
+    ffd_job_result result = {.struct_size = sizeof result};
     desc.outside = FFD_OUTSIDE_EXTEND;
     return ffd_check_run(&desc, &result, error);
 }
@@ -118,8 +118,8 @@ static ffd_status run_check(ffd_error *error)
 static ffd_status run_embed(ffd_error *error)
 {
     ffd_embed_desc desc;
-    ffd_job_result result;
-    ffd_embed_desc_init(&desc);
+    ffd_job_result result = {.struct_size = sizeof result};
+    ffd_embed_desc_init(&desc, sizeof desc);
     desc.input.path = input;
     desc.lattice = lattice;
     desc.output = output;
@@ -131,10 +131,10 @@ static ffd_status run_lattice_new(ffd_error *error)
 {
     const ffd_source source = {.path = input};
     ffd_lattice_desc desc;
-    ffd_lattice_desc_init(&desc);
+    ffd_lattice_desc_init(&desc, sizeof desc);
     desc.principal = true;
     ffd_lattice_new_desc made;
-    ffd_lattice_new_desc_init(&made);
+    ffd_lattice_new_desc_init(&made, sizeof made);
     made.meshes = &source;
     made.mesh_count = 1;
     made.lattice = &desc;
@@ -146,7 +146,7 @@ static ffd_status run_info(ffd_error *error)
 {
     ffd_info_desc desc;
     char *text = NULL;
-    ffd_info_desc_init(&desc);
+    ffd_info_desc_init(&desc, sizeof desc);
     desc.file.path = input;
     desc.parts = true;
     const ffd_status status = ffd_info_run(&desc, &text, error);
@@ -158,9 +158,9 @@ static ffd_status run_info(ffd_error *error)
 static ffd_status run_compare(ffd_error *error)
 {
     ffd_compare_desc desc;
-    ffd_comparison comparison;
+    ffd_comparison comparison = {.struct_size = sizeof comparison};
     char *text = NULL;
-    ffd_compare_desc_init(&desc);
+    ffd_compare_desc_init(&desc, sizeof desc);
     desc.a.path = desc.b.path = input;
     desc.relative = true;
     ffd_status status = ffd_compare_run(&desc, &comparison, error);

@@ -104,8 +104,8 @@ static void deform_file(const ffd_lattice *lattice, const void *points, ffd_numb
         fail_msg("%s", error.message);
     const char *const lattices[] = {in_folder("l.json")};
     ffd_deform_desc desc;
-    ffd_job_result done;
-    ffd_deform_desc_init(&desc);
+    ffd_job_result done = {.struct_size = sizeof done};
+    ffd_deform_desc_init(&desc, sizeof desc);
     desc.input.path = in_folder("in.ply");
     desc.output = in_folder("out.ply");
     desc.force = true;

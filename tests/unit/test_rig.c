@@ -75,7 +75,7 @@ static int tear_down(void **state)
 static ffd_deform_desc describe(ffd_rig rig)
 {
     ffd_deform_desc desc;
-    ffd_deform_desc_init(&desc);
+    ffd_deform_desc_init(&desc, sizeof desc);
     desc.input.path = mesh;
     desc.output = output;
     desc.lattices = lattices;
@@ -88,7 +88,7 @@ static ffd_deform_desc describe(ffd_rig rig)
 
 static void the_result_says_what_lags_and_what_follows(void **state)
 {
-    ffd_job_result result;
+    ffd_job_result result = {.struct_size = sizeof result};
     ffd_deform_desc desc = describe(FFD_RIG_KEEP);
     assert_int_equal(ffd_check_run(&desc, &result, NULL), FFD_OK);
     assert_true(result.rig.is_there && result.rig.largest_lag > 0.01);
@@ -112,7 +112,7 @@ static void memory_may_end_anywhere(void **state)
     long failures = 0;
     (void)state;
     for (ffd_status status = FFD_E_MEMORY; status; failures++) {
-        ffd_job_result result;
+        ffd_job_result result = {.struct_size = sizeof result};
         ffd_error error = {0};
         ffd_alloc_fail_after(failures);
         status = ffd_deform_run(&desc, &result, &error);
@@ -139,7 +139,7 @@ static long read_all(const char *path, char *text, size_t capacity)
 static void a_job_after_one_that_follows_is_as_alone(void **state)
 {
     static char alone[1 << 16], after[1 << 16];
-    ffd_job_result result;
+    ffd_job_result result = {.struct_size = sizeof result};
     ffd_share *share;
     (void)state;
     for (int k = 0; k < 2; k++) {
@@ -161,7 +161,7 @@ static void a_job_after_one_that_follows_is_as_alone(void **state)
 
 static void what_cannot_follow_is_refused(void **state)
 {
-    ffd_job_result result;
+    ffd_job_result result = {.struct_size = sizeof result};
     ffd_deform_desc desc = describe(FFD_RIG_FOLLOW);
     (void)state;
     desc.as_morph = "x";

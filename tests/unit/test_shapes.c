@@ -453,7 +453,7 @@ static void a_principal_box_lies_along_its_points(void **state)
     double points[24], rows[9];
     fill_bar(points, rows);
     ffd_lattice_desc desc;
-    ffd_lattice_desc_init(&desc);
+    ffd_lattice_desc_init(&desc, sizeof desc);
     desc.principal = true;
     desc.margin[0] = desc.margin[1] = desc.margin[2] = 0;
     ffd_lattice *l;
@@ -486,7 +486,7 @@ static void a_created_box_encloses_the_finite_points(void **state)
     ffd_lattice_desc desc;
     ffd_error error;
     ffd_lattice *l;
-    ffd_lattice_desc_init(&desc);
+    ffd_lattice_desc_init(&desc, sizeof desc);
     assert_int_equal(ffd_lattice_create(&desc, points, 5, &l, &error), FFD_OK);
     size_t size[3];
     int degree[3];
@@ -523,7 +523,7 @@ static void a_created_cylinder_encloses_its_points(void **state)
     ffd_lattice_desc desc;
     ffd_error error;
     ffd_lattice *l;
-    ffd_lattice_desc_init(&desc);
+    ffd_lattice_desc_init(&desc, sizeof desc);
     desc.shape = FFD_SHAPE_CYLINDER;
     desc.axis[2] = -4;
     desc.margin[0] = desc.margin[1] = desc.margin[2] = 0.1;
@@ -560,9 +560,9 @@ static void bad_lattice_descriptions_are_refused(void **state)
     ffd_lattice_desc good, desc;
     ffd_lattice *l;
     ffd_error error;
-    ffd_lattice_desc_init(&good);
+    ffd_lattice_desc_init(&good, sizeof good);
     desc = good;
-    desc.struct_size = 8;
+    desc.struct_size += 8;
     assert_int_equal(ffd_lattice_create(&desc, points, 2, &l, &error), FFD_E_ARGUMENT);
     desc = good;
     desc.size[1] = 1;

@@ -42,7 +42,7 @@ static int set_up(void **state)
 static ffd_deform_desc describe_job(void)
 {
     ffd_deform_desc job;
-    ffd_deform_desc_init(&job);
+    ffd_deform_desc_init(&job, sizeof job);
     job.input.path = mesh;
     job.lattices = lattices;
     job.lattice_count = 1;
@@ -53,7 +53,7 @@ static ffd_deform_desc describe_job(void)
 static ffd_view_desc describe(const ffd_deform_desc *job)
 {
     ffd_view_desc view;
-    ffd_view_desc_init(&view);
+    ffd_view_desc_init(&view, sizeof view);
     view.job = job;
     view.output = page;
     return view;
@@ -61,7 +61,7 @@ static ffd_view_desc describe(const ffd_deform_desc *job)
 
 static void refuse(const ffd_view_desc *view)
 {
-    ffd_job_result result;
+    ffd_job_result result = {.struct_size = sizeof result};
     ffd_error error;
     assert_int_equal(ffd_view_run(view, &result, &error), FFD_E_ARGUMENT);
     assert_int_equal(result.status, FFD_E_ARGUMENT);
@@ -76,7 +76,7 @@ static void descriptions_that_are_not_complete(void **state)
     view.job = NULL;
     refuse(&view);
     view = describe(&job);
-    view.struct_size--;
+    view.struct_size += 8;
     refuse(&view);
     view = describe(&job);
     view.output = NULL;
@@ -109,7 +109,7 @@ static void figures_are_those_of_a_check(void **state)
 {
     ffd_deform_desc job = describe_job();
     const ffd_view_desc view = describe(&job);
-    ffd_job_result shown, checked;
+    ffd_job_result shown = {.struct_size = sizeof shown}, checked = shown;
     assert_int_equal(ffd_view_run(&view, &shown, NULL), FFD_OK);
     assert_int_equal(ffd_check_run(&job, &checked, NULL), FFD_OK);
     assert_int_equal(shown.vertices, checked.vertices);
@@ -131,7 +131,7 @@ static void what_is_written_is_recorded(void **state)
 {
     ffd_deform_desc job = describe_job();
     ffd_view_desc view = describe(&job);
-    ffd_job_result result;
+    ffd_job_result result = {.struct_size = sizeof result};
     ffd_error error;
     assert_int_equal(ffd_written_create(&job.written, &error), FFD_OK);
     view.force = true;
@@ -147,7 +147,7 @@ static void fail_everywhere(const ffd_view_desc *view)
 {
     long failures = 0;
     for (ffd_status status = FFD_E_MEMORY; status; failures++) {
-        ffd_job_result result;
+        ffd_job_result result = {.struct_size = sizeof result};
         ffd_error error = {0};
         ffd_alloc_fail_after(failures);
         status = ffd_view_run(view, &result, &error);

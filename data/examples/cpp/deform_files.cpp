@@ -48,7 +48,7 @@ bool deform(const char *lattice, const std::string &folder, char *mesh, ffd_writ
 {
     const std::string output = in_folder(folder, mesh);
     ffd_deform_desc desc;
-    ffd_deform_desc_init(&desc);
+    ffd_deform_desc_init(&desc, sizeof desc);
     desc.input.path = mesh;
     desc.output = output.c_str();
     desc.lattices = &lattice;
@@ -60,7 +60,7 @@ bool deform(const char *lattice, const std::string &folder, char *mesh, ffd_writ
     desc.log = say;
     desc.log_user = mesh;
 
-    ffd_job_result result;
+    ffd_job_result result = {.struct_size = sizeof result};
     ffd_error error;
     if (ffd_deform_run(&desc, &result, &error) == FFD_OK)
         std::printf("%s: %llu of %llu vertices moved, by %g at most\n", output.c_str(),

@@ -1,6 +1,7 @@
 #include "job/input/shown_box.h"
 #include "base/file/mapping.h"
 #include "base/memory/memory.h"
+#include "base/struct_size.h"
 #include "base/vector/vec.h"
 #include "job/input/selection.h"
 #include "job/input/source.h"
@@ -95,8 +96,14 @@ ffd_status ffd_shared_box_create(ffd_shared_box **box, ffd_error *error)
     return FFD_OK;
 }
 
-ffd_status ffd_shared_box_add(ffd_shared_box *box, const ffd_deform_desc *desc, ffd_error *error)
+ffd_status ffd_shared_box_add(ffd_shared_box *box, const ffd_deform_desc *callers, ffd_error *error)
 {
+    ffd_deform_desc own;
+    const ffd_deform_desc *const desc = &own;
+    ffd_deform_desc_init(&own, sizeof own);
+    const ffd_status status = ffd_struct_take(&own, sizeof own, callers, "ffd_deform_desc", error);
+    if (status)
+        return status;
     if (ffd_file_is_stream(desc->input.path))
         return ffd_fail(error, FFD_E_ARGUMENT,
                         "standard input can be read only once, not for a shared box and again");

@@ -91,10 +91,15 @@ ffd_status ffd_jacobian_run(const ffd_jacobian_desc *callers, ffd_jacobian_resul
 {
     ffd_jacobian_desc desc;
     ffd_jacobian_result result = {.struct_size = sizeof result};
+    ffd_deform_desc job;
     ffd_job_result figures;
     ffd_error own;
+    ffd_deform_desc_init(&job, sizeof job);
     ffd_jacobian_desc_init(&desc, sizeof desc);
     ffd_status status = ffd_struct_take(&desc, sizeof desc, callers, "ffd_jacobian_desc", &own);
+    if (!status && desc.job)
+        status = ffd_struct_take(&job, sizeof job, desc.job, "ffd_deform_desc", &own);
+    desc.job = desc.job ? &job : NULL;
     if (!status)
         status = check_desc(&desc, &own);
     if (status) {

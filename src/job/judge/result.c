@@ -9,6 +9,7 @@
 void ffd_result_clear(ffd_job_result *result)
 {
     memset(result, 0, sizeof *result);
+    result->struct_size = sizeof *result;
     for (int a = 0; a < 3; a++) {
         result->before.min[a] = result->after.min[a] = 1; /* nothing yet: min > max */
         result->before.max[a] = result->after.max[a] = -1;

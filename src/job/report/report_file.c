@@ -3,6 +3,7 @@
 #include "base/file/output.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/struct_size.h"
 #include "job/report/output_set.h"
 #include "job/report/replace.h"
 #include "job/report/report.h"
@@ -210,8 +211,28 @@ ffd_status ffd_report_add_text(ffd_report *report, uint64_t number, const char *
     return status;
 }
 
-ffd_status ffd_report_add(ffd_report *report, const char *input, const char *output,
-                          const ffd_job_result *result, ffd_error *error)
+/* Takes a caller's result and those of its morph targets, which are one after the other. *morphs is to be
+ * freed. */
+static ffd_status take_result(const ffd_job_result *callers, ffd_job_result *result, ffd_job_result **morphs,
+                              ffd_error *error)
+{
+    ffd_status status = ffd_struct_take(result, sizeof *result, callers, "ffd_job_result", error);
+    *morphs = NULL;
+    if (status || !result->morph_results)
+        return status;
+    *morphs = ffd_alloc_zero(result->morph_count, sizeof **morphs);
+    if (!*morphs)
+        return ffd_fail_memory(error);
+    const char *const first = (const char *)result->morph_results;
+    for (size_t k = 0; k < result->morph_count && !status; k++)
+        status = ffd_struct_take(&(*morphs)[k], sizeof **morphs, first + k * callers->struct_size,
+                                 "ffd_job_result", error);
+    result->morph_results = *morphs;
+    return status;
+}
+
+static ffd_status add_entry(ffd_report *report, const char *input, const char *output,
+                            const ffd_job_result *result, ffd_error *error)
 {
     const report_entry entry = {.input = input, .output = output, .result = result, .stable = report->stable};
     byte_buffer text = {0};
@@ -220,6 +241,17 @@ ffd_status ffd_report_add(ffd_report *report, const char *input, const char *out
                                   ? ffd_fail_memory(error)
                                   : ffd_report_add_text(report, report->count, text.data, text.size, error);
     ffd_buffer_free(&text);
+    return status;
+}
+
+ffd_status ffd_report_add(ffd_report *report, const char *input, const char *output,
+                          const ffd_job_result *callers, ffd_error *error)
+{
+    ffd_job_result result = {.struct_size = sizeof result}, *morphs;
+    ffd_status status = take_result(callers, &result, &morphs, error);
+    if (!status)
+        status = add_entry(report, input, output, &result, error);
+    ffd_free(morphs);
     return status;
 }
 

@@ -3,11 +3,13 @@
 #include "base/file/mapping.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/struct_size.h"
 #include "base/text/words.h"
 #include "job/chain/chain_load.h"
 #include "job/deform_job.h"
 #include "job/input/selection.h"
 #include "job/input/source.h"
+#include "job/judge/result.h"
 #include "job/pass/chain_fit.h"
 #include "job/report/output_set.h"
 #include "job/report/report.h"
@@ -31,10 +33,10 @@ typedef struct view_work {
     mesh_document *other; /* the deformed mesh, while its animations are needed */
 } view_work;
 
-void ffd_view_desc_init(ffd_view_desc *desc)
+void ffd_view_desc_init(ffd_view_desc *desc, size_t size)
 {
-    memset(desc, 0, sizeof *desc);
-    desc->struct_size = sizeof *desc;
+    const ffd_view_desc defaults = {.struct_size = sizeof defaults};
+    ffd_struct_give(&defaults, sizeof defaults, desc, size);
 }
 
 static bool is_page(const char *path)
@@ -66,7 +68,7 @@ static view_picture_options describe_picture(const view_work *work)
 static ffd_status check_desc(const view_work *work, ffd_error *error)
 {
     const ffd_view_desc *const desc = work->desc;
-    if (desc->struct_size != sizeof *desc || !desc->output || (desc->deformed && !desc->deformed->path))
+    if (!desc->output || (desc->deformed && !desc->deformed->path))
         return ffd_fail(error, FFD_E_ARGUMENT, "the view's description is not complete");
     const view_picture_options picture = describe_picture(work);
     for (int a = 0; a < 3; a++)
@@ -359,12 +361,11 @@ static void free_work(view_work *work)
     ffd_source_close(&work->other);
 }
 
-ffd_status ffd_view_run(const ffd_view_desc *desc, ffd_job_result *result, ffd_error *error)
+static ffd_status view(const ffd_view_desc *desc, ffd_job_result *result, ffd_error *error)
 {
-    static const ffd_deform_desc none = {0};
     view_work work = {.desc = desc, .scene = {.animation = RIG_NONE}};
     ffd_error own;
-    ffd_status status = ffd_deform_job_begin(&work.job, desc->job ? desc->job : &none, true, result);
+    ffd_status status = ffd_deform_job_begin(&work.job, desc->job, true, result);
     if (!status) {
         status = run(&work, result, &own);
         if (status) {
@@ -376,4 +377,29 @@ ffd_status ffd_view_run(const ffd_view_desc *desc, ffd_job_result *result, ffd_e
     }
     free_work(&work);
     return ffd_deform_job_end(&work.job, status, result, error);
+}
+
+ffd_status ffd_view_run(const ffd_view_desc *callers, ffd_job_result *callers_result, ffd_error *error)
+{
+    ffd_view_desc desc;
+    ffd_deform_desc job;
+    ffd_job_result result;
+    ffd_view_desc_init(&desc, sizeof desc);
+    ffd_deform_desc_init(&job, sizeof job);
+    ffd_result_clear(&result);
+    ffd_status status = ffd_struct_check(sizeof result, callers_result, "ffd_job_result", error);
+    if (status)
+        return status;
+    status = ffd_struct_take(&desc, sizeof desc, callers, "ffd_view_desc", &result.error);
+    if (!status && desc.job)
+        status = ffd_struct_take(&job, sizeof job, desc.job, "ffd_deform_desc", &result.error);
+    job.morph_results = NULL; /* of a job that writes */
+    desc.job = &job;
+    if (!status)
+        status = view(&desc, &result, error);
+    else if (error)
+        *error = result.error;
+    result.status = status;
+    ffd_struct_give(&result, sizeof result, callers_result, callers_result->struct_size);
+    return status;
 }
