@@ -236,7 +236,8 @@ if build gcc '' gcc g++ -Dbuildtype=debugoptimized -Dc_args=-g1 -Dcpp_args=-g1; 
         suites gcc gcc --suite "$suite" --no-suite soak
     elif [ -n "$all" ]; then
         ahead release
-        suites gcc gcc --no-suite python --no-suite soak
+        # What is part of another test follows there.
+        suites gcc gcc --no-suite python --no-suite part_of_corpus --no-suite soak
     elif [ -n "$soak" ]; then
         FFD_SEED=${FFD_SEED-$started}
         export FFD_SEED
