@@ -1,6 +1,6 @@
 #!/bin/sh
 # Builds ffd and runs its tests, in build folders of its own under .build-test/.
-#     sh tests/run.sh                 the gcc build, every quick suite
+#     sh tests/run.sh                 the gcc build, every quick suite (all but slow, soak and python)
 #     sh tests/run.sh --suite NAME    the gcc build, one suite (unit property oracle fuzz golden cli rules python bench slow)
 #                                     or one tag (threads compilers text)
 #     sh tests/run.sh --all           and: slow suites, release, clang with sanitizers, valgrind, fuzzing, the demo, the wraps
@@ -53,14 +53,12 @@ else
     echo "FFD_MODELS is not set: tests on the sample models are skipped"
 fi
 
-# The suite python builds a wheel, optimized: in --all it follows the stage that has compiled the same. Its tools come from a
-# package index, which a machine need not reach (.ci/setup).
+# The suite python builds a wheel, optimized: it follows the stage of --all that has compiled the same, and the quick run, which
+# has not, leaves it out. Its tools come from a package index, which a machine need not reach (.ci/setup).
 python='--suite python'
-no_python=
 skipped=0
-if ! cmp -s "$root/tests/python/requirements.txt" "$work/wheels/requirements.txt"; then
+if { [ -n "$all" ] || [ "$suite" = python ]; } && ! cmp -s "$root/tests/python/requirements.txt" "$work/wheels/requirements.txt"; then
     python=
-    no_python='--no-suite python'
     skipped=1
     [ "$suite" != python ] || may_skip=--may-skip
     echo "the wheels of tests/python are not there: the suite python is skipped"
@@ -236,15 +234,15 @@ if build gcc '' gcc g++ -Dbuildtype=debugoptimized -Dc_args=-g1 -Dcpp_args=-g1; 
         suites gcc gcc --suite "$suite" --no-suite soak
     elif [ -n "$all" ]; then
         ahead release
-        suites gcc gcc --no-suite python --no-suite soak
+        # What is part of another test follows there.
+        suites gcc gcc --no-suite python --no-suite part_of_corpus --no-suite soak
     elif [ -n "$soak" ]; then
         FFD_SEED=${FFD_SEED-$started}
         export FFD_SEED
         echo "FFD_SEED=$FFD_SEED"
         suites soak gcc --suite soak --timeout-multiplier 0
     else
-        # shellcheck disable=SC2086 # words, or nothing
-        suites gcc gcc $no_python --no-suite slow --no-suite soak
+        suites gcc gcc --no-suite python --no-suite slow --no-suite soak
     fi
 fi
 
