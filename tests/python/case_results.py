@@ -63,6 +63,10 @@ class Bits(unittest.TestCase):
         other = pickle.loads(pickle.dumps(embedding))
         self.assertEqual(other.uvw.tobytes(), embedding.uvw.tobytes())
         self.assertEqual(other.lattice.deform(other).tobytes(), found.tobytes())
+        fitted = ffd.Lattice.load(os.path.join(support.DATA, "lattices", "twist.json")).fit(points)
+        for one in (fitted, fitted.moved(fitted.deformed + 0.1)):
+            again = pickle.loads(pickle.dumps(one))
+            self.assertTrue(np.array_equal(again.rest, one.rest) and np.array_equal(again.offsets, one.offsets))
         with self.assertRaises(ffd.InvalidError):
             ffd.Embedding.from_bytes(embedding.to_bytes()[:-1], lattice, points)
 

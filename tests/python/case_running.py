@@ -92,8 +92,10 @@ class Running(unittest.TestCase):
     def test_an_interrupt_ends_a_call(self):
         random = support.rng("interrupt")
         lattice = support.curved(random, weights=True)
-        points = random.uniform(0, 1, (400_000, 3))
+        points = random.uniform(0, 1, (1_500_000, 3))  # half a second and more
         going = threading.Event()
+        # What runs in the background may have been started with the signal ignored.
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
 
         def interrupt():
             going.wait()
@@ -105,24 +107,25 @@ class Running(unittest.TestCase):
             helper.start()
             with self.assertRaises(KeyboardInterrupt):
                 going.set()
-                began = time.process_time()
+                began = time.thread_time()
                 lattice.embed(points, threads=1, progress=progress)
             helper.join()
-            part = time.process_time() - began
-            self.assertLess(part, self.seconds_of_all(lattice, points) / 2)
+            part = time.thread_time() - began
+            self.assertLess(part, 0.75 * self.seconds_of_all(lattice, points))
 
     def seconds_of_all(self, lattice, points):
         """What the whole call takes, from a part of it."""
         if not hasattr(self, "whole"):
-            began = time.process_time()
-            lattice.embed(points[:20_000], threads=1)
-            self.whole = (time.process_time() - began) * len(points) / 20_000
+            began = time.thread_time()
+            lattice.embed(points[:60_000], threads=1)
+            self.whole = (time.thread_time() - began) * len(points) / 60_000
         return self.whole
 
     def test_nothing_is_printed(self):
         script = """
 import os, signal, sys
 import numpy as np, ffd_mesh as ffd
+signal.signal(signal.SIGINT, signal.default_int_handler)
 points = np.random.default_rng(1).uniform(0, 1, (200000, 3))
 lattice = ffd.Lattice.from_points(np.stack(np.meshgrid(*[np.linspace(0, 1, 4) ** 1.5] * 3, indexing="ij"), -1) + 0.01)
 for bad in (lambda: lattice.embed(points, outside="error"), lambda: ffd.Lattice.load("absent"), lambda: ffd.info("absent"),
