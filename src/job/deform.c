@@ -1,7 +1,6 @@
 /* deform.c - the job of `ffd deform`. */
 #include "base/file/mapping.h"
 #include "base/file/path.h"
-#include "base/struct_size.h"
 #include "base/system/clock.h"
 #include "io/formats.h"
 #include "job/chain/job_cache.h"
@@ -14,12 +13,6 @@
 #include "job/report/depfile.h"
 #include "job/report/output_set.h"
 #include <string.h>
-
-void ffd_deform_desc_init(ffd_deform_desc *desc, size_t size)
-{
-    const ffd_deform_desc defaults = {.struct_size = sizeof defaults};
-    ffd_struct_give(&defaults, sizeof defaults, desc, size);
-}
 
 /* What a killed run had set aside comes back before it is read. */
 static ffd_status restore_output(const ffd_deform_desc *desc, ffd_error *error)

@@ -9,6 +9,7 @@
 #include "job/chain/job_cache.h"
 #include "job/chain/lattice_memory.h"
 #include "job/chain/overlaps.h"
+#include "job/input/deform_desc.h"
 #include "job/input/selection.h"
 #include "job/input/source.h"
 #include "job/judge/behind.h"
@@ -97,13 +98,12 @@ ffd_status ffd_job_for_caller(deform_job_function run, const ffd_deform_desc *ca
 {
     ffd_deform_desc desc;
     ffd_job_result result;
-    ffd_deform_desc_init(&desc, sizeof desc);
     ffd_result_clear(&result);
     ffd_status status = ffd_struct_check(sizeof result, callers_result, "ffd_job_result", error);
     if (status)
         return status;
     const size_t size = callers_result->struct_size;
-    status = ffd_struct_take(&desc, sizeof desc, callers, "ffd_deform_desc", &result.error);
+    status = ffd_deform_desc_take(callers, &desc, &result.error);
     if (!status)
         status = run_own(run, &desc, &result, size, error);
     else if (error)

@@ -28,7 +28,8 @@ def exported(library):
     run = subprocess.run(["nm", "-D", "--defined-only", library], capture_output=True, text=True, check=True)
     # A template instance or type information of the C++ library, as a weak symbol, is not part of our interface, but it
     # would be one more thing that a user's program can collide with: it counts.
-    return {line.split()[-1].split("@")[0] for line in run.stdout.splitlines() if line.strip()}
+    # The name of a symbol version is an absolute symbol.
+    return {line.split()[-1].split("@")[0] for line in run.stdout.splitlines() if line.strip() and line.split()[-2] != "A"}
 
 
 def main():

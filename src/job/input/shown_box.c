@@ -1,8 +1,8 @@
 #include "job/input/shown_box.h"
 #include "base/file/mapping.h"
 #include "base/memory/memory.h"
-#include "base/struct_size.h"
 #include "base/vector/vec.h"
+#include "job/input/deform_desc.h"
 #include "job/input/selection.h"
 #include "job/input/source.h"
 #include "mesh/bounds.h"
@@ -100,8 +100,7 @@ ffd_status ffd_shared_box_add(ffd_shared_box *box, const ffd_deform_desc *caller
 {
     ffd_deform_desc own;
     const ffd_deform_desc *const desc = &own;
-    ffd_deform_desc_init(&own, sizeof own);
-    const ffd_status status = ffd_struct_take(&own, sizeof own, callers, "ffd_deform_desc", error);
+    const ffd_status status = ffd_deform_desc_take(callers, &own, error);
     if (status)
         return status;
     if (ffd_file_is_stream(desc->input.path))

@@ -3,6 +3,7 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/struct_size.h"
+#include "job/input/deform_desc.h"
 #include "job/input/source.h"
 #include "job/jacobian/jacobian_check.h"
 #include "job/jacobian/jacobian_output.h"
@@ -94,11 +95,10 @@ ffd_status ffd_jacobian_run(const ffd_jacobian_desc *callers, ffd_jacobian_resul
     ffd_deform_desc job;
     ffd_job_result figures;
     ffd_error own;
-    ffd_deform_desc_init(&job, sizeof job);
     ffd_jacobian_desc_init(&desc, sizeof desc);
     ffd_status status = ffd_struct_take(&desc, sizeof desc, callers, "ffd_jacobian_desc", &own);
     if (!status && desc.job)
-        status = ffd_struct_take(&job, sizeof job, desc.job, "ffd_deform_desc", &own);
+        status = ffd_deform_desc_take(desc.job, &job, &own);
     desc.job = desc.job ? &job : NULL;
     if (!status)
         status = check_desc(&desc, &own);

@@ -7,6 +7,7 @@
 #include "base/text/words.h"
 #include "job/chain/chain_load.h"
 #include "job/deform_job.h"
+#include "job/input/deform_desc.h"
 #include "job/input/selection.h"
 #include "job/input/source.h"
 #include "job/judge/result.h"
@@ -385,14 +386,14 @@ ffd_status ffd_view_run(const ffd_view_desc *callers, ffd_job_result *callers_re
     ffd_deform_desc job;
     ffd_job_result result;
     ffd_view_desc_init(&desc, sizeof desc);
-    ffd_deform_desc_init(&job, sizeof job);
+    ffd_deform_desc_init(&job, sizeof job); /* there may be none: files as they are */
     ffd_result_clear(&result);
     ffd_status status = ffd_struct_check(sizeof result, callers_result, "ffd_job_result", error);
     if (status)
         return status;
     status = ffd_struct_take(&desc, sizeof desc, callers, "ffd_view_desc", &result.error);
     if (!status && desc.job)
-        status = ffd_struct_take(&job, sizeof job, desc.job, "ffd_deform_desc", &result.error);
+        status = ffd_deform_desc_take(desc.job, &job, &result.error);
     job.morph_results = NULL; /* of a job that writes */
     desc.job = &job;
     if (!status)
