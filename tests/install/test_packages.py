@@ -115,7 +115,7 @@ def c_example(folder, environment, findings):
         file.write('{"format": "ffd-lattice", "version": 1, "size": [4, 4, 4], "rest": {"box": {"min": [-1, -1, -1], '
                    '"max": [1, 1, 1]}}, "moves": [{"by": [0.5, 0, 0]}]}')
     output = stage.run("./a.out box.json", cwd=folder, env=environment)
-    if output != "moves by 0.5 0 0\n":
+    if output != "0.5 0.5 0.2\n":
         findings.append(f"the C example printed {output!r}")
 
 

@@ -105,7 +105,7 @@ static ffd_lattice *built(const sample *s, size_t component, double by, bool der
     char text[4096], set[200];
     bool used;
     lattice_spec *spec;
-    ffd_lattice *lattice;
+    ffd_lattice *lattice = NULL;
     ffd_error error = {0};
     memcpy(value, s->value, sizeof value);
     value[component] += by;
