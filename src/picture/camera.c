@@ -64,7 +64,8 @@ bool ffd_camera_parse(const char *text, camera *result)
 
 void ffd_camera_widen(const camera *from, const double *points, size_t count, ffd_bounds *seen)
 {
-    for (const double *p = points; p < points + 3 * count; p += 3) {
+    for (size_t i = 0; i < count; i++) {
+        const double *const p = points + 3 * i;
         const double along[3] = {vec_dot(from->right, p), vec_dot(from->up, p), vec_dot(from->back, p)};
         if (vec_is_finite(along))
             ffd_bounds_widen(seen, along);
