@@ -46,6 +46,11 @@ mkdir parts
 deform models/vase.obj models/column.obj --out-dir parts -l twist.json --shared-box
 draw shared models/column.obj parts/column.obj $pair $face --size 200x320
 draw banner models/banner_red.glb -l lattices/wind.json --frames 5 --color plain --camera 1,0.4,1.5 --size 150x240
+deform models/column.obj column.stl -l twist.json
+draw stl column.stl --color plain $face --size 200x320
+mkdir many
+deform models/column.obj models/vase.obj --out-dir many -l lattices/bulge.json
+draw many models/vase.obj many/vase.obj $pair $face --size 200x260
 draw several models/column.obj -l lattices/taper.json -l lattices/twist.json $pair $face --size 240x360
 draw blocks models/plank.obj -l left.json -l right.json --blocks $pair --camera 0.6,0.4,2 --size 400x240
 draw torn $knight -l head.json $pair $face --size 320x320
@@ -58,5 +63,10 @@ variant() { # NAME HEIGHT GIRTH DEGREES, as in sweep.csv
 variant stout 0.8 1.3 0
 variant tall 1.3 0.9 0
 variant turned 1 1 60
+# A walk with a rig that stays and with one that follows: three poses at rest, below them deformed.
+for rig in keep follow; do
+    draw "rig-$rig" models/character.glb -l lattices/taller.json --rig $rig --animation walk --frames 3 --color plain $face \
+        --size 150x200
+done
 draw corner models/column.obj -l lattices/corner.json --frames 2 --color det --camera front --size 320x320
 python3 "$data/make_greville.py" "$ffd" "$out/greville.svg"
