@@ -420,7 +420,8 @@ FFD_API void ffd_view_desc_init(ffd_view_desc *desc, size_t size);
 /* Writes the output; it is complete or absent. A violated gate of the job ends in FFD_E_GATE after it was
    written. An image of the mesh that is missing or broken is grey in a picture, and warned of. result is
    filled in every case (not NULL): where lattices deform, as by ffd_check_run, of the shapes that are
-   shown, and with picture. Returns result->status. Errors: all. */
+   shown, and with picture. The mesh may take 400 MB where its source's memory allows less. Returns
+   result->status. Errors: all. */
 FFD_API ffd_status ffd_view_run(const ffd_view_desc *desc, ffd_job_result *result, ffd_error *error);
 
 /* `ffd embed`: writes u,v,w (float64, N x 3, C order, NaN where outside; .npy version 1.0) to output and,

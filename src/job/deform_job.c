@@ -408,9 +408,11 @@ static ffd_status judge(deform_job *job, figure_arrays *arrays, ffd_job_result *
     return status;
 }
 
-/* Hands over what the figures were made of. */
-static void keep_arrays(figure_arrays *arrays, job_details *details)
+/* Hands over what the figures were made of; its memory stays taken. */
+static void keep_arrays(figure_arrays *arrays, job_details *details, memory_budget *budget)
 {
+    if (arrays->budget.taken > budget->taken)
+        budget->taken = arrays->budget.taken;
     details->has_faces = arrays->has_faces;
     details->faces = arrays->faces;
     details->deformed = arrays->deformed;
@@ -458,7 +460,7 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
         ffd_tear_figures_warn(job, result);
     }
     if (job->details)
-        keep_arrays(&arrays, job->details);
+        keep_arrays(&arrays, job->details, &job->document->budget);
     ffd_figures_free(&arrays);
     ffd_rig_places_free(&job->rig);
     ffd_free(job->kept);

@@ -23,6 +23,9 @@
 #include <math.h>
 #include <string.h>
 
+/* A view holds all that a mesh shows: a short file of many instances is looked at without --memory. */
+#define LEAST_MEMORY ((uint64_t)400000000)
+
 /* What a view holds while it is made. */
 typedef struct view_work {
     const ffd_view_desc *desc;
@@ -380,10 +383,17 @@ static ffd_status view(const ffd_view_desc *desc, ffd_job_result *result, ffd_er
     return ffd_deform_job_end(&work.job, status, result, error);
 }
 
+static void allow_memory(ffd_source *source)
+{
+    if (source->memory < LEAST_MEMORY)
+        source->memory = LEAST_MEMORY;
+}
+
 ffd_status ffd_view_run(const ffd_view_desc *callers, ffd_job_result *callers_result, ffd_error *error)
 {
     ffd_view_desc desc;
     ffd_deform_desc job;
+    ffd_source deformed;
     ffd_job_result result;
     ffd_view_desc_init(&desc, sizeof desc);
     ffd_deform_desc_init(&job, sizeof job); /* there may be none: files as they are */
@@ -396,6 +406,12 @@ ffd_status ffd_view_run(const ffd_view_desc *callers, ffd_job_result *callers_re
         status = ffd_deform_desc_take(desc.job, &job, &result.error);
     job.morph_results = NULL; /* of a job that writes */
     desc.job = &job;
+    allow_memory(&job.input);
+    if (!status && desc.deformed) {
+        deformed = *desc.deformed;
+        allow_memory(&deformed);
+        desc.deformed = &deformed;
+    }
     if (!status)
         status = view(&desc, &result, error);
     else if (error)

@@ -12,8 +12,14 @@ static uint64_t number_of(const view_scene *scene, size_t vertex)
     return scene->numbers ? scene->numbers[vertex] : vertex;
 }
 
-static ffd_status add_statuses(const job_details *details, view_scene *scene, ffd_error *error)
+static ffd_status add_statuses(const job_details *details, const mesh_model *model, view_scene *scene,
+                               ffd_error *error)
 {
+    const ffd_status status =
+        model->budget ? ffd_budget_take(model->budget, scene->vertex_count, 1 + sizeof *scene->dets, error)
+                      : FFD_OK;
+    if (status)
+        return status;
     scene->statuses = ffd_alloc(scene->vertex_count, 1);
     scene->dets = ffd_alloc(scene->vertex_count, sizeof *scene->dets);
     if (!scene->statuses || !scene->dets)
@@ -118,7 +124,7 @@ ffd_status ffd_view_add_marks(const deform_job *job, const ffd_job_result *resul
     scene->flipped_faces = result->flipped_faces;
     scene->tear_edges = result->tear_edges;
     add_witness(result, scene);
-    ffd_status status = add_statuses(details, scene, error);
+    ffd_status status = add_statuses(details, model, scene, error);
     if (!status)
         status = add_flipped(details, model, faces, scene, error);
     return status ? status : add_tears(details, count, scene, error);

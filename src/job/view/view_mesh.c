@@ -30,15 +30,20 @@ static ffd_status make_arrays(mesh_taker *t)
 {
     view_scene *const scene = t->scene;
     const size_t count = count_triangles(t->model);
+    const size_t ends = t->model->lists[MODEL_LINES].corner_count,
+                 points = t->model->lists[MODEL_POINTS].corner_count;
     if (count > UINT32_MAX / 3)
         return ffd_fail(t->error, FFD_E_LIMIT, "%zu triangles are more than can be shown", count);
-    if (t->model->budget && ffd_budget_take(t->model->budget, count, TRIANGLE_BYTES, t->error))
+    memory_budget *const budget = t->model->budget;
+    if (budget && (ffd_budget_take(budget, count, TRIANGLE_BYTES, t->error) ||
+                   ffd_budget_take(budget, ends, 2 * sizeof *scene->segments, t->error) ||
+                   ffd_budget_take(budget, points, sizeof *scene->points, t->error)))
         return FFD_E_LIMIT;
     scene->triangle_count = count;
     scene->triangles = ffd_alloc(count, 3 * sizeof *scene->triangles);
     scene->texcoords = t->model->texcoord_count ? ffd_alloc_zero(count, 6 * sizeof *scene->texcoords) : NULL;
-    scene->segments = ffd_alloc(t->model->lists[MODEL_LINES].corner_count, 2 * sizeof *scene->segments);
-    scene->points = ffd_alloc(t->model->lists[MODEL_POINTS].corner_count, sizeof *scene->points);
+    scene->segments = ffd_alloc(ends, 2 * sizeof *scene->segments);
+    scene->points = ffd_alloc(points, sizeof *scene->points);
     scene->parts = ffd_alloc_zero(t->model->run_count, sizeof *scene->parts);
     t->faces = ffd_alloc(count, sizeof *t->faces);
     const bool made = scene->triangles && (scene->texcoords || !t->model->texcoord_count) &&
