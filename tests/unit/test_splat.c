@@ -288,7 +288,7 @@ static void harmonics(void **state)
         double m[9];
         for (int i = 0; i < HARMONICS_MOST; i++)
             for (int k = 0; k < HARMONICS_CHANNELS; k++)
-                before[i][k] = after[i][k] = sin(1 + i + 20 * k);
+                before[k][i] = after[k][i] = sin(1 + i + 20 * k);
         ffd_harmonics_turn(FFD_ISA_SCALAR, &turn, 3, 1, &after);
         ffd_splat_matrix(turn.quaternion, m);
         for (size_t d = 0; d < sizeof directions / sizeof *directions; d++)
@@ -302,8 +302,8 @@ static void harmonics(void **state)
                 for (int k = 0; k < HARMONICS_CHANNELS; k++) {
                     double expected = 0, found = 0;
                     for (int i = 0; i <= 2 * degree; i++) {
-                        expected += before[at + i][k] * old[i];
-                        found += after[at + i][k] * turned[i];
+                        expected += before[k][at + i] * old[i];
+                        found += after[k][at + i] * turned[i];
                     }
                     check_close(found, expected, 2e-15);
                 }

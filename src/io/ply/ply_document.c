@@ -67,11 +67,11 @@ static ffd_status read_vertex(ply_document *d, ply_walk *walk, uint64_t row, ffd
     return status;
 }
 
-/* Rows of one size, whose numbers are where they are in the first: harmonics stay in the file. */
+/* Rows of one size, whose numbers are where they are in the first: what splats have stays in the file. */
 static void read_fixed(ply_document *d)
 {
-    size_t slots[PLY_REST_SLOT], slot_count = 0;
-    for (size_t slot = 0; slot < PLY_REST_SLOT; slot++)
+    size_t slots[PLY_ROTATION_SLOT], slot_count = 0;
+    for (size_t slot = 0; slot < PLY_ROTATION_SLOT; slot++)
         if (d->offsets[slot] != PLY_NOWHERE)
             slots[slot_count++] = slot;
     for (size_t row = 0; row < (size_t)d->vertex->count; row++) {
@@ -92,10 +92,10 @@ static ffd_status read_vertices(ply_document *d, ffd_error *error)
     d->file.positions = ffd_alloc(count, 3 * sizeof *d->file.positions);
     if (d->has_normals)
         d->file.directions = ffd_alloc(count, 3 * sizeof *d->file.directions);
-    if (d->file.part.has_ellipsoids)
+    const bool holds_splats = d->file.part.has_ellipsoids && !d->has_fixed_rows;
+    if (holds_splats)
         d->splats = ffd_alloc(count, sizeof *d->splats);
-    if (!d->file.positions || (d->has_normals && !d->file.directions) ||
-        (d->file.part.has_ellipsoids && !d->splats))
+    if (!d->file.positions || (d->has_normals && !d->file.directions) || (holds_splats && !d->splats))
         return ffd_fail_memory(error);
     if (d->has_fixed_rows) {
         read_fixed(d);
@@ -162,6 +162,7 @@ void ffd_ply_close(mesh_document *document)
         ffd_ply_header_free(&d->header);
         ffd_free(d->splats);
         ffd_free(d->new_splats);
+        ffd_free(d->splat_marks);
     }
     ffd_file_document_close(document);
 }
