@@ -2,6 +2,7 @@
 #include "base/vector/direction.h"
 #include "base/vector/exponential.h"
 #include "base/vector/vec.h"
+#include "splat/splat_iterations.h"
 #include "splat/splat_kernel.h"
 #include <float.h>
 #include <string.h>

@@ -3,8 +3,9 @@
 #ifndef FFD_SPLAT_SPLAT_KERNEL_H
 #define FFD_SPLAT_SPLAT_KERNEL_H
 
-#include "splat/splat.h"
-#include "splat/splat_iterations.h"
+#include "splat/splat_types.h"
+#include <stddef.h>
+#include <stdint.h>
 
 /* What a kernel leaves to the functions for one: the last few, and those that are not ordinary. */
 #define SPLAT_OPEN UINT8_MAX

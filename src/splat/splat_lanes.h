@@ -4,6 +4,7 @@
 #define FFD_SPLAT_SPLAT_LANES_H
 
 #include "base/vector/lanes.h"
+#include "splat/splat_iterations.h"
 #include "splat/splat_kernel.h"
 
 static ALWAYS_INLINE void cross(const lanes a[3], const lanes b[3], lanes out[3])

@@ -9,9 +9,10 @@
 /* Writes the rows of the faces, whose normals (face_normals) are renewed where a corner has moved. */
 void ffd_ply_write_face_normals(const ply_document *document, file_splice *splice);
 
-/* Write the rows of the vertices, which are of one size (has_fixed_rows), or whose numbers must be looked for
-   one after the other. Return how many splats have harmonics that are not numbers, and are not turned. */
+/* Writes the rows of the vertices, which are of one size (has_fixed_rows). Returns how many splats have
+   harmonics that are not numbers, and are not turned. */
 size_t ffd_ply_write_fixed(const ply_document *document, file_splice *splice);
+/* The same where numbers must be looked for one after the other. */
 size_t ffd_ply_write_walked(const ply_document *document, file_splice *splice);
 
 #endif

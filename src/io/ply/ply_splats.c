@@ -224,7 +224,9 @@ bool ffd_ply_rests_fit(const ply_document *d, const double c[HARMONICS_MOST], in
     const ply_type *const types = d->types + ply_rest_slot(d, channel, 0);
     const int count = harmonics_count(d->file.part.form.degree);
     bool all = true;
-    for (int m = 0; m < count; m++)
+    for (int m = 0; m < count && !d->has_plain_rests; m++)
         all &= fabs(c[m]) <= (types[m] == PLY_FLOAT ? FLT_MAX : DBL_MAX);
+    for (int m = 0; m < count && d->has_plain_rests; m++)
+        all &= fabs(c[m]) <= FLT_MAX;
     return all;
 }
