@@ -9,19 +9,19 @@ void ffd_harmonics_values(int degree, const double direction[3], double values[7
 }
 
 /* A reversed direction changes the sign of odd degrees. */
-static void reverse(double (*c)[HARMONICS_CHANNELS], int count)
+static void reverse(int first, int count, harmonics_block c)
 {
-    for (int m = 0; m < count; m++)
-        for (int k = 0; k < HARMONICS_CHANNELS; k++)
-            c[m][k] = -c[m][k];
+    for (int k = 0; k < HARMONICS_CHANNELS; k++)
+        for (int m = first; m < first + count; m++)
+            c[k][m] = -c[k][m];
 }
 
 static void mirror(const splat_turn *turn, int degree, harmonics_block c)
 {
     if (turn->is_mirrored && degree >= 1)
-        reverse(c, 3);
+        reverse(0, 3, c);
     if (turn->is_mirrored && degree >= 3)
-        reverse(c + 8, 7);
+        reverse(8, 7, c);
 }
 
 static harmonics_kernel *const kernels[] = {

@@ -18,8 +18,8 @@ static inline int harmonics_count(int degree)
    those of 3D Gaussian splatting and of KHR_gaussian_splatting: with the Condon-Shortley phase. */
 void ffd_harmonics_values(int degree, const double direction[3], double values[7]);
 
-/* The coefficients of a splat, by degree and m. */
-typedef double harmonics_block[HARMONICS_MOST][HARMONICS_CHANNELS];
+/* The coefficients of a splat: of each channel, by degree and m. */
+typedef double harmonics_block[HARMONICS_CHANNELS][HARMONICS_MOST];
 
 /* Replaces the coefficients of degrees 1 to `degree` with those of the turned functions. The bits are the
    same whatever the instruction set. */

@@ -86,40 +86,42 @@ static ALWAYS_INLINE void apply(const number m[9], const number v[3], number out
         out[r] = m[3 * r] * v[0] + m[3 * r + 1] * v[1] + m[3 * r + 2] * v[2];
 }
 
-static ALWAYS_INLINE void turn_first(const number rotation[9], number (*c)[HARMONICS_CHANNELS])
+static ALWAYS_INLINE void turn_first(const number rotation[9], number c[HARMONICS_CHANNELS][HARMONICS_MOST])
 {
     for (int k = 0; k < HARMONICS_CHANNELS; k++) {
-        const number vector[3] = {-c[2][k], -c[0][k], c[1][k]};
+        const number vector[3] = {-c[k][2], -c[k][0], c[k][1]};
         number turned[3];
         apply(rotation, vector, turned);
-        c[0][k] = -turned[1];
-        c[1][k] = turned[2];
-        c[2][k] = -turned[0];
+        c[k][0] = -turned[1];
+        c[k][1] = turned[2];
+        c[k][2] = -turned[0];
     }
 }
 
+/* Turns the coefficients of a degree, which begin at `first`. */
 static ALWAYS_INLINE void turn_lobes(const number turned[LOBES][3], int degree, const lobe_term *terms,
-                                     int term_count, number (*c)[HARMONICS_CHANNELS])
+                                     int term_count, int first, number c[HARMONICS_CHANNELS][HARMONICS_MOST])
 {
     const int count = 2 * degree + 1;
     number lobes[LOBES][HARMONICS_CHANNELS];
     memset(lobes, 0, sizeof lobes);
     for (int t = 0; t < term_count; t++)
         for (int k = 0; k < HARMONICS_CHANNELS; k++)
-            lobes[terms[t].lobe][k] += terms[t].weight * c[terms[t].order][k];
-    memset(c, 0, (size_t)count * sizeof *c);
+            lobes[terms[t].lobe][k] += terms[t].weight * c[k][first + terms[t].order];
+    for (int k = 0; k < HARMONICS_CHANNELS; k++)
+        memset(&c[k][first], 0, (size_t)count * sizeof **c);
     for (int l = 0; l < count; l++) {
         number values[7];
         find_values(degree, turned[l], values);
         for (int m = 0; m < count; m++)
             for (int k = 0; k < HARMONICS_CHANNELS; k++)
-                c[m][k] += values[m] * lobes[l][k];
+                c[k][first + m] += values[m] * lobes[l][k];
     }
 }
 
 /* Turns the coefficients of degrees 1 to `degree`. */
 static ALWAYS_INLINE void turn_degrees(const number rotation[9], int degree,
-                                       number c[HARMONICS_MOST][HARMONICS_CHANNELS])
+                                       number c[HARMONICS_CHANNELS][HARMONICS_MOST])
 {
     number turned[LOBES][3];
     for (int l = 0; l < LOBES && degree > 1; l++)
@@ -130,9 +132,9 @@ static ALWAYS_INLINE void turn_degrees(const number rotation[9], int degree,
     if (degree >= 1)
         turn_first(rotation, c);
     if (degree >= 2)
-        turn_lobes((const number(*)[3])turned, 2, terms2, sizeof terms2 / sizeof *terms2, c + 3);
+        turn_lobes((const number(*)[3])turned, 2, terms2, sizeof terms2 / sizeof *terms2, 3, c);
     if (degree >= 3)
-        turn_lobes((const number(*)[3])turned, 3, terms3, sizeof terms3 / sizeof *terms3, c + 8);
+        turn_lobes((const number(*)[3])turned, 3, terms3, sizeof terms3 / sizeof *terms3, 8, c);
 }
 
 #endif

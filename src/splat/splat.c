@@ -3,19 +3,9 @@
 #include "base/vector/exponential.h"
 #include "base/vector/vec.h"
 #include "splat/splat_iterations.h"
+#include "splat/splat_kernel.h"
 #include <float.h>
 #include <string.h>
-
-/* What the gradient of a lattice that does not turn or stretch may be by rounding. */
-#define STILL 0x1p-48
-/* Directions that turn by less than this are not turned: coefficients of 0 stay 0. */
-#define NO_TURN 0x1p-46
-/* Part of a size that is left of one that F takes away: above the rounding of F, whose entries are sums over
-   control points. */
-#define NOTHING 1e-12
-/* Entries of F that can be squared and multiplied freely. */
-#define LEAST_F 1e-30
-#define LARGEST_F 1e30
 
 static double largest_entry(const double m[9])
 {
@@ -103,9 +93,6 @@ static void find_turn_quaternion(const double rotation[9], double q[4])
     q[0] = fabs(q[0]);
 }
 
-/* Splats that are looked at together. */
-#define RUN ((size_t)64)
-
 /* Finds a matrix with an inverse that has the same turn as F. Returns false where there is none to look for.
  */
 static bool prepare_turn(const double gradient[9], splat_turn *turn, double f[9])
@@ -143,32 +130,57 @@ static void finish_turn(double f[9], splat_turn *turn)
         *turn = (splat_turn){.quaternion = {1, 0, 0, 0}};
 }
 
+static void find_turn(const double gradient[9], splat_turn *turn)
+{
+    double f[9];
+    if (!prepare_turn(gradient, turn, f))
+        return;
+    ffd_splat_orthogonalise(f);
+    finish_turn(f, turn);
+}
+
+typedef struct splat_way {
+    turn_kernel *turn;
+    ellipsoid_kernel *ellipsoid; /* NULL: the functions for one */
+} splat_way;
+
+static const splat_way ways[] = {
+    [FFD_ISA_SCALAR] = {NULL, NULL},
+#ifdef FFD_X86
+    [FFD_ISA_SSE2] = {ffd_turn_kernel_sse2, ffd_ellipsoid_kernel_sse2},
+    [FFD_ISA_AVX2] = {ffd_turn_kernel_avx2, ffd_ellipsoid_kernel_avx2},
+    [FFD_ISA_AVX512] = {ffd_turn_kernel_avx512, ffd_ellipsoid_kernel_avx512},
+#endif
+};
+
+/* Splats that a kernel is called for. */
+#define RUN ((size_t)256)
+
 void ffd_splats_find_turns(ffd_isa isa, const double *gradients, size_t count, splat_turn *turns)
 {
-    double nines[RUN][9];
-    size_t numbers[RUN];
+    turn_kernel *const kernel = ways[ffd_isa_resolve(isa)].turn;
     for (size_t first = 0; first < count; first += RUN) {
-        const size_t last = count - first < RUN ? count : first + RUN;
-        size_t open = 0;
-        for (size_t i = first; i < last; i++)
-            if (prepare_turn(gradients + 9 * i, &turns[i], nines[open]))
-                numbers[open++] = i;
-        ffd_splats_orthogonalise(isa, nines, open);
-        for (size_t k = 0; k < open; k++)
-            finish_turn(nines[k], &turns[numbers[k]]);
+        const size_t some = count - first < RUN ? count - first : RUN;
+        uint8_t open[RUN];
+        memset(open, 1, some);
+        if (kernel)
+            kernel(gradients + 9 * first, some, turns + first, open);
+        for (size_t i = 0; i < some; i++)
+            if (open[i])
+                find_turn(gradients + 9 * (first + i), &turns[first + i]);
     }
 }
 
 void ffd_splat_turn_to_file(const double frame[9], splat_turn *turn)
 {
-    double nines[1][9], rotation[9], product[9], turned[9], *const axes = nines[0];
+    double axes[9], rotation[9], product[9], turned[9];
     if (!turn->is_turn)
         return;
     /* A mirror in the frame cancels: it is there twice. */
     const double largest = largest_entry(frame);
     for (int i = 0; i < 9; i++)
         axes[i] = frame[i] / largest;
-    ffd_splats_orthogonalise(FFD_ISA_SCALAR, nines, 1);
+    ffd_splat_orthogonalise(axes);
     ffd_splat_matrix(turn->quaternion, rotation);
     mat_multiply(rotation, axes, product);
     for (int r = 0; r < 3; r++)
@@ -177,10 +189,6 @@ void ffd_splat_turn_to_file(const double frame[9], splat_turn *turn)
                 axes[r] * product[c] + axes[3 + r] * product[3 + c] + axes[6 + r] * product[6 + c];
     find_turn_quaternion(turned, turn->quaternion);
 }
-
-/* Sizes as they are computed with: parts of the largest, none of which is 0. */
-#define LEAST_LOG (-150.0)
-#define LEAST_PART 7e-66
 
 /* Sets the parts. Returns false where sizes are not numbers. */
 static bool find_parts(const splat_form *form, const double scale[3], double parts[3])
@@ -273,9 +281,6 @@ static double fit(const double axes[9], const double columns[3][3], const int or
     return sum - 2 * least;
 }
 
-/* Orders of three columns; the first two leave the last one where it is. Even ones keep the handedness. */
-static const int orders[6][3] = {{0, 1, 2}, {1, 0, 2}, {1, 2, 0}, {0, 2, 1}, {2, 0, 1}, {2, 1, 0}};
-
 /* Takes the columns as axes, in the order and with the signs that are nearest to the old ones. */
 static void choose_axes(const double axes[9], const double columns[3][3], bool is_flat, int order[3],
                         double rotation[9])
@@ -286,14 +291,14 @@ static void choose_axes(const double axes[9], const double columns[3][3], bool i
     int chosen = 0;
     for (int o = 0; o < (is_flat ? 2 : 6); o++) {
         double signs[3];
-        const double sum = fit(axes, columns, orders[o], is_right == (o % 2 == 0), signs);
+        const double sum = fit(axes, columns, splat_orders[o], is_right == (o % 2 == 0), signs);
         if (sum > best) {
             best = sum;
             chosen = o;
             memcpy(best_signs, signs, sizeof signs);
         }
     }
-    memcpy(order, orders[chosen], sizeof orders[chosen]);
+    memcpy(order, splat_orders[chosen], sizeof splat_orders[chosen]);
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++)
             rotation[3 * k + i] = best_signs[i] * columns[order[i]][k];
@@ -320,7 +325,6 @@ static void replace_rotation(const double rotation[9], const double turn[4], con
 
 /* A splat between the two iterations. */
 typedef struct ellipsoid_work {
-    size_t number;
     double unit[4], old[9], parts[3]; /* the quaternion, its matrix, the sizes */
     double largest;                   /* entry of F */
     bool is_flattened;
@@ -370,23 +374,26 @@ static void finish_ellipsoid(const ellipsoid_work *work, double columns[3][3], c
     }
 }
 
+static void deform(const double gradient[9], const splat_turn *turn, const splat_form *form,
+                   splat_ellipsoid *splat, uint8_t *outcome)
+{
+    ellipsoid_work work;
+    double nine[9], columns[3][3];
+    if (!prepare_ellipsoid(gradient, form, splat, &work, nine, outcome))
+        return;
+    ffd_splat_part_columns(nine);
+    memcpy(columns, nine, sizeof columns);
+    finish_ellipsoid(&work, columns, turn, form, splat);
+}
+
 void ffd_splats_deform(ffd_isa isa, const double *gradients, const splat_turn *turns, const splat_form *form,
                        size_t count, splat_ellipsoid *splats, uint8_t *outcomes)
 {
-    double nines[RUN][9];
-    ellipsoid_work work[RUN];
-    for (size_t first = 0; first < count; first += RUN) {
-        const size_t last = count - first < RUN ? count : first + RUN;
-        size_t open = 0;
-        for (size_t i = first; i < last; i++)
-            if (prepare_ellipsoid(gradients + 9 * i, form, &splats[i], &work[open], nines[open],
-                                  &outcomes[i]))
-                work[open++].number = i;
-        ffd_splats_part_columns(isa, nines, open);
-        for (size_t k = 0; k < open; k++) {
-            double columns[3][3];
-            memcpy(columns, nines[k], sizeof columns);
-            finish_ellipsoid(&work[k], columns, &turns[work[k].number], form, &splats[work[k].number]);
-        }
-    }
+    ellipsoid_kernel *const kernel = ways[ffd_isa_resolve(isa)].ellipsoid;
+    memset(outcomes, SPLAT_OPEN, count);
+    if (kernel)
+        kernel(gradients, turns, form, count, splats, outcomes);
+    for (size_t i = 0; i < count; i++)
+        if (outcomes[i] == SPLAT_OPEN)
+            deform(gradients + 9 * i, &turns[i], form, &splats[i], &outcomes[i]);
 }

@@ -1,7 +1,5 @@
-/* splat_iterations.c - the two iterations of splats: for one matrix, which is the reference, and for many. */
 #include "splat/splat_iterations.h"
 #include "base/vector/vec.h"
-#include "splat/splat_kernel.h"
 
 static double square_sum(const double m[9])
 {
@@ -56,31 +54,4 @@ void ffd_splat_part_columns(double columns[9])
         any = rotate(columns, columns + 6) || any;
         any = rotate(columns + 3, columns + 6) || any;
     }
-}
-
-typedef struct splat_way {
-    splat_kernel *polar, *columns; /* NULL: the functions for one */
-} splat_way;
-
-static const splat_way ways[] = {
-    [FFD_ISA_SCALAR] = {NULL, NULL},
-#ifdef FFD_X86
-    [FFD_ISA_SSE2] = {ffd_polar_kernel_sse2, ffd_columns_kernel_sse2},
-    [FFD_ISA_AVX2] = {ffd_polar_kernel_avx2, ffd_columns_kernel_avx2},
-    [FFD_ISA_AVX512] = {ffd_polar_kernel_avx512, ffd_columns_kernel_avx512},
-#endif
-};
-
-void ffd_splats_orthogonalise(ffd_isa isa, double (*nines)[9], size_t count)
-{
-    splat_kernel *const kernel = ways[ffd_isa_resolve(isa)].polar;
-    for (size_t i = kernel ? kernel(nines, count) : 0; i < count; i++)
-        ffd_splat_orthogonalise(nines[i]);
-}
-
-void ffd_splats_part_columns(ffd_isa isa, double (*nines)[9], size_t count)
-{
-    splat_kernel *const kernel = ways[ffd_isa_resolve(isa)].columns;
-    for (size_t i = kernel ? kernel(nines, count) : 0; i < count; i++)
-        ffd_splat_part_columns(nines[i]);
 }

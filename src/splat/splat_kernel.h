@@ -1,35 +1,43 @@
-/* splat_kernel.h - the two iterations of splats, on several matrices at a time. Declares splat_iterations.c.
- */
+/* splat_kernel.h - several splats at a time: what the functions of splat.h do for one, with the same bits.
+   Used within splat only. */
 #ifndef FFD_SPLAT_SPLAT_KERNEL_H
 #define FFD_SPLAT_SPLAT_KERNEL_H
 
+#include "splat/splat_types.h"
 #include <stddef.h>
+#include <stdint.h>
 
-/* Does for matrices of nine numbers, in place, what ffd_splat_orthogonalise, or ffd_splat_part_columns, does
-   for one, with the same bits. Returns how many are done: the last few may be left. One function for each
-   instruction set that has lanes. */
-typedef size_t splat_kernel(double (*nines)[9], size_t count);
+/* What a kernel leaves to the functions for one: the last few, and those that are not ordinary. */
+#define SPLAT_OPEN UINT8_MAX
+
+/* Finds turns; open: 1 for all, and then for those that are left. One function for each instruction set that
+   has lanes. */
+typedef void turn_kernel(const double *gradients, size_t count, splat_turn *turns, uint8_t *open);
+/* Deforms splats, as ffd_splats_deform; outcomes: SPLAT_OPEN of all, and then of those that are left. */
+typedef void ellipsoid_kernel(const double *gradients, const splat_turn *turns, const splat_form *form,
+                              size_t count, splat_ellipsoid *splats, uint8_t *outcomes);
 
 #ifdef FFD_X86
-splat_kernel ffd_polar_kernel_sse2, ffd_polar_kernel_avx2, ffd_polar_kernel_avx512;
-splat_kernel ffd_columns_kernel_sse2, ffd_columns_kernel_avx2, ffd_columns_kernel_avx512;
+turn_kernel ffd_turn_kernel_sse2, ffd_turn_kernel_avx2, ffd_turn_kernel_avx512;
+ellipsoid_kernel ffd_ellipsoid_kernel_sse2, ffd_ellipsoid_kernel_avx2, ffd_ellipsoid_kernel_avx512;
 #endif
 
-/* Steps of Newton's iteration; it doubles the digits at the end, and scaling brings it near at once. */
-#define NEWTON_STEPS 30
-#define NEWTON_NEAR 1e-2    /* the square of a change after which scaling would disturb */
-#define NEWTON_ENOUGH 1e-18 /* the square of a change after which the next one is below rounding */
+/* What the gradient of a lattice that does not turn or stretch may be by rounding. */
+#define STILL 0x1p-48
+/* Directions that turn by less than this are not turned: coefficients of 0 stay 0. */
+#define NO_TURN 0x1p-46
+/* Part of a size that is left of one that F takes away: above the rounding of F, whose entries are sums over
+   control points. */
+#define NOTHING 1e-12
+/* Entries of F that can be squared and multiplied freely. */
+#define LEAST_F 1e-30
+#define LARGEST_F 1e30
 
-/* Columns whose angle is nearer to a right one than this are left: it is far below a float's step, and above
-   the rounding of F, so that a turn keeps the axes of splats with equal sizes. */
-#define RIGHT 1e-12
-#define SWEEPS 20
+/* Sizes as they are computed with: parts of the largest, none of which is 0. */
+#define LEAST_LOG (-150.0)
+#define LEAST_PART 7e-66
 
-/* Replaces x, which has an inverse, with the orthogonal factor of its polar decomposition (src/maths.md 9.6).
- */
-void ffd_splat_orthogonalise(double x[9]);
-
-/* Makes the columns of a matrix, one after the other, perpendicular (src/maths.md 9.6). */
-void ffd_splat_part_columns(double columns[9]);
+/* Orders of three columns; the first two leave the last one where it is. Even ones keep the handedness. */
+static const int splat_orders[6][3] = {{0, 1, 2}, {1, 0, 2}, {1, 2, 0}, {0, 2, 1}, {2, 0, 1}, {2, 1, 0}};
 
 #endif

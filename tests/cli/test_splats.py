@@ -178,6 +178,9 @@ def a_turned_cloud_is_the_cloud_turned(run):
                 check(abs(made[f"scale_{i}"] - row[f"scale_{i}"]) <= (0 if real == "float" else 2e-15), made)
             equal([made[name] for name in ("opacity", "f_dc_1", "nx", "nz")], [2.5, 0, 0, 0])
         check_colours(before, after, REST[degree], matrix(turn), 10 * step)
+        if encoding == "binary_little_endian":
+            equal(read(deform(run, ply(before, encoding, real, list(before[0])[::-1]), by(matrix(turn)))),
+                  after, "properties in another order")
     equal(entry(run)["splats"], {"carried": 20, "flattened": 0, "broken": 0})
 
 

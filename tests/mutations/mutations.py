@@ -233,8 +233,8 @@ m("lanes-of-tangents", "kernel", "attribute_batch", "const lanes along = lanes_d
 # splat
 
 m("splat-sizes", "operation", "splat, cli_splats", "lengths[order[i]] / work->parts[order[i]]", "lengths[order[i]] * work->parts[order[i]]")
-m("splat-axes-as-they-come", "check left out", "splat, cli_splats", "for (int o = 0; o < (is_flat ? 2 : 6); o++)",
-  "for (int o = 0; o < (is_flat ? 2 : 1); o++)")
+m("splat-axes-as-they-come", "check left out", "splat, cli_splats", "for (int o = 0; o < (is_flat ? 2 : 6); o++) { double signs[3];",
+  "for (int o = 0; o < (is_flat ? 2 : 1); o++) {\n        double signs[3];")
 m("splat-axes-left-handed", "condition", "splat, cli_splats", "is_right = is_right == (cosine >= 0);", "is_right = is_right && cosine < 2;")
 m("splat-quaternion-length", "operation", "splat, cli_splats", "(along < 0 ? -length : length) * made[i]", "(along < 0 ? -1 : 1) * made[i]")
 m("splat-quaternion-sign", "sign", "cli_splats", "(along < 0 ? -length : length) * made[i]", "length * made[i]")
@@ -252,7 +252,20 @@ m("splat-flattened", "figure", "splat, cli_splats", "*outcome = work->is_flatten
 m("harmonics-lobe", "sign", "splat, cli_splats", "{4, 1, 1.7975962960832887629}", "{4, 1, -1.7975962960832887629}")
 m("harmonics-odd-mirrored", "condition", "splat, cli_splats", "if (turn->is_mirrored && degree >= 3)",
   "if (turn->is_mirrored && degree > 3)")
-m("logarithm-terms", "bound", "splat", "for (int i = ARTANH_TERMS; i-- > 0;)", "for (int i = 5; i-- > 0;)")
+m("logarithm-terms", "bound", "splat", "for (int i = ARTANH_TERMS; i-- > 0;) sum = square * (artanh[i] + sum); return exponent * LN2_HIGH + (2 * (z",
+  "for (int i = 5; i-- > 0;)\n        sum = square * (artanh[i] + sum);\n    return exponent * LN2_HIGH + (2 * (z")
+m("splat-lanes-that-rest", "figure", "splat", "is_still[l] ? SPLAT_KEPT : SPLAT_CARRIED", "SPLAT_CARRIED")
+m("splat-lanes-left-open", "mask", "splat", "s.is_open = was_open | (s.is_open & ~at.is_still);", "s.is_open = was_open;")
+m("splat-lanes-second-axis", "order", "splat", "lanes_choose(order == 1.0, values[step], values[2 * step])",
+  "lanes_choose(order == 2.0, values[step], values[2 * step])")
+m("splat-lanes-weakest", "mask", "splat", "lanes_choose(~is_right & weakest[i], -signs[i], signs[i])",
+  "lanes_choose(is_right & weakest[i], -signs[i], signs[i])")
+m("splat-lanes-disks", "condition", "splat", "o < (is_flat ? 2 : 6); o++) try_order", "o < 6; o++)\n        try_order")
+m("splat-lanes-mirrored", "mask", "splat", "at.f[i] = lanes_choose(is_mirrored, -at.f[i], at.f[i]);", "at.f[i] = +at.f[i];")
+m("splat-lanes-flattened", "left out", "splat", "at.is_usable & (at.is_still | ((largest_entry(at.f) >= LEAST_F) & ~at.is_flattening))",
+  "at.is_usable & (at.is_still | (largest_entry(at.f) >= LEAST_F))")
+m("logarithm-lanes-halved", "sign", "splat", "exponents - is_large + whole", "exponents + is_large + whole")
+m("exponential-lanes-bits", "constant", "splat", "const lanes shifted = x * LOG2_E + WHOLE_BITS,", "const lanes shifted = x * LOG2_E + 2 * WHOLE_BITS,")
 
 m("polar-lanes-go-on", "mask", "splat", "x[i] = lanes_choose(is_open, next, x[i]);", "x[i] = next;")
 m("columns-lanes-that-rest", "mask", "splat", "p[k] = lanes_choose(turns, c * x - s * y, x);", "p[k] = c * x - s * y;")
@@ -642,8 +655,18 @@ m("ply-normals-mixed", "stride", "ply, cli_ply",
   "property->slot <= PLY_NORMAL_SLOT ? d->file.positions : d->file.directions",
   "property->slot < PLY_NORMAL_SLOT ? d->positions : d->directions",
   "property->slot <= PLY_NORMAL_SLOT ? d->positions : d->directions")
-m("ply-rests-by-coefficient", "stride", "cli_splats", "c[i][m][k] = values[i][k * functions + m];",
-  "c[i][m][k] = values[i][m * HARMONICS_CHANNELS + k];")
+m("ply-rests-by-coefficient", "stride", "cli_splats", "(size_t)(channel * functions + coefficient)",
+  "(size_t)((functions > 0) * coefficient * HARMONICS_CHANNELS + channel)",
+  "c[i][m][k] = values[i][k * functions + m];", "c[i][m][k] = values[i][m * HARMONICS_CHANNELS + k];")
+m("ply-plain-rests-big-endian", "condition", "cli_splats", "d->has_fixed_rows && d->header.encoding == PLY_LITTLE_ENDIAN;",
+  "d->has_fixed_rows && d->header.encoding != PLY_ASCII;")
+m("ply-plain-rests-in-order", "check left out", "cli_splats",
+  "d->offsets[PLY_REST_SLOT + i] == d->offsets[PLY_REST_SLOT] + i * sizeof(float)", "d->offsets[PLY_REST_SLOT + i] != PLY_NOWHERE")
+m("ply-splat-marks-mirrored", "left out", "cli_splats", "(turns[i].is_mirrored ? PLY_SPLAT_MIRRORS : 0)",
+  "(turns[i].is_mirrored ? 0 * PLY_SPLAT_MIRRORS : 0)")
+m("ply-splats-without-marks", "condition", "cli_splats", "if (d->splat_marks && d->splat_marks[vertex])", "if (d->splat_marks)")
+m("ply-read-in-tiles", "bound", "cli_ply, cli_splats", "for (size_t row = first; row < last; row++) { const char *const at",
+  "for (size_t row = first; row + 1 < last; row++) {\n        const char *const at")
 m("ply-seven-rests", "condition", "cli_splats", "if (d->rest_count == count && have_fractions(", "if (d->rest_count >= count && have_fractions(")
 m("ply-splat-of-a-walk", "left out", "cli_splats", "property->slot == PLY_NO_SLOT || !row.changed[property->slot]",
   "property->slot >= PLY_ROTATION_SLOT || !row.changed[property->slot]")

@@ -228,53 +228,87 @@ static void the_nearest_axes(void **state)
     }
 }
 
+enum { MOST = 133 };
+
+/* Gradients, some of which do nothing, are no numbers, turn a little, mirror, flatten, or leave nothing. */
+static void draw_gradients(uint32_t *seed, double gradients[9 * MOST])
+{
+    for (int i = 0; i < 9 * MOST; i++) {
+        const int splat = i / 9, entry = i % 9;
+        const double identity = entry % 4 == 0, value = draw(seed);
+        gradients[i] = splat % 11 == 3                 ? 0
+                       : splat % 13 == 5               ? NAN
+                       : splat % 19 == 8 && entry >= 3 ? value * (entry >= 6) - (entry == 4)
+                       : splat % 23 == 4               ? -identity
+                       : splat % 29 == 9               ? 1e-33 * value - identity
+                       : splat % 31 == 7               ? 1e31 * value
+                       : splat % 37 == 2               ? 1e-15 * value
+                       : splat % 7                     ? value
+                                                       : 1e-3 * value;
+    }
+}
+
+/* Splats, some of which have no rotation, or sizes that are equal, 0 or no numbers. */
+static void draw_splats(uint32_t *seed, bool is_logarithmic, splat_ellipsoid splats[MOST])
+{
+    for (int i = 0; i < MOST; i++)
+        for (int k = 0; k < 4; k++) {
+            splats[i].rotation[k] = i % 17 == 6 ? 0 : draw(seed);
+            if (k == 3)
+                continue;
+            const double size = draw(seed), none = is_logarithmic ? -INFINITY : 0;
+            splats[i].scale[k] = i % 41 == 3 || (i % 43 == 5 && k == 1) ? none
+                                 : i % 47 == 8                          ? INFINITY
+                                 : i % 5 == 0                           ? 1
+                                 : is_logarithmic                       ? 20 * size
+                                                                        : fabs(size);
+        }
+}
+
+/* Checks that two instruction sets give the same. */
+static void check_isa(ffd_isa isa, const splat_form *form, const double *gradients,
+                      const splat_ellipsoid *splats, size_t count)
+{
+    splat_turn turns[2][MOST];
+    splat_ellipsoid made[2][MOST];
+    uint8_t outcomes[2][MOST];
+    harmonics_block c[2][MOST];
+    for (int k = 0; k < 2; k++) {
+        const ffd_isa own = k ? isa : FFD_ISA_SCALAR;
+        memcpy(made[k], splats, count * sizeof *splats);
+        ffd_splats_find_turns(own, gradients, count, turns[k]);
+        ffd_splats_deform(own, gradients, turns[k], form, count, made[k], outcomes[k]);
+        for (size_t i = 0; i < count * HARMONICS_MOST * HARMONICS_CHANNELS; i++)
+            ((double *)c[k])[i] = sin((double)i);
+        ffd_harmonics_turn(own, turns[k], 1 + (int)count % 3, count, c[k]);
+    }
+    for (size_t i = 0; i < count; i++) {
+        assert_memory_equal(turns[0][i].quaternion, turns[1][i].quaternion, sizeof turns[0][i].quaternion);
+        assert_int_equal(turns[0][i].is_turn, turns[1][i].is_turn);
+        assert_int_equal(turns[0][i].is_mirrored, turns[1][i].is_mirrored);
+    }
+    assert_memory_equal(made[0], made[1], count * sizeof **made);
+    assert_memory_equal(outcomes[0], outcomes[1], count);
+    assert_memory_equal(c[0], c[1], count * sizeof **c);
+}
+
 /* Any number of splats, some of them odd, with any instruction set. */
 static void all_instruction_sets_give_the_same_bits(void **state)
 {
     (void)state;
-    enum { MOST = 133 };
     static const ffd_isa sets[] = {FFD_ISA_SSE2, FFD_ISA_AVX2, FFD_ISA_AVX512};
-    double gradients[9 * MOST];
-    splat_ellipsoid splats[MOST];
     uint32_t seed = 7;
-    for (int i = 0; i < 9 * MOST; i++)
-        gradients[i] = i / 9 % 11 == 3   ? 0
-                       : i / 9 % 13 == 5 ? NAN
-                       : i / 9 % 7       ? draw(&seed)
-                                         : 1e-3 * draw(&seed);
-    for (int i = 0; i < MOST; i++)
-        for (int k = 0; k < 4; k++) {
-            splats[i].rotation[k] = i % 17 == 6 ? 0 : draw(&seed);
-            if (k < 3)
-                splats[i].scale[k] = i % 5 ? 20 * draw(&seed) : 1;
-            if (k < 3 && i % 19 == 8) /* F takes a direction away */
-                gradients[9 * i + 3 + k] = k == 1 ? -1 : 0;
-        }
-    for (size_t count = 1; count <= MOST; count += count < 20 ? 1 : 56)
-        for (size_t s = 0; s < sizeof sets / sizeof *sets; s++) {
-            splat_turn turns[2][MOST];
-            splat_ellipsoid made[2][MOST];
-            uint8_t outcomes[2][MOST];
-            harmonics_block c[2][MOST];
-            if (!ffd_isa_available(sets[s]))
-                continue;
-            for (int k = 0; k < 2; k++) {
-                const ffd_isa isa = k ? sets[s] : FFD_ISA_SCALAR;
-                memset(turns[k], 0, sizeof turns[k]);
-                memcpy(made[k], splats, sizeof splats);
-                ffd_splats_find_turns(isa, gradients, count, turns[k]);
-                ffd_splats_deform(isa, gradients, turns[k], &logarithms, count, made[k], outcomes[k]);
-                for (size_t i = 0; i < count * HARMONICS_MOST * HARMONICS_CHANNELS; i++)
-                    ((double *)c[k])[i] = sin((double)i);
-                ffd_harmonics_turn(isa, turns[k], 1 + (int)count % 3, count, c[k]);
-            }
-            for (size_t i = 0; i < count; i++)
-                assert_memory_equal(turns[0][i].quaternion, turns[1][i].quaternion,
-                                    sizeof turns[0][i].quaternion);
-            assert_memory_equal(made[0], made[1], count * sizeof **made);
-            assert_memory_equal(outcomes[0], outcomes[1], count);
-            assert_memory_equal(c[0], c[1], count * sizeof **c);
-        }
+    for (int round = 0; round < 40; round++) {
+        const splat_form form = {.is_logarithmic = round % 2, .is_flat = round % 4 > 1};
+        double gradients[9 * MOST];
+        splat_ellipsoid splats[MOST];
+        draw_gradients(&seed, gradients);
+        draw_splats(&seed, form.is_logarithmic, splats);
+        for (size_t count = 1; count <= MOST; count += count < 20 ? 1 : 56)
+            for (size_t s = 0; s < sizeof sets / sizeof *sets; s++)
+                if (ffd_isa_available(sets[s]))
+                    check_isa(sets[s], &form, gradients, splats, count);
+    }
 }
 
 /* The turned function has the values that the function had in the directions turned back. */
@@ -288,7 +322,7 @@ static void harmonics(void **state)
         double m[9];
         for (int i = 0; i < HARMONICS_MOST; i++)
             for (int k = 0; k < HARMONICS_CHANNELS; k++)
-                before[i][k] = after[i][k] = sin(1 + i + 20 * k);
+                before[k][i] = after[k][i] = sin(1 + i + 20 * k);
         ffd_harmonics_turn(FFD_ISA_SCALAR, &turn, 3, 1, &after);
         ffd_splat_matrix(turn.quaternion, m);
         for (size_t d = 0; d < sizeof directions / sizeof *directions; d++)
@@ -302,8 +336,8 @@ static void harmonics(void **state)
                 for (int k = 0; k < HARMONICS_CHANNELS; k++) {
                     double expected = 0, found = 0;
                     for (int i = 0; i <= 2 * degree; i++) {
-                        expected += before[at + i][k] * old[i];
-                        found += after[at + i][k] * turned[i];
+                        expected += before[k][at + i] * old[i];
+                        found += after[k][at + i] * turned[i];
                     }
                     check_close(found, expected, 2e-15);
                 }

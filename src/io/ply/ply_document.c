@@ -67,14 +67,21 @@ static ffd_status read_vertex(ply_document *d, ply_walk *walk, uint64_t row, ffd
     return status;
 }
 
-/* Rows of one size, whose numbers are where they are in the first: harmonics stay in the file. */
-static void read_fixed(ply_document *d)
+/* Rows of one size that a thread reads at a time. */
+#define READ_TILE ((size_t)4096)
+
+/* Rows of one size, whose numbers are where they are in the first: what splats have stays in the file. */
+static void read_rows(void *context, size_t tile, size_t first, size_t last, int worker)
 {
-    size_t slots[PLY_REST_SLOT], slot_count = 0;
-    for (size_t slot = 0; slot < PLY_REST_SLOT; slot++)
+    ply_document *const d = context;
+    size_t slots[PLY_ROTATION_SLOT], slot_count = 0;
+    (void)tile;
+    (void)worker;
+    for (size_t slot = 0; slot < PLY_ROTATION_SLOT; slot++)
         if (d->offsets[slot] != PLY_NOWHERE)
             slots[slot_count++] = slot;
-    for (size_t row = 0; row < (size_t)d->vertex->count; row++) {
+    ffd_file_prefault(ply_row(d, first), (last - first) * d->vertex->least);
+    for (size_t row = first; row < last; row++) {
         const char *const at = ply_row(d, row);
         for (size_t i = 0; i < slot_count; i++) {
             const size_t slot = slots[i];
@@ -89,16 +96,16 @@ static ffd_status read_vertices(ply_document *d, ffd_error *error)
     const size_t count = (size_t)d->vertex->count;
     ffd_status status = FFD_OK;
     ply_walk walk;
-    d->file.positions = ffd_alloc(count, 3 * sizeof *d->file.positions);
+    d->file.positions = ffd_alloc_whole(count, 3 * sizeof *d->file.positions);
     if (d->has_normals)
-        d->file.directions = ffd_alloc(count, 3 * sizeof *d->file.directions);
-    if (d->file.part.has_ellipsoids)
+        d->file.directions = ffd_alloc_whole(count, 3 * sizeof *d->file.directions);
+    const bool holds_splats = d->file.part.has_ellipsoids && !d->has_fixed_rows;
+    if (holds_splats)
         d->splats = ffd_alloc(count, sizeof *d->splats);
-    if (!d->file.positions || (d->has_normals && !d->file.directions) ||
-        (d->file.part.has_ellipsoids && !d->splats))
+    if (!d->file.positions || (d->has_normals && !d->file.directions) || (holds_splats && !d->splats))
         return ffd_fail_memory(error);
     if (d->has_fixed_rows) {
-        read_fixed(d);
+        ffd_parallel_tiles(count, READ_TILE, d->threads, read_rows, d);
         return FFD_OK;
     }
     ffd_ply_document_walk(d, d->vertex, &walk);
@@ -134,6 +141,7 @@ ffd_status ffd_ply_open(file_input *input, const ffd_source *source, mesh_docume
     ply_document *d = ffd_file_document_make(sizeof *d, input, source, error);
     if (!d)
         return FFD_E_MEMORY;
+    d->threads = source->threads > 0 ? source->threads : ffd_processor_count();
     ffd_status status = ffd_ply_header_read(input, d->file.name, &d->header, error);
     if (status == FFD_OK)
         status = note_marks(d, error);
@@ -150,7 +158,6 @@ ffd_status ffd_ply_open(file_input *input, const ffd_source *source, mesh_docume
         return status;
     }
     describe_part(d);
-    d->threads = source->threads > 0 ? source->threads : ffd_processor_count();
     *document = ffd_file_document_ready(&d->file, d->header.encoding == PLY_ASCII, source);
     return FFD_OK;
 }
@@ -162,6 +169,7 @@ void ffd_ply_close(mesh_document *document)
         ffd_ply_header_free(&d->header);
         ffd_free(d->splats);
         ffd_free(d->new_splats);
+        ffd_free(d->splat_marks);
     }
     ffd_file_document_close(document);
 }

@@ -9,13 +9,16 @@
 
 #include "io/ply/ply_walk.h"
 #include "io/text/file_document.h"
+#include "splat/harmonics.h"
 
 /* What becomes of a splat. */
 typedef struct ply_splat {
     splat_ellipsoid splat;
-    splat_turn turn; /* of its harmonics, which are turned when they are written */
-    bool is_changed;
+    double turn[4]; /* the quaternion for its harmonics, which are turned when they are written */
 } ply_splat;
+
+/* What is marked of it. */
+enum { PLY_SPLAT_CHANGES = 1, PLY_SPLAT_TURNS = 2, PLY_SPLAT_MIRRORS = 4 };
 
 typedef struct ply_document {
     file_document file;
@@ -34,9 +37,11 @@ typedef struct ply_document {
     bool has_normals, has_whole_normals; /* the latter: nx ny nz of a whole type, which are not shown */
     size_t behind;                       /* offset after the last row */
     int threads;                         /* for writing */
-    splat_ellipsoid *splats;             /* one a vertex, where the part has ellipsoids; else NULL */
-    ply_splat *new_splats;               /* results; NULL before begin_results */
-    size_t rest_count;                   /* properties f_rest_0 and so on, whether they turn or not */
+    splat_ellipsoid *splats; /* one a vertex, where the part has ellipsoids and no fixed rows; else NULL */
+    ply_splat *new_splats;   /* results; NULL before begin_results */
+    uint8_t *splat_marks;    /* of each vertex: which of its results there are */
+    size_t rest_count;       /* properties f_rest_0 and so on, whether they turn or not */
+    bool has_plain_rests;    /* those that turn are little-endian floats of fixed rows, in their order */
 } ply_document;
 
 #define PLY_NOWHERE SIZE_MAX
@@ -79,13 +84,16 @@ void ffd_ply_find_splats(ply_document *document);
 double *ffd_ply_splat_number(splat_ellipsoid *splat, size_t slot);
 /* Makes room for the results of splats, of which none is changed. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_ply_begin_splats(ply_document *document, ffd_error *error);
-/* Splats whose coefficients are turned together. */
-#define PLY_ROWS ((size_t)16)
-/* Turns the coefficients of PLY_ROWS splats at most: values[k][i] is splat k's of slot PLY_REST_SLOT + i, as
-   the file has it, and then rounded to its type. Returns how many have channels that are not numbers, which
-   stay. */
-size_t ffd_ply_turn_rests(const ply_document *document, const splat_turn *turns, size_t count,
-                          double (*values)[PLY_RESTS]);
+/* How directions turn at a vertex whose marks say that they do. */
+splat_turn ffd_ply_turn_of(const ply_document *document, size_t vertex);
+/* The slot of a coefficient of a channel. */
+static inline size_t ply_rest_slot(const ply_document *document, int channel, int coefficient)
+{
+    const int functions = harmonics_count(document->file.part.form.degree);
+    return PLY_REST_SLOT + (size_t)(channel * functions + coefficient);
+}
+/* Whether the coefficients of a channel are numbers of their types: others stay as they were. */
+bool ffd_ply_rests_fit(const ply_document *document, const double coefficients[HARMONICS_MOST], int channel);
 
 /* The entries of the format's table. */
 mesh_warn_function ffd_ply_warn;

@@ -96,6 +96,17 @@ static void find_offsets(ply_document *d)
     }
 }
 
+/* Whether the harmonics that turn lie one after the other, as floats of this machine's order. */
+static bool are_plain(const ply_document *d)
+{
+    const size_t count = HARMONICS_CHANNELS * (size_t)harmonics_count(d->file.part.form.degree);
+    bool all = d->has_fixed_rows && d->header.encoding == PLY_LITTLE_ENDIAN;
+    for (size_t i = 0; i < count && all; i++)
+        all = d->types[PLY_REST_SLOT + i] == PLY_FLOAT &&
+              d->offsets[PLY_REST_SLOT + i] == d->offsets[PLY_REST_SLOT] + i * sizeof(float);
+    return all;
+}
+
 ffd_status ffd_ply_find_roles(ply_document *d, ffd_error *error)
 {
     d->vertex = ffd_ply_find_element(&d->header, "vertex");
@@ -112,6 +123,7 @@ ffd_status ffd_ply_find_roles(ply_document *d, ffd_error *error)
     find_face_normals(d);
     ffd_ply_find_splats(d);
     find_offsets(d);
+    d->has_plain_rests = are_plain(d);
     return FFD_OK;
 }
 

@@ -8,7 +8,7 @@ static size_t write_elements(const ply_document *d, file_splice *splice)
     for (size_t i = 0; i < d->header.element_count && splice->status == FFD_OK; i++) {
         const ply_element *const element = &d->header.elements[i];
         if (element == d->vertex)
-            unturned = ffd_ply_write_vertices(d, splice);
+            unturned = d->has_fixed_rows ? ffd_ply_write_fixed(d, splice) : ffd_ply_write_walked(d, splice);
         else if (element == d->face && d->face_normals[0] && d->renew_normals)
             ffd_ply_write_face_normals(d, splice);
     }

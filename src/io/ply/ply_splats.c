@@ -3,7 +3,6 @@
    spherical harmonics of degrees 1 to 3, those of red first. */
 #include "base/memory/memory.h"
 #include "io/ply/ply_document.h"
-#include "splat/harmonics.h"
 #include <float.h>
 #include <stdio.h>
 #include <string.h>
@@ -151,29 +150,50 @@ double *ffd_ply_splat_number(splat_ellipsoid *splat, size_t slot)
                                  : &splat->scale[slot - PLY_SCALE_SLOT];
 }
 
-ffd_status ffd_ply_begin_splats(ply_document *d, ffd_error *error)
+/* Makes room for the results, for each vertex. */
+static ffd_status make_results(ply_document *d, ffd_error *error)
 {
     const size_t count = d->file.part.vertex_count;
-    if (!d->splats || d->file.base.converted)
+    const ffd_status status =
+        ffd_budget_take(&d->file.base.budget, count, sizeof *d->new_splats + sizeof *d->splat_marks, error);
+    if (status)
+        return status;
+    d->new_splats = ffd_alloc_whole(count, sizeof *d->new_splats);
+    d->splat_marks = ffd_alloc(count, sizeof *d->splat_marks);
+    return d->new_splats && d->splat_marks ? FFD_OK : ffd_fail_memory(error);
+}
+
+ffd_status ffd_ply_begin_splats(ply_document *d, ffd_error *error)
+{
+    if (!d->file.part.has_ellipsoids || d->file.base.converted)
         return FFD_OK;
-    if (!d->new_splats) {
-        const ffd_status status = ffd_budget_take(&d->file.base.budget, count, sizeof *d->new_splats, error);
-        if (status)
-            return status;
-        d->new_splats = ffd_alloc(count, sizeof *d->new_splats);
-        if (!d->new_splats)
-            return ffd_fail_memory(error);
-    }
-    for (size_t i = 0; i < count; i++)
-        d->new_splats[i].is_changed = false;
+    const ffd_status status = d->splat_marks ? FFD_OK : make_results(d, error);
+    if (status)
+        return status;
+    memset(d->splat_marks, 0, d->file.part.vertex_count);
     return FFD_OK;
+}
+
+static void read_fixed(const ply_document *d, size_t vertex, splat_ellipsoid *splat)
+{
+    const size_t last = d->file.part.form.is_flat ? PLY_REST_SLOT - 1 : PLY_REST_SLOT;
+    const char *const row = ply_row(d, vertex);
+    splat->scale[2] = 0;
+    for (size_t slot = PLY_ROTATION_SLOT; slot < last; slot++)
+        *ffd_ply_splat_number(splat, slot) =
+            ply_load_binary(d->header.encoding, d->types[slot], row + d->offsets[slot]);
 }
 
 void ffd_ply_read_splats(const mesh_document *document, size_t part, size_t first, size_t count,
                          splat_ellipsoid *splats)
 {
+    const ply_document *const d = ffd_ply_of(document);
     (void)part; /* there is one */
-    memcpy(splats, ffd_ply_of(document)->splats + first, count * sizeof *splats);
+    for (size_t i = 0; i < count; i++)
+        if (d->has_fixed_rows)
+            read_fixed(d, first + i, &splats[i]);
+        else
+            splats[i] = d->splats[first + i];
 }
 
 void ffd_ply_write_splats(mesh_document *document, size_t part, size_t first, size_t count,
@@ -181,48 +201,32 @@ void ffd_ply_write_splats(mesh_document *document, size_t part, size_t first, si
 {
     const ply_document *d = ffd_ply_of(document);
     (void)part;
-    for (size_t i = 0; d->new_splats && i < count; i++)
-        if (changed[i])
-            d->new_splats[first + i] = (ply_splat){.splat = splats[i], .turn = turns[i], .is_changed = true};
+    for (size_t i = 0; d->splat_marks && i < count; i++) {
+        if (!changed[i])
+            continue;
+        ply_splat *const result = &d->new_splats[first + i];
+        result->splat = splats[i];
+        memcpy(result->turn, turns[i].quaternion, sizeof result->turn);
+        d->splat_marks[first + i] = (uint8_t)(PLY_SPLAT_CHANGES | (turns[i].is_turn ? PLY_SPLAT_TURNS : 0) |
+                                              (turns[i].is_mirrored ? PLY_SPLAT_MIRRORS : 0));
+    }
 }
 
-/* Whether a channel's turned coefficients are numbers of their types. */
-static bool fit(const ply_type *types, const double (*c)[HARMONICS_CHANNELS], int channel, int count)
+splat_turn ffd_ply_turn_of(const ply_document *d, size_t vertex)
 {
-    for (int m = 0; m < count; m++)
-        if (!(fabs(c[m][channel]) <= (types[m] == PLY_FLOAT ? FLT_MAX : DBL_MAX)))
-            return false;
-    return true;
+    splat_turn turn = {.is_turn = true, .is_mirrored = d->splat_marks[vertex] & PLY_SPLAT_MIRRORS};
+    memcpy(turn.quaternion, d->new_splats[vertex].turn, sizeof turn.quaternion);
+    return turn;
 }
 
-/* Takes over the turned coefficients, rounded to their types. Returns false where some are no numbers of
- * these. */
-static bool take_turned(const ply_document *d, const double (*c)[HARMONICS_CHANNELS], double *values)
+bool ffd_ply_rests_fit(const ply_document *d, const double c[HARMONICS_MOST], int channel)
 {
+    const ply_type *const types = d->types + ply_rest_slot(d, channel, 0);
     const int count = harmonics_count(d->file.part.form.degree);
     bool all = true;
-    for (int k = 0; k < HARMONICS_CHANNELS; k++) {
-        const ply_type *const types = d->types + PLY_REST_SLOT + k * count;
-        const bool fits = fit(types, c, k, count);
-        for (int m = 0; m < count && fits; m++)
-            values[k * count + m] = ply_round(types[m], c[m][k]);
-        all = all && fits;
-    }
+    for (int m = 0; m < count && !d->has_plain_rests; m++)
+        all &= fabs(c[m]) <= (types[m] == PLY_FLOAT ? FLT_MAX : DBL_MAX);
+    for (int m = 0; m < count && d->has_plain_rests; m++)
+        all &= fabs(c[m]) <= FLT_MAX;
     return all;
-}
-
-size_t ffd_ply_turn_rests(const ply_document *d, const splat_turn *turns, size_t count,
-                          double (*values)[PLY_RESTS])
-{
-    const int degree = d->file.part.form.degree, functions = harmonics_count(degree);
-    harmonics_block c[PLY_ROWS];
-    size_t unturned = 0;
-    for (size_t i = 0; i < count; i++)
-        for (int k = 0; k < HARMONICS_CHANNELS; k++)
-            for (int m = 0; m < functions; m++)
-                c[i][m][k] = values[i][k * functions + m];
-    ffd_harmonics_turn(FFD_ISA_AUTO, turns, degree, count, c);
-    for (size_t i = 0; i < count; i++)
-        unturned += !take_turned(d, (const double(*)[HARMONICS_CHANNELS])c[i], values[i]);
-    return unturned;
 }

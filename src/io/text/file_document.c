@@ -75,7 +75,7 @@ void ffd_file_document_read_normals(const mesh_document *document, size_t part, 
 static ffd_status copy(const double *vectors, size_t count, double **results, ffd_error *error)
 {
     if (!*results)
-        *results = ffd_alloc(count, 3 * sizeof **results);
+        *results = ffd_alloc_whole(count, 3 * sizeof **results);
     if (!*results)
         return ffd_fail_memory(error);
     ffd_vectors_read(vectors, 0, count, *results);

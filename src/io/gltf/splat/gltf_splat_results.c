@@ -104,23 +104,22 @@ static void write_element(const gltf_document *d, const gltf_stream *stream, siz
 }
 
 /* Whether a channel's turned coefficients can be held. */
-static bool fit(const double (*c)[HARMONICS_CHANNELS], int channel, int count)
+static bool fit(const double c[HARMONICS_MOST], int count)
 {
     for (int m = 0; m < count; m++)
-        if (!(fabs(c[m][channel]) <= FLT_MAX))
+        if (!(fabs(c[m]) <= FLT_MAX))
             return false;
     return true;
 }
 
 /* Takes over turned coefficients. Returns false where those of a channel cannot be held, and stay. */
-static bool take_turned(const double (*turned)[HARMONICS_CHANNELS], int count,
-                        double (*c)[HARMONICS_CHANNELS])
+static bool take_turned(const harmonics_block turned, int count, harmonics_block c)
 {
     bool all = true;
     for (int k = 0; k < HARMONICS_CHANNELS; k++) {
-        const bool fits = fit(turned, k, count);
+        const bool fits = fit(turned[k], count);
         for (int m = 0; m < count && fits; m++)
-            c[m][k] = turned[m][k];
+            c[k][m] = turned[k][m];
         all = all && fits;
     }
     return all;
@@ -141,8 +140,8 @@ static size_t turn_listed(const splat_turn *turns, int degree, const size_t *lis
     }
     ffd_harmonics_turn(FFD_ISA_AUTO, own, degree, count, turned);
     for (size_t k = 0; k < count; k++)
-        unturned += !take_turned((const double(*)[HARMONICS_CHANNELS])turned[k], harmonics_count(degree),
-                                 c[listed[k]]);
+        unturned +=
+            !take_turned((const double(*)[HARMONICS_MOST])turned[k], harmonics_count(degree), c[listed[k]]);
     return unturned;
 }
 
@@ -157,7 +156,8 @@ static void write_harmonics(gltf_document *d, size_t part, size_t first, size_t 
         ffd_gltf_read(d, stream_of(d, part, GLTF_SPLAT_HARMONICS + (size_t)m)->accessor, first, count,
                       HARMONICS_CHANNELS, values[0]);
         for (size_t i = 0; i < count; i++)
-            memcpy(c[i][m], values[i], sizeof c[i][m]);
+            for (int k = 0; k < HARMONICS_CHANNELS; k++)
+                c[i][k][m] = values[i][k];
     }
     for (size_t i = 0; i < count && functions > 0; i++)
         if (changed[i] && turns[i].is_turn)
@@ -165,8 +165,10 @@ static void write_harmonics(gltf_document *d, size_t part, size_t first, size_t 
     const size_t unturned = turn_listed(turns, degree, listed, open, c);
     for (int m = 0; m < functions; m++) {
         const gltf_stream *const stream = stream_of(d, part, GLTF_SPLAT_HARMONICS + (size_t)m);
-        for (size_t i = 0; i < count; i++)
-            write_element(d, stream, first + i, changed[i] && turns[i].is_turn ? c[i][m] : NULL);
+        for (size_t i = 0; i < count; i++) {
+            const double values[HARMONICS_CHANNELS] = {c[i][0][m], c[i][1][m], c[i][2][m]};
+            write_element(d, stream, first + i, changed[i] && turns[i].is_turn ? values : NULL);
+        }
     }
     if (unturned > 0)
         atomic_fetch_add(&d->unturned, unturned);
