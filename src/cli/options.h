@@ -10,8 +10,7 @@
 
 /* What --memory does. */
 #define CLI_MEMORY                                                                                           \
-    "memory that mesh and lattices may take, as 700M or 4G; default 100M and 20 times their files; "         \
-    "pictures and pages at least 400M"
+    "memory that mesh and lattices may take, as 4G; default 100M (views: 400M) and 20 times their files"
 
 /* What --strict does. */
 #define CLI_STRICT "refuse what the format's specification calls an error even where its meaning is plain"
