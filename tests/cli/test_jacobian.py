@@ -218,6 +218,19 @@ def threads_and_instructions_change_no_byte(run):
 
 
 @case
+def long_names_are_told_apart(run):
+    run.write("p.ply", ply(POINTS))
+    names = ["A" * 300 + end for end in "xy"]
+    run.write("l.json", {**BOX, "moves": [{"by": [{"$": names[0]}, {"$": names[1]}, 0]}]})
+    run.ffd("jacobian", "p.ply", "-l", "l.json", "-o", "j.npy", "--wrt", "parameters", "--check",
+            *(word for name in names for word in ("--set", name + "=1")), err=anything)
+    equal(run.text("j.columns.txt").splitlines(), names, "names")
+    shape, numbers = array(run.read("j.npy"))
+    equal(shape, (5, 3, 2), "shape")
+    near(numbers[:6], [1, 0, 0, 1, 0, 0], 1e-12, "the first vertex")
+
+
+@case
 def what_cannot_be_is_refused(run):
     run.write("p.ply", ply(POINTS))
     run.write("l.json", DESIGN)

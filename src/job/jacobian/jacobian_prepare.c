@@ -1,7 +1,7 @@
 /* jacobian_prepare.c - what the rows are made of: embeddings, gradients of later lattices, derivatives of
  * moves. */
-#include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/text/buffer.h"
 #include "embed/boundary/boundary.h"
 #include "job/chain/chain_apply.h"
 #include "job/jacobian/jacobian_state.h"
@@ -184,21 +184,36 @@ static ffd_status find_inverses(jacobian *j, ffd_error *error)
     return status;
 }
 
+/* The whole name, or NULL without memory: two that only begin alike are two columns. */
+static char *column_name(const spec_variable *variable, size_t component)
+{
+    char number[32] = "";
+    byte_buffer name = {0};
+    if (variable->is_array)
+        snprintf(number, sizeof number, "[%zu]", component);
+    ffd_buffer_text(&name, variable->name);
+    ffd_buffer_text(&name, number);
+    return ffd_buffer_finish(&name);
+}
+
 /* The column of a placeholder's number, which several lattices may share; added where it is new. */
 static ffd_status find_column(jacobian *j, const spec_variable *variable, size_t component, size_t *column,
                               ffd_error *error)
 {
-    char name[200];
-    snprintf(name, sizeof name, variable->is_array ? "%.150s[%zu]" : "%.150s", variable->name, component);
-    for (*column = 0; *column < j->columns; ++*column)
-        if (strcmp(j->names[*column], name) == 0)
+    char *const name = column_name(variable, component);
+    for (*column = 0; name && *column < j->columns; ++*column)
+        if (strcmp(j->names[*column], name) == 0) {
+            ffd_free(name);
             return FFD_OK;
-    char **const more = ffd_realloc(j->names, j->columns + 1, sizeof *more);
-    if (!more)
+        }
+    char **const more = name ? ffd_realloc(j->names, j->columns + 1, sizeof *more) : NULL;
+    if (!more) {
+        ffd_free(name);
         return ffd_fail_memory(error);
+    }
     j->names = more;
-    more[j->columns] = ffd_text_copy(name);
-    return more[j->columns] ? (j->columns++, FFD_OK) : ffd_fail_memory(error);
+    more[j->columns++] = name;
+    return FFD_OK;
 }
 
 static ffd_status find_tangents(jacobian *j, jacobian_link *link, ffd_error *error)
