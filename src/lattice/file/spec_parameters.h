@@ -1,6 +1,6 @@
 /* spec_parameters.h - "parameters": what a lattice file says of its placeholders. */
-#ifndef FFD_LATTICE_SPEC_PARAMETERS_H
-#define FFD_LATTICE_SPEC_PARAMETERS_H
+#ifndef FFD_LATTICE_FILE_SPEC_PARAMETERS_H
+#define FFD_LATTICE_FILE_SPEC_PARAMETERS_H
 
 #include "lattice/spec.h"
 #include "json/json_reader.h"

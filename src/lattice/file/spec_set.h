@@ -1,7 +1,7 @@
 /* spec_set.h - values for the placeholders {"$": "NAME"} in the moves of a lattice file. Declares a function
    of file.c too. */
-#ifndef FFD_LATTICE_SPEC_SET_H
-#define FFD_LATTICE_SPEC_SET_H
+#ifndef FFD_LATTICE_FILE_SPEC_SET_H
+#define FFD_LATTICE_FILE_SPEC_SET_H
 
 #include "lattice/file/spec_seeds.h"
 #include "json/json_setting.h"
