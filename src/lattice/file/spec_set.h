@@ -22,6 +22,7 @@ typedef struct spec_values {
     size_t product_count, product_capacity;
     spec_origins origins; /* of placeholders, where the settings ask for what comes from them */
     intern_table open;    /* names of placeholders without a value */
+    intern_table names;   /* of the parameters, numbered as they are */
 } spec_values;
 
 /* Makes the file's readers read these values, or the defaults of the spec's parameters, instead of the
