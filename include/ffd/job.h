@@ -349,7 +349,7 @@ typedef struct ffd_job_result {
                             quality, FFD_GATE_FOLDS); else infinite */
     uint64_t det_outside_vertex;
     double det_min, det_max; /* of F at the vertices, for check and quality; min > max where there is none */
-    bool has_edges;          /* for check */
+    bool has_edges;          /* for check and FFD_GATE_EDGES */
     uint64_t edges;          /* each counted once */
     double deviation_max, deviation_mean;     /* of straight edges from the deformed surface */
     ffd_behind behind[FFD_BEHIND_KIND_COUNT]; /* by ffd_behind_kind */

@@ -88,13 +88,15 @@ FFD_API const double *ffd_embedding_get_uvw(const ffd_embedding *embedding);
 FFD_API const uint8_t *ffd_embedding_get_status(const ffd_embedding *embedding);
 
 /* Deforms points: out = in + the displacement that the lattice `moved` gives to the embedding's points,
-   computed in double and rounded once to the type of out. moved      has the rest volume that the embedding
-   was made of, to the bit (FFD_E_INVALID else), and control points moved as wanted in         N points: those
-   that were embedded; out: N points, may be in itself gradients  NULL, or N x 9 doubles: row by row d
-   displacement_r / d p_c; F is I + gradient A point that does not move (outside, invalid, in the support of
-   no moved control point) keeps its bits where in and out have the same type, and its gradient is 0. A result
-   is never NaN unless the point is not finite. Thread-safe. Errors: FFD_E_ARGUMENT, FFD_E_INVALID (also for a
-   result too large for the type of out: the first such point is named), FFD_E_CANCELLED, FFD_E_MEMORY. */
+   computed in double and rounded once to the type of out.
+   - moved has the rest volume that the embedding was made of, to the bit (else FFD_E_INVALID), and control
+     points moved as wanted.
+   - in: the N points that were embedded. out: N points; it may be in itself.
+   - gradients: NULL, or N x 9 doubles, row by row d displacement_r / d p_c. F is I + gradient.
+   A point that does not move (outside, invalid, in the support of no moved control point) keeps its bits
+   where in and out have the same type, and its gradient is 0. A result is never NaN unless the point is not
+   finite. Thread-safe. Errors: FFD_E_ARGUMENT, FFD_E_INVALID (also for a result too large for the type of
+   out: the first such point is named), FFD_E_CANCELLED, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_embedding_deform(const ffd_embedding *embedding, const ffd_lattice *moved, ffd_span in,
                                         ffd_span out, double *gradients, const ffd_run *run,
                                         ffd_error *error);

@@ -82,8 +82,12 @@ static ffd_status run_own(deform_job_function run, ffd_deform_desc *desc, ffd_jo
 {
     ffd_job_result *const callers = desc->morph_results;
     desc->morph_results = callers ? ffd_alloc_zero(desc->lattice_count, sizeof *callers) : NULL;
-    if (callers && !desc->morph_results)
-        return ffd_fail_memory(error);
+    if (callers && !desc->morph_results) {
+        ffd_fail_memory(&result->error);
+        if (error)
+            *error = result->error;
+        return FFD_E_MEMORY;
+    }
     const ffd_status status = run(desc, result, error);
     if (callers)
         give_morphs(desc->morph_results, desc->lattice_count, callers, size);

@@ -7,7 +7,7 @@ import json
 import struct
 import zipfile
 
-from harness import INVALID, IO, USAGE, case, check, equal, lattice, main, near
+from harness import INVALID, IO, LIMIT, USAGE, case, check, equal, lattice, main, near
 from said import anything
 
 KINDS = {"<f8": "d", "<i4": "i", "<i8": "q"}
@@ -215,6 +215,31 @@ def threads_and_instructions_change_no_byte(run):
                 code=(0, USAGE))
         made.add(run.read("j.npz"))
     equal(len(made), 1, "archives")
+
+
+@case
+def long_names_are_told_apart(run):
+    run.write("p.ply", ply(POINTS))
+    names = ["A" * 300 + end for end in "xy"]
+    run.write("l.json", {**BOX, "moves": [{"by": [{"$": names[0]}, {"$": names[1]}, 0]}]})
+    run.ffd("jacobian", "p.ply", "-l", "l.json", "-o", "j.npy", "--wrt", "parameters", "--check",
+            *(word for name in names for word in ("--set", name + "=1")), err=anything)
+    equal(run.text("j.columns.txt").splitlines(), names, "names")
+    shape, numbers = array(run.read("j.npy"))
+    equal(shape, (5, 3, 2), "shape")
+    near(numbers[:6], [1, 0, 0, 1, 0, 0], 1e-12, "the first vertex")
+
+
+@case
+def memory_has_a_limit(run):
+    """Control points times placeholders: a file of some kilobytes could ask for any amount."""
+    names = [f"P{i}" for i in range(300)]
+    run.write("q.ply", ply(POINTS))
+    run.write("many.json", {**BOX, "size": [80, 80, 80], "moves": [{"by": [{"$": name}, 0, 0]} for name in names]})
+    done = run.ffd("jacobian", "q.ply", "-l", "many.json", "-o", "m.npz", "--wrt", "parameters",
+                   *(word for name in names for word in ("--set", name + "=0")), code=LIMIT, err=anything)
+    check("--memory" in done.err[-1], done.err)
+    check(not run.exists("m.npz"), run.names())
 
 
 @case

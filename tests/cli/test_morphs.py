@@ -380,6 +380,21 @@ def figures_of_each_target(run):
 
 
 @case
+def edges_of_the_worst_target(run):
+    """A gate that looks at edges fills the report, also where it refuses none."""
+    run.write("in.obj", CUBE)
+    for name, by in (("low", 0.25), ("high", 0.5)):
+        run.write(name + ".json", lattice(size=(3, 3, 3), moves=[{"at": [1, 1, 1], "by": [0, 0, by]}, {"at": ["all", 1, 2], "by": [0, 0, by]}]))
+        run.ffd("deform", "in.obj", name + ".glb", "-l", name + ".json", "-q", "--fail-on", "edges=9", "--report", name)
+    low, high = (json.loads(run.text(name))["jobs"][0]["edges"] for name in ("low", "high"))
+    check(0 < low["deviation"]["max"] < high["deviation"]["max"], low, high)
+    run.ffd("deform", "in.obj", "out.glb", "--morph", "a=high.json", "--morph", "b=low.json", "-q", "--fail-on", "edges=9", "--report", "r.json")
+    equal(json.loads(run.text("r.json"))["jobs"][0]["edges"], high)
+    run.ffd("deform", "in.obj", "out.glb", "--force", "--morph", "a=high.json", "-q", "--report", "r.json")
+    equal(json.loads(run.text("r.json"))["jobs"][0]["edges"], None)
+
+
+@case
 def what_lattices_have_of_their_own(run):
     """A box round the mesh, which is the base whatever targets come before, and placeholders of one of them."""
     write(run)

@@ -8,7 +8,7 @@ import random
 import struct
 from decimal import Decimal
 
-from gltf_build import Scene
+from gltf_build import SHIFT, Scene
 from gltf_reader import Gltf
 from harness import INVALID, case, check, equal, lattice, main
 from said import anything, lines_with, told
@@ -538,7 +538,11 @@ def gltf_that_is_not_quite_of_splats(run):
     deform_glb(run, scene(broken, made), turn, warned=1)
     a, b = deform_glb(run, scene(attributes, made), turn, "--as-morph", "turned", warned=1)
     equal(b.decoded(attributes[PREFIX + "ROTATION"]), a.decoded(attributes[PREFIX + "ROTATION"]))
-    equal(entry(run)["behind"][0]["kind"], "splat")
+    alone = entry(run)["behind"]
+    equal([(left["kind"], left["count"]) for left in alone], [("splat", 4)])
+    run.write("shift.json", SHIFT)
+    run.ffd("deform", "a.glb", "c.glb", "--morph", "shifted=shift.json", "--morph", "turned=l.json", "--report", "r.json", err=anything)
+    equal(entry(run)["behind"], alone, "the target that leaves most behind")
 
 
 @case

@@ -153,7 +153,7 @@ def a_deformed_file_moves_as_it_says(run):
           [False, [[[0, 1], [0, 1]], [[1, 1], [1, 1]]]], "a rig of its own")
     other = arm(names=("other", "lift"))
     run.write("b.gltf", json.dumps(other))
-    page = read(run, *both, err="a.gltf: b.gltf has not 1 of the animations: it stands still there")
+    page = read(run, *both, err="a.gltf: b.gltf lacks 1 of the animations: it stands still there")
     equal(page.scene["rig"]["animations"][0]["channels"][1], None, "no channels after")
 
 

@@ -191,6 +191,8 @@ m("image-not-reflected", "sign", "tangents", "derivative[c] = plane && c == plan
 m("exact-weights-not-followed", "term left out", "tangents", "*d = dual_mul((dual){weights ? weights[point] : 1, *d}, cosine).d;", "*d = dual_mul((dual){weights ? weights[point] : 1, *d}, (dual){cosine.v, 0}).d;")
 m("rows-not-faded", "factor left out", "cli_jacobian, points", "ffd_basis_row_at(embedding->rest, weights, nearest->uvw, fade, row);", "ffd_basis_row_at(embedding->rest, weights, nearest->uvw, 1, row);")
 m("later-lattice-forgotten", "factor left out", "cli_jacobian", "return later ? later : inverse ? inverse : identity;", "return inverse ? inverse : identity;")
+m("columns-by-how-names-begin", "comparison", "cli_jacobian", "if (strcmp(j->names[*column], name) == 0)", "if (strncmp(j->names[*column], name, 150) == 0)")
+m("size-of-a-result-not-checked", "check left out", "older_callers", "if (!status && callers_result) status = ffd_struct_check(sizeof result, callers_result, \"ffd_jacobian_result\", &own);", "")
 m("zip-checksum", "operation", "cli_jacobian", "member->crc = crc_of(member->crc, bytes, size);", "member->crc = crc_of(0, bytes, size);")
 m("invalid-point-converted", "condition", "points", "if (!invalid || work->in.type != work->out.type)", "if (work->out.data)")
 m("arrays-of-another-lattice", "check left out", "points", "if (memcmp(a->rest, b->rest, 3 * size) != 0)", "if (memcmp(a->rest, b->rest, size) > 1000)")
@@ -832,6 +834,10 @@ m("clip-replaced", "left out", "cli_morphs", "ffd_json_span_string_is(tree, name
 m("clip-of-a-conversion", "stride", "cli_morphs", "clip->key_count * target_count(plan, m), NULL", "clip->key_count * 1, NULL")
 m("morph-in-its-place", "operand", "cli_morphs, cli_as_morph", "ffd_gltf_target_place(&file->model.meshes[m].primitives[p], marks->named[m]);",
   "ffd_gltf_target_place(&d->model.meshes[m].primitives[p], marks->named[m]);")
+m("morphs-leave-nothing-behind", "figure", "cli_splats", "if (target->behind[kind].count > all->behind[kind].count)",
+  "if (target->behind[kind].count < all->behind[kind].count)")
+m("edges-of-no-target", "figure", "cli_morphs", "all->has_edges = target->has_edges && (is_first || all->has_edges);",
+  "all->has_edges = target->has_edges && all->has_edges;")
 m("morph-worst-counts", "condition", "cli_morphs", "target->counts[FFD_INSIDE] < all->counts[FFD_INSIDE]",
   "target->counts[FFD_INSIDE] > all->counts[FFD_INSIDE]")
 m("morph-file-warned-again", "condition", "cli_morphs", "job->file_log = k == 0 ? *log : (mesh_log){0};", "job->file_log = *log;")
@@ -1075,7 +1081,8 @@ m("last-corner-of-an-stl-vertex", "order", "cli_view", "for (size_t i = faces->c
   "for (size_t i = 0; i < faces->corner_count; i++) e->model->numbers")
 m("page-over-an-input", "check left out", "cli_view",
   "is_input = is_input || ffd_file_same(job->lattices[i], desc->output);", "is_input = is_input || ffd_file_same(job->lattices[i], job->input.path);")
-m("page-of-two-meshes", "check left out", "cli_view", "if (!status && ffd_mesh_vertex_count(work->other) != count)", "if (!status && ffd_mesh_vertex_count(other) < count)")
+m("page-of-two-meshes", "check left out", "cli_view", "if (!status && ffd_mesh_vertex_count(work->other) != count)", "if (!status && ffd_mesh_vertex_count(work->other) < count)",
+  "if (!status && ffd_mesh_vertex_count(other) != count)", "if (!status && ffd_mesh_vertex_count(other) < count)")
 m("det-without-its-diagonal", "term left out", "cli_view", "for (size_t a = 0; a < 3; a++) f[4 * a] += 1;",
   "for (size_t a = 1; a < 3; a++)\n            f[4 * a] += 1;")
 m("flipped-by-the-first-face", "index", "cli_view", "const size_t face = faces[t];", "const size_t face = faces[t / 2];")

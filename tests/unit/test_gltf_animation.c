@@ -14,133 +14,57 @@
 #define H 0.70710678118654752440f /* sine of 45 degrees */
 #define NEAR 1e-6                 /* of float32 */
 
-/* What the accessors below hold, by their first number. */
-static const float data[] = {
-    /* 0: times */ 0,
-    1,
-    3,
-    /* 3: translations */ 0,
-    0,
-    0,
-    2,
-    4,
-    6,
-    2,
-    8,
-    0,
-    /* 12: turns about z by 0, 90 and 180 degrees, the last one with the other sign */ 0,
-    0,
-    0,
-    1,
-    0,
-    0,
-    H,
-    H,
-    0,
-    0,
-    -1,
-    0,
-    /* 24: x = t^3 - 2t + 1; y = t^2, from 1 on 2 - t; z = 2t: tangent before, value, tangent behind */ 99,
-    99,
-    99,
-    1,
-    0,
-    0,
-    -2,
-    0,
-    2,
-    1,
-    2,
-    2,
-    0,
-    1,
-    2,
-    1,
-    -1,
-    2,
-    25,
-    -1,
-    2,
-    22,
-    -1,
-    6,
-    99,
-    99,
-    99,
-    /* 51: weights of two targets */ 0,
-    1,
-    1,
-    0,
-    0.5f,
-    0.25f,
-    /* 57: times that fall */ 0,
-    2,
-    1,
-    /* 60: times that are not finite */ 0,
-    INFINITY,
-    3,
-    /* 63: translations that are not finite */ 0,
-    0,
-    0,
-    0,
-    NAN,
-    0,
-    0,
-    0,
-    0,
-    /* 72: four times */ 0,
-    1,
-    1,
-    2,
-    /* 76: bytes: sparse indices 0 and 2; normalized shorts 32767, 0, 0, 0 and 0, 0, 16384, -32768 */ 0,
-    0,
-    0,
-    0,
-    0};
+/* What the accessors below hold, with the number of the first float of each. */
+static const struct {
+    float times[3];               /* 0 */
+    float translations[9];        /* 3 */
+    float turns[12];              /* 12: about z by 0, 90 and 180 degrees, the last one with the other sign */
+    float spline[27];             /* 24: tangent before, value, tangent behind */
+    float weights[6];             /* 51: of two targets */
+    float falling_times[3];       /* 57 */
+    float infinite_times[3];      /* 60 */
+    float broken_translations[9]; /* 63 */
+    float four_times[4];          /* 72 */
+    unsigned char tail[20];       /* 76 */
+} data = {
+    .times = {0, 1, 3},
+    .translations = {0, 0, 0, 2, 4, 6, 2, 8, 0},
+    .turns = {0, 0, 0, 1, 0, 0, H, H, 0, 0, -1, 0},
+    /* x = t^3 - 2t + 1; y = t^2, from 1 on 2 - t; z = 2t. The outermost tangents are not used. */
+    .spline = {99, 99, 99, 1, 0, 0, -2, 0, 2, 1, 2, 2, 0, 1, 2, 1, -1, 2, 25, -1, 2, 22, -1, 6, 99, 99, 99},
+    .weights = {0, 1, 1, 0, 0.5f, 0.25f},
+    .falling_times = {0, 2, 1},
+    .infinite_times = {0, INFINITY, 3},
+    .broken_translations = {0, 0, 0, 0, NAN, 0, 0, 0, 0},
+    .four_times = {0, 1, 1, 2},
+    /* Sparse indices 0 and 2; from byte 4 on normalized shorts 32767, 0, 0, 0 and 0, 0, 16384, -32768. */
+    .tail = {2, 0, 0, 0, 0xff, 0x7f, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x40, 0, 0x80},
+};
 
 #define ACCESSOR(at, count, type)                                                                            \
     "{\"bufferView\":0,\"byteOffset\":" #at ",\"componentType\":5126,\"count\":" #count ",\"type\":\"" type  \
     "\"}"
-#define ACCESSORS                                                                                                                    \
-    ACCESSOR(0, 3, "SCALAR")                                                                                                         \
-    "," ACCESSOR(12, 3, "VEC3") "," ACCESSOR(48, 3, "VEC4") "," ACCESSOR(96, 9, "VEC3") "," ACCESSOR(204, 6, "SCALAR") "," ACCESSOR( \
-        228, 3,                                                                                                                      \
-        "SCALAR") "," ACCESSOR(240, 3,                                                                                               \
-                               "SCALAR") "," ACCESSOR(252, 3,                                                                        \
-                                                      "VEC3") "," ACCESSOR(288, 4,                                                   \
-                                                                           "SCALAR") "," /* 9: normalized                            \
-                                                                                          */                                         \
-                                                                                     "{\"bufferView\":0,"                            \
-                                                                                     "\"byteOffset\":"                               \
-                                                                                     "308,"                                          \
-                                                                                     "\"componentType\":"                            \
-                                                                                     "5122,"                                         \
-                                                                                     "\"normalized\":"                               \
-                                                                                     "true,\"count\":2,"                             \
-                                                                                     "\"type\":\"VEC4\"}"                            \
-                                                                                     "," /* 10: zeros,                               \
-                                                                                            and the                                  \
-                                                                                            second of the                            \
-                                                                                            translations                             \
-                                                                                            last */                                  \
-                                                                                     "{\"componentType\""                            \
-                                                                                     ":5126,\"count\":3,"                            \
-                                                                                     "\"type\":\"VEC3\","                            \
-                                                                                     "\"sparse\":{"                                  \
-                                                                                     "\"count\":1,"                                  \
-                                                                                     "\"indices\":"                                  \
-                                                                                     "{\"bufferView\":0,"                            \
-                                                                                     "\"byteOffset\":"                               \
-                                                                                     "304,"                                          \
-                                                                                     "\"componentType\":"                            \
-                                                                                     "5121},\"values\":{"                            \
-                                                                                     "\"bufferView\":0,"                             \
-                                                                                     "\"byteOffset\":24}"                            \
-                                                                                     "}}," ACCESSOR(0, 0, "SCALAR") "," ACCESSOR(    \
-                                                                                         0, 1,                                       \
-                                                                                         "MAT4") "," ACCESSOR(4,                     \
-                                                                                                              2,                     \
-                                                                                                              "SCALAR")
+#define NEXT(at, count, type) "," ACCESSOR(at, count, type)
+#define NORMALIZED(at, count)                                                                                \
+    ",{\"bufferView\":0,\"byteOffset\":" #at ",\"componentType\":5122,\"normalized\":true,\"count\":" #count \
+    ",\"type\":\"VEC4\"}"
+/* Zeros, and the second of the translations last. */
+#define SPARSE                                                                                               \
+    ",{\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"sparse\":{\"count\":1,"                        \
+    "\"indices\":{\"bufferView\":0,\"byteOffset\":304,\"componentType\":5121},"                              \
+    "\"values\":{\"bufferView\":0,\"byteOffset\":24}}}"
+/* Numbers 0 to 13; 9 is NORMALIZED, 10 SPARSE. */
+#define ACCESSORS                                                                                            \
+    ACCESSOR(0, 3, "SCALAR")                                                                                 \
+    NEXT(12, 3, "VEC3")                                                                                      \
+    NEXT(48, 3, "VEC4")                                                                                      \
+    NEXT(96, 9, "VEC3")                                                                                      \
+    NEXT(204, 6, "SCALAR")                                                                                   \
+    NEXT(228, 3, "SCALAR")                                                                                   \
+    NEXT(240, 3, "SCALAR")                                                                                   \
+    NEXT(252, 3, "VEC3")                                                                                     \
+    NEXT(288, 4, "SCALAR")                                                                                   \
+    NORMALIZED(308, 2) SPARSE NEXT(0, 0, "SCALAR") NEXT(0, 1, "MAT4") NEXT(4, 2, "SCALAR")
 
 #define MESH                                                                                                 \
     "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":1},\"targets\":[{\"POSITION\":1},"           \
@@ -155,11 +79,8 @@ static char *file_with(const char *animations)
     unsigned char bytes[sizeof data];
     char base64[2 * sizeof data] = "";
     char *const text = malloc(20000);
-    static const unsigned char tail[20] = {2, 0, 0, 0, 0xff, 0x7f, 0, 0,    0, 0,
-                                           0, 0, 0, 0, 0,    0,    0, 0x40, 0, 0x80};
     assert_non_null(text);
-    memcpy(bytes, data, sizeof data);
-    memcpy(bytes + sizeof data - sizeof tail, tail, sizeof tail);
+    memcpy(bytes, &data, sizeof data);
     ffd_base64_encode(bytes, sizeof bytes, base64);
     snprintf(text, 20000,
              "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":%zu,\"uri\":\"data:application/"
@@ -187,25 +108,21 @@ static gltf_document *open_text(const char *text)
     "{\"pointer\":" pointer "}}}}"
 #define ANIMATION(samplers, channels) "{\"samplers\":[" samplers "],\"channels\":[" channels "]}"
 
+#define NEXT_CHANNEL(sampler, node, path) "," CHANNEL(sampler, node, path)
+#define NEXT_POINTER(pointer) "," POINTER(0, pointer)
+#define SAMPLERS SAMPLER(0, 1, "STEP") ",{\"input\":0,\"output\":99}"
+#define CHANNELS                                                                                             \
+    CHANNEL(0, 1, "translation")                                                                             \
+    NEXT_CHANNEL(1, 7, "scale")                                                                              \
+    NEXT_POINTER("\"/nodes/2/scale\"")                                                                       \
+    NEXT_POINTER("\"/materials/0/alphaCutoff\"")                                                             \
+    NEXT_POINTER("\"/nodes/9/scale\"") NEXT_POINTER("3") NEXT_CHANNEL(5, 1, "size") ",7,{}"
+
 static void channels_say_where_they_come_from(void **state)
 {
     (void)state;
-    char *const text = file_with("{\"name\":\"W\\u00e4lk\",\"samplers\":[" SAMPLER(
-        0, 1,
-        "STEP") ",{\"input\":0,\"output\":99}],"
-                "\"channels\":[" CHANNEL(0, 1, "translation") "," CHANNEL(1, 7, "scale") "," POINTER(
-                    0,
-                    "\"/"
-                    "node"
-                    "s/2/"
-                    "scal"
-                    "e\"") "," POINTER(0,
-                                       "\"/materials/0/alphaCutoff\"") "," POINTER(0,
-                                                                                   "\"/nodes/9/"
-                                                                                   "scale\"") "," POINTER(0,
-                                                                                                          "3") "," CHANNEL(5,
-                                                                                                                           1,
-                                                                                                                           "size") ",7,{}]}");
+    char *const text =
+        file_with("{\"name\":\"W\\u00e4lk\",\"samplers\":[" SAMPLERS "],\"channels\":[" CHANNELS "]}");
     gltf_document *const d = open_text(text);
     gltf_animations list;
     const uint64_t before = d->base.budget.taken;

@@ -273,6 +273,15 @@ static void morph_targets_have_figures_of_their_own(void **state)
     }
     assert_int_equal(result.moved, alone.moved);
     assert_int_equal(result.vertices, alone.vertices);
+    desc.output = glb;
+    ffd_alloc_fail_after(0);
+    desc.lattice_count = 2;
+    desc.morphs = names;
+    desc.morph_results = results;
+    const ffd_status status = ffd_deform_run(&desc, &result, NULL);
+    ffd_alloc_fail_after(-1);
+    assert_int_equal(status, FFD_E_MEMORY);
+    assert_non_null(strstr(result.error.message, "out of memory"));
     unlink(glb);
 }
 

@@ -140,6 +140,11 @@ static void sizes_that_cannot_be_are_refused(void **state)
     desc.struct_size = sizeof desc + 1;
     assert_int_equal(ffd_deform_run(&desc, &result, &error), FFD_E_ARGUMENT);
     assert_int_equal(result.status, FFD_E_ARGUMENT);
+    ffd_jacobian_desc derivative;
+    ffd_jacobian_result matrix = {.struct_size = sizeof matrix + 1};
+    ffd_jacobian_desc_init(&derivative, sizeof derivative);
+    assert_int_equal(ffd_jacobian_run(&derivative, &matrix, &error), FFD_E_ARGUMENT);
+    assert_non_null(strstr(error.message, "ffd_jacobian_result"));
     (void)state;
 }
 

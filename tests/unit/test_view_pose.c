@@ -17,101 +17,29 @@
 /* An upper arm, which moves up by 4 in 2 seconds, and a lower arm at (1, 0, 0), which turns about z from 0 to
    90 degrees; its default pose, 90 degrees, is not that of the inverse binds. On the upper arm is a mesh of
    its own, twice as large, whose morph target goes from 0 to 1. */
-static const float data[] = {
-    /* 0: positions */ 0,
-    0,
-    0,
-    1,
-    0,
-    0,
-    2,
-    0,
-    0,
-    1,
-    1,
-    0,
-    /* 12: inverse binds */ 1,
-    0,
-    0,
-    0,
-    0,
-    1,
-    0,
-    0,
-    0,
-    0,
-    1,
-    0,
-    0,
-    0,
-    0,
-    1,
-    1,
-    0,
-    0,
-    0,
-    0,
-    1,
-    0,
-    0,
-    0,
-    0,
-    1,
-    0,
-    -1,
-    0,
-    0,
-    1,
-    /* 44: weights */ 1,
-    0,
-    0,
-    0,
-    1,
-    1,
-    0,
-    0,
-    3,
-    0,
-    0,
-    0,
-    0,
-    0,
-    0,
-    0,
-    /* 60: offsets */ 0,
-    0,
-    1,
-    0,
-    0,
-    1,
-    0,
-    0,
-    1,
-    0,
-    0,
-    1,
-    /* 72: times */ 0,
-    2,
-    /* 74: translations */ 0,
-    0,
-    0,
-    0,
-    0,
-    4,
-    /* 80: turns */ 0,
-    0,
-    0,
-    1,
-    0,
-    0,
-    H,
-    H,
-    /* 88: weights of the target */ 0,
-    1,
-    /* 90: joints, 4 bytes each, of the first four */ 0,
-    0,
-    0,
-    0};
+static const struct {         /* with the number of the first float of each */
+    float positions[12];      /* 0 */
+    float inverse_binds[32];  /* 12 */
+    float weights[16];        /* 44 */
+    float offsets[12];        /* 60 */
+    float times[2];           /* 72 */
+    float translations[6];    /* 74 */
+    float turns[8];           /* 80 */
+    float target_weights[2];  /* 88 */
+    unsigned char joints[16]; /* 90 */
+} data = {
+    .positions = {0, 0, 0, 1, 0, 0, 2, 0, 0, 1, 1, 0},
+    .inverse_binds = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0,  0, 0, 1,
+                      1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1, 0, 0, 1},
+    .weights = {1, 0, 0, 0, 1, 1, 0, 0, 3, 0, 0, 0, 0, 0, 0, 0},
+    .offsets = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1},
+    .times = {0, 2},
+    .translations = {0, 0, 0, 0, 0, 4},
+    .turns = {0, 0, 0, 1, 0, 0, H, H},
+    .target_weights = {0, 1},
+    /* The last vertex, whose weights are all 0, follows its first joint. */
+    .joints = {0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0},
+};
 
 #define ACCESSOR(at, count, type)                                                                            \
     "{\"bufferView\":0,\"byteOffset\":" #at ",\"componentType\":5126,\"count\":" #count ",\"type\":\"" type  \
@@ -120,57 +48,43 @@ static const float data[] = {
 #define CHANNEL(sampler, node, path)                                                                         \
     "{\"sampler\":" #sampler ",\"target\":{\"node\":" #node ",\"path\":\"" path "\"}}"
 
+#define NEXT(at, count, type) "," ACCESSOR(at, count, type)
+#define ACCESSORS                                                                                            \
+    ACCESSOR(0, 4, "VEC3")                                                                                   \
+    NEXT(48, 2, "MAT4")                                                                                      \
+    NEXT(176, 4, "VEC4")                                                                                     \
+    NEXT(240, 4, "VEC3")                                                                                     \
+    NEXT(288, 2, "SCALAR") NEXT(296, 2, "VEC3") NEXT(320, 2, "VEC4") NEXT(352, 2, "SCALAR")
+#define JOINTS ",{\"bufferView\":0,\"byteOffset\":360,\"componentType\":5121,\"count\":4,\"type\":\"VEC4\"}"
+#define MESHES                                                                                               \
+    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"JOINTS_0\":8,\"WEIGHTS_0\":2}}]},"       \
+    "{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"targets\":[{\"POSITION\":3}]}]}]"
+#define NODES                                                                                                \
+    "\"nodes\":[{\"mesh\":0,\"skin\":0},{\"children\":[2,3],\"translation\":[0,0,7]},"                       \
+    "{\"translation\":[1,0,0],\"rotation\":[0,0,0.70710678118654752,0.70710678118654752]},"                  \
+    "{\"mesh\":1,\"translation\":[0,5,0],\"scale\":[2,2,2]},{\"children\":[]}]"
+#define SKINS "\"skins\":[{\"joints\":[1,2],\"inverseBindMatrices\":1}]"
+#define NEXT_SAMPLER(output) "," SAMPLER(output)
+#define NEXT_CHANNEL(sampler, node, path) "," CHANNEL(sampler, node, path)
+#define SAMPLERS SAMPLER(5) NEXT_SAMPLER(6) NEXT_SAMPLER(7)
+#define CHANNELS                                                                                             \
+    CHANNEL(0, 1, "translation")                                                                             \
+    NEXT_CHANNEL(1, 2, "rotation") NEXT_CHANNEL(2, 3, "weights") NEXT_CHANNEL(0, 4, "translation")
+
 static char *make_text(void)
 {
-    /* The last vertex, whose weights are all 0, follows its first joint. */
-    static const unsigned char joints[16] = {0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
     unsigned char bytes[sizeof data];
     char base64[2 * sizeof data] = "";
     char *const text = malloc(8000);
     assert_non_null(text);
-    memcpy(bytes, data, sizeof data);
-    memcpy(bytes + sizeof data - sizeof joints, joints, sizeof joints);
+    memcpy(bytes, &data, sizeof data);
     ffd_base64_encode(bytes, sizeof bytes, base64);
-    snprintf(
-        text, 8000,
-        "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":%zu,\"uri\":\"data:application/"
-        "octet-"
-        "stream;base64,%s\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":%zu}],\"accessors\":"
-        "[" ACCESSOR(0, 4, "VEC3") "," ACCESSOR(48, 2, "MAT4") "," ACCESSOR(176, 4, "VEC4") "," ACCESSOR(240, 4, "VEC3") "," ACCESSOR(288, 2, "SCALAR") "," ACCESSOR(
-            296, 2,
-            "VEC3") "," ACCESSOR(320, 2,
-                                 "VEC4") "," ACCESSOR(352, 2,
-                                                      "SCALAR") ",{\"bufferView\":0,\"byteOffset\":360,"
-                                                                "\"componentType\":5121,\"count\":4,"
-                                                                "\"type\":\"VEC4\"}],"
-                                                                "\"meshes\":[{\"primitives\":[{"
-                                                                "\"attributes\":{\"POSITION\":0,"
-                                                                "\"JOINTS_0\":8,\"WEIGHTS_0\":2}}]},"
-                                                                "{\"primitives\":[{\"attributes\":{"
-                                                                "\"POSITION\":0},\"targets\":[{"
-                                                                "\"POSITION\":3}]}]}],"
-                                                                "\"nodes\":[{\"mesh\":0,\"skin\":0},{"
-                                                                "\"children\":[2,3],\"translation\":[0,0,7]},"
-                                                                "{\"translation\":["
-                                                                "1,0,0],\"rotation\":[0,0,"
-                                                                "0.70710678118654752,0."
-                                                                "70710678118654752]},{\"mesh\":1,"
-                                                                "\"translation\":[0,5,0],\"scale\":[2,2,"
-                                                                "2]},"
-                                                                "{\"children\":[]}],"
-                                                                "\"skins\":[{\"joints\":[1,2],"
-                                                                "\"inverseBindMatrices\":1}],"
-                                                                "\"animations\":[{\"samplers\":"
-                                                                "[" SAMPLER(5) "," SAMPLER(6) "," SAMPLER(7) "],\"channels\":[" CHANNEL(
-                                                                    0, 1,
-                                                                    "translation") "," CHANNEL(1, 2,
-                                                                                               "rotatio"
-                                                                                               "n") "," CHANNEL(2,
-                                                                                                                3,
-                                                                                                                "weights") "," CHANNEL(0,
-                                                                                                                                       4,
-                                                                                                                                       "translation") "]}]}",
-        sizeof bytes, base64, sizeof bytes);
+    snprintf(text, 8000,
+             "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":%zu,\"uri\":\"data:application/"
+             "octet-stream;base64,%s\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":%zu}],\"accessors\":"
+             "[" ACCESSORS JOINTS "]," MESHES "," NODES "," SKINS ",\"animations\":[{\"samplers\":[" SAMPLERS
+             "],\"channels\":[" CHANNELS "]}]}",
+             sizeof bytes, base64, sizeof bytes);
     return text;
 }
 

@@ -55,7 +55,7 @@ async function columnsSortByMouseAndKeyboard() {
   const {page, end} = await open();
   assert.deepEqual(await sorted(page), []);
   // What is not known comes last in both directions.
-  for (const [name, first, second] of [['Largest displacement', /^4261354?|^426135/, /5$/], ['Torn edges', /^3/, /35$/], ['Folds', /^4/, /45$/],
+  for (const [name, first, second] of [['Largest displacement', /^426135/, /5$/], ['Torn edges', /^3/, /35$/], ['Folds', /^4/, /45$/],
     ['Flipped faces', /^1234/, /^1234/]]) {
     await button(page, name).click();
     assert.deepEqual(await sorted(page), [[name, 'descending']]);

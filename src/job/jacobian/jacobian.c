@@ -97,6 +97,8 @@ ffd_status ffd_jacobian_run(const ffd_jacobian_desc *callers, ffd_jacobian_resul
     ffd_error own;
     ffd_jacobian_desc_init(&desc, sizeof desc);
     ffd_status status = ffd_struct_take(&desc, sizeof desc, callers, "ffd_jacobian_desc", &own);
+    if (!status && callers_result)
+        status = ffd_struct_check(sizeof result, callers_result, "ffd_jacobian_result", &own);
     if (!status && desc.job)
         status = ffd_deform_desc_take(desc.job, &job, &own);
     desc.job = desc.job ? &job : NULL;

@@ -51,11 +51,14 @@ static ffd_status send(check_work *work, const lattice_chain *chain, size_t from
     return later.count == 0 ? FFD_OK : ffd_chain_apply(&later, later.count, &run, error);
 }
 
-/* Notes how far a row's numbers are from differences. found: the derivatives of x, y, z by one number. */
+/* Notes how far a row's numbers are from differences; infinitely far where one of both is NaN. found: the
+   derivatives of x, y, z by one number. */
 static void compare(check_work *work, const double found[3], const double difference[3], double scale)
 {
-    for (int a = 0; a < 3; a++)
-        work->worst = fmax(work->worst, fabs(found[a] - difference[a]) / fmax(scale, 1e-3));
+    for (int a = 0; a < 3; a++) {
+        const double off = fabs(found[a] - difference[a]) / fmax(scale, 1e-3);
+        work->worst = fmax(work->worst, isnan(off) ? HUGE_VAL : off);
+    }
 }
 
 static double largest_of(const check_work *work)
@@ -196,8 +199,7 @@ static ffd_status load_changed(const jacobian *j, const spec_variable *variable,
 
 /* Where the vertices come with a placeholder's number changed: through the first link by its u,v,w. */
 static ffd_status move_changed(check_work *work, const spec_variable *variable, size_t component, double by,
-                               const size_t *vertices, size_t count, const double *rest, double *to,
-                               ffd_error *error)
+                               size_t count, const double *rest, double *to, ffd_error *error)
 {
     lattice_chain chain = {.links = NULL};
     char *const text = value_text(variable, component, by);
@@ -206,7 +208,6 @@ static ffd_status move_changed(check_work *work, const spec_variable *variable, 
         memcpy(to + 3 * i, rest + 3 * i, 3 * sizeof *to);
         status = send(work, &chain, 0, to + 3 * i, error);
     }
-    (void)vertices;
     ffd_chain_free(&chain);
     ffd_free(text);
     return status;
@@ -219,9 +220,9 @@ static ffd_status check_parameter(check_work *work, size_t column, const size_t 
     const spec_variable *const variable = variable_of(work->j, column, &component);
     const double h = cbrt(2.2e-16) * fmax(fabs(variable->numbers[component]), 1);
     double at[2][3 * VERTICES];
-    ffd_status status = move_changed(work, variable, component, -h, vertices, count, rest, at[0], error);
+    ffd_status status = move_changed(work, variable, component, -h, count, rest, at[0], error);
     if (!status)
-        status = move_changed(work, variable, component, h, vertices, count, rest, at[1], error);
+        status = move_changed(work, variable, component, h, count, rest, at[1], error);
     for (size_t i = 0; i < count && !status; i++) {
         double found[3], difference[3];
         ffd_jacobian_rows_begin(work->j, vertices[i], &work->rows);

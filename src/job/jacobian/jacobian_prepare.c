@@ -1,9 +1,10 @@
 /* jacobian_prepare.c - what the rows are made of: embeddings, gradients of later lattices, derivatives of
  * moves. */
-#include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/text/buffer.h"
 #include "embed/boundary/boundary.h"
 #include "job/chain/chain_apply.h"
+#include "job/chain/lattice_memory.h"
 #include "job/jacobian/jacobian_state.h"
 #include "job/pass/chain_fit.h"
 #include "job/pass/pass.h"
@@ -28,7 +29,7 @@ ffd_status ffd_jacobian_positions(const jacobian *j, size_t link, double *before
 }
 
 /* Lists the vertices without u,v,w that follow the border. */
-static ffd_status find_extended(const jacobian *j, const chain_link *link, const double *before,
+static ffd_status find_extended(jacobian *j, const chain_link *link, const double *before,
                                 ffd_embedding *embedding, ffd_error *error)
 {
     const double reach = link->falloff > 0 ? link->falloff : HUGE_VAL;
@@ -43,6 +44,9 @@ static ffd_status find_extended(const jacobian *j, const chain_link *link, const
         status = ffd_boundary_find(link->border, before + 3 * i, reach, &nearest, error);
         if (status || !nearest.found)
             continue;
+        status = ffd_budget_take(&j->budget, 1, sizeof *embedding->extended, error);
+        if (status)
+            return status;
         if (!ffd_grow((void **)&embedding->extended, &capacity, embedding->extended_count + 1,
                       sizeof *embedding->extended))
             return ffd_fail_memory(error);
@@ -68,7 +72,7 @@ static ffd_status mark_selected(const jacobian *j, uint8_t *selected, ffd_error 
     return status;
 }
 
-static ffd_status extend(const jacobian *j, size_t number, ffd_embedding *embedding, ffd_error *error)
+static ffd_status extend(jacobian *j, size_t number, ffd_embedding *embedding, ffd_error *error)
 {
     const chain_link *const link = &j->job.chain.links[number];
     double *const before = ffd_alloc(j->count, 3 * sizeof *before);
@@ -87,7 +91,7 @@ static ffd_status extend(const jacobian *j, size_t number, ffd_embedding *embedd
     return status;
 }
 
-static ffd_status fill_embedding(const jacobian *j, jacobian_link *link, ffd_error *error)
+static ffd_status fill_embedding(jacobian *j, jacobian_link *link, ffd_error *error)
 {
     const chain_link *const of = &j->job.chain.links[link->number];
     pass_totals totals;
@@ -184,21 +188,43 @@ static ffd_status find_inverses(jacobian *j, ffd_error *error)
     return status;
 }
 
+/* The whole name, or NULL without memory: two that only begin alike are two columns. */
+static char *column_name(const spec_variable *variable, size_t component)
+{
+    char number[32] = "";
+    byte_buffer name = {0};
+    if (variable->is_array)
+        snprintf(number, sizeof number, "[%zu]", component);
+    ffd_buffer_text(&name, variable->name);
+    ffd_buffer_text(&name, number);
+    return ffd_buffer_finish(&name);
+}
+
 /* The column of a placeholder's number, which several lattices may share; added where it is new. */
 static ffd_status find_column(jacobian *j, const spec_variable *variable, size_t component, size_t *column,
                               ffd_error *error)
 {
-    char name[200];
-    snprintf(name, sizeof name, variable->is_array ? "%.150s[%zu]" : "%.150s", variable->name, component);
-    for (*column = 0; *column < j->columns; ++*column)
-        if (strcmp(j->names[*column], name) == 0)
+    char *const name = column_name(variable, component);
+    for (*column = 0; name && *column < j->columns; ++*column)
+        if (strcmp(j->names[*column], name) == 0) {
+            ffd_free(name);
             return FFD_OK;
-    char **const more = ffd_realloc(j->names, j->columns + 1, sizeof *more);
-    if (!more)
+        }
+    char **const more = name ? ffd_realloc(j->names, j->columns + 1, sizeof *more) : NULL;
+    if (!more) {
+        ffd_free(name);
         return ffd_fail_memory(error);
+    }
     j->names = more;
-    more[j->columns] = ffd_text_copy(name);
-    return more[j->columns] ? (j->columns++, FFD_OK) : ffd_fail_memory(error);
+    more[j->columns++] = name;
+    return FFD_OK;
+}
+
+/* Takes 3 coordinates and a weight of each control point, for each number of a placeholder. */
+static ffd_status take_tangents(jacobian *j, const ffd_lattice *lattice, ffd_error *error)
+{
+    return ffd_budget_take(&j->budget, ffd_spec_column_count(lattice->spec),
+                           lattice->count * 4 * sizeof(double), error);
 }
 
 static ffd_status find_tangents(jacobian *j, jacobian_link *link, ffd_error *error)
@@ -206,9 +232,13 @@ static ffd_status find_tangents(jacobian *j, jacobian_link *link, ffd_error *err
     const ffd_lattice *const lattice = j->job.chain.links[link->number].lattice;
     const lattice_spec *const spec = lattice->spec;
     size_t own = 0;
-    ffd_status status = ffd_lattice_tangents_find(lattice, &link->tangents, error);
+    ffd_status status = take_tangents(j, lattice, error);
+    if (!status)
+        status = ffd_lattice_tangents_find(lattice, &link->tangents, error);
+    if (status)
+        return status;
     link->columns = ffd_alloc(link->tangents.columns, sizeof *link->columns);
-    if (!status && !link->columns)
+    if (!link->columns)
         return ffd_fail_memory(error);
     for (size_t v = 0; v < spec->variable_count && !status; v++)
         for (size_t c = 0; c < spec->variables[v].size && !status; c++)
@@ -236,6 +266,22 @@ static ffd_status choose_links(jacobian *j, ffd_error *error)
                : ffd_fail(error, FFD_E_INVALID, "no lattice has a placeholder to differentiate by");
 }
 
+/* Takes what the arrays of all vertices need: u,v,w, statuses, gradients of later lattices, inverses, starts
+   of rows, and positions, which are there for a while. */
+static ffd_status take_vertices(jacobian *j, ffd_error *error)
+{
+    size_t bytes = 3 * sizeof(double) + 3 * sizeof(uint64_t);
+    for (size_t l = 0; l < j->link_count; l++) {
+        const bool has_later = j->links[l].number + 1 < j->job.chain.count;
+        bytes += (has_later ? 12 : 3) * sizeof(double) + 1;
+    }
+    if (j->desc->components)
+        bytes += 9 * sizeof *j->inverses;
+    j->budget = j->job.document->budget;
+    const ffd_status status = ffd_lattice_memory_share(&j->job.chain, &j->budget, error);
+    return status ? status : ffd_budget_take(&j->budget, j->count, bytes, error);
+}
+
 ffd_status ffd_jacobian_prepare(jacobian *j, ffd_error *error)
 {
     const bool by_points = j->desc->by == FFD_BY_POINTS;
@@ -245,6 +291,8 @@ ffd_status ffd_jacobian_prepare(jacobian *j, ffd_error *error)
         status = ffd_chain_fit(&j->job.chain, j->job.document, j->job.threads, error);
     if (!status)
         status = choose_links(j, error);
+    if (!status)
+        status = take_vertices(j, error);
     for (size_t l = 0; l < j->link_count && !status; l++) {
         jacobian_link *const link = &j->links[l];
         status = fill_embedding(j, link, error);

@@ -19,6 +19,7 @@ typedef struct jacobian_link {
 typedef struct jacobian {
     const ffd_jacobian_desc *desc;
     deform_job job;
+    memory_budget budget; /* what mesh and lattices leave */
     size_t count;         /* vertices */
     jacobian_link *links; /* link_count */
     size_t link_count;

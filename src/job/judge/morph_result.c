@@ -99,6 +99,22 @@ static void join_quality(const ffd_job_result *target, size_t number, ffd_job_re
     all->det_max = known && all->det_max > target->det_max ? all->det_max : target->det_max;
 }
 
+static void join_edges(const ffd_job_result *target, bool is_first, ffd_job_result *all)
+{
+    all->has_edges = target->has_edges && (is_first || all->has_edges);
+    all->edges = target->edges;
+    all->deviation_max = larger(all->deviation_max, target->deviation_max);
+    all->deviation_mean = larger(all->deviation_mean, target->deviation_mean);
+}
+
+/* Of each kind what the first target with the most leaves behind. */
+static void join_behind(const ffd_job_result *target, ffd_job_result *all)
+{
+    for (int kind = 0; kind < FFD_BEHIND_KIND_COUNT; kind++)
+        if (target->behind[kind].count > all->behind[kind].count)
+            all->behind[kind] = target->behind[kind];
+}
+
 void ffd_morph_results_join(const ffd_job_result *targets, size_t count, ffd_job_result *all)
 {
     for (size_t k = 0; k < count; k++) {
@@ -107,5 +123,7 @@ void ffd_morph_results_join(const ffd_job_result *targets, size_t count, ffd_job
         join_bounds(&targets[k], all);
         join_tears(&targets[k], k == 0, all);
         join_quality(&targets[k], k, all);
+        join_edges(&targets[k], k == 0, all);
+        join_behind(&targets[k], all);
     }
 }

@@ -230,7 +230,7 @@ static void warn(const view_rigs_desc *desc, const view_scene *scene)
                      "not played: %zu %s no translation, rotation, scale or weights of a node that is there",
                      left, ffd_plural(left, "channel that drives", "channels that drive"));
     if (unmatched)
-        ffd_log_line(desc->log, FFD_LOG_WARNING, "%s has not %zu of the animations: it stands still there",
+        ffd_log_line(desc->log, FFD_LOG_WARNING, "%s lacks %zu of the animations: it stands still there",
                      desc->after_name, unmatched);
     if (scene->rigs[1].anchors.keeps_offsets)
         ffd_log_line(

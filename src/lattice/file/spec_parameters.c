@@ -124,11 +124,3 @@ ffd_status ffd_spec_parse_parameters(json_cursor cursor, lattice_spec *spec)
         status = read_parameter(parameter, &spec->parameters[i]);
     return status;
 }
-
-const spec_parameter *ffd_spec_find_parameter(const lattice_spec *spec, const char *name)
-{
-    for (size_t i = 0; i < spec->parameter_count; i++)
-        if (strcmp(spec->parameters[i].name, name) == 0)
-            return &spec->parameters[i];
-    return NULL;
-}

@@ -1,6 +1,6 @@
 /* spec_parse.h - reads a lattice file. Declares functions of spec_parse.c and file.c. */
-#ifndef FFD_LATTICE_SPEC_PARSE_H
-#define FFD_LATTICE_SPEC_PARSE_H
+#ifndef FFD_LATTICE_FILE_SPEC_PARSE_H
+#define FFD_LATTICE_FILE_SPEC_PARSE_H
 
 #include "lattice/spec.h"
 

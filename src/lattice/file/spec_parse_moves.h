@@ -1,6 +1,6 @@
 /* spec_parse_moves.h - the moves of a lattice file. */
-#ifndef FFD_LATTICE_SPEC_PARSE_MOVES_H
-#define FFD_LATTICE_SPEC_PARSE_MOVES_H
+#ifndef FFD_LATTICE_FILE_SPEC_PARSE_MOVES_H
+#define FFD_LATTICE_FILE_SPEC_PARSE_MOVES_H
 
 #include "lattice/spec.h"
 #include "json/json_reader.h"

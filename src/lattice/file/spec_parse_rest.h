@@ -1,6 +1,6 @@
 /* spec_parse_rest.h - where a lattice file puts its control points at rest. */
-#ifndef FFD_LATTICE_SPEC_PARSE_REST_H
-#define FFD_LATTICE_SPEC_PARSE_REST_H
+#ifndef FFD_LATTICE_FILE_SPEC_PARSE_REST_H
+#define FFD_LATTICE_FILE_SPEC_PARSE_REST_H
 
 #include "lattice/spec.h"
 #include "json/json_reader.h"

@@ -50,10 +50,28 @@ static ffd_status read_placeholder(json_cursor cursor, uint32_t text, spec_place
     return status;
 }
 
+/* Lists the parameters' names, which are all different, so that they are found in a file of any size. */
+static ffd_status list_names(const json_file *file, const lattice_spec *spec, intern_table *names)
+{
+    uint32_t number;
+    for (size_t i = 0; i < spec->parameter_count; i++)
+        if (!ffd_intern(names, spec->parameters[i].name, strlen(spec->parameters[i].name), &number))
+            return ffd_fail_memory(file->error);
+    return FFD_OK;
+}
+
+/* The parameter of a name; NULL where there is none. */
+static const spec_parameter *find_parameter(const char *name, const lattice_spec *spec,
+                                            const spec_values *values)
+{
+    uint32_t number;
+    return ffd_intern_find(&values->names, name, strlen(name), &number) ? &spec->parameters[number] : NULL;
+}
+
 /* The value that a setting or else a parameter's default has for a name; NULL: there is none. number: of its
    place in spec_values. */
 static const char *find_text(const char *name, const spec_settings *settings, const lattice_spec *spec,
-                             size_t *number)
+                             const spec_parameter *parameter, size_t *number)
 {
     for (size_t i = 0; i < settings->count; i++)
         if (strcmp(settings->values[i].name, name) == 0) {
@@ -61,7 +79,6 @@ static const char *find_text(const char *name, const spec_settings *settings, co
             settings->used[i] = true;
             return settings->values[i].value;
         }
-    const spec_parameter *const parameter = ffd_spec_find_parameter(spec, name);
     if (!parameter || !parameter->value)
         return NULL;
     *number = settings->count + (size_t)(parameter - spec->parameters);
@@ -72,9 +89,9 @@ static const char *find_text(const char *name, const spec_settings *settings, co
 static ffd_status find_value(const spec_placeholder *placeholder, const spec_settings *settings,
                              const lattice_spec *spec, spec_values *values, const json_span **tree)
 {
-    const spec_parameter *const parameter = ffd_spec_find_parameter(spec, placeholder->name);
+    const spec_parameter *const parameter = find_parameter(placeholder->name, spec, values);
     size_t number;
-    const char *const text = find_text(placeholder->name, settings, spec, &number);
+    const char *const text = find_text(placeholder->name, settings, spec, parameter, &number);
     if (!text)
         return FFD_OK;
     json_setting *const value = &values->values[number];
@@ -212,12 +229,12 @@ ffd_status ffd_spec_set(json_file *file, uint32_t moves, const spec_settings *se
 {
     const json_span *const tree = file->tree;
     const uint32_t end = moves == JSON_NONE ? 0 : tree->values[moves].next;
-    ffd_status status = FFD_OK;
+    ffd_status status = list_names(file, spec, &values->names);
     uint32_t first_open = JSON_NONE;
     values->count = settings->count + spec->parameter_count;
     values->values = ffd_alloc_zero(values->count, sizeof *values->values);
-    if (!values->values)
-        return ffd_fail_memory(file->error);
+    if (!status && !values->values)
+        status = ffd_fail_memory(file->error);
     /* All that is within moves follows it in the tree. */
     for (uint32_t v = moves + 1; v < end && !status; v++) {
         const uint32_t text = placeholder_text(tree, v);
@@ -248,5 +265,6 @@ void ffd_spec_values_free(spec_values *values)
     ffd_free(values->substitutes);
     ffd_free(values->origins.origins);
     ffd_intern_free(&values->open);
+    ffd_intern_free(&values->names);
     *values = (spec_values){0};
 }

@@ -1,7 +1,7 @@
 /* spec_set.h - values for the placeholders {"$": "NAME"} in the moves of a lattice file. Declares a function
    of file.c too. */
-#ifndef FFD_LATTICE_SPEC_SET_H
-#define FFD_LATTICE_SPEC_SET_H
+#ifndef FFD_LATTICE_FILE_SPEC_SET_H
+#define FFD_LATTICE_FILE_SPEC_SET_H
 
 #include "lattice/file/spec_seeds.h"
 #include "json/json_setting.h"
@@ -22,6 +22,7 @@ typedef struct spec_values {
     size_t product_count, product_capacity;
     spec_origins origins; /* of placeholders, where the settings ask for what comes from them */
     intern_table open;    /* names of placeholders without a value */
+    intern_table names;   /* of the parameters, numbered as they are */
 } spec_values;
 
 /* Makes the file's readers read these values, or the defaults of the spec's parameters, instead of the

@@ -1,6 +1,6 @@
 /* spec_text.h - writes a lattice file. */
-#ifndef FFD_LATTICE_SPEC_TEXT_H
-#define FFD_LATTICE_SPEC_TEXT_H
+#ifndef FFD_LATTICE_FILE_SPEC_TEXT_H
+#define FFD_LATTICE_FILE_SPEC_TEXT_H
 
 #include "lattice/spec.h"
 

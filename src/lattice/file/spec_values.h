@@ -1,6 +1,6 @@
 /* spec_values.h - values that occur in several parts of a lattice file. */
-#ifndef FFD_LATTICE_SPEC_VALUES_H
-#define FFD_LATTICE_SPEC_VALUES_H
+#ifndef FFD_LATTICE_FILE_SPEC_VALUES_H
+#define FFD_LATTICE_FILE_SPEC_VALUES_H
 
 #include "json/json_reader.h"
 

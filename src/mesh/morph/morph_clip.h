@@ -26,10 +26,9 @@ struct morph_clip {
     intern_table names; /* of the targets */
 };
 
-/* Reads "NAME: TIME TARGET=WEIGHT ..., TIME ...", to be freed in every case. A name with blanks, '=', ','
-   (and
-   ':' of the clip's) is in single quotes; two of these stand for one. A target that a key does not name has
-   the weight 0 there. Errors: FFD_E_ARGUMENT, FFD_E_MEMORY. */
+/* Reads "NAME: TIME TARGET=WEIGHT ..., TIME ...", to be freed in every case. Single quotes hold a name with
+   blanks, '=' or ',', and a clip's name with ':'; two of them within stand for one. A target that a key does
+   not name has the weight 0 there. Errors: FFD_E_ARGUMENT, FFD_E_MEMORY. */
 ffd_status ffd_morph_clip_parse(const char *text, morph_clip *clip, ffd_error *error);
 /* Refuses (FFD_E_ARGUMENT) a clip that names a target which is not known, and tells the nearest; and a second
    clip of one name. */
