@@ -1,4 +1,5 @@
 #include "base/file/path.h"
+#include "base/file/memory_files.h"
 #include "base/memory/memory.h"
 #include "base/text/buffer.h"
 #include <string.h>
@@ -37,7 +38,8 @@ bool ffd_path_is_absolute(const char *path)
 
 const char *ffd_path_display_name(const char *path)
 {
-    return strcmp(path, "-") == 0 ? "standard input" : path;
+    const char *const name = ffd_memory_name(path);
+    return name ? name : strcmp(path, "-") == 0 ? "standard input" : path;
 }
 
 const char *ffd_path_ending(const char *path)
