@@ -156,6 +156,12 @@ bool ffd_file_is_stream(const char *path)
     return false;
 }
 
+const char *ffd_file_display_name(const char *path)
+{
+    const char *const name = ffd_memory_name(path);
+    return name ? name : strcmp(path, "-") == 0 ? "standard input" : path;
+}
+
 /* A pipe or device among the files may never give anything, or never end. */
 static ffd_status refuse_special(int fd, const char *path, ffd_error *error)
 {

@@ -23,7 +23,7 @@ ffd_status ffd_memory_create(memory_files **files, ffd_error *error);
 void ffd_memory_destroy(memory_files **files);
 
 /* Adds a file of this name, as messages have it. resolve (NULL: none) finds what is in its folder besides.
-   *path is lent by files. Errors: FFD_E_MEMORY. */
+ *path is lent by files. Errors: FFD_E_MEMORY. */
 ffd_status ffd_memory_lend(memory_files *files, const char *name, const void *bytes, size_t size,
                            memory_resolve *resolve, void *user, const char **path, ffd_error *error);
 /* Adds a folder for an output of this name and what is written beside it. */

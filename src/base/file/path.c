@@ -1,5 +1,4 @@
 #include "base/file/path.h"
-#include "base/file/memory_files.h"
 #include "base/memory/memory.h"
 #include "base/text/buffer.h"
 #include <string.h>
@@ -34,12 +33,6 @@ bool ffd_path_is_absolute(const char *path)
         return true;
 #endif
     return is_separator(path[0]);
-}
-
-const char *ffd_path_display_name(const char *path)
-{
-    const char *const name = ffd_memory_name(path);
-    return name ? name : strcmp(path, "-") == 0 ? "standard input" : path;
 }
 
 const char *ffd_path_ending(const char *path)

@@ -6,7 +6,7 @@
 void *ffd_file_document_make(size_t size, const file_input *input, const ffd_source *source, ffd_error *error)
 {
     file_document *d = ffd_alloc_zero(1, size);
-    char *name = ffd_text_copy(ffd_path_display_name(source->path));
+    char *name = ffd_text_copy(ffd_file_display_name(source->path));
     const bool has_folder = !ffd_file_is_stream(source->path);
     char *path = has_folder ? ffd_text_copy(source->path) : NULL;
     if (!d || !name || (has_folder && !path)) {

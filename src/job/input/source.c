@@ -13,7 +13,7 @@
 
 const char *ffd_source_name(const ffd_source *source)
 {
-    return ffd_path_display_name(source->path);
+    return ffd_file_display_name(source->path);
 }
 
 hash128 ffd_source_rules(const ffd_source *source)
