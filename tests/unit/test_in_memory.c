@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include "../support/test_folder.h"
+#include "base/memory/memory.h"
 #include <ffd/ffd.h>
 #include <ffd/jacobian.h>
 #include <ftw.h>
@@ -784,6 +785,27 @@ static void descriptions_that_contradict_themselves_are_refused(void **state)
     (void)state;
 }
 
+/* Wherever memory runs out nothing is lost without a word, as an image that seems to be missing. */
+static void memory_may_run_out_anywhere(void **state)
+{
+    both b;
+    ffd_status status = FFD_E_MEMORY;
+    long failures = 0;
+    begin(&b, make_gltf, "head.gltf");
+    b.desc.threads = 1;
+    for (; status; failures++) {
+        ffd_job_result result = {.struct_size = sizeof result};
+        ffd_alloc_fail_after(failures);
+        status = ffd_deform_run(&b.desc, &result, NULL);
+        ffd_alloc_fail_after(-1);
+        assert_true(status == FFD_OK || status == FFD_E_MEMORY);
+        assert_int_equal(b.sink.files.count, status ? 0 : 3);
+    }
+    assert_true(failures > 50);
+    end(&b);
+    (void)state;
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -802,6 +824,7 @@ int main(void)
         cmocka_unit_test(nothing_outside_of_the_folder_is_asked_for),
         cmocka_unit_test(a_sink_that_fails_ends_the_job),
         cmocka_unit_test(truncated_bytes_fail_as_files_do),
+        cmocka_unit_test(memory_may_run_out_anywhere),
         cmocka_unit_test(descriptions_that_contradict_themselves_are_refused),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

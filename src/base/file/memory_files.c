@@ -40,7 +40,7 @@ struct memory_files {
     intern_table paths; /* normalized, of files that were asked for */
     memory_bytes *found;
     size_t found_capacity;
-    ffd_error failure; /* the first one of a resolve function */
+    ffd_error failure; /* the first one of a resolve function, or of memory */
 };
 
 /* All that exist, in any thread. */
@@ -275,12 +275,15 @@ ffd_status ffd_memory_find(const char *path, const void **bytes, size_t *size, f
     memory_bytes found = {0};
     uint32_t number;
     ffd_status status = plain ? FFD_OK : ffd_fail_memory(error);
-    if (!status && files) {
+    if (files) {
         pthread_mutex_lock(&files->lock);
-        if (ffd_intern_find(&files->paths, plain, strlen(plain), &number))
+        if (plain && ffd_intern_find(&files->paths, plain, strlen(plain), &number))
             found = files->found[number];
-        else
+        else if (plain)
             status = resolve(files, plain, &found, error);
+        if (status == FFD_E_MEMORY &&
+            !files->failure.status) /* who only asks whether it is there shall not go on */
+            ffd_fail_memory(&files->failure);
         pthread_mutex_unlock(&files->lock);
     }
     ffd_free(plain);
@@ -289,18 +292,21 @@ ffd_status ffd_memory_find(const char *path, const void **bytes, size_t *size, f
     return status;
 }
 
-ffd_status ffd_memory_give(const char *path, const void *bytes, size_t size, ffd_error *error)
+ffd_status ffd_memory_begin(const char *path, char **name, ffd_error *error)
 {
     const memory_files *const files = files_of(path);
     const memory_folder *const folder = files ? folder_of(files, path) : NULL;
+    *name = NULL;
     if (!folder || !folder->sink)
         return ffd_fail_file(error, FFD_E_IO, path, "cannot be written: it is an input in memory");
-    char *const name = ffd_path_join(folder->shown, path + folder->head);
-    if (!name)
-        return ffd_fail_memory(error);
+    *name = ffd_path_join(folder->shown, path + folder->head);
+    return *name ? FFD_OK : ffd_fail_memory(error);
+}
+
+ffd_status ffd_memory_give(const char *path, const char *name, const void *bytes, size_t size,
+                           ffd_error *error)
+{
+    const memory_folder *const folder = folder_of(files_of(path), path);
     const ffd_status status = known(folder->sink(folder->user, name, bytes, size));
-    if (status)
-        ffd_fail_file(error, status, name, "was not taken by the caller");
-    ffd_free(name);
-    return status;
+    return status ? ffd_fail_file(error, status, name, "was not taken by the caller") : FFD_OK;
 }

@@ -32,7 +32,8 @@ ffd_status ffd_memory_take(memory_files *files, const char *name, memory_sink *s
 
 /* Puts the names that the caller knows in the place of paths within a text of a buffer of this size. */
 void ffd_memory_show(const memory_files *files, char *text, size_t capacity);
-/* The status; or, whatever it is, that with which a resolve function has failed. */
+/* The status; or, whatever it is, that with which a resolve function, or the memory for
+   what it has found, has failed. */
 ffd_status ffd_memory_judge(const memory_files *files, ffd_status status, ffd_error *error);
 /* The same for the files that a path leads to, if it leads to any. */
 ffd_status ffd_memory_judge_path(const char *path, ffd_status status, ffd_error *error);
@@ -43,7 +44,11 @@ bool ffd_memory_has(const char *path);
 const char *ffd_memory_name(const char *path);
 /* Finds a file. *bytes: NULL: there is none. Errors: those of the resolve function, FFD_E_MEMORY. */
 ffd_status ffd_memory_find(const char *path, const void **bytes, size_t *size, ffd_error *error);
-/* Hands a file that was written to its sink. Errors: those of the sink. */
-ffd_status ffd_memory_give(const char *path, const void *bytes, size_t size, ffd_error *error);
+/* Begins an output: *name is what its sink will get (free with ffd_free). Errors: FFD_E_IO for a path of
+   inputs, FFD_E_MEMORY. */
+ffd_status ffd_memory_begin(const char *path, char **name, ffd_error *error);
+/* Hands the whole output of this path and name to its sink; needs no memory. Errors: those of the sink. */
+ffd_status ffd_memory_give(const char *path, const char *name, const void *bytes, size_t size,
+                           ffd_error *error);
 
 #endif

@@ -28,8 +28,9 @@ typedef struct output_file {
     int fd; /* -1 when closed */
     bool force, committed;
     bool stays_open; /* after the commit too */
-    bool is_memory;  /* its bytes are collected here, for memory_files.h */
+    bool is_memory;  /* its bytes are collected here, for the callback of memory_files.h, */
     byte_buffer bytes;
+    char *name; /* under this name */
 } output_file;
 
 typedef struct output_folder {
@@ -352,7 +353,7 @@ ffd_status ffd_output_begin(file_output *output, const char *path, bool force, f
     output->count++;
 
     if (file->is_memory)
-        return FFD_OK;
+        return ffd_memory_begin(path, &file->name, error);
     if (ffd_output_is_stream(path)) {
         file->fd = dup(stream_of(path));
         return file->fd < 0 ? ffd_fail_errno(error, shown(path), "cannot be written") : FFD_OK;
@@ -510,7 +511,7 @@ static ffd_status give_all(const file_output *output, ffd_error *error)
     for (size_t i = 0; i < output->count && !status; i++) {
         const output_file *const file = &output->files[i];
         if (file->is_memory)
-            status = ffd_memory_give(file->target, file->bytes.size > 0 ? file->bytes.data : "",
+            status = ffd_memory_give(file->target, file->name, file->bytes.size > 0 ? file->bytes.data : "",
                                      file->bytes.size, error);
     }
     return status;
@@ -569,6 +570,7 @@ void ffd_output_destroy(file_output **output)
         ffd_free(file->temporary);
         ffd_free(file->target);
         ffd_buffer_free(&file->bytes);
+        ffd_free(file->name);
     }
     for (size_t i = (*output)->folder_count; i-- > 0;) {
         if (!(*output)->committed)
