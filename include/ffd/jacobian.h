@@ -35,7 +35,7 @@ typedef enum ffd_jacobian_by { FFD_BY_POINTS = 0, FFD_BY_PARAMETERS } ffd_jacobi
 typedef struct ffd_jacobian_desc {
     size_t struct_size; /* sizeof(ffd_jacobian_desc) of the caller */
     const ffd_deform_desc
-        *job;           /* input, lattices, set, outside, falloff, snap, only, threads, isa, force, log */
+        *job; /* input, lattices, set, outside, falloff, snap, only, threads, isa, force, log, sink */
     const char *output; /* .npz (CSR as SciPy reads it), .mtx (Matrix Market), .npy; "-" is not possible */
     ffd_jacobian_by by;
     bool components;

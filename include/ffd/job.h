@@ -1,4 +1,5 @@
-/* job.h - whole jobs on files, as the program `ffd` runs them: read, embed, deform, judge, write, report. */
+/* job.h - whole jobs, as the program `ffd` runs them: read, embed, deform, judge, write, report. Meshes and
+   lattices are files, or bytes and objects in memory; results are files, or go to a callback. */
 #ifndef FFD_JOB_H
 #define FFD_JOB_H
 
@@ -78,9 +79,32 @@ FFD_API void ffd_guard_inputs(void);
    where there is nothing to do. Errors: FFD_E_IO, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_restore_output(const char *path, ffd_error *error);
 
-/* A mesh file to read. */
+/* Bytes that the caller lends until the job has ended. NULL: none, whatever size says is then refused. They
+   need no alignment and are not changed. */
+typedef struct ffd_bytes {
+    const void *data;
+    size_t size;
+} ffd_bytes;
+
+/* Finds a file that a mesh in memory names: a buffer, an image, a material library and its maps. name is
+   relative to the mesh, with "/", as the mesh has it but for "." and ".."; none leads out of its folder.
+   *bytes is zeroed: what stays so is a file that is not there. Bytes are lent until the job has ended. Called
+   once for a name, by one thread at a time, mostly but not always the caller's. Any status but FFD_OK ends
+   the job with it, before anything is written; it need not be asked again then. */
+typedef ffd_status (*ffd_resolve_function)(void *user, const char *name, ffd_bytes *bytes);
+
+/* Takes a file that a job has made: name is the output's, or that of a file beside it in the output's folder
+   ("out/head.gltf": "out/head.bin", "out/skin.png"). The bytes are lent during the call. Called by the
+   caller's thread, when all that can be refused was refused and all files are complete: once for each, the
+   output itself last. Nothing reaches it where the job fails before. Any status but FFD_OK ends the job with
+   it: those that it has taken by then it keeps, without the output. */
+typedef ffd_status (*ffd_sink_function)(void *user, const char *name, const void *bytes, size_t size);
+
+/* A mesh to read. */
 typedef struct ffd_source {
-    const char *path;  /* "-": standard input */
+    /* "-": standard input. With bytes only a name, which messages have and whose ending says the format where
+       nothing else does; or NULL: "mesh". */
+    const char *path;
     ffd_format format; /* AUTO is not possible for "-" */
     ffd_space space;   /* glTF: the space of the lattice */
     /* Bytes of memory that the mesh and the lattices of its job may take; 0, or less than that: 100 MB and 20
@@ -98,6 +122,9 @@ typedef struct ffd_source {
        they are not known, or not supported: FFD_E_UNSUPPORTED else. */
     const char *const *allow_extensions;
     size_t allow_extension_count;
+    ffd_bytes bytes;              /* the mesh itself; no file is read then, not even one that it names: */
+    ffd_resolve_function resolve; /* finds these; NULL: there are none. Only with bytes. */
+    void *resolve_user;
 } ffd_source;
 
 /* What a mesh file has against the specification of its format, where its meaning is plain: viewers open the
@@ -236,6 +263,15 @@ typedef struct ffd_deform_desc {
     ffd_depfile *depfile; /* gets the rule of the output, which is neither "-" nor in place; or NULL */
     ffd_log_function log; /* may be NULL */
     void *log_user;
+    /* lattice_count objects, or NULL: one that is not NULL is taken in place of the file of its number, whose
+       path is then a name for messages, or NULL. It is copied. Placeholders are of files only. */
+    const ffd_lattice *const *lattice_objects;
+    const ffd_bytes *lattice_texts; /* the same with the text of a file; not with an object of that number */
+    ffd_bytes embedding_bytes;      /* those of the file; embedding is then a name, or NULL */
+    /* Takes what would be written, and nothing is: output is then a name, written is not looked at, and no
+       file is in the way. FFD_E_ARGUMENT with in_place, depfile and FFD_RESOURCES_REFERENCE. */
+    ffd_sink_function sink;
+    void *sink_user;
 } ffd_deform_desc;
 
 FFD_API void ffd_deform_desc_init(ffd_deform_desc *desc, size_t size);
@@ -413,6 +449,8 @@ typedef struct ffd_view_desc {
     const char *animation;
     bool as_stored; /* shapes are those that the file stores, as ffd_check_run judges them; else those that
                        default weights of morph targets show */
+    ffd_sink_function sink; /* as ffd_deform_desc's, whose own is not looked at */
+    void *sink_user;
 } ffd_view_desc;
 
 /* Shows before and after, colours by displacement, is not full. */
@@ -442,6 +480,10 @@ typedef struct ffd_embed_desc {
     void *log_user;
     const ffd_setting *set; /* set_count values for placeholders, as in ffd_deform_desc; or NULL */
     size_t set_count;
+    const ffd_lattice *lattice_object; /* in place of the file, as in ffd_deform_desc; or NULL */
+    ffd_bytes lattice_text;            /* the same */
+    ffd_sink_function sink;            /* as ffd_deform_desc's, of both outputs */
+    void *sink_user;
 } ffd_embed_desc;
 
 FFD_API void ffd_embed_desc_init(ffd_embed_desc *desc, size_t size);
@@ -556,6 +598,8 @@ typedef struct ffd_lattice_new_desc {
     bool force;           /* overwrite an existing output */
     ffd_log_function log; /* gets warnings that begin with a mesh's name; may be NULL */
     void *log_user;
+    ffd_sink_function sink; /* as ffd_deform_desc's */
+    void *sink_user;
 } ffd_lattice_new_desc;
 
 FFD_API void ffd_lattice_new_desc_init(ffd_lattice_new_desc *desc, size_t size);
@@ -572,6 +616,9 @@ typedef struct ffd_report ffd_report;
    Errors: FFD_E_IO, FFD_E_EXISTS, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_report_create(const char *path, bool stable, ffd_written *written, ffd_report **report,
                                      ffd_error *error);
+/* The same in memory: ffd_report_write hands the whole report to sink. name says JSON or JSON Lines. */
+FFD_API ffd_status ffd_report_create_sink(const char *name, bool stable, ffd_sink_function sink, void *user,
+                                          ffd_report **report, ffd_error *error);
 /* Frees a report; a file keeps the entries that were added. NULL and pointers to NULL are allowed. */
 FFD_API void ffd_report_destroy(ffd_report **report);
 FFD_API ffd_status ffd_report_add(ffd_report *report, const char *input, const char *output,

@@ -1,6 +1,7 @@
 /* compare.c - the job of `ffd compare`, and its result as JSON. */
 #include "base/file/mapping.h"
 #include "base/struct_size.h"
+#include "job/input/in_memory.h"
 #include "job/input/source.h"
 #include "mesh/bounds.h"
 #include "mesh/difference.h"
@@ -86,7 +87,15 @@ ffd_status ffd_compare_run(const ffd_compare_desc *callers, ffd_comparison *comp
         status = ffd_struct_check(sizeof own, comparison, "ffd_comparison", error);
     if (status)
         return status;
-    status = run(&desc, &own, error);
+    job_memory memory = {0};
+    status = ffd_in_memory_source(&memory, &desc.a, error);
+    if (!status)
+        status = ffd_in_memory_source(&memory, &desc.b, error);
+    ffd_in_memory_log(&memory, &desc.log, &desc.log_user);
+    if (!status)
+        status = run(&desc, &own, error);
+    status = ffd_in_memory_judge(&memory, status, error);
+    ffd_in_memory_end(&memory);
     ffd_struct_give(&own, sizeof own, comparison, comparison->struct_size);
     return status;
 }

@@ -1,5 +1,6 @@
 /* deform.c - the job of `ffd deform`. */
 #include "base/file/mapping.h"
+#include "base/file/memory_files.h"
 #include "base/file/path.h"
 #include "base/system/clock.h"
 #include "io/formats.h"
@@ -173,6 +174,8 @@ static ffd_status save(deform_job *job, const mesh_save_options *options, ffd_er
         ffd_output_hash(output);
     status = write_all(job, options, output, &rule, error);
     status = ffd_mapping_judge(job->losses, status, error);
+    if (!status) /* what was found missing may have been there */
+        status = ffd_memory_judge_path(job->desc->input.path, status, error);
     if (!status)
         status = ffd_output_commit(output, error);
     if (!status && job->desc->depfile)

@@ -10,6 +10,7 @@
 #include "job/chain/lattice_memory.h"
 #include "job/chain/overlaps.h"
 #include "job/input/deform_desc.h"
+#include "job/input/in_memory.h"
 #include "job/input/selection.h"
 #include "job/input/source.h"
 #include "job/judge/behind.h"
@@ -97,6 +98,22 @@ static ffd_status run_own(deform_job_function run, ffd_deform_desc *desc, ffd_jo
     return status;
 }
 
+/* The same where some of what the description names may be in memory. */
+static ffd_status run_in_memory(deform_job_function run, ffd_deform_desc *desc, ffd_job_result *result,
+                                size_t size)
+{
+    const char *const *const lattices = desc->lattices;
+    job_memory memory = {0};
+    ffd_status status = ffd_in_memory_desc(&memory, desc, &result->error);
+    if (!status)
+        status = run_own(run, desc, result, size, &result->error);
+    status = ffd_in_memory_judge(&memory, status, &result->error);
+    if (result->morph_lattices)
+        result->morph_lattices = lattices;
+    ffd_in_memory_end(&memory);
+    return status;
+}
+
 ffd_status ffd_job_for_caller(deform_job_function run, const ffd_deform_desc *callers,
                               ffd_job_result *callers_result, ffd_error *error)
 {
@@ -109,8 +126,8 @@ ffd_status ffd_job_for_caller(deform_job_function run, const ffd_deform_desc *ca
     const size_t size = callers_result->struct_size;
     status = ffd_deform_desc_take(callers, &desc, &result.error);
     if (!status)
-        status = run_own(run, &desc, &result, size, error);
-    else if (error)
+        status = run_in_memory(run, &desc, &result, size);
+    if (status && error)
         *error = result.error;
     result.status = status;
     ffd_struct_give(&result, sizeof result, callers_result, size);
@@ -158,6 +175,7 @@ ffd_status ffd_deform_job_load_chain(deform_job *job, const chain_outside *outsi
 {
     const ffd_deform_desc *const desc = job->desc;
     const chain_files files = {.paths = desc->lattices,
+                               .objects = desc->lattice_objects,
                                .count = desc->lattice_count,
                                .set = desc->set,
                                .set_count = desc->set_count,

@@ -10,6 +10,7 @@
 #include "job/chain/chain_load.h"
 #include "job/chain/lattice_memory.h"
 #include "job/input/embedding_file.h"
+#include "job/input/in_memory.h"
 #include "job/input/source.h"
 #include "job/judge/result.h"
 #include "job/pass/chain_fit.h"
@@ -190,6 +191,7 @@ static ffd_status run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_er
     const double start = ffd_clock_seconds();
     const mesh_log log = {desc->log, desc->log_user};
     const chain_files files = {.paths = &desc->lattice,
+                               .objects = &desc->lattice_object,
                                .count = 1,
                                .set = desc->set,
                                .set_count = desc->set_count,
@@ -215,6 +217,25 @@ static ffd_status run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_er
     return status;
 }
 
+/* Gives what is in memory paths. */
+static ffd_status take_memory(job_memory *memory, ffd_embed_desc *desc, ffd_error *error)
+{
+    const ffd_bytes text = desc->lattice_object ? (ffd_bytes){"", 0} : desc->lattice_text;
+    ffd_status status = FFD_OK;
+    if (desc->lattice_object && desc->lattice_text.data)
+        status = ffd_fail(error, FFD_E_ARGUMENT, "the lattice is given as an object and as a text");
+    if (!status)
+        status = ffd_in_memory_source(memory, &desc->input, error);
+    if (!status)
+        status = ffd_in_memory_bytes(memory, text, "lattice", &desc->lattice, error);
+    if (!status)
+        status = ffd_in_memory_output(memory, desc->sink, desc->sink_user, &desc->output, error);
+    if (!status)
+        status = ffd_in_memory_output(memory, desc->sink, desc->sink_user, &desc->status_output, error);
+    ffd_in_memory_log(memory, &desc->log, &desc->log_user);
+    return status;
+}
+
 ffd_status ffd_embed_run(const ffd_embed_desc *callers, ffd_job_result *callers_result, ffd_error *error)
 {
     ffd_embed_desc desc;
@@ -225,7 +246,12 @@ ffd_status ffd_embed_run(const ffd_embed_desc *callers, ffd_job_result *callers_
         status = ffd_struct_check(sizeof result, callers_result, "ffd_job_result", error);
     if (status)
         return status;
-    result.status = run(&desc, &result, &result.error);
+    job_memory memory = {0};
+    status = take_memory(&memory, &desc, &result.error);
+    if (!status)
+        status = run(&desc, &result, &result.error);
+    result.status = ffd_in_memory_judge(&memory, status, &result.error);
+    ffd_in_memory_end(&memory);
     if (result.status && error)
         *error = result.error;
     if (callers_result)

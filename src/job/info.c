@@ -6,6 +6,7 @@
 #include "job/info_lattice.h"
 #include "job/info_mesh.h"
 #include "job/info_text.h"
+#include "job/input/in_memory.h"
 #include "job/input/source.h"
 #include <string.h>
 
@@ -42,7 +43,7 @@ static ffd_status write_facts(const ffd_info_desc *desc, byte_buffer *out, ffd_e
     ffd_json_object(&json, NULL, false);
     ffd_json_string(&json, "format", "ffd-info");
     ffd_json_count(&json, "version", 1);
-    ffd_json_string(&json, "file", file->path);
+    ffd_json_string(&json, "file", ffd_memory_has(file->path) ? ffd_source_name(file) : file->path);
     ffd_json_string(&json, "kind", lattice ? "lattice" : "mesh");
     const ffd_status status =
         lattice ? ffd_info_lattice(desc, &json, error) : ffd_info_mesh(desc, &json, error);
@@ -63,7 +64,11 @@ ffd_status ffd_info_run(const ffd_info_desc *callers, char **text, ffd_error *er
     ffd_status status = ffd_struct_take(&own, sizeof own, callers, "ffd_info_desc", error);
     if (status)
         return status;
-    status = write_facts(desc, &facts, error);
+    job_memory memory = {0};
+    status = ffd_in_memory_source(&memory, &own.file, error);
+    ffd_in_memory_log(&memory, &own.log, &own.log_user);
+    if (!status)
+        status = write_facts(desc, &facts, error);
     status = ffd_mapping_judge(losses, status, error);
     if (status == FFD_OK && !desc->json)
         status = ffd_info_render(facts.data, facts.size, text, error);
@@ -73,6 +78,8 @@ ffd_status ffd_info_run(const ffd_info_desc *callers, char **text, ffd_error *er
     }
     if (status != FFD_OK && status != FFD_E_ARGUMENT)
         ffd_fail_name_file(error, ffd_source_name(&desc->file));
+    status = ffd_in_memory_judge(&memory, status, error);
+    ffd_in_memory_end(&memory);
     ffd_buffer_free(&facts);
     return status;
 }

@@ -3,6 +3,7 @@
 #include "base/memory/memory.h"
 #include "base/struct_size.h"
 #include "job/chain/lattice_memory.h"
+#include "job/input/in_memory.h"
 #include "job/input/selection.h"
 #include "job/input/source.h"
 #include "lattice/lattice.h"
@@ -126,6 +127,26 @@ static ffd_status check_desc(const ffd_lattice_new_desc *desc, ffd_error *error)
     return ffd_output_check(desc->output, desc->force, error);
 }
 
+/* Gives meshes that are in memory paths, in an array of this function. */
+static ffd_status take_memory(job_memory *memory, ffd_lattice_new_desc *desc, ffd_source **meshes,
+                              ffd_error *error)
+{
+    const size_t count = desc->meshes ? desc->mesh_count : 0;
+    *meshes = ffd_alloc(count, sizeof **meshes);
+    if (!*meshes)
+        return ffd_fail_memory(error);
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < count && !status; i++) {
+        (*meshes)[i] = desc->meshes[i];
+        status = ffd_in_memory_source(memory, &(*meshes)[i], error);
+    }
+    desc->meshes = count > 0 ? *meshes : NULL;
+    if (!status)
+        status = ffd_in_memory_output(memory, desc->sink, desc->sink_user, &desc->output, error);
+    ffd_in_memory_log(memory, &desc->log, &desc->log_user);
+    return status;
+}
+
 ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *callers, ffd_error *error)
 {
     ffd_lattice_new_desc own;
@@ -133,6 +154,11 @@ ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *callers, ffd_error *e
     ffd_lattice *lattice = NULL;
     ffd_lattice_new_desc_init(&own, sizeof own);
     ffd_status status = ffd_struct_take(&own, sizeof own, callers, "ffd_lattice_new_desc", error);
+    if (status)
+        return status;
+    job_memory memory = {0};
+    ffd_source *meshes = NULL;
+    status = take_memory(&memory, &own, &meshes, error);
     if (!status)
         status = check_desc(desc, error);
     if (!status)
@@ -141,6 +167,9 @@ ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *callers, ffd_error *e
         status = create_round(desc, &lattice, error);
     if (!status)
         status = ffd_lattice_save(lattice, desc->output, desc->force, error);
+    status = ffd_in_memory_judge(&memory, status, error);
+    ffd_in_memory_end(&memory);
+    ffd_free(meshes);
     ffd_lattice_destroy(&lattice);
     return status;
 }

@@ -89,6 +89,64 @@ static bool take_parameter(void *user, const ffd_parameter *parameter)
     return true;
 }
 
+/* The name of a file, as os.fsdecode has it. */
+static PyObject *file_name(const char *name)
+{
+    return PyUnicode_DecodeFSDefaultAndSize(name, (Py_ssize_t)strlen(name));
+}
+
+/* Asks the function for a file: NULL with an exception, None, or bytes, of which the list is the owner. */
+static PyObject *find_bytes(PyObject *list, const char *name)
+{
+    if (PyErr_CheckSignals() != 0)
+        return NULL;
+    PyObject *const answer = PyObject_CallFunction(PyList_GetItem(list, 0), "N", file_name(name));
+    if (!answer || Py_IsNone(answer))
+        return answer;
+    PyObject *const bytes = PyBytes_FromObject(answer); /* the same, if these are bytes */
+    Py_DECREF(answer);
+    const int failed = !bytes || PyList_Append(PyList_GetItem(list, 1), bytes) != 0;
+    Py_XDECREF(bytes);
+    return failed ? NULL : bytes;
+}
+
+/* An ffd_resolve_function. user: a list of the caller's function of a name, a list that gets the bytes to
+   keep them alive, and what was raised. */
+static ffd_status resolve(void *user, const char *name, ffd_bytes *bytes)
+{
+    PyObject *const list = user;
+    ffd_status status = FFD_OK;
+    const PyGILState_STATE state = PyGILState_Ensure();
+    PyObject *const found = find_bytes(list, name);
+    if (!found) {
+        keep_exception(list);
+        status = FFD_E_CANCELLED;
+    } else if (Py_IsNone(found)) {
+        Py_DECREF(found);
+    } else {
+        char *data = NULL;
+        Py_ssize_t size = 0;
+        PyBytes_AsStringAndSize(found, &data, &size);
+        *bytes = (ffd_bytes){data, (size_t)size};
+    }
+    PyGILState_Release(state);
+    return status;
+}
+
+/* An ffd_sink_function. user: a list, which gets (name, bytes). */
+static ffd_status take_file(void *user, const char *name, const void *bytes, size_t size)
+{
+    const PyGILState_STATE state = PyGILState_Ensure();
+    PyObject *const copy = PyBytes_FromStringAndSize(bytes, (Py_ssize_t)size);
+    PyObject *const entry = copy ? Py_BuildValue("(NN)", file_name(name), copy) : NULL;
+    const int failed = !entry || PyList_Append(user, entry) != 0;
+    if (failed)
+        PyErr_Clear();
+    Py_XDECREF(entry);
+    PyGILState_Release(state);
+    return failed ? FFD_E_MEMORY : FFD_OK;
+}
+
 static int add_address(PyObject *module, const char *name, uintptr_t address)
 {
     PyObject *const number = PyLong_FromUnsignedLongLong(address);
@@ -105,6 +163,8 @@ PyMODINIT_FUNC PyInit__native(void)
     PyObject *const module = PyModule_Create(&definition);
     if (!module || (add_address(module, "progress", (uintptr_t)progress) == 0 &&
                     add_address(module, "log", (uintptr_t)take_line) == 0 &&
+                    add_address(module, "resolve", (uintptr_t)resolve) == 0 &&
+                    add_address(module, "sink", (uintptr_t)take_file) == 0 &&
                     add_address(module, "parameter", (uintptr_t)take_parameter) == 0))
         return module;
     Py_DECREF(module);

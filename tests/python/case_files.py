@@ -129,6 +129,61 @@ class Files(unittest.TestCase):
         self.assertEqual(ffd.info(SPOT)["vertices"], 11533)
         ffd.deform_file(SPOT, "lifted.obj", "lift.json", set={"lift": 0.25}, force=True)
 
+    def test_bytes_become_what_files_become(self):
+        lattice, models = part_of_spot(), os.path.join(support.DATA, "models")
+        for name in ("spot.obj", "character.glb"):
+            with open(os.path.join(models, name), "rb") as file:
+                data = file.read()
+            ffd.deform_file(os.path.join(models, name), name, [lattice, TWIST], force=True)
+            for lent in (data, bytearray(data), memoryview(b" " + data)[1:], np.frombuffer(data, np.uint8)):
+                made = ffd.deform_bytes(lent, [lattice, TWIST], name=name)
+                with open(name, "rb") as file:
+                    self.assertEqual(made.data, file.read())
+                self.assertFalse(made.files)
+            self.assertEqual(ffd.check_bytes(data, TWIST, name=name).displacement_max,
+                             ffd.check_file(os.path.join(models, name), TWIST).displacement_max)
+
+    def test_bytes_name_other_bytes(self):
+        obj = b"mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+        given, asked = {"a.mtl": bytearray(b"newmtl a\n")}, []
+        made = ffd.deform_bytes(obj, TWIST, name="in/a.obj", output="out/b.obj", files=given)
+        self.assertEqual(made.files, {"a.mtl": b"newmtl a\n"})
+        self.assertTrue(made.data.startswith(b"mtllib a.mtl"))
+        self.assertEqual(made.result.moved, made.result.vertices)
+        self.assertEqual(os.listdir(), [])
+        made = ffd.deform_bytes(obj, TWIST, name="a.obj", output="a.gltf", files=lambda name: asked.append(name))
+        self.assertEqual(list(made.files), ["a.bin"])
+        made = ffd.deform_bytes(obj, TWIST, name="a.obj", files=lambda name: asked.append(name))
+        self.assertEqual((asked[-1], made.files), ("a.mtl", {}))
+        self.assertIn("is missing", made.result.warnings[0])
+        text = b'{"format": "ffd-lattice", "version": 1, "size": [2, 2, 2], "rest": {"box": "mesh"}, ' \
+               b'"moves": [{"by": [0, 0, {"$": "lift"}]}]}'
+        self.assertIn(b"v 1 0 0.5\n", ffd.deform_bytes(obj, text, name="a.obj", set={"lift": 0.5}).data)
+        with self.assertRaises(ffd.InvalidError):
+            ffd.deform_bytes(obj, TWIST, name="a.obj", embedding=b"no array")
+
+    def test_failures_of_bytes(self):
+        obj, lattice = b"mtllib a.mtl\nv 0 0 0\nv 1 x 0\n", part_of_spot()
+        with self.assertRaises(ffd.InvalidError) as caught:
+            ffd.deform_bytes(obj, lattice, name="in/a.obj")
+        self.assertEqual((caught.exception.file, caught.exception.line), ("in/a.obj", 3))
+        good = obj.replace(b"x", b"0")
+        for wrong, expected in ((lambda name: 1 / 0, ZeroDivisionError), (lambda name: name, TypeError),
+                                (lambda: None, TypeError)):
+            with self.assertRaises(expected):
+                ffd.deform_bytes(good, lattice, name="a.obj", files=wrong)
+        for data, files, expected in ((None, None, TypeError), ("text", None, TypeError), (good, [1], TypeError),
+                                      (np.zeros((4, 4), np.uint8)[:, ::2], None, ValueError)):
+            with self.assertRaises(expected):
+                ffd.deform_bytes(data, lattice, name="a.obj", files=files)
+        for data, name, options in ((good, "a", {}), (b"", "a.glb", {}), (good, "a.obj", {"resources": "reference"})):
+            with self.assertRaises(ffd.Error):
+                ffd.deform_bytes(data, lattice, name=name, **options)
+        with self.assertRaises(ffd.GateError) as refused:
+            ffd.check_bytes(good, ffd.Lattice.box((4, 4, 4), (5, 5, 5)), name="a.obj", fail_on="outside")
+        self.assertEqual(refused.exception.result.counts["outside"], 2)
+        self.assertEqual(os.listdir(), [])
+
 
 class Meshes(unittest.TestCase):
     def setUp(self):

@@ -6,6 +6,7 @@
 #include <cmocka.h>
 
 #include "base/fail.h"
+#include "base/file/input.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/memory/slots.h"
@@ -137,8 +138,8 @@ static void check_text(char *text, const char *expected)
 static void paths_are_split_and_joined(void **state)
 {
     assert_string_equal(ffd_path_name("a/b.obj"), "b.obj");
-    assert_string_equal(ffd_path_display_name("-"), "standard input");
-    assert_string_equal(ffd_path_display_name("./-"), "./-");
+    assert_string_equal(ffd_file_display_name("-"), "standard input");
+    assert_string_equal(ffd_file_display_name("./-"), "./-");
     assert_string_equal(ffd_path_ending("a.d/b"), "");
     assert_string_equal(ffd_path_ending("a/.obj"), "");
     assert_string_equal(ffd_path_ending("x.gltf.glb"), ".glb");

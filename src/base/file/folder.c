@@ -1,6 +1,7 @@
 #define _XOPEN_SOURCE 700 /* realpath */
 #include "base/file/folder.h"
 #include "base/file/input.h"
+#include "base/file/memory_files.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include <errno.h>
@@ -72,6 +73,8 @@ bool ffd_paths_meet(const char *a, const char *b)
 
 char *ffd_path_resolve(const char *path)
 {
+    if (ffd_memory_has(path))
+        return ffd_path_normalize(path);
     char *resolved = realpath(path, NULL);
     char *copy = resolved ? ffd_text_copy(resolved) : NULL;
     free(resolved);

@@ -1,6 +1,7 @@
 #define _XOPEN_SOURCE 700 /* realpath, pread */
 #define _DEFAULT_SOURCE   /* madvise */
 #include "base/file/input.h"
+#include "base/file/memory_files.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include <errno.h>
@@ -117,7 +118,7 @@ static ffd_status map_file(int fd, const char *name, const struct stat *info, fi
 bool ffd_file_stamp(const char *path, file_stamp *stamp)
 {
     struct stat info;
-    if (stat(path, &info) != 0)
+    if (ffd_memory_has(path) || stat(path, &info) != 0)
         return false;
     *stamp = (file_stamp){
         .device = (uint64_t)info.st_dev,
@@ -155,6 +156,12 @@ bool ffd_file_is_stream(const char *path)
     return false;
 }
 
+const char *ffd_file_display_name(const char *path)
+{
+    const char *const name = ffd_memory_name(path);
+    return name ? name : strcmp(path, "-") == 0 ? "standard input" : path;
+}
+
 /* A pipe or device among the files may never give anything, or never end. */
 static ffd_status refuse_special(int fd, const char *path, ffd_error *error)
 {
@@ -185,15 +192,34 @@ static ffd_status load_descriptor(int fd, const char *name, size_t least_mapped,
     return status;
 }
 
+static ffd_status fail_open(const char *path, int reason, ffd_error *error)
+{
+    return ffd_fail_file(error, FFD_E_IO, path, "cannot be opened: %s", strerror(reason));
+}
+
+/* Lends the bytes of a file in memory. */
+static ffd_status load_memory(const char *path, file_input *input, ffd_error *error)
+{
+    const void *bytes;
+    size_t size;
+    const ffd_status status = ffd_memory_find(path, &bytes, &size, error);
+    if (status || !bytes)
+        return status ? status : fail_open(path, ENOENT, error);
+    *input = (file_input){.data = size > 0 ? bytes : nothing, .size = size};
+    return FFD_OK;
+}
+
 static ffd_status load(const char *path, size_t least_mapped, file_input *input, ffd_error *error)
 {
     *input = (file_input){.data = nothing};
+    if (ffd_memory_has(path))
+        return load_memory(path, input, error);
     if (strcmp(path, "-") == 0)
         return load_descriptor(STDIN_FILENO, "standard input", least_mapped, input, error);
     /* A pipe is not waited for: it is refused. The flags of descriptors are left alone. */
     const int fd = open(path, O_RDONLY | O_CLOEXEC | (ffd_file_is_stream(path) ? 0 : O_NONBLOCK | O_NOCTTY));
     if (fd < 0)
-        return ffd_fail_file(error, FFD_E_IO, path, "cannot be opened: %s", strerror(errno));
+        return fail_open(path, errno, error);
     ffd_status status = refuse_special(fd, path, error);
     if (!status)
         status = load_descriptor(fd, path, least_mapped, input, error);
@@ -219,10 +245,39 @@ static bool is_inside(const char *folder, const char *path)
     return strncmp(folder, path, length) == 0 && path[length] == '/';
 }
 
+/* Both are normalized, so that no ".." can lead out. */
+static ffd_status load_memory_within(const char *folder, const char *relative, const char *named_by,
+                                     file_input *input, ffd_error *error)
+{
+    char *const root = ffd_path_normalize(folder), *const joined = ffd_path_join(folder, relative);
+    char *const path = joined ? ffd_path_normalize(joined) : NULL;
+    const void *bytes = NULL;
+    size_t size = 0;
+    ffd_status status = FFD_OK;
+    if (!root || !path)
+        status = ffd_fail_memory(error);
+    else if (relative[0] == '/' || !is_inside(root, path))
+        status = ffd_fail_file(error, FFD_E_IO, named_by, "the file \"%s\" is outside the model's folder",
+                               relative);
+    else
+        status = ffd_memory_find(path, &bytes, &size, error);
+    if (!status && !bytes)
+        status = ffd_fail_file(error, FFD_E_IO, named_by, "the file \"%s\" cannot be opened: %s", relative,
+                               strerror(ENOENT));
+    if (!status)
+        *input = (file_input){.data = size > 0 ? bytes : nothing, .size = size};
+    ffd_free(root);
+    ffd_free(joined);
+    ffd_free(path);
+    return status;
+}
+
 ffd_status ffd_file_load_within(const char *folder, const char *relative, const char *named_by, size_t *most,
                                 file_input *input, ffd_error *error)
 {
     *input = (file_input){.data = nothing};
+    if (ffd_memory_has(folder))
+        return load_memory_within(folder, relative, named_by, input, error);
     char *joined = ffd_path_join(folder, relative);
     char *root = realpath(folder, NULL), *path = joined ? realpath(joined, NULL) : NULL;
     const int reason = errno;
@@ -313,11 +368,27 @@ ffd_status ffd_file_compare(const char *path, const file_input *bytes, bool *sam
 bool ffd_file_exists(const char *path)
 {
     struct stat info;
+    const void *bytes;
+    size_t size;
+    if (ffd_memory_has(path))
+        return !ffd_memory_find(path, &bytes, &size, NULL) && bytes;
     return stat(path, &info) == 0;
+}
+
+/* Whether both paths are one path in memory. */
+static bool is_same_memory(const char *a, const char *b)
+{
+    char *const x = ffd_path_normalize(a), *const y = ffd_path_normalize(b);
+    const bool same = x && y && strcmp(x, y) == 0;
+    ffd_free(x);
+    ffd_free(y);
+    return same;
 }
 
 bool ffd_file_same(const char *a, const char *b)
 {
     struct stat x, y;
+    if (ffd_memory_has(a) || ffd_memory_has(b))
+        return is_same_memory(a, b);
     return stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
 }

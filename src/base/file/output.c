@@ -4,10 +4,12 @@
 #include "base/file/file_set.h"
 #include "base/file/folder.h"
 #include "base/file/input.h"
+#include "base/file/memory_files.h"
 #include "base/file/path.h"
 #include "base/file/temporary.h"
 #include "base/file/written_files.h"
 #include "base/memory/memory.h"
+#include "base/text/buffer.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -26,6 +28,9 @@ typedef struct output_file {
     int fd; /* -1 when closed */
     bool force, committed;
     bool stays_open; /* after the commit too */
+    bool is_memory;  /* its bytes are collected here, for the callback of memory_files.h, */
+    byte_buffer bytes;
+    char *name; /* under this name */
 } output_file;
 
 typedef struct output_folder {
@@ -220,7 +225,7 @@ ffd_status ffd_output_check(const char *path, bool force, ffd_error *error)
 {
     struct stat info;
     bool exists;
-    if (ffd_output_is_stream(path))
+    if (ffd_output_is_stream(path) || ffd_memory_has(path))
         return FFD_OK;
     const ffd_status status = check_target(path, force, &info, &exists, error);
     if (status || exists)
@@ -292,10 +297,13 @@ static void drop_temporary(output_file *file)
     file->temporary = NULL;
 }
 
-static ffd_status write_all(const output_file *file, const unsigned char *bytes, size_t size,
-                            ffd_error *error)
+static ffd_status write_all(output_file *file, const unsigned char *bytes, size_t size, ffd_error *error)
 {
     size_t done = 0;
+    if (file->is_memory) {
+        ffd_buffer_append(&file->bytes, bytes, size);
+        return file->bytes.failed ? ffd_fail_memory(error) : FFD_OK;
+    }
     while (done < size) {
         const ssize_t written = write(file->fd, bytes + done, size - done);
         if (written < 0 && errno == EINTR)
@@ -331,7 +339,8 @@ ffd_status ffd_output_begin(file_output *output, const char *path, bool force, f
 
     struct stat info;
     bool exists = false;
-    if (!ffd_output_is_stream(path)) {
+    file->is_memory = ffd_memory_has(path);
+    if (!ffd_output_is_stream(path) && !file->is_memory) {
         status = check_target(path, force, &info, &exists, error);
         if (status)
             return status;
@@ -343,6 +352,8 @@ ffd_status ffd_output_begin(file_output *output, const char *path, bool force, f
         return ffd_fail_memory(error);
     output->count++;
 
+    if (file->is_memory)
+        return ffd_memory_begin(path, &file->name, error);
     if (ffd_output_is_stream(path)) {
         file->fd = dup(stream_of(path));
         return file->fd < 0 ? ffd_fail_errno(error, shown(path), "cannot be written") : FFD_OK;
@@ -367,6 +378,8 @@ ffd_status ffd_output_begin(file_output *output, const char *path, bool force, f
 
 ffd_status ffd_output_folder(file_output *output, const char *path, ffd_error *error)
 {
+    if (ffd_memory_has(path))
+        return FFD_OK;
     if (!ffd_grow((void **)&output->folders, &output->folder_capacity, output->folder_count + 1,
                   sizeof *output->folders))
         return ffd_fail_memory(error);
@@ -451,7 +464,7 @@ static ffd_status settle_file(output_file *file, ffd_error *error)
 {
     file->committed = true;
     ffd_cleanup_strike(&file->noted);
-    if (file->stays_open)
+    if (file->stays_open || file->is_memory)
         return FFD_OK;
     /* Closing gives up the lock: only now may another run take the name. */
     const int fd = file->fd;
@@ -491,6 +504,19 @@ static ffd_status place_all(file_output *output, ffd_error *error)
     return status;
 }
 
+/* Hands over what is for memory, in the order in which it was begun: the head of the set comes last. */
+static ffd_status give_all(const file_output *output, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < output->count && !status; i++) {
+        const output_file *const file = &output->files[i];
+        if (file->is_memory)
+            status = ffd_memory_give(file->target, file->name, file->bytes.size > 0 ? file->bytes.data : "",
+                                     file->bytes.size, error);
+    }
+    return status;
+}
+
 static ffd_status settle_all(file_output *output, bool stays, ffd_error *error)
 {
     ffd_status status = stays ? drop_all(output, error) : place_all(output, error);
@@ -520,7 +546,8 @@ ffd_status ffd_output_commit(file_output *output, ffd_error *error)
     ffd_cleanup_hold();
     status = settle_all(output, stays, error);
     ffd_cleanup_release();
-    return status;
+    /* With no lock held: the callback may do anything. */
+    return status ? status : give_all(output, error);
 }
 
 bool ffd_output_was_busy(const file_output *output)
@@ -542,6 +569,8 @@ void ffd_output_destroy(file_output **output)
             close(file->fd);
         ffd_free(file->temporary);
         ffd_free(file->target);
+        ffd_buffer_free(&file->bytes);
+        ffd_free(file->name);
     }
     for (size_t i = (*output)->folder_count; i-- > 0;) {
         if (!(*output)->committed)

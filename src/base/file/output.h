@@ -10,7 +10,9 @@
 
 /* A set of files that appear together. Each is written under a temporary name beside its target
    (".NAME.ffd-tmp"; the same for the same target, locked against other runs) and renamed by the commit, the
-   one begun last after all others (file_set.h). */
+   one begun last after all others (file_set.h). A set of paths in memory (memory_files.h) is collected, and
+   given to its callback by the commit: file by file in the order in which they were begun, up to one that the
+   callback does not take. */
 typedef struct file_output file_output;
 
 /* An empty set, for ffd_output_destroy. Errors: FFD_E_MEMORY. */

@@ -35,11 +35,6 @@ bool ffd_path_is_absolute(const char *path)
     return is_separator(path[0]);
 }
 
-const char *ffd_path_display_name(const char *path)
-{
-    return strcmp(path, "-") == 0 ? "standard input" : path;
-}
-
 const char *ffd_path_ending(const char *path)
 {
     const char *name = ffd_path_name(path);

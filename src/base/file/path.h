@@ -13,8 +13,6 @@ const char *ffd_path_ending(const char *path);
 bool ffd_path_has_ending(const char *path, const char *ending);
 /* Whether path starts at the root of a file system. */
 bool ffd_path_is_absolute(const char *path);
-/* The path as messages show it: "-" -> "standard input"; others as they are. */
-const char *ffd_path_display_name(const char *path);
 
 /* Whether a normalized relative path leads out of its folder. */
 bool ffd_path_leads_out(const char *path);

@@ -343,7 +343,7 @@ static void free_source(job_source *source)
 
 static ffd_status open_text(job_source *source, const char *path, ffd_error *error)
 {
-    source->frame.name = ffd_path_display_name(path);
+    source->frame.name = ffd_file_display_name(path);
     source->folder =
         strcmp(path, "-") == 0 || ffd_path_name(path) == path ? ffd_text_copy("") : ffd_path_folder(path);
     if (!source->folder)

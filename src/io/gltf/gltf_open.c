@@ -344,7 +344,7 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
     d->path = ffd_text_copy(source->path);
     if (!d->path)
         return ffd_fail_memory(error);
-    d->name = ffd_path_display_name(d->path);
+    d->name = ffd_file_display_name(d->path);
     ffd_status status = find_json(d, source->format, error);
     if (status == FFD_OK)
         status = parse_model(d, error);

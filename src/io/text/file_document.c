@@ -6,16 +6,19 @@
 void *ffd_file_document_make(size_t size, const file_input *input, const ffd_source *source, ffd_error *error)
 {
     file_document *d = ffd_alloc_zero(1, size);
-    char *name = ffd_text_copy(ffd_path_display_name(source->path));
-    if (!d || !name) {
+    char *name = ffd_text_copy(ffd_file_display_name(source->path));
+    const bool has_folder = !ffd_file_is_stream(source->path);
+    char *path = has_folder ? ffd_text_copy(source->path) : NULL;
+    if (!d || !name || (has_folder && !path)) {
         ffd_free(d);
         ffd_free(name);
+        ffd_free(path);
         ffd_fail_memory(error);
         return NULL;
     }
     d->input = *input;
     d->name = name;
-    d->has_folder = !ffd_file_is_stream(source->path);
+    d->path = path;
     d->base.flaws.strict = source->strict;
     return d;
 }
@@ -40,6 +43,7 @@ mesh_document *ffd_file_document_ready(file_document *d, bool text, const ffd_so
 void ffd_file_document_free(file_document *d)
 {
     ffd_free(d->name);
+    ffd_free(d->path);
     ffd_free(d->positions);
     ffd_free(d->directions);
     ffd_free(d->new_positions);

@@ -9,8 +9,8 @@ typedef struct file_document {
     mesh_document base;
     mesh_part part;
     file_input input;
-    char *name;      /* for messages */
-    bool has_folder; /* the name is the path of a file, and what the file names is beside it */
+    char *name; /* for messages */
+    char *path; /* what the file names is beside it; NULL: it is a stream, which has no folder */
     /* 3 numbers a vector. */
     double *positions;
     double *directions;     /* normals; NULL: there are none, or they are not held */

@@ -64,6 +64,14 @@ static void tell_open(const chain_files *files, size_t i, bool *used, ffd_error 
     ffd_intern_free(&all);
 }
 
+/* Copies a lattice that the caller holds, within the memory of the job. */
+static ffd_status copy_object(const ffd_lattice *object, memory_budget *memory, ffd_lattice **lattice,
+                              ffd_error *error)
+{
+    const ffd_status status = object->spec ? ffd_lattice_memory_take(memory, object->spec, 0, error) : FFD_OK;
+    return status ? status : ffd_lattice_copy(object, lattice, error);
+}
+
 /* file_size: of a lattice that is there, from a job before. */
 static ffd_status load_lattice(const chain_files *files, bool *used, size_t i, uint64_t file_size,
                                memory_budget *memory, ffd_lattice **lattice, ffd_error *error)
@@ -73,9 +81,11 @@ static ffd_status load_lattice(const chain_files *files, bool *used, size_t i, u
                                     .count = files->set_count,
                                     .may_be_open = files->rest_only,
                                     .derives = files->derives};
+    const ffd_lattice *const object = files->objects ? files->objects[i] : NULL;
     const ffd_status status =
-        *lattice ? ffd_lattice_memory_take(memory, (*lattice)->spec, file_size, error)
-                 : ffd_lattice_memory_load(files->paths[i], &settings, memory, lattice, error);
+        object     ? copy_object(object, memory, lattice, error)
+        : *lattice ? ffd_lattice_memory_take(memory, (*lattice)->spec, file_size, error)
+                   : ffd_lattice_memory_load(files->paths[i], &settings, memory, lattice, error);
     if (status == FFD_E_INVALID && !files->rest_only && error)
         tell_open(files, i, used, error);
     if (status)

@@ -8,6 +8,8 @@
 /* The lattice files of a chain, with the values of their placeholders. */
 typedef struct chain_files {
     const char *const *paths; /* count */
+    const ffd_lattice *const
+        *objects; /* count, each in place of its file, or NULL; or NULL: there are none */
     size_t count;
     const ffd_setting *set; /* set_count, or NULL */
     size_t set_count;

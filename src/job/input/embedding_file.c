@@ -1,5 +1,5 @@
 #include "job/input/embedding_file.h"
-#include "base/file/path.h"
+#include "base/file/input.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
@@ -254,7 +254,7 @@ static ffd_status check_vertices(const embedding_file *file, const char *name, f
 ffd_status ffd_embedding_open(const char *path, size_t count, const hash128 *positions,
                               const hash128 *lattice, embedding_file *file, ffd_error *error)
 {
-    file_content content = {.name = ffd_path_display_name(path)};
+    file_content content = {.name = ffd_file_display_name(path)};
     bool own = true;
     *file = (embedding_file){.count = count};
     ffd_status status = ffd_file_load(path, &file->input, error);

@@ -3,6 +3,7 @@
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "job/input/deform_desc.h"
+#include "job/input/in_memory.h"
 #include "job/input/selection.h"
 #include "job/input/source.h"
 #include "mesh/bounds.h"
@@ -100,13 +101,19 @@ ffd_status ffd_shared_box_add(ffd_shared_box *box, const ffd_deform_desc *caller
 {
     ffd_deform_desc own;
     const ffd_deform_desc *const desc = &own;
-    const ffd_status status = ffd_deform_desc_take(callers, &own, error);
-    if (status)
-        return status;
-    if (ffd_file_is_stream(desc->input.path))
-        return ffd_fail(error, FFD_E_ARGUMENT,
-                        "standard input can be read only once, not for a shared box and again");
-    return ffd_shown_box_add(&box->box, &desc->input, desc->only, desc->only_count, &box->files, NULL, error);
+    job_memory memory = {0};
+    ffd_status status = ffd_deform_desc_take(callers, &own, error);
+    if (!status)
+        status = ffd_in_memory_source(&memory, &own.input, error);
+    if (!status && ffd_file_is_stream(desc->input.path))
+        status = ffd_fail(error, FFD_E_ARGUMENT,
+                          "standard input can be read only once, not for a shared box and again");
+    if (!status)
+        status = ffd_shown_box_add(&box->box, &desc->input, desc->only, desc->only_count, &box->files, NULL,
+                                   error);
+    status = ffd_in_memory_judge(&memory, status, error);
+    ffd_in_memory_end(&memory);
+    return status;
 }
 
 void ffd_shared_box_destroy(ffd_shared_box **box)

@@ -1,5 +1,6 @@
 #include "job/input/source.h"
 #include "base/file/file_set_record.h"
+#include "base/file/memory_files.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
@@ -12,7 +13,7 @@
 
 const char *ffd_source_name(const ffd_source *source)
 {
-    return ffd_path_display_name(source->path);
+    return ffd_file_display_name(source->path);
 }
 
 hash128 ffd_source_rules(const ffd_source *source)
@@ -82,6 +83,8 @@ ffd_status ffd_source_files(const ffd_source *source, const mesh_document *docum
                             ffd_error *error)
 {
     ffd_status status = FFD_OK;
+    if (ffd_memory_has(source->path))
+        return FFD_OK;
     if (!ffd_file_is_stream(source->path))
         status = ffd_paths_add(files, source->path, error);
     if (!status && document->format->list_files)

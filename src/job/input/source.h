@@ -17,7 +17,7 @@ ffd_status ffd_source_open_bytes(const ffd_source *source, int threads, file_inp
                                  mesh_document **document, ffd_error *error);
 
 /* Adds the files that the source's document was read from: its own, then those that it refers to. A stream
-   is not a file. Errors: FFD_E_MEMORY. */
+   is not a file, nor is what is in memory. Errors: FFD_E_MEMORY. */
 ffd_status ffd_source_files(const ffd_source *source, const mesh_document *document, path_list *files,
                             ffd_error *error);
 

@@ -4,6 +4,7 @@
 #include "base/memory/memory.h"
 #include "base/struct_size.h"
 #include "job/input/deform_desc.h"
+#include "job/input/in_memory.h"
 #include "job/input/source.h"
 #include "job/jacobian/jacobian_check.h"
 #include "job/jacobian/jacobian_output.h"
@@ -87,13 +88,36 @@ static ffd_status make(jacobian *j, ffd_jacobian_result *result, ffd_error *erro
     return status;
 }
 
+static ffd_status run(const ffd_jacobian_desc *desc, ffd_jacobian_result *result, ffd_error *error)
+{
+    ffd_job_result figures;
+    jacobian j = {.desc = desc};
+    ffd_status status = ffd_deform_job_begin(&j.job, desc->job, true, &figures);
+    j.job.derives = desc->by == FFD_BY_PARAMETERS;
+    j.job.only_positions = true;
+    if (!status)
+        status = ffd_deform_job_open(&j.job, &figures, &figures.error);
+    if (!status)
+        status = make(&j, result, &figures.error);
+    ffd_jacobian_free(&j);
+    return ffd_deform_job_end(&j.job, status, &figures, error);
+}
+
+/* Gives what is in memory paths. The job's own output is not looked at. */
+static ffd_status take_memory(job_memory *memory, ffd_jacobian_desc *desc, ffd_deform_desc *job,
+                              ffd_error *error)
+{
+    const ffd_status status = ffd_in_memory_output(memory, job->sink, job->sink_user, &desc->output, error);
+    job->output = NULL;
+    return status ? status : ffd_in_memory_desc(memory, job, error);
+}
+
 ffd_status ffd_jacobian_run(const ffd_jacobian_desc *callers, ffd_jacobian_result *callers_result,
                             ffd_error *error)
 {
     ffd_jacobian_desc desc;
     ffd_jacobian_result result = {.struct_size = sizeof result};
     ffd_deform_desc job;
-    ffd_job_result figures;
     ffd_error own;
     ffd_jacobian_desc_init(&desc, sizeof desc);
     ffd_status status = ffd_struct_take(&desc, sizeof desc, callers, "ffd_jacobian_desc", &own);
@@ -101,25 +125,20 @@ ffd_status ffd_jacobian_run(const ffd_jacobian_desc *callers, ffd_jacobian_resul
         status = ffd_struct_check(sizeof result, callers_result, "ffd_jacobian_result", &own);
     if (!status && desc.job)
         status = ffd_deform_desc_take(desc.job, &job, &own);
+    job_memory memory = {0};
+    if (!status && desc.job)
+        status = take_memory(&memory, &desc, &job, &own);
     desc.job = desc.job ? &job : NULL;
     if (!status)
         status = check_desc(&desc, &own);
-    if (status) {
-        if (error)
-            *error = own;
-        return status;
-    }
-    jacobian j = {.desc = &desc};
-    status = ffd_deform_job_begin(&j.job, desc.job, true, &figures);
-    j.job.derives = desc.by == FFD_BY_PARAMETERS;
-    j.job.only_positions = true;
-    if (!status)
-        status = ffd_deform_job_open(&j.job, &figures, &figures.error);
-    if (!status)
-        status = make(&j, &result, &figures.error);
-    ffd_jacobian_free(&j);
-    status = ffd_deform_job_end(&j.job, status, &figures, error);
-    if (callers_result)
+    const bool runs = !status;
+    if (runs)
+        status = run(&desc, &result, &own);
+    status = ffd_in_memory_judge(&memory, status, &own);
+    ffd_in_memory_end(&memory);
+    if (status && error)
+        *error = own;
+    if (callers_result && runs)
         ffd_struct_give(&result, sizeof result, callers_result, callers_result->struct_size);
     return status;
 }

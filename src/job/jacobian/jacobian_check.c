@@ -180,6 +180,7 @@ static ffd_status load_changed(const jacobian *j, const spec_variable *variable,
             set[count++] = desc->set[i];
     set[count++] = (ffd_setting){variable->name, text};
     const chain_files files = {.paths = desc->lattices,
+                               .objects = desc->lattice_objects,
                                .count = desc->lattice_count,
                                .set = set,
                                .set_count = count,

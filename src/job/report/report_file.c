@@ -1,5 +1,6 @@
 #include "job/report/report_file.h"
 #include "base/file/growing.h"
+#include "base/file/memory_files.h"
 #include "base/file/output.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
@@ -23,9 +24,10 @@ struct ffd_report {
     uint64_t end;        /* of the last entry there */
     entry_place *places; /* by the numbers of the jobs */
     size_t place_count, place_capacity;
-    uint64_t count;     /* of entries */
-    bool is_mixed;      /* they are not in the order of the jobs */
-    byte_buffer buffer; /* what is written next */
+    uint64_t count;       /* of entries */
+    bool is_mixed;        /* they are not in the order of the jobs */
+    byte_buffer buffer;   /* what is written next */
+    memory_files *memory; /* has the path of a report that goes to a sink */
 };
 
 /* The text */
@@ -110,25 +112,48 @@ static ffd_status open_file(ffd_report *report, ffd_written *written, ffd_error 
                                              &report->file, error);
 }
 
+/* memory: has the path, and is the report's from now on; or NULL. */
+static ffd_status create(const char *path, bool stable, ffd_written *written, memory_files *memory,
+                         ffd_report **report, ffd_error *error)
+{
+    ffd_report *made = ffd_alloc_zero(1, sizeof *made);
+    if (!made || !(made->path = ffd_text_copy(path))) {
+        ffd_free(made);
+        ffd_memory_destroy(&memory);
+        return ffd_fail_memory(error);
+    }
+    made->memory = memory;
+    made->stable = stable;
+    made->lines = ffd_report_has_lines(path);
+    const ffd_status status = open_file(made, written, error);
+    if (status)
+        ffd_report_destroy(&made);
+    *report = made;
+    return status;
+}
+
 ffd_status ffd_report_create(const char *path, bool stable, ffd_written *written, ffd_report **report,
                              ffd_error *error)
 {
     const bool lines = ffd_report_has_lines(path);
     *report = NULL;
-    ffd_status status = ffd_replace_check(path, lines ? is_report_of_lines : is_report, "report", error);
-    if (status)
-        return status;
-    ffd_report *made = ffd_alloc_zero(1, sizeof *made);
-    if (!made || !(made->path = ffd_text_copy(path))) {
-        ffd_free(made);
-        return ffd_fail_memory(error);
-    }
-    made->stable = stable;
-    made->lines = lines;
-    status = open_file(made, written, error);
-    if (status)
-        ffd_report_destroy(&made);
-    *report = made;
+    const ffd_status status =
+        ffd_replace_check(path, lines ? is_report_of_lines : is_report, "report", error);
+    return status ? status : create(path, stable, written, NULL, report, error);
+}
+
+ffd_status ffd_report_create_sink(const char *name, bool stable, ffd_sink_function sink, void *user,
+                                  ffd_report **report, ffd_error *error)
+{
+    memory_files *memory;
+    const char *path;
+    *report = NULL;
+    ffd_status status = ffd_memory_create(&memory, error);
+    if (!status)
+        status = ffd_memory_take(memory, name, sink, user, &path, error);
+    if (!status)
+        return create(path, stable, NULL, memory, report, error);
+    ffd_memory_destroy(&memory);
     return status;
 }
 
@@ -137,6 +162,7 @@ void ffd_report_destroy(ffd_report **report)
     if (!report || !*report)
         return;
     ffd_output_destroy(&(*report)->stream);
+    ffd_memory_destroy(&(*report)->memory);
     ffd_growing_close(&(*report)->file);
     ffd_buffer_free(&(*report)->buffer);
     ffd_free((*report)->places);

@@ -8,6 +8,7 @@
 #include "job/chain/chain_load.h"
 #include "job/deform_job.h"
 #include "job/input/deform_desc.h"
+#include "job/input/in_memory.h"
 #include "job/input/selection.h"
 #include "job/input/source.h"
 #include "job/judge/result.h"
@@ -389,11 +390,38 @@ static void allow_memory(ffd_source *source)
         source->memory = LEAST_MEMORY;
 }
 
+/* The same where some of what the description names may be in memory. */
+static ffd_status view_in_memory(ffd_view_desc *desc, ffd_deform_desc *job, ffd_job_result *result)
+{
+    const char *const output = desc->output;
+    ffd_source deformed;
+    job_memory memory = {0};
+    ffd_status status = FFD_OK;
+    job->sink = NULL;
+    allow_memory(&job->input);
+    if (desc->deformed) {
+        deformed = *desc->deformed;
+        allow_memory(&deformed);
+        desc->deformed = &deformed;
+        status = ffd_in_memory_source(&memory, &deformed, &result->error);
+    }
+    if (!status)
+        status = ffd_in_memory_output(&memory, desc->sink, desc->sink_user, &desc->output, &result->error);
+    if (!status)
+        status = ffd_in_memory_desc(&memory, job, &result->error);
+    if (!status)
+        status = view(desc, result, &result->error);
+    status = ffd_in_memory_judge(&memory, status, &result->error);
+    if (result->picture)
+        result->picture = output;
+    ffd_in_memory_end(&memory);
+    return status;
+}
+
 ffd_status ffd_view_run(const ffd_view_desc *callers, ffd_job_result *callers_result, ffd_error *error)
 {
     ffd_view_desc desc;
     ffd_deform_desc job;
-    ffd_source deformed;
     ffd_job_result result;
     ffd_view_desc_init(&desc, sizeof desc);
     ffd_deform_desc_init(&job, sizeof job); /* there may be none: files as they are */
@@ -406,15 +434,9 @@ ffd_status ffd_view_run(const ffd_view_desc *callers, ffd_job_result *callers_re
         status = ffd_deform_desc_take(desc.job, &job, &result.error);
     job.morph_results = NULL; /* of a job that writes */
     desc.job = &job;
-    allow_memory(&job.input);
-    if (!status && desc.deformed) {
-        deformed = *desc.deformed;
-        allow_memory(&deformed);
-        desc.deformed = &deformed;
-    }
     if (!status)
-        status = view(&desc, &result, error);
-    else if (error)
+        status = view_in_memory(&desc, &job, &result);
+    if (status && error)
         *error = result.error;
     result.status = status;
     ffd_struct_give(&result, sizeof result, callers_result, callers_result->struct_size);

@@ -151,7 +151,7 @@ ffd_status ffd_view_add_cages(const lattice_chain *chain, const char *const *nam
             cage->size[a] = lattice->size[a];
             cage->closed[a] = ffd_knots_closed(&lattice->knots[a]);
         }
-        cage->name = ffd_text_copy(names[l]);
+        cage->name = ffd_text_copy(ffd_file_display_name(names[l]));
         cage->rest = copy_points(lattice->rest, lattice->count);
         cage->deformed = copy_points(lattice->deformed, lattice->count);
         if (!cage->name || !cage->rest || !cage->deformed)

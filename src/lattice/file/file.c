@@ -69,7 +69,7 @@ ffd_status ffd_spec_load(const char *path, const spec_settings *settings, lattic
         status = ffd_fail(
             error, FFD_E_ARGUMENT,
             "the lattice's box goes round meshes named relative to its file: it cannot be read from %s",
-            ffd_path_display_name(path));
+            ffd_file_display_name(path));
     if (status) {
         ffd_spec_free(*spec);
         *spec = NULL;

@@ -43,7 +43,7 @@ static ffd_status take(const material_images *images, const char *name, uint64_t
     if (status == FFD_OK)
         return FFD_OK;
     ffd_name_shown(name, shown, sizeof shown);
-    return ffd_fail_file(error, status, ffd_path_display_name(images->mesh), "the image \"%s\" %s", shown,
+    return ffd_fail_file(error, status, ffd_file_display_name(images->mesh), "the image \"%s\" %s", shown,
                          problem.message);
 }
 

@@ -12,7 +12,7 @@ Points are arrays (N, 3) of float32 or float64; control points are (nu, nv, nw, 
 from ._embedding import Embedding, Status
 from ._errors import (ArgumentError, Cancelled, EmbeddingError, Error, ExistsError, FileError, GateError, InvalidError,
                       LimitError, OutOfMemoryError, UnsupportedError)
-from ._jobs import Result, check_file, deform_file, info, jacobian_file
+from ._jobs import DeformedBytes, Result, check_bytes, check_file, deform_bytes, deform_file, info, jacobian_file
 from ._lattice import Lattice
 from ._library import lib as _lib
 from ._meshes import deform_mesh
@@ -21,8 +21,8 @@ from ._values import Csr, Deformed, Folds, Parameter, parameters
 __version__: str = _lib.ffd_version().decode()
 
 __all__ = [
-    "ArgumentError", "Cancelled", "Csr", "Deformed", "Embedding", "EmbeddingError", "Error", "ExistsError", "FileError", "Folds",
-    "GateError", "InvalidError", "Lattice", "LimitError", "OutOfMemoryError", "Parameter", "Result", "Status", "UnsupportedError",
-    "check_file", "deform_file", "deform_mesh", "info", "jacobian_file",
+    "ArgumentError", "Cancelled", "Csr", "Deformed", "DeformedBytes", "Embedding", "EmbeddingError", "Error", "ExistsError",
+    "FileError", "Folds", "GateError", "InvalidError", "Lattice", "LimitError", "OutOfMemoryError", "Parameter", "Result", "Status", "UnsupportedError",
+    "check_bytes", "check_file", "deform_bytes", "deform_file", "deform_mesh", "info", "jacobian_file",
     "parameters",
 ]

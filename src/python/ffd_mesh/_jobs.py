@@ -7,8 +7,7 @@ import ctypes
 import json
 import logging
 import os
-import tempfile
-from typing import Any, Iterator, Mapping, Sequence, Union
+from typing import Any, Callable, Iterator, Mapping, NamedTuple, Sequence, Union
 
 from . import _declarations as declared
 from . import _library as library
@@ -20,6 +19,8 @@ from ._values import Folds, folds_of, settings
 _LEVELS = {0: logging.WARNING, 1: logging.INFO, 2: logging.DEBUG}
 
 Path = Union[str, "os.PathLike[str]"]
+AnyLattice = Union[Lattice, Path, bytes]
+Files = Union[Mapping[str, Any], Callable[[str], Any]]
 
 
 class Result:
@@ -67,41 +68,71 @@ def _plain(value: Any) -> Any:
 
 @contextlib.contextmanager
 def _described(source: Any, lattices: Any, options: dict[str, Any]) -> Iterator[tuple[Any, list[str]]]:
-    """The description of a job, and the list of its warnings, which is filled at the end."""
+    """The description of a job, and the list of its warnings, which is filled at the end. source: a path or a `_Memory`."""
     desc = library.filled("ffd_deform_desc")
-    desc.input.path = os.fsencode(source)
     lines: list[Any] = []
     warnings: list[str] = []
     library.log_into(desc, lines)
-    with tempfile.TemporaryDirectory(prefix="ffd-mesh-") as folder:
-        _set_lattices(desc, lattices, folder)
-        kept = _set_options(desc, options)
-        try:
-            yield desc, warnings
-        finally:
-            for level, line in lines:
-                library.LOG.log(_LEVELS.get(level, logging.DEBUG), "%s", line)
-                if level == 0:
-                    warnings.append(line)
+    kept = [source, _set_lattices(desc, lattices)]
+    if isinstance(source, _Memory):
+        source.give(desc.input)
+    else:
+        desc.input.path = os.fsencode(source)
+    kept += _set_options(desc, options)
+    try:
+        yield desc, warnings
+    finally:
+        for level, line in lines:
+            library.LOG.log(_LEVELS.get(level, logging.DEBUG), "%s", line)
+            if level == 0:
+                warnings.append(line)
     del kept
 
 
-def _set_lattices(desc: Any, lattices: Any, folder: str) -> None:
-    """Names the lattices; those that are objects become files of a folder."""
+class _Memory:
+    """A mesh in memory, and what it names."""
+
+    def __init__(self, data: Any, name: str, files: Files | None) -> None:
+        self.name, self.resolver = os.fsencode(name), None
+        self.address, self.size, self.kept = library.lend_bytes(data, "data")
+        if files is not None and not callable(files) and not isinstance(files, Mapping):
+            raise TypeError(f"files must be a dict or a function, not {type(files).__name__}")
+        self.find = files.get if isinstance(files, Mapping) else files
+
+    def give(self, source: Any) -> None:
+        source.path = self.name
+        source.bytes.data, source.bytes.size = self.address, self.size
+        if self.find is not None:
+            self.resolver = library.Resolver(source, self.find)
+
+    def reraise(self) -> None:
+        """Raises what the function of the files has raised."""
+        if self.resolver is not None:
+            self.resolver.reraise()
+
+
+def _set_lattices(desc: Any, lattices: Any) -> list[Any]:
+    """Names the lattices, or gives them as objects or texts; returns what must stay alive."""
     named = isinstance(lattices, Mapping)
-    several = list(lattices.values()) if named else lattices if isinstance(lattices, (list, tuple)) else [lattices]
+    several = list(lattices.values()) if named else list(lattices) if isinstance(lattices, (list, tuple)) else [lattices]
     if not several:
         raise ValueError("no lattice is given")
     if named:
         desc.morphs = (ctypes.c_char_p * len(several))(*(str(name).encode() for name in lattices))
-    paths = (ctypes.c_char_p * len(several))()
+    paths, texts = (ctypes.c_char_p * len(several))(), (declared.ffd_bytes * len(several))()
+    objects = (ctypes.c_void_p * len(several))()
+    kept = [several, objects]
     for i, lattice in enumerate(several):
-        path = lattice
         if isinstance(lattice, Lattice):
-            path = os.path.join(folder, f"lattice-{i}.json")
-            lattice.save(path)
-        paths[i] = os.fsencode(path)
+            objects[i] = lattice._owned.pointer.value
+        elif isinstance(lattice, bytes):
+            texts[i].data, texts[i].size, text = library.lend_bytes(lattice, "a lattice")
+            kept.append(text)
+        else:
+            paths[i] = os.fsencode(lattice)
     desc.lattices, desc.lattice_count = paths, len(several)
+    desc.lattice_objects, desc.lattice_texts = ctypes.addressof(objects), texts
+    return kept
 
 
 def _texts(value: Any, what: str) -> Any:
@@ -166,6 +197,9 @@ def _set_options(desc: Any, options: dict[str, Any]) -> list[Any]:
             _set_snap(desc, value)
         elif name == "fail_on":
             _set_gates(desc, value)
+        elif name == "embedding" and isinstance(value, bytes):
+            desc.embedding_bytes.data, desc.embedding_bytes.size, embedding = library.lend_bytes(value, name)
+            kept.append(embedding)
         elif name == "embedding":
             desc.embedding = os.fsencode(value)
         elif name == "as_morph":
@@ -203,15 +237,16 @@ def _finish(found: Any, raised: Error | None, warnings: list[str]) -> Result:
     raise raised
 
 
-def deform_file(source: Path, output: Path | None, lattices: Lattice | Path | Sequence[Lattice | Path] | Mapping[str, Lattice | Path],
+def deform_file(source: Path, output: Path | None, lattices: AnyLattice | Sequence[AnyLattice] | Mapping[str, AnyLattice],
                 **options: Any) -> Result:
     """Deforms a mesh file as `ffd deform` does; the output is complete or absent.
 
-    source, output: paths; output None: in place. lattices: a `Lattice` or a path, or several, in their order; of a glTF also a
-      dict of names: each makes the morph target of its name, and clips=["NAME: TIME TARGET=WEIGHT, .."] animate these
+    source, output: paths; output None: in place. lattices: a `Lattice`, a path, or the text of a file as bytes; or several, in
+      their order; of a glTF also a dict of names: each makes the morph target of its name, and
+      clips=["NAME: TIME TARGET=WEIGHT, .."] animate these
     options, as those of the program (data/reference.md):
       set={"NAME": value}, outside="keep" | "extend" | "error", falloff=, snap=LENGTH or "0.001r", blocks=True,
-      normals="transform" | "keep" | "recompute", as_morph="NAME", only=["node:NAME"], embedding="uvw.npy",
+      normals="transform" | "keep" | "recompute", as_morph="NAME", only=["node:NAME"], embedding="uvw.npy" or its bytes,
       fail_on=["folds", "tear=0.1"], quality=True (fills the figures of `check_file`), space="scene" | "mesh",
       resources="copy" | "reference", rig="keep" | "follow", force=True (replace the output), if_changed=True, dry_run=True, threads=,
       memory=BYTES, strict=True, allow_extensions=["NAME"], input_format="ply", output_format="glb", isa="auto"
@@ -225,7 +260,47 @@ def deform_file(source: Path, output: Path | None, lattices: Lattice | Path | Se
     return _finish(found, raised, warnings)
 
 
-def check_file(source: Path, lattices: Lattice | Path | Sequence[Lattice | Path], **options: Any) -> Result:
+class DeformedBytes(NamedTuple):
+    """What `deform_bytes` returns."""
+
+    data: bytes  # the mesh
+    files: dict[str, bytes]  # those beside it, by their names: buffers, copies of images and material libraries
+    result: Result
+
+
+def deform_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice] | Mapping[str, AnyLattice], *, name: str,
+                 output: str | None = None, files: Files | None = None, **options: Any) -> DeformedBytes:
+    """Deforms a mesh in memory as `deform_file` does a file, to the same bytes; reads and writes no file.
+
+    data: bytes, or what has them (bytearray, memoryview, an array); name: that of the mesh, whose ending says the format
+    output: the name of the result, None: the same; another ending converts it
+    files: what the mesh names (.bin, images, .mtl): a dict of names, relative to the mesh, or a function of a name that returns
+      bytes, or None for a file that is not there; what it raises is raised
+    options: those of `deform_file` but for in place, force and resources
+    """
+    memory, taken = _Memory(data, name, files), []
+    with _described(memory, lattices, options) as (desc, warnings):
+        desc.output = os.fsencode(name if output is None else output)
+        library.sink_into(desc, taken)
+        found, raised = _run(lib.ffd_deform_run, desc)
+    memory.reraise()
+    result = _finish(found, raised, warnings)
+    folder = os.path.dirname(name if output is None else output)
+    beside = {os.path.relpath(path, folder) if folder else path: content for path, content in taken[:-1]}
+    return DeformedBytes(taken[-1][1] if taken else b"", beside, result)
+
+
+def check_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice], *, name: str, files: Files | None = None,
+                **options: Any) -> Result:
+    """`check_file` of a mesh in memory, as `deform_bytes` takes it."""
+    memory = _Memory(data, name, files)
+    with _described(memory, lattices, options) as (desc, warnings):
+        found, raised = _run(lib.ffd_check_run, desc)
+    memory.reraise()
+    return _finish(found, raised, warnings)
+
+
+def check_file(source: Path, lattices: AnyLattice | Sequence[AnyLattice], **options: Any) -> Result:
     """Everything that `deform_file` does but the writing, with all figures: folds, flipped faces, torn edges, .. Options as
     there; fail_on raises `GateError`, which has the result."""
     with _described(source, lattices, options) as (desc, warnings):
@@ -233,7 +308,7 @@ def check_file(source: Path, lattices: Lattice | Path | Sequence[Lattice | Path]
     return _finish(found, raised, warnings)
 
 
-def jacobian_file(source: Path, output: Path, lattices: Lattice | Path | Sequence[Lattice | Path], *, by: str = "points",
+def jacobian_file(source: Path, output: Path, lattices: AnyLattice | Sequence[AnyLattice], *, by: str = "points",
                   components: bool = False, of: int | None = None, times: Path | None = None, transposed: Path | None = None,
                   check: bool = False, **options: Any) -> dict[str, Any]:
     """Writes the derivative of a file's positions, as `ffd jacobian` does: by control points, u fastest, or by="parameters", the

@@ -7,6 +7,8 @@ import logging
 import operator
 from typing import Any, Callable
 
+import numpy as np
+
 from . import _declarations as declared
 from . import _native  # type: ignore[attr-defined]
 from ._errors import Cancelled, failure
@@ -116,6 +118,36 @@ def log_into(structure: Any, lines: list[Any]) -> None:
     """Lets a job's structure append (level, line) to a list, which must outlive the call."""
     structure.log = _native.log
     structure.log_user = id(lines)
+
+
+def lend_bytes(data: Any, what: str) -> tuple[Any, int, Any]:
+    """Address and size of what has bytes, and the object that keeps them."""
+    try:
+        view = memoryview(data)
+    except TypeError:
+        raise TypeError(f"{what} must be bytes, not {type(data).__name__}") from None
+    if not view.c_contiguous:
+        raise ValueError(f"{what} must be contiguous")
+    kept = np.frombuffer(view, np.uint8) if view.nbytes else np.zeros(1, np.uint8)
+    return kept.ctypes.data, view.nbytes, kept
+
+
+class Resolver:
+    """Gives a job's source the files that it names, by a function of their names; raises what that has raised."""
+
+    def __init__(self, source: Any, function: Callable[[str], Any]) -> None:
+        self._said: list[Any] = [function, []]
+        source.resolve, source.resolve_user = _native.resolve, id(self._said)
+
+    def reraise(self) -> None:
+        if len(self._said) > 2:
+            raise self._said[2] from None
+
+
+def sink_into(structure: Any, files: list[Any]) -> None:
+    """Lets a job's structure append (name, bytes) of what it would write to a list, which must outlive the call."""
+    structure.sink = _native.sink
+    structure.sink_user = id(files)
 
 
 def list_parameters(data: bytes, name: str) -> list[Any]:

@@ -202,16 +202,17 @@ ffd_status ffd_obj_list_materials(mesh_document *document, const mesh_log *log, 
 {
     const file_document *const file = (const file_document *)document;
     intern_table libraries = {0};
-    char *const folder = file->has_folder ? ffd_path_folder(file->name) : NULL;
+    const char *const mesh = file->path ? file->path : file->name;
+    char *const folder = file->path ? ffd_path_folder(file->path) : NULL;
     reader r = {
-        .from = {.mesh = file->name, .from = folder},
+        .from = {.mesh = mesh, .from = folder},
         .budget = &document->budget,
         .materials = materials,
-        .images = {.materials = materials, .budget = &document->budget, .mesh = file->name, .folder = folder},
+        .images = {.materials = materials, .budget = &document->budget, .mesh = mesh, .folder = folder},
         .error = error};
-    ffd_status status = folder || !file->has_folder ? FFD_OK : ffd_fail_memory(error);
+    ffd_status status = folder || !file->path ? FFD_OK : ffd_fail_memory(error);
     if (!status)
-        status = ffd_obj_list_libraries(&file->input, file->name, &libraries, error);
+        status = ffd_obj_list_libraries(&file->input, mesh, &libraries, error);
     for (uint32_t i = 0; i < libraries.count && !status; i++)
         status = read_library(&r, ffd_intern_key(&libraries, i));
     ffd_left_say(&r.left, "material library cannot be read, and its materials are unknown",

@@ -1,0 +1,312 @@
+#include "base/file/memory_files.h"
+#include "base/file/path.h"
+#include "base/memory/intern.h"
+#include "base/memory/memory.h"
+#include <pthread.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Paths are "ffd-memory:FILES/FOLDER/NAME", with the numbers of the files and of a folder of them. Names that
+   the caller gives may be absolute or lead upwards: only their last part is in a path. */
+static const char scheme[] = "ffd-memory:";
+#define SCHEME_SIZE (sizeof scheme - 1)
+/* Of a path up to its folder, with the final slash. */
+#define HEAD_CAPACITY 64
+
+/* What was added under one name, and what is beside it. */
+typedef struct memory_folder {
+    char *name;  /* as the caller gave it */
+    char *path;  /* of that file */
+    char *shown; /* the folder of the name, with its slash */
+    size_t head; /* bytes of the path before the file's own name */
+    memory_resolve *resolve;
+    memory_sink *sink;
+    void *user;
+} memory_folder;
+
+typedef struct memory_bytes {
+    const void *bytes; /* NULL: there is no file of this path */
+    size_t size;
+} memory_bytes;
+
+struct memory_files {
+    memory_files *next;
+    uint64_t number;
+    pthread_mutex_t lock; /* of what follows */
+    memory_folder **folders;
+    size_t folder_count, folder_capacity;
+    intern_table paths; /* normalized, of files that were asked for */
+    memory_bytes *found;
+    size_t found_capacity;
+    ffd_error failure; /* the first one of a resolve function, or of memory */
+};
+
+/* All that exist, in any thread. */
+static pthread_mutex_t all_lock = PTHREAD_MUTEX_INITIALIZER;
+static memory_files *all;
+static uint64_t last_number;
+
+ffd_status ffd_memory_create(memory_files **files, ffd_error *error)
+{
+    memory_files *const made = ffd_alloc_zero(1, sizeof *made);
+    *files = made;
+    if (!made)
+        return ffd_fail_memory(error);
+    pthread_mutex_init(&made->lock, NULL);
+    pthread_mutex_lock(&all_lock);
+    made->number = ++last_number;
+    made->next = all;
+    all = made;
+    pthread_mutex_unlock(&all_lock);
+    return FFD_OK;
+}
+
+static void free_folder(memory_folder *folder)
+{
+    ffd_free(folder->name);
+    ffd_free(folder->path);
+    ffd_free(folder->shown);
+    ffd_free(folder);
+}
+
+void ffd_memory_destroy(memory_files **files)
+{
+    if (!files || !*files)
+        return;
+    pthread_mutex_lock(&all_lock);
+    memory_files **at = &all;
+    while (*at != *files)
+        at = &(*at)->next;
+    *at = (*files)->next;
+    pthread_mutex_unlock(&all_lock);
+    for (size_t i = 0; i < (*files)->folder_count; i++)
+        free_folder((*files)->folders[i]);
+    ffd_free((*files)->folders);
+    ffd_free((*files)->found);
+    ffd_intern_free(&(*files)->paths);
+    pthread_mutex_destroy(&(*files)->lock);
+    ffd_free(*files);
+    *files = NULL;
+}
+
+/* The files that a path leads to; NULL: it is another path. */
+static memory_files *files_of(const char *path)
+{
+    if (strncmp(path, scheme, SCHEME_SIZE) != 0)
+        return NULL;
+    char *end;
+    const uint64_t number = strtoull(path + SCHEME_SIZE, &end, 10);
+    if (*end != '/')
+        return NULL;
+    pthread_mutex_lock(&all_lock);
+    memory_files *files = all;
+    while (files && files->number != number)
+        files = files->next;
+    pthread_mutex_unlock(&all_lock);
+    return files;
+}
+
+bool ffd_memory_has(const char *path)
+{
+    return files_of(path) != NULL;
+}
+
+/* The folder that a normalized path is in. */
+static const memory_folder *folder_of(const memory_files *files, const char *path)
+{
+    for (size_t i = 0; i < files->folder_count; i++)
+        if (strncmp(path, files->folders[i]->path, files->folders[i]->head) == 0)
+            return files->folders[i];
+    return NULL;
+}
+
+const char *ffd_memory_name(const char *path)
+{
+    const memory_files *const files = files_of(path);
+    const memory_folder *const folder = files ? folder_of(files, path) : NULL;
+    return folder && strcmp(folder->path, path) == 0 ? folder->name : NULL;
+}
+
+/* Adds a file that was found, or not. */
+static ffd_status note(memory_files *files, const char *path, memory_bytes bytes, ffd_error *error)
+{
+    uint32_t number;
+    if (!ffd_grow((void **)&files->found, &files->found_capacity, files->paths.count + 1,
+                  sizeof *files->found) ||
+        !ffd_intern(&files->paths, path, strlen(path), &number))
+        return ffd_fail_memory(error);
+    files->found[number] = bytes;
+    return FFD_OK;
+}
+
+static memory_folder *make_folder(const memory_files *files, const char *name)
+{
+    memory_folder *const folder = ffd_alloc_zero(1, sizeof *folder);
+    const char *const last = ffd_path_name(name);
+    char head[HEAD_CAPACITY];
+    if (!folder)
+        return NULL;
+    folder->head = (size_t)snprintf(head, sizeof head, "%s%llu/%zu/", scheme,
+                                    (unsigned long long)files->number, files->folder_count);
+    folder->name = ffd_text_copy(name);
+    folder->path = ffd_path_join(head, last);
+    folder->shown = ffd_text_copy(name);
+    if (folder->name && folder->path && folder->shown) {
+        folder->shown[last - name] = 0;
+        return folder;
+    }
+    free_folder(folder);
+    return NULL;
+}
+
+static memory_folder *add_folder(memory_files *files, const char *name)
+{
+    if (!ffd_grow((void **)&files->folders, &files->folder_capacity, files->folder_count + 1,
+                  sizeof(memory_folder *)))
+        return NULL;
+    memory_folder *const folder = make_folder(files, name);
+    if (folder)
+        files->folders[files->folder_count++] = folder;
+    return folder;
+}
+
+ffd_status ffd_memory_lend(memory_files *files, const char *name, const void *bytes, size_t size,
+                           memory_resolve *resolve, void *user, const char **path, ffd_error *error)
+{
+    memory_folder *const folder = add_folder(files, name);
+    if (!folder)
+        return ffd_fail_memory(error);
+    folder->resolve = resolve;
+    folder->user = user;
+    *path = folder->path;
+    return note(files, folder->path, (memory_bytes){bytes, size}, error);
+}
+
+ffd_status ffd_memory_take(memory_files *files, const char *name, memory_sink *sink, void *user,
+                           const char **path, ffd_error *error)
+{
+    memory_folder *const folder = add_folder(files, name);
+    if (!folder)
+        return ffd_fail_memory(error);
+    folder->sink = sink;
+    folder->user = user;
+    *path = folder->path;
+    return FFD_OK;
+}
+
+void ffd_memory_show(const memory_files *files, char *text, size_t capacity)
+{
+    for (char *at = text; files && (at = strstr(at, scheme));) {
+        const memory_folder *const folder = folder_of(files, at);
+        if (!folder) {
+            at += SCHEME_SIZE;
+            continue;
+        }
+        const size_t length = strlen(at + folder->head), room = capacity - (size_t)(at - text) - 1;
+        const size_t shown = strlen(folder->shown) < room ? strlen(folder->shown) : room;
+        const size_t kept = length < room - shown ? length : room - shown;
+        memmove(at + shown, at + folder->head, kept);
+        memcpy(at, folder->shown, shown);
+        at[shown + kept] = 0;
+        at += shown;
+    }
+}
+
+ffd_status ffd_memory_judge(const memory_files *files, ffd_status status, ffd_error *error)
+{
+    if (!files || !files->failure.status)
+        return status;
+    if (error)
+        *error = files->failure;
+    return files->failure.status;
+}
+
+ffd_status ffd_memory_judge_path(const char *path, ffd_status status, ffd_error *error)
+{
+    return ffd_memory_judge(files_of(path), status, error);
+}
+
+/* What a callback returns need not be one of ours. */
+static ffd_status known(ffd_status status)
+{
+    switch (status) {
+    case FFD_OK:
+    case FFD_E_GATE:
+    case FFD_E_ARGUMENT:
+    case FFD_E_IO:
+    case FFD_E_EXISTS:
+    case FFD_E_INVALID:
+    case FFD_E_EMBEDDING:
+    case FFD_E_UNSUPPORTED:
+    case FFD_E_MEMORY:
+    case FFD_E_LIMIT:
+    case FFD_E_CANCELLED:
+        return status;
+    }
+    return FFD_E_IO;
+}
+
+/* Asks the callback for a file that is not known yet. */
+static ffd_status resolve(memory_files *files, const char *path, memory_bytes *bytes, ffd_error *error)
+{
+    const memory_folder *const folder = folder_of(files, path);
+    *bytes = (memory_bytes){0};
+    if (!folder || !folder->resolve || !path[folder->head])
+        return FFD_OK;
+    if (files->failure.status) /* the job ends with it: nobody is asked again */
+        return ffd_memory_judge(files, FFD_OK, error);
+    const char *const name = path + folder->head;
+    const ffd_status status = known(folder->resolve(folder->user, name, &bytes->bytes, &bytes->size));
+    if (!status)
+        return note(files, path, *bytes, error);
+    if (!files->failure.status)
+        ffd_fail_file(&files->failure, status, folder->name,
+                      "the file \"%s\", which it names, could not be given", name);
+    *bytes = (memory_bytes){0};
+    return ffd_memory_judge(files, status, error);
+}
+
+ffd_status ffd_memory_find(const char *path, const void **bytes, size_t *size, ffd_error *error)
+{
+    memory_files *const files = files_of(path);
+    char *const plain = ffd_path_normalize(path);
+    memory_bytes found = {0};
+    uint32_t number;
+    ffd_status status = plain ? FFD_OK : ffd_fail_memory(error);
+    if (files) {
+        pthread_mutex_lock(&files->lock);
+        if (plain && ffd_intern_find(&files->paths, plain, strlen(plain), &number))
+            found = files->found[number];
+        else if (plain)
+            status = resolve(files, plain, &found, error);
+        if (status == FFD_E_MEMORY &&
+            !files->failure.status) /* who only asks whether it is there shall not go on */
+            ffd_fail_memory(&files->failure);
+        pthread_mutex_unlock(&files->lock);
+    }
+    ffd_free(plain);
+    *bytes = found.bytes;
+    *size = found.bytes ? found.size : 0;
+    return status;
+}
+
+ffd_status ffd_memory_begin(const char *path, char **name, ffd_error *error)
+{
+    const memory_files *const files = files_of(path);
+    const memory_folder *const folder = files ? folder_of(files, path) : NULL;
+    *name = NULL;
+    if (!folder || !folder->sink)
+        return ffd_fail_file(error, FFD_E_IO, path, "cannot be written: it is an input in memory");
+    *name = ffd_path_join(folder->shown, path + folder->head);
+    return *name ? FFD_OK : ffd_fail_memory(error);
+}
+
+ffd_status ffd_memory_give(const char *path, const char *name, const void *bytes, size_t size,
+                           ffd_error *error)
+{
+    const memory_folder *const folder = folder_of(files_of(path), path);
+    const ffd_status status = known(folder->sink(folder->user, name, bytes, size));
+    return status ? ffd_fail_file(error, status, name, "was not taken by the caller") : FFD_OK;
+}

@@ -1,0 +1,831 @@
+/* test_in_memory.c - jobs whose meshes and lattices are in memory, and whose outputs go to a sink: what comes
+   out is, byte for byte, what a job on files writes, and no file has a part in it. */
+#define _GNU_SOURCE /* mkdtemp, nftw, memmem */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "../support/test_folder.h"
+#include "base/memory/memory.h"
+#include <ffd/ffd.h>
+#include <ffd/jacobian.h>
+#include <ftw.h>
+#include <stdint.h>
+#include <sys/stat.h>
+
+#define MOST 12
+#define PICTURE "\x89PNG\r\n\x1a\n..."
+
+static const char lattice_text[] =
+    "{\"format\":\"ffd-lattice\",\"version\":1,\"size\":[3,3,3],\"rest\":{\"box\":\"mesh\"},"
+    "\"moves\":[{\"at\":[2,\"all\",\"all\"],\"by\":[0.25,0.125,1]}]}";
+static const char open_text[] = "{\"format\":\"ffd-lattice\",\"version\":1,\"size\":[2,2,2],\"rest\":{"
+                                "\"box\":{\"min\":[-1,-1,-1],\"max\":[2,2,2]}},"
+                                "\"moves\":[{\"by\":[0,{\"$\":\"lift\"},1]}]}";
+
+/* Files: those of an input, and those of an output. */
+typedef struct named {
+    char name[200];
+    unsigned char *bytes;
+    size_t size;
+} named;
+
+typedef struct name_list {
+    named files[MOST];
+    size_t count;
+} name_list;
+
+static void add(name_list *list, const char *name, const void *bytes, size_t size)
+{
+    assert_true(list->count < MOST);
+    named *const file = &list->files[list->count++];
+    snprintf(file->name, sizeof file->name, "%s", name);
+    /* At an odd address, and with nothing behind. */
+    file->bytes = (unsigned char *)malloc(size + 1) + 1;
+    file->size = size;
+    memcpy(file->bytes, bytes, size);
+}
+
+static void add_text(name_list *list, const char *name, const char *text)
+{
+    add(list, name, text, strlen(text));
+}
+
+static void clear(name_list *list)
+{
+    for (size_t i = 0; i < list->count; i++)
+        free(list->files[i].bytes - 1);
+    list->count = 0;
+}
+
+static const named *find(const name_list *list, const char *name)
+{
+    for (size_t i = 0; i < list->count; i++)
+        if (strcmp(list->files[i].name, name) == 0)
+            return &list->files[i];
+    return NULL;
+}
+
+/* The callbacks */
+
+typedef struct resolver {
+    const name_list *files;
+    size_t calls;
+    const char *fails; /* at this name, */
+    ffd_status with;   /* with this */
+} resolver;
+
+static ffd_status resolve(void *user, const char *name, ffd_bytes *bytes)
+{
+    resolver *const r = user;
+    const named *const file = find(r->files, name);
+    r->calls++;
+    if (r->fails && strcmp(r->fails, name) == 0)
+        return r->with;
+    if (file)
+        *bytes = (ffd_bytes){file->bytes, file->size};
+    return FFD_OK;
+}
+
+typedef struct sink {
+    name_list files;
+    size_t takes; /* so many, and then fails */
+    ffd_status with;
+} sink;
+
+static ffd_status take(void *user, const char *name, const void *bytes, size_t size)
+{
+    sink *const s = user;
+    assert_non_null(bytes);
+    if (s->with && s->files.count >= s->takes)
+        return s->with;
+    add(&s->files, name, bytes, size);
+    return FFD_OK;
+}
+
+static char said[8192];
+
+static void note(void *user, ffd_log_level level, const char *line)
+{
+    (void)user;
+    snprintf(said + strlen(said), sizeof said - strlen(said), "%d %s\n", (int)level, line);
+}
+
+/* Meshes */
+
+static void put_number(unsigned char *to, uint32_t number)
+{
+    for (int i = 0; i < 4; i++)
+        to[i] = (unsigned char)(number >> 8 * i);
+}
+
+/* Three points of float32, little-endian. */
+static const unsigned char points[36] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,    0x80, 0x3f, 0, 0,
+                                         0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x40, 0,    0,    0, 0x3f};
+
+#define GLTF_REST                                                                                            \
+    "\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0}],\"scenes\":[{\"nodes\":[0]}],\"scene\":0,"     \
+    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":[{\"bufferView\":0,"    \
+    "\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"min\":[0,0,0],\"max\":[1,2,0.5]}],"              \
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}]"
+
+static void make_gltf(name_list *files)
+{
+    add_text(files, "head.gltf",
+             "{" GLTF_REST ",\"images\":[{\"uri\":\"tex/"
+             "skin.png\"},{\"uri\":\"lost.png\"}],\"buffers\":[{\"byteLength\":36,\"uri\":"
+             "\"head.bin\"}]}");
+    add(files, "head.bin", points, sizeof points);
+    add_text(files, "tex/skin.png", PICTURE);
+}
+
+static void make_glb(name_list *files)
+{
+    static const char json[] = "{" GLTF_REST ",\"buffers\":[{\"byteLength\":36}]}";
+    const size_t length = (sizeof json - 1 + 3) / 4 * 4;
+    unsigned char bytes[1024];
+    memset(bytes, ' ', sizeof bytes);
+    memcpy(bytes, "glTF", 4);
+    put_number(bytes + 4, 2);
+    put_number(bytes + 8, (uint32_t)(12 + 8 + length + 8 + 36));
+    put_number(bytes + 12, (uint32_t)length);
+    memcpy(bytes + 16, "JSON", 4);
+    memcpy(bytes + 20, json, sizeof json - 1);
+    put_number(bytes + 20 + length, 36);
+    memcpy(bytes + 24 + length, "BIN\0", 4);
+    memcpy(bytes + 28 + length, points, 36);
+    add(files, "head.glb", bytes, 28 + length + 36);
+}
+
+static void make_obj(name_list *files)
+{
+    add_text(files, "head.obj",
+             "mtllib mats\\head.mtl\nv 0 0 0\nv 1 0.25 0\nv 0 2 0.5\nvn 0 0 1\nusemtl a\nf 1//1 2//1 3//1\n");
+    add_text(files, "mats/head.mtl", "newmtl a\nKd 1 1 1\nmap_Kd ../skin.png\nmap_Ks lost.png\n");
+    add_text(files, "skin.png", PICTURE);
+}
+
+static void make_ply(name_list *files)
+{
+    static const char head[] =
+        "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty "
+        "float y\nproperty float z\nend_header\n";
+    char bytes[300];
+    memcpy(bytes, head, sizeof head - 1);
+    memcpy(bytes + sizeof head - 1, points, sizeof points);
+    add(files, "head.ply", bytes, sizeof head - 1 + sizeof points);
+}
+
+static void make_off(name_list *files)
+{
+    add_text(files, "head.off", "OFF\n3 1 0\n0 0 0\n1 0.25 0\n0 2 0.5\n3 0 1 2\n");
+}
+
+static void make_stl(name_list *files)
+{
+    unsigned char bytes[134] = "binary";
+    put_number(bytes + 80, 1);
+    memcpy(bytes + 96, points, sizeof points);
+    add(files, "head.stl", bytes, sizeof bytes);
+}
+
+/* What both kinds of job are given. */
+
+static void put_all(const name_list *files, const char *under)
+{
+    for (size_t i = 0; i < files->count; i++) {
+        char name[300];
+        snprintf(name, sizeof name, "%s/%s", under, files->files[i].name);
+        for (char *slash = strchr(name, '/'); slash; slash = strchr(slash + 1, '/')) {
+            *slash = 0;
+            mkdir(in_folder(name), 0777);
+            *slash = '/';
+        }
+        put(name, files->files[i].bytes, files->files[i].size);
+    }
+}
+
+static size_t files_found;
+
+static int count_file(const char *path, const struct stat *info, int kind, struct FTW *place)
+{
+    (void)path, (void)info, (void)place;
+    files_found += kind == FTW_F;
+    return 0;
+}
+
+static size_t files_in(const char *name)
+{
+    files_found = 0;
+    assert_int_equal(nftw(in_folder(name), count_file, 8, FTW_PHYS), 0);
+    return files_found;
+}
+
+/* The files of a folder are those that the sink has taken. */
+static void check_same(const name_list *taken, const char *where)
+{
+    for (size_t i = 0; i < taken->count; i++) {
+        const named *const file = &taken->files[i];
+        FILE *const written = fopen(file->name, "rb");
+        if (!written)
+            fail_msg("\"%s\" is not written", file->name);
+        unsigned char *const bytes = malloc(file->size + 1);
+        if (fread(bytes, 1, file->size + 1, written) != file->size)
+            fail_msg("\"%s\" has another size", file->name);
+        assert_memory_equal(bytes, file->bytes, file->size);
+        free(bytes);
+        fclose(written);
+    }
+    assert_int_equal(files_in(where), taken->count);
+}
+
+static void empty_folder(const char *name)
+{
+    char command[300];
+    snprintf(command, sizeof command, "rm -rf '%s'", in_folder(name));
+    assert_int_equal(system(command), 0);
+    assert_int_equal(mkdir(in_folder(name), 0777), 0);
+}
+
+typedef struct both {
+    name_list given;
+    resolver resolver;
+    sink sink;
+    ffd_deform_desc desc;
+    ffd_lattice *lattice;
+    const ffd_lattice *objects[1];
+    const char *paths[1];
+    char input[200], output[200], path[200];
+} both;
+
+/* A job in memory, with the names that the files will have. */
+static void begin(both *b, void (*make)(name_list *), const char *output)
+{
+    *b = (both){0};
+    make(&b->given);
+    empty_folder("in");
+    empty_folder("out");
+    snprintf(b->input, sizeof b->input, "%s/in/%s", folder, b->given.files[0].name);
+    snprintf(b->output, sizeof b->output, "%s/out/%s", folder, output);
+    snprintf(b->path, sizeof b->path, "%s/in/l.json", folder);
+    assert_int_equal(ffd_lattice_parse(lattice_text, strlen(lattice_text), "l.json", &b->lattice, NULL),
+                     FFD_OK);
+    b->objects[0] = b->lattice;
+    b->paths[0] = b->path;
+    b->resolver.files = &b->given;
+    ffd_deform_desc_init(&b->desc, sizeof b->desc);
+    b->desc.input = (ffd_source){.path = b->input,
+                                 .bytes = {b->given.files[0].bytes, b->given.files[0].size},
+                                 .resolve = resolve,
+                                 .resolve_user = &b->resolver};
+    b->desc.output = b->output;
+    b->desc.lattice_count = 1;
+    b->desc.lattice_objects = b->objects;
+    b->desc.lattices = b->paths;
+    b->desc.threads = 2;
+    b->desc.log = note;
+    b->desc.sink = take;
+    b->desc.sink_user = &b->sink;
+    said[0] = 0;
+}
+
+/* Gives the same to a job on files. */
+static void use_files(both *b)
+{
+    assert_int_equal(files_in("out"), 0);
+    put_all(&b->given, "in");
+    put_text("in/l.json", lattice_text);
+    b->desc.input = (ffd_source){.path = b->input};
+    b->desc.lattice_objects = NULL;
+    b->desc.lattices = b->paths;
+    b->desc.sink = NULL;
+    said[0] = 0;
+}
+
+static void end(both *b)
+{
+    clear(&b->given);
+    clear(&b->sink.files);
+    ffd_lattice_destroy(&b->lattice);
+}
+
+/* Both jobs write the same and say the same. */
+static void compare_jobs(void (*make)(name_list *), const char *output, size_t files)
+{
+    both b;
+    ffd_job_result in_memory = {.struct_size = sizeof in_memory}, on_files = in_memory;
+    ffd_error error = {0};
+    char lines[sizeof said];
+    begin(&b, make, output);
+    if (ffd_deform_run(&b.desc, &in_memory, &error))
+        fail_msg("%s: %s", error.file, error.message);
+    memcpy(lines, said, sizeof lines);
+    use_files(&b);
+    assert_int_equal(ffd_deform_run(&b.desc, &on_files, NULL), FFD_OK);
+    assert_int_equal(b.sink.files.count, files);
+    assert_string_equal(b.sink.files.files[files - 1].name, b.output); /* the mesh comes last */
+    check_same(&b.sink.files, "out");
+    assert_string_equal(lines, said);
+    assert_memory_equal(in_memory.counts, on_files.counts, sizeof on_files.counts);
+    assert_memory_equal(&in_memory.after, &on_files.after, sizeof on_files.after);
+    assert_int_equal(in_memory.moved, on_files.moved);
+    assert_true(in_memory.moved > 0);
+    end(&b);
+}
+
+static void every_format_gives_the_bytes_of_the_files(void **state)
+{
+    compare_jobs(make_obj, "head.obj", 3); /* with library and map */
+    compare_jobs(make_gltf, "moved.gltf", 3);
+    compare_jobs(make_glb, "head.glb", 1);
+    compare_jobs(make_ply, "head.ply", 1);
+    compare_jobs(make_off, "head.off", 1);
+    compare_jobs(make_stl, "head.stl", 1);
+    (void)state;
+}
+
+static void so_does_every_conversion(void **state)
+{
+    compare_jobs(make_gltf, "head.glb", 2); /* the picture stays a file of its own */
+    compare_jobs(make_glb, "head.gltf", 2);
+    compare_jobs(make_obj, "head.gltf", 2);
+    compare_jobs(make_stl, "head.obj", 1);
+    compare_jobs(make_off, "head.glb", 1);
+    compare_jobs(make_gltf, "head.ply", 1);
+    (void)state;
+}
+
+static void one_of_both_may_be_a_file(void **state)
+{
+    both b;
+    ffd_job_result result = {.struct_size = sizeof result};
+    begin(&b, make_gltf, "head.gltf");
+    b.desc.sink = NULL; /* to files */
+    assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
+    assert_int_equal(files_in("out"), 3);
+    put_all(&b.given, "in");
+    b.desc.input = (ffd_source){.path = b.input};
+    b.desc.sink = take;
+    assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK); /* --force is not needed */
+    assert_int_equal(b.sink.files.count, 3);
+    check_same(&b.sink.files, "out");
+    end(&b);
+    (void)state;
+}
+
+/* Without a name there is a format; a name may have no folder; each file is asked for once. */
+static void names_are_the_callers(void **state)
+{
+    both b;
+    ffd_job_result result = {.struct_size = sizeof result};
+    begin(&b, make_gltf, "");
+    b.desc.input.path = NULL;
+    b.desc.input.format = FFD_FORMAT_GLTF;
+    b.desc.output = "moved.gltf";
+    b.desc.lattices = NULL;
+    assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
+    assert_int_equal(b.sink.files.count, 3);
+    assert_non_null(find(&b.sink.files, "moved.bin"));
+    assert_non_null(find(&b.sink.files, "tex/skin.png"));
+    assert_string_equal(b.sink.files.files[2].name, "moved.gltf");
+    assert_int_equal(b.resolver.calls, 3);
+    assert_string_equal(said, "0 the image \"lost.png\" is missing and was not copied\n");
+    clear(&b.sink.files);
+    b.desc.input.path = "head.gltf"; /* one name for both is no conflict */
+    b.desc.output = "head.gltf";
+    assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
+    assert_non_null(find(&b.sink.files, "head.bin"));
+    clear(&b.sink.files);
+    b.desc.dry_run = true;
+    assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
+    assert_int_equal(b.sink.files.count, 0);
+    end(&b);
+    (void)state;
+}
+
+static void texts_of_lattices_have_values(void **state)
+{
+    both b;
+    ffd_job_result result = {.struct_size = sizeof result};
+    begin(&b, make_off, "head.off");
+    const ffd_setting set = {"lift", "0.5"};
+    const ffd_bytes text = {open_text, strlen(open_text)};
+    b.desc.lattices = NULL;
+    b.desc.lattice_objects = NULL;
+    b.desc.lattice_texts = &text;
+    ffd_error error;
+    assert_int_equal(ffd_deform_run(&b.desc, &result, &error), FFD_E_INVALID);
+    assert_string_equal(error.file, "lattice 1");
+    b.desc.set = &set;
+    b.desc.set_count = 1;
+    assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
+    assert_true(memmem(b.sink.files.files[0].bytes, b.sink.files.files[0].size, "0 2.5 1.5", 9));
+    assert_int_equal(ffd_check_run(&b.desc, &result, NULL), FFD_OK);
+    assert_int_equal(result.moved, 3);
+    end(&b);
+    (void)state;
+}
+
+static void several_morph_targets_are_made(void **state)
+{
+    both b;
+    ffd_lattice *second;
+    ffd_job_result result = {.struct_size = sizeof result};
+    begin(&b, make_gltf, "head.gltf");
+    assert_int_equal(ffd_lattice_copy(b.lattice, &second, NULL), FFD_OK);
+    const ffd_lattice *const objects[] = {b.lattice, second};
+    static const char *const names[] = {"wide", "tall"};
+    char other[200];
+    snprintf(other, sizeof other, "%s/in/k.json", folder);
+    const char *const paths[] = {b.path, other};
+    b.desc.lattice_count = 2;
+    b.desc.lattice_objects = objects;
+    b.desc.lattices = paths;
+    b.desc.morphs = names;
+    assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
+    assert_int_equal(result.morph_count, 2);
+    assert_ptr_equal(result.morph_lattices, paths);
+    use_files(&b);
+    put_text("in/k.json", lattice_text);
+    b.desc.lattices = paths;
+    assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
+    check_same(&b.sink.files, "out");
+    ffd_lattice_destroy(&second);
+    end(&b);
+    (void)state;
+}
+
+static void embeddings_pass_through_memory(void **state)
+{
+    both b;
+    ffd_job_result result = {.struct_size = sizeof result};
+    ffd_embed_desc embed;
+    begin(&b, make_gltf, "head.gltf");
+    ffd_embed_desc_init(&embed, sizeof embed);
+    embed.input = b.desc.input;
+    embed.lattice_object = b.lattice;
+    char uvw[200], statuses[200];
+    snprintf(uvw, sizeof uvw, "%s/out/e.npy", folder);
+    snprintf(statuses, sizeof statuses, "%s/out/s.npy", folder);
+    embed.output = uvw;
+    embed.status_output = statuses;
+    embed.sink = take;
+    embed.sink_user = &b.sink;
+    assert_int_equal(ffd_embed_run(&embed, &result, NULL), FFD_OK);
+    assert_int_equal(b.sink.files.count, 2);
+    const named *const made = find(&b.sink.files, uvw);
+    sink deformed = {0};
+    b.desc.embedding_bytes = (ffd_bytes){made->bytes, made->size};
+    b.desc.sink_user = &deformed;
+    assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
+    assert_int_equal(deformed.files.count, 3);
+    b.desc.embedding_bytes.size--;
+    ffd_error error;
+    assert_int_equal(ffd_deform_run(&b.desc, &result, &error), FFD_E_INVALID);
+    assert_string_equal(error.file, "embedding");
+    use_files(&b);
+    embed.input = b.desc.input;
+    embed.lattice_object = NULL;
+    embed.lattice = b.path;
+    embed.sink = NULL;
+    assert_int_equal(ffd_embed_run(&embed, &result, NULL), FFD_OK);
+    check_same(&b.sink.files, "out");
+    clear(&deformed.files);
+    end(&b);
+    (void)state;
+}
+
+static void other_jobs_take_memory_too(void **state)
+{
+    both b;
+    ffd_job_result result = {.struct_size = sizeof result};
+    ffd_info_desc info;
+    ffd_compare_desc compare;
+    ffd_comparison comparison = {.struct_size = sizeof comparison};
+    char *ours, *theirs, output[200];
+    begin(&b, make_gltf, "head.gltf");
+    ffd_info_desc_init(&info, sizeof info);
+    info.file = b.desc.input;
+    info.json = info.parts = true;
+    assert_int_equal(ffd_info_run(&info, &ours, NULL), FFD_OK);
+    ffd_compare_desc_init(&compare, sizeof compare);
+    compare.a = compare.b = b.desc.input;
+    assert_int_equal(ffd_compare_run(&compare, &comparison, NULL), FFD_OK);
+    assert_true(comparison.equal && comparison.positions_compared == 3);
+    ffd_lattice_desc shape;
+    ffd_lattice_new_desc made;
+    ffd_lattice_desc_init(&shape, sizeof shape);
+    ffd_lattice_new_desc_init(&made, sizeof made);
+    snprintf(output, sizeof output, "%s/out/new.json", folder);
+    made.meshes = &b.desc.input;
+    made.mesh_count = 1;
+    made.lattice = &shape;
+    made.output = output;
+    made.sink = take;
+    made.sink_user = &b.sink;
+    assert_int_equal(ffd_lattice_new_run(&made, NULL), FFD_OK);
+    ffd_shared_box *box;
+    assert_int_equal(ffd_shared_box_create(&box, NULL), FFD_OK);
+    assert_int_equal(ffd_shared_box_add(box, &b.desc, NULL), FFD_OK);
+    b.desc.shared_box = box;
+    assert_int_equal(ffd_check_run(&b.desc, &result, NULL), FFD_OK);
+    ffd_shared_box_destroy(&box);
+    b.desc.shared_box = NULL;
+    use_files(&b);
+    info.file = b.desc.input;
+    assert_int_equal(ffd_info_run(&info, &theirs, NULL), FFD_OK);
+    assert_string_equal(ours, theirs);
+    made.sink = NULL;
+    assert_int_equal(ffd_lattice_new_run(&made, NULL), FFD_OK);
+    check_same(&b.sink.files, "out");
+    ffd_text_free(ours);
+    ffd_text_free(theirs);
+    end(&b);
+    (void)state;
+}
+
+static void pictures_pages_and_derivatives_go_to_a_sink(void **state)
+{
+    both b;
+    ffd_job_result result = {.struct_size = sizeof result};
+    static const char *const names[] = {"v.png", "v.html", "j.npz"};
+    char paths[3][200];
+    ffd_view_desc view;
+    ffd_jacobian_desc jacobian;
+    begin(&b, make_obj, "head.obj");
+    ffd_view_desc_init(&view, sizeof view);
+    ffd_jacobian_desc_init(&jacobian, sizeof jacobian);
+    view.job = jacobian.job = &b.desc;
+    view.width = view.height = 64;
+    view.sink_user = &b.sink;
+    for (int pass = 0; pass < 2; pass++) {
+        view.sink = b.desc.sink;
+        for (int i = 0; i < 3; i++) {
+            snprintf(paths[i], sizeof paths[i], "%s/out/%s", folder, names[i]);
+            view.output = jacobian.output = paths[i];
+            view.width = view.height = i == 0 ? 64 : 0;
+            assert_int_equal(
+                i < 2 ? ffd_view_run(&view, &result, NULL) : ffd_jacobian_run(&jacobian, NULL, NULL), FFD_OK);
+            if (i == 0)
+                assert_ptr_equal(result.picture, paths[0]);
+        }
+        if (pass == 0)
+            use_files(&b);
+    }
+    assert_int_equal(b.sink.files.count, 3);
+    check_same(&b.sink.files, "out");
+    end(&b);
+    (void)state;
+}
+
+static void a_report_goes_to_a_sink(void **state)
+{
+    const ffd_job_result result = {.struct_size = sizeof result};
+    sink s = {0};
+    char path[200];
+    empty_folder("out");
+    snprintf(path, sizeof path, "%s/out/r.json", folder);
+    for (int pass = 0; pass < 2; pass++) {
+        ffd_report *report;
+        assert_int_equal(pass ? ffd_report_create(path, true, NULL, &report, NULL)
+                              : ffd_report_create_sink(path, true, take, &s, &report, NULL),
+                         FFD_OK);
+        for (int i = 0; i < 3; i++)
+            assert_int_equal(ffd_report_add(report, "a.obj", "b.obj", &result, NULL), FFD_OK);
+        assert_int_equal(s.files.count, pass);
+        assert_int_equal(ffd_report_write(report, NULL), FFD_OK);
+        ffd_report_destroy(&report);
+    }
+    check_same(&s.files, "out");
+    s.with = FFD_E_LIMIT;
+    ffd_report *report;
+    assert_int_equal(ffd_report_create_sink("r.jsonl", true, take, &s, &report, NULL), FFD_OK);
+    assert_int_equal(ffd_report_write(report, NULL), FFD_E_LIMIT);
+    ffd_report_destroy(&report);
+    clear(&s.files);
+    (void)state;
+}
+
+/* Of a resolver that fails the job has the status; its name for the mesh is in the error; nothing is given
+ * on. */
+static void check_resolver(const char *fails, ffd_status with, ffd_status expected)
+{
+    both b;
+    ffd_job_result result = {.struct_size = sizeof result};
+    ffd_error error = {0};
+    begin(&b, make_gltf, "head.gltf");
+    b.resolver.fails = fails;
+    b.resolver.with = with;
+    assert_int_equal(ffd_deform_run(&b.desc, &result, &error), expected);
+    assert_int_equal(result.status, expected);
+    assert_int_equal(error.status, expected);
+    assert_string_equal(error.file, b.input);
+    assert_non_null(strstr(error.message, fails));
+    assert_int_equal(b.sink.files.count, 0);
+    b.desc.sink = NULL;
+    assert_int_equal(ffd_deform_run(&b.desc, &result, &error), expected);
+    assert_int_equal(files_in("out"), 0);
+    end(&b);
+}
+
+static void a_resolver_that_fails_ends_the_job(void **state)
+{
+    check_resolver("head.bin", FFD_E_CANCELLED, FFD_E_CANCELLED);
+    check_resolver("head.bin", FFD_E_IO, FFD_E_IO);
+    check_resolver("tex/skin.png", FFD_E_MEMORY, FFD_E_MEMORY); /* a missing image alone is no failure */
+    check_resolver("lost.png", (ffd_status)77, FFD_E_IO);
+    (void)state;
+}
+
+static void what_is_not_there_is_named(void **state)
+{
+    both b;
+    ffd_job_result result = {.struct_size = sizeof result};
+    ffd_error error;
+    begin(&b, make_gltf, "head.gltf");
+    b.desc.input.resolve = NULL;
+    assert_int_equal(ffd_deform_run(&b.desc, &result, &error), FFD_E_IO);
+    assert_string_equal(error.file, b.input);
+    assert_string_equal(error.message, "the file \"head.bin\" cannot be opened: No such file or directory");
+    /* Not even where there is a file of the name. */
+    put_all(&b.given, "in");
+    assert_int_equal(ffd_deform_run(&b.desc, &result, &error), FFD_E_IO);
+    end(&b);
+    (void)state;
+}
+
+static void nothing_outside_of_the_folder_is_asked_for(void **state)
+{
+    both b;
+    ffd_job_result result = {.struct_size = sizeof result};
+    ffd_error error;
+    static const char *const uris[] = {"../x.bin", "a/../../x.bin", "/etc/passwd", "%2e%2e/x.bin"};
+    for (size_t i = 0; i < sizeof uris / sizeof *uris; i++) {
+        char text[1024];
+        begin(&b, make_gltf, "head.gltf");
+        snprintf(text, sizeof text, "{" GLTF_REST ",\"buffers\":[{\"byteLength\":36,\"uri\":\"%s\"}]}",
+                 uris[i]);
+        b.desc.input.bytes = (ffd_bytes){text, strlen(text)};
+        assert_int_equal(ffd_deform_run(&b.desc, &result, &error), FFD_E_IO);
+        assert_non_null(strstr(error.message, "is outside the model's folder"));
+        assert_int_equal(b.resolver.calls, 0);
+        end(&b);
+    }
+    (void)state;
+}
+
+static void a_sink_that_fails_ends_the_job(void **state)
+{
+    both b;
+    ffd_job_result result = {.struct_size = sizeof result};
+    ffd_error error;
+    for (size_t takes = 0; takes < 3; takes++) {
+        begin(&b, make_gltf, "head.gltf");
+        b.sink.with = takes == 1 ? (ffd_status)5 : FFD_E_CANCELLED;
+        b.sink.takes = takes;
+        assert_int_equal(ffd_deform_run(&b.desc, &result, &error), takes == 1 ? FFD_E_IO : FFD_E_CANCELLED);
+        assert_string_equal(error.message, "was not taken by the caller");
+        assert_null(strstr(error.file, "ffd-memory"));
+        assert_int_equal(b.sink.files.count, takes);
+        assert_null(find(&b.sink.files, b.output)); /* never the mesh without what it needs */
+        end(&b);
+    }
+    begin(&b, make_off, "head.off");
+    b.desc.fail_on = FFD_GATE_TEAR;
+    b.desc.tear_most = -1;
+    b.desc.fail_on |= FFD_GATE_OUTSIDE;
+    ffd_lattice_destroy(&b.lattice);
+    const char far_away[] =
+        "{\"format\":\"ffd-lattice\",\"version\":1,\"size\":[2,2,2],\"rest\":{\"box\":{\"min\":[8,8,8],"
+        "\"max\":[9,9,9]}}}";
+    assert_int_equal(ffd_lattice_parse(far_away, strlen(far_away), "far", &b.lattice, NULL), FFD_OK);
+    b.objects[0] = b.lattice;
+    assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_E_GATE);
+    assert_int_equal(b.sink.files.count, 0);
+    end(&b);
+    (void)state;
+}
+
+/* Each length of each format: what a job on a file of it says. */
+static void truncated_bytes_fail_as_files_do(void **state)
+{
+    static void (*const make[])(name_list *) = {make_obj, make_gltf, make_glb, make_ply, make_off, make_stl};
+    for (size_t m = 0; m < sizeof make / sizeof *make; m++) {
+        both b;
+        ffd_job_result result = {.struct_size = sizeof result};
+        begin(&b, make[m], "o.glb");
+        put_text("in/l.json", lattice_text);
+        put_all(&b.given, "in");
+        for (size_t size = 0; size < b.given.files[0].size; size += 1 + size / 16) {
+            const ffd_source file = {.path = b.input};
+            ffd_error ours = {0}, theirs = {0};
+            unsigned char *const cut = malloc(size + 1);
+            memcpy(cut, b.given.files[0].bytes, size);
+            put(strrchr(b.input, '/') - 2, cut, size);
+            b.desc.input.bytes = (ffd_bytes){cut, size};
+            b.desc.lattice_objects = b.objects;
+            ffd_deform_desc on_file = b.desc;
+            on_file.input = file;
+            on_file.dry_run = b.desc.dry_run = true;
+            const ffd_status status = ffd_deform_run(&b.desc, &result, &ours);
+            assert_int_equal(ffd_deform_run(&on_file, &result, &theirs), status);
+            assert_string_equal(ours.message, theirs.message);
+            assert_string_equal(ours.file, theirs.file);
+            assert_int_equal(ours.line, theirs.line);
+            assert_string_equal(ours.pointer, theirs.pointer);
+            free(cut);
+        }
+        end(&b);
+    }
+    (void)state;
+}
+
+static void descriptions_that_contradict_themselves_are_refused(void **state)
+{
+    both b;
+    ffd_job_result result = {.struct_size = sizeof result};
+    ffd_error error;
+    ffd_bytes text = {lattice_text, strlen(lattice_text)};
+    ffd_depfile *depfile;
+    begin(&b, make_off, "head.off");
+    const ffd_deform_desc whole = b.desc;
+    assert_int_equal(ffd_depfile_create(in_folder("out/d"), &depfile, NULL), FFD_OK);
+    for (int wrong = 0; wrong < 9; wrong++) {
+        b.desc = whole;
+        b.desc.lattices = NULL;
+        if (wrong == 0)
+            b.desc.input.bytes.data = NULL;
+        if (wrong == 1)
+            b.desc.input.bytes = (ffd_bytes){0}; /* but a resolver */
+        if (wrong == 2)
+            b.desc.in_place = true;
+        if (wrong == 3)
+            b.desc.depfile = depfile;
+        if (wrong == 4)
+            b.desc.resources = FFD_RESOURCES_REFERENCE;
+        if (wrong == 5)
+            b.desc.lattice_texts = &text; /* and an object */
+        if (wrong == 6)
+            b.desc.lattice_objects = NULL;
+        if (wrong == 7)
+            b.desc.embedding_bytes.size = 3;
+        if (wrong == 8)
+            b.desc.output = NULL;
+        assert_int_equal(ffd_deform_run(&b.desc, &result, &error), FFD_E_ARGUMENT);
+        assert_non_null(error.message[0] ? error.message : NULL);
+    }
+    ffd_depfile_destroy(&depfile);
+    b.desc = whole;
+    b.desc.input.bytes.size = 0; /* a file of no bytes */
+    assert_int_equal(ffd_deform_run(&b.desc, &result, &error), FFD_E_INVALID);
+    assert_int_equal(b.sink.files.count, 0);
+    end(&b);
+    (void)state;
+}
+
+/* Wherever memory runs out nothing is lost without a word, as an image that seems to be missing. */
+static void memory_may_run_out_anywhere(void **state)
+{
+    both b;
+    ffd_status status = FFD_E_MEMORY;
+    long failures = 0;
+    begin(&b, make_gltf, "head.gltf");
+    b.desc.threads = 1;
+    for (; status; failures++) {
+        ffd_job_result result = {.struct_size = sizeof result};
+        ffd_alloc_fail_after(failures);
+        status = ffd_deform_run(&b.desc, &result, NULL);
+        ffd_alloc_fail_after(-1);
+        assert_true(status == FFD_OK || status == FFD_E_MEMORY);
+        assert_int_equal(b.sink.files.count, status ? 0 : 3);
+    }
+    assert_true(failures > 50);
+    end(&b);
+    (void)state;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_format_gives_the_bytes_of_the_files),
+        cmocka_unit_test(so_does_every_conversion),
+        cmocka_unit_test(one_of_both_may_be_a_file),
+        cmocka_unit_test(names_are_the_callers),
+        cmocka_unit_test(texts_of_lattices_have_values),
+        cmocka_unit_test(several_morph_targets_are_made),
+        cmocka_unit_test(embeddings_pass_through_memory),
+        cmocka_unit_test(other_jobs_take_memory_too),
+        cmocka_unit_test(pictures_pages_and_derivatives_go_to_a_sink),
+        cmocka_unit_test(a_report_goes_to_a_sink),
+        cmocka_unit_test(a_resolver_that_fails_ends_the_job),
+        cmocka_unit_test(what_is_not_there_is_named),
+        cmocka_unit_test(nothing_outside_of_the_folder_is_asked_for),
+        cmocka_unit_test(a_sink_that_fails_ends_the_job),
+        cmocka_unit_test(truncated_bytes_fail_as_files_do),
+        cmocka_unit_test(memory_may_run_out_anywhere),
+        cmocka_unit_test(descriptions_that_contradict_themselves_are_refused),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
