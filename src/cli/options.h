@@ -10,7 +10,7 @@
 
 /* What --memory does. */
 #define CLI_MEMORY                                                                                           \
-    "memory that mesh and lattices may take, as 4G; default 100M (views: 400M) and 20 times their files"
+    "memory for mesh and lattices, as 4G; default 100M (views: 400M) and 20 times their files"
 
 /* What --strict does. */
 #define CLI_STRICT "refuse what the format's specification calls an error even where its meaning is plain"
