@@ -1,7 +1,8 @@
 #!/bin/sh
 # Builds ffd and runs its tests, in build folders of its own under .build-test/.
-#     sh tests/run.sh                 the gcc build, every quick suite (all but slow, soak and python)
-#     sh tests/run.sh --suite NAME    the gcc build, one suite (unit property oracle fuzz golden cli rules python bench slow)
+#     sh tests/run.sh                 the gcc build, every quick suite (all but slow, soak, python and packages)
+#     sh tests/run.sh --suite NAME    the gcc build, one suite (unit property oracle fuzz golden cli rules python packages bench
+#                                     slow)
 #                                     or one tag (threads compilers text)
 #     sh tests/run.sh --all           and: slow suites, release, clang with sanitizers, valgrind, fuzzing, the demo, the wraps
 #     sh tests/run.sh --soak          the gcc build, what takes hours, with other random numbers every time
@@ -75,9 +76,11 @@ ccache=
 if command -v ccache >/dev/null 2>&1; then
     ccache='ccache '
     export CCACHE_DIR="${CCACHE_DIR-$work/ccache}"
-    # The demo compiles what the stage `release` has compiled before, with warnings as errors.
-    export CCACHE_IGNOREOPTIONS=-Werror
+    # The wheel, the packages and the demo compile what the stage `release` has compiled before, with warnings as errors. In
+    # Debian's flags -O3 stands at the end: that a build type brings it once more makes no difference.
+    export CCACHE_IGNOREOPTIONS="-Werror -O3" CCACHE_SLOPPINESS="${CCACHE_SLOPPINESS:+$CCACHE_SLOPPINESS,}locale"
 fi
+delivered=$(python3 "$root/tests/install/flags.py")
 
 passed=0
 failed=0
@@ -150,7 +153,10 @@ lines=-gline-tables-only
 coverage="-fsanitize=fuzzer-no-link -fno-sanitize-coverage=trace-cmp $lines"
 build_stage() {
     case "$1" in
-    release) build release 'golden rules property compilers python' gcc g++ -Dbuildtype=release ;;
+    release)
+        build release 'golden rules property compilers python packages' gcc g++ -Dbuildtype=release \
+            -Dc_args="$delivered" -Dcpp_args="$delivered"
+        ;;
     asan)
         build asan 'unit property fuzz golden cli' clang clang++ -Dbuildtype=debug -Doptimization=1 \
             -Db_sanitize=address,undefined -Db_lundef=false -Dfuzzers=true -Dc_args="$coverage" -Dcpp_args="$coverage"
@@ -235,24 +241,24 @@ if build gcc '' gcc g++ -Dbuildtype=debugoptimized -Dc_args=-g1 -Dcpp_args=-g1; 
     elif [ -n "$all" ]; then
         ahead release
         # What is part of another test follows there.
-        suites gcc gcc --no-suite python --no-suite part_of_corpus --no-suite soak
+        suites gcc gcc --no-suite python --no-suite packages --no-suite part_of_corpus --no-suite soak
     elif [ -n "$soak" ]; then
         FFD_SEED=${FFD_SEED-$started}
         export FFD_SEED
         echo "FFD_SEED=$FFD_SEED"
         suites soak gcc --suite soak --timeout-multiplier 0
     else
-        suites gcc gcc --no-suite python --no-suite slow --no-suite soak
+        suites gcc gcc --no-suite python --no-suite packages --no-suite slow --no-suite soak
     fi
 fi
 
 if [ -n "$all" ]; then
-    # As it is delivered: without assertions, with every optimization. A rule on the text of the sources says nothing new,
+    # As it is delivered: without assertions, with every optimization, with Debian's flags. A rule on the text of the sources says nothing new,
     # nor do the validator and the browser, where the files and pages are byte for byte those of the gcc build.
     if build_stage release; then
         ahead asan
         # shellcheck disable=SC2086 # words, or nothing
-        suites release release --suite golden --suite rules --suite property --suite compilers $python \
+        suites release release --suite golden --suite rules --suite property --suite compilers --suite packages $python \
             --no-suite text --no-suite node --no-suite slow --no-suite soak
         [ ! -x "$work/gcc/src/cli/ffd" ] || case_of release pages compare_pages
     fi
@@ -282,7 +288,7 @@ if [ -n "$all" ]; then
     drop asan
 
     # The demo runs beside what comes next, as the builds do.
-    { nice -n 19 sh "$root/data/demo.sh" "$work/demo" >"$logs/demo.out" 2>&1 </dev/null; echo $? >"$logs/demo.status"; } &
+    { CC="${ccache}gcc" CXX="${ccache}g++" CFLAGS=$delivered CXXFLAGS=$delivered nice -n 19 sh "$root/data/demo.sh" "$work/demo" >"$logs/demo.out" 2>&1 </dev/null; echo $? >"$logs/demo.status"; } &
 
     # What is only to be found with clang and optimization: other code for the kernels and what is around them (suite
     # compilers; the same bytes are promised). The thread sanitizer adds its checks after the optimizer, so that one build

@@ -348,7 +348,7 @@ def begun(run, *arguments):
 
 @case
 def signals_leave_whole_pictures_and_an_index(run):
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
+    for number in (signal.SIGTERM, signal.SIGKILL) if SANITIZED else (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
         start(run, [job(i) for i in range(JOBS)])
         process = begun(run)
         if number == signal.SIGKILL:

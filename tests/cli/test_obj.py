@@ -3,7 +3,7 @@
 that move, and the indices that an added `vn` asks for."""
 import re
 
-from harness import INVALID, MODELS, carried, case, check, equal, lattice, main, models
+from harness import INVALID, MODELS, SANITIZED, carried, case, check, equal, lattice, main, models
 
 NAMES = ("g", "o", "usemtl", "mtllib")
 BUMP = [{"at": [[1, 2], [1, 2], [1, 2]], "by": [0.5, 0.25, -0.125]}]
@@ -251,13 +251,14 @@ def dialect_is_read_as_meant(run):
 def sample_models(run):
     found = models(".obj")
     changed = 0
-    for name, path, before in found:
+    # Under a sanitizer some of them: test_obj_models.c reads others.
+    for name, path, before in found[::3 if SANITIZED else 1]:
         if name in REFUSED:
             run.ffd("deform", path, "r.obj", "-l", run.write("l.json", lattice()), code=INVALID,
                     err=f"{path}:{REFUSED[name]}")
             continue
         changed += deforms(run, name, path, before)
-    check(not MODELS or len(found) > 100 and changed > 10000, f"{len(found)} models, {changed} lines")
+    check(not MODELS or len(found) > 100 and changed > (1000 if SANITIZED else 10000), f"{len(found)} models, {changed} lines")
 
 
 main()

@@ -10,7 +10,7 @@ import struct
 from batches import lines_of, start
 from bspline import BoxVolume
 from gltf_build import Scene
-from harness import INVALID, NO, USAGE, case, check, equal, glb_split, gltf_vectors, lattice, main, near, npy, obj_vertices
+from harness import INVALID, NO, SANITIZED, USAGE, case, check, equal, glb_split, gltf_vectors, lattice, main, near, npy, obj_vertices
 from said import anything, counts, entry
 
 # Misses the face x = 1 by a millionth, as a file of six decimals does; a second one by three, a third is far away.
@@ -233,7 +233,7 @@ def a_new_lattice_holds_its_mesh_wherever_it_stands(run):
     """All shapes, without a margin, at offsets up to 1e8, in all formats. FFD_SEED=N takes other points."""
     seed = int(os.environ.get("FFD_SEED") or 33)
     numbers = random.Random(seed)
-    for far in (None, 3, 4, 6, 8):
+    for far in (None, 6) if SANITIZED else (None, 3, 4, 6, 8):
         offset = [(0 if far is None else 10 ** numbers.uniform(far - 1, far)) * numbers.choice((-1, 0.3, 1)) for _ in range(3)]
         sides = [10 ** numbers.uniform(-1, 1) for _ in range(3)]
         moved = [[o + s * numbers.uniform(-1, 1) for o, s in zip(offset, sides)] for _ in range(60)]
@@ -396,7 +396,7 @@ def new_lattices_hold_what_is_placed_and_quantized(run):
     """Under a turned and scaled node far away, as floats and as integers; as text of an STL; as doubles of a binary PLY."""
     turn = [0.1, -0.5, 0.3, math.sqrt(1 - 0.01 - 0.25 - 0.09)]
     points = [[math.sin(n) * 3, math.sin(2.3 * n), math.sin(4.1 * n) * 0.01] for n in range(60)]
-    for offset in (0.0, 12345.678, 1e6, 1e8):
+    for offset in (0.0, 1e6) if SANITIZED else (0.0, 12345.678, 1e6, 1e8):
         node = {"translation": [offset, -0.7 * offset, 0.001 * offset], "rotation": turn, "scale": [3, 1, 0.02]}
         moved = [[x + offset, y - 0.7 * offset, z + 0.001 * offset] for x, y, z in points]
         run.write("a.glb", glb_of(points, node))

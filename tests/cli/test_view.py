@@ -417,7 +417,7 @@ def only_a_part_is_deformed_and_all_is_shown(run):
 
 @case
 def large_meshes_are_simplified_unless_all_is_wanted(run):
-    side = 480
+    side = 450
     head = f"ply\nformat binary_little_endian 1.0\nelement vertex {side * side}\nproperty float x\nproperty float y\nproperty float z\nelement face {(side - 1) ** 2}\nproperty list uchar int vertex_indices\nend_header\n"
     points = b"".join(struct.pack("<3f", x / side, y / side, 0) for y in range(side) for x in range(side))
     faces = b"".join(struct.pack("<B4i", 4, n, n + 1, n + side + 1, n + side)
@@ -517,8 +517,8 @@ def before_is_left_of_after_with_the_cage(run):
 
 @case
 def lattices_of_too_many_points_are_left_out_of_pictures_and_said(run):
-    """60 x 60 x 60 points took the picture's memory: exit 7 of what check and a page can do."""
-    work = start(run, SHIFT, size=[60, 60, 60])
+    """60 x 60 x 60 points took the picture's memory: exit 7 of what check and a page can do. The limit is 50 x 50 x 50."""
+    work = start(run, SHIFT, size=[51, 50, 50])
     for more in ([], ["--frames", "4"]):
         rows = picture(run, *work, *more, "--size", "200x120",
                        err="a.obj: the picture: 1 of 1 lattice is not drawn: more than 125000 control points")

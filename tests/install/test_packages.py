@@ -6,9 +6,10 @@
   - Debian packages are built from it as README.md says, lintian finds no error in them, and in a clean root, of nothing
     but Debian's essential packages and apt, they are installed with what they depend on, run, and are removed again.
 
-    test_packages.py FFD
+    test_packages.py FFD CC CXX
 
-All is compiled as Debian's packages are. With ccache, the second build takes what the first has compiled.
+All is compiled as Debian's packages are. With ccache, the second build takes what the first has compiled, and both take what
+tests/run.sh has compiled for its stage `release`.
 """
 
 import glob
@@ -20,6 +21,7 @@ import sys
 import tarfile
 import tempfile
 
+import flags
 import stage
 
 PACKAGES = ["ffd", "libffd0", "libffd-dev"]
@@ -64,20 +66,18 @@ def pack(folder, findings):
     return os.path.join(folder, top)
 
 
-def compiler_environment(source):
-    """Debian's own flags for a source, as data/packaging/debian asks for them, and a ccache for this source."""
-    options = dict(re.findall(r"^export (DEB_\w+) = (.*)$", stage.read("data/packaging/debian/rules"), re.M))
+def compiler_environment(source, compilers):
+    """The compilers, Debian's own flags for a source, as data/packaging/debian asks for them, and a ccache for all sources."""
     environment = {name: value for name, value in os.environ.items()
                    if name not in ("CFLAGS", "CXXFLAGS", "LDFLAGS", "DESTDIR")}
     # -O3 stands in all flags, at the end: that a build type brings another makes no difference. Nor does it that
-    # debhelper has a locale of its own.
-    environment.update(CCACHE_BASEDIR=source, CCACHE_IGNOREOPTIONS="-O3", CCACHE_NOHASHDIR="1",
+    # debhelper has a locale of its own, nor -Werror.
+    environment.update(CCACHE_BASEDIR=source, CCACHE_IGNOREOPTIONS="-Werror -O3", CCACHE_NOHASHDIR="1",
                        CCACHE_SLOPPINESS=",".join(filter(None, [environment.get("CCACHE_SLOPPINESS"), "locale"])))
     environment.setdefault("CCACHE_DIR", os.path.join(os.path.dirname(source), "ccache"))
-    # No one is going to debug what is built here.
-    environment.update(DEB_CFLAGS_STRIP="-g", DEB_CXXFLAGS_STRIP="-g")
-    flags = stage.run(["dpkg-buildflags"], cwd=source, env={**environment, **options})
-    return environment, dict(line.split("=", 1) for line in flags.splitlines())
+    # ccache tells compilers by their names.
+    environment.update(flags.stripped(source), CC=compilers[0], CXX=compilers[1])
+    return environment, flags.of(source)
 
 
 def readme_build(source, environment, findings):
@@ -85,10 +85,11 @@ def readme_build(source, environment, findings):
     folder = os.path.dirname(source)
     root = os.path.join(folder, "root")
     environment = dict(environment, DESTDIR=root)
-    setup, *others = stage.readme("build").splitlines(keepends=True)
+    # As deep below the source as all builds of tests/run.sh: the compiler is told ../../src.
+    setup, *others = stage.readme("build").replace(" build\n", " build/readme\n").splitlines(keepends=True)
     stage.run(setup, cwd=source, env=environment)
     # A machine with cmocka builds the tests too; they are what this is a part of.
-    stage.run(["meson", "configure", "build", "-Dtests=disabled"], cwd=source, env=environment)
+    stage.run(["meson", "configure", "build/readme", "-Dtests=disabled"], cwd=source, env=environment)
     stage.run("".join(others), cwd=source, env=environment)
     ffd, pc, library = (next(os.path.join(path, os.path.basename(name)) for path, _, names in os.walk(root)
                              if os.path.basename(name) in names and path.endswith(os.path.dirname(name)))
@@ -209,8 +210,8 @@ def main():
         os.chmod(folder, 0o755)
         source = pack(folder, findings)
         debian = shutil.which("dpkg-buildflags") is not None
-        environment, flags = compiler_environment(source) if debian else (dict(os.environ), {})
-        readme_build(source, {**environment, **flags}, findings)
+        environment, flags_of_debian = compiler_environment(source, sys.argv[2:4]) if debian else (dict(os.environ), {})
+        readme_build(source, {**environment, **flags_of_debian}, findings)
         if not findings:
             stage.need("dpkg-buildpackage", "dh", "lintian", "mmdebstrap")
         check_packages(folder, source, environment, ffd, findings)

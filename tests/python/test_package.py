@@ -8,7 +8,9 @@ another folder): no index is asked. Without them, or with another Python than th
 """
 
 import glob
+import json
 import os
+import shlex
 import shutil
 import subprocess
 import sys
@@ -45,10 +47,18 @@ def make_environment(folder, wheels):
     return python, pip
 
 
+def flags(build):
+    """The compilers' flags of a build folder, as variables: what was compiled there need not be compiled again."""
+    with open(os.path.join(build, "meson-info", "intro-buildoptions.json"), encoding="utf-8") as file:
+        options = {option["name"]: option["value"] for option in json.load(file)}
+    return {"CFLAGS": shlex.join(options["c_args"]), "CXXFLAGS": shlex.join(options["cpp_args"])}
+
+
 def build_wheel(python, source, build, folder, compilers):
     """The wheel; what it was compiled to stays beside the build folder, for the next time."""
     kept = os.path.join(os.path.dirname(os.path.abspath(build)), ".build-python")
-    environment = dict(os.environ, PATH=os.path.dirname(python) + os.pathsep + os.environ["PATH"], CC=compilers[0], CXX=compilers[1])
+    environment = dict(os.environ, PATH=os.path.dirname(python) + os.pathsep + os.environ["PATH"], CC=compilers[0], CXX=compilers[1],
+                       **flags(build))
     if os.path.isdir(kept):  # the environment that it was set up with is gone
         shutil.rmtree(kept)
     run(python, "-m", "pip", "wheel", "--no-index", "--no-build-isolation", "--no-deps", "--disable-pip-version-check",
