@@ -235,7 +235,7 @@ def memory_has_a_limit(run):
     """Control points times placeholders: a file of some kilobytes could ask for any amount."""
     names = [f"P{i}" for i in range(300)]
     run.write("q.ply", ply(POINTS))
-    run.write("many.json", {**BOX, "size": [80, 80, 80], "moves": [{"by": [{"$": name}, 0, 0]} for name in names]})
+    run.write("many.json", {**BOX, "size": [40, 40, 40], "moves": [{"by": [{"$": name}, 0, 0]} for name in names]})
     done = run.ffd("jacobian", "q.ply", "-l", "many.json", "-o", "m.npz", "--wrt", "parameters",
                    *(word for name in names for word in ("--set", name + "=0")), code=LIMIT, err=anything)
     check("--memory" in done.err[-1], done.err)

@@ -837,7 +837,7 @@ m("morph-in-its-place", "operand", "cli_morphs, cli_as_morph", "ffd_gltf_target_
 m("morphs-leave-nothing-behind", "figure", "cli_splats", "if (target->behind[kind].count > all->behind[kind].count)",
   "if (target->behind[kind].count < all->behind[kind].count)")
 m("edges-of-no-target", "figure", "cli_morphs", "all->has_edges = target->has_edges && (is_first || all->has_edges);",
-  "all->has_edges = target->has_edges && all->has_edges;")
+  "all->has_edges = target->has_edges && (is_first && all->has_edges);")
 m("morph-worst-counts", "condition", "cli_morphs", "target->counts[FFD_INSIDE] < all->counts[FFD_INSIDE]",
   "target->counts[FFD_INSIDE] > all->counts[FFD_INSIDE]")
 m("morph-file-warned-again", "condition", "cli_morphs", "job->file_log = k == 0 ? *log : (mesh_log){0};", "job->file_log = *log;")
