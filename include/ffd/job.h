@@ -80,7 +80,7 @@ FFD_API void ffd_guard_inputs(void);
 FFD_API ffd_status ffd_restore_output(const char *path, ffd_error *error);
 
 /* Bytes that the caller lends until the job has ended. NULL: none, whatever size says is then refused. They
-   need no alignment and are not changed. */
+   are not changed, and not copied where they begin at a multiple of 8. */
 typedef struct ffd_bytes {
     const void *data;
     size_t size;

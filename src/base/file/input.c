@@ -23,6 +23,9 @@
    reading a hundred kilobytes. */
 #define SMALL ((size_t)1 << 18)
 
+/* What bytes that are lent must be multiples of. */
+#define ALIGNED 8
+
 /* Fewer bytes are not prefaulted. */
 #define LEAST_PREFAULT ((size_t)1 << 16)
 
@@ -197,7 +200,22 @@ static ffd_status fail_open(const char *path, int reason, ffd_error *error)
     return ffd_fail_file(error, FFD_E_IO, path, "cannot be opened: %s", strerror(reason));
 }
 
-/* Lends the bytes of a file in memory. */
+/* Lends bytes in memory. Readers find numbers at multiples of their size where a file has them there: what
+   is not aligned is copied. */
+static ffd_status lend(const void *bytes, size_t size, const char *name, file_input *input, ffd_error *error)
+{
+    unsigned char *copy = NULL;
+    if (size > 0 && (uintptr_t)bytes % ALIGNED != 0) {
+        copy = ffd_alloc(size, 1);
+        if (!copy)
+            return fail_room(name, size, error);
+        memcpy(copy, bytes, size);
+    }
+    *input = (file_input){.data = copy ? copy : size > 0 ? bytes : nothing, .size = size, .block = copy};
+    return FFD_OK;
+}
+
+/* Loads a file in memory. */
 static ffd_status load_memory(const char *path, file_input *input, ffd_error *error)
 {
     const void *bytes;
@@ -205,8 +223,7 @@ static ffd_status load_memory(const char *path, file_input *input, ffd_error *er
     const ffd_status status = ffd_memory_find(path, &bytes, &size, error);
     if (status || !bytes)
         return status ? status : fail_open(path, ENOENT, error);
-    *input = (file_input){.data = size > 0 ? bytes : nothing, .size = size};
-    return FFD_OK;
+    return lend(bytes, size, ffd_file_display_name(path), input, error);
 }
 
 static ffd_status load(const char *path, size_t least_mapped, file_input *input, ffd_error *error)
@@ -265,7 +282,7 @@ static ffd_status load_memory_within(const char *folder, const char *relative, c
         status = ffd_fail_file(error, FFD_E_IO, named_by, "the file \"%s\" cannot be opened: %s", relative,
                                strerror(ENOENT));
     if (!status)
-        *input = (file_input){.data = size > 0 ? bytes : nothing, .size = size};
+        status = lend(bytes, size, named_by, input, error);
     ffd_free(root);
     ffd_free(joined);
     ffd_free(path);

@@ -73,6 +73,7 @@ static void free_document(obj_document *d)
     ffd_free(d->direction_changes);
     ffd_free(d->file.used);
     ffd_free(d->file.name);
+    ffd_free(d->file.path);
     ffd_free(d);
 }
 

@@ -100,6 +100,7 @@ class _Memory:
         self.find = files.get if isinstance(files, Mapping) else files
 
     def give(self, source: Any) -> None:
+        """Puts what it has into an ffd_source."""
         source.path = self.name
         source.bytes.data, source.bytes.size = self.address, self.size
         if self.find is not None:
