@@ -19,11 +19,27 @@ def chunks(content):
         at += 12 + size
 
 
-def predict(kind, left, above, corner):
-    if kind == 4:  # Paeth
-        guess = left + above - corner
-        return min((abs(guess - x), order, x) for order, x in enumerate((left, above, corner)))[2]
-    return (0, left, above, (left + above) // 2)[kind]
+def unfilter(kind, line, above):
+    """The bytes of a row of filtered ones; before both rows are three zeros. Pictures have a million bytes: a loop a kind."""
+    check(kind < 5, "a filter of PNG")
+    n = len(line)
+    if kind == 1:
+        for i in range(3, n):
+            line[i] = (line[i] + line[i - 3]) & 255
+    elif kind == 2:
+        line[:] = bytes((x + up) & 255 for x, up in zip(line, above))
+    elif kind == 3:
+        for i in range(3, n):
+            line[i] = (line[i] + (line[i - 3] + above[i]) // 2) & 255
+    elif kind == 4:  # Paeth: what is nearest to left + up - corner
+        for i in range(3, n):
+            left, up, corner = line[i - 3], above[i], above[i - 3]
+            by_left, by_up, by_corner = abs(up - corner), abs(left - corner), abs(left + up - 2 * corner)
+            if by_left <= by_up and by_left <= by_corner:
+                line[i] = (line[i] + left) & 255
+            else:
+                line[i] = (line[i] + (up if by_up <= by_corner else corner)) & 255
+    return line
 
 
 def read_png(content):
@@ -34,16 +50,10 @@ def read_png(content):
     equal([depth, color, rest], [8, 2, [0, 0, 0]], "kind of PNG")
     data = zlib.decompress(b"".join(data for kind, data in found if kind == b"IDAT"))
     check(len(data) == height * (1 + 3 * width), "the size of the pixels")
-    rows, above = [], bytes(3 * width)
+    rows, above, size = [], bytes(3 + 3 * width), 1 + 3 * width
     for y in range(height):
-        line = bytearray(data[y * (1 + 3 * width):(y + 1) * (1 + 3 * width)])
-        kind = line.pop(0)
-        if kind:
-            for i in range(3 * width):
-                left, corner = (line[i - 3], above[i - 3]) if i > 2 else (0, 0)
-                line[i] = (line[i] + predict(kind, left, above[i], corner)) & 255
-        above = line
-        rows.append([tuple(line[i:i + 3]) for i in range(0, 3 * width, 3)])
+        above = unfilter(data[y * size], bytearray(3) + data[y * size + 1:(y + 1) * size], above)
+        rows.append(list(zip(above[3::3], above[4::3], above[5::3])))
     return rows
 
 
