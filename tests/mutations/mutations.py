@@ -1153,16 +1153,15 @@ m("rig-by-a-morph", "check left out", "rig", "desc->rig == FFD_RIG_FOLLOW && (de
 
 # jobs in memory
 
-m("sink-before-the-commit", "order", "in_memory", "return status ? status : give_all(output, error);", "return give_all(output, error);")
+m("mesh-without-its-buffer", "order", "in_memory", "const output_file *const file = &output->files[i]; if (file->is_memory) status = ffd_memory_give(",
+  "const output_file *const file = &output->files[output->count - 1 - i]; if (file->is_memory) status = ffd_memory_give(")
 m("failed-resolver-is-missing", "check left out", "in_memory", "status = ffd_memory_judge_path(job->desc->input.path, status, error);",
   "status = FFD_OK;")
-m("image-lost-with-memory", "check left out", "in_memory", "if (status == FFD_E_MEMORY && !files->failure.status)", "if (status > FFD_OK)")
 m("parent-folder-asked", "check left out", "in_memory", 'else if (relative[0] == \'/\' || !is_inside(root, path)) status = ffd_fail_file(error, FFD_E_IO, named_by, "the file \\"%s\\" is outside the model\'s folder", relative); else status = ffd_memory_find',
   "else if (!path[0]) status = FFD_E_IO; else status = ffd_memory_find")
 m("sink-status-lost", "status", "in_memory", 'return status ? ffd_fail_file(error, status, name, "was not taken by the caller") : FFD_OK;',
-  "return status > FFD_OK;")
+  '(void)(status ? ffd_fail_file(error, status, name, "was not taken by the caller") : FFD_OK); return FFD_OK;')
 m("output-by-short-name", "name", "in_memory", "ffd_path_join(folder->shown, path + folder->head)", "ffd_text_copy(path + folder->head)")
-m("first-lattice-for-all-targets", "index", "in_memory", "all->lattice_objects ? all->lattice_objects + k : NULL", "all->lattice_objects")
 m("unknown-status-passed-on", "check left out", "in_memory", "return status; } return FFD_E_IO;", "return status; } return status;")
 m("asked-twice", "cache", "in_memory", "if (!status) return note(files, path, *bytes, error);", "if (!status) return FFD_OK;")
 

@@ -12,6 +12,7 @@
 #include <ffd/ffd.h>
 #include <ffd/jacobian.h>
 #include <ftw.h>
+#include <pthread.h>
 #include <stdint.h>
 #include <sys/stat.h>
 
@@ -785,6 +786,61 @@ static void descriptions_that_contradict_themselves_are_refused(void **state)
     (void)state;
 }
 
+/* A whole job from within the callback of another one. */
+static ffd_status take_and_run(void *user, const char *name, const void *bytes, size_t size)
+{
+    static const char lifted[] =
+        "{\"format\":\"ffd-lattice\",\"version\":1,\"size\":[2,2,2],\"rest\":{\"box\":\"mesh\"},"
+        "\"moves\":[{\"by\":[0,0,1]}]}";
+    const ffd_bytes text = {lifted, sizeof lifted - 1};
+    ffd_deform_desc desc;
+    ffd_job_result result = {.struct_size = sizeof result};
+    ffd_deform_desc_init(&desc, sizeof desc);
+    desc.input = (ffd_source){.path = name, .bytes = {bytes, size}};
+    desc.output = "again.off";
+    desc.lattice_texts = &text;
+    desc.lattice_count = 1;
+    desc.threads = 1;
+    desc.sink = take;
+    desc.sink_user = user;
+    return ffd_deform_run(&desc, &result, NULL);
+}
+
+/* The jobs of a thread: all are the same. Returns how many were as they should be. */
+static void *run_some(void *user)
+{
+    static const char off[] = "OFF\n1 0 0\n0 0 0\n";
+    size_t *const good = user;
+    for (int i = 0; i < 20; i++) {
+        sink s = {0};
+        if (!take_and_run(&s, "a.off", off, sizeof off - 1) && s.files.count == 1 &&
+            !take_and_run(&s, "b.off", s.files.files[0].bytes, s.files.files[0].size))
+            *good += s.files.files[1].size == s.files.files[0].size;
+        clear(&s.files);
+    }
+    return NULL;
+}
+
+static void jobs_run_in_threads_and_in_callbacks(void **state)
+{
+    pthread_t threads[4];
+    size_t good[4] = {0};
+    both b;
+    ffd_job_result result = {.struct_size = sizeof result};
+    for (int i = 0; i < 4; i++)
+        assert_int_equal(pthread_create(&threads[i], NULL, run_some, &good[i]), 0);
+    for (int i = 0; i < 4; i++) {
+        assert_int_equal(pthread_join(threads[i], NULL), 0);
+        assert_int_equal(good[i], 20);
+    }
+    begin(&b, make_off, "head.off");
+    b.desc.sink = take_and_run;
+    assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
+    assert_string_equal(b.sink.files.files[0].name, "again.off");
+    end(&b);
+    (void)state;
+}
+
 /* Wherever memory runs out nothing is lost without a word, as an image that seems to be missing. */
 static void memory_may_run_out_anywhere(void **state)
 {
@@ -824,6 +880,7 @@ int main(void)
         cmocka_unit_test(nothing_outside_of_the_folder_is_asked_for),
         cmocka_unit_test(a_sink_that_fails_ends_the_job),
         cmocka_unit_test(truncated_bytes_fail_as_files_do),
+        cmocka_unit_test(jobs_run_in_threads_and_in_callbacks),
         cmocka_unit_test(memory_may_run_out_anywhere),
         cmocka_unit_test(descriptions_that_contradict_themselves_are_refused),
     };
