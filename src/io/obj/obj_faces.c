@@ -217,7 +217,7 @@ ffd_status ffd_obj_faces(const mesh_document *document, mesh_faces *faces, ffd_e
     if (status)
         return status;
     if (d->file.new_positions && d->file.new_positions == d->file.positions)
-        ffd_obj_read_again(d, NULL, faces->positions);
+        ffd_obj_read_again(d, NULL, 0, faces->positions);
     else
         ffd_obj_read_positions(document, 0, 0, d->vertices, faces->positions);
     return fill_faces(d, faces, error);
@@ -283,32 +283,14 @@ static void search_tile(void *context, size_t tile, size_t first, size_t last, i
     ffd_obj_forget_block(search->document, first);
 }
 
-/* Reads the positions of the faces' vertices. */
-static ffd_status read_positions(const obj_document *d, const mesh_faces *faces, ffd_error *error)
-{
-    uint8_t *wanted;
-    if (faces->face_count == 0)
-        return FFD_OK;
-    wanted = ffd_alloc_zero(d->vertices, 1);
-    if (!wanted)
-        return ffd_fail_memory(error);
-    for (size_t c = 0; c < faces->start[faces->face_count]; c++)
-        wanted[faces->corners[c]] = 1;
-    ffd_obj_read_again(d, wanted, faces->positions);
-    ffd_free(wanted);
-    return FFD_OK;
-}
-
 static ffd_status find_mixed(mixed_search *search, mesh_faces *faces, ffd_error *error)
 {
     const obj_document *const d = search->document;
     ffd_parallel_tiles(d->blocks.count, 1, d->threads, search_tile, search);
-    ffd_status status = ffd_face_lists_join(&d->file.base, search->lists, d->blocks.count, faces, error);
-    if (status)
-        return status;
-    status = read_positions(d, faces, error);
-    if (status)
-        ffd_mesh_faces_free(faces);
+    const ffd_status status =
+        ffd_face_lists_narrow(&d->file.base, search->lists, d->blocks.count, faces, error);
+    if (!status)
+        ffd_obj_read_again(d, faces->numbers, faces->vertex_count, faces->positions);
     return status;
 }
 

@@ -194,7 +194,7 @@ ffd_status ffd_ply_mixed_faces(const mesh_document *document, const vertex_marks
     *faces = (mesh_faces){.vertex_count = marks->vertices};
     ffd_status status = look_at_faces(&r);
     if (status == FFD_OK)
-        status = ffd_face_lists_join(document, &list, 1, faces, error);
+        status = ffd_face_lists_narrow(document, &list, 1, faces, error);
     if (status == FFD_OK)
         ffd_file_document_fill_positions(&d->file, faces);
     ffd_free(list.words);

@@ -209,17 +209,6 @@ static void read_indices(const gltf_document *d, size_t a, size_t first, size_t 
     }
 }
 
-/* Contiguous numbers of 32 bits, in a loop that compilers turn into SIMD. */
-static uint32_t copy_indices(const unsigned char *restrict at, size_t count, uint32_t *restrict indices)
-{
-    uint32_t largest = 0;
-    for (size_t i = 0; i < count; i++) {
-        indices[i] = load_u32(at + 4 * i);
-        largest = indices[i] > largest ? indices[i] : largest;
-    }
-    return largest;
-}
-
 /* Contiguous numbers of 8 or 16 bits. */
 static uint32_t widen_indices(const unsigned char *restrict at, size_t size, size_t count,
                               uint32_t *restrict indices)
@@ -243,7 +232,7 @@ uint32_t ffd_gltf_read_indices(const gltf_document *d, size_t a, size_t first, s
     const unsigned char *const at = layout->data ? layout->data + size * first : NULL;
     const bool is_plain = at && !accessor->sparse.present && layout->stride == size;
     if (is_plain && accessor->component == GLTF_U32)
-        return copy_indices(at, count, indices);
+        return ffd_array_kernel(FFD_ISA_AUTO)->read_u32(at, count, indices);
     if (is_plain && (accessor->component == GLTF_U16 || accessor->component == GLTF_U8))
         return widen_indices(at, size, count, indices);
     uint32_t largest = 0;
