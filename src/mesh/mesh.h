@@ -105,9 +105,9 @@ static inline bool ffd_part_shows(const mesh_part *part, size_t vertex)
    order (the order of `ffd embed`); a document may give a subset where parts repeat storage. */
 typedef struct mesh_faces {
     size_t vertex_count, face_count;
-    double *positions;    /* 3*vertex_count, in the lattice's space */
-    size_t *start;        /* face_count+1 */
-    uint32_t *corners;    /* start[face_count] vertex numbers */
+    double *positions; /* 3*vertex_count, in the lattice's space */
+    size_t *start;     /* face_count+1 */
+    uint32_t *corners; /* start[face_count] vertex numbers */
     /* vertex_count, ascending: the numbers in the document of the vertices that corners count, which are then
        only those of faces; NULL: all vertices of the document. */
     uint32_t *numbers;

@@ -2,6 +2,9 @@
 """Edges of a mesh that are torn at the border of a lattice: how many, by how much, where; what is said of them."""
 import math
 
+import random
+import struct
+
 from bspline import BoxVolume
 from harness import NO, OK, case, check, equal, glb, gltf_json, lattice, main, near
 from said import anything, entry, not_told, told
@@ -460,6 +463,70 @@ def the_proof_says_where_it_holds(run):
 
 def line_of(text, word):
     return next(line for line in text.splitlines() if line.split()[:1] == [word])
+
+
+def plain_tears(points, faces):
+    """How many edges lead across x = 1.5, in the plainest way: of vertices at one position the first one counts."""
+    first = {}
+    places = [first.setdefault(tuple(p), i) for i, p in enumerate(points)]
+    edges = {frozenset((places[a], places[b])) for f in faces for a, b in zip(f, f[1:] + f[:1])}
+    return sum(len({points[v][0] > HIGH[0] for v in edge}) == 2 for edge in edges)
+
+
+def indexed_glb(points, faces, code):
+    """Triangles with indices of a struct's code; None: without."""
+    drawn = points if code else [points[v] for f in faces for v in f]
+    asset, data = gltf_json(drawn)
+    primitive = asset["meshes"][0]["primitives"][0]
+    primitive["mode"] = 4
+    if code:
+        indices = struct.pack(f"<{3 * len(faces)}{code}", *(v for f in faces for v in f))
+        asset["bufferViews"].append({"buffer": 0, "byteOffset": len(data), "byteLength": len(indices)})
+        asset["accessors"].append({"bufferView": 1, "componentType": {"H": 5123, "I": 5125}[code], "count": 3 * len(faces),
+                                   "type": "SCALAR"})
+        primitive["indices"] = 1
+        data += indices
+        asset["buffers"][0]["byteLength"] = len(data)
+    return glb(asset, data)
+
+
+def binary_ply(points, faces, order, count_code, code):
+    names = {"<": "little", ">": "big", "B": "uchar", "i": "int", "I": "uint", "H": "ushort"}
+    head = (f"ply\nformat binary_{names[order]}_endian 1.0\nelement vertex {len(points)}\n"
+            + "".join(f"property float {axis}\n" for axis in "xyz") + f"element face {len(faces)}\nproperty uchar red\n"
+            f"property list {names[count_code]} {names[code]} vertex_indices\nproperty float area\nend_header\n")
+    return head.encode() + b"".join(struct.pack(order + "3f", *p) for p in points) + b"".join(
+        struct.pack(f"{order}B{count_code}{len(f)}{code}f", 7, len(f), *f, 0.5) for f in faces)
+
+
+@case
+def a_border_through_what_is_drawn_at_random(run):
+    """Each format, read in full by check and in part by deform, has the edges of the plainest count; vertices share
+    positions, and some are in no face."""
+    draw = random.Random(5)
+    run.write("l.json", lattice(low=LOW, high=HIGH, moves=UP))
+    for corners in ((3, 3), (3, 9)):
+        points = [[draw.randrange(-40, 41) / 16 + 0.03125, draw.randrange(-40, 41) / 16, draw.randrange(-1, 2)] for _ in range(900)]
+        near_by = [sorted(draw.sample(range(k, k + 12), draw.randint(*corners)), key=lambda _: draw.random())
+                   for k in range(0, 880, 2)]
+        faces = [f for f in near_by if len({tuple(points[v]) for v in f}) == len(f)]
+        expected = plain_tears(points, faces)
+        check(expected > 200, expected)
+        vertices = "".join("%r %r %r\n" % tuple(p) for p in points)
+        meshes = {"a.obj": vertices.replace("\n", "\nv ").join(["v ", ""])[:-2]
+                  + "".join(f"f {' '.join(str(v + 1) for v in f)}\n" for f in faces),
+                  "a.off": f"OFF\n{len(points)} {len(faces)} 0\n{vertices}"
+                  + "".join(f"{len(f)} {' '.join(map(str, f))}\n" for f in faces),
+                  **{f"{n}.ply": binary_ply(points, faces, *codes) for n, codes in enumerate(("<Bi", ">BI", "<BH", ">HI"))}}
+        if corners == (3, 3):
+            meshes.update({f"{code}.glb": indexed_glb(points, faces, code) for code in ("H", "I", None)})
+        told_of = {}
+        for name, content in meshes.items():
+            run.write(name, content)
+            found = torn(run, expected, 0.25, "-j", str(1 + len(told_of) % 2), mesh=name, tolerance=1e-6)
+            told_of[name] = found["vertex"]
+        of_order = {vertex for name, vertex in told_of.items() if name != "None.glb"}
+        equal(len(of_order), 1, f"the vertex with the largest step: {told_of}")
 
 
 @case

@@ -111,13 +111,14 @@ static ffd_status read_face(face_reader *r, uint64_t face)
     return status;
 }
 
-/* Reads the rows of element face. One that is not plain is read with care, which says what is wrong with it. */
+/* Reads the rows of element face. One that is not plain is read with care, which says what is wrong with it.
+ */
 static ffd_status read_rows(face_reader *r)
 {
     const ply_document *const d = r->document;
     ply_plain_faces plain;
-    const bool is_plain = ffd_ply_plain_faces(d->header.encoding, d->face, d->face_corners,
-                                              d->file.part.vertex_count, &plain);
+    const bool is_plain =
+        ffd_ply_plain_faces(d->header.encoding, d->face, d->face_corners, d->file.part.vertex_count, &plain);
     ffd_status status = FFD_OK;
     ffd_ply_document_walk(d, d->face, &r->walk);
     for (uint64_t face = 0; status == FFD_OK && face < d->face->count; face++) {

@@ -1,6 +1,6 @@
-/* ply_plain_faces.h - the faces that nearly all binary PLY files have: rows of one list, whose count is a byte
-   and whose corners are of 32 bits, beside numbers of a fixed size. They are read in a loop of their own,
-   many times faster than value by value. */
+/* ply_plain_faces.h - the faces that nearly all binary PLY files have: rows of one list, whose count is a
+   byte and whose corners are of 32 bits, beside numbers of a fixed size. They are read in a loop of their
+   own, many times faster than value by value. */
 #ifndef FFD_IO_PLY_PLY_PLAIN_FACES_H
 #define FFD_IO_PLY_PLY_PLAIN_FACES_H
 
