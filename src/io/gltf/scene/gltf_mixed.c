@@ -9,7 +9,7 @@
 #include <string.h>
 
 /* Triangles that a thread looks at at a time, and those whose indices it reads at once. */
-#define TILE ((size_t)1 << 16)
+#define TILE ((size_t)1 << 14)
 #define RUN ((size_t)1024)
 
 /* The triangles of one primitive under one node. */

@@ -7,7 +7,7 @@
 
 /* Indices that are read at a time, and those that a thread looks at, whose pages it then releases. */
 #define RUN ((size_t)4096)
-#define TILE (64 * RUN)
+#define TILE (16 * RUN)
 
 /* A primitive, and the parts of the nodes that show it. */
 typedef struct drawn_primitive {
