@@ -50,6 +50,22 @@ static void assert_same_face(const mesh_faces *all, size_t face, const mesh_face
     }
 }
 
+/* Each allocation that fails is said, and leaves nothing; the last try has them all. */
+static void assert_failures(const mesh_document *document, const vertex_marks *marks)
+{
+    ffd_status status = FFD_E_MEMORY;
+    for (long successes = 0; status; successes++) {
+        mesh_faces faces;
+        ffd_alloc_fail_after(successes);
+        status = document->format->mixed_faces(document, marks, &faces, NULL);
+        ffd_alloc_fail_after(-1);
+        if (status)
+            assert_int_equal(status, FFD_E_MEMORY);
+        else
+            ffd_mesh_faces_free(&faces);
+    }
+}
+
 /* Returns how many faces are mixed. */
 static size_t assert_mixed(const mesh_document *document, const mesh_faces *all, const vertex_marks *marks)
 {
@@ -90,6 +106,8 @@ static void assert_all_marks(mesh_document *document, const size_t *places)
             }
             const vertex_marks marks = {bytes, planes, vertices};
             found += assert_mixed(document, &all, &marks);
+            if (set % 7 == 1)
+                assert_failures(document, &marks);
         }
     assert_true(found > 0);
     ffd_mesh_faces_free(&all);
