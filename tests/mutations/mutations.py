@@ -614,7 +614,8 @@ m("image-of-a-view-twice", "cache left out", "materials", 'v == GLTF_NONE ? imag
 
 m("run-of-results-shifted", "stride", "gltf, cli_gltf_scene, cli_outside", "arrays->round(xyz + 3 * i, 3 * (end - i), stream->result + 3 * (first + i));",
   "arrays->round(xyz + 3 * i, 3 * (end - i), stream->result + 3 * first);")
-m("short-indices-by-their-low-byte", "endian", "cli_tears", "at[2 * i] | (uint32_t)at[2 * i + 1] << 8;", "at[2 * i];")
+m("short-indices-by-their-low-byte", "endian", "cli_tears", "for (size_t i = 0; i < count && size == 2; i++) indices[i] = at[2 * i] | (uint32_t)at[2 * i + 1] << 8;",
+  "for (size_t i = 0; i < count && size == 2; i++)\n        indices[i] = at[2 * i];")
 # io/gltf/animation
 
 m("key-at-its-time", "bound", "gltf_animation, page_rig", "if (sampler->times[middle] <= time) low = middle;",
