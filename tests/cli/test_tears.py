@@ -3,6 +3,7 @@
 import math
 
 import random
+import re
 import struct
 
 from bspline import BoxVolume
@@ -361,6 +362,10 @@ def what_is_hidden_is_not_torn(run):
     asset, data = gltf_json(triangle, nodes=[{"mesh": 0}, {"mesh": 0, "translation": [0, 5, 0], **hidden}])
     draw_hidden(run, asset, data)
     told(run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", "--force", err=anything), r"\b1 vertex stays\b")
+    # Of the faces across the border there is only the hidden one, whose vertices come after those of the other.
+    asset, data = gltf_json(triangle, nodes=[{"mesh": 0, "translation": [-3, 0, 0]}, {"mesh": 0, **hidden}])
+    draw_hidden(run, asset, data)
+    not_told(run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", "--force", err=anything), "largest step")
     # Two triangles with vertices of their own: b, which is not selected, stands where a hidden and selected one does too.
     nodes = [{"mesh": 0, "name": "a"}, {"mesh": 0, "name": "b", "translation": [-1, 0, 0]},
              {"mesh": 0, "name": "c", "translation": [-1, 0, 0], **hidden}]
@@ -501,10 +506,12 @@ def binary_ply(points, faces, order, count_code, code):
 
 @case
 def a_border_through_what_is_drawn_at_random(run):
-    """Each format, read in full by check and in part by deform, has the edges of the plainest count; vertices share
-    positions, and some are in no face."""
+    """Each format has the edges of the plainest count; vertices share positions, and some are in no face. Without a report
+    deform reads only the faces across the border: the largest step is the same, wherever the border moves most."""
     draw = random.Random(5)
     run.write("l.json", lattice(low=LOW, high=HIGH, moves=UP))
+    for n in range(3):
+        run.write(f"{n}.json", lattice(low=(-4, -4, -4), high=(1.5, 4, 4), moves=[{"at": [-1, n, "all"], "by": [0, 0, 0.5]}]))
     for corners in ((3, 3), (3, 9)):
         points = [[draw.randrange(-40, 41) / 16 + 0.03125, draw.randrange(-40, 41) / 16, draw.randrange(-1, 2)] for _ in range(900)]
         near_by = [sorted(draw.sample(range(k, k + 12), draw.randint(*corners)), key=lambda _: draw.random())
@@ -525,6 +532,10 @@ def a_border_through_what_is_drawn_at_random(run):
             run.write(name, content)
             found = torn(run, expected, 0.25, "-j", str(1 + len(told_of) % 2), mesh=name, tolerance=1e-6)
             told_of[name] = found["vertex"]
+            for n in range(3):
+                largest = entry(run, "check", name, "-l", f"{n}.json")["tear"]["largest"]
+                told(run.ffd("deform", name, "out" + name[-4:], "-l", f"{n}.json", "--force", err=anything),
+                     rf"the largest step to a neighbour is {re.escape(format(largest, '.6g'))}\b")
         of_order = {vertex for name, vertex in told_of.items() if name != "None.glb"}
         equal(len(of_order), 1, f"the vertex with the largest step: {told_of}")
 

@@ -651,9 +651,6 @@ m("gltf-rotation-of-three", "bound", "cli_splats", "slot == GLTF_SPLAT_ROTATION 
 
 m("ply-big-endian", "endian", "ply", "(8 * (encoding == PLY_BIG_ENDIAN ? size - 1 - i : i))",
   "(8 * (encoding == PLY_BIG_ENDIAN ? i : size - 1 - i))")
-m("ply-plain-endian", "endian", "mixed_faces, cli_ply", "plain->swapped ? ffd_ply_swap(load_u32(at)) : load_u32(at);",
-  "load_u32(at);")
-m("ply-plain-sign", "limit", "cli_ply", ".count_limit = list->count_type == PLY_CHAR ? 128 : 256,", ".count_limit = 256,")
 m("ply-plain-corner-of-none", "limit", "cli_ply", "if (*count > 0 && largest >= plain->limit)",
   "if (*count > 0 && largest > plain->limit)")
 m("ply-plain-unmarked", "left out", "mixed_faces", "for (size_t i = 0; i < count && r->used; i++)",
