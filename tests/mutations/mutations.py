@@ -489,7 +489,7 @@ m("clearness-over-opacity", "order", "materials", "d->has_opacity ? d->opacity :
 m("map-not-clamped", "condition", "materials", '*is_clamped = ffd_text_is_any_case(*word, "on");',
   '*is_clamped = ffd_text_is_any_case(*word, "off");')
 
-m("digits-of-plain-words", "off by one", "cli_tears", "digits > 0 && digits <= 8 ? (size_t)bytes_number(values << (64 - 8 * digits)) : 0;",
+m("digits-of-plain-words", "off by one", "mixed_faces", "digits > 0 && digits <= 8 ? (size_t)bytes_number(values << (64 - 8 * digits)) : 0;",
   "digits > 0 && digits <= 8 ? (size_t)bytes_number(values << (64 - 8 * digits)) + 1 : 0;")
 m("wanted-after-the-first", "limit", "mixed_faces, cli_tears", "if (a->wanted[middle] < vertex)", "if (a->wanted[middle] <= vertex)")
 # io/gltf
@@ -928,7 +928,7 @@ m("hidden-of-few-as-of-all", "number", "cli_tears", "const uint32_t vertex = ffd
   "const uint32_t vertex = of_faces;")
 m("last-of-eight-marks", "limit", "mixed_faces", "while (marks->planes == 1 && marks->vertices - vertex > sizeof eight) {",
   "while (marks->planes >= 1 && marks->vertices - vertex > sizeof eight) {")
-m("vertices-before-a-word", "off by one", "mixed_faces, cli_tears", "set->before[w] = (uint32_t)*count;",
+m("vertices-before-a-word", "off by one", "mixed_faces", "set->before[w] = (uint32_t)*count;",
   "set->before[w] = (uint32_t)*count + (w > 0);")
 m("across-not-turned", "left out", "cli_tears", "walk->across[a] += turned[a];", "walk->across[a] += 0 * turned[a];")
 

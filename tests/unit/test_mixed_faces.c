@@ -13,6 +13,7 @@
 #include "mesh/mixed_faces.h"
 
 #define MOST_VERTICES 12
+#define MANY 300
 
 static bool is_marked(const vertex_marks *marks, size_t vertex)
 {
@@ -25,7 +26,7 @@ static bool is_marked(const vertex_marks *marks, size_t vertex)
 /* The numbers of the vertices ascend, and each is one of a face. */
 static void assert_narrow(const mesh_faces *faces)
 {
-    bool used[3 * MOST_VERTICES] = {false};
+    bool used[MANY] = {false};
     for (size_t v = 0; faces->numbers && v + 1 < faces->vertex_count; v++)
         assert_true(faces->numbers[v] < faces->numbers[v + 1]);
     for (size_t c = 0; c < faces->start[faces->face_count]; c++)
@@ -280,6 +281,35 @@ static void of_gltf(void **state)
     assert_all_marks(document, NULL);
 }
 
+/* Of many vertices, with long lines: those of faces have other numbers among themselves. */
+static void of_many(void **state)
+{
+    (void)state;
+    draw d = {draw_seed()};
+    for (int round = 0; round < 20; round++) {
+        char text[40 * 2 * MANY];
+        uint8_t bytes[MANY];
+        size_t size = 0;
+        mesh_faces all;
+        const uint32_t border = (uint32_t)draw_int(&d, 10, MANY - 10);
+        for (size_t v = 0; v < MANY; v++) {
+            size += (size_t)snprintf(text + size, sizeof text - size, "v %zu 0 %d\n", v, draw_int(&d, 0, 9));
+            bytes[v] = v > border;
+        }
+        for (int f = 0; f < MANY; f++) {
+            const int a = draw_int(&d, 1, MANY - 8), b = a + draw_int(&d, 1, 3), c = b + draw_int(&d, 1, 3);
+            size += (size_t)snprintf(text + size, sizeof text - size, "f %d/%d/%d %d/%d/%d %d/%d/%d\n", a, a,
+                                     a, b, b, b, c, c, c);
+        }
+        const vertex_marks marks = {bytes, 1, MANY};
+        mesh_document *const document = opened_bytes(ffd_format_table(FFD_FORMAT_OBJ), text, size);
+        assert_int_equal(document->format->faces(document, &all, NULL), FFD_OK);
+        assert_mixed(document, &all, &marks);
+        ffd_mesh_faces_free(&all);
+        document->format->close(document);
+    }
+}
+
 /* Marks among many vertices without are found, in one plane and in two. */
 static void next_marks(void **state)
 {
@@ -302,9 +332,9 @@ static void next_marks(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(of_off),     cmocka_unit_test(of_ply), cmocka_unit_test(of_binary_ply),
-        cmocka_unit_test(of_obj),     cmocka_unit_test(of_stl), cmocka_unit_test(of_gltf),
-        cmocka_unit_test(next_marks),
+        cmocka_unit_test(of_off),  cmocka_unit_test(of_ply),     cmocka_unit_test(of_binary_ply),
+        cmocka_unit_test(of_obj),  cmocka_unit_test(of_stl),     cmocka_unit_test(of_gltf),
+        cmocka_unit_test(of_many), cmocka_unit_test(next_marks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
