@@ -6,7 +6,9 @@
 ffd_status ffd_mesh_faces_take(const mesh_faces *faces, uint64_t corners, memory_budget *budget,
                                ffd_error *error)
 {
-    ffd_status status = ffd_budget_take(budget, faces->vertex_count, 3 * sizeof *faces->positions, error);
+    const size_t number = faces->numbers ? sizeof *faces->numbers : 0;
+    ffd_status status =
+        ffd_budget_take(budget, faces->vertex_count, 3 * sizeof *faces->positions + number, error);
     if (status == FFD_OK)
         status = ffd_budget_take(budget, faces->face_count, sizeof *faces->start, error);
     return status == FFD_OK ? ffd_budget_take(budget, corners, sizeof *faces->corners, error) : status;
@@ -34,5 +36,6 @@ void ffd_mesh_faces_free(mesh_faces *faces)
     ffd_free(faces->positions);
     ffd_free(faces->start);
     ffd_free(faces->corners);
+    ffd_free(faces->numbers);
     memset(faces, 0, sizeof *faces);
 }

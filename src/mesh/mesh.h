@@ -105,14 +105,23 @@ static inline bool ffd_part_shows(const mesh_part *part, size_t vertex)
    order (the order of `ffd embed`); a document may give a subset where parts repeat storage. */
 typedef struct mesh_faces {
     size_t vertex_count, face_count;
-    double *positions;    /* 3*vertex_count, in the lattice's space */
-    size_t *start;        /* face_count+1 */
-    uint32_t *corners;    /* start[face_count] vertex numbers */
+    double *positions; /* 3*vertex_count, in the lattice's space */
+    size_t *start;     /* face_count+1 */
+    uint32_t *corners; /* start[face_count] vertex numbers */
+    /* vertex_count, ascending: the numbers in the document of the vertices that corners count, which are then
+       only those of faces; NULL: all vertices of the document. */
+    uint32_t *numbers;
     size_t lines, points; /* primitives other than faces: counted only */
     /* Vertices in no face because an earlier one at the same position represents them (formats that list a
        vertex for every corner): topology does not count them. */
     size_t repeated;
 } mesh_faces;
+
+/* The number in the document of a vertex of faces. */
+static inline uint32_t ffd_faces_number(const mesh_faces *faces, uint32_t vertex)
+{
+    return faces->numbers ? faces->numbers[vertex] : vertex;
+}
 
 /* What the file has at a point beside vertices: a joint, a camera and so on. */
 typedef struct mesh_place {
@@ -382,8 +391,8 @@ typedef struct mesh_format {
     /* Topology and description. describe appends members to an open JSON object. */
     mesh_faces_function *faces;
     /* The faces whose vertices are not all marked alike, and perhaps others, with the positions of their
-       vertices; the rest have none that count. Vertices at one position are marked alike. Errors:
-       FFD_E_MEMORY, FFD_E_LIMIT, and what is found in the file. */
+       vertices: of these alone where faces->numbers is set, else the rest have none that count. Vertices at
+       one position are marked alike. Errors: FFD_E_MEMORY, FFD_E_LIMIT, and what is found in the file. */
     mesh_mixed_faces_function *mixed_faces;
     /* Writes what shows a vertex (by its number in the document) as a selector, "node:NAME", or "" where it
        has no name. Returns how many of its vertices are marked (a byte for each of the document), and clears

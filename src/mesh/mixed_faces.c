@@ -1,5 +1,6 @@
 #include "mesh/mixed_faces.h"
 #include "base/memory/memory.h"
+#include <string.h>
 
 /* Makes room for so many words. Returns false if the list has failed. */
 static bool grow(face_list *list, size_t words)
@@ -30,6 +31,90 @@ void ffd_face_list_end(face_list *list, const vertex_marks *marks)
     list->faces++;
 }
 
+size_t ffd_marks_next(const vertex_marks *marks, size_t vertex)
+{
+    for (uint64_t eight; vertex < marks->vertices; vertex++) {
+        unsigned any = 0;
+        while (marks->planes == 1 && marks->vertices - vertex > sizeof eight) {
+            memcpy(&eight, marks->bytes + vertex, sizeof eight);
+            if (eight)
+                break;
+            vertex += sizeof eight;
+        }
+        for (size_t p = 0; p < marks->planes; p++)
+            any |= marks->bytes[p * marks->vertices + vertex];
+        if (any)
+            break;
+    }
+    return vertex;
+}
+
+/* Vertices, a bit for each of the document, and how many come before those of each word. */
+typedef struct vertex_set {
+    uint64_t *words;
+    uint32_t *before;
+    size_t word_count;
+} vertex_set;
+
+/* Numbers in a set of 64 bits below this one. */
+static uint32_t count_below(uint64_t bits, unsigned bit)
+{
+    bits &= ((uint64_t)1 << bit) - 1;
+    bits -= bits >> 1 & 0x5555555555555555;
+    bits = (bits & 0x3333333333333333) + (bits >> 2 & 0x3333333333333333);
+    bits = (bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0f;
+    return (uint32_t)(bits * 0x0101010101010101 >> 56);
+}
+
+static uint32_t place_in(const vertex_set *set, uint32_t vertex)
+{
+    return set->before[vertex / 64] + count_below(set->words[vertex / 64], vertex % 64);
+}
+
+static void free_set(vertex_set *set)
+{
+    ffd_free(set->words);
+    ffd_free(set->before);
+}
+
+/* Makes the set of the lists' vertices, of which there are *count. */
+static ffd_status make_set(const mesh_document *document, const face_list *lists, size_t list_count,
+                           size_t vertices, vertex_set *set, size_t *count, ffd_error *error)
+{
+    const size_t words = vertices / 64 + 1;
+    const ffd_status status =
+        ffd_budget_check(&document->budget, words, sizeof *set->words + sizeof *set->before, error);
+    *set = (vertex_set){.word_count = words};
+    *count = 0;
+    if (status)
+        return status;
+    set->words = ffd_alloc_zero(words, sizeof *set->words);
+    set->before = ffd_alloc(words, sizeof *set->before);
+    if (!set->words || !set->before)
+        return ffd_fail_memory(error);
+    for (size_t l = 0; l < list_count; l++)
+        for (size_t i = 0; i < lists[l].count;)
+            for (size_t left = lists[l].words[i++]; left > 0; left--, i++)
+                set->words[lists[l].words[i] / 64] |= (uint64_t)1 << lists[l].words[i] % 64;
+    for (size_t w = 0; w < words; w++) {
+        set->before[w] = (uint32_t)*count;
+        *count += count_below(set->words[w], 63) + (set->words[w] >> 63);
+    }
+    return FFD_OK;
+}
+
+/* Lets corners count the vertices of the set, and lists these. */
+static void number_corners(const vertex_set *set, mesh_faces *faces)
+{
+    size_t count = 0;
+    for (size_t c = 0; c < faces->start[faces->face_count]; c++)
+        faces->corners[c] = place_in(set, faces->corners[c]);
+    for (size_t w = 0; w < set->word_count; w++)
+        for (unsigned bit = 0; bit < 64 && set->words[w] >> bit; bit++)
+            if (set->words[w] >> bit & 1)
+                faces->numbers[count++] = (uint32_t)(64 * w + bit);
+}
+
 static void fill_faces(const face_list *lists, size_t count, mesh_faces *faces)
 {
     size_t face = 0, corner = 0;
@@ -55,5 +140,24 @@ ffd_status ffd_face_lists_join(const mesh_document *document, const face_list *l
     const ffd_status status = ffd_mesh_faces_make(document, faces, corners, error);
     if (!status)
         fill_faces(lists, count, faces);
+    return status;
+}
+
+ffd_status ffd_face_lists_narrow(const mesh_document *document, const face_list *lists, size_t count,
+                                 mesh_faces *faces, ffd_error *error)
+{
+    vertex_set set;
+    ffd_status status =
+        make_set(document, lists, count, faces->vertex_count, &set, &faces->vertex_count, error);
+    faces->numbers = status ? NULL : ffd_alloc(faces->vertex_count, sizeof *faces->numbers);
+    if (!status && !faces->numbers)
+        status = ffd_fail_memory(error);
+    if (!status)
+        status = ffd_face_lists_join(document, lists, count, faces, error);
+    if (!status)
+        number_corners(&set, faces);
+    else
+        ffd_mesh_faces_free(faces);
+    free_set(&set);
     return status;
 }

@@ -11,6 +11,10 @@ struct vertex_marks {
     size_t planes, vertices;
 };
 
+/* The first vertex from this one on that has a mark; marks->vertices: there is none. Most have none: they are
+   passed over eight at a time. */
+size_t ffd_marks_next(const vertex_marks *marks, size_t vertex);
+
 /* Whether vertices are not all marked alike. Inline: it is asked of every face. */
 static inline bool ffd_marks_differ(const vertex_marks *marks, const uint32_t *vertices, size_t count)
 {
@@ -41,5 +45,8 @@ void ffd_face_list_end(face_list *list, const vertex_marks *marks);
    A failure leaves nothing to be freed. Errors: FFD_E_MEMORY, FFD_E_LIMIT. */
 ffd_status ffd_face_lists_join(const mesh_document *document, const face_list *lists, size_t count,
                                mesh_faces *faces, ffd_error *error);
+/* The same, and leaves only the vertices of these faces: their positions are in few pages then. */
+ffd_status ffd_face_lists_narrow(const mesh_document *document, const face_list *lists, size_t count,
+                                 mesh_faces *faces, ffd_error *error);
 
 #endif

@@ -456,6 +456,23 @@ def refused(run):
     run.write("p.ply", head + face + "end_header\n0 0 0\n1 1 1\n3 0 1 2\n")
     for command in (["info", "p.ply"], ["check", "p.ply", "-l", "l.json"], ["deform", "p.ply", "q.ply", "-l", "l.json"]):
         run.ffd(*command, code=INVALID, err="p.ply:12: face 0: there is no vertex 2, only 2 (both counted from 0)")
+    # The same of binary ones, of which most are read in a loop of their own.
+    for order, count_type, kind in (("<", "uchar", "int"), (">", "uchar", "uint"), ("<", "char", "int"), ("<", "ushort", "int")):
+        name = {"<": "little", ">": "big"}[order]
+        start = (binary.replace("little", name) + face.replace("face 1", "face 2").replace("uchar", count_type).replace(" int ", f" {kind} ")
+                 + "end_header\n").encode() + bytes(24)
+        codes = [order + CODES[count_type], order + CODES[kind]]
+        good = struct.pack(codes[0], 3) + struct.pack(order + "3" + codes[1][1], 0, 1, 0)
+        for corner in (2, 255, 2 ** 31 - 1, *((-1, -2 ** 31) if kind == "int" else (2 ** 31, 2 ** 32 - 1))):
+            run.write("p.ply", start + good + struct.pack(codes[0], 1) + struct.pack(codes[1], corner))
+            run.ffd("info", "p.ply", code=INVALID, err=f"p.ply: face 1: there is no vertex {corner}, only 2 (both counted from 0)")
+        run.write("p.ply", start + good + struct.pack(codes[0], 2) + struct.pack(codes[1], 0) + b"\0\0\0")
+        run.ffd("info", "p.ply", code=INVALID, err="p.ply: row 1 (counted from 0) of element face: the file ends before or in vertex_indices")
+        if count_type == "char":
+            run.write("p.ply", start + good + b"\xff" + bytes(4 * 255))
+            run.ffd("info", "p.ply", code=INVALID, err="p.ply: row 1 (counted from 0) of element face: not the count of list vertex_indices: \"-1\"")
+        run.write("p.ply", start + good + good)
+        run.ffd("info", "p.ply")
     run.folder_of("d.ply")
     run.ffd("deform", "d.ply", "r.ply", "-l", "l.json", code=IO)
 

@@ -2,6 +2,10 @@
 """Edges of a mesh that are torn at the border of a lattice: how many, by how much, where; what is said of them."""
 import math
 
+import random
+import re
+import struct
+
 from bspline import BoxVolume
 from harness import NO, OK, case, check, equal, glb, gltf_json, lattice, main, near
 from said import anything, entry, not_told, told
@@ -358,6 +362,10 @@ def what_is_hidden_is_not_torn(run):
     asset, data = gltf_json(triangle, nodes=[{"mesh": 0}, {"mesh": 0, "translation": [0, 5, 0], **hidden}])
     draw_hidden(run, asset, data)
     told(run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", "--force", err=anything), r"\b1 vertex stays\b")
+    # Of the faces across the border there is only the hidden one, whose vertices come after those of the other.
+    asset, data = gltf_json(triangle, nodes=[{"mesh": 0, "translation": [-3, 0, 0]}, {"mesh": 0, **hidden}])
+    draw_hidden(run, asset, data)
+    not_told(run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", "--force", err=anything), "largest step")
     # Two triangles with vertices of their own: b, which is not selected, stands where a hidden and selected one does too.
     nodes = [{"mesh": 0, "name": "a"}, {"mesh": 0, "name": "b", "translation": [-1, 0, 0]},
              {"mesh": 0, "name": "c", "translation": [-1, 0, 0], **hidden}]
@@ -460,6 +468,76 @@ def the_proof_says_where_it_holds(run):
 
 def line_of(text, word):
     return next(line for line in text.splitlines() if line.split()[:1] == [word])
+
+
+def plain_tears(points, faces):
+    """How many edges lead across x = 1.5, in the plainest way: of vertices at one position the first one counts."""
+    first = {}
+    places = [first.setdefault(tuple(p), i) for i, p in enumerate(points)]
+    edges = {frozenset((places[a], places[b])) for f in faces for a, b in zip(f, f[1:] + f[:1])}
+    return sum(len({points[v][0] > HIGH[0] for v in edge}) == 2 for edge in edges)
+
+
+def indexed_glb(points, faces, code):
+    """Triangles with indices of a struct's code; None: without."""
+    drawn = points if code else [points[v] for f in faces for v in f]
+    asset, data = gltf_json(drawn)
+    primitive = asset["meshes"][0]["primitives"][0]
+    primitive["mode"] = 4
+    if code:
+        indices = struct.pack(f"<{3 * len(faces)}{code}", *(v for f in faces for v in f))
+        asset["bufferViews"].append({"buffer": 0, "byteOffset": len(data), "byteLength": len(indices)})
+        asset["accessors"].append({"bufferView": 1, "componentType": {"H": 5123, "I": 5125}[code], "count": 3 * len(faces),
+                                   "type": "SCALAR"})
+        primitive["indices"] = 1
+        data += indices
+        asset["buffers"][0]["byteLength"] = len(data)
+    return glb(asset, data)
+
+
+def binary_ply(points, faces, order, count_code, code):
+    names = {"<": "little", ">": "big", "B": "uchar", "i": "int", "I": "uint", "H": "ushort"}
+    head = (f"ply\nformat binary_{names[order]}_endian 1.0\nelement vertex {len(points)}\n"
+            + "".join(f"property float {axis}\n" for axis in "xyz") + f"element face {len(faces)}\nproperty uchar red\n"
+            f"property list {names[count_code]} {names[code]} vertex_indices\nproperty float area\nend_header\n")
+    return head.encode() + b"".join(struct.pack(order + "3f", *p) for p in points) + b"".join(
+        struct.pack(f"{order}B{count_code}{len(f)}{code}f", 7, len(f), *f, 0.5) for f in faces)
+
+
+@case
+def a_border_through_what_is_drawn_at_random(run):
+    """Each format has the edges of the plainest count; vertices share positions, and some are in no face. Without a report
+    deform reads only the faces across the border: the largest step is the same, wherever the border moves most."""
+    draw = random.Random(5)
+    run.write("l.json", lattice(low=LOW, high=HIGH, moves=UP))
+    for n in range(3):
+        run.write(f"{n}.json", lattice(low=(-4, -4, -4), high=(1.5, 4, 4), moves=[{"at": [-1, n, "all"], "by": [0, 0, 0.5]}]))
+    for corners in ((3, 3), (3, 9)):
+        points = [[draw.randrange(-40, 41) / 16 + 0.03125, draw.randrange(-40, 41) / 16, draw.randrange(-1, 2)] for _ in range(900)]
+        near_by = [sorted(draw.sample(range(k, k + 12), draw.randint(*corners)), key=lambda _: draw.random())
+                   for k in range(0, 880, 2)]
+        faces = [f for f in near_by if len({tuple(points[v]) for v in f}) == len(f)]
+        expected = plain_tears(points, faces)
+        check(expected > 200, expected)
+        vertices = "".join("%r %r %r\n" % tuple(p) for p in points)
+        meshes = {"a.obj": vertices.replace("\n", "\nv ").join(["v ", ""])[:-2]
+                  + "".join(f"f {' '.join(str(v + 1) for v in f)}\n" for f in faces),
+                  "a.off": f"OFF\n{len(points)} {len(faces)} 0\n{vertices}"
+                  + "".join(f"{len(f)} {' '.join(map(str, f))}\n" for f in faces),
+                  **{f"{n}.ply": binary_ply(points, faces, *codes) for n, codes in enumerate(("<Bi", ">BI", "<BH", ">HI"))}}
+        if corners == (3, 3):
+            meshes.update({f"{code}.glb": indexed_glb(points, faces, code) for code in ("H", "I", None)})
+        told_of = {}
+        for name, content in meshes.items():
+            run.write(name, content)
+            found = torn(run, expected, 0.25, "-j", str(1 + len(told_of) % 2), mesh=name, tolerance=1e-6)
+            told_of[name] = found["vertex"]
+            for n in range(3):
+                largest = entry(run, "check", name, "-l", f"{n}.json")["tear"]["largest"]
+                told(run.ffd("deform", name, "out" + name[-4:], "-l", f"{n}.json", "--force", err=anything),
+                     rf"the largest step to a neighbour is {re.escape(format(largest, '.6g'))}\b")
+        of_order = {vertex for name, vertex in told_of.items() if name != "None.glb"}
+        equal(len(of_order), 1, f"the vertex with the largest step: {told_of}")
 
 
 @case

@@ -489,6 +489,9 @@ m("clearness-over-opacity", "order", "materials", "d->has_opacity ? d->opacity :
 m("map-not-clamped", "condition", "materials", '*is_clamped = ffd_text_is_any_case(*word, "on");',
   '*is_clamped = ffd_text_is_any_case(*word, "off");')
 
+m("digits-of-plain-words", "off by one", "mixed_faces", "digits > 0 && digits <= 8 ? (size_t)bytes_number(values << (64 - 8 * digits)) : 0;",
+  "digits > 0 && digits <= 8 ? (size_t)bytes_number(values << (64 - 8 * digits)) + 1 : 0;")
+m("wanted-after-the-first", "limit", "mixed_faces, cli_tears", "if (a->wanted[middle] < vertex)", "if (a->wanted[middle] <= vertex)")
 # io/gltf
 
 m("data-uri-is-a-file", "condition", "buffer_count", "count += is_uri && !is_data(&string);", "count += is_uri;")
@@ -609,6 +612,10 @@ m("compressed-image-as-it-is", "wrong source", "materials", "view == GLTF_NONE ?
   "view == GLTF_NONE\n                                           ? NULL\n                                           : d->buffers[0].data + d->model.views[view].offset;")
 m("image-of-a-view-twice", "cache left out", "materials", 'v == GLTF_NONE ? image : v);', 'image);')
 
+m("run-of-results-shifted", "stride", "gltf, cli_gltf_scene, cli_outside", "arrays->round(xyz + 3 * i, 3 * (end - i), stream->result + 3 * (first + i));",
+  "arrays->round(xyz + 3 * i, 3 * (end - i), stream->result + 3 * first);")
+m("short-indices-by-their-low-byte", "endian", "cli_tears", "for (size_t i = 0; i < count && size == 2; i++) indices[i] = at[2 * i] | (uint32_t)at[2 * i + 1] << 8;",
+  "for (size_t i = 0; i < count && size == 2; i++)\n        indices[i] = at[2 * i];")
 # io/gltf/animation
 
 m("key-at-its-time", "bound", "gltf_animation, page_rig", "if (sampler->times[middle] <= time) low = middle;",
@@ -644,6 +651,10 @@ m("gltf-rotation-of-three", "bound", "cli_splats", "slot == GLTF_SPLAT_ROTATION 
 
 m("ply-big-endian", "endian", "ply", "(8 * (encoding == PLY_BIG_ENDIAN ? size - 1 - i : i))",
   "(8 * (encoding == PLY_BIG_ENDIAN ? i : size - 1 - i))")
+m("ply-plain-corner-of-none", "limit", "cli_ply", "if (*count > 0 && largest >= plain->limit)",
+  "if (*count > 0 && largest > plain->limit)")
+m("ply-plain-unmarked", "left out", "mixed_faces", "for (size_t i = 0; i < count && r->used; i++)",
+  "for (size_t i = 1; i < count && r->used; i++)")
 m("ply-sign-of-integers", "bound", "ply, cli_ply", "is_signed && bits >> (8 * (word.last - word.first) - 1);",
   "is_signed && bits > (uint64_t)1 << (8 * (word.last - word.first) - 1);")
 m("ply-rows-do-not-fit", "limit", "ply, cli_ply, replay ply", "e->count > left / e->least",
@@ -909,6 +920,16 @@ m("extended-as-moved", "left out", "cli_outside", "totals->extended_moved += (ot
 m("fading-as-moved", "wrong constant", "cli_blocks", "> MOVED * link->lattice->diagonal;", ">= 0 * link->lattice->diagonal;")
 m("unused-as-staying", "left out", "cli_tears", "job->kept[first + v] &= ffd_part_shows(part, v);",
   "job->kept[first + v] &= !part->hidden;")
+m("numbers-of-few-as-of-all", "number", "cli_tears", "torn ? ffd_faces_number(faces, count->vertex) : count->vertex;",
+  "count->vertex;")
+m("marks-of-few-as-of-all", "number", "cli_tears", "job->kept[p * all.vertices + faces->numbers[v]];",
+  "job->kept[p * all.vertices + v];")
+m("hidden-of-few-as-of-all", "number", "cli_tears", "const uint32_t vertex = ffd_faces_number(work->question->faces, of_faces);",
+  "const uint32_t vertex = of_faces;")
+m("last-of-eight-marks", "limit", "mixed_faces", "while (marks->planes == 1 && marks->vertices - vertex > sizeof eight) {",
+  "while (marks->planes >= 1 && marks->vertices - vertex > sizeof eight) {")
+m("vertices-before-a-word", "off by one", "mixed_faces", "set->before[w] = (uint32_t)*count;",
+  "set->before[w] = (uint32_t)*count + (w > 0);")
 m("across-not-turned", "left out", "cli_tears", "walk->across[a] += turned[a];", "walk->across[a] += 0 * turned[a];")
 
 # batch

@@ -67,6 +67,32 @@ static void floats_are_read_and_rounded(void **state)
     (void)state;
 }
 
+/* At any address, and nothing behind them is written. */
+static void whole_numbers_are_read(void **state)
+{
+    draw d = {draw_seed()};
+    for (int round = 0; round < ROUNDS; round++) {
+        const size_t count = (size_t)draw_int(&d, 0, MOST), at = (size_t)draw_int(&d, 0, 3);
+        const int shift = draw_int(&d, 0, 31);
+        unsigned char bytes[4 * MOST + 3];
+        uint32_t values[MOST], largest = 0;
+        for (size_t i = 0; i < count; i++) {
+            values[i] = ((uint32_t)draw_int(&d, 0, 65535) << 16 | (uint32_t)draw_int(&d, 0, 65535)) >> shift;
+            largest = values[i] > largest ? values[i] : largest;
+            for (size_t b = 0; b < 4; b++)
+                bytes[at + 4 * i + b] = (unsigned char)(values[i] >> (8 * b));
+        }
+        ffd_isa isa = FFD_ISA_AUTO;
+        for (const array_kernel *kernel; (kernel = next_kernel(&isa));) {
+            uint32_t read[MOST + 1] = {0};
+            assert_true(kernel->read_u32(bytes + at, count, read) == largest);
+            assert_memory_equal(read, values, count * sizeof *read);
+            assert_true(read[count] == 0);
+        }
+    }
+    (void)state;
+}
+
 static void boxes_are_widened(void **state)
 {
     draw d = {draw_seed()};
@@ -144,6 +170,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(floats_are_read_and_rounded),
+        cmocka_unit_test(whole_numbers_are_read),
         cmocka_unit_test(boxes_are_widened),
         cmocka_unit_test(points_are_displaced),
     };

@@ -7,11 +7,13 @@
 
 #include <cmocka.h>
 
+#include "../support/draw.h"
 #include "../support/mesh_file.h"
 #include "base/text/base64.h"
 #include "mesh/mixed_faces.h"
 
 #define MOST_VERTICES 12
+#define MANY 300
 
 static bool is_marked(const vertex_marks *marks, size_t vertex)
 {
@@ -19,6 +21,18 @@ static bool is_marked(const vertex_marks *marks, size_t vertex)
         if (marks->bytes[p * marks->vertices + vertex])
             return true;
     return false;
+}
+
+/* The numbers of the vertices ascend, and each is one of a face. */
+static void assert_narrow(const mesh_faces *faces)
+{
+    bool used[MANY] = {false};
+    for (size_t v = 0; faces->numbers && v + 1 < faces->vertex_count; v++)
+        assert_true(faces->numbers[v] < faces->numbers[v + 1]);
+    for (size_t c = 0; c < faces->start[faces->face_count]; c++)
+        used[faces->corners[c]] = true;
+    for (size_t v = 0; faces->numbers && v < faces->vertex_count; v++)
+        assert_true(used[v]);
 }
 
 /* The corners of a face are those of another; those that are not marked may be others at their positions. */
@@ -31,9 +45,25 @@ static void assert_same_face(const mesh_faces *all, size_t face, const mesh_face
     assert_int_equal(mixed->start[found + 1] - mixed->start[found], count);
     for (size_t c = 0; c < count; c++) {
         if (is_marked(marks, a[c]))
-            assert_int_equal(b[c], a[c]);
+            assert_int_equal(ffd_faces_number(mixed, b[c]), a[c]);
         for (size_t i = 0; i < 3; i++)
             assert_true(mixed->positions[3 * b[c] + i] == all->positions[3 * a[c] + i]); /* 0 is -0 */
+    }
+}
+
+/* Each allocation that fails is said, and leaves nothing; the last try has them all. */
+static void assert_failures(const mesh_document *document, const vertex_marks *marks)
+{
+    ffd_status status = FFD_E_MEMORY;
+    for (long successes = 0; status; successes++) {
+        mesh_faces faces;
+        ffd_alloc_fail_after(successes);
+        status = document->format->mixed_faces(document, marks, &faces, NULL);
+        ffd_alloc_fail_after(-1);
+        if (status)
+            assert_int_equal(status, FFD_E_MEMORY);
+        else
+            ffd_mesh_faces_free(&faces);
     }
 }
 
@@ -43,7 +73,9 @@ static size_t assert_mixed(const mesh_document *document, const mesh_faces *all,
     mesh_faces mixed;
     size_t found = 0;
     assert_int_equal(document->format->mixed_faces(document, marks, &mixed, NULL), FFD_OK);
-    assert_int_equal(mixed.vertex_count, marks->vertices);
+    if (!mixed.numbers)
+        assert_int_equal(mixed.vertex_count, marks->vertices);
+    assert_narrow(&mixed);
     for (size_t f = 0; f < all->face_count; f++) {
         const size_t count = all->start[f + 1] - all->start[f];
         if (!ffd_marks_differ(marks, all->corners + all->start[f], count))
@@ -75,6 +107,8 @@ static void assert_all_marks(mesh_document *document, const size_t *places)
             }
             const vertex_marks marks = {bytes, planes, vertices};
             found += assert_mixed(document, &all, &marks);
+            if (set % 7 == 1)
+                assert_failures(document, &marks);
         }
     assert_true(found > 0);
     ffd_mesh_faces_free(&all);
@@ -125,27 +159,50 @@ static size_t put(unsigned char *bytes, uint64_t value, size_t size, bool big)
     return size;
 }
 
+/* The faces are these; a vertex that they do not name is not used. */
+static void assert_known(mesh_document *document, const uint32_t *corners, size_t words)
+{
+    mesh_faces faces;
+    bool named[MOST_VERTICES] = {false};
+    size_t at = 0, face = 0;
+    assert_int_equal(document->format->faces(document, &faces, NULL), FFD_OK);
+    for (; at < words; face++) {
+        const size_t count = corners[at++];
+        assert_int_equal(faces.start[face + 1] - faces.start[face], count);
+        assert_memory_equal(faces.corners + faces.start[face], corners + at, count * sizeof *corners);
+        for (size_t c = 0; c < count; c++)
+            named[corners[at++]] = true;
+    }
+    assert_int_equal(faces.face_count, face);
+    ffd_mesh_faces_free(&faces);
+    named[0] = named[1] = true; /* by an edge */
+    assert_int_equal(ffd_mesh_mark_used(document, NULL), FFD_OK);
+    for (size_t v = 0; v < document->parts[0].vertex_count; v++)
+        assert_int_equal(!document->parts[0].used || document->parts[0].used[v], named[v]);
+}
+
 static void of_binary_ply(void **state)
 {
     (void)state;
-    static const uint32_t corners[] = {3, 0, 1, 2, 4, 0, 1, 3, 2};
+    static const uint32_t corners[] = {3, 0, 1, 2, 0, 4, 4, 0, 1, 2};
     static const struct {
         const char *head;
         size_t size;
         bool big;
-    } cases[] = {{PLY_HEAD("binary_little_endian", "4", "2", "int"), 4, false},
-                 {PLY_HEAD("binary_big_endian", "4", "2", "ushort"), 2, true},
-                 {PLY_HEAD("binary_big_endian", "4", "2", "uint"), 4, true},
-                 {PLY_HEAD("binary_little_endian", "4", "2", "char"), 1, false}};
+    } cases[] = {{PLY_HEAD("binary_little_endian", "5", "3", "int"), 4, false},
+                 {PLY_HEAD("binary_big_endian", "5", "3", "ushort"), 2, true},
+                 {PLY_HEAD("binary_big_endian", "5", "3", "uint"), 4, true},
+                 {PLY_HEAD("binary_little_endian", "5", "3", "uint"), 4, false},
+                 {PLY_HEAD("binary_little_endian", "5", "3", "char"), 1, false}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         unsigned char bytes[1024];
         size_t size = strlen(cases[i].head);
         memcpy(bytes, cases[i].head, size);
         for (size_t v = 0; v < 2; v++)
             size += put(bytes + size, v, 4, cases[i].big);
-        for (uint32_t v = 0; v < 12; v++)
+        for (uint32_t v = 0; v < 15; v++)
             size += put(bytes + size, v << 23, 4, cases[i].big);
-        for (size_t face = 0, at = 0; face < 2; face++) {
+        for (size_t face = 0, at = 0; face < 3; face++) {
             size += put(bytes + size, 7, 1, false);
             const size_t count = corners[at];
             size += put(bytes + size, corners[at++], 1, false);
@@ -153,7 +210,9 @@ static void of_binary_ply(void **state)
                 size += put(bytes + size, corners[at++], cases[i].size, cases[i].big);
             size += put(bytes + size, 7, 1, false);
         }
-        assert_all_marks(opened_bytes(ffd_format_table(FFD_FORMAT_PLY), bytes, size), NULL);
+        mesh_document *const document = opened_bytes(ffd_format_table(FFD_FORMAT_PLY), bytes, size);
+        assert_known(document, corners, sizeof corners / sizeof *corners);
+        assert_all_marks(document, NULL);
     }
 }
 
@@ -222,11 +281,60 @@ static void of_gltf(void **state)
     assert_all_marks(document, NULL);
 }
 
+/* Of many vertices, with long lines: those of faces have other numbers among themselves. */
+static void of_many(void **state)
+{
+    (void)state;
+    draw d = {draw_seed()};
+    for (int round = 0; round < 20; round++) {
+        char text[40 * 2 * MANY];
+        uint8_t bytes[MANY];
+        size_t size = 0;
+        mesh_faces all;
+        const uint32_t border = (uint32_t)draw_int(&d, 10, MANY - 10);
+        for (size_t v = 0; v < MANY; v++) {
+            size += (size_t)snprintf(text + size, sizeof text - size, "v %zu 0 %d\n", v, draw_int(&d, 0, 9));
+            bytes[v] = v > border;
+        }
+        for (int f = 0; f < MANY; f++) {
+            const int a = draw_int(&d, 1, MANY - 8), b = a + draw_int(&d, 1, 3), c = b + draw_int(&d, 1, 3);
+            size += (size_t)snprintf(text + size, sizeof text - size, "f %d/%d/%d %d/%d/%d %d/%d/%d\n", a, a,
+                                     a, b, b, b, c, c, c);
+        }
+        const vertex_marks marks = {bytes, 1, MANY};
+        mesh_document *const document = opened_bytes(ffd_format_table(FFD_FORMAT_OBJ), text, size);
+        assert_int_equal(document->format->faces(document, &all, NULL), FFD_OK);
+        assert_mixed(document, &all, &marks);
+        ffd_mesh_faces_free(&all);
+        document->format->close(document);
+    }
+}
+
+/* Marks among many vertices without are found, in one plane and in two. */
+static void next_marks(void **state)
+{
+    (void)state;
+    draw d = {draw_seed()};
+    for (int round = 0; round < 300; round++) {
+        const size_t planes = (size_t)draw_int(&d, 1, 2), vertices = (size_t)draw_int(&d, 0, 60);
+        uint8_t bytes[2 * 60] = {0};
+        for (int i = draw_int(&d, 0, 5); i > 0 && vertices > 0; i--)
+            bytes[draw_int(&d, 0, (int)(planes * vertices) - 1)] = (uint8_t)draw_int(&d, 1, 255);
+        const vertex_marks marks = {bytes, planes, vertices};
+        for (size_t v = 0, next = 0; v <= vertices; v++) {
+            for (next = v; next < vertices && !is_marked(&marks, next);)
+                next++;
+            assert_int_equal(ffd_marks_next(&marks, v), next);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(of_off), cmocka_unit_test(of_ply), cmocka_unit_test(of_binary_ply),
-        cmocka_unit_test(of_obj), cmocka_unit_test(of_stl), cmocka_unit_test(of_gltf),
+        cmocka_unit_test(of_off),  cmocka_unit_test(of_ply),     cmocka_unit_test(of_binary_ply),
+        cmocka_unit_test(of_obj),  cmocka_unit_test(of_stl),     cmocka_unit_test(of_gltf),
+        cmocka_unit_test(of_many), cmocka_unit_test(next_marks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,6 +18,16 @@ static void read_floats(const unsigned char *restrict from, size_t count, double
     }
 }
 
+static uint32_t read_u32(const unsigned char *restrict from, size_t count, uint32_t *restrict to)
+{
+    uint32_t largest = 0;
+    for (size_t i = 0; i < count; i++) {
+        to[i] = load_u32(from + 4 * i);
+        largest = to[i] > largest ? to[i] : largest;
+    }
+    return largest;
+}
+
 static void round_to_floats(const double *restrict from, size_t count, float *restrict to)
 {
     for (size_t i = 0; i < count; i++)
@@ -111,4 +121,4 @@ static size_t displace(const double *vectors, size_t count, double largest, doub
     return unfit;
 }
 
-const array_kernel FFD_ARRAY_KERNEL = {read_floats, round_to_floats, add, widen, displace};
+const array_kernel FFD_ARRAY_KERNEL = {read_floats, read_u32, round_to_floats, add, widen, displace};

@@ -11,6 +11,8 @@
 typedef struct array_kernel {
     /* Floats as files have them: little-endian, at any address. */
     void (*read_floats)(const unsigned char *from, size_t count, double *to);
+    /* Whole numbers of 32 bits, stored alike. Returns the largest; 0 of none. */
+    uint32_t (*read_u32)(const unsigned char *from, size_t count, uint32_t *to);
     /* To the nearest float. */
     void (*round)(const double *from, size_t count, float *to);
     /* to[i] += terms[i]; where that is 0 the bits stay. */

@@ -1,6 +1,7 @@
 #include "io/obj/obj_faces.h"
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
+#include "io/obj/obj_corner.h"
 #include "io/obj/obj_vectors.h"
 #include "mesh/face_filler.h"
 #include "mesh/mixed_faces.h"
@@ -217,7 +218,7 @@ ffd_status ffd_obj_faces(const mesh_document *document, mesh_faces *faces, ffd_e
     if (status)
         return status;
     if (d->file.new_positions && d->file.new_positions == d->file.positions)
-        ffd_obj_read_again(d, NULL, faces->positions);
+        ffd_obj_read_again(d, NULL, 0, faces->positions);
     else
         ffd_obj_read_positions(document, 0, 0, d->vertices, faces->positions);
     return fill_faces(d, faces, error);
@@ -232,6 +233,39 @@ typedef struct mixed_search {
 /* Corners of a face that is looked at without care. */
 #define PLAIN_CORNERS 8
 
+/* Which of 64 bytes are blanks or line ends, and which are not digits: they are found for all of them at
+   once, as a search word by word would wait for the end of the one before. */
+typedef struct word_run {
+    const char *text;
+    uint64_t low, others;
+} word_run;
+
+/* Takes the word at c. number: what its digits make, before anything else in it; 0 where there are none, or
+   too many. Returns the end of the word. */
+static ALWAYS_INLINE const char *take_plain_word(word_run *run, const char *c, const char *last,
+                                                 size_t *number)
+{
+    for (int turn = 0; turn < 2; turn++) {
+        const size_t at = (size_t)(c - run->text);
+        const uint64_t low = at < 64 ? run->low >> at : 0;
+        if (low) {
+            const int digits = __builtin_ctzll(run->others >> at);
+            const uint64_t values = load_u64((const unsigned char *)c) ^ '0' * BYTES_ONES;
+            *number = digits > 0 && digits <= 8 ? (size_t)bytes_number(values << (64 - 8 * digits)) : 0;
+            return c + __builtin_ctzll(low);
+        }
+        if (last - c < OBJ_RUN_ROOM)
+            break;
+        *run = (word_run){c, bytes_low_of_64(c), bytes_not_digits_of_64(c)};
+    }
+    *number = 0;
+    for (; c < last && (unsigned)(*c - '0') < 10; c++)
+        *number = 10 * *number + (size_t)(*c - '0');
+    while (c < last && (unsigned char)*c > ' ')
+        c++;
+    return c;
+}
+
 /* Lists the vertices of the current face, line or point where it is plainly written: all corners begin with a
    number that counts from the file's first vertex, on one line. Returns how many; 0: it has to be looked at
    with care. Takes nothing. */
@@ -239,19 +273,17 @@ static size_t list_plainly(const obj_document *d, const obj_scan *scan, uint32_t
 {
     size_t count = 0;
     const char *c = scan->at;
+    word_run run = {c, 0, 0};
     while (scan->plain) {
-        size_t number = 0;
+        size_t number;
         while (c < scan->last && (*c == ' ' || *c == '\t'))
             c++;
         if (c == scan->last || *c == '\n' || *c == '\r')
             return count;
-        for (; c < scan->last && (unsigned)(*c - '0') < 10; c++)
-            number = 10 * number + (size_t)(*c - '0');
+        c = take_plain_word(&run, c, scan->last, &number);
         if (number - 1 >= d->vertices || count == PLAIN_CORNERS)
             break;
         vertices[count++] = (uint32_t)(number - 1);
-        while (c < scan->last && (unsigned char)*c > ' ')
-            c++;
     }
     return 0;
 }
@@ -283,32 +315,14 @@ static void search_tile(void *context, size_t tile, size_t first, size_t last, i
     ffd_obj_forget_block(search->document, first);
 }
 
-/* Reads the positions of the faces' vertices. */
-static ffd_status read_positions(const obj_document *d, const mesh_faces *faces, ffd_error *error)
-{
-    uint8_t *wanted;
-    if (faces->face_count == 0)
-        return FFD_OK;
-    wanted = ffd_alloc_zero(d->vertices, 1);
-    if (!wanted)
-        return ffd_fail_memory(error);
-    for (size_t c = 0; c < faces->start[faces->face_count]; c++)
-        wanted[faces->corners[c]] = 1;
-    ffd_obj_read_again(d, wanted, faces->positions);
-    ffd_free(wanted);
-    return FFD_OK;
-}
-
 static ffd_status find_mixed(mixed_search *search, mesh_faces *faces, ffd_error *error)
 {
     const obj_document *const d = search->document;
     ffd_parallel_tiles(d->blocks.count, 1, d->threads, search_tile, search);
-    ffd_status status = ffd_face_lists_join(&d->file.base, search->lists, d->blocks.count, faces, error);
-    if (status)
-        return status;
-    status = read_positions(d, faces, error);
-    if (status)
-        ffd_mesh_faces_free(faces);
+    const ffd_status status =
+        ffd_face_lists_narrow(&d->file.base, search->lists, d->blocks.count, faces, error);
+    if (!status)
+        ffd_obj_read_again(d, faces->numbers, faces->vertex_count, faces->positions);
     return status;
 }
 

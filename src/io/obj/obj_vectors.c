@@ -46,7 +46,8 @@ typedef struct reader {
 /* Positions that are read for the second time. */
 typedef struct again {
     const obj_document *document;
-    const uint8_t *wanted;
+    const uint32_t *wanted; /* NULL: all */
+    size_t count;
     double *xyz;
 } again;
 
@@ -306,40 +307,49 @@ ffd_status ffd_obj_read_vectors(obj_document *d, obj_users *users, ffd_error *er
     return status;
 }
 
-/* Whether some vertex of the block is wanted. */
-static bool is_wanted(const again *a, size_t block)
+/* The number of the first wanted vertex that is not before this one. */
+static size_t find_wanted(const again *a, size_t vertex)
 {
-    const size_t first = a->document->blocks.list[block].vertices, all = a->document->vertices;
-    const size_t end =
-        block + 1 < a->document->blocks.count ? a->document->blocks.list[block + 1].vertices : all;
-    return end > first && (!a->wanted || memchr(a->wanted + first, 1, end - first));
+    size_t low = 0, high = a->count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (a->wanted[middle] < vertex)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
 }
 
 static void read_again_tile(void *context, size_t tile, size_t first, size_t last, int worker)
 {
     const again *const a = context;
-    size_t vertex = a->document->blocks.list[first].vertices;
+    const obj_document *const d = a->document;
+    size_t vertex = d->blocks.list[first].vertices;
+    const size_t end = last < d->blocks.count ? d->blocks.list[last].vertices : d->vertices;
+    size_t next = a->wanted ? find_wanted(a, vertex) : vertex;
     obj_walk walk;
     (void)tile;
-    (void)last;
     (void)worker;
-    if (!is_wanted(a, first))
+    if (a->wanted ? next == a->count || a->wanted[next] >= end : vertex == end)
         return;
-    ffd_obj_document_walk_block(a->document, first, &walk);
+    ffd_obj_document_walk_block(d, first, &walk);
     while (ffd_obj_walk_next(&walk)) {
         if (walk.scan.keyword != OBJ_VERTEX)
             continue;
-        double *const xyz = a->xyz + 3 * vertex;
-        if (!a->wanted || a->wanted[vertex])
+        double *const xyz = a->xyz + 3 * next;
+        if (!a->wanted || (next < a->count && a->wanted[next] == vertex)) {
             for (int k = 0, at_once = ffd_obj_scan_numbers(&walk.scan, xyz); k < 3 && !at_once; k++)
                 read_number(&walk.scan, &xyz[k]);
+            next++;
+        }
         vertex++;
     }
-    ffd_obj_forget_block(a->document, first);
+    ffd_obj_forget_block(d, first);
 }
 
-void ffd_obj_read_again(const obj_document *d, const uint8_t *wanted, double *xyz)
+void ffd_obj_read_again(const obj_document *d, const uint32_t *wanted, size_t count, double *xyz)
 {
-    again a = {d, wanted, xyz};
+    again a = {d, wanted, count, xyz};
     ffd_parallel_tiles(d->blocks.count, 1, d->threads, read_again_tile, &a);
 }

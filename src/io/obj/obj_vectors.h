@@ -8,8 +8,8 @@
    coordinates, and addition as if no index counted back. *users (obj_users.h) is to be freed in any case. */
 ffd_status ffd_obj_read_vectors(obj_document *document, obj_users *users, ffd_error *error);
 
-/* Reads positions from the file again, 3 numbers each: results may have replaced them. wanted: a byte for
-   each, 0: that one is not read; NULL: all are. */
-void ffd_obj_read_again(const obj_document *document, const uint8_t *wanted, double *xyz);
+/* Reads positions from the file again, 3 numbers each: results may have replaced them. Those of the wanted
+   vertices, count ascending numbers; of all where wanted is NULL. */
+void ffd_obj_read_again(const obj_document *document, const uint32_t *wanted, size_t count, double *xyz);
 
 #endif

@@ -118,7 +118,7 @@ ffd_status ffd_off_mixed_faces(const mesh_document *document, const vertex_marks
         ffd_face_list_end(&list, marks);
     }
     const ffd_status status = has_changed ? ffd_faces_changed(d->file.name, error)
-                                          : ffd_face_lists_join(document, &list, 1, faces, error);
+                                          : ffd_face_lists_narrow(document, &list, 1, faces, error);
     if (status == FFD_OK)
         ffd_file_document_fill_positions(&d->file, faces);
     ffd_free(list.words);

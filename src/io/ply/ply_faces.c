@@ -1,8 +1,10 @@
 /* ply_faces.c - checks and hands out the faces of a PLY file. */
 #include "base/memory/memory.h"
+#include "io/ply/ply_plain_faces.h"
 #include "io/ply/ply_strips.h"
 #include "mesh/face_filler.h"
 #include "mesh/mixed_faces.h"
+#include <string.h>
 
 typedef struct face_reader {
     const ply_document *document;
@@ -56,6 +58,24 @@ static bool take_triangle(void *context, const uint32_t corners[3])
     return true;
 }
 
+/* Does with a face that is read what add_corner and end_face do. Returns false if memory ran out. */
+static bool take_plain(face_reader *r, const uint32_t *corners, size_t count)
+{
+    if (!begin_face(r, count))
+        return false;
+    if (r->faces && count > 0)
+        memcpy(r->faces->corners + r->corners, corners, count * sizeof *corners);
+    for (size_t i = 0; i < count && r->used; i++)
+        r->used[corners[i]] = 1;
+    if (r->mixed && ffd_marks_differ(r->marks, corners, count)) {
+        for (size_t i = 0; i < count; i++)
+            ffd_face_list_corner(r->mixed, corners[i]);
+        ffd_face_list_end(r->mixed, r->marks);
+    }
+    r->corners += count;
+    return true;
+}
+
 static ffd_status read_corners(face_reader *r, uint64_t face)
 {
     const ply_document *d = r->document;
@@ -91,15 +111,32 @@ static ffd_status read_face(face_reader *r, uint64_t face)
     return status;
 }
 
+/* Reads the rows of element face. One that is not plain is read with care, which says what is wrong with it.
+ */
+static ffd_status read_rows(face_reader *r)
+{
+    const ply_document *const d = r->document;
+    ply_plain_faces plain;
+    const bool is_plain =
+        ffd_ply_plain_faces(d->header.encoding, d->face, d->face_corners, d->file.part.vertex_count, &plain);
+    ffd_status status = FFD_OK;
+    ffd_ply_document_walk(d, d->face, &r->walk);
+    for (uint64_t face = 0; status == FFD_OK && face < d->face->count; face++) {
+        uint32_t corners[PLY_PLAIN_CORNERS];
+        size_t count;
+        if (!is_plain || !ffd_ply_plain_face(&plain, &r->walk, corners, &count))
+            status = read_face(r, face);
+        else if (!take_plain(r, corners, count))
+            status = ffd_fail_memory(r->error);
+    }
+    return status;
+}
+
 /* Goes through all faces, then through the triangles of strips; what is done with them is set. */
 static ffd_status look_at_faces(face_reader *r)
 {
     const ply_document *const d = r->document;
-    ffd_status status = FFD_OK;
-    if (d->face)
-        ffd_ply_document_walk(d, d->face, &r->walk);
-    for (uint64_t face = 0; d->face && status == FFD_OK && face < d->face->count; face++)
-        status = read_face(r, face);
+    const ffd_status status = d->face ? read_rows(r) : FFD_OK;
     return status ? status : ffd_ply_visit_strips(d, take_triangle, r, r->error);
 }
 
@@ -158,7 +195,7 @@ ffd_status ffd_ply_mixed_faces(const mesh_document *document, const vertex_marks
     *faces = (mesh_faces){.vertex_count = marks->vertices};
     ffd_status status = look_at_faces(&r);
     if (status == FFD_OK)
-        status = ffd_face_lists_join(document, &list, 1, faces, error);
+        status = ffd_face_lists_narrow(document, &list, 1, faces, error);
     if (status == FFD_OK)
         ffd_file_document_fill_positions(&d->file, faces);
     ffd_free(list.words);

@@ -139,8 +139,10 @@ ffd_status ffd_file_document_model(const file_document *d, size_t texcoords, mes
 
 void ffd_file_document_fill_positions(const file_document *d, mesh_faces *faces)
 {
-    for (size_t c = 0; c < faces->start[faces->face_count]; c++) {
+    for (size_t c = 0; !faces->numbers && c < faces->start[faces->face_count]; c++) {
         const size_t vertex = faces->corners[c];
         d->base.format->read_positions(&d->base, 0, vertex, 1, faces->positions + 3 * vertex);
     }
+    for (size_t v = 0; faces->numbers && v < faces->vertex_count; v++)
+        d->base.format->read_positions(&d->base, 0, faces->numbers[v], 1, faces->positions + 3 * v);
 }

@@ -70,15 +70,23 @@ static ffd_status list_hidden(const deform_job *job, vertex_range **ranges, size
     return FFD_OK;
 }
 
+/* The marks of all vertices of the document. */
+static vertex_marks marks_of(const deform_job *job)
+{
+    return (vertex_marks){job->kept, ffd_kept_planes(ffd_chain_marked(&job->chain)),
+                          (size_t)ffd_mesh_vertex_count(job->document)};
+}
+
 /* Leaves a byte for each vertex: whether it stays, and is shown, as messages about vertices outside count
    them. */
-static void mark_still(const deform_job *job, const tear_question *question)
+static void mark_still(const deform_job *job)
 {
     const mesh_document *const document = job->document;
-    const size_t vertices = question->faces->vertex_count;
+    const vertex_marks marks = marks_of(job);
+    const size_t acting = ffd_chain_layers(&job->chain);
     size_t first = 0;
-    for (size_t v = 0; v < vertices; v++)
-        job->kept[v] = !ffd_tear_takes_part(job->kept, vertices, (uint32_t)v, question->acting);
+    for (size_t v = ffd_marks_next(&marks, 0); v < marks.vertices; v = ffd_marks_next(&marks, v + 1))
+        job->kept[v] = !ffd_tear_takes_part(job->kept, marks.vertices, (uint32_t)v, acting);
     for (size_t i = 0; i < document->part_count; i++) {
         const mesh_part *const part = &document->parts[i];
         if (part->repeats_positions)
@@ -90,11 +98,11 @@ static void mark_still(const deform_job *job, const tear_question *question)
 }
 
 /* Finds the name of what stays, and how many vertices of it do. */
-static void name_part(const deform_job *job, const tear_question *question, ffd_job_result *result)
+static void name_part(const deform_job *job, ffd_job_result *result)
 {
-    const size_t vertices = question->faces->vertex_count;
+    const vertex_marks still = {job->kept, 1, (size_t)ffd_mesh_vertex_count(job->document)};
     const mesh_format *const format = job->document->format;
-    mark_still(job, question);
+    mark_still(job);
     if (format->name_part)
         result->tear_stays = format->name_part(job->document, result->tear_vertex, job->kept,
                                                result->tear_part, sizeof result->tear_part);
@@ -104,40 +112,42 @@ static void name_part(const deform_job *job, const tear_question *question, ffd_
     if (*result->tear_part)
         return;
     result->tear_stays = 0;
-    for (size_t v = 0; v < vertices; v++)
-        result->tear_stays += job->kept[v] != 0;
+    for (size_t v = ffd_marks_next(&still, 0); v < still.vertices; v = ffd_marks_next(&still, v + 1))
+        result->tear_stays++;
 }
 
 static void fill_result(const deform_job *job, const tear_question *question, const tear_count *count,
                         ffd_job_result *result)
 {
     const bool blocks = job->chain.blocks, torn = count->edges > 0;
+    const mesh_faces *const faces = question->faces;
     result->has_tear = true;
     result->tear_edges = count->edges;
     result->tear_largest = count->largest;
-    result->tear_vertex = count->vertex;
+    result->tear_vertex = torn ? ffd_faces_number(faces, count->vertex) : count->vertex;
     result->tear_unselected = torn && count->mode == TEAR_UNMOVABLE;
     result->tear_between =
         torn && count->mode == TEAR_BORDER &&
-        ffd_tear_takes_part(job->kept, question->faces->vertex_count, count->vertex, question->acting);
+        ffd_tear_takes_part(question->marks, faces->vertex_count, count->vertex, question->acting);
     result->tear_seam = torn && count->mode >= ffd_tear_seams(&job->chain);
     result->tear_disagrees = torn && blocks && count->mode == TEAR_DISAGREES;
     if (torn)
-        name_part(job, question, result);
+        name_part(job, result);
 }
 
-static ffd_status count_torn(deform_job *job, const mesh_faces *faces, const memory_budget *budget,
-                             ffd_job_result *result, ffd_error *error)
+/* marks: of the vertices of faces. */
+static ffd_status count_marked(const deform_job *job, const mesh_faces *faces, uint8_t *marks,
+                               const memory_budget *budget, ffd_job_result *result, ffd_error *error)
 {
     tear_count count;
     vertex_range *hidden = NULL;
     tear_question question = {.faces = faces,
-                              .marks = job->kept,
+                              .marks = marks,
                               .links = ffd_chain_marked(&job->chain),
                               .acting = ffd_chain_layers(&job->chain),
                               .lone = ffd_tear_seams(&job->chain),
                               .step = ffd_tear_steps_find,
-                              .context = ffd_tear_steps_make(&job->chain, job->document, faces, job->kept),
+                              .context = ffd_tear_steps_make(&job->chain, job->document, faces, marks),
                               .torn = job->details ? &job->details->tears : NULL,
                               .budget = budget};
     ffd_status status =
@@ -152,13 +162,34 @@ static ffd_status count_torn(deform_job *job, const mesh_faces *faces, const mem
     return status;
 }
 
+static ffd_status count_torn(const deform_job *job, const mesh_faces *faces, const memory_budget *budget,
+                             ffd_job_result *result, ffd_error *error)
+{
+    const vertex_marks all = marks_of(job);
+    const size_t count = faces->vertex_count;
+    if (!faces->numbers)
+        return count_marked(job, faces, job->kept, budget, result, error);
+    ffd_status status = ffd_budget_check(budget, count, all.planes, error);
+    if (status)
+        return status;
+    uint8_t *const marks = ffd_alloc(count, all.planes);
+    if (!marks)
+        return ffd_fail_memory(error);
+    for (size_t p = 0; p < all.planes; p++)
+        for (size_t v = 0; v < count; v++)
+            marks[p * count + v] = job->kept[p * all.vertices + faces->numbers[v]];
+    status = count_marked(job, faces, marks, budget, result, error);
+    ffd_free(marks);
+    return status;
+}
+
 /* Whether there are vertices that no link may move. They may stand where something is that moves: all
    positions are looked at then. */
 static bool some_may_not_move(const deform_job *job)
 {
-    const size_t vertices = (size_t)ffd_mesh_vertex_count(job->document);
+    const vertex_marks marks = marks_of(job);
     unsigned any = 0;
-    for (size_t v = 0; v < vertices; v++)
+    for (size_t v = ffd_marks_next(&marks, 0); v < marks.vertices; v = ffd_marks_next(&marks, v + 1))
         any |= job->kept[v];
     return any & KEPT_ALWAYS;
 }
@@ -169,8 +200,7 @@ static ffd_status read_and_count(deform_job *job, const memory_budget *left, ffd
     mesh_faces faces;
     memory_budget budget = *left;
     const mesh_format *const format = job->document->format;
-    const vertex_marks marks = {job->kept, ffd_kept_planes(ffd_chain_marked(&job->chain)),
-                                (size_t)ffd_mesh_vertex_count(job->document)};
+    const vertex_marks marks = marks_of(job);
     ffd_status status = some_may_not_move(job) ? format->faces(job->document, &faces, error)
                                                : format->mixed_faces(job->document, &marks, &faces, error);
     if (status)

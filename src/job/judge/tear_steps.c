@@ -70,7 +70,8 @@ static void find_rounding(const void *context, size_t point, bool is_first, cons
     const sent_edges *const sent = context;
     (void)is_first; /* of blocks every point is where the file has it */
     (void)x;
-    ffd_vertex_rounding(&sent->steps->owners, ffd_tear_end_stays(sent->edges[point]), NULL, half);
+    const uint32_t stays = ffd_faces_number(sent->steps->faces, ffd_tear_end_stays(sent->edges[point]));
+    ffd_vertex_rounding(&sent->steps->owners, stays, NULL, half);
 }
 
 /* Of blocks: what the nearest border of all would do, or how far two blocks part. */

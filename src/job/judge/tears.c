@@ -67,9 +67,10 @@ static bool leads(const tear_work *work, size_t mode, uint32_t stays, uint32_t m
                                : is_kept(work, stays, mark) && !is_kept(work, moves, mark);
 }
 
-static bool is_hidden(const tear_work *work, uint32_t vertex)
+static bool is_hidden(const tear_work *work, uint32_t of_faces)
 {
     const vertex_range *const hidden = work->question->hidden;
+    const uint32_t vertex = ffd_faces_number(work->question->faces, of_faces);
     size_t low = 0, high = work->question->hidden_count;
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
@@ -158,7 +159,8 @@ static ffd_status note_torn(tear_work *work, uint64_t key, ffd_error *error)
 /* Judges an edge, given the step of its end that stays. */
 static ffd_status judge_edge(tear_work *work, size_t mode, uint64_t key, double step, ffd_error *error)
 {
-    const double *const positions = work->question->faces->positions;
+    const mesh_faces *const faces = work->question->faces;
+    const double *const positions = faces->positions;
     const uint32_t stays = (uint32_t)(key >> 32), moves = (uint32_t)(key & UINT32_MAX);
     tear_count *const count = work->count;
     double along[3];
@@ -172,7 +174,8 @@ static ffd_status judge_edge(tear_work *work, size_t mode, uint64_t key, double 
         count->mode = mode;
     }
     count->edges++;
-    if (work->question->torn && ffd_torn_edges_add(work->question->torn, stays, moves, step, error))
+    if (work->question->torn && ffd_torn_edges_add(work->question->torn, ffd_faces_number(faces, stays),
+                                                   ffd_faces_number(faces, moves), step, error))
         return FFD_E_MEMORY;
     return work->question->links > work->question->acting ? note_torn(work, key, error) : FFD_OK;
 }

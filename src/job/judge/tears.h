@@ -38,25 +38,26 @@ typedef struct vertex_range {
 } vertex_range;
 
 typedef struct tear_question {
-    const mesh_faces *faces; /* at rest, all of them */
+    const mesh_faces *faces; /* at rest, all of them, or all that marks tell apart */
     /* Marks of the vertices as the chain makes them (KEPT_ALWAYS, ffd_kept_bit), in planes of
-       faces->vertex_count bytes. They are changed: vertices at one position get the same. */
+       faces->vertex_count bytes. They are changed where some have KEPT_ALWAYS: vertices at one position get
+       the same. */
     uint8_t *marks;
     size_t links;               /* that marks are about (ffd_chain_marked); */
     size_t acting;              /* what the first so many move, moves: of blocks one */
     size_t lone;                /* from this mode on a step depends on both ends' positions */
-    const vertex_range *hidden; /* hidden_count, ascending: what is not shown is not torn */
+    const vertex_range *hidden; /* hidden_count, ascending, of the document: not shown is not torn */
     size_t hidden_count;
     tear_step_function *step;
     void *context;
-    torn_edges *torn; /* gets those with the largest steps; or NULL */
+    torn_edges *torn; /* gets those with the largest steps, in numbers of the document; or NULL */
     const memory_budget *budget;
 } tear_question;
 
 typedef struct tear_count {
     uint64_t edges;  /* that are torn */
     double largest;  /* the largest step of these; 0 without any */
-    uint32_t vertex; /* the end that stays there: of equals the one with the lowest number */
+    uint32_t vertex; /* of faces: the end that stays there, of equals the one with the lowest number */
     size_t mode;     /* of that step */
 } tear_count;
 

@@ -119,6 +119,10 @@ void ffd_gltf_originals(const gltf_document *d, size_t a, size_t first, size_t c
         return;
     }
     const unsigned char *at = layout->data + first * layout->stride;
+    if (LITTLE_ENDIAN_MACHINE && layout->stride == 3 * sizeof *values) {
+        memcpy(values, at, 3 * count * sizeof *values);
+        return;
+    }
     for (size_t i = 0; i < count; i++, at += layout->stride)
         for (size_t c = 0; c < 3; c++) {
             const uint32_t bits = load_u32(at + 4 * c);
@@ -205,14 +209,17 @@ static void read_indices(const gltf_document *d, size_t a, size_t first, size_t 
     }
 }
 
-/* Contiguous numbers of 32 bits, in a loop that compilers turn into SIMD. */
-static uint32_t copy_indices(const unsigned char *restrict at, size_t count, uint32_t *restrict indices)
+/* Contiguous numbers of 8 or 16 bits. */
+static uint32_t widen_indices(const unsigned char *restrict at, size_t size, size_t count,
+                              uint32_t *restrict indices)
 {
     uint32_t largest = 0;
-    for (size_t i = 0; i < count; i++) {
-        indices[i] = load_u32(at + 4 * i);
+    for (size_t i = 0; i < count && size == 1; i++)
+        indices[i] = at[i];
+    for (size_t i = 0; i < count && size == 2; i++)
+        indices[i] = at[2 * i] | (uint32_t)at[2 * i + 1] << 8;
+    for (size_t i = 0; i < count; i++)
         largest = indices[i] > largest ? indices[i] : largest;
-    }
     return largest;
 }
 
@@ -221,9 +228,13 @@ uint32_t ffd_gltf_read_indices(const gltf_document *d, size_t a, size_t first, s
 {
     const gltf_layout *layout = &d->layouts[a];
     const gltf_accessor *accessor = &d->model.accessors[a];
-    if (layout->data && !accessor->sparse.present && accessor->component == GLTF_U32 &&
-        layout->stride == sizeof *indices)
-        return copy_indices(layout->data + sizeof *indices * first, count, indices);
+    const size_t size = ffd_gltf_component_size(accessor->component);
+    const unsigned char *const at = layout->data ? layout->data + size * first : NULL;
+    const bool is_plain = at && !accessor->sparse.present && layout->stride == size;
+    if (is_plain && accessor->component == GLTF_U32)
+        return ffd_array_kernel(FFD_ISA_AUTO)->read_u32(at, count, indices);
+    if (is_plain && (accessor->component == GLTF_U16 || accessor->component == GLTF_U8))
+        return widen_indices(at, size, count, indices);
     uint32_t largest = 0;
     read_indices(d, a, first, count, indices);
     for (size_t i = 0; i < count; i++)

@@ -9,7 +9,7 @@
 #include <string.h>
 
 /* Triangles that a thread looks at at a time, and those whose indices it reads at once. */
-#define TILE ((size_t)1 << 16)
+#define TILE ((size_t)1 << 14)
 #define RUN ((size_t)1024)
 
 /* The triangles of one primitive under one node. */
@@ -111,13 +111,12 @@ static bool search_primitive(mixed_work *work, const size_t *first, size_t m, si
     return true;
 }
 
-/* Fills in the positions of the listed vertices. */
 static void read_positions(const gltf_document *d, const size_t *first, const mesh_faces *faces)
 {
     size_t part = 0;
-    for (size_t c = 0; c < faces->start[faces->face_count]; c++) {
-        const size_t vertex = faces->corners[c];
-        double *const xyz = faces->positions + 3 * vertex;
+    for (size_t v = 0; v < faces->vertex_count; v++) {
+        const size_t vertex = faces->numbers[v];
+        double *const xyz = faces->positions + 3 * v;
         if (d->mesh_parts[part].repeats_positions || vertex < first[part] ||
             vertex >= first[part] + d->mesh_parts[part].vertex_count)
             for (part = 0; d->mesh_parts[part].repeats_positions || vertex < first[part] ||
@@ -150,7 +149,7 @@ ffd_status ffd_gltf_mixed_faces(const mesh_document *document, const vertex_mark
         return status;
     *faces = (mesh_faces){.vertex_count = marks->vertices};
     if (search_all(&work, first, &all)) {
-        status = ffd_face_lists_join(document, all.lists, all.count, faces, error);
+        status = ffd_face_lists_narrow(document, all.lists, all.count, faces, error);
         if (!status)
             read_positions(d, first, faces);
     } else

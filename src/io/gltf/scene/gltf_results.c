@@ -221,6 +221,21 @@ static void write_changed(const gltf_document *d, const gltf_stream *stream, boo
     }
 }
 
+/* Writes results that are only rounded: as many together as changed one after the other. */
+static void round_changed(const gltf_stream *stream, size_t first, size_t count, const double *xyz,
+                          const uint8_t *changed)
+{
+    const array_kernel *const arrays = ffd_array_kernel(FFD_ISA_AUTO);
+    for (size_t i = 0, end; i < count; i = end) {
+        for (end = i; end < count && changed[end];)
+            end++;
+        if (end > i)
+            arrays->round(xyz + 3 * i, 3 * (end - i), stream->result + 3 * (first + i));
+        while (end < count && !changed[end])
+            end++;
+    }
+}
+
 static void write_result(mesh_document *document, size_t part, gltf_semantic semantic, size_t first,
                          size_t count, const double *values, size_t components, const uint8_t *changed)
 {
@@ -231,8 +246,8 @@ static void write_result(mesh_document *document, size_t part, gltf_semantic sem
     const bool plain = is_plain(d, stream, semantic), whole = !memchr(changed, 0, count);
     if (stream->filled)
         begin_tiles(d, part, stream, first, first + count, whole);
-    if (whole && plain && components == 3) /* the usual case */
-        ffd_array_kernel(FFD_ISA_AUTO)->round(values, 3 * count, stream->result + 3 * first);
+    if (plain && components == 3) /* the usual case */
+        round_changed(stream, first, count, values, changed);
     else
         write_changed(d, stream, plain, first, count, values, components, changed);
     for (size_t t = first / MESH_RANGE_STEP; t <= (first + count - 1) / MESH_RANGE_STEP; t++)

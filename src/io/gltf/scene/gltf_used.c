@@ -1,19 +1,21 @@
 #include "io/gltf/scene/gltf_used.h"
+#include "base/system/thread.h"
 #include "io/gltf/decode/gltf_read.h"
 #include "io/gltf/scene/gltf_refuse.h"
+#include <stdatomic.h>
 #include <string.h>
 
-/* Indices that are read at a time, and those whose pages are released at a time. */
+/* Indices that are read at a time, and those that a thread looks at, whose pages it then releases. */
 #define RUN ((size_t)4096)
-#define RELEASED (64 * RUN)
+#define TILE (16 * RUN)
 
 /* A primitive, and the parts of the nodes that show it. */
 typedef struct drawn_primitive {
     gltf_document *document;
     const gltf_instance *instances;
     size_t nodes;
-    size_t indices; /* the accessor */
-    bool failed;    /* an index is out of range */
+    size_t indices;     /* the accessor */
+    atomic_bool failed; /* an index is out of range */
 } drawn_primitive;
 
 /* The part of a node that takes marks; NULL: there is none, or all its vertices are marked. */
@@ -42,6 +44,13 @@ static void mark_all(const drawn_primitive *primitive)
     }
 }
 
+/* Sets the bytes of vertices, as other threads may do at the same time. */
+static void mark(uint8_t *used, const uint32_t *vertices, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        atomic_store_explicit((_Atomic uint8_t *)&used[vertices[i]], 1, memory_order_relaxed);
+}
+
 static void mark_run(drawn_primitive *primitive, size_t first, size_t count)
 {
     uint32_t indices[RUN];
@@ -49,11 +58,21 @@ static void mark_run(drawn_primitive *primitive, size_t first, size_t count)
         ffd_gltf_read_indices(primitive->document, primitive->indices, first, count, indices);
     for (size_t n = 0; n < primitive->nodes; n++) {
         const gltf_part *const part = part_of(primitive, n);
-        uint8_t *const used = part ? part->used : NULL;
-        primitive->failed = primitive->failed || (part && largest >= vertices_of(primitive, n));
-        for (size_t i = 0, last = used && !primitive->failed ? count : 0; i < last; i++)
-            used[indices[i]] = 1;
+        if (part && largest >= vertices_of(primitive, n))
+            atomic_store(&primitive->failed, true);
+        else if (part && part->used)
+            mark(part->used, indices, count);
     }
+}
+
+static void mark_tile(void *context, size_t tile, size_t first, size_t last, int worker)
+{
+    drawn_primitive *const primitive = context;
+    (void)tile;
+    (void)worker;
+    for (size_t run = first; run < last && !atomic_load(&primitive->failed); run += RUN)
+        mark_run(primitive, run, last - run < RUN ? last - run : RUN);
+    ffd_gltf_forget_elements(primitive->document, primitive->indices, first, last - first);
 }
 
 static ffd_status mark_indices(drawn_primitive *primitive, ffd_error *error)
@@ -68,11 +87,7 @@ static ffd_status mark_indices(drawn_primitive *primitive, ffd_error *error)
         if (status)
             return status;
     }
-    for (size_t first = 0; first < count && !primitive->failed; first += RUN) {
-        mark_run(primitive, first, count - first < RUN ? count - first : RUN);
-        if ((first + RUN) % RELEASED == 0)
-            ffd_gltf_forget_elements(d, primitive->indices, first + RUN - RELEASED, RELEASED);
-    }
+    ffd_parallel_tiles(count, TILE, d->threads, mark_tile, primitive);
     return FFD_OK;
 }
 
@@ -84,14 +99,16 @@ static ffd_status mark_primitive(gltf_document *d, size_t m, size_t p, ffd_error
         .document = d, .instances = ffd_gltf_instances(d, m, p), .nodes = d->mesh_uses[m].node_count};
     if (drawn.nodes == 0 || primitive->accessor[GLTF_POSITION] < 0)
         return FFD_OK;
-    drawn.failed = primitive->indices < 0 || ffd_gltf_refuse_unreadable(d, m, p, primitive->indices, NULL);
-    if (!drawn.failed) {
+    const bool failed =
+        primitive->indices < 0 || ffd_gltf_refuse_unreadable(d, m, p, primitive->indices, NULL);
+    atomic_init(&drawn.failed, failed);
+    if (!failed) {
         drawn.indices = (size_t)primitive->indices;
         const ffd_status status = mark_indices(&drawn, error);
         if (status)
             return status;
     }
-    if (drawn.failed)
+    if (atomic_load(&drawn.failed))
         mark_all(&drawn);
     return FFD_OK;
 }
