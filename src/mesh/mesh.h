@@ -129,9 +129,14 @@ typedef struct mesh_place {
     unsigned kinds; /* a set of PLACE_BIT; 0: what follow moves all the same */
     bool stays;     /* follow leaves it where it is, whatever it is below; */
     bool partial;   /* because its mesh is selected in part */
-    size_t number;  /* by which place_name knows it */
+    unsigned
+        holds; /* a set of PLACE_HOLDS: what the file has there in its own words, and what stays as it is */
+    size_t number; /* by which place_name knows it */
 } mesh_place;
 #define PLACE_BIT(kind) (1u << (kind)) /* of an ffd_behind_kind */
+
+/* Radii of a spring bone; the offset of the eyes; a direction to another place. */
+enum { PLACE_HOLDS_SPRING = 1, PLACE_HOLDS_EYES = 2, PLACE_HOLDS_AIM = 4 };
 
 /* What the deformation does at a place. */
 typedef struct mesh_place_move {
@@ -148,6 +153,7 @@ typedef struct mesh_following {
     uint64_t sheared;  /* that turn as their parents do, since they would be sheared else */
     uint64_t singular; /* that stay, with all below them, since their matrices have no inverse */
     uint64_t partial;  /* that stay since their meshes are selected in part */
+    uint64_t unscaled; /* that hold sizes which stay: of physics shapes, spring bones, offsets of eyes */
 } mesh_following;
 
 typedef struct mesh_places {

@@ -10,7 +10,7 @@ import struct
 from gltf_build import Scene
 from harness import INVALID, LIMIT, USAGE, case, check, equal, lattice, main, near
 from posed import Posed, point
-from said import anything, entry, not_told, told
+from said import anything, entry, lines_with, not_told, told
 
 TIMES = [0, 0.125, 0.25, 0.4, 0.5, 0.75, 0.9, 1.0]
 
@@ -391,17 +391,73 @@ def what_cannot_follow_is_a_usage_error(run):
     equal(run.read("o.glb"), run.read("f.glb"), "a job of a batch")
 
 
-@case
-def spring_bones_and_shapes_are_said(run):
+def with_tail(extensions):
+    """The arm with three groups, the last one a leaf, below the upper bone at (0.5, 2, 0), (0.5, 3, 0), (0.5, 4, 0), and a
+    free group at (-0.5, 3, 0) with a leaf above it."""
     made = arm()
-    made.asset["extensions"] = {"VRM": {"secondaryAnimation": {"boneGroups": []}, "firstPerson": {"firstPersonBoneOffset": {}}}}
-    made.asset["extensionsUsed"] = ["VRM"]
-    done, _ = deform(run, made, BEND, "--rig", "follow")
-    told(done, "rotation", r"VRM 0\.x")
-    told(done, "spring bones")
-    told(done, "eyes")
-    done, _ = deform(run, made, [], "--rig", "follow")
-    equal(done.err, [])
+    made.asset["nodes"] += [{"name": "tail", "translation": [0.5, 1, 0], "children": [7]},
+                            {"name": "tail_end", "translation": [0, 1, 0], "children": [8]},
+                            {"name": "tail_tip", "translation": [0, 1, 0]},
+                            {"name": "head", "translation": [-0.5, 3, 0], "children": [10]}, {"translation": [0, 1, 0]}]
+    made.asset["nodes"][1]["children"].append(6)
+    made.asset["nodes"][0]["children"].append(9)
+    made.asset |= {"extensions": extensions, "extensionsUsed": list(extensions)}
+    return made
+
+
+VRM = {"VRMC_vrm": {"specVersion": "1.0", "humanoid": {"humanBones": {"hips": {"node": 0}, "head": {"node": 9}, "jaw": {"node": 99}}},
+                    "lookAt": {"offsetFromHeadBone": [0, 0.06, 0]}},
+       "VRMC_springBone": {"specVersion": "1.0", "colliders": [{"node": 3, "shape": {"sphere": {"offset": [0, 0, 0], "radius": 0.1}}}],
+                           "springs": [{"joints": [{"node": n, "hitRadius": 0.02} for n in (6, 7, 8)], "colliderGroups": []}]}}
+OLD_VRM = {"VRM": {"humanoid": {"humanBones": [{"bone": "hips", "node": 0}, {"bone": "head", "node": 9}]},
+                   "firstPerson": {"firstPersonBone": -1, "firstPersonBoneOffset": {"x": 0, "y": 0.06, "z": 0}},
+                   "secondaryAnimation": {"boneGroups": [{"hitRadius": 0.02, "bones": [6]}],
+                                          "colliderGroups": [{"node": 3, "colliders": [{"radius": 0.1}]}]}}}
+
+
+@case
+def bones_and_springs_of_vrm_go_along(run):
+    """Their nodes are groups, which keep their matrices where nothing animates them. What has a length is said."""
+    for extensions in (VRM, OLD_VRM):
+        done, _, follow = both(run, with_tail(extensions), BEND)
+        run.write("p.obj", "v 0.5 2 0\nv 0.5 3 0\nv 0.5 4 0\nv -0.5 3 0\n")
+        run.ffd("deform", "p.obj", "q.obj", "-l", "l.json", "--force", err=anything)
+        wanted = [[float(x) for x in line.split()[1:4]] for line in run.text("q.obj").splitlines()]
+        worlds = follow.worlds()
+        near([[worlds[n][r][3] for r in range(3)] for n in (6, 7, 8, 9)], wanted, 1e-12, "the bones")
+        told(done, r"\b3 spring bones\b", "radii", "tail, tail_end, tail_tip$")
+        told(done, r"\b1 physics shape\b", "hand$")
+        told(done, "eyes", "head$")
+        equal(len(lines_with(done, r"rotations? now", "VRM 0")), extensions is OLD_VRM)
+        equal(follow.asset["extensions"], extensions)
+        job = entry(run, "deform", "a.glb", "f.glb", "-l", "l.json", "--rig", "follow")["rig"]
+        equal(job["unscaled"], 5, str(job))
+        keep = entry(run, "deform", "a.glb", "f.glb", "-l", "l.json")
+        equal([kind["count"] for kind in keep["behind"] if kind["kind"] == "pivot"], [6], "the tail's three, hips, head and plate")
+        equal(["unscaled" in keep["rig"], deform(run, with_tail(extensions), [], "--rig", "follow")[0].err], [False, []])
+
+
+@case
+def constraints_of_vrm(run):
+    """Turns that are copied are copied still; a node that aims is said, where it or what it is below has moved."""
+    for kind, said in (("aim", 1), ("roll", 0), ("rotation", 0)):
+        made = with_tail({"VRMC_vrm": {}})
+        made.asset["nodes"][6]["extensions"] = {"VRMC_node_constraint": {"constraint": {kind: {"source": 3}}}}
+        done, follow = deform(run, made, BEND, "--rig", "follow")
+        equal(len(lines_with(done, "1 node aims at another", "VRMC_node_constraint", "tail$")), said, kind)
+        equal(follow.nodes[6]["extensions"], made.asset["nodes"][6]["extensions"])
+        check(follow.nodes[6]["rotation"] != [0, 0, 0, 1], "it turns")
+
+
+@case
+def springs_that_go_round_in_a_circle_end(run):
+    """Roots that are below each other, numbers of no node, and what is no list."""
+    odd = {"VRM": {"secondaryAnimation": {"boneGroups": [{"bones": [7, 6, 6, -1, 99, "a", None]}, {"bones": {}}, 5]},
+                   "humanoid": {"humanBones": [{"bone": 3, "node": 9}, {}, 7]}, "firstPerson": {"firstPersonBone": "a", "firstPersonBoneOffset": 0}},
+           "VRMC_vrm": {"humanoid": {"humanBones": [1, 2]}, "lookAt": 3}, "VRMC_springBone": {"springs": [{"joints": [3, {"node": 1e99}]}, []]}}
+    done, _ = deform(run, with_tail(odd), BEND, "--rig", "follow")
+    told(done, r"\b3 spring bones\b")
+    not_told(done, "eyes")
 
 
 @case
@@ -416,7 +472,7 @@ def pointers_that_are_not_followed_and_shapes_are_said(run):
                    "extensionsUsed": ["KHR_implicit_shapes", "KHR_physics_rigid_bodies", "KHR_animation_pointer"]}
     done, follow = deform(run, made, BEND, "--rig", "follow")
     told(done, "1 channel of KHR_animation_pointer drives a node that has moved")
-    told(done, "1 physics shape goes with its node")
+    told(done, "1 physics shape goes with its node", "hand$")
     equal(follow.nodes[3]["extensions"], shape)
     told(deform(run, made, BEND)[0], "1 physics shape stays where it is")
 

@@ -671,6 +671,13 @@ m("ply-normals-mixed", "stride", "ply, cli_ply",
 m("ply-rests-by-coefficient", "stride", "cli_splats", "(size_t)(channel * functions + coefficient)",
   "(size_t)((functions > 0) * coefficient * HARMONICS_CHANNELS + channel)",
   "c[i][m][k] = values[i][k * functions + m];", "c[i][m][k] = values[i][m * HARMONICS_CHANNELS + k];")
+m("vrm-humanoid-left", "left out", "cli_rig", "visit_node(v, node, VRM_BONE); if (eyes", "(void)VRM_BONE;\n        if (eyes")
+m("vrm-old-springs-below", "left out", "cli_rig", "mark_spring(s, child); s->pending[waiting++] = child;", "mark_spring(s, root);")
+m("vrm-eyes-of-any-bone", "condition", "cli_rig", 'if (eyes != JSON_NONE && ffd_json_span_key_is(tree, b, "head"))',
+  'if (eyes != JSON_NONE && !ffd_json_span_key_is(tree, b, "head"))')
+m("vrm-springs-not-counted", "figure", "cli_rig", "groups[0].is_one || groups[1].is_one || groups[2].is_one",
+  "groups[0].is_one || groups[2].is_one")
+m("vrm-aims-not-said", "condition", "cli_rig", '"aim") != JSON_NONE', '"aim") == JSON_NONE')
 m("ply-plain-rests-big-endian", "condition", "cli_splats", "d->has_fixed_rows && d->header.encoding == PLY_LITTLE_ENDIAN;",
   "d->has_fixed_rows && d->header.encoding != PLY_ASCII;")
 m("ply-plain-rests-in-order", "check left out", "cli_splats",

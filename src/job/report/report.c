@@ -230,6 +230,8 @@ static void write_rig(json_text *json, const ffd_rig_result *rig)
         ffd_json_count(json, "singular", rig->singular);
     if (rig->partial)
         ffd_json_count(json, "partial", rig->partial);
+    if (rig->unscaled)
+        ffd_json_count(json, "unscaled", rig->unscaled);
     ffd_json_end(json, '}');
 }
 

@@ -79,6 +79,7 @@ ffd_status ffd_rig_figures_find(const mesh_document *document, const rig_places 
     figures->sheared = following->sheared;
     figures->singular = following->singular;
     figures->partial = following->partial;
+    figures->unscaled = following->unscaled;
     if (worst != SIZE_MAX) {
         status = name_worst(document, rig->places.list[worst].number, figures, error);
         if (status == FFD_OK)

@@ -1,6 +1,7 @@
 #include "io/gltf/rig/gltf_places.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
+#include "io/gltf/rig/gltf_vrm.h"
 #include "io/gltf/scene/gltf_instancing.h"
 #include "io/gltf/scene/gltf_references.h"
 #include <string.h>
@@ -19,6 +20,7 @@ enum {
 typedef struct survey {
     const gltf_document *document;
     uint8_t *nodes;  /* of each node */
+    uint8_t *holds;  /* of each node: a set of PLACE_HOLDS */
     size_t *pending; /* a stack, of the size of all nodes */
 } survey;
 
@@ -117,13 +119,48 @@ static ffd_status mark_animated(const survey *s, ffd_error *error)
     return status;
 }
 
-/* Marks the nodes that a list of the file gives a shape. */
-static void mark_listed(const survey *s, uint32_t object, const char *list)
+static void mark_spring(const survey *s, size_t node)
 {
-    const json_span *tree = &s->document->tree;
-    for (uint32_t v = ffd_gltf_first(s->document, object, list); v != JSON_NONE;
-         v = ffd_json_span_after(tree, v))
-        mark_node(s, ffd_gltf_node(s->document, ffd_json_span_member(tree, v, "node")), HAS_SHAPE);
+    s->nodes[node] |= IS_ANIMATED;
+    s->holds[node] |= PLACE_HOLDS_SPRING;
+}
+
+/* A node and all below it: each once, so that circles end. */
+static void mark_springs_below(const survey *s, size_t root)
+{
+    size_t waiting = 0;
+    if (s->holds[root] & PLACE_HOLDS_SPRING)
+        return;
+    mark_spring(s, root);
+    s->pending[waiting++] = root;
+    while (waiting > 0) {
+        const gltf_node *const node = &s->document->model.nodes[s->pending[--waiting]];
+        for (size_t i = 0; i < node->child_count; i++) {
+            const size_t child = (size_t)node->children[i];
+            if (s->holds[child] & PLACE_HOLDS_SPRING)
+                continue;
+            mark_spring(s, child);
+            s->pending[waiting++] = child;
+        }
+    }
+}
+
+/* What springs, viewers and constraints turn is animated, though no animation of the file does it. */
+static void mark_vrm(void *context, size_t node, gltf_vrm_role role)
+{
+    const survey *const s = context;
+    if (role == VRM_COLLIDER)
+        s->nodes[node] |= HAS_SHAPE;
+    else if (role == VRM_SPRING)
+        mark_spring(s, node);
+    else if (role == VRM_SPRING_ROOT)
+        mark_springs_below(s, node);
+    else if (role == VRM_EYES)
+        s->holds[node] |= PLACE_HOLDS_EYES;
+    else
+        s->nodes[node] |= IS_ANIMATED;
+    if (role == VRM_AIM)
+        s->holds[node] |= PLACE_HOLDS_AIM;
 }
 
 /* Whether a node names one of these, from first to last. */
@@ -138,9 +175,6 @@ static bool refers(const gltf_document *d, size_t node, gltf_reference first, gl
 static void mark_shapes(const survey *s)
 {
     const gltf_document *d = s->document;
-    mark_listed(s, ffd_gltf_extension(d, 0, "VRMC_springBone"), "colliders");
-    mark_listed(s, ffd_json_span_member(&d->tree, ffd_gltf_extension(d, 0, "VRM"), "secondaryAnimation"),
-                "colliderGroups");
     for (size_t n = 0; n < d->model.node_count; n++)
         /* A shape that is made from a mesh of the scene goes with it, and names no other. */
         if (refers(d, n, GLTF_COLLIDER, GLTF_OMI_TRIGGER) ||
@@ -217,7 +251,7 @@ static ffd_status list_nodes(const survey *s, bool all, mesh_places *places, ffd
         return ffd_fail_memory(error);
     for (size_t n = 0; n < d->model.node_count; n++) {
         mesh_place *place = &places->list[places->count];
-        *place = (mesh_place){.number = n};
+        *place = (mesh_place){.number = n, .holds = s->holds[n]};
         memcpy(place->at, d->world + 12 * n + 9, sizeof place->at);
         places->count += is_anchor(s, n, place) && (all || place->kinds);
     }
@@ -234,17 +268,20 @@ ffd_status ffd_gltf_list_places(const mesh_document *document, bool all, mesh_pl
         return FFD_OK; /* nodes have no place there */
     survey s = {.document = d,
                 .nodes = ffd_alloc_zero(count, sizeof *s.nodes),
+                .holds = ffd_alloc_zero(count, sizeof *s.holds),
                 .pending = ffd_alloc(count, sizeof *s.pending)};
-    ffd_status status = s.nodes && s.pending ? FFD_OK : ffd_fail_memory(error);
+    ffd_status status = s.nodes && s.holds && s.pending ? FFD_OK : ffd_fail_memory(error);
     if (status == FFD_OK) {
         mark_shown(&s);
         mark_chosen(&s);
         mark_shapes(&s);
+        ffd_gltf_visit_vrm(d, mark_vrm, &s);
         status = mark_animated(&s, error);
     }
     if (status == FFD_OK)
         status = list_nodes(&s, all, places, error);
     ffd_free(s.nodes);
+    ffd_free(s.holds);
     ffd_free(s.pending);
     return status;
 }

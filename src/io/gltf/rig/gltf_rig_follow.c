@@ -31,7 +31,7 @@ ffd_status ffd_gltf_follow(mesh_document *document, const mesh_places *places, m
     if (status == FFD_OK)
         status = ffd_gltf_follow_animations(d, d->rig, error);
     if (status == FFD_OK)
-        ffd_gltf_warn_of_rig(d, places, d->rig, log);
+        status = ffd_gltf_warn_of_rig(d, places, d->rig, log, following, error);
     if (status)
         ffd_gltf_free_rig(d);
     return status;

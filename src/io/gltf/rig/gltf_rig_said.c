@@ -1,48 +1,106 @@
 #include "io/gltf/rig/gltf_rig_said.h"
+#include "base/memory/memory.h"
 #include "base/text/words.h"
+#include "io/gltf/rig/gltf_places.h"
+#include <stdio.h>
+#include <string.h>
 
-/* Physics shapes at nodes that move: what they are made of is not scaled. */
-static size_t count_shapes(const mesh_places *places, const gltf_rig *rig)
+/* The names that a line has. */
+#define NAMES 3
+#define NAME_SIZE 80
+
+/* Places that have something in common: how many, and the first names. */
+typedef struct place_group {
+    size_t count;
+    char names[NAMES * (NAME_SIZE + 2) + 40]; /* ": hand, foot, tail and 2 more" */
+} place_group;
+
+static ffd_status add_place(const gltf_document *d, size_t node, place_group *group, ffd_error *error)
 {
-    size_t count = 0;
-    for (size_t i = 0; i < places->count; i++)
-        count += places->list[i].kinds & PLACE_BIT(FFD_BEHIND_PHYSICS_SHAPE) &&
-                 rig->motions[places->list[i].number].moved != GLTF_NONE;
-    return count;
+    if (group->count++ >= NAMES)
+        return FFD_OK;
+    char shown[NAME_SIZE], *const name = ffd_gltf_place_name(&d->base, node);
+    if (!name)
+        return ffd_fail_memory(error);
+    ffd_name_shown(name, shown, sizeof shown);
+    ffd_free(name);
+    const size_t used = strlen(group->names);
+    snprintf(group->names + used, sizeof group->names - used, "%s%s", used ? ", " : ": ", shown);
+    return FFD_OK;
 }
 
-/* Nodes that had no rotation and have one now. */
-static size_t count_turned(const gltf_document *d, const gltf_rig *rig)
+static void end_group(place_group *group)
 {
-    size_t count = 0;
-    for (size_t i = 0; i < rig->node_count; i++) {
-        const double *const old = d->model.nodes[rig->nodes[i].node].rotation;
-        count += rig->nodes[i].rotates && old[0] == 0 && old[1] == 0 && old[2] == 0;
-    }
-    return count;
+    const size_t used = strlen(group->names);
+    if (group->count > NAMES)
+        snprintf(group->names + used, sizeof group->names - used, " and %zu more", group->count - NAMES);
 }
 
-static bool has(const gltf_document *d, const char *extension, const char *member, const char *inside)
+/* What stays as it is at nodes that move. */
+typedef struct staying {
+    place_group shapes, springs, eyes, aims, turned;
+} staying;
+
+static bool is_turned(const gltf_document *d, const gltf_moved_node *node)
 {
-    const uint32_t value = ffd_json_span_member(&d->tree, ffd_gltf_extension(d, 0, extension), member);
-    return ffd_json_span_member(&d->tree, value, inside) != JSON_NONE;
+    const double *const old = d->model.nodes[node->node].rotation;
+    return node->rotates && old[0] == 0 && old[1] == 0 && old[2] == 0;
 }
 
-static void warn_of_vrm(const gltf_document *d, const gltf_rig *rig, const mesh_log *log)
+static ffd_status find_staying(const gltf_document *d, const mesh_places *places, const gltf_rig *rig,
+                               staying *found, mesh_following *following, ffd_error *error)
 {
     const bool is_old = ffd_gltf_has_extension(d, 0, "VRM");
-    const size_t turned = is_old ? count_turned(d, rig) : 0;
-    if (turned)
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < places->count && status == FFD_OK; i++) {
+        const mesh_place *const place = &places->list[i];
+        const bool has_shape = place->kinds & PLACE_BIT(FFD_BEHIND_PHYSICS_SHAPE);
+        const size_t moved = rig->motions[place->number].moved;
+        const size_t at = 12 * place->number;
+        if (place->stays || memcmp(rig->world + at, d->world + at, 12 * sizeof *d->world) == 0)
+            continue;
+        const struct {
+            bool is_one;
+            place_group *group;
+        } groups[] = {{has_shape, &found->shapes},
+                      {place->holds & PLACE_HOLDS_SPRING, &found->springs},
+                      {place->holds & PLACE_HOLDS_EYES, &found->eyes},
+                      {place->holds & PLACE_HOLDS_AIM, &found->aims},
+                      {is_old && moved != GLTF_NONE && is_turned(d, &rig->nodes[moved]), &found->turned}};
+        for (size_t g = 0; g < sizeof groups / sizeof *groups && status == FFD_OK; g++)
+            if (groups[g].is_one)
+                status = add_place(d, place->number, groups[g].group, error);
+        following->unscaled += groups[0].is_one || groups[1].is_one || groups[2].is_one;
+    }
+    end_group(&found->shapes);
+    end_group(&found->springs);
+    end_group(&found->eyes);
+    end_group(&found->aims);
+    end_group(&found->turned);
+    return status;
+}
+
+static void warn_of_vrm(const staying *found, const mesh_log *log)
+{
+    if (found->turned.count)
         ffd_log_line(log, FFD_LOG_WARNING,
-                     "%zu %s in the default pose, where VRM 0.x wants none: viewers may pose it wrongly",
-                     turned, ffd_plural(turned, "node has a rotation now", "nodes have rotations now"));
-    if (ffd_gltf_has_extension(d, 0, "VRMC_springBone") || has(d, "VRM", "secondaryAnimation", "boneGroups"))
-        ffd_log_line(log, FFD_LOG_WARNING,
-                     "spring bones go with their nodes, but radii and offsets of them and of their colliders "
-                     "stay");
-    if (has(d, "VRMC_vrm", "lookAt", "offsetFromHeadBone") ||
-        has(d, "VRM", "firstPerson", "firstPersonBoneOffset"))
-        ffd_log_line(log, FFD_LOG_WARNING, "the offset of the eyes from the head bone (VRM) stays");
+                     "%zu %s in the default pose, where VRM 0.x wants none: viewers may pose it wrongly%s",
+                     found->turned.count,
+                     ffd_plural(found->turned.count, "node has a rotation now", "nodes have rotations now"),
+                     found->turned.names);
+    if (found->springs.count)
+        ffd_log_line(log, FFD_LOG_WARNING, "%zu %s%s", found->springs.count,
+                     ffd_plural(found->springs.count, "spring bone goes with the mesh, but keeps its radius",
+                                "spring bones go with the mesh, but keep their radii"),
+                     found->springs.names);
+    if (found->eyes.count)
+        ffd_log_line(log, FFD_LOG_WARNING, "the offset of the eyes from the head bone (VRM) stays%s",
+                     found->eyes.names);
+    if (found->aims.count)
+        ffd_log_line(
+            log, FFD_LOG_WARNING, "%zu %s (VRMC_node_constraint), and may turn otherwise than the mesh%s",
+            found->aims.count, ffd_plural(found->aims.count, "node aims at another", "nodes aim at others"),
+            found->aims.names);
 }
 
 /* What is written otherwise. */
@@ -59,18 +117,22 @@ static void tell(const gltf_document *d, const gltf_rig *rig, const mesh_log *lo
                  animations, ffd_plural(animations, "animation", "animations"));
 }
 
-void ffd_gltf_warn_of_rig(const gltf_document *d, const mesh_places *places, const gltf_rig *rig,
-                          const mesh_log *log)
+ffd_status ffd_gltf_warn_of_rig(const gltf_document *d, const mesh_places *places, const gltf_rig *rig,
+                                const mesh_log *log, mesh_following *following, ffd_error *error)
 {
-    const size_t shapes = count_shapes(places, rig);
+    staying found = {0};
     if (rig->node_count == 0)
-        return;
+        return FFD_OK;
+    const ffd_status status = find_staying(d, places, rig, &found, following, error);
+    if (status)
+        return status;
     tell(d, rig, log);
-    if (shapes)
-        ffd_log_line(log, FFD_LOG_WARNING, "%zu physics %s", shapes,
-                     ffd_plural(shapes, "shape goes with its node, but keeps its size",
-                                "shapes go with their nodes, but keep their sizes"));
-    warn_of_vrm(d, rig, log);
+    if (found.shapes.count)
+        ffd_log_line(log, FFD_LOG_WARNING, "%zu physics %s%s", found.shapes.count,
+                     ffd_plural(found.shapes.count, "shape goes with its node, but keeps its size",
+                                "shapes go with their nodes, but keep their sizes"),
+                     found.shapes.names);
+    warn_of_vrm(&found, log);
     if (rig->pointers_left)
         ffd_log_line(
             log, FFD_LOG_WARNING, "%zu %s", rig->pointers_left,
@@ -78,4 +140,5 @@ void ffd_gltf_warn_of_rig(const gltf_document *d, const mesh_places *places, con
                        "channel of KHR_animation_pointer drives a node that has moved, and stays as it is",
                        "channels of KHR_animation_pointer drive nodes that have moved, and stay as "
                        "they are"));
+    return FFD_OK;
 }

@@ -4,9 +4,10 @@
 
 #include "io/gltf/rig/gltf_rig.h"
 
-/* Says what goes along (-v), and warns of what does not, a line a kind: physics shapes, spring bones and
-   look-at offsets of VRM, rest rotations of VRM 0.x, channels whose pointers are not followed. */
-void ffd_gltf_warn_of_rig(const gltf_document *document, const mesh_places *places, const gltf_rig *rig,
-                          const mesh_log *log);
+/* Says what goes along (-v), and warns of what does not, a line a kind with the first names: physics shapes,
+   spring bones and look-at offsets of VRM, rest rotations of VRM 0.x, constraints that aim, channels whose
+   pointers are not followed. Fills following's unscaled. Errors: FFD_E_MEMORY. */
+ffd_status ffd_gltf_warn_of_rig(const gltf_document *document, const mesh_places *places, const gltf_rig *rig,
+                                const mesh_log *log, mesh_following *following, ffd_error *error);
 
 #endif
