@@ -374,6 +374,9 @@ m("colours-beyond-one", "check left out", "materials", "return number >= 0 && nu
 m("image-left-behind", "freed resource", "materials", "ffd_free(materials->images); *materials = (mesh_materials){0};",
   "ffd_free(materials->images);")
 
+m("lower-bound-of-another-half", "bound", "base", "if (before((const char *)elements + middle * size, key)) low = middle + 1;",
+  "if (before((const char *)elements + middle * size, key)) low = middle + 2;")
+
 # picture
 
 m("edges-of-neither", "fill rule", "picture_raster", "const bool is_own = dy < 0 || (dy == 0 && dx > 0);", "const bool is_own = dy < 0 && dx != 0;")
