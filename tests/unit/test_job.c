@@ -35,11 +35,8 @@ static int set_up(void **state)
 
 static int tear_down(void **state)
 {
-    unlink(output);
-    unlink(mesh);
-    unlink(lattice);
     (void)state;
-    return rmdir(folder);
+    return remove_files((const char *const[]){output, mesh, lattice}, 3);
 }
 
 static ffd_deform_desc describe(void)

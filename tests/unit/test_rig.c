@@ -64,12 +64,8 @@ static int set_up(void **state)
 
 static int tear_down(void **state)
 {
-    unlink(output);
-    unlink(kept);
-    unlink(mesh);
-    unlink(lattice);
     (void)state;
-    return rmdir(folder);
+    return remove_files((const char *const[]){output, kept, mesh, lattice}, 4);
 }
 
 static ffd_deform_desc describe(ffd_rig rig)
