@@ -9,8 +9,7 @@
 #define CLI_FORMATS "obj, gltf, glb, vrm, ply, off or stl"
 
 /* What --memory does. */
-#define CLI_MEMORY                                                                                           \
-    "memory for mesh and lattices, as 4G; default 100M (views: 400M) and 20 times their files"
+#define CLI_MEMORY "memory for mesh and lattices, as 4G; default 100M (views: 400M) and 20 times their files"
 
 /* What --strict does. */
 #define CLI_STRICT "refuse what the format's specification calls an error even where its meaning is plain"
