@@ -1,4 +1,5 @@
 #include "json/json_edit.h"
+#include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include <stdarg.h>
 #include <stdio.h>
@@ -99,18 +100,9 @@ void ffd_edits_sort(json_edits *edits)
         qsort(edits->edits, edits->count, sizeof *edits->edits, compare_edits);
 }
 
-/* The first edit that does not begin before `begin`. */
-static size_t find(const json_edits *edits, uint32_t begin)
+static bool begins_before(const void *edit, const void *begin)
 {
-    size_t low = 0, high = edits->count;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (edits->edits[middle].begin < begin)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
+    return ((const json_edit *)edit)->begin < *(const uint32_t *)begin;
 }
 
 void ffd_edits_apply(const json_edits *edits, const char *text, uint32_t begin, uint32_t end,
@@ -121,7 +113,8 @@ void ffd_edits_apply(const json_edits *edits, const char *text, uint32_t begin, 
         out->failed = true;
         return;
     }
-    for (size_t i = find(edits, begin); i < edits->count && edits->edits[i].end <= end; i++) {
+    size_t i = lower_bound(&begin, edits->edits, edits->count, sizeof *edits->edits, begins_before);
+    for (; i < edits->count && edits->edits[i].end <= end; i++) {
         const json_edit *edit = &edits->edits[i];
         ffd_buffer_append(out, text + at, edit->begin - at);
         if (edit->text_size > 0)

@@ -1,4 +1,5 @@
 #include "json/json_reader.h"
+#include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include "base/text/number.h"
 #include "base/text/words.h"
@@ -13,22 +14,21 @@ static bool is_substitute(json_cursor cursor)
     return cursor.tree != cursor.file->tree;
 }
 
+static bool is_of_value_before(const void *substitute, const void *value)
+{
+    return ((const json_substitute *)substitute)->value < *(const uint32_t *)value;
+}
+
 /* Goes to the substitute of a value, where it has one. */
 static json_cursor resolve(json_cursor cursor)
 {
     const json_file *const file = cursor.file;
     if (cursor.value == JSON_NONE || is_substitute(cursor))
         return cursor;
-    size_t low = 0, high = file->substitute_count;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (file->substitutes[middle].value < cursor.value)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    if (low < file->substitute_count && file->substitutes[low].value == cursor.value)
-        return (json_cursor){file, file->substitutes[low].tree, 0, cursor.value};
+    const size_t at = lower_bound(&cursor.value, file->substitutes, file->substitute_count,
+                                  sizeof *file->substitutes, is_of_value_before);
+    if (at < file->substitute_count && file->substitutes[at].value == cursor.value)
+        return (json_cursor){file, file->substitutes[at].tree, 0, cursor.value};
     return cursor;
 }
 

@@ -54,17 +54,43 @@ static bool is_sliver(const uint32_t *t)
     return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
 
-/* Whether the triangle is one of those shortly before it again: its samples are as far away and of the same
-   colours. Files that repeat a face many thousand times would take minutes. */
+/* By how many corners the second triangle is turned against the first: both go round the same way. 3: they
+   are not the same. */
+static size_t turn_between(const uint32_t *t, const uint32_t *other)
+{
+    size_t turn = 0;
+    while (turn < 3 &&
+           !(t[0] == other[turn] && t[1] == other[(turn + 1) % 3] && t[2] == other[(turn + 2) % 3]))
+        turn++;
+    return turn;
+}
+
+/* Whether the texture has its holes at the same places of both. */
+static bool has_same_holes(const surface *of, size_t triangle, size_t other, size_t turn)
+{
+    const float *const uv = of->mesh->texcoords + 6 * triangle, *const there =
+                                                                    of->mesh->texcoords + 6 * other;
+    for (size_t k = 0; k < 3; k++)
+        if (memcmp(uv + 2 * k, there + 2 * ((turn + k) % 3), 2 * sizeof *uv) != 0)
+            return false;
+    return true;
+}
+
+/* Whether the triangle is one of those shortly before it again, from any corner: no sample of it is nearer.
+   Files that repeat a face many thousand times would take minutes, and so would a polygon that goes round
+   three corners as often: its triangles begin with each in turn. */
 static bool repeats(const surface *of, size_t triangle)
 {
-    const uint32_t *const t = of->triangles + 3 * triangle;
-    size_t before = 1;
-    /* Those of a polygon that goes round three corners many times have slivers between them. */
-    while (before < MOST_BEFORE && before < triangle && is_sliver(t - 3 * before))
-        before++;
-    return before <= triangle && memcmp(t, t - 3 * before, 3 * sizeof *t) == 0 &&
-           ffd_shade_material(of->mesh, triangle) == ffd_shade_material(of->mesh, triangle - before);
+    const picture_material *const material = ffd_shade_material(of->mesh, triangle);
+    const bool has_holes = material->alpha_cutoff > 0 && of->mesh->texcoords;
+    for (size_t back = 1; back <= MOST_BEFORE && back <= triangle; back++) {
+        const size_t other = triangle - back,
+                     turn = turn_between(of->triangles + 3 * triangle, of->triangles + 3 * other);
+        if (turn < 3 && ffd_shade_material(of->mesh, other) == material &&
+            (!has_holes || has_same_holes(of, triangle, other, turn)))
+            return true;
+    }
+    return false;
 }
 
 bool ffd_raster_rows(const void *surface_pointer, size_t triangle, int64_t *first, int64_t *last)

@@ -1,4 +1,5 @@
 #include "points/embedding.h"
+#include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include "base/struct_size.h"
 #include "base/text/number.h"
@@ -235,17 +236,15 @@ const uint8_t *ffd_embedding_get_status(const ffd_embedding *embedding)
     return embedding->status;
 }
 
+static bool is_of_point_before(const void *extended, const void *point)
+{
+    return ((const extended_point *)extended)->point < *(const size_t *)point;
+}
+
 size_t ffd_embedding_first_extended(const ffd_embedding *embedding, size_t point)
 {
-    size_t low = 0, high = embedding->extended_count;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (embedding->extended[middle].point < point)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
+    return lower_bound(&point, embedding->extended, embedding->extended_count, sizeof *embedding->extended,
+                       is_of_point_before);
 }
 
 ffd_status ffd_embedding_check_lattice(const ffd_embedding *embedding, const ffd_lattice *lattice,

@@ -95,12 +95,5 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 
 size_t fuzz_mutate(uint8_t *data, size_t size, size_t capacity, uint64_t seed)
 {
-    mutant m = {.data = data, .size = size, .capacity = capacity, .text = size, .random = {seed}};
-    if (size == 0)
-        return 0;
-    if (mutant_pick(&m, 4) == 0)
-        mutant_change_number(&m);
-    else
-        mutant_change_piece(&m, "':=, 01-e.n\t\xff");
-    return m.size;
+    return mutate_text(data, size, capacity, seed, "':=, 01-e.n\t\xff");
 }

@@ -148,3 +148,15 @@ void mutant_change_piece(mutant *m, const char *bytes)
         break;
     }
 }
+
+size_t mutate_text(uint8_t *data, size_t size, size_t capacity, uint64_t seed, const char *bytes)
+{
+    mutant m = {.data = data, .size = size, .capacity = capacity, .text = size, .random = {seed}};
+    if (size == 0)
+        return 0;
+    if (mutant_pick(&m, 4) == 0)
+        mutant_change_number(&m);
+    else
+        mutant_change_piece(&m, bytes);
+    return m.size;
+}

@@ -29,4 +29,7 @@ void mutant_copy_number(mutant *m);
  */
 void mutant_change_piece(mutant *m, const char *bytes);
 
+/* The fuzz_mutate of an input that is all text: changes a number, or a piece with those bytes. */
+size_t mutate_text(uint8_t *data, size_t size, size_t capacity, uint64_t seed, const char *bytes);
+
 #endif

@@ -374,6 +374,9 @@ m("colours-beyond-one", "check left out", "materials", "return number >= 0 && nu
 m("image-left-behind", "freed resource", "materials", "ffd_free(materials->images); *materials = (mesh_materials){0};",
   "ffd_free(materials->images);")
 
+m("lower-bound-of-another-half", "bound", "base", "if (before((const char *)elements + middle * size, key)) low = middle + 1;",
+  "if (before((const char *)elements + middle * size, key)) low = middle + 2;")
+
 # picture
 
 m("edges-of-neither", "fill rule", "picture_raster", "const bool is_own = dy < 0 || (dy == 0 && dx > 0);", "const bool is_own = dy < 0 && dx != 0;")
@@ -382,7 +385,10 @@ m("edges-of-both", "fill rule", "picture_raster", "return (edge){from->x, from->
 m("large-edges-in-32-bits", "overflow", "picture_raster", "s->is_small = size < SMALL;", "s->is_small = size < 64 * SMALL;")
 m("samples-at-the-border-forgotten", "bound", "picture_raster", "*last = (high - SAMPLE_MARGIN) >> 8;", "*last = (high - 2 * SAMPLE_MARGIN) >> 8;")
 m("repeats-of-another-material", "check left out", "picture_raster",
-  "ffd_shade_material(of->mesh, triangle) == ffd_shade_material(of->mesh, triangle - before);", "true;")
+  "turn < 3 && ffd_shade_material(of->mesh, other) == material &&", "turn < 3 &&")
+m("repeats-from-one-corner-only", "speed", "picture_raster", "while (turn < 3 &&", "turn = t[0] == other[0] ? 0 : 3; while (turn < 3 &&")
+m("repeats-with-holes-elsewhere", "check left out", "picture_raster", "(!has_holes || has_same_holes(of, triangle, other, turn))", "true")
+m("holes-compared-unturned", "index", "picture_raster", "there + 2 * ((turn + k) % 3)", "there + 2 * k")
 m("blocks-nearer-than-they-are", "bound", "picture_raster",
   "s->z_across * (s->z_across > 0 ? left : right)", "s->z_across * (s->z_across > 0 ? right : left)")
 m("blocks-cut-at-an-edge", "bound", "picture_raster, picture",

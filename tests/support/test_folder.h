@@ -23,6 +23,14 @@ static inline int remove_folder(void **state)
     return system(command);
 }
 
+/* Removes files that may be there, and the folder, which fails where a test left anything else in it. */
+static inline int remove_files(const char *const *paths, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        unlink(paths[i]);
+    return rmdir(folder);
+}
+
 /* A path in the folder, good for the next seven calls. */
 static inline const char *in_folder(const char *name)
 {

@@ -1,4 +1,4 @@
-/* test_base.c - sizes, slots, buffers, words, paths, JSON text, messages, tiles. */
+/* test_base.c - sizes, lower bounds, slots, buffers, words, paths, JSON text, messages, tiles. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -8,6 +8,7 @@
 #include "base/fail.h"
 #include "base/file/input.h"
 #include "base/file/path.h"
+#include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include "base/memory/slots.h"
 #include "base/system/thread.h"
@@ -242,6 +243,25 @@ static void each_status_has_its_exit_code(void **state)
     (void)state;
 }
 
+static bool is_less(const void *element, const void *key)
+{
+    return *(const int *)element < *(const int *)key;
+}
+
+static void a_lower_bound_is_the_first_of_its_key(void **state)
+{
+    static const int sorted[] = {1, 3, 3, 3, 7};
+    (void)state;
+    for (size_t count = 0; count <= 5; count++)
+        for (int key = 0; key <= 8; key++) {
+            size_t expected = 0;
+            while (expected < count && sorted[expected] < key)
+                expected++;
+            assert_int_equal(lower_bound(&key, count ? sorted : NULL, count, sizeof *sorted, is_less),
+                             expected);
+        }
+}
+
 typedef struct tile_log {
     unsigned char seen[10007];
     size_t tiles[200];
@@ -331,6 +351,7 @@ int main(void)
         cmocka_unit_test(messages_name_their_place_in_one_line),
         cmocka_unit_test(broken_utf8_is_replaced_in_json),
         cmocka_unit_test(each_status_has_its_exit_code),
+        cmocka_unit_test(a_lower_bound_is_the_first_of_its_key),
         cmocka_unit_test(tiles_visit_each_item_once),
         cmocka_unit_test(tiles_are_finished_in_their_order),
     };

@@ -191,70 +191,71 @@ static void unload(char *text, gltf_document *d, gltf_animations *list)
     free(text);
 }
 
+static void check_refused(const char *animation, const char *message)
+{
+    char *text, line[1024];
+    gltf_document *d;
+    gltf_animations list;
+    ffd_error error = {0};
+    const ffd_status status = load(animation, &text, &d, &list, &error);
+    ffd_error_format(&error, line, sizeof line);
+    assert_string_equal(line, message);
+    assert_int_equal(status, FFD_E_INVALID);
+    assert_int_equal(list.list->taken, 0);
+    assert_null(list.list->samplers[0].times);
+    unload(text, d, &list);
+}
+
+static void broken_samplers_are_refused_when_they_are_wanted(void **state)
+{
+    (void)state;
+    check_refused(ANIMATION(SAMPLER(0, 1, "LINEAR"), CHANNEL(1, 1, "scale")),
+                  "t.gltf:/animations/0/channels/0/sampler: the channel's sampler is none of the 1");
+    check_refused(ANIMATION("{\"output\":1}", CHANNEL(0, 1, "scale")),
+                  "t.gltf:/animations/0/samplers/0: the sampler's input is none of the 14 accessors");
+    check_refused(ANIMATION("{\"input\":0,\"output\":1.5}", CHANNEL(0, 1, "scale")),
+                  "t.gltf:/animations/0/samplers/0/output: the sampler's output is none of the 14 accessors");
+}
+
 static void broken_keys_are_refused_when_they_are_wanted(void **state)
 {
     (void)state;
     static const struct {
-        const char *animation, *message;
+        int input, output;
+        const char *interpolation;
+        int node;
+        const char *path, *message; /* below the sampler */
     } cases[] = {
-        {ANIMATION(SAMPLER(0, 1, "LINEAR"), CHANNEL(1, 1, "scale")),
-         "t.gltf:/animations/0/channels/0/sampler: the channel's sampler is none of the 1"},
-        {ANIMATION("{\"output\":1}", CHANNEL(0, 1, "scale")),
-         "t.gltf:/animations/0/samplers/0: the sampler's input is none of the 14 accessors"},
-        {ANIMATION("{\"input\":0,\"output\":1.5}", CHANNEL(0, 1, "scale")),
-         "t.gltf:/animations/0/samplers/0/output: the sampler's output is none of the 14 accessors"},
-        {ANIMATION(SAMPLER(1, 1, "LINEAR"), CHANNEL(0, 1, "scale")),
-         "t.gltf:/animations/0/samplers/0/input: accessor 1 does not hold times (SCALAR of floats)"},
-        {ANIMATION(SAMPLER(11, 1, "LINEAR"), CHANNEL(0, 1, "scale")),
-         "t.gltf:/animations/0/samplers/0/input: accessor 11 has no times"},
-        {ANIMATION(SAMPLER(0, 1, "SPLINE"), CHANNEL(0, 1, "scale")),
-         "t.gltf:/animations/0/samplers/0/interpolation: an interpolation is \"STEP\", \"LINEAR\" or "
-         "\"CUBICSPLINE\""},
-        {ANIMATION(SAMPLER(0, 12, "LINEAR"), CHANNEL(0, 1, "scale")),
-         "t.gltf:/animations/0/samplers/0/output: accessor 12 does not hold values of an animation (SCALAR, "
-         "VEC3 "
-         "or VEC4 of floats or of normalized integers)"},
-        {ANIMATION(SAMPLER(8, 1, "LINEAR"), CHANNEL(0, 1, "scale")),
-         "t.gltf:/animations/0/samplers/0/output: accessor 1 has 3 elements for 4 times, not 1 each"},
-        {ANIMATION(SAMPLER(0, 1, "CUBICSPLINE"), CHANNEL(0, 1, "scale")),
-         "t.gltf:/animations/0/samplers/0/output: accessor 1 has 3 elements for 3 times, not 3 each"},
-        {ANIMATION(SAMPLER(8, 4, "LINEAR"), CHANNEL(0, 1, "weights")),
-         "t.gltf:/animations/0/samplers/0/output: accessor 4 has 6 elements for 4 times, not 1 or a multiple "
-         "of it "
-         "each"},
-        {ANIMATION(SAMPLER(0, 11, "LINEAR"), CHANNEL(0, 1, "weights")),
-         "t.gltf:/animations/0/samplers/0/output: accessor 11 has no elements"},
-        {ANIMATION(SAMPLER(0, 2, "LINEAR"), CHANNEL(0, 1, "scale")),
-         "t.gltf:/animations/0/samplers/0/output: accessor 2 is not a VEC3, for a scale"},
-        {ANIMATION(SAMPLER(0, 1, "LINEAR"), CHANNEL(0, 1, "rotation")),
-         "t.gltf:/animations/0/samplers/0/output: accessor 1 is not a VEC4, for a rotation"},
-        {ANIMATION(SAMPLER(0, 1, "LINEAR"), CHANNEL(0, 1, "weights")),
-         "t.gltf:/animations/0/samplers/0/output: accessor 1 has 3 weights for each time, and the mesh of "
-         "node 1 "
-         "has 2 morph targets"},
-        {ANIMATION(SAMPLER(0, 4, "LINEAR"), CHANNEL(0, 0, "weights")),
-         "t.gltf:/animations/0/samplers/0/output: accessor 4 has 2 weights for each time, and the mesh of "
-         "node 0 "
-         "has 0 morph targets"},
-        {ANIMATION(SAMPLER(5, 1, "LINEAR"), CHANNEL(0, 1, "scale")),
-         "t.gltf:/animations/0/samplers/0/input: time 2 of accessor 5, 1, is before the one before it, 2"},
-        {ANIMATION(SAMPLER(6, 1, "LINEAR"), CHANNEL(0, 1, "scale")),
-         "t.gltf:/animations/0/samplers/0/input: time 1 of accessor 6 is not finite"},
-        {ANIMATION(SAMPLER(0, 7, "LINEAR"), CHANNEL(0, 1, "scale")),
-         "t.gltf:/animations/0/samplers/0/output: element 1 of accessor 7 is not finite"},
+        {1, 1, "LINEAR", 1, "scale", "input: accessor 1 does not hold times (SCALAR of floats)"},
+        {11, 1, "LINEAR", 1, "scale", "input: accessor 11 has no times"},
+        {0, 1, "SPLINE", 1, "scale",
+         "interpolation: an interpolation is \"STEP\", \"LINEAR\" or \"CUBICSPLINE\""},
+        {0, 12, "LINEAR", 1, "scale",
+         "output: accessor 12 does not hold values of an animation (SCALAR, VEC3 or VEC4 of floats or of "
+         "normalized integers)"},
+        {8, 1, "LINEAR", 1, "scale", "output: accessor 1 has 3 elements for 4 times, not 1 each"},
+        {0, 1, "CUBICSPLINE", 1, "scale", "output: accessor 1 has 3 elements for 3 times, not 3 each"},
+        {8, 4, "LINEAR", 1, "weights",
+         "output: accessor 4 has 6 elements for 4 times, not 1 or a multiple of it each"},
+        {0, 11, "LINEAR", 1, "weights", "output: accessor 11 has no elements"},
+        {0, 2, "LINEAR", 1, "scale", "output: accessor 2 is not a VEC3, for a scale"},
+        {0, 1, "LINEAR", 1, "rotation", "output: accessor 1 is not a VEC4, for a rotation"},
+        {0, 1, "LINEAR", 1, "weights",
+         "output: accessor 1 has 3 weights for each time, and the mesh of node 1 has 2 morph targets"},
+        {0, 4, "LINEAR", 0, "weights",
+         "output: accessor 4 has 2 weights for each time, and the mesh of node 0 has 0 morph targets"},
+        {5, 1, "LINEAR", 1, "scale", "input: time 2 of accessor 5, 1, is before the one before it, 2"},
+        {6, 1, "LINEAR", 1, "scale", "input: time 1 of accessor 6 is not finite"},
+        {0, 7, "LINEAR", 1, "scale", "output: element 1 of accessor 7 is not finite"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        char *text, line[1024];
-        gltf_document *d;
-        gltf_animations list;
-        ffd_error error = {0};
-        const ffd_status status = load(cases[i].animation, &text, &d, &list, &error);
-        ffd_error_format(&error, line, sizeof line);
-        assert_string_equal(line, cases[i].message);
-        assert_int_equal(status, FFD_E_INVALID);
-        assert_int_equal(list.list->taken, 0);
-        assert_null(list.list->samplers[0].times);
-        unload(text, d, &list);
+        char animation[400], message[400];
+        snprintf(animation, sizeof animation,
+                 "{\"samplers\":[{\"input\":%d,\"output\":%d,\"interpolation\":\"%s\"}],\"channels\":"
+                 "[{\"sampler\":0,\"target\":{\"node\":%d,\"path\":\"%s\"}}]}",
+                 cases[i].input, cases[i].output, cases[i].interpolation, cases[i].node, cases[i].path);
+        snprintf(message, sizeof message, "t.gltf:/animations/0/samplers/0/%s", cases[i].message);
+        check_refused(animation, message);
     }
 }
 
@@ -432,6 +433,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(channels_say_where_they_come_from),
+        cmocka_unit_test(broken_samplers_are_refused_when_they_are_wanted),
         cmocka_unit_test(broken_keys_are_refused_when_they_are_wanted),
         cmocka_unit_test(what_drives_no_node_is_not_checked),
         cmocka_unit_test(values_between_keys_follow_the_interpolation),

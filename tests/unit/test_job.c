@@ -7,6 +7,7 @@
 
 #include <cmocka.h>
 
+#include "../support/job_description.h"
 #include "../support/test_folder.h"
 #include "base/memory/memory.h"
 #include <ffd/job.h>
@@ -35,24 +36,13 @@ static int set_up(void **state)
 
 static int tear_down(void **state)
 {
-    unlink(output);
-    unlink(mesh);
-    unlink(lattice);
     (void)state;
-    return rmdir(folder);
+    return remove_files((const char *const[]){output, mesh, lattice}, 3);
 }
 
 static ffd_deform_desc describe(void)
 {
-    ffd_deform_desc desc;
-    ffd_deform_desc_init(&desc, sizeof desc);
-    desc.input.path = mesh;
-    desc.output = output;
-    desc.lattices = lattices;
-    desc.lattice_count = 1;
-    desc.threads = 1;
-    desc.force = true;
-    return desc;
+    return describe_job(mesh, output, lattices);
 }
 
 static void refuse(const ffd_deform_desc *desc)

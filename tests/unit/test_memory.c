@@ -335,10 +335,8 @@ static int set_up(void **state)
 
 static int tear_down(void **state)
 {
-    unlink(in_folder("m.bin"));
-    unlink(lattice);
     (void)state;
-    return rmdir(folder);
+    return remove_files((const char *const[]){in_folder("m.bin"), lattice}, 2);
 }
 
 int main(int argc, char **argv)

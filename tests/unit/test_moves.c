@@ -10,6 +10,8 @@
 
 #include <cmocka.h>
 
+#include "../support/lattice_points.h"
+
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
 static const char *message_of(const ffd_error *error)
@@ -42,34 +44,15 @@ static ffd_lattice *move_tower(const char *moves)
     return make("[3,3,5]", tower, more);
 }
 
-static const double *point_of(const ffd_lattice *l, size_t i, size_t j, size_t k)
-{
-    return l->deformed + 3 * (i + l->size[0] * (j + l->size[1] * k));
-}
-
 /* Within a few rounding errors of coordinates of size 10. */
 static void check_near(const ffd_lattice *l, size_t i, size_t j, size_t k, double x, double y, double z)
 {
-    const double *const p = point_of(l, i, j, k);
-    if (!(fabs(p[0] - x) <= 5e-15 && fabs(p[1] - y) <= 5e-15 && fabs(p[2] - z) <= 5e-15))
-        fail_msg("point %zu,%zu,%zu: %.17g %.17g %.17g, expected %.17g %.17g %.17g", i, j, k, p[0], p[1],
-                 p[2], x, y, z);
+    check_within(l, (const size_t[]){i, j, k}, (const double[]){x, y, z}, 5e-15);
 }
 
 static void check_exact(const ffd_lattice *l, size_t i, size_t j, size_t k, double x, double y, double z)
 {
-    const double *const p = point_of(l, i, j, k);
-    if (!(p[0] == x && p[1] == y && p[2] == z))
-        fail_msg("point %zu,%zu,%zu: %.17g %.17g %.17g, expected %.17g %.17g %.17g", i, j, k, p[0], p[1],
-                 p[2], x, y, z);
-}
-
-static size_t count_moved(const ffd_lattice *l)
-{
-    size_t moved = 0;
-    for (size_t i = 0; i < l->count; i++)
-        moved += l->moved[i] != 0;
-    return moved;
+    check_within(l, (const size_t[]){i, j, k}, (const double[]){x, y, z}, 0);
 }
 
 static void at_and_within_select_the_right_points(void **state)

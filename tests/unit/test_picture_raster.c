@@ -214,6 +214,34 @@ static void a_repeated_triangle_is_drawn_once(void **state)
     }
 }
 
+/* A polygon that goes round three corners many times is cut into triangles that begin with each of them in
+   turn. Those that go round the other way show their other side. */
+static void a_turned_triangle_is_drawn_once(void **state)
+{
+    static const picture_material materials[2] = {{.color = {1, 1, 1, 1}, .alpha_cutoff = 0.5},
+                                                  {.color = {1, 1, 1, 1}}};
+    static const uint32_t corners[5][3] = {{0, 1, 2}, {2, 0, 1}, {1, 2, 0}, {1, 0, 2}, {0, 1, 2}};
+    static const bool is_there[5] = {true, false, false, true, false};
+    float texcoords[5][6] = {{0, 0, 1, 0, 0, 1}};
+    uint32_t of[5] = {1, 1, 1, 1, 1};
+    int64_t first, last;
+    (void)state;
+    begin(3, 5);
+    for (int v = 0; v < 3; v++)
+        set((size_t)v, v % 2 ? 20000 : 0, v / 2 ? 15000 : 0, 1);
+    memcpy(triangles, corners, sizeof corners);
+    mesh.materials = of;
+    mesh.material_list = materials;
+    mesh.material_count = 2;
+    mesh.texcoords = texcoords[0];
+    for (size_t t = 0; t < 5; t++)
+        assert_int_equal(ffd_raster_rows(&drawn, t, &first, &last), is_there[t]);
+    of[0] = of[1] = of[2] = 0;
+    assert_true(ffd_raster_rows(&drawn, 1, &first, &last)); /* its holes may be elsewhere */
+    memcpy(texcoords[1], (float[]){0, 1, 0, 0, 1, 0}, sizeof texcoords[1]);
+    assert_false(ffd_raster_rows(&drawn, 1, &first, &last));
+}
+
 /* Blocks that are behind what is there are passed over: the same samples as without. */
 static void blocks_hide_nothing_that_is_seen(void **state)
 {
@@ -321,6 +349,7 @@ int main(void)
         cmocka_unit_test(the_nearest_triangle_is_seen_in_any_order),
         cmocka_unit_test(of_equally_near_ones_the_first_is_seen),
         cmocka_unit_test(a_repeated_triangle_is_drawn_once),
+        cmocka_unit_test(a_turned_triangle_is_drawn_once),
         cmocka_unit_test(blocks_hide_nothing_that_is_seen),
         cmocka_unit_test(what_reaches_far_beyond_is_drawn_where_it_is_in_the_picture),
         cmocka_unit_test(the_back_of_a_material_of_one_side_is_not_drawn),

@@ -7,6 +7,7 @@
 
 #include <cmocka.h>
 
+#include "../support/job_description.h"
 #include "../support/test_folder.h"
 #include "base/memory/memory.h"
 #include <ffd/job.h>
@@ -64,24 +65,13 @@ static int set_up(void **state)
 
 static int tear_down(void **state)
 {
-    unlink(output);
-    unlink(kept);
-    unlink(mesh);
-    unlink(lattice);
     (void)state;
-    return rmdir(folder);
+    return remove_files((const char *const[]){output, kept, mesh, lattice}, 4);
 }
 
 static ffd_deform_desc describe(ffd_rig rig)
 {
-    ffd_deform_desc desc;
-    ffd_deform_desc_init(&desc, sizeof desc);
-    desc.input.path = mesh;
-    desc.output = output;
-    desc.lattices = lattices;
-    desc.lattice_count = 1;
-    desc.threads = 1;
-    desc.force = true;
+    ffd_deform_desc desc = describe_job(mesh, output, lattices);
     desc.rig = rig;
     return desc;
 }

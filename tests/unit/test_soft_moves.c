@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "../support/lattice_points.h"
 #include "../support/lattice_text.h"
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
@@ -19,25 +20,9 @@
 static const char bar[] = "\"size\":[5,3,3],\"degree\":[1,1,1],\"rest\":{\"box\":{\"min\":[-2,-1,-1],\"max\":"
                           "[2,1,1]}}";
 
-static const double *point_of(const ffd_lattice *l, size_t i, size_t j, size_t k)
-{
-    return l->deformed + 3 * (i + l->size[0] * (j + l->size[1] * k));
-}
-
 static void check_point(const ffd_lattice *l, size_t i, size_t j, size_t k, double x, double y, double z)
 {
-    const double *const p = point_of(l, i, j, k);
-    if (!(fabs(p[0] - x) <= 4e-15 && fabs(p[1] - y) <= 4e-15 && fabs(p[2] - z) <= 4e-15))
-        fail_msg("point %zu,%zu,%zu: %.17g %.17g %.17g, expected %.17g %.17g %.17g", i, j, k, p[0], p[1],
-                 p[2], x, y, z);
-}
-
-static size_t count_moved(const ffd_lattice *l)
-{
-    size_t moved = 0;
-    for (size_t i = 0; i < l->count; i++)
-        moved += l->moved[i] != 0;
-    return moved;
+    check_within(l, (const size_t[]){i, j, k}, (const double[]){x, y, z}, 4e-15);
 }
 
 static void a_pull_takes_the_points_near_its_place(void **state)

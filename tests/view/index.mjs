@@ -1,32 +1,15 @@
 // Opens the page of a batch in a browser and uses it as people do: index.mjs NODE-FOLDER BROWSER FOLDER
 import assert from 'node:assert/strict';
 import {readFileSync, writeFileSync} from 'node:fs';
-import {createRequire} from 'node:module';
 import {join} from 'node:path';
+import {folder, launch, runAll, watch} from './browser.mjs';
 
-const [nodeFolder, executablePath, folder] = process.argv.slice(2);
-const {chromium} = createRequire(join(nodeFolder, 'node_modules', 'x'))('playwright-core');
-const url = 'file://' + join(folder, 'index.html');
-const browser = await chromium.launch({executablePath, args: ['--no-sandbox']});
+const browser = await launch();
 
-// A page that is open. At its end nothing was asked for but the page and its own pictures, and nothing said.
-async function open(options = {}) {
-  const context = await browser.newContext({viewport: {width: 1300, height: 900}, ...options});
-  const page = await context.newPage();
-  const said = [];
-  page.on('console', (message) => said.push('console: ' + message.text()));
-  page.on('pageerror', (problem) => said.push('error: ' + problem.message));
-  page.on('dialog', (dialog) => { said.push('dialog: ' + dialog.message()); dialog.dismiss(); });
-  page.on('request', (request) => {
-    if (request.url() !== (options.url || url) && !request.url().startsWith('file://' + folder + '/o/')) said.push('request: ' + request.url());
-  });
-  await page.goto(options.url || url);
-  const end = async () => {
-    if (process.env.FFD_SCREENSHOTS) await page.screenshot({path: join(process.env.FFD_SCREENSHOTS, `${options.name || 'index'}.png`)});
-    assert.deepEqual(said, []);
-    await context.close();
-  };
-  return {page, end, said};
+// Beside the page its own pictures are asked for.
+function open({url = 'file://' + join(folder, 'index.html'), ...options} = {}) {
+  return watch(browser, url, (asked) => asked === url || asked.startsWith('file://' + folder + '/o/'),
+    {viewport: {width: 1300, height: 900}, name: 'index', ...options});
 }
 
 const lines = (page) => page.locator('tbody td[data-label=Line]').allInnerTexts().then((all) => all.map((text) => text.replace(/\D/g, '')).join(''));
@@ -115,8 +98,4 @@ async function thePolicyHolds() {
   await page.context().close();
 }
 
-for (const test of [picturesLoad, columnsSortByMouseAndKeyboard, aPhoneShowsCards, itReadsWithoutScripts, thePolicyHolds]) {
-  await test();
-  console.log('ok', test.name);
-}
-await browser.close();
+await runAll(browser, [picturesLoad, columnsSortByMouseAndKeyboard, aPhoneShowsCards, itReadsWithoutScripts, thePolicyHolds]);

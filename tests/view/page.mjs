@@ -1,37 +1,18 @@
 // Opens pages of ffd view in a browser and uses them as people do: page.mjs NODE-FOLDER BROWSER PAGES
 import assert from 'node:assert/strict';
 import {readFileSync, writeFileSync} from 'node:fs';
-import {createRequire} from 'node:module';
 import {join} from 'node:path';
+import {folder, launch, runAll, watch} from './browser.mjs';
 
-const [nodeFolder, executablePath, folder] = process.argv.slice(2);
-const {chromium} = createRequire(join(nodeFolder, 'node_modules', 'x'))('playwright-core');
 const WIDE = {width: 860, height: 480}, PHONE = {width: 390, height: 844};
 
-const browser = await chromium.launch({
-  executablePath,
-  args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
-});
+const browser = await launch(['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader']);
 
-// A page that is open, in a window of its own. At its end nothing was asked of a network or said to the console.
 async function open(kind, options = {}) {
-  const context = await browser.newContext({viewport: WIDE, reducedMotion: 'reduce', ...options});
-  const page = await context.newPage();
   const url = 'file://' + join(folder, kind + '.html');
-  const said = [];
-  page.on('console', (message) => said.push('console: ' + message.text()));
-  page.on('pageerror', (problem) => said.push('error: ' + problem.message));
-  page.on('dialog', (dialog) => { said.push('dialog: ' + dialog.message()); dialog.dismiss(); });
-  page.on('request', (request) => { if (request.url() !== url) said.push('request: ' + request.url()); });
-  if (options.prepare) await page.addInitScript(options.prepare);
-  await page.goto(url);
-  await page.waitForSelector('html[data-ready]');
-  const end = async () => {
-    if (process.env.FFD_SCREENSHOTS) await page.screenshot({path: join(process.env.FFD_SCREENSHOTS, `${options.name || kind}.png`)});
-    assert.deepEqual(said, []);
-    await context.close();
-  };
-  return {page, end, said};
+  const watched = await watch(browser, url, (asked) => asked === url, {viewport: WIDE, reducedMotion: 'reduce', name: kind, ...options});
+  await watched.page.waitForSelector('html[data-ready]');
+  return watched;
 }
 
 // The canvas's pixels. They are there only in the frame in which they are drawn: a wheel that does not turn asks for it.
@@ -361,19 +342,7 @@ async function thePolicyForbidsRequests() {
   await page.context().close();
 }
 
-let failed = 0;
-for (const test of [sliderGoesFromBeforeToAfter, coloursAndMarksAreChosen, aWitnessIsPicked, tornEdgesAreListed,
+await runAll(browser, [sliderGoesFromBeforeToAfter, coloursAndMarksAreChosen, aWitnessIsPicked, tornEdgesAreListed,
   mouseAndKeysMoveTheCamera, hostileNamesAreText, aRealFoldIsPicked, realTearsAreListed,
   filesAreColouredByDisplacement, aMeshAloneHasNoSlider, farControlPointsLeaveTheMeshItsSize, realHostileNamesAreText, animationsArePlayed, largeAndEmptyMeshesOpen, aCutPageSaysSo, withoutWebGLThereAreFigures,
-  phonesAndDarkAreServed, thePolicyForbidsRequests]) {
-  const began = Date.now();
-  try {
-    await test();
-    console.log(`passed  ${test.name} (${Date.now() - began} ms)`);
-  } catch (problem) {
-    failed++;
-    console.log(`FAILED  ${test.name}: ${problem.message}`);
-  }
-}
-await browser.close();
-process.exit(failed ? 1 : 0);
+  phonesAndDarkAreServed, thePolicyForbidsRequests]);

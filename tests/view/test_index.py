@@ -10,20 +10,14 @@ looked at.
 
 import json
 import os
-import shutil
 import subprocess
 import sys
 import tempfile
 
-SKIPPED = 77
-HERE = os.path.dirname(os.path.abspath(__file__))
+from browser import find_browser, run_script
+
 CUBE = "".join(f"v {x} {y} {z}\n" for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)) + "".join(
     f"f {face}\n" for face in ("1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"))
-
-
-def skip(reason):
-    print(f"SKIP: {reason}")
-    sys.exit(SKIPPED)
 
 
 def write(path, content):
@@ -58,18 +52,11 @@ def prepare(folder, ffd):
 
 def main():
     ffd = os.path.abspath(sys.argv[1])
-    node_folder = os.environ.get("FFD_NODE", "")
-    browser = shutil.which("chromium") or shutil.which("chromium-browser")
-    if not shutil.which("node") or not browser:
-        skip("node or chromium is not there")
-    if not os.path.isdir(os.path.join(node_folder, "node_modules", "playwright-core")):
-        skip("playwright-core is not installed (tests/run.sh installs it)")
+    found = find_browser()
     with tempfile.TemporaryDirectory() as folder:
         prepare(folder, ffd)
-        # The browser wants a home of its own.
-        done = subprocess.run(["node", os.path.join(HERE, "index.mjs"), node_folder, browser, os.path.join(folder, "v")],
-                              check=False, env={**os.environ, "HOME": folder}, timeout=100)
-    sys.exit(done.returncode)
+        code = run_script("index.mjs", found, os.path.join(folder, "v"), folder, 100)
+    sys.exit(code)
 
 
 main()

@@ -18,11 +18,11 @@ import subprocess
 import sys
 import tempfile
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(HERE, "..", "cli"))
+from browser import find_browser, run_script
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
 from gltf_arm import arm  # noqa: E402 (a neighbour of this folder)
 
-SKIPPED = 77
 KINDS = ("torn", "fold", "hostile", "large", "empty")
 # Control points of a real mesh: two that turn its middle inside out; one at the border of a box that ends in the mesh.
 FOLD = {"size": [4, 4, 4], "rest": {"box": "mesh"},
@@ -37,11 +37,6 @@ WIDE = {"size": [3, 3, 3], "rest": {"box": {"min": [-3, -3, -3], "max": [3, 3, 3
         "moves": [{"scale": {"factor": [1, 2, 1], "about": [0, 0, 0]}}]}
 NAMES = ["</script><script>document.title='taken'</script>", "<img src=x onerror=alert(1)>", "\u202egpj.exe\n\"'&amp;",
          "__proto__", "x" * 100000]
-
-
-def skip(reason):
-    print(f"SKIP: {reason}")
-    sys.exit(SKIPPED)
 
 
 def hostile_gltf():
@@ -88,21 +83,14 @@ def make_real(ffd, model, folder):
 
 def main():
     ffd, make_page, model = [os.path.abspath(path) for path in sys.argv[1:]]
-    node_folder = os.environ.get("FFD_NODE", "")
-    browser = shutil.which("chromium") or shutil.which("chromium-browser")
-    if not shutil.which("node") or not browser:
-        skip("node or chromium is not there")
-    if not os.path.isdir(os.path.join(node_folder, "node_modules", "playwright-core")):
-        skip("playwright-core is not installed (tests/run.sh installs it)")
+    found = find_browser()
     with tempfile.TemporaryDirectory() as folder:
         for kind in KINDS:
             words = [make_page, kind, os.path.join(folder, kind + ".html")]
             subprocess.run(words + ([model] if kind in ("torn", "fold") else []), check=True, stdout=subprocess.DEVNULL)
         make_real(ffd, model, folder)
-        # The browser wants a home of its own.
-        done = subprocess.run(["node", os.path.join(HERE, "page.mjs"), node_folder, browser, folder], check=False,
-                              env={**os.environ, "HOME": folder}, timeout=140)
-    sys.exit(done.returncode)
+        code = run_script("page.mjs", found, folder, folder, 140)
+    sys.exit(code)
 
 
 main()

@@ -1,4 +1,5 @@
 #include "job/chain/seams.h"
+#include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "embed/locator.h"
@@ -35,18 +36,15 @@ size_t ffd_chain_marked(const lattice_chain *chain)
     return chain->count + chain->seam_count;
 }
 
+static bool is_of_link_before(const void *seam, const void *link)
+{
+    return ((const chain_seam *)seam)->link < *(const size_t *)link;
+}
+
 /* The first seam of link l or of one after it. */
 static size_t first_seam(const lattice_chain *chain, size_t l)
 {
-    size_t low = 0, high = chain->seam_count;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (chain->seams[middle].link < l)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
+    return lower_bound(&l, chain->seams, chain->seam_count, sizeof *chain->seams, is_of_link_before);
 }
 
 const chain_seam *ffd_chain_seam(const lattice_chain *chain, size_t l, int direction)

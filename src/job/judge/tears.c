@@ -1,4 +1,5 @@
 #include "job/judge/tears.h"
+#include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "job/chain/chain.h"
@@ -67,19 +68,18 @@ static bool leads(const tear_work *work, size_t mode, uint32_t stays, uint32_t m
                                : is_kept(work, stays, mark) && !is_kept(work, moves, mark);
 }
 
+static bool ends_before(const void *range, const void *vertex)
+{
+    return ((const vertex_range *)range)->end <= *(const uint32_t *)vertex;
+}
+
 static bool is_hidden(const tear_work *work, uint32_t of_faces)
 {
     const vertex_range *const hidden = work->question->hidden;
     const uint32_t vertex = ffd_faces_number(work->question->faces, of_faces);
-    size_t low = 0, high = work->question->hidden_count;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (hidden[middle].end <= vertex)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low < work->question->hidden_count && hidden[low].first <= vertex;
+    const size_t count = work->question->hidden_count,
+                 at = lower_bound(&vertex, hidden, count, sizeof *hidden, ends_before);
+    return at < count && hidden[at].first <= vertex;
 }
 
 static bool is_uniform(const tear_work *work, const uint32_t *corners, size_t count)

@@ -1,4 +1,5 @@
 #include "io/gltf/rig/gltf_rig_skins.h"
+#include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include "base/vector/polar.h"
 #include "base/vector/vec.h"
@@ -47,18 +48,17 @@ static void pin(const double from[3], const double to[3], affine *map)
         map->offset[a] = to[a] - turned[a];
 }
 
+static bool is_of_node_before(const void *place, const void *node)
+{
+    return ((const mesh_place *)place)->number < *(const size_t *)node;
+}
+
 /* Looks up a node among the places, which are in the order of their numbers. */
 static size_t find_place(const mesh_places *places, size_t node)
 {
-    size_t low = 0, high = places->count;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (places->list[middle].number < node)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low < places->count && places->list[low].number == node ? low : SIZE_MAX;
+    const size_t at =
+        lower_bound(&node, places->list, places->count, sizeof *places->list, is_of_node_before);
+    return at < places->count && places->list[at].number == node ? at : SIZE_MAX;
 }
 
 /* The similarity that a skin's first joint is moved by, and its inverse: where all is moved by one, the skin

@@ -1,4 +1,5 @@
 #include "io/gltf/save/gltf_follow.h"
+#include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include "base/text/words.h"
 #include "io/gltf/refer/gltf_index_table.h"
@@ -87,18 +88,15 @@ typedef struct copies {
     uint32_t first;  /* of those */
 } copies;
 
+static bool is_of_mesh_before(const void *copy, const void *mesh)
+{
+    return ((const gltf_mesh_copy *)copy)->mesh < *(const size_t *)mesh;
+}
+
 /* Returns the first copy of a mesh in the plan, which has them in the order of the meshes. */
 static size_t first_copy(const gltf_plan *plan, size_t mesh)
 {
-    size_t low = 0, high = plan->copy_count;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (plan->copies[middle].mesh < mesh)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
+    return lower_bound(&mesh, plan->copies, plan->copy_count, sizeof *plan->copies, is_of_mesh_before);
 }
 
 /* Writes the text with which a value names a mesh: a number, or a pointer with the rest of the value's own.

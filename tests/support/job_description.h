@@ -1,0 +1,21 @@
+/* job_description.h - what a test of jobs asks for, before it changes some of it. */
+#ifndef FFD_TEST_JOB_DESCRIPTION_H
+#define FFD_TEST_JOB_DESCRIPTION_H
+
+#include <ffd/job.h>
+
+/* By the first of the lattices, with one thread; an output may be there. */
+static inline ffd_deform_desc describe_job(const char *mesh, const char *output, const char *const *lattices)
+{
+    ffd_deform_desc desc;
+    ffd_deform_desc_init(&desc, sizeof desc);
+    desc.input.path = mesh;
+    desc.output = output;
+    desc.lattices = lattices;
+    desc.lattice_count = 1;
+    desc.threads = 1;
+    desc.force = true;
+    return desc;
+}
+
+#endif

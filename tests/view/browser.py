@@ -1,0 +1,32 @@
+"""Chromium for the tests of pages: runs a script of this folder, or skips the test where something is missing."""
+
+import os
+import shutil
+import subprocess
+import sys
+
+SKIPPED = 77
+HERE = os.path.dirname(os.path.abspath(__file__))
+
+
+def skip(reason):
+    print(f"SKIP: {reason}")
+    sys.exit(SKIPPED)
+
+
+def find_browser():
+    """What the script is called with before its folder: FFD_NODE and the browser."""
+    node_folder = os.environ.get("FFD_NODE", "")
+    browser = shutil.which("chromium") or shutil.which("chromium-browser")
+    if not shutil.which("node") or not browser:
+        skip("node or chromium is not there")
+    if not os.path.isdir(os.path.join(node_folder, "node_modules", "playwright-core")):
+        skip("playwright-core is not installed (tests/run.sh installs it)")
+    return [node_folder, browser]
+
+
+def run_script(name, found, pages, home, timeout):
+    """Returns the exit code. The browser wants a home of its own."""
+    done = subprocess.run(["node", os.path.join(HERE, name), *found, pages], check=False, env={**os.environ, "HOME": home},
+                          timeout=timeout)
+    return done.returncode
