@@ -257,17 +257,15 @@ m("harmonics-odd-mirrored", "condition", "splat, cli_splats", "if (turn->is_mirr
 m("logarithm-terms", "bound", "splat", "for (int i = ARTANH_TERMS; i-- > 0;) sum = square * (artanh[i] + sum); return exponent * LN2_HIGH + (2 * (z",
   "for (int i = 5; i-- > 0;)\n        sum = square * (artanh[i] + sum);\n    return exponent * LN2_HIGH + (2 * (z")
 m("splat-lanes-that-rest", "figure", "splat", "is_still[l] ? SPLAT_KEPT : SPLAT_CARRIED", "SPLAT_CARRIED")
-m("splat-lanes-left-open", "mask", "splat", "s.is_open = was_open | (s.is_open & ~at.is_still);", "s.is_open = was_open;")
 m("splat-lanes-second-axis", "order", "splat", "lanes_choose(order == 1.0, values[step], values[2 * step])",
   "lanes_choose(order == 2.0, values[step], values[2 * step])")
 m("splat-lanes-weakest", "mask", "splat", "lanes_choose(~is_right & weakest[i], -signs[i], signs[i])",
   "lanes_choose(is_right & weakest[i], -signs[i], signs[i])")
-m("splat-lanes-disks", "condition", "splat", "o < (is_flat ? 2 : 6); o++) try_order", "o < 6; o++)\n        try_order")
+m("splat-lanes-disks", "condition", "splat", "o < (is_flat ? 2 : 6); o++) try_order", "o < (is_flat ? 3 : 6); o++)\n        try_order")
 m("splat-lanes-mirrored", "mask", "splat", "at.f[i] = lanes_choose(is_mirrored, -at.f[i], at.f[i]);", "at.f[i] = +at.f[i];")
 m("splat-lanes-flattened", "left out", "splat", "at.is_usable & (at.is_still | ((largest_entry(at.f) >= LEAST_F) & ~at.is_flattening))",
   "at.is_usable & (at.is_still | (largest_entry(at.f) >= LEAST_F))")
 m("logarithm-lanes-halved", "sign", "splat", "exponents - is_large + whole", "exponents + is_large + whole")
-m("exponential-lanes-bits", "constant", "splat", "const lanes shifted = x * LOG2_E + WHOLE_BITS,", "const lanes shifted = x * LOG2_E + 2 * WHOLE_BITS,")
 
 m("polar-lanes-go-on", "mask", "splat", "x[i] = lanes_choose(is_open, next, x[i]);", "x[i] = next;")
 m("columns-lanes-that-rest", "mask", "splat", "p[k] = lanes_choose(turns, c * x - s * y, x);", "p[k] = c * x - s * y;")
