@@ -257,17 +257,15 @@ m("harmonics-odd-mirrored", "condition", "splat, cli_splats", "if (turn->is_mirr
 m("logarithm-terms", "bound", "splat", "for (int i = ARTANH_TERMS; i-- > 0;) sum = square * (artanh[i] + sum); return exponent * LN2_HIGH + (2 * (z",
   "for (int i = 5; i-- > 0;)\n        sum = square * (artanh[i] + sum);\n    return exponent * LN2_HIGH + (2 * (z")
 m("splat-lanes-that-rest", "figure", "splat", "is_still[l] ? SPLAT_KEPT : SPLAT_CARRIED", "SPLAT_CARRIED")
-m("splat-lanes-left-open", "mask", "splat", "s.is_open = was_open | (s.is_open & ~at.is_still);", "s.is_open = was_open;")
 m("splat-lanes-second-axis", "order", "splat", "lanes_choose(order == 1.0, values[step], values[2 * step])",
   "lanes_choose(order == 2.0, values[step], values[2 * step])")
 m("splat-lanes-weakest", "mask", "splat", "lanes_choose(~is_right & weakest[i], -signs[i], signs[i])",
   "lanes_choose(is_right & weakest[i], -signs[i], signs[i])")
-m("splat-lanes-disks", "condition", "splat", "o < (is_flat ? 2 : 6); o++) try_order", "o < 6; o++)\n        try_order")
+m("splat-lanes-disks", "condition", "splat", "o < (is_flat ? 2 : 6); o++) try_order", "o < (is_flat ? 3 : 6); o++)\n        try_order")
 m("splat-lanes-mirrored", "mask", "splat", "at.f[i] = lanes_choose(is_mirrored, -at.f[i], at.f[i]);", "at.f[i] = +at.f[i];")
 m("splat-lanes-flattened", "left out", "splat", "at.is_usable & (at.is_still | ((largest_entry(at.f) >= LEAST_F) & ~at.is_flattening))",
   "at.is_usable & (at.is_still | (largest_entry(at.f) >= LEAST_F))")
 m("logarithm-lanes-halved", "sign", "splat", "exponents - is_large + whole", "exponents + is_large + whole")
-m("exponential-lanes-bits", "constant", "splat", "const lanes shifted = x * LOG2_E + WHOLE_BITS,", "const lanes shifted = x * LOG2_E + 2 * WHOLE_BITS,")
 
 m("polar-lanes-go-on", "mask", "splat", "x[i] = lanes_choose(is_open, next, x[i]);", "x[i] = next;")
 m("columns-lanes-that-rest", "mask", "splat", "p[k] = lanes_choose(turns, c * x - s * y, x);", "p[k] = c * x - s * y;")
@@ -854,6 +852,7 @@ m("clip-default-weights", "condition", "cli_morphs", "if (names[t] == KEEPS && !
   "if (names[t] == IS_ZERO && !ffd_gltf_weight(d, default_value, &row[t]))")
 m("clip-weights-of-a-node", "condition", "cli_morphs", "size_t sampler = own ? GLTF_NONE : w->samplers[mesh];",
   "size_t sampler = w->samplers[mesh];")
+m("clip-own-bytes", "condition", "cli_morphs", "own[a] && users[a] == 0 &&", "own[a] &&")
 m("clip-replaced", "left out", "cli_morphs", "ffd_json_span_string_is(tree, name, w->clip->name)", "ffd_json_span_string_is(tree, name, \"\")")
 m("clip-of-a-conversion", "stride", "cli_morphs", "clip->key_count * target_count(plan, m), NULL", "clip->key_count * 1, NULL")
 m("morph-in-its-place", "operand", "cli_morphs, cli_as_morph", "ffd_gltf_target_place(&file->model.meshes[m].primitives[p], marks->named[m]);",

@@ -4,11 +4,14 @@
 #include "base/text/number.h"
 #include "base/text/words.h"
 #include "io/gltf/morph/gltf_grown.h"
+#include "io/gltf/morph/gltf_morph_reuse.h"
 #include "io/gltf/morph/gltf_morph_text.h"
 #include "io/gltf/morph/gltf_morph_weights.h"
+#include "io/gltf/refer/gltf_accessor_users.h"
 #include "io/gltf/save/gltf_json_insert.h"
 #include "io/gltf/scene/gltf_shapes.h"
 #include "json/json_text.h"
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -233,8 +236,39 @@ static uint32_t find_animation(const clip_writer *w, uint32_t animations)
     return JSON_NONE;
 }
 
+/* The bytes of accessors that only one animation uses; false if memory runs out. */
+static bool count_own_bytes(const gltf_document *d, uint32_t animation, uint64_t *bytes)
+{
+    unsigned char *const users = ffd_gltf_count_users(d, animation);
+    bool *const own = ffd_alloc_zero(d->model.accessor_count, sizeof *own);
+    const bool done = users && own;
+    *bytes = 0;
+    if (done)
+        ffd_gltf_mark_animation(d, animation, own);
+    for (size_t a = 0; done && a < d->model.accessor_count; a++)
+        if (own[a] && users[a] == 0 && d->model.accessors[a].view >= 0)
+            *bytes += d->model.accessors[a].count * d->layouts[a].element_size;
+    ffd_free(users);
+    ffd_free(own);
+    return done;
+}
+
+/* Says how many bytes are left that nothing uses any more: other views may begin behind them. */
+static ffd_status warn_of_replaced(const clip_writer *w, uint32_t old, const char *name)
+{
+    char left[80] = "";
+    uint64_t bytes;
+    if (!count_own_bytes(w->file.saver.document, old, &bytes))
+        return ffd_fail_memory(w->error);
+    if (bytes > 0)
+        snprintf(left, sizeof left, "; %" PRIu64 " bytes that only it used stay in the file", bytes);
+    ffd_log_line(w->file.saver.log, FFD_LOG_WARNING, "has an animation \"%s\" already: it is replaced%s",
+                 name, left);
+    return FFD_OK;
+}
+
 /* Puts the clip in place of the animation of its name, or among those that are added. */
-static void place_clip(clip_writer *w, uint32_t animations)
+static ffd_status place_clip(clip_writer *w, uint32_t animations)
 {
     gltf_saver *const saver = &w->file.saver;
     const json_span *const tree = &saver->document->tree;
@@ -242,6 +276,9 @@ static void place_clip(clip_writer *w, uint32_t animations)
     char shown[80];
     byte_buffer text = {0};
     ffd_name_shown(w->clip->name, shown, sizeof shown);
+    const ffd_status status = old == JSON_NONE ? FFD_OK : warn_of_replaced(w, old, shown);
+    if (status)
+        return status;
     ffd_buffer_text(&text, old == JSON_NONE && w->added.size > 0 ? ",{\"name\":" : "{\"name\":");
     put_name(w->clip->name, &text);
     ffd_buffer_text(&text, ",\"channels\":[");
@@ -250,8 +287,6 @@ static void place_clip(clip_writer *w, uint32_t animations)
     ffd_buffer_append(&text, w->sampler_text.data, w->sampler_text.size);
     ffd_buffer_text(&text, "]}");
     text.failed = text.failed || w->channel_text.failed || w->sampler_text.failed;
-    if (old != JSON_NONE)
-        ffd_log_line(saver->log, FFD_LOG_WARNING, "has an animation \"%s\" already: it is replaced", shown);
     if (old != JSON_NONE && !text.failed)
         ffd_edits_replace(&saver->edits, tree->values[old].begin, tree->values[old].end, text.data,
                           text.size);
@@ -262,6 +297,7 @@ static void place_clip(clip_writer *w, uint32_t animations)
                  ffd_plural(w->clip->key_count, "key", "keys"), w->channel_count,
                  ffd_plural(w->channel_count, "node", "nodes"));
     ffd_buffer_free(&text);
+    return FFD_OK;
 }
 
 static ffd_status add_clip(clip_writer *w, const morph_clip *clip, uint32_t *names, uint32_t animations)
@@ -280,10 +316,9 @@ static ffd_status add_clip(clip_writer *w, const morph_clip *clip, uint32_t *nam
         return status;
     ffd_name_shown(clip->name, shown, sizeof shown);
     if (w->channel_count > 0)
-        place_clip(w, animations);
-    else
-        ffd_log_line(w->file.saver.log, FFD_LOG_WARNING,
-                     "no node has a morph target for the animation \"%s\": it is left out", shown);
+        return place_clip(w, animations);
+    ffd_log_line(w->file.saver.log, FFD_LOG_WARNING,
+                 "no node has a morph target for the animation \"%s\": it is left out", shown);
     return FFD_OK;
 }
 

@@ -15,7 +15,7 @@ static void count_primitive(const gltf_primitive *primitive, unsigned char *user
         add_user(users, gltf_slot_accessor(primitive, slot));
 }
 
-unsigned char *ffd_gltf_count_users(const gltf_document *d)
+unsigned char *ffd_gltf_count_users(const gltf_document *d, uint32_t but)
 {
     const size_t count = d->model.accessor_count;
     unsigned char *const users = ffd_alloc_zero(count, sizeof *users);
@@ -26,7 +26,7 @@ unsigned char *ffd_gltf_count_users(const gltf_document *d)
         return NULL;
     }
     ffd_gltf_mark_other_users(d, others);
-    ffd_gltf_mark_rig_users(d, others);
+    ffd_gltf_mark_rig_users(d, but, others);
     for (size_t a = 0; a < count; a++)
         users[a] = others[a] ? 2 : 0;
     for (size_t m = 0; m < d->model.mesh_count; m++)

@@ -11,8 +11,9 @@ typedef struct morph_place {
     gltf_semantic semantic;
 } morph_place;
 
-/* Counts the users of each accessor, where 2 stands for more too, for the caller to free. NULL: no memory. */
-unsigned char *ffd_gltf_count_users(const gltf_document *document);
+/* Counts the users of each accessor, where 2 stands for more too, for the caller to free; `but`: an animation
+   that is left out of account, or JSON_NONE. NULL: no memory. */
+unsigned char *ffd_gltf_count_users(const gltf_document *document, uint32_t but);
 
 /* Whether an attribute's accessor has nothing but its offsets, as floats in bytes of its own, and all
    selected ones get results, those of a target of source, whose instances are the document's; what is not

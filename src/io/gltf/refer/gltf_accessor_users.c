@@ -9,18 +9,13 @@ static void mark_number(const gltf_document *d, uint32_t value, bool *used)
         used[(size_t)number] = true;
 }
 
-static void mark_animations(const gltf_document *d, bool *used)
+void ffd_gltf_mark_animation(const gltf_document *d, uint32_t animation, bool *used)
 {
     const json_span *tree = &d->tree;
-    const uint32_t animations = ffd_json_span_member(tree, 0, "animations");
-    for (uint32_t a = ffd_json_span_first(tree, animations); a != JSON_NONE;
-         a = ffd_json_span_after(tree, a)) {
-        const uint32_t samplers = ffd_json_span_member(tree, a, "samplers");
-        for (uint32_t s = ffd_json_span_first(tree, samplers); s != JSON_NONE;
-             s = ffd_json_span_after(tree, s)) {
-            mark_number(d, ffd_json_span_member(tree, s, "input"), used);
-            mark_number(d, ffd_json_span_member(tree, s, "output"), used);
-        }
+    const uint32_t samplers = ffd_json_span_member(tree, animation, "samplers");
+    for (uint32_t s = ffd_json_span_first(tree, samplers); s != JSON_NONE; s = ffd_json_span_after(tree, s)) {
+        mark_number(d, ffd_json_span_member(tree, s, "input"), used);
+        mark_number(d, ffd_json_span_member(tree, s, "output"), used);
     }
 }
 
@@ -61,9 +56,13 @@ static void mark_primitive(const gltf_primitive *primitive, bool *used)
         used[primitive->indices] = true;
 }
 
-void ffd_gltf_mark_rig_users(const gltf_document *d, bool *used)
+void ffd_gltf_mark_rig_users(const gltf_document *d, uint32_t but, bool *used)
 {
-    mark_animations(d, used);
+    const uint32_t animations = ffd_json_span_member(&d->tree, 0, "animations");
+    for (uint32_t a = ffd_json_span_first(&d->tree, animations); a != JSON_NONE;
+         a = ffd_json_span_after(&d->tree, a))
+        if (a != but)
+            ffd_gltf_mark_animation(d, a, used);
     mark_skins(d, used);
 }
 

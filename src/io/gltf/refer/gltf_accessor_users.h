@@ -9,7 +9,10 @@
    own attributes follows these. */
 void ffd_gltf_mark_other_users(const gltf_document *document, bool *used);
 
-/* Sets it for those that skins and animations use. */
-void ffd_gltf_mark_rig_users(const gltf_document *document, bool *used);
+/* Sets it for those that an animation uses. */
+void ffd_gltf_mark_animation(const gltf_document *document, uint32_t animation, bool *used);
+
+/* Sets it for those that skins and animations use, but for one animation (JSON_NONE: none). */
+void ffd_gltf_mark_rig_users(const gltf_document *document, uint32_t but, bool *used);
 
 #endif
