@@ -241,7 +241,7 @@ static void tangles_end_soon(void **state)
 static void a_comb_of_many_teeth_is_covered_once(void **state)
 {
     (void)state;
-    const size_t count = (size_t)repetitions(60000);
+    const size_t count = (size_t)repetitions(40000);
     double(*comb)[2] = calloc(count, sizeof *comb), sum = 0;
     double *points = calloc(count, 3 * sizeof *points);
     uint32_t *triangles = calloc(count, 3 * sizeof *triangles);
