@@ -1,29 +1,42 @@
 #include "mesh/polygon_cut.h"
 #include "base/memory/memory.h"
+#include <float.h>
 #include <math.h>
-#include <stdbool.h>
+#include <stdlib.h>
 
-#define NOT_REFLEX UINT32_MAX
+/* Corners of a leaf of the tree. */
+#define LEAF 16
+/* Steps of the grid, a side, whose cells the corners are ordered by. */
+#define GRID 65535
+/* Products of coordinates below it are finite. */
+#define LARGEST 1e150
 
-/* Looks at reflex corners that finding ears may take: more than any polygon of reason needs. */
+/* Looks at corners and at nodes that finding ears may take: more than any polygon of reason needs. */
 #define LOOKS_FIRST ((uint64_t)1 << 20)
 #define LOOKS_PER_CORNER 4096
-#define MOST_LOOKS ((uint64_t)1 << 30)
+#define MOST_LOOKS ((uint64_t)1 << 29)
 
 /* How much is asked of an ear. Each step is taken when a whole round has found none. */
 enum { EAR_CLEAR, EAR_TOUCHED, EAR_FLAT, EAR_ANY };
 
+static size_t count_leaves(size_t count)
+{
+    size_t leaves = 1;
+    while (leaves * LEAF < count)
+        leaves *= 2;
+    return leaves;
+}
+
 static ffd_status make_room(polygon_cutter *cutter, size_t count, ffd_error *error)
 {
-    if (count >= NOT_REFLEX)
+    if (count >= UINT32_MAX / 2)
         return ffd_fail(error, FFD_E_LIMIT, "a polygon has %zu corners, more than can be cut into triangles",
                         count);
+    cutter->leaves = count_leaves(count);
     if (ffd_grow((void **)&cutter->plane, &cutter->plane_capacity, count, 2 * sizeof *cutter->plane) &&
-        ffd_grow((void **)&cutter->previous, &cutter->previous_capacity, count, sizeof *cutter->previous) &&
-        ffd_grow((void **)&cutter->next, &cutter->next_capacity, count, sizeof *cutter->next) &&
-        ffd_grow((void **)&cutter->reflex, &cutter->reflex_capacity, count, sizeof *cutter->reflex) &&
-        ffd_grow((void **)&cutter->reflex_slot, &cutter->reflex_slot_capacity, count,
-                 sizeof *cutter->reflex_slot))
+        ffd_grow((void **)&cutter->corners, &cutter->corners_capacity, count, sizeof *cutter->corners) &&
+        ffd_grow((void **)&cutter->order, &cutter->order_capacity, count, sizeof *cutter->order) &&
+        ffd_grow((void **)&cutter->nodes, &cutter->nodes_capacity, 2 * cutter->leaves, sizeof *cutter->nodes))
         return FFD_OK;
     return ffd_fail_memory(error);
 }
@@ -86,32 +99,100 @@ static bool is_convex(const polygon_cutter *cutter, uint32_t count)
     return turns <= 2;
 }
 
-static void set_reflex(polygon_cutter *cutter, uint32_t i)
+/* Every second bit. */
+static uint64_t spread(uint32_t bits)
 {
-    const bool reflex = !(area(cutter, cutter->previous[i], i, cutter->next[i]) > 0);
-    if (reflex == (cutter->reflex_slot[i] != NOT_REFLEX))
-        return;
-    if (reflex) {
-        cutter->reflex_slot[i] = (uint32_t)cutter->reflex_count;
-        cutter->reflex[cutter->reflex_count++] = i;
-        return;
-    }
-    const uint32_t last = cutter->reflex[--cutter->reflex_count];
-    cutter->reflex[cutter->reflex_slot[i]] = last;
-    cutter->reflex_slot[last] = cutter->reflex_slot[i];
-    cutter->reflex_slot[i] = NOT_REFLEX;
+    uint64_t all = bits;
+    all = (all | all << 8) & 0x00ff00ff;
+    all = (all | all << 4) & 0x0f0f0f0f;
+    all = (all | all << 2) & 0x33333333;
+    return (all | all << 1) & 0x55555555;
 }
 
-static void link_corners(polygon_cutter *cutter, uint32_t count)
+static int compare_keys(const void *a, const void *b)
 {
-    cutter->reflex_count = 0;
+    const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
+    return (x > y) - (x < y);
+}
+
+/* Orders the corners along a curve through all cells (G. M. Morton, 1966), so that those of a node are near
+   each other. Any order gives the same triangles. */
+static ffd_status order_corners(polygon_cutter *cutter, uint32_t count, ffd_error *error)
+{
+    double low[2] = {DBL_MAX, DBL_MAX}, extent = 0;
+    for (size_t i = 0; i < 2 * (size_t)count; i++)
+        low[i % 2] = fmin(low[i % 2], cutter->plane[i]);
+    for (size_t i = 0; i < 2 * (size_t)count; i++)
+        extent = fmax(extent, cutter->plane[i] - low[i % 2]);
+    uint64_t *const keys = ffd_alloc(count, sizeof *keys);
+    if (!keys)
+        return ffd_fail_memory(error);
     for (uint32_t i = 0; i < count; i++) {
-        cutter->previous[i] = i > 0 ? i - 1 : count - 1;
-        cutter->next[i] = i + 1 < count ? i + 1 : 0;
-        cutter->reflex_slot[i] = NOT_REFLEX;
+        uint32_t cell[2] = {0, 0};
+        for (size_t a = 0; a < 2 && extent > 0; a++)
+            cell[a] = (uint32_t)((cutter->plane[2 * (size_t)i + a] - low[a]) / extent * GRID);
+        keys[i] = (spread(cell[0]) | spread(cell[1]) << 1) << 32 | i;
     }
+    qsort(keys, count, sizeof *keys, compare_keys);
+    for (uint32_t i = 0; i < count; i++)
+        cutter->order[i] = (uint32_t)keys[i];
+    ffd_free(keys);
+    return FFD_OK;
+}
+
+/* Leaves are nodes[leaves] and on, each LEAF corners of the order; the nodes 2 n and 2 n + 1 are below n. */
+static void fill_nodes(polygon_cutter *cutter, uint32_t count)
+{
+    for (size_t n = 1; n < 2 * cutter->leaves; n++)
+        cutter->nodes[n] = (cut_node){{DBL_MAX, DBL_MAX}, {-DBL_MAX, -DBL_MAX}, 0};
+    for (uint32_t i = 0; i < count; i++) {
+        cut_node *const leaf = &cutter->nodes[cutter->leaves + i / LEAF];
+        const double *const p = cutter->plane + 2 * (size_t)cutter->order[i];
+        cutter->corners[cutter->order[i]].place = i;
+        for (int a = 0; a < 2; a++) {
+            leaf->low[a] = fmin(leaf->low[a], p[a]);
+            leaf->high[a] = fmax(leaf->high[a], p[a]);
+        }
+    }
+    for (size_t n = cutter->leaves - 1; n > 0; n--)
+        for (int a = 0; a < 2; a++) {
+            cutter->nodes[n].low[a] = fmin(cutter->nodes[2 * n].low[a], cutter->nodes[2 * n + 1].low[a]);
+            cutter->nodes[n].high[a] = fmax(cutter->nodes[2 * n].high[a], cutter->nodes[2 * n + 1].high[a]);
+        }
+}
+
+static void mark(polygon_cutter *cutter, uint32_t i, bool is_reflex)
+{
+    cut_corner *const corner = &cutter->corners[i];
+    if (corner->is_reflex == is_reflex)
+        return;
+    corner->is_reflex = is_reflex;
+    for (size_t n = cutter->leaves + corner->place / LEAF; n > 0; n /= 2)
+        cutter->nodes[n].reflex_count += is_reflex ? 1 : UINT32_MAX; /* less one */
+}
+
+static void set_reflex(polygon_cutter *cutter, uint32_t i)
+{
+    mark(cutter, i, !(area(cutter, cutter->corners[i].previous, i, cutter->corners[i].next) > 0));
+}
+
+static ffd_status link_corners(polygon_cutter *cutter, uint32_t count, ffd_error *error)
+{
+    bool is_plain = count <= LEAF;
+    for (size_t i = 0; i < 2 * (size_t)count && !is_plain; i++)
+        is_plain = !(fabs(cutter->plane[i]) < LARGEST);
+    for (uint32_t i = 0; i < count; i++)
+        cutter->order[i] = i;
+    cutter->has_boxes = !is_plain;
+    const ffd_status status = is_plain ? FFD_OK : order_corners(cutter, count, error);
+    if (status)
+        return status;
+    for (uint32_t i = 0; i < count; i++)
+        cutter->corners[i] = (cut_corner){i > 0 ? i - 1 : count - 1, i + 1 < count ? i + 1 : 0, 0, false};
+    fill_nodes(cutter, count);
     for (uint32_t i = 0; i < count; i++)
         set_reflex(cutter, i);
+    return FFD_OK;
 }
 
 /* Whether corner p keeps the triangle a b c from being an ear. Corners at the same position as a, b or c do
@@ -128,32 +209,70 @@ static bool obstructs(const polygon_cutter *cutter, uint32_t p, const uint32_t a
            !same_position(cutter, p, abc[2]);
 }
 
+/* Whether no corner in a box can obstruct the triangle. The bound of area() has its operations in their
+   order, each of which rounds larger numbers to larger ones: no corner's own area is more. */
+static bool is_clear_of(const polygon_cutter *cutter, const cut_node *node, const uint32_t abc[3])
+{
+    const bool is_point = !(node->low[0] < node->high[0] || node->low[1] < node->high[1]);
+    for (int k = 0; k < 3; k++) {
+        const double *const p = cutter->plane + 2 * (size_t)abc[k], *const q = cutter->plane +
+                                                                               2 * (size_t)abc[(k + 1) % 3];
+        const double dx = q[0] - p[0], dy = q[1] - p[1];
+        const double y = dx > 0 ? node->high[1] : node->low[1], x = dy > 0 ? node->low[0] : node->high[0];
+        if (dx * (y - p[1]) - dy * (x - p[0]) < 0)
+            return true;
+        if (is_point && !(p[0] < x || p[0] > x || p[1] < y || p[1] > y))
+            return true;
+    }
+    return false;
+}
+
+static bool is_obstructed(const polygon_cutter *cutter, const uint32_t abc[3], int demand, uint64_t *looks)
+{
+    size_t stack[64] = {1}, depth = 1;
+    while (depth > 0) {
+        const size_t n = stack[--depth];
+        const cut_node *const node = &cutter->nodes[n];
+        ++*looks;
+        if (node->reflex_count == 0 || (cutter->has_boxes && is_clear_of(cutter, node, abc)))
+            continue;
+        if (n < cutter->leaves) {
+            stack[depth++] = 2 * n;
+            stack[depth++] = 2 * n + 1;
+            continue;
+        }
+        uint32_t left = node->reflex_count;
+        for (size_t r = (n - cutter->leaves) * LEAF; left > 0; r++) {
+            const uint32_t p = cutter->order[r];
+            if (!cutter->corners[p].is_reflex)
+                continue;
+            if (obstructs(cutter, p, abc, demand))
+                return true;
+            left--;
+            ++*looks;
+        }
+    }
+    return false;
+}
+
 static bool is_ear(const polygon_cutter *cutter, uint32_t i, int demand, uint64_t *looks)
 {
-    const uint32_t abc[3] = {cutter->previous[i], i, cutter->next[i]};
+    const uint32_t abc[3] = {cutter->corners[i].previous, i, cutter->corners[i].next};
+    ++*looks;
     if (demand == EAR_ANY)
         return true;
     const double own = area(cutter, abc[0], abc[1], abc[2]);
     if (demand == EAR_FLAT ? !(own >= 0) : !(own > 0))
         return false;
-    if (demand == EAR_FLAT)
-        return true;
-    for (size_t r = 0; r < cutter->reflex_count; r++, (*looks)++)
-        if (obstructs(cutter, cutter->reflex[r], abc, demand))
-            return false;
-    return true;
+    return demand == EAR_FLAT || !is_obstructed(cutter, abc, demand, looks);
 }
 
 static void unlink_corner(polygon_cutter *cutter, uint32_t i)
 {
-    const uint32_t before = cutter->previous[i], behind = cutter->next[i];
-    cutter->next[before] = behind;
-    cutter->previous[behind] = before;
-    if (cutter->reflex_slot[i] != NOT_REFLEX) {
-        const uint32_t last = cutter->reflex[--cutter->reflex_count];
-        cutter->reflex[cutter->reflex_slot[i]] = last;
-        cutter->reflex_slot[last] = cutter->reflex_slot[i];
-    }
+    const uint32_t before = cutter->corners[i].previous, behind = cutter->corners[i].next;
+    cutter->corners[before].next = behind;
+    cutter->corners[behind].previous = before;
+    mark(cutter, i, false);
     set_reflex(cutter, before);
     set_reflex(cutter, behind);
 }
@@ -167,9 +286,9 @@ static void cut_ears(polygon_cutter *cutter, uint32_t count, uint32_t *triangles
     int demand = EAR_CLEAR;
     while (left > 2) {
         if (is_ear(cutter, i, looks > most_looks ? EAR_ANY : demand, &looks)) {
-            *triangles++ = cutter->previous[i];
+            *triangles++ = cutter->corners[i].previous;
             *triangles++ = i;
-            *triangles++ = cutter->next[i];
+            *triangles++ = cutter->corners[i].next;
             unlink_corner(cutter, i);
             left--;
             tried = 0;
@@ -178,7 +297,7 @@ static void cut_ears(polygon_cutter *cutter, uint32_t count, uint32_t *triangles
             tried = 0;
             demand++;
         }
-        i = cutter->next[i]; /* that of a corner just cut off is still there */
+        i = cutter->corners[i].next; /* that of a corner just cut off is still there */
     }
 }
 
@@ -201,17 +320,17 @@ ffd_status ffd_polygon_cut(polygon_cutter *cutter, const double *points, size_t 
         }
         return FFD_OK;
     }
-    link_corners(cutter, (uint32_t)count);
-    cut_ears(cutter, (uint32_t)count, triangles);
-    return FFD_OK;
+    const ffd_status status = link_corners(cutter, (uint32_t)count, error);
+    if (!status)
+        cut_ears(cutter, (uint32_t)count, triangles);
+    return status;
 }
 
 void ffd_polygon_cutter_free(polygon_cutter *cutter)
 {
     ffd_free(cutter->plane);
-    ffd_free(cutter->previous);
-    ffd_free(cutter->next);
-    ffd_free(cutter->reflex);
-    ffd_free(cutter->reflex_slot);
+    ffd_free(cutter->corners);
+    ffd_free(cutter->order);
+    ffd_free(cutter->nodes);
     *cutter = (polygon_cutter){0};
 }

@@ -340,6 +340,8 @@ m("triangles-are-polygons", "bound", "model, cli_convert", "faces->corner_count 
 m("colours-as-bytes", "tolerance", "model, cli_convert", "#define BYTE_TOLERANCE 2e-4", "#define BYTE_TOLERANCE 2e-1")
 m("fine-positions", "tolerance", "model, cli_convert", "#define FLOAT_TOLERANCE 0x1p-17",
   "#define FLOAT_TOLERANCE 0x1p-9")
+m("boxes-cleared-from-the-near-side", "bound", "polygon_cut", "const double y = dx > 0 ? node->high[1] : node->low[1]", "const double y = dx > 0 ? node->low[1] : node->high[1]")
+m("all-corners-looked-at", "speed", "polygon_cut", "cutter->has_boxes = !is_plain;", "cutter->has_boxes = false;")
 m("polygon-seen-from-below", "sign", "polygon_cut, cli_convert", "(axis + (normal[axis] < 0 ? 2 : 1)) % 3",
   "(axis + (normal[axis] > 0 ? 2 : 1)) % 3")
 m("reflex-angle", "operation", "normals, cli_normals", "ffd_arc_tangent(0, -1) * 2 - angle : angle;",

@@ -237,16 +237,50 @@ static void tangles_end_soon(void **state)
     free(triangles);
 }
 
+/* More teeth than all of them could be compared with each other for. */
+static void a_comb_of_many_teeth_is_covered_once(void **state)
+{
+    (void)state;
+    const size_t count = (size_t)repetitions(40000);
+    double(*comb)[2] = calloc(count, sizeof *comb), sum = 0;
+    double *points = calloc(count, 3 * sizeof *points);
+    uint32_t *triangles = calloc(count, 3 * sizeof *triangles);
+    polygon_cutter cutter = {0};
+    for (size_t i = 0; i + 2 < count; i++) {
+        comb[i][0] = (double)(count - i);
+        comb[i][1] = i % 2 ? 11 : 1;
+    }
+    comb[count - 1][0] = (double)count;
+    for (size_t i = 0; i < 2 * count; i++)
+        points[3 * (i / 2) + i % 2] = comb[i / 2][i % 2];
+    assert_int_equal(ffd_polygon_cut(&cutter, points, count, triangles, NULL), FFD_OK);
+    for (size_t t = 0; t + 2 < count; t++) {
+        const double own =
+            area_of(comb[triangles[3 * t]], comb[triangles[3 * t + 1]], comb[triangles[3 * t + 2]]);
+        assert_true(own >= 0);
+        sum += own;
+    }
+    assert_true(fabs(sum - outline_area((const double(*)[2])comb, count)) <= 1e-9 * sum);
+    ffd_polygon_cutter_free(&cutter);
+    free(comb);
+    free(points);
+    free(triangles);
+}
+
 static void memory_may_run_out(void **state)
 {
     (void)state;
-    const double dart[12] = {0, 0, 0, 4, 0, 1, 1, 1, 3, 0, 4, 1};
-    uint32_t triangles[6];
+    double star[3 * 20] = {0};
+    uint32_t triangles[3 * 18];
+    for (int i = 0; i < 20; i++) {
+        star[3 * i] = (i % 2 + 1) * cos(0.3 * i);
+        star[3 * i + 1] = (i % 2 + 1) * sin(0.3 * i);
+    }
     for (long successes = 0; successes < 5; successes++) {
         polygon_cutter cutter = {0};
         ffd_error error = {0};
         ffd_alloc_fail_after(successes);
-        const ffd_status status = ffd_polygon_cut(&cutter, dart, 4, triangles, &error);
+        const ffd_status status = ffd_polygon_cut(&cutter, star, 20, triangles, &error);
         ffd_alloc_fail_after(-1);
         ffd_polygon_cutter_free(&cutter);
         assert_int_equal(status, FFD_E_MEMORY);
@@ -265,6 +299,7 @@ int main(void)
         cmocka_unit_test(bent_quads_are_cut),
         cmocka_unit_test(degenerate_polygons_end),
         cmocka_unit_test(tangles_end_soon),
+        cmocka_unit_test(a_comb_of_many_teeth_is_covered_once),
         cmocka_unit_test(memory_may_run_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
