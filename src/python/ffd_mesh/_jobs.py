@@ -41,7 +41,8 @@ class Result:
 
     def __init__(self, found: Any, warnings: list[str]) -> None:
         for name, kind in found._fields_:
-            if name not in ("struct_size", "status", "error", "picture") and not name.startswith("morph"):
+            if name not in ("struct_size", "status", "error", "picture") and not name.startswith("morph") \
+                    and not name.endswith("_room"):
                 self.__dict__[name] = _plain(getattr(found, name))
         words = [word.removeprefix("point_") for word in library.WORDS["ffd_vertex_status"]]
         self.counts = dict(zip(words, found.counts))
