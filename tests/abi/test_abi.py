@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Programs that were built with the headers of this ABI run with the library of today (data/abi.md).
+"""Programs that were built with the headers of this ABI run with the library of today (data/promises.md).
 
     test_abi.py ABI LIBRARY       compares include/ffd with what was kept, and what was kept with the library's symbols
     test_abi.py --keep ABI        keeps include/ffd as it is now: for a new ABI, or one that was not released yet
@@ -110,17 +110,26 @@ def layout(text, of, folder, name):
     return run(program).splitlines() if built.returncode == 0 else [f"a member is gone: {built.stderr[:500]}"]
 
 
-def changes(kept, text):
-    """What a program built with `kept` cannot take of the headers `text`: lines; none where all that is new is an addition."""
-    with tempfile.TemporaryDirectory() as folder:
+class Kept:
+    """The kept headers, compiled once."""
+
+    def __init__(self, text, folder):
+        self.text, self.folder = text, folder
+        self.library, self.layout = stub(text, folder, "kept"), layout(text, text, folder, "kept")
+
+    def changes(self, text, name="now"):
+        """What a program built with them cannot take of the headers `text`: lines; none where all that is new is an addition."""
         try:
-            libraries = stub(kept, folder, "kept"), stub(as_kept(text, kept), folder, "now")
+            library = stub(as_kept(text, self.text), self.folder, name)
         except subprocess.CalledProcessError as failed:
             return [f"the headers do not compile: {failed.stderr[:500]}"]
-        done = subprocess.run(["abidiff", "--no-added-syms", "--no-corpus-path", *libraries], capture_output=True, text=True, check=False)
+        done = subprocess.run(["abidiff", "--no-added-syms", "--no-corpus-path", self.library, library],
+                              capture_output=True, text=True, check=False)
         found = [] if done.returncode == 0 else [line for line in done.stdout.splitlines() if line.strip()]
-        was, now = (layout(headers, kept, folder, name) for headers, name in ((kept, "kept"), (text, "now")))
-        return found + ([f"{b}, was {a}" for a, b in zip(was, now) if a != b] if len(was) == len(now) else now)
+        if found:
+            return found
+        now = layout(text, self.text, self.folder, name)
+        return [f"{b}, was {a}" for a, b in zip(self.layout, now) if a != b] if len(now) == len(self.layout) else now
 
 
 def symbols(kept, library, abi):
@@ -151,10 +160,10 @@ CASES = {
 def judged(kept, case):
     """What is wrong with the verdict on one change."""
     pattern, by, is_addition = CASES[case]
-    text, count = re.subn(pattern, by, kept)
+    text, count = re.subn(pattern, by, kept.text)
     if count != 1:
         return [f"{case}: changed in {count} places"]
-    found = changes(kept, text)
+    found = kept.changes(text, re.sub(r"\W", "-", case))
     return [] if bool(found) != is_addition else [f"{case}: taken for {'a change: ' + found[0] if found else 'an addition'}"]
 
 
@@ -169,14 +178,16 @@ def main():
     except FileNotFoundError:
         skip("abidiff is not there")
     with open(os.path.join(HERE, f"ffd-{abi}.h"), encoding="ascii") as file:
-        kept = file.read()
-    findings = symbols(kept, library, abi) + changes(kept, public_headers())
-    if findings:
-        findings.append(f"programs of ABI {abi} would break: give it another number (data/abi.md), or, before its release, test_abi.py --keep")
-    with ThreadPoolExecutor(2) as pool:
+        text = file.read()
+    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(2) as pool:
+        kept = Kept(text, folder)
+        findings = symbols(text, library, abi) + kept.changes(public_headers())
+        if findings:
+            findings.append(f"programs of ABI {abi} would break: it needs another number (data/promises.md), or, if it was not "
+                            "released yet, test_abi.py --keep")
         for found in pool.map(lambda case: judged(kept, case), CASES):
             findings += found
-    finish(len(functions(kept)) + len(CASES), "functions and changes", findings)
+    finish(len(functions(text)) + len(CASES), "functions and changes", findings)
 
 
 main()
