@@ -200,6 +200,12 @@ typedef void (*ffd_log_function)(void *user, ffd_log_level level, const char *li
  void ffd_cleanup_on_signals(void);
  void ffd_guard_inputs(void);
  ffd_status ffd_restore_output(const char *path, ffd_error *error);
+typedef struct ffd_bytes {
+    const void *data;
+    size_t size;
+} ffd_bytes;
+typedef ffd_status (*ffd_resolve_function)(void *user, const char *name, ffd_bytes *bytes);
+typedef ffd_status (*ffd_sink_function)(void *user, const char *name, const void *bytes, size_t size);
 typedef struct ffd_source {
     const char *path;
     ffd_format format;
@@ -210,6 +216,9 @@ typedef struct ffd_source {
     bool strict;
     const char *const *allow_extensions;
     size_t allow_extension_count;
+    ffd_bytes bytes;
+    ffd_resolve_function resolve;
+    void *resolve_user;
 } ffd_source;
 typedef struct ffd_flaw {
     char message[256];
@@ -275,6 +284,11 @@ typedef struct ffd_deform_desc {
     ffd_depfile *depfile;
     ffd_log_function log;
     void *log_user;
+    const ffd_lattice *const *lattice_objects;
+    const ffd_bytes *lattice_texts;
+    ffd_bytes embedding_bytes;
+    ffd_sink_function sink;
+    void *sink_user;
 } ffd_deform_desc;
  void ffd_deform_desc_init(ffd_deform_desc *desc, size_t size);
  ffd_status ffd_shared_box_add(ffd_shared_box *box, const ffd_deform_desc *desc, ffd_error *error);
@@ -393,6 +407,8 @@ typedef struct ffd_view_desc {
     uint32_t frames;
     const char *animation;
     bool as_stored;
+    ffd_sink_function sink;
+    void *sink_user;
 } ffd_view_desc;
  void ffd_view_desc_init(ffd_view_desc *desc, size_t size);
  ffd_status ffd_view_run(const ffd_view_desc *desc, ffd_job_result *result, ffd_error *error);
@@ -410,6 +426,10 @@ typedef struct ffd_embed_desc {
     void *log_user;
     const ffd_setting *set;
     size_t set_count;
+    const ffd_lattice *lattice_object;
+    ffd_bytes lattice_text;
+    ffd_sink_function sink;
+    void *sink_user;
 } ffd_embed_desc;
  void ffd_embed_desc_init(ffd_embed_desc *desc, size_t size);
  ffd_status ffd_embed_run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_error *error);
@@ -483,12 +503,16 @@ typedef struct ffd_lattice_new_desc {
     bool force;
     ffd_log_function log;
     void *log_user;
+    ffd_sink_function sink;
+    void *sink_user;
 } ffd_lattice_new_desc;
  void ffd_lattice_new_desc_init(ffd_lattice_new_desc *desc, size_t size);
  ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *desc, ffd_error *error);
 typedef struct ffd_report ffd_report;
  ffd_status ffd_report_create(const char *path, bool stable, ffd_written *written, ffd_report **report,
                                      ffd_error *error);
+ ffd_status ffd_report_create_sink(const char *name, bool stable, ffd_sink_function sink, void *user,
+                                          ffd_report **report, ffd_error *error);
  void ffd_report_destroy(ffd_report **report);
  ffd_status ffd_report_add(ffd_report *report, const char *input, const char *output,
                                   const ffd_job_result *result, ffd_error *error);
