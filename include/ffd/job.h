@@ -125,6 +125,7 @@ typedef struct ffd_source {
     ffd_bytes bytes;              /* the mesh itself; no file is read then, not even one that it names: */
     ffd_resolve_function resolve; /* finds these; NULL: there are none. Only with bytes. */
     void *resolve_user;
+    uint64_t source_room[4]; /* 0; for later versions */
 } ffd_source;
 
 /* What a mesh file has against the specification of its format, where its meaning is plain: viewers open the

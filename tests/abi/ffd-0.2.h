@@ -1,3 +1,4 @@
+/* ffd-0.2.h - the public headers that programs of this ABI were built with (test_abi.py --keep). */
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -21,8 +22,8 @@ typedef struct ffd_error {
     char pointer[256];
     char message[512];
 } ffd_error;
- size_t ffd_error_format(const ffd_error *error, char *text, size_t capacity);
- int ffd_status_exit_code(ffd_status status);
+size_t ffd_error_format(const ffd_error *error, char *text, size_t capacity);
+int ffd_status_exit_code(ffd_status status);
 typedef struct ffd_lattice ffd_lattice;
 typedef enum ffd_volume { FFD_VOLUME_REST = 0, FFD_VOLUME_DEFORMED = 1 } ffd_volume;
 typedef enum ffd_knots {
@@ -45,17 +46,17 @@ typedef struct ffd_lattice_desc {
     double axis[3];
     bool principal;
 } ffd_lattice_desc;
- void ffd_lattice_desc_init(ffd_lattice_desc *desc, size_t size);
- ffd_status ffd_lattice_load(const char *path, ffd_lattice **lattice, ffd_error *error);
+void ffd_lattice_desc_init(ffd_lattice_desc *desc, size_t size);
+ffd_status ffd_lattice_load(const char *path, ffd_lattice **lattice, ffd_error *error);
 typedef struct ffd_setting {
     const char *name, *value;
 } ffd_setting;
- ffd_status ffd_lattice_load_set(const char *path, const ffd_setting *values, size_t count, bool *used,
-                                        ffd_lattice **lattice, ffd_error *error);
- ffd_status ffd_lattice_load_rest(const char *path, const ffd_setting *values, size_t count,
-                                         bool *used, ffd_lattice **lattice, ffd_error *error);
- ffd_status ffd_lattice_parse(const char *text, size_t size, const char *name, ffd_lattice **lattice,
-                                     ffd_error *error);
+ffd_status ffd_lattice_load_set(const char *path, const ffd_setting *values, size_t count, bool *used,
+                                ffd_lattice **lattice, ffd_error *error);
+ffd_status ffd_lattice_load_rest(const char *path, const ffd_setting *values, size_t count, bool *used,
+                                 ffd_lattice **lattice, ffd_error *error);
+ffd_status ffd_lattice_parse(const char *text, size_t size, const char *name, ffd_lattice **lattice,
+                             ffd_error *error);
 typedef struct ffd_parameter {
     size_t struct_size;
     const char *name;
@@ -64,10 +65,10 @@ typedef struct ffd_parameter {
     double min, max;
 } ffd_parameter;
 typedef bool (*ffd_parameter_function)(void *user, const ffd_parameter *parameter);
- ffd_status ffd_lattice_list_parameters(const char *text, size_t size, const char *name,
-                                               ffd_parameter_function function, void *user, ffd_error *error);
- ffd_status ffd_lattice_create(const ffd_lattice_desc *desc, const double *xyz, size_t count,
-                                      ffd_lattice **lattice, ffd_error *error);
+ffd_status ffd_lattice_list_parameters(const char *text, size_t size, const char *name,
+                                       ffd_parameter_function function, void *user, ffd_error *error);
+ffd_status ffd_lattice_create(const ffd_lattice_desc *desc, const double *xyz, size_t count,
+                              ffd_lattice **lattice, ffd_error *error);
 typedef struct ffd_lattice_arrays {
     size_t struct_size;
     size_t size[3];
@@ -80,41 +81,36 @@ typedef struct ffd_lattice_arrays {
     double axes[9];
     const double *rest_weights;
 } ffd_lattice_arrays;
- void ffd_lattice_arrays_init(ffd_lattice_arrays *arrays, size_t size);
- ffd_status ffd_lattice_from_arrays(const ffd_lattice_arrays *arrays, ffd_lattice **lattice,
-                                           ffd_error *error);
- ffd_status ffd_lattice_copy(const ffd_lattice *lattice, ffd_lattice **copy, ffd_error *error);
- ffd_status ffd_lattice_set_points(ffd_lattice *lattice, const size_t *index, size_t count,
-                                          const double *xyz, ffd_error *error);
- ffd_status ffd_lattice_set_offsets(ffd_lattice *lattice, const size_t *index, size_t count,
-                                           const double *xyz, ffd_error *error);
- ffd_status ffd_lattice_set_weights(ffd_lattice *lattice, const size_t *index, size_t count,
-                                           const double *weights, ffd_error *error);
- const double *ffd_lattice_get_offsets(const ffd_lattice *lattice);
- size_t ffd_lattice_get_knots(const ffd_lattice *lattice, int direction, const double **knots);
- ffd_status ffd_lattice_text(const ffd_lattice *lattice, char **text, size_t *size, ffd_error *error);
- void ffd_free(void *block);
- ffd_status ffd_lattice_save(const ffd_lattice *lattice, const char *path, bool force,
-                                    ffd_error *error);
- bool ffd_lattice_needs_bounds(const ffd_lattice *lattice);
- size_t ffd_lattice_get_mesh_count(const ffd_lattice *lattice);
- ffd_status ffd_lattice_get_mesh(const ffd_lattice *lattice, size_t i, char **path, ffd_error *error);
- ffd_status ffd_lattice_fit(ffd_lattice *lattice, const double min[3], const double max[3],
+void ffd_lattice_arrays_init(ffd_lattice_arrays *arrays, size_t size);
+ffd_status ffd_lattice_from_arrays(const ffd_lattice_arrays *arrays, ffd_lattice **lattice, ffd_error *error);
+ffd_status ffd_lattice_copy(const ffd_lattice *lattice, ffd_lattice **copy, ffd_error *error);
+ffd_status ffd_lattice_set_points(ffd_lattice *lattice, const size_t *index, size_t count, const double *xyz,
+                                  ffd_error *error);
+ffd_status ffd_lattice_set_offsets(ffd_lattice *lattice, const size_t *index, size_t count, const double *xyz,
                                    ffd_error *error);
- void ffd_lattice_destroy(ffd_lattice **lattice);
- void ffd_lattice_get_size(const ffd_lattice *lattice, size_t size[3]);
- void ffd_lattice_get_degree(const ffd_lattice *lattice, int degree[3]);
- void ffd_lattice_get_domain(const ffd_lattice *lattice, double lo[3], double hi[3]);
- const double *ffd_lattice_get_points(const ffd_lattice *lattice, ffd_volume volume);
- const double *ffd_lattice_get_weights(const ffd_lattice *lattice, ffd_volume volume);
- void ffd_lattice_evaluate(const ffd_lattice *lattice, ffd_volume volume, const double uvw[3],
-                                  double point[3], double jacobian[9]);
- int ffd_displacement(const ffd_lattice *lattice, const double uvw[3], double delta[3],
-                             double gradient[9]);
- int ffd_deform_normal(const double gradient[9], const double normal[3], double result[3],
-                              int *collapsed);
- int ffd_deform_tangent(const double gradient[9], const double tangent[3], const double normal[3],
-                               double result[3], int *collapsed);
+ffd_status ffd_lattice_set_weights(ffd_lattice *lattice, const size_t *index, size_t count,
+                                   const double *weights, ffd_error *error);
+const double *ffd_lattice_get_offsets(const ffd_lattice *lattice);
+size_t ffd_lattice_get_knots(const ffd_lattice *lattice, int direction, const double **knots);
+ffd_status ffd_lattice_text(const ffd_lattice *lattice, char **text, size_t *size, ffd_error *error);
+void ffd_free(void *block);
+ffd_status ffd_lattice_save(const ffd_lattice *lattice, const char *path, bool force, ffd_error *error);
+bool ffd_lattice_needs_bounds(const ffd_lattice *lattice);
+size_t ffd_lattice_get_mesh_count(const ffd_lattice *lattice);
+ffd_status ffd_lattice_get_mesh(const ffd_lattice *lattice, size_t i, char **path, ffd_error *error);
+ffd_status ffd_lattice_fit(ffd_lattice *lattice, const double min[3], const double max[3], ffd_error *error);
+void ffd_lattice_destroy(ffd_lattice **lattice);
+void ffd_lattice_get_size(const ffd_lattice *lattice, size_t size[3]);
+void ffd_lattice_get_degree(const ffd_lattice *lattice, int degree[3]);
+void ffd_lattice_get_domain(const ffd_lattice *lattice, double lo[3], double hi[3]);
+const double *ffd_lattice_get_points(const ffd_lattice *lattice, ffd_volume volume);
+const double *ffd_lattice_get_weights(const ffd_lattice *lattice, ffd_volume volume);
+void ffd_lattice_evaluate(const ffd_lattice *lattice, ffd_volume volume, const double uvw[3], double point[3],
+                          double jacobian[9]);
+int ffd_displacement(const ffd_lattice *lattice, const double uvw[3], double delta[3], double gradient[9]);
+int ffd_deform_normal(const double gradient[9], const double normal[3], double result[3], int *collapsed);
+int ffd_deform_tangent(const double gradient[9], const double tangent[3], const double normal[3],
+                       double result[3], int *collapsed);
 typedef enum ffd_vertex_status {
     FFD_INSIDE = 0,
     FFD_OUTSIDE = 1,
@@ -132,17 +128,17 @@ typedef struct ffd_location {
     uint32_t evaluations;
     uint32_t leaves;
 } ffd_location;
- ffd_status ffd_locator_create(const ffd_lattice *lattice, ffd_locator **locator, ffd_error *error);
- void ffd_locator_destroy(ffd_locator **locator);
- const char *ffd_locator_get_method(const ffd_locator *locator);
+ffd_status ffd_locator_create(const ffd_lattice *lattice, ffd_locator **locator, ffd_error *error);
+void ffd_locator_destroy(ffd_locator **locator);
+const char *ffd_locator_get_method(const ffd_locator *locator);
 typedef struct ffd_border_allowance {
     size_t struct_size;
     const double *rounding;
     double snap;
 } ffd_border_allowance;
- ffd_status ffd_locator_locate(const ffd_locator *locator, const double *xyz, size_t count,
-                                      const ffd_border_allowance *allowance, ffd_location *locations,
-                                      size_t location_size, ffd_error *error);
+ffd_status ffd_locator_locate(const ffd_locator *locator, const double *xyz, size_t count,
+                              const ffd_border_allowance *allowance, ffd_location *locations,
+                              size_t location_size, ffd_error *error);
 typedef enum ffd_fold_verdict {
     FFD_FOLDS_NONE = 0,
     FFD_FOLDS_SOME = 1,
@@ -161,16 +157,9 @@ typedef struct ffd_folds {
     double witness_rest[3];
     double witness_det;
 } ffd_folds;
- ffd_status ffd_folds_find(const ffd_lattice *lattice, int threads, ffd_folds *folds,
-                                  ffd_error *error);
-typedef enum ffd_isa {
-    FFD_ISA_AUTO,
-    FFD_ISA_SCALAR,
-    FFD_ISA_SSE2,
-    FFD_ISA_AVX2,
-    FFD_ISA_AVX512
-} ffd_isa;
- bool ffd_isa_available(ffd_isa isa);
+ffd_status ffd_folds_find(const ffd_lattice *lattice, int threads, ffd_folds *folds, ffd_error *error);
+typedef enum ffd_isa { FFD_ISA_AUTO, FFD_ISA_SCALAR, FFD_ISA_SSE2, FFD_ISA_AVX2, FFD_ISA_AVX512 } ffd_isa;
+bool ffd_isa_available(ffd_isa isa);
 typedef enum ffd_format {
     FFD_FORMAT_AUTO = 0,
     FFD_FORMAT_OBJ,
@@ -180,7 +169,7 @@ typedef enum ffd_format {
     FFD_FORMAT_OFF,
     FFD_FORMAT_STL
 } ffd_format;
- ffd_format ffd_format_from_name(const char *name);
+ffd_format ffd_format_from_name(const char *name);
 typedef enum ffd_normals { FFD_NORMALS_TRANSFORM = 0, FFD_NORMALS_KEEP, FFD_NORMALS_RECOMPUTE } ffd_normals;
 typedef enum ffd_space { FFD_SPACE_SCENE = 0, FFD_SPACE_MESH } ffd_space;
 typedef enum ffd_rig { FFD_RIG_KEEP = 0, FFD_RIG_FOLLOW } ffd_rig;
@@ -197,9 +186,9 @@ typedef enum ffd_gate {
 } ffd_gate;
 typedef enum ffd_log_level { FFD_LOG_WARNING = 0, FFD_LOG_INFO, FFD_LOG_DETAIL } ffd_log_level;
 typedef void (*ffd_log_function)(void *user, ffd_log_level level, const char *line);
- void ffd_cleanup_on_signals(void);
- void ffd_guard_inputs(void);
- ffd_status ffd_restore_output(const char *path, ffd_error *error);
+void ffd_cleanup_on_signals(void);
+void ffd_guard_inputs(void);
+ffd_status ffd_restore_output(const char *path, ffd_error *error);
 typedef struct ffd_bytes {
     const void *data;
     size_t size;
@@ -219,6 +208,7 @@ typedef struct ffd_source {
     ffd_bytes bytes;
     ffd_resolve_function resolve;
     void *resolve_user;
+    uint64_t source_room[4];
 } ffd_source;
 typedef struct ffd_flaw {
     char message[256];
@@ -226,22 +216,22 @@ typedef struct ffd_flaw {
     uint64_t line;
     uint64_t count;
 } ffd_flaw;
- ffd_status ffd_selector_check(const char *text, ffd_error *error);
- ffd_status ffd_clip_check(const char *text, ffd_error *error);
+ffd_status ffd_selector_check(const char *text, ffd_error *error);
+ffd_status ffd_clip_check(const char *text, ffd_error *error);
 typedef struct ffd_written ffd_written;
- ffd_status ffd_written_create(ffd_written **written, ffd_error *error);
- void ffd_written_destroy(ffd_written **written);
+ffd_status ffd_written_create(ffd_written **written, ffd_error *error);
+void ffd_written_destroy(ffd_written **written);
 typedef struct ffd_share ffd_share;
- ffd_status ffd_share_create(ffd_share **share, ffd_error *error);
- ffd_status ffd_share_create_for_lattices(ffd_share **share, ffd_error *error);
- void ffd_share_destroy(ffd_share **share);
+ffd_status ffd_share_create(ffd_share **share, ffd_error *error);
+ffd_status ffd_share_create_for_lattices(ffd_share **share, ffd_error *error);
+void ffd_share_destroy(ffd_share **share);
 typedef struct ffd_shared_box ffd_shared_box;
- ffd_status ffd_shared_box_create(ffd_shared_box **box, ffd_error *error);
- void ffd_shared_box_destroy(ffd_shared_box **box);
+ffd_status ffd_shared_box_create(ffd_shared_box **box, ffd_error *error);
+void ffd_shared_box_destroy(ffd_shared_box **box);
 typedef struct ffd_depfile ffd_depfile;
- ffd_status ffd_depfile_create(const char *path, ffd_depfile **depfile, ffd_error *error);
- void ffd_depfile_destroy(ffd_depfile **depfile);
- ffd_status ffd_depfile_write(ffd_depfile *depfile, ffd_error *error);
+ffd_status ffd_depfile_create(const char *path, ffd_depfile **depfile, ffd_error *error);
+void ffd_depfile_destroy(ffd_depfile **depfile);
+ffd_status ffd_depfile_write(ffd_depfile *depfile, ffd_error *error);
 typedef struct ffd_deform_desc {
     size_t struct_size;
     ffd_source input;
@@ -290,8 +280,8 @@ typedef struct ffd_deform_desc {
     ffd_sink_function sink;
     void *sink_user;
 } ffd_deform_desc;
- void ffd_deform_desc_init(ffd_deform_desc *desc, size_t size);
- ffd_status ffd_shared_box_add(ffd_shared_box *box, const ffd_deform_desc *desc, ffd_error *error);
+void ffd_deform_desc_init(ffd_deform_desc *desc, size_t size);
+ffd_status ffd_shared_box_add(ffd_shared_box *box, const ffd_deform_desc *desc, ffd_error *error);
 typedef struct ffd_bounds {
     double min[3], max[3];
 } ffd_bounds;
@@ -335,8 +325,7 @@ typedef struct ffd_job_result {
     uint32_t evaluations_max;
     ffd_bounds before, after;
     double displacement_max, displacement_rms;
-    uint64_t
-        moved_twice;
+    uint64_t moved_twice;
     uint64_t disagreeing;
     double disagreement;
     uint64_t normals_collapsed;
@@ -357,12 +346,10 @@ typedef struct ffd_job_result {
     bool has_tear;
     uint64_t tear_edges;
     double tear_largest;
-    uint64_t
-        tear_vertex;
+    uint64_t tear_vertex;
     char tear_part[256];
     uint64_t tear_stays;
-    bool
-        tear_unselected;
+    bool tear_unselected;
     bool tear_between;
     bool tear_seam;
     bool tear_disagrees;
@@ -386,8 +373,8 @@ typedef struct ffd_job_result {
     const struct ffd_job_result *morph_results;
     double seconds_read, seconds_embed, seconds_deform, seconds_judge, seconds_write;
 } ffd_job_result;
- ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);
- ffd_status ffd_check_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);
+ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);
+ffd_status ffd_check_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);
 typedef enum ffd_view_color {
     FFD_VIEW_DISPLACEMENT = 0,
     FFD_VIEW_STATUS,
@@ -410,8 +397,8 @@ typedef struct ffd_view_desc {
     ffd_sink_function sink;
     void *sink_user;
 } ffd_view_desc;
- void ffd_view_desc_init(ffd_view_desc *desc, size_t size);
- ffd_status ffd_view_run(const ffd_view_desc *desc, ffd_job_result *result, ffd_error *error);
+void ffd_view_desc_init(ffd_view_desc *desc, size_t size);
+ffd_status ffd_view_run(const ffd_view_desc *desc, ffd_job_result *result, ffd_error *error);
 typedef struct ffd_embed_desc {
     size_t struct_size;
     ffd_source input;
@@ -431,8 +418,8 @@ typedef struct ffd_embed_desc {
     ffd_sink_function sink;
     void *sink_user;
 } ffd_embed_desc;
- void ffd_embed_desc_init(ffd_embed_desc *desc, size_t size);
- ffd_status ffd_embed_run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_error *error);
+void ffd_embed_desc_init(ffd_embed_desc *desc, size_t size);
+ffd_status ffd_embed_run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_error *error);
 typedef enum ffd_difference_kind {
     FFD_DIFFERENCE_POSITION = 0,
     FFD_DIFFERENCE_NORMAL,
@@ -442,7 +429,7 @@ typedef enum ffd_difference_kind {
     FFD_DIFFERENCE_OTHER,
     FFD_DIFFERENCE_KIND_COUNT
 } ffd_difference_kind;
- const char *ffd_difference_kind_name(ffd_difference_kind kind);
+const char *ffd_difference_kind_name(ffd_difference_kind kind);
 typedef struct ffd_difference {
     ffd_difference_kind kind;
     bool measured;
@@ -463,8 +450,7 @@ typedef struct ffd_comparison {
     double direction_difference_max;
     double tolerance;
     double direction_tolerance;
-    double
-        diagonal;
+    double diagonal;
 } ffd_comparison;
 typedef struct ffd_compare_desc {
     size_t struct_size;
@@ -475,11 +461,10 @@ typedef struct ffd_compare_desc {
     ffd_log_function log;
     void *log_user;
 } ffd_compare_desc;
- void ffd_compare_desc_init(ffd_compare_desc *desc, size_t size);
- ffd_status ffd_compare_run(const ffd_compare_desc *desc, ffd_comparison *comparison,
-                                   ffd_error *error);
- ffd_status ffd_comparison_json(const ffd_comparison *comparison, const char *a, const char *b,
-                                       char **text, ffd_error *error);
+void ffd_compare_desc_init(ffd_compare_desc *desc, size_t size);
+ffd_status ffd_compare_run(const ffd_compare_desc *desc, ffd_comparison *comparison, ffd_error *error);
+ffd_status ffd_comparison_json(const ffd_comparison *comparison, const char *a, const char *b, char **text,
+                               ffd_error *error);
 typedef struct ffd_info_desc {
     size_t struct_size;
     ffd_source file;
@@ -490,8 +475,8 @@ typedef struct ffd_info_desc {
     ffd_log_function log;
     void *log_user;
 } ffd_info_desc;
- void ffd_info_desc_init(ffd_info_desc *desc, size_t size);
- ffd_status ffd_info_run(const ffd_info_desc *desc, char **text, ffd_error *error);
+void ffd_info_desc_init(ffd_info_desc *desc, size_t size);
+ffd_status ffd_info_run(const ffd_info_desc *desc, char **text, ffd_error *error);
 typedef struct ffd_lattice_new_desc {
     size_t struct_size;
     const ffd_source *meshes;
@@ -506,25 +491,24 @@ typedef struct ffd_lattice_new_desc {
     ffd_sink_function sink;
     void *sink_user;
 } ffd_lattice_new_desc;
- void ffd_lattice_new_desc_init(ffd_lattice_new_desc *desc, size_t size);
- ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *desc, ffd_error *error);
+void ffd_lattice_new_desc_init(ffd_lattice_new_desc *desc, size_t size);
+ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *desc, ffd_error *error);
 typedef struct ffd_report ffd_report;
- ffd_status ffd_report_create(const char *path, bool stable, ffd_written *written, ffd_report **report,
-                                     ffd_error *error);
- ffd_status ffd_report_create_sink(const char *name, bool stable, ffd_sink_function sink, void *user,
-                                          ffd_report **report, ffd_error *error);
- void ffd_report_destroy(ffd_report **report);
- ffd_status ffd_report_add(ffd_report *report, const char *input, const char *output,
-                                  const ffd_job_result *result, ffd_error *error);
- ffd_status ffd_report_write(ffd_report *report, ffd_error *error);
- ffd_status ffd_report_merge_run(const char *const *reports, size_t count, bool interleave,
-                                        const char *output, bool force, ffd_error *error);
- void ffd_text_free(char *text);
+ffd_status ffd_report_create(const char *path, bool stable, ffd_written *written, ffd_report **report,
+                             ffd_error *error);
+ffd_status ffd_report_create_sink(const char *name, bool stable, ffd_sink_function sink, void *user,
+                                  ffd_report **report, ffd_error *error);
+void ffd_report_destroy(ffd_report **report);
+ffd_status ffd_report_add(ffd_report *report, const char *input, const char *output,
+                          const ffd_job_result *result, ffd_error *error);
+ffd_status ffd_report_write(ffd_report *report, ffd_error *error);
+ffd_status ffd_report_merge_run(const char *const *reports, size_t count, bool interleave, const char *output,
+                                bool force, ffd_error *error);
+void ffd_text_free(char *text);
 typedef enum ffd_jacobian_by { FFD_BY_POINTS = 0, FFD_BY_PARAMETERS } ffd_jacobian_by;
 typedef struct ffd_jacobian_desc {
     size_t struct_size;
-    const ffd_deform_desc
-        *job;
+    const ffd_deform_desc *job;
     const char *output;
     ffd_jacobian_by by;
     bool components;
@@ -532,15 +516,14 @@ typedef struct ffd_jacobian_desc {
     const char *times, *transposed;
     bool check;
 } ffd_jacobian_desc;
- void ffd_jacobian_desc_init(ffd_jacobian_desc *desc, size_t size);
+void ffd_jacobian_desc_init(ffd_jacobian_desc *desc, size_t size);
 typedef struct ffd_jacobian_result {
     size_t struct_size;
     uint64_t rows, columns, entries;
     uint64_t vertices, moving;
     double worst;
 } ffd_jacobian_result;
- ffd_status ffd_jacobian_run(const ffd_jacobian_desc *desc, ffd_jacobian_result *result,
-                                    ffd_error *error);
+ffd_status ffd_jacobian_run(const ffd_jacobian_desc *desc, ffd_jacobian_result *result, ffd_error *error);
 typedef enum ffd_number { FFD_FLOAT64 = 0, FFD_FLOAT32 } ffd_number;
 typedef struct ffd_span {
     void *data;
@@ -556,7 +539,7 @@ typedef struct ffd_run {
     bool (*progress)(void *user, double done);
     void *user;
 } ffd_run;
- void ffd_run_init(ffd_run *run, size_t size);
+void ffd_run_init(ffd_run *run, size_t size);
 typedef struct ffd_embedding_desc {
     size_t struct_size;
     const ffd_lattice *lattice;
@@ -565,48 +548,43 @@ typedef struct ffd_embedding_desc {
     double falloff;
     double snap;
 } ffd_embedding_desc;
- void ffd_embedding_desc_init(ffd_embedding_desc *desc, size_t size);
+void ffd_embedding_desc_init(ffd_embedding_desc *desc, size_t size);
 typedef struct ffd_embedding ffd_embedding;
- ffd_status ffd_embedding_create(const ffd_embedding_desc *desc, const ffd_run *run,
-                                        ffd_embedding **embedding, ffd_error *error);
- void ffd_embedding_destroy(ffd_embedding **embedding);
- size_t ffd_embedding_get_count(const ffd_embedding *embedding);
- const double *ffd_embedding_get_uvw(const ffd_embedding *embedding);
- const uint8_t *ffd_embedding_get_status(const ffd_embedding *embedding);
- ffd_status ffd_embedding_deform(const ffd_embedding *embedding, const ffd_lattice *moved, ffd_span in,
-                                        ffd_span out, double *gradients, const ffd_run *run,
-                                        ffd_error *error);
- ffd_status ffd_embedding_deform_some(const ffd_embedding *embedding, const ffd_lattice *moved,
-                                             const uint32_t *vertices, size_t count, ffd_span in,
-                                             ffd_span out, double *gradients, const ffd_run *run,
-                                             ffd_error *error);
- ffd_status ffd_embedding_affected(const ffd_embedding *embedding, const size_t *control_points,
-                                          size_t count, uint32_t **vertices, size_t *vertex_count,
-                                          ffd_error *error);
+ffd_status ffd_embedding_create(const ffd_embedding_desc *desc, const ffd_run *run, ffd_embedding **embedding,
+                                ffd_error *error);
+void ffd_embedding_destroy(ffd_embedding **embedding);
+size_t ffd_embedding_get_count(const ffd_embedding *embedding);
+const double *ffd_embedding_get_uvw(const ffd_embedding *embedding);
+const uint8_t *ffd_embedding_get_status(const ffd_embedding *embedding);
+ffd_status ffd_embedding_deform(const ffd_embedding *embedding, const ffd_lattice *moved, ffd_span in,
+                                ffd_span out, double *gradients, const ffd_run *run, ffd_error *error);
+ffd_status ffd_embedding_deform_some(const ffd_embedding *embedding, const ffd_lattice *moved,
+                                     const uint32_t *vertices, size_t count, ffd_span in, ffd_span out,
+                                     double *gradients, const ffd_run *run, ffd_error *error);
+ffd_status ffd_embedding_affected(const ffd_embedding *embedding, const size_t *control_points, size_t count,
+                                  uint32_t **vertices, size_t *vertex_count, ffd_error *error);
 typedef struct ffd_csr {
     size_t rows, columns;
     size_t *starts;
     uint32_t *indices;
     double *values;
 } ffd_csr;
- ffd_status ffd_embedding_basis(const ffd_embedding *embedding, const double *weights, ffd_csr *matrix,
-                                       const ffd_run *run, ffd_error *error);
- void ffd_csr_free(ffd_csr *matrix);
- ffd_status ffd_embedding_basis_times(const ffd_embedding *embedding, const double *weights,
-                                             const double *dq, double *dx, const ffd_run *run,
-                                             ffd_error *error);
- ffd_status ffd_embedding_basis_transposed(const ffd_embedding *embedding, const double *weights,
-                                                  const double *dfdx, double *dfdq, const ffd_run *run,
-                                                  ffd_error *error);
- ffd_status ffd_embedding_save(const ffd_embedding *embedding, void **bytes, size_t *size,
-                                      ffd_error *error);
- ffd_status ffd_embedding_load(const void *bytes, size_t size, const ffd_lattice *lattice,
-                                      ffd_embedding **embedding, ffd_error *error);
- ffd_status ffd_normals_deform(const double *gradients, ffd_span in, ffd_span out, size_t *collapsed,
-                                      const ffd_run *run, ffd_error *error);
- ffd_status ffd_tangents_deform(const double *gradients, ffd_span normals, ffd_span in, ffd_span out,
-                                       size_t *collapsed, const ffd_run *run, ffd_error *error);
- ffd_status ffd_lattice_evaluate_many(const ffd_lattice *lattice, ffd_volume volume, const double *uvw,
-                                             size_t count, double *xyz, double *jacobians, const ffd_run *run,
-                                             ffd_error *error);
- const char *ffd_version(void);
+ffd_status ffd_embedding_basis(const ffd_embedding *embedding, const double *weights, ffd_csr *matrix,
+                               const ffd_run *run, ffd_error *error);
+void ffd_csr_free(ffd_csr *matrix);
+ffd_status ffd_embedding_basis_times(const ffd_embedding *embedding, const double *weights, const double *dq,
+                                     double *dx, const ffd_run *run, ffd_error *error);
+ffd_status ffd_embedding_basis_transposed(const ffd_embedding *embedding, const double *weights,
+                                          const double *dfdx, double *dfdq, const ffd_run *run,
+                                          ffd_error *error);
+ffd_status ffd_embedding_save(const ffd_embedding *embedding, void **bytes, size_t *size, ffd_error *error);
+ffd_status ffd_embedding_load(const void *bytes, size_t size, const ffd_lattice *lattice,
+                              ffd_embedding **embedding, ffd_error *error);
+ffd_status ffd_normals_deform(const double *gradients, ffd_span in, ffd_span out, size_t *collapsed,
+                              const ffd_run *run, ffd_error *error);
+ffd_status ffd_tangents_deform(const double *gradients, ffd_span normals, ffd_span in, ffd_span out,
+                               size_t *collapsed, const ffd_run *run, ffd_error *error);
+ffd_status ffd_lattice_evaluate_many(const ffd_lattice *lattice, ffd_volume volume, const double *uvw,
+                                     size_t count, double *xyz, double *jacobians, const ffd_run *run,
+                                     ffd_error *error);
+const char *ffd_version(void);

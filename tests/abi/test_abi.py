@@ -169,8 +169,11 @@ def judged(kept, case):
 
 def main():
     if sys.argv[1] == "--keep":
-        with open(os.path.join(HERE, f"ffd-{sys.argv[2]}.h"), "w", encoding="ascii") as file:
+        path = os.path.join(HERE, f"ffd-{sys.argv[2]}.h")
+        with open(path, "w", encoding="ascii") as file:
+            file.write(f"/* {os.path.basename(path)} - the public headers that programs of this ABI were built with (test_abi.py --keep). */\n")
             file.write(public_headers())
+        run("clang-format", "-i", path)
         return
     abi, library = sys.argv[1:]
     try:
