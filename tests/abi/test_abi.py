@@ -39,7 +39,7 @@ def public_headers():
 
 def statements(text):
     """Declarations, each without its semicolon."""
-    text, depth, begin = re.sub(r"^#.*$", "", text, flags=re.M), 0, 0
+    text, depth, begin = re.sub(r"^#.*$|/\*.*?\*/", "", text, flags=re.M), 0, 0
     for match in re.finditer(r"[{};]", text):
         depth += {"{": 1, "}": -1, ";": 0}[match[0]]
         if match[0] == ";" and not depth:
