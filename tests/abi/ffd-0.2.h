@@ -306,6 +306,7 @@ typedef struct ffd_rig_result {
     uint64_t sheared;
     uint64_t singular;
     uint64_t partial;
+    uint64_t unscaled;
     double largest_lag;
     char worst[80];
     uint64_t lagging_skins, lagging_pivots, lagging_sockets;
