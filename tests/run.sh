@@ -3,7 +3,7 @@
 #     sh tests/run.sh                 the gcc build, every quick suite (all but slow, soak, python and packages)
 #     sh tests/run.sh --suite NAME    the gcc build, one suite (unit property oracle fuzz golden cli rules python packages bench
 #                                     slow)
-#                                     or one tag (threads compilers text)
+#                                     or one tag (threads compilers text), or peers (other packages; fetches 280 MB)
 #     sh tests/run.sh --all           and: slow suites, release, clang with sanitizers, valgrind, fuzzing, the demo, the wraps
 #     sh tests/run.sh --soak          the gcc build, what takes hours, with other random numbers every time
 #     --keep                          keeps the build folders of the stages that only --all has
@@ -40,7 +40,10 @@ root=$(cd "$(dirname "$0")/.." && pwd) || exit 1
 work=$root/.build-test
 logs=$work/logs
 mkdir -p "$logs" || exit 1
-sh "$root/.ci/setup" test || exit 1
+case "$suite$soak" in
+peers | 1) sh "$root/.ci/setup" peers || exit 1 ;;
+*) sh "$root/.ci/setup" test || exit 1 ;;
+esac
 
 if [ -z "${FFD_MODELS-}" ] && [ -d "$root/../shared/models" ]; then
     FFD_MODELS=$(cd "$root/../shared/models" && pwd)
@@ -236,7 +239,9 @@ step node npm install_node_packages
 
 # Debug information tells lines only: a trace needs no more.
 if build gcc '' gcc g++ -Dbuildtype=debugoptimized -Dc_args=-g1 -Dcpp_args=-g1; then
-    if [ -n "$suite" ]; then
+    if [ "$suite" = peers ]; then
+        suites gcc gcc --suite peers
+    elif [ -n "$suite" ]; then
         suites gcc gcc --suite "$suite" --no-suite soak
     elif [ -n "$all" ]; then
         ahead release

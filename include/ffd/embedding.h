@@ -56,30 +56,30 @@ FFD_API void ffd_locator_destroy(ffd_locator **locator);
 /* Which way is used: "affine", "separable" or "general". A constant string. */
 FFD_API const char *ffd_locator_get_method(const ffd_locator *locator);
 
-/* Finds u,v,w for count points (xyz: 3*count doubles, world units); fills count locations. A result depends
-   on its point and the lattice only, to the bit. No point is called inside with a residual, in any coordinate
-   a, above 16 eps (max|P_a| + |p_a|) and what the rounding of u,v,w moves C_a by. Thread-safe; no
-   allocation outlives the call. Errors: FFD_E_MEMORY (locations are then not filled). */
-FFD_API ffd_status ffd_locator_find(const ffd_locator *locator, const double *xyz, size_t count,
-                                    ffd_location *locations, ffd_error *error);
-
 /* By how much points may miss the volume and still be inside, at the nearest point of its border. */
 typedef struct ffd_border_allowance {
+    size_t struct_size;     /* sizeof(ffd_border_allowance) of the caller */
     const double *rounding; /* 3*count doubles >= 0, world units: in each coordinate, such as half an ulp of
                                the number in the file, carried to the world. NULL: none. */
     double snap;            /* a Euclidean distance, world units; 0: none */
 } ffd_border_allowance;
 
-/* ffd_locator_find for points that are known up to an allowance (NULL: none). One that ffd_locator_find calls
-   outside is inside when a point of the border misses it by no more than its tolerance and its rounding in
-   each coordinate, or is no farther than snap: u,v,w and residual are then those of the border's nearest
-   point. It is singular and unresolved, without u,v,w, when the search of the border ended before it was
-   shown that there is none. Nothing else changes, to the bit. Rounding up to 1/16 of the tolerance counts as
-   part of it.
- */
-FFD_API ffd_status ffd_locator_find_near(const ffd_locator *locator, const double *xyz, size_t count,
-                                         const ffd_border_allowance *allowance, ffd_location *locations,
-                                         ffd_error *error);
+/* Finds u,v,w for count points (xyz: 3*count doubles, world units); fills count locations, of which the
+   caller knows location_size bytes each (sizeof(ffd_location)): they have no size of their own, for there are
+   many. A result depends on its point and the lattice only, to the bit. No point is called inside with a
+   residual, in any coordinate a, above 16 eps (max|P_a| + |p_a|) and what the rounding of u,v,w moves C_a by.
+
+   allowance: NULL, or for points that are known up to it. One that would be outside without is inside when a
+   point of the border misses it by no more than its tolerance and its rounding in each coordinate, or is no
+   farther than snap: u,v,w and residual are then those of the border's nearest point. It is singular and
+   unresolved, without u,v,w, when the search of the border ended before it was shown that there is none.
+   Nothing else changes, to the bit. Rounding up to 1/16 of the tolerance counts as part of it.
+
+   Thread-safe; no allocation outlives the call. Errors: FFD_E_ARGUMENT (sizes), FFD_E_MEMORY, FFD_E_LIMIT
+   (locations are then not all filled). */
+FFD_API ffd_status ffd_locator_locate(const ffd_locator *locator, const double *xyz, size_t count,
+                                      const ffd_border_allowance *allowance, ffd_location *locations,
+                                      size_t location_size, ffd_error *error);
 
 #ifdef __cplusplus
 }

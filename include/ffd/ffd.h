@@ -4,7 +4,8 @@
    from their _init(&desc, sizeof desc), results from their caller (result.struct_size = sizeof result). A
    smaller size than the library's is taken: members that the caller does not have keep their defaults, and
    nothing is written behind the others. A larger one is refused (FFD_E_ARGUMENT): the library is older than
-   the header. All other structs keep their size for good. */
+   the header. Structs that callers have arrays of, and those within others, keep their size, or grow into the
+   room that follows them. data/promises.md says what is promised of versions. */
 #ifndef FFD_FFD_H
 #define FFD_FFD_H
 

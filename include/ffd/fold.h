@@ -6,6 +6,7 @@
 #include <ffd/export.h>
 #include <ffd/lattice.h>
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #ifdef __cplusplus
@@ -18,7 +19,9 @@ typedef enum ffd_fold_verdict {
     FFD_FOLDS_UNKNOWN = 2 /* neither could be shown within the depth and the boxes allowed */
 } ffd_fold_verdict;
 
+/* What is known of a lattice's folds. Set struct_size to sizeof(ffd_folds) before the call. */
 typedef struct ffd_folds {
+    size_t struct_size;
     ffd_fold_verdict verdict;
     uint64_t cells;         /* span cells of the lattice */
     uint64_t folded_cells;  /* that hold a u,v,w with det J_Q <= 0 (sign of the rest volume) */
@@ -55,7 +58,7 @@ typedef struct ffd_folds {
    past a full turn).
 
    lattice must not need bounds. threads: 0 for all; never changes the result. Thread-safe. Errors:
-   FFD_E_ARGUMENT (the lattice still needs bounds), FFD_E_MEMORY. */
+   FFD_E_ARGUMENT (the lattice still needs bounds, a size), FFD_E_MEMORY. */
 FFD_API ffd_status ffd_folds_find(const ffd_lattice *lattice, int threads, ffd_folds *folds,
                                   ffd_error *error);
 

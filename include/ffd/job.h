@@ -125,6 +125,7 @@ typedef struct ffd_source {
     ffd_bytes bytes;              /* the mesh itself; no file is read then, not even one that it names: */
     ffd_resolve_function resolve; /* finds these; NULL: there are none. Only with bytes. */
     void *resolve_user;
+    uint64_t source_room[4]; /* 0; for later versions */
 } ffd_source;
 
 /* What a mesh file has against the specification of its format, where its meaning is plain: viewers open the
@@ -362,10 +363,11 @@ typedef struct ffd_job_result {
     double weights_farthest;      /* that such a sum is from 1 */
     uint64_t weights_none;        /* vertices without skin weights, which follow their first joint */
     bool has_folds;               /* the proof ran: for check, quality and FFD_GATE_FOLDS */
-    ffd_folds folds;      /* of all lattices: the worst verdict (some, unknown, none), sums of cells, the
-                             least min_det, the witness of the first lattice that has one */
-    size_t folds_lattice; /* number of the witness' lattice, from 0 */
-    bool has_flipped;     /* for check and quality */
+    ffd_folds folds;        /* of all lattices: the worst verdict (some, unknown, none), sums of cells, the
+                               least min_det, the witness of the first lattice that has one */
+    uint64_t folds_room[8]; /* for what ffd_folds gets in later versions, as all that is called room here */
+    size_t folds_lattice;   /* number of the witness' lattice, from 0 */
+    bool has_flipped;       /* for check and quality */
     uint64_t faces, flipped_faces;
     /* Torn edges: one end moves, and the other stays where the displacement does not fade, or moves otherwise
        although both are at one border or seam (src/maths.md 7.4). Edges that are not shown do not count.
@@ -390,7 +392,9 @@ typedef struct ffd_job_result {
     uint64_t edges;          /* each counted once */
     double deviation_max, deviation_mean;     /* of straight edges from the deformed surface */
     ffd_behind behind[FFD_BEHIND_KIND_COUNT]; /* by ffd_behind_kind */
+    ffd_behind behind_room[5];
     ffd_rig_result rig;
+    uint64_t rig_room[8];
     ffd_flaw flaws[FFD_FLAWS]; /* flaw_count, of the input */
     size_t flaw_count;
     uint64_t indices_left; /* indices in extensions of a glTF that do not follow its deformed meshes */

@@ -9,6 +9,15 @@
 ffd_status ffd_locator_create_for(const ffd_lattice *lattice, ffd_isa isa, ffd_locator **locator,
                                   ffd_error *error);
 
+/* ffd_locator_locate without an allowance, for locations of this library's own size. */
+ffd_status ffd_locator_find(const ffd_locator *locator, const double *xyz, size_t count,
+                            ffd_location *locations, ffd_error *error);
+
+/* The same with an allowance, or NULL. */
+ffd_status ffd_locator_find_near(const ffd_locator *locator, const double *xyz, size_t count,
+                                 const ffd_border_allowance *allowance, ffd_location *locations,
+                                 ffd_error *error);
+
 /* Whether the two rest faces of this direction coincide (ffd_lattice_is_seam). */
 bool ffd_locator_has_seam(const ffd_locator *locator, int direction);
 

@@ -157,7 +157,7 @@ static bool is_near(const bounds *hull, const double x[3], const double half[3],
 ffd_status ffd_near_border_look_again(const ffd_locator *locator, const double x[3], const double half[3],
                                       double snap, ffd_location *location, ffd_error *error)
 {
-    const ffd_border_allowance allowance = {half, snap};
+    const ffd_border_allowance allowance = {.rounding = half, .snap = snap};
     if (!is_near(&locator->hull, x, half, snap))
         return FFD_OK;
     return ffd_near_border_find(locator, x, 1, &allowance, location, error);

@@ -2,6 +2,7 @@
 #include <ffd/fold.h>
 
 #include "base/memory/memory.h"
+#include "base/struct_size.h"
 #include "base/system/thread.h"
 #include "fold/cell.h"
 #include <string.h>
@@ -195,11 +196,10 @@ static ffd_status allocate(fold_work *work, int threads, ffd_error *error)
     return FFD_OK;
 }
 
-ffd_status ffd_folds_find(const ffd_lattice *lattice, int threads, ffd_folds *folds, ffd_error *error)
+static ffd_status find(const ffd_lattice *lattice, int threads, ffd_folds *folds, ffd_error *error)
 {
     fold_work work;
     memset(&work, 0, sizeof work);
-    memset(folds, 0, sizeof *folds);
     if (!ffd_lattice_get_points(lattice, FFD_VOLUME_REST))
         return ffd_fail(error, FFD_E_ARGUMENT,
                         "the lattice has no control points yet: its box is that of a mesh");
@@ -220,5 +220,16 @@ out:
     ffd_free(work.verdicts);
     ffd_free(work.lower);
     ffd_fold_plan_free(&work.plan);
+    return status;
+}
+
+ffd_status ffd_folds_find(const ffd_lattice *lattice, int threads, ffd_folds *callers, ffd_error *error)
+{
+    ffd_folds folds = {.struct_size = sizeof folds};
+    ffd_status status = ffd_struct_check(sizeof folds, callers, "ffd_folds", error);
+    if (status)
+        return status;
+    status = find(lattice, threads, &folds, error);
+    ffd_struct_give(&folds, sizeof folds, callers, callers->struct_size);
     return status;
 }

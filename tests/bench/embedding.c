@@ -14,6 +14,7 @@
 #include "base/system/clock.h"
 #include "embed/cells/brick.h"
 #include "embed/cells/cells.h"
+#include "embed/locator.h"
 #include <ffd/embedding.h>
 
 #define TURN 6.283185307179586

@@ -237,9 +237,9 @@ def modules():
 
 def copy_program(folder):
     """Makes a folder with the program and, as they are installed beside a library, its modules; returns the program."""
-    os.makedirs(os.path.join(folder, "ffd-0"))
+    os.makedirs(os.path.join(folder, "ffd-0.2"))
     for path in [FFD, *modules()]:
-        target = os.path.join(folder, "" if path == FFD else "ffd-0", os.path.basename(path))
+        target = os.path.join(folder, "" if path == FFD else "ffd-0.2", os.path.basename(path))
         shutil.copy(path, target)
         os.chmod(target, 0o755)
     return os.path.join(folder, "ffd")

@@ -61,9 +61,9 @@ def a_module_that_is_not_there_is_named(run):
         for missing in sorted(needed):
             folder = f"without-{missing}-{name}"
             program = copy_program(run.path(folder))
-            os.remove(os.path.join(run.path(folder), "ffd-0", f"ffd-{missing}.so"))
+            os.remove(os.path.join(run.path(folder), "ffd-0.2", f"ffd-{missing}.so"))
             run.ffd("deform", name, "out.glb", "-l", "l.json", code=UNSUPPORTED, program=program,
-                    err=re.compile(rf"^{name}:.* cannot be loaded: /.*/ffd-0/ffd-{missing}\.so: .*No such file or directory$"))
+                    err=re.compile(rf"^{name}:.* cannot be loaded: /.*/ffd-0.2/ffd-{missing}\.so: .*No such file or directory$"))
             check(not run.exists("out.glb"), "an output was left")
             shutil.rmtree(run.path(folder))
 
@@ -72,7 +72,7 @@ def a_module_that_is_not_there_is_named(run):
 def without_any_module_what_needs_none_works(run):
     write_inputs(run)
     program = copy_program(run.path("alone"))
-    shutil.rmtree(run.path("alone/ffd-0"))
+    shutil.rmtree(run.path("alone/ffd-0.2"))
     run.ffd("deform", "cube.obj", "out.obj", "-l", "l.json", program=program)
     done = run.ffd("info", "cube.obj", "--json", program=program)
     equal(done.json["topology"], None)
@@ -83,7 +83,7 @@ def without_any_module_what_needs_none_works(run):
 def what_is_another_version_or_no_module_is_refused(run):
     write_inputs(run)
     program = copy_program(run.path("p"))
-    path = run.path("p/ffd-0/ffd-tinygltf.so")
+    path = run.path("p/ffd-0.2/ffd-tinygltf.so")
     version = subprocess.run([FFD, "--version"], capture_output=True, text=True, check=True).stdout.split()[1]
     with open(path, "rb") as file:
         module = file.read()
@@ -130,7 +130,7 @@ def a_module_of_another_user_is_not_loaded(run):
                          ("everybody's", lambda path: os.chmod(path, 0o777))):
         folder = "p-" + name[0]
         program = copy_program(run.path(folder))
-        path = run.path(folder + "/ffd-0/ffd-tinygltf.so")
+        path = run.path(folder + "/ffd-0.2/ffd-tinygltf.so")
         run.ffd("info", "plain.glb", program=program)
         change(path)
         run.ffd("info", "plain.glb", code=UNSUPPORTED, program=program,
@@ -145,12 +145,12 @@ def what_is_no_file_is_not_loaded(run):
     """The loader would wait for a pipe."""
     write_inputs(run)
     program = copy_program(run.path("p"))
-    path = run.path("p/ffd-0/ffd-tinygltf.so")
+    path = run.path("p/ffd-0.2/ffd-tinygltf.so")
     os.remove(path)
     for make, remove in ((os.mkfifo, os.remove), (os.mkdir, os.rmdir), (lambda path: os.symlink("/dev/zero", path), os.remove)):
         make(path)
         run.ffd("info", "plain.glb", code=UNSUPPORTED, program=program,
-                err=re.compile(r"cannot be loaded: /.*/p/ffd-0/ffd-tinygltf\.so: is no file, or "))
+                err=re.compile(r"cannot be loaded: /.*/p/ffd-0.2/ffd-tinygltf\.so: is no file, or "))
         remove(path)
 
 

@@ -1,6 +1,7 @@
 /* check_embedding.c - u,v,w lead back to their point; displacements lie among those of the control points. */
 #include "check_embedding.h"
 #include "base/vector/vec.h"
+#include "embed/locator.h"
 #include "promise.h"
 #include <ffd/deform.h>
 #include <ffd/embedding.h>

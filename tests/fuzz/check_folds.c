@@ -125,7 +125,7 @@ static bool is_same(const ffd_folds *a, const ffd_folds *b)
 
 void check_folds(const probe *of, const probe_point *points, size_t count)
 {
-    ffd_folds folds, again;
+    ffd_folds folds = {.struct_size = sizeof folds}, again = folds;
     ffd_error error;
     PROMISE(ffd_folds_find(of->lattice, 1, &folds, &error) == FFD_OK, "%s", error.message);
     PROMISE(ffd_folds_find(of->lattice, 3, &again, &error) == FFD_OK, "%s", error.message);

@@ -12,7 +12,7 @@ from test_readme import block, blocks
 from tree import ROOT, files, finish, read, skip
 
 # From the folder of libraries.
-MODULES = [f"ffd-0/ffd-{name}.so" for name in ("draco", "image", "meshopt", "openmesh", "tinygltf")]
+MODULES = [f"ffd-0.2/ffd-{name}.so" for name in ("draco", "image", "meshopt", "openmesh", "tinygltf")]
 
 
 def need(*tools):

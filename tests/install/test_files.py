@@ -25,7 +25,7 @@ def expected(installed):
         paths.append(f"{options['datadir']}/ffd/{os.path.basename(schema)}")
     paths.append(f"{options['bindir']}/ffd")
     if options["default_library"] != "static":
-        paths += [f"{library}/{name}" for name in ("libffd.so", "libffd.so.0", "libffd.so.0.1.0", *stage.MODULES)]
+        paths += [f"{library}/{name}" for name in ("libffd.so", "libffd.so.0.2", "libffd.so.0.2.0", *stage.MODULES)]
         paths += [f"{library}/cmake/ffd/{name}.cmake" for name in ("ffdConfig", "ffdConfigVersion")]
     return {path: 0o755 if path.endswith("bin/ffd") or ".so" in path else 0o644 for path in paths}
 

@@ -24,7 +24,7 @@ import tempfile
 import flags
 import stage
 
-PACKAGES = ["ffd", "libffd0", "libffd-dev"]
+PACKAGES = ["ffd", "libffd0.2", "libffd-dev"]
 MESH, LATTICE = "models/spot.obj", "lattices/twist.json"
 NEEDS_MODULES = "models/character.glb"
 
@@ -36,7 +36,7 @@ ldconfig -p | grep -q 'libffd\\.so\\.0'
 ffd --version >version
 ffd deform spot.obj out.obj -l twist.json --report report.json
 ffd info character.glb >info
-apt-get purge --yes ffd libffd0
+apt-get purge --yes ffd libffd0.2
 find / -xdev -path /check -prune -o -path /proc -prune -o -path /var/lib -prune -o -path /var/log -prune -o \\
     -name '*ffd*' -print >left
 """
@@ -158,7 +158,7 @@ def run_in_clean_root(folder, packages):
     os.mkdir(given)
     os.mkdir(result)
     data = os.path.join(stage.ROOT, "data")
-    for path in (packages["ffd"], packages["libffd0"], os.path.join(data, MESH), os.path.join(data, LATTICE),
+    for path in (packages["ffd"], packages["libffd0.2"], os.path.join(data, MESH), os.path.join(data, LATTICE),
                  os.path.join(data, NEEDS_MODULES)):
         shutil.copy(path, given)
     with open(os.path.join(given, "check.sh"), "w", encoding="ascii") as file:

@@ -1,5 +1,6 @@
 /* shape_judge.c - see shape_judge.h. */
 #include "shape_judge.h"
+#include "embed/locator.h"
 
 #include <float.h>
 #include <math.h>

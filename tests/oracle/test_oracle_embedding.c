@@ -1,4 +1,5 @@
 /* test_oracle_embedding.c - ffd_locator_find against roots that the oracle knows. */
+#include "embed/locator.h"
 #include "volume_sample.h"
 
 #include <float.h>

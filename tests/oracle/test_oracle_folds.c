@@ -263,7 +263,7 @@ static void check_lattice(trial *t, sample *s, double fineness, tally *sum)
     x.mean = mean_determinant(&x.rest);
     x.sign = x.mean < 0 ? -1 : 1;
     x.mean = fabsl(x.mean);
-    ffd_folds folds, again;
+    ffd_folds folds = {.struct_size = sizeof folds}, again = folds;
     ffd_error error;
     const bool found = ffd_folds_find(lattice, 1, &folds, &error) == FFD_OK &&
                        ffd_folds_find(lattice, 2, &again, &error) == FFD_OK;
@@ -444,7 +444,7 @@ static double make_collapsed(trial *t, sample *s, random_source *random)
 /* rest + amount * way */
 static ffd_folds verdict_at(ffd_lattice *lattice, const double *way, double amount)
 {
-    ffd_folds folds;
+    ffd_folds folds = {.struct_size = sizeof folds};
     for (size_t i = 0; i < 3 * lattice->count; i++)
         lattice->deformed[i] = lattice->rest[i] + amount * way[i];
     if (ffd_lattice_finish(lattice, NULL) || ffd_folds_find(lattice, 1, &folds, NULL))

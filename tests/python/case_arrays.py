@@ -1,5 +1,6 @@
 """Arrays of any shape, stride and type are taken as they are, or refused with a clear exception."""
 
+import contextlib
 import unittest
 
 import ffd_mesh as ffd
@@ -149,6 +150,45 @@ class Refusals(unittest.TestCase):
         self.refused(ValueError, "size", ffd.Lattice.around, points, size=(3, -1, 3))
         self.refused(ValueError, "three", ffd.Lattice.around, points, size=(3, 3))
         self.refused(ffd.InvalidError, "", ffd.Lattice.around, points * np.nan)
+
+    def test_rows_that_share_memory_are_no_output(self):
+        embedding = LATTICE.embed(RANDOM.uniform(0, 1, (5, 3)))
+        for strides in ((8, 8), (16, 8), (0, 8), (8, 0), (12, 8)):
+            out = np.lib.stride_tricks.as_strided(np.zeros(50), (5, 3), strides)
+            self.refused(ValueError, "share their memory", LATTICE.deform, embedding, Q, out=out)
+
+    def test_texts_and_paths_are_whole(self):
+        self.refused(TypeError, "name must be a text, not NoneType", ffd.Lattice.parse, LATTICE.text, None)
+        for bad in (5, 2**63, None, [1], range(3)):
+            self.refused(TypeError, "text must be a text, bytes or a dict", ffd.Lattice.parse, bad)
+        for bad in (1.5, [1], "x", {1}):
+            self.refused(TypeError, "values of placeholders must be a dict", ffd.Lattice.load, "absent.json", bad)
+        self.refused(ValueError, "null character", LATTICE.save, "a\0b.json")
+        self.refused(ValueError, "null character", ffd.Lattice.load, "a\0b.json")
+        self.refused(ValueError, "null character", ffd.Lattice.load, "absent.json", {"a\0b": 1})
+        self.refused(ValueError, "null character", ffd.check_file, "a\0b.obj", LATTICE)
+        self.refused(ValueError, "falloff is too large", LATTICE.embed, RANDOM.uniform(0, 1, (5, 3)), falloff=10**400)
+
+    def test_strange_values_end_in_clear_exceptions(self):
+        class Unreadable:
+            def __array__(self, *_, **__):
+                raise ValueError("not today")
+        embedding = LATTICE.embed(RANDOM.uniform(0, 1, (5, 3)))
+        strange = (None, True, -1, 3.7, np.nan, 10**400, 2**63, "", "x", "\0", "\ud800", b"\xff", [], [[1, 2, 3], [4, 5]], {}, {"a": 1},
+                   object(), Unreadable(), np.array(3.0), np.zeros((3, 0)), np.zeros((2, 3), ">f8"), np.zeros((2, 3), "M8[s]"),
+                   np.zeros((2, 3), "S3"), np.zeros(2, [("x", "f8", 3)]), np.full((5, 3), 1e308), np.zeros((3, 4, 4, 3)), type, 1j, ...)
+        deform = {name: (lambda name: lambda value: LATTICE.deform(embedding, **{name: value}))(name)
+                  for name in ("Q", "out", "offsets", "weights", "normals", "tangents", "points", "vertices", "threads", "isa", "progress")}
+        calls = deform | {"embed": LATTICE.embed, "deform": LATTICE.deform, "basis": LATTICE.basis, "folds": LATTICE.folds,
+                          "evaluate": LATTICE.evaluate, "affected": embedding.affected, "around": ffd.Lattice.around,
+                          "from_points": ffd.Lattice.from_points, "parse": ffd.Lattice.parse,
+                          "size": lambda value: ffd.Lattice.box((0, 0, 0), (1, 1, 1), size=value),
+                          "knots": lambda value: ffd.Lattice.box((0, 0, 0), (1, 1, 1), knots=value),
+                          "mesh": lambda value: ffd.deform_mesh(value, LATTICE)}
+        for name, call in calls.items():
+            for value in strange:
+                with self.subTest(call=name, value=value), contextlib.suppress(ValueError, TypeError, ffd.Error):
+                    call(value)
 
     def test_errors_say_where(self):
         with self.assertRaises(ffd.InvalidError) as caught:

@@ -1,7 +1,10 @@
 #!/usr/bin/env python3
 """Builds the Python package as a wheel, installs it in a fresh environment, and runs the cases (case_*.py) there.
 
-    test_package.py SOURCE BUILD-FOLDER CC CXX [CASE...]       CASE: as unittest names it, "case_results.Bits"
+    test_package.py SOURCE BUILD-FOLDER CC CXX [--peers] [CASE...]       CASE: as unittest names it, "case_results.Bits"
+
+--peers: instead peers.py, with the wheels of peers.txt too, which are in .build-test/peers (FFD_PEERS names another folder); its
+cases, and the speeds with one processor and with two.
 
 All that it installs are the wheels of requirements.txt, which .ci/setup has fetched to .build-test/wheels (FFD_WHEELS names
 another folder): no index is asked. Without them, or with another Python than they are for, it is skipped.
@@ -33,17 +36,18 @@ def run(*command, **more):
     return done.stdout
 
 
-def make_environment(folder, wheels):
-    """A fresh environment that has the pinned wheels; returns its Python."""
+def make_environment(folder, lists):
+    """A fresh environment that has the pinned wheels of lists, each with its folder; returns its Python."""
     run(sys.executable, "-m", "venv", folder)
     python = os.path.join(folder, "bin", "python")
     pip = [python, "-m", "pip", "install", "--quiet", "--no-index", "--no-deps", "--no-compile", "--disable-pip-version-check"]
-    tried = subprocess.run([*pip, "--require-hashes", "--find-links", wheels, "-r", os.path.join(HERE, "requirements.txt")],
-                           capture_output=True, text=True, check=False)
-    if tried.returncode != 0 and "No matching distribution" in tried.stderr:
-        skip(f"the pinned wheels are not for Python {sys.version.split()[0]} here")
-    if tried.returncode != 0:
-        sys.exit(tried.stderr)
+    for name, wheels in lists.items():
+        tried = subprocess.run([*pip, "--require-hashes", "--find-links", wheels, "-r", os.path.join(HERE, name)],
+                               capture_output=True, text=True, check=False)
+        if tried.returncode != 0 and "No matching distribution" in tried.stderr:
+            skip(f"the pinned wheels are not for Python {sys.version.split()[0]} here")
+        if tried.returncode != 0:
+            sys.exit(tried.stderr)
     return python, pip
 
 
@@ -67,24 +71,46 @@ def build_wheel(python, source, build, folder, compilers):
     return wheel
 
 
-def main():
-    source, build, cc, cxx, *chosen = sys.argv[1:]
-    wheels = os.environ.get("FFD_WHEELS") or os.path.join(source, ".build-test", "wheels")
+def fetched(source, variable, name):
+    """The folder of wheels that .ci/setup has fetched, or that the variable names."""
+    wheels = os.environ.get(variable) or os.path.join(source, ".build-test", name)
     if not glob.glob(os.path.join(wheels, "*.whl")):
         skip(f"no wheels in {wheels}: .ci/setup could not fetch them")
+    return wheels
+
+
+def run_cases(python, chosen, folder, environment):
+    """The exit code of the cases."""
+    durations = ["--durations=5"] if sys.version_info >= (3, 12) else []
+    return subprocess.run([python, "-m", "unittest", *(chosen or ["discover", "-s", HERE, "-p", "case_*.py"]), *durations],
+                          cwd=folder, env=environment, stdin=subprocess.DEVNULL, check=False).returncode
+
+
+def run_peers(python, chosen, folder, environment):
+    """The same of the peers, and how fast they are."""
+    code = run_cases(python, chosen or ["peers"], folder, environment)
+    if code == 0 and not chosen:
+        for processors in ("0", "0,1"):
+            print(run("taskset", "-c", processors, python, os.path.join(HERE, "peers.py"), cwd=folder, env=environment), end="")
+    return code
+
+
+def main():
+    source, build, cc, cxx, *chosen = sys.argv[1:]
+    peers = chosen[:1] == ["--peers"]
+    lists = {"requirements.txt": fetched(source, "FFD_WHEELS", "wheels")}
+    if peers:
+        lists["peers.txt"] = fetched(source, "FFD_PEERS", "peers")
     with tempfile.TemporaryDirectory() as folder:
-        python, pip = make_environment(os.path.join(folder, "venv"), wheels)
+        python, pip = make_environment(os.path.join(folder, "venv"), lists)
         wheel = build_wheel(python, source, build, os.path.join(folder, "dist"), (cc, cxx))
         if "-cp311-abi3-" not in wheel:
             sys.exit(f"{os.path.basename(wheel)} is not for every CPython from 3.11 on")
         run(*pip, wheel)
         environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
         environment |= {"FFD_SOURCE": source, "PYTHONDONTWRITEBYTECODE": "1", "PYTHONPATH": HERE, "TMPDIR": folder}
-        done = subprocess.run([python, "-m", "unittest", *(chosen or ["discover", "-s", HERE, "-p", "case_*.py"]), "--durations=5"]
-                              if sys.version_info >= (3, 12) else
-                              [python, "-m", "unittest", *(chosen or ["discover", "-s", HERE, "-p", "case_*.py"])],
-                              cwd=folder, env=environment, stdin=subprocess.DEVNULL, check=False)
-    sys.exit(1 if done.returncode else 0)
+        code = run_peers(python, chosen[1:], folder, environment) if peers else run_cases(python, chosen, folder, environment)
+    sys.exit(1 if code else 0)
 
 
 main()

@@ -98,7 +98,7 @@ LAYERS = {
         "base", "base/memory", "base/vector", "embed/boundary", "embed/cells", "embed/direct", "embed/frame", "lattice",
         "spline",
     },
-    "fold": {"base/memory", "base/system", "base/vector", "embed/frame", "lattice", "spline"},
+    "fold": {"base", "base/memory", "base/system", "base/vector", "embed/frame", "lattice", "spline"},
     "points": {
         "base", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed", "embed/boundary", "lattice",
         "mesh", "spline",

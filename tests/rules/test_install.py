@@ -34,7 +34,7 @@ int main(void)
     if (strcmp(ffd_version(), FFD_VERSION) != 0 ||
         ffd_lattice_parse(text, sizeof text - 1, "text", &lattice, &error) != FFD_OK ||
         ffd_locator_create(lattice, &locator, &error) != FFD_OK ||
-        ffd_locator_find(locator, point, 1, &location, &error) != FFD_OK)
+        ffd_locator_locate(locator, point, 1, NULL, &location, sizeof location, &error) != FFD_OK)
         return 1;
     if (location.status != FFD_INSIDE || !ffd_displacement(lattice, location.uvw, delta, gradient))
         return 2;
@@ -76,7 +76,7 @@ def main():
                    for option in json.loads(run(["meson", "introspect", "--buildoptions", build]))}
         pc = installed(stage, "ffd.pc")
         libraries = os.path.dirname(installed(stage, "libffd.a"))
-        installed(stage, "libffd.so.0")
+        installed(stage, "libffd.so.0.2")
         for header in (path for path in tree.files() if path.startswith("include/ffd/")):
             checked += 1
             if not os.path.isfile(stage + options["prefix"] + "/" + header):

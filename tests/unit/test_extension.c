@@ -10,6 +10,7 @@
 #include "base/vector/vec.h"
 #include "deform/displacement.h"
 #include "deform/extension.h"
+#include "embed/locator.h"
 #include <ffd/embedding.h>
 #include <float.h>
 #include <string.h>

@@ -285,7 +285,7 @@ static void check_witness(const ffd_lattice *lattice, const ffd_folds *folds, in
 /* sign: of the rest volume. */
 static ffd_folds find(const ffd_lattice *lattice, int sign)
 {
-    ffd_folds folds, again;
+    ffd_folds folds = {.struct_size = sizeof folds}, again = folds;
     ffd_error error;
     for (int threads = 1; threads <= 3; threads += is_memory_checked() ? 2 : 1) {
         if (ffd_folds_find(lattice, threads, threads == 1 ? &folds : &again, &error))
@@ -926,7 +926,7 @@ static void a_lattice_without_bounds_is_refused(void **state)
     (void)state;
     ffd_lattice *lattice = parsed("{\"format\":\"ffd-lattice\",\"version\":1,\"size\":[4,4,4],"
                                   "\"rest\":{\"box\":\"mesh\"}}");
-    ffd_folds folds;
+    ffd_folds folds = {.struct_size = sizeof folds};
     ffd_error error;
     assert_int_equal(ffd_folds_find(lattice, 0, &folds, &error), FFD_E_ARGUMENT);
     assert_true(error.message[0]);
@@ -944,7 +944,7 @@ static void each_failed_allocation_is_reported(void **state)
     ffd_lattice *lattice = mapped(&shape, warp);
     finish(lattice);
     const ffd_folds all = find(lattice, 1);
-    ffd_folds folds;
+    ffd_folds folds = {.struct_size = sizeof folds};
     ffd_status status = FFD_E_MEMORY;
     long failing = 0;
     for (; status; failing++) {

@@ -9,6 +9,7 @@
 
 #include "../support/test_folder.h"
 #include "embed/cells/cells.h"
+#include "embed/locator.h"
 #include "embed/locator_border.h"
 #include "job/chain/chain_load.h"
 #include "job/chain/job_cache.h"

@@ -124,6 +124,67 @@ static void descriptions_of_older_callers_are_enough(void **state)
     (void)state;
 }
 
+static ffd_lattice *parsed(void)
+{
+    ffd_lattice *made = NULL;
+    assert_int_equal(ffd_lattice_parse(lattice, sizeof lattice - 1, "l.json", &made, NULL), FFD_OK);
+    return made;
+}
+
+static void folds_of_older_callers_are_found(void **state)
+{
+    ffd_lattice *made = parsed();
+    OLDER(ffd_folds, folds, offsetof(ffd_folds, has_witness));
+    folds.as.struct_size = folds_known;
+    assert_int_equal(ffd_folds_find(made, 1, &folds.as, NULL), FFD_OK);
+    GUARDED(folds);
+    assert_int_equal(folds.as.struct_size, folds_known);
+    assert_int_equal(folds.as.verdict, FFD_FOLDS_NONE);
+    assert_int_equal(folds.as.cells, 1);
+    folds.as.struct_size = sizeof folds.as + 8;
+    assert_int_equal(ffd_folds_find(made, 1, &folds.as, NULL), FFD_E_ARGUMENT);
+    GUARDED(folds);
+    ffd_lattice_destroy(&made);
+    (void)state;
+}
+
+/* More points than are found at once, of which every other one is outside but for what is allowed. */
+#define POINTS 700
+static void locations_of_older_callers_are_found(void **state)
+{
+    ffd_lattice *made = parsed();
+    ffd_locator *locator = NULL;
+    assert_int_equal(ffd_locator_create(made, &locator, NULL), FFD_OK);
+    static double xyz[3 * POINTS], rounding[3 * POINTS];
+    static ffd_location now[POINTS];
+    const size_t known = offsetof(ffd_location, leaves);
+    static unsigned char older[POINTS * sizeof(ffd_location)];
+    for (size_t i = 0; i < POINTS; i++)
+        for (int a = 0; a < 3; a++) {
+            xyz[3 * i + a] = i % 2 && !a ? 1 + 1e-3 : (double)i / POINTS;
+            rounding[3 * i + a] = i % 4 == 3 ? 1e-2 : 0;
+        }
+    ffd_border_allowance allowance = {sizeof allowance, rounding, 0};
+    memset(older, BEHIND, sizeof older);
+    assert_int_equal(ffd_locator_locate(locator, xyz, POINTS, &allowance, now, sizeof *now, NULL), FFD_OK);
+    assert_int_equal(
+        ffd_locator_locate(locator, xyz, POINTS, &allowance, (ffd_location *)(void *)older, known, NULL),
+        FFD_OK);
+    for (size_t i = 0; i < POINTS; i++) {
+        assert_int_equal(now[i].status, i % 4 == 1 ? FFD_OUTSIDE : FFD_INSIDE);
+        assert_memory_equal(older + known * i, &now[i], offsetof(ffd_location, evaluations));
+    }
+    guarded(older, known * POINTS, sizeof older);
+    const size_t bad[] = {0, 4, sizeof *now + 8};
+    for (size_t b = 0; b < 3; b++)
+        assert_int_equal(ffd_locator_locate(locator, xyz, 1, NULL, now, bad[b], NULL), FFD_E_ARGUMENT);
+    allowance.struct_size++;
+    assert_int_equal(ffd_locator_locate(locator, xyz, 1, &allowance, now, sizeof *now, NULL), FFD_E_ARGUMENT);
+    ffd_locator_destroy(&locator);
+    ffd_lattice_destroy(&made);
+    (void)state;
+}
+
 static void sizes_that_cannot_be_are_refused(void **state)
 {
     fill_folder();
@@ -153,7 +214,6 @@ static void other_structs_have_their_size(void **state)
 {
     if (sizeof(void *) == 8) {
         assert_int_equal(sizeof(ffd_error), 1808);
-        assert_int_equal(sizeof(ffd_location), 48);
         assert_int_equal(sizeof(ffd_span), 40);
         assert_int_equal(sizeof(ffd_csr), 40);
         assert_int_equal(sizeof(ffd_setting), 16);
@@ -168,6 +228,8 @@ int main(void)
         cmocka_unit_test(jobs_of_older_callers_run),
         cmocka_unit_test(comparisons_of_older_callers_run),
         cmocka_unit_test(descriptions_of_older_callers_are_enough),
+        cmocka_unit_test(folds_of_older_callers_are_found),
+        cmocka_unit_test(locations_of_older_callers_are_found),
         cmocka_unit_test(sizes_that_cannot_be_are_refused),
         cmocka_unit_test(other_structs_have_their_size),
     };

@@ -10,6 +10,7 @@
 #include "../support/repetitions.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
+#include "embed/locator.h"
 #include "job/chain/chain_load.h"
 #include "job/input/embedding_file.h"
 #include "job/pass/pass.h"

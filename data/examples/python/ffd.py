@@ -19,7 +19,7 @@ class Location(Structure):
                 ("evaluations", c_uint32), ("leaves", c_uint32)]
 
 
-library = ctypes.CDLL("libffd.so.0")
+library = ctypes.CDLL("libffd.so.0.2")
 
 
 def _declare(name, *arguments, result=c_int):
@@ -32,8 +32,8 @@ _format = _declare("ffd_error_format", POINTER(ErrorRecord), c_char_p, c_size_t,
 _parse = _declare("ffd_lattice_parse", c_char_p, c_size_t, c_char_p, POINTER(c_void_p), POINTER(ErrorRecord))
 _lattice_destroy = _declare("ffd_lattice_destroy", POINTER(c_void_p), result=None)
 _locator_create = _declare("ffd_locator_create", c_void_p, POINTER(c_void_p), POINTER(ErrorRecord))
-_locator_find = _declare("ffd_locator_find", c_void_p, POINTER(c_double), c_size_t, POINTER(Location),
-                         POINTER(ErrorRecord))
+_locator_locate = _declare("ffd_locator_locate", c_void_p, POINTER(c_double), c_size_t, c_void_p, POINTER(Location),
+                           c_size_t, POINTER(ErrorRecord))
 _locator_destroy = _declare("ffd_locator_destroy", POINTER(c_void_p), result=None)
 _displacement = _declare("ffd_displacement", c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_double))
 
@@ -70,7 +70,7 @@ class Lattice:
         locator = c_void_p()
         _call(_locator_create, self.handle, byref(locator))
         try:
-            _call(_locator_find, locator, coordinates, len(points), locations)
+            _call(_locator_locate, locator, coordinates, len(points), None, locations, ctypes.sizeof(Location))
         finally:
             _locator_destroy(byref(locator))
         return locations

@@ -1,6 +1,7 @@
 #include "job/chain/block_faces.h"
 #include "base/vector/vec.h"
 #include "embed/frame/frame.h"
+#include "embed/locator.h"
 #include "embed/locator_border.h"
 #include "job/chain/common_faces.h"
 #include "job/chain/point_outcome.h"

@@ -2,6 +2,7 @@
 #include "base/system/clock.h"
 #include "base/vector/array_kernel.h"
 #include "deform/extension.h"
+#include "embed/locator.h"
 #include "job/chain/block_faces.h"
 #include "job/chain/common_faces.h"
 #include "job/chain/look_again.h"

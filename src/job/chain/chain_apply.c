@@ -3,6 +3,7 @@
 #include "base/vector/array_kernel.h"
 #include "base/vector/vec.h"
 #include "deform/extension.h"
+#include "embed/locator.h"
 #include "job/chain/blocks.h"
 #include "job/chain/common_faces.h"
 #include "job/chain/look_again.h"

@@ -1,6 +1,7 @@
 #include "job/chain/common_faces.h"
 #include "base/vector/vec.h"
 #include "embed/frame/frame.h"
+#include "embed/locator.h"
 #include "job/chain/look_again.h"
 #include "job/chain/point_outcome.h"
 #include <float.h>

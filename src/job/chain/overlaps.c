@@ -2,6 +2,7 @@
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "embed/frame/box_tree.h"
+#include "embed/locator.h"
 #include "job/chain/point_outcome.h"
 #include "lattice/lattice.h"
 #include "lattice/spec.h"

@@ -112,6 +112,7 @@ ffd_status ffd_figures_folds(lattice_chain *chain, int threads, ffd_job_result *
     for (size_t l = 0; l < chain->count; l++) {
         chain_link *const link = &chain->links[l];
         if (!link->has_folds) {
+            link->folds.struct_size = sizeof link->folds;
             const ffd_status status = ffd_folds_find(link->lattice, threads, &link->folds, error);
             if (status)
                 return status;

@@ -2,6 +2,7 @@
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "deform/extension.h"
+#include "embed/locator.h"
 #include "embed/locator_border.h"
 #include "job/chain/chain_apply.h"
 #include "job/chain/point_outcome.h"

@@ -3,6 +3,7 @@
 #include "base/vector/vec.h"
 #include "deform/extension.h"
 #include "embed/frame/frame.h"
+#include "embed/locator.h"
 #include "embed/locator_border.h"
 #include "job/chain/point_outcome.h"
 #include "job/judge/tears.h"

@@ -41,8 +41,14 @@ def output(value: Any, what: str, count: int) -> np.ndarray:
 
 
 def _repeats(array: np.ndarray) -> bool:
-    """Whether numbers of (N, 3) share memory by a stride of 0, which is no stride that the library knows."""
-    return array.size > 0 and (array.strides[1] == 0 or (len(array) > 1 and array.strides[0] == 0))
+    """Whether numbers of (N, 3) share memory by their strides: threads would write one after the other. Strides that only interleave
+    without it, which no slice has, count too."""
+    reach = array.itemsize
+    for stride, count in sorted((abs(stride), count) for stride, count in zip(array.strides, array.shape) if count > 1):
+        if array.size and stride < reach:
+            return True
+        reach += stride * (count - 1)
+    return False
 
 
 def overlap(a: np.ndarray, b: np.ndarray) -> bool:

@@ -41,7 +41,8 @@ class Result:
 
     def __init__(self, found: Any, warnings: list[str]) -> None:
         for name, kind in found._fields_:
-            if name not in ("struct_size", "status", "error", "picture") and not name.startswith("morph"):
+            if name not in ("struct_size", "status", "error", "picture") and not name.startswith("morph") \
+                    and not name.endswith("_room"):
                 self.__dict__[name] = _plain(getattr(found, name))
         words = [word.removeprefix("point_") for word in library.WORDS["ffd_vertex_status"]]
         self.counts = dict(zip(words, found.counts))
@@ -77,7 +78,7 @@ def _described(source: Any, lattices: Any, options: dict[str, Any]) -> Iterator[
     if isinstance(source, _Memory):
         source.give(desc.input)
     else:
-        desc.input.path = os.fsencode(source)
+        desc.input.path = library.path(source)
     kept += _set_options(desc, options)
     try:
         yield desc, warnings
@@ -93,7 +94,7 @@ class _Memory:
     """A mesh in memory, and what it names."""
 
     def __init__(self, data: Any, name: str, files: Files | None) -> None:
-        self.name, self.resolver = os.fsencode(name), None
+        self.name, self.resolver = library.path(name), None
         self.address, self.size, self.kept = library.lend_bytes(data, "data")
         if files is not None and not callable(files) and not isinstance(files, Mapping):
             raise TypeError(f"files must be a dict or a function, not {type(files).__name__}")
@@ -119,7 +120,7 @@ def _set_lattices(desc: Any, lattices: Any) -> list[Any]:
     if not several:
         raise ValueError("no lattice is given")
     if named:
-        desc.morphs = (ctypes.c_char_p * len(several))(*(str(name).encode() for name in lattices))
+        desc.morphs = (ctypes.c_char_p * len(several))(*(library.encoded(str(name), "a name") for name in lattices))
     paths, texts = (ctypes.c_char_p * len(several))(), (declared.ffd_bytes * len(several))()
     objects = (ctypes.c_void_p * len(several))()
     kept = [several, objects]
@@ -130,7 +131,7 @@ def _set_lattices(desc: Any, lattices: Any) -> list[Any]:
             texts[i].data, texts[i].size, text = library.lend_bytes(lattice, "a lattice")
             kept.append(text)
         else:
-            paths[i] = os.fsencode(lattice)
+            paths[i] = library.path(lattice)
     desc.lattices, desc.lattice_count = paths, len(several)
     desc.lattice_objects, desc.lattice_texts = ctypes.addressof(objects), texts
     return kept
@@ -139,15 +140,13 @@ def _set_lattices(desc: Any, lattices: Any) -> list[Any]:
 def _texts(value: Any, what: str) -> Any:
     """A list of texts for the library; one text is a list of one."""
     texts = [value] if isinstance(value, str) else list(value)
-    if not all(isinstance(text, str) for text in texts):
-        raise TypeError(f"{what} must be texts")
-    return (ctypes.c_char_p * len(texts))(*(text.encode() for text in texts)), len(texts)
+    return (ctypes.c_char_p * len(texts))(*(library.encoded(text, what) for text in texts)), len(texts)
 
 
 def _set_snap(desc: Any, value: Any) -> None:
     """A length, or a text "0.001r": a part of the rest lattice's diagonal."""
     relative = isinstance(value, str) and value.endswith("r")
-    desc.snap = float(value[:-1] if relative else value)
+    desc.snap = library.real(value[:-1] if relative else value, "snap")
     desc.snap_relative = relative
 
 
@@ -193,7 +192,7 @@ def _set_options(desc: Any, options: dict[str, Any]) -> list[Any]:
         elif name == "set":
             desc.set, desc.set_count = settings(value)
         elif name == "falloff":
-            desc.falloff = float(value)
+            desc.falloff = library.real(value, "falloff")
         elif name == "snap":
             _set_snap(desc, value)
         elif name == "fail_on":
@@ -202,9 +201,9 @@ def _set_options(desc: Any, options: dict[str, Any]) -> list[Any]:
             desc.embedding_bytes.data, desc.embedding_bytes.size, embedding = library.lend_bytes(value, name)
             kept.append(embedding)
         elif name == "embedding":
-            desc.embedding = os.fsencode(value)
+            desc.embedding = library.path(value)
         elif name == "as_morph":
-            desc.as_morph = str(value).encode()
+            desc.as_morph = library.encoded(str(value), "as_morph")
         elif name == "only":
             desc.only, desc.only_count = _texts(value, name)
         elif name == "clips":
@@ -256,7 +255,7 @@ def deform_file(source: Path, output: Path | None, lattices: AnyLattice | Sequen
         if output is None:
             desc.in_place = True
         else:
-            desc.output = os.fsencode(output)
+            desc.output = library.path(output)
         found, raised = _run(lib.ffd_deform_run, desc)
     return _finish(found, raised, warnings)
 
@@ -281,7 +280,7 @@ def deform_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice] | Mappin
     """
     memory, taken = _Memory(data, name, files), []
     with _described(memory, lattices, options) as (desc, warnings):
-        desc.output = os.fsencode(name if output is None else output)
+        desc.output = library.path(name if output is None else output)
         library.sink_into(desc, taken)
         found, raised = _run(lib.ffd_deform_run, desc)
     memory.reraise()
@@ -319,11 +318,11 @@ def jacobian_file(source: Path, output: Path, lattices: AnyLattice | Sequence[An
     of: the lattice of several, from 0; None: the last. options: those of `deform_file` that positions depend on, and force
     """
     desc, result = library.filled("ffd_jacobian_desc"), library.empty("ffd_jacobian_result")
-    desc.output, desc.by = os.fsencode(output), library.number_of("ffd_jacobian_by", by, "by")
+    desc.output, desc.by = library.path(output), library.number_of("ffd_jacobian_by", by, "by")
     desc.components, desc.check = bool(components), bool(check)
     if of is not None:
         desc.of = library.integer(of, "of")
-    desc.times, desc.transposed = (None if path is None else os.fsencode(path) for path in (times, transposed))
+    desc.times, desc.transposed = (None if path is None else library.path(path) for path in (times, transposed))
     with _described(source, lattices, options) as (job, _):
         desc.job = ctypes.pointer(job)
         library.call(lib.ffd_jacobian_run, ctypes.byref(desc), ctypes.byref(result))
@@ -336,7 +335,7 @@ def info(path: Path, *, parts: bool = False, set: Mapping[str, Any] | None = Non
     """Describes a mesh or lattice file, as `ffd info --json` does. parts: the names that only= can have; set: values for the
     placeholders of a lattice."""
     desc = library.filled("ffd_info_desc")
-    desc.file.path, desc.json, desc.parts = os.fsencode(path), True, bool(parts)
+    desc.file.path, desc.json, desc.parts = library.path(path), True, bool(parts)
     desc.set, desc.set_count = settings(set)
     lines: list[Any] = []
     library.log_into(desc, lines)

@@ -65,8 +65,8 @@ class Lattice:
         desc.spacing = library.number_of("ffd_spacing", spacing, "spacing")
         desc.size[:], desc.degree[:] = shape_of(size, degree)
         desc.knots[:] = [library.number_of("ffd_knots", word, "knots") for word in three(knots, "knots")]
-        desc.margin[:] = [float(value) for value in three(margin, "margin")]
-        desc.axis[:] = [float(value) for value in three(axis, "axis")]
+        desc.margin[:] = [library.real(value, "margin") for value in three(margin, "margin")]
+        desc.axis[:] = [library.real(value, "axis") for value in three(axis, "axis")]
         desc.principal = bool(principal)
         xyz = np.ascontiguousarray(arrays.vectors(points, "points"), dtype=np.float64)
         return cls._new(lib.ffd_lattice_create, ctypes.byref(desc), arrays.address(xyz), len(xyz))
@@ -76,7 +76,7 @@ class Lattice:
         """A lattice file (data/schema/lattice.md), with values for the placeholders of its moves."""
         made, count = settings(values)
         used = (ctypes.c_bool * count)()
-        self = cls._new(lib.ffd_lattice_load_set, os.fsencode(path), made, count, used)
+        self = cls._new(lib.ffd_lattice_load_set, library.path(path), made, count, used)
         unused = [name for name, is_used in zip(values or {}, used) if not is_used]
         if unused:
             raise ValueError(f"{os.fspath(path)} has no placeholder {', '.join(map(repr, unused))}")
@@ -86,9 +86,12 @@ class Lattice:
     @classmethod
     def parse(cls, text: str | bytes | dict[str, Any], name: str = "lattice") -> Lattice:
         """A lattice of the text of a file, or of what json.loads makes of it. Failures have the name as their file."""
-        data = json.dumps(text).encode() if isinstance(text, dict) else text.encode() if isinstance(text, str) else bytes(text)
+        if not isinstance(text, (str, dict, bytes, bytearray, memoryview)):
+            raise TypeError(f"text must be a text, bytes or a dict, not {type(text).__name__}")
+        text = json.dumps(text) if isinstance(text, dict) else text
+        data = text.encode() if isinstance(text, str) else bytes(text)
         found = parameters_of(data, name)
-        return cls._new(lib.ffd_lattice_parse, data, len(data), name.encode(), parameters=tuple(found.values()))
+        return cls._new(lib.ffd_lattice_parse, data, len(data), library.encoded(name, "name"), parameters=tuple(found.values()))
 
     @classmethod
     def box(cls, low: Any, high: Any, size: Any = 4, degree: Any = None, *, knots: Any = "default", axes: Any = None) -> Lattice:
@@ -193,7 +196,7 @@ class Lattice:
 
     def save(self, path: str | os.PathLike[str], *, force: bool = False) -> None:
         """Writes its file, complete or not at all. force: replace an existing one."""
-        call(lib.ffd_lattice_save, self._pointer, os.fsencode(path), bool(force))
+        call(lib.ffd_lattice_save, self._pointer, library.path(path), bool(force))
 
     # -- others like it
 
@@ -250,7 +253,7 @@ class Lattice:
         desc = library.filled("ffd_embedding_desc")
         desc.lattice, desc.points = self._pointer, arrays.span(points)
         desc.outside = library.number_of("ffd_outside", outside, "outside")
-        desc.falloff, desc.snap = float(falloff), float(snap)
+        desc.falloff, desc.snap = library.real(falloff, "falloff"), library.real(snap, "snap")
         owned = Owned(lib.ffd_embedding_destroy)
         Run(threads, isa, progress)(lib.ffd_embedding_create, ctypes.byref(desc), last=(ctypes.byref(owned.pointer),))
         return Embedding._of(owned, self, points)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import logging
 import operator
+import os
 from typing import Any, Callable
 
 import numpy as np
@@ -56,6 +57,31 @@ def integer(value: Any, what: str, least: int = 0, most: int = 2**31 - 1) -> int
     if not least <= number <= most:
         raise ValueError(f"{what} must be {least} to {most}, not {number}")
     return number
+
+
+def real(value: Any, what: str) -> float:
+    """A float of what is one; an int that is too large for it is a ValueError, as other bad values are."""
+    try:
+        return float(value)
+    except OverflowError:
+        raise ValueError(f"{what} is too large for a float") from None
+
+
+def encoded(value: Any, what: str) -> bytes:
+    """A text for the library, which would take a null character for its end."""
+    if not isinstance(value, str):
+        raise TypeError(f"{what} must be a text, not {type(value).__name__}")
+    if "\0" in value:
+        raise ValueError(f"{what} must not have a null character")
+    return value.encode()
+
+
+def path(value: Any) -> bytes:
+    """A path for the library, which would cut it at a null character."""
+    data = os.fsencode(value)
+    if b"\0" in data:
+        raise ValueError(f"a path must not have a null character: {value!r}")
+    return data
 
 
 def text(data: bytes | None) -> str | None:
@@ -152,7 +178,7 @@ def sink_into(structure: Any, files: list[Any]) -> None:
 
 def list_parameters(data: bytes, name: str) -> list[Any]:
     found: list[Any] = []
-    call(lib.ffd_lattice_list_parameters, data, len(data), name.encode(), _native.parameter, id(found))
+    call(lib.ffd_lattice_list_parameters, data, len(data), encoded(name, "name"), _native.parameter, id(found))
     return found
 
 

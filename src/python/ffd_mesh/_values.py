@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Mapping, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -78,12 +79,14 @@ def folds_of(found: Any) -> Folds:
 
 def settings(values: Mapping[str, Any] | None) -> tuple[Any, int]:
     """Values of placeholders as ffd_setting; texts as they are, all else as JSON."""
+    if values is not None and not isinstance(values, Mapping):
+        raise TypeError(f"values of placeholders must be a dict, not {type(values).__name__}")
     items = list((values or {}).items())
     made = (declared.ffd_setting * len(items))()
     for setting, (name, value) in zip(made, items):
         value = value.tolist() if isinstance(value, (np.ndarray, np.generic)) else value
-        setting.name = name.encode()
-        setting.value = (value if isinstance(value, str) else json.dumps(value)).encode()
+        setting.name = library.encoded(name, "the name of a placeholder")
+        setting.value = library.encoded(value if isinstance(value, str) else json.dumps(value), f"the value of {name}")
     return made, len(items)
 
 

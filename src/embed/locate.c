@@ -1,0 +1,52 @@
+/* locate.c - ffd_locator_locate (ffd/embedding.h): locations of the size that the caller's header has. */
+#include "base/struct_size.h"
+#include "embed/locator.h"
+#include <string.h>
+
+/* Locations that are found at once where the caller's are shorter. */
+#define AT_ONCE 256
+
+static ffd_status find_shorter(const ffd_locator *locator, const double *xyz, size_t count,
+                               const ffd_border_allowance *allowance, unsigned char *callers, size_t size,
+                               ffd_error *error)
+{
+    ffd_location own[AT_ONCE];
+    for (size_t first = 0; first < count; first += AT_ONCE) {
+        const size_t some = count - first < AT_ONCE ? count - first : AT_ONCE;
+        ffd_border_allowance theirs;
+        if (allowance) {
+            theirs = *allowance;
+            theirs.rounding = allowance->rounding ? allowance->rounding + 3 * first : NULL;
+        }
+        const ffd_status status =
+            ffd_locator_find_near(locator, xyz + 3 * first, some, allowance ? &theirs : NULL, own, error);
+        if (status)
+            return status;
+        for (size_t i = 0; i < some; i++)
+            memcpy(callers + size * (first + i), &own[i], size);
+    }
+    return FFD_OK;
+}
+
+ffd_status ffd_locator_locate(const ffd_locator *locator, const double *xyz, size_t count,
+                              const ffd_border_allowance *callers_allowance, ffd_location *locations,
+                              size_t location_size, ffd_error *error)
+{
+    ffd_border_allowance allowance = {.snap = 0};
+    ffd_status status = FFD_OK;
+    if (!location_size || location_size % _Alignof(ffd_location) || location_size > sizeof *locations)
+        return ffd_fail(
+            error, FFD_E_ARGUMENT,
+            "locations of %zu bytes: this library knows %zu, and is older than the caller's header "
+            "where that has more",
+            location_size, sizeof *locations);
+    if (callers_allowance)
+        status =
+            ffd_struct_take(&allowance, sizeof allowance, callers_allowance, "ffd_border_allowance", error);
+    if (status)
+        return status;
+    const ffd_border_allowance *const own = callers_allowance ? &allowance : NULL;
+    return location_size == sizeof *locations
+               ? ffd_locator_find_near(locator, xyz, count, own, locations, error)
+               : find_shorter(locator, xyz, count, own, (unsigned char *)locations, location_size, error);
+}

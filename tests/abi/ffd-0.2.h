@@ -1,0 +1,591 @@
+/* ffd-0.2.h - the public headers that programs of this ABI were built with (test_abi.py --keep). */
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+typedef enum ffd_status {
+    FFD_OK = 0,
+    FFD_E_GATE = -1,
+    FFD_E_ARGUMENT = -10,
+    FFD_E_IO = -20,
+    FFD_E_EXISTS = -21,
+    FFD_E_INVALID = -30,
+    FFD_E_EMBEDDING = -40,
+    FFD_E_UNSUPPORTED = -50,
+    FFD_E_MEMORY = -60,
+    FFD_E_LIMIT = -61,
+    FFD_E_CANCELLED = -70
+} ffd_status;
+typedef struct ffd_error {
+    ffd_status status;
+    char file[1024];
+    size_t line;
+    char pointer[256];
+    char message[512];
+} ffd_error;
+size_t ffd_error_format(const ffd_error *error, char *text, size_t capacity);
+int ffd_status_exit_code(ffd_status status);
+typedef struct ffd_lattice ffd_lattice;
+typedef enum ffd_volume { FFD_VOLUME_REST = 0, FFD_VOLUME_DEFORMED = 1 } ffd_volume;
+typedef enum ffd_knots {
+    FFD_KNOTS_DEFAULT = 0,
+    FFD_KNOTS_CLAMPED,
+    FFD_KNOTS_OPEN,
+    FFD_KNOTS_UNIFORM,
+    FFD_KNOTS_CLOSED
+} ffd_knots;
+typedef enum ffd_lattice_shape { FFD_SHAPE_BOX = 0, FFD_SHAPE_CYLINDER } ffd_lattice_shape;
+typedef enum ffd_spacing { FFD_SPACING_GREVILLE = 0, FFD_SPACING_UNIFORM } ffd_spacing;
+typedef struct ffd_lattice_desc {
+    size_t struct_size;
+    ffd_lattice_shape shape;
+    size_t size[3];
+    int degree[3];
+    ffd_knots knots[3];
+    double margin[3];
+    ffd_spacing spacing;
+    double axis[3];
+    bool principal;
+} ffd_lattice_desc;
+void ffd_lattice_desc_init(ffd_lattice_desc *desc, size_t size);
+ffd_status ffd_lattice_load(const char *path, ffd_lattice **lattice, ffd_error *error);
+typedef struct ffd_setting {
+    const char *name, *value;
+} ffd_setting;
+ffd_status ffd_lattice_load_set(const char *path, const ffd_setting *values, size_t count, bool *used,
+                                ffd_lattice **lattice, ffd_error *error);
+ffd_status ffd_lattice_load_rest(const char *path, const ffd_setting *values, size_t count, bool *used,
+                                 ffd_lattice **lattice, ffd_error *error);
+ffd_status ffd_lattice_parse(const char *text, size_t size, const char *name, ffd_lattice **lattice,
+                             ffd_error *error);
+typedef struct ffd_parameter {
+    size_t struct_size;
+    const char *name;
+    const char *default_value;
+    const char *unit, *comment;
+    double min, max;
+} ffd_parameter;
+typedef bool (*ffd_parameter_function)(void *user, const ffd_parameter *parameter);
+ffd_status ffd_lattice_list_parameters(const char *text, size_t size, const char *name,
+                                       ffd_parameter_function function, void *user, ffd_error *error);
+ffd_status ffd_lattice_create(const ffd_lattice_desc *desc, const double *xyz, size_t count,
+                              ffd_lattice **lattice, ffd_error *error);
+typedef struct ffd_lattice_arrays {
+    size_t struct_size;
+    size_t size[3];
+    int degree[3];
+    ffd_knots knots[3];
+    const double *knot_values[3];
+    size_t knot_count[3];
+    const double *rest;
+    double box_min[3], box_max[3];
+    double axes[9];
+    const double *rest_weights;
+} ffd_lattice_arrays;
+void ffd_lattice_arrays_init(ffd_lattice_arrays *arrays, size_t size);
+ffd_status ffd_lattice_from_arrays(const ffd_lattice_arrays *arrays, ffd_lattice **lattice, ffd_error *error);
+ffd_status ffd_lattice_copy(const ffd_lattice *lattice, ffd_lattice **copy, ffd_error *error);
+ffd_status ffd_lattice_set_points(ffd_lattice *lattice, const size_t *index, size_t count, const double *xyz,
+                                  ffd_error *error);
+ffd_status ffd_lattice_set_offsets(ffd_lattice *lattice, const size_t *index, size_t count, const double *xyz,
+                                   ffd_error *error);
+ffd_status ffd_lattice_set_weights(ffd_lattice *lattice, const size_t *index, size_t count,
+                                   const double *weights, ffd_error *error);
+const double *ffd_lattice_get_offsets(const ffd_lattice *lattice);
+size_t ffd_lattice_get_knots(const ffd_lattice *lattice, int direction, const double **knots);
+ffd_status ffd_lattice_text(const ffd_lattice *lattice, char **text, size_t *size, ffd_error *error);
+void ffd_free(void *block);
+ffd_status ffd_lattice_save(const ffd_lattice *lattice, const char *path, bool force, ffd_error *error);
+bool ffd_lattice_needs_bounds(const ffd_lattice *lattice);
+size_t ffd_lattice_get_mesh_count(const ffd_lattice *lattice);
+ffd_status ffd_lattice_get_mesh(const ffd_lattice *lattice, size_t i, char **path, ffd_error *error);
+ffd_status ffd_lattice_fit(ffd_lattice *lattice, const double min[3], const double max[3], ffd_error *error);
+void ffd_lattice_destroy(ffd_lattice **lattice);
+void ffd_lattice_get_size(const ffd_lattice *lattice, size_t size[3]);
+void ffd_lattice_get_degree(const ffd_lattice *lattice, int degree[3]);
+void ffd_lattice_get_domain(const ffd_lattice *lattice, double lo[3], double hi[3]);
+const double *ffd_lattice_get_points(const ffd_lattice *lattice, ffd_volume volume);
+const double *ffd_lattice_get_weights(const ffd_lattice *lattice, ffd_volume volume);
+void ffd_lattice_evaluate(const ffd_lattice *lattice, ffd_volume volume, const double uvw[3], double point[3],
+                          double jacobian[9]);
+int ffd_displacement(const ffd_lattice *lattice, const double uvw[3], double delta[3], double gradient[9]);
+int ffd_deform_normal(const double gradient[9], const double normal[3], double result[3], int *collapsed);
+int ffd_deform_tangent(const double gradient[9], const double tangent[3], const double normal[3],
+                       double result[3], int *collapsed);
+typedef enum ffd_vertex_status {
+    FFD_INSIDE = 0,
+    FFD_OUTSIDE = 1,
+    FFD_MULTIPLE = 2,
+    FFD_SINGULAR = 3,
+    FFD_POINT_INVALID = 4
+} ffd_vertex_status;
+typedef enum ffd_outside { FFD_OUTSIDE_KEEP = 0, FFD_OUTSIDE_EXTEND, FFD_OUTSIDE_ERROR } ffd_outside;
+typedef struct ffd_locator ffd_locator;
+typedef struct ffd_location {
+    double uvw[3];
+    double residual;
+    uint8_t status;
+    bool unresolved;
+    uint32_t evaluations;
+    uint32_t leaves;
+} ffd_location;
+ffd_status ffd_locator_create(const ffd_lattice *lattice, ffd_locator **locator, ffd_error *error);
+void ffd_locator_destroy(ffd_locator **locator);
+const char *ffd_locator_get_method(const ffd_locator *locator);
+typedef struct ffd_border_allowance {
+    size_t struct_size;
+    const double *rounding;
+    double snap;
+} ffd_border_allowance;
+ffd_status ffd_locator_locate(const ffd_locator *locator, const double *xyz, size_t count,
+                              const ffd_border_allowance *allowance, ffd_location *locations,
+                              size_t location_size, ffd_error *error);
+typedef enum ffd_fold_verdict {
+    FFD_FOLDS_NONE = 0,
+    FFD_FOLDS_SOME = 1,
+    FFD_FOLDS_UNKNOWN = 2
+} ffd_fold_verdict;
+typedef struct ffd_folds {
+    size_t struct_size;
+    ffd_fold_verdict verdict;
+    uint64_t cells;
+    uint64_t folded_cells;
+    uint64_t unknown_cells;
+    double min_det;
+    bool has_witness;
+    double witness_uvw[3];
+    double witness_xyz[3];
+    double witness_rest[3];
+    double witness_det;
+} ffd_folds;
+ffd_status ffd_folds_find(const ffd_lattice *lattice, int threads, ffd_folds *folds, ffd_error *error);
+typedef enum ffd_isa { FFD_ISA_AUTO, FFD_ISA_SCALAR, FFD_ISA_SSE2, FFD_ISA_AVX2, FFD_ISA_AVX512 } ffd_isa;
+bool ffd_isa_available(ffd_isa isa);
+typedef enum ffd_format {
+    FFD_FORMAT_AUTO = 0,
+    FFD_FORMAT_OBJ,
+    FFD_FORMAT_GLTF,
+    FFD_FORMAT_GLB,
+    FFD_FORMAT_PLY,
+    FFD_FORMAT_OFF,
+    FFD_FORMAT_STL
+} ffd_format;
+ffd_format ffd_format_from_name(const char *name);
+typedef enum ffd_normals { FFD_NORMALS_TRANSFORM = 0, FFD_NORMALS_KEEP, FFD_NORMALS_RECOMPUTE } ffd_normals;
+typedef enum ffd_space { FFD_SPACE_SCENE = 0, FFD_SPACE_MESH } ffd_space;
+typedef enum ffd_rig { FFD_RIG_KEEP = 0, FFD_RIG_FOLLOW } ffd_rig;
+typedef enum ffd_resources { FFD_RESOURCES_COPY = 0, FFD_RESOURCES_REFERENCE } ffd_resources;
+typedef enum ffd_gate {
+    FFD_GATE_FOLDS = 1,
+    FFD_GATE_OUTSIDE = 2,
+    FFD_GATE_MULTIPLE = 4,
+    FFD_GATE_SINGULAR = 8,
+    FFD_GATE_INVALID = 16,
+    FFD_GATE_TEAR = 32,
+    FFD_GATE_FLIPPED = 64,
+    FFD_GATE_EDGES = 128
+} ffd_gate;
+typedef enum ffd_log_level { FFD_LOG_WARNING = 0, FFD_LOG_INFO, FFD_LOG_DETAIL } ffd_log_level;
+typedef void (*ffd_log_function)(void *user, ffd_log_level level, const char *line);
+void ffd_cleanup_on_signals(void);
+void ffd_guard_inputs(void);
+ffd_status ffd_restore_output(const char *path, ffd_error *error);
+typedef struct ffd_bytes {
+    const void *data;
+    size_t size;
+} ffd_bytes;
+typedef ffd_status (*ffd_resolve_function)(void *user, const char *name, ffd_bytes *bytes);
+typedef ffd_status (*ffd_sink_function)(void *user, const char *name, const void *bytes, size_t size);
+typedef struct ffd_source {
+    const char *path;
+    ffd_format format;
+    ffd_space space;
+    uint64_t memory;
+    int threads;
+    bool only_positions;
+    bool strict;
+    const char *const *allow_extensions;
+    size_t allow_extension_count;
+    ffd_bytes bytes;
+    ffd_resolve_function resolve;
+    void *resolve_user;
+    uint64_t source_room[4];
+} ffd_source;
+typedef struct ffd_flaw {
+    char message[256];
+    char pointer[128];
+    uint64_t line;
+    uint64_t count;
+} ffd_flaw;
+ffd_status ffd_selector_check(const char *text, ffd_error *error);
+ffd_status ffd_clip_check(const char *text, ffd_error *error);
+typedef struct ffd_written ffd_written;
+ffd_status ffd_written_create(ffd_written **written, ffd_error *error);
+void ffd_written_destroy(ffd_written **written);
+typedef struct ffd_share ffd_share;
+ffd_status ffd_share_create(ffd_share **share, ffd_error *error);
+ffd_status ffd_share_create_for_lattices(ffd_share **share, ffd_error *error);
+void ffd_share_destroy(ffd_share **share);
+typedef struct ffd_shared_box ffd_shared_box;
+ffd_status ffd_shared_box_create(ffd_shared_box **box, ffd_error *error);
+void ffd_shared_box_destroy(ffd_shared_box **box);
+typedef struct ffd_depfile ffd_depfile;
+ffd_status ffd_depfile_create(const char *path, ffd_depfile **depfile, ffd_error *error);
+void ffd_depfile_destroy(ffd_depfile **depfile);
+ffd_status ffd_depfile_write(ffd_depfile *depfile, ffd_error *error);
+typedef struct ffd_deform_desc {
+    size_t struct_size;
+    ffd_source input;
+    const char *output;
+    ffd_format output_format;
+    const char *const *lattices;
+    size_t lattice_count;
+    bool blocks;
+    const ffd_setting *set;
+    size_t set_count;
+    ffd_outside outside;
+    double falloff;
+    double snap;
+    bool snap_relative;
+    const char *embedding;
+    unsigned fail_on;
+    double tear_most;
+    uint64_t flipped_most;
+    double edges_most;
+    bool quality;
+    ffd_normals normals;
+    ffd_rig rig;
+    const char *as_morph;
+    const char *const *morphs;
+    const char *const *clips;
+    size_t clip_count;
+    struct ffd_job_result *morph_results;
+    const char *const *only;
+    size_t only_count;
+    ffd_resources resources;
+    int threads;
+    ffd_isa isa;
+    bool force;
+    bool if_changed;
+    bool in_place;
+    bool dry_run;
+    ffd_written *written;
+    ffd_share *share;
+    const ffd_shared_box *shared_box;
+    ffd_depfile *depfile;
+    ffd_log_function log;
+    void *log_user;
+    const ffd_lattice *const *lattice_objects;
+    const ffd_bytes *lattice_texts;
+    ffd_bytes embedding_bytes;
+    ffd_sink_function sink;
+    void *sink_user;
+} ffd_deform_desc;
+void ffd_deform_desc_init(ffd_deform_desc *desc, size_t size);
+ffd_status ffd_shared_box_add(ffd_shared_box *box, const ffd_deform_desc *desc, ffd_error *error);
+typedef struct ffd_bounds {
+    double min[3], max[3];
+} ffd_bounds;
+typedef enum ffd_behind_kind {
+    FFD_BEHIND_SOCKET = 0,
+    FFD_BEHIND_CAMERA,
+    FFD_BEHIND_LIGHT,
+    FFD_BEHIND_JOINT,
+    FFD_BEHIND_PIVOT,
+    FFD_BEHIND_PHYSICS_SHAPE,
+    FFD_BEHIND_SPLAT,
+    FFD_BEHIND_KIND_COUNT
+} ffd_behind_kind;
+typedef struct ffd_behind {
+    uint64_t count;
+    char names[3][80];
+} ffd_behind;
+typedef struct ffd_rig_result {
+    bool is_there;
+    uint64_t joints;
+    uint64_t moved;
+    uint64_t sheared;
+    uint64_t singular;
+    uint64_t partial;
+    uint64_t unscaled;
+    double largest_lag;
+    char worst[80];
+    uint64_t lagging_skins, lagging_pivots, lagging_sockets;
+} ffd_rig_result;
+typedef struct ffd_job_result {
+    size_t struct_size;
+    ffd_status status;
+    ffd_error error;
+    uint64_t vertices;
+    uint64_t counts[5];
+    uint64_t unused, hidden;
+    uint64_t targets_outside, targets_invalid, shown_outside;
+    bool own_box;
+    uint64_t moved;
+    double residual_max, residual_rms;
+    double evaluations_mean;
+    uint32_t evaluations_max;
+    ffd_bounds before, after;
+    double displacement_max, displacement_rms;
+    uint64_t moved_twice;
+    uint64_t disagreeing;
+    double disagreement;
+    uint64_t normals_collapsed;
+    uint64_t splats_carried;
+    uint64_t splats_flattened;
+    uint64_t splats_broken;
+    uint64_t normals_carried;
+    uint64_t transforms_singular;
+    uint64_t weights_off;
+    double weights_farthest;
+    uint64_t weights_none;
+    bool has_folds;
+    ffd_folds folds;
+    uint64_t folds_room[8];
+    size_t folds_lattice;
+    bool has_flipped;
+    uint64_t faces, flipped_faces;
+    bool has_tear;
+    uint64_t tear_edges;
+    double tear_largest;
+    uint64_t tear_vertex;
+    char tear_part[256];
+    uint64_t tear_stays;
+    bool tear_unselected;
+    bool tear_between;
+    bool tear_seam;
+    bool tear_disagrees;
+    double det_outside;
+    uint64_t det_outside_vertex;
+    double det_min, det_max;
+    bool has_edges;
+    uint64_t edges;
+    double deviation_max, deviation_mean;
+    ffd_behind behind[FFD_BEHIND_KIND_COUNT];
+    ffd_behind behind_room[5];
+    ffd_rig_result rig;
+    uint64_t rig_room[8];
+    ffd_flaw flaws[8];
+    size_t flaw_count;
+    uint64_t indices_left;
+    const char *picture;
+    size_t morph_count;
+    const char *const *morphs;
+    const char *const *morph_lattices;
+    const struct ffd_job_result *morph_results;
+    double seconds_read, seconds_embed, seconds_deform, seconds_judge, seconds_write;
+} ffd_job_result;
+ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);
+ffd_status ffd_check_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);
+typedef enum ffd_view_color {
+    FFD_VIEW_DISPLACEMENT = 0,
+    FFD_VIEW_STATUS,
+    FFD_VIEW_DET,
+    FFD_VIEW_PLAIN
+} ffd_view_color;
+typedef struct ffd_view_desc {
+    size_t struct_size;
+    const ffd_deform_desc *job;
+    const ffd_source *deformed;
+    const char *output;
+    bool force;
+    double camera[3];
+    ffd_view_color color;
+    bool full;
+    uint32_t width, height;
+    uint32_t frames;
+    const char *animation;
+    bool as_stored;
+    ffd_sink_function sink;
+    void *sink_user;
+} ffd_view_desc;
+void ffd_view_desc_init(ffd_view_desc *desc, size_t size);
+ffd_status ffd_view_run(const ffd_view_desc *desc, ffd_job_result *result, ffd_error *error);
+typedef struct ffd_embed_desc {
+    size_t struct_size;
+    ffd_source input;
+    const char *lattice;
+    const char *output;
+    const char *status_output;
+    double snap;
+    bool snap_relative;
+    int threads;
+    bool force;
+    ffd_log_function log;
+    void *log_user;
+    const ffd_setting *set;
+    size_t set_count;
+    const ffd_lattice *lattice_object;
+    ffd_bytes lattice_text;
+    ffd_sink_function sink;
+    void *sink_user;
+} ffd_embed_desc;
+void ffd_embed_desc_init(ffd_embed_desc *desc, size_t size);
+ffd_status ffd_embed_run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_error *error);
+typedef enum ffd_difference_kind {
+    FFD_DIFFERENCE_POSITION = 0,
+    FFD_DIFFERENCE_NORMAL,
+    FFD_DIFFERENCE_TANGENT,
+    FFD_DIFFERENCE_TEXCOORD,
+    FFD_DIFFERENCE_TOPOLOGY,
+    FFD_DIFFERENCE_OTHER,
+    FFD_DIFFERENCE_KIND_COUNT
+} ffd_difference_kind;
+const char *ffd_difference_kind_name(ffd_difference_kind kind);
+typedef struct ffd_difference {
+    ffd_difference_kind kind;
+    bool measured;
+    double a, b;
+    double amount;
+    char text[512];
+} ffd_difference;
+typedef struct ffd_comparison {
+    size_t struct_size;
+    bool equal;
+    bool complete;
+    uint64_t differences;
+    uint64_t counts[FFD_DIFFERENCE_KIND_COUNT];
+    ffd_difference first;
+    ffd_difference worst;
+    uint64_t positions_compared;
+    double position_difference_max;
+    double direction_difference_max;
+    double tolerance;
+    double direction_tolerance;
+    double diagonal;
+} ffd_comparison;
+typedef struct ffd_compare_desc {
+    size_t struct_size;
+    ffd_source a, b;
+    double tolerance;
+    bool relative;
+    double direction_tolerance;
+    ffd_log_function log;
+    void *log_user;
+} ffd_compare_desc;
+void ffd_compare_desc_init(ffd_compare_desc *desc, size_t size);
+ffd_status ffd_compare_run(const ffd_compare_desc *desc, ffd_comparison *comparison, ffd_error *error);
+ffd_status ffd_comparison_json(const ffd_comparison *comparison, const char *a, const char *b, char **text,
+                               ffd_error *error);
+typedef struct ffd_info_desc {
+    size_t struct_size;
+    ffd_source file;
+    bool json;
+    bool parts;
+    const ffd_setting *set;
+    size_t set_count;
+    ffd_log_function log;
+    void *log_user;
+} ffd_info_desc;
+void ffd_info_desc_init(ffd_info_desc *desc, size_t size);
+ffd_status ffd_info_run(const ffd_info_desc *desc, char **text, ffd_error *error);
+typedef struct ffd_lattice_new_desc {
+    size_t struct_size;
+    const ffd_source *meshes;
+    size_t mesh_count;
+    const char *const *only;
+    size_t only_count;
+    const ffd_lattice_desc *lattice;
+    const char *output;
+    bool force;
+    ffd_log_function log;
+    void *log_user;
+    ffd_sink_function sink;
+    void *sink_user;
+} ffd_lattice_new_desc;
+void ffd_lattice_new_desc_init(ffd_lattice_new_desc *desc, size_t size);
+ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *desc, ffd_error *error);
+typedef struct ffd_report ffd_report;
+ffd_status ffd_report_create(const char *path, bool stable, ffd_written *written, ffd_report **report,
+                             ffd_error *error);
+ffd_status ffd_report_create_sink(const char *name, bool stable, ffd_sink_function sink, void *user,
+                                  ffd_report **report, ffd_error *error);
+void ffd_report_destroy(ffd_report **report);
+ffd_status ffd_report_add(ffd_report *report, const char *input, const char *output,
+                          const ffd_job_result *result, ffd_error *error);
+ffd_status ffd_report_write(ffd_report *report, ffd_error *error);
+ffd_status ffd_report_merge_run(const char *const *reports, size_t count, bool interleave, const char *output,
+                                bool force, ffd_error *error);
+void ffd_text_free(char *text);
+typedef enum ffd_jacobian_by { FFD_BY_POINTS = 0, FFD_BY_PARAMETERS } ffd_jacobian_by;
+typedef struct ffd_jacobian_desc {
+    size_t struct_size;
+    const ffd_deform_desc *job;
+    const char *output;
+    ffd_jacobian_by by;
+    bool components;
+    size_t of;
+    const char *times, *transposed;
+    bool check;
+} ffd_jacobian_desc;
+void ffd_jacobian_desc_init(ffd_jacobian_desc *desc, size_t size);
+typedef struct ffd_jacobian_result {
+    size_t struct_size;
+    uint64_t rows, columns, entries;
+    uint64_t vertices, moving;
+    double worst;
+} ffd_jacobian_result;
+ffd_status ffd_jacobian_run(const ffd_jacobian_desc *desc, ffd_jacobian_result *result, ffd_error *error);
+typedef enum ffd_number { FFD_FLOAT64 = 0, FFD_FLOAT32 } ffd_number;
+typedef struct ffd_span {
+    void *data;
+    size_t count;
+    ffd_number type;
+    ptrdiff_t stride;
+    ptrdiff_t step;
+} ffd_span;
+typedef struct ffd_run {
+    size_t struct_size;
+    int threads;
+    ffd_isa isa;
+    bool (*progress)(void *user, double done);
+    void *user;
+} ffd_run;
+void ffd_run_init(ffd_run *run, size_t size);
+typedef struct ffd_embedding_desc {
+    size_t struct_size;
+    const ffd_lattice *lattice;
+    ffd_span points;
+    ffd_outside outside;
+    double falloff;
+    double snap;
+} ffd_embedding_desc;
+void ffd_embedding_desc_init(ffd_embedding_desc *desc, size_t size);
+typedef struct ffd_embedding ffd_embedding;
+ffd_status ffd_embedding_create(const ffd_embedding_desc *desc, const ffd_run *run, ffd_embedding **embedding,
+                                ffd_error *error);
+void ffd_embedding_destroy(ffd_embedding **embedding);
+size_t ffd_embedding_get_count(const ffd_embedding *embedding);
+const double *ffd_embedding_get_uvw(const ffd_embedding *embedding);
+const uint8_t *ffd_embedding_get_status(const ffd_embedding *embedding);
+ffd_status ffd_embedding_deform(const ffd_embedding *embedding, const ffd_lattice *moved, ffd_span in,
+                                ffd_span out, double *gradients, const ffd_run *run, ffd_error *error);
+ffd_status ffd_embedding_deform_some(const ffd_embedding *embedding, const ffd_lattice *moved,
+                                     const uint32_t *vertices, size_t count, ffd_span in, ffd_span out,
+                                     double *gradients, const ffd_run *run, ffd_error *error);
+ffd_status ffd_embedding_affected(const ffd_embedding *embedding, const size_t *control_points, size_t count,
+                                  uint32_t **vertices, size_t *vertex_count, ffd_error *error);
+typedef struct ffd_csr {
+    size_t rows, columns;
+    size_t *starts;
+    uint32_t *indices;
+    double *values;
+} ffd_csr;
+ffd_status ffd_embedding_basis(const ffd_embedding *embedding, const double *weights, ffd_csr *matrix,
+                               const ffd_run *run, ffd_error *error);
+void ffd_csr_free(ffd_csr *matrix);
+ffd_status ffd_embedding_basis_times(const ffd_embedding *embedding, const double *weights, const double *dq,
+                                     double *dx, const ffd_run *run, ffd_error *error);
+ffd_status ffd_embedding_basis_transposed(const ffd_embedding *embedding, const double *weights,
+                                          const double *dfdx, double *dfdq, const ffd_run *run,
+                                          ffd_error *error);
+ffd_status ffd_embedding_save(const ffd_embedding *embedding, void **bytes, size_t *size, ffd_error *error);
+ffd_status ffd_embedding_load(const void *bytes, size_t size, const ffd_lattice *lattice,
+                              ffd_embedding **embedding, ffd_error *error);
+ffd_status ffd_normals_deform(const double *gradients, ffd_span in, ffd_span out, size_t *collapsed,
+                              const ffd_run *run, ffd_error *error);
+ffd_status ffd_tangents_deform(const double *gradients, ffd_span normals, ffd_span in, ffd_span out,
+                               size_t *collapsed, const ffd_run *run, ffd_error *error);
+ffd_status ffd_lattice_evaluate_many(const ffd_lattice *lattice, ffd_volume volume, const double *uvw,
+                                     size_t count, double *xyz, double *jacobians, const ffd_run *run,
+                                     ffd_error *error);
+const char *ffd_version(void);
