@@ -2,6 +2,7 @@
 #include "base/file/folder.h"
 #include "cli/job.h"
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 
 typedef struct settings {
@@ -95,6 +96,17 @@ static void print_tear(const ffd_job_result *result)
     printf("\n");
 }
 
+static void print_extent(const char *name, double before, double after, const char *unknown)
+{
+    printf("  %-15s", name);
+    if (isnan(before))
+        printf("%s\n", unknown);
+    else if (isnan(after))
+        printf("%g, deformed %s\n", before, unknown);
+    else
+        printf("%g, deformed %g\n", before, after);
+}
+
 static void print_rig(const ffd_rig_result *rig)
 {
     if (!rig->is_there)
@@ -115,6 +127,8 @@ static void print_summary(const cli_job *job, const char *input, const ffd_job_r
     print_folds(result, cli_display_name(job->lattices[result->folds_lattice]));
     printf("  flipped faces  %" PRIu64 " of %" PRIu64 "\n", result->flipped_faces, result->faces);
     print_tear(result);
+    print_extent("area", result->area_before, result->area_after, "not known");
+    print_extent("volume", result->volume_before, result->volume_after, "none: the mesh is not closed");
     if (result->det_min <= result->det_max)
         printf("  det F          %g to %g at the vertices\n", result->det_min, result->det_max);
     printf("  edges          %" PRIu64 ", %g at most from the deformed surface, %g on average\n",

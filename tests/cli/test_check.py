@@ -117,9 +117,10 @@ def text_of_a_clean_one(run):
     lines = run.ffd("check", *work).text.splitlines()
     equal(lines[:3], ["a.obj", "  vertices       8: 8 inside", "  moved          8, by 1 at most"])
     check(lines[3].startswith("  folds          none, proven in the 1 cell inside the lattice; det J is at least "), lines[3])
-    equal(lines[4:7], ["  flipped faces  0 of 6", "  torn edges     0", "  det F          1 to 1 at the vertices"])
-    check(lines[7].startswith("  edges          12, ") and lines[7].endswith(" on average"), lines[7])
-    equal(len(lines), 8)
+    equal(lines[4:6], ["  flipped faces  0 of 6", "  torn edges     0"])
+    equal(lines[6:9], ["  area           24, deformed 24", "  volume         8, deformed 8", "  det F          1 to 1 at the vertices"])
+    check(lines[9].startswith("  edges          12, ") and lines[9].endswith(" on average"), lines[9])
+    equal(len(lines), 10)
     equal(run.names(), ["a.obj", "l.json"])
 
 
@@ -135,7 +136,8 @@ def text_of_a_folded_one(run):
     equal(lines[3], "  folds          some: 1 of 1 cell; det J is at least -1 of its mean at rest")
     check("deformed, det J is -1 (l.json)" in lines[4], lines[4])
     # The face at u = 1.
-    equal(lines[5:8], ["  flipped faces  1 of 6", "  torn edges     0", "  det F          -1 to 3 at the vertices"])
+    equal(lines[5:7], ["  flipped faces  1 of 6", "  torn edges     0"])
+    equal(lines[9], "  det F          -1 to 3 at the vertices")
 
 
 @case
@@ -158,7 +160,7 @@ def members_of_the_report(run):
     work = start(run, high=(2, 2, 0), moves=SHIFT)
     job = checked(run, *work, lines=1)
     equal(list(job), ["input", "output", "status", "exit", "error", "vertices", "inside", "outside", "multiple", "singular",
-                      "invalid", "unused", "hidden", "morph_targets", "moved", "shared_faces", "residual", "iterations", "folds", "flipped_faces", "tear", "det", "edges", "bounds",
+                      "invalid", "unused", "hidden", "morph_targets", "moved", "shared_faces", "residual", "iterations", "folds", "flipped_faces", "tear", "volume", "area", "det", "edges", "bounds",
                       "displacement", "behind", "seconds"])
     equal(list(job["folds"]), ["verdict", "cells", "min_det", "folded_cells", "unknown_cells", "witness"])
     equal(list(job["edges"]), ["count", "deviation"])
@@ -257,6 +259,32 @@ def a_fold_in_one_cell_of_many(run):
     check(-1.01 * 0.96875 < folds["min_det"] <= -0.96875, folds)
     near(folds["witness"]["uvw"], [0.55, 0.45, 0.65], 0.16)
     check(folds["min_det"] <= folds["witness"]["det"] <= 0, folds)
+
+
+@case
+def area_and_volume(run):
+    """Of a cube that is stretched, of one without a lid, of one that --only tears."""
+    stretch = [{"scale": {"factor": [2, 1, 3], "about": [0, 0, 0]}}]
+    run.write("l.json", lattice(moves=stretch))
+    for name, faces, volume, area in (("a.obj", CUBE_FACES, (1, 6), (6, 22)), ("b.obj", CUBE_FACES[:5], None, None)):
+        run.write(name, obj(CORNERS, faces))
+        entry = checked(run, name, "-l", "l.json")
+        equal(entry["volume"], volume and {"before": 1, "after": 6})
+        if area:
+            equal(entry["area"], {"before": 6, "after": 22})
+    text = run.ffd("check", "b.obj", "-l", "l.json").text
+    check("  volume         none: the mesh is not closed\n" in text, text)
+    # The quad at z = 1 has vertices of its own and moves away.
+    lid = [n + 1 for n in range(4, 8)]
+    top = next(f for f in CUBE_FACES if sorted(f) == lid)
+    own = [9 + sorted(top).index(n) for n in top]
+    sides = [f for f in CUBE_FACES if f != top]
+    text = obj(CORNERS + CORNERS[4:], []) + "g box\n" + obj([], sides) + "g lid\n" + obj([], [own])
+    run.write("c.obj", text)
+    equal(checked(run, "c.obj", "-l", "l.json")["volume"], {"before": 1, "after": 6})
+    equal(checked(run, "c.obj", "-l", "l.json", "--only", "group:lid")["volume"], {"before": 1, "after": None})
+    check("  volume         1, deformed none: the mesh is not closed\n"
+          in run.ffd("check", "c.obj", "-l", "l.json", "--only", "group:lid").text, "text")
 
 
 @case
@@ -441,6 +469,12 @@ def gltf_in_the_scene(run):
                                            [{"mesh": 0, "scale": [-1, 1, 1]}])))
     found = checked(run, "a.glb", "-l", "l.json")
     equal([found["flipped_faces"], found["det"]], [0, expected["det"]])
+    # Its faces are turned, so that they enclose what they did; two nodes enclose twice that.
+    check(expected["volume"]["before"] > 0, expected["volume"])
+    for name in ("volume", "area"):
+        for when in ("before", "after"):
+            near([found[name][when], both[name][when] / (2 if when == "before" else 1)],
+                 [expected[name][when], expected[name][when] + (expected[name]["before"] if when == "after" else 0)], 1e-12)
 
 
 @case

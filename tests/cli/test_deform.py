@@ -286,7 +286,7 @@ def report(run):
     equal([report["format"], report["version"], len(report["jobs"])], ["ffd-report", 1, 1])
     job = report["jobs"][0]
     equal(list(job), ["input", "output", "status", "exit", "error", "vertices", "inside", "outside", "multiple", "singular",
-                      "invalid", "unused", "hidden", "morph_targets", "moved", "shared_faces", "residual", "iterations", "folds", "flipped_faces", "tear", "det", "edges",
+                      "invalid", "unused", "hidden", "morph_targets", "moved", "shared_faces", "residual", "iterations", "folds", "flipped_faces", "tear", "volume", "area", "det", "edges",
                       "bounds", "displacement", "behind", "seconds"])
     equal([job[key] for key in ("input", "output", "status", "exit", "error")], ["a.obj", "b.obj", "ok", 0, None])
     equal([job[key] for key in ("vertices", "inside", "outside", "multiple", "singular", "invalid", "moved")],

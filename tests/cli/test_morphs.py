@@ -370,6 +370,8 @@ def figures_of_each_target(run):
     for key in ("max", "rms"):
         equal(entry["displacement"][key], max(m["displacement"][key] for m in entry["morphs"]))
     equal(entry["det"]["min"], min(m["det"]["min"] for m in entry["morphs"]))
+    equal([m["area"] for m in entry["morphs"]], 3 * [{"before": 0, "after": 0}], "points")
+    equal(entry["area"], {"before": 0, "after": None}, "three shapes have no one area")
     equal(entry["bounds"]["after"]["max"][0], max(m["bounds"]["after"]["max"][0] for m in entry["morphs"]))
     # A gate says of which target it is; nothing is written.
     run.remove("out.glb")

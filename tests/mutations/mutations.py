@@ -946,6 +946,16 @@ m("vertices-before-a-word", "off by one", "mixed_faces", "set->before[w] = (uint
   "set->before[w] = (uint32_t)*count + (w > 0);")
 m("across-not-turned", "left out", "cli_tears", "walk->across[a] += turned[a];", "walk->across[a] += 0 * turned[a];")
 
+# job: areas and volumes
+
+m("volume-sum-not-exact", "rounding", "quality", "const double value = s->sum + s->lost;", "const double value = s->sum;")
+m("zeros-of-two-signs-are-two-vertices", "equality", "quality", "number += 0.0;", "number *= 1.0;")
+m("edges-of-both-ways-alike", "sign", "quality", "return from < to ? hash : 0 - hash;", "return from < to ? hash : hash;")
+m("area-of-what-hides", "condition", "quality", "if (count > 0 && !is_hidden(&work, corners[0]))", "if (count > 0)")
+m("volume-of-the-selection", "order", "cli_check", "measure_extent(job, arrays, result);\n    if (!ffd_selection_is_all(job->document))\n        status = ffd_selection_reduce(job->document, &arrays->faces, error);",
+  "if (!ffd_selection_is_all(job->document))\n        status = ffd_selection_reduce(job->document, &arrays->faces, error);\n    measure_extent(job, arrays, result);")
+m("area-after-of-many-targets", "condition", "cli_morphs", "all->area_after = is_only ? target->area_after : NAN;", "all->area_after = target->area_after;")
+
 # batch
 
 m("journal-full", "limit", "journal",

@@ -1,4 +1,5 @@
-/* test_quality.c - flipped faces, and how far straight edges lie from the deformed surface. */
+/* test_quality.c - flipped faces, areas and volumes, and how far straight edges lie from the deformed
+ * surface. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,8 +12,10 @@
 #include "base/vector/vec.h"
 #include "job/chain/chain_apply.h"
 #include "job/judge/edge_list.h"
+#include "job/judge/extent.h"
 #include "job/judge/quality.h"
 #include "job/judge/quality_edges.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -646,6 +649,176 @@ static void every_failed_allocation_is_reported(void **state)
     (void)state;
 }
 
+/* Areas and volumes */
+
+static mesh_extent extent_of(size_t vertices, const double *positions, size_t faces, size_t corners_of_face,
+                             const uint32_t *corners)
+{
+    sample s = {0};
+    mesh_extent extent;
+    set_mesh(&s, vertices, positions, faces, corners_of_face, corners);
+    ffd_extent_measure(NULL, &s.faces, s.faces.positions, &extent);
+    clear_mesh(&s);
+    return extent;
+}
+
+static void assert_near(double found, double expected)
+{
+    if (!(fabs(found - expected) <= 1e-14 * (1 + fabs(expected))))
+        fail_msg("%.17g, not %.17g", found, expected);
+}
+
+/* A box of sides 2, 3, 4 whose low corner is at `at`, with faces that look outwards. */
+static const uint32_t box_faces[24] = {0, 4, 6, 2, 1, 3, 7, 5, 0, 1, 5, 4,
+                                       2, 6, 7, 3, 0, 2, 3, 1, 4, 5, 7, 6};
+
+static void put_box(const double at[3], double *positions)
+{
+    static const double sides[3] = {2, 3, 4};
+    for (size_t i = 0; i < 8; i++)
+        for (size_t a = 0; a < 3; a++)
+            positions[3 * i + a] = at[a] + (i >> a & 1 ? sides[a] : 0);
+}
+
+static void a_box_has_its_area_and_volume_wherever_it_is(void **state)
+{
+    (void)state;
+    static const double places[][3] = {{0, 0, 0}, {-1, -1.5, -2}, {1 << 30, -(1 << 30), 1 << 29}};
+    double box[24];
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        put_box(places[i], box);
+        const mesh_extent extent = extent_of(8, box, 6, 4, box_faces);
+        assert_near(extent.area, 52);
+        assert_near(extent.volume, 24);
+    }
+}
+
+static void a_box_that_shows_its_back_has_less_than_no_volume(void **state)
+{
+    (void)state;
+    double box[24];
+    uint32_t turned[24];
+    put_box((const double[]){5, 6, 7}, box);
+    for (size_t i = 0; i < 24; i++)
+        turned[i] = box_faces[23 - i];
+    const mesh_extent extent = extent_of(8, box, 6, 4, turned);
+    assert_near(extent.area, 52);
+    assert_near(extent.volume, -24);
+}
+
+static void an_octahedron_has_its_area_and_volume(void **state)
+{
+    (void)state;
+    static const double points[] = {1, 0, 0, 0, 1, 0, 0, 0, 1, -1, 0, 0, 0, -1, 0, 0, 0, -1};
+    static const uint32_t faces[] = {0, 1, 2, 1, 3, 2, 3, 4, 2, 4, 0, 2, 1, 0, 5, 3, 1, 5, 4, 3, 5, 0, 4, 5};
+    const mesh_extent extent = extent_of(6, points, 8, 3, faces);
+    assert_near(extent.area, 4 * sqrt(3));
+    assert_near(extent.volume, 4.0 / 3);
+}
+
+static void what_is_not_closed_has_no_volume(void **state)
+{
+    (void)state;
+    double box[24], moebius[30];
+    uint32_t turned[24], strip[20];
+    put_box((const double[]){0, 0, 0}, box);
+    assert_true(isnan(extent_of(8, box, 5, 4, box_faces).volume)); /* a lid is open */
+    memcpy(turned, box_faces, sizeof turned);
+    turned[20] = box_faces[23], turned[21] = box_faces[22], turned[22] = box_faces[21],
+    turned[23] = box_faces[20];
+    assert_true(isnan(extent_of(8, box, 6, 4, turned).volume)); /* and looks the other way */
+    for (uint32_t i = 0; i < 5; i++) {
+        const double angle = 0.4 * 3.14159265358979 * i;
+        for (uint32_t side = 0; side < 2; side++) {
+            const double across = (side ? 0.2 : -0.2), radius = 1 + across * cos(angle / 2);
+            double *const p = moebius + 3 * (2 * i + side);
+            p[0] = radius * cos(angle), p[1] = radius * sin(angle), p[2] = across * sin(angle / 2);
+        }
+        const uint32_t next = i < 4 ? 2 * i + 2 : 1, beyond = i < 4 ? 2 * i + 3 : 0;
+        strip[4 * i] = 2 * i, strip[4 * i + 1] = next, strip[4 * i + 2] = beyond,
+                  strip[4 * i + 3] = 2 * i + 1;
+    }
+    const mesh_extent extent = extent_of(10, moebius, 5, 4, strip);
+    assert_true(isnan(extent.volume) && extent.area > 2);
+    assert_true(isnan(extent_of(0, NULL, 0, 3, NULL).volume)); /* nothing encloses nothing */
+}
+
+static void vertices_at_one_position_close_a_mesh(void **state)
+{
+    (void)state;
+    double box[24], corners[72], pair[48];
+    uint32_t numbers[24], both[48];
+    put_box((const double[]){0, 0, 0}, box);
+    for (uint32_t i = 0; i < 24; i++) {
+        memcpy(corners + 3 * i, box + 3 * box_faces[i], 3 * sizeof *box);
+        corners[3 * i] = corners[3 * i] > 0 ? corners[3 * i] : i % 2 ? -0.0 : 0.0;
+        numbers[i] = i;
+    }
+    assert_near(extent_of(24, corners, 6, 4, numbers).volume, 24);
+    corners[0] += 1e-15; /* a gap, however narrow */
+    assert_true(isnan(extent_of(24, corners, 6, 4, numbers).volume));
+    /* Two boxes that touch along an edge, where four faces meet. */
+    put_box((const double[]){0, 0, 0}, pair);
+    put_box((const double[]){2, 3, 0}, pair + 24);
+    for (uint32_t i = 0; i < 24; i++) {
+        both[i] = box_faces[i];
+        both[24 + i] = 8 + box_faces[i];
+    }
+    const mesh_extent extent = extent_of(16, pair, 12, 4, both);
+    assert_near(extent.volume, 48);
+    assert_near(extent.area, 104);
+}
+
+static void what_hides_or_has_no_number_is_not_measured(void **state)
+{
+    (void)state;
+    sample s = {0};
+    mesh_extent extent;
+    double pair[48], moved[48];
+    uint32_t both[48];
+    mesh_part parts[3] = {{.vertex_count = 8, .hidden = true},
+                          {.vertex_count = 8, .repeats_positions = true},
+                          {.vertex_count = 8}};
+    mesh_document document = {.parts = parts, .part_count = 3};
+    put_box((const double[]){0, 0, 0}, pair);
+    put_box((const double[]){9, 9, 9}, pair + 24);
+    for (uint32_t i = 0; i < 24; i++) {
+        both[i] = 8 + box_faces[i];
+        both[24 + i] = i < 20 ? box_faces[i] : 0; /* what hides may be open */
+    }
+    memcpy(moved, pair, sizeof moved);
+    for (size_t a = 0; a < 3; a++)
+        moved[3 * 9 + a] = NAN; /* its transform is singular: it stays */
+    set_mesh(&s, 16, pair, 12, 4, both);
+    ffd_extent_measure(&document, &s.faces, moved, &extent);
+    assert_near(extent.area, 52);
+    assert_near(extent.volume, 24);
+    s.faces.positions[3 * 9 + 1] = NAN;
+    ffd_extent_measure(&document, &s.faces, s.faces.positions, &extent);
+    assert_true(isnan(extent.area) && isnan(extent.volume));
+    clear_mesh(&s);
+}
+
+static void small_parts_are_not_lost_in_a_large_sum(void **state)
+{
+    (void)state;
+    enum { SMALL = 1000 };
+    double *const points = checked(ffd_alloc((SMALL + 1) * 3, 3 * sizeof(double)));
+    uint32_t *const corners = checked(ffd_alloc(SMALL + 1, 3 * sizeof(uint32_t)));
+    for (uint32_t i = 0; i <= SMALL; i++) { /* 1e8 of area, then 1,000 times 2^-30 */
+        const double side = i ? 0x1p-14 : 0x1p14, height = i ? 0x1p-15 : 0x1p15;
+        const double triangle[9] = {0, 0, i, side, 0, i, 0, height, i};
+        memcpy(points + 9 * (size_t)i, triangle, sizeof triangle);
+        for (uint32_t c = 0; c < 3; c++)
+            corners[3 * i + c] = 3 * i + c;
+    }
+    const double area = extent_of(3 * (SMALL + 1), points, SMALL + 1, 3, corners).area;
+    if (area < 0x1p28 + SMALL * 0x1p-30 || area > 0x1p28 + SMALL * 0x1p-30)
+        fail_msg("%.17g", area);
+    ffd_free(points);
+    ffd_free(corners);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -661,6 +834,13 @@ int main(void)
         cmocka_unit_test(flipped_faces_are_those_where_space_folds),
         cmocka_unit_test(a_coarse_face_can_flip_without_a_fold),
         cmocka_unit_test(faces_without_area_or_with_nan_are_not_flipped),
+        cmocka_unit_test(a_box_has_its_area_and_volume_wherever_it_is),
+        cmocka_unit_test(a_box_that_shows_its_back_has_less_than_no_volume),
+        cmocka_unit_test(an_octahedron_has_its_area_and_volume),
+        cmocka_unit_test(what_is_not_closed_has_no_volume),
+        cmocka_unit_test(vertices_at_one_position_close_a_mesh),
+        cmocka_unit_test(what_hides_or_has_no_number_is_not_measured),
+        cmocka_unit_test(small_parts_are_not_lost_in_a_large_sum),
         cmocka_unit_test(each_edge_is_listed_once_in_order),
         cmocka_unit_test(any_number_of_threads_gives_the_same_bits),
         cmocka_unit_test(every_failed_allocation_is_reported),

@@ -4,6 +4,7 @@
 #include "io/openmesh/half_edges.h"
 #include "job/input/selection.h"
 #include "job/judge/edge_list.h"
+#include "job/judge/extent.h"
 #include "job/judge/quality.h"
 #include "job/judge/quality_edges.h"
 #include "job/pass/normal_groups.h"
@@ -129,6 +130,20 @@ ffd_status ffd_figures_folds(lattice_chain *chain, int threads, ffd_job_result *
     return FFD_OK;
 }
 
+/* Of a mesh of which some faces are not known it would be a part. */
+static void measure_extent(const deform_job *job, const figure_arrays *arrays, ffd_job_result *result)
+{
+    mesh_extent before, after;
+    if (job->document->unknown_drawings || !(job->check || job->desc->quality))
+        return;
+    ffd_extent_measure(job->document, &arrays->faces, arrays->faces.positions, &before);
+    ffd_extent_measure(job->document, &arrays->faces, arrays->deformed, &after);
+    result->area_before = before.area;
+    result->area_after = after.area;
+    result->volume_before = before.volume;
+    result->volume_after = after.volume;
+}
+
 ffd_status ffd_figures_faces(const deform_job *job, figure_arrays *arrays, ffd_job_result *result,
                              ffd_error *error)
 {
@@ -138,6 +153,7 @@ ffd_status ffd_figures_faces(const deform_job *job, figure_arrays *arrays, ffd_j
     result->det_max = job->totals.det_max;
     if (!arrays->has_faces)
         return FFD_OK;
+    measure_extent(job, arrays, result);
     if (!ffd_selection_is_all(job->document))
         status = ffd_selection_reduce(job->document, &arrays->faces, error);
     if (status)

@@ -1,6 +1,7 @@
 #include "job/judge/morph_result.h"
 #include "job/judge/figures.h"
 #include "mesh/bounds.h"
+#include <math.h>
 #include <string.h>
 
 static double larger(double a, double b)
@@ -58,6 +59,15 @@ static void join_bounds(const ffd_job_result *target, ffd_job_result *all)
         all->after = target->after;
     ffd_bounds_widen(&all->after, target->after.min);
     ffd_bounds_widen(&all->after, target->after.max);
+}
+
+/* After several targets there are several shapes. */
+static void join_extent(const ffd_job_result *target, bool is_only, ffd_job_result *all)
+{
+    all->area_before = target->area_before;
+    all->volume_before = target->volume_before;
+    all->area_after = is_only ? target->area_after : NAN;
+    all->volume_after = is_only ? target->volume_after : NAN;
 }
 
 static void join_tears(const ffd_job_result *target, bool is_first, ffd_job_result *all)
@@ -125,5 +135,6 @@ void ffd_morph_results_join(const ffd_job_result *targets, size_t count, ffd_job
         join_quality(&targets[k], k, all);
         join_edges(&targets[k], k == 0, all);
         join_behind(&targets[k], all);
+        join_extent(&targets[k], count == 1, all);
     }
 }

@@ -17,6 +17,7 @@ void ffd_result_clear(ffd_job_result *result)
     result->det_outside = HUGE_VAL;
     result->det_min = 1;
     result->det_max = -1;
+    result->area_before = result->area_after = result->volume_before = result->volume_after = NAN;
 }
 
 void ffd_result_fill(ffd_job_result *result, const pass_totals *totals, double seconds)

@@ -102,6 +102,26 @@ static void write_tear(json_text *json, const ffd_job_result *result)
     ffd_json_end(json, '}');
 }
 
+static void write_number_or_null(json_text *json, const char *key, double value)
+{
+    if (isnan(value))
+        ffd_json_null(json, key);
+    else
+        ffd_json_number(json, key, value);
+}
+
+static void write_extent(json_text *json, const char *key, double before, double after)
+{
+    if (isnan(before) && isnan(after)) {
+        ffd_json_null(json, key);
+        return;
+    }
+    ffd_json_object(json, key, true);
+    write_number_or_null(json, "before", before);
+    write_number_or_null(json, "after", after);
+    ffd_json_end(json, '}');
+}
+
 static void write_edges(json_text *json, const ffd_job_result *result)
 {
     if (!result->has_edges) {
@@ -261,6 +281,8 @@ static void write_deformation(json_text *json, const ffd_job_result *result)
     else
         ffd_json_null(json, "flipped_faces");
     write_tear(json, result);
+    write_extent(json, "volume", result->volume_before, result->volume_after);
+    write_extent(json, "area", result->area_before, result->area_after);
     write_determinants(json, result);
 }
 
@@ -322,9 +344,10 @@ static void write_seconds(json_text *json, const ffd_job_result *result)
 static void write_unknown(json_text *json)
 {
     static const char *const names[] = {
-        "vertices",      "inside",        "outside", "multiple",     "singular", "invalid",      "unused",
-        "hidden",        "morph_targets", "moved",   "shared_faces", "residual", "iterations",   "folds",
-        "flipped_faces", "tear",          "det",     "edges",        "bounds",   "displacement", "behind"};
+        "vertices",   "inside", "outside",       "multiple",     "singular",     "invalid",
+        "unused",     "hidden", "morph_targets", "moved",        "shared_faces", "residual",
+        "iterations", "folds",  "flipped_faces", "tear",         "volume",       "area",
+        "det",        "edges",  "bounds",        "displacement", "behind"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         ffd_json_null(json, names[i]);
 }

@@ -1,0 +1,135 @@
+#include "job/judge/extent.h"
+#include "base/vector/vec.h"
+#include <math.h>
+#include <string.h>
+
+/* A sum with the error of its roundings (A. Neumaier, Rundungsfehleranalyse einiger Verfahren zur Summation
+   endlicher Summen, 1974). */
+typedef struct exact_sum {
+    double sum, lost;
+} exact_sum;
+
+static void add(exact_sum *s, double value)
+{
+    const double sum = s->sum + value;
+    s->lost += fabs(s->sum) >= fabs(value) ? (s->sum - sum) + value : (value - sum) + s->sum;
+    s->sum = sum;
+}
+
+static double total(const exact_sum *s)
+{
+    const double value = s->sum + s->lost;
+    return isfinite(value) ? value : NAN;
+}
+
+typedef struct extent_work {
+    const mesh_document *document;
+    const double *rest, *xyz;
+    size_t part, first, end; /* the part looked at last, and its vertices */
+    const double *origin;    /* volumes are taken from here: NULL before the first face */
+    exact_sum area, volume;
+    uint64_t border; /* the sum of the edges */
+} extent_work;
+
+static const double *position(const extent_work *work, uint32_t vertex)
+{
+    const double *const xyz = work->xyz + 3 * (size_t)vertex;
+    return isnan(xyz[0]) ? work->rest + 3 * (size_t)vertex : xyz;
+}
+
+/* Goes on to the part of a vertex; faces of a part are mostly in a row. */
+static void find_part(extent_work *work, uint32_t vertex)
+{
+    const mesh_document *const document = work->document;
+    if (vertex < work->first)
+        work->part = work->first = work->end = 0;
+    while (vertex >= work->end && work->part < document->part_count) {
+        const mesh_part *const part = &document->parts[work->part++];
+        work->first = work->end;
+        work->end += part->repeats_positions ? 0 : part->vertex_count;
+    }
+}
+
+static bool is_hidden(extent_work *work, uint32_t vertex)
+{
+    if (!work->document)
+        return false;
+    if (vertex < work->first || vertex >= work->end)
+        find_part(work, vertex);
+    return work->document->parts[work->part - 1].hidden;
+}
+
+/* Bijective (D. Stafford's variant 13 of the finalizer of MurmurHash3). */
+static uint64_t mix(uint64_t value)
+{
+    value = (value ^ value >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
+    value = (value ^ value >> 27) * UINT64_C(0x94d049bb133111eb);
+    return value ^ value >> 31;
+}
+
+/* The lower bits of short numbers are 0: a product alone would not see the upper ones. */
+static uint64_t spread(double number, uint64_t factor)
+{
+    uint64_t bits;
+    number += 0.0; /* -0 is 0 */
+    memcpy(&bits, &number, sizeof bits);
+    return (bits ^ bits >> 32) * factor;
+}
+
+static uint64_t hash_of(const double p[3])
+{
+    return mix(spread(p[0], UINT64_C(0x9e3779b97f4a7c15)) + spread(p[1], UINT64_C(0xc2b2ae3d27d4eb4f)) +
+               spread(p[2], UINT64_C(0xd6e8feb86659fd93)));
+}
+
+/* Of an edge that is run along one way; the other way its negative. */
+static uint64_t edge_hash(uint64_t from, uint64_t to)
+{
+    if (from == to)
+        return 0;
+    const uint64_t low = from < to ? from : to, high = from < to ? to : from;
+    const uint64_t hash = mix(low + high * UINT64_C(0x9fb21c651e98df25));
+    return from < to ? hash : 0 - hash;
+}
+
+/* The vector area, twice, goes to normal. */
+static void measure_face(extent_work *work, const uint32_t *corners, size_t count)
+{
+    const double *const p = position(work, corners[0]);
+    double before[3] = {0}, after[3], normal[3] = {0}, from_origin[3];
+    const uint64_t first = hash_of(p);
+    uint64_t last = first;
+    for (size_t c = 1; c < count; c++) {
+        const double *const q = position(work, corners[c]);
+        const uint64_t hash = hash_of(q);
+        for (int a = 0; a < 3; a++)
+            after[a] = q[a] - p[a];
+        normal[0] += before[1] * after[2] - before[2] * after[1];
+        normal[1] += before[2] * after[0] - before[0] * after[2];
+        normal[2] += before[0] * after[1] - before[1] * after[0];
+        memcpy(before, after, sizeof before);
+        work->border += edge_hash(last, hash);
+        last = hash;
+    }
+    work->border += edge_hash(last, first);
+    if (!work->origin)
+        work->origin = p;
+    for (int a = 0; a < 3; a++)
+        from_origin[a] = p[a] - work->origin[a];
+    add(&work->area, vec_length(normal) / 2);
+    add(&work->volume, vec_dot(from_origin, normal) / 6);
+}
+
+void ffd_extent_measure(const mesh_document *document, const mesh_faces *faces, const double *xyz,
+                        mesh_extent *extent)
+{
+    extent_work work = {.document = document, .rest = faces->positions, .xyz = xyz};
+    for (size_t f = 0; f < faces->face_count; f++) {
+        const uint32_t *const corners = faces->corners + faces->start[f];
+        const size_t count = faces->start[f + 1] - faces->start[f];
+        if (count > 0 && !is_hidden(&work, corners[0]))
+            measure_face(&work, corners, count);
+    }
+    extent->area = total(&work.area);
+    extent->volume = work.origin && work.border == 0 ? total(&work.volume) : NAN;
+}
