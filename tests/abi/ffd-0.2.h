@@ -373,6 +373,8 @@ typedef struct ffd_job_result {
     const char *const *morph_lattices;
     const struct ffd_job_result *morph_results;
     double seconds_read, seconds_embed, seconds_deform, seconds_judge, seconds_write;
+    double area_before, area_after;
+    double volume_before, volume_after;
 } ffd_job_result;
 ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);
 ffd_status ffd_check_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);
