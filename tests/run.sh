@@ -61,7 +61,7 @@ fi
 # has not, leaves it out. Its tools come from a package index, which a machine need not reach (.ci/setup).
 python='--suite python'
 skipped=0
-if { [ -n "$all" ] || [ "$suite" = python ]; } && ! cmp -s "$root/tests/python/requirements.txt" "$work/wheels/requirements.txt"; then
+if { [ -n "$all$soak" ] || [ "$suite" = python ]; } && ! cmp -s "$root/tests/python/requirements.txt" "$work/wheels/requirements.txt"; then
     python=
     skipped=1
     [ "$suite" != python ] || may_skip=--may-skip
@@ -252,6 +252,11 @@ if build gcc '' gcc g++ -Dbuildtype=debugoptimized -Dc_args=-g1 -Dcpp_args=-g1; 
         export FFD_SEED
         echo "FFD_SEED=$FFD_SEED"
         suites soak gcc --suite soak --timeout-multiplier 0
+        # The Python package in an interpreter with the address sanitizer: the hours of soak have the time for that build.
+        if [ -n "$python" ] && build_stage asan; then
+            suites sanitized asan --suite sanitized --timeout-multiplier 6
+            drop asan
+        fi
     else
         suites gcc gcc --no-suite python --no-suite packages --no-suite slow --no-suite soak
     fi

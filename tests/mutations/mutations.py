@@ -24,6 +24,15 @@ def m(name, kind, tests, *texts):
     MUTATIONS.append(Mutation(name, kind, [test.strip() for test in tests.split(",")], edits))
 
 
+# sizes of callers
+
+m("locations-longer-than-the-callers", "size", "older_callers", "memcpy(callers + size * (first + i), &own[i], size);",
+  "memcpy(callers + size * (first + i), &own[i], sizeof own[i]);")
+m("rounding-of-the-first-points", "index", "older_callers", "allowance->rounding ? allowance->rounding + 3 * first : NULL",
+  "allowance->rounding")
+m("folds-longer-than-the-callers", "size", "older_callers", "ffd_struct_give(&folds, sizeof folds, callers, callers->struct_size);",
+  "ffd_struct_give(&folds, sizeof folds, callers, sizeof folds);")
+
 # base
 
 m("output-not-renamed", "rename left out", "file, cli_output",
