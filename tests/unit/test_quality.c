@@ -54,7 +54,8 @@ static void set_mesh(sample *s, size_t vertices, const double *positions, size_t
     s->faces.positions = checked(ffd_alloc(vertices, 3 * sizeof(double)));
     s->faces.start = checked(ffd_alloc(faces + 1, sizeof(size_t)));
     s->faces.corners = checked(ffd_alloc(count, sizeof(uint32_t)));
-    memcpy(s->faces.positions, positions, 3 * vertices * sizeof(double));
+    if (vertices)
+        memcpy(s->faces.positions, positions, 3 * vertices * sizeof(double));
     for (size_t f = 0; f <= faces; f++)
         s->faces.start[f] = f * corners_of_face;
     if (count)
