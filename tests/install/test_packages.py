@@ -31,7 +31,7 @@ NEEDS_MODULES = "models/character.glb"
 # What is done in the clean root.
 CHECK = """set -eu
 cd /check
-apt-get install --yes --no-install-recommends ./ffd_*.deb ./libffd0_*.deb
+apt-get install --yes --no-install-recommends ./ffd_*.deb ./libffd0.2_*.deb
 ldconfig -p | grep -q 'libffd\\.so\\.0'
 ffd --version >version
 ffd deform spot.obj out.obj -l twist.json --report report.json
