@@ -7,6 +7,7 @@
 #include "io/write/glb_origin.h"
 #include "io/write/glb_writer.h"
 #include "io/write/write.h"
+#include "mesh/polygon_cut.h"
 #include "mesh/srgb.h"
 #include <float.h>
 #include <string.h>

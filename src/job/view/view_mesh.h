@@ -2,6 +2,7 @@
 #ifndef FFD_JOB_VIEW_VIEW_MESH_H
 #define FFD_JOB_VIEW_VIEW_MESH_H
 
+#include "mesh/mesh_log.h"
 #include "mesh/model.h"
 #include "view/view_scene.h"
 
