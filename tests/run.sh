@@ -283,7 +283,7 @@ if [ -n "$all" ]; then
     if build_stage asan; then
         ahead clang
         suites asan asan --no-suite oracle --no-suite rules --no-suite bench --no-suite node --no-suite slow \
-            --no-suite soak --timeout-multiplier 6
+            --no-suite packages --no-suite soak --timeout-multiplier 6
 
         # The fuzz targets themselves, for a moment and always the same one: a search for what is new takes hours, and
         # is not what a change is judged by. Their corpus was replayed by every suite `fuzz` above.

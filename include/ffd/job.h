@@ -648,6 +648,7 @@ FFD_API ffd_status ffd_report_write(ffd_report *report, ffd_error *error);
 FFD_API ffd_status ffd_report_merge_run(const char *const *reports, size_t count, bool interleave,
                                         const char *output, bool force, ffd_error *error);
 
+/* The same as ffd_free (ffd/lattice.h), for a text. */
 FFD_API void ffd_text_free(char *text);
 
 #ifdef __cplusplus

@@ -129,7 +129,8 @@ typedef struct ffd_csr {
    each coordinate of the point by the same coordinate of the control point. Rows of points that do not move
    are empty; those of points outside that are extended are the border point's, times what the falloff leaves.
    Values of 0 are left out. matrix is filled; free it with ffd_csr_free. weights: of the deformed volume, as
-   many as control points; NULL: those at rest. Errors: FFD_E_ARGUMENT, FFD_E_CANCELLED, FFD_E_MEMORY,
+   many as control points; NULL: those at rest. Where a lattice has moved weights, give them:
+   ffd_lattice_get_weights(moved, FFD_VOLUME_DEFORMED). Errors: FFD_E_ARGUMENT, FFD_E_CANCELLED, FFD_E_MEMORY,
    FFD_E_LIMIT. */
 FFD_API ffd_status ffd_embedding_basis(const ffd_embedding *embedding, const double *weights, ffd_csr *matrix,
                                        const ffd_run *run, ffd_error *error);
@@ -138,14 +139,16 @@ FFD_API ffd_status ffd_embedding_basis(const ffd_embedding *embedding, const dou
 FFD_API void ffd_csr_free(ffd_csr *matrix);
 
 /* The product of that matrix with displacements of the control points: dx = (dX/dQ) dq. dq: 3 doubles a
-   control point; dx: N x 3 doubles, 0 for points that do not move. Nothing is stored. Errors: as above. */
+   control point; dx: N x 3 doubles, 0 for points that do not move. Nothing is stored. weights and errors: as
+   of ffd_embedding_basis. */
 FFD_API ffd_status ffd_embedding_basis_times(const ffd_embedding *embedding, const double *weights,
                                              const double *dq, double *dx, const ffd_run *run,
                                              ffd_error *error);
 
 /* The product with the transposed matrix, as adjoint methods need it: dfdq = (dX/dQ)^T dfdx. dfdx: N x 3
    doubles; dfdq: 3 doubles a control point. Sums are made in blocks of 4096 points, joined in their order:
-   the same bits for any threads. Rows of points that do not move are not read. Errors: as above. */
+   the same bits for any threads. Rows of points that do not move are not read. weights and errors: as of
+   ffd_embedding_basis. */
 FFD_API ffd_status ffd_embedding_basis_transposed(const ffd_embedding *embedding, const double *weights,
                                                   const double *dfdx, double *dfdq, const ffd_run *run,
                                                   ffd_error *error);

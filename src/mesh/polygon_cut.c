@@ -1,5 +1,6 @@
 #include "mesh/polygon_cut.h"
 #include "base/memory/memory.h"
+#include "base/text/words.h"
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -299,6 +300,8 @@ static void cut_ears(polygon_cutter *cutter, uint32_t count, uint32_t *triangles
         }
         i = cutter->corners[i].next; /* that of a corner just cut off is still there */
     }
+    if (looks > most_looks)
+        cutter->hurried++;
 }
 
 ffd_status ffd_polygon_cut(polygon_cutter *cutter, const double *points, size_t count, uint32_t *triangles,
@@ -324,6 +327,15 @@ ffd_status ffd_polygon_cut(polygon_cutter *cutter, const double *points, size_t 
     if (!status)
         cut_ears(cutter, (uint32_t)count, triangles);
     return status;
+}
+
+void ffd_polygon_cut_warn(uint64_t hurried, const mesh_log *log)
+{
+    if (hurried)
+        ffd_log_line(log, FFD_LOG_WARNING,
+                     "%llu %s so many corners that finding a cut without overlaps takes too long: triangles "
+                     "may overlap",
+                     (unsigned long long)hurried, ffd_plural(hurried, "polygon has", "polygons have"));
 }
 
 void ffd_polygon_cutter_free(polygon_cutter *cutter)

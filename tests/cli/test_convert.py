@@ -5,6 +5,7 @@ import base64
 import json
 import math
 import struct
+from random import Random
 
 from gltf_build import Scene
 from harness import (INVALID, IO, PNG, USAGE, case, check, equal, glb, glb_split, gltf_json, lattice, main,
@@ -928,6 +929,22 @@ def containers_of_gltf(run):
     run.write("more.glb", more[:8] + struct.pack("<I", len(more)) + more[12:])
     run.ffd("deform", "more.glb", "more.gltf", "-l", "still.json",
             err="more.glb: the GLB's further chunks (12 bytes) are left out: a .gltf cannot hold them")
+
+
+@case
+def hurried_cuts_are_said(run):
+    """A polygon that is too tangled to be cut well: triangles are made all the same, and a line says what they are worth."""
+    start(run)
+    numbers = Random(7)
+    corners = 3000
+    run.write("t.obj", "".join(f"v {numbers.random()} {numbers.random()} 0\n" for _ in range(corners))
+              + "f " + " ".join(map(str, range(1, corners + 1))) + "\nf 1 2 3 4\n")
+    said = "t.obj: 1 polygon has so many corners that finding a cut without overlaps takes too long: triangles may overlap"
+    for target in ("t.stl", "t.glb", "t.gltf"):
+        check(said in convert(run, "t.obj", target, err=list).err, target)
+    for target in ("t.html", "t.png"):
+        check(said in run.ffd("view", "t.obj", "-o", target, err=list).err, target)
+    check(said not in convert(run, "t.obj", "t.ply", err=list).err, "a PLY has polygons")
 
 
 @case

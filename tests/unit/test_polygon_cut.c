@@ -232,6 +232,9 @@ static void tangles_end_soon(void **state)
         points[3 * (i / 2) + i % 2] = random >> 8;
     }
     assert_int_equal(ffd_polygon_cut(&cutter, points, count, triangles, NULL), FFD_OK);
+    assert_int_equal(cutter.hurried, 1);
+    assert_int_equal(ffd_polygon_cut(&cutter, points, 4, triangles, NULL), FFD_OK);
+    assert_int_equal(cutter.hurried, 1);
     ffd_polygon_cutter_free(&cutter);
     free(points);
     free(triangles);

@@ -390,6 +390,7 @@ ffd_status ffd_glb_make_plan(const mesh_model *model, glb_plan *plan, ffd_error 
     ffd_free(p.normals);
     ffd_free(p.sorted);
     ffd_intern_free(&p.primitives);
+    plan->hurried_polygons = p.scratch.cutter.hurried;
     ffd_face_triangles_free(&p.scratch);
     return status;
 }

@@ -25,6 +25,7 @@ typedef struct glb_plan {
     size_t vertex_count;
     uint32_t *indices; /* each counts from its primitive's first vertex */
     size_t index_count;
+    uint64_t hurried_polygons; /* as polygon_cutter has them */
     bool *morphed; /* of each mesh and morph target of the model: all primitives of the mesh have it */
 } glb_plan;
 

@@ -7,6 +7,7 @@
 #include "io/write/glb_origin.h"
 #include "io/write/glb_writer.h"
 #include "io/write/write.h"
+#include "mesh/polygon_cut.h"
 #include "mesh/srgb.h"
 #include <float.h>
 #include <string.h>
@@ -178,6 +179,8 @@ static ffd_status write(const mesh_model *model, const mesh_save_options *option
         status = files ? put_files(w, options) : binary ? put_glb(w, options->path) : put_stream(w);
     if (status == FFD_OK && w->is_far)
         tell_origin(w, log);
+    if (status == FFD_OK)
+        ffd_polygon_cut_warn(w->plan.hurried_polygons, log);
     end(w);
     return status;
 }

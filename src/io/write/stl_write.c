@@ -43,7 +43,6 @@ static ffd_status write(const mesh_model *model, const mesh_save_options *option
     const model_list *faces = &model->lists[MODEL_FACES];
     const size_t triangles = model_triangle_count(model);
     face_triangles scratch = {0};
-    (void)log;
     if (triangles > UINT32_MAX)
         return ffd_fail_file(error, FFD_E_LIMIT, options->path,
                              "would have %zu triangles, more than an STL's %" PRIu32, triangles, UINT32_MAX);
@@ -54,6 +53,8 @@ static ffd_status write(const mesh_model *model, const mesh_save_options *option
         const ffd_status status = write_face(&sink, model, &scratch, i);
         sink.status = sink.status ? sink.status : status;
     }
+    if (!sink.status)
+        ffd_polygon_cut_warn(scratch.cutter.hurried, log);
     ffd_face_triangles_free(&scratch);
     return sink.status;
 }

@@ -155,7 +155,7 @@ static ffd_status make_rigs(view_work *work, bool deformed, ffd_error *error)
 static ffd_status take_findings(view_work *work, const ffd_job_result *result, ffd_error *error)
 {
     deform_job *const job = &work->job;
-    ffd_status status = ffd_view_take_mesh(&work->model, &work->scene, &work->faces, error);
+    ffd_status status = ffd_view_take_mesh(&work->model, &work->scene, &work->faces, &job->log, error);
     if (!status)
         status = ffd_view_place_after(&work->model, work->details.deformed, &work->scene, error);
     if (!status)
@@ -278,7 +278,7 @@ static ffd_status read_files(view_work *work, ffd_error *error)
     if (!status)
         status = read_model(work, error);
     if (!status)
-        status = ffd_view_take_mesh(&work->model, &work->scene, &work->faces, error);
+        status = ffd_view_take_mesh(&work->model, &work->scene, &work->faces, &work->job.log, error);
     if (!status)
         status = work->desc->deformed ? read_deformed(work, error)
                                       : ffd_view_place_after(&work->model, NULL, &work->scene, error);

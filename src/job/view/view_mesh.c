@@ -147,7 +147,8 @@ static void take_vertices(mesh_model *model, view_scene *scene)
     model->position_count = 0;
 }
 
-ffd_status ffd_view_take_mesh(mesh_model *model, view_scene *scene, uint32_t **faces, ffd_error *error)
+ffd_status ffd_view_take_mesh(mesh_model *model, view_scene *scene, uint32_t **faces, const mesh_log *log,
+                              ffd_error *error)
 {
     mesh_taker t = {.model = model, .scene = scene, .error = error};
     ffd_status status = make_arrays(&t);
@@ -156,6 +157,7 @@ ffd_status ffd_view_take_mesh(mesh_model *model, view_scene *scene, uint32_t **f
     if (!status) {
         take_lines(&t);
         take_vertices(model, scene);
+        ffd_polygon_cut_warn(t.cutter.hurried, log);
     }
     ffd_polygon_cutter_free(&t.cutter);
     ffd_free(t.points);

@@ -13,6 +13,7 @@ from . import _arrays as arrays
 from . import _declarations as declared
 from . import _library as library
 from ._embedding import Embedding
+from ._errors import InvalidError
 from ._library import Owned, Progress, Run, call, lib
 from ._values import Deformed, Folds, Parameter, csr, described, folds_of, parameters, parameters_of, settings, shape_of, three, vertices_of
 
@@ -416,7 +417,7 @@ class Lattice:
         if embedding.lattice is self:
             return
         if embedding.lattice.size != self.size or not np.array_equal(embedding.lattice.rest, self.rest):
-            raise ValueError("the embedding was made with another lattice")
+            raise InvalidError("the embedding was made with another lattice")
 
     def _source_and_out(self, embedding: Embedding, points: Any, out: Any, vertices: Any) -> tuple[np.ndarray, np.ndarray]:
         """The points at rest, and the array for the results."""
