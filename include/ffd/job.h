@@ -310,7 +310,7 @@ typedef struct ffd_behind {
 /* Joints, pivots and sockets of a glTF: whether there are any, and how far they are from where the lattice
    moves the mesh. */
 typedef struct ffd_rig_result {
-    bool is_there; /* there are some; else all is 0 */
+    bool is_there; /* there are some, or other nodes follow; else all is 0 */
     uint64_t joints;
     uint64_t moved;     /* nodes that are written otherwise */
     uint64_t sheared;   /* of these: nodes that turn as their parents do, since they would be sheared else */

@@ -232,7 +232,7 @@ static void write_targets(json_text *json, const ffd_job_result *result)
     ffd_json_end(json, '}');
 }
 
-/* Only where there are joints, pivots or sockets. */
+/* Only where there are joints, pivots or sockets, or where nodes follow. */
 static void write_rig(json_text *json, const ffd_rig_result *rig)
 {
     if (!rig->is_there)

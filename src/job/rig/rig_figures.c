@@ -80,6 +80,8 @@ ffd_status ffd_rig_figures_find(const mesh_document *document, const rig_places 
     figures->singular = following->singular;
     figures->partial = following->partial;
     figures->unscaled = following->unscaled;
+    figures->is_there =
+        figures->is_there || figures->moved || figures->sheared || figures->singular || figures->partial;
     if (worst != SIZE_MAX) {
         status = name_worst(document, rig->places.list[worst].number, figures, error);
         if (status == FFD_OK)
