@@ -38,7 +38,7 @@ typedef struct ffd_run {
     size_t struct_size; /* sizeof(ffd_run) of the caller */
     int threads;        /* 0: all cores. Never changes a bit of the result. */
     ffd_isa isa;        /* nor does this. FFD_E_ARGUMENT for one that is not available. */
-    /* Called now and then by the thread that made the call, with the part that is done, 0..1. false cancels:
+    /* Called once and more by the thread that made the call, with the part that is done, 0..1. false cancels:
        the call ends with FFD_E_CANCELLED, and what it writes is then not defined. NULL: none. */
     bool (*progress)(void *user, double done);
     void *user;

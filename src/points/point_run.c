@@ -57,6 +57,7 @@ static void tell(point_run *run, size_t done, int worker)
 {
     if (worker != 0 || !run->run.progress)
         return;
+    run->told = true;
     if (!run->run.progress(run->run.user, (double)done / (double)run->total)) {
         run->statuses[0] = run->statuses[0] ? run->statuses[0] : FFD_E_CANCELLED;
         atomic_store(&run->stopped, true);
@@ -85,6 +86,9 @@ ffd_status ffd_point_run_tiles(point_run *run, point_function function, void *co
     tile_context work = {run, function, context};
     int first = -1;
     ffd_parallel_tiles(run->total, POINT_TILE, run->run.threads, run_tile, &work);
+    /* The other threads may have done all of it: who wants to cancel is asked all the same. */
+    if (run->total > 0 && !run->told && !atomic_load(&run->stopped))
+        tell(run, run->total, 0);
     for (int i = 0; i < run->run.threads; i++)
         if (run->statuses[i] && (first < 0 || run->tiles[i] < run->tiles[first]))
             first = i;

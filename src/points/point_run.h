@@ -15,6 +15,7 @@ typedef struct point_run {
     size_t total;
     atomic_size_t done;
     atomic_bool stopped;  /* by a failure or by the caller: what is left need not be done */
+    bool told;            /* the caller, how far it is: once at least */
     ffd_status *statuses; /* one a thread: of its first failure */
     ffd_error *errors;    /* likewise */
     size_t *tiles;        /* likewise: the tile that failed */

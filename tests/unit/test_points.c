@@ -364,10 +364,13 @@ static bool stop(void *user, double done)
 
 static void progress_can_cancel(void **state)
 {
-    static double xyz[3 * POINTS];
+    enum { TILES = 4, MANY = TILES * 4096 };
+    static double xyz[3 * POINTS], many[3 * MANY];
     int calls = 0;
     draw d = {draw_seed()};
     fill_points(xyz, &d);
+    for (size_t i = 0; i < 3 * MANY; i++)
+        many[i] = xyz[i % (3 * POINTS)];
     ffd_lattice *rest = lattice_of(0, "");
     ffd_embedding_desc desc;
     ffd_embedding *embedding;
@@ -382,6 +385,14 @@ static void progress_can_cancel(void **state)
     assert_int_equal(ffd_embedding_create(&desc, &run, &embedding, NULL), FFD_E_CANCELLED);
     assert_null(embedding);
     assert_int_equal(calls, 1);
+    /* Also where other threads are done before the caller's has begun. */
+    run.threads = TILES;
+    desc.points = (ffd_span){.data = many, .count = MANY, .type = FFD_FLOAT64};
+    for (int i = 0; i < repetitions(100); i++) {
+        calls = 0;
+        assert_int_equal(ffd_embedding_create(&desc, &run, &embedding, NULL), FFD_E_CANCELLED);
+        assert_int_equal(calls, 1);
+    }
     ffd_lattice_destroy(&rest);
     (void)state;
 }
