@@ -506,7 +506,8 @@ m("map-not-clamped", "condition", "materials", '*is_clamped = ffd_text_is_any_ca
 
 m("digits-of-plain-words", "off by one", "mixed_faces", "digits > 0 && digits <= 8 ? (size_t)bytes_number(values << (64 - 8 * digits)) : 0;",
   "digits > 0 && digits <= 8 ? (size_t)bytes_number(values << (64 - 8 * digits)) + 1 : 0;")
-m("wanted-after-the-first", "limit", "mixed_faces, cli_tears", "if (a->wanted[middle] < vertex)", "if (a->wanted[middle] <= vertex)")
+m("wanted-after-the-first", "limit", "mixed_faces, cli_tears", "return *(const uint32_t *)wanted < *(const size_t *)vertex;",
+  "return *(const uint32_t *)wanted <= *(const size_t *)vertex;")
 # io/gltf
 
 m("data-uri-is-a-file", "condition", "buffer_count", "count += is_uri && !is_data(&string);", "count += is_uri;")

@@ -1,5 +1,6 @@
 #include "io/obj/obj_vectors.h"
 /* obj_vectors.c - the blocks of a file with their positions and normals. */
+#include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
 #include "io/obj/obj_number.h"
@@ -307,18 +308,15 @@ ffd_status ffd_obj_read_vectors(obj_document *d, obj_users *users, ffd_error *er
     return status;
 }
 
+static bool is_below(const void *wanted, const void *vertex)
+{
+    return *(const uint32_t *)wanted < *(const size_t *)vertex;
+}
+
 /* The number of the first wanted vertex that is not before this one. */
 static size_t find_wanted(const again *a, size_t vertex)
 {
-    size_t low = 0, high = a->count;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (a->wanted[middle] < vertex)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
+    return lower_bound(&vertex, a->wanted, a->count, sizeof *a->wanted, is_below);
 }
 
 static void read_again_tile(void *context, size_t tile, size_t first, size_t last, int worker)

@@ -1,6 +1,7 @@
 /* gltf_listing.c - nodes with all below them, meshes and materials by their names, and what they draw where
    the scene shows it. */
 #include "io/gltf/scene/gltf_listing.h"
+#include "base/lower_bound.h"
 #include "base/memory/intern.h"
 #include "base/memory/memory.h"
 #include "io/gltf/scene/gltf_detail.h"
@@ -54,18 +55,16 @@ static ffd_status draw_mesh(const surveying *s, size_t m, size_t first, size_t c
     return status;
 }
 
+static bool is_node_before(const void *element, const void *node)
+{
+    return *(const size_t *)element < *(const size_t *)node;
+}
+
 /* The use of a mesh by a node; uses->node_count where the scene does not show it. */
 static size_t find_use(const gltf_mesh_uses *uses, size_t node)
 {
-    size_t low = 0, high = uses->node_count;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (uses->nodes[middle] < node)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low < uses->node_count && uses->nodes[low] == node ? low : uses->node_count;
+    const size_t use = lower_bound(&node, uses->nodes, uses->node_count, sizeof *uses->nodes, is_node_before);
+    return use < uses->node_count && uses->nodes[use] == node ? use : uses->node_count;
 }
 
 static void add_pending(const surveying *s, size_t node, size_t *waiting)
