@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """What a job on a file can be told, the Python package offers: each member of ffd_deform_desc and ffd_source is named in
-src/python/ffd_mesh/_jobs.py, or below with the reason that it is not."""
+src/python/ffd_mesh, or below with the reason that it is not."""
 
 import re
 
@@ -18,10 +18,10 @@ def members(name, text):
 
 def main():
     header = re.sub(r"/\*.*?\*/", "", tree.read("include/ffd/job.h"), flags=re.S)
-    package = tree.read("src/python/ffd_mesh/_jobs.py") + tree.read("src/python/ffd_mesh/_library.py")
+    package = "".join(tree.read(f"src/python/ffd_mesh/_{name}.py") for name in ("description", "jobs", "library"))
     offered = set(re.findall(r"\w+", package))
     names = [name for name in members("ffd_deform_desc", header) + members("ffd_source", header) if not name.endswith("_room")]
-    tree.finish(len(names), "members", [f"{name}: not offered by src/python/ffd_mesh/_jobs.py" for name in names
+    tree.finish(len(names), "members", [f"{name}: not offered by src/python/ffd_mesh" for name in names
                                         if name not in offered | NOT_OFFERED])
 
 

@@ -12,10 +12,13 @@ Points are arrays (N, 3) of float32 or float64; control points are (nu, nv, nw, 
 from ._embedding import Embedding, Status
 from ._errors import (ArgumentError, Cancelled, EmbeddingError, Error, ExistsError, FileError, GateError, InvalidError,
                       LimitError, OutOfMemoryError, UnsupportedError)
-from ._jobs import DeformedBytes, Result, check_bytes, check_file, deform_bytes, deform_file, info, jacobian_file
+from ._facts import info
+from ._jacobian import jacobian_file
+from ._jobs import DeformedBytes, check_bytes, check_file, deform_bytes, deform_file
 from ._lattice import Lattice
 from ._library import lib as _lib
 from ._meshes import deform_mesh
+from ._result import Result
 from ._values import Csr, Deformed, Folds, Parameter, parameters
 
 __version__: str = _lib.ffd_version().decode()
