@@ -5,10 +5,11 @@ from __future__ import annotations
 import contextlib
 import ctypes
 import os
-from typing import Any, Callable, Iterator, Mapping, Union
+from typing import Any, Callable, Collection, Iterator, Mapping, Union
 
 from . import _declarations as declared
 from . import _library as library
+from ._errors import Error
 from ._lattice import Lattice
 from ._values import settings
 
@@ -16,20 +17,49 @@ Path = Union[str, "os.PathLike[str]"]
 AnyLattice = Union[Lattice, Path, bytes]
 Files = Union[Mapping[str, Any], Callable[[str], Any]]
 
+# Option -> enumeration, and whether it is the input's.
+_ENUMERATIONS = {"outside": "ffd_outside", "normals": "ffd_normals", "resources": "ffd_resources", "rig": "ffd_rig", "isa": "ffd_isa",
+                 "output_format": "ffd_format"}
+_INPUT_ENUMERATIONS = {"input_format": ("format", "ffd_format"), "space": ("space", "ffd_space")}
+# Those of reading a mesh.
+INPUT_OPTIONS = {*_INPUT_ENUMERATIONS, "memory", "strict", "allow_extensions"}
+_SWITCHES = ("blocks", "quality", "force", "if_changed", "dry_run")
+OPTIONS = {*_ENUMERATIONS, *INPUT_OPTIONS, *_SWITCHES, "set", "falloff", "snap", "embedding", "fail_on", "as_morph", "only",
+           "clips", "threads"}
+
 
 @contextlib.contextmanager
-def described(source: Any, lattices: Any, options: dict[str, Any]) -> Iterator[tuple[Any, list[str]]]:
-    """The description of a job, and the list of its warnings, which is filled at the end. source: a path or a `Memory`."""
+def described(source: Any, lattices: Any, options: dict[str, Any],
+              known: Collection[str] = OPTIONS) -> Iterator[tuple[Any, list[str]]]:
+    """The description of a job, and the list of its warnings, which is filled at the end. source: a path or a `Memory`; lattices:
+    None where a job can do without; known: the options that it has."""
     desc = library.filled("ffd_deform_desc")
-    kept = [source, _set_lattices(desc, lattices)]
-    if isinstance(source, Memory):
-        source.give(desc.input)
-    else:
-        desc.input.path = library.path(source)
-    kept += _set_options(desc, options)
+    kept = [source, None if lattices is None else _set_lattices(desc, lattices)]
+    place(source, desc.input)
+    kept += _set_options(desc, options, known)
     with library.logged(desc) as warnings:
         yield desc, warnings
     del kept
+
+
+def place(source: Any, structure: Any) -> None:
+    """Puts a path or a `Memory` into an ffd_source, which the latter must outlive."""
+    if isinstance(source, Memory):
+        source.give(structure)
+    else:
+        structure.path = library.path(source)
+
+
+@contextlib.contextmanager
+def resolved(*sources: Any) -> Iterator[None]:
+    """Around a call: raises what the function of a `Memory`'s files has raised, in place of the failure that this has made."""
+    try:
+        yield
+    except Error:
+        for source in sources:
+            if isinstance(source, Memory):
+                source.reraise()
+        raise
 
 
 class Memory:
@@ -37,7 +67,7 @@ class Memory:
 
     def __init__(self, data: Any, name: str, files: Files | None) -> None:
         self.name, self.resolver = library.path(name), None
-        self.address, self.size, self.kept = library.lend_bytes(data, "data")
+        self.address, self.size, self.kept = library.lend_bytes(data.read() if hasattr(data, "read") else data, "data")
         if files is not None and not callable(files) and not isinstance(files, Mapping):
             raise TypeError(f"files must be a dict or a function, not {type(files).__name__}")
         self.find = files.get if isinstance(files, Mapping) else files
@@ -107,20 +137,11 @@ def _set_gates(desc: Any, value: Any) -> None:
             desc.edges_most = float(most)
 
 
-# Option -> enumeration, and whether it is the input's.
-_ENUMERATIONS = {"outside": "ffd_outside", "normals": "ffd_normals", "resources": "ffd_resources", "rig": "ffd_rig", "isa": "ffd_isa",
-                 "output_format": "ffd_format"}
-_INPUT_ENUMERATIONS = {"input_format": ("format", "ffd_format"), "space": ("space", "ffd_space")}
-_SWITCHES = ("blocks", "quality", "force", "if_changed", "dry_run")
-_OPTIONS = {*_ENUMERATIONS, *_INPUT_ENUMERATIONS, *_SWITCHES, "set", "falloff", "snap", "embedding", "fail_on", "as_morph", "only", "clips",
-            "threads", "memory", "strict", "allow_extensions"}
-
-
-def _set_options(desc: Any, options: dict[str, Any]) -> list[Any]:
+def _set_options(desc: Any, options: dict[str, Any], known: Collection[str]) -> list[Any]:
     """Sets what is not None; returns what must stay alive."""
-    unknown = sorted(set(options) - _OPTIONS)
+    unknown = sorted(set(options) - set(known))
     if unknown:
-        raise TypeError(f"unknown option {unknown[0]!r} (known: {', '.join(sorted(_OPTIONS))})")
+        raise TypeError(f"unknown option {unknown[0]!r} (known: {', '.join(sorted(known))})")
     options = {name: value for name, value in options.items() if value is not None}
     kept = []
     for name, value in options.items():

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import os
 from typing import Any, Mapping, NamedTuple, Sequence
 
 from . import _library as library
 from ._description import AnyLattice, Files, Memory, Path, described
 from ._library import lib
-from ._result import Result, finish, run
+from ._result import Result, beside, finish, run
 
 
 def deform_file(source: Path, output: Path | None, lattices: AnyLattice | Sequence[AnyLattice] | Mapping[str, AnyLattice],
@@ -59,9 +58,7 @@ def deform_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice] | Mappin
         found, raised = run(lib.ffd_deform_run, desc)
     memory.reraise()
     result = finish(found, raised, warnings)
-    folder = os.path.dirname(name if output is None else output)
-    beside = {os.path.relpath(path, folder) if folder else path: content for path, content in taken[:-1]}
-    return DeformedBytes(taken[-1][1] if taken else b"", beside, result)
+    return DeformedBytes(taken[-1][1] if taken else b"", beside(taken, name if output is None else output), result)
 
 
 def check_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice], *, name: str, files: Files | None = None,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import os
 from typing import Any
 
 from . import _declarations as declared
@@ -55,6 +56,12 @@ def plain(value: Any) -> Any:
     return value
 
 
+def beside(taken: list[Any], output: str) -> dict[str, bytes]:
+    """What a sink has taken before the output, which comes last, by names relative to it."""
+    folder = os.path.dirname(output)
+    return {os.path.relpath(path, folder) if folder else path: content for path, content in taken[:-1]}
+
+
 def run(function: Any, desc: Any) -> tuple[Any, Error | None]:
     """Runs a job: what it did (ffd_job_result), and what it failed of."""
     result, error = library.empty("ffd_job_result"), declared.ffd_error()
@@ -68,6 +75,6 @@ def finish(found: Any, raised: Error | None, warnings: list[str]) -> Result:
     if raised is None:
         return result
     if isinstance(raised, GateError):
-        raised.result = result  # type: ignore[attr-defined]
-    raised.warnings = warnings  # type: ignore[attr-defined]
+        raised.result = result
+    raised.warnings = warnings
     raise raised
