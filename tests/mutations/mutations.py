@@ -1219,6 +1219,8 @@ m("sink-status-lost", "status", "in_memory", 'return status ? ffd_fail_file(erro
 m("output-by-short-name", "name", "in_memory", "ffd_path_join(folder->shown, path + folder->head)", "ffd_text_copy(path + folder->head)")
 m("unknown-status-passed-on", "check left out", "in_memory", "return status; } return FFD_E_IO;", "return status; } return status;")
 m("asked-twice", "cache", "in_memory", "if (!status) return note(files, path, *bytes, error);", "if (!status) return FFD_OK;")
+m("factors-exchanged", "name", "in_memory", 'ffd_in_memory_bytes(memory, desc->times_bytes, "times", &desc->times, error)',
+  'ffd_in_memory_bytes(memory, desc->times_bytes, "times", &desc->transposed, error)')
 
 # animations of views
 
@@ -1243,6 +1245,12 @@ m("control-points-in-c-order", "order", "python_package", "return np.ascontiguou
   "return np.ascontiguousarray(array)")
 m("columns-in-c-order", "order", "python_package", "self._columns()[indices]", "indices")
 m("read-only-written", "check left out", "python_package", "if not array.flags.writeable:", "if not array.flags.writeable and len(array) == 0:")
+m("picture-of-a-gate-lost", "member left out", "python_package", "raised.data = taken[-1][1]", "pass")
+m("figures-of-a-gate-lost", "member left out", "python_package",
+  "refused.result, refused.warnings = _figures(result, check), warnings", "refused.warnings = warnings")
+m("files-of-the-other-mesh", "name", "python_package", "files if other_files is None else other_files", "files")
+m("relative-tolerance-not-of-normals", "branch", "python_package",
+  "elif desc.relative: desc.direction_tolerance = desc.tolerance", "elif desc.relative: pass")
 m("embedded-points-written", "check left out", "python_package", "if arrays.overlap(out, embedding.points):",
   "if out is None:")
 m("handle-not-freed", "freed resource", "python_package", "if self.pointer: self._destroy(byref(self.pointer))", "self.freed = True")
