@@ -385,6 +385,8 @@ m("image-left-behind", "freed resource", "materials", "ffd_free(materials->image
 
 m("lower-bound-of-another-half", "bound", "base", "if (before((const char *)elements + middle * size, key)) low = middle + 1;",
   "if (before((const char *)elements + middle * size, key)) low = middle + 2;")
+m("last-element-never-found", "bound", "base, knots", "size_t low = 0, high = count; while (high - low > 1) {",
+  "size_t low = 0, high = count; while (high - low > 2) {")
 
 # picture
 
@@ -634,8 +636,9 @@ m("short-indices-by-their-low-byte", "endian", "cli_tears", "for (size_t i = 0; 
   "for (size_t i = 0; i < count && size == 2; i++)\n        indices[i] = at[2 * i];")
 # io/gltf/animation
 
-m("key-at-its-time", "bound", "gltf_animation, page_rig", "if (sampler->times[middle] <= time) low = middle;",
-  "if (sampler->times[middle] < time) low = middle;")
+m("key-at-its-time", "bound", "gltf_animation, page_rig", "return *(const double *)key <= *(const double *)time;",
+  "return *(const double *)key < *(const double *)time;",
+  "if (sampler->times[middle] <= time) low = middle;", "if (sampler->times[middle] < time) low = middle;")
 m("slerp-the-long-way", "sign", "gltf_animation, cli_view_animation", "sign = cosine >= 0 ? 1 : -1", "sign = 1")
 m("spline-not-normalized", "left out", "gltf_animation", "if (is_rotation) normalize(value);", "if (!is_rotation) normalize(value);")
 m("spline-tangents-swapped", "operand", "gltf_animation", "const double *const in = out + width, *const v1 = in + width;",
