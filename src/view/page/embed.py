@@ -3,10 +3,10 @@
 
     embed.py OUT NAME PROGRAM SOURCES HEAD PAGE STYLE... SCRIPT...
 
-The arrays are called ffd_NAME_start and so on. The page is cut where {{title}} and {{data}} stand. Its {{head}} is replaced by the
-file that all pages share, {{style}} and {{script}} by the files that end in .css and .js, {{program}} by what makes the page,
-{{sources}} by what else its Content-Security-Policy says of what it may load, and {{style-hash}} and {{script-hash}} by
-what that allows: these very bytes and nothing else.
+The arrays are called ffd_NAME_start and so on. The page is cut where {{title}} and {{data}} stand. Its {{head}} is
+replaced by the file that all pages share, {{style}} and {{script}} by the files that end in .css and .js, {{program}} by
+PROGRAM. Its Content-Security-Policy begins with {{sources}}, SOURCES; {{style-hash}} and {{script-hash}} are what it
+allows beside them: these very bytes and nothing else.
 """
 
 import base64
@@ -51,7 +51,8 @@ def main():
     style_text = "".join(read(path) for path in files if path.endswith(".css"))
     script_text = join_scripts([path for path in files if path.endswith(".js")])
     text = read(page)
-    for key, value in (("head", read(head)), ("program", program), ("sources", sources), ("style-hash", hash_of(style_text)), ("script-hash", hash_of(script_text)),
+    for key, value in (("head", read(head)), ("program", program), ("sources", sources),
+                       ("style-hash", hash_of(style_text)), ("script-hash", hash_of(script_text)),
                        ("style", style_text), ("script", script_text)):
         if text.count("{{" + key + "}}") != 1:
             sys.exit(f"{page}: does not hold {{{{{key}}}}} once")
