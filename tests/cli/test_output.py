@@ -245,14 +245,19 @@ def full_disk(run):
     equal(run.names(), ["b.obj", "big.obj", "l.json"])
 
 
-@case
-def killed_runs_leave_no_half_file(run):
-    """Whenever a run is killed the target is the old file or the new one, and the next run cleans up after it."""
+def write_what_takes_a_while(run):
+    """Writes a.obj and l.json. Returns the seconds of the deformation that gives expected.obj."""
     run.write("a.obj", "".join(f"v {n % 97 / 97} {n % 89 / 89} {n % 83 / 83}\n" for n in range(60000)))
     run.write("l.json", lattice(moves=[{"by": [0.1, 0.2, 0.3]}]))
     begun = time.monotonic()
     deform(run, "expected.obj")
-    whole = time.monotonic() - begun
+    return time.monotonic() - begun
+
+
+@case
+def killed_runs_leave_no_half_file(run):
+    """Whenever a run is killed the target is the old file or the new one, and the next run cleans up after it."""
+    whole = write_what_takes_a_while(run)
     killed = 0
     for n in range(12):
         run.write("b.obj", "old")
@@ -272,11 +277,7 @@ def killed_runs_leave_no_half_file(run):
 @case
 def interrupted_runs_leave_nothing(run):
     """A run that a signal ends at any moment leaves the old file or the new one, and no temporary one; its parent sees the signal."""
-    run.write("a.obj", "".join(f"v {n % 97 / 97} {n % 89 / 89} {n % 83 / 83}\n" for n in range(60000)))
-    run.write("l.json", lattice(moves=[{"by": [0.1, 0.2, 0.3]}]))
-    begun = time.monotonic()
-    deform(run, "expected.obj")
-    whole = time.monotonic() - begun
+    whole = write_what_takes_a_while(run)
     ends = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
     interrupted = 0
     for n in range(30):
