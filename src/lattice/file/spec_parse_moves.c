@@ -68,9 +68,7 @@ static ffd_status read_within(json_cursor cursor, lattice_move *move)
     move->has_within = true;
     ffd_status status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
     if (!status)
-        status = ffd_json_member_doubles(cursor, "min", 3, move->within_min);
-    if (!status)
-        status = ffd_json_member_doubles(cursor, "max", 3, move->within_max);
+        status = ffd_spec_read_ends(cursor, move->within_min, move->within_max);
     for (int c = 0; c < 3 && !status; c++)
         if (move->within_max[c] < move->within_min[c])
             return ffd_cursor_fail(cursor, "max %s is less than min %s",

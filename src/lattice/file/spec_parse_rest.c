@@ -66,9 +66,7 @@ static ffd_status read_box(json_cursor cursor, lattice_spec *spec)
     spec->rest = SPEC_BOX;
     ffd_status status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
     if (!status)
-        status = ffd_json_member_doubles(cursor, "min", 3, spec->box_min);
-    if (!status)
-        status = ffd_json_member_doubles(cursor, "max", 3, spec->box_max);
+        status = ffd_spec_read_ends(cursor, spec->box_min, spec->box_max);
     const json_cursor spacing = ffd_cursor_member(cursor, "spacing"),
                       axes = ffd_cursor_member(cursor, "axes");
     spec->has_axes = ffd_cursor_exists(axes);

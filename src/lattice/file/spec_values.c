@@ -89,6 +89,12 @@ ffd_status ffd_spec_read_path(json_cursor cursor, char **path)
     return ffd_cursor_fail(cursor, "is %s, not the name of a file", ffd_json_describe(cursor).text);
 }
 
+ffd_status ffd_spec_read_ends(json_cursor object, double min[3], double max[3])
+{
+    const ffd_status status = ffd_json_member_doubles(object, "min", 3, min);
+    return status ? status : ffd_json_member_doubles(object, "max", 3, max);
+}
+
 ffd_status ffd_spec_read_positive(json_cursor object, const char *key, double *value)
 {
     const ffd_status status = ffd_json_member_double(object, key, value);
