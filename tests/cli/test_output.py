@@ -123,6 +123,16 @@ def unreadable_files(run):
     deform(run, "-", "--output-format", "obj", code=IO, err="l.json: cannot be opened: Permission denied", **user)
 
 
+def mode_under(run, mask, name):
+    """The bits of a file that is written under a umask."""
+    old = os.umask(mask)
+    try:
+        deform(run, name)
+    finally:
+        os.umask(old)
+    return stat.S_IMODE(os.stat(run.path(name)).st_mode)
+
+
 @case
 def permissions(run):
     expected = start(run)
@@ -132,21 +142,11 @@ def permissions(run):
         deform(run, "b.obj", "--force")
         equal(stat.S_IMODE(os.stat(run.path("b.obj")).st_mode), mode, "the bits of the target")
         equal(run.read("b.obj"), expected)
-    old = os.umask(0o027)
-    try:
-        deform(run, "new.obj")
-    finally:
-        os.umask(old)
-    equal(stat.S_IMODE(os.stat(run.path("new.obj")).st_mode), 0o640, "a new file follows the umask")
+    equal(mode_under(run, 0o027, "new.obj"), 0o640, "a new file follows the umask")
     # What a killed run left had the bits of another file.
     run.write(".fresh.obj.ffd-tmp", "left")
     os.chmod(run.path(".fresh.obj.ffd-tmp"), 0o400)
-    old = os.umask(0o022)
-    try:
-        deform(run, "fresh.obj")
-    finally:
-        os.umask(old)
-    equal(stat.S_IMODE(os.stat(run.path("fresh.obj")).st_mode), 0o644, "a new file over one that was left")
+    equal(mode_under(run, 0o022, "fresh.obj"), 0o644, "a new file over one that was left")
     os.chmod(run.path("a.obj"), 0o604)
     run.ffd("deform", "a.obj", "--in-place", "-l", "l.json")
     equal(stat.S_IMODE(os.stat(run.path("a.obj")).st_mode), 0o604, "in place")
