@@ -7,6 +7,7 @@
 
 #include "../support/draw.h"
 #include "../support/lattice_by_hand.h"
+#include "../support/lattice_maps.h"
 #include "../support/repetitions.h"
 #include "base/vector/vec.h"
 #include "embed/cells/cells.h"
@@ -62,24 +63,10 @@ static void separable_map(const double g[3], double out[3])
         out[a] = g[a] * g[a] + (a + 1) * g[a];
 }
 
-static void warped_map(const double g[3], double out[3])
-{
-    out[0] = g[0] + 0.1 * g[1] * g[1] + 0.05 * g[2];
-    out[1] = g[1] + 0.15 * g[0] * g[2];
-    out[2] = g[2] - 0.1 * g[0] * g[0] + 0.05 * g[1] * g[1] * g[0];
-}
-
 static void thin_map(const double g[3], double out[3])
 {
     warped_map(g, out);
     out[2] *= 1e-6;
-}
-
-static void far_map(const double g[3], double out[3])
-{
-    warped_map(g, out);
-    out[0] += 1e6;
-    out[1] -= 1e6;
 }
 
 static void huge_map(const double g[3], double out[3])
@@ -87,15 +74,6 @@ static void huge_map(const double g[3], double out[3])
     warped_map(g, out);
     for (int a = 0; a < 3; a++)
         out[a] *= 1e9;
-}
-
-/* A bar bent to 3/4 of a circle: v along the bar. */
-static void bent_map(const double g[3], double out[3])
-{
-    const double angle = 4.7 * g[1], radius = 1 + g[0];
-    out[0] = radius * cos(angle);
-    out[1] = radius * sin(angle);
-    out[2] = g[2];
 }
 
 typedef struct locator_case {
