@@ -316,7 +316,7 @@ typedef struct ffd_rig_result {
     uint64_t sheared;   /* of these: nodes that turn as their parents do, since they would be sheared else */
     uint64_t singular;  /* nodes that stay, as do those below them: their matrices have no inverse */
     uint64_t partial;   /* nodes that stay because their meshes are selected in part */
-    uint64_t unscaled;  /* nodes with sizes that stay: of physics shapes, spring bones and eyes (VRM) */
+    uint64_t unscaled;  /* nodes with sizes that stay: of physics shapes, spring bones, eyes (VRM), splats */
     double largest_lag; /* |D(x) - x'| over joints, pivots and sockets */
     char worst[80]; /* the name of the first one with this lag, as ffd_behind has names; "": there is none */
     uint64_t lagging_skins, lagging_pivots, lagging_sockets; /* with some lag; skins: of some joint */

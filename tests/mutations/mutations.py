@@ -788,6 +788,9 @@ m("splats-in-the-scene", "left out", "cli_splats", "if (!transform.identity && !
   "if (transform.singular)\n            ffd_splat_turn_to_file")
 m("splats-broken", "figure", "cli_splats", "totals->splats_broken += outcome == SPLAT_BROKEN && scratch->changed[i];",
   "totals->splats_broken += outcome == SPLAT_BROKEN && scratch->changed[i] > 1;")
+m("splats-of-a-turned-node", "left out", "cli_rig", "(!part->skipped || part->carried) && !part->singular", "!part->skipped && !part->singular")
+m("splats-turned-and-not-said", "condition", "cli_rig", "is_turned = is_turned || part->carry[k] != 0;",
+  "is_turned = is_turned && part->carry[k] != 0;")
 m("report-rms", "figure", "cli_deform",
   'ffd_json_number(json, "rms", result->residual_rms);', 'ffd_json_number(json, "rms", result->residual_max);')
 m("report-member", "member name", "cli_report_schema", '"displacement", true); ffd_json_number(json, "max"',
