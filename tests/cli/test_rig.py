@@ -481,7 +481,7 @@ def with_tail(extensions):
     return made
 
 
-VRM = {"VRMC_vrm": {"specVersion": "1.0", "humanoid": {"humanBones": {"hips": {"node": 0}, "head": {"node": 9}, "jaw": {"node": 99}}},
+VRM = {"VRMC_vrm": {"specVersion": "1.0", "humanoid": {"humanBones": {"hips": {"node": 0}, "head": {"node": 9}}},
                     "lookAt": {"offsetFromHeadBone": [0, 0.06, 0]}},
        "VRMC_springBone": {"specVersion": "1.0", "colliders": [{"node": 3, "shape": {"sphere": {"offset": [0, 0, 0], "radius": 0.1}}}],
                            "springs": [{"joints": [{"node": n, "hitRadius": 0.02} for n in (6, 7, 8)], "colliderGroups": []}]}}
@@ -534,6 +534,49 @@ def springs_that_go_round_in_a_circle_end(run):
     done, _ = deform(run, with_tail(odd), BEND, "--rig", "follow")
     told(done, r"\b3 spring bones\b")
     not_told(done, "eyes")
+
+
+def vrm(**members):
+    return {"VRMC_vrm": {"specVersion": "1.0", **members}}
+
+
+def springs(**members):
+    return {"VRMC_springBone": {"specVersion": "1.0", **members}}
+
+
+@case
+def numbers_of_no_node_in_vrm_are_flaws(run):
+    """Each is said with its place and number, is in the report, and is refused with --strict. What else the file has of VRM
+    counts as it does without."""
+    said = "VRM should name one of the 11 nodes here{}: it is ignored"
+    for root, where, number in (
+            (vrm(humanoid={"humanBones": {"hips": {"node": 0}, "head": {"node": 99}}}), "VRMC_vrm/humanoid/humanBones/head/node", ", not 99"),
+            (vrm(humanoid={"humanBones": {"head": {}}}), "VRMC_vrm/humanoid/humanBones/head", ""),
+            (springs(springs=[{"joints": [{"node": 6}, {"node": -1}]}]), "VRMC_springBone/springs/0/joints/1/node", ", not -1"),
+            (springs(springs=[{"joints": [{"node": 1.5}]}]), "VRMC_springBone/springs/0/joints/0/node", ", not 1.5"),
+            (springs(springs=[{"joints": [6]}]), "VRMC_springBone/springs/0/joints/0", ""),
+            (springs(springs=[{"joints": [], "center": 11}]), "VRMC_springBone/springs/0/center", ", not 11"),
+            (springs(colliders=[{"node": 1e99}]), "VRMC_springBone/colliders/0/node", ", not 1e+99"),
+            ({"VRM": {"humanoid": {"humanBones": [{"bone": "head", "node": -1}]}}}, "VRM/humanoid/humanBones/0/node", ", not -1"),
+            ({"VRM": {"firstPerson": {"firstPersonBone": 12}}}, "VRM/firstPerson/firstPersonBone", ", not 12"),
+            ({"VRM": {"secondaryAnimation": {"boneGroups": [{"bones": [6, "a"]}]}}}, "VRM/secondaryAnimation/boneGroups/0/bones/1", ""),
+            ({"VRM": {"secondaryAnimation": {"boneGroups": [{"center": 11}]}}}, "VRM/secondaryAnimation/boneGroups/0/center", ", not 11"),
+            ({"VRM": {"secondaryAnimation": {"colliderGroups": [{"node": None}]}}},
+             "VRM/secondaryAnimation/colliderGroups/0/node", "")):
+        run.write("a.glb", with_tail(root).glb())
+        run.write("l.json", box(BEND))
+        message, pointer = said.format(number), "/extensions/" + where
+        done = run.ffd("check", "a.glb", "-l", "l.json", "--report", "r.json", err=anything)
+        equal([line for line in done.err if "VRM" in line], [f"a.glb: {pointer}: {message}"])
+        equal(json.loads(run.text("r.json"))["jobs"][0]["flaws"], [{"message": message, "pointer": pointer, "count": 1}])
+        run.ffd("check", "a.glb", "-l", "l.json", "--strict", code=INVALID, err=f"a.glb:{pointer}: {message}")
+    # VRM 0.x has -1 for none, and several are one line.
+    fine = {"VRM": {"firstPerson": {"firstPersonBone": -1}, "secondaryAnimation": {"boneGroups": [{"center": -1, "bones": [6]}]}}}
+    equal(deform(run, with_tail(fine), [], "--strict")[0].err, [])
+    made = with_tail({"VRMC_vrm": {}})
+    made.asset["nodes"][6]["extensions"] = {"VRMC_node_constraint": {"constraint": {"roll": {"source": 20}, "aim": {}}}}
+    told(deform(run, made, [])[0], "/nodes/6/extensions/VRMC_node_constraint/constraint/roll/source: " + said.format(", not 20")
+         + r" \(the first of 2 such\)$")
 
 
 @case

@@ -692,7 +692,7 @@ m("ply-normals-mixed", "stride", "ply, cli_ply",
 m("ply-rests-by-coefficient", "stride", "cli_splats", "(size_t)(channel * functions + coefficient)",
   "(size_t)((functions > 0) * coefficient * HARMONICS_CHANNELS + channel)",
   "c[i][m][k] = values[i][k * functions + m];", "c[i][m][k] = values[i][m * HARMONICS_CHANNELS + k];")
-m("vrm-humanoid-left", "left out", "cli_rig", "visit_node(v, node, VRM_BONE); if (eyes", "(void)VRM_BONE;\n        if (eyes")
+m("vrm-humanoid-left", "left out", "cli_rig", 'visit_member(v, b, "node", VRM_BONE);', 'visit_member(v, b, "node", VRM_NAMED);')
 m("vrm-old-springs-below", "left out", "cli_rig", "mark_spring(s, child); s->pending[waiting++] = child;", "mark_spring(s, root);")
 m("vrm-eyes-of-any-bone", "condition", "cli_rig", 'if (eyes != JSON_NONE && ffd_json_span_key_is(tree, b, "head"))',
   'if (eyes != JSON_NONE && !ffd_json_span_key_is(tree, b, "head"))')
@@ -788,6 +788,8 @@ m("splats-in-the-scene", "left out", "cli_splats", "if (!transform.identity && !
   "if (transform.singular)\n            ffd_splat_turn_to_file")
 m("splats-broken", "figure", "cli_splats", "totals->splats_broken += outcome == SPLAT_BROKEN && scratch->changed[i];",
   "totals->splats_broken += outcome == SPLAT_BROKEN && scratch->changed[i] > 1;")
+m("vrm-a-number-of-no-node", "left out", "cli_rig", "else if (number != JSON_NONE && v->fault)", "else if (number == JSON_NONE && v->fault)")
+m("vrm-none-is-a-fault", "condition", "cli_rig", "number >= -1 && number <= -1;", "number >= -1 && number < -1;")
 m("splats-of-a-turned-node", "left out", "cli_rig", "(!part->skipped || part->carried) && !part->singular", "!part->skipped && !part->singular")
 m("splats-turned-and-not-said", "condition", "cli_rig", "is_turned = is_turned || part->carry[k] != 0;",
   "is_turned = is_turned && part->carry[k] != 0;")
