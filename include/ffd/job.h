@@ -415,6 +415,9 @@ typedef struct ffd_job_result {
        along it one way as the other (vertices at one position are one). Negative where the faces show their
        backs outside. */
     double volume_before, volume_after;
+    /* Of morph targets and animations of a glTF that were replaced: those that stay in the file, though
+       nothing uses them any more. */
+    uint64_t bytes_left;
 } ffd_job_result;
 
 /* Runs one job. Everything that can be refused is refused before anything is written; the output is complete

@@ -194,6 +194,9 @@ typedef struct mesh_save_options {
        copied beside it, or are there already. NULL: not wanted. */
     path_list *copied;
     uint64_t *indices_left; /* gets how many indices in extensions cannot follow; NULL: not wanted */
+    /* Gets how many bytes of morph targets and animations that are replaced stay, though nothing uses them.
+       NULL: not wanted. */
+    uint64_t *bytes_left;
 } mesh_save_options;
 
 /* x = linear p + offset, in place. */

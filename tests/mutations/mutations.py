@@ -874,7 +874,10 @@ m("clip-default-weights", "condition", "cli_morphs", "if (names[t] == KEEPS && !
   "if (names[t] == IS_ZERO && !ffd_gltf_weight(d, default_value, &row[t]))")
 m("clip-weights-of-a-node", "condition", "cli_morphs", "size_t sampler = own ? GLTF_NONE : w->samplers[mesh];",
   "size_t sampler = w->samplers[mesh];")
-m("clip-own-bytes", "condition", "cli_morphs", "own[a] && users[a] == 0 &&", "own[a] &&")
+m("clip-own-bytes", "condition", "cli_morphs", "own[a] = own[a] && users[a] == 0;", "own[a] = own[a] && users[a] <= 2;")
+m("target-bytes-in-use", "condition", "cli_morphs", "before[a] > 0 && users[a] == 0", "before[a] > 0")
+m("target-bytes-compressed", "condition", "cli_morphs", "views[v] == IS_LEFT ?", "views[v] == IS_KEPT ?")
+m("target-bytes-sparse", "left out", "cli_morphs", "bytes += plain_bytes(d, sparse->values_view, sparse->count, size) +", "bytes +=")
 m("clip-replaced", "left out", "cli_morphs", "ffd_json_span_string_is(tree, name, w->clip->name)", "ffd_json_span_string_is(tree, name, \"\")")
 m("clip-of-a-conversion", "stride", "cli_morphs", "clip->key_count * target_count(plan, m), NULL", "clip->key_count * 1, NULL")
 m("morph-in-its-place", "operand", "cli_morphs, cli_as_morph", "ffd_gltf_target_place(&file->model.meshes[m].primitives[p], marks->named[m]);",
