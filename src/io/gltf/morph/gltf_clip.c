@@ -1,6 +1,6 @@
 #include "io/gltf/morph/gltf_clip.h"
-#include "base/little_endian.h"
 #include "base/memory/memory.h"
+#include "base/text/buffer_float.h"
 #include "base/text/number.h"
 #include "base/text/words.h"
 #include "io/gltf/morph/gltf_grown.h"
@@ -70,13 +70,6 @@ ffd_status ffd_gltf_check_clips(const gltf_document *d, const morph_clip *clips,
     return status;
 }
 
-static void put_float(double value, byte_buffer *out)
-{
-    unsigned char bytes[4];
-    store_float(bytes, (float)value);
-    ffd_buffer_append(out, bytes, sizeof bytes);
-}
-
 /* Appends a name as a JSON string. */
 static void put_name(const char *name, byte_buffer *text)
 {
@@ -119,7 +112,7 @@ static void add_times(clip_writer *w)
     snprintf(bounds, sizeof bounds, ",\"min\":[%s],\"max\":[%s]", least, most);
     w->input = add_accessor(w, clip->key_count, bounds);
     for (size_t k = 0; k < clip->key_count; k++)
-        put_float((double)clip->times[k], &w->file.data.bytes);
+        ffd_buffer_float(&w->file.data.bytes, (double)clip->times[k]);
 }
 
 /* Finds which of a mesh's targets the clip drives, and by which name. Returns whether there is one. */
@@ -176,7 +169,7 @@ static bool put_weights(clip_writer *w, const uint32_t *names, size_t count, uin
         for (size_t i = clip->starts[k]; i < clip->starts[k + 1]; i++)
             weights[clip->weights[i].target] = clip->weights[i].weight;
         for (size_t t = 0; t < count; t++)
-            put_float(names[t] < IS_ZERO ? weights[names[t]] : row[t], &w->file.data.bytes);
+            ffd_buffer_float(&w->file.data.bytes, names[t] < IS_ZERO ? weights[names[t]] : row[t]);
         for (size_t i = clip->starts[k]; i < clip->starts[k + 1]; i++)
             weights[clip->weights[i].target] = 0;
     }
