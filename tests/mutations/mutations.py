@@ -649,8 +649,8 @@ m("falling-times", "bound", "gltf_animation, cli_view_animation", "if (i > 0 && 
   "if (i > 1 && sampler->times[i] < sampler->times[i - 1])")
 m("keys-of-nothing-are-checked", "condition", "gltf_animation", "if (ffd_gltf_channel_drives(&animation->channels[c])) status = load_channel(",
   "if (animation->channels[c].sampler != GLTF_NONE) status = load_channel(")
-m("weights-of-nodes-only", "condition", "gltf_animation", "return value != JSON_NONE || d->model.nodes[n].mesh < 0",
-  "return value == JSON_NONE || d->model.nodes[n].mesh < 0")
+m("weights-of-nodes-only", "condition", "gltf_animation", "mesh < 0 ? JSON_NONE : ffd_gltf_first_weight(",
+  "d->node_values.count > 0 ? JSON_NONE : ffd_gltf_first_weight(")
 m("matrix-not-taken-apart", "left out", "gltf_animation", "if (channel->path < GLTF_WEIGHTS && node->has_matrix)",
   "if (channel->path > GLTF_WEIGHTS && node->has_matrix)")
 m("list-keeps-its-memory", "clean-up", "gltf_animation, view_pose", "ffd_budget_return(&d->base.budget, 1, animations->taken);", ";")
