@@ -34,7 +34,8 @@ static ffd_status order_nodes(const gltf_document *d, gltf_pose *pose, ffd_error
     return FFD_OK;
 }
 
-/* The rotation x,y,z,w of a matrix whose columns have length 1 (Shepperd 1978). */
+/* The rotation x,y,z,w of a matrix whose columns have length 1 (Shepperd 1978). Where these are sheared it is
+   no unit quaternion: three.js has the same one, and shows the same. ffd_mat_quaternion gives another. */
 static void quaternion_of(const double m[9], double q[4])
 {
     const double trace = m[0] + m[4] + m[8];
