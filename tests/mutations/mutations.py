@@ -875,6 +875,8 @@ m("clip-default-weights", "condition", "cli_morphs", "if (names[t] == KEEPS && !
 m("clip-weights-of-a-node", "condition", "cli_morphs", "size_t sampler = own ? GLTF_NONE : w->samplers[mesh];",
   "size_t sampler = w->samplers[mesh];")
 m("clip-own-bytes", "condition", "cli_morphs", "own[a] = own[a] && users[a] == 0;", "own[a] = own[a] && users[a] <= 2;")
+m("target-of-others-lost", "condition", "cli_as_morph", "(is_own || ffd_gltf_is_partly_selected(", "(is_own && ffd_gltf_is_partly_selected(")
+m("target-of-others-lost-unsaid", "condition", "cli_as_morph", "old >= 0 && (size_t)old != accessor &&", "old >= 0 && (size_t)old == accessor &&")
 m("target-bytes-in-use", "condition", "cli_morphs", "before[a] > 0 && users[a] == 0", "before[a] > 0")
 m("target-bytes-compressed", "condition", "cli_morphs", "views[v] == IS_LEFT ?", "views[v] == IS_KEPT ?")
 m("target-bytes-sparse", "left out", "cli_morphs", "bytes += plain_bytes(d, sparse->values_view, sparse->count, size) +", "bytes +=")
