@@ -316,7 +316,7 @@ typedef struct ffd_rig_result {
     uint64_t sheared;   /* of these: nodes that turn as their parents do, since they would be sheared else */
     uint64_t singular;  /* nodes that stay, as do those below them: their matrices have no inverse */
     uint64_t partial;   /* nodes that stay because their meshes are selected in part */
-    uint64_t unscaled;  /* nodes with sizes that stay: of physics shapes, spring bones and eyes (VRM) */
+    uint64_t unscaled;  /* nodes with sizes that stay: of physics shapes, spring bones, eyes (VRM), splats */
     double largest_lag; /* |D(x) - x'| over joints, pivots and sockets */
     char worst[80]; /* the name of the first one with this lag, as ffd_behind has names; "": there is none */
     uint64_t lagging_skins, lagging_pivots, lagging_sockets; /* with some lag; skins: of some joint */
@@ -415,6 +415,9 @@ typedef struct ffd_job_result {
        along it one way as the other (vertices at one position are one). Negative where the faces show their
        backs outside. */
     double volume_before, volume_after;
+    /* Of morph targets and animations of a glTF that were replaced: those that stay in the file, though
+       nothing uses them any more. */
+    uint64_t bytes_left;
 } ffd_job_result;
 
 /* Runs one job. Everything that can be refused is refused before anything is written; the output is complete

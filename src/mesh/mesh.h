@@ -153,7 +153,8 @@ typedef struct mesh_following {
     uint64_t sheared;  /* that turn as their parents do, since they would be sheared else */
     uint64_t singular; /* that stay, with all below them, since their matrices have no inverse */
     uint64_t partial;  /* that stay since their meshes are selected in part */
-    uint64_t unscaled; /* that hold sizes which stay: of physics shapes, spring bones, offsets of eyes */
+    uint64_t
+        unscaled; /* that hold what stays: sizes of physics shapes, spring bones, offsets of eyes, splats */
 } mesh_following;
 
 typedef struct mesh_places {
@@ -193,6 +194,9 @@ typedef struct mesh_save_options {
        copied beside it, or are there already. NULL: not wanted. */
     path_list *copied;
     uint64_t *indices_left; /* gets how many indices in extensions cannot follow; NULL: not wanted */
+    /* Gets how many bytes of morph targets and animations that are replaced stay, though nothing uses them.
+       NULL: not wanted. */
+    uint64_t *bytes_left;
 } mesh_save_options;
 
 /* x = linear p + offset, in place. */

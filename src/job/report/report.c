@@ -205,11 +205,13 @@ static void write_flaws(json_text *json, const ffd_job_result *result)
     ffd_json_end(json, ']');
 }
 
-/* Only where there are some. */
-static void write_indices_left(json_text *json, const ffd_job_result *result)
+/* Only where there is some. */
+static void write_left(json_text *json, const ffd_job_result *result)
 {
     if (result->indices_left)
         ffd_json_count(json, "indices_left", result->indices_left);
+    if (result->bytes_left)
+        ffd_json_count(json, "bytes_left", result->bytes_left);
 }
 
 /* Vertices on faces that two lattices share. */
@@ -325,7 +327,7 @@ static void write_figures(json_text *json, const ffd_job_result *result)
     write_behind(json, result);
     write_rig(json, &result->rig);
     write_morphs(json, result);
-    write_indices_left(json, result);
+    write_left(json, result);
     write_flaws(json, result);
 }
 
