@@ -400,9 +400,10 @@ typedef struct ffd_job_result {
     uint64_t indices_left; /* indices in extensions of a glTF that do not follow its deformed meshes */
     const char *picture;   /* what ffd_view_run has written, lent by its description; else NULL */
     /* With morphs: their names, lattices and, where the description has room for them, figures: morph_count
-       each (up to the one that a gate refuses), lent by the description. The figures above are then the worst
-       ones of a target: counts of the one with the fewest vertices inside, what tears of the one with the
-       largest step, folds of all, after round all. */
+       each (up to the one that a gate refuses), lent by the description: morph_lattices are its lattices,
+       NULL where these are, or have no name. The figures above are then the worst ones of a target: counts of
+       the one with the fewest vertices inside, what tears of the one with the largest step, folds of all,
+       after round all. */
     size_t morph_count;
     const char *const *morphs;
     const char *const *morph_lattices;

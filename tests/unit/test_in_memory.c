@@ -429,6 +429,25 @@ static void texts_of_lattices_have_values(void **state)
     (void)state;
 }
 
+/* A report of several morph targets names the lattice of each, also one that has no name. */
+static void check_lattice_names(const ffd_deform_desc *callers, const char *second)
+{
+    ffd_deform_desc desc = *callers;
+    ffd_job_result targets[2] = {{.struct_size = sizeof *targets}, {.struct_size = sizeof *targets}};
+    ffd_job_result result = {.struct_size = sizeof result};
+    ffd_report *report;
+    sink s = {0};
+    desc.morph_results = targets;
+    desc.dry_run = true;
+    assert_int_equal(ffd_deform_run(&desc, &result, NULL), FFD_OK);
+    assert_int_equal(ffd_report_create_sink("r.json", true, take, &s, &report, NULL), FFD_OK);
+    assert_int_equal(ffd_report_add(report, "a.gltf", "b.gltf", &result, NULL), FFD_OK);
+    assert_int_equal(ffd_report_write(report, NULL), FFD_OK);
+    assert_non_null(memmem(s.files.files[0].bytes, s.files.files[0].size, second, strlen(second)));
+    ffd_report_destroy(&report);
+    clear(&s.files);
+}
+
 static void several_morph_targets_are_made(void **state)
 {
     both b;
@@ -448,6 +467,9 @@ static void several_morph_targets_are_made(void **state)
     assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
     assert_int_equal(result.morph_count, 2);
     assert_ptr_equal(result.morph_lattices, paths);
+    check_lattice_names(&b.desc, "k.json\"");
+    b.desc.lattices = NULL;
+    check_lattice_names(&b.desc, "\"lattice 2\"");
     use_files(&b);
     put_text("in/k.json", lattice_text);
     b.desc.lattices = paths;
