@@ -708,8 +708,34 @@ static void check_resolver(const char *fails, ffd_status with, ffd_status expect
     end(&b);
 }
 
+/* The same of what a view would draw, with an image that is grey where it is missing. */
+static void check_resolver_of_view(void (*make)(name_list *), const char *fails, const char *output)
+{
+    both b;
+    ffd_job_result result = {.struct_size = sizeof result};
+    ffd_error error = {0};
+    ffd_view_desc view;
+    begin(&b, make, "head.obj");
+    ffd_view_desc_init(&view, sizeof view);
+    view.job = &b.desc;
+    view.output = output;
+    view.sink = take;
+    view.sink_user = &b.sink;
+    assert_int_equal(ffd_view_run(&view, &result, NULL), FFD_OK);
+    assert_int_equal(b.sink.files.count, 1);
+    clear(&b.sink.files);
+    b.resolver.fails = fails;
+    b.resolver.with = FFD_E_CANCELLED;
+    assert_int_equal(ffd_view_run(&view, &result, &error), FFD_E_CANCELLED);
+    assert_non_null(strstr(error.message, fails));
+    assert_int_equal(b.sink.files.count, 0);
+    end(&b);
+}
+
 static void a_resolver_that_fails_ends_the_job(void **state)
 {
+    check_resolver_of_view(make_obj, "mats/head.mtl", "v.png");
+    check_resolver_of_view(make_obj, "mats/head.mtl", "v.html");
     check_resolver("head.bin", FFD_E_CANCELLED, FFD_E_CANCELLED);
     check_resolver("head.bin", FFD_E_IO, FFD_E_IO);
     check_resolver("tex/skin.png", FFD_E_MEMORY, FFD_E_MEMORY); /* a missing image alone is no failure */
