@@ -79,7 +79,7 @@ FFD_API void ffd_guard_inputs(void);
    where there is nothing to do. Errors: FFD_E_IO, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_restore_output(const char *path, ffd_error *error);
 
-/* Bytes that the caller lends until the job has ended. NULL: none, whatever size says is then refused. They
+/* Bytes that the caller lends until the job has ended. NULL: none; a size other than 0 is then refused. They
    are not changed, and not copied where they begin at a multiple of 8. */
 typedef struct ffd_bytes {
     const void *data;
@@ -90,20 +90,22 @@ typedef struct ffd_bytes {
    relative to the mesh, with "/", as the mesh has it but for "." and ".."; none leads out of its folder.
    *bytes is zeroed: what stays so is a file that is not there. Bytes are lent until the job has ended. Called
    once for a name, by one thread at a time, mostly but not always the caller's. Any status but FFD_OK ends
-   the job with it, before anything is written; it need not be asked again then. */
+   the job with it (with FFD_E_IO, if it is none of ffd_status), before anything is written. It is not called
+   again then. */
 typedef ffd_status (*ffd_resolve_function)(void *user, const char *name, ffd_bytes *bytes);
 
 /* Takes a file that a job has made: name is the output's, or that of a file beside it in the output's folder
    ("out/head.gltf": "out/head.bin", "out/skin.png"). The bytes are lent during the call. Called by the
    caller's thread, when all that can be refused was refused and all files are complete: once for each, the
    output itself last. Nothing reaches it where the job fails before. Any status but FFD_OK ends the job with
-   it: those that it has taken by then it keeps, without the output. */
+   it, as above: those that it has taken by then it keeps, without the output. */
 typedef ffd_status (*ffd_sink_function)(void *user, const char *name, const void *bytes, size_t size);
 
 /* A mesh to read. */
 typedef struct ffd_source {
     /* "-": standard input. With bytes only a name, which messages have and whose ending says the format where
-       nothing else does; or NULL: "mesh". */
+       nothing else does; or NULL: "mesh". FFD_E_ARGUMENT for a name, or one of an output in memory, whose
+       last part is empty, "." or "..". */
     const char *path;
     ffd_format format; /* AUTO is not possible for "-" */
     ffd_space space;   /* glTF: the space of the lattice */
@@ -267,8 +269,10 @@ typedef struct ffd_deform_desc {
     /* lattice_count objects, or NULL: one that is not NULL is taken in place of the file of its number, whose
        path is then a name for messages, or NULL. It is copied. Placeholders are of files only. */
     const ffd_lattice *const *lattice_objects;
-    const ffd_bytes *lattice_texts; /* the same with the text of a file; not with an object of that number */
-    ffd_bytes embedding_bytes;      /* those of the file; embedding is then a name, or NULL */
+    /* The same with the text of a file; not with an object of that number. FFD_E_ARGUMENT for a box round
+       meshes, which a file names relative to itself. */
+    const ffd_bytes *lattice_texts;
+    ffd_bytes embedding_bytes; /* those of the file; embedding is then a name, or NULL */
     /* Takes what would be written, and nothing is: output is then a name, written is not looked at, and no
        file is in the way. FFD_E_ARGUMENT with in_place, depfile and FFD_RESOURCES_REFERENCE. */
     ffd_sink_function sink;
@@ -629,7 +633,8 @@ typedef struct ffd_report ffd_report;
    Errors: FFD_E_IO, FFD_E_EXISTS, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_report_create(const char *path, bool stable, ffd_written *written, ffd_report **report,
                                      ffd_error *error);
-/* The same in memory: ffd_report_write hands the whole report to sink. name says JSON or JSON Lines. */
+/* The same in memory: ffd_report_write hands the whole report to sink. name says JSON or JSON Lines. Errors:
+   FFD_E_ARGUMENT (no name or sink), FFD_E_MEMORY. */
 FFD_API ffd_status ffd_report_create_sink(const char *name, bool stable, ffd_sink_function sink, void *user,
                                           ffd_report **report, ffd_error *error);
 /* Frees a report; a file keeps the entries that were added. NULL and pointers to NULL are allowed. */

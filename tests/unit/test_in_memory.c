@@ -406,6 +406,46 @@ static void names_are_the_callers(void **state)
     (void)state;
 }
 
+/* A name that ends in a folder's would lead nowhere. */
+static void names_that_are_no_files_are_refused(void **state)
+{
+    static const char *const names[] = {"", "/", ".", "..", "in/", "in/.."};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        for (int which = 0; which < 2; which++) {
+            both b;
+            ffd_job_result result = {.struct_size = sizeof result};
+            ffd_error error;
+            begin(&b, make_off, "head.off");
+            b.desc.input.format = b.desc.output_format = FFD_FORMAT_OFF;
+            *(which ? &b.desc.output : &b.desc.input.path) = names[i];
+            assert_int_equal(ffd_deform_run(&b.desc, &result, &error), FFD_E_ARGUMENT);
+            assert_non_null(strstr(error.message, "is no name for a file"));
+            assert_int_equal(b.sink.files.count, 0);
+            end(&b);
+        }
+    (void)state;
+}
+
+/* What a text names relative to itself is nowhere, even where there is such a file. */
+static void a_text_names_no_meshes(void **state)
+{
+    static const char around[] = "{\"format\":\"ffd-lattice\",\"version\":1,\"size\":[3,3,3],"
+                                 "\"rest\":{\"box\":{\"meshes\":[\"head.off\"]}}}";
+    const ffd_bytes text = {around, sizeof around - 1};
+    both b;
+    ffd_job_result result = {.struct_size = sizeof result};
+    ffd_error error;
+    begin(&b, make_off, "head.off");
+    put_all(&b.given, "in");
+    b.desc.lattice_objects = NULL;
+    b.desc.lattice_texts = &text;
+    assert_int_equal(ffd_deform_run(&b.desc, &result, &error), FFD_E_ARGUMENT);
+    assert_string_equal(error.file, b.path);
+    assert_non_null(strstr(error.message, "cannot be read from memory"));
+    end(&b);
+    (void)state;
+}
+
 static void texts_of_lattices_have_values(void **state)
 {
     both b;
@@ -682,6 +722,10 @@ static void a_report_goes_to_a_sink(void **state)
     assert_int_equal(ffd_report_create_sink("r.jsonl", true, take, &s, &report, NULL), FFD_OK);
     assert_int_equal(ffd_report_write(report, NULL), FFD_E_LIMIT);
     ffd_report_destroy(&report);
+    assert_int_equal(ffd_report_create_sink("r.json", true, NULL, NULL, &report, NULL), FFD_E_ARGUMENT);
+    assert_int_equal(ffd_report_create_sink(NULL, true, take, &s, &report, NULL), FFD_E_ARGUMENT);
+    assert_int_equal(ffd_report_create_sink("out/", true, take, &s, &report, NULL), FFD_E_ARGUMENT);
+    assert_null(report);
     clear(&s.files);
     (void)state;
 }
@@ -972,7 +1016,9 @@ int main(void)
         cmocka_unit_test(so_does_every_conversion),
         cmocka_unit_test(one_of_both_may_be_a_file),
         cmocka_unit_test(names_are_the_callers),
+        cmocka_unit_test(names_that_are_no_files_are_refused),
         cmocka_unit_test(texts_of_lattices_have_values),
+        cmocka_unit_test(a_text_names_no_meshes),
         cmocka_unit_test(several_morph_targets_are_made),
         cmocka_unit_test(embeddings_pass_through_memory),
         cmocka_unit_test(other_jobs_take_memory_too),
