@@ -413,12 +413,13 @@ typedef struct ffd_job_result {
     const char *const *morph_lattices;
     const struct ffd_job_result *morph_results;
     double seconds_read, seconds_embed, seconds_deform, seconds_judge, seconds_write;
-    /* For check and quality: of the faces that are not hidden, as the file places them, without what morph
-       targets add. NaN: not known; area_after and volume_after where several morph targets are made, too. */
+    /* For check and quality: of all faces that are not hidden, selected or not, as the file places them,
+       without what morph targets add. NaN: not known; area_after and volume_after where several morph targets
+       are made, too. */
     double area_before, area_after;
-    /* Enclosed by these faces; NaN where they are not closed: where an edge has not as many faces that run
-       along it one way as the other (vertices at one position are one). Negative where the faces show their
-       backs outside. */
+    /* Enclosed by these faces; NaN where there are none, or they are not closed: where an edge has not as
+       many faces that run along it one way as the other (vertices at one position are one). Negative where
+       the faces show their backs outside. */
     double volume_before, volume_after;
 } ffd_job_result;
 

@@ -753,13 +753,13 @@ static void check_resolver(const char *fails, ffd_status with, ffd_status expect
 }
 
 /* The same of what a view would draw, with an image that is grey where it is missing. */
-static void check_resolver_of_view(void (*make)(name_list *), const char *fails, const char *output)
+static void check_resolver_of_view(const char *output)
 {
     both b;
     ffd_job_result result = {.struct_size = sizeof result};
     ffd_error error = {0};
     ffd_view_desc view;
-    begin(&b, make, "head.obj");
+    begin(&b, make_obj, "head.obj");
     ffd_view_desc_init(&view, sizeof view);
     view.job = &b.desc;
     view.output = output;
@@ -768,18 +768,18 @@ static void check_resolver_of_view(void (*make)(name_list *), const char *fails,
     assert_int_equal(ffd_view_run(&view, &result, NULL), FFD_OK);
     assert_int_equal(b.sink.files.count, 1);
     clear(&b.sink.files);
-    b.resolver.fails = fails;
+    b.resolver.fails = "mats/head.mtl";
     b.resolver.with = FFD_E_CANCELLED;
     assert_int_equal(ffd_view_run(&view, &result, &error), FFD_E_CANCELLED);
-    assert_non_null(strstr(error.message, fails));
+    assert_string_equal(error.message, "the file \"mats/head.mtl\" was not given by the caller");
     assert_int_equal(b.sink.files.count, 0);
     end(&b);
 }
 
 static void a_resolver_that_fails_ends_the_job(void **state)
 {
-    check_resolver_of_view(make_obj, "mats/head.mtl", "v.png");
-    check_resolver_of_view(make_obj, "mats/head.mtl", "v.html");
+    check_resolver_of_view("v.png");
+    check_resolver_of_view("v.html");
     check_resolver("head.bin", FFD_E_CANCELLED, FFD_E_CANCELLED);
     check_resolver("head.bin", FFD_E_IO, FFD_E_IO);
     check_resolver("tex/skin.png", FFD_E_MEMORY, FFD_E_MEMORY); /* a missing image alone is no failure */
@@ -894,7 +894,7 @@ static void descriptions_that_contradict_themselves_are_refused(void **state)
 {
     both b;
     ffd_job_result result = {.struct_size = sizeof result};
-    ffd_error error;
+    ffd_error error = {0};
     ffd_bytes text = {lattice_text, strlen(lattice_text)};
     ffd_depfile *depfile;
     begin(&b, make_off, "head.off");
@@ -922,7 +922,8 @@ static void descriptions_that_contradict_themselves_are_refused(void **state)
         if (wrong == 8)
             b.desc.output = NULL;
         assert_int_equal(ffd_deform_run(&b.desc, &result, &error), FFD_E_ARGUMENT);
-        assert_non_null(error.message[0] ? error.message : NULL);
+        assert_true(error.message[0]);
+        error = (ffd_error){0};
     }
     ffd_depfile_destroy(&depfile);
     b.desc = whole;

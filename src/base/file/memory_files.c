@@ -268,8 +268,8 @@ static ffd_status resolve(memory_files *files, const char *path, memory_bytes *b
     if (!status)
         return note(files, path, *bytes, error);
     if (!files->failure.status)
-        ffd_fail_file(&files->failure, status, folder->name,
-                      "the file \"%s\", which it names, could not be given", name);
+        ffd_fail_file(&files->failure, status, folder->name, "the file \"%s\" was not given by the caller",
+                      name);
     *bytes = (memory_bytes){0};
     return ffd_memory_judge(files, status, error);
 }
