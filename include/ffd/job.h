@@ -88,10 +88,10 @@ typedef struct ffd_bytes {
 
 /* Finds a file that a mesh in memory names: a buffer, an image, a material library and its maps. name is
    relative to the mesh, with "/", as the mesh has it but for "." and ".."; none leads out of its folder.
-   *bytes is zeroed: what stays so is a file that is not there. Bytes are lent until the job has ended. Called
-   once for a name, by one thread at a time, mostly but not always the caller's. Any status but FFD_OK ends
-   the job with it (with FFD_E_IO, if it is none of ffd_status), before anything is written. It is not called
-   again then. */
+   *bytes is zeroed: what stays so is a file that is not there; a size without data ends the job with
+   FFD_E_ARGUMENT. Bytes are lent until the job has ended. Called once for a name, by one thread at a time,
+   mostly but not always the caller's. Any status but FFD_OK ends the job with it (with FFD_E_IO, if it is
+   none of ffd_status), before anything is written. It is not called again then. */
 typedef ffd_status (*ffd_resolve_function)(void *user, const char *name, ffd_bytes *bytes);
 
 /* Takes a file that a job has made: name is the output's, or that of a file beside it in the output's folder

@@ -83,8 +83,10 @@ static ffd_status resolve(void *user, const char *name, ffd_bytes *bytes)
     resolver *const r = user;
     const named *const file = find(r->files, name);
     r->calls++;
-    if (r->fails && strcmp(r->fails, name) == 0)
+    if (r->fails && strcmp(r->fails, name) == 0) {
+        bytes->size = 3; /* and no data */
         return r->with;
+    }
     if (file)
         *bytes = (ffd_bytes){file->bytes, file->size};
     return FFD_OK;
@@ -784,6 +786,7 @@ static void a_resolver_that_fails_ends_the_job(void **state)
     check_resolver("head.bin", FFD_E_IO, FFD_E_IO);
     check_resolver("tex/skin.png", FFD_E_MEMORY, FFD_E_MEMORY); /* a missing image alone is no failure */
     check_resolver("lost.png", (ffd_status)77, FFD_E_IO);
+    check_resolver("lost.png", FFD_OK, FFD_E_ARGUMENT); /* bytes that are none are not a missing file */
     (void)state;
 }
 
