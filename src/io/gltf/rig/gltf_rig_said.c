@@ -36,7 +36,7 @@ static void end_group(place_group *group)
         snprintf(group->names + used, sizeof group->names - used, " and %zu more", group->count - NAMES);
 }
 
-/* What stays as it is at nodes that move. */
+/* What stays as it is at nodes that move; and nodes that had no rotation and have one now. */
 typedef struct staying {
     place_group shapes, springs, eyes, aims, turned;
 } staying;
@@ -57,15 +57,16 @@ static ffd_status find_staying(const gltf_document *d, const mesh_places *places
         const bool has_shape = place->kinds & PLACE_BIT(FFD_BEHIND_PHYSICS_SHAPE);
         const size_t moved = rig->motions[place->number].moved;
         const size_t at = 12 * place->number;
-        if (place->stays || memcmp(rig->world + at, d->world + at, 12 * sizeof *d->world) == 0)
-            continue;
+        const bool moves =
+            !place->stays && memcmp(rig->world + at, d->world + at, 12 * sizeof *d->world) != 0;
         const struct {
             bool is_one;
             place_group *group;
-        } groups[] = {{has_shape, &found->shapes},
-                      {place->holds & PLACE_HOLDS_SPRING, &found->springs},
-                      {place->holds & PLACE_HOLDS_EYES, &found->eyes},
-                      {place->holds & PLACE_HOLDS_AIM, &found->aims},
+        } groups[] = {{moves && has_shape, &found->shapes},
+                      {moves && place->holds & PLACE_HOLDS_SPRING, &found->springs},
+                      {moves && place->holds & PLACE_HOLDS_EYES, &found->eyes},
+                      {moves && place->holds & PLACE_HOLDS_AIM, &found->aims},
+                      /* Also of nodes that stay below one that turns. */
                       {is_old && moved != GLTF_NONE && is_turned(d, &rig->nodes[moved]), &found->turned}};
         for (size_t g = 0; g < sizeof groups / sizeof *groups && status == FFD_OK; g++)
             if (groups[g].is_one)
