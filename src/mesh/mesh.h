@@ -129,9 +129,8 @@ typedef struct mesh_place {
     unsigned kinds; /* a set of PLACE_BIT; 0: what follow moves all the same */
     bool stays;     /* follow leaves it where it is, whatever it is below; */
     bool partial;   /* because its mesh is selected in part */
-    unsigned
-        holds; /* a set of PLACE_HOLDS: what the file has there in its own words, and what stays as it is */
-    size_t number; /* by which place_name knows it */
+    unsigned holds; /* a set of PLACE_HOLDS, which stay as they are */
+    size_t number;  /* by which place_name knows it */
 } mesh_place;
 #define PLACE_BIT(kind) (1u << (kind)) /* of an ffd_behind_kind */
 

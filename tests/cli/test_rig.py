@@ -514,6 +514,20 @@ def bones_and_springs_of_vrm_go_along(run):
 
 
 @case
+def rotations_of_nodes_that_stay_are_said(run):
+    """A hat that --only selects in part stays where it is, by a rotation against that of what it is below."""
+    made = Scene(scene=0, scenes=[{"nodes": [0]}], materials=[{"name": "a"}, {"name": "b"}],
+                 nodes=[{"name": "hips", "mesh": 0, "children": [1]}, {"name": "hat", "translation": [0, 1, 0], "mesh": 1}])
+    attributes = {"POSITION": made.add([[-0.5, 0, 0], [0.5, 0, 0], [0, 1, 0]], bounds=True)}
+    made.asset["meshes"] = [{"primitives": [{"attributes": attributes, "material": m} for m in materials]} for materials in ([0], [0, 1])]
+    made.asset |= {"extensions": {"VRM": {}}, "extensionsUsed": ["VRM"]}
+    done, follow = deform(run, made, BEND, "--rig", "follow", "--only", "material:a")
+    check("rotation" in follow.nodes[1], follow.nodes)
+    told(done, "2 nodes have rotations now", "hips, hat$")
+    told(done, "1 node stays where it is")
+
+
+@case
 def constraints_of_vrm(run):
     """Turns that are copied are copied still; a node that aims is said, where it or what it is below has moved."""
     for kind, said in (("aim", 1), ("roll", 0), ("rotation", 0)):

@@ -510,6 +510,7 @@ m("map-not-clamped", "condition", "materials", '*is_clamped = ffd_text_is_any_ca
 
 m("digits-of-plain-words", "off by one", "mixed_faces", "digits > 0 && digits <= 8 ? (size_t)bytes_number(values << (64 - 8 * digits)) : 0;",
   "digits > 0 && digits <= 8 ? (size_t)bytes_number(values << (64 - 8 * digits)) + 1 : 0;")
+m("vertices-that-were-not-there", "bound", "mixed_faces", "while (vertex < end && ffd_obj_walk_next(&walk)) {", "while (ffd_obj_walk_next(&walk)) {")
 m("wanted-after-the-first", "limit", "mixed_faces, cli_tears", "return *(const uint32_t *)wanted < *(const size_t *)vertex;",
   "return *(const uint32_t *)wanted <= *(const size_t *)vertex;")
 # io/gltf
@@ -977,6 +978,7 @@ m("volume-sum-not-exact", "rounding", "quality", "const double value = s->sum + 
 m("zeros-of-two-signs-are-two-vertices", "equality", "quality", "number += 0.0;", "number *= 1.0;")
 m("edges-of-both-ways-alike", "sign", "quality", "return from < to ? hash : 0 - hash;", "return from < to ? hash : hash;")
 m("area-of-what-hides", "condition", "quality", "if (count > 0 && !is_hidden(&work, corners[0]))", "if (count > 0)")
+m("volume-not-known-as-not-closed", "condition", "cli_check", 'isnan(result->area_before) ? "not known" : "none: the mesh is not closed"', '"none: the mesh is not closed"')
 m("volume-of-the-selection", "order", "cli_check", "measure_extent(job, arrays, result);\n    if (!ffd_selection_is_all(job->document))\n        status = ffd_selection_reduce(job->document, &arrays->faces, error);",
   "if (!ffd_selection_is_all(job->document))\n        status = ffd_selection_reduce(job->document, &arrays->faces, error);\n    measure_extent(job, arrays, result);")
 m("area-after-of-many-targets", "condition", "cli_morphs", "all->area_after = is_only ? target->area_after : NAN;", "all->area_after = target->area_after;")
@@ -1228,6 +1230,11 @@ m("mesh-without-its-buffer", "order", "in_memory", "const output_file *const fil
   "const output_file *const file = &output->files[output->count - 1 - i]; if (file->is_memory) status = ffd_memory_give(")
 m("failed-resolver-is-missing", "check left out", "in_memory", "status = ffd_memory_judge_path(job->desc->input.path, status, error);",
   "status = FFD_OK;")
+m("view-of-a-failed-resolver", "check left out", "in_memory", "status = ffd_memory_judge_path(desc->job->input.path, status, error);",
+  "status = FFD_OK;")
+m("name-of-a-folder", "check left out", "in_memory", 'if (!*last || strcmp(last, ".") == 0 || strcmp(last, "..") == 0)', "if (!*last)")
+m("text-round-meshes", "condition", "in_memory", "(ffd_file_is_stream(path) || ffd_memory_has(path))", "ffd_file_is_stream(path)")
+m("lattice-without-a-name", "number", "in_memory", 'snprintf(number, sizeof number, "lattice %zu", k + 1);', 'snprintf(number, sizeof number, "lattice %zu", k);')
 m("parent-folder-asked", "check left out", "in_memory", 'else if (relative[0] == \'/\' || !is_inside(root, path)) status = ffd_fail_file(error, FFD_E_IO, named_by, "the file \\"%s\\" is outside the model\'s folder", relative); else status = ffd_memory_find',
   "else if (!path[0]) status = FFD_E_IO; else status = ffd_memory_find")
 m("sink-status-lost", "status", "in_memory", 'return status ? ffd_fail_file(error, status, name, "was not taken by the caller") : FFD_OK;',

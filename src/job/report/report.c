@@ -3,6 +3,7 @@
 #include "json/json_parse.h"
 #include "json/json_text.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static void write_outcome(json_text *json, const report_entry *entry)
@@ -300,6 +301,15 @@ static void write_reach(json_text *json, const ffd_job_result *result)
     ffd_json_end(json, '}');
 }
 
+/* As messages name it: a lattice that is an object or a text need not have a name. */
+static void write_lattice_name(json_text *json, const ffd_job_result *result, size_t k)
+{
+    char number[40];
+    const char *const name = result->morph_lattices ? result->morph_lattices[k] : NULL;
+    snprintf(number, sizeof number, "lattice %zu", k + 1);
+    ffd_json_string(json, "lattice", name ? name : number);
+}
+
 /* Only where the job made several morph targets: what each does by itself. */
 static void write_morphs(json_text *json, const ffd_job_result *result)
 {
@@ -309,7 +319,7 @@ static void write_morphs(json_text *json, const ffd_job_result *result)
     for (size_t k = 0; k < result->morph_count; k++) {
         ffd_json_object(json, NULL, false);
         ffd_json_string(json, "name", result->morphs[k]);
-        ffd_json_string(json, "lattice", result->morph_lattices[k]);
+        write_lattice_name(json, result, k);
         write_deformation(json, &result->morph_results[k]);
         write_reach(json, &result->morph_results[k]);
         ffd_json_end(json, '}');

@@ -36,7 +36,7 @@ static void end_group(place_group *group)
         snprintf(group->names + used, sizeof group->names - used, " and %zu more", group->count - NAMES);
 }
 
-/* What stays as it is at nodes that move. */
+/* What stays as it is at nodes that move; and nodes that had no rotation and have one now. */
 typedef struct staying {
     place_group shapes, springs, eyes, aims, turned, splats;
     size_t splat_count;
@@ -83,13 +83,13 @@ static ffd_status list_staying(const gltf_document *d, const mesh_places *places
         const struct {
             bool is_one;
             place_group *group;
-        } groups[] = {
-            {has_splats[place->number], &found->splats},
-            {moves && has_shape, &found->shapes},
-            {moves && place->holds & PLACE_HOLDS_SPRING, &found->springs},
-            {moves && place->holds & PLACE_HOLDS_EYES, &found->eyes},
-            {moves && place->holds & PLACE_HOLDS_AIM, &found->aims},
-            {moves && is_old && moved != GLTF_NONE && is_turned(d, &rig->nodes[moved]), &found->turned}};
+        } groups[] = {{has_splats[place->number], &found->splats},
+                      {moves && has_shape, &found->shapes},
+                      {moves && place->holds & PLACE_HOLDS_SPRING, &found->springs},
+                      {moves && place->holds & PLACE_HOLDS_EYES, &found->eyes},
+                      {moves && place->holds & PLACE_HOLDS_AIM, &found->aims},
+                      /* Also of nodes that stay below one that turns. */
+                      {is_old && moved != GLTF_NONE && is_turned(d, &rig->nodes[moved]), &found->turned}};
         for (size_t g = 0; g < sizeof groups / sizeof *groups && status == FFD_OK; g++)
             if (groups[g].is_one)
                 status = add_place(d, place->number, groups[g].group, error);
