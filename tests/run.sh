@@ -79,9 +79,10 @@ ccache=
 if command -v ccache >/dev/null 2>&1; then
     ccache='ccache '
     export CCACHE_DIR="${CCACHE_DIR-$work/ccache}"
+    # Every call names the headers that it read (-MD): ccache needs no preprocessor of its own to know them.
     # The wheel, the packages and the demo compile what the stage `release` has compiled before, with warnings as errors. In
     # Debian's flags -O3 stands at the end: that a build type brings it once more makes no difference.
-    export CCACHE_IGNOREOPTIONS="-Werror -O3" CCACHE_SLOPPINESS="${CCACHE_SLOPPINESS:+$CCACHE_SLOPPINESS,}locale"
+    export CCACHE_DEPEND=1 CCACHE_IGNOREOPTIONS="-Werror -O3" CCACHE_SLOPPINESS="${CCACHE_SLOPPINESS:+$CCACHE_SLOPPINESS,}locale"
 fi
 delivered=$(python3 "$root/tests/install/flags.py")
 

@@ -203,7 +203,10 @@ class Run:
         return {name: os.stat(self.path(name)).st_ino if os.path.isfile(self.path(name)) else None for name in names}
 
     def check_reports(self, arguments, before, out):
-        """Every report that a run has written follows the published schema."""
+        """Every report that a run has written follows the published schema. With a sanitizer it is the one that the build
+        without has written, and judging it takes longer than making it."""
+        if SANITIZED:
+            return
         for name, file in self.reports(arguments).items():
             content = out if name == "-" else self.read(name) if file != before[name] else None
             if content and content.lstrip().startswith(b"{"):

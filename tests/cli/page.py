@@ -27,8 +27,8 @@ class Page:
         if name not in self.blocks:
             return None
         data = base64.b64decode(self.blocks[name])
-        values = [x[0] for x in struct.iter_unpack("<" + code, data)]
-        return [values[i:i + width] for i in range(0, len(values), width)]
+        values = struct.unpack(f"<{len(data) // struct.calcsize(code)}{code}", data)
+        return [list(values[i:i + width]) for i in range(0, len(values), width)]
 
     def column(self, name, code):
         rows = self.rows(name, code, 1)

@@ -1,5 +1,6 @@
 """PNG files of 8 bits, red, green, blue: reading those of ffd view, and making textures."""
 
+import itertools
 import struct
 import zlib
 
@@ -19,27 +20,44 @@ def chunks(content):
         at += 12 + size
 
 
-def unfilter(kind, line, above):
-    """The bytes of a row of filtered ones; before both rows are three zeros. Pictures have a million bytes: a loop a kind."""
-    check(kind < 5, "a filter of PNG")
-    n = len(line)
-    if kind == 1:
-        for i in range(3, n):
-            line[i] = (line[i] + line[i - 3]) & 255
-    elif kind == 2:
-        line[:] = bytes((x + up) & 255 for x, up in zip(line, above))
-    elif kind == 3:
-        for i in range(3, n):
-            line[i] = (line[i] + (line[i - 3] + above[i]) // 2) & 255
-    elif kind == 4:  # Paeth: what is nearest to left + up - corner
-        for i in range(3, n):
-            left, up, corner = line[i - 3], above[i], above[i - 3]
+def paeth(line, above):
+    """A channel of a row: what is nearest to left + up - corner was taken away."""
+    left = corner = 0
+    for x, up in zip(line, above):
+        if left == corner:
+            nearest = up
+        elif up == corner:
+            nearest = left
+        else:
             by_left, by_up, by_corner = abs(up - corner), abs(left - corner), abs(left + up - 2 * corner)
-            if by_left <= by_up and by_left <= by_corner:
-                line[i] = (line[i] + left) & 255
-            else:
-                line[i] = (line[i] + (up if by_up <= by_corner else corner)) & 255
-    return line
+            nearest = left if by_left <= by_up and by_left <= by_corner else up if by_up <= by_corner else corner
+        left = (x + nearest) & 255
+        corner = up
+        yield left
+
+
+def average(line, above):
+    left = 0
+    for x, up in zip(line, above):
+        left = (x + (left + up) // 2) & 255
+        yield left
+
+
+def unfilter(kind, line, above):
+    """The bytes of a row of filtered ones. Pictures have a million bytes: what is quick for most of them."""
+    check(kind < 5, "a filter of PNG")
+    if kind in (2, 4) and line.count(0) == len(line):  # like the row above
+        return above
+    if kind == 2:
+        return bytes((x + up) & 255 for x, up in zip(line, above))
+    if kind == 0:
+        return line
+    found = bytearray(len(line))
+    for channel in range(3):
+        own, up = line[channel::3], above[channel::3]
+        found[channel::3] = bytes(x & 255 for x in itertools.accumulate(own)) if kind == 1 else \
+            bytes(average(own, up) if kind == 3 else paeth(own, up))
+    return bytes(found)
 
 
 def read_png(content):
@@ -50,10 +68,10 @@ def read_png(content):
     equal([depth, color, rest], [8, 2, [0, 0, 0]], "kind of PNG")
     data = zlib.decompress(b"".join(data for kind, data in found if kind == b"IDAT"))
     check(len(data) == height * (1 + 3 * width), "the size of the pixels")
-    rows, above, size = [], bytes(3 + 3 * width), 1 + 3 * width
+    rows, above, size = [], bytes(3 * width), 1 + 3 * width
     for y in range(height):
-        above = unfilter(data[y * size], bytearray(3) + data[y * size + 1:(y + 1) * size], above)
-        rows.append(list(zip(above[3::3], above[4::3], above[5::3])))
+        above = unfilter(data[y * size], data[y * size + 1:(y + 1) * size], above)
+        rows.append(list(zip(above[::3], above[1::3], above[2::3])))
     return rows
 
 

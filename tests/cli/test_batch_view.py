@@ -16,7 +16,7 @@ from png import chunks
 from urllib.parse import unquote
 
 # A picture takes a moment: so many that a signal comes before the last.
-JOBS = 16 if SANITIZED else 24
+JOBS = 12 if SANITIZED else 24
 FOLD = [{"at": [1, 1, 1], "by": [30, 30, 30]}]
 COLUMNS = ["Line", "Output", "Parameters", "Largest displacement", "Torn edges", "Folds", "Flipped faces", "State"]
 

@@ -8,7 +8,7 @@ import struct
 from random import Random
 
 from gltf_build import Scene
-from harness import (INVALID, IO, PNG, USAGE, case, check, equal, glb, glb_split, gltf_json, lattice, main,
+from harness import (INVALID, IO, PNG, SANITIZED, USAGE, case, check, equal, glb, glb_split, gltf_json, lattice, main,
                      near)
 from said import anything, told
 
@@ -940,9 +940,10 @@ def hurried_cuts_are_said(run):
     run.write("t.obj", "".join(f"v {numbers.random()} {numbers.random()} 0\n" for _ in range(corners))
               + "f " + " ".join(map(str, range(1, corners + 1))) + "\nf 1 2 3 4\n")
     said = "t.obj: 1 polygon has so many corners that finding a cut without overlaps takes too long: triangles may overlap"
-    for target in ("t.stl", "t.glb", "t.gltf"):
+    # A sanitizer needs not see one cut five times.
+    for target in ("t.stl",) if SANITIZED else ("t.stl", "t.glb", "t.gltf"):
         check(said in convert(run, "t.obj", target, err=list).err, target)
-    for target in ("t.html", "t.png"):
+    for target in ("t.html",) if SANITIZED else ("t.html", "t.png"):
         check(said in run.ffd("view", "t.obj", "-o", target, err=list).err, target)
     check(said not in convert(run, "t.obj", "t.ply", err=list).err, "a PLY has polygons")
 

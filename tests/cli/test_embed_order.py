@@ -93,7 +93,7 @@ def every_order_and_thread_count(run):
         equal(len(first), len(points))
         seen |= {status for _, status in first}
         equal(embed(run, "a.obj", "l.json", "-j", "2"), first, f"{name}, two threads")
-        for threads in ("1", "2"):
+        for threads in ("2",) if SANITIZED else ("1", "2"):
             other = embed(run, "b.obj", "l.json", "-j", threads)
             for place, i in enumerate(order):
                 equal(other[place], first[i], f"{name}: vertex {points[i]} at {place} of the other file")
@@ -119,7 +119,7 @@ def alone_and_in_company(run):
         equal(embed(run, "double.obj", "l.json"), [found for found in first for _ in range(3)], f"{name}, three times")
         run.write("strangers.obj", "".join(obj([p]) + "v nan 0 0\nv 0 -1e308 1e308\n" for p in points))
         equal(embed(run, "strangers.obj", "l.json")[::3], first, f"{name}, among strangers")
-        for i in range(0, len(points), 7):
+        for i in range(0, len(points), 25 if SANITIZED else 7):
             run.write("one.obj", obj([points[i]]))
             equal(embed(run, "one.obj", "l.json"), [first[i]], f"{name}: {points[i]} alone")
 

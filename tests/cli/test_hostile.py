@@ -62,15 +62,27 @@ class Spline:
 
     def __call__(self, uvw, origin):
         """C - origin, and the columns of J."""
-        (x, nu, du), (y, nv, dv), (z, nw, dw) = (self.basis(a, uvw[a]) for a in range(3))
-        sums = [[0.0, 0.0, 0.0] for _ in range(4)]
+        (first, nu, du), (second, nv, dv), (third, nw, dw) = (self.basis(a, uvw[a]) for a in range(3))
+        sums = [[0.0] * 3 for _ in range(4)]
         for k, (c, dc) in enumerate(zip(nw, dw)):
+            layer = [[0.0] * 3 for _ in range(3)]  # the sum over i and j, its derivatives by u and by v
             for j, (b, db) in enumerate(zip(nv, dv)):
+                x = y = z = along_x = along_y = along_z = 0.0
                 for i, (a, da) in enumerate(zip(nu, du)):
-                    p = self.point(x + i, y + j, z + k)
-                    for total, factor in zip(sums, (a * b * c, da * b * c, a * db * c, a * b * dc)):
-                        for r in range(3):
-                            total[r] += factor * (p[r] - origin[r])
+                    p = self.point(first + i, second + j, third + k)
+                    here_x, here_y, here_z = p[0] - origin[0], p[1] - origin[1], p[2] - origin[2]
+                    x += a * here_x
+                    y += a * here_y
+                    z += a * here_z
+                    along_x += da * here_x
+                    along_y += da * here_y
+                    along_z += da * here_z
+                for total, factor, row in zip(layer, (b, b, db), ((x, y, z), (along_x, along_y, along_z), (x, y, z))):
+                    for r in range(3):
+                        total[r] += factor * row[r]
+            for total, factor, row in zip(sums, (c, c, c, dc), (*layer, layer[0])):
+                for r in range(3):
+                    total[r] += factor * row[r]
         return sums[0], sums[1:]
 
 

@@ -247,8 +247,10 @@ def a_new_lattice_holds_its_mesh_wherever_it_stands(run):
         write_binary(run, "big.ply", "big", "f", "float", moved)
         run.write("a.stl", b"\0" * 80 + struct.pack("<I", 20) + b"".join(
             struct.pack("<12fH", 0, 0, 0, *moved[3 * k], *moved[3 * k + 1], *moved[3 * k + 2], 0) for k in range(20)))
-        for mesh in ("a.obj", "a.off", "a.glb", "float.ply", "double.ply", "little.ply", "big.ply", "a.stl"):
-            for shape in ([], ["--axes", "principal"], ["--shape", "cylinder"], ["--shape", "cylinder", "--axis", "1,2,3"]):
+        shapes = [], ["--axes", "principal"], ["--shape", "cylinder"], ["--shape", "cylinder", "--axis", "1,2,3"]
+        for place, mesh in enumerate(("a.obj", "a.off", "a.glb", "float.ply", "double.ply", "little.ply", "big.ply", "a.stl")):
+            # With a sanitizer every mesh and every shape, not all of both.
+            for shape in shapes[place % 2::2] if SANITIZED else shapes:
                 run.ffd("lattice", "new", mesh, "-o", "n.json", "--margin", "0", "--force", *shape, err=anything)
                 found = entry(run, "check", mesh, "-l", "n.json")
                 equal([found["outside"], found["invalid"]], [0, 0], f"FFD_SEED={seed}: {mesh} {shape} at {offset}")

@@ -6,7 +6,7 @@ import re
 import struct
 
 from bspline import BoxVolume
-from harness import (CUBE, CUBE_CORNERS, EMBEDDING, INVALID, IO, LIMIT, NO, UNSUPPORTED, USAGE, case, check, equal, glb,
+from harness import (CUBE, CUBE_CORNERS, EMBEDDING, INVALID, IO, LIMIT, NO, SANITIZED, UNSUPPORTED, USAGE, case, check, equal, glb,
                      gltf_json, lattice, main, near)
 from page import read_page
 from png import make_png, read_png
@@ -427,7 +427,8 @@ def large_meshes_are_simplified_unless_all_is_wanted(run):
     page = view(run, "a.ply", "-l", "l.json", err=re.compile("vertices are drawn: the mesh is simplified"))
     check(len(page.before) <= 200000 and page.scene["verticesAll"] == side * side, page.scene["vertices"])
     near([page.report["jobs"][0]["vertices"]], [side * side], 0, "the figures are of all")
-    equal(len(view(run, "a.ply", "-l", "l.json", "--full").before), side * side, "all")
+    if not SANITIZED:  # what smaller meshes take
+        equal(len(view(run, "a.ply", "-l", "l.json", "--full").before), side * side, "all")
 
 
 def picture(run, *arguments, name="p.png", **options):
@@ -519,7 +520,7 @@ def before_is_left_of_after_with_the_cage(run):
 def lattices_of_too_many_points_are_left_out_of_pictures_and_said(run):
     """60 x 60 x 60 points took the picture's memory: exit 7 of what check and a page can do. The limit is 50 x 50 x 50."""
     work = start(run, SHIFT, size=[51, 50, 50])
-    for more in ([], ["--frames", "4"]):
+    for more in ([],) if SANITIZED else ([], ["--frames", "4"]):
         rows = picture(run, *work, *more, "--size", "200x120",
                        err="a.obj: the picture: 1 of 1 lattice is not drawn: more than 125000 control points")
         equal(count(halves(rows[:80])[0], is_blue) if not more else 0, 0, "nothing of the cage")

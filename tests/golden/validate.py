@@ -4,7 +4,9 @@ glTF validator: the output has no error that the input did not have. A model tha
 not have is refused with exit 6, one that is not valid may be with exit 4, and neither leaves a file; every other
 end is a failure.
 
-    validate.py FFD TABLE      TABLE: the outcome of every model is written there
+    validate.py FFD TABLE [--beside-corpus]     TABLE: the outcome of every model is written there
+
+--beside-corpus: but what corpus/test_corpus.py has the validator judge too, models of FFD_MODELS by a lattice.
 
 FFD_NODE names the folder whose node_modules holds gltf-validator.
 """
@@ -99,12 +101,13 @@ def judge(before, after):
 
 
 def main():
-    ffd, table = sys.argv[1:]
+    ffd, table, *options = sys.argv[1:]
+    by_lattice = model_roots()[:1] if options == ["--beside-corpus"] else model_roots()
     node_folder = find_packages("gltf-validator")
     rows = []
     with tempfile.TemporaryDirectory() as folder:
         chosen = [(model, lattice, os.path.join(root, model), os.path.join(folder, str(number), lattice, model))
-                  for number, root in enumerate(model_roots()) for model in models(root) for lattice in LATTICES]
+                  for number, root in enumerate(by_lattice) for model in models(root) for lattice in LATTICES]
         for number, root in enumerate(model_roots()):
             chosen += [(model, MORPHS, os.path.join(root, model), os.path.join(folder, str(number), MORPHS, model))
                        for model in list(models(root))[::MORPHS_EACH]]

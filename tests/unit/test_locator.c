@@ -474,7 +474,7 @@ static void a_seam_point_is_one_root_whatever_the_moves(void **state)
 static void bricks_without_room_give_the_same_results(void **state)
 {
     enum { POINTS = 500 };
-    const size_t count = is_memory_checked() ? 50 : POINTS;
+    const size_t count = is_memory_checked() ? 20 : POINTS;
     ffd_lattice *lattice = clamped(2, 20);
     ffd_locator *kept, *full;
     draw d = {draw_seed()};
@@ -506,7 +506,7 @@ static void bricks_without_room_give_the_same_results(void **state)
 /* A lattice that folds in every cell is refused once it would take too much memory, not before. */
 static void folds_are_refused_only_beyond_the_limit(void **state)
 {
-    ffd_lattice *lattice = clamped(3, 8);
+    ffd_lattice *lattice = clamped(3, is_memory_checked() ? 5 : 8);
     ffd_locator *locator;
     ffd_location found;
     ffd_error error;
@@ -764,7 +764,7 @@ static void every_instruction_set_gives_the_same_bits(void **state)
                  {far_map, 3, 5},      {thin_map, 3, 6},   {box_map, 3, 5},    {sheared_map, 2, 4},
                  {mirrored_map, 4, 7}, {tiny_map, 3, 4}};
     /* More than the lanes of any set, and some are left. */
-    const size_t count = is_memory_checked() ? 35 : COUNT;
+    const size_t count = is_memory_checked() ? 19 : COUNT;
     static double points[3 * COUNT];
     static ffd_location one_by_one[COUNT], several[COUNT];
     draw d = {draw_seed()};

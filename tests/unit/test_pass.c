@@ -362,7 +362,7 @@ static void any_number_of_threads_gives_the_same_bits(void **state)
         lattice_chain chain = {.outside = {.extend = i >= 2, .falloff = 1.5}};
         add_link(&chain, members[i % 2]);
         outcome *one = run(&chain, NULL, 1);
-        for (int threads = 2; threads < 6; threads += stride(3)) {
+        for (int threads = 2; threads < 6; threads += stride(4)) {
             outcome *more = run(&chain, NULL, threads);
             assert_same(one, more);
             assert_memory_equal(&one->totals, &more->totals, sizeof one->totals);

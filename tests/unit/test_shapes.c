@@ -277,12 +277,12 @@ static void a_full_turn_covers_its_cylinder(void **state)
 {
     (void)state;
     static const turn turns[] = {{0, 360}, {-37.5, 322.5}, {90, 450}};
-    for (int degree = 1; degree <= 9; degree += stride(3))
-        for (int n = degree < 3 ? 3 : degree + 1; n <= 40; n += n < 12 ? stride(2) : 9)
+    for (int degree = 1; degree <= 9; degree += stride(4))
+        for (int n = degree < 3 ? 3 : degree + 1; n <= 40; n += n < 12 ? stride(3) : 9)
             check_one_cylinder(n, degree, "\"closed\"", turns[(n + degree) % 3], n % 2 ? 0 : 0.75);
     /* A full turn that stays open has a seam, with enough points. */
     for (int degree = 1; degree <= 5; degree += stride(2))
-        for (int n = degree + 4; n <= 20; n += 3 * stride(2)) {
+        for (int n = degree + 4; n <= 20; n += 3 * stride(3)) {
             check_one_cylinder(n, degree, "\"clamped\"", turns[n % 3], 0.5);
             check_one_cylinder(n, degree, "\"open\"", turns[n % 3], 0.5);
             check_one_cylinder(n, degree, "\"uniform\"", turns[n % 3], 0.5);
@@ -295,10 +295,13 @@ static void a_partial_turn_covers_its_sector(void **state)
     static const turn turns[] = {{0, 90}, {-20, 33}, {10, 280}, {45, 45.5}, {100, 290}};
     static const char *const kinds[] = {"\"clamped\"", "\"open\"", "\"uniform\""};
     for (size_t t = 0; t < COUNT(turns); t++)
-        for (size_t k = 0; k < COUNT(kinds); k++)
+        for (size_t k = 0; k < COUNT(kinds); k++) {
+            if (is_memory_checked() && (t + k) % 2)
+                continue;
             for (int degree = 1; degree <= 9; degree += 2 * stride(2))
                 for (int n = degree + 4; n <= 30; n += 7 * stride(2))
                     check_one_cylinder(n, degree, kinds[k], turns[t], 1.5);
+        }
 }
 
 static void knot_lists_cover_their_cylinder(void **state)

@@ -44,14 +44,20 @@ async function settled(page) {
   }
 }
 
-// Does something and expects the canvas to look different afterwards.
-async function changes(page, what, action) {
-  const before = await picture(page);
-  await action();
-  const after = await picture(page);
-  assert.notEqual(after, before, `${what} changes the picture`);
-  return after;
+// Does one thing after the other, [WHAT, ACTION, CHECK], and expects the canvas to look different after each. Only what
+// changes no picture may be in a check.
+async function eachChanges(page, steps) {
+  let before = await picture(page);
+  for (const [what, action, check] of steps) {
+    await action();
+    const after = await picture(page);
+    assert.notEqual(after, before, `${what} changes the picture`);
+    if (check) await check();
+    before = after;
+  }
 }
+
+const changes = (page, what, action) => eachChanges(page, [[what, action]]);
 
 const text = (page, selector) => page.locator(selector).innerText();
 
@@ -64,8 +70,8 @@ async function sliderGoesFromBeforeToAfter() {
   await changes(page, 'Home on the slider', () => page.keyboard.press('Home'));
   assert.equal(await slider.getAttribute('aria-valuetext'), 'before');
   assert.equal((await text(page, '#percent')).trim(), '0\u00a0%');
-  await changes(page, 'an arrow on the slider', () => page.keyboard.press('ArrowRight'));
-  await changes(page, 'a place of the slider', () => slider.fill('60'));
+  await eachChanges(page, [['an arrow on the slider', () => page.keyboard.press('ArrowRight')],
+    ['a place of the slider', () => slider.fill('60')]]);
   await page.click('#play');
   assert.equal(await slider.inputValue(), '0');
   await page.click('#play');
@@ -76,14 +82,12 @@ async function sliderGoesFromBeforeToAfter() {
 
 async function coloursAndMarksAreChosen() {
   const {page, end} = await open('fold');
-  for (const [key, words] of [['status', /inside\s+11.533/], ['det', /relative to before[^]*at most 0: folded/], ['plain', /Base colours/],
-    ['displacement', /units of the file[^]*0\.89/]]) {
-    await changes(page, key, () => page.locator('#color-' + key).check({force: true}));
-    assert.match(await text(page, '#legend'), words);
-  }
-  for (const key of ['showCage', 'showRest', 'showFlipped', 'showEdges', 'isSmooth']) {
-    await changes(page, key, () => page.locator('#show-' + key).click());
-  }
+  const colours = [['status', /inside\s+11.533/], ['det', /relative to before[^]*at most 0: folded/], ['plain', /Base colours/],
+    ['displacement', /units of the file[^]*0\.89/]].map(([key, words]) => [key,
+    () => page.locator('#color-' + key).check({force: true}), async () => assert.match(await text(page, '#legend'), words)]);
+  const marks = ['showCage', 'showRest', 'showFlipped', 'showEdges', 'isSmooth'].map((key) => [key,
+    () => page.locator('#show-' + key).click()]);
+  await eachChanges(page, [...colours, ...marks]);
   await end();
 }
 
@@ -121,18 +125,17 @@ async function mouseAndKeysMoveTheCamera() {
   const {page, end} = await open('torn');
   const box = await page.locator('#view').boundingBox();
   const x = box.x + box.width / 2, y = box.y + box.height / 2;
-  await changes(page, 'dragging', async () => {
+  const drag = async () => {
     await page.mouse.move(x, y);
     await page.mouse.down();
     await page.mouse.move(x + 80, y + 20, {steps: 3});
     await page.mouse.up();
-  });
-  await changes(page, 'the wheel', () => page.mouse.wheel(0, -240));
+  };
+  await eachChanges(page, [['dragging', drag], ['the wheel', () => page.mouse.wheel(0, -240)]]);
   await page.locator('#view').focus();
-  for (const key of ['f', 'b', 'l', 'r', 't', 'i', 'ArrowLeft', 'ArrowUp', '+', 'Home', 'c', 'w']) {
-    await changes(page, 'key ' + key, () => page.keyboard.press(key));
-  }
-  await changes(page, 'the button Top', () => page.click('[data-view=top]'));
+  const keys = ['f', 'b', 'l', 'r', 't', 'i', 'ArrowLeft', 'ArrowUp', '+', 'Home', 'c', 'w'];
+  await eachChanges(page, [...keys.map((key) => ['key ' + key, () => page.keyboard.press(key)]),
+    ['the button Top', () => page.click('[data-view=top]')]]);
   await page.locator('#show-showCage').uncheck();
   await page.click('[data-view=front]');
   await page.mouse.click(x, y);
@@ -152,9 +155,9 @@ async function hostileNamesAreText() {
   const report = await page.evaluate(() => JSON.parse(document.getElementById('report').textContent));
   assert.equal(report.jobs[0].input, 'a </script><b>');
   assert.match(await text(page, '#figures'), /\\u\{202e\}cage\\u\{2028\}&lt;/);
-  await changes(page, 'hiding a part', () => page.locator('[data-part="0"]').uncheck());
-  await changes(page, 'hiding all', () => page.getByRole('button', {name: 'Hide all'}).click());
-  await changes(page, 'showing all', () => page.getByRole('button', {name: 'Show all'}).click());
+  await eachChanges(page, [['hiding a part', () => page.locator('[data-part="0"]').uncheck()],
+    ['hiding all', () => page.getByRole('button', {name: 'Hide all'}).click()],
+    ['showing all', () => page.getByRole('button', {name: 'Show all'}).click()]]);
   await end();
 }
 
@@ -176,7 +179,8 @@ async function aRealFoldIsPicked() {
   await page.locator('#findings summary').click();
   await changes(page, 'a flipped face', () => page.locator('#findings .row:not(#go-witness)').first().click());
   assert.match(await text(page, '#said'), /Flipped triangle\s/);
-  for (const key of ['status', 'det', 'plain', 'displacement']) await changes(page, key, () => page.locator('#color-' + key).check({force: true}));
+  await eachChanges(page, ['status', 'det', 'plain', 'displacement'].map((key) => [key,
+    () => page.locator('#color-' + key).check({force: true})]));
   await page.locator('#blend').focus();
   await changes(page, 'the slider', () => page.keyboard.press('Home'));
   await end();
@@ -250,10 +254,10 @@ async function animationsArePlayed() {
   await changes(page, 'the time', () => time.fill('100'));
   assert.equal(await text(page, '#clock'), '1.00\u00a0s');
   assert.equal(await time.getAttribute('aria-valuetext'), '1.00 of 2.00 seconds');
-  await changes(page, 'before', () => page.locator('#blend').fill('0'));
-  await changes(page, 'joints', () => page.locator('#show-showJoints').uncheck());
+  await eachChanges(page, [['before', () => page.locator('#blend').fill('0')],
+    ['joints', () => page.locator('#show-showJoints').uncheck()]]);
   await page.locator('#view').focus();
-  for (const key of ['j', '.', ',']) await changes(page, 'key ' + key, () => page.keyboard.press(key));
+  await eachChanges(page, ['j', '.', ','].map((key) => ['key ' + key, () => page.keyboard.press(key)]));
   await page.click('#run');
   assert.equal(await text(page, '#run'), 'Pause');
   await page.waitForFunction(() => !document.getElementById('clock').textContent.startsWith('1.0'));
@@ -263,8 +267,8 @@ async function animationsArePlayed() {
   await page.locator('#blend').fill('100');
   await time.fill('0');
   assert.equal(await settled(page), first, 'the way back ends where it began');
-  await changes(page, 'another animation', async () => { await list.selectOption('1'); await time.fill('150'); });
-  await changes(page, 'rest', () => list.selectOption(''));
+  await eachChanges(page, [['another animation', async () => { await list.selectOption('1'); await time.fill('150'); }],
+    ['rest', () => list.selectOption('')]]);
   assert.ok(await page.locator('#run').isDisabled() && await time.isDisabled(), 'nothing to play at rest');
   await page.setViewportSize(PHONE);
   assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth), 'nothing is beside the screen');

@@ -7,27 +7,29 @@ const PARALLEL = 1e-7;
 const UNIT = matrix.IDENTITY.linear;
 
 // A placement M with what is needed of it again and again. magnified: the most that M_lin^-1 makes of a length in one
-// coordinate; key: equal for equal placements.
+// coordinate; reach: M_lin of absolute values; key: equal for equal placements.
 export function placementOf({ linear, offset }) {
     const determinant = matrix.determinant(linear);
     const back = determinant === 0 ? null : matrix.inverse(linear);
     return { linear, offset, determinant, back, cofactor: matrix.cofactor(linear), transposed: matrix.transposed(linear),
-        magnified: back ? Math.max(...back.map(matrix.length)) : 0, key: `${linear} ${offset}` };
+        magnified: back ? Math.max(...back.map(matrix.length)) : 0, reach: linear.map((row) => row.map(Math.abs)), key: `${linear} ${offset}` };
 }
 
 // Half the distance from x to the next float away from 0.
-const halfFloat = (x) => 2 ** (Math.max(Math.floor(Math.log2(Math.abs(x) || Number.MIN_VALUE)), -126) - 24);
+const halfFloat = (x) => matrix.powerOf(Math.max(matrix.exponentOf(x), -126) - 24);
 
 // How far the place that a file's number stands for may be from it: of floats that were made from steps, the more.
-export const cellOf = ({ step, grid, precision }, p) =>
-    p.map((x, c) => Math.max(step || precision === 'double' ? step / 2 : halfFloat(x), (grid?.[c] ?? 0) / 2));
+export function cellOf({ step, grid, precision }, p) {
+    const half = (c) => Math.max(step || precision === 'double' ? step / 2 : halfFloat(p[c]), (grid?.[c] ?? 0) / 2);
+    return [half(0), half(1), half(2)];
+}
 
 // The field at p, which stands for what is no farther than half along each axis, under the placement M. moved: false
 // where all bits have to stay.
 export function fieldAt(volume, placement, p, half) {
-    const { back, magnified, linear } = placement;
+    const { back, magnified, reach } = placement;
     const x = matrix.apply(placement, p);
-    const at = volume.at(x, matrix.times(linear.map((row) => row.map(Math.abs)), half));
+    const at = volume.at(x, matrix.times(reach, half));
     if (!back || !at.touched)
         return { moved: false, border: at.border, placement, slack: 0, delta: [0, 0, 0], gradient: UNIT };
     const size = matrix.largest(x) + matrix.largest(volume.low) + matrix.largest(volume.high);

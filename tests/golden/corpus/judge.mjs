@@ -14,13 +14,14 @@ import { cellOf, fieldAt, normalAt, placementOf, tangentAt } from './expect.mjs'
 import { latticesOf } from './lattices.mjs';
 import * as matrix from './matrix.mjs';
 import { readGltf } from './reader.mjs';
-import { Groups, Numbers, Tally } from './tally.mjs';
+import { Groups, Numbers, Places, Tally } from './tally.mjs';
 
 const STILL = placementOf(matrix.IDENTITY);
 const across = new Groups();
-// For all models: numbers of placements, and of positions under them.
+// For all models: numbers of placements, and of positions under them as floats and as doubles.
 const placements = new Numbers();
-const inputs = new Numbers();
+const inputs = new Places();
+const FLOATS = 0, DOUBLES = 1;
 // Name -> {model, NAME-OF-A-SPACE: what is known of it in that space}.
 const opened = new Map();
 
@@ -37,12 +38,13 @@ function placementsOf(node, primitive, space) {
     return () => placement;
 }
 
-// Every primitive under every node that shows it, in a space. key(v): a text, equal for vertices of equal places.
+const numberOf = (placement) => placement.number ??= placements.of(placement.key);
+
+// Every primitive under every node that shows it, in a space.
 function partsOf({ meshes, nodes }, space) {
     return nodes.flatMap((node, n) => (node.mesh === undefined ? [] : meshes[node.mesh].map((primitive, p) => {
         const at = placementsOf(node, primitive, space);
-        const key = (v) => `${placements.of(at(v).key)} at ${primitive.POSITION.values[v]}`;
-        return { node, primitive, name: `node ${n} primitive ${p}`, n, p, at, key };
+        return { node, primitive, name: `node ${n} primitive ${p}`, n, p, at };
     })));
 }
 
@@ -129,15 +131,15 @@ function judgePrimitive({ open, volume, tally, groups, across: remember }, part,
     const { primitive: before, name, at } = part;
     const { step, values } = before.POSITION;
     // Once for all lattices.
-    part.numbers ??= values.map((_, v) => open.inputs.of(`${step} ${part.key(v)}`));
-    const vertex = `${name} vertex`;
+    part.numbers ??= values.map((p, v) => open.inputs.of(step, numberOf(at(v)), p));
+    const vertex = `${name} vertex`, whole = `${open.name} ${vertex}`;
     const targets = before.targets.map((_, t) => `${name} target ${t} vertex`);
     for (let v = 0; v < values.length; v++) {
         const placement = at(v);
         const field = fieldAt(volume, placement, values[v], cellOf(before.POSITION, values[v]));
         const found = after.POSITION.values[v];
         groups.add(part.numbers[v], found, vertex, v);
-        if (remember && !step) across.add(inputs.of(`float ${part.key(v)}`), found, `${open.name} ${vertex}`, v);
+        if (remember && !step) across.add(inputs.of(FLOATS, numberOf(placement), values[v]), found, whole, v);
         if (field.border) {
             tally.skip('border');
             continue;
@@ -183,7 +185,7 @@ async function judgePoints({ open, volume, tally, groups, across: remember }, fi
     const { positions, precision, corners } = open.model;
     if (after.positions.length !== positions.length || after.corners.length !== corners.length)
         return tally.fail('vertices or normals were added or lost');
-    open.numbers ??= positions.map((p) => open.inputs.of(`${p}`));
+    open.numbers ??= positions.map((p) => open.inputs.of(0, 0, p));
     const fields = positions.map((p) => fieldAt(volume, STILL, p, cellOf({ step: 0, precision }, p)));
     positions.forEach((p, v) => {
         const field = fields[v];
@@ -208,13 +210,12 @@ const rounded = (p) => [Math.fround(p[0]), Math.fround(p[1]), Math.fround(p[2])]
 // A double result, rounded once, is the float result of the same position, but where only a float's cell reaches the
 // volume.
 function rememberPoint(name, volume, p, field, found, precision, v) {
-    const key = `${placements.of(STILL.key)} at ${p}`;
     const where = `${name} vertex`;
-    if (precision === 'double') across.add(inputs.of(`double ${key}`), found, where, v);
+    if (precision === 'double') across.add(inputs.of(DOUBLES, numberOf(STILL), p), found, where, v);
     const isFloat = p.every((x) => Math.fround(x) === x);
     const reaches = () => precision === 'double' && !field.moved &&
         fieldAt(volume, STILL, p, cellOf({ step: 0 }, p)).moved;
-    if (isFloat && !reaches()) across.add(inputs.of(`float ${key}`), rounded(found), where, v);
+    if (isFloat && !reaches()) across.add(inputs.of(FLOATS, numberOf(STILL), p), rounded(found), where, v);
 }
 
 // ---- requests -------------------------------------------------------------------------------------------------
@@ -227,7 +228,7 @@ async function openModel({ kind, name, file, count, precision, space, folder }) 
     const lattices = latticesOf(boundsOf(kind === 'gltf' ? placedPoints(parts, space) : model.positions));
     for (const [lattice, { volume, moves }] of Object.entries(lattices))
         await writeFile(path.join(folder, `${lattice}.json`), JSON.stringify(volume.file(moves)));
-    opened.get(name)[space] = { kind, name, space, model, parts, lattices, inputs: new Numbers() };
+    opened.get(name)[space] = { kind, name, space, model, parts, lattices, inputs: new Places() };
     return { lattices: Object.keys(lattices) };
 }
 

@@ -51,6 +51,21 @@ export function blend(maps, weights) {
     return { linear: [vector(0), vector(3), vector(6)], offset: vector(9) };
 }
 
+const double = new Float64Array(1), halves = new Uint32Array(double.buffer);
+
+// The exponent of a double that is normal, floor(log2 |x|); that of all others is the least.
+export function exponentOf(x) {
+    double[0] = x;
+    return ((halves[1] >>> 20) & 0x7ff) - 1023;
+}
+
+// 2^exponent, which is normal.
+export function powerOf(exponent) {
+    halves[0] = 0;
+    halves[1] = (exponent + 1023) << 20;
+    return double[0];
+}
+
 // glTF stores 4x4 matrices by columns.
 export const fromColumns = (m) => ({
     linear: [0, 1, 2].map((row) => [m[row], m[4 + row], m[8 + row]]),

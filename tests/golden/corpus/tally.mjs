@@ -1,5 +1,7 @@
 // Compares values with what is expected of them, within the rounding of the file's numbers, and keeps the worst.
 
+import { exponentOf, powerOf } from './matrix.mjs';
+
 const HALF = 0.5 + 1e-6;
 // Of the size of the coordinates: what double arithmetic may add before the one rounding.
 const DOUBLE = 1e-13;
@@ -9,8 +11,7 @@ const DOUBLE = 1e-13;
 function roundingOf(value, step, precision) {
     if (step) return HALF * step + roundingOf(value, 0, 'float');
     const bits = precision === 'double' ? 52 : 23;
-    const exponent = Math.max(Math.floor(Math.log2(Math.abs(value) || Number.MIN_VALUE)), -126);
-    return HALF * 2 ** (exponent - bits);
+    return HALF * powerOf(Math.max(exponentOf(value), -126) - bits);
 }
 
 const SHOWN = 3;
@@ -65,6 +66,65 @@ export class Numbers {
         if (known !== undefined) return known;
         this.numbers.set(text, this.numbers.size);
         return this.numbers.size - 1;
+    }
+}
+
+const WIDTH = 5;
+const key = new Float64Array(WIDTH), words = new Uint32Array(key.buffer);
+
+// Numbers for places, counted from 0: equal where a kind, a placement and a position are equal, as 0 and -0 are. Millions
+// of them as texts would take longer than all that is judged.
+export class Places {
+    constructor() {
+        this.count = 0;
+        this.#grow(1024);
+    }
+
+    #grow(most) {
+        const { keys } = this;
+        this.keys = new Float64Array(WIDTH * most);
+        if (keys) this.keys.set(keys);
+        // A table half full at the most: 0 or a number and 1.
+        this.table = new Uint32Array(2 * most);
+        for (let number = 0; number < this.count; number++) {
+            key.set(this.keys.subarray(WIDTH * number, WIDTH * (number + 1)));
+            this.table[this.#slot()] = number + 1;
+        }
+    }
+
+    #isAt(number) {
+        for (let i = 0; i < WIDTH; i++) if (!Object.is(this.keys[WIDTH * number + i], key[i])) return false;
+        return true;
+    }
+
+    // Where the key is in the table, or has to go.
+    #slot() {
+        let hash = 0;
+        for (let i = 0; i < words.length; i++) {
+            hash = Math.imul(hash ^ words[i], 0x9e3779b1);
+            hash ^= hash >>> 15;
+        }
+        const mask = this.table.length - 1;
+        let slot = hash & mask;
+        while (this.table[slot] && !this.#isAt(this.table[slot] - 1)) slot = (slot + 1) & mask;
+        return slot;
+    }
+
+    of(kind, placement, p) {
+        // 0 and -0 are equal, and so are all that is no number.
+        const canonical = (x) => (x === x ? x + 0 : NaN);
+        key[0] = kind;
+        key[1] = placement;
+        key[2] = canonical(p[0]);
+        key[3] = canonical(p[1]);
+        key[4] = canonical(p[2]);
+        const slot = this.#slot();
+        if (this.table[slot]) return this.table[slot] - 1;
+        this.keys.set(key, WIDTH * this.count);
+        this.table[slot] = ++this.count;
+        const number = this.count - 1;
+        if (this.count === this.keys.length / WIDTH) this.#grow(2 * this.count);
+        return number;
     }
 }
 

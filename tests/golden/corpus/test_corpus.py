@@ -52,7 +52,7 @@ class Service:
     MOST = 100
 
     def __init__(self, *command):
-        self.process = subprocess.Popen(["node", *command], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        self.process = subprocess.Popen(["node", "--max-semi-space-size=64", *command], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         self.waiting = collections.deque()
 
     def later(self, line, answered):

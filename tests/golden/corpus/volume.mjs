@@ -19,15 +19,15 @@ function spanOf(t, n, d, u) {
 
 const fraction = (a, b) => (b === 0 ? 0 : a / b);
 
-function basis(t, i, d, u, span) {
-    if (d === 0) return i === span ? 1 : 0;
-    return fraction(u - t[i], t[i + d] - t[i]) * basis(t, i, d - 1, u, span) +
-        fraction(t[i + d + 1] - u, t[i + d + 1] - t[i + 1]) * basis(t, i + 1, d - 1, u, span);
+// One step of the recursion: values[j] is the function of degree d - 1 that begins at the knot first + j, and becomes that
+// of degree d.
+function raise(t, first, d, u, values) {
+    for (let j = 0; j < values.length - 1; j++) {
+        const i = first + j;
+        values[j] = fraction(u - t[i], t[i + d] - t[i]) * values[j] +
+            fraction(t[i + d + 1] - u, t[i + d + 1] - t[i + 1]) * values[j + 1];
+    }
 }
-
-const slope = (t, i, d, u, span) =>
-    fraction(d, t[i + d] - t[i]) * basis(t, i, d - 1, u, span) -
-    fraction(d, t[i + d + 1] - t[i + 1]) * basis(t, i + 1, d - 1, u, span);
 
 const BORDER = 1e-9;
 
@@ -38,13 +38,14 @@ export class Volume {
         this.t = this.knots.map((kind, a) => knotVector(kind, this.size[a], this.degree[a]));
         // Where at() works.
         this.u = [0, 0, 0];
-        this.functions = this.degree.map((d) => ({ value: new Float64Array(d + 1), derivative: new Float64Array(d + 1) }));
+        // Of the values the last is 0: the function beyond those that are not zero.
+        this.functions = this.degree.map((d) => ({ value: new Float64Array(d + 2), derivative: new Float64Array(d + 1) }));
         this.points = [];
         for (let k = 0; k < this.size[2]; k++)
             for (let j = 0; j < this.size[1]; j++)
                 for (let i = 0; i < this.size[0]; i++) this.points.push(this.#rest([i, j, k]));
         const moved = move(this.points, this);
-        this.moves = this.points.map((p, i) => subtract(moved[i], p));
+        this.moves = Float64Array.from(this.points.flatMap((p, i) => subtract(moved[i], p)));
         this.moved = moved;
     }
 
@@ -78,37 +79,51 @@ export class Volume {
         const t = this.t[a], d = this.degree[a], u = this.u[a];
         const span = spanOf(t, this.size[a], d, u);
         const { value, derivative } = this.functions[a];
-        for (let i = 0; i <= d; i++) {
-            value[i] = basis(t, span - d + i, d, u, span);
-            derivative[i] = slope(t, span - d + i, d, u, span) / (this.high[a] - this.low[a]);
+        const first = span - d, side = this.high[a] - this.low[a];
+        value.fill(0);
+        value[d] = 1;
+        for (let degree = 1; degree < d; degree++) raise(t, first, degree, u, value);
+        for (let j = 0; j <= d; j++) {
+            const i = first + j;
+            derivative[j] = (fraction(d, t[i + d] - t[i]) * value[j] - fraction(d, t[i + d + 1] - t[i + 1]) * value[j + 1]) / side;
         }
-        return span - d;
+        raise(t, first, d, u, value);
+        return first;
     }
 
+    // Written out, for this is where the time goes.
     #sum(border) {
+        const { moves, size: [n0, n1], degree: [d0, d1, d2] } = this;
         const i0 = this.#functions(0), j0 = this.#functions(1), k0 = this.#functions(2);
         const [along, across, up] = this.functions;
-        const delta = [0, 0, 0], gradient = [[0, 0, 0], [0, 0, 0], [0, 0, 0]];
+        let x = 0, y = 0, z = 0, xu = 0, xv = 0, xw = 0, yu = 0, yv = 0, yw = 0, zu = 0, zv = 0, zw = 0;
         let touched = false;
-        for (let k = 0; k <= this.degree[2]; k++)
-            for (let j = 0; j <= this.degree[1]; j++)
-                for (let i = 0; i <= this.degree[0]; i++) {
-                    const move = this.moves[i0 + i + this.size[0] * (j0 + j + this.size[1] * (k0 + k))];
-                    if (move[0] === 0 && move[1] === 0 && move[2] === 0) continue;
+        for (let k = 0; k <= d2; k++)
+            for (let j = 0; j <= d1; j++)
+                for (let i = 0; i <= d0; i++) {
+                    const at = 3 * (i0 + i + n0 * (j0 + j + n1 * (k0 + k)));
+                    const mx = moves[at], my = moves[at + 1], mz = moves[at + 2];
+                    if (mx === 0 && my === 0 && mz === 0) continue;
                     touched = true;
                     const nu = along.value[i], nv = across.value[j], nw = up.value[k];
                     const n = nu * nv * nw;
                     const du = along.derivative[i] * nv * nw;
                     const dv = nu * across.derivative[j] * nw;
                     const dw = nu * nv * up.derivative[k];
-                    for (let a = 0; a < 3; a++) {
-                        delta[a] += n * move[a];
-                        gradient[a][0] += du * move[a];
-                        gradient[a][1] += dv * move[a];
-                        gradient[a][2] += dw * move[a];
-                    }
+                    x += n * mx;
+                    y += n * my;
+                    z += n * mz;
+                    xu += du * mx;
+                    xv += dv * mx;
+                    xw += dw * mx;
+                    yu += du * my;
+                    yv += dv * my;
+                    yw += dw * my;
+                    zu += du * mz;
+                    zv += dv * mz;
+                    zw += dw * mz;
                 }
-        return { delta, gradient, touched, border, inside: true };
+        return { delta: [x, y, z], gradient: [[xu, xv, xw], [yu, yv, yw], [zu, zv, zw]], touched, border, inside: true };
     }
 
     // What a lattice file holds of it; moves: its "moves", or none to give the moved points themselves.
