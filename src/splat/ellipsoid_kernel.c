@@ -5,6 +5,9 @@
 #include "splat/splat_lanes.h"
 #include <float.h>
 
+typedef lanes number;
+#include "splat/quaternion_matrix.h"
+
 /* Several splats. */
 typedef struct splat_lanes {
     lanes rotation[4], scale[3];
@@ -23,20 +26,6 @@ static ALWAYS_INLINE void load(const splat_ellipsoid *splats, const splat_turn *
         for (int k = 0; k < 3; k++)
             s->scale[k][l] = splats[l].scale[k];
     }
-}
-
-static ALWAYS_INLINE void find_matrix(const lanes q[4], lanes m[9])
-{
-    const lanes w = q[0], x = q[1], y = q[2], z = q[3];
-    m[0] = 1.0 - 2.0 * (y * y + z * z);
-    m[1] = 2.0 * (x * y - w * z);
-    m[2] = 2.0 * (x * z + w * y);
-    m[3] = 2.0 * (x * y + w * z);
-    m[4] = 1.0 - 2.0 * (x * x + z * z);
-    m[5] = 2.0 * (y * z - w * x);
-    m[6] = 2.0 * (x * z - w * y);
-    m[7] = 2.0 * (y * z + w * x);
-    m[8] = 1.0 - 2.0 * (x * x + y * y);
 }
 
 static ALWAYS_INLINE void multiply(const lanes a[9], const lanes b[9], lanes out[9])
