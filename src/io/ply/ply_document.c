@@ -168,7 +168,9 @@ void ffd_ply_close(mesh_document *document)
     if (d) {
         ffd_ply_header_free(&d->header);
         ffd_free(d->splats);
-        ffd_free(d->new_splats);
+        ffd_free(d->float_splats);
+        ffd_free(d->double_splats);
+        ffd_free(d->new_turns);
         ffd_free(d->splat_marks);
     }
     ffd_file_document_close(document);

@@ -36,9 +36,8 @@ static void store_vector(const ply_document *d, const double *before, const doub
 static void store_splat(const ply_document *d, size_t vertex, char *row)
 {
     const size_t last = d->file.part.form.is_flat ? PLY_REST_SLOT - 1 : PLY_REST_SLOT;
-    splat_ellipsoid splat = d->new_splats[vertex].splat;
     for (size_t slot = PLY_ROTATION_SLOT; slot < last; slot++)
-        store(d, slot, *ffd_ply_splat_number(&splat, slot), row);
+        store(d, slot, ply_new_splat_number(d, vertex, slot), row);
 }
 
 static void load_rests(const ply_document *d, const char *row, harmonics_block c)
@@ -99,7 +98,7 @@ static size_t store_some(const ply_document *d, size_t first, size_t count, char
     size_t turned[TURNED], open = 0, unturned = 0;
     for (size_t i = 0; i < count; i++) {
         store_row(d, first + i, at + i * size);
-        if (degree == 0 || !d->splat_marks || !(d->splat_marks[first + i] & PLY_SPLAT_TURNS))
+        if (!d->splat_marks || !(d->splat_marks[first + i] & PLY_SPLAT_TURNS))
             continue;
         load_rests(d, at + i * size, c[open]);
         turns[open] = ffd_ply_turn_of(d, first + i);
