@@ -316,6 +316,26 @@ def numbers_of_two_types(run):
 
 
 @case
+def harmonics_that_do_not_fit(run):
+    """Those of a colour that a float cannot hold when they have turned, or one of which is no number, stay."""
+    turn = by(matrix(turn_of([1, 2, 3], 30)))
+    for degree in (1, 2, 3):
+        functions, before = REST[degree] // 3, cloud(40, REST[degree], "float", seed=11)
+        before[3] |= {f"f_rest_{i}": rounded(3.4e38, "float") for i in range(3)}
+        before[38] |= {f"f_rest_{REST[degree] - 1}": math.nan}
+        run.write("a.ply", ply(before))
+        run.write("l.json", turn)
+        told(run.ffd("deform", "a.ply", "b.ply", "-l", "l.json", "--force", err=anything), r"\b2\b",
+             "splats have spherical harmonics that are not numbers, or too large")
+        after = read(run.read("b.ply"))
+        for splat, row in enumerate(after):
+            for channel in range(3):
+                names = [f"f_rest_{channel * functions + i}" for i in range(functions)]
+                stays = repr([row[n] for n in names]) == repr([before[splat][n] for n in names])
+                equal(stays, (splat, channel) in ((3, 0), (38, 2)), (degree, splat, channel))
+
+
+@case
 def splats_that_are_no_numbers(run):
     """Two have no rotation, one a size that is not a number: they move. Sizes of 0 and harmonics that are none stay."""
     before = cloud(6, 9, "float", seed=9)

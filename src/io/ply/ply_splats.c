@@ -1,6 +1,7 @@
 /* ply_splats.c - the Gaussian splats of a PLY file, as programs of 3D Gaussian splatting write them: rot_0 to
    rot_3 are w, x, y, z of a quaternion, scale_0 to scale_2 natural logarithms, f_rest_0 and so on the
    spherical harmonics of degrees 1 to 3, those of red first. */
+#include "base/inline.h"
 #include "base/memory/memory.h"
 #include "io/ply/ply_document.h"
 #include <float.h>
@@ -253,14 +254,30 @@ splat_turn ffd_ply_turn_of(const ply_document *d, size_t vertex)
     return turn;
 }
 
+/* Whether no magnitude is larger, nor a NaN. The bits of magnitudes have the order of the numbers; those of a
+   NaN come last. Their differences become SIMD, which comparisons of numbers do not. */
+static ALWAYS_INLINE bool are_within(const double *c, int count, double most)
+{
+    uint64_t limit, excess = 0;
+    memcpy(&limit, &most, sizeof limit);
+    for (int m = 0; m < count; m++) {
+        uint64_t bits;
+        memcpy(&bits, c + m, sizeof bits);
+        excess |= limit - (bits & INT64_MAX);
+    }
+    return !(excess >> 63);
+}
+
 bool ffd_ply_rests_fit(const ply_document *d, const double c[HARMONICS_MOST], int channel)
 {
     const ply_type *const types = d->types + ply_rest_slot(d, channel, 0);
     const int count = harmonics_count(d->file.part.form.degree);
     bool all = true;
-    for (int m = 0; m < count && !d->has_plain_rests; m++)
+    if (d->has_plain_rests && count == HARMONICS_MOST)
+        return are_within(c, HARMONICS_MOST, FLT_MAX);
+    if (d->has_plain_rests)
+        return are_within(c, count, FLT_MAX);
+    for (int m = 0; m < count; m++)
         all &= fabs(c[m]) <= (types[m] == PLY_FLOAT ? FLT_MAX : DBL_MAX);
-    for (int m = 0; m < count && d->has_plain_rests; m++)
-        all &= fabs(c[m]) <= FLT_MAX;
     return all;
 }
