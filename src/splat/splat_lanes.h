@@ -73,13 +73,18 @@ static ALWAYS_INLINE mask rotate(lanes p[3], lanes q[3])
     return turns;
 }
 
-static ALWAYS_INLINE void part_columns(lanes columns[9])
+/* The columns of two matrices in turns: a rotation is a chain of roots and quotients, and while the processor
+   waits for one of these it goes on with the other matrix. */
+static ALWAYS_INLINE void part_columns(lanes a[9], lanes b[9])
 {
     bool any = true;
     for (int sweep = 0; sweep < SWEEPS && any; sweep++) {
-        mask turns = rotate(columns, columns + 3);
-        turns |= rotate(columns, columns + 6);
-        turns |= rotate(columns + 3, columns + 6);
+        mask turns = rotate(a, a + 3);
+        turns |= rotate(b, b + 3);
+        turns |= rotate(a, a + 6);
+        turns |= rotate(b, b + 6);
+        turns |= rotate(a + 3, a + 6);
+        turns |= rotate(b + 3, b + 6);
         any = lanes_any(turns);
     }
 }
