@@ -706,6 +706,10 @@ m("ply-plain-rests-in-order", "check left out", "cli_splats",
   "d->offsets[PLY_REST_SLOT + i] == d->offsets[PLY_REST_SLOT] + i * sizeof(float)", "d->offsets[PLY_REST_SLOT + i] != PLY_NOWHERE")
 m("ply-splat-marks-mirrored", "left out", "cli_splats", "(turns[i].is_mirrored ? PLY_SPLAT_MIRRORS : 0)",
   "(turns[i].is_mirrored ? 0 * PLY_SPLAT_MIRRORS : 0)")
+m("ply-normals-of-zeros", "condition", "cli_memory", "slot < PLY_NORMAL_SLOT || value != 0 || signbit(value)",
+  "slot < PLY_SLOT_COUNT || value != 0 || signbit(value)")
+m("results-of-zeros", "condition", "cli_memory", "if (memcmp(vectors + 3 * first, zeros, 3 * some * sizeof *zeros) != 0)",
+  "if (memcmp(vectors + 3 * first, zeros, 3 * some * sizeof *zeros) != 0 || first < count)")
 m("ply-turns-without-harmonics", "condition", "cli_splats", "const bool is_turn = d->new_turns && turns[i].is_turn;",
   "const bool is_turn = turns[i].is_turn;")
 m("ply-splats-of-two-types", "condition", "cli_splats", "all = all && d->types[slot] == PLY_FLOAT; return all; } /* Makes room",
