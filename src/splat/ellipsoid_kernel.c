@@ -5,6 +5,9 @@
 #include "splat/splat_lanes.h"
 #include <float.h>
 
+typedef lanes number;
+#include "splat/quaternion_matrix.h"
+
 /* Several splats. */
 typedef struct splat_lanes {
     lanes rotation[4], scale[3];
@@ -15,28 +18,19 @@ typedef struct splat_lanes {
 
 static ALWAYS_INLINE void load(const splat_ellipsoid *splats, const splat_turn *turns, splat_lanes *s)
 {
+    double rotation[4][FFD_LANES], turn[4][FFD_LANES], scale[3][FFD_LANES];
     for (int l = 0; l < FFD_LANES; l++) {
         for (int k = 0; k < 4; k++) {
-            s->rotation[k][l] = splats[l].rotation[k];
-            s->turn[k][l] = turns[l].quaternion[k];
+            rotation[k][l] = splats[l].rotation[k];
+            turn[k][l] = turns[l].quaternion[k];
         }
         for (int k = 0; k < 3; k++)
-            s->scale[k][l] = splats[l].scale[k];
+            scale[k][l] = splats[l].scale[k];
     }
-}
-
-static ALWAYS_INLINE void find_matrix(const lanes q[4], lanes m[9])
-{
-    const lanes w = q[0], x = q[1], y = q[2], z = q[3];
-    m[0] = 1.0 - 2.0 * (y * y + z * z);
-    m[1] = 2.0 * (x * y - w * z);
-    m[2] = 2.0 * (x * z + w * y);
-    m[3] = 2.0 * (x * y + w * z);
-    m[4] = 1.0 - 2.0 * (x * x + z * z);
-    m[5] = 2.0 * (y * z - w * x);
-    m[6] = 2.0 * (x * z - w * y);
-    m[7] = 2.0 * (y * z + w * x);
-    m[8] = 1.0 - 2.0 * (x * x + y * y);
+    memcpy(s->rotation, rotation, sizeof rotation);
+    memcpy(s->turn, turn, sizeof turn);
+    memcpy(s->scale, scale, sizeof scale);
+    s->is_open = (mask){0};
 }
 
 static ALWAYS_INLINE void multiply(const lanes a[9], const lanes b[9], lanes out[9])
@@ -85,17 +79,21 @@ static ALWAYS_INLINE void find_parts(splat_lanes *s, bool is_logarithmic, int co
                                      : larger_of(s->scale[k] / largest, lanes_all(LEAST_PART));
 }
 
-/* The columns of F R S, made perpendicular and of length 1. */
+/* The columns of F R S. */
 static ALWAYS_INLINE void find_columns(const gradient_lanes *at, splat_lanes *s)
 {
-    const lanes largest = larger_of(lanes_largest_entry(at->f), lanes_all(LEAST_F));
     lanes product[9];
     find_matrix(s->unit, s->old);
     multiply(at->f, s->old, product);
     for (int j = 0; j < 3; j++)
         for (int k = 0; k < 3; k++)
             s->columns[3 * j + k] = product[3 * k + j] * s->parts[j];
-    part_columns(s->columns);
+}
+
+/* Makes columns of length 1. */
+static ALWAYS_INLINE void find_lengths(const gradient_lanes *at, splat_lanes *s)
+{
+    const lanes largest = larger_of(lanes_largest_entry(at->f), lanes_all(LEAST_F));
     for (int j = 0; j < 3; j++) {
         lanes *const column = s->columns + 3 * j;
         const lanes square = lanes_dot(column, column), length = lanes_root(square);
@@ -212,36 +210,65 @@ static ALWAYS_INLINE void store(const splat_lanes *s, mask is_still, splat_ellip
     }
 }
 
-static ALWAYS_INLINE void deform(const double *gradients, const splat_turn *turns, bool is_logarithmic,
-                                 bool is_flat, splat_ellipsoid *splats, uint8_t *outcomes)
+/* All that comes before the iteration. */
+static ALWAYS_INLINE void begin(const double *gradients, const splat_turn *turns, const splat_form *form,
+                                const splat_ellipsoid *splats, gradient_lanes *at, splat_lanes *s)
 {
-    const int count = is_flat ? 2 : 3;
-    gradient_lanes at;
-    splat_lanes s = {.is_open = {0}};
+    load_gradients(gradients, at);
+    load(splats, turns, s);
+    find_unit(s);
+    find_parts(s, form->is_logarithmic, form->is_flat ? 2 : 3);
+    s->is_open |= ~at->is_usable | (at->is_flattening & ~at->is_still);
+}
+
+/* All that comes after it. */
+static ALWAYS_INLINE void finish(const gradient_lanes *at, const splat_form *form, splat_lanes *s)
+{
+    const mask was_open = s->is_open;
     axes_choice choice;
-    load_gradients(gradients, &at);
-    load(splats, turns, &s);
-    find_unit(&s);
-    find_parts(&s, is_logarithmic, count);
-    s.is_open |= ~at.is_usable | (at.is_flattening & ~at.is_still);
-    if (lanes_any(~at.is_still & ~s.is_open)) {
-        const mask was_open = s.is_open;
-        find_columns(&at, &s);
-        s.is_open = was_open | (s.is_open & ~at.is_still);
-        choose_axes(&s, is_flat, &choice);
-        replace_rotation(&choice, &s);
-        replace_scale(&choice, is_logarithmic, count, &s);
+    find_lengths(at, s);
+    s->is_open = was_open | (s->is_open & ~at->is_still);
+    choose_axes(s, form->is_flat, &choice);
+    replace_rotation(&choice, s);
+    replace_scale(&choice, form->is_logarithmic, form->is_flat ? 2 : 3, s);
+}
+
+/* Splats of two registers. */
+#define PAIR (2 * (size_t)FFD_LANES)
+
+static ALWAYS_INLINE void deform_pair(const double *gradients, const splat_turn *turns,
+                                      const splat_form *form, splat_ellipsoid *splats, uint8_t *outcomes)
+{
+    gradient_lanes at[2];
+    splat_lanes s[2];
+    for (size_t i = 0; i < 2; i++)
+        begin(gradients + 9 * i * FFD_LANES, turns + i * FFD_LANES, form, splats + i * FFD_LANES, &at[i],
+              &s[i]);
+    if (lanes_any((~at[0].is_still & ~s[0].is_open) | (~at[1].is_still & ~s[1].is_open))) {
+        for (int i = 0; i < 2; i++)
+            find_columns(&at[i], &s[i]);
+        part_columns(s[0].columns, s[1].columns);
+        for (int i = 0; i < 2; i++)
+            finish(&at[i], form, &s[i]);
     }
-    store(&s, at.is_still, splats, outcomes);
+    for (size_t i = 0; i < 2; i++)
+        store(&s[i], at[i].is_still, splats + i * FFD_LANES, outcomes + i * FFD_LANES);
+}
+
+static ALWAYS_INLINE void deform(const double *gradients, const splat_turn *turns, const splat_form *form,
+                                 size_t count, splat_ellipsoid *splats, uint8_t *outcomes)
+{
+    for (size_t i = 0; i + PAIR <= count; i += PAIR)
+        deform_pair(gradients + 9 * i, turns + i, form, splats + i, outcomes + i);
 }
 
 void FFD_ELLIPSOID_KERNEL(const double *gradients, const splat_turn *turns, const splat_form *form,
                           size_t count, splat_ellipsoid *splats, uint8_t *outcomes)
 {
-    const bool is_flat = form->is_flat;
-    for (size_t i = 0; i + FFD_LANES <= count; i += FFD_LANES)
-        if (form->is_logarithmic)
-            deform(gradients + 9 * i, turns + i, true, is_flat, splats + i, outcomes + i);
-        else
-            deform(gradients + 9 * i, turns + i, false, is_flat, splats + i, outcomes + i);
+    const splat_form logarithmic = {.is_logarithmic = true, .is_flat = form->is_flat};
+    const splat_form linear = {.is_logarithmic = false, .is_flat = form->is_flat};
+    if (form->is_logarithmic)
+        deform(gradients, turns, &logarithmic, count, splats, outcomes);
+    else
+        deform(gradients, turns, &linear, count, splats, outcomes);
 }

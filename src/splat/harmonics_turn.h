@@ -105,6 +105,7 @@ static ALWAYS_INLINE void turn_lobes(const number turned[LOBES][3], int degree, 
     const int count = 2 * degree + 1;
     number lobes[LOBES][HARMONICS_CHANNELS];
     memset(lobes, 0, sizeof lobes);
+#pragma GCC unroll 22
     for (int t = 0; t < term_count; t++)
         for (int k = 0; k < HARMONICS_CHANNELS; k++)
             lobes[terms[t].lobe][k] += terms[t].weight * c[k][first + terms[t].order];

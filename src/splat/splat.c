@@ -7,6 +7,9 @@
 #include <float.h>
 #include <string.h>
 
+typedef double number;
+#include "splat/quaternion_matrix.h"
+
 static bool is_usable(const double gradient[9])
 {
     for (int r = 0; r < 9; r += 3)
@@ -35,16 +38,7 @@ static bool is_flattening(const double f[9], const double cofactor[9])
 
 void ffd_splat_matrix(const double q[4], double m[9])
 {
-    const double w = q[0], x = q[1], y = q[2], z = q[3];
-    m[0] = 1 - 2 * (y * y + z * z);
-    m[1] = 2 * (x * y - w * z);
-    m[2] = 2 * (x * z + w * y);
-    m[3] = 2 * (x * y + w * z);
-    m[4] = 1 - 2 * (x * x + z * z);
-    m[5] = 2 * (y * z - w * x);
-    m[6] = 2 * (x * z - w * y);
-    m[7] = 2 * (y * z + w * x);
-    m[8] = 1 - 2 * (x * x + y * y);
+    find_matrix(q, m);
 }
 
 /* The quaternion of a rotation, of length 1, by its largest component (Shepperd, Quaternion from rotation

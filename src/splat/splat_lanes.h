@@ -26,6 +26,13 @@ static ALWAYS_INLINE lanes lanes_square_sum(const lanes m[9])
     return lanes_dot(m, m) + lanes_dot(m + 3, m + 3) + lanes_dot(m + 6, m + 6);
 }
 
+/* What brings a matrix near to its orthogonal factor. */
+static ALWAYS_INLINE lanes find_scale(const lanes x[9], const lanes cofactor[9], lanes determinant)
+{
+    const lanes inverse_sum = lanes_square_sum(cofactor) / (determinant * determinant);
+    return lanes_root(lanes_root(inverse_sum / lanes_square_sum(x)));
+}
+
 static ALWAYS_INLINE void orthogonalise(lanes x[9])
 {
     mask is_near = (mask)lanes_all(0), is_open = ~is_near;
@@ -33,9 +40,9 @@ static ALWAYS_INLINE void orthogonalise(lanes x[9])
         lanes cofactor[9], change = lanes_all(0);
         find_cofactor(x, cofactor);
         const lanes determinant = lanes_dot(x, cofactor);
-        const lanes inverse_sum = lanes_square_sum(cofactor) / (determinant * determinant);
-        const lanes scale =
-            lanes_choose(is_near, lanes_all(1), lanes_root(lanes_root(inverse_sum / lanes_square_sum(x))));
+        const lanes scale = lanes_any(is_open & ~is_near)
+                                ? lanes_choose(is_near, lanes_all(1), find_scale(x, cofactor, determinant))
+                                : lanes_all(1);
         const lanes back = 1.0 / (determinant * scale);
         for (int i = 0; i < 9; i++) {
             const lanes next = 0.5 * (scale * x[i] + cofactor[i] * back);
@@ -66,13 +73,18 @@ static ALWAYS_INLINE mask rotate(lanes p[3], lanes q[3])
     return turns;
 }
 
-static ALWAYS_INLINE void part_columns(lanes columns[9])
+/* The columns of two matrices in turns: a rotation is a chain of roots and quotients, and while the processor
+   waits for one of these it goes on with the other matrix. */
+static ALWAYS_INLINE void part_columns(lanes a[9], lanes b[9])
 {
     bool any = true;
     for (int sweep = 0; sweep < SWEEPS && any; sweep++) {
-        mask turns = rotate(columns, columns + 3);
-        turns |= rotate(columns, columns + 6);
-        turns |= rotate(columns + 3, columns + 6);
+        mask turns = rotate(a, a + 3);
+        turns |= rotate(b, b + 3);
+        turns |= rotate(a, a + 6);
+        turns |= rotate(b, b + 6);
+        turns |= rotate(a + 3, a + 6);
+        turns |= rotate(b + 3, b + 6);
         any = lanes_any(turns);
     }
 }

@@ -327,6 +327,21 @@ def more_faces_than_memory(run):
 
 
 @case
+def normals_of_zeros(run):
+    """Those of Gaussian splats are, and nothing is held of them: neither what they are nor what becomes of them."""
+    head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {500 * 1000}\n"
+            + "".join(f"property float {name}\n" for name in ("x", "y", "z", "nx", "ny", "nz")) + "end_header\n").encode()
+    run.write("l.json", json.dumps(LATTICE))
+    peaks = []
+    for normal in ((0, 0, 1), (0, 0, 0)):
+        run.write("a.ply", head + 500 * b"".join(struct.pack("<6f", i % 10, i // 10 % 10, i // 100, *normal) for i in range(1000)))
+        code, peak, line = measure(run, ["deform", "a.ply", "b.ply", "-l", "l.json", "--force", "--threads", "2"])
+        equal(code, OK, line)
+        peaks.append(peak)
+    check(peaks[0] - peaks[1] > 0.8 * 500 * 1000 * 2 * 24, peaks)
+
+
+@case
 def short_lines_of_others(run):
     head = b"ply\nformat binary_little_endian 1.0\nelement vertex 3\n" \
            b"property float x\nproperty float y\nproperty float z\n" \

@@ -42,12 +42,15 @@ def cloud(count, rests, real, seed=1, scales=3, span=5):
     return rows
 
 
-def ply(rows, encoding="binary_little_endian", real="float", names=None):
+def ply(rows, encoding="binary_little_endian", real="float", names=None, types=()):
+    """types: of those that are not of the type `real`, by name."""
     names = names or list(rows[0])
-    head = f"ply\nformat {encoding} 1.0\nelement vertex {len(rows)}\n" + "".join(f"property {real} {n}\n" for n in names) + "end_header\n"
+    reals = dict.fromkeys(names, real) | dict(types)
+    head = (f"ply\nformat {encoding} 1.0\nelement vertex {len(rows)}\n" + "".join(f"property {reals[n]} {n}\n" for n in names)
+            + "end_header\n")
     if encoding == "ascii":
         return (head + "".join(" ".join(repr(row[n]) for n in names) + "\n" for row in rows)).encode()
-    code = ORDERS[encoding] + SIZES[real] * len(names)
+    code = ORDERS[encoding] + "".join(SIZES[reals[n]] for n in names)
     return head.encode() + b"".join(struct.pack(code, *(row[n] for n in names)) for row in rows)
 
 
@@ -295,6 +298,41 @@ def disks_of_two_sizes(run):
     before = cloud(10, 9, "double", seed=8, scales=2)
     after = read(deform(run, ply(before, real="double"), by(shear)))
     check_covariances(before, after, [shear] * 10, 1e-9)
+
+
+@case
+def numbers_of_two_types(run):
+    """Each number is what it is in a file of doubles, as its type holds it."""
+    shear = by([[1, 0.3, 0], [0, 1, 0.5], [0, 0, 1.5]])
+    before = cloud(20, 9, "float", seed=10)
+    doubles = read(deform(run, ply(before, real="double"), shear))
+    for encoding in ("ascii", *ORDERS):
+        for wide in (("rot_0", "rot_2"), ("scale_2",), ("rot_3", "scale_0", "scale_1")):
+            after = read(deform(run, ply(before, encoding, types=dict.fromkeys(wide, "double")), shear))
+            for made, expected in zip(after, doubles):
+                for name in [f"rot_{i}" for i in range(4)] + [f"scale_{i}" for i in range(3)]:
+                    real = "double" if name in wide else "float"
+                    equal(rounded(made[name], real), rounded(expected[name], real), (encoding, wide, name))
+
+
+@case
+def harmonics_that_do_not_fit(run):
+    """Those of a colour that a float cannot hold when they have turned, or one of which is no number, stay."""
+    turn = by(matrix(turn_of([1, 2, 3], 30)))
+    for degree in (1, 2, 3):
+        functions, before = REST[degree] // 3, cloud(40, REST[degree], "float", seed=11)
+        before[3] |= {f"f_rest_{i}": rounded(3.4e38, "float") for i in range(3)}
+        before[38] |= {f"f_rest_{REST[degree] - 1}": math.nan}
+        run.write("a.ply", ply(before))
+        run.write("l.json", turn)
+        told(run.ffd("deform", "a.ply", "b.ply", "-l", "l.json", "--force", err=anything), r"\b2\b",
+             "splats have spherical harmonics that are not numbers, or too large")
+        after = read(run.read("b.ply"))
+        for splat, row in enumerate(after):
+            for channel in range(3):
+                names = [f"f_rest_{channel * functions + i}" for i in range(functions)]
+                stays = repr([row[n] for n in names]) == repr([before[splat][n] for n in names])
+                equal(stays, (splat, channel) in ((3, 0), (38, 2)), (degree, splat, channel))
 
 
 @case

@@ -706,6 +706,15 @@ m("ply-plain-rests-in-order", "check left out", "cli_splats",
   "d->offsets[PLY_REST_SLOT + i] == d->offsets[PLY_REST_SLOT] + i * sizeof(float)", "d->offsets[PLY_REST_SLOT + i] != PLY_NOWHERE")
 m("ply-splat-marks-mirrored", "left out", "cli_splats", "(turns[i].is_mirrored ? PLY_SPLAT_MIRRORS : 0)",
   "(turns[i].is_mirrored ? 0 * PLY_SPLAT_MIRRORS : 0)")
+m("ply-normals-of-zeros", "condition", "cli_memory", "slot < PLY_NORMAL_SLOT || value != 0 || signbit(value)",
+  "slot < PLY_SLOT_COUNT || value != 0 || signbit(value)")
+m("results-of-zeros", "condition", "cli_memory", "if (memcmp(vectors + 3 * first, zeros, 3 * some * sizeof *zeros) != 0)",
+  "if (memcmp(vectors + 3 * first, zeros, 3 * some * sizeof *zeros) != 0 || first < count)")
+m("ply-turns-without-harmonics", "condition", "cli_splats", "const bool is_turn = d->new_turns && turns[i].is_turn;",
+  "const bool is_turn = turns[i].is_turn;")
+m("ply-splats-of-two-types", "condition", "cli_splats", "all = all && d->types[slot] == PLY_FLOAT; return all; } /* Makes room",
+  "all = d->types[slot] == PLY_FLOAT;\n    return all;\n}\n\n/* Makes room")
+m("ply-rests-that-do-not-fit", "bound", "cli_splats", "excess |= limit - (bits & INT64_MAX);", "excess = limit - (bits & INT64_MAX);")
 m("ply-splats-without-marks", "condition", "cli_splats", "if (d->splat_marks && d->splat_marks[vertex])", "if (d->splat_marks)")
 m("ply-read-in-tiles", "bound", "cli_ply, cli_splats", "for (size_t row = first; row < last; row++) { const char *const at",
   "for (size_t row = first; row + 1 < last; row++) {\n        const char *const at")

@@ -35,25 +35,53 @@ static void sizes_that_overflow_are_refused(void **state)
     (void)state;
 }
 
-/* Around the size from which blocks have large pages: each has all its bytes, and grows as any other. */
+/* Around the size from which blocks have large pages. */
+static const size_t block_sizes[] = {0, 1, ((size_t)4 << 20) - 1, (size_t)4 << 20, ((size_t)6 << 20) + 1};
+#define BLOCK_SIZES (sizeof block_sizes / sizeof *block_sizes)
+
+static void check_bytes(const unsigned char *block, size_t size, int value)
+{
+    for (size_t at = 0; at < size; at++)
+        if (block[at] != value)
+            fail_msg("byte %zu of %zu", at, size);
+}
+
+/* Each has all its bytes, and grows as any other. */
 static void blocks_of_any_size_hold_their_bytes_and_grow(void **state)
 {
-    static const size_t sizes[] = {0, 1, ((size_t)4 << 20) - 1, (size_t)4 << 20, ((size_t)6 << 20) + 1};
-    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
-        unsigned char *block = ffd_alloc_whole(sizes[i], 1);
+    for (size_t i = 0; i < BLOCK_SIZES; i++) {
+        const size_t size = block_sizes[i];
+        unsigned char *block = ffd_alloc_whole(size, 1);
         assert_non_null(block);
-        memset(block, (int)i + 1, sizes[i]);
-        block = ffd_realloc(block, sizes[i] + 4096, 1);
+        memset(block, (int)i + 1, size);
+        block = ffd_realloc(block, size + 4096, 1);
         assert_non_null(block);
-        for (size_t at = 0; at < sizes[i]; at++)
-            if (block[at] != i + 1)
-                fail_msg("byte %zu of %zu", at, sizes[i]);
+        check_bytes(block, size, (int)i + 1);
         ffd_free(block);
         ffd_alloc_fail_after(0);
-        assert_null(ffd_alloc_whole(sizes[i], 1));
+        assert_null(ffd_alloc_whole(size, 1));
         ffd_alloc_fail_after(-1);
     }
     assert_null(ffd_alloc_whole(SIZE_MAX / 2, 4));
+    (void)state;
+}
+
+/* Also where the same memory held something else. */
+static void sparse_blocks_of_any_size_are_zeros(void **state)
+{
+    for (size_t i = 0; i < 2 * BLOCK_SIZES; i++) {
+        const size_t size = block_sizes[i % BLOCK_SIZES];
+        unsigned char *const block = ffd_alloc_sparse(size, 1);
+        assert_non_null(block);
+        check_bytes(block, size, 0);
+        memset(block, 7, size);
+        check_bytes(block, size, 7);
+        ffd_free(block);
+        ffd_alloc_fail_after(0);
+        assert_null(ffd_alloc_sparse(size, 1));
+        ffd_alloc_fail_after(-1);
+    }
+    assert_null(ffd_alloc_sparse(SIZE_MAX / 2, 4));
     (void)state;
 }
 
@@ -362,6 +390,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sizes_that_overflow_are_refused),
         cmocka_unit_test(blocks_of_any_size_hold_their_bytes_and_grow),
+        cmocka_unit_test(sparse_blocks_of_any_size_are_zeros),
         cmocka_unit_test(slots_start_empty_and_at_most_half_full),
         cmocka_unit_test(an_array_that_cannot_grow_stays_as_it_is),
         cmocka_unit_test(a_buffer_gives_all_its_text_or_none),

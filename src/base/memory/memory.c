@@ -76,6 +76,18 @@ void *ffd_alloc_zero(size_t count, size_t size)
     return calloc(bytes ? bytes : 1, 1);
 }
 
+void *ffd_alloc_sparse(size_t count, size_t size)
+{
+    char *const block = ffd_alloc_zero(count, size);
+#ifdef MADV_HUGEPAGE
+    /* The library clears no block that it has from the system; such a one may begin anywhere. */
+    const size_t before = block ? (LARGE_PAGE - (uintptr_t)block % LARGE_PAGE) % LARGE_PAGE : 0;
+    if (block && count * size >= LARGE_BLOCK)
+        madvise(block + before, (count * size - before) / LARGE_PAGE * LARGE_PAGE, MADV_HUGEPAGE);
+#endif
+    return block;
+}
+
 void *ffd_realloc(void *block, size_t count, size_t size)
 {
     size_t bytes;

@@ -24,6 +24,9 @@ FFD_API void ffd_free(void *block);
    them, since the page fault at the first touch of a page costs more than filling it. Not for memory of which
    only a little may be touched. */
 void *ffd_alloc_whole(size_t count, size_t size);
+/* As ffd_alloc_zero, for a large block of which parts may never be written: these take no memory, also where
+   they are read. What is written gets huge pages as above. */
+void *ffd_alloc_sparse(size_t count, size_t size);
 
 /* Grows the capacity to at least `needed` elements of `size` bytes in *block, whose capacity is *capacity
    elements, by half at least. Returns false if memory runs out; nothing is changed then. */

@@ -3,6 +3,7 @@
 #include "base/system/thread.h"
 #include <float.h>
 #include <inttypes.h>
+#include <math.h>
 #include <string.h>
 
 void ffd_ply_document_walk(const ply_document *d, const ply_element *element, ply_walk *walk)
@@ -85,8 +86,9 @@ static void read_rows(void *context, size_t tile, size_t first, size_t last, int
         const char *const at = ply_row(d, row);
         for (size_t i = 0; i < slot_count; i++) {
             const size_t slot = slots[i];
-            *place_of(d, slot, row, NULL) =
-                ply_load_binary(d->header.encoding, d->types[slot], at + d->offsets[slot]);
+            const double value = ply_load_binary(d->header.encoding, d->types[slot], at + d->offsets[slot]);
+            if (slot < PLY_NORMAL_SLOT || value != 0 || signbit(value)) /* normals are in an array of zeros */
+                *place_of(d, slot, row, NULL) = value;
         }
     }
 }
@@ -98,7 +100,7 @@ static ffd_status read_vertices(ply_document *d, ffd_error *error)
     ply_walk walk;
     d->file.positions = ffd_alloc_whole(count, 3 * sizeof *d->file.positions);
     if (d->has_normals)
-        d->file.directions = ffd_alloc_whole(count, 3 * sizeof *d->file.directions);
+        d->file.directions = ffd_alloc_sparse(count, 3 * sizeof *d->file.directions);
     const bool holds_splats = d->file.part.has_ellipsoids && !d->has_fixed_rows;
     if (holds_splats)
         d->splats = ffd_alloc(count, sizeof *d->splats);
@@ -168,7 +170,9 @@ void ffd_ply_close(mesh_document *document)
     if (d) {
         ffd_ply_header_free(&d->header);
         ffd_free(d->splats);
-        ffd_free(d->new_splats);
+        ffd_free(d->float_splats);
+        ffd_free(d->double_splats);
+        ffd_free(d->new_turns);
         ffd_free(d->splat_marks);
     }
     ffd_file_document_close(document);

@@ -11,14 +11,11 @@
 #include "io/text/file_document.h"
 #include "splat/harmonics.h"
 
-/* What becomes of a splat. */
-typedef struct ply_splat {
-    splat_ellipsoid splat;
-    double turn[4]; /* the quaternion for its harmonics, which are turned when they are written */
-} ply_splat;
-
-/* What is marked of it. */
+/* What is marked of what becomes of a splat. */
 enum { PLY_SPLAT_CHANGES = 1, PLY_SPLAT_TURNS = 2, PLY_SPLAT_MIRRORS = 4 };
+
+/* Numbers of a rotation and its sizes, in the order of their slots. */
+#define PLY_ELLIPSOID ((size_t)(PLY_REST_SLOT - PLY_ROTATION_SLOT))
 
 typedef struct ply_document {
     file_document file;
@@ -38,10 +35,15 @@ typedef struct ply_document {
     size_t behind;                       /* offset after the last row */
     int threads;                         /* for writing */
     splat_ellipsoid *splats; /* one a vertex, where the part has ellipsoids and no fixed rows; else NULL */
-    ply_splat *new_splats;   /* results; NULL before begin_results */
-    uint8_t *splat_marks;    /* of each vertex: which of its results there are */
-    size_t rest_count;       /* properties f_rest_0 and so on, whether they turn or not */
-    bool has_plain_rests;    /* those that turn are little-endian floats of fixed rows, in their order */
+    /* Results of splats: PLY_ELLIPSOID numbers each, which are in one of the two, by what their types need;
+       and quaternions for harmonics, which are turned when they are written, where there are any. NULL before
+       begin_results. */
+    float *float_splats;
+    double *double_splats;
+    double (*new_turns)[4];
+    uint8_t *splat_marks; /* of each vertex: which of its results there are */
+    size_t rest_count;    /* properties f_rest_0 and so on, whether they turn or not */
+    bool has_plain_rests; /* those that turn are little-endian floats of fixed rows, in their order */
 } ply_document;
 
 #define PLY_NOWHERE SIZE_MAX
@@ -82,6 +84,12 @@ ffd_status ffd_ply_check_faces(const ply_document *document, ffd_error *error);
 void ffd_ply_find_splats(ply_document *document);
 /* Where the number of a slot from PLY_ROTATION_SLOT to before PLY_REST_SLOT goes. */
 double *ffd_ply_splat_number(splat_ellipsoid *splat, size_t slot);
+/* What becomes of such a number of a vertex that is marked, as its type holds it. */
+static inline double ply_new_splat_number(const ply_document *document, size_t vertex, size_t slot)
+{
+    const size_t at = PLY_ELLIPSOID * vertex + slot - PLY_ROTATION_SLOT;
+    return document->float_splats ? (double)document->float_splats[at] : document->double_splats[at];
+}
 /* Makes room for the results of splats, of which none is changed. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_ply_begin_splats(ply_document *document, ffd_error *error);
 /* How directions turn at a vertex whose marks say that they do. */

@@ -1,5 +1,6 @@
 /* ply_fixed_rows.c - writes the vertices of a binary PLY file whose rows are of one size: threads change
    copies of them. */
+#include "base/inline.h"
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
 #include "io/ply/ply_save.h"
@@ -36,9 +37,37 @@ static void store_vector(const ply_document *d, const double *before, const doub
 static void store_splat(const ply_document *d, size_t vertex, char *row)
 {
     const size_t last = d->file.part.form.is_flat ? PLY_REST_SLOT - 1 : PLY_REST_SLOT;
-    splat_ellipsoid splat = d->new_splats[vertex].splat;
     for (size_t slot = PLY_ROTATION_SLOT; slot < last; slot++)
-        store(d, slot, *ffd_ply_splat_number(&splat, slot), row);
+        store(d, slot, ply_new_splat_number(d, vertex, slot), row);
+}
+
+static ALWAYS_INLINE void widen(const unsigned char *floats, int count, double *c)
+{
+    for (int m = 0; m < count; m++)
+        c[m] = load_float(floats + (size_t)m * sizeof(float));
+}
+
+static ALWAYS_INLINE void narrow(const double *c, int count, unsigned char *floats)
+{
+    for (int m = 0; m < count; m++)
+        store_float(floats + (size_t)m * sizeof(float), (float)c[m]);
+}
+
+/* A count that the compiler knows, that of most files, takes half of the time. */
+static void load_floats(const unsigned char *floats, int count, double *c)
+{
+    if (count == HARMONICS_MOST)
+        widen(floats, HARMONICS_MOST, c);
+    else
+        widen(floats, count, c);
+}
+
+static void store_floats(const double *c, int count, unsigned char *floats)
+{
+    if (count == HARMONICS_MOST)
+        narrow(c, HARMONICS_MOST, floats);
+    else
+        narrow(c, count, floats);
 }
 
 static void load_rests(const ply_document *d, const char *row, harmonics_block c)
@@ -46,10 +75,8 @@ static void load_rests(const ply_document *d, const char *row, harmonics_block c
     const int functions = harmonics_count(d->file.part.form.degree);
     for (int k = 0; k < HARMONICS_CHANNELS; k++) {
         const size_t slot = ply_rest_slot(d, k, 0);
-        const unsigned char *const floats = (const unsigned char *)row + d->offsets[slot];
         if (d->has_plain_rests)
-            for (int m = 0; m < functions; m++)
-                c[k][m] = load_float(floats + (size_t)m * sizeof(float));
+            load_floats((const unsigned char *)row + d->offsets[slot], functions, c[k]);
         else
             for (int m = 0; m < functions; m++)
                 c[k][m] = ply_load_binary(d->header.encoding, d->types[slot + (size_t)m],
@@ -64,12 +91,10 @@ static bool store_rests(const ply_document *d, const harmonics_block c, char *ro
     bool all = true;
     for (int k = 0; k < HARMONICS_CHANNELS; k++) {
         const size_t slot = ply_rest_slot(d, k, 0);
-        unsigned char *const floats = (unsigned char *)row + d->offsets[slot];
         const bool fits = ffd_ply_rests_fit(d, c[k], k);
         all = all && fits;
         if (fits && d->has_plain_rests)
-            for (int m = 0; m < functions; m++)
-                store_float(floats + (size_t)m * sizeof(float), (float)c[k][m]);
+            store_floats(c[k], functions, (unsigned char *)row + d->offsets[slot]);
         else
             for (int m = 0; m < functions && fits; m++)
                 store(d, slot + (size_t)m, c[k][m], row);
@@ -99,7 +124,7 @@ static size_t store_some(const ply_document *d, size_t first, size_t count, char
     size_t turned[TURNED], open = 0, unturned = 0;
     for (size_t i = 0; i < count; i++) {
         store_row(d, first + i, at + i * size);
-        if (degree == 0 || !d->splat_marks || !(d->splat_marks[first + i] & PLY_SPLAT_TURNS))
+        if (!d->splat_marks || !(d->splat_marks[first + i] & PLY_SPLAT_TURNS))
             continue;
         load_rests(d, at + i * size, c[open]);
         turns[open] = ffd_ply_turn_of(d, first + i);

@@ -30,10 +30,10 @@ static void change_splat(const ply_document *d, size_t number, row_change *row)
     const uint8_t marks = d->splat_marks[number];
     memset(row->changed + PLY_ROTATION_SLOT, 0, PLY_SLOT_COUNT - PLY_ROTATION_SLOT);
     for (size_t slot = PLY_ROTATION_SLOT; slot < PLY_REST_SLOT && marks; slot++) {
-        splat_ellipsoid before = d->splats[number], after = d->new_splats[number].splat;
+        splat_ellipsoid before = d->splats[number];
         if (slot == PLY_REST_SLOT - 1 && d->file.part.form.is_flat)
             break;
-        row->values[slot] = ply_round(d->types[slot], *ffd_ply_splat_number(&after, slot));
+        row->values[slot] = ply_new_splat_number(d, number, slot);
         row->changed[slot] = differ(ffd_ply_splat_number(&before, slot), &row->values[slot]);
     }
 }

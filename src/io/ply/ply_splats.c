@@ -1,6 +1,7 @@
 /* ply_splats.c - the Gaussian splats of a PLY file, as programs of 3D Gaussian splatting write them: rot_0 to
    rot_3 are w, x, y, z of a quaternion, scale_0 to scale_2 natural logarithms, f_rest_0 and so on the
    spherical harmonics of degrees 1 to 3, those of red first. */
+#include "base/inline.h"
 #include "base/memory/memory.h"
 #include "io/ply/ply_document.h"
 #include <float.h>
@@ -150,17 +151,36 @@ double *ffd_ply_splat_number(splat_ellipsoid *splat, size_t slot)
                                  : &splat->scale[slot - PLY_SCALE_SLOT];
 }
 
-/* Makes room for the results, for each vertex. */
+/* Whether floats hold all numbers of rotations and sizes; a disk's third size, which is 0, too. */
+static bool are_floats(const ply_document *d)
+{
+    const size_t last = d->file.part.form.is_flat ? PLY_REST_SLOT - 1 : PLY_REST_SLOT;
+    bool all = true;
+    for (size_t slot = PLY_ROTATION_SLOT; slot < last; slot++)
+        all = all && d->types[slot] == PLY_FLOAT;
+    return all;
+}
+
+/* Makes room for the results, for each vertex. They are as small as they can be: to touch memory for the
+   first time costs more than to compute what goes there. */
 static ffd_status make_results(ply_document *d, ffd_error *error)
 {
     const size_t count = d->file.part.vertex_count;
-    const ffd_status status =
-        ffd_budget_take(&d->file.base.budget, count, sizeof *d->new_splats + sizeof *d->splat_marks, error);
+    const bool floats = are_floats(d), turns = d->file.part.form.degree > 0;
+    const size_t numbers = PLY_ELLIPSOID * (floats ? sizeof *d->float_splats : sizeof *d->double_splats);
+    const size_t size = numbers + (turns ? sizeof *d->new_turns : 0) + sizeof *d->splat_marks;
+    const ffd_status status = ffd_budget_take(&d->file.base.budget, count, size, error);
     if (status)
         return status;
-    d->new_splats = ffd_alloc_whole(count, sizeof *d->new_splats);
+    if (floats)
+        d->float_splats = ffd_alloc_whole(count, numbers);
+    else
+        d->double_splats = ffd_alloc_whole(count, numbers);
+    if (turns)
+        d->new_turns = ffd_alloc_whole(count, sizeof *d->new_turns);
     d->splat_marks = ffd_alloc(count, sizeof *d->splat_marks);
-    return d->new_splats && d->splat_marks ? FFD_OK : ffd_fail_memory(error);
+    const bool is_there = (d->float_splats || d->double_splats) && (d->new_turns || !turns) && d->splat_marks;
+    return is_there ? FFD_OK : ffd_fail_memory(error);
 }
 
 ffd_status ffd_ply_begin_splats(ply_document *d, ffd_error *error)
@@ -196,6 +216,22 @@ void ffd_ply_read_splats(const mesh_document *document, size_t part, size_t firs
             splats[i] = d->splats[first + i];
 }
 
+static void keep_result(const ply_document *d, size_t vertex, const splat_ellipsoid *splat,
+                        const splat_turn *turn)
+{
+    const double numbers[PLY_ELLIPSOID] = {splat->rotation[0], splat->rotation[1], splat->rotation[2],
+                                           splat->rotation[3], splat->scale[0],    splat->scale[1],
+                                           splat->scale[2]};
+    for (size_t i = 0; i < PLY_ELLIPSOID; i++)
+        if (d->float_splats)
+            d->float_splats[PLY_ELLIPSOID * vertex + i] = (float)numbers[i];
+        else
+            d->double_splats[PLY_ELLIPSOID * vertex + i] =
+                ply_round(d->types[PLY_ROTATION_SLOT + i], numbers[i]);
+    if (d->new_turns)
+        memcpy(d->new_turns[vertex], turn->quaternion, sizeof *d->new_turns);
+}
+
 void ffd_ply_write_splats(mesh_document *document, size_t part, size_t first, size_t count,
                           const splat_ellipsoid *splats, const splat_turn *turns, const uint8_t *changed)
 {
@@ -204,10 +240,9 @@ void ffd_ply_write_splats(mesh_document *document, size_t part, size_t first, si
     for (size_t i = 0; d->splat_marks && i < count; i++) {
         if (!changed[i])
             continue;
-        ply_splat *const result = &d->new_splats[first + i];
-        result->splat = splats[i];
-        memcpy(result->turn, turns[i].quaternion, sizeof result->turn);
-        d->splat_marks[first + i] = (uint8_t)(PLY_SPLAT_CHANGES | (turns[i].is_turn ? PLY_SPLAT_TURNS : 0) |
+        keep_result(d, first + i, &splats[i], &turns[i]);
+        const bool is_turn = d->new_turns && turns[i].is_turn;
+        d->splat_marks[first + i] = (uint8_t)(PLY_SPLAT_CHANGES | (is_turn ? PLY_SPLAT_TURNS : 0) |
                                               (turns[i].is_mirrored ? PLY_SPLAT_MIRRORS : 0));
     }
 }
@@ -215,8 +250,22 @@ void ffd_ply_write_splats(mesh_document *document, size_t part, size_t first, si
 splat_turn ffd_ply_turn_of(const ply_document *d, size_t vertex)
 {
     splat_turn turn = {.is_turn = true, .is_mirrored = d->splat_marks[vertex] & PLY_SPLAT_MIRRORS};
-    memcpy(turn.quaternion, d->new_splats[vertex].turn, sizeof turn.quaternion);
+    memcpy(turn.quaternion, d->new_turns[vertex], sizeof turn.quaternion);
     return turn;
+}
+
+/* Whether no magnitude is larger, nor a NaN. The bits of magnitudes have the order of the numbers; those of a
+   NaN come last. Their differences become SIMD, which comparisons of numbers do not. */
+static ALWAYS_INLINE bool are_within(const double *c, int count, double most)
+{
+    uint64_t limit, excess = 0;
+    memcpy(&limit, &most, sizeof limit);
+    for (int m = 0; m < count; m++) {
+        uint64_t bits;
+        memcpy(&bits, c + m, sizeof bits);
+        excess |= limit - (bits & INT64_MAX);
+    }
+    return !(excess >> 63);
 }
 
 bool ffd_ply_rests_fit(const ply_document *d, const double c[HARMONICS_MOST], int channel)
@@ -224,9 +273,11 @@ bool ffd_ply_rests_fit(const ply_document *d, const double c[HARMONICS_MOST], in
     const ply_type *const types = d->types + ply_rest_slot(d, channel, 0);
     const int count = harmonics_count(d->file.part.form.degree);
     bool all = true;
-    for (int m = 0; m < count && !d->has_plain_rests; m++)
+    if (d->has_plain_rests && count == HARMONICS_MOST)
+        return are_within(c, HARMONICS_MOST, FLT_MAX);
+    if (d->has_plain_rests)
+        return are_within(c, count, FLT_MAX);
+    for (int m = 0; m < count; m++)
         all &= fabs(c[m]) <= (types[m] == PLY_FLOAT ? FLT_MAX : DBL_MAX);
-    for (int m = 0; m < count && d->has_plain_rests; m++)
-        all &= fabs(c[m]) <= FLT_MAX;
     return all;
 }

@@ -75,14 +75,32 @@ void ffd_file_document_read_normals(const mesh_document *document, size_t part, 
     ffd_vectors_read(((const file_document *)document)->directions, first, count, xyz);
 }
 
-/* Makes *results a copy of count vectors, in the array that it has already, if any. */
+/* Vectors that are looked at together, and zeros to compare them with: as many as a page has. */
+#define RUN ((size_t)170)
+static const double zeros[3 * RUN];
+
+/* Copies runs of vectors into an array of zeros, but for those that are zeros too. */
+static void copy_into_zeros(const double *vectors, size_t count, double *results)
+{
+    for (size_t first = 0; first < count; first += RUN) {
+        const size_t some = count - first < RUN ? count - first : RUN;
+        if (memcmp(vectors + 3 * first, zeros, 3 * some * sizeof *zeros) != 0)
+            ffd_vectors_read(vectors, first, some, results + 3 * first);
+    }
+}
+
+/* Makes *results a copy of count vectors, in the array that it has already, if any. The normals of splats are
+   zeros in most files: their copy takes no memory until one of them changes. */
 static ffd_status copy(const double *vectors, size_t count, double **results, ffd_error *error)
 {
-    if (!*results)
-        *results = ffd_alloc_whole(count, 3 * sizeof **results);
+    if (*results) {
+        ffd_vectors_read(vectors, 0, count, *results);
+        return FFD_OK;
+    }
+    *results = ffd_alloc_sparse(count, 3 * sizeof **results);
     if (!*results)
         return ffd_fail_memory(error);
-    ffd_vectors_read(vectors, 0, count, *results);
+    copy_into_zeros(vectors, count, *results);
     return FFD_OK;
 }
 
