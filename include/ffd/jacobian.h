@@ -45,6 +45,8 @@ typedef struct ffd_jacobian_desc {
        transposed: N x 3 numbers give n x 3, or m. */
     const char *times, *transposed;
     bool check; /* compare with central differences of the program at 16 vertices */
+    /* Those of the file; times, or transposed, is then a name, or NULL. */
+    ffd_bytes times_bytes, transposed_bytes;
 } ffd_jacobian_desc;
 
 /* Fills desc, of which the caller knows size bytes (sizeof(ffd_jacobian_desc)), with defaults. */

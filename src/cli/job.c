@@ -13,19 +13,6 @@ bool cli_add_lattice(void *context, const cli_option *option, const char *value)
     return cli_set_text(&job->lattices[job->lattice_count++], option, value);
 }
 
-bool cli_add_selector(void *context, const cli_option *option, const char *value)
-{
-    cli_job *job = context;
-    ffd_error error;
-    (void)option; /* the message names it */
-    if (ffd_selector_check(value, &error)) {
-        cli_fail(&error);
-        return false;
-    }
-    job->only[job->only_count++] = value;
-    return true;
-}
-
 const char *const cli_resources_names[] = {"copy", "reference", NULL};
 
 static const char *const gate_names[] = {"folds", "outside", "multiple", "singular", "invalid", "tear",
@@ -144,7 +131,7 @@ const cli_option cli_job_options[] = {
      cli_set_choice, AT(rig), rig_names},
     {"only", 0, "KIND:NAME",
      "only this, repeatable; glTF: node (and below), mesh, material; OBJ: group, object, material",
-     cli_add_selector, 0, NULL},
+     cli_add_selector, AT(only), NULL},
     {"as-morph", 0, "NAME",
      "glTF out: leave the shape; add, or replace, the morph target of this name by the deformation",
      cli_set_text, AT(as_morph), NULL},
@@ -184,17 +171,16 @@ static void free_lists(cli_job *job)
 {
     cli_values_free(&job->values);
     cli_names_free(&job->allowed);
+    cli_names_free(&job->only);
     free_morphs(job);
     free(job->lattices);
-    free(job->only);
 }
 
 bool cli_job_begin(const cli_command *command, cli_job *job, int count, char **arguments, cli_words *words,
                    int *exit_code)
 {
     job->lattices = calloc((size_t)count + 1, sizeof *job->lattices);
-    job->only = calloc((size_t)count + 1, sizeof *job->only);
-    if (!job->lattices || !job->only) {
+    if (!job->lattices) {
         free_lists(job);
         cli_complain("out of memory");
         *exit_code = ffd_status_exit_code(FFD_E_MEMORY);
@@ -322,8 +308,8 @@ void cli_job_describe(cli_job *job, const char *input, ffd_deform_desc *desc)
     desc->edges_most = job->edges_most;
     desc->quality = job->report != NULL;
     desc->normals = (ffd_normals)job->normals;
-    desc->only = job->only;
-    desc->only_count = job->only_count;
+    desc->only = job->only.names;
+    desc->only_count = job->only.count;
     desc->threads = job->threads;
     desc->isa = (ffd_isa)job->isa;
     desc->written = job->written;

@@ -10,10 +10,8 @@
 typedef struct cli_job {
     const char **lattices;
     size_t lattice_count;
-    const char **only;
-    size_t only_count;
     cli_values values;
-    cli_names allowed; /* extensions */
+    cli_names only, allowed; /* selectors; extensions */
     int outside, normals, space, rig;
     double falloff; /* 0: not given */
     cli_distance snap;
@@ -44,8 +42,6 @@ extern const cli_option cli_job_options[];
 
 /* A setter of settings that begin with a cli_job: adds a lattice file. */
 bool cli_add_lattice(void *settings, const cli_option *option, const char *value);
-/* Likewise: adds a selector of --only. */
-bool cli_add_selector(void *settings, const cli_option *option, const char *value);
 
 /* The names of ffd_outside, ffd_space and ffd_isa. */
 extern const char *const cli_outside_names[], *const cli_space_names[], *const cli_isa_names[];

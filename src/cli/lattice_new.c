@@ -7,15 +7,13 @@
 
 typedef struct settings {
     ffd_lattice_desc desc;
-    const char **only;
-    size_t only_count;
     const char *output;
     int shape, spacing;
     ffd_format input_format;
     uint64_t memory;
     bool strict, force, help;
     bool has_axis, has_margins; /* has_margins: --margin has three numbers */
-    cli_names allowed;
+    cli_names only, allowed;    /* selectors; extensions */
     cli_logging logging;
 } settings;
 
@@ -118,19 +116,6 @@ static bool set_margin(void *context, const cli_option *option, const char *valu
     return right;
 }
 
-static bool add_only(void *context, const cli_option *option, const char *value)
-{
-    settings *s = context;
-    ffd_error error;
-    (void)option; /* the message names it */
-    if (ffd_selector_check(value, &error)) {
-        cli_fail(&error);
-        return false;
-    }
-    s->only[s->only_count++] = value;
-    return true;
-}
-
 static bool set_axis(void *context, const cli_option *option, const char *value)
 {
     settings *s = context;
@@ -172,8 +157,8 @@ static const cli_option options[] = {
      "space on both sides, as a fraction of the extent; three: along a box's axes; default 0.05", set_margin,
      0, NULL},
     {"only", 0, "KIND:NAME",
-     "round this only, repeatable; glTF: node, mesh, material; OBJ: group, object, material", add_only, 0,
-     NULL},
+     "round this only, repeatable; glTF: node, mesh, material; OBJ: group, object, material",
+     cli_add_selector, AT(only), NULL},
     {"spacing", 0, "greville|uniform", "of the control points of a box; default greville", cli_set_choice,
      AT(spacing), spacing_names},
     {"shape", 0, "box|cylinder", "default box", cli_set_choice, AT(shape), shape_names},
@@ -211,8 +196,8 @@ static int create(settings *s, const cli_words *words)
     ffd_lattice_new_desc_init(&desc, sizeof desc);
     desc.meshes = meshes;
     desc.mesh_count = words->count;
-    desc.only = s->only;
-    desc.only_count = s->only_count;
+    desc.only = s->only.names;
+    desc.only_count = s->only.count;
     desc.lattice = &s->desc;
     desc.output = s->output;
     desc.force = s->force;
@@ -263,13 +248,8 @@ static int run(const cli_command *command, int count, char **arguments)
 {
     settings s = {0};
     ffd_lattice_desc_init(&s.desc, sizeof s.desc);
-    s.only = calloc((size_t)count + 1, sizeof *s.only);
-    if (!s.only) {
-        cli_complain("out of memory");
-        return ffd_status_exit_code(FFD_E_MEMORY);
-    }
     const int code = cli_run(command, &s, &s.help, count, arguments, act);
-    free(s.only);
+    cli_names_free(&s.only);
     cli_names_free(&s.allowed);
     return code;
 }

@@ -48,14 +48,6 @@ static int normalise(const double carried[3], double scale, const double before[
     return 1;
 }
 
-static double largest_entry(const double m[9])
-{
-    double largest = 0;
-    for (int i = 0; i < 9; i++)
-        largest = fabs(m[i]) > largest ? fabs(m[i]) : largest;
-    return largest;
-}
-
 int ffd_deform_normal(const double gradient[9], const double normal[3], double result[3], int *collapsed)
 {
     double f[9], cofactor[9], carried[3];
@@ -64,7 +56,7 @@ int ffd_deform_normal(const double gradient[9], const double normal[3], double r
     add_identity(gradient, f);
     mat_cofactor(f, cofactor);
     mat_apply(cofactor, normal, carried);
-    const double largest = largest_entry(f);
+    const double largest = mat_largest_entry(f);
     return normalise(carried, largest * largest * vec_length(normal), normal, result, collapsed);
 }
 
@@ -80,7 +72,7 @@ static int carry_tangent(const double gradient[9], const double tangent[3], cons
         for (int a = 0; a < 3; a++)
             carried[a] -= along * normal[a];
     }
-    return normalise(carried, largest_entry(f) * vec_length(tangent), tangent, result, collapsed);
+    return normalise(carried, mat_largest_entry(f) * vec_length(tangent), tangent, result, collapsed);
 }
 
 int ffd_deform_tangent(const double gradient[9], const double tangent[3], const double normal[3],

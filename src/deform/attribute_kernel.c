@@ -25,16 +25,6 @@ static ALWAYS_INLINE void load_gradients(const attribute_batch *batch, size_t fi
     }
 }
 
-static ALWAYS_INLINE lanes largest_entry(const lanes m[9])
-{
-    lanes largest = lanes_all(0);
-    for (int i = 0; i < 9; i++) {
-        const lanes size = lanes_magnitude(m[i]);
-        largest = lanes_choose(size > largest, size, largest);
-    }
-    return largest;
-}
-
 /* A mask of the lanes whose square root is that of vec_length. */
 static ALWAYS_INLINE mask is_ordinary(lanes square)
 {
@@ -96,7 +86,7 @@ void FFD_NORMAL_KERNEL(const attribute_batch *batch)
         }
         for (int r = 0; r < 3; r++)
             carried[r] = lanes_dot(cofactor + 3 * r, normal);
-        const lanes largest = largest_entry(at.f);
+        const lanes largest = lanes_largest_entry(at.f);
         finish(batch, first, at.still, normal, largest * largest, carried);
     }
     leave_open(batch, first);
@@ -118,7 +108,7 @@ void FFD_TANGENT_KERNEL(const attribute_batch *batch)
             for (int a = 0; a < 3; a++)
                 carried[a] -= along * normal[a];
         }
-        finish(batch, first, at.still, tangent, largest_entry(at.f), carried);
+        finish(batch, first, at.still, tangent, lanes_largest_entry(at.f), carried);
     }
     leave_open(batch, first);
 }

@@ -88,7 +88,7 @@ static ALWAYS_INLINE void find_parts(splat_lanes *s, bool is_logarithmic, int co
 /* The columns of F R S, made perpendicular and of length 1. */
 static ALWAYS_INLINE void find_columns(const gradient_lanes *at, splat_lanes *s)
 {
-    const lanes largest = larger_of(largest_entry(at->f), lanes_all(LEAST_F));
+    const lanes largest = larger_of(lanes_largest_entry(at->f), lanes_all(LEAST_F));
     lanes product[9];
     find_matrix(s->unit, s->old);
     multiply(at->f, s->old, product);

@@ -7,20 +7,12 @@
 #include <float.h>
 #include <string.h>
 
-static double largest_entry(const double m[9])
-{
-    double largest = 0;
-    for (int i = 0; i < 9; i++)
-        largest = fabs(m[i]) > largest ? fabs(m[i]) : largest;
-    return largest;
-}
-
 static bool is_usable(const double gradient[9])
 {
     for (int r = 0; r < 9; r += 3)
         if (!vec_is_finite(gradient + r))
             return false;
-    return largest_entry(gradient) <= LARGEST_F;
+    return mat_largest_entry(gradient) <= LARGEST_F;
 }
 
 static void add_identity(const double gradient[9], double f[9])
@@ -38,7 +30,7 @@ static double square_sum(const double m[9])
    the largest. */
 static bool is_flattening(const double f[9], const double cofactor[9])
 {
-    return !(fabs(vec_dot(f, cofactor)) > NOTHING * largest_entry(f) * sqrt(square_sum(cofactor)));
+    return !(fabs(vec_dot(f, cofactor)) > NOTHING * mat_largest_entry(f) * sqrt(square_sum(cofactor)));
 }
 
 void ffd_splat_matrix(const double q[4], double m[9])
@@ -99,10 +91,10 @@ static bool prepare_turn(const double gradient[9], splat_turn *turn, double f[9]
 {
     double cofactor[9];
     *turn = (splat_turn){.quaternion = {1, 0, 0, 0}};
-    if (!is_usable(gradient) || largest_entry(gradient) <= STILL)
+    if (!is_usable(gradient) || mat_largest_entry(gradient) <= STILL)
         return false;
     add_identity(gradient, f);
-    if (largest_entry(f) < LEAST_F)
+    if (mat_largest_entry(f) < LEAST_F)
         return false;
     mat_cofactor(f, cofactor);
     if (is_flattening(f, cofactor)) {
@@ -177,7 +169,7 @@ void ffd_splat_turn_to_file(const double frame[9], splat_turn *turn)
     if (!turn->is_turn)
         return;
     /* A mirror in the frame cancels: it is there twice. */
-    const double largest = largest_entry(frame);
+    const double largest = mat_largest_entry(frame);
     for (int i = 0; i < 9; i++)
         axes[i] = frame[i] / largest;
     ffd_splat_orthogonalise(axes);
@@ -340,12 +332,12 @@ static bool prepare_ellipsoid(const double gradient[9], const splat_form *form, 
         !find_parts(form, splat->scale, work->parts))
         return false;
     *outcome = SPLAT_KEPT;
-    if (largest_entry(gradient) <= STILL)
+    if (mat_largest_entry(gradient) <= STILL)
         return false;
     add_identity(gradient, f);
     mat_cofactor(f, cofactor);
     work->is_flattened = is_flattening(f, cofactor);
-    work->largest = larger_of(largest_entry(f), LEAST_F);
+    work->largest = larger_of(mat_largest_entry(f), LEAST_F);
     ffd_splat_matrix(work->unit, work->old);
     mat_multiply(f, work->old, product);
     for (int j = 0; j < 3; j++)

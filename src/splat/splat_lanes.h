@@ -77,16 +77,6 @@ static ALWAYS_INLINE void part_columns(lanes columns[9])
     }
 }
 
-static ALWAYS_INLINE lanes largest_entry(const lanes m[9])
-{
-    lanes largest = lanes_all(0);
-    for (int i = 0; i < 9; i++) {
-        const lanes size = lanes_magnitude(m[i]);
-        largest = lanes_choose(size > largest, size, largest);
-    }
-    return largest;
-}
-
 /* F of several splats. */
 typedef struct gradient_lanes {
     lanes f[9], cofactor[9];
@@ -101,7 +91,7 @@ static ALWAYS_INLINE void load_gradients(const double *gradients, gradient_lanes
     for (size_t l = 0; l < FFD_LANES; l++)
         from[l] = gradients + 9 * l;
     lanes_load_nines(from, e);
-    const lanes largest = largest_entry(e);
+    const lanes largest = lanes_largest_entry(e);
     at->is_usable = largest <= LARGEST_F;
     at->is_still = largest <= STILL;
     for (int r = 0; r < 9; r += 3)
@@ -110,7 +100,7 @@ static ALWAYS_INLINE void load_gradients(const double *gradients, gradient_lanes
         at->f[i] = e[i] + (i % 4 == 0 ? 1.0 : 0.0);
     find_cofactor(at->f, at->cofactor);
     at->is_flattening = ~(lanes_magnitude(lanes_dot(at->f, at->cofactor)) >
-                          NOTHING * largest_entry(at->f) * lanes_root(lanes_square_sum(at->cofactor)));
+                          NOTHING * lanes_largest_entry(at->f) * lanes_root(lanes_square_sum(at->cofactor)));
 }
 
 /* The quaternion of a rotation, as find_quaternion of splat.c. */

@@ -20,7 +20,7 @@ static ALWAYS_INLINE void find_turns(const double *gradients, splat_turn *turns,
     lanes q[4];
     load_gradients(gradients, &at);
     const mask is_ordinary =
-        at.is_usable & (at.is_still | ((largest_entry(at.f) >= LEAST_F) & ~at.is_flattening));
+        at.is_usable & (at.is_still | ((lanes_largest_entry(at.f) >= LEAST_F) & ~at.is_flattening));
     const mask is_live = is_ordinary & ~at.is_still;
     const mask is_mirrored = lanes_dot(at.f, at.cofactor) < 0.0;
     mask is_turn = is_mirrored;

@@ -1,4 +1,5 @@
 #include "spline/knots.h"
+#include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include "base/text/number.h"
 #include "base/text/words.h"
@@ -310,25 +311,30 @@ static double span_first(const knot_vector *knots, size_t span)
     return knots->t[knots->spans[span]];
 }
 
+typedef struct knot_place {
+    const double *t;
+    double u;
+} knot_place;
+
+static bool begins_up_to(const void *span, const void *place)
+{
+    const knot_place *const p = place;
+    return p->u >= p->t[*(const int *)span];
+}
+
 size_t ffd_knots_span_number(const knot_vector *knots, double u)
 {
-    size_t low = 0, high = knots->span_count;
+    const size_t count = knots->span_count;
+    const knot_place place = {knots->t, u};
     /* Where equal spans would have it; most are. */
     const double first = span_first(knots, 0), last = ffd_knots_last(knots);
-    const double guess = (u - first) / (last - first) * (double)high;
-    if (guess >= 0 && guess < (double)high) {
+    const double guess = (u - first) / (last - first) * (double)count;
+    if (guess >= 0 && guess < (double)count) {
         const size_t span = (size_t)guess;
-        if (u >= span_first(knots, span) && (span + 1 == high || u < span_first(knots, span + 1)))
+        if (u >= span_first(knots, span) && (span + 1 == count || u < span_first(knots, span + 1)))
             return span;
     }
-    while (high - low > 1) {
-        const size_t middle = low + (high - low) / 2;
-        if (u >= span_first(knots, middle))
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
+    return last_up_to(&place, knots->spans, count, sizeof *knots->spans, begins_up_to);
 }
 
 int ffd_knots_span(const knot_vector *knots, double u)

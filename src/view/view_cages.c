@@ -18,6 +18,16 @@ static void *own(view_cages *c, size_t count, size_t size)
     return block;
 }
 
+bool ffd_view_cage_fits(const view_cage *cage, size_t left, size_t *count)
+{
+    const size_t *const size = cage->size;
+    const bool fits = ffd_multiply_size(size[0], size[1], count) &&
+                      ffd_multiply_size(*count, size[2], count) && *count <= left;
+    if (!fits)
+        *count = 0;
+    return fits;
+}
+
 /* Joins each point of a lattice with the next along u, v and w. Returns how many segments there are. */
 static size_t join(const view_cage *from, uint32_t *segments)
 {
@@ -132,13 +142,11 @@ ffd_status ffd_view_cages_make(const view_scene *scene, double share, const doub
     if (!c->list || !c->owned)
         return ffd_fail_memory(error);
     for (size_t i = 0; i < scene->cage_count && !status; i++) {
-        size_t points = 0;
-        const size_t *const size = scene->cages[i].size;
-        const bool fits = ffd_multiply_size(size[0], size[1], &points) &&
-                          ffd_multiply_size(points, size[2], &points) && points <= left;
+        size_t points;
+        const bool fits = ffd_view_cage_fits(&scene->cages[i], left, &points);
         if (fits)
             status = add_lattice(&scene->cages[i], share, c, error);
-        left -= fits ? points : 0;
+        left -= points;
         c->left_out += !fits;
     }
     if (!status && scene->segment_count)

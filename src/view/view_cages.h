@@ -18,6 +18,10 @@ typedef struct view_cages {
 /* Control points of a panel: more would hide all else. */
 #define VIEW_PICTURE_CONTROLS 125000
 
+/* Whether the control points of a lattice fit in what is left of those that are drawn. count: the points; 0
+   where they do not fit. */
+bool ffd_view_cage_fits(const view_cage *cage, size_t left, size_t *count);
+
 /* Makes them when the scene has gone this share of its way, and its vertices are at positions. height: of the
    picture, in pixels. most: control points that are drawn; lattices beyond it are left out. Errors:
    FFD_E_MEMORY. */

@@ -1,7 +1,7 @@
 #include "view/view_fit.h"
-#include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "mesh/bounds.h"
+#include "view/view_cages.h"
 
 /* How far lattices widen a picture on each side at most, in the largest extent of the mesh: it keeps a fifth
    of what there would be without them. */
@@ -25,21 +25,13 @@ static void widen_by_mesh(const view_fit *fit, ffd_bounds *seen)
     }
 }
 
-/* The control points of a lattice that is drawn; 0: it is left out. */
-static size_t count_points(const view_cage *cage, size_t left)
-{
-    size_t count = 0;
-    const bool fits = ffd_multiply_size(cage->size[0], cage->size[1], &count) &&
-                      ffd_multiply_size(count, cage->size[2], &count) && count <= left;
-    return fits ? count : 0;
-}
-
 static void widen_by_lattices(const view_fit *fit, ffd_bounds *seen)
 {
     const view_scene *const scene = fit->scene;
     size_t left = fit->most;
     for (size_t i = 0; i < scene->cage_count; i++) {
-        const size_t count = count_points(&scene->cages[i], left);
+        size_t count;
+        ffd_view_cage_fits(&scene->cages[i], left, &count);
         ffd_camera_widen(fit->camera, scene->cages[i].rest, count, seen);
         ffd_camera_widen(fit->camera, scene->cages[i].deformed, count, seen);
         left -= count;
@@ -62,7 +54,8 @@ static void count_beyond(const view_fit *fit, const ffd_bounds *seen, size_t *po
     *points = *beyond = 0;
     for (size_t i = 0; i < fit->scene->cage_count; i++) {
         const view_cage *const cage = &fit->scene->cages[i];
-        const size_t count = count_points(cage, left);
+        size_t count;
+        ffd_view_cage_fits(cage, left, &count);
         for (size_t p = 0; p < count; p++)
             *beyond +=
                 is_beyond(fit, seen, cage->rest + 3 * p) || is_beyond(fit, seen, cage->deformed + 3 * p);

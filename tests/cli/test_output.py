@@ -123,6 +123,16 @@ def unreadable_files(run):
     deform(run, "-", "--output-format", "obj", code=IO, err="l.json: cannot be opened: Permission denied", **user)
 
 
+def mode_under(run, mask, name):
+    """The bits of a file that is written under a umask."""
+    old = os.umask(mask)
+    try:
+        deform(run, name)
+    finally:
+        os.umask(old)
+    return stat.S_IMODE(os.stat(run.path(name)).st_mode)
+
+
 @case
 def permissions(run):
     expected = start(run)
@@ -132,21 +142,11 @@ def permissions(run):
         deform(run, "b.obj", "--force")
         equal(stat.S_IMODE(os.stat(run.path("b.obj")).st_mode), mode, "the bits of the target")
         equal(run.read("b.obj"), expected)
-    old = os.umask(0o027)
-    try:
-        deform(run, "new.obj")
-    finally:
-        os.umask(old)
-    equal(stat.S_IMODE(os.stat(run.path("new.obj")).st_mode), 0o640, "a new file follows the umask")
+    equal(mode_under(run, 0o027, "new.obj"), 0o640, "a new file follows the umask")
     # What a killed run left had the bits of another file.
     run.write(".fresh.obj.ffd-tmp", "left")
     os.chmod(run.path(".fresh.obj.ffd-tmp"), 0o400)
-    old = os.umask(0o022)
-    try:
-        deform(run, "fresh.obj")
-    finally:
-        os.umask(old)
-    equal(stat.S_IMODE(os.stat(run.path("fresh.obj")).st_mode), 0o644, "a new file over one that was left")
+    equal(mode_under(run, 0o022, "fresh.obj"), 0o644, "a new file over one that was left")
     os.chmod(run.path("a.obj"), 0o604)
     run.ffd("deform", "a.obj", "--in-place", "-l", "l.json")
     equal(stat.S_IMODE(os.stat(run.path("a.obj")).st_mode), 0o604, "in place")
@@ -245,14 +245,19 @@ def full_disk(run):
     equal(run.names(), ["b.obj", "big.obj", "l.json"])
 
 
-@case
-def killed_runs_leave_no_half_file(run):
-    """Whenever a run is killed the target is the old file or the new one, and the next run cleans up after it."""
+def write_what_takes_a_while(run):
+    """Writes a.obj and l.json. Returns the seconds of the deformation that gives expected.obj."""
     run.write("a.obj", "".join(f"v {n % 97 / 97} {n % 89 / 89} {n % 83 / 83}\n" for n in range(60000)))
     run.write("l.json", lattice(moves=[{"by": [0.1, 0.2, 0.3]}]))
     begun = time.monotonic()
     deform(run, "expected.obj")
-    whole = time.monotonic() - begun
+    return time.monotonic() - begun
+
+
+@case
+def killed_runs_leave_no_half_file(run):
+    """Whenever a run is killed the target is the old file or the new one, and the next run cleans up after it."""
+    whole = write_what_takes_a_while(run)
     killed = 0
     for n in range(12):
         run.write("b.obj", "old")
@@ -272,11 +277,7 @@ def killed_runs_leave_no_half_file(run):
 @case
 def interrupted_runs_leave_nothing(run):
     """A run that a signal ends at any moment leaves the old file or the new one, and no temporary one; its parent sees the signal."""
-    run.write("a.obj", "".join(f"v {n % 97 / 97} {n % 89 / 89} {n % 83 / 83}\n" for n in range(60000)))
-    run.write("l.json", lattice(moves=[{"by": [0.1, 0.2, 0.3]}]))
-    begun = time.monotonic()
-    deform(run, "expected.obj")
-    whole = time.monotonic() - begun
+    whole = write_what_takes_a_while(run)
     ends = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
     interrupted = 0
     for n in range(30):

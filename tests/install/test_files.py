@@ -17,13 +17,15 @@ def expected(installed):
     """Where from the prefix -> the mode."""
     options = installed.options
     library = options["libdir"]
-    paths = [f"{library}/libffd.a", f"{library}/pkgconfig/ffd.pc", f"{options['mandir']}/man1/ffd.1",
+    paths = [f"{library}/pkgconfig/ffd.pc", f"{options['mandir']}/man1/ffd.1",
              f"{options['datadir']}/bash-completion/completions/ffd", f"{options['datadir']}/zsh/site-functions/_ffd"]
     for header in glob.glob(os.path.join(stage.ROOT, "include/ffd/*.h")):
         paths.append(f"{options['includedir']}/ffd/{os.path.basename(header)}")
     for schema in glob.glob(os.path.join(stage.ROOT, "data/**/*.schema.json"), recursive=True):
         paths.append(f"{options['datadir']}/ffd/{os.path.basename(schema)}")
     paths.append(f"{options['bindir']}/ffd")
+    if options["default_library"] != "shared":
+        paths.append(f"{library}/libffd.a")
     if options["default_library"] != "static":
         paths += [f"{library}/{name}" for name in ("libffd.so", "libffd.so.0.2", "libffd.so.0.2.0", *stage.MODULES)]
         paths += [f"{library}/cmake/ffd/{name}.cmake" for name in ("ffdConfig", "ffdConfigVersion")]

@@ -272,7 +272,9 @@ m("splat-lanes-weakest", "mask", "splat", "lanes_choose(~is_right & weakest[i], 
   "lanes_choose(is_right & weakest[i], -signs[i], signs[i])")
 m("splat-lanes-disks", "condition", "splat", "o < (is_flat ? 2 : 6); o++) try_order", "o < (is_flat ? 3 : 6); o++)\n        try_order")
 m("splat-lanes-mirrored", "mask", "splat", "at.f[i] = lanes_choose(is_mirrored, -at.f[i], at.f[i]);", "at.f[i] = +at.f[i];")
-m("splat-lanes-flattened", "left out", "splat", "at.is_usable & (at.is_still | ((largest_entry(at.f) >= LEAST_F) & ~at.is_flattening))",
+m("splat-lanes-flattened", "left out", "splat", "at.is_usable & (at.is_still | ((lanes_largest_entry(at.f) >= LEAST_F) & ~at.is_flattening))",
+  "at.is_usable & (at.is_still | (lanes_largest_entry(at.f) >= LEAST_F))",
+  "at.is_usable & (at.is_still | ((largest_entry(at.f) >= LEAST_F) & ~at.is_flattening))",
   "at.is_usable & (at.is_still | (largest_entry(at.f) >= LEAST_F))")
 m("logarithm-lanes-halved", "sign", "splat", "exponents - is_large + whole", "exponents + is_large + whole")
 
@@ -385,6 +387,8 @@ m("image-left-behind", "freed resource", "materials", "ffd_free(materials->image
 
 m("lower-bound-of-another-half", "bound", "base", "if (before((const char *)elements + middle * size, key)) low = middle + 1;",
   "if (before((const char *)elements + middle * size, key)) low = middle + 2;")
+m("last-element-never-found", "bound", "base, knots", "size_t low = 0, high = count; while (high - low > 1) {",
+  "size_t low = 0, high = count; while (high - low > 2) {")
 
 # picture
 
@@ -634,8 +638,9 @@ m("short-indices-by-their-low-byte", "endian", "cli_tears", "for (size_t i = 0; 
   "for (size_t i = 0; i < count && size == 2; i++)\n        indices[i] = at[2 * i];")
 # io/gltf/animation
 
-m("key-at-its-time", "bound", "gltf_animation, page_rig", "if (sampler->times[middle] <= time) low = middle;",
-  "if (sampler->times[middle] < time) low = middle;")
+m("key-at-its-time", "bound", "gltf_animation, page_rig", "return *(const double *)key <= *(const double *)time;",
+  "return *(const double *)key < *(const double *)time;",
+  "if (sampler->times[middle] <= time) low = middle;", "if (sampler->times[middle] < time) low = middle;")
 m("slerp-the-long-way", "sign", "gltf_animation, cli_view_animation", "sign = cosine >= 0 ? 1 : -1", "sign = 1")
 m("spline-not-normalized", "left out", "gltf_animation", "if (is_rotation) normalize(value);", "if (!is_rotation) normalize(value);")
 m("spline-tangents-swapped", "operand", "gltf_animation", "const double *const in = out + width, *const v1 = in + width;",
@@ -1120,7 +1125,8 @@ m("report-over-its-picture", "check left out", "cli_view", "if (s->job.report &&
 m("report-over-the-picture-of-check", "check left out", "cli_view", "s.picture && s.job.report && ffd_paths_meet(s.job.report, s.picture)",
   "s.picture && s.job.report && s.job.report == s.picture")
 m("lost-triangles-of-a-corner", "loop", "cli_view", "for (size_t c = 0; c < 3 && finite; c++)", "for (size_t c = 0; c < 1 && finite; c++)")
-m("cage-of-any-size", "limit left out", "cli_view", "ffd_multiply_size(points, size[2], &points) && points <= left;",
+m("cage-of-any-size", "limit left out", "cli_view", "ffd_multiply_size(*count, size[2], count) && *count <= left;",
+  "ffd_multiply_size(*count, size[2], count) && *count <= 1000 * left;", "ffd_multiply_size(points, size[2], &points) && points <= left;",
   "ffd_multiply_size(points, size[2], &points) && points <= 1000 * left;")
 m("color-of-what-is-not-known", "condition", "cli_view", "color == FFD_VIEW_STATUS || color == FFD_VIEW_DET", "color == FFD_VIEW_STATUS")
 m("gate-without-a-page", "condition", "cli_view, view", "if (status == FFD_E_GATE) ffd_fail_name_file(&result->error, ffd_source_name(&work->desc->job->input)); else if (status) {",
@@ -1219,6 +1225,8 @@ m("sink-status-lost", "status", "in_memory", 'return status ? ffd_fail_file(erro
 m("output-by-short-name", "name", "in_memory", "ffd_path_join(folder->shown, path + folder->head)", "ffd_text_copy(path + folder->head)")
 m("unknown-status-passed-on", "check left out", "in_memory", "return status; } return FFD_E_IO;", "return status; } return status;")
 m("asked-twice", "cache", "in_memory", "if (!status) return note(files, path, *bytes, error);", "if (!status) return FFD_OK;")
+m("factors-exchanged", "name", "in_memory", 'ffd_in_memory_bytes(memory, desc->times_bytes, "times", &desc->times, error)',
+  'ffd_in_memory_bytes(memory, desc->times_bytes, "times", &desc->transposed, error)')
 
 # animations of views
 
@@ -1243,6 +1251,12 @@ m("control-points-in-c-order", "order", "python_package", "return np.ascontiguou
   "return np.ascontiguousarray(array)")
 m("columns-in-c-order", "order", "python_package", "self._columns()[indices]", "indices")
 m("read-only-written", "check left out", "python_package", "if not array.flags.writeable:", "if not array.flags.writeable and len(array) == 0:")
+m("picture-of-a-gate-lost", "member left out", "python_package", "raised.data = taken[-1][1]", "pass")
+m("figures-of-a-gate-lost", "member left out", "python_package",
+  "refused.result, refused.warnings = _figures(result, check), warnings", "refused.warnings = warnings")
+m("files-of-the-other-mesh", "name", "python_package", "files if other_files is None else other_files", "files")
+m("relative-tolerance-not-of-normals", "branch", "python_package",
+  "elif desc.relative: desc.direction_tolerance = desc.tolerance", "elif desc.relative: pass")
 m("embedded-points-written", "check left out", "python_package", "if arrays.overlap(out, embedding.points):",
   "if out is None:")
 m("handle-not-freed", "freed resource", "python_package", "if self.pointer: self._destroy(byref(self.pointer))", "self.freed = True")

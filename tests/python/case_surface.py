@@ -3,6 +3,7 @@
 import ast
 import glob
 import importlib.metadata
+import json
 import os
 import re
 import shutil
@@ -18,10 +19,14 @@ from ffd_mesh import _declarations, _library
 EXAMPLES = os.path.join(support.DATA, "examples", "python")
 
 
+def read(path):
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
 def headers():
     for path in glob.glob(os.path.join(support.SOURCE, "include", "ffd", "*.h")):
-        with open(path, encoding="utf-8") as file:
-            yield re.sub(r"/\*.*?\*/", "", file.read(), flags=re.S)
+        yield re.sub(r"/\*.*?\*/", "", read(path), flags=re.S)
 
 
 class Declarations(unittest.TestCase):
@@ -55,6 +60,19 @@ class Declarations(unittest.TestCase):
                         self.assertTrue(ast.get_docstring(node) or path.rpartition("_")[2] in ("library.py", "arrays.py", "errors.py")
                                         or node.name in ("degree", "text"), f"{path}: {node.name}")
 
+    def test_schemas_and_examples_come_with_it(self):
+        folder = os.path.dirname(ffd.__file__)
+        for name in ("lattice", "report"):
+            path = os.path.join(support.DATA, "schema", f"ffd-{name}.schema.json")
+            self.assertEqual(ffd.schema(name), json.loads(read(path)))
+        with self.assertRaisesRegex(ValueError, "'lattice', 'report'"):
+            ffd.schema("mesh")
+        with_package = [name for name in sorted(os.listdir(EXAMPLES)) if "import ffd_mesh" in read(os.path.join(EXAMPLES, name))]
+        self.assertGreater(len(with_package), 4)
+        self.assertEqual(sorted(name for name in os.listdir(os.path.join(folder, "examples")) if name.endswith(".py")), with_package)
+        for name in with_package:
+            self.assertEqual(read(os.path.join(folder, "examples", name)), read(os.path.join(EXAMPLES, name)))
+
     def test_numpy_is_the_only_requirement(self):
         meta = importlib.metadata.metadata("ffd-mesh")
         self.assertEqual([word.split()[0].split(">")[0] for word in meta.get_all("Requires-Dist")], ["numpy"])
@@ -74,8 +92,7 @@ class Pages(unittest.TestCase):
     def test_the_pages_run(self):
         blocks = []
         for page in ("README.md", "data/python.md"):
-            with open(os.path.join(support.SOURCE, page), encoding="utf-8") as file:
-                blocks += re.findall(r"^```python\n(.*?)^```$", file.read(), re.M | re.S)
+            blocks += re.findall(r"^```python\n(.*?)^```$", read(os.path.join(support.SOURCE, page)), re.M | re.S)
         self.assertGreater(len(blocks), 4)
         with tempfile.TemporaryDirectory() as folder:
             shutil.copytree(support.DATA, os.path.join(folder, "data"))

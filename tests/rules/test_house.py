@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What lets a newcomer find the way: an opening comment that says what a file is; in src also folders of at most 20
-sources, a comment above every function that an internal header declares, and which sources define these functions."""
+sources, a comment above every function that an internal header declares, and which sources define these functions. An
+example of the library is a program of at most 60 lines."""
 
 import collections
 import os
@@ -9,6 +10,7 @@ import re
 import tree
 
 MOST_SOURCES = 20
+MOST_LINES_OF_EXAMPLES = 60
 COMMENT = re.compile(r"/\*.*?\*/", re.S)
 # A declaration at the start of a line, up to its semicolon: "void ffd_free(void *block);".
 PROTOTYPE = re.compile(r"^(?!typedef\b|static\b|extern\b|return\b)[a-z][\w \*]*?\b(\w+)\([^;{}]*\)[^;{}]*;", re.M)
@@ -74,6 +76,14 @@ def prototypes(path):
             yield f"{path}: no comment above {match.group(1)}"
 
 
+def long_examples(paths):
+    """The programs of data/examples that are longer than README.md says."""
+    for path in paths:
+        lines = len(tree.read(path).splitlines())
+        if lines > MOST_LINES_OF_EXAMPLES:
+            yield f"{path}: {lines} lines, more than {MOST_LINES_OF_EXAMPLES}"
+
+
 def main():
     files = tree.files()
     paths = [path for path in files if path.startswith("src/") and path.endswith((".c", ".cpp", ".h"))]
@@ -91,9 +101,10 @@ def main():
             findings += [*prototypes(path), *sorted(set(definers(path, defined)))]
     for path in tests:
         findings += test_opening(path)
-    if not tests:
-        findings.append("tests: no sources found")
-    tree.finish(len(paths) + len(tests), "files", findings)
+    examples = [path for path in files if path.startswith("data/examples/") and path.endswith((".c", ".cpp", ".py"))]
+    findings += long_examples(examples)
+    findings += [f"{what}: no sources found" for what, found in (("tests", tests), ("data/examples", examples)) if not found]
+    tree.finish(len(paths) + len(tests) + len(examples), "files", findings)
 
 
 main()

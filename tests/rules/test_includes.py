@@ -39,7 +39,7 @@ LAYERS = {
         "io/gltf/refer", "mesh",
     },
     "io/gltf/animation": {
-        "base/memory", "base/text", "base/vector", "io/gltf/decode", "io/gltf/document", "io/gltf/refer",
+        "base", "base/memory", "base/text", "base/vector", "io/gltf/decode", "io/gltf/document", "io/gltf/refer",
         "io/gltf/scene",
     },
     "io/gltf/skeleton": {
@@ -60,7 +60,7 @@ LAYERS = {
         "io/gltf/scene", "json", "mesh", "mesh/morph",
     },
     "io/gltf": {
-        "base/file", "base/memory", "base/system", "base/vector", "io/gltf/decode", "io/gltf/document", "io/gltf/file",
+        "base", "base/file", "base/memory", "base/system", "base/vector", "io/gltf/decode", "io/gltf/document", "io/gltf/file",
         "io/gltf/model", "io/gltf/morph", "io/gltf/rig", "io/gltf/save", "io/gltf/scene", "io/gltf/skeleton", "io/gltf/splat", "json", "mesh",
         "mesh/resource",
     },
@@ -93,7 +93,7 @@ LAYERS = {
     "embed/boundary": {"base", "base/memory", "base/vector", "embed/frame", "lattice", "spline"},
     "deform": {"base", "base/vector", "embed/boundary", "lattice"},
     "embed/cells": {"base/memory", "base/vector", "embed/frame", "lattice", "spline"},
-    "embed/direct": {"base/memory", "base/vector", "embed/frame", "spline"},
+    "embed/direct": {"base", "base/memory", "base/vector", "embed/frame", "spline"},
     "embed": {
         "base", "base/memory", "base/vector", "embed/boundary", "embed/cells", "embed/direct", "embed/frame", "lattice",
         "spline",
@@ -112,7 +112,7 @@ LAYERS = {
         "embed/frame", "job/input", "lattice", "lattice/file", "mesh",
     },
     "job/pass": {
-        "base/memory", "base/system", "base/vector", "deform", "io/openmesh", "job/chain", "job/input",
+        "base", "base/memory", "base/system", "base/vector", "deform", "io/openmesh", "job/chain", "job/input",
         "lattice", "mesh",
     },
     "job/rig": {"base/memory", "base/text", "job/chain", "mesh"},

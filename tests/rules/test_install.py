@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What `meson install` puts down is enough for other programs: a C and a C++ program are compiled against it
-with nothing but pkg-config's answer, with the shared and with the static library, and run.
+with nothing but pkg-config's answer, with the shared and with the static library, and run. Where only the shared library is
+wanted, the answer needs no other library's development files.
 
     test_install.py BUILD-FOLDER
 """
@@ -62,6 +63,21 @@ def installed(stage, pattern):
     return sorted(found)[0]
 
 
+def shared_alone(folder):
+    """What is wrong with what a build of only the shared library would install; it is set up, and not compiled."""
+    build = os.path.join(folder, "shared")
+    run(["meson", "setup", "-Ddefault_library=shared", "-Dtests=disabled", build, tree.ROOT])
+    paths = json.loads(run(["meson", "introspect", "--installed", build])).values()
+    names = {os.path.basename(path) for path in paths}
+    if "libffd.so" not in names or "libffd.a" in names:
+        yield "default_library=shared installs other libraries than the shared one"
+    found = os.path.join(build, "meson-private")
+    environment = dict(os.environ, PKG_CONFIG_PATH="", PKG_CONFIG_LIBDIR=found)
+    asked = subprocess.run(["pkg-config", "--cflags", "--libs", "ffd"], env=environment, capture_output=True, text=True, check=False)
+    if asked.returncode or "-lffd" not in asked.stdout:
+        yield f"pkg-config, where only the shared library is: {asked.stdout}{asked.stderr}"
+
+
 def main():
     build = sys.argv[1]
     for tool in ("meson", "pkg-config", "gcc", "g++"):
@@ -70,6 +86,7 @@ def main():
     checked = 0
     findings = []
     with tempfile.TemporaryDirectory() as folder:
+        findings += shared_alone(folder)
         stage = os.path.join(folder, "stage")
         run(["meson", "install", "-C", build, "--no-rebuild", "--destdir", stage])
         options = {option["name"]: option["value"]

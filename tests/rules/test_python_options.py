@@ -1,13 +1,19 @@
 #!/usr/bin/env python3
-"""What a job on a file can be told, the Python package offers: each member of ffd_deform_desc and ffd_source is named in
-src/python/ffd_mesh/_jobs.py, or below with the reason that it is not."""
+"""What a job can be told, the Python package offers: each member of the descriptions of jobs is named in src/python/ffd_mesh, or
+below with the reason that it is not."""
 
 import re
 
 import tree
 
 # Of runs of several jobs, and what the program decides by itself.
-NOT_OFFERED = {"struct_size", "written", "share", "shared_box", "depfile", "morph_results", "only_positions"}
+NOT_OFFERED = {"struct_size", "written", "share", "shared_box", "depfile", "morph_results", "only_positions", "as_stored"}
+# Structure -> the header, and the files that name its members.
+COMMON = ("description", "library")
+STRUCTURES = {
+    "ffd_deform_desc": ("job", "jobs"), "ffd_source": ("job", "jobs"), "ffd_view_desc": ("job", "views"),
+    "ffd_compare_desc": ("job", "facts"), "ffd_info_desc": ("job", "facts"), "ffd_jacobian_desc": ("jacobian", "jacobian"),
+}
 
 
 def members(name, text):
@@ -17,12 +23,15 @@ def members(name, text):
 
 
 def main():
-    header = re.sub(r"/\*.*?\*/", "", tree.read("include/ffd/job.h"), flags=re.S)
-    package = tree.read("src/python/ffd_mesh/_jobs.py") + tree.read("src/python/ffd_mesh/_library.py")
-    offered = set(re.findall(r"\w+", package))
-    names = [name for name in members("ffd_deform_desc", header) + members("ffd_source", header) if not name.endswith("_room")]
-    tree.finish(len(names), "members", [f"{name}: not offered by src/python/ffd_mesh/_jobs.py" for name in names
-                                        if name not in offered | NOT_OFFERED])
+    checked, findings = 0, []
+    for structure, (header, source) in STRUCTURES.items():
+        text = re.sub(r"/\*.*?\*/", "", tree.read(f"include/ffd/{header}.h"), flags=re.S)
+        package = "".join(tree.read(f"src/python/ffd_mesh/_{name}.py") for name in (*COMMON, source))
+        offered = set(re.findall(r"\w+", package)) | NOT_OFFERED
+        names = [name for name in members(structure, text) if not name.endswith("_room")]
+        findings += [f"{structure}.{name}: not offered by src/python/ffd_mesh" for name in names if name not in offered]
+        checked += len(names)
+    tree.finish(checked, "members", findings)
 
 
 main()

@@ -28,6 +28,43 @@ static inline ffd_lattice *lattice_of_knots(const knot_vector knots[3])
     return lattice;
 }
 
+/* The knots of a lattice, a direction each. */
+typedef struct lattice_kinds {
+    knot_kind kind[3];
+    int degree[3];
+    size_t size[3];
+} lattice_kinds;
+
+static inline ffd_lattice *lattice_of_kinds(const lattice_kinds *shape)
+{
+    knot_vector knots[3];
+    for (int a = 0; a < 3; a++)
+        if (ffd_knots_make(shape->kind[a], shape->degree[a], shape->size[a], NULL, 0, "uvw"[a], &knots[a],
+                           NULL))
+            abort();
+    return lattice_of_knots(knots);
+}
+
+typedef void (*point_map)(const double g[3], double out[3]);
+
+/* Puts the control points at rest at the images of their Greville abscissae (fractions of the domain). */
+static inline void lattice_map(ffd_lattice *lattice, point_map map)
+{
+    double *p = lattice->rest;
+    for (size_t k = 0; k < lattice->size[2]; k++)
+        for (size_t j = 0; j < lattice->size[1]; j++)
+            for (size_t i = 0; i < lattice->size[0]; i++, p += 3) {
+                const size_t index[3] = {i, j, k};
+                double g[3];
+                for (int a = 0; a < 3; a++) {
+                    const knot_vector *const knots = &lattice->knots[a];
+                    g[a] = (ffd_knots_greville(knots, index[a]) - ffd_knots_first(knots)) /
+                           (ffd_knots_last(knots) - ffd_knots_first(knots));
+                }
+                map(g, p);
+            }
+}
+
 /* Gives the lattice weights, all 1. */
 static inline void lattice_add_weights(ffd_lattice *lattice)
 {

@@ -262,6 +262,26 @@ static void a_lower_bound_is_the_first_of_its_key(void **state)
         }
 }
 
+static bool is_at_most(const void *element, const void *key)
+{
+    return *(const int *)element <= *(const int *)key;
+}
+
+static void the_last_up_to_a_key_is_the_first_where_all_are_beyond(void **state)
+{
+    static const int sorted[] = {1, 3, 3, 3, 7};
+    (void)state;
+    for (size_t count = 0; count <= 5; count++)
+        for (int key = 0; key <= 8; key++) {
+            size_t expected = 0;
+            for (size_t i = 0; i < count; i++)
+                if (sorted[i] <= key)
+                    expected = i;
+            assert_int_equal(last_up_to(&key, count ? sorted : NULL, count, sizeof *sorted, is_at_most),
+                             expected);
+        }
+}
+
 typedef struct tile_log {
     unsigned char seen[10007];
     size_t tiles[200];
@@ -352,6 +372,7 @@ int main(void)
         cmocka_unit_test(broken_utf8_is_replaced_in_json),
         cmocka_unit_test(each_status_has_its_exit_code),
         cmocka_unit_test(a_lower_bound_is_the_first_of_its_key),
+        cmocka_unit_test(the_last_up_to_a_key_is_the_first_where_all_are_beyond),
         cmocka_unit_test(tiles_visit_each_item_once),
         cmocka_unit_test(tiles_are_finished_in_their_order),
     };

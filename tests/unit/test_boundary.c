@@ -7,6 +7,7 @@
 
 #include "../support/draw.h"
 #include "../support/lattice_by_hand.h"
+#include "../support/lattice_maps.h"
 #include "../support/repetitions.h"
 #include "base/vector/vec.h"
 #include "embed/boundary/boundary.h"
@@ -24,24 +25,6 @@ static ffd_lattice *parsed(const char *text)
     return lattice;
 }
 
-typedef struct kinds {
-    knot_kind kind[3];
-    int degree[3];
-    size_t size[3];
-} kinds;
-
-static ffd_lattice *of_kinds(const kinds *shape)
-{
-    knot_vector knots[3];
-    for (int a = 0; a < 3; a++)
-        assert_int_equal(ffd_knots_make(shape->kind[a], shape->degree[a], shape->size[a], NULL, 0, "uvw"[a],
-                                        &knots[a], NULL),
-                         FFD_OK);
-    return lattice_of_knots(knots);
-}
-
-typedef void (*point_map)(const double g[3], double out[3]);
-
 static void finish(ffd_lattice *lattice)
 {
     memcpy(lattice->deformed, lattice->rest, 3 * lattice->count * sizeof(double));
@@ -50,24 +33,12 @@ static void finish(ffd_lattice *lattice)
     assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
 }
 
-/* Control points at the images of their Greville abscissae (fractions of the domain), shaken by `shake`. */
+/* Control points at the images of their Greville abscissae, shaken by `shake`. */
 static void set_points(ffd_lattice *lattice, point_map map, double shake, draw *d)
 {
-    double *p = lattice->rest;
-    for (size_t k = 0; k < lattice->size[2]; k++)
-        for (size_t j = 0; j < lattice->size[1]; j++)
-            for (size_t i = 0; i < lattice->size[0]; i++, p += 3) {
-                const size_t index[3] = {i, j, k};
-                double g[3];
-                for (int a = 0; a < 3; a++) {
-                    const knot_vector *knots = &lattice->knots[a];
-                    g[a] = (ffd_knots_greville(knots, index[a]) - ffd_knots_first(knots)) /
-                           (ffd_knots_last(knots) - ffd_knots_first(knots));
-                }
-                map(g, p);
-                for (int c = 0; c < 3; c++)
-                    p[c] += draw_between(d, -shake, shake);
-            }
+    lattice_map(lattice, map);
+    for (size_t i = 0; i < 3 * lattice->count; i++)
+        lattice->rest[i] += draw_between(d, -shake, shake);
 }
 
 static void add_random_weights(ffd_lattice *lattice, draw *d)
@@ -77,24 +48,10 @@ static void add_random_weights(ffd_lattice *lattice, draw *d)
         lattice->rest_weights[i] = draw_between(d, 0.5, 2);
 }
 
-static void warped_map(const double g[3], double out[3])
-{
-    out[0] = g[0] + 0.1 * g[1] * g[1] + 0.05 * g[2];
-    out[1] = g[1] + 0.15 * g[0] * g[2];
-    out[2] = g[2] - 0.1 * g[0] * g[0] + 0.05 * g[1] * g[1] * g[0];
-}
-
 static void thin_map(const double g[3], double out[3])
 {
     warped_map(g, out);
     out[2] = 0.3 * out[0] * out[0] + 1e-6 * out[2];
-}
-
-static void far_map(const double g[3], double out[3])
-{
-    warped_map(g, out);
-    out[0] += 1e6;
-    out[1] -= 1e6;
 }
 
 static void huge_map(const double g[3], double out[3])
@@ -109,15 +66,6 @@ static void tiny_map(const double g[3], double out[3])
     warped_map(g, out);
     for (int c = 0; c < 3; c++)
         out[c] *= 1e-100;
-}
-
-/* A bar bent to 3/4 of a circle: v along the bar. */
-static void bent_map(const double g[3], double out[3])
-{
-    const double angle = 4.7 * g[1], radius = 1 + g[0];
-    out[0] = radius * cos(angle);
-    out[1] = radius * sin(angle);
-    out[2] = g[2];
 }
 
 /* A tube round z: v goes round. */
@@ -320,7 +268,7 @@ typedef struct warped_case {
     point_map map;
     double shake;
     bool rational;
-    kinds shape;
+    lattice_kinds shape;
 } warped_case;
 
 #define CLAMPED                                                                                              \
@@ -356,7 +304,7 @@ enum { WARPED_CASES = sizeof warped_cases / sizeof warped_cases[0], BENT_CASE = 
 
 static ffd_lattice *make_case(const warped_case *one, draw *d)
 {
-    ffd_lattice *lattice = of_kinds(&one->shape);
+    ffd_lattice *lattice = lattice_of_kinds(&one->shape);
     set_points(lattice, one->map, one->shake, d);
     if (one->rational)
         add_random_weights(lattice, d);
@@ -822,9 +770,9 @@ static void points_on_the_border_are_their_own_feet(void **state)
 static void an_all_closed_lattice_has_no_border(void **state)
 {
     (void)state;
-    const kinds shape = {{KNOTS_CLOSED, KNOTS_CLOSED, KNOTS_CLOSED}, {2, 2, 2}, {4, 4, 4}};
+    const lattice_kinds shape = {{KNOTS_CLOSED, KNOTS_CLOSED, KNOTS_CLOSED}, {2, 2, 2}, {4, 4, 4}};
     draw d = {draw_seed()};
-    ffd_lattice *lattice = of_kinds(&shape);
+    ffd_lattice *lattice = lattice_of_kinds(&shape);
     set_points(lattice, warped_map, 0, &d);
     finish(lattice);
     boundary *border;
@@ -880,9 +828,9 @@ static void lattices_of_many_cells_are_searched_right(void **state)
 {
     (void)state;
     draw d = {draw_seed()};
-    const kinds shapes[] = {{CLAMPED, {2, 2, 2}, {250, 250, 3}}, {CLAMPED, {1, 2, 1}, {540, 540, 2}}};
+    const lattice_kinds shapes[] = {{CLAMPED, {2, 2, 2}, {250, 250, 3}}, {CLAMPED, {1, 2, 1}, {540, 540, 2}}};
     for (int i = 0; i < 2; i++) {
-        ffd_lattice *lattice = of_kinds(&shapes[i]);
+        ffd_lattice *lattice = lattice_of_kinds(&shapes[i]);
         set_points(lattice, warped_map, 1e-4, &d);
         finish(lattice);
         check_lattice("many cells", lattice, &d, 5, 1);

@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "../support/draw.h"
+#include "../support/file_content.h"
 #include "../support/test_folder.h"
 #include "base/file/output.h"
 #include "base/file/written_files.h"
@@ -29,15 +30,6 @@ int close(int fd)
         return (int)result;
     errno = EDQUOT;
     return -1;
-}
-
-static void check_content(const char *name, const char *text)
-{
-    file_input input;
-    assert_int_equal(ffd_file_load(in_folder(name), &input, NULL), FFD_OK);
-    assert_int_equal(input.size, strlen(text));
-    assert_memory_equal(input.data, text, input.size);
-    ffd_file_unload(&input);
 }
 
 static file_output *begin(const char *name, bool force)

@@ -33,36 +33,11 @@ static ffd_lattice *parsed(const char *format, ...)
     return lattice;
 }
 
-typedef struct kinds {
-    knot_kind kind[3];
-    int degree[3];
-    size_t size[3];
-} kinds;
-
-typedef void (*point_map)(const double g[3], double out[3]);
-
 /* Rest control points at the images of their Greville abscissae (fractions of the domain). */
-static ffd_lattice *mapped(const kinds *shape, point_map map)
+static ffd_lattice *mapped(const lattice_kinds *shape, point_map map)
 {
-    knot_vector knots[3];
-    for (int a = 0; a < 3; a++)
-        assert_int_equal(ffd_knots_make(shape->kind[a], shape->degree[a], shape->size[a], NULL, 0, "uvw"[a],
-                                        &knots[a], NULL),
-                         FFD_OK);
-    ffd_lattice *lattice = lattice_of_knots(knots);
-    double *p = lattice->rest;
-    for (size_t k = 0; k < lattice->size[2]; k++)
-        for (size_t j = 0; j < lattice->size[1]; j++)
-            for (size_t i = 0; i < lattice->size[0]; i++, p += 3) {
-                const size_t index[3] = {i, j, k};
-                double g[3];
-                for (int a = 0; a < 3; a++) {
-                    const double first = ffd_knots_first(&lattice->knots[a]);
-                    g[a] = (ffd_knots_greville(&lattice->knots[a], index[a]) - first) /
-                           (ffd_knots_last(&lattice->knots[a]) - first);
-                }
-                map(g, p);
-            }
+    ffd_lattice *lattice = lattice_of_kinds(shape);
+    lattice_map(lattice, map);
     memcpy(lattice->deformed, lattice->rest, 3 * lattice->count * sizeof(double));
     return lattice;
 }
@@ -342,9 +317,9 @@ static void the_identity_and_its_mirror_have_no_folds(void **state)
         for (int k = 0; k < 3; k++)
             for (int side = 0; side < 2; side++) {
                 const size_t least = (size_t)degree + 1;
-                const kinds shape = {{kind[k], kind[(k + 1) % 3], kind[(k + 2) % 3]},
-                                     {degree, degree > 4 ? 2 : degree, degree > 4 ? 1 : degree},
-                                     {least + 1, least, least + 2}};
+                const lattice_kinds shape = {{kind[k], kind[(k + 1) % 3], kind[(k + 2) % 3]},
+                                             {degree, degree > 4 ? 2 : degree, degree > 4 ? 1 : degree},
+                                             {least + 1, least, least + 2}};
                 ffd_lattice *lattice = mapped(&shape, side ? mirror : identity);
                 finish(lattice);
                 const ffd_folds folds = assert_verdict(lattice, side ? -1 : 1, FFD_FOLDS_NONE);
@@ -353,7 +328,7 @@ static void the_identity_and_its_mirror_have_no_folds(void **state)
             }
     if (is_under_valgrind()) /* undeformed_shapes_have_no_folds has a lattice of such degrees */
         return;
-    const kinds nine = {{KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {9, 9, 9}, {10, 10, 10}};
+    const lattice_kinds nine = {{KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {9, 9, 9}, {10, 10, 10}};
     ffd_lattice *lattice = mapped(&nine, identity);
     finish(lattice);
     assert_true(assert_verdict(lattice, 1, FFD_FOLDS_NONE).min_det > 1 - 1e-8);
@@ -363,7 +338,7 @@ static void the_identity_and_its_mirror_have_no_folds(void **state)
 static void undeformed_shapes_have_no_folds(void **state)
 {
     (void)state;
-    const kinds shapes[] = {
+    const lattice_kinds shapes[] = {
         {{KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {3, 3, 3}, {5, 6, 4}},
         {{KNOTS_OPEN, KNOTS_CLAMPED, KNOTS_UNIFORM}, {4, 2, 1}, {6, 5, 4}},
         {{KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_CLAMPED}, {5, 5, 5}, {6, 7, 6}},
@@ -371,13 +346,13 @@ static void undeformed_shapes_have_no_folds(void **state)
     };
     for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++)
         assert_none_at_rest(mapped(&shapes[i], warp), 1);
-    const kinds round[] = {
+    const lattice_kinds round[] = {
         {{KNOTS_CLAMPED, KNOTS_CLOSED, KNOTS_CLAMPED}, {3, 3, 3}, {4, 12, 4}},
         {{KNOTS_OPEN, KNOTS_CLOSED, KNOTS_CLAMPED}, {2, 4, 1}, {5, 9, 2}},
     };
     for (size_t i = 0; i < sizeof round / sizeof *round; i++)
         assert_none_at_rest(mapped(&round[i], tube), 1);
-    const kinds twice = {{KNOTS_CLAMPED, KNOTS_CLOSED, KNOTS_CLOSED}, {2, 3, 3}, {4, 12, 9}};
+    const lattice_kinds twice = {{KNOTS_CLAMPED, KNOTS_CLOSED, KNOTS_CLOSED}, {2, 3, 3}, {4, 12, 9}};
     assert_none_at_rest(mapped(&twice, torus), -1);
 }
 
@@ -440,7 +415,7 @@ static void the_verdict_does_not_depend_on_size(void **state)
 static void a_thin_turned_box_has_no_folds(void **state)
 {
     (void)state;
-    const kinds shape = {{KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {3, 3, 3}, {5, 5, 5}};
+    const lattice_kinds shape = {{KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {3, 3, 3}, {5, 5, 5}};
     ffd_lattice *lattice = mapped(&shape, warp);
     static const double m[9] = {0.6e-6, 0.8, 0, -0.8e-6, 0.6, 0, 0.3e-6, 0.1, 1};
     for (size_t i = 0; i < lattice->count; i++) {
@@ -461,9 +436,9 @@ static void verdicts_with_weights_agree_with_samples(void **state)
     const int count = is_under_valgrind() ? 12 : 40;
     for (int i = 0; i < count; i++) {
         const int *deg = degree[i % 4];
-        const kinds shape = {{KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_CLAMPED},
-                             {deg[0], deg[1], deg[2]},
-                             {(size_t)deg[0] + 2, (size_t)deg[1] + 1, (size_t)deg[2] + 2}};
+        const lattice_kinds shape = {{KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_CLAMPED},
+                                     {deg[0], deg[1], deg[2]},
+                                     {(size_t)deg[0] + 2, (size_t)deg[1] + 1, (size_t)deg[2] + 2}};
         ffd_lattice *lattice = mapped(&shape, i % 8 < 4 ? identity : warp);
         const double spread = i % 3 ? 1.5 : 1000;
         lattice_add_weights(lattice);
@@ -493,7 +468,7 @@ static void verdicts_with_weights_agree_with_samples(void **state)
 static void equal_weights_change_nothing(void **state)
 {
     (void)state;
-    const kinds shape = {{KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_CLAMPED}, {3, 2, 3}, {5, 4, 4}};
+    const lattice_kinds shape = {{KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_CLAMPED}, {3, 2, 3}, {5, 4, 4}};
     ffd_lattice *lattice = mapped(&shape, warp);
     finish(lattice);
     const ffd_folds without = find(lattice, 1);
@@ -515,7 +490,7 @@ static void equal_weights_change_nothing(void **state)
    least of dx/du is 1 - move/h (2/3) (3/4)^2 in one point, within one cell: 0 for 8/3 h. */
 static ffd_lattice *one_point_moved(double move, bool mirrored)
 {
-    const kinds shape = {{KNOTS_OPEN, KNOTS_OPEN, KNOTS_OPEN}, {3, 2, 2}, {13, 12, 12}};
+    const lattice_kinds shape = {{KNOTS_OPEN, KNOTS_OPEN, KNOTS_OPEN}, {3, 2, 2}, {13, 12, 12}};
     ffd_lattice *lattice = mapped(&shape, mirrored ? mirror : identity);
     lattice->deformed[3 * lattice_index(lattice, 6, 7, 4)] += mirrored ? -0.1 * move : 0.1 * move;
     finish(lattice);
@@ -565,7 +540,7 @@ static void a_hair_at_a_corner_is_decided(void **state)
     static const double hair[] = {1e-6, 1e-10, 1e-12, 5e-13};
     for (int i = 0; i < 8; i++)
         for (int degree = 1; degree <= 3; degree++) {
-            const kinds shape = {
+            const lattice_kinds shape = {
                 {KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {degree, degree, degree}, {5, 5, 5}};
             ffd_lattice *lattice = mapped(&shape, identity);
             const double step = lattice->rest[3] - lattice->rest[0], sign = i < 4 ? 1 : -1;
@@ -589,7 +564,7 @@ static void exactly_on_the_edge_is_never_called_free(void **state)
     assert_true(folds.min_det <= 0 && folds.min_det > -1e-6);
     ffd_lattice_destroy(&lattice);
     /* At a corner: the coefficient is 0 to the bit. */
-    const kinds shape = {{KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {3, 3, 3}, {5, 5, 5}};
+    const lattice_kinds shape = {{KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {3, 3, 3}, {5, 5, 5}};
     lattice = mapped(&shape, identity);
     lattice->deformed[0] = lattice->deformed[3];
     finish(lattice);
@@ -623,7 +598,7 @@ static void too_few_boxes_leave_a_cell_unknown(void **state)
 static void folds_at_the_seam_are_found(void **state)
 {
     (void)state;
-    const kinds shape = {{KNOTS_CLAMPED, KNOTS_CLOSED, KNOTS_CLAMPED}, {2, 2, 1}, {3, 10, 2}};
+    const lattice_kinds shape = {{KNOTS_CLAMPED, KNOTS_CLOSED, KNOTS_CLAMPED}, {2, 2, 1}, {3, 10, 2}};
     for (size_t j = 0; j < 10; j++) {
         ffd_lattice *lattice = mapped(&shape, tube);
         for (size_t k = 0; k < 2; k++)
@@ -678,7 +653,8 @@ static void random_control_points_are_found_to_fold(void **state)
     draw d = {3};
     for (int i = 0; i < 6; i++) {
         const int degree = 1 + i % 4;
-        const kinds shape = {{KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_CLAMPED}, {degree, degree, degree}, {7, 7, 7}};
+        const lattice_kinds shape = {
+            {KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_CLAMPED}, {degree, degree, degree}, {7, 7, 7}};
         ffd_lattice *lattice = mapped(&shape, identity);
         for (size_t p = 0; p < 3 * lattice->count; p++)
             lattice->deformed[p] = draw_between(&d, 0, 1);
@@ -764,7 +740,7 @@ static void an_axis_folds_inside_out_but_not_opened(void **state)
 {
     (void)state;
     static const double radius[] = {0.2, -0.2, 1e-6, -1e-6, 1e-9, -1e-9, 1e-11, -1e-11};
-    const kinds shape = {{KNOTS_CLAMPED, KNOTS_CLOSED, KNOTS_CLAMPED}, {3, 3, 2}, {4, 9, 4}};
+    const lattice_kinds shape = {{KNOTS_CLAMPED, KNOTS_CLOSED, KNOTS_CLAMPED}, {3, 3, 2}, {4, 9, 4}};
     for (size_t i = 0; i < sizeof radius / sizeof *radius; i++) {
         ffd_lattice *lattice = mapped(&shape, rod);
         for (size_t k = 0; k < 4; k++)
@@ -791,7 +767,7 @@ static void an_axis_folds_inside_out_but_not_opened(void **state)
 static void a_ball_folds_only_when_its_pole_is_pushed_in(void **state)
 {
     (void)state;
-    const kinds shapes[] = {
+    const lattice_kinds shapes[] = {
         {{KNOTS_CLAMPED, KNOTS_CLOSED, KNOTS_CLAMPED}, {2, 3, 2}, {3, 10, 6}},
         {{KNOTS_CLAMPED, KNOTS_CLOSED, KNOTS_CLAMPED}, {3, 2, 3}, {5, 8, 7}},
         {{KNOTS_CLAMPED, KNOTS_CLOSED, KNOTS_CLAMPED}, {1, 2, 3}, {3, 9, 6}},
@@ -821,7 +797,7 @@ static void a_ball_folds_only_when_its_pole_is_pushed_in(void **state)
 static void a_rational_quarter_folds_only_when_its_axis_tears(void **state)
 {
     (void)state;
-    const kinds shape = {{KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {1, 2, 1}, {2, 3, 2}};
+    const lattice_kinds shape = {{KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {1, 2, 1}, {2, 3, 2}};
     static const double x[3] = {1, 1, 0}, y[3] = {0, 1, 1};
     for (int fold = 0; fold < 2; fold++) {
         ffd_lattice *lattice = mapped(&shape, identity);
@@ -851,7 +827,7 @@ static void a_rational_quarter_folds_only_when_its_axis_tears(void **state)
 static void a_volume_that_is_zero_inside_is_never_called_free(void **state)
 {
     (void)state;
-    const kinds shape = {{KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {1, 1, 1}, {2, 3, 2}};
+    const lattice_kinds shape = {{KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {1, 1, 1}, {2, 3, 2}};
     ffd_lattice *lattice = mapped(&shape, identity);
     for (size_t k = 0; k < 2; k++) {
         double *inner = lattice->rest + 3 * lattice_index(lattice, 0, 1, k);
@@ -940,7 +916,7 @@ static void a_lattice_without_bounds_is_refused(void **state)
 static void each_failed_allocation_is_reported(void **state)
 {
     (void)state;
-    const kinds shape = {{KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_CLAMPED}, {3, 2, 1}, {9, 9, 9}};
+    const lattice_kinds shape = {{KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_CLAMPED}, {3, 2, 1}, {9, 9, 9}};
     ffd_lattice *lattice = mapped(&shape, warp);
     finish(lattice);
     const ffd_folds all = find(lattice, 1);

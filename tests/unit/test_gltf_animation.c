@@ -6,7 +6,7 @@
 #include <cmocka.h>
 
 #include "../support/gltf_file.h"
-#include "base/text/base64.h"
+#include "../support/gltf_text.h"
 #include "io/gltf/animation/gltf_pose.h"
 #include "io/gltf/animation/gltf_sample.h"
 #include <math.h>
@@ -76,18 +76,12 @@ static const struct {
 /* A file with these animations, which must stay as long as it is open. Free it with free(). */
 static char *file_with(const char *animations)
 {
-    unsigned char bytes[sizeof data];
-    char base64[2 * sizeof data] = "";
-    char *const text = malloc(20000);
-    assert_non_null(text);
-    memcpy(bytes, &data, sizeof data);
-    ffd_base64_encode(bytes, sizeof bytes, base64);
-    snprintf(text, 20000,
-             "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":%zu,\"uri\":\"data:application/"
-             "octet-stream;base64,%s\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":%zu}],\"accessors\":"
-             "[" ACCESSORS "]," MESH "," NODES ",\"animations\":[%s]}",
-             sizeof bytes, base64, sizeof bytes, animations);
-    return text;
+    char members[16000];
+    assert_in_range(snprintf(members, sizeof members,
+                             "\"accessors\":[" ACCESSORS "]," MESH "," NODES ",\"animations\":[%s]",
+                             animations),
+                    1, sizeof members - 1);
+    return gltf_text(&data, sizeof data, members);
 }
 
 static gltf_document *open_text(const char *text)

@@ -134,6 +134,16 @@ static void odd_data_uris_become_plain(void **state)
     "],\"nodes\":[{\"mesh\":" first "},{\"mesh\":" second                                                    \
     ",\"translation\":[10,0,0]}],\"scenes\":[{\"nodes\":[0,1]}]}"
 
+/* The far node's mesh has an accessor of its own, behind the first. */
+#define FAR_HAS_ITS_OWN                                                                                      \
+    "{" ASSET "," BUFFER("72", TRIANGLE MOVED) "," VIEWS                                                     \
+                                               ",{\"buffer\":0,\"byteOffset\":36,\"byteLength\":36,"         \
+                                               "\"target\":34962}],\"accessors\":[" OLD_ACCESSOR             \
+                                               ",{\"bufferView\":1,\"componentType\":5126,\"count\":3,"      \
+                                               "\"min\":[1, 0,0.0],\"max\":[2,1,0],"                         \
+                                               "\"type\":\"VEC3\"}],\"meshes\":[" MESH("0") "," MESH("1")    \
+                                                   TWO_NODES("0", "1")
+
 static void a_mesh_under_two_nodes_is_copied_where_they_differ(void **state)
 {
     (void)state;
@@ -147,14 +157,7 @@ static void a_mesh_under_two_nodes_is_copied_where_they_differ(void **state)
                      "");
     /* The far one only: the first keeps mesh and bytes. */
     check_conversion(
-        before, FFD_SPACE_SCENE, move_far,
-        "{" ASSET "," BUFFER("72", TRIANGLE MOVED) "," VIEWS
-                                                   ",{\"buffer\":0,\"byteOffset\":36,\"byteLength\":36,"
-                                                   "\"target\":34962}],\"accessors\":[" OLD_ACCESSOR
-                                                   ",{\"bufferView\":1,\"componentType\":5126,\"count\":3,"
-                                                   "\"min\":[1, 0,0.0],\"max\":[2,1,0],"
-                                                   "\"type\":\"VEC3\"}],\"meshes\":[" MESH("0") "," MESH("1")
-                                                       TWO_NODES("0", "1"),
+        before, FFD_SPACE_SCENE, move_far, FAR_HAS_ITS_OWN,
         "1 node 1 gets a copy of mesh 0 (mesh 1): the mesh is deformed differently under other nodes\n"
         "0 1 node gets a copy of its mesh, which is deformed differently under other nodes\n");
 }
@@ -250,18 +253,10 @@ static void accessors_of_the_same_bytes_that_agree_stay(void **state)
         "{" ASSET "," BUFFER("36", MOVED) "," VIEWS TWO("[1,0,0]", "[2,1,0]") TWO_NODES("0", "1"), "");
 #undef TWO
     /* Two meshes of one accessor that do not agree: each gets its own. */
-    check_conversion(
-        "{" ASSET "," BUFFER("36", TRIANGLE) "," VIEWS "],\"accessors\":[" OLD_ACCESSOR
-                                             "],\"meshes\":[" MESH("0") "," MESH("0") TWO_NODES("0", "1"),
-        FFD_SPACE_SCENE, move_far,
-        "{" ASSET "," BUFFER("72", TRIANGLE MOVED) "," VIEWS
-                                                   ",{\"buffer\":0,\"byteOffset\":36,\"byteLength\":36,"
-                                                   "\"target\":34962}],\"accessors\":[" OLD_ACCESSOR
-                                                   ",{\"bufferView\":1,\"componentType\":5126,\"count\":3,"
-                                                   "\"min\":[1, 0,0.0],\"max\":[2,1,0],"
-                                                   "\"type\":\"VEC3\"}],\"meshes\":[" MESH("0") "," MESH("1")
-                                                       TWO_NODES("0", "1"),
-        "");
+    check_conversion("{" ASSET "," BUFFER("36", TRIANGLE) "," VIEWS "],\"accessors\":[" OLD_ACCESSOR
+                                                          "],\"meshes\":[" MESH("0") "," MESH("0")
+                                                              TWO_NODES("0", "1"),
+                     FFD_SPACE_SCENE, move_far, FAR_HAS_ITS_OWN, "");
 }
 
 /* Positions, normals and tangents of two vertices interleaved, so many floats a vertex: the tangent's last

@@ -581,6 +581,61 @@ static void pictures_pages_and_derivatives_go_to_a_sink(void **state)
     (void)state;
 }
 
+/* u,v,w times the transposed derivative, and that times the derivative: in memory, or files. */
+static void multiply(both *b, ffd_jacobian_desc *desc, const char *const outputs[3])
+{
+    const bool in_memory = b->desc.sink != NULL;
+    ffd_embed_desc embed;
+    ffd_job_result result = {.struct_size = sizeof result};
+    ffd_embed_desc_init(&embed, sizeof embed);
+    embed.input = b->desc.input;
+    embed.lattice = b->path;
+    embed.lattice_object = in_memory ? b->lattice : NULL;
+    embed.output = outputs[0];
+    embed.sink = b->desc.sink;
+    embed.sink_user = &b->sink;
+    assert_int_equal(ffd_embed_run(&embed, &result, NULL), FFD_OK);
+    for (int i = 1; i < 3; i++) {
+        ffd_bytes *const bytes = i == 1 ? &desc->transposed_bytes : &desc->times_bytes;
+        const char **const path = i == 1 ? &desc->transposed : &desc->times;
+        const named *const factor = find(&b->sink.files, outputs[i - 1]);
+        desc->times = desc->transposed = NULL;
+        desc->times_bytes = desc->transposed_bytes = (ffd_bytes){0};
+        if (in_memory)
+            *bytes = (ffd_bytes){factor->bytes, factor->size};
+        else
+            *path = outputs[i - 1];
+        desc->output = outputs[i];
+        assert_int_equal(ffd_jacobian_run(desc, NULL, NULL), FFD_OK);
+    }
+}
+
+static void derivatives_are_multiplied_by_bytes(void **state)
+{
+    both b;
+    ffd_error error;
+    ffd_jacobian_desc desc;
+    char paths[3][200];
+    const char *const outputs[3] = {paths[0], paths[1], paths[2]};
+    begin(&b, make_obj, "head.obj");
+    for (int i = 0; i < 3; i++)
+        snprintf(paths[i], sizeof paths[i], "%s/out/%d.npy", folder, i);
+    ffd_jacobian_desc_init(&desc, sizeof desc);
+    desc.job = &b.desc;
+    multiply(&b, &desc, outputs);
+    assert_int_equal(b.sink.files.count, 3);
+    desc.times_bytes.size--;
+    assert_int_equal(ffd_jacobian_run(&desc, NULL, &error), FFD_E_INVALID);
+    assert_string_equal(error.file, "times");
+    desc.times_bytes.data = NULL;
+    assert_int_equal(ffd_jacobian_run(&desc, NULL, NULL), FFD_E_ARGUMENT);
+    use_files(&b);
+    multiply(&b, &desc, outputs);
+    check_same(&b.sink.files, "out");
+    end(&b);
+    (void)state;
+}
+
 static void a_report_goes_to_a_sink(void **state)
 {
     const ffd_job_result result = {.struct_size = sizeof result};
@@ -874,6 +929,7 @@ int main(void)
         cmocka_unit_test(embeddings_pass_through_memory),
         cmocka_unit_test(other_jobs_take_memory_too),
         cmocka_unit_test(pictures_pages_and_derivatives_go_to_a_sink),
+        cmocka_unit_test(derivatives_are_multiplied_by_bytes),
         cmocka_unit_test(a_report_goes_to_a_sink),
         cmocka_unit_test(a_resolver_that_fails_ends_the_job),
         cmocka_unit_test(what_is_not_there_is_named),

@@ -7,6 +7,7 @@
 
 #include "../support/draw.h"
 #include "../support/lattice_by_hand.h"
+#include "../support/lattice_maps.h"
 #include "../support/repetitions.h"
 #include "base/vector/vec.h"
 #include "embed/cells/cells.h"
@@ -14,41 +15,16 @@
 #include <ffd/embedding.h>
 #include <float.h>
 
-static ffd_lattice *lattice_of_kinds(const knot_kind kind[3], const int degree[3], const size_t size[3])
-{
-    knot_vector knots[3];
-    for (int a = 0; a < 3; a++)
-        assert_int_equal(ffd_knots_make(kind[a], degree[a], size[a], NULL, 0, "uvw"[a], &knots[a], NULL),
-                         FFD_OK);
-    return lattice_of_knots(knots);
-}
-
 static ffd_lattice *clamped(int degree, size_t size)
 {
-    const knot_kind kind[3] = {KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED};
-    const int degrees[3] = {degree, degree, degree};
-    const size_t sizes[3] = {size, size, size};
-    return lattice_of_kinds(kind, degrees, sizes);
+    const lattice_kinds shape = {
+        {KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {degree, degree, degree}, {size, size, size}};
+    return lattice_of_kinds(&shape);
 }
 
-typedef void (*point_map)(const double g[3], double out[3]);
-
-/* Control points at the images of their Greville abscissae (fractions of the domain). */
 static void set_points(ffd_lattice *lattice, point_map map)
 {
-    double *p = lattice->rest;
-    for (size_t k = 0; k < lattice->size[2]; k++)
-        for (size_t j = 0; j < lattice->size[1]; j++)
-            for (size_t i = 0; i < lattice->size[0]; i++, p += 3) {
-                const size_t index[3] = {i, j, k};
-                double g[3];
-                for (int a = 0; a < 3; a++) {
-                    const knot_vector *knots = &lattice->knots[a];
-                    g[a] = (ffd_knots_greville(knots, index[a]) - ffd_knots_first(knots)) /
-                           (ffd_knots_last(knots) - ffd_knots_first(knots));
-                }
-                map(g, p);
-            }
+    lattice_map(lattice, map);
     memcpy(lattice->deformed, lattice->rest, 3 * lattice->count * sizeof(double));
     assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
 }
@@ -87,24 +63,10 @@ static void separable_map(const double g[3], double out[3])
         out[a] = g[a] * g[a] + (a + 1) * g[a];
 }
 
-static void warped_map(const double g[3], double out[3])
-{
-    out[0] = g[0] + 0.1 * g[1] * g[1] + 0.05 * g[2];
-    out[1] = g[1] + 0.15 * g[0] * g[2];
-    out[2] = g[2] - 0.1 * g[0] * g[0] + 0.05 * g[1] * g[1] * g[0];
-}
-
 static void thin_map(const double g[3], double out[3])
 {
     warped_map(g, out);
     out[2] *= 1e-6;
-}
-
-static void far_map(const double g[3], double out[3])
-{
-    warped_map(g, out);
-    out[0] += 1e6;
-    out[1] -= 1e6;
 }
 
 static void huge_map(const double g[3], double out[3])
@@ -112,15 +74,6 @@ static void huge_map(const double g[3], double out[3])
     warped_map(g, out);
     for (int a = 0; a < 3; a++)
         out[a] *= 1e9;
-}
-
-/* A bar bent to 3/4 of a circle: v along the bar. */
-static void bent_map(const double g[3], double out[3])
-{
-    const double angle = 4.7 * g[1], radius = 1 + g[0];
-    out[0] = radius * cos(angle);
-    out[1] = radius * sin(angle);
-    out[2] = g[2];
 }
 
 typedef struct locator_case {
@@ -198,10 +151,8 @@ static void u_v_w_come_back_by_each_method(void **state)
 static void u_v_w_come_back_with_mixed_knots(void **state)
 {
     draw d = {draw_seed()};
-    const knot_kind kind[3] = {KNOTS_OPEN, KNOTS_UNIFORM, KNOTS_CLAMPED};
-    const int degree[3] = {2, 3, 4};
-    const size_t size[3] = {6, 7, 8};
-    ffd_lattice *lattice = lattice_of_kinds(kind, degree, size);
+    const lattice_kinds shape = {{KNOTS_OPEN, KNOTS_UNIFORM, KNOTS_CLAMPED}, {2, 3, 4}, {6, 7, 8}};
+    ffd_lattice *lattice = lattice_of_kinds(&shape);
     set_points(lattice, box_map);
     check_round_trip(lattice, "affine", &d, 100);
     set_points(lattice, separable_map);

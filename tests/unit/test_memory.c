@@ -11,12 +11,12 @@
 #include <cmocka.h>
 
 #include "../support/failing_new.h"
+#include "../support/job_description.h"
 #include "../support/repetitions.h"
 #include "../support/test_folder.h"
 #include "base/file/input.h"
 #include "base/memory/memory.h"
 #include <dirent.h>
-#include <ffd/job.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -51,13 +51,8 @@ static size_t count_files(void)
 static ffd_deform_desc describe(void)
 {
     static const char *const lattices[] = {lattice};
-    ffd_deform_desc desc;
-    ffd_deform_desc_init(&desc, sizeof desc);
-    desc.input.path = input;
-    desc.output = output;
-    desc.lattices = lattices;
-    desc.lattice_count = 1;
-    desc.threads = 1;
+    ffd_deform_desc desc = describe_job(input, output, lattices);
+    desc.force = false; /* a failure that left a file would be found by the next job */
     return desc;
 }
 

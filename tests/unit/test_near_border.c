@@ -13,8 +13,6 @@
 
 enum { POINTS = 600 };
 
-typedef void (*point_map)(const double g[3], double out[3]);
-
 static void box_map(const double g[3], double out[3])
 {
     for (int a = 0; a < 3; a++)
@@ -54,19 +52,9 @@ enum { MAPS = sizeof maps / sizeof *maps };
 
 static ffd_lattice *lattice_of(point_map map)
 {
-    knot_vector knots[3];
-    for (int a = 0; a < 3; a++)
-        assert_int_equal(ffd_knots_make(KNOTS_CLAMPED, 2, 5, NULL, 0, "uvw"[a], &knots[a], NULL), FFD_OK);
-    ffd_lattice *lattice = lattice_of_knots(knots);
-    double *p = lattice->rest;
-    for (size_t k = 0; k < 5; k++)
-        for (size_t j = 0; j < 5; j++)
-            for (size_t i = 0; i < 5; i++, p += 3) {
-                const double g[3] = {ffd_knots_greville(&lattice->knots[0], i),
-                                     ffd_knots_greville(&lattice->knots[1], j),
-                                     ffd_knots_greville(&lattice->knots[2], k)};
-                map(g, p);
-            }
+    const lattice_kinds shape = {{KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {2, 2, 2}, {5, 5, 5}};
+    ffd_lattice *lattice = lattice_of_kinds(&shape);
+    lattice_map(lattice, map);
     memcpy(lattice->deformed, lattice->rest, 3 * lattice->count * sizeof(double));
     assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
     return lattice;

@@ -91,6 +91,18 @@ static void put_statement(writer *w)
     put_line_end(w);
 }
 
+static void put_missing_vectors(writer *w)
+{
+    while (w->vertices < w->vertices_total) {
+        put_numbers(w, "v", ++w->vertices);
+        put_line_end(w);
+    }
+    while (w->normals < w->normals_total) {
+        put_numbers(w, "vn", ++w->normals);
+        put_line_end(w);
+    }
+}
+
 static void draw_file(writer *w)
 {
     w->vertices_total = draw_int(w->d, 1, 6);
@@ -100,14 +112,7 @@ static void draw_file(writer *w)
     w->counts_back = draw_int(w->d, 0, 1) == 1;
     for (int count = draw_int(w->d, 0, 25); count > 0; count--)
         put_statement(w);
-    while (w->vertices < w->vertices_total) {
-        put_numbers(w, "v", ++w->vertices);
-        put_line_end(w);
-    }
-    while (w->normals < w->normals_total) {
-        put_numbers(w, "vn", ++w->normals);
-        put_line_end(w);
-    }
+    put_missing_vectors(w);
     for (int count = draw_int(w->d, 0, 3); count > 0; count--)
         put_statement(w);
     static const char *const ends[] = {"", "", "# c", "f 1//1", "f 1//1 \\", "# \\"};
@@ -134,14 +139,7 @@ static void random_files_hold_their_new_normals(void **state)
 static void draw_plain_file(writer *w)
 {
     w->vertices_total = w->normals_total = draw_int(w->d, 3, 20);
-    while (w->vertices < w->vertices_total) {
-        put_numbers(w, "v", ++w->vertices);
-        put_line_end(w);
-    }
-    while (w->normals < w->normals_total) {
-        put_numbers(w, "vn", ++w->normals);
-        put_line_end(w);
-    }
+    put_missing_vectors(w);
     put(w, "f");
     for (int i = 1; i <= w->vertices; i++) {
         put(w, " ");

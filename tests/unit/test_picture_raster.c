@@ -192,6 +192,22 @@ static void of_equally_near_ones_the_first_is_seen(void **state)
     assert_true(color[SAMPLES * (5 * WIDTH + 5)] == before);
 }
 
+/* Triangles whose corners are some of a rectangle's. */
+static void begin_on_a_rectangle(size_t vertex_count, size_t count, const uint32_t corners[][3])
+{
+    begin(vertex_count, count);
+    for (size_t v = 0; v < vertex_count; v++)
+        set(v, v % 2 ? 20000 : 0, v / 2 ? 15000 : 0, 1);
+    memcpy(triangles, corners, count * sizeof *corners);
+}
+
+static void use_materials(uint32_t *of, const picture_material two[2])
+{
+    mesh.materials = of;
+    mesh.material_list = two;
+    mesh.material_count = 2;
+}
+
 /* Of a face that a file repeats, also with slivers between, only the first is in the lists of rows; the same
    corners in another material may be seen through its holes. */
 static void a_repeated_triangle_is_drawn_once(void **state)
@@ -201,13 +217,8 @@ static void a_repeated_triangle_is_drawn_once(void **state)
     static const bool is_there[6] = {true, false, false, false, true, true};
     uint32_t of[6] = {0, 0, 0, 0, 0, 1};
     (void)state;
-    begin(4, 6);
-    for (int v = 0; v < 4; v++)
-        set((size_t)v, v % 2 ? 20000 : 0, v / 2 ? 15000 : 0, 1);
-    memcpy(triangles, corners, sizeof corners);
-    mesh.materials = of;
-    mesh.material_list = materials;
-    mesh.material_count = 2;
+    begin_on_a_rectangle(4, 6, corners);
+    use_materials(of, materials);
     for (size_t t = 0; t < 6; t++) {
         int64_t first, last;
         assert_int_equal(ffd_raster_rows(&drawn, t, &first, &last), is_there[t]);
@@ -226,13 +237,8 @@ static void a_turned_triangle_is_drawn_once(void **state)
     uint32_t of[5] = {1, 1, 1, 1, 1};
     int64_t first, last;
     (void)state;
-    begin(3, 5);
-    for (int v = 0; v < 3; v++)
-        set((size_t)v, v % 2 ? 20000 : 0, v / 2 ? 15000 : 0, 1);
-    memcpy(triangles, corners, sizeof corners);
-    mesh.materials = of;
-    mesh.material_list = materials;
-    mesh.material_count = 2;
+    begin_on_a_rectangle(3, 5, corners);
+    use_materials(of, materials);
     mesh.texcoords = texcoords[0];
     for (size_t t = 0; t < 5; t++)
         assert_int_equal(ffd_raster_rows(&drawn, t, &first, &last), is_there[t]);
@@ -328,9 +334,7 @@ static void the_back_of_a_material_of_one_side_is_not_drawn(void **state)
     for (uint32_t material = 0; material < 2; material++)
         for (uint32_t turned = 0; turned < 2; turned++) {
             begin(3, 1);
-            mesh.materials = &material;
-            mesh.material_list = materials;
-            mesh.material_count = 2;
+            use_materials(&material, materials);
             set(0, 0, 0, 0);
             set(1, 0, 15000, 0);
             set(2, 15000, 0, 0);

@@ -7,19 +7,10 @@
 
 #include <cmocka.h>
 
+#include "../support/file_content.h"
 #include "../support/test_folder.h"
-#include "base/file/input.h"
 #include "base/file/update.h"
 #include <sys/stat.h>
-
-static void check_content(const char *name, const char *text)
-{
-    file_input input;
-    assert_int_equal(ffd_file_load(in_folder(name), &input, NULL), FFD_OK);
-    assert_int_equal(input.size, strlen(text));
-    assert_memory_equal(input.data, text, input.size);
-    ffd_file_unload(&input);
-}
 
 static void files_are_made_or_opened(void **state)
 {

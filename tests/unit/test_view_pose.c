@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "../support/gltf_file.h"
-#include "base/text/base64.h"
+#include "../support/gltf_text.h"
 #include "view/view_pose.h"
 #include <math.h>
 
@@ -73,19 +73,9 @@ static const struct {         /* with the number of the first float of each */
 
 static char *make_text(void)
 {
-    unsigned char bytes[sizeof data];
-    char base64[2 * sizeof data] = "";
-    char *const text = malloc(8000);
-    assert_non_null(text);
-    memcpy(bytes, &data, sizeof data);
-    ffd_base64_encode(bytes, sizeof bytes, base64);
-    snprintf(text, 8000,
-             "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":%zu,\"uri\":\"data:application/"
-             "octet-stream;base64,%s\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":%zu}],\"accessors\":"
-             "[" ACCESSORS JOINTS "]," MESHES "," NODES "," SKINS ",\"animations\":[{\"samplers\":[" SAMPLERS
-             "],\"channels\":[" CHANNELS "]}]}",
-             sizeof bytes, base64, sizeof bytes);
-    return text;
+    return gltf_text(&data, sizeof data,
+                     "\"accessors\":[" ACCESSORS JOINTS "]," MESHES "," NODES "," SKINS
+                     ",\"animations\":[{\"samplers\":[" SAMPLERS "],\"channels\":[" CHANNELS "]}]");
 }
 
 typedef struct fixture {

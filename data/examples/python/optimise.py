@@ -31,11 +31,9 @@ embedding = lattice.embed(start)
 B = lattice.basis(embedding)  # points x control points
 
 # Parameter p[a, b]: how far the control points of column a of the four inner ones, row b (lower, upper), move along y.
-names = np.arange(8).reshape(4, 2)
 S = np.zeros(lattice.size + (8,))
-for a in range(4):
-    for b in range(2):
-        S[1 + a, b, :, names[a, b]] = 1.0
+for p, (a, b) in enumerate(np.ndindex(4, 2)):
+    S[1 + a, b, :, p] = 1.0
 dydp = B @ S.reshape(-1, 8)  # dy/dp, exact, once for all
 wanted_area = area(start)[0]
 

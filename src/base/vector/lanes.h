@@ -35,6 +35,17 @@ static ALWAYS_INLINE lanes lanes_root(lanes a)
     return root;
 }
 
+/* The largest magnitude of the entries of a matrix. */
+static ALWAYS_INLINE lanes lanes_largest_entry(const lanes m[9])
+{
+    lanes largest = lanes_all(0);
+    for (int i = 0; i < 9; i++) {
+        const lanes size = lanes_magnitude(m[i]);
+        largest = lanes_choose(size > largest, size, largest);
+    }
+    return largest;
+}
+
 static ALWAYS_INLINE bool lanes_any(mask which)
 {
     int64_t some = 0;

@@ -73,6 +73,15 @@ static inline void mat_cofactor(const double m[9], double out[9])
     vec_cross(m, m + 3, out + 6);
 }
 
+/* The largest magnitude of the entries. */
+static inline double mat_largest_entry(const double m[9])
+{
+    double largest = 0;
+    for (int i = 0; i < 9; i++)
+        largest = fabs(m[i]) > largest ? fabs(m[i]) : largest;
+    return largest;
+}
+
 static inline double mat_determinant(const double m[9])
 {
     double c[3];

@@ -45,18 +45,6 @@ static void step_from(const double t[3], const double step[3], double to[3])
         to[a] = clip_to_unit(t[a] + step[a]);
 }
 
-/* The full Newton step -J^{-1} F by Cramer's rule; false if J is singular. */
-static bool newton_step(const sample *at, double step[3])
-{
-    double inverse[9];
-    if (!mat_invert(at->jacobian, inverse))
-        return false;
-    mat_apply(inverse, at->equation, step);
-    for (int a = 0; a < 3; a++)
-        step[a] = -step[a];
-    return true;
-}
-
 /* What a root at t may miss the point by: its tolerance, and what the rounding of u,v,w moves C by. */
 static void find_allowance(const point_search *search, const cell_region *region, const double t[3],
                            const sample *at, double allowance[3])
@@ -422,7 +410,7 @@ static bool newton_stride(point_search *search, const cell_region *region, const
                           const sample *at, double noise, double shorter, stride *ahead)
 {
     double step[3], image[3];
-    if (!newton_step(at, step))
+    if (!newton_step(at->jacobian, at->equation, step))
         return false;
     step_from(t, step, ahead->t);
     ffd_search_evaluate_in(search, region, ahead->t, &ahead->at);

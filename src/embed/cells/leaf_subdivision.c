@@ -60,24 +60,13 @@ static bool damped_step(const double jacobian[9], const double equation[3], doub
     return true;
 }
 
-static bool full_step(const double jacobian[9], const double equation[3], double step[3])
-{
-    double inverse[9];
-    if (!mat_invert(jacobian, inverse))
-        return false;
-    mat_apply(inverse, equation, step);
-    for (int a = 0; a < 3; a++)
-        step[a] = -step[a];
-    return true;
-}
-
 /* One step, damped if need be; false if there is none. */
 static bool polishing_step(const point_search *search, const sample *at, bool full, double t[3])
 {
     double jacobian[9], equation[3], step[3];
     if (!ffd_weigh_rows(at->jacobian, at->equation, search->tolerance, jacobian, equation))
         return false;
-    if (!(full && full_step(jacobian, equation, step)) && !damped_step(jacobian, equation, step))
+    if (!(full && newton_step(jacobian, equation, step)) && !damped_step(jacobian, equation, step))
         return false;
     for (int a = 0; a < 3; a++)
         t[a] = clip_to_unit(t[a] + step[a]);

@@ -1,6 +1,7 @@
 /* separable.c - lattices with P_ijk = (x_i, y_j, z_k), each sequence strictly monotone: three equations in
    one unknown, each with exactly one root or none. */
 #include "embed/direct/separable.h"
+#include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "spline/basis.h"
@@ -101,19 +102,24 @@ void ffd_separable_free(ffd_locator *locator)
     }
 }
 
+typedef struct curve_value {
+    double x;
+    bool falling;
+} curve_value;
+
+static bool is_value_up_to(const void *breakpoint, const void *value)
+{
+    const curve_value *const v = value;
+    const double here = *(const double *)breakpoint;
+    return v->falling ? v->x <= here : v->x >= here;
+}
+
 /* The number of the span whose values hold x; x beyond the ends gets the first or last. */
 static size_t span_holding(const knot_vector *knots, const monotone_curve *curve, double x)
 {
-    size_t low = 0, high = knots->span_count;
-    while (high - low > 1) {
-        const size_t middle = low + (high - low) / 2;
-        const double here = curve->breakpoints[middle];
-        if (curve->falling ? x <= here : x >= here)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
+    const curve_value value = {x, curve->falling};
+    return last_up_to(&value, curve->breakpoints, knots->span_count, sizeof *curve->breakpoints,
+                      is_value_up_to);
 }
 
 /* Solves x(u) = x within one span, by offsets from its start: Newton steps, and halving wherever one would

@@ -61,17 +61,6 @@ static bool step_of_two(const double matrix[9], const double value[3], int a, in
     return true;
 }
 
-static bool step_of_three(const double matrix[9], const double value[3], double step[3])
-{
-    double inverse[9];
-    if (!mat_invert(matrix, inverse))
-        return false;
-    mat_apply(inverse, value, step);
-    for (int a = 0; a < 3; a++)
-        step[a] = -step[a];
-    return true;
-}
-
 /* One Gauss-Newton step of the coordinates that do not rest, clipped; false if there is none. */
 static bool step_within(const double jacobian[9], const double equation[3], const double tolerance[3],
                         const bool rests[3], double t[3])
@@ -83,7 +72,7 @@ static bool step_within(const double jacobian[9], const double equation[3], cons
     for (int a = 0; a < 3; a++)
         if (!rests[a])
             moving[count++] = a;
-    const bool found = count == 3   ? step_of_three(matrix, value, step)
+    const bool found = count == 3   ? newton_step(matrix, value, step)
                        : count == 2 ? step_of_two(matrix, value, moving[0], moving[1], step)
                        : count == 1 ? step_of_one(matrix, value, moving[0], step)
                                     : false;

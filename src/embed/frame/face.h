@@ -3,11 +3,24 @@
 #ifndef FFD_EMBED_FRAME_FACE_H
 #define FFD_EMBED_FRAME_FACE_H
 
+#include "base/vector/vec.h"
 #include <stdbool.h>
 
 static inline double clip_to_unit(double t)
 {
     return t < 0 ? 0 : t > 1 ? 1 : t;
+}
+
+/* The full Newton step -J^{-1} F by Cramer's rule; false if J is singular. */
+static inline bool newton_step(const double jacobian[9], const double equation[3], double step[3])
+{
+    double inverse[9];
+    if (!mat_invert(jacobian, inverse))
+        return false;
+    mat_apply(inverse, equation, step);
+    for (int a = 0; a < 3; a++)
+        step[a] = -step[a];
+    return true;
 }
 
 /* F and its jacobian in units of each row's tolerance (>= 0), times the least of these; a row without any

@@ -1,4 +1,5 @@
 #include "io/gltf/gltf_compare_json.h"
+#include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include <stdio.h>
 #include <string.h>
@@ -55,6 +56,11 @@ static bool is_storage(const json_span *tree, uint32_t value)
            (ffd_json_span_key_is(tree, value, "uri") || ffd_json_span_key_is(tree, value, "byteLength"));
 }
 
+static bool is_value_before(const void *element, const void *value)
+{
+    return *(const uint32_t *)element < *(const uint32_t *)value;
+}
+
 /* Returns the accessor whose "min" or "max" has the value as a number; GLTF_NONE: it is not one. */
 static size_t bounded_accessor(const gltf_comparer *c, uint32_t value)
 {
@@ -64,15 +70,9 @@ static size_t bounded_accessor(const gltf_comparer *c, uint32_t value)
     if (accessor == JSON_NONE ||
         !(ffd_json_span_key_is(tree, array, "min") || ffd_json_span_key_is(tree, array, "max")))
         return GLTF_NONE;
-    size_t low = 0, high = list->count;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (list->values[middle] < accessor)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low < list->count && list->values[low] == accessor ? low : GLTF_NONE;
+    const size_t found =
+        lower_bound(&accessor, list->values, list->count, sizeof *list->values, is_value_before);
+    return found < list->count && list->values[found] == accessor ? found : GLTF_NONE;
 }
 
 /* Whether a number has neither fraction nor exponent. */

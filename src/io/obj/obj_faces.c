@@ -1,4 +1,5 @@
 #include "io/obj/obj_faces.h"
+#include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
 #include "io/obj/obj_corner.h"
@@ -179,18 +180,17 @@ ffd_status ffd_obj_read_faces(obj_document *d, obj_users *users, ffd_error *erro
     return users->firsts ? make_pairs(users, d, error) : FFD_OK;
 }
 
+static bool is_normal_up_to(const void *element, const void *normal)
+{
+    return *(const uint32_t *)element <= *(const size_t *)normal;
+}
+
 /* The normal's index in the vertex's ascending list. */
 size_t ffd_obj_find_pair(const obj_document *d, const obj_face_corner *corner)
 {
-    size_t low = d->pair_start[corner->vertex], high = d->pair_start[corner->vertex + 1];
-    while (high - low > 1) {
-        const size_t middle = low + (high - low) / 2;
-        if (d->pair_normal[middle] <= corner->normal)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
+    const size_t first = d->pair_start[corner->vertex], end = d->pair_start[corner->vertex + 1];
+    return first + last_up_to(&corner->normal, d->pair_normal + first, end - first, sizeof *d->pair_normal,
+                              is_normal_up_to);
 }
 
 static ffd_status fill_faces(const obj_document *d, mesh_faces *faces, ffd_error *error)

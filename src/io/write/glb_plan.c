@@ -1,4 +1,5 @@
 #include "io/write/glb_plan.h"
+#include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include "io/write/glb_values.h"
 #include "io/write/triangles.h"
@@ -237,17 +238,14 @@ static ffd_status draw(planner *p, const glb_primitive *primitive, size_t elemen
     return FFD_OK;
 }
 
+static bool is_corner_up_to(const void *vertex, const void *corner)
+{
+    return compare_corners(vertex, corner) <= 0;
+}
+
 static uint32_t find_vertex(const model_corner *vertices, size_t count, const model_corner *corner)
 {
-    size_t low = 0, high = count;
-    while (high - low > 1) {
-        const size_t middle = low + (high - low) / 2;
-        if (compare_corners(vertices + middle, corner) <= 0)
-            low = middle;
-        else
-            high = middle;
-    }
-    return (uint32_t)low;
+    return (uint32_t)last_up_to(corner, vertices, count, sizeof *vertices, is_corner_up_to);
 }
 
 /* Vertices are in the order of the model's positions, each combination once. Points keep their own order. */

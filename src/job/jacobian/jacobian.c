@@ -107,7 +107,11 @@ static ffd_status run(const ffd_jacobian_desc *desc, ffd_jacobian_result *result
 static ffd_status take_memory(job_memory *memory, ffd_jacobian_desc *desc, ffd_deform_desc *job,
                               ffd_error *error)
 {
-    const ffd_status status = ffd_in_memory_output(memory, job->sink, job->sink_user, &desc->output, error);
+    ffd_status status = ffd_in_memory_output(memory, job->sink, job->sink_user, &desc->output, error);
+    if (!status)
+        status = ffd_in_memory_bytes(memory, desc->times_bytes, "times", &desc->times, error);
+    if (!status)
+        status = ffd_in_memory_bytes(memory, desc->transposed_bytes, "transposed", &desc->transposed, error);
     job->output = NULL;
     return status ? status : ffd_in_memory_desc(memory, job, error);
 }

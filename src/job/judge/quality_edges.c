@@ -90,16 +90,9 @@ static double *cells_of(const edge_work *work, edge_scratch *scratch, size_t edg
 /* u as the number of the non-empty span that holds it, and how far in it u is. */
 static double cell_coordinate(const knot_vector *knots, double u)
 {
-    size_t low = 0, high = knots->span_count;
-    while (high - low > 1) {
-        const size_t middle = low + (high - low) / 2;
-        if (knots->t[knots->spans[middle]] <= u)
-            low = middle;
-        else
-            high = middle;
-    }
-    const double from = knots->t[knots->spans[low]], to = knots->t[knots->spans[low] + 1];
-    return (double)low + (u - from) / (to - from);
+    const size_t number = ffd_knots_span_number(knots, u);
+    const double from = knots->t[knots->spans[number]], to = knots->t[knots->spans[number] + 1];
+    return (double)number + (u - from) / (to - from);
 }
 
 /* How far apart two parameters are, in span cells: the short way round where the direction is closed. More

@@ -1,4 +1,5 @@
 #include "job/pass/vertex_rounding.h"
+#include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include <string.h>
 
@@ -55,18 +56,17 @@ static vertex_transform transform_of(const mesh_document *document, size_t part,
     return (vertex_transform){own, own + 9, inverse, false, !mat_invert(own, inverse)};
 }
 
+static bool starts_up_to(const void *first, const void *vertex)
+{
+    return *(const size_t *)first <= *(const size_t *)vertex;
+}
+
 void ffd_vertex_rounding(const vertex_owners *owners, size_t vertex, const double x[3], double half[3])
 {
     const mesh_document *const document = owners->document;
-    size_t low = 0, high = owners->count;
-    while (high - low > 1) {
-        const size_t middle = low + (high - low) / 2;
-        if (owners->first[middle] <= vertex)
-            low = middle;
-        else
-            high = middle;
-    }
-    const size_t part = owners->parts[low], i = vertex - owners->first[low];
+    const size_t owner =
+        last_up_to(&vertex, owners->first, owners->count, sizeof *owners->first, starts_up_to);
+    const size_t part = owners->parts[owner], i = vertex - owners->first[owner];
     double position[3], own[12], inverse[9];
     const vertex_transform transform = transform_of(document, part, i, own, inverse);
     document->format->read_positions(document, part, i, 1, position);

@@ -68,9 +68,7 @@ static ffd_status read_within(json_cursor cursor, lattice_move *move)
     move->has_within = true;
     ffd_status status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
     if (!status)
-        status = ffd_json_member_doubles(cursor, "min", 3, move->within_min);
-    if (!status)
-        status = ffd_json_member_doubles(cursor, "max", 3, move->within_max);
+        status = ffd_spec_read_ends(cursor, move->within_min, move->within_max);
     for (int c = 0; c < 3 && !status; c++)
         if (move->within_max[c] < move->within_min[c])
             return ffd_cursor_fail(cursor, "max %s is less than min %s",
@@ -191,16 +189,6 @@ static ffd_status read_matrix(json_cursor cursor, lattice_move *move)
                            ffd_number_text(last[3]).text);
 }
 
-/* The member of an object that is a number greater than 0. */
-static ffd_status read_radius(json_cursor object, double *radius)
-{
-    const ffd_status status = ffd_json_member_double(object, "radius", radius);
-    if (status || *radius > 0)
-        return status;
-    return ffd_cursor_fail(ffd_cursor_member(object, "radius"), "radius %s is not more than 0",
-                           ffd_number_text(*radius).text);
-}
-
 static ffd_status read_pull(json_cursor cursor, lattice_move *move)
 {
     static const char *const keys[] = {"point", "by", "radius", SPEC_NOTES};
@@ -209,7 +197,7 @@ static ffd_status read_pull(json_cursor cursor, lattice_move *move)
         status = ffd_json_member_doubles(cursor, "point", 3, move->point);
     if (!status)
         status = ffd_json_member_doubles(cursor, "by", 3, move->vector);
-    return status ? status : read_radius(cursor, &move->radius);
+    return status ? status : ffd_spec_read_positive(cursor, "radius", &move->radius);
 }
 
 static const struct action_reader {
@@ -320,7 +308,7 @@ static ffd_status read_falloff(json_cursor cursor, move_falloff *falloff)
         return read_axis_falloff(cursor, falloff);
     falloff->kind = FALLOFF_BALL;
     status = ffd_json_member_doubles(cursor, "center", 3, falloff->center);
-    return status ? status : read_radius(cursor, &falloff->radius);
+    return status ? status : ffd_spec_read_positive(cursor, "radius", &falloff->radius);
 }
 
 static ffd_status read_mirror(json_cursor cursor, lattice_move *move)

@@ -66,9 +66,7 @@ static ffd_status read_box(json_cursor cursor, lattice_spec *spec)
     spec->rest = SPEC_BOX;
     ffd_status status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
     if (!status)
-        status = ffd_json_member_doubles(cursor, "min", 3, spec->box_min);
-    if (!status)
-        status = ffd_json_member_doubles(cursor, "max", 3, spec->box_max);
+        status = ffd_spec_read_ends(cursor, spec->box_min, spec->box_max);
     const json_cursor spacing = ffd_cursor_member(cursor, "spacing"),
                       axes = ffd_cursor_member(cursor, "axes");
     spec->has_axes = ffd_cursor_exists(axes);
@@ -190,15 +188,6 @@ static ffd_status read_radius(json_cursor cylinder, double radius[2])
                            ffd_number_text(radius[0]).text, ffd_number_text(radius[1]).text);
 }
 
-static ffd_status read_height(json_cursor cylinder, double *height)
-{
-    const ffd_status status = ffd_json_member_double(cylinder, "height", height);
-    if (status || *height > 0)
-        return status;
-    return ffd_cursor_fail(ffd_cursor_member(cylinder, "height"), "height %s is not more than 0",
-                           ffd_number_text(*height).text);
-}
-
 static ffd_status read_angle(json_cursor cylinder, double angle[2])
 {
     const json_cursor cursor = ffd_cursor_member(cylinder, "angle");
@@ -230,7 +219,7 @@ static ffd_status read_cylinder(json_cursor cursor, lattice_spec *spec)
     if (!status)
         status = read_radius(cursor, spec->radius);
     if (!status)
-        status = read_height(cursor, &spec->height);
+        status = ffd_spec_read_positive(cursor, "height", &spec->height);
     if (!status)
         status = read_angle(cursor, spec->angle);
     return status;

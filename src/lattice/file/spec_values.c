@@ -1,5 +1,6 @@
 #include "lattice/file/spec_values.h"
 #include "base/memory/memory.h"
+#include "base/text/number.h"
 #include "base/vector/direction.h"
 #include <string.h>
 
@@ -86,6 +87,21 @@ ffd_status ffd_spec_read_path(json_cursor cursor, char **path)
     ffd_free(*path);
     *path = NULL;
     return ffd_cursor_fail(cursor, "is %s, not the name of a file", ffd_json_describe(cursor).text);
+}
+
+ffd_status ffd_spec_read_ends(json_cursor object, double min[3], double max[3])
+{
+    const ffd_status status = ffd_json_member_doubles(object, "min", 3, min);
+    return status ? status : ffd_json_member_doubles(object, "max", 3, max);
+}
+
+ffd_status ffd_spec_read_positive(json_cursor object, const char *key, double *value)
+{
+    const ffd_status status = ffd_json_member_double(object, key, value);
+    if (status || *value > 0)
+        return status;
+    return ffd_cursor_fail(ffd_cursor_member(object, key), "%s %s is not more than 0", key,
+                           ffd_number_text(*value).text);
 }
 
 ffd_status ffd_spec_read_axis(json_cursor object, const char *key, double axis[3])

@@ -17,6 +17,10 @@ ffd_status ffd_spec_check_notes(json_cursor object);
 ffd_status ffd_spec_read_points(json_cursor cursor, size_t count, double **points);
 /* Reads the name of a file (free with ffd_free). */
 ffd_status ffd_spec_read_path(json_cursor cursor, char **path);
+/* Reads the members "min" and "max" of a box: three numbers each. */
+ffd_status ffd_spec_read_ends(json_cursor object, double min[3], double max[3]);
+/* Reads a member that is a number greater than 0. */
+ffd_status ffd_spec_read_positive(json_cursor object, const char *key, double *value);
 /* Reads a member that is a direction: three numbers, not all 0, or "x", "y", "z". axis gets unit length. */
 ffd_status ffd_spec_read_axis(json_cursor object, const char *key, double axis[3]);
 

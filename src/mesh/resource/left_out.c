@@ -1,4 +1,5 @@
 #include "mesh/resource/left_out.h"
+#include "base/file/path.h"
 #include "base/text/words.h"
 #include <stdio.h>
 
@@ -13,6 +14,12 @@ void ffd_left_add(left_out *left, const char *name, const char *why)
         snprintf(left->shown[left->count], sizeof left->shown[left->count], "\"%s\" %s", shown, why);
     }
     left->count++;
+}
+
+void ffd_left_add_unloaded(left_out *list, const char *path, const char *left)
+{
+    const char *const refused = ffd_path_leads_out(path) ? "is outside the model's folder" : "cannot be read";
+    ffd_left_add(list, path, left ? left : refused);
 }
 
 void ffd_left_say(const left_out *left, const char *one, const char *many, const mesh_log *log)

@@ -92,10 +92,7 @@ ffd_status ffd_images_load(material_images *images, const char *path, uint32_t *
     if (status)
         return status;
     if (left || refused.status) {
-        ffd_left_add(&images->left, path,
-                     left                       ? left
-                     : ffd_path_leads_out(path) ? "is outside the model's folder"
-                                                : "cannot be read");
+        ffd_left_add_unloaded(&images->left, path, left);
         return FFD_OK;
     }
     status = ffd_images_add(images, path, bytes.data, bytes.size, image, error);

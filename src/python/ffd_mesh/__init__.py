@@ -12,17 +12,23 @@ Points are arrays (N, 3) of float32 or float64; control points are (nu, nv, nw, 
 from ._embedding import Embedding, Status
 from ._errors import (ArgumentError, Cancelled, EmbeddingError, Error, ExistsError, FileError, GateError, InvalidError,
                       LimitError, OutOfMemoryError, UnsupportedError)
-from ._jobs import DeformedBytes, Result, check_bytes, check_file, deform_bytes, deform_file, info, jacobian_file
+from ._facts import compare_bytes, compare_files, info, info_bytes
+from ._jacobian import JacobianBytes, jacobian_bytes, jacobian_file
+from ._jobs import DeformedBytes, check_bytes, check_file, deform_bytes, deform_file
 from ._lattice import Lattice
 from ._library import lib as _lib
 from ._meshes import deform_mesh
+from ._result import Result
+from ._schemas import schema
 from ._values import Csr, Deformed, Folds, Parameter, parameters
+from ._views import ViewBytes, view_bytes, view_file
 
 __version__: str = _lib.ffd_version().decode()
 
 __all__ = [
     "ArgumentError", "Cancelled", "Csr", "Deformed", "DeformedBytes", "Embedding", "EmbeddingError", "Error", "ExistsError",
-    "FileError", "Folds", "GateError", "InvalidError", "Lattice", "LimitError", "OutOfMemoryError", "Parameter", "Result", "Status", "UnsupportedError",
-    "check_bytes", "check_file", "deform_bytes", "deform_file", "deform_mesh", "info", "jacobian_file",
-    "parameters",
+    "FileError", "Folds", "GateError", "InvalidError", "JacobianBytes", "Lattice", "LimitError", "OutOfMemoryError", "Parameter",
+    "Result", "Status", "UnsupportedError", "ViewBytes", "check_bytes", "check_file", "compare_bytes", "compare_files",
+    "deform_bytes", "deform_file", "deform_mesh", "info", "info_bytes", "jacobian_bytes", "jacobian_file", "parameters",
+    "schema", "view_bytes", "view_file",
 ]

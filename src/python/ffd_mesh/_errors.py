@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Sequence
 
 from ._declarations import ENUMERATIONS
 
@@ -15,9 +15,11 @@ class Error(Exception):
     status: the library's number of it (ffd/error.h), below 0
     message: what is wrong, with the value
     file, line, pointer: where, in a file: its name, the line from 1, the JSON pointer; None where there is none
+    warnings: of a job: what a user of the program would have been told, a line each
     """
 
     status: int = -10
+    warnings: Sequence[str] = ()
 
     def __init__(self, message: str, *, status: int | None = None, file: str | None = None, line: int | None = None,
                  pointer: str | None = None) -> None:
@@ -38,7 +40,14 @@ def _again(kind: type[Error], message: str, status: int, file: str | None, line:
 
 
 class GateError(Error):
-    """A gate of fail_on is violated. result: the figures of the job (Result)."""
+    """A gate is violated.
+
+    result: the figures of the job: a `Result`; of `jacobian_file` and `jacobian_bytes` what these return
+    data: of `view_bytes` the page or picture, which is made all the same; else None
+    """
+
+    result: Any = None
+    data: bytes | None = None
 
 
 class ArgumentError(Error, ValueError):

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import logging
 import operator
 import os
-from typing import Any, Callable
+from typing import Any, Callable, Iterator
 
 import numpy as np
 
@@ -140,10 +141,23 @@ class Run:
             raise self._said[1]
 
 
-def log_into(structure: Any, lines: list[Any]) -> None:
-    """Lets a job's structure append (level, line) to a list, which must outlive the call."""
+_LEVELS = {0: logging.WARNING, 1: logging.INFO, 2: logging.DEBUG}
+
+
+@contextlib.contextmanager
+def logged(structure: Any) -> Iterator[list[str]]:
+    """Lets a job's structure log as "ffd_mesh"; at the end the list has its warnings."""
+    lines: list[Any] = []
+    warnings: list[str] = []
     structure.log = _native.log
     structure.log_user = id(lines)
+    try:
+        yield warnings
+    finally:
+        for level, line in lines:
+            LOG.log(_LEVELS.get(level, logging.DEBUG), "%s", line)
+            if level == 0:
+                warnings.append(line)
 
 
 def lend_bytes(data: Any, what: str) -> tuple[Any, int, Any]:

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Makes C arrays of a page's sources.
 
-    embed.py OUT NAME PAGE STYLE SCRIPT...
+    embed.py OUT NAME PROGRAM SOURCES HEAD PAGE STYLE... SCRIPT...
 
-The arrays are called ffd_NAME_start and so on. The page is cut where {{title}} and {{data}} stand. Its {{style}} and {{script}} are replaced by the files, and
-{{style-hash}} and {{script-hash}} by what its Content-Security-Policy allows: these very bytes and nothing else.
+The arrays are called ffd_NAME_start and so on. The page is cut where {{title}} and {{data}} stand. Its {{head}} is
+replaced by the file that all pages share, {{style}} and {{script}} by the files that end in .css and .js, {{program}} by
+PROGRAM. Its Content-Security-Policy begins with {{sources}}, SOURCES; {{style-hash}} and {{script-hash}} are what it
+allows beside them: these very bytes and nothing else.
 """
 
 import base64
@@ -45,10 +47,12 @@ def c_array(name, text):
 
 
 def main():
-    out, name, page, style, *scripts = sys.argv[1:]
-    style_text, script_text = read(style), join_scripts(scripts)
+    out, name, program, sources, head, page, *files = sys.argv[1:]
+    style_text = "".join(read(path) for path in files if path.endswith(".css"))
+    script_text = join_scripts([path for path in files if path.endswith(".js")])
     text = read(page)
-    for key, value in (("style-hash", hash_of(style_text)), ("script-hash", hash_of(script_text)),
+    for key, value in (("head", read(head)), ("program", program), ("sources", sources),
+                       ("style-hash", hash_of(style_text)), ("script-hash", hash_of(script_text)),
                        ("style", style_text), ("script", script_text)):
         if text.count("{{" + key + "}}") != 1:
             sys.exit(f"{page}: does not hold {{{{{key}}}}} once")

@@ -1,4 +1,5 @@
 #include "io/gltf/animation/gltf_sample.h"
+#include "base/lower_bound.h"
 #include "base/vector/trig.h"
 #include <float.h>
 #include <math.h>
@@ -6,18 +7,15 @@
 
 #define DEGREES 57.295779513082320877 /* of a radian */
 
+static bool is_time_up_to(const void *key, const void *time)
+{
+    return *(const double *)key <= *(const double *)time;
+}
+
 /* The last key that is not behind the time; 0 if all are. */
 static size_t find_key(const gltf_animation_sampler *sampler, double time)
 {
-    size_t low = 0, high = sampler->key_count;
-    while (high - low > 1) {
-        const size_t middle = low + (high - low) / 2;
-        if (sampler->times[middle] <= time)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
+    return last_up_to(&time, sampler->times, sampler->key_count, sizeof *sampler->times, is_time_up_to);
 }
 
 static double sine(double radians)

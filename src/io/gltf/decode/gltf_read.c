@@ -1,5 +1,6 @@
 #include "io/gltf/decode/gltf_read.h"
 #include "base/little_endian.h"
+#include "base/lower_bound.h"
 #include "base/vector/array_kernel.h"
 #include "io/gltf/decode/gltf_views.h"
 #include <string.h>
@@ -69,19 +70,23 @@ static void read_element(const gltf_accessor *accessor, const unsigned char *at,
         values[c] = ffd_gltf_read_number(at + c * size, accessor->component, accessor->normalized);
 }
 
+typedef struct sparse_key {
+    int type; /* of the indices */
+    size_t first;
+} sparse_key;
+
+static bool is_index_before(const void *index, const void *key)
+{
+    const sparse_key *const k = key;
+    return ffd_gltf_read_index(index, k->type) < k->first;
+}
+
 /* Returns the first sparse element whose index is not below `first`. */
 static uint64_t find_sparse(const gltf_sparse *sparse, const unsigned char *indices, size_t first)
 {
+    const sparse_key key = {sparse->indices_type, first};
     const size_t size = ffd_gltf_component_size(sparse->indices_type);
-    uint64_t low = 0, high = sparse->count;
-    while (low < high) {
-        const uint64_t middle = low + (high - low) / 2;
-        if (ffd_gltf_read_index(indices + middle * size, sparse->indices_type) < first)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
+    return lower_bound(&key, indices, (size_t)sparse->count, size, is_index_before);
 }
 
 static const unsigned char *sparse_indices(const gltf_document *d, const gltf_sparse *sparse)

@@ -1,5 +1,6 @@
 #include "io/gltf/save/gltf_content.h"
 #include "base/little_endian.h"
+#include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include "io/gltf/decode/gltf_encode.h"
 #include "io/gltf/decode/gltf_read.h"
@@ -263,18 +264,16 @@ static void apply_overwrite(const gltf_document *d, const gltf_overwrite *overwr
     }
 }
 
+static bool all_end_by(const void *overwrite, const void *offset)
+{
+    return ((const gltf_overwrite *)overwrite)->end_so_far <= *(const size_t *)offset;
+}
+
 /* Returns the first overwrite from which on any may end past offset. */
 static size_t find_overwrite(const gltf_new_buffer *buffer, size_t offset)
 {
-    size_t low = 0, high = buffer->overwrite_count;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (buffer->overwrites[middle].end_so_far <= offset)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
+    return lower_bound(&offset, buffer->overwrites, buffer->overwrite_count, sizeof *buffer->overwrites,
+                       all_end_by);
 }
 
 static void apply_overwrites(const gltf_document *d, const gltf_new_buffer *buffer, size_t offset,
@@ -308,18 +307,18 @@ static void apply_append(const gltf_saver *saver, const gltf_append *append, siz
     }
 }
 
+static bool ends_by(const void *append, const void *offset)
+{
+    const gltf_append *const a = append;
+    return a->offset + a->size <= *(const size_t *)offset;
+}
+
 static void apply_appends(const gltf_saver *saver, const gltf_new_buffer *buffer, size_t offset, size_t size,
                           unsigned char *bytes)
 {
-    size_t low = 0, high = buffer->append_count;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (buffer->appends[middle].offset + buffer->appends[middle].size <= offset)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    for (size_t i = low; i < buffer->append_count && buffer->appends[i].offset < offset + size; i++)
+    const size_t first =
+        lower_bound(&offset, buffer->appends, buffer->append_count, sizeof *buffer->appends, ends_by);
+    for (size_t i = first; i < buffer->append_count && buffer->appends[i].offset < offset + size; i++)
         apply_append(saver, &buffer->appends[i], offset, size, bytes);
 }
 

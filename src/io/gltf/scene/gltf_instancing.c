@@ -1,6 +1,7 @@
 /* gltf_instancing.c - nodes with EXT_mesh_gpu_instancing: one mesh under many transforms, which cannot have
    results of their own. Their vertices stay, and their bounds tell whether the lattice reaches them. */
 #include "io/gltf/scene/gltf_instancing.h"
+#include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include "base/text/words.h"
 #include "base/vector/vec.h"
@@ -152,14 +153,10 @@ static void skip_node(gltf_document *d, size_t node)
 {
     const size_t mesh = (size_t)d->model.nodes[node].mesh;
     gltf_mesh_uses *uses = &d->mesh_uses[mesh];
-    size_t low = 0, high = uses->node_count;
-    while (high - low > 1) {
-        const size_t middle = low + (high - low) / 2;
-        *(uses->nodes[middle] <= node ? &low : &high) = middle;
-    }
+    const size_t use = ffd_gltf_find_use(uses, node);
     uses->used_outside_scene = true; /* the node keeps its mesh */
     for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
-        ffd_gltf_instances(d, mesh, p)[low].selected = false;
+        ffd_gltf_instances(d, mesh, p)[use].selected = false;
 }
 
 static bool is_instanced(const gltf_document *d, size_t node)
@@ -200,19 +197,17 @@ ffd_status ffd_gltf_find_instanced_nodes(gltf_document *d, ffd_error *error)
     return status;
 }
 
+static bool is_of_node_before(const void *instanced, const void *node)
+{
+    return ((const gltf_instanced_node *)instanced)->node < *(const size_t *)node;
+}
+
 gltf_instanced_node *ffd_gltf_instanced_node(const gltf_document *d, size_t node)
 {
-    size_t low = 0, high = d->instanced_node_count;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (d->instanced_nodes[middle].node == node)
-            return &d->instanced_nodes[middle];
-        if (d->instanced_nodes[middle].node < node)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return NULL;
+    gltf_instanced_node *const list = d->instanced_nodes;
+    const size_t count = d->instanced_node_count;
+    const size_t found = lower_bound(&node, list, count, sizeof *list, is_of_node_before);
+    return found < count && list[found].node == node ? &list[found] : NULL;
 }
 
 /* Whether the transformed box meets the reach, or may do so but for rounding. */

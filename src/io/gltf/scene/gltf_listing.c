@@ -1,11 +1,11 @@
 /* gltf_listing.c - nodes with all below them, meshes and materials by their names, and what they draw where
    the scene shows it. */
 #include "io/gltf/scene/gltf_listing.h"
-#include "base/lower_bound.h"
 #include "base/memory/intern.h"
 #include "base/memory/memory.h"
 #include "io/gltf/scene/gltf_detail.h"
 #include "io/gltf/scene/gltf_faces.h"
+#include "io/gltf/scene/gltf_scene.h"
 #include "mesh/listing.h"
 #include <string.h>
 
@@ -55,18 +55,6 @@ static ffd_status draw_mesh(const surveying *s, size_t m, size_t first, size_t c
     return status;
 }
 
-static bool is_node_before(const void *element, const void *node)
-{
-    return *(const size_t *)element < *(const size_t *)node;
-}
-
-/* The use of a mesh by a node; uses->node_count where the scene does not show it. */
-static size_t find_use(const gltf_mesh_uses *uses, size_t node)
-{
-    const size_t use = lower_bound(&node, uses->nodes, uses->node_count, sizeof *uses->nodes, is_node_before);
-    return use < uses->node_count && uses->nodes[use] == node ? use : uses->node_count;
-}
-
 static void add_pending(const surveying *s, size_t node, size_t *waiting)
 {
     if (s->seen[node] == s->listing->count)
@@ -95,7 +83,7 @@ static ffd_status draw_pending(const surveying *s, size_t waiting)
         const size_t number = s->pending[--waiting];
         const gltf_node *const node = &d->model.nodes[number];
         const gltf_mesh_uses *const uses = node->mesh >= 0 ? &d->mesh_uses[node->mesh] : NULL;
-        const size_t use = uses && uses->nodes ? find_use(uses, number) : 0;
+        const size_t use = uses && uses->nodes ? ffd_gltf_find_use(uses, number) : 0;
         if (uses && use < uses->node_count)
             status = draw_mesh(s, (size_t)node->mesh, use, 1);
         for (size_t i = 0; i < node->child_count; i++)

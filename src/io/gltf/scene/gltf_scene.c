@@ -1,4 +1,5 @@
 #include "io/gltf/scene/gltf_scene.h"
+#include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "io/gltf/scene/gltf_detail.h"
@@ -303,6 +304,17 @@ static ffd_status list_nodes(gltf_document *d, ffd_error *error)
             uses->nodes[uses->node_count++] = n;
         }
     return FFD_OK;
+}
+
+static bool is_node_before(const void *element, const void *node)
+{
+    return *(const size_t *)element < *(const size_t *)node;
+}
+
+size_t ffd_gltf_find_use(const gltf_mesh_uses *uses, size_t node)
+{
+    const size_t use = lower_bound(&node, uses->nodes, uses->node_count, sizeof *uses->nodes, is_node_before);
+    return use < uses->node_count && uses->nodes[use] == node ? use : uses->node_count;
 }
 
 static void use_meshes_alone(gltf_document *d)

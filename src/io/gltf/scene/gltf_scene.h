@@ -8,6 +8,9 @@
    cycle, a root that is a child, a matrix that is not finite), FFD_E_MEMORY. */
 ffd_status ffd_gltf_make_scene(gltf_document *document, ffd_error *error);
 
+/* The use of a mesh by a node; uses->node_count where the scene does not show it. */
+size_t ffd_gltf_find_use(const gltf_mesh_uses *uses, size_t node);
+
 /* Reads the node's own matrix: linear row by row, and offset. */
 void ffd_gltf_local_matrix(const gltf_node *node, double linear[9], double offset[3]);
 

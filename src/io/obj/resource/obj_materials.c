@@ -168,10 +168,7 @@ static ffd_status read_file(reader *r, const char *path)
     if (status)
         return status;
     if (left || refused.status) {
-        ffd_left_add(&r->left, path,
-                     left                       ? left
-                     : ffd_path_leads_out(path) ? "is outside the model's folder"
-                                                : "cannot be read");
+        ffd_left_add_unloaded(&r->left, path, left);
         return FFD_OK;
     }
     status = read_statements(r, path, &bytes);

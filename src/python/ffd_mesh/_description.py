@@ -1,0 +1,184 @@
+"""What a job is told: a mesh as a file or in memory, lattices, options."""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import os
+from typing import Any, Callable, Collection, Iterator, Mapping, Union
+
+from . import _declarations as declared
+from . import _library as library
+from ._errors import Error
+from ._lattice import Lattice
+from ._values import settings
+
+Path = Union[str, "os.PathLike[str]"]
+AnyLattice = Union[Lattice, Path, bytes]
+Files = Union[Mapping[str, Any], Callable[[str], Any]]
+
+# Option -> enumeration, and whether it is the input's.
+_ENUMERATIONS = {"outside": "ffd_outside", "normals": "ffd_normals", "resources": "ffd_resources", "rig": "ffd_rig", "isa": "ffd_isa",
+                 "output_format": "ffd_format"}
+_INPUT_ENUMERATIONS = {"input_format": ("format", "ffd_format"), "space": ("space", "ffd_space")}
+# Those of reading a mesh.
+INPUT_OPTIONS = {*_INPUT_ENUMERATIONS, "memory", "strict", "allow_extensions"}
+_SWITCHES = ("blocks", "quality", "force", "if_changed", "dry_run")
+OPTIONS = {*_ENUMERATIONS, *INPUT_OPTIONS, *_SWITCHES, "set", "falloff", "snap", "embedding", "fail_on", "as_morph", "only",
+           "clips", "threads"}
+
+
+@contextlib.contextmanager
+def described(source: Any, lattices: Any, options: dict[str, Any],
+              known: Collection[str] = OPTIONS) -> Iterator[tuple[Any, list[str]]]:
+    """The description of a job, and the list of its warnings, which is filled at the end. source: a path or a `Memory`; lattices:
+    None where a job can do without; known: the options that it has."""
+    desc = library.filled("ffd_deform_desc")
+    kept = [source, None if lattices is None else _set_lattices(desc, lattices)]
+    place(source, desc.input)
+    kept += _set_options(desc, options, known)
+    with library.logged(desc) as warnings:
+        yield desc, warnings
+    del kept
+
+
+def place(source: Any, structure: Any) -> None:
+    """Puts a path or a `Memory` into an ffd_source, which the latter must outlive."""
+    if isinstance(source, Memory):
+        source.give(structure)
+    else:
+        structure.path = library.path(source)
+
+
+@contextlib.contextmanager
+def resolved(*sources: Any) -> Iterator[None]:
+    """Around a call: raises what the function of a `Memory`'s files has raised, in place of the failure that this has made."""
+    try:
+        yield
+    except Error:
+        for source in sources:
+            if isinstance(source, Memory):
+                source.reraise()
+        raise
+
+
+class Memory:
+    """A mesh in memory, and what it names."""
+
+    def __init__(self, data: Any, name: str, files: Files | None) -> None:
+        self.name, self.resolver = library.path(name), None
+        self.address, self.size, self.kept = library.lend_bytes(data.read() if hasattr(data, "read") else data, "data")
+        if files is not None and not callable(files) and not isinstance(files, Mapping):
+            raise TypeError(f"files must be a dict or a function, not {type(files).__name__}")
+        self.find = files.get if isinstance(files, Mapping) else files
+
+    def give(self, source: Any) -> None:
+        """Puts what it has into an ffd_source."""
+        source.path = self.name
+        source.bytes.data, source.bytes.size = self.address, self.size
+        if self.find is not None:
+            self.resolver = library.Resolver(source, self.find)
+
+    def reraise(self) -> None:
+        """Raises what the function of the files has raised."""
+        if self.resolver is not None:
+            self.resolver.reraise()
+
+
+def _set_lattices(desc: Any, lattices: Any) -> list[Any]:
+    """Names the lattices, or gives them as objects or texts; returns what must stay alive."""
+    named = isinstance(lattices, Mapping)
+    several = list(lattices.values()) if named else list(lattices) if isinstance(lattices, (list, tuple)) else [lattices]
+    if not several:
+        raise ValueError("no lattice is given")
+    if named:
+        desc.morphs = (ctypes.c_char_p * len(several))(*(library.encoded(str(name), "a name") for name in lattices))
+    paths, texts = (ctypes.c_char_p * len(several))(), (declared.ffd_bytes * len(several))()
+    objects = (ctypes.c_void_p * len(several))()
+    kept = [several, objects]
+    for i, lattice in enumerate(several):
+        if isinstance(lattice, Lattice):
+            objects[i] = lattice._owned.pointer.value
+        elif isinstance(lattice, bytes):
+            texts[i].data, texts[i].size, text = library.lend_bytes(lattice, "a lattice")
+            kept.append(text)
+        else:
+            paths[i] = library.path(lattice)
+    desc.lattices, desc.lattice_count = paths, len(several)
+    desc.lattice_objects, desc.lattice_texts = ctypes.addressof(objects), texts
+    return kept
+
+
+def _texts(value: Any, what: str) -> Any:
+    """A list of texts for the library; one text is a list of one."""
+    texts = [value] if isinstance(value, str) else list(value)
+    return (ctypes.c_char_p * len(texts))(*(library.encoded(text, what) for text in texts)), len(texts)
+
+
+def _set_snap(desc: Any, value: Any) -> None:
+    """A length, or a text "0.001r": a part of the rest lattice's diagonal."""
+    relative = isinstance(value, str) and value.endswith("r")
+    desc.snap = library.real(value[:-1] if relative else value, "snap")
+    desc.snap_relative = relative
+
+
+def _set_gates(desc: Any, value: Any) -> None:
+    """["folds", "tear=0.1", ..]: the words of --fail-on."""
+    for gate in [value] if isinstance(value, str) else value:
+        word, equals, most = str(gate).partition("=")
+        desc.fail_on |= library.number_of("ffd_gate", word, "fail_on")
+        if equals and word not in ("tear", "flipped", "edges") or word == "edges" and not equals:
+            raise ValueError(f"fail_on has {gate!r}: tear=LENGTH, flipped=N and edges=LENGTH have a value, others none")
+        if word == "tear":
+            desc.tear_most = float(most) if equals else -1
+        elif word == "flipped" and equals:
+            desc.flipped_most = library.integer(int(most), "flipped", most=2**63)
+        elif word == "edges":
+            desc.edges_most = float(most)
+
+
+def _set_options(desc: Any, options: dict[str, Any], known: Collection[str]) -> list[Any]:
+    """Sets what is not None; returns what must stay alive."""
+    unknown = sorted(set(options) - set(known))
+    if unknown:
+        raise TypeError(f"unknown option {unknown[0]!r} (known: {', '.join(sorted(known))})")
+    options = {name: value for name, value in options.items() if value is not None}
+    kept = []
+    for name, value in options.items():
+        if name in _ENUMERATIONS:
+            setattr(desc, name, library.number_of(_ENUMERATIONS[name], value, name))
+        elif name in _INPUT_ENUMERATIONS:
+            member, enumeration = _INPUT_ENUMERATIONS[name]
+            setattr(desc.input, member, library.number_of(enumeration, value, name))
+        elif name in _SWITCHES:
+            setattr(desc, name, bool(value))
+        elif name == "set":
+            desc.set, desc.set_count = settings(value)
+        elif name == "falloff":
+            desc.falloff = library.real(value, "falloff")
+        elif name == "snap":
+            _set_snap(desc, value)
+        elif name == "fail_on":
+            _set_gates(desc, value)
+        elif name == "embedding" and isinstance(value, bytes):
+            desc.embedding_bytes.data, desc.embedding_bytes.size, embedding = library.lend_bytes(value, name)
+            kept.append(embedding)
+        elif name == "embedding":
+            desc.embedding = library.path(value)
+        elif name == "as_morph":
+            desc.as_morph = library.encoded(str(value), "as_morph")
+        elif name == "only":
+            desc.only, desc.only_count = _texts(value, name)
+        elif name == "clips":
+            desc.clips, desc.clip_count = _texts(value, name)
+        elif name == "threads":
+            desc.threads = library.integer(value, name)
+        elif name == "memory":
+            desc.input.memory = library.integer(value, name, most=2**63)
+        elif name == "strict":
+            desc.input.strict = bool(value)
+        elif name == "allow_extensions":
+            texts, count = _texts(value, name)
+            kept.append(texts)
+            desc.input.allow_extensions, desc.input.allow_extension_count = texts, count
+    return kept

@@ -1,0 +1,109 @@
+"""What files hold, and whether two hold the same."""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import json
+from typing import Any, Iterator, Mapping
+
+from . import _library as library
+from ._description import Files, Memory, Path, place, resolved
+from ._library import lib
+from ._values import settings
+
+
+@contextlib.contextmanager
+def _text() -> Iterator[Any]:
+    """A text that the library hands over."""
+    text = ctypes.c_void_p()
+    try:
+        yield text
+    finally:
+        lib.ffd_text_free(text)
+
+
+def _place(source: Any, structure: Any, input_format: str | None, memory: int | None, strict: bool) -> None:
+    place(source, structure)
+    structure.strict = bool(strict)
+    if input_format is not None:
+        structure.format = library.number_of("ffd_format", input_format, "input_format")
+    if memory is not None:
+        structure.memory = library.integer(memory, "memory", most=2**63)
+
+
+def _info(source: Any, parts: bool, values: Mapping[str, Any] | None, **options: Any) -> dict[str, Any]:
+    desc = library.filled("ffd_info_desc")
+    _place(source, desc.file, **options)
+    desc.json, desc.parts = True, bool(parts)
+    desc.set, desc.set_count = settings(values)
+    with _text() as text:
+        with library.logged(desc), resolved(source):
+            library.call(lib.ffd_info_run, ctypes.byref(desc), ctypes.byref(text))
+        return json.loads(ctypes.string_at(text))
+
+
+def info(path: Path, *, parts: bool = False, set: Mapping[str, Any] | None = None, input_format: str | None = None,
+         memory: int | None = None, strict: bool = False) -> dict[str, Any]:
+    """Describes a mesh or lattice file, as `ffd info --json` does.
+
+    parts: the names that only= can have; set: values for the placeholders of a lattice, whose name ends in .json
+    input_format="ply", memory=BYTES, strict=True: as those of `deform_file`
+    Raises `Error`: a file that is not there, or not valid. Any number of threads may call it.
+    """
+    return _info(path, parts, set, input_format=input_format, memory=memory, strict=strict)
+
+
+def info_bytes(data: Any, *, name: str, files: Files | None = None, parts: bool = False, set: Mapping[str, Any] | None = None,
+               input_format: str | None = None, memory: int | None = None, strict: bool = False) -> dict[str, Any]:
+    """`info` of a mesh or lattice in memory: data, name and files as `deform_bytes` takes them, all else as `info`."""
+    source = Memory(data, name, files)
+    return _info(source, parts, set, input_format=input_format, memory=memory, strict=strict)
+
+
+def _set_tolerances(desc: Any, tolerance: Any, normal_tolerance: Any) -> None:
+    """As the program: a text "1e-6r" is a part of the diagonal, and then that of normals, unless these have their own."""
+    desc.relative = isinstance(tolerance, str) and tolerance.endswith("r")
+    desc.tolerance = library.real(tolerance[:-1] if desc.relative else tolerance, "tolerance")
+    if normal_tolerance is not None:
+        desc.direction_tolerance = library.real(normal_tolerance, "normal_tolerance")
+    elif desc.relative:
+        desc.direction_tolerance = desc.tolerance
+
+
+def _compare(a: Any, b: Any, names: tuple[bytes, bytes], tolerance: Any, normal_tolerance: Any, **options: Any) -> dict[str, Any]:
+    desc, comparison = library.filled("ffd_compare_desc"), library.empty("ffd_comparison")
+    _place(a, desc.a, **options)
+    _place(b, desc.b, **options)
+    _set_tolerances(desc, tolerance, normal_tolerance)
+    with library.logged(desc), resolved(a, b):
+        library.call(lib.ffd_compare_run, ctypes.byref(desc), ctypes.byref(comparison))
+    with _text() as text:
+        library.call(lib.ffd_comparison_json, ctypes.byref(comparison), *names, ctypes.byref(text))
+        return json.loads(ctypes.string_at(text))
+
+
+def compare_files(a: Path, b: Path, *, tolerance: float | str = 0.0, normal_tolerance: float | None = None,
+                  input_format: str | None = None, memory: int | None = None, strict: bool = False) -> dict[str, Any]:
+    """Whether two files are the same mesh, as `ffd compare --json` tells it: "equal", "differences", "first", "worst", ..
+
+    tolerance: how far positions may differ in a coordinate, or "1e-6r": parts of a's diagonal; normal_tolerance: normals and
+      tangents in a component, None: 0, or the number of a tolerance with r
+    input_format="ply", memory=BYTES, strict=True: as those of `deform_file`, of both
+    Files that differ are no failure. Raises `Error`: one is not there, or not valid. Any number of threads may call it.
+    """
+    return _compare(a, b, (library.path(a), library.path(b)), tolerance, normal_tolerance, input_format=input_format,
+                    memory=memory, strict=strict)
+
+
+def compare_bytes(a: Any, b: Any, *, name: str, other_name: str | None = None, files: Files | None = None,
+                  other_files: Files | None = None, tolerance: float | str = 0.0, normal_tolerance: float | None = None,
+                  input_format: str | None = None, memory: int | None = None, strict: bool = False) -> dict[str, Any]:
+    """`compare_files` of two meshes in memory: a and b, each with its name and files, as `deform_bytes` takes them.
+
+    other_name, other_files: those of b; None: as a's. All else as `compare_files`.
+    """
+    first = Memory(a, name, files)
+    second = Memory(b, name if other_name is None else other_name, files if other_files is None else other_files)
+    return _compare(first, second, (first.name, second.name), tolerance, normal_tolerance, input_format=input_format,
+                    memory=memory, strict=strict)
