@@ -266,7 +266,7 @@ static ffd_status open_view(batch_run *run, ffd_error *error)
                                 .name = ffd_jobs_name(run->source),
                                 .shard = desc->jobs.shard,
                                 .shards = desc->jobs.shards,
-                                .force = desc->force,
+                                .force = desc->force || desc->jobs.resume,
                                 .dry = desc->pool.dry};
     return ffd_run_view_create(&view, &run->view, error);
 }

@@ -29,12 +29,10 @@ static ffd_status measure(run_rows *rows, const batch_desc *desc, ffd_error *err
 {
     job_source_desc all = desc->jobs;
     const char *const origin = all.manifest ? all.manifest : all.table;
-    file_stamp stamp;
     rows->array = (row_array){.path = desc->positions, .is_double = desc->positions_double};
-    if (origin &&
-        (ffd_file_is_stream(origin) || (ffd_file_exists(origin) && !ffd_file_stamp(origin, &stamp))))
+    if (origin && ffd_file_reads_once(origin))
         return ffd_fail(error, FFD_E_ARGUMENT,
-                        "--positions counts the jobs before the first one, which a stream does not allow");
+                        "--positions reads the jobs twice, which neither standard input nor a pipe can be");
     all.shard = 0;
     all.shards = 1;
     ffd_status status = ffd_jobs_total(&all, &rows->array.rows, error);

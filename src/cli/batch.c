@@ -118,7 +118,7 @@ static const char *wrong_positions(const settings *s, const cli_words *words)
     if (jobs->depfile_path)
         return "--depfile cannot be used with --positions: it is of meshes";
     if (words->count && cli_is_stream(words->words[0]))
-        return "--positions counts the jobs before the first one, which standard input does not allow";
+        return "--positions reads the jobs twice, which standard input cannot be";
     return NULL;
 }
 
@@ -193,7 +193,7 @@ static int run_batch(const settings *s, const cli_words *words)
                              .view = s->view,
                              .positions = s->positions,
                              .positions_double = s->type > 0,
-                             .force = s->jobs.force || s->jobs.if_changed || s->resume,
+                             .force = s->jobs.force || s->jobs.if_changed,
                              .shared_box = job->shares_box,
                              .stop = s->stop,
                              .quiet = job->logging.quiet};

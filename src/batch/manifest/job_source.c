@@ -177,7 +177,7 @@ static char *mesh_of(const job_source *source)
 static bool is_repeated(const job_source *source)
 {
     uint64_t rows;
-    if (ffd_file_is_stream(source->desc.table))
+    if (ffd_file_reads_once(source->desc.table))
         return true;
     char *const mesh = mesh_of(source);
     const hash128 file = mesh ? ffd_file_identity(mesh) : (hash128){{0}};
@@ -409,7 +409,7 @@ ffd_status ffd_jobs_open(const job_source_desc *desc, job_source **source, ffd_e
     if (!status && desc->table)
         status = read_columns(*source, error);
     (*source)->numbers_outputs = !status && desc->table && desc->out_dir && !has_output_column(*source);
-    if (!status && (*source)->numbers_outputs && !ffd_file_is_stream(desc->table))
+    if (!status && (*source)->numbers_outputs && !ffd_file_reads_once(desc->table))
         status = count_meshes(*source, error);
     if (status)
         ffd_jobs_close(source);
