@@ -79,7 +79,7 @@ FFD_API void ffd_guard_inputs(void);
    where there is nothing to do. Errors: FFD_E_IO, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_restore_output(const char *path, ffd_error *error);
 
-/* Bytes that the caller lends until the job has ended. NULL: none, whatever size says is then refused. They
+/* Bytes that the caller lends until the job has ended. NULL: none; a size other than 0 is then refused. They
    are not changed, and not copied where they begin at a multiple of 8. */
 typedef struct ffd_bytes {
     const void *data;
@@ -88,16 +88,17 @@ typedef struct ffd_bytes {
 
 /* Finds a file that a mesh in memory names: a buffer, an image, a material library and its maps. name is
    relative to the mesh, with "/", as the mesh has it but for "." and ".."; none leads out of its folder.
-   *bytes is zeroed: what stays so is a file that is not there. Bytes are lent until the job has ended. Called
-   once for a name, by one thread at a time, mostly but not always the caller's. Any status but FFD_OK ends
-   the job with it, before anything is written; it need not be asked again then. */
+   *bytes is zeroed: what stays so is a file that is not there; a size without data ends the job with
+   FFD_E_ARGUMENT. Bytes are lent until the job has ended. Called once for a name, by one thread at a time,
+   mostly but not always the caller's. Any status but FFD_OK ends the job with it (with FFD_E_IO, if it is
+   none of ffd_status), before anything is written. It is not called again then. */
 typedef ffd_status (*ffd_resolve_function)(void *user, const char *name, ffd_bytes *bytes);
 
 /* Takes a file that a job has made: name is the output's, or that of a file beside it in the output's folder
    ("out/head.gltf": "out/head.bin", "out/skin.png"). The bytes are lent during the call. Called by the
    caller's thread, when all that can be refused was refused and all files are complete: once for each, the
    output itself last. Nothing reaches it where the job fails before. Any status but FFD_OK ends the job with
-   it: those that it has taken by then it keeps, without the output. */
+   it, as above: those that it has taken by then it keeps, without the output. */
 typedef ffd_status (*ffd_sink_function)(void *user, const char *name, const void *bytes, size_t size);
 
 /* Takes where a job brings the vertices of its mesh: x, y, z of each, count of them, in the order of
@@ -111,7 +112,8 @@ typedef ffd_status (*ffd_positions_function)(void *user, const double *positions
 /* A mesh to read. */
 typedef struct ffd_source {
     /* "-": standard input. With bytes only a name, which messages have and whose ending says the format where
-       nothing else does; or NULL: "mesh". */
+       nothing else does; or NULL: "mesh". FFD_E_ARGUMENT for a name, or one of an output in memory, whose
+       last part is empty, "." or "..". */
     const char *path;
     ffd_format format; /* AUTO is not possible for "-" */
     ffd_space space;   /* glTF: the space of the lattice */
@@ -275,8 +277,10 @@ typedef struct ffd_deform_desc {
     /* lattice_count objects, or NULL: one that is not NULL is taken in place of the file of its number, whose
        path is then a name for messages, or NULL. It is copied. Placeholders are of files only. */
     const ffd_lattice *const *lattice_objects;
-    const ffd_bytes *lattice_texts; /* the same with the text of a file; not with an object of that number */
-    ffd_bytes embedding_bytes;      /* those of the file; embedding is then a name, or NULL */
+    /* The same with the text of a file; not with an object of that number. FFD_E_ARGUMENT for a box round
+       meshes, which a file names relative to itself. */
+    const ffd_bytes *lattice_texts;
+    ffd_bytes embedding_bytes; /* those of the file; embedding is then a name, or NULL */
     /* Takes what would be written, and nothing is: output is then a name, written is not looked at, and no
        file is in the way. FFD_E_ARGUMENT with in_place, depfile and FFD_RESOURCES_REFERENCE. */
     ffd_sink_function sink;
@@ -328,7 +332,7 @@ typedef struct ffd_rig_result {
     uint64_t sheared;   /* of these: nodes that turn as their parents do, since they would be sheared else */
     uint64_t singular;  /* nodes that stay, as do those below them: their matrices have no inverse */
     uint64_t partial;   /* nodes that stay because their meshes are selected in part */
-    uint64_t unscaled;  /* nodes with sizes that stay: of physics shapes, spring bones and eyes (VRM) */
+    uint64_t unscaled;  /* nodes with sizes that stay: of physics shapes, spring bones, eyes (VRM), splats */
     double largest_lag; /* |D(x) - x'| over joints, pivots and sockets */
     char worst[80]; /* the name of the first one with this lag, as ffd_behind has names; "": there is none */
     uint64_t lagging_skins, lagging_pivots, lagging_sockets; /* with some lag; skins: of some joint */
@@ -412,21 +416,26 @@ typedef struct ffd_job_result {
     uint64_t indices_left; /* indices in extensions of a glTF that do not follow its deformed meshes */
     const char *picture;   /* what ffd_view_run has written, lent by its description; else NULL */
     /* With morphs: their names, lattices and, where the description has room for them, figures: morph_count
-       each (up to the one that a gate refuses), lent by the description. The figures above are then the worst
-       ones of a target: counts of the one with the fewest vertices inside, what tears of the one with the
-       largest step, folds of all, after round all. */
+       each (up to the one that a gate refuses), lent by the description: morph_lattices are its lattices,
+       NULL where these are, or have no name. The figures above are then the worst ones of a target: counts of
+       the one with the fewest vertices inside, what tears of the one with the largest step, folds of all,
+       after round all. */
     size_t morph_count;
     const char *const *morphs;
     const char *const *morph_lattices;
     const struct ffd_job_result *morph_results;
     double seconds_read, seconds_embed, seconds_deform, seconds_judge, seconds_write;
-    /* For check and quality: of the faces that are not hidden, as the file places them, without what morph
-       targets add. NaN: not known; area_after and volume_after where several morph targets are made, too. */
+    /* For check and quality: of all faces that are not hidden, selected or not, as the file places them,
+       without what morph targets add. NaN: not known; area_after and volume_after where several morph targets
+       are made, too. */
     double area_before, area_after;
-    /* Enclosed by these faces; NaN where they are not closed: where an edge has not as many faces that run
-       along it one way as the other (vertices at one position are one). Negative where the faces show their
-       backs outside. */
+    /* Enclosed by these faces; NaN where there are none, or they are not closed: where an edge has not as
+       many faces that run along it one way as the other (vertices at one position are one). Negative where
+       the faces show their backs outside. */
     double volume_before, volume_after;
+    /* Of morph targets and animations of a glTF that were replaced: those that stay in the file, though
+       nothing uses them any more. */
+    uint64_t bytes_left;
 } ffd_job_result;
 
 /* Runs one job. Everything that can be refused is refused before anything is written; the output is complete
@@ -640,7 +649,8 @@ typedef struct ffd_report ffd_report;
    Errors: FFD_E_IO, FFD_E_EXISTS, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_report_create(const char *path, bool stable, ffd_written *written, ffd_report **report,
                                      ffd_error *error);
-/* The same in memory: ffd_report_write hands the whole report to sink. name says JSON or JSON Lines. */
+/* The same in memory: ffd_report_write hands the whole report to sink. name says JSON or JSON Lines. Errors:
+   FFD_E_ARGUMENT (no name or sink), FFD_E_MEMORY. */
 FFD_API ffd_status ffd_report_create_sink(const char *name, bool stable, ffd_sink_function sink, void *user,
                                           ffd_report **report, ffd_error *error);
 /* Frees a report; a file keeps the entries that were added. NULL and pointers to NULL are allowed. */

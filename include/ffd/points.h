@@ -38,8 +38,9 @@ typedef struct ffd_run {
     size_t struct_size; /* sizeof(ffd_run) of the caller */
     int threads;        /* 0: all cores. Never changes a bit of the result. */
     ffd_isa isa;        /* nor does this. FFD_E_ARGUMENT for one that is not available. */
-    /* Called once and more by the thread that made the call, with the part that is done, 0..1. false cancels:
-       the call ends with FFD_E_CANCELLED, and what it writes is then not defined. NULL: none. */
+    /* Called at least once, where there are points, by the thread that made the call, with the part that is
+       done, 0..1. false cancels: the call ends with FFD_E_CANCELLED, and what it writes is then not defined.
+       NULL: none. */
     bool (*progress)(void *user, double done);
     void *user;
 } ffd_run;

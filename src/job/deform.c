@@ -297,6 +297,7 @@ static ffd_status run(deform_job *job, ffd_job_result *result, ffd_error *error)
         return rehearse(job, &options, error);
     const double start = ffd_clock_seconds();
     options.indices_left = &result->indices_left;
+    options.bytes_left = &result->bytes_left;
     status = save(job, &options, error);
     result->seconds_write = ffd_clock_seconds() - start;
     return status;

@@ -217,7 +217,7 @@ static ffd_status run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_er
     return status;
 }
 
-/* Gives what is in memory paths. */
+/* Gives paths to what is in memory. */
 static ffd_status take_memory(job_memory *memory, ffd_embed_desc *desc, ffd_error *error)
 {
     const ffd_bytes text = desc->lattice_object ? (ffd_bytes){"", 0} : desc->lattice_text;

@@ -127,7 +127,7 @@ static ffd_status check_desc(const ffd_lattice_new_desc *desc, ffd_error *error)
     return ffd_output_check(desc->output, desc->force, error);
 }
 
-/* Gives meshes that are in memory paths, in an array of this function. */
+/* Gives paths to meshes that are in memory, in a copy of their array, which is the caller's to free. */
 static ffd_status take_memory(job_memory *memory, ffd_lattice_new_desc *desc, ffd_source **meshes,
                               ffd_error *error)
 {

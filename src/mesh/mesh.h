@@ -129,9 +129,8 @@ typedef struct mesh_place {
     unsigned kinds; /* a set of PLACE_BIT; 0: what follow moves all the same */
     bool stays;     /* follow leaves it where it is, whatever it is below; */
     bool partial;   /* because its mesh is selected in part */
-    unsigned
-        holds; /* a set of PLACE_HOLDS: what the file has there in its own words, and what stays as it is */
-    size_t number; /* by which place_name knows it */
+    unsigned holds; /* a set of PLACE_HOLDS, which stay as they are */
+    size_t number;  /* by which place_name knows it */
 } mesh_place;
 #define PLACE_BIT(kind) (1u << (kind)) /* of an ffd_behind_kind */
 
@@ -153,7 +152,8 @@ typedef struct mesh_following {
     uint64_t sheared;  /* that turn as their parents do, since they would be sheared else */
     uint64_t singular; /* that stay, with all below them, since their matrices have no inverse */
     uint64_t partial;  /* that stay since their meshes are selected in part */
-    uint64_t unscaled; /* that hold sizes which stay: of physics shapes, spring bones, offsets of eyes */
+    uint64_t
+        unscaled; /* that hold what stays: sizes of physics shapes, spring bones, offsets of eyes, splats */
 } mesh_following;
 
 typedef struct mesh_places {
@@ -193,6 +193,9 @@ typedef struct mesh_save_options {
        copied beside it, or are there already. NULL: not wanted. */
     path_list *copied;
     uint64_t *indices_left; /* gets how many indices in extensions cannot follow; NULL: not wanted */
+    /* Gets how many bytes of morph targets and animations that are replaced stay, though nothing uses them.
+       NULL: not wanted. */
+    uint64_t *bytes_left;
 } mesh_save_options;
 
 /* x = linear p + offset, in place. */

@@ -1,6 +1,7 @@
 /* page_keys.c - the channels and keys of a page's animations. */
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
+#include "base/text/buffer_float.h"
 #include "view/page_rig.h"
 
 static void put_u32(byte_buffer *to, uint64_t value)
@@ -12,11 +13,8 @@ static void put_u32(byte_buffer *to, uint64_t value)
 
 void ffd_page_floats_put(byte_buffer *to, const double *values, size_t count)
 {
-    unsigned char bytes[4];
-    for (size_t i = 0; i < count; i++) {
-        store_float(bytes, (float)values[i]);
-        ffd_buffer_append(to, bytes, sizeof bytes);
-    }
+    for (size_t i = 0; i < count; i++)
+        ffd_buffer_float(to, values[i]);
 }
 
 /* Whether all keys have one value; of a spline this is not all. */

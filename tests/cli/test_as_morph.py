@@ -173,6 +173,26 @@ def a_replaced_target_shares_its_offsets_with_nothing(run):
     found = [asset["meshes"][node["mesh"]]["primitives"][0]["targets"][0]["POSITION"] for node in asset["nodes"]]
     equal((found[0], gltf_vectors(asset, data, own)), (own, [[5, 5, 5]] * 2))
     near(gltf_vectors(asset, data, found[1]), [sheared(p) for p in POINTS], 1e-6)
+    # So it does where its offsets are sparse, or those of another target.
+    places, values = scene.view(b"\1\0\0\0"), scene.view(struct.pack("<3f", 5, 5, 5))
+    scene.asset["accessors"][own] = {
+        "componentType": 5126, "count": 2, "type": "VEC3", "min": [0, 0, 0], "max": [5, 5, 5], "sparse": {
+            "count": 1, "indices": {"bufferView": places, "componentType": 5121}, "values": {"bufferView": values}}}
+    for names in (["bent"], ["bent", "other"]):
+        scene.asset["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": own} for _ in names]
+        scene.asset["meshes"][0].update(extras={"targetNames": names})
+        asset, data = glb_split(morphed(run, scene, "--only", "node:two", lines=1))
+        targets = [asset["meshes"][node["mesh"]]["primitives"][0]["targets"] for node in asset["nodes"]]
+        equal([target["POSITION"] for target in targets[0]], [own for _ in names])
+        near(gltf_vectors(asset, data, targets[1][0]["POSITION"]), [sheared(p) for p in POINTS], 1e-6)
+        equal([target["POSITION"] for target in targets[1][1:]], [own for _ in names[1:]])
+        check("sparse" in asset["accessors"][own], asset["accessors"][own])
+    # What is stored in whole numbers cannot stay beside floats, which is said.
+    scene.asset["accessors"][own] |= {"componentType": 5122, "normalized": True}
+    del scene.asset["accessors"][own]["sparse"]
+    done = run_morphed(run, scene, "--only", "node:two", err=lambda said: None)
+    equal([line for line in done.err if "already" in line],
+          ["in.glb: mesh 0 has a morph target of that name already: it is replaced, and nodes that are not selected lose its offsets, too"])
 
 
 @case

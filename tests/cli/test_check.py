@@ -6,6 +6,7 @@ import struct
 
 from harness import (CUBE, CUBE_CORNERS, CUBE_FACES, EMBEDDING, INVALID, NO, IO, UNSUPPORTED, case, check, equal, glb,
                      gltf_json, lattice, main, near)
+from said import anything
 
 SHIFT = [{"by": [1, 0, 0]}]
 
@@ -274,6 +275,12 @@ def area_and_volume(run):
             equal(entry["area"], {"before": 6, "after": 22})
     text = run.ffd("check", "b.obj", "-l", "l.json").text
     check("  volume         none: the mesh is not closed\n" in text, text)
+    # What a primitive of no known mode draws is not known, so that nobody can say whether it is closed.
+    asset, data = gltf_json([(0, 0, 0), (1, 0, 0), (0, 1, 0)])
+    asset["meshes"][0]["primitives"][0]["mode"] = 9
+    run.write("m.glb", glb(asset, data))
+    text = run.ffd("check", "m.glb", "-l", "l.json", err=anything).text
+    check("  area           not known\n  volume         not known\n" in text, text)
     # The quad at z = 1 has vertices of its own and moves away.
     lid = [n + 1 for n in range(4, 8)]
     top = next(f for f in CUBE_FACES if sorted(f) == lid)

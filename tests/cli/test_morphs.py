@@ -2,12 +2,13 @@
 """ffd deform --morph NAME=LATTICE ... --clip CLIP: several morph targets in one pass, and animations of their weights."""
 
 import json
+import os
 import re
 import struct
 
 from batches import batch, lines_of, start
 from gltf_build import SHEAR, SHIFT, Scene
-from harness import (CUBE, INVALID, NO, SANITIZED, USAGE, case, check, equal, glb_split, gltf_vectors, lattice, main, near)
+from harness import (CUBE, INVALID, NO, SANITIZED, USAGE, case, check, equal, glb, glb_split, gltf_vectors, lattice, main, near)
 from said import anything
 
 POINTS = [[1.0, 2.0, 0.0], [2.0, -4.0, 1.0], [-3.0, 5.0, 2.0]]
@@ -218,6 +219,85 @@ def several_clips_and_one_of_the_same_name(run):
     equal(clip_of(again, again_data, "walk"), {0: ([3], [[0, 1]])})
     equal(clip_of(again, again_data, "new"), {0: ([1], [[0, 2]])}, "other clips keep their rows")
     equal(targets_of(again, again_data), targets_of(asset, data))
+
+
+@case
+def bytes_that_a_replaced_target_leaves_are_said(run):
+    """Floats that nothing else uses are written over, and leave none. What cannot be is counted: whole numbers, sparse
+    ones, of normals too; not what another target or an animation uses as well."""
+    def left(change, *options):
+        scene = two_meshes(targets=2)
+        mesh = scene.asset["meshes"][0]
+        mesh["extras"]["targetNames"][0] = "squash"
+        change(scene, mesh["primitives"][0]["targets"])
+        write(run, scene)
+        done = run.ffd("deform", "in.glb", "out.glb", "--force", "--morph", "squash=shear.json", "--report", "r.json", *options, err=anything)
+        job = json.loads(run.text("r.json"))["jobs"][0]
+        return [line for line in done.err if "stay in the file" in line], job.get("bytes_left")
+
+    def said(count):
+        return [f'in.glb: {count} bytes that only the old morph target "squash" used stay in the file'], count
+
+    def whole(scene, targets):
+        targets[0]["POSITION"] = scene.add([[1, 2, 3, 0]] * 3, 5122, "VEC4")
+        scene.asset["accessors"][-1] |= {"type": "VEC3", "normalized": True}
+        scene.asset["bufferViews"][-1]["byteStride"] = 8
+
+    def sparse(scene, targets):
+        scene.asset["accessors"][targets[0]["POSITION"]] = {
+            "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 0, 0], "sparse": {
+                "count": 1, "indices": {"bufferView": scene.view(b"\1\0\0\0"), "componentType": 5121},
+                "values": {"bufferView": scene.view(struct.pack("<3f", 1, 0, 0))}}}
+
+    def shared(scene, targets):
+        whole(scene, targets)
+        targets[1]["POSITION"] = targets[0]["POSITION"]
+
+    def normals(scene, targets):
+        targets[0]["NORMAL"] = targets[1]["NORMAL"] = scene.add([[0.0, 0.0, 0.0]] * 3)
+        targets[0]["TANGENT"] = scene.add([[0.0, 0.0, 0.0]] * 3)
+
+    equal(left(lambda scene, targets: None), ([], None), "written over")
+    equal(left(whole), said(18), "three elements of six bytes")
+    equal(left(sparse), said(13), "a place and three floats")
+    equal(left(shared), ([], None))
+    equal(left(normals), said(36), "tangents, which the mesh has not")
+    equal(left(normals, "--normals", "keep"), said(36))
+
+    # With those of a clip that is replaced; a target is named once.
+    write(run)
+    deformed(run, "--clip", "walk: 0, 1 squash=1")
+    run.write("in.glb", run.read("out.glb"))
+    flat = lattice(low=(-9, -9, -9), high=(9, 9, 9), moves=[{"at": [3, 3, 3], "by": [0, 0, 0.5]}])
+    run.write("shear.json", flat)
+    done = run.ffd("deform", "in.glb", "out.glb", "--force", *MORPHS, "--clip", "walk: 0, 1, 2 squash=1", "--report", "r.json", err=anything)
+    counted = [int(re.search(r"(\d+) bytes that only", line)[1]) for line in done.err if "stay in the file" in line]
+    check(counted and counted[-1] == 24, str(done.err))
+    equal(json.loads(run.text("r.json"))["jobs"][0]["bytes_left"], sum(counted))
+
+
+@case
+def a_compressed_target_that_is_replaced(run):
+    """Its view has compressed bytes, which are counted where no other accessor has a part of it."""
+    with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "fuzz", "corpus", "glb", "meshopt"), "rb") as file:
+        sample = file.read()
+    run.write("l.json", lattice(low=(-99, -99, -99), high=(99, 99, 99), moves=[{"by": [1, 2, 3]}]))
+    for own in (True, False):
+        asset, data = glb_split(sample)
+        primitive = asset["meshes"][0]["primitives"][0]
+        accessor = dict(asset["accessors"][primitive["attributes"]["POSITION"]])
+        view = asset["bufferViews"][accessor["bufferView"]]
+        packed, = view["extensions"].values()
+        if own:
+            accessor["bufferView"] = len(asset["bufferViews"])
+            asset["bufferViews"].append(view)
+        asset["accessors"].append(accessor)
+        primitive["targets"] = [{"POSITION": len(asset["accessors"]) - 1}]
+        asset["meshes"][0]["extras"] = {"targetNames": ["bent"]}
+        run.write("in.glb", glb(asset, data))
+        done = run.ffd("deform", "in.glb", "out.glb", "--force", "--morph", "bent=l.json", err=anything)
+        equal([line for line in done.err if "stay in the file" in line],
+              [f'in.glb: {packed["byteLength"]} bytes that only the old morph target "bent" used stay in the file'] if own else [])
 
 
 @case

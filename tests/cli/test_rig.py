@@ -344,6 +344,82 @@ def a_mesh_at_a_joint_that_is_not_selected_stays_where_it_is(run):
 
 
 @case
+def normals_at_a_joint_that_are_not_selected_stay_as_they_are(run):
+    def shown(posed):
+        m = posed.worlds()[2]
+        primitive = posed.asset["meshes"][posed.nodes[2]["mesh"]]["primitives"][0]
+        return [[sum(row[k] * n[k] for k in range(3)) for row in m[:3]] for n in posed.read(primitive["attributes"]["NORMAL"])]
+
+    made = arm()
+    made.asset["nodes"][2]["mesh"] = 1
+    for options in ((), ("--normals", "recompute")):
+        _, follow = deform(run, made, BEND, "--rig", "follow", "--only", "node:skinned", *options)
+        near(shown(follow), shown(Posed(run.read("a.glb"))), 1e-6, str(options))
+
+
+def splats_at_a_joint(scale_type=5126):
+    """The lower bone shows two Gaussian splats, which are long in one direction and have colours of degree 1."""
+    made = arm()
+    splatting = "KHR_gaussian_splatting"
+    turns = [quaternion([0.6, 0, 0.8], 40), quaternion([0, 0.6, -0.8], 110)]
+    attributes = {"POSITION": made.add([[0.25, 0, 0], [0, 0.5, 0.25]], bounds=True)}
+    attributes |= {f"{splatting}:{name}": made.add(rows, component, shape) for name, rows, component, shape in (
+        ("ROTATION", turns, 5126, "VEC4"), ("SCALE", [[1, 2, 4], [4, 1, 1]], scale_type, "VEC3"), ("OPACITY", [[0.5]] * 2, 5126, "SCALAR"),
+        *((f"SH_DEGREE_1_COEF_{i}", [[0.5 - i, 0.25, 0.125 * i], [i, 1, -0.5]], 5126, "VEC3") for i in range(3)),
+        ("SH_DEGREE_0_COEF_0", [[0.1, 0.2, 0.3]] * 2, 5126, "VEC3"))}
+    made.asset["meshes"].append({"primitives": [{"attributes": attributes, "mode": 0, "extensions": {
+        splatting: {"kernel": "ellipse", "colorSpace": "srgb_rec709_display"}}}]})
+    made.asset["nodes"][2]["mesh"] = 2
+    made.asset["extensionsUsed"] = [splatting]
+    return made
+
+
+def seen_splats(posed):
+    """Of the lower bone, in the scene: the covariances, and the directions in which each channel is brightest (degree 1 is
+    -y, z, -x)."""
+    world = [row[:3] for row in posed.worlds()[2][:3]]
+    attributes = posed.asset["meshes"][posed.nodes[2]["mesh"]]["primitives"][0]["attributes"]
+    read = {name.split(":")[-1]: posed.read(number) for name, number in attributes.items()}
+    seen = []
+    for i, (x, y, z, w) in enumerate(read["ROTATION"]):
+        own = [[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+               [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+               [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]]
+        half = [[sum(world[r][k] * own[k][c] for k in range(3)) * read["SCALE"][i][c] for c in range(3)] for r in range(3)]
+        seen += [[sum(a * b for a, b in zip(half[r], half[c])) for c in range(3)] for r in range(3)]
+        for k in range(3):
+            c = [read[f"SH_DEGREE_1_COEF_{n}"][i][k] for n in range(3)]
+            seen.append([row[0] * -c[2] + row[1] * -c[0] + row[2] * c[1] for row in world])
+    return seen
+
+
+@case
+def splats_at_a_joint_that_are_not_selected_stay_as_they_are(run):
+    """They are brought back from where the joint turns them, as their centres are, and are none that follow."""
+    made = splats_at_a_joint()
+    _, follow = deform(run, made, BEND, "--rig", "follow", "--only", "node:skinned", "--report", "r.json")
+    before = Posed(run.read("a.glb"))
+    check(follow.nodes[2] != before.nodes[2], "the joint turns")
+    near(follow.vertices()[2, 0], before.vertices()[2, 0], 1e-6)
+    near(seen_splats(follow), seen_splats(before), 1e-5, "their ellipsoids and colours")
+    job = json.loads(run.text("r.json"))["jobs"][0]
+    equal(["splats" in job, [b["kind"] for b in job["behind"]], "unscaled" in job["rig"]], [False, [], False])
+    both(run, made, BEND, "--only", "node:skinned")
+
+
+@case
+def splats_that_cannot_be_brought_back_are_said(run):
+    made = splats_at_a_joint(5125)  # scales that the extension does not allow
+    done, follow = deform(run, made, BEND, "--rig", "follow", "--only", "node:skinned", "--report", "r.json")
+    near(follow.vertices()[2, 0], Posed(run.read("a.glb")).vertices()[2, 0], 1e-6)
+    told(done, r"\b2 Gaussian splats that are not selected turn with their nodes", "lower")
+    equal(json.loads(run.text("r.json"))["jobs"][0]["rig"]["unscaled"], 1)
+    # Where the joint only moves away, they are right as they are.
+    done, _ = deform(run, made, [{"by": [1, 0, 0]}], "--rig", "follow", "--only", "node:skinned")
+    not_told(done, "Gaussian")
+
+
+@case
 def a_mesh_that_is_selected_in_part_keeps_its_node(run):
     made = arm()
     made.asset["materials"] = [{"name": "red"}, {"name": "blue"}]
@@ -405,7 +481,7 @@ def with_tail(extensions):
     return made
 
 
-VRM = {"VRMC_vrm": {"specVersion": "1.0", "humanoid": {"humanBones": {"hips": {"node": 0}, "head": {"node": 9}, "jaw": {"node": 99}}},
+VRM = {"VRMC_vrm": {"specVersion": "1.0", "humanoid": {"humanBones": {"hips": {"node": 0}, "head": {"node": 9}}},
                     "lookAt": {"offsetFromHeadBone": [0, 0.06, 0]}},
        "VRMC_springBone": {"specVersion": "1.0", "colliders": [{"node": 3, "shape": {"sphere": {"offset": [0, 0, 0], "radius": 0.1}}}],
                            "springs": [{"joints": [{"node": n, "hitRadius": 0.02} for n in (6, 7, 8)], "colliderGroups": []}]}}
@@ -438,6 +514,20 @@ def bones_and_springs_of_vrm_go_along(run):
 
 
 @case
+def rotations_of_nodes_that_stay_are_said(run):
+    """A hat that --only selects in part stays where it is, by a rotation against that of what it is below."""
+    made = Scene(scene=0, scenes=[{"nodes": [0]}], materials=[{"name": "a"}, {"name": "b"}],
+                 nodes=[{"name": "hips", "mesh": 0, "children": [1]}, {"name": "hat", "translation": [0, 1, 0], "mesh": 1}])
+    attributes = {"POSITION": made.add([[-0.5, 0, 0], [0.5, 0, 0], [0, 1, 0]], bounds=True)}
+    made.asset["meshes"] = [{"primitives": [{"attributes": attributes, "material": m} for m in materials]} for materials in ([0], [0, 1])]
+    made.asset |= {"extensions": {"VRM": {}}, "extensionsUsed": ["VRM"]}
+    done, follow = deform(run, made, BEND, "--rig", "follow", "--only", "material:a")
+    check("rotation" in follow.nodes[1], follow.nodes)
+    told(done, "2 nodes have rotations now", "hips, hat$")
+    told(done, "1 node stays where it is")
+
+
+@case
 def constraints_of_vrm(run):
     """Turns that are copied are copied still; a node that aims is said, where it or what it is below has moved."""
     for kind, said in (("aim", 1), ("roll", 0), ("rotation", 0)):
@@ -458,6 +548,49 @@ def springs_that_go_round_in_a_circle_end(run):
     done, _ = deform(run, with_tail(odd), BEND, "--rig", "follow")
     told(done, r"\b3 spring bones\b")
     not_told(done, "eyes")
+
+
+def vrm(**members):
+    return {"VRMC_vrm": {"specVersion": "1.0", **members}}
+
+
+def springs(**members):
+    return {"VRMC_springBone": {"specVersion": "1.0", **members}}
+
+
+@case
+def numbers_of_no_node_in_vrm_are_flaws(run):
+    """Each is said with its place and number, is in the report, and is refused with --strict. What else the file has of VRM
+    counts as it does without."""
+    said = "VRM should name one of the 11 nodes here{}: it is ignored"
+    for root, where, number in (
+            (vrm(humanoid={"humanBones": {"hips": {"node": 0}, "head": {"node": 99}}}), "VRMC_vrm/humanoid/humanBones/head/node", ", not 99"),
+            (vrm(humanoid={"humanBones": {"head": {}}}), "VRMC_vrm/humanoid/humanBones/head", ""),
+            (springs(springs=[{"joints": [{"node": 6}, {"node": -1}]}]), "VRMC_springBone/springs/0/joints/1/node", ", not -1"),
+            (springs(springs=[{"joints": [{"node": 1.5}]}]), "VRMC_springBone/springs/0/joints/0/node", ", not 1.5"),
+            (springs(springs=[{"joints": [6]}]), "VRMC_springBone/springs/0/joints/0", ""),
+            (springs(springs=[{"joints": [], "center": 11}]), "VRMC_springBone/springs/0/center", ", not 11"),
+            (springs(colliders=[{"node": 1e99}]), "VRMC_springBone/colliders/0/node", ", not 1e+99"),
+            ({"VRM": {"humanoid": {"humanBones": [{"bone": "head", "node": -1}]}}}, "VRM/humanoid/humanBones/0/node", ", not -1"),
+            ({"VRM": {"firstPerson": {"firstPersonBone": 12}}}, "VRM/firstPerson/firstPersonBone", ", not 12"),
+            ({"VRM": {"secondaryAnimation": {"boneGroups": [{"bones": [6, "a"]}]}}}, "VRM/secondaryAnimation/boneGroups/0/bones/1", ""),
+            ({"VRM": {"secondaryAnimation": {"boneGroups": [{"center": 11}]}}}, "VRM/secondaryAnimation/boneGroups/0/center", ", not 11"),
+            ({"VRM": {"secondaryAnimation": {"colliderGroups": [{"node": None}]}}},
+             "VRM/secondaryAnimation/colliderGroups/0/node", "")):
+        run.write("a.glb", with_tail(root).glb())
+        run.write("l.json", box(BEND))
+        message, pointer = said.format(number), "/extensions/" + where
+        done = run.ffd("check", "a.glb", "-l", "l.json", "--report", "r.json", err=anything)
+        equal([line for line in done.err if "VRM" in line], [f"a.glb: {pointer}: {message}"])
+        equal(json.loads(run.text("r.json"))["jobs"][0]["flaws"], [{"message": message, "pointer": pointer, "count": 1}])
+        run.ffd("check", "a.glb", "-l", "l.json", "--strict", code=INVALID, err=f"a.glb:{pointer}: {message}")
+    # VRM 0.x has -1 for none, and several are one line.
+    fine = {"VRM": {"firstPerson": {"firstPersonBone": -1}, "secondaryAnimation": {"boneGroups": [{"center": -1, "bones": [6]}]}}}
+    equal(deform(run, with_tail(fine), [], "--strict")[0].err, [])
+    made = with_tail({"VRMC_vrm": {}})
+    made.asset["nodes"][6]["extensions"] = {"VRMC_node_constraint": {"constraint": {"roll": {"source": 20}, "aim": {}}}}
+    told(deform(run, made, [])[0], "/nodes/6/extensions/VRMC_node_constraint/constraint/roll/source: " + said.format(", not 20")
+         + r" \(the first of 2 such\)$")
 
 
 @case

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """Edges of a mesh that are torn at the border of a lattice: how many, by how much, where; what is said of them."""
 import math
-
 import random
 import re
 import struct

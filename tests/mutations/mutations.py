@@ -510,6 +510,7 @@ m("map-not-clamped", "condition", "materials", '*is_clamped = ffd_text_is_any_ca
 
 m("digits-of-plain-words", "off by one", "mixed_faces", "digits > 0 && digits <= 8 ? (size_t)bytes_number(values << (64 - 8 * digits)) : 0;",
   "digits > 0 && digits <= 8 ? (size_t)bytes_number(values << (64 - 8 * digits)) + 1 : 0;")
+m("vertices-that-were-not-there", "bound", "mixed_faces", "while (vertex < end && ffd_obj_walk_next(&walk)) {", "while (ffd_obj_walk_next(&walk)) {")
 m("wanted-after-the-first", "limit", "mixed_faces, cli_tears", "return *(const uint32_t *)wanted < *(const size_t *)vertex;",
   "return *(const uint32_t *)wanted <= *(const size_t *)vertex;")
 # io/gltf
@@ -649,8 +650,8 @@ m("falling-times", "bound", "gltf_animation, cli_view_animation", "if (i > 0 && 
   "if (i > 1 && sampler->times[i] < sampler->times[i - 1])")
 m("keys-of-nothing-are-checked", "condition", "gltf_animation", "if (ffd_gltf_channel_drives(&animation->channels[c])) status = load_channel(",
   "if (animation->channels[c].sampler != GLTF_NONE) status = load_channel(")
-m("weights-of-nodes-only", "condition", "gltf_animation", "return value != JSON_NONE || d->model.nodes[n].mesh < 0",
-  "return value == JSON_NONE || d->model.nodes[n].mesh < 0")
+m("weights-of-nodes-only", "condition", "gltf_animation", "mesh < 0 ? JSON_NONE : ffd_gltf_first_weight(",
+  "d->node_values.count > 0 ? JSON_NONE : ffd_gltf_first_weight(")
 m("matrix-not-taken-apart", "left out", "gltf_animation", "if (channel->path < GLTF_WEIGHTS && node->has_matrix)",
   "if (channel->path > GLTF_WEIGHTS && node->has_matrix)")
 m("list-keeps-its-memory", "clean-up", "gltf_animation, view_pose", "ffd_budget_return(&d->base.budget, 1, animations->taken);", ";")
@@ -692,7 +693,7 @@ m("ply-normals-mixed", "stride", "ply, cli_ply",
 m("ply-rests-by-coefficient", "stride", "cli_splats", "(size_t)(channel * functions + coefficient)",
   "(size_t)((functions > 0) * coefficient * HARMONICS_CHANNELS + channel)",
   "c[i][m][k] = values[i][k * functions + m];", "c[i][m][k] = values[i][m * HARMONICS_CHANNELS + k];")
-m("vrm-humanoid-left", "left out", "cli_rig", "visit_node(v, node, VRM_BONE); if (eyes", "(void)VRM_BONE;\n        if (eyes")
+m("vrm-humanoid-left", "left out", "cli_rig", 'visit_member(v, b, "node", VRM_BONE);', 'visit_member(v, b, "node", VRM_NAMED);')
 m("vrm-old-springs-below", "left out", "cli_rig", "mark_spring(s, child); s->pending[waiting++] = child;", "mark_spring(s, root);")
 m("vrm-eyes-of-any-bone", "condition", "cli_rig", 'if (eyes != JSON_NONE && ffd_json_span_key_is(tree, b, "head"))',
   'if (eyes != JSON_NONE && !ffd_json_span_key_is(tree, b, "head"))')
@@ -788,6 +789,11 @@ m("splats-in-the-scene", "left out", "cli_splats", "if (!transform.identity && !
   "if (transform.singular)\n            ffd_splat_turn_to_file")
 m("splats-broken", "figure", "cli_splats", "totals->splats_broken += outcome == SPLAT_BROKEN && scratch->changed[i];",
   "totals->splats_broken += outcome == SPLAT_BROKEN && scratch->changed[i] > 1;")
+m("vrm-a-number-of-no-node", "left out", "cli_rig", "else if (number != JSON_NONE && v->fault)", "else if (number == JSON_NONE && v->fault)")
+m("vrm-none-is-a-fault", "condition", "cli_rig", "number >= -1 && number <= -1;", "number >= -1 && number < -1;")
+m("splats-of-a-turned-node", "left out", "cli_rig", "(!part->skipped || part->carried) && !part->singular", "!part->skipped && !part->singular")
+m("splats-turned-and-not-said", "condition", "cli_rig", "is_turned = is_turned || part->carry[k] != 0;",
+  "is_turned = is_turned && part->carry[k] != 0;")
 m("report-rms", "figure", "cli_deform",
   'ffd_json_number(json, "rms", result->residual_rms);', 'ffd_json_number(json, "rms", result->residual_max);')
 m("report-member", "member name", "cli_report_schema", '"displacement", true); ffd_json_number(json, "max"',
@@ -869,7 +875,12 @@ m("clip-default-weights", "condition", "cli_morphs", "if (names[t] == KEEPS && !
   "if (names[t] == IS_ZERO && !ffd_gltf_weight(d, default_value, &row[t]))")
 m("clip-weights-of-a-node", "condition", "cli_morphs", "size_t sampler = own ? GLTF_NONE : w->samplers[mesh];",
   "size_t sampler = w->samplers[mesh];")
-m("clip-own-bytes", "condition", "cli_morphs", "own[a] && users[a] == 0 &&", "own[a] &&")
+m("clip-own-bytes", "condition", "cli_morphs", "own[a] = own[a] && users[a] == 0;", "own[a] = own[a] && users[a] <= 2;")
+m("target-of-others-lost", "condition", "cli_as_morph", "(is_own || ffd_gltf_is_partly_selected(", "(is_own && ffd_gltf_is_partly_selected(")
+m("target-of-others-lost-unsaid", "condition", "cli_as_morph", "old >= 0 && (size_t)old != accessor &&", "old >= 0 && (size_t)old == accessor &&")
+m("target-bytes-in-use", "condition", "cli_morphs", "before[a] > 0 && users[a] == 0", "before[a] > 0")
+m("target-bytes-compressed", "condition", "cli_morphs", "views[v] == IS_LEFT ?", "views[v] == IS_KEPT ?")
+m("target-bytes-sparse", "left out", "cli_morphs", "bytes += plain_bytes(d, sparse->values_view, sparse->count, size) +", "bytes +=")
 m("clip-replaced", "left out", "cli_morphs", "ffd_json_span_string_is(tree, name, w->clip->name)", "ffd_json_span_string_is(tree, name, \"\")")
 m("clip-of-a-conversion", "stride", "cli_morphs", "clip->key_count * target_count(plan, m), NULL", "clip->key_count * 1, NULL")
 m("morph-in-its-place", "operand", "cli_morphs, cli_as_morph", "ffd_gltf_target_place(&file->model.meshes[m].primitives[p], marks->named[m]);",
@@ -967,6 +978,7 @@ m("volume-sum-not-exact", "rounding", "quality", "const double value = s->sum + 
 m("zeros-of-two-signs-are-two-vertices", "equality", "quality", "number += 0.0;", "number *= 1.0;")
 m("edges-of-both-ways-alike", "sign", "quality", "return from < to ? hash : 0 - hash;", "return from < to ? hash : hash;")
 m("area-of-what-hides", "condition", "quality", "if (count > 0 && !is_hidden(&work, corners[0]))", "if (count > 0)")
+m("volume-not-known-as-not-closed", "condition", "cli_check", 'isnan(result->area_before) ? "not known" : "none: the mesh is not closed"', '"none: the mesh is not closed"')
 m("volume-of-the-selection", "order", "cli_check", "measure_extent(job, arrays, result);\n    if (!ffd_selection_is_all(job->document))\n        status = ffd_selection_reduce(job->document, &arrays->faces, error);",
   "if (!ffd_selection_is_all(job->document))\n        status = ffd_selection_reduce(job->document, &arrays->faces, error);\n    measure_extent(job, arrays, result);")
 m("area-after-of-many-targets", "condition", "cli_morphs", "all->area_after = is_only ? target->area_after : NAN;", "all->area_after = target->area_after;")
@@ -1218,6 +1230,11 @@ m("mesh-without-its-buffer", "order", "in_memory", "const output_file *const fil
   "const output_file *const file = &output->files[output->count - 1 - i]; if (file->is_memory) status = ffd_memory_give(")
 m("failed-resolver-is-missing", "check left out", "in_memory", "status = ffd_memory_judge_path(job->desc->input.path, status, error);",
   "status = FFD_OK;")
+m("view-of-a-failed-resolver", "check left out", "in_memory", "status = ffd_memory_judge_path(desc->job->input.path, status, error);",
+  "status = FFD_OK;")
+m("name-of-a-folder", "check left out", "in_memory", 'if (!*last || strcmp(last, ".") == 0 || strcmp(last, "..") == 0)', "if (!*last)")
+m("text-round-meshes", "condition", "in_memory", "(ffd_file_is_stream(path) || ffd_memory_has(path))", "ffd_file_is_stream(path)")
+m("lattice-without-a-name", "number", "in_memory", 'snprintf(number, sizeof number, "lattice %zu", k + 1);', 'snprintf(number, sizeof number, "lattice %zu", k);')
 m("parent-folder-asked", "check left out", "in_memory", 'else if (relative[0] == \'/\' || !is_inside(root, path)) status = ffd_fail_file(error, FFD_E_IO, named_by, "the file \\"%s\\" is outside the model\'s folder", relative); else status = ffd_memory_find',
   "else if (!path[0]) status = FFD_E_IO; else status = ffd_memory_find")
 m("sink-status-lost", "status", "in_memory", 'return status ? ffd_fail_file(error, status, name, "was not taken by the caller") : FFD_OK;',

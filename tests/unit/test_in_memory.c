@@ -83,8 +83,10 @@ static ffd_status resolve(void *user, const char *name, ffd_bytes *bytes)
     resolver *const r = user;
     const named *const file = find(r->files, name);
     r->calls++;
-    if (r->fails && strcmp(r->fails, name) == 0)
+    if (r->fails && strcmp(r->fails, name) == 0) {
+        bytes->size = 3; /* and no data */
         return r->with;
+    }
     if (file)
         *bytes = (ffd_bytes){file->bytes, file->size};
     return FFD_OK;
@@ -406,6 +408,46 @@ static void names_are_the_callers(void **state)
     (void)state;
 }
 
+/* A name that ends in a folder's would lead nowhere. */
+static void names_that_are_no_files_are_refused(void **state)
+{
+    static const char *const names[] = {"", "/", ".", "..", "in/", "in/.."};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        for (int which = 0; which < 2; which++) {
+            both b;
+            ffd_job_result result = {.struct_size = sizeof result};
+            ffd_error error;
+            begin(&b, make_off, "head.off");
+            b.desc.input.format = b.desc.output_format = FFD_FORMAT_OFF;
+            *(which ? &b.desc.output : &b.desc.input.path) = names[i];
+            assert_int_equal(ffd_deform_run(&b.desc, &result, &error), FFD_E_ARGUMENT);
+            assert_non_null(strstr(error.message, "is no name for a file"));
+            assert_int_equal(b.sink.files.count, 0);
+            end(&b);
+        }
+    (void)state;
+}
+
+/* What a text names relative to itself is nowhere, even where there is such a file. */
+static void a_text_names_no_meshes(void **state)
+{
+    static const char around[] = "{\"format\":\"ffd-lattice\",\"version\":1,\"size\":[3,3,3],"
+                                 "\"rest\":{\"box\":{\"meshes\":[\"head.off\"]}}}";
+    const ffd_bytes text = {around, sizeof around - 1};
+    both b;
+    ffd_job_result result = {.struct_size = sizeof result};
+    ffd_error error;
+    begin(&b, make_off, "head.off");
+    put_all(&b.given, "in");
+    b.desc.lattice_objects = NULL;
+    b.desc.lattice_texts = &text;
+    assert_int_equal(ffd_deform_run(&b.desc, &result, &error), FFD_E_ARGUMENT);
+    assert_string_equal(error.file, b.path);
+    assert_non_null(strstr(error.message, "cannot be read from memory"));
+    end(&b);
+    (void)state;
+}
+
 static void texts_of_lattices_have_values(void **state)
 {
     both b;
@@ -429,6 +471,25 @@ static void texts_of_lattices_have_values(void **state)
     (void)state;
 }
 
+/* A report of several morph targets names the lattice of each, also one that has no name. */
+static void check_lattice_names(const ffd_deform_desc *callers, const char *second)
+{
+    ffd_deform_desc desc = *callers;
+    ffd_job_result targets[2] = {{.struct_size = sizeof *targets}, {.struct_size = sizeof *targets}};
+    ffd_job_result result = {.struct_size = sizeof result};
+    ffd_report *report;
+    sink s = {0};
+    desc.morph_results = targets;
+    desc.dry_run = true;
+    assert_int_equal(ffd_deform_run(&desc, &result, NULL), FFD_OK);
+    assert_int_equal(ffd_report_create_sink("r.json", true, take, &s, &report, NULL), FFD_OK);
+    assert_int_equal(ffd_report_add(report, "a.gltf", "b.gltf", &result, NULL), FFD_OK);
+    assert_int_equal(ffd_report_write(report, NULL), FFD_OK);
+    assert_non_null(memmem(s.files.files[0].bytes, s.files.files[0].size, second, strlen(second)));
+    ffd_report_destroy(&report);
+    clear(&s.files);
+}
+
 static void several_morph_targets_are_made(void **state)
 {
     both b;
@@ -448,6 +509,9 @@ static void several_morph_targets_are_made(void **state)
     assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
     assert_int_equal(result.morph_count, 2);
     assert_ptr_equal(result.morph_lattices, paths);
+    check_lattice_names(&b.desc, "k.json\"");
+    b.desc.lattices = NULL;
+    check_lattice_names(&b.desc, "\"lattice 2\"");
     use_files(&b);
     put_text("in/k.json", lattice_text);
     b.desc.lattices = paths;
@@ -660,6 +724,10 @@ static void a_report_goes_to_a_sink(void **state)
     assert_int_equal(ffd_report_create_sink("r.jsonl", true, take, &s, &report, NULL), FFD_OK);
     assert_int_equal(ffd_report_write(report, NULL), FFD_E_LIMIT);
     ffd_report_destroy(&report);
+    assert_int_equal(ffd_report_create_sink("r.json", true, NULL, NULL, &report, NULL), FFD_E_ARGUMENT);
+    assert_int_equal(ffd_report_create_sink(NULL, true, take, &s, &report, NULL), FFD_E_ARGUMENT);
+    assert_int_equal(ffd_report_create_sink("out/", true, take, &s, &report, NULL), FFD_E_ARGUMENT);
+    assert_null(report);
     clear(&s.files);
     (void)state;
 }
@@ -686,12 +754,39 @@ static void check_resolver(const char *fails, ffd_status with, ffd_status expect
     end(&b);
 }
 
+/* The same of what a view would draw, with an image that is grey where it is missing. */
+static void check_resolver_of_view(const char *output)
+{
+    both b;
+    ffd_job_result result = {.struct_size = sizeof result};
+    ffd_error error = {0};
+    ffd_view_desc view;
+    begin(&b, make_obj, "head.obj");
+    ffd_view_desc_init(&view, sizeof view);
+    view.job = &b.desc;
+    view.output = output;
+    view.sink = take;
+    view.sink_user = &b.sink;
+    assert_int_equal(ffd_view_run(&view, &result, NULL), FFD_OK);
+    assert_int_equal(b.sink.files.count, 1);
+    clear(&b.sink.files);
+    b.resolver.fails = "mats/head.mtl";
+    b.resolver.with = FFD_E_CANCELLED;
+    assert_int_equal(ffd_view_run(&view, &result, &error), FFD_E_CANCELLED);
+    assert_string_equal(error.message, "the file \"mats/head.mtl\" was not given by the caller");
+    assert_int_equal(b.sink.files.count, 0);
+    end(&b);
+}
+
 static void a_resolver_that_fails_ends_the_job(void **state)
 {
+    check_resolver_of_view("v.png");
+    check_resolver_of_view("v.html");
     check_resolver("head.bin", FFD_E_CANCELLED, FFD_E_CANCELLED);
     check_resolver("head.bin", FFD_E_IO, FFD_E_IO);
     check_resolver("tex/skin.png", FFD_E_MEMORY, FFD_E_MEMORY); /* a missing image alone is no failure */
     check_resolver("lost.png", (ffd_status)77, FFD_E_IO);
+    check_resolver("lost.png", FFD_OK, FFD_E_ARGUMENT); /* bytes that are none are not a missing file */
     (void)state;
 }
 
@@ -802,7 +897,7 @@ static void descriptions_that_contradict_themselves_are_refused(void **state)
 {
     both b;
     ffd_job_result result = {.struct_size = sizeof result};
-    ffd_error error;
+    ffd_error error = {0};
     ffd_bytes text = {lattice_text, strlen(lattice_text)};
     ffd_depfile *depfile;
     begin(&b, make_off, "head.off");
@@ -830,7 +925,8 @@ static void descriptions_that_contradict_themselves_are_refused(void **state)
         if (wrong == 8)
             b.desc.output = NULL;
         assert_int_equal(ffd_deform_run(&b.desc, &result, &error), FFD_E_ARGUMENT);
-        assert_non_null(error.message[0] ? error.message : NULL);
+        assert_true(error.message[0]);
+        error = (ffd_error){0};
     }
     ffd_depfile_destroy(&depfile);
     b.desc = whole;
@@ -924,7 +1020,9 @@ int main(void)
         cmocka_unit_test(so_does_every_conversion),
         cmocka_unit_test(one_of_both_may_be_a_file),
         cmocka_unit_test(names_are_the_callers),
+        cmocka_unit_test(names_that_are_no_files_are_refused),
         cmocka_unit_test(texts_of_lattices_have_values),
+        cmocka_unit_test(a_text_names_no_meshes),
         cmocka_unit_test(several_morph_targets_are_made),
         cmocka_unit_test(embeddings_pass_through_memory),
         cmocka_unit_test(other_jobs_take_memory_too),

@@ -310,6 +310,26 @@ static void of_many(void **state)
     }
 }
 
+/* Somebody turns the faces of a file into vertices after it was opened: there is room for those it had. */
+static void of_a_file_that_changes(void **state)
+{
+    (void)state;
+    char text[40 * MANY] = "";
+    mesh_faces faces;
+    size_t size = 0;
+    for (int v = 0; v < 3; v++)
+        size += (size_t)snprintf(text + size, sizeof text - size, "v %d 0 %d\n", v, v % 2);
+    for (int f = 0; f < MANY; f++)
+        size += (size_t)snprintf(text + size, sizeof text - size, "f 1 2 3\n");
+    mesh_document *const document = opened_bytes(ffd_format_table(FFD_FORMAT_OBJ), text, size);
+    document->results_replace = true; /* so that positions are read once more */
+    assert_int_equal(document->format->begin_results(document, false, false, NULL), FFD_OK);
+    for (char *c = text; *c; c++)
+        *c = *c == 'f' ? 'v' : *c;
+    assert_int_equal(document->format->faces(document, &faces, NULL), FFD_E_IO);
+    document->format->close(document);
+}
+
 /* Marks among many vertices without are found, in one plane and in two. */
 static void next_marks(void **state)
 {
@@ -332,9 +352,11 @@ static void next_marks(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(of_off),  cmocka_unit_test(of_ply),     cmocka_unit_test(of_binary_ply),
-        cmocka_unit_test(of_obj),  cmocka_unit_test(of_stl),     cmocka_unit_test(of_gltf),
-        cmocka_unit_test(of_many), cmocka_unit_test(next_marks),
+        cmocka_unit_test(of_off),        cmocka_unit_test(of_ply),
+        cmocka_unit_test(of_binary_ply), cmocka_unit_test(of_obj),
+        cmocka_unit_test(of_stl),        cmocka_unit_test(of_gltf),
+        cmocka_unit_test(of_many),       cmocka_unit_test(of_a_file_that_changes),
+        cmocka_unit_test(next_marks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,4 @@
-/* test_quality.c - flipped faces, areas and volumes, and how far straight edges lie from the deformed
- * surface. */
+/* test_quality.c - flipped faces, areas, volumes, how far straight edges lie from the deformed surface. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

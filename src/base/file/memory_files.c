@@ -161,23 +161,28 @@ static memory_folder *make_folder(const memory_files *files, const char *name)
     return NULL;
 }
 
-static memory_folder *add_folder(memory_files *files, const char *name)
+static ffd_status add_folder(memory_files *files, const char *name, memory_folder **folder, ffd_error *error)
 {
-    if (!ffd_grow((void **)&files->folders, &files->folder_capacity, files->folder_count + 1,
-                  sizeof(memory_folder *)))
-        return NULL;
-    memory_folder *const folder = make_folder(files, name);
-    if (folder)
-        files->folders[files->folder_count++] = folder;
-    return folder;
+    const char *const last = ffd_path_name(name);
+    if (!*last || strcmp(last, ".") == 0 || strcmp(last, "..") == 0) /* no path could lead to it */
+        return ffd_fail(error, FFD_E_ARGUMENT, "\"%s\" is no name for a file", name);
+    *folder = ffd_grow((void **)&files->folders, &files->folder_capacity, files->folder_count + 1,
+                       sizeof(memory_folder *))
+                  ? make_folder(files, name)
+                  : NULL;
+    if (!*folder)
+        return ffd_fail_memory(error);
+    files->folders[files->folder_count++] = *folder;
+    return FFD_OK;
 }
 
 ffd_status ffd_memory_lend(memory_files *files, const char *name, const void *bytes, size_t size,
                            memory_resolve *resolve, void *user, const char **path, ffd_error *error)
 {
-    memory_folder *const folder = add_folder(files, name);
-    if (!folder)
-        return ffd_fail_memory(error);
+    memory_folder *folder;
+    const ffd_status status = add_folder(files, name, &folder, error);
+    if (status)
+        return status;
     folder->resolve = resolve;
     folder->user = user;
     *path = folder->path;
@@ -187,9 +192,10 @@ ffd_status ffd_memory_lend(memory_files *files, const char *name, const void *by
 ffd_status ffd_memory_take(memory_files *files, const char *name, memory_sink *sink, void *user,
                            const char **path, ffd_error *error)
 {
-    memory_folder *const folder = add_folder(files, name);
-    if (!folder)
-        return ffd_fail_memory(error);
+    memory_folder *folder;
+    const ffd_status status = add_folder(files, name, &folder, error);
+    if (status)
+        return status;
     folder->sink = sink;
     folder->user = user;
     *path = folder->path;
@@ -243,8 +249,8 @@ static ffd_status resolve(memory_files *files, const char *path, memory_bytes *b
     if (!status)
         return note(files, path, *bytes, error);
     if (!files->failure.status)
-        ffd_fail_file(&files->failure, status, folder->name,
-                      "the file \"%s\", which it names, could not be given", name);
+        ffd_fail_file(&files->failure, status, folder->name, "the file \"%s\" was not given by the caller",
+                      name);
     *bytes = (memory_bytes){0};
     return ffd_memory_judge(files, status, error);
 }

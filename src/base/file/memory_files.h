@@ -23,17 +23,17 @@ ffd_status ffd_memory_create(memory_files **files, ffd_error *error);
 void ffd_memory_destroy(memory_files **files);
 
 /* Adds a file of this name, as messages have it. resolve (NULL: none) finds what is in its folder besides.
- *path is lent by files. Errors: FFD_E_MEMORY. */
+ *path is lent by files. Errors: FFD_E_ARGUMENT for a name that ends in a folder's, FFD_E_MEMORY. */
 ffd_status ffd_memory_lend(memory_files *files, const char *name, const void *bytes, size_t size,
                            memory_resolve *resolve, void *user, const char **path, ffd_error *error);
-/* Adds a folder for an output of this name and what is written beside it. */
+/* Adds a folder for an output of this name and what is written beside it. Errors: likewise. */
 ffd_status ffd_memory_take(memory_files *files, const char *name, memory_sink *sink, void *user,
                            const char **path, ffd_error *error);
 
 /* Puts the names that the caller knows in the place of paths within a text of a buffer of this size. */
 void ffd_memory_show(const memory_files *files, char *text, size_t capacity);
-/* The status; or, whatever it is, that with which a resolve function, or the memory for
-   what it has found, has failed. */
+/* The status; or, whatever it is, that with which a resolve function, or the memory for what it has found,
+   has failed. */
 ffd_status ffd_memory_judge(const memory_files *files, ffd_status status, ffd_error *error);
 /* The same for the files that a path leads to, if it leads to any. */
 ffd_status ffd_memory_judge_path(const char *path, ffd_status status, ffd_error *error);

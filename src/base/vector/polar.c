@@ -28,7 +28,9 @@ static double square_sum(const double m[9])
 }
 
 /* One step: x becomes (s x + x^-T / s) / 2, with the s that makes both terms equally large. Returns how far
-   the entries move; negative where there is no inverse. */
+   the entries move; negative where there is no inverse. ffd_splat_orthogonalise takes its steps as the
+   kernels of splats do, and mirrors: its last bits are nearly always others, and so would be those of
+   outputs. */
 static double step(double x[9])
 {
     double inverse[9], moved = 0;
@@ -80,6 +82,8 @@ double ffd_cube_root(double value)
     return copysign(ldexp(root, (exponent - rest) / 3), value);
 }
 
+/* Divided by its largest component, then by its length. That of splats (splat.c) has the operations of their
+   kernels, and that of gltf_pose.c those of three.js: last bits often differ, and outputs keep theirs. */
 void ffd_mat_quaternion(const double r[9], double q[4])
 {
     /* Four times the square of each component; the largest one is divided by. */

@@ -6,6 +6,8 @@
 #include "base/memory/memory.h"
 #include "io/gltf/gltf_open.h"
 #include "io/gltf/morph/gltf_clip.h"
+#include "io/gltf/morph/gltf_left_bytes.h"
+#include "io/gltf/morph/gltf_morph_reuse.h"
 #include "io/gltf/morph/gltf_morph_text.h"
 #include "io/gltf/morph/gltf_morph_weights.h"
 #include "io/gltf/save/gltf_save.h"
@@ -176,6 +178,7 @@ typedef struct morph_file {
     const gltf_document *source;
     mesh_document *made; /* NULL: still the source */
     file_input bytes;    /* its */
+    uint64_t bytes_left; /* that nothing uses any more, of what was replaced */
 } morph_file;
 
 static const gltf_document *current(const morph_file *file)
@@ -206,6 +209,27 @@ static ffd_status reopen(morph_file *file, file_input *bytes, ffd_error *error)
     return status ? status : ffd_gltf_open_within(&file->bytes, &source, &budget, &file->made, error);
 }
 
+static bool replaces(const gltf_document *d, const morph_marks *marks)
+{
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        if (marks->meshes[m] && marks->named[m] != GLTF_NONE)
+            return true;
+    return false;
+}
+
+/* Goes on with the file that has a target in place of another one, which may leave bytes unused. */
+static ffd_status reopen_replaced(morph_file *file, file_input *bytes, const char *name, const mesh_log *log,
+                                  ffd_error *error)
+{
+    const size_t count = current(file)->model.accessor_count;
+    unsigned char *const before = ffd_gltf_count_users(current(file), JSON_NONE);
+    ffd_status status = before ? reopen(file, bytes, error) : ffd_fail_memory(error);
+    if (status == FFD_OK)
+        status = ffd_gltf_warn_of_left(current(file), before, count, name, log, &file->bytes_left, error);
+    ffd_free(before);
+    return status;
+}
+
 /* Adds the target to the file. */
 static ffd_status add_target(morph_file *file, morph_marks *marks, const mesh_log *log, ffd_error *error)
 {
@@ -220,7 +244,8 @@ static ffd_status add_target(morph_file *file, morph_marks *marks, const mesh_lo
         ffd_log_line(log, FFD_LOG_WARNING, "no vertex moves: all offsets of the morph target are 0");
     ffd_status status = ffd_gltf_add_target(current(file), &request, &bytes, error);
     if (status == FFD_OK)
-        status = reopen(file, &bytes, error);
+        status = replaces(file->source, marks) ? reopen_replaced(file, &bytes, marks->morph->name, log, error)
+                                               : reopen(file, &bytes, error);
     ffd_file_unload(&bytes);
     return status;
 }
@@ -249,7 +274,7 @@ static ffd_status add_clips(morph_file *file, const morph_marks *marks, const me
     for (size_t k = 0; k < d->morph_count; k++)
         targets[k] = (clip_target){d->morphs[k].name, marks[k].places};
     ffd_status status = ffd_gltf_add_clips(current(file), d->clips, d->clip_count, targets, d->morph_count,
-                                           log, &bytes, error);
+                                           log, &bytes, &file->bytes_left, error);
     if (!status && bytes.data)
         status = reopen(file, &bytes, error);
     ffd_file_unload(&bytes);
@@ -304,6 +329,8 @@ static ffd_status save_as_morph(mesh_document *document, const mesh_save_options
         status = add_clips(&file, marks, log, error);
     if (!status)
         warn_of_many(d, current(&file), log);
+    if (options->bytes_left)
+        *options->bytes_left = file.bytes_left;
     if (!status)
         status = file.made ? save_file(&file, marks, options, output, log, error)
                            : ffd_gltf_save_results(document, options, output, log, error);

@@ -65,6 +65,14 @@ static ffd_status begin_results(mesh_document *document, bool normals, bool tang
     return status ? status : ffd_gltf_begin_splats((gltf_document *)document, error);
 }
 
+/* Splats that are not selected are brought back from where their nodes turn them, as vertices are. */
+static ffd_status follow(mesh_document *document, const mesh_places *places, mesh_place_move *moves,
+                         const mesh_log *log, mesh_following *following, ffd_error *error)
+{
+    const ffd_status status = ffd_gltf_follow(document, places, moves, log, following, error);
+    return status ? status : ffd_gltf_begin_splats((gltf_document *)document, error);
+}
+
 static ffd_status save(mesh_document *document, const mesh_save_options *options, file_output *output,
                        const mesh_log *log, ffd_error *error)
 {
@@ -88,7 +96,7 @@ const mesh_format ffd_gltf_format = {
     .list_places = ffd_gltf_list_places,
     .place_name = ffd_gltf_place_name,
     .count_skins = ffd_gltf_count_skins,
-    .follow = ffd_gltf_follow,
+    .follow = follow,
     .keep_base = ffd_gltf_keep_base,
     .keep_clips = ffd_gltf_keep_clips,
     .largest_coordinate = FLT_MAX,

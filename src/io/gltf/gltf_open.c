@@ -8,6 +8,7 @@
 #include "io/gltf/model/gltf_schema.h"
 #include "io/gltf/rig/gltf_places.h"
 #include "io/gltf/rig/gltf_rig.h"
+#include "io/gltf/rig/gltf_vrm.h"
 #include "io/gltf/scene/gltf_instancing.h"
 #include "io/gltf/scene/gltf_parts.h"
 #include "io/gltf/scene/gltf_required.h"
@@ -359,6 +360,8 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
     status = ffd_gltf_check(d, error);
     if (status == FFD_OK)
         status = ffd_gltf_check_indices(d, error);
+    if (status == FFD_OK)
+        status = ffd_gltf_check_vrm(d, error);
     if (status == FFD_OK)
         status = ffd_gltf_find_required(d, source, error);
     if (status == FFD_OK)

@@ -332,7 +332,8 @@ static void read_again_tile(void *context, size_t tile, size_t first, size_t las
     if (a->wanted ? next == a->count || a->wanted[next] >= end : vertex == end)
         return;
     ffd_obj_document_walk_block(d, first, &walk);
-    while (ffd_obj_walk_next(&walk)) {
+    /* A file that somebody changes may have more vertices now. */
+    while (vertex < end && ffd_obj_walk_next(&walk)) {
         if (walk.scan.keyword != OBJ_VERTEX)
             continue;
         double *const xyz = a->xyz + 3 * next;

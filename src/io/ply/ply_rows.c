@@ -1,5 +1,4 @@
-/* ply_rows.c - writes the vertices of a PLY file whose rows are not of one size, with what has changed of
- * them. */
+/* ply_rows.c - writes the vertices of a PLY file whose rows are not of one size, with what has changed. */
 #include "io/ply/ply_save.h"
 #include <string.h>
 

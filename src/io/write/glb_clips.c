@@ -1,6 +1,6 @@
 #include "io/write/glb_clips.h"
-#include "base/little_endian.h"
 #include "base/memory/memory.h"
+#include "base/text/buffer_float.h"
 #include "mesh/morph/morph_clip.h"
 #include <string.h>
 
@@ -14,13 +14,6 @@ static size_t target_count(const glb_plan *plan, uint32_t mesh)
     return count;
 }
 
-static void put_float(double value, byte_buffer *out)
-{
-    unsigned char bytes[4];
-    store_float(bytes, (float)value);
-    ffd_buffer_append(out, bytes, sizeof bytes);
-}
-
 /* Appends the weights that a key gives the targets of a mesh. weights: of all names of the clip. */
 static void put_row(const glb_plan *plan, const morph_clip *clip, uint32_t mesh, const double *weights,
                     byte_buffer *out)
@@ -30,14 +23,15 @@ static void put_row(const glb_plan *plan, const morph_clip *clip, uint32_t mesh,
         const char *const name = model->morphs[k].name;
         uint32_t number;
         if (plan->morphed[mesh * model->morph_count + k])
-            put_float(ffd_intern_find(&clip->names, name, strlen(name), &number) ? weights[number] : 0, out);
+            ffd_buffer_float(out, ffd_intern_find(&clip->names, name, strlen(name), &number) ? weights[number]
+                                                                                             : 0);
     }
 }
 
 static void put_clip(const glb_plan *plan, const morph_clip *clip, double *weights, byte_buffer *out)
 {
     for (size_t k = 0; k < clip->key_count; k++)
-        put_float((double)clip->times[k], out);
+        ffd_buffer_float(out, (double)clip->times[k]);
     for (uint32_t m = 0; m < plan->meshes.count; m++)
         for (size_t k = 0; k < clip->key_count && target_count(plan, m) > 0; k++) {
             ffd_morph_clip_weights(clip, k, weights);

@@ -19,7 +19,7 @@ static ffd_status resolve(void *user, const char *name, const void **data, size_
     const ffd_status status = callback->resolve(callback->user, name, &bytes);
     *data = bytes.data;
     *size = bytes.size;
-    return status;
+    return !status && !bytes.data && bytes.size > 0 ? FFD_E_ARGUMENT : status;
 }
 
 static ffd_status begin(job_memory *memory, ffd_error *error)

@@ -3,6 +3,7 @@
 #include "json/json_parse.h"
 #include "json/json_text.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static void write_outcome(json_text *json, const report_entry *entry)
@@ -205,11 +206,13 @@ static void write_flaws(json_text *json, const ffd_job_result *result)
     ffd_json_end(json, ']');
 }
 
-/* Only where there are some. */
-static void write_indices_left(json_text *json, const ffd_job_result *result)
+/* Only where there is some. */
+static void write_left(json_text *json, const ffd_job_result *result)
 {
     if (result->indices_left)
         ffd_json_count(json, "indices_left", result->indices_left);
+    if (result->bytes_left)
+        ffd_json_count(json, "bytes_left", result->bytes_left);
 }
 
 /* Vertices on faces that two lattices share. */
@@ -298,6 +301,15 @@ static void write_reach(json_text *json, const ffd_job_result *result)
     ffd_json_end(json, '}');
 }
 
+/* As messages name it: a lattice that is an object or a text need not have a name. */
+static void write_lattice_name(json_text *json, const ffd_job_result *result, size_t k)
+{
+    char number[40];
+    const char *const name = result->morph_lattices ? result->morph_lattices[k] : NULL;
+    snprintf(number, sizeof number, "lattice %zu", k + 1);
+    ffd_json_string(json, "lattice", name ? name : number);
+}
+
 /* Only where the job made several morph targets: what each does by itself. */
 static void write_morphs(json_text *json, const ffd_job_result *result)
 {
@@ -307,7 +319,7 @@ static void write_morphs(json_text *json, const ffd_job_result *result)
     for (size_t k = 0; k < result->morph_count; k++) {
         ffd_json_object(json, NULL, false);
         ffd_json_string(json, "name", result->morphs[k]);
-        ffd_json_string(json, "lattice", result->morph_lattices[k]);
+        write_lattice_name(json, result, k);
         write_deformation(json, &result->morph_results[k]);
         write_reach(json, &result->morph_results[k]);
         ffd_json_end(json, '}');
@@ -325,7 +337,7 @@ static void write_figures(json_text *json, const ffd_job_result *result)
     write_behind(json, result);
     write_rig(json, &result->rig);
     write_morphs(json, result);
-    write_indices_left(json, result);
+    write_left(json, result);
     write_flaws(json, result);
 }
 

@@ -148,6 +148,8 @@ ffd_status ffd_report_create_sink(const char *name, bool stable, ffd_sink_functi
     memory_files *memory;
     const char *path;
     *report = NULL;
+    if (!name || !sink)
+        return ffd_fail(error, FFD_E_ARGUMENT, "a report in memory needs a name and a sink");
     ffd_status status = ffd_memory_create(&memory, error);
     if (!status)
         status = ffd_memory_take(memory, name, sink, user, &path, error);

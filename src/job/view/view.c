@@ -1,6 +1,7 @@
 /* view.c - the job of `ffd view`: a scene out of one mesh and its deformation, or out of files as they are.
  */
 #include "base/file/mapping.h"
+#include "base/file/memory_files.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/struct_size.h"
@@ -315,6 +316,8 @@ static ffd_status write_view(view_work *work, ffd_error *error)
     if (!status)
         status = is_page(desc->output) ? write_page(work, output, error) : write_picture(work, output, error);
     status = ffd_mapping_judge(work->job.losses, status, error);
+    if (!status) /* an image that seems to be missing may be there */
+        status = ffd_memory_judge_path(desc->job->input.path, status, error);
     if (!status)
         status = ffd_output_commit(output, error);
     ffd_output_destroy(&output);

@@ -1,5 +1,6 @@
 /* file.c - lattice files: load, save, and fit to a mesh. */
 #include "base/file/input.h"
+#include "base/file/memory_files.h"
 #include "base/file/output.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
@@ -65,11 +66,11 @@ ffd_status ffd_spec_load(const char *path, const spec_settings *settings, lattic
     status = ffd_spec_parse((const char *)input.data, input.size, path, settings, spec, error);
     ffd_file_unload(&input);
     status = ffd_mapping_judge(losses, status, error);
-    if (!status && ffd_file_is_stream(path) && (*spec)->mesh_count > 0)
+    if (!status && (*spec)->mesh_count > 0 && (ffd_file_is_stream(path) || ffd_memory_has(path)))
         status = ffd_fail(
             error, FFD_E_ARGUMENT,
             "the lattice's box goes round meshes named relative to its file: it cannot be read from %s",
-            ffd_file_display_name(path));
+            ffd_memory_has(path) ? "memory" : ffd_file_display_name(path));
     if (status) {
         ffd_spec_free(*spec);
         *spec = NULL;

@@ -34,7 +34,8 @@ static ffd_status order_nodes(const gltf_document *d, gltf_pose *pose, ffd_error
     return FFD_OK;
 }
 
-/* The rotation x,y,z,w of a matrix whose columns have length 1 (Shepperd 1978). */
+/* The rotation x,y,z,w of a matrix whose columns have length 1 (Shepperd 1978). Where these are sheared it is
+   no unit quaternion: three.js has the same one, and shows the same. ffd_mat_quaternion gives another. */
 static void quaternion_of(const double m[9], double q[4])
 {
     const double trace = m[0] + m[4] + m[8];
@@ -72,21 +73,14 @@ void ffd_gltf_take_apart(gltf_node *node)
     node->has_matrix = false;
 }
 
-static uint32_t first_weight(const gltf_document *d, size_t n)
-{
-    const uint32_t value = ffd_gltf_first(d, d->node_values.values[n], "weights");
-    return value != JSON_NONE || d->model.nodes[n].mesh < 0
-               ? value
-               : ffd_gltf_first(d, d->mesh_values.values[d->model.nodes[n].mesh], "weights");
-}
-
 static void set_default(const gltf_document *d, gltf_pose *pose)
 {
     const size_t count = d->model.node_count;
     if (count > 0)
         memcpy(pose->nodes, pose->rest ? pose->rest : d->model.nodes, count * sizeof *pose->nodes);
     for (size_t n = 0; n < count; n++) {
-        uint32_t value = first_weight(d, n);
+        const int mesh = d->model.nodes[n].mesh;
+        uint32_t value = mesh < 0 ? JSON_NONE : ffd_gltf_first_weight(d, (size_t)mesh, n);
         for (size_t w = pose->first_weight[n]; w < pose->first_weight[n + 1]; w++) {
             double weight = 0;
             pose->weights[w] = value != JSON_NONE && ffd_gltf_weight(d, value, &weight) ? weight : 0;

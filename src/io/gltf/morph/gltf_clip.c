@@ -1,9 +1,10 @@
 #include "io/gltf/morph/gltf_clip.h"
-#include "base/little_endian.h"
 #include "base/memory/memory.h"
+#include "base/text/buffer_float.h"
 #include "base/text/number.h"
 #include "base/text/words.h"
 #include "io/gltf/morph/gltf_grown.h"
+#include "io/gltf/morph/gltf_left_bytes.h"
 #include "io/gltf/morph/gltf_morph_reuse.h"
 #include "io/gltf/morph/gltf_morph_text.h"
 #include "io/gltf/morph/gltf_morph_weights.h"
@@ -29,7 +30,8 @@ typedef struct clip_writer {
     size_t *samplers;       /* of each mesh with its own default weights; GLTF_NONE: not yet */
     size_t sampler_count, channel_count;
     byte_buffer sampler_text, channel_text;
-    byte_buffer added; /* animations that are not there yet, with commas */
+    byte_buffer added;   /* animations that are not there yet, with commas */
+    uint64_t bytes_left; /* of animations that are replaced */
     ffd_error *error;
 } clip_writer;
 
@@ -66,13 +68,6 @@ ffd_status ffd_gltf_check_clips(const gltf_document *d, const morph_clip *clips,
                                                             : ffd_fail_memory(error);
     ffd_intern_free(&all);
     return status;
-}
-
-static void put_float(double value, byte_buffer *out)
-{
-    unsigned char bytes[4];
-    store_float(bytes, (float)value);
-    ffd_buffer_append(out, bytes, sizeof bytes);
 }
 
 /* Appends a name as a JSON string. */
@@ -117,7 +112,7 @@ static void add_times(clip_writer *w)
     snprintf(bounds, sizeof bounds, ",\"min\":[%s],\"max\":[%s]", least, most);
     w->input = add_accessor(w, clip->key_count, bounds);
     for (size_t k = 0; k < clip->key_count; k++)
-        put_float((double)clip->times[k], &w->file.data.bytes);
+        ffd_buffer_float(&w->file.data.bytes, (double)clip->times[k]);
 }
 
 /* Finds which of a mesh's targets the clip drives, and by which name. Returns whether there is one. */
@@ -174,7 +169,7 @@ static bool put_weights(clip_writer *w, const uint32_t *names, size_t count, uin
         for (size_t i = clip->starts[k]; i < clip->starts[k + 1]; i++)
             weights[clip->weights[i].target] = clip->weights[i].weight;
         for (size_t t = 0; t < count; t++)
-            put_float(names[t] < IS_ZERO ? weights[names[t]] : row[t], &w->file.data.bytes);
+            ffd_buffer_float(&w->file.data.bytes, names[t] < IS_ZERO ? weights[names[t]] : row[t]);
         for (size_t i = clip->starts[k]; i < clip->starts[k + 1]; i++)
             weights[clip->weights[i].target] = 0;
     }
@@ -242,24 +237,24 @@ static bool count_own_bytes(const gltf_document *d, uint32_t animation, uint64_t
     unsigned char *const users = ffd_gltf_count_users(d, animation);
     bool *const own = ffd_alloc_zero(d->model.accessor_count, sizeof *own);
     const bool done = users && own;
-    *bytes = 0;
     if (done)
         ffd_gltf_mark_animation(d, animation, own);
     for (size_t a = 0; done && a < d->model.accessor_count; a++)
-        if (own[a] && users[a] == 0 && d->model.accessors[a].view >= 0)
-            *bytes += d->model.accessors[a].count * d->layouts[a].element_size;
+        own[a] = own[a] && users[a] == 0;
+    const bool counted = done && ffd_gltf_count_left_bytes(d, own, bytes);
     ffd_free(users);
     ffd_free(own);
-    return done;
+    return counted;
 }
 
-/* Says how many bytes are left that nothing uses any more: other views may begin behind them. */
-static ffd_status warn_of_replaced(const clip_writer *w, uint32_t old, const char *name)
+/* Says how many bytes are left that nothing uses any more. */
+static ffd_status warn_of_replaced(clip_writer *w, uint32_t old, const char *name)
 {
     char left[80] = "";
     uint64_t bytes;
     if (!count_own_bytes(w->file.saver.document, old, &bytes))
         return ffd_fail_memory(w->error);
+    w->bytes_left += bytes;
     if (bytes > 0)
         snprintf(left, sizeof left, "; %" PRIu64 " bytes that only it used stay in the file", bytes);
     ffd_log_line(w->file.saver.log, FFD_LOG_WARNING, "has an animation \"%s\" already: it is replaced%s",
@@ -346,7 +341,7 @@ static ffd_status add_all(clip_writer *w, const morph_clip *clips, size_t count,
 
 ffd_status ffd_gltf_add_clips(const gltf_document *d, const morph_clip *clips, size_t clip_count,
                               const clip_target *targets, size_t target_count, const mesh_log *log,
-                              file_input *made, ffd_error *error)
+                              file_input *made, uint64_t *bytes_left, ffd_error *error)
 {
     clip_writer w = {.file.saver = {.document = d, .log = log},
                      .budget = d->base.budget,
@@ -355,6 +350,7 @@ ffd_status ffd_gltf_add_clips(const gltf_document *d, const morph_clip *clips, s
                      .error = error};
     *made = (file_input){0};
     const ffd_status status = add_all(&w, clips, clip_count, made);
+    *bytes_left += w.bytes_left;
     ffd_free(w.samplers);
     ffd_buffer_free(&w.sampler_text);
     ffd_buffer_free(&w.channel_text);

@@ -19,9 +19,10 @@ ffd_status ffd_gltf_check_clips(const gltf_document *document, const morph_clip 
 /* Makes the file with the document's clips, in place of the animations of their names: a channel for each
    node whose mesh has one of the further targets, or one that the clip names. All other targets keep the
    default weights of the node or mesh. *made is the caller's; its data is NULL where there is nothing to add.
+   *bytes_left gets what replaced animations leave unused added.
    Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_gltf_add_clips(const gltf_document *document, const morph_clip *clips, size_t clip_count,
                               const clip_target *targets, size_t target_count, const mesh_log *log,
-                              file_input *made, ffd_error *error);
+                              file_input *made, uint64_t *bytes_left, ffd_error *error);
 
 #endif

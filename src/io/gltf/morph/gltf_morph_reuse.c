@@ -51,18 +51,28 @@ static bool has_results(const gltf_document *d, const gltf_morph *morph, const m
     return uses > 0;
 }
 
+bool ffd_gltf_is_partly_selected(const gltf_document *d, size_t mesh, size_t primitive)
+{
+    const gltf_instance *const instances = ffd_gltf_instances(d, mesh, primitive);
+    for (size_t n = 0; n < d->mesh_uses[mesh].node_count; n++)
+        if (!instances[n].selected)
+            return true;
+    return false;
+}
+
 bool ffd_gltf_can_reuse(const gltf_document *d, const unsigned char *users, const morph_place *place,
                         const gltf_document *source, const gltf_morph *morph)
 {
     const gltf_primitive *const primitive = &d->model.meshes[place->mesh].primitives[place->primitive];
     const int number = primitive->target_accessors[GLTF_DEFORMED * place->target + place->semantic];
-    if (number < 0 || users[number] != 1)
+    if (number < 0)
         return false;
     const gltf_accessor *const accessor = &d->model.accessors[number];
     const gltf_layout *const layout = &d->layouts[number];
+    const bool is_own =
+        users[number] == 1 && !accessor->sparse.present && accessor->view >= 0 && layout->data;
     return accessor->component == GLTF_FLOAT && accessor->columns == 1 && accessor->rows == 3 &&
-           !accessor->sparse.present && accessor->view >= 0 &&
+           (is_own || ffd_gltf_is_partly_selected(source, place->mesh, place->primitive)) &&
            accessor->count == d->model.accessors[primitive->accessor[place->semantic]].count &&
-           layout->readable && layout->data && layout->packing == GLTF_PLAIN &&
-           has_results(source, morph, place);
+           layout->readable && layout->packing == GLTF_PLAIN && has_results(source, morph, place);
 }

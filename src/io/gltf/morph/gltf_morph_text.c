@@ -11,6 +11,7 @@ typedef struct morph_writer {
     bool *grow;           /* per mesh: it gets one more */
     unsigned char *users; /* of ffd_gltf_count_users */
     size_t *zeros[2];     /* per accessor: the new one of as many zeros; [1]: with bounds */
+    bool loses;           /* nodes of the mesh under way that are not selected lose old offsets */
 } morph_writer;
 
 static bool is_array(const gltf_saver *saver, uint32_t value)
@@ -62,6 +63,18 @@ static size_t accessor_for(morph_writer *w, const morph_place *place)
     return zeros_for(w, (size_t)primitive->accessor[place->semantic], place->semantic == GLTF_POSITION);
 }
 
+/* Whether what is not selected had offsets, which it loses where the target gets another accessor. */
+static bool loses_offsets(const morph_writer *w, const morph_place *place, size_t accessor)
+{
+    const gltf_primitive *const primitive =
+        &w->file.saver.document->model.meshes[place->mesh].primitives[place->primitive];
+    const int old = place->target < primitive->target_count
+                        ? primitive->target_accessors[GLTF_DEFORMED * place->target + place->semantic]
+                        : -1;
+    return old >= 0 && (size_t)old != accessor &&
+           ffd_gltf_is_partly_selected(w->request->source, place->mesh, place->primitive);
+}
+
 /* Writes a target. It has normals and tangents only if these are deformed. */
 static void write_target(morph_writer *w, size_t mesh, size_t p, size_t target, byte_buffer *text)
 {
@@ -71,12 +84,16 @@ static void write_target(morph_writer *w, size_t mesh, size_t p, size_t target, 
                                         w->request->morph->normals && primitive->accessor[GLTF_NORMAL] >= 0};
     bool first = true;
     ffd_buffer_text(text, "{");
-    for (size_t s = 0; s < GLTF_DEFORMED; s++)
-        if (wanted[s] && primitive->accessor[s] >= 0) {
-            ffd_buffer_format(text, "%s\"%s\":%zu", first ? "" : ",", ffd_gltf_semantic_names[s],
-                              accessor_for(w, &(morph_place){mesh, p, target, (gltf_semantic)s}));
-            first = false;
-        }
+    for (size_t s = 0; s < GLTF_DEFORMED; s++) {
+        const morph_place place = {mesh, p, target, (gltf_semantic)s};
+        const bool is_there = wanted[s] && primitive->accessor[s] >= 0;
+        const size_t accessor = is_there ? accessor_for(w, &place) : GLTF_NONE;
+        w->loses = w->loses || loses_offsets(w, &place, accessor);
+        if (!is_there)
+            continue;
+        ffd_buffer_format(text, "%s\"%s\":%zu", first ? "" : ",", ffd_gltf_semantic_names[s], accessor);
+        first = false;
+    }
     ffd_buffer_text(text, "}");
 }
 
@@ -203,11 +220,13 @@ static void add_to_meshes(morph_writer *w)
     for (size_t m = 0; m < d->model.mesh_count; m++) {
         if (!w->request->meshes[m])
             continue;
+        w->loses = false;
         for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
             add_to_primitive(w, m, p);
         if (!w->grow[m]) {
             ffd_log_line(w->file.saver.log, FFD_LOG_WARNING,
-                         "mesh %zu has a morph target of that name already: it is replaced", m);
+                         "mesh %zu has a morph target of that name already: it is replaced%s", m,
+                         w->loses ? ", and nodes that are not selected lose its offsets, too" : "");
             continue;
         }
         add_weights(&w->file.saver, d->mesh_values.values[m], ffd_gltf_target_count(d, m), true);

@@ -1,6 +1,6 @@
 #include "io/gltf/morph/gltf_morph_weights.h"
-#include "base/little_endian.h"
 #include "base/memory/memory.h"
+#include "base/text/buffer_float.h"
 #include "io/gltf/decode/gltf_read.h"
 #include "io/gltf/refer/gltf_index_table.h"
 #include "io/gltf/save/gltf_json_insert.h"
@@ -127,13 +127,6 @@ static void find_drivers(gltf_saver *saver, const bool *meshes, animation *a)
     }
 }
 
-static void put_float(float value, byte_buffer *out)
-{
-    unsigned char bytes[4];
-    store_float(bytes, value);
-    ffd_buffer_append(out, bytes, sizeof bytes);
-}
-
 /* Makes a copy of the accessor with a 0 after every `targets` values; GLTF_NONE if it
    does not hold whole rows. */
 static size_t extend_output(gltf_saver *saver, size_t accessor, size_t targets, bool cubic, morph_data *data)
@@ -148,9 +141,9 @@ static size_t extend_output(gltf_saver *saver, size_t accessor, size_t targets, 
     for (size_t i = 0; i < count && !data->bytes.failed; i++) {
         double value;
         ffd_gltf_read(d, accessor, i, 1, 1, &value);
-        put_float((float)value, &data->bytes);
+        ffd_buffer_float(&data->bytes, value);
         if (i % targets == targets - 1)
-            put_float(0, &data->bytes);
+            ffd_buffer_float(&data->bytes, 0);
     }
     ffd_buffer_format(&data->accessors,
                       "%s{\"bufferView\":%zu,\"byteOffset\":%zu,\"componentType\":5126,\"count\":%zu,"

@@ -157,7 +157,7 @@ static void mark_vrm(void *context, size_t node, gltf_vrm_role role)
         mark_springs_below(s, node);
     else if (role == VRM_EYES)
         s->holds[node] |= PLACE_HOLDS_EYES;
-    else
+    else if (role != VRM_NAMED)
         s->nodes[node] |= IS_ANIMATED;
     if (role == VRM_AIM)
         s->holds[node] |= PLACE_HOLDS_AIM;

@@ -6,6 +6,11 @@
 #include "base/memory/intern.h"
 #include "io/gltf/animation/gltf_animation.h"
 #include "io/gltf/document/gltf_document.h"
+#include <float.h>
+
+/* What turns that come out of several matrices are off by, and offsets, in eps of the coordinates. */
+#define RIG_TURN_ROUNDING 1e-12
+#define RIG_PLACE_ROUNDING (64 * DBL_EPSILON)
 
 /* A node's own transform as it is written. */
 typedef struct gltf_moved_node {

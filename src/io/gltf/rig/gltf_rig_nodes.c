@@ -3,12 +3,8 @@
 #include "base/vector/polar.h"
 #include "base/vector/vec.h"
 #include "io/gltf/scene/gltf_scene.h"
-#include <float.h>
 #include <string.h>
 
-/* What turns that come out of several matrices are off by, and offsets, in eps of the coordinates. */
-#define TURN_ROUNDING 1e-12
-#define PLACE_ROUNDING (64 * DBL_EPSILON)
 /* Of g^T g from the identity: beyond it the node would be sheared. */
 #define SHEAR 1e-6
 
@@ -104,7 +100,7 @@ static bool find_offset(const double parent[12], const double inverse[9], const 
     mat_apply(inverse, from, offset);
     for (int a = 0; a < 3; a++) {
         const double row = fabs(inverse[3 * a]) + fabs(inverse[3 * a + 1]) + fabs(inverse[3 * a + 2]);
-        const double rounding = PLACE_ROUNDING * (row * size + fabs(old[a]));
+        const double rounding = RIG_PLACE_ROUNDING * (row * size + fabs(old[a]));
         if (fabs(offset[a] - old[a]) <= rounding)
             offset[a] = old[a];
         else
@@ -169,8 +165,8 @@ static void carry_along(const node_walk *w, size_t n)
 static void note_motion(const double g[9], const double turn[4], const double along[9],
                         gltf_node_motion *motion)
 {
-    motion->turns = !ffd_mat_is_near_identity(g, TURN_ROUNDING);
-    motion->carries = !ffd_mat_is_near_identity(along, TURN_ROUNDING);
+    motion->turns = !ffd_mat_is_near_identity(g, RIG_TURN_ROUNDING);
+    motion->carries = !ffd_mat_is_near_identity(along, RIG_TURN_ROUNDING);
     memcpy(motion->turn, turn, sizeof motion->turn);
     memcpy(motion->carry, along, sizeof motion->carry);
 }
@@ -197,7 +193,7 @@ static bool move_node(const node_walk *w, size_t n, const target *t)
     conjugate(inverse, t->turn, world_of(w, p), g);
     conjugate(inverse, t->gradient, world_of(w, p), along);
     const bool shears = would_shear(g);
-    if (shears || ffd_mat_is_near_identity(g, TURN_ROUNDING))
+    if (shears || ffd_mat_is_near_identity(g, RIG_TURN_ROUNDING))
         memcpy(g, identity, sizeof g);
     ffd_mat_rotation(g, rotation);
     ffd_mat_quaternion(rotation, turn);

@@ -36,9 +36,10 @@ static void end_group(place_group *group)
         snprintf(group->names + used, sizeof group->names - used, " and %zu more", group->count - NAMES);
 }
 
-/* What stays as it is at nodes that move. */
+/* What stays as it is at nodes that move; and nodes that had no rotation and have one now. */
 typedef struct staying {
-    place_group shapes, springs, eyes, aims, turned;
+    place_group shapes, springs, eyes, aims, turned, splats;
+    size_t splat_count;
 } staying;
 
 static bool is_turned(const gltf_document *d, const gltf_moved_node *node)
@@ -47,8 +48,28 @@ static bool is_turned(const gltf_document *d, const gltf_moved_node *node)
     return node->rotates && old[0] == 0 && old[1] == 0 && old[2] == 0;
 }
 
-static ffd_status find_staying(const gltf_document *d, const mesh_places *places, const gltf_rig *rig,
-                               staying *found, mesh_following *following, ffd_error *error)
+/* Counts splats that should be brought back from where their nodes turn them, as they are not selected, but
+   whose rotations and scales cannot be changed. Marks their nodes. */
+static size_t count_turned_splats(const gltf_document *d, bool *marked)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < d->base.part_count; i++) {
+        const mesh_part *const part = &d->mesh_parts[i];
+        const bool is_left = part->splats && part->carried && part->skipped && !part->has_ellipsoids;
+        bool is_turned = false;
+        for (int k = 0; k < 9; k++)
+            is_turned = is_turned || part->carry[k] != 0;
+        if (!is_left || !is_turned || part->repeats_positions)
+            continue;
+        marked[d->parts[i].node] = true;
+        count += part->vertex_count;
+    }
+    return count;
+}
+
+static ffd_status list_staying(const gltf_document *d, const mesh_places *places, const gltf_rig *rig,
+                               const bool *has_splats, staying *found, mesh_following *following,
+                               ffd_error *error)
 {
     const bool is_old = ffd_gltf_has_extension(d, 0, "VRM");
     ffd_status status = FFD_OK;
@@ -57,26 +78,41 @@ static ffd_status find_staying(const gltf_document *d, const mesh_places *places
         const bool has_shape = place->kinds & PLACE_BIT(FFD_BEHIND_PHYSICS_SHAPE);
         const size_t moved = rig->motions[place->number].moved;
         const size_t at = 12 * place->number;
-        if (place->stays || memcmp(rig->world + at, d->world + at, 12 * sizeof *d->world) == 0)
-            continue;
+        const bool moves =
+            !place->stays && memcmp(rig->world + at, d->world + at, 12 * sizeof *d->world) != 0;
         const struct {
             bool is_one;
             place_group *group;
-        } groups[] = {{has_shape, &found->shapes},
-                      {place->holds & PLACE_HOLDS_SPRING, &found->springs},
-                      {place->holds & PLACE_HOLDS_EYES, &found->eyes},
-                      {place->holds & PLACE_HOLDS_AIM, &found->aims},
+        } groups[] = {{has_splats[place->number], &found->splats},
+                      {moves && has_shape, &found->shapes},
+                      {moves && place->holds & PLACE_HOLDS_SPRING, &found->springs},
+                      {moves && place->holds & PLACE_HOLDS_EYES, &found->eyes},
+                      {moves && place->holds & PLACE_HOLDS_AIM, &found->aims},
+                      /* Also of nodes that stay below one that turns. */
                       {is_old && moved != GLTF_NONE && is_turned(d, &rig->nodes[moved]), &found->turned}};
         for (size_t g = 0; g < sizeof groups / sizeof *groups && status == FFD_OK; g++)
             if (groups[g].is_one)
                 status = add_place(d, place->number, groups[g].group, error);
-        following->unscaled += groups[0].is_one || groups[1].is_one || groups[2].is_one;
+        following->unscaled += groups[0].is_one || groups[1].is_one || groups[2].is_one || groups[3].is_one;
     }
+    end_group(&found->splats);
     end_group(&found->shapes);
     end_group(&found->springs);
     end_group(&found->eyes);
     end_group(&found->aims);
     end_group(&found->turned);
+    return status;
+}
+
+static ffd_status find_staying(const gltf_document *d, const mesh_places *places, const gltf_rig *rig,
+                               staying *found, mesh_following *following, ffd_error *error)
+{
+    bool *const has_splats = ffd_alloc_zero(d->model.node_count, sizeof *has_splats);
+    if (!has_splats)
+        return ffd_fail_memory(error);
+    found->splat_count = count_turned_splats(d, has_splats);
+    const ffd_status status = list_staying(d, places, rig, has_splats, found, following, error);
+    ffd_free(has_splats);
     return status;
 }
 
@@ -132,6 +168,13 @@ ffd_status ffd_gltf_warn_of_rig(const gltf_document *d, const mesh_places *place
                      ffd_plural(found.shapes.count, "shape goes with its node, but keeps its size",
                                 "shapes go with their nodes, but keep their sizes"),
                      found.shapes.names);
+    if (found.splat_count)
+        ffd_log_line(log, FFD_LOG_WARNING, "%zu Gaussian %s%s", found.splat_count,
+                     ffd_plural(found.splat_count,
+                                "splat that is not selected turns with its node: its rotation and scale stay",
+                                "splats that are not selected turn with their nodes: their rotations and "
+                                "scales stay"),
+                     found.splats.names);
     warn_of_vrm(&found, log);
     if (rig->pointers_left)
         ffd_log_line(

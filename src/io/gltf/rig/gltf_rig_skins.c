@@ -9,9 +9,6 @@
 #include <float.h>
 #include <string.h>
 
-#define TURN_ROUNDING 1e-12
-#define PLACE_ROUNDING (64 * DBL_EPSILON)
-
 /* A map x -> linear x + offset. */
 typedef struct affine {
     double linear[9], offset[3];
@@ -19,15 +16,21 @@ typedef struct affine {
 
 static const affine still = {{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0}};
 
-/* A linear part that is the identity but for rounding is the identity, and so are offsets of coordinates of
-   this size. Returns whether nothing is left. */
+/* A linear part that is the identity but for rounding is the identity. Returns whether it is. */
+static bool settle_turn(double linear[9])
+{
+    const bool is_still = ffd_mat_is_near_identity(linear, RIG_TURN_ROUNDING);
+    if (is_still)
+        memcpy(linear, still.linear, sizeof still.linear);
+    return is_still;
+}
+
+/* The same of a map, with offsets of coordinates of this size. Returns whether nothing is left. */
 static bool settle(affine *map, double size)
 {
-    bool is_still = ffd_mat_is_near_identity(map->linear, TURN_ROUNDING);
-    if (is_still)
-        memcpy(map->linear, still.linear, sizeof map->linear);
+    bool is_still = settle_turn(map->linear);
     for (int a = 0; a < 3; a++)
-        is_still = is_still && fabs(map->offset[a]) <= PLACE_ROUNDING * size;
+        is_still = is_still && fabs(map->offset[a]) <= RIG_PLACE_ROUNDING * size;
     return is_still;
 }
 
@@ -225,8 +228,7 @@ static void carry_by_node(const gltf_document *d, const gltf_rig *rig, size_t no
     if (part->singular || memcmp(old, made, 12 * sizeof *old) == 0 || !mat_invert(made, inverse))
         return;
     mat_multiply(old, inverse, map.linear);
-    if (ffd_mat_is_near_identity(map.linear, TURN_ROUNDING))
-        memcpy(map.linear, still.linear, sizeof map.linear);
+    settle_turn(map.linear);
     pin(made + 9, old + 9, &map);
     if (!settle(&map, size_of(old + 9, made + 9)))
         set_carry(&map, part);

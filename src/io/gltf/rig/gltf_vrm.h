@@ -12,12 +12,16 @@ typedef enum gltf_vrm_role {
     VRM_BONE,        /* of the humanoid: what poses it is not in the file */
     VRM_EYES,        /* the offset of the eyes, which the file has, is from this bone */
     VRM_DRIVEN,      /* a constraint turns it; */
-    VRM_AIM          /* towards another node */
+    VRM_AIM,         /* towards another node */
+    VRM_NAMED        /* what springs are seen from, a constraint looks at, the first person does not show */
 } gltf_vrm_role;
 
 typedef void gltf_vrm_visitor(void *context, size_t node, gltf_vrm_role role);
 
 /* Calls visit for every node and role that the file names, perhaps more than once. */
 void ffd_gltf_visit_vrm(const gltf_document *document, gltf_vrm_visitor *visit, void *context);
+
+/* Notes the values that should name a node and do not. Errors: those of a flaw. */
+ffd_status ffd_gltf_check_vrm(gltf_document *document, ffd_error *error);
 
 #endif

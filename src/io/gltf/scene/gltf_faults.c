@@ -150,16 +150,6 @@ static void check_nodes(fault_list *list)
     }
 }
 
-static void check_listed(fault_list *list, uint32_t object, const char *key)
-{
-    const gltf_document *const d = list->document;
-    for (uint32_t v = ffd_gltf_first(d, object, key); v != JSON_NONE; v = ffd_json_span_after(&d->tree, v)) {
-        const uint32_t node = ffd_json_span_member(&d->tree, v, "node");
-        if (node != JSON_NONE && ffd_gltf_node(d, node) == GLTF_NONE)
-            add_value(list, node);
-    }
-}
-
 static ffd_status check_animations(fault_list *list, ffd_error *error)
 {
     const gltf_document *const d = list->document;
@@ -184,9 +174,6 @@ ffd_status ffd_gltf_warn_of_faults(const mesh_document *document, const mesh_log
     char places[sizeof list.shown + 60];
     ffd_status status = warn_of_weights(d, log, error);
     check_nodes(&list);
-    check_listed(&list, ffd_gltf_extension(d, 0, "VRMC_springBone"), "colliders");
-    check_listed(&list, ffd_json_span_member(&d->tree, ffd_gltf_extension(d, 0, "VRM"), "secondaryAnimation"),
-                 "colliderGroups");
     if (status == FFD_OK)
         status = check_animations(&list, error);
     if (status || list.count == 0)

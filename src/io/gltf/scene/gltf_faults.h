@@ -5,8 +5,8 @@
 #include "io/gltf/document/gltf_document.h"
 
 /* Says which there are: default weights of morph targets; levels of detail, visibility, cameras, lights and
-   physics shapes of nodes; targets of animations; colliders of springs. A line each for the weights and the
-   others. Errors: FFD_E_MEMORY. */
+   physics shapes of nodes; targets of animations. A line each for the weights and the others. Errors:
+   FFD_E_MEMORY. */
 ffd_status ffd_gltf_warn_of_faults(const mesh_document *document, const mesh_log *log, ffd_error *error);
 
 #endif

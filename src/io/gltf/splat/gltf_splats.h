@@ -10,7 +10,8 @@
    Errors: those of a flaw, FFD_E_MEMORY, FFD_E_LIMIT. */
 ffd_status ffd_gltf_find_splats(gltf_document *document, ffd_error *error);
 
-/* Makes the results of splats. Errors: FFD_E_MEMORY, FFD_E_LIMIT. */
+/* Makes the results of splats: of those that are selected, and, after ffd_gltf_follow, of those whose nodes
+   have moved without them. Errors: FFD_E_MEMORY, FFD_E_LIMIT. */
 ffd_status ffd_gltf_begin_splats(gltf_document *document, ffd_error *error);
 
 /* Says which harmonics could not turn with their splats. */
