@@ -101,6 +101,14 @@ typedef ffd_status (*ffd_resolve_function)(void *user, const char *name, ffd_byt
    it, as above: those that it has taken by then it keeps, without the output. */
 typedef ffd_status (*ffd_sink_function)(void *user, const char *name, const void *bytes, size_t size);
 
+/* Takes where a job brings the vertices of its mesh: x, y, z of each, count of them, in the order of
+   `ffd embed` and in the lattice's space (that of the scene, or of its own with FFD_SPACE_MESH), as doubles
+   that are not rounded to the file's numbers. Vertices that are not selected, or that stay, are there as
+   well; those of a node whose matrix has no inverse are NaN. Of a glTF they are the stored shapes, not what
+   weights of morph targets or an animation show. Lent during the call, which is made once by the caller's
+   thread: after all gates, and before the output is written. Any status but FFD_OK ends the job with it. */
+typedef ffd_status (*ffd_positions_function)(void *user, const double *positions, size_t count);
+
 /* A mesh to read. */
 typedef struct ffd_source {
     /* "-": standard input. With bytes only a name, which messages have and whose ending says the format where
@@ -277,6 +285,10 @@ typedef struct ffd_deform_desc {
        file is in the way. FFD_E_ARGUMENT with in_place, depfile and FFD_RESOURCES_REFERENCE. */
     ffd_sink_function sink;
     void *sink_user;
+    /* Takes the deformed positions, of ffd_deform_run and ffd_check_run; or NULL. With it output may be NULL:
+       then no mesh is written. FFD_E_ARGUMENT with morphs. */
+    ffd_positions_function positions;
+    void *positions_user;
 } ffd_deform_desc;
 
 FFD_API void ffd_deform_desc_init(ffd_deform_desc *desc, size_t size);

@@ -145,3 +145,22 @@ int ffd_status_exit_code(ffd_status status)
     }
     return 7;
 }
+
+ffd_status ffd_status_known(ffd_status status)
+{
+    switch (status) {
+    case FFD_OK:
+    case FFD_E_GATE:
+    case FFD_E_ARGUMENT:
+    case FFD_E_IO:
+    case FFD_E_EXISTS:
+    case FFD_E_INVALID:
+    case FFD_E_EMBEDDING:
+    case FFD_E_UNSUPPORTED:
+    case FFD_E_MEMORY:
+    case FFD_E_LIMIT:
+    case FFD_E_CANCELLED:
+        return status;
+    }
+    return FFD_E_IO;
+}

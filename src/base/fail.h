@@ -30,6 +30,8 @@ ffd_status ffd_fail_at(ffd_error *error, ffd_status status, const char *file, co
                        const char *format, ...) FFD_PRINTF(5, 6);
 /* "out of memory", FFD_E_MEMORY. */
 ffd_status ffd_fail_memory(ffd_error *error);
+/* The status that a callback has returned; FFD_E_IO for a number that is none. */
+ffd_status ffd_status_known(ffd_status status);
 /* Names the file in an error that has none yet. */
 void ffd_fail_name_file(ffd_error *error, const char *file);
 

@@ -80,4 +80,12 @@ static inline uint64_t load_u64(const unsigned char bytes[8])
     return value;
 }
 
+static inline double load_double(const unsigned char bytes[8])
+{
+    const uint64_t bits = load_u64(bytes);
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
 #endif

@@ -8,15 +8,17 @@
 
 typedef struct batch_desc {
     job_source_desc jobs;
-    pool_desc pool;      /* report, depfile and records are set by the batch */
-    const char *report;  /* "-": standard output; or NULL */
-    const char *depfile; /* with the rules of all outputs; or NULL */
-    const char *view;    /* a folder for the jobs' pictures and the page that compares them; or NULL */
-    const char *journal; /* or NULL: where ffd_journal_default_path says */
-    bool shared_box;     /* all meshes have one box */
-    bool view_force;     /* an existing page is replaced */
-    bool stop;           /* at the first failure */
-    bool quiet;          /* only what went wrong */
+    pool_desc pool;        /* report, depfile and records are set by the batch */
+    const char *report;    /* "-": standard output; or NULL */
+    const char *depfile;   /* with the rules of all outputs; or NULL */
+    const char *view;      /* a folder for the jobs' pictures and the page that compares them; or NULL */
+    const char *journal;   /* or NULL: where ffd_journal_default_path says */
+    const char *positions; /* the array of the jobs' positions, ends in .npy; or NULL */
+    bool positions_double; /* of float64 numbers, else of float32 */
+    bool shared_box;       /* all meshes have one box */
+    bool force;            /* an existing page or array is replaced */
+    bool stop;             /* at the first failure */
+    bool quiet;            /* only what went wrong */
 } batch_desc;
 
 /* Runs the batch, with messages for people on standard error. Sets *failed if a job failed or was not

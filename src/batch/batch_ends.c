@@ -3,6 +3,7 @@
 #include "batch/batch_run.h"
 #include "batch/task_text.h"
 #include "job/report/report_file.h"
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -20,26 +21,36 @@ void ffd_run_say_error(batch_run *run, const ffd_error *error)
     ffd_progress_print(&run->progress, line);
 }
 
-static void print_plan(const pool_task *task)
+static const row_array *rows_of(const batch_run *run)
+{
+    return run->desc->positions ? &run->rows.array : NULL;
+}
+
+/* rows: of the positions, or NULL. */
+static void print_plan(const pool_task *task, const row_array *rows)
 {
     const batch_job *const job = &task->job;
-    printf("%s %s -> %s\n", task->outcome == OUTCOME_SKIPPED ? "up to date:" : "to do:", job->input,
-           ffd_job_output_name(job));
+    const char *const output = ffd_job_output_name(job);
+    printf("%s %s -> ", task->outcome == OUTCOME_SKIPPED ? "up to date:" : "to do:", job->input);
+    if (output)
+        printf("%s%s", output, rows ? ", " : "\n");
+    if (rows)
+        printf("%s row %" PRIu64 "\n", rows->path, job->row);
 }
 
 /* Where the worker has made no entry of a report, there is one afterwards. */
 static ffd_status complete_entry(const batch_run *run, pool_task *task, ffd_error *error)
 {
     if (!task->entry.size)
-        ffd_task_entry(task, run->desc->pool.stable, &task->entry);
+        ffd_task_entry(task, rows_of(run), run->desc->pool.stable, &task->entry);
     return task->entry.failed ? ffd_fail_memory(error) : FFD_OK;
 }
 
-static ffd_status report_task(batch_run *run, pool_task *task, ffd_error *error)
+static ffd_status report_task(const batch_run *run, ffd_report *report, pool_task *task, ffd_error *error)
 {
     const ffd_status status = complete_entry(run, task, error);
     return status ? status
-                  : ffd_report_add_text(run->report, task->number, task->entry.data, task->entry.size, error);
+                  : ffd_report_add_text(report, task->number, task->entry.data, task->entry.size, error);
 }
 
 static ffd_status show_task(batch_run *run, pool_task *task, ffd_error *error)
@@ -74,7 +85,9 @@ static ffd_status note_end(batch_run *run, pool_task *task, ffd_error *error)
     if (run->journal && task->outcome == OUTCOME_DONE && task->has_record)
         ffd_journal_put(run->journal, &task->target, &task->record, task->figures.data, task->figures.size);
     if (!status && run->report && !ffd_report_is_ordered(run->report))
-        status = report_task(run, task, error);
+        status = report_task(run, run->report, task, error);
+    if (!status && run->rows.report)
+        status = report_task(run, run->rows.report, task, error);
     return status;
 }
 
@@ -102,7 +115,7 @@ ffd_status ffd_run_note_ends(batch_run *run, ffd_error *error)
 static ffd_status tell_task(batch_run *run, pool_task *task, ffd_error *error)
 {
     if (run->desc->pool.dry && task->outcome != OUTCOME_FAILED)
-        print_plan(task);
+        print_plan(task, rows_of(run));
     if (run->depfile && task->rule.size) {
         ffd_depfile_add(run->depfile, &task->rule);
         if (run->box_files.count && ffd_paths_add(&run->outputs, task->job.target, error))
@@ -113,7 +126,8 @@ static ffd_status tell_task(batch_run *run, pool_task *task, ffd_error *error)
         if (status)
             return status;
     }
-    return run->report && ffd_report_is_ordered(run->report) ? report_task(run, task, error) : FFD_OK;
+    return run->report && ffd_report_is_ordered(run->report) ? report_task(run, run->report, task, error)
+                                                             : FFD_OK;
 }
 
 /* Whether something of the jobs is told in their order. */

@@ -30,8 +30,17 @@ static void fail_task(pool_task *task, const ffd_error *error)
 
 static void find_record(batch_run *run, pool_task *task)
 {
-    byte_buffer *const figures = run->report || run->view ? &task->figures : NULL;
+    byte_buffer *const figures = run->report || run->view || run->rows.report ? &task->figures : NULL;
     task->has_record = ffd_journal_find(run->journal, &task->target, &task->record, figures);
+}
+
+/* A job that was not there when they were counted has no row. */
+static void check_row(const batch_run *run, batch_job *job)
+{
+    const row_array *const array = &run->rows.array;
+    if (!job->error.status && run->desc->positions && job->row >= array->rows)
+        ffd_fail_file(&job->error, FFD_E_INVALID, job->input,
+                      "came after the jobs were counted: %s has %" PRIu64 " rows", array->path, array->rows);
 }
 
 static void add_task(batch_run *run, pool_task *task)
@@ -40,13 +49,14 @@ static void add_task(batch_run *run, pool_task *task)
     file_stamp stamp; /* of the mesh, whose path is the first word */
     run->tasks[run->count++] = task;
     task->number = run->jobs++;
+    check_row(run, job);
     if (job->error.status) {
         fail_task(task, &job->error);
         return;
     }
     task->mesh = ffd_hash(job->input, strlen(job->input));
     task->is_large = ffd_file_stamp(job->words.data, &stamp) && stamp.size > MOST_SHARED;
-    task->has_mesh_name = ffd_format_from_name(job->target) != FFD_FORMAT_AUTO;
+    task->has_mesh_name = !job->target || ffd_format_from_name(job->target) != FFD_FORMAT_AUTO;
     task->state = TASK_ORDERED;
     run->waiting++;
 }
@@ -85,8 +95,10 @@ static ffd_status claim_picture(batch_run *run, pool_task *task, ffd_error *erro
 static ffd_status claim_output(batch_run *run, pool_task *task, ffd_error *error)
 {
     batch_job *const job = &task->job;
-    if (ffd_outputs_claim(&run->written, ffd_run_manifest(run), job, &task->target, error))
+    if (job->target && ffd_outputs_claim(&run->written, ffd_run_manifest(run), job, &task->target, error))
         return FFD_E_MEMORY;
+    if (run->desc->positions)
+        task->target = ffd_run_rows_target(&run->rows, job->row, job->target ? &task->target : NULL);
     static const task_state states[] = {
         [OTHERS_NONE] = TASK_WAITS, [OTHERS_KNOWN] = TASK_LOOKED, [OTHERS_BY_MESH] = TASK_NEW};
     task->state = states[ffd_outputs_others(job)];
@@ -236,8 +248,9 @@ static ffd_status open_journal(batch_run *run, ffd_error *error)
 /* No job may write the files of the run itself. */
 static ffd_status claim_own(batch_run *run, ffd_error *error)
 {
-    const char *const own[] = {run->desc->report, run->desc->depfile, run->desc->journal,
-                               run->view ? ffd_run_view_page(run->view) : NULL};
+    const char *const own[] = {run->desc->report,  run->desc->depfile,
+                               run->desc->journal, run->desc->positions,
+                               run->rows.list,     run->view ? ffd_run_view_page(run->view) : NULL};
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < sizeof own / sizeof *own && !status; i++)
         if (own[i] && !ffd_output_is_stream(own[i]))
@@ -253,7 +266,7 @@ static ffd_status open_view(batch_run *run, ffd_error *error)
                                 .name = ffd_jobs_name(run->source),
                                 .shard = desc->jobs.shard,
                                 .shards = desc->jobs.shards,
-                                .force = desc->view_force,
+                                .force = desc->force || desc->jobs.resume,
                                 .dry = desc->pool.dry};
     return ffd_run_view_create(&view, &run->view, error);
 }
@@ -269,6 +282,10 @@ static ffd_status open_all(batch_run *run, ffd_error *error)
         status = ffd_batch_measure(&desc->jobs, &pool, desc->depfile && !pool.dry, &run->box, &run->box_files,
                                    error);
     }
+    if (!status && desc->positions) {
+        ffd_interrupt_watch();
+        status = ffd_run_rows_open(&run->rows, desc, error);
+    }
     if (!status)
         status = ffd_jobs_open(&desc->jobs, &run->source, error);
     if (!status)
@@ -282,8 +299,9 @@ static ffd_status open_all(batch_run *run, ffd_error *error)
         status = ffd_report_create(desc->report, pool.stable, NULL, &run->report, error);
     if (!status)
         status = claim_own(run, error);
-    pool.report = run->report != NULL;
-    pool.entries = run->view != NULL;
+    pool.report = run->report || run->view || run->rows.report;
+    pool.quality = run->report || run->view;
+    pool.rows = desc->positions ? &run->rows.array : NULL;
     pool.depfile = run->depfile != NULL;
     pool.records = run->journal != NULL;
     pool.box = desc->shared_box ? &run->box : NULL;
@@ -364,8 +382,12 @@ ffd_status ffd_batch_run(const batch_desc *desc, bool *failed, ffd_error *error)
         status = run_jobs(&run, error);
         if (status)
             ffd_pool_stop(run.pool);
-        const ffd_status reported = run.report ? ffd_report_write(run.report, status ? NULL : error) : FFD_OK;
-        status = status ? status : reported;
+        ffd_report *const reports[] = {run.report, run.rows.report};
+        for (int i = 0; i < 2; i++) {
+            const ffd_status reported =
+                reports[i] ? ffd_report_write(reports[i], status ? NULL : error) : FFD_OK;
+            status = status ? status : reported;
+        }
         const ffd_status shown = run.view ? ffd_run_view_write(run.view, status ? NULL : error) : FFD_OK;
         status = status ? status : shown;
         if (!status && run.depfile && !run.counts.failed && !run.dropped)
@@ -385,6 +407,7 @@ ffd_status ffd_batch_run(const batch_desc *desc, bool *failed, ffd_error *error)
     ffd_report_destroy(&run.report);
     ffd_depfile_destroy(&run.depfile);
     ffd_run_view_destroy(&run.view);
+    ffd_run_rows_close(&run.rows);
     ffd_journal_close(&run.journal);
     ffd_jobs_close(&run.source);
     ffd_paths_free(&run.box_files);

@@ -9,6 +9,7 @@
 #include "batch/mesh_states.h"
 #include "batch/outputs.h"
 #include "batch/progress.h"
+#include "batch/run_rows.h"
 #include "batch/run_view.h"
 #include "job/report/depfile.h"
 
@@ -24,6 +25,7 @@ typedef struct batch_run {
     ffd_report *report;   /* likewise */
     ffd_depfile *depfile; /* likewise */
     run_view *view;       /* likewise */
+    run_rows rows;        /* likewise */
     shown_box box;        /* of all meshes, where they share one */
     path_list box_files;  /* that it was taken from, where there is a depfile */
     path_list outputs;    /* that depend on these */

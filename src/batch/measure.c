@@ -18,7 +18,11 @@ typedef struct measuring {
     hash128 last; /* what the job before reads, and how */
     bool has_last;
     bool ended, starved; /* the source: has no more jobs; the next one has not come yet */
-    shown_box *box;
+    size_t window;       /* jobs that are known at a time */
+    bool counts;         /* vertices of the first mesh that can be read, and: */
+    bool found;
+    uint64_t vertices;
+    shown_box *box; /* else the box round all of them */
     path_list *files;
 } measuring;
 
@@ -50,7 +54,7 @@ static bool is_new(measuring *m, const batch_job *job)
 static ffd_status read_jobs(measuring *m, ffd_error *error)
 {
     m->starved = false;
-    while (!m->ended && !m->starved && m->count < WINDOW) {
+    while (!m->ended && !m->starved && !m->found && m->count < m->window) {
         line_state state;
         pool_task *const task = ffd_alloc_zero(1, sizeof *task);
         if (!task)
@@ -75,6 +79,11 @@ static ffd_status take_task(measuring *m, const pool_task *task, ffd_error *erro
     ffd_status status = FFD_OK;
     if (task->outcome == OUTCOME_FAILED)
         return FFD_OK;
+    if (m->counts) {
+        m->found = true;
+        m->vertices = task->vertices;
+        return FFD_OK;
+    }
     ffd_shown_box_join(m->box, &task->box);
     for (size_t at = 0; at < task->rule.size && !status; at += strlen(task->rule.data + at) + 1)
         status = ffd_paths_add(m->files, task->rule.data + at, error);
@@ -109,38 +118,58 @@ static ffd_status measure_all(measuring *m, ffd_error *error)
             ffd_pool_wait(m->pool, LOOK);
         if (!status)
             status = take_ended(m, error);
-        if (m->count == 0 && m->ended)
+        if (m->count == 0 && (m->ended || m->found))
             break;
     }
+    return status;
+}
+
+/* Sends the jobs of all shards to the workers that pool describes. */
+static ffd_status measure(measuring *m, const job_source_desc *jobs, pool_desc *pool, const char *option,
+                          ffd_error *error)
+{
+    job_source_desc all = *jobs;
+    const char *const origin = jobs->manifest ? jobs->manifest : jobs->table;
+    if (origin && ffd_file_reads_once(origin))
+        return ffd_fail(error, FFD_E_ARGUMENT,
+                        "%s reads the jobs twice, which neither standard input nor a pipe can be", option);
+    all.shard = 0;
+    all.shards = 1;
+    ffd_status status = ffd_jobs_open(&all, &m->source, error);
+    pool->origin = status ? NULL : ffd_jobs_name(m->source);
+    if (!status)
+        status = ffd_pool_create(pool, &m->pool, error);
+    if (!status)
+        status = measure_all(m, error);
+    if (m->pool)
+        ffd_pool_stop(m->pool);
+    for (size_t i = 0; i < m->count; i++)
+        ffd_task_free(m->tasks[i]);
+    ffd_pool_destroy(&m->pool);
+    ffd_jobs_close(&m->source);
     return status;
 }
 
 ffd_status ffd_batch_measure(const job_source_desc *jobs, const pool_desc *pool, bool wants_files,
                              shown_box *box, path_list *files, ffd_error *error)
 {
-    measuring m = {.box = box, .files = files};
-    job_source_desc all = *jobs;
+    measuring m = {.window = WINDOW, .box = box, .files = files};
     pool_desc measurers = *pool;
-    const char *const origin = jobs->manifest ? jobs->manifest : jobs->table;
-    ffd_shown_box_clear(box);
-    if (origin && ffd_file_is_stream(origin))
-        return ffd_fail(error, FFD_E_ARGUMENT,
-                        "--shared-box reads the jobs twice, which standard input cannot be");
-    all.shard = 0;
-    all.shards = 1;
     measurers.measure = true;
     measurers.depfile = wants_files;
-    ffd_status status = ffd_jobs_open(&all, &m.source, error);
-    measurers.origin = status ? NULL : ffd_jobs_name(m.source);
-    if (!status)
-        status = ffd_pool_create(&measurers, &m.pool, error);
-    if (!status)
-        status = measure_all(&m, error);
-    if (m.pool)
-        ffd_pool_stop(m.pool);
-    for (size_t i = 0; i < m.count; i++)
-        ffd_task_free(m.tasks[i]);
-    ffd_pool_destroy(&m.pool);
-    ffd_jobs_close(&m.source);
+    ffd_shown_box_clear(box);
+    return measure(&m, jobs, &measurers, "--shared-box", error);
+}
+
+ffd_status ffd_batch_count_vertices(const job_source_desc *jobs, const pool_desc *pool, uint64_t *vertices,
+                                    bool *found, ffd_error *error)
+{
+    measuring m = {.window = 1, .counts = true}; /* one after the other: the first one counts */
+    pool_desc counters = *pool;
+    counters.workers = 1;
+    counters.count = true;
+    const ffd_status status = measure(&m, jobs, &counters, "--positions", error);
+    *vertices = m.vertices;
+    *found = m.found;
     return status;
 }

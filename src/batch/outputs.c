@@ -31,7 +31,7 @@ static output_kind kind_of(const batch_job *job)
 {
     const char *const input = job->words.data;
     const ffd_format from = format_of(job, "input-format", input);
-    const ffd_format to = format_of(job, "output-format", job->target);
+    const ffd_format to = job->target ? format_of(job, "output-format", job->target) : FFD_FORMAT_AUTO;
     const mesh_format *const format = ffd_format_table(to);
     return (output_kind){input, from, to, format, format == ffd_format_table(from)};
 }
@@ -109,7 +109,8 @@ static void refuse(const char *manifest, batch_job *job, const char *file, uint6
         snprintf(what, sizeof what, "\"%.400s\" is written by the job of line %" PRIu64 " too", file, line);
     else
         snprintf(what, sizeof what,
-                 "\"%.400s\" is the report, the depfile, the journal or the index of this run", file);
+                 "\"%.400s\" is the report, the depfile, the journal, the index or the array of this run",
+                 file);
     if (manifest)
         ffd_fail_line(&job->error, FFD_E_INVALID, manifest, (size_t)job->line, "%s", what);
     else

@@ -77,8 +77,9 @@ static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_t
     ffd_buffer_append(&text, job->content.data, job->content.size);
     append_word(&text, pool->desc.origin);
     append_word(&text, job->input);
-    append_word(&text, ffd_job_output_name(job));
+    append_word(&text, ffd_job_output_name(job) ? ffd_job_output_name(job) : "");
     append_word(&text, task->picture ? task->picture : "");
+    append_word(&text, desc->rows ? desc->rows->path : "");
     head.line = job->line;
     head.text_size = text.size - sizeof head;
     head.word_count = (uint32_t)job->word_count;
@@ -91,11 +92,20 @@ static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_t
     head.dry = desc->dry;
     head.rehearse = desc->dry && !pool->rehearsed;
     head.depfile = desc->depfile;
-    head.report = desc->report || desc->entries;
+    head.report = desc->report;
+    head.quality = desc->quality;
     head.stable = desc->stable;
     head.quiet = desc->quiet;
     head.verbose = desc->verbose;
     head.measure = desc->measure;
+    head.count = desc->count;
+    head.has_row = desc->rows != NULL;
+    if (desc->rows) {
+        head.row = job->row;
+        head.rows = desc->rows->rows;
+        head.vertices = desc->rows->vertices;
+        head.is_double = desc->rows->is_double;
+    }
     head.look = task->looks;
     head.has_box = desc->box != NULL;
     if (desc->box)
@@ -256,6 +266,7 @@ static bool take_answer(worker_pool *pool, pool_worker *worker)
         ffd_fail_file(&task->failure, FFD_E_MEMORY, task->job.input, "out of memory");
     task->record = head.record;
     task->box = head.box;
+    task->vertices = head.vertices;
     task->mesh_state = head.state;
     task->has_mesh_state = head.has_state;
     pool->counts.jobs.reads += head.counts.reads;

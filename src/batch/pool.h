@@ -3,6 +3,7 @@
 #define FFD_BATCH_POOL_H
 
 #include "batch/manifest/job_words.h"
+#include "batch/row_array.h"
 #include "batch/wire.h"
 
 typedef struct pool_desc {
@@ -10,9 +11,10 @@ typedef struct pool_desc {
     int threads;        /* of a job; 0: what the others leave it */
     double timeout;     /* seconds that a job may take; 0: any */
     const char *origin; /* the name of the manifest, for messages */
-    bool records, resume, dry, depfile, report, stable, quiet, verbose, measure; /* as in wire_task */
-    bool entries;         /* of a report are wanted, with the figures of quality */
-    const shown_box *box; /* that all jobs share, or NULL */
+    bool records, resume, dry, depfile, report, quality, stable, quiet, verbose, measure, count; /* as in
+                                                                                                  wire_task */
+    const row_array *rows; /* of the jobs' positions, or NULL */
+    const shown_box *box;  /* that all jobs share, or NULL */
 } pool_desc;
 
 typedef enum task_state {
@@ -52,6 +54,7 @@ typedef struct pool_task {
     byte_buffer log;    /* lines for people */
     byte_buffer rule;   /* of the depfile; or the files of a measured mesh */
     shown_box box;      /* of a measured mesh */
+    uint64_t vertices;  /* of a mesh whose vertices were to be counted */
     byte_buffer entry;  /* of the report; empty where no worker has made it */
     ffd_error failure;  /* of a job whose worker ended, or that was not valid from the start */
 } pool_task;

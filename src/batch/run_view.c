@@ -106,9 +106,19 @@ static char *name_picture(const char *out_dir, const char *output)
     return text;
 }
 
+/* The same of a job that has a row of positions and no output. */
+static char *name_picture_of_row(uint64_t row)
+{
+    byte_buffer name = {0};
+    ffd_buffer_format(&name, "row-%" PRIu64 ".png", row);
+    return ffd_buffer_finish(&name);
+}
+
 ffd_status ffd_run_view_name(const run_view *view, pool_task *task, hash128 *file, ffd_error *error)
 {
-    char *const name = name_picture(view->desc.out_dir, task->job.output);
+    const batch_job *const job = &task->job;
+    char *const name =
+        job->output ? name_picture(view->desc.out_dir, job->output) : name_picture_of_row(job->row);
     char *const whole = name ? ffd_path_join(view->resolved, name) : NULL;
     task->picture = name ? ffd_path_join(view->desc.folder, name) : NULL;
     if (whole) /* the same before and after folders below this one are made */

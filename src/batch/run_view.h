@@ -21,8 +21,9 @@ typedef struct run_view run_view;
 ffd_status ffd_run_view_create(const run_view_desc *desc, run_view **view, ffd_error *error);
 /* Returns the path of the page. */
 const char *ffd_run_view_page(const run_view *view);
-/* Names the picture of a job that has an output, and gives its identity: the path of OUT, as the job names
-   it, below the folder, and ".png". What leads up or to a root is left out. Errors: FFD_E_MEMORY. */
+/* Names the picture of a job, and gives its identity: the path of OUT, as the job names it, below the folder,
+   and ".png", without what leads up or to a root; or "row-ROW.png" where no mesh is written. Errors:
+   FFD_E_MEMORY. */
 ffd_status ffd_run_view_name(const run_view *view, pool_task *task, hash128 *file, ffd_error *error);
 /* Adds a job that has ended, with its entry of a report, to the page. Jobs are added in their order. */
 ffd_status ffd_run_view_add(run_view *view, const pool_task *task, const byte_buffer *entry,

@@ -65,7 +65,7 @@ void ffd_task_lines(const pool_task *task, const char *manifest, byte_buffer *te
     ffd_buffer_free(&lead);
 }
 
-void ffd_task_entry(const pool_task *task, bool stable, byte_buffer *text)
+void ffd_task_entry(const pool_task *task, const row_array *rows, bool stable, byte_buffer *text)
 {
     const batch_job *const job = &task->job;
     ffd_job_result result;
@@ -79,6 +79,8 @@ void ffd_task_entry(const pool_task *task, bool stable, byte_buffer *text)
     const report_entry entry = {.line = job->line,
                                 .input = job->input,
                                 .output = ffd_job_output_name(job),
+                                .positions = rows ? rows->path : NULL,
+                                .row = job->row,
                                 .set = set.failed ? NULL : set.data,
                                 .result = &result,
                                 .figures = skipped && task->figures.size ? task->figures.data : NULL,

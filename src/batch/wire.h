@@ -18,11 +18,13 @@ typedef struct job_record {
 } job_record;
 
 /* To a worker: a task, followed by its texts, each ended by 0: words, content, the name of the manifest,
-   the names of input and output, and the path of the picture (empty: none). */
+   the names of input and output (empty: no mesh is written), the paths of the picture and of the array of
+   positions (empty: none). */
 typedef struct wire_task {
     uint64_t line;     /* of the job */
     job_record record; /* of the last time, where has_record */
     uint64_t text_size;
+    uint64_t row, rows, vertices; /* of the array of positions, where has_row */
     uint32_t word_count, content_words;
     int32_t threads;
     bool has_record;
@@ -31,12 +33,15 @@ typedef struct wire_task {
     bool dry;      /* nothing is to be written */
     bool rehearse; /* of a dry run: all is to be done but the writing */
     bool depfile;  /* the rule of a depfile is wanted */
-    bool report;   /* the entry of a report is wanted */
+    bool report;   /* the entry of a report is wanted; */
+    bool quality;  /* with the figures of quality */
     bool stable;   /* without times */
     bool quiet;    /* no warnings */
     bool verbose;  /* what else there is to say */
     bool measure;  /* only the box of the mesh is wanted, and its files where depfile is set */
-    bool look;     /* what is written beside the output and may be copied with it is wanted first */
+    bool count;    /* only the number of the mesh's vertices is wanted */
+    bool has_row, is_double;
+    bool look; /* what is written beside the output and may be copied with it is wanted first */
     bool has_box;
     shown_box box; /* that all jobs share, where has_box */
 } wire_task;
@@ -54,6 +59,7 @@ typedef struct wire_answer {
     hash128 state;       /* of the files of the mesh, where has_state (job_cache.h) */
     share_counts counts; /* of this job */
     shown_box box;       /* of a measured mesh */
+    uint64_t vertices;   /* of a mesh whose vertices were to be counted */
     uint64_t beside;     /* files beside the output, of a look */
     uint8_t outcome;
     bool has_record, has_state;

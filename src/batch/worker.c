@@ -7,13 +7,16 @@
 #include "batch/fingerprint.h"
 #include "batch/job_picture.h"
 #include "batch/manifest/settings.h"
+#include "batch/row_array.h"
 #include "batch/wire.h"
 #include "job/chain/chain_load.h"
 #include "job/chain/job_cache.h"
 #include "job/input/shown_box.h"
+#include "job/input/source.h"
 #include "job/judge/result.h"
 #include "job/report/depfile.h"
 #include "job/report/report.h"
+#include <inttypes.h>
 #include <string.h>
 
 typedef struct batch_worker {
@@ -108,11 +111,47 @@ static void log_error(batch_worker *worker, const ffd_error *error)
     add_line(&worker->log, "", line);
 }
 
-/* Whether the output is there, and what it would become. */
-static bool is_up_to_date(const wire_task *task, const ffd_deform_desc *desc, wire_answer *answer)
+/* The row that a job's positions go to. */
+typedef struct job_row {
+    row_array array;
+    uint64_t number;
+    bool dry;          /* nothing is to be written */
+    bool is_written;   /* it was */
+    ffd_error failure; /* why it was not */
+} job_row;
+
+/* Takes the positions of a job (ffd_deform_desc). */
+static ffd_status take_positions(void *user, const double *positions, size_t count)
+{
+    job_row *const row = user;
+    row->is_written = !row->dry;
+    return row->dry ? ffd_row_check(&row->array, positions, count, &row->failure)
+                    : ffd_row_write(&row->array, row->number, positions, count, &row->failure);
+}
+
+/* Hashes all that the job has made: the output, whose hash is known or else read (NULL), and the row. */
+static bool hash_results(const ffd_deform_desc *desc, const hash128 *known, const job_row *row, hash128 *hash)
+{
+    hash128 parts[2];
+    size_t count = 0;
+    if (known)
+        parts[count++] = *known;
+    else if (desc->output || desc->in_place) {
+        if (ffd_fingerprint_output(desc, &parts[count++], NULL))
+            return false;
+    }
+    if (row && ffd_row_hash(&row->array, row->number, &parts[count++], NULL))
+        return false;
+    *hash = count == 1 ? parts[0] : ffd_hash(parts, count * sizeof *parts);
+    return true;
+}
+
+/* Whether what the job makes is there, and what it would become. */
+static bool is_up_to_date(const wire_task *task, const ffd_deform_desc *desc, const job_row *row,
+                          wire_answer *answer)
 {
     return task->resume && task->has_record && ffd_hash_equal(&answer->record.inputs, &task->record.inputs) &&
-           ffd_fingerprint_output(desc, &answer->record.outputs, NULL) == FFD_OK &&
+           hash_results(desc, NULL, row, &answer->record.outputs) &&
            ffd_hash_equal(&answer->record.outputs, &task->record.outputs);
 }
 
@@ -155,7 +194,7 @@ static ffd_status plan(const ffd_deform_desc *desc, ffd_error *error)
                                .set_count = desc->set_count,
                                .mesh = &desc->input};
     const ffd_status status =
-        desc->in_place ? FFD_OK : ffd_output_check(desc->output, desc->force || desc->if_changed, error);
+        desc->output ? ffd_output_check(desc->output, desc->force || desc->if_changed, error) : FFD_OK;
     return status ? status : ffd_chain_check(&files, error);
 }
 
@@ -178,17 +217,17 @@ static ffd_status draw(const char *picture, bool is_all, const ffd_deform_desc *
     return result->status;
 }
 
-/* What the output is, which was just written: read again where its bytes were not hashed on their way. A job
-   that went on after a look copies nothing. */
-static bool know_output(batch_worker *worker, const wire_task *task, const ffd_deform_desc *desc,
-                        hash128 *output)
+/* What was just written: the output is read again where its bytes were not hashed on their way. A job that
+   went on after a look copies nothing. */
+static bool know_results(batch_worker *worker, const wire_task *task, const ffd_deform_desc *desc,
+                         const job_row *row, hash128 *results)
 {
     hash128 bytes;
-    if (!ffd_cache_find_output(worker->share, &bytes) ||
+    if (!desc->output || !ffd_cache_find_output(worker->share, &bytes) ||
         (!task->look && ffd_fingerprint_has_copies(desc, &worker->hashes)))
-        return ffd_fingerprint_output(desc, output, NULL) == FFD_OK;
-    *output = ffd_fingerprint_written(&bytes);
-    return true;
+        return hash_results(desc, NULL, row, results);
+    const hash128 output = ffd_fingerprint_written(&bytes);
+    return hash_results(desc, &output, row, results);
 }
 
 /* Deforms, and takes note of what that cost. */
@@ -204,31 +243,50 @@ static ffd_status make_output(batch_worker *worker, const wire_task *task, ffd_d
     return status;
 }
 
-/* Refuses a picture that may not be replaced, before anything is written. */
-static ffd_status check(const wire_task *task, const char *picture, ffd_deform_desc *desc, ffd_error *error)
+/* Refuses a picture or a row that may not be replaced, before anything is written. */
+static ffd_status check(const wire_task *task, const char *picture, const job_row *row, ffd_deform_desc *desc,
+                        ffd_error *error)
 {
     /* This run may replace what an earlier one left. */
     desc->force = desc->force || task->resume;
-    return picture ? ffd_job_picture_check(picture, desc->force || desc->if_changed, error) : FFD_OK;
+    const bool replaces = desc->force || desc->if_changed;
+    if (row && !replaces && ffd_row_is_done(&row->array, row->number))
+        return ffd_fail_file(error, FFD_E_EXISTS, row->array.path,
+                             "row %" PRIu64 " is there already (--force replaces it, --resume goes on)",
+                             row->number);
+    return picture ? ffd_job_picture_check(picture, replaces, error) : FFD_OK;
+}
+
+/* What went wrong with a row is said as it is; and a job that fails leaves none. */
+static ffd_status judge_row(job_row *row, ffd_status status, ffd_error *error)
+{
+    if (!row || !status)
+        return status;
+    if (row->failure.status)
+        *error = row->failure;
+    if (row->is_written)
+        ffd_row_clear(&row->array, row->number);
+    return error->status;
 }
 
 /* Deforms, or sees that it need not; and draws the picture (NULL: none is wanted). */
-static ffd_status do_job(batch_worker *worker, const wire_task *task, const char *picture,
+static ffd_status do_job(batch_worker *worker, const wire_task *task, const char *picture, job_row *row,
                          ffd_deform_desc *desc, wire_answer *answer, ffd_job_result *result)
 {
-    const bool has_output = is_up_to_date(task, desc, answer);
-    answer->has_picture = has_output && picture && ffd_job_picture_is_current(picture, desc->output);
+    const bool has_output = is_up_to_date(task, desc, row, answer);
+    answer->has_picture =
+        has_output && picture && desc->output && ffd_job_picture_is_current(picture, desc->output);
     if (has_output && (!picture || answer->has_picture)) {
         answer->outcome = OUTCOME_SKIPPED;
         return FFD_OK;
     }
-    ffd_status status = check(task, picture, desc, &result->error);
+    ffd_status status = check(task, picture, row, desc, &result->error);
     if (status || (task->dry && (has_output || !task->rehearse)))
         return status ? status : plan(desc, &result->error);
     desc->dry_run = task->dry;
     answer->rehearsed = task->dry;
     if (!has_output)
-        status = make_output(worker, task, desc, answer, result);
+        status = judge_row(row, make_output(worker, task, desc, answer, result), &result->error);
     if (task->dry)
         return status;
     if (picture && (status == FFD_OK || status == FFD_E_GATE))
@@ -236,7 +294,7 @@ static ffd_status do_job(batch_worker *worker, const wire_task *task, const char
     /* What was written exists: a signal that ends the worker now is seen first. */
     ffd_process_defer_stop(true);
     if (!status && task->records)
-        answer->has_record = has_output || know_output(worker, task, desc, &answer->record.outputs);
+        answer->has_record = has_output || know_results(worker, task, desc, row, &answer->record.outputs);
     return status;
 }
 
@@ -263,6 +321,19 @@ static ffd_status measure(batch_worker *worker, const wire_task *task, const ffd
     return status;
 }
 
+/* Counts the vertices that a row of the job would have. */
+static ffd_status count_vertices(const wire_task *task, const ffd_deform_desc *desc, wire_answer *answer,
+                                 ffd_error *error)
+{
+    mesh_document *document = NULL;
+    ffd_source source = desc->input;
+    source.only_positions = true;
+    const ffd_status status = ffd_source_open(&source, task->threads, &document, error);
+    answer->vertices = status ? 0 : ffd_mesh_vertex_count(document);
+    ffd_source_close(&document);
+    return status;
+}
+
 /* Looks at the mesh for what the job writes beside its output and copies with it. If there is such a file,
    answer->looked is set. What cannot be read fails the job itself. */
 static ffd_status look(batch_worker *worker, const ffd_deform_desc *desc, wire_answer *answer,
@@ -283,7 +354,7 @@ static ffd_status look(batch_worker *worker, const ffd_deform_desc *desc, wire_a
 
 /* Does all that is wanted of a job. */
 static ffd_status do_task(batch_worker *worker, const wire_task *task, const fingerprint_words *words,
-                          const char *picture, ffd_deform_desc *desc, wire_answer *answer,
+                          const char *picture, job_row *row, ffd_deform_desc *desc, wire_answer *answer,
                           ffd_job_result *result)
 {
     const ffd_shared_box shared = {.box = task->box};
@@ -292,6 +363,8 @@ static ffd_status do_task(batch_worker *worker, const wire_task *task, const fin
     ffd_status status = task->look ? look(worker, desc, answer, &result->error) : FFD_OK;
     if (status || answer->looked)
         return status;
+    if (task->count)
+        return count_vertices(task, desc, answer, &result->error);
     if (desc->in_place && !task->dry)
         status = ffd_restore_output(desc->input.path, &result->error);
     if (!status && task->measure)
@@ -301,7 +374,7 @@ static ffd_status do_task(batch_worker *worker, const wire_task *task, const fin
         status = look_at_files(worker, task, words, desc, answer, &result->error);
     status = ffd_mapping_judge(losses, status, &result->error);
     if (!status)
-        status = do_job(worker, task, *picture ? picture : NULL, desc, answer, result);
+        status = do_job(worker, task, *picture ? picture : NULL, row, desc, answer, result);
     return status;
 }
 
@@ -315,19 +388,26 @@ static ffd_status run_words(batch_worker *worker, const wire_task *task, wire_an
     const char *origin = word;
     for (uint32_t i = 0; i < task->content_words; i++)
         origin = next_word(origin);
+    const char *const output = next_word(next_word(origin)), *const picture = next_word(output);
+    job_row row = {.array = {next_word(picture), task->rows, task->vertices, task->is_double},
+                   .number = task->row,
+                   .dry = task->dry};
     ffd_deform_desc desc;
-    worker->opened = worker->program->open((int)task->word_count, worker->words, &desc, &result->error);
+    worker->opened =
+        worker->program->open((int)task->word_count, worker->words, *output != 0, &desc, &result->error);
     if (!worker->opened)
         return blame_manifest(origin, task, &result->error);
     job_log log = {&worker->log, desc.input.path, task->quiet, task->verbose};
     desc.log = log_line;
     desc.log_user = &log;
-    desc.quality = task->report;
+    desc.quality = task->quality;
+    desc.positions = task->has_row ? take_positions : NULL;
+    desc.positions_user = &row;
     desc.share = worker->share;
     if (desc.threads == 0)
         desc.threads = task->threads;
-    const char *const picture = next_word(next_word(next_word(origin)));
-    const ffd_status status = do_task(worker, task, &words, picture, &desc, answer, result);
+    const ffd_status status =
+        do_task(worker, task, &words, picture, task->has_row ? &row : NULL, &desc, answer, result);
     if (status)
         worker->rule.size = 0;
     if (status && status != FFD_E_ARGUMENT)
@@ -345,7 +425,9 @@ static void make_entry(batch_worker *worker, const wire_task *task, const wire_a
     ffd_settings_json(words, task->word_count, &set);
     const report_entry entry = {.line = task->line,
                                 .input = name,
-                                .output = next_word(name),
+                                .output = *next_word(name) ? next_word(name) : NULL,
+                                .positions = task->has_row ? next_word(next_word(next_word(name))) : NULL,
+                                .row = task->row,
                                 .set = set.failed ? NULL : set.data,
                                 .result = result,
                                 .planned = task->dry && !answer->rehearsed && !result->status,
@@ -362,7 +444,7 @@ static void answer_task(batch_worker *worker, const wire_task *task, wire_answer
     result.status = run_words(worker, task, answer, &result);
     if (result.status) {
         answer->outcome = OUTCOME_FAILED;
-        if (!task->measure) /* the job itself will say it */
+        if (!task->measure && !task->count) /* the job itself will say it */
             log_error(worker, &result.error);
     }
     /* One that has run out of memory may do so again, with any job. */

@@ -6,9 +6,9 @@
 
 /* What the program makes of a job's words. */
 typedef struct worker_program {
-    /* Fills desc from the words of `ffd deform`, count of them; what it lends is freed by close. NULL after a
-       failure, which is said in error. */
-    void *(*open)(int count, char **words, ffd_deform_desc *desc, ffd_error *error);
+    /* Fills desc from the words of `ffd deform`, count of them, without OUT where no mesh is written; what it
+       lends is freed by close. NULL after a failure, which is said in error. */
+    void *(*open)(int count, char **words, bool has_output, ffd_deform_desc *desc, ffd_error *error);
     void (*close)(void *opened);
 } worker_program;
 

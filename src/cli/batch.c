@@ -1,6 +1,7 @@
 /* batch.c - ffd batch: many jobs, from a manifest, a table or a pattern. */
 #include "batch/batch.h"
 #include "base/file/folder.h"
+#include "base/file/path.h"
 #include "cli/command.h"
 #include "cli/deform.h"
 #include <errno.h>
@@ -9,7 +10,8 @@
 
 typedef struct settings {
     cli_deform_settings jobs; /* what the options that each job can have are checked with */
-    const char *journal, *table, *ignored, *pattern, *view;
+    const char *journal, *table, *ignored, *pattern, *view, *positions;
+    int type; /* of the positions' numbers, by type_names; negative: not given */
     int at_once;
     uint64_t shard, shards;
     double timeout;
@@ -39,6 +41,8 @@ static bool set_shard(void *context, const cli_option *option, const char *value
     return true;
 }
 
+static const char *const type_names[] = {"f4", "f8", NULL};
+
 #define AT(field) offsetof(settings, field)
 static const cli_option own_options[] = {
     {"jobs", 'j', "N", "jobs at the same time; default one per processor", cli_set_count, AT(at_once), NULL},
@@ -60,6 +64,13 @@ static const cli_option own_options[] = {
     {"view", 0, "DIR",
      "draw each job before and after into this folder, and an index.html that compares them", cli_set_text,
      AT(view), NULL},
+    {"positions", 0, "ALL.npy",
+     "write the deformed positions of all jobs into one array, jobs x vertices x 3, and ALL.json; no meshes "
+     "but "
+     "those of jobs with \"out\"",
+     cli_set_text, AT(positions), NULL},
+    {"dtype", 0, "f4|f8", "numbers of --positions: float32 or float64; default f4", cli_set_choice, AT(type),
+     type_names},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
 
@@ -90,6 +101,27 @@ static bool note_default(void *context, const cli_option *option, const char *va
     return true;
 }
 
+/* What is wrong with the array of positions. */
+static const char *wrong_positions(const settings *s, const cli_words *words)
+{
+    const cli_deform_settings *jobs = &s->jobs;
+    if (!s->positions)
+        return s->type >= 0 ? "--dtype needs --positions" : NULL;
+    if (cli_is_stream(s->positions))
+        return "--positions needs the name of a file: its rows are written as the jobs come";
+    if (!ffd_path_has_ending(s->positions, ".npy"))
+        return "--positions needs a name that ends in .npy";
+    if (jobs->in_place)
+        return "--in-place cannot be used with --positions";
+    if (jobs->job.morph_count > 0)
+        return "--morph cannot be used with --positions: a row is of one deformation";
+    if (jobs->depfile_path)
+        return "--depfile cannot be used with --positions: it is of meshes";
+    if (words->count && cli_is_stream(words->words[0]))
+        return "--positions reads the jobs twice, which standard input cannot be";
+    return NULL;
+}
+
 static const char *wrong(const settings *s, const cli_words *words)
 {
     const cli_deform_settings *jobs = &s->jobs;
@@ -106,14 +138,14 @@ static const char *wrong(const settings *s, const cli_words *words)
         return "--in needs a lattice (-l FILE)";
     if (jobs->job.morph_count > 0 && jobs->job.lattice_count > jobs->job.morph_count)
         return "-l cannot be used with --morph: each --morph names its own lattice";
-    if (!manifest && !s->table && !jobs->out_dir && !jobs->in_place)
-        return "--in needs --out-dir or --in-place";
+    if (!manifest && !s->table && !jobs->out_dir && !jobs->in_place && !s->positions)
+        return "--in needs --out-dir, --in-place or --positions";
     if (jobs->in_place && jobs->out_dir)
         return "--in-place and --out-dir cannot be used together";
     if (s->stop && s->keep_going)
         return "--stop and --keep-going cannot be used together";
-    if (jobs->job.stable && !jobs->job.report)
-        return "--report-stable needs --report";
+    if (jobs->job.stable && !jobs->job.report && !s->positions)
+        return "--report-stable needs --report or --positions";
     if (s->resume && jobs->in_place)
         return "--in-place cannot be used with --resume: a finished mesh would be deformed again";
     if (s->view && jobs->in_place)
@@ -125,7 +157,7 @@ static const char *wrong(const settings *s, const cli_words *words)
     if (manifest && jobs->job.report && ffd_paths_meet(jobs->job.report, words->words[0]) &&
         !cli_is_stream(jobs->job.report))
         return "the report would replace the manifest";
-    return NULL;
+    return wrong_positions(s, words);
 }
 
 static int run_batch(const settings *s, const cli_words *words)
@@ -143,6 +175,7 @@ static int run_batch(const settings *s, const cli_words *words)
                                       .default_count = s->default_count,
                                       .resume = s->resume,
                                       .pictures = s->view != NULL,
+                                      .positions = s->positions != NULL,
                                       .strict = job->strict,
                                       .shard = s->shard,
                                       .shards = s->shards ? s->shards : 1},
@@ -158,7 +191,9 @@ static int run_batch(const settings *s, const cli_words *words)
                              .depfile = s->jobs.depfile_path,
                              .journal = s->journal,
                              .view = s->view,
-                             .view_force = s->jobs.force || s->jobs.if_changed || s->resume,
+                             .positions = s->positions,
+                             .positions_double = s->type > 0,
+                             .force = s->jobs.force || s->jobs.if_changed,
                              .shared_box = job->shares_box,
                              .stop = s->stop,
                              .quiet = job->logging.quiet};
@@ -171,7 +206,7 @@ static int run_batch(const settings *s, const cli_words *words)
 
 static int run(const cli_command *command, int count, char **arguments)
 {
-    settings s = {0};
+    settings s = {.type = -1};
     cli_words words;
     int code = EXIT_USAGE;
     if (cli_job_begin(command, &s.jobs.job, count, arguments, &words, &code)) {

@@ -148,7 +148,7 @@ static bool has_many(const settings *s)
 
 static const char *wrong_words(const settings *s, const cli_words *words)
 {
-    if (has_many(s))
+    if (has_many(s) || s->no_output)
         return words->count < 1 ? "needs at least one IN" : NULL;
     if (words->count < 2)
         return words->count ? "needs an OUT (or --out-dir, --in-place)" : "needs IN and OUT";
@@ -276,7 +276,7 @@ typedef struct batch_opened {
     cli_words words;
 } batch_opened;
 
-void *cli_deform_open(int count, char **words, ffd_deform_desc *desc, ffd_error *error)
+void *cli_deform_open(int count, char **words, bool has_output, ffd_deform_desc *desc, ffd_error *error)
 {
     char complaint[512] = "out of memory";
     batch_opened *opened = calloc(1, sizeof *opened);
@@ -284,8 +284,10 @@ void *cli_deform_open(int count, char **words, ffd_deform_desc *desc, ffd_error 
     settings *s = opened ? &opened->settings : NULL;
     cli_capture(complaint, sizeof complaint);
     const bool begun = s && cli_job_begin(&cli_deform, &s->job, count, words, &opened->words, &code);
-    if (begun)
+    if (begun) {
+        s->no_output = !has_output;
         code = refuse(&cli_deform, s, &opened->words, 1);
+    }
     cli_capture(NULL, 0);
     if (!begun || code) {
         if (begun)

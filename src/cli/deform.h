@@ -14,13 +14,14 @@ typedef struct cli_deform_settings {
     int resources;
     ffd_format output_format;
     bool force, if_changed, in_place;
+    bool no_output; /* of a job of a batch: no mesh is written, only positions */
 } cli_deform_settings;
 
 /* The options of ffd deform alone; the others are cli_job_options. */
 extern const cli_option cli_deform_options[];
 
 /* The members of a worker_program (batch/worker.h). */
-void *cli_deform_open(int count, char **words, ffd_deform_desc *desc, ffd_error *error);
+void *cli_deform_open(int count, char **words, bool has_output, ffd_deform_desc *desc, ffd_error *error);
 /* Frees what cli_deform_open has returned. */
 void cli_deform_close(void *opened);
 

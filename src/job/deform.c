@@ -22,6 +22,23 @@ static ffd_status restore_output(const ffd_deform_desc *desc, ffd_error *error)
     return path && !ffd_output_is_stream(path) ? ffd_restore_output(path, error) : FFD_OK;
 }
 
+/* Whether a mesh is written: else only the positions are wanted. */
+static bool has_output(const ffd_deform_desc *desc)
+{
+    return desc->in_place || desc->output || !desc->positions;
+}
+
+/* What a job without an output cannot have. */
+static ffd_status check_no_output(const ffd_deform_desc *desc, ffd_error *error)
+{
+    const char *const what = desc->as_morph                           ? "--as-morph"
+                             : desc->depfile                          ? "--depfile"
+                             : desc->output_format != FFD_FORMAT_AUTO ? "--output-format"
+                                                                      : NULL;
+    return what ? ffd_fail(error, FFD_E_ARGUMENT, "%s needs an output: only positions are asked for", what)
+                : FFD_OK;
+}
+
 /* Where the result goes: path, format and whether it may replace a file. */
 static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options *options, ffd_error *error)
 {
@@ -31,6 +48,10 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
                                    .force = desc->force || desc->if_changed,
                                    .resources = desc->resources,
                                    .input = input};
+    if (!has_output(desc)) {
+        const ffd_status status = check_no_output(desc, error);
+        return status ? status : ffd_source_format(&desc->input, &options->format, error);
+    }
     if (desc->depfile && (desc->in_place || (desc->output && ffd_output_is_stream(desc->output))))
         return ffd_fail(error, FFD_E_ARGUMENT, "--depfile needs a file name as OUT");
     if (desc->in_place) {
@@ -270,8 +291,10 @@ static ffd_status run(deform_job *job, ffd_job_result *result, ffd_error *error)
     if (!status)
         status =
             job->desc->morphs ? ffd_morphs_run(job, result, error) : ffd_deform_job_run(job, result, error);
-    if (status || job->desc->dry_run)
-        return status ? status : rehearse(job, &options, error);
+    if (status || !has_output(job->desc))
+        return status;
+    if (job->desc->dry_run)
+        return rehearse(job, &options, error);
     const double start = ffd_clock_seconds();
     options.indices_left = &result->indices_left;
     options.bytes_left = &result->bytes_left;
@@ -294,9 +317,11 @@ static ffd_status run_job(const ffd_deform_desc *desc, ffd_job_result *result, f
 static ffd_status deform(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
 {
     ffd_share *share = NULL;
-    if (!desc->morphs || ffd_cache_holds_meshes(desc->share))
-        return run_job(desc, result, error);
     ffd_deform_desc own = *desc;
+    if (!has_output(desc)) /* nobody sees the normals */
+        own.normals = FFD_NORMALS_KEEP;
+    if (!desc->morphs || ffd_cache_holds_meshes(desc->share))
+        return run_job(&own, result, error);
     if (ffd_cache_create_for_job(&share, error)) {
         ffd_result_clear(result);
         return result->status = ffd_fail_memory(&result->error);

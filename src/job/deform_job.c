@@ -56,6 +56,8 @@ static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
         return ffd_fail(error, FFD_E_ARGUMENT, "the snap %g is not a length", desc->snap);
     if (desc->falloff > 0 && desc->outside != FFD_OUTSIDE_EXTEND)
         return ffd_fail(error, FFD_E_ARGUMENT, "--falloff needs --outside extend");
+    if (desc->positions && desc->morphs)
+        return ffd_fail(error, FFD_E_ARGUMENT, "several morph targets (--morph) have no positions in common");
     if (desc->rig == FFD_RIG_FOLLOW &&
         (desc->as_morph || desc->morphs || desc->input.space == FFD_SPACE_MESH))
         return ffd_fail(error, FFD_E_ARGUMENT, "--rig follow cannot be used with %s",
@@ -251,6 +253,20 @@ static ffd_status check_unknown(const deform_job *job, ffd_error *error)
                          unknown, unknown == 1 ? "primitive are" : "primitives are");
 }
 
+/* Makes the array of the positions that the caller asks for. */
+static ffd_status prepare_positions(deform_job *job, memory_budget *budget, ffd_error *error)
+{
+    const uint64_t count = ffd_mesh_vertex_count(job->document);
+    const size_t bytes = 3 * sizeof *job->positions;
+    if (!job->desc->positions)
+        return FFD_OK;
+    const ffd_status status = ffd_budget_take(budget, count, bytes, error);
+    if (status)
+        return status;
+    job->positions = ffd_alloc((size_t)count, bytes);
+    return job->positions ? FFD_OK : ffd_fail_memory(error);
+}
+
 /* Refuses what can be refused before a vertex is touched, and allocates memory for the results. */
 static ffd_status prepare(deform_job *job, figure_arrays *arrays, ffd_error *error)
 {
@@ -278,6 +294,8 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, ffd_error *err
         status = ffd_details_begin(job->details, (size_t)ffd_mesh_vertex_count(job->document),
                                    &arrays->budget, error);
     job->document->shown = false;
+    if (!status)
+        status = prepare_positions(job, &arrays->budget, error);
     job->threads =
         ffd_pass_threads(&arrays->budget, job->check ? ffd_chain_layers(&job->chain) : 0, job->threads);
     return status;
@@ -365,7 +383,8 @@ static ffd_status send(deform_job *job, const mesh_pass *pass, ffd_error *error)
     mesh_pass counting = *pass;
     counting.write = counting.attributes = counting.determinants = false;
     counting.counts_shapes = true;
-    counting.deformed = counting.gradients = NULL;
+    counting.deformed = job->positions;
+    counting.gradients = NULL;
     const ffd_status status = ffd_pass_run(&counting, &job->totals, error);
     return status ? status : deform_shown(job, pass, error);
 }
@@ -388,7 +407,9 @@ static ffd_status deform(deform_job *job, const figure_arrays *arrays, ffd_error
                             .write = true,
                             .attributes = job->desc->normals != FFD_NORMALS_KEEP,
                             .only_offsets = job->desc->normals == FFD_NORMALS_RECOMPUTE,
-                            .deformed = arrays->deformed,
+                            .deformed = arrays->deformed      ? arrays->deformed
+                                        : converts_shown(job) ? NULL
+                                                              : job->positions,
                             .gradients = arrays->gradients,
                             .statuses = job->details ? job->details->statuses : NULL,
                             .determinants = wants_determinants(job),
@@ -401,6 +422,9 @@ static ffd_status deform(deform_job *job, const figure_arrays *arrays, ffd_error
     ffd_status status = send(job, &pass, error);
     if (!status)
         ffd_cache_locations_filled(share);
+    if (!status && job->positions && arrays->deformed && !converts_shown(job))
+        memcpy(job->positions, arrays->deformed,
+               (size_t)ffd_mesh_vertex_count(job->document) * 3 * sizeof *job->positions);
     if (!status && job->recomputes && job->totals.moved)
         status = ffd_recompute_normals(job->document, &arrays->faces, arrays->deformed, arrays->gradients,
                                        &counts, error);
@@ -442,6 +466,19 @@ static void keep_arrays(figure_arrays *arrays, job_details *details, memory_budg
     *arrays = (figure_arrays){0};
 }
 
+/* Hands over the positions that the caller asks for. */
+static ffd_status give_positions(deform_job *job, ffd_error *error)
+{
+    const ffd_deform_desc *const desc = job->desc;
+    if (!job->positions)
+        return FFD_OK;
+    const ffd_status status = ffd_status_known(
+        desc->positions(desc->positions_user, job->positions, (size_t)ffd_mesh_vertex_count(job->document)));
+    return status ? ffd_fail_file(error, status, ffd_source_name(&desc->input),
+                                  "the callback for positions did not take them")
+                  : FFD_OK;
+}
+
 ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error *error)
 {
     figure_arrays arrays = {0};
@@ -481,12 +518,16 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
         ffd_figures_warn(job, result);
         ffd_tear_figures_warn(job, result);
     }
+    if (!status)
+        status = give_positions(job, error);
     if (job->details)
         keep_arrays(&arrays, job->details, &job->document->budget);
     ffd_figures_free(&arrays);
     ffd_rig_places_free(&job->rig);
     ffd_free(job->kept);
+    ffd_free(job->positions);
     job->kept = NULL;
+    job->positions = NULL;
     return status;
 }
 

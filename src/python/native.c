@@ -147,6 +147,21 @@ static ffd_status take_file(void *user, const char *name, const void *bytes, siz
     return failed ? FFD_E_MEMORY : FFD_OK;
 }
 
+/* An ffd_positions_function. user: a list, which gets the numbers' bytes. */
+static ffd_status take_positions(void *user, const double *positions, size_t count)
+{
+    const PyGILState_STATE state = PyGILState_Ensure();
+    PyObject *const copy = count > (size_t)PY_SSIZE_T_MAX / (3 * sizeof *positions)
+                               ? NULL
+                               : PyByteArray_FromStringAndSize((const char *)positions,
+                                                               (Py_ssize_t)(count * 3 * sizeof *positions));
+    const int failed = !copy || PyList_Append(user, copy) != 0;
+    PyErr_Clear();
+    Py_XDECREF(copy);
+    PyGILState_Release(state);
+    return failed ? FFD_E_MEMORY : FFD_OK;
+}
+
 static int add_address(PyObject *module, const char *name, uintptr_t address)
 {
     PyObject *const number = PyLong_FromUnsignedLongLong(address);
@@ -165,6 +180,7 @@ PyMODINIT_FUNC PyInit__native(void)
                     add_address(module, "log", (uintptr_t)take_line) == 0 &&
                     add_address(module, "resolve", (uintptr_t)resolve) == 0 &&
                     add_address(module, "sink", (uintptr_t)take_file) == 0 &&
+                    add_address(module, "positions", (uintptr_t)take_positions) == 0 &&
                     add_address(module, "parameter", (uintptr_t)take_parameter) == 0))
         return module;
     Py_DECREF(module);

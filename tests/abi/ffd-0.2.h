@@ -195,6 +195,7 @@ typedef struct ffd_bytes {
 } ffd_bytes;
 typedef ffd_status (*ffd_resolve_function)(void *user, const char *name, ffd_bytes *bytes);
 typedef ffd_status (*ffd_sink_function)(void *user, const char *name, const void *bytes, size_t size);
+typedef ffd_status (*ffd_positions_function)(void *user, const double *positions, size_t count);
 typedef struct ffd_source {
     const char *path;
     ffd_format format;
@@ -279,6 +280,8 @@ typedef struct ffd_deform_desc {
     ffd_bytes embedding_bytes;
     ffd_sink_function sink;
     void *sink_user;
+    ffd_positions_function positions;
+    void *positions_user;
 } ffd_deform_desc;
 void ffd_deform_desc_init(ffd_deform_desc *desc, size_t size);
 ffd_status ffd_shared_box_add(ffd_shared_box *box, const ffd_deform_desc *desc, ffd_error *error);
@@ -375,6 +378,7 @@ typedef struct ffd_job_result {
     double seconds_read, seconds_embed, seconds_deform, seconds_judge, seconds_write;
     double area_before, area_after;
     double volume_before, volume_after;
+    uint64_t bytes_left;
 } ffd_job_result;
 ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);
 ffd_status ffd_check_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);
@@ -518,6 +522,7 @@ typedef struct ffd_jacobian_desc {
     size_t of;
     const char *times, *transposed;
     bool check;
+    ffd_bytes times_bytes, transposed_bytes;
 } ffd_jacobian_desc;
 void ffd_jacobian_desc_init(ffd_jacobian_desc *desc, size_t size);
 typedef struct ffd_jacobian_result {

@@ -295,7 +295,7 @@ def npy(data):
                          header)
     check(match, "the .npy header is", header)
     descr, shape = match.group(1), tuple(int(n) for n in match.group(2).replace(" ", "").split(",") if n)
-    code, size = {"<f8": ("<d", 8), "|u1": ("<B", 1)}[descr]
+    code, size = {"<f8": ("<d", 8), "<f4": ("<f", 4), "|u1": ("<B", 1)}[descr]
     count = math.prod(shape)
     check(len(data) >= 10 + length + size * count, "the .npy is too short")
     values = [x[0] for x in struct.iter_unpack(code, data[10 + length:10 + length + size * count])]

@@ -144,7 +144,7 @@ def in_place_twice(run):
 @case
 def files_of_the_run_itself(run):
     start(run, [{**job(), "out": name} for name in ("r.obj", "./d.obj", "j.obj", "o.obj")])
-    told = [rf'^m\.jsonl:{i}: "{name}" is the report, the depfile, the journal or the index of this run$'
+    told = [rf'^m\.jsonl:{i}: "{name}" is the report, the depfile, the journal, the index or the array of this run$'
             for i, name in enumerate((r"r\.obj", r"\./d\.obj", r"j\.obj"), 1)]
     batch(run, "m.jsonl", "--force", "--report", "r.obj", "--depfile", "d.obj", "--journal", "j.obj", done=1, failed=told)
     equal([e["status"] for e in report(run, "r.obj")], ["failed"] * 3 + ["ok"])

@@ -74,6 +74,27 @@ class Facts(Folder):
             with self.assertRaises(ffd.InvalidError):
                 run()
 
+    def test_positions_are_what_a_deformation_writes(self):
+        spot, twist = read("spot.obj"), "twist.json"
+        points, result = ffd.positions_file("spot.obj", twist)
+        made = ffd.deform_bytes(spot, twist, name="spot.obj")
+        written = [[float(x) for x in line.split()[1:4]] for line in made.data.decode().splitlines() if line.startswith("v ")]
+        self.assertEqual((points.dtype, points.shape), (np.float64, (result.vertices, 3)))
+        self.assertTrue(np.array_equal(points, written))
+        points[0] = 0  # the caller's own
+        again = ffd.positions_bytes(spot, twist, name="spot.obj", threads=1)
+        self.assertTrue(np.array_equal(again.points, written))
+        self.assertEqual(again.result.moved, result.moved)
+        gltf = ffd.positions_bytes(self.files["t.gltf"], LIFT, name="t.gltf", files=self.files, set={"lift": 2})
+        self.assertEqual(gltf.points.tolist(), [[0, 0, 2], [1, 0, 2], [0, 1, 2]])
+        with self.assertRaises(ffd.GateError) as failed:
+            ffd.positions_file("spot.obj", b'{"format": "ffd-lattice", "version": 1, "size": [2, 2, 2], "rest": {"box": {"min": [0, 0, 0], '
+                               b'"max": [1, 1, 1]}}}', fail_on="outside")
+        self.assertGreater(failed.exception.result.counts["outside"], 0)
+        with self.assertRaises(ffd.ArgumentError):
+            ffd.positions_bytes(spot, twist, name="spot.obj", as_morph="M")
+        self.assertEqual(sorted(os.listdir()), self.names)
+
     def test_what_cannot_be_described(self):
         with self.assertRaises(ffd.FileError):
             ffd.info_bytes(self.files["t.gltf"], name="t.gltf")

@@ -130,7 +130,7 @@ LAYERS = {
     },
     "batch/manifest": {"base", "base/file", "base/memory", "base/system", "base/text", "json", "mesh"},
     "batch": {
-        "base", "base/file", "base/memory", "base/system", "base/text", "batch/manifest", "io", "job/chain", "job/input",
+        "base", "base/file", "base/memory", "base/system", "base/text", "batch/manifest", "io", "io/npy", "job/chain", "job/input",
         "job/judge", "job/report", "json", "lattice", "lattice/file", "mesh", "view",
     },
     "cli": {"base/file", "batch"},

@@ -121,7 +121,7 @@ static ffd_status map_file(int fd, const char *name, const struct stat *info, fi
 bool ffd_file_stamp(const char *path, file_stamp *stamp)
 {
     struct stat info;
-    if (ffd_memory_has(path) || stat(path, &info) != 0)
+    if (ffd_memory_has(path) || stat(path, &info) != 0 || !S_ISREG(info.st_mode))
         return false;
     *stamp = (file_stamp){
         .device = (uint64_t)info.st_dev,
@@ -131,6 +131,13 @@ bool ffd_file_stamp(const char *path, file_stamp *stamp)
         .changed = {(int64_t)info.st_ctim.tv_sec, (int64_t)info.st_ctim.tv_nsec},
     };
     return true;
+}
+
+bool ffd_file_reads_once(const char *path)
+{
+    struct stat info;
+    return ffd_file_is_stream(path) || (!ffd_memory_has(path) && stat(path, &info) == 0 &&
+                                        !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode));
 }
 
 bool ffd_stamp_equal(const file_stamp *a, const file_stamp *b)

@@ -47,6 +47,8 @@ void ffd_file_release_until(const file_input *input, const void *end, size_t *re
 /* Whether path names a stream of this process or the null device, not a file: "-",
    /dev/stdin, /dev/fd/N, /dev/null. */
 bool ffd_file_is_stream(const char *path);
+/* Whether what it gives can be read once only: a stream, a pipe or another device. */
+bool ffd_file_reads_once(const char *path);
 /* The path as messages show it: "-" -> "standard input"; of a file in memory (memory_files.h) its name;
    others as they are. */
 const char *ffd_file_display_name(const char *path);

@@ -234,26 +234,6 @@ ffd_status ffd_memory_judge_path(const char *path, ffd_status status, ffd_error 
     return ffd_memory_judge(files_of(path), status, error);
 }
 
-/* What a callback returns need not be one of ours. */
-static ffd_status known(ffd_status status)
-{
-    switch (status) {
-    case FFD_OK:
-    case FFD_E_GATE:
-    case FFD_E_ARGUMENT:
-    case FFD_E_IO:
-    case FFD_E_EXISTS:
-    case FFD_E_INVALID:
-    case FFD_E_EMBEDDING:
-    case FFD_E_UNSUPPORTED:
-    case FFD_E_MEMORY:
-    case FFD_E_LIMIT:
-    case FFD_E_CANCELLED:
-        return status;
-    }
-    return FFD_E_IO;
-}
-
 /* Asks the callback for a file that is not known yet. */
 static ffd_status resolve(memory_files *files, const char *path, memory_bytes *bytes, ffd_error *error)
 {
@@ -264,7 +244,8 @@ static ffd_status resolve(memory_files *files, const char *path, memory_bytes *b
     if (files->failure.status) /* the job ends with it: nobody is asked again */
         return ffd_memory_judge(files, FFD_OK, error);
     const char *const name = path + folder->head;
-    const ffd_status status = known(folder->resolve(folder->user, name, &bytes->bytes, &bytes->size));
+    const ffd_status status =
+        ffd_status_known(folder->resolve(folder->user, name, &bytes->bytes, &bytes->size));
     if (!status)
         return note(files, path, *bytes, error);
     if (!files->failure.status)
@@ -313,6 +294,6 @@ ffd_status ffd_memory_give(const char *path, const char *name, const void *bytes
                            ffd_error *error)
 {
     const memory_folder *const folder = folder_of(files_of(path), path);
-    const ffd_status status = known(folder->sink(folder->user, name, bytes, size));
+    const ffd_status status = ffd_status_known(folder->sink(folder->user, name, bytes, size));
     return status ? ffd_fail_file(error, status, name, "was not taken by the caller") : FFD_OK;
 }

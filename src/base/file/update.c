@@ -24,24 +24,24 @@ static update_file *make(int fd)
     return file;
 }
 
-/* Opens the file that is there, else makes it. */
-static int open_or_make(const char *path)
+/* Opens the file that is there, else makes it, if it may. */
+static int open_or_make(const char *path, bool makes)
 {
     const int flags = O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
     char *const target = realpath(path, NULL);
-    const int fd = target            ? open(target, flags)
-                   : errno == ENOENT ? open(path, flags | O_CREAT | O_EXCL, 0666)
-                                     : -1;
+    const int fd = target                     ? open(target, flags)
+                   : makes && errno == ENOENT ? open(path, flags | O_CREAT | O_EXCL, 0666)
+                                              : -1;
     const int reason = errno;
     free(target);
     errno = reason;
     return fd;
 }
 
-ffd_status ffd_update_open(const char *path, update_file **file, ffd_error *error)
+static ffd_status open_file(const char *path, bool makes, update_file **file, ffd_error *error)
 {
     struct stat info;
-    const int fd = open_or_make(path);
+    const int fd = open_or_make(path, makes);
     *file = NULL;
     if (fd < 0)
         return errno == EEXIST ? ffd_fail_file(error, FFD_E_IO, path, "is a link that leads to no file")
@@ -57,6 +57,16 @@ ffd_status ffd_update_open(const char *path, update_file **file, ffd_error *erro
     }
     *file = make(fd);
     return *file ? FFD_OK : ffd_fail_memory(error);
+}
+
+ffd_status ffd_update_open(const char *path, update_file **file, ffd_error *error)
+{
+    return open_file(path, true, file, error);
+}
+
+ffd_status ffd_update_open_there(const char *path, update_file **file, ffd_error *error)
+{
+    return open_file(path, false, file, error);
 }
 
 /* The offset as the system has it; negative if it is beyond what the system knows. */

@@ -14,6 +14,8 @@ typedef struct update_file update_file;
 /* Opens a file for reading and writing, and makes it where there is none. Links to a file are followed.
    Errors: FFD_E_IO, also for what is no file (a pipe is not waited for) and for a link that leads to none. */
 ffd_status ffd_update_open(const char *path, update_file **file, ffd_error *error);
+/* The same for a file that has to be there. */
+ffd_status ffd_update_open_there(const char *path, update_file **file, ffd_error *error);
 /* Reads bytes from an offset on. Returns false, also where the file ends before. */
 bool ffd_update_read(const update_file *file, uint64_t at, void *bytes, size_t size);
 /* Writes bytes from an offset on, also beyond the end. Returns false if that fails; errno says why. */

@@ -177,7 +177,7 @@ static char *mesh_of(const job_source *source)
 static bool is_repeated(const job_source *source)
 {
     uint64_t rows;
-    if (ffd_file_is_stream(source->desc.table))
+    if (ffd_file_reads_once(source->desc.table))
         return true;
     char *const mesh = mesh_of(source);
     const hash128 file = mesh ? ffd_file_identity(mesh) : (hash128){{0}};
@@ -397,7 +397,8 @@ ffd_status ffd_jobs_open(const job_source_desc *desc, job_source **source, ffd_e
     (*source)->desc = *desc;
     (*source)->flaws.strict = desc->strict;
     (*source)->frame =
-        (batch_frame){desc->pattern, "", desc->defaults, desc->default_count, desc->resume, desc->pictures};
+        (batch_frame){desc->pattern,  "", desc->defaults, desc->default_count, desc->resume, desc->pictures,
+                      desc->positions};
     ffd_status status;
     if (desc->manifest)
         status = open_text(*source, desc->manifest, error);
@@ -408,7 +409,7 @@ ffd_status ffd_jobs_open(const job_source_desc *desc, job_source **source, ffd_e
     if (!status && desc->table)
         status = read_columns(*source, error);
     (*source)->numbers_outputs = !status && desc->table && desc->out_dir && !has_output_column(*source);
-    if (!status && (*source)->numbers_outputs && !ffd_file_is_stream(desc->table))
+    if (!status && (*source)->numbers_outputs && !ffd_file_reads_once(desc->table))
         status = count_meshes(*source, error);
     if (status)
         ffd_jobs_close(source);
@@ -452,11 +453,31 @@ ffd_status ffd_jobs_next(job_source *source, batch_job *job, line_state *state, 
         mine = source->count++ % source->desc.shards == source->desc.shard;
     } while (!mine);
     job->line = source->line;
+    job->row = source->count - 1;
     const ffd_status status = source->desc.manifest ? read_manifest_line(source, job)
                               : source->desc.table
                                   ? read_row(source, valid, job)
                                   : read_file(source, source->files.paths[source->count - 1], job);
     return status ? ffd_fail_memory(error) : FFD_OK;
+}
+
+ffd_status ffd_jobs_total(const job_source_desc *desc, uint64_t *total, ffd_error *error)
+{
+    job_source *source;
+    line_state state = LINE_READ;
+    bool valid;
+    *total = 0;
+    ffd_status status = ffd_jobs_open(desc, &source, error);
+    while (!status && state != LINE_NONE && !ffd_interrupt_requested()) {
+        if (source->reader.stream)
+            ffd_stream_wait(source->reader.stream);
+        status = advance(source, &state, &valid, error);
+        source->count += !status && state == LINE_READ;
+    }
+    if (source)
+        *total = source->count;
+    ffd_jobs_close(&source);
+    return status;
 }
 
 uint64_t ffd_jobs_count(const job_source *source)

@@ -18,9 +18,9 @@ typedef struct job_source_desc {
     const char *out_dir; /* with pattern: where files keep their names; with table: the folder of "out" */
     const batch_default *defaults;
     size_t default_count;
-    bool resume, pictures;  /* as in batch_frame */
-    bool strict;            /* a table that is odd but plain is refused */
-    uint64_t shard, shards; /* jobs shard, shard + shards, ... of all, counted from 0 */
+    bool resume, pictures, positions; /* as in batch_frame */
+    bool strict;                      /* a table that is odd but plain is refused */
+    uint64_t shard, shards;           /* jobs shard, shard + shards, ... of all, counted from 0 */
 } job_source_desc;
 
 typedef struct job_source job_source;
@@ -31,6 +31,9 @@ ffd_status ffd_jobs_open(const job_source_desc *desc, job_source **source, ffd_e
    LINE_READ: it does not wait for a manifest that is still being written. An error in the job itself is not a
    failure. Errors: FFD_E_IO, FFD_E_MEMORY. */
 ffd_status ffd_jobs_next(job_source *source, batch_job *job, line_state *state, ffd_error *error);
+/* Counts the jobs of all shards. desc is that of a text that can be read twice. Errors: those of
+   ffd_jobs_open and ffd_jobs_next. */
+ffd_status ffd_jobs_total(const job_source_desc *desc, uint64_t *total, ffd_error *error);
 /* How many jobs there were so far, in all shards. */
 uint64_t ffd_jobs_count(const job_source *source);
 /* The part of the jobs that was handed out, by bytes or files: 0 to 1; negative where it is not known. */

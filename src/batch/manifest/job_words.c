@@ -16,9 +16,10 @@ typedef struct job_maker {
 
 /* Options of `ffd deform` that are the batch's own business, or have a member of their own. */
 static const char *const reserved[] = {
-    "jobs",    "shard", "resume",  "journal",    "timeout",    "stop",   "keep-going",    "dry-run",
-    "in",      "csv",   "lattice", "depfile",    "out-dir",    "report", "report-stable", "quiet",
-    "verbose", "help",  "set",     "shared-box", "csv-ignore", "view",   "morph",         "clip"};
+    "jobs",          "shard", "resume",  "journal",   "timeout", "stop",       "keep-going",
+    "dry-run",       "in",    "csv",     "lattice",   "depfile", "out-dir",    "report",
+    "report-stable", "quiet", "verbose", "help",      "set",     "shared-box", "csv-ignore",
+    "view",          "morph", "clip",    "positions", "dtype"};
 enum { RESERVED = sizeof reserved / sizeof *reserved };
 
 /* Options whose values are files, whose relative paths start where the manifest's do. */
@@ -172,6 +173,8 @@ static bool add_morphs(job_maker *maker)
         return refuse(maker, "\"lattice\" and \"morph\" cannot be used together");
     if (maker->frame->pictures)
         return refuse(maker, "\"morph\" cannot be used with --view: a picture shows one deformation");
+    if (maker->frame->positions)
+        return refuse(maker, "\"morph\" cannot be used with --positions: a row is of one deformation");
     for (size_t i = 0; i < description->count; i++) {
         const job_statement *const statement = &description->statements[i];
         const char *const path = ffd_description_value(description, statement);
@@ -318,12 +321,15 @@ static bool add_files(job_maker *maker)
     const char *const wrong_input = ffd_description_wrong(maker->description, "in");
     const char *const wrong_output = ffd_description_wrong(maker->description, "out");
     const bool in_place = has_flag(maker, "in-place"), has_output = output || wrong_output;
+    const bool has_row = maker->frame->positions;
     if (!input)
         return refuse(maker, "%s", wrong_input ? wrong_input : "\"in\" is missing");
     if (!check_path(maker, input, "in") || !keep_name(maker, input, &job->input))
         return false;
-    if (!has_output && !in_place)
+    if (!has_output && !in_place && !has_row)
         return refuse(maker, "\"out\" is missing");
+    if (in_place && has_row)
+        return refuse(maker, "\"in-place\" cannot be used with --positions");
     if (has_output && in_place)
         return refuse(maker, "\"out\" cannot be used with the option \"in-place\"");
     if (in_place && maker->frame->resume)
@@ -342,8 +348,10 @@ static bool add_files(job_maker *maker)
         return refuse(maker, "\"lattice\" is missing");
     if (!add_file(maker, NULL, input) || (output && !add_file(maker, NULL, output)))
         return false;
-    job->target = resolve(maker->frame, output ? output : input);
-    job->words.failed = job->words.failed || !job->target;
+    if (output || in_place) {
+        job->target = resolve(maker->frame, output ? output : input);
+        job->words.failed = job->words.failed || !job->target;
+    }
     add_word(&job->content, input);
     add_word(&job->content, output ? output : "");
     return add_lattices(maker) && add_morphs(maker) && add_clips(maker);

@@ -20,15 +20,17 @@ typedef struct batch_frame {
     const char *folder; /* that relative paths start from; "" for the current one */
     const batch_default *defaults;
     size_t default_count;
-    bool resume;   /* jobs that cannot be resumed are refused */
-    bool pictures; /* likewise those that have no OUT to name a picture after */
+    bool resume;    /* jobs that cannot be resumed are refused */
+    bool pictures;  /* likewise those that have no OUT to name a picture after */
+    bool positions; /* jobs need no OUT: each has a row of positions; those without one are refused */
 } batch_frame;
 
 typedef struct batch_job {
     uint64_t line;     /* in the manifest, from 1 */
+    uint64_t row;      /* its number among the jobs of all shards, from 0 */
     char *input;       /* as the manifest names it; NULL where it does not */
-    char *output;      /* likewise; NULL too where the input is overwritten */
-    char *target;      /* where the output goes; NULL likewise */
+    char *output;      /* likewise; NULL too where the input is overwritten, or no mesh is written */
+    char *target;      /* where the output goes; NULL likewise, but where the input is overwritten */
     byte_buffer words; /* arguments of `ffd deform`, each ended by 0 */
     size_t word_count;
     byte_buffer content; /* what the job says, but for where files are: each word ended by 0 */

@@ -29,6 +29,7 @@ typedef struct deform_job {
     pass_totals totals;
     uint8_t *kept;        /* marks of the pass (job/chain/chain.h); NULL: no vertices */
     job_details *details; /* to be filled, or NULL */
+    double *positions;    /* 3 a vertex, as mesh_pass has them deformed; NULL: they are not asked for */
     mesh_model base; /* the shape before, where a conversion adds the deformation to it as a morph target */
     bool forgets_locations; /* u,v,w are not kept for passes to come: there is no memory for them, or no such
                                pass */

@@ -390,6 +390,10 @@ static void write_entry(json_text *json, const report_entry *entry)
         ffd_json_count(json, "line", entry->line);
     ffd_json_string(json, "input", entry->input);
     ffd_json_string(json, "output", entry->output);
+    if (entry->positions) {
+        ffd_json_string(json, "positions", entry->positions);
+        ffd_json_count(json, "row", entry->row);
+    }
     if (entry->result->picture)
         ffd_json_string(json, "picture", entry->result->picture);
     if (entry->set)

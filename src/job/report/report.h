@@ -9,7 +9,9 @@
 typedef struct report_entry {
     uint64_t line; /* of the job in its manifest; 0: it has none, and the entry does not say it */
     const char *input, *output; /* may be NULL */
-    const char *set;            /* values of placeholders as a JSON object; NULL: not said */
+    const char *positions;      /* the array with the job's positions, in this row; NULL: there is none */
+    uint64_t row;
+    const char *set; /* values of placeholders as a JSON object; NULL: not said */
     const ffd_job_result *result;
     const char *figures; /* of the run that made the output (ffd_report_figures), in place of the result's; or
                             NULL */

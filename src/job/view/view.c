@@ -401,6 +401,7 @@ static ffd_status view_in_memory(ffd_view_desc *desc, ffd_deform_desc *job, ffd_
     job_memory memory = {0};
     ffd_status status = FFD_OK;
     job->sink = NULL;
+    job->positions = NULL;
     allow_memory(&job->input);
     if (desc->deformed) {
         deformed = *desc->deformed;

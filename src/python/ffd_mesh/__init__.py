@@ -14,7 +14,8 @@ from ._errors import (ArgumentError, Cancelled, EmbeddingError, Error, ExistsErr
                       LimitError, OutOfMemoryError, UnsupportedError)
 from ._facts import compare_bytes, compare_files, info, info_bytes
 from ._jacobian import JacobianBytes, jacobian_bytes, jacobian_file
-from ._jobs import DeformedBytes, check_bytes, check_file, deform_bytes, deform_file
+from ._jobs import (DeformedBytes, Positions, check_bytes, check_file, deform_bytes, deform_file, positions_bytes,
+                    positions_file)
 from ._lattice import Lattice
 from ._library import lib as _lib
 from ._meshes import deform_mesh
@@ -28,7 +29,7 @@ __version__: str = _lib.ffd_version().decode()
 __all__ = [
     "ArgumentError", "Cancelled", "Csr", "Deformed", "DeformedBytes", "Embedding", "EmbeddingError", "Error", "ExistsError",
     "FileError", "Folds", "GateError", "InvalidError", "JacobianBytes", "Lattice", "LimitError", "OutOfMemoryError", "Parameter",
-    "Result", "Status", "UnsupportedError", "ViewBytes", "check_bytes", "check_file", "compare_bytes", "compare_files",
+    "Positions", "Result", "Status", "UnsupportedError", "ViewBytes", "check_bytes", "check_file", "compare_bytes", "compare_files",
     "deform_bytes", "deform_file", "deform_mesh", "info", "info_bytes", "jacobian_bytes", "jacobian_file", "parameters",
-    "schema", "view_bytes", "view_file",
+    "positions_bytes", "positions_file", "schema", "view_bytes", "view_file",
 ]

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any, Mapping, NamedTuple, Sequence
 
+import numpy as np
+
 from . import _library as library
 from ._description import AnyLattice, Files, Memory, Path, described
 from ._library import lib
@@ -77,3 +79,40 @@ def check_file(source: Path, lattices: AnyLattice | Sequence[AnyLattice], **opti
     with described(source, lattices, options) as (desc, warnings):
         found, raised = run(lib.ffd_check_run, desc)
     return finish(found, raised, warnings)
+
+
+class Positions(NamedTuple):
+    """What `positions_file` and `positions_bytes` return."""
+
+    points: np.ndarray  # (N, 3) float64
+    result: Result
+
+
+def positions_file(source: Path, lattices: AnyLattice | Sequence[AnyLattice], **options: Any) -> Positions:
+    """The deformed positions of a mesh file, which is read and not written; rows of `ffd batch --positions` are these.
+
+    Vertices are in the order of `ffd embed`, in the space of the scene (space="mesh": of their own), not rounded to the file's
+    numbers; also those that stay. Of a glTF they are the shapes that it stores, without weights of morph targets or an animation.
+    A vertex of a node whose matrix has no inverse is NaN. lattices, options: as `deform_file` has them, but for those of outputs.
+    """
+    taken: list[Any] = []
+    with described(source, lattices, options) as (desc, warnings):
+        library.positions_into(desc, taken)
+        found, raised = run(lib.ffd_deform_run, desc)
+    return Positions(_points(taken), finish(found, raised, warnings))
+
+
+def positions_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice], *, name: str, files: Files | None = None,
+                    **options: Any) -> Positions:
+    """`positions_file` of a mesh in memory, as `deform_bytes` takes it."""
+    memory, taken = Memory(data, name, files), []
+    with described(memory, lattices, options) as (desc, warnings):
+        library.positions_into(desc, taken)
+        found, raised = run(lib.ffd_deform_run, desc)
+    memory.reraise()
+    return Positions(_points(taken), finish(found, raised, warnings))
+
+
+def _points(taken: list[Any]) -> np.ndarray:
+    """What the library has handed over last; a job that has failed before has none."""
+    return np.frombuffer(taken[-1], np.float64).reshape(-1, 3) if taken and len(taken[-1]) else np.empty((0, 3))

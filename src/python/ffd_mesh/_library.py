@@ -190,6 +190,12 @@ def sink_into(structure: Any, files: list[Any]) -> None:
     structure.sink_user = id(files)
 
 
+def positions_into(structure: Any, arrays: list[Any]) -> None:
+    """Lets a job's structure append the bytes of its deformed positions to a list, which must outlive the call."""
+    structure.positions = _native.positions
+    structure.positions_user = id(arrays)
+
+
 def list_parameters(data: bytes, name: str) -> list[Any]:
     found: list[Any] = []
     call(lib.ffd_lattice_list_parameters, data, len(data), encoded(name, "name"), _native.parameter, id(found))

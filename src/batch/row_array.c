@@ -1,0 +1,297 @@
+#include "batch/row_array.h"
+#include "base/file/input.h"
+#include "base/file/output.h"
+#include "base/file/update.h"
+#include "base/little_endian.h"
+#include "base/memory/memory.h"
+#include "base/system/clock.h"
+#include "io/npy/npy.h"
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Bytes that are read or written at once: whole vertices of either type. */
+#define PIECE ((size_t)3 * 8 * 4096)
+
+/* Seconds between looks at a file that another run makes. */
+#define LOOK 0.02
+
+static size_t number_size(const row_array *array)
+{
+    return array->is_double ? 8 : 4;
+}
+
+static size_t vertex_size(const row_array *array)
+{
+    return 3 * number_size(array);
+}
+
+/* Both are known not to overflow (ffd_rows_check_size). */
+static uint64_t row_size(const row_array *array)
+{
+    return array->vertices * vertex_size(array);
+}
+
+static size_t make_head(const row_array *array, char head[NPY_HEADER_CAPACITY])
+{
+    char shape[80];
+    snprintf(shape, sizeof shape, "(%" PRIu64 ", %" PRIu64 ", 3)", array->rows, array->vertices);
+    return ffd_npy_header_of(array->is_double ? "<f8" : "<f4", shape, head);
+}
+
+ffd_status ffd_rows_check_size(const row_array *array, ffd_error *error)
+{
+    const uint64_t most = INT64_MAX - NPY_HEADER_CAPACITY, vertex = vertex_size(array);
+    if (array->vertices <= most / vertex && (row_size(array) == 0 || array->rows <= most / row_size(array)))
+        return FFD_OK;
+    return ffd_fail_file(error, FFD_E_LIMIT, array->path,
+                         "%" PRIu64 " rows of %" PRIu64 " vertices are more than a file can have",
+                         array->rows, array->vertices);
+}
+
+static uint64_t row_begin(const row_array *array, uint64_t row)
+{
+    char head[NPY_HEADER_CAPACITY];
+    return make_head(array, head) + row * row_size(array);
+}
+
+/* Opens the file if it is this array. */
+static ffd_status open_array(const row_array *array, update_file **file, ffd_error *error)
+{
+    char head[NPY_HEADER_CAPACITY], found[NPY_HEADER_CAPACITY];
+    const size_t length = make_head(array, head);
+    uint64_t size;
+    const ffd_status status = ffd_update_open_there(array->path, file, error);
+    if (status)
+        return status;
+    if (ffd_update_size(*file, &size) && size == length + array->rows * row_size(array) &&
+        ffd_update_read(*file, 0, found, length) && memcmp(found, head, length) == 0)
+        return FFD_OK;
+    ffd_update_close(file);
+    return ffd_fail_file(error, FFD_E_EXISTS, array->path,
+                         "is there, and is not an array of %" PRIu64 " x %" PRIu64 " x 3 %s numbers",
+                         array->rows, array->vertices, array->is_double ? "float64" : "float32");
+}
+
+ffd_status ffd_rows_find(const row_array *array, bool *is_there, ffd_error *error)
+{
+    update_file *file;
+    *is_there = ffd_file_exists(array->path);
+    if (!*is_there)
+        return FFD_OK;
+    const ffd_status status = open_array(array, &file, error);
+    if (!status)
+        ffd_update_close(&file);
+    return status;
+}
+
+/* Fills memory with numbers of the array's type that are NaN. */
+static void fill_nan(const row_array *array, unsigned char *bytes, size_t size)
+{
+    for (size_t i = 0; i < size; i += number_size(array))
+        if (array->is_double)
+            store_double(bytes + i, NAN);
+        else
+            store_float(bytes + i, NAN);
+}
+
+static size_t piece_of(uint64_t left)
+{
+    return left < PIECE ? (size_t)left : PIECE;
+}
+
+static ffd_status write_empty(const row_array *array, file_output *output, ffd_error *error)
+{
+    char head[NPY_HEADER_CAPACITY];
+    unsigned char *const nan = ffd_alloc(PIECE, 1);
+    if (!nan)
+        return ffd_fail_memory(error);
+    fill_nan(array, nan, PIECE);
+    ffd_status status = ffd_output_write(output, head, make_head(array, head), error);
+    for (uint64_t left = array->rows * row_size(array); left > 0 && !status; left -= piece_of(left))
+        status = ffd_output_write(output, nan, piece_of(left), error);
+    ffd_free(nan);
+    return status;
+}
+
+/* busy: another run was writing the file. */
+static ffd_status create(const row_array *array, bool force, bool *busy, ffd_error *error)
+{
+    file_output *output;
+    ffd_status status = ffd_output_create(&output, error);
+    if (!status)
+        status = ffd_output_begin(output, array->path, force, error);
+    *busy = status && output && ffd_output_was_busy(output);
+    if (!status)
+        status = write_empty(array, output, error);
+    if (!status)
+        status = ffd_output_commit(output, error);
+    ffd_output_destroy(&output);
+    return status;
+}
+
+ffd_status ffd_rows_create(const row_array *array, bool force, ffd_error *error)
+{
+    bool busy, is_there;
+    ffd_status status = create(array, force, &busy, error);
+    while (busy) {
+        ffd_clock_sleep(LOOK);
+        status = ffd_rows_find(array, &is_there, error);
+        if (status || is_there)
+            return status;
+        status = create(array, force, &busy, error);
+    }
+    /* It has appeared meanwhile. */
+    return status == FFD_E_EXISTS && !force ? ffd_rows_find(array, &is_there, error) : status;
+}
+
+bool ffd_row_is_done(const row_array *array, uint64_t row)
+{
+    update_file *file;
+    unsigned char number[8];
+    if (!array->vertices || open_array(array, &file, NULL))
+        return false;
+    const bool is_read = ffd_update_read(file, row_begin(array, row), number, number_size(array));
+    ffd_update_close(&file);
+    return is_read && !(array->is_double ? isnan(load_double(number)) : isnan(load_float(number)));
+}
+
+static ffd_status fail_writing(const row_array *array, ffd_error *error)
+{
+    return ffd_fail_errno(error, array->path, "cannot be written");
+}
+
+/* Makes the beginning of a row NaN: what follows is not to be taken for positions. */
+static bool unmark(const row_array *array, uint64_t row, update_file *file)
+{
+    unsigned char nan[24];
+    fill_nan(array, nan, vertex_size(array));
+    return array->vertices == 0 || ffd_update_write(file, row_begin(array, row), nan, vertex_size(array));
+}
+
+ffd_status ffd_row_check(const row_array *array, const double *positions, size_t count, ffd_error *error)
+{
+    if (count != array->vertices)
+        return ffd_fail(error, FFD_E_INVALID,
+                        "has %zu vertices, but a row of %s is of %" PRIu64 ", as many as the first mesh has",
+                        count, array->path, array->vertices);
+    for (size_t i = 0; i < 3 * count && !array->is_double; i++)
+        if (isinf((float)positions[i]) && isfinite(positions[i]))
+            return ffd_fail(error, FFD_E_INVALID,
+                            "the deformed position of vertex %zu is too large for the float32 numbers of %s "
+                            "(--dtype f8)",
+                            i / 3, array->path);
+    return FFD_OK;
+}
+
+/* Stores numbers as the array has them. */
+static void store_numbers(const row_array *array, const double *numbers, size_t count, unsigned char *bytes)
+{
+    for (size_t i = 0; i < count; i++)
+        if (array->is_double)
+            store_double(bytes + 8 * i, numbers[i]);
+        else
+            store_float(bytes + 4 * i, (float)numbers[i]);
+}
+
+/* Writes vertices from `first` on. */
+static ffd_status write_vertices(const row_array *array, uint64_t row, update_file *file,
+                                 const double *positions, size_t first, size_t count, unsigned char *piece,
+                                 ffd_error *error)
+{
+    const size_t step = PIECE / vertex_size(array);
+    for (size_t i = first, n; i < count; i += n) {
+        n = count - i < step ? count - i : step;
+        store_numbers(array, positions + 3 * i, 3 * n, piece);
+        if (!ffd_update_write(file, row_begin(array, row) + i * vertex_size(array), piece,
+                              n * vertex_size(array)))
+            return fail_writing(array, error);
+    }
+    return FFD_OK;
+}
+
+static ffd_status write_row(const row_array *array, uint64_t row, update_file *file, const double *positions,
+                            ffd_error *error)
+{
+    const size_t count = (size_t)array->vertices;
+    unsigned char *const piece = ffd_alloc(PIECE, 1);
+    if (!piece)
+        return ffd_fail_memory(error);
+    ffd_status status = unmark(array, row, file) ? FFD_OK : fail_writing(array, error);
+    if (!status && count > 1)
+        status = write_vertices(array, row, file, positions, 1, count, piece, error);
+    if (!status && count > 0)
+        status = write_vertices(array, row, file, positions, 0, 1, piece, error);
+    ffd_free(piece);
+    return status;
+}
+
+ffd_status ffd_row_write(const row_array *array, uint64_t row, const double *positions, size_t count,
+                         ffd_error *error)
+{
+    update_file *file;
+    ffd_status status = ffd_row_check(array, positions, count, error);
+    if (!status)
+        status = open_array(array, &file, error);
+    if (status)
+        return status;
+    status = write_row(array, row, file, positions, error);
+    ffd_update_close(&file);
+    return status;
+}
+
+void ffd_row_clear(const row_array *array, uint64_t row)
+{
+    update_file *file;
+    if (open_array(array, &file, NULL))
+        return;
+    unsigned char *const nan = ffd_alloc(PIECE, 1);
+    bool written = unmark(array, row, file) && nan;
+    if (nan)
+        fill_nan(array, nan, PIECE);
+    for (uint64_t left = row_size(array), at = row_begin(array, row); left > 0 && written;) {
+        const size_t size = piece_of(left);
+        written = ffd_update_write(file, at, nan, size);
+        at += size;
+        left -= size;
+    }
+    ffd_free(nan);
+    ffd_update_close(&file);
+}
+
+static bool hash_bytes(const row_array *array, uint64_t row, const update_file *file, unsigned char *piece,
+                       hash_stream *stream)
+{
+    bool is_read = true;
+    for (uint64_t left = row_size(array), at = row_begin(array, row); left > 0 && is_read;) {
+        const size_t size = piece_of(left);
+        is_read = ffd_update_read(file, at, piece, size);
+        if (is_read)
+            ffd_hash_stream_add(stream, piece, size);
+        at += size;
+        left -= size;
+    }
+    return is_read;
+}
+
+ffd_status ffd_row_hash(const row_array *array, uint64_t row, hash128 *hash, ffd_error *error)
+{
+    update_file *file;
+    ffd_status status = open_array(array, &file, error);
+    if (status)
+        return status;
+    unsigned char *const piece = ffd_alloc(PIECE, 1);
+    hash_stream *const stream = ffd_hash_stream_create();
+    if (!piece || !stream)
+        status = ffd_fail_memory(error);
+    else if (!hash_bytes(array, row, file, piece, stream))
+        status = ffd_fail_errno(error, array->path, "cannot be read");
+    else
+        *hash = ffd_hash_stream_value(stream);
+    ffd_free(stream);
+    ffd_free(piece);
+    ffd_update_close(&file);
+    return status;
+}

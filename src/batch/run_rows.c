@@ -1,0 +1,95 @@
+#include "batch/run_rows.h"
+#include "base/file/folder.h"
+#include "base/file/input.h"
+#include "base/file/output.h"
+#include "base/little_endian.h"
+#include "base/memory/memory.h"
+#include "base/text/buffer.h"
+#include "batch/manifest/file_table.h"
+#include "batch/measure.h"
+#include "job/report/report_file.h"
+#include <inttypes.h>
+#include <string.h>
+
+/* "ALL.json" for "ALL.npy"; a shard has its own, since all of them may write at a time. */
+static char *name_list(const batch_desc *desc)
+{
+    const job_source_desc *const jobs = &desc->jobs;
+    const size_t stem = strlen(desc->positions) - strlen(".npy");
+    byte_buffer name = {0};
+    ffd_buffer_append(&name, desc->positions, stem);
+    if (jobs->shards > 1)
+        ffd_buffer_format(&name, "-%" PRIu64 "-of-%" PRIu64, jobs->shard, jobs->shards);
+    ffd_buffer_text(&name, ".json");
+    return ffd_buffer_finish(&name);
+}
+
+/* What the array has to hold. */
+static ffd_status measure(run_rows *rows, const batch_desc *desc, ffd_error *error)
+{
+    job_source_desc all = desc->jobs;
+    const char *const origin = all.manifest ? all.manifest : all.table;
+    rows->array = (row_array){.path = desc->positions, .is_double = desc->positions_double};
+    if (origin && ffd_file_reads_once(origin))
+        return ffd_fail(error, FFD_E_ARGUMENT,
+                        "--positions reads the jobs twice, which neither standard input nor a pipe can be");
+    all.shard = 0;
+    all.shards = 1;
+    ffd_status status = ffd_jobs_total(&all, &rows->array.rows, error);
+    if (!status)
+        status =
+            ffd_batch_count_vertices(&desc->jobs, &desc->pool, &rows->array.vertices, &rows->is_there, error);
+    return status ? status : ffd_rows_check_size(&rows->array, error);
+}
+
+/* An array that is there stays where others may write to it, or this run goes on with it. */
+static ffd_status make_array(const run_rows *rows, const batch_desc *desc, ffd_error *error)
+{
+    const bool is_shared = desc->jobs.shards > 1, joins = is_shared || desc->jobs.resume;
+    bool is_there;
+    ffd_status status = ffd_rows_find(&rows->array, &is_there, error);
+    const bool replaces = status == FFD_E_EXISTS && desc->force && !is_shared;
+    if (status && !replaces)
+        return status;
+    if (is_there && joins && !status)
+        return FFD_OK;
+    const bool force = desc->force || is_shared;
+    if (is_there || desc->pool.dry) /* what would be refused is, before any work */
+        status = ffd_output_check(rows->array.path, force, error);
+    if (status || desc->pool.dry)
+        return status;
+    return ffd_rows_create(&rows->array, desc->force && !is_shared, error);
+}
+
+ffd_status ffd_run_rows_open(run_rows *rows, const batch_desc *desc, ffd_error *error)
+{
+    ffd_status status = measure(rows, desc, error);
+    if (status)
+        return status;
+    rows->list = name_list(desc);
+    if (!rows->list)
+        return ffd_fail_memory(error);
+    if (rows->is_there)
+        status = make_array(rows, desc, error);
+    rows->file = ffd_file_identity(rows->array.path);
+    if (!status && !desc->pool.dry)
+        status = ffd_report_create(rows->list, desc->pool.stable, NULL, &rows->report, error);
+    return status;
+}
+
+hash128 ffd_run_rows_target(const run_rows *rows, uint64_t row, const hash128 *output)
+{
+    unsigned char number[8];
+    store_u64(number, row);
+    const hash_block blocks[] = {{rows->file.bytes, sizeof rows->file.bytes},
+                                 {number, sizeof number},
+                                 {output, output ? sizeof *output : 0}};
+    return ffd_hash_blocks(blocks, 3);
+}
+
+void ffd_run_rows_close(run_rows *rows)
+{
+    ffd_report_destroy(&rows->report);
+    ffd_free(rows->list);
+    *rows = (run_rows){0};
+}
