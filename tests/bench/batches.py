@@ -11,8 +11,9 @@ import lattices
 import meshes
 import programs
 
-# A mesh of about 1,000 vertices.
+# Meshes of about 1,000 vertices, and of 1,849.
 SMALL = 32
+VARIANT = 43
 
 
 def few(bench):
@@ -42,15 +43,37 @@ def by_many(bench, jobs):
     return len(jobs) / programs.measure(programs.Command(command))[0]
 
 
-def by_table(bench, jobs):
-    """A row each, which gives values to the placeholders of one lattice."""
+def table_command(bench, jobs, has_outputs):
+    """A batch with a row for each job, which gives values to the placeholders of one lattice."""
     table, lattice = bench.path("rows.csv"), jobs[0][1]
     with open(table, "w", encoding="ascii") as file:
-        file.write("in,out,X,Z\n")
-        file.writelines(f"{source},{target},{k / 1e5},{k / 2e5}\n" for k, (source, _, target) in enumerate(jobs))
-    command = [bench.ffd, "batch", "--csv", table, "-l", lattice, "--quiet", "--journal", bench.path("journal"),
-               *(["-j", str(bench.threads)] if bench.threads else [])]
-    return len(jobs) / programs.measure(programs.Command(command))[0]
+        file.write("in,out,X,Z\n" if has_outputs else "in,X,Z\n")
+        file.writelines(f"{source},{target + ',' if has_outputs else ''}{k / 1e5},{k / 2e5}\n"
+                        for k, (source, _, target) in enumerate(jobs))
+    return [bench.ffd, "batch", "--csv", table, "-l", lattice, "--quiet", "--journal", bench.path("journal"),
+            *(["-j", str(bench.threads)] if bench.threads else [])]
+
+
+def by_table(bench, jobs):
+    return len(jobs) / programs.measure(programs.Command(table_command(bench, jobs, True)))[0]
+
+
+def by_positions(bench, jobs):
+    """A row each of one array, in place of files."""
+    command = table_command(bench, jobs, False)
+    return len(jobs) / programs.measure(programs.Command([*command, "--positions", bench.path("all.npy"), "--force"]))[0]
+
+
+def by_writing(bench, jobs):
+    """As many bytes as the array has, written by one process, row by row."""
+    row, path = bytes(VARIANT ** 2 * 12), bench.path("written")
+    begin = time.perf_counter()
+    with open(path, "wb", buffering=0) as file:
+        for _ in jobs:
+            file.write(row)
+    seconds = time.perf_counter() - begin
+    os.remove(path)
+    return len(jobs) / seconds
 
 
 def by_creating(bench, jobs):
@@ -166,3 +189,18 @@ def rows(bench):
         made, done = rates(bench, out, [(by_creating, jobs), (by_table, jobs)])
         row = bench.table.add(f"{ending}: files of that size made", made, "files/s")
         bench.table.add(f"{ending}: batch", done, "jobs/s", row, ">= 2000 /s or 1")
+
+
+def positions(bench):
+    """Variants of one mesh as rows of an array, beside as many bytes written, and beside a mesh file each (of a tenth)."""
+    count, out = 50 * bench.jobs, bench.path("outputs")
+    bench.table.title(f"Array of {count:,} variants of {VARIANT ** 2:,} vertices")
+    source = bench.mesh("variants.obj", meshes.write_obj, VARIANT)
+    for name in bench.lattices:
+        lattice = lattices.write_kind(bench.path("variants.json"), name,
+                                      [lattices.TWIST, {"at": [1, 1, 1], "by": [{"$": "X"}, 0, {"$": "Z"}]}])
+        jobs = [(source, lattice, os.path.join(out, f"{k}.obj")) for k in range(count)]
+        written, files, done = rates(bench, out, [(by_writing, jobs), (by_table, jobs[:count // 10]), (by_positions, jobs)])
+        row = bench.table.add(f"{name}: as many bytes written", written, "rows/s")
+        bench.table.add(f"{name}: a mesh file each", files, "jobs/s", row)
+        bench.table.add(f"{name}: rows", done, "jobs/s", row, ">= 2000 /s")

@@ -45,6 +45,7 @@ SUBJECTS = {
     "picture": pictures.picture,
     "batch": batches.batch,
     "sweep": batches.sweep,
+    "positions": batches.positions,
 }
 
 

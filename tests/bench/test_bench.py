@@ -37,6 +37,7 @@ SUBJECTS = {
     "Picture of 1600x900": ["copy of its bytes, new memory", "copy of its bytes, the same memory", "3200 triangles"],
     "Batch of 20 meshes": ["obj, box: batch", "glb, warped: a command each"],
     "Sweep of 2 lattices": ["box: a command each", "box: batch", "warped: batch"],
+    "Array of 1,000 variants": ["box: rows", "warped: a mesh file each"],
     "Table of 200 rows": ["obj: files of that size made", "obj: batch", "glb: batch"],
     "Large OBJ": ["box: peak memory (bar: for 10 GB)"],
 }

@@ -936,8 +936,8 @@ m("lattice-takes-no-memory", "limit", "cli_hostile_inputs", "if (ffd_budget_take
 m("lattices-of-a-job", "limit", "cli_hostile_inputs", "#define MOST_LATTICES 1024", "#define MOST_LATTICES 1025")
 m("memory-of-a-new-lattice", "check left out", "cli_hostile_inputs",
   "return ffd_lattice_memory_take(&budget, &spec, 0, error);", "return budget.most ? FFD_OK : ffd_lattice_memory_take(&budget, &spec, 0, error);")
-m("beside-a-dry-run", "check left out", "cli_materials", "return status ? status : rehearse(job, &options, error);",
-  "return status ? status : rehearse(job, &options, error) ? FFD_OK : FFD_OK;")
+m("beside-a-dry-run", "check left out", "cli_materials", "return rehearse(job, &options, error);",
+  "return rehearse(job, &options, error) ? FFD_OK : FFD_OK;")
 m("flaws-of-a-box", "message", "cli_boxes", "ffd_flaws_warn(&document->flaws, ffd_source_name(source), log);", "(void)log;")
 m("flaws-of-a-known-box", "message", "cli_boxes", "for (size_t i = 0; i < box->warnings.count; i++) ffd_log_line(",
   "for (size_t i = 1; i < box->warnings.count; i++)\n        ffd_log_line(")
@@ -1088,10 +1088,19 @@ m("picture-in-its-own-folder-only", "identity", "cli_batch_view", "ffd_path_join
 m("page-of-all-shards", "name", "run_view, cli_batch_view", "if (desc->shards > 1)", "if (desc->shards > 1000)")
 m("old-picture-is-current", "check left out", "run_view, cli_batch_view", "&& !is_older(&picture, &mesh);", "&& (mesh.size || !is_older(&picture, &mesh));")
 m("older-by-seconds", "order", "run_view", "a->written[1] < b->written[1];", "a->written[1] < 0;")
-m("picture-not-checked-before", "check left out", "cli_batch_view", "return picture ? ffd_job_picture_check(picture, desc->force || desc->if_changed, error) : FFD_OK;",
+m("row-not-marked-last", "order", "row_array, cli_batch_positions", "if (!status && count > 1) status = write_vertices(array, row, file, positions, 1, count, piece, error);", "if (!status && count > 1)\n        status = write_vertices(array, row, file, positions, 2, count, piece, error);")
+m("row-of-a-failure", "state left", "cli_batch_positions", "if (row->is_written) ffd_row_clear(&row->array, row->number);", "")
+m("row-replaced", "check left out", "cli_batch_positions", "if (row && !replaces && ffd_row_is_done(&row->array, row->number))", "if (row && !replaces && task->dry && ffd_row_is_done(&row->array, row->number))")
+m("row-too-large", "check left out", "row_array, cli_batch_positions", "if (isinf((float)positions[i]) && isfinite(positions[i]))", "if (isinf((float)positions[i]) && isnan(positions[i]))")
+m("row-of-its-shard", "count", "cli_batch_positions", "job->row = source->count - 1;", "job->row = (source->count - 1) / source->desc.shards;")
+m("row-hash-left-out", "check left out", "cli_batch_positions", "if (row && ffd_row_hash(&row->array, row->number, &parts[count++], NULL))", "if (row && count > 0 && ffd_row_hash(&row->array, row->number, &parts[count++], NULL))")
+m("array-of-a-pipe", "check left out", "cli_batch_positions", "if (origin && ffd_file_reads_once(origin)) return ffd_fail(error, FFD_E_ARGUMENT, \"--positions reads", "if (origin && ffd_file_is_stream(origin))\n        return ffd_fail(error, FFD_E_ARGUMENT, \"--positions reads")
+m("size-of-an-array", "overflow", "row_array", "(row_size(array) == 0 || array->rows <= most / row_size(array)))", "(row_size(array) == 0 || array->rows * row_size(array) <= most))")
+m("shown-positions", "state", "cli_batch_positions", "counting.deformed = job->positions;", "counting.deformed = NULL;")
+m("picture-not-checked-before", "check left out", "cli_batch_view", "return picture ? ffd_job_picture_check(picture, replaces, error) : FFD_OK;",
   "return picture ? ffd_job_picture_check(picture, true, error) : FFD_OK;")
 m("missing-picture-is-skipped", "condition", "cli_batch_view", "if (has_output && (!picture || answer->has_picture))", "if (has_output)")
-m("output-made-for-its-picture", "condition", "cli_batch_view", "if (!has_output) status = make_output(", "if (!picture || !has_output || picture)\n        status = make_output(")
+m("output-made-for-its-picture", "condition", "cli_batch_view", "if (!has_output) status = judge_row(", "if (!picture || !has_output || picture)\n        status = judge_row(")
 m("no-picture-behind-a-gate", "condition", "cli_batch_view", "if (picture && (status == FFD_OK || status == FFD_E_GATE))", "if (picture && status == FFD_OK)")
 m("picture-failure-forgotten", "error left out", "cli_batch_view", "answer->has_picture = status == FFD_OK || status == FFD_E_GATE;", "answer->has_picture = status < FFD_E_GATE || status >= FFD_OK;")
 m("figures-of-no-job", "figure", "cli_batch_view", "if (is_all || !answer->has_picture)", "if (!answer->has_picture)")
@@ -1102,10 +1111,10 @@ m("picture-of-two-jobs", "check left out", "cli_batch_view", "if (!is_taken(outp
   "if (!is_taken(outputs, file, &line) || line > 0)\n        return ffd_files_put(&outputs->lines, file, job->line, error);\n    refuse(manifest, job, path, line);")
 m("index-as-an-output", "check left out", "cli_batch_view", "run->view ? ffd_run_view_page(run->view) : NULL};", "NULL};")
 m("index-out-of-order", "operation", "cli_batch_view", "|| run->depfile || run->view ||", "|| run->depfile ||")
-m("index-replaced", "check left out", "cli_batch_view", ".force = desc->view_force,", ".force = true,")
+m("index-replaced", "check left out", "cli_batch_view", ".force = desc->force || desc->jobs.resume,", ".force = true,")
 m("index-of-a-dry-run", "option left out", "cli_batch_view", ".dry = desc->pool.dry};", ".dry = false};")
 m("picture-in-place", "check left out", "cli_batch_view", "if (in_place && maker->frame->pictures)", "if (in_place && maker->frame->pictures && !has_output && output)")
-m("figures-of-skipped-jobs", "condition", "cli_batch_view", "run->report || run->view ? &task->figures : NULL;", "run->report ? &task->figures : NULL;")
+m("figures-of-skipped-jobs", "condition", "cli_batch_view", "run->report || run->view || run->rows.report ? &task->figures : NULL;", "run->report ? &task->figures : NULL;")
 m("figures-of-a-failure", "condition", "run_view, cli_batch_view", "&vertices) && vertices > 0;", "&vertices) && vertices >= 0;")
 m("address-not-escaped", "escape left out", "view_index, cli_batch_view", 'strchr("-._~/", *c);', 'strchr("-._~/:?#%&\\"", *c);')
 m("quotes-in-attributes", "escape left out", "view_index, cli_batch_view", "*c == '\"' && in_quotes", "*c == 1 && in_quotes")
