@@ -770,6 +770,12 @@ m("written-edges", "off by one", "cli_convert", "plan->edges = lines->corner_cou
   "plan->edges = lines->corner_count;")
 m("colours-of-255", "check left out", "cli_convert", "value > 255 || floor(value) < value)", "value > 255)")
 m("colours-above-1", "check left out", "cli_convert", "limit_colours(&model, target, log);", "")
+m("row-of-a-failed-job-stays", "clean-up left out", "cli_batch_positions",
+  "if (task->outcome == OUTCOME_FAILED) clear_row(run, task);", "if (task->outcome == OUTCOME_FAILED && 0) clear_row(run, task);")
+m("row-of-another-run-cleared", "condition", "cli_batch_positions",
+  "task->took_row = head.took_row;", "task->took_row = true;")
+m("array-of-an-interrupt", "check left out", "row_array, cli_batch_positions",
+  "if (status || ffd_interrupt_requested()) ffd_output_destroy(made);", "if (status) ffd_output_destroy(made);")
 m("zeros-are-blank", "check left out", "cli_batch, cli_batch_table", "line->data[i] == 0 || !strchr(", "!strchr(")
 m("lone-returns-not-seen", "check left out", "cli_batch_table", "if (has_lone_return(name))", "if (!name)")
 m("glb-stride", "stride", "cli_convert, validator", "{12, 12, 8, glb_colour_size(w), 12, 12, 0, 0, 0}",
