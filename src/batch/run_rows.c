@@ -83,15 +83,15 @@ ffd_status ffd_run_rows_open(run_rows *rows, const batch_desc *desc, ffd_error *
     if (!status && rows->is_there)
         status = make_array(rows, desc, error);
     rows->file = ffd_file_identity(desc->positions);
-    if (status)
-        return status;
-    return desc->pool.dry ? ffd_report_check(rows->list, error)
-                          : ffd_report_create(rows->list, desc->pool.stable, NULL, &rows->report, error);
+    return status ? status : ffd_report_check(rows->list, error);
 }
 
-ffd_status ffd_run_rows_place(run_rows *rows, ffd_error *error)
+ffd_status ffd_run_rows_place(run_rows *rows, const batch_desc *desc, ffd_error *error)
 {
-    return ffd_rows_place(&rows->array, rows->replaces, &rows->made, error);
+    const ffd_status status =
+        desc->pool.dry ? FFD_OK
+                       : ffd_report_create(rows->list, desc->pool.stable, NULL, &rows->report, error);
+    return status ? status : ffd_rows_place(&rows->array, rows->replaces, &rows->made, error);
 }
 
 hash128 ffd_run_rows_target(const run_rows *rows, uint64_t row, const hash128 *output)

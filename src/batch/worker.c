@@ -267,9 +267,10 @@ static ffd_status check(const wire_task *task, const char *picture, ffd_deform_d
 /* What went wrong with a row is said as it is. */
 static ffd_status judge_row(const job_row *row, ffd_status status, ffd_error *error)
 {
-    if (row && status && row->failure.status)
-        *error = row->failure;
-    return status ? error->status : FFD_OK;
+    if (!row || !status || !row->failure.status)
+        return status;
+    *error = row->failure;
+    return error->status;
 }
 
 /* Deforms, or sees that it need not; and draws the picture (NULL: none is wanted). */

@@ -213,7 +213,7 @@ def a_run_that_is_refused_leaves_the_array(run):
     """What stands beside the array, the report and the page are looked at before an array gets its name or is replaced."""
     sweep(run)
     batch(run, *table("--positions", "old.npy"), done=ROWS)
-    before = run.read("old.npy")
+    before = [run.read("old.npy"), run.read("old.json")]
     for name in ("new.json", "r.json", "j.json"):
         run.write(name, "mine")
     run.write("v", "no folder")
@@ -225,8 +225,8 @@ def a_run_that_is_refused_leaves_the_array(run):
                            (("--positions", "new2.npy", "--view", "v"), "^v"),
                            (("--positions", "old.npy", "--report", "r.json", "--force"), "^r.json: exists and is not a report")):
         run.ffd("batch", *table(*arguments), code=(USAGE, IO, INVALID), err=re.compile(why))
-        equal(set(names(run)) - left - {"new2.json"}, set(), arguments)
-        equal(run.read("old.npy"), before, arguments)
+        equal(set(names(run)), left, arguments)
+        equal([run.read("old.npy"), run.read("old.json")], before, arguments)
     run.ffd("batch", *table("--positions", "new.npy", "--dry-run"), code=IO, err=re.compile("^new.json: exists and is not a report"))
 
 

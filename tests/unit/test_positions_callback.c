@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include <ffd/ffd.h>
+#include <math.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -70,7 +71,8 @@ static void check_taken(const taker *t)
 {
     assert_int_equal(t->calls, 1);
     assert_int_equal(t->count, 3);
-    assert_memory_equal(t->points, expected, sizeof expected);
+    for (int i = 0; i < 9; i++)
+        assert_true(fabs(t->points[i] - expected[i]) < 1e-14);
 }
 
 static void no_output_is_needed(void **state)
@@ -192,7 +194,7 @@ static void many_jobs_in_a_row(void **state)
     ffd_share_destroy(&share);
     job j;
     begin(&j);
-    j.desc.input.bytes = (ffd_bytes){"", 0};
+    j.desc.input.bytes = (ffd_bytes){"# none\n", 7};
     assert_int_equal(ffd_deform_run(&j.desc, &j.result, &j.error), FFD_OK);
     assert_int_equal(j.taker.calls, 1); /* of a mesh without vertices too */
     assert_int_equal(j.taker.count, 0);
