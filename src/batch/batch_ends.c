@@ -71,12 +71,24 @@ static ffd_status say_task(batch_run *run, const pool_task *task, ffd_error *err
     return status;
 }
 
+/* A job that fails leaves no positions: neither its own nor those of a run before. */
+static void clear_row(const batch_run *run, const pool_task *task)
+{
+    const batch_desc *const desc = run->desc;
+    const bool replaces = run->rows.goes_on && (desc->force || desc->jobs.resume);
+    if (desc->positions && !desc->pool.dry && (task->took_row || replaces) &&
+        task->job.row < run->rows.array.rows)
+        ffd_row_clear(&run->rows.array, task->job.row);
+}
+
 /* Does what follows at once from the end of a job, even if jobs before it still run. */
 static ffd_status note_end(batch_run *run, pool_task *task, ffd_error *error)
 {
     uint64_t *const counts[] = {&run->counts.done, &run->counts.skipped, &run->counts.failed};
     ++*counts[task->outcome];
     task->noted = true;
+    if (task->outcome == OUTCOME_FAILED)
+        clear_row(run, task);
     ffd_status status = ffd_states_note(&run->meshes, task, error);
     if (!status)
         status = say_task(run, task, error);

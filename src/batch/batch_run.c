@@ -297,6 +297,8 @@ static ffd_status open_all(batch_run *run, ffd_error *error)
         status = open_view(run, error);
     if (!status && desc->report)
         status = ffd_report_create(desc->report, pool.stable, NULL, &run->report, error);
+    if (!status && desc->positions)
+        status = ffd_run_rows_place(&run->rows, desc, error);
     if (!status)
         status = claim_own(run, error);
     pool.report = run->report || run->view || run->rows.report;

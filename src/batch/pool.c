@@ -177,6 +177,7 @@ static void begin_task(const worker_pool *pool, pool_worker *worker, pool_task *
     worker->timed_out = worker->stopped = worker->is_ending = false;
     worker->deadline = pool->desc.timeout > 0 ? ffd_clock_seconds() + pool->desc.timeout : 0;
     task->looks = task->state == TASK_NEW;
+    task->took_row = pool->desc.rows != NULL;
     task->state = TASK_RUNS;
 }
 
@@ -273,6 +274,7 @@ static bool take_answer(worker_pool *pool, pool_worker *worker)
     pool->counts.jobs.searches += head.counts.searches;
     task->has_record = head.has_record;
     task->has_picture = head.has_picture;
+    task->took_row = head.took_row;
     worker->retires = head.retires;
     pool->rehearsed = pool->rehearsed || head.rehearsed;
     bytes->size = 0;

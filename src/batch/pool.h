@@ -46,6 +46,7 @@ typedef struct pool_task {
     byte_buffer copied;       /* and files that may be copied, each path ended by 0 */
     bool was_returned;        /* by a worker that had ended before it could take it */
     bool noted;               /* what its end means at once was seen to */
+    bool took_row;            /* its worker may have written to it */
     /* Once it has ended: */
     wire_outcome outcome;
     bool has_picture; /* it is there, of this job */

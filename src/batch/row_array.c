@@ -1,11 +1,12 @@
 #include "batch/row_array.h"
 #include "base/file/input.h"
-#include "base/file/output.h"
 #include "base/file/update.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include "base/system/clock.h"
+#include "base/system/interrupt.h"
 #include "io/npy/npy.h"
+#include "job/report/replace.h"
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
@@ -110,40 +111,61 @@ static ffd_status write_empty(const row_array *array, file_output *output, ffd_e
         return ffd_fail_memory(error);
     fill_nan(array, nan, PIECE);
     ffd_status status = ffd_output_write(output, head, make_head(array, head), error);
-    for (uint64_t left = array->rows * row_size(array); left > 0 && !status; left -= piece_of(left))
+    for (uint64_t left = array->rows * row_size(array); left > 0 && !status && !ffd_interrupt_requested();
+         left -= piece_of(left))
         status = ffd_output_write(output, nan, piece_of(left), error);
     ffd_free(nan);
     return status;
 }
 
 /* busy: another run was writing the file. */
-static ffd_status create(const row_array *array, bool force, bool *busy, ffd_error *error)
+static ffd_status begin(const row_array *array, bool force, file_output **made, bool *busy, ffd_error *error)
 {
-    file_output *output;
-    ffd_status status = ffd_output_create(&output, error);
+    ffd_status status = ffd_output_create(made, error);
     if (!status)
-        status = ffd_output_begin(output, array->path, force, error);
-    *busy = status && output && ffd_output_was_busy(output);
+        status = ffd_output_begin(*made, array->path, force, error);
+    *busy = status && *made && ffd_output_was_busy(*made);
     if (!status)
-        status = write_empty(array, output, error);
-    if (!status)
-        status = ffd_output_commit(output, error);
-    ffd_output_destroy(&output);
+        status = write_empty(array, *made, error);
+    if (status || ffd_interrupt_requested())
+        ffd_output_destroy(made);
     return status;
 }
 
-ffd_status ffd_rows_create(const row_array *array, bool force, ffd_error *error)
+static bool is_npy(const file_input *old)
 {
-    bool busy, is_there;
-    ffd_status status = create(array, force, &busy, error);
-    while (busy) {
+    static const char magic[] = "\x93NUMPY";
+    return old->size >= sizeof magic - 1 && memcmp(old->data, magic, sizeof magic - 1) == 0;
+}
+
+ffd_status ffd_rows_check_replaced(const row_array *array, ffd_error *error)
+{
+    return ffd_replace_check(array->path, is_npy, "NumPy array", error);
+}
+
+ffd_status ffd_rows_make(const row_array *array, bool force, file_output **made, ffd_error *error)
+{
+    bool busy, is_there = false;
+    ffd_status status = begin(array, force, made, &busy, error);
+    while (busy && !force && !is_there && !ffd_interrupt_requested()) {
         ffd_clock_sleep(LOOK);
         status = ffd_rows_find(array, &is_there, error);
-        if (status || is_there)
-            return status;
-        status = create(array, force, &busy, error);
+        if (!status && !is_there)
+            status = begin(array, force, made, &busy, error);
+        else
+            busy = false;
     }
+    if (busy && ffd_interrupt_requested())
+        return FFD_OK;
     /* It has appeared meanwhile. */
+    return status == FFD_E_EXISTS && !force ? ffd_rows_find(array, &is_there, error) : status;
+}
+
+ffd_status ffd_rows_place(const row_array *array, bool force, file_output **made, ffd_error *error)
+{
+    bool is_there;
+    const ffd_status status = *made ? ffd_output_commit(*made, error) : FFD_OK;
+    ffd_output_destroy(made);
     return status == FFD_E_EXISTS && !force ? ffd_rows_find(array, &is_there, error) : status;
 }
 

@@ -6,6 +6,7 @@
 #define FFD_BATCH_ROW_ARRAY_H
 
 #include "base/fail.h"
+#include "base/file/output.h"
 #include "base/memory/hash.h"
 #include <stdint.h>
 
@@ -20,9 +21,14 @@ ffd_status ffd_rows_check_size(const row_array *array, ffd_error *error);
 /* Whether the file is there. Errors: FFD_E_EXISTS for one that is not this array, to the byte of its head;
    FFD_E_IO. */
 ffd_status ffd_rows_find(const row_array *array, bool *is_there, ffd_error *error);
-/* Makes the file with rows of NaN, complete or not at all. force: in the place of another file. Where another
-   run makes the same array in this moment, its file will do. Errors: FFD_E_EXISTS, FFD_E_IO, FFD_E_MEMORY. */
-ffd_status ffd_rows_create(const row_array *array, bool force, ffd_error *error);
+/* Refuses to replace what is no array of NumPy's. Errors: FFD_E_EXISTS, FFD_E_IO. */
+ffd_status ffd_rows_check_replaced(const row_array *array, ffd_error *error);
+/* Writes the file with rows of NaN under a temporary name. *made is for ffd_rows_place or ffd_output_destroy;
+   NULL: another run has made the same array in this moment, or this one was interrupted. force: in the place
+   of another file. Errors: FFD_E_EXISTS, FFD_E_IO, FFD_E_MEMORY. */
+ffd_status ffd_rows_make(const row_array *array, bool force, file_output **made, ffd_error *error);
+/* Gives it its name, unless *made is NULL, and frees it. Errors: the same. */
+ffd_status ffd_rows_place(const row_array *array, bool force, file_output **made, ffd_error *error);
 
 /* Whether a row has positions. False too where there is no such file. */
 bool ffd_row_is_done(const row_array *array, uint64_t row);

@@ -43,38 +43,55 @@ static ffd_status measure(run_rows *rows, const batch_desc *desc, ffd_error *err
 }
 
 /* An array that is there stays where others may write to it, or this run goes on with it. */
-static ffd_status make_array(const run_rows *rows, const batch_desc *desc, ffd_error *error)
+static ffd_status make_array(run_rows *rows, const batch_desc *desc, ffd_error *error)
 {
     const bool is_shared = desc->jobs.shards > 1, joins = is_shared || desc->jobs.resume;
     bool is_there;
     ffd_status status = ffd_rows_find(&rows->array, &is_there, error);
-    const bool replaces = status == FFD_E_EXISTS && desc->force && !is_shared;
-    if (status && !replaces)
+    rows->replaces = desc->force && !is_shared;
+    if (status && !(status == FFD_E_EXISTS && rows->replaces))
         return status;
-    if (is_there && joins && !status)
+    rows->goes_on = is_there && joins && !status;
+    if (rows->goes_on)
         return FFD_OK;
     const bool force = desc->force || is_shared;
-    if (is_there || desc->pool.dry) /* what would be refused is, before any work */
+    status = is_there && rows->replaces ? ffd_rows_check_replaced(&rows->array, error) : FFD_OK;
+    if (!status && (is_there || desc->pool.dry)) /* what would be refused is, before any work */
         status = ffd_output_check(rows->array.path, force, error);
     if (status || desc->pool.dry)
         return status;
-    return ffd_rows_create(&rows->array, desc->force && !is_shared, error);
+    return ffd_rows_make(&rows->array, rows->replaces, &rows->made, error);
+}
+
+/* The report beside the array is a file of its own. */
+static ffd_status check_list(const run_rows *rows, const batch_desc *desc, ffd_error *error)
+{
+    if (!rows->list)
+        return ffd_fail_memory(error);
+    if (desc->report && !ffd_output_is_stream(desc->report) && ffd_paths_meet(desc->report, rows->list))
+        return ffd_fail_file(error, FFD_E_ARGUMENT, rows->list,
+                             "says what is in the rows of --positions: --report needs another name");
+    return FFD_OK;
 }
 
 ffd_status ffd_run_rows_open(run_rows *rows, const batch_desc *desc, ffd_error *error)
 {
-    ffd_status status = measure(rows, desc, error);
-    if (status)
-        return status;
     rows->list = name_list(desc);
-    if (!rows->list)
-        return ffd_fail_memory(error);
-    if (rows->is_there)
+    ffd_status status = check_list(rows, desc, error);
+    if (!status)
+        status = measure(rows, desc, error);
+    if (!status && rows->is_there)
         status = make_array(rows, desc, error);
-    rows->file = ffd_file_identity(rows->array.path);
-    if (!status && !desc->pool.dry)
-        status = ffd_report_create(rows->list, desc->pool.stable, NULL, &rows->report, error);
-    return status;
+    rows->file = ffd_file_identity(desc->positions);
+    return status ? status : ffd_report_check(rows->list, error);
+}
+
+ffd_status ffd_run_rows_place(run_rows *rows, const batch_desc *desc, ffd_error *error)
+{
+    const ffd_status status =
+        desc->pool.dry ? FFD_OK
+                       : ffd_report_create(rows->list, desc->pool.stable, NULL, &rows->report, error);
+    return status ? status : ffd_rows_place(&rows->array, rows->replaces, &rows->made, error);
 }
 
 hash128 ffd_run_rows_target(const run_rows *rows, uint64_t row, const hash128 *output)
@@ -89,6 +106,7 @@ hash128 ffd_run_rows_target(const run_rows *rows, uint64_t row, const hash128 *o
 
 void ffd_run_rows_close(run_rows *rows)
 {
+    ffd_output_destroy(&rows->made);
     ffd_report_destroy(&rows->report);
     ffd_free(rows->list);
     *rows = (run_rows){0};

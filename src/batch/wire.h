@@ -65,6 +65,7 @@ typedef struct wire_answer {
     bool has_record, has_state;
     bool rehearsed;     /* all was done but the writing */
     bool has_picture;   /* it is there, made now or before */
+    bool took_row;      /* it may be replaced */
     bool looked;        /* there is such a file: nothing else was done */
     bool retires;       /* the worker ends, and is to be given nothing more */
     bool out_of_memory; /* so that there are no texts, although the job failed */

@@ -116,15 +116,13 @@ typedef struct job_row {
     row_array array;
     uint64_t number;
     bool dry;          /* nothing is to be written */
-    bool is_written;   /* it was */
-    ffd_error failure; /* why it was not */
+    ffd_error failure; /* why it was not written */
 } job_row;
 
 /* Takes the positions of a job (ffd_deform_desc). */
 static ffd_status take_positions(void *user, const double *positions, size_t count)
 {
     job_row *const row = user;
-    row->is_written = !row->dry;
     return row->dry ? ffd_row_check(&row->array, positions, count, &row->failure)
                     : ffd_row_write(&row->array, row->number, positions, count, &row->failure);
 }
@@ -243,29 +241,35 @@ static ffd_status make_output(batch_worker *worker, const wire_task *task, ffd_d
     return status;
 }
 
-/* Refuses a picture or a row that may not be replaced, before anything is written. */
-static ffd_status check(const wire_task *task, const char *picture, const job_row *row, ffd_deform_desc *desc,
-                        ffd_error *error)
+/* Refuses a row that may not be replaced, before anything else: whatever becomes of the job, it stays. */
+static ffd_status take_row(const wire_task *task, const job_row *row, const ffd_deform_desc *desc,
+                           wire_answer *answer, ffd_error *error)
+{
+    if (!row)
+        return FFD_OK;
+    answer->took_row =
+        task->resume || desc->force || desc->if_changed || !ffd_row_is_done(&row->array, row->number);
+    return answer->took_row
+               ? FFD_OK
+               : ffd_fail_file(error, FFD_E_EXISTS, row->array.path,
+                               "row %" PRIu64 " is there already (--force replaces it, --resume goes on)",
+                               row->number);
+}
+
+/* Refuses a picture that may not be replaced, before anything is written. */
+static ffd_status check(const wire_task *task, const char *picture, ffd_deform_desc *desc, ffd_error *error)
 {
     /* This run may replace what an earlier one left. */
     desc->force = desc->force || task->resume;
-    const bool replaces = desc->force || desc->if_changed;
-    if (row && !replaces && ffd_row_is_done(&row->array, row->number))
-        return ffd_fail_file(error, FFD_E_EXISTS, row->array.path,
-                             "row %" PRIu64 " is there already (--force replaces it, --resume goes on)",
-                             row->number);
-    return picture ? ffd_job_picture_check(picture, replaces, error) : FFD_OK;
+    return picture ? ffd_job_picture_check(picture, desc->force || desc->if_changed, error) : FFD_OK;
 }
 
-/* What went wrong with a row is said as it is; and a job that fails leaves none. */
-static ffd_status judge_row(job_row *row, ffd_status status, ffd_error *error)
+/* What went wrong with a row is said as it is. */
+static ffd_status judge_row(const job_row *row, ffd_status status, ffd_error *error)
 {
-    if (!row || !status)
+    if (!row || !status || !row->failure.status)
         return status;
-    if (row->failure.status)
-        *error = row->failure;
-    if (row->is_written)
-        ffd_row_clear(&row->array, row->number);
+    *error = row->failure;
     return error->status;
 }
 
@@ -280,7 +284,7 @@ static ffd_status do_job(batch_worker *worker, const wire_task *task, const char
         answer->outcome = OUTCOME_SKIPPED;
         return FFD_OK;
     }
-    ffd_status status = check(task, picture, row, desc, &result->error);
+    ffd_status status = check(task, picture, desc, &result->error);
     if (status || (task->dry && (has_output || !task->rehearse)))
         return status ? status : plan(desc, &result->error);
     desc->dry_run = task->dry;
@@ -359,8 +363,10 @@ static ffd_status do_task(batch_worker *worker, const wire_task *task, const fin
 {
     const ffd_shared_box shared = {.box = task->box};
     const unsigned losses = ffd_mapping_losses();
+    ffd_status status = take_row(task, row, desc, answer, &result->error);
     /* What a killed run had set aside is to be read. */
-    ffd_status status = task->look ? look(worker, desc, answer, &result->error) : FFD_OK;
+    if (!status && task->look)
+        status = look(worker, desc, answer, &result->error);
     if (status || answer->looked)
         return status;
     if (task->count)

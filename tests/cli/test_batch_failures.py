@@ -3,13 +3,14 @@
 library whose traps it runs into (tests/support/open_trap.c)."""
 
 import concurrent.futures
+import math
 import os
 import subprocess
 import sys
 import time
 
-from batches import batch, case, check, equal, job, lattice, main, report, start, statuses
-from harness import CUBE, FFD, NO, OK, Run
+from batches import batch, case, check, equal, job, lattice, lines_of, main, report, start, statuses
+from harness import CUBE, FFD, NO, OK, Run, npy
 
 TRAP = os.path.abspath(sys.argv.pop(1))
 # Seconds for a job that never ends, and far more than the others need where a machine pauses.
@@ -72,6 +73,20 @@ def a_crash_stops_with_stop(run):
     start_trapped(run)
     trapped(run, "m.jsonl", "-j1", "--stop", "--report", "r.json", done=1, failed=["^abort.obj: "], more="(--stop)")
     equal(statuses(run), ["ok", "failed"])
+
+
+@case
+def a_worker_that_crashes_leaves_no_row(run):
+    """Of an array of positions: that of a run before goes, too."""
+    good = {"in": "a.obj", "lattice": "l.json"}
+    start(run, [good, good])
+    batch(run, "m.jsonl", "--positions", "all.npy", done=2)
+    run.write("abort.json", lattice())
+    run.write("m.jsonl", lines_of([good, {**good, "lattice": "abort.json"}]))
+    trapped(run, "m.jsonl", "--positions", "all.npy", "--resume", kept=1, failed=["crashed: .*Abort"])
+    _, shape, values = npy(run.read("all.npy"))
+    equal(shape, (2, 8, 3))
+    equal([math.isnan(value) for value in values], [False] * 24 + [True] * 24)
 
 
 @case

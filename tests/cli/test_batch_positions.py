@@ -121,6 +121,38 @@ def a_job_that_fails_leaves_its_row(run):
 
 
 @case
+def a_job_that_fails_clears_an_older_row(run):
+    """A gate, a line, a mesh, a picture, in a run that goes on or that replaces rows; another run's row stays."""
+    good = {"in": "a.obj", "lattice": "l.json"}
+    start(run)
+    run.write("fold.json", lattice(moves=[{"at": [1, 1, 1], "by": [30, 30, 30]}]))
+    whole = as_floats([[x + 0.5, y + 0.25, z + 0.125] for x, y, z in CUBE_CORNERS])
+
+    def make(jobs):
+        run.write("m.jsonl", lines_of([good] * 4))
+        batch(run, "m.jsonl", "--positions", "all.npy", "--force", done=4)
+        run.write("m.jsonl", lines_of(jobs))
+
+    bad = [good, {"in": "a.obj", "lattice": "fold.json", "options": {"fail-on": "folds"}}, "not JSON", {"in": "gone.obj", "lattice": "l.json"}]
+    make(bad)
+    batch(run, "m.jsonl", "--positions", "all.npy", "--resume", "--dry-run", kept=1, failed=["folds", "m.jsonl:3:", "^gone.obj: "],
+          out="up to date: a.obj -> all.npy row 0\n")
+    equal(array(run)[1], [whole] * 4, "a dry run")
+    batch(run, "m.jsonl", "--positions", "all.npy", "--resume", kept=1, failed=["folds", "m.jsonl:3:", "^gone.obj: "])
+    equal(array(run)[1], [whole, NAN, NAN, NAN])
+    make(bad)
+    batch(run, "m.jsonl", "--positions", "all.npy", "--shard", "1/2", failed=["row 1 is there already", "row 3 is there already"])
+    batch(run, "m.jsonl", "--positions", "all.npy", "--shard", "0/2", failed=["row 0 is there already", "m.jsonl:3:"])
+    equal(array(run)[1], [whole] * 4, "rows of another run")
+    batch(run, "m.jsonl", "--positions", "all.npy", "--shard", "1/2", "--force", failed=["folds", "^gone.obj: "])
+    equal(array(run)[1], [whole, NAN, whole, NAN])
+    make([good] * 4)
+    run.folder_of("v/row-1.png/mine")
+    batch(run, "m.jsonl", "--positions", "all.npy", "--resume", "--view", "v", done=3, failed=["row-1.png: is a folder"])
+    equal(array(run)[1], [whole, NAN, whole, whole])
+
+
+@case
 def meshes_of_another_size_fail(run):
     """The first mesh that can be read says how many vertices a row has; nothing is written of one with others."""
     start(run, [{"in": "gone.obj", "lattice": "l.json"}, job(1), {"in": "b.obj", "lattice": "l.json", "out": "b2.obj"},
@@ -167,9 +199,53 @@ def an_array_that_exists_needs_force(run):
     run.write("other.npy", "mine")
     run.ffd("batch", *table("--positions", "other.npy", "--resume"), code=IO, err=re.compile("^other.npy: is there, and is not"))
     equal(run.text("other.npy"), "mine")
-    run.write("all2.json", "mine")
-    run.ffd("batch", *table("--positions", "all2.npy"), code=IO, err=re.compile("^all2.json: "))
-    equal(run.text("all2.json"), "mine")
+    # With --force it replaces its own kind.
+    run.ffd("batch", *table("--positions", "other.npy", "--force"), code=IO, err="other.npy: exists and is not a NumPy array: it is not replaced")
+    run.ffd("batch", *table("--positions", "other.npy", "--force", "--dry-run"), code=IO, err=re.compile("^other.npy: exists and is not"))
+    equal(run.text("other.npy"), "mine")
+    os.symlink("a.obj", run.path("link.npy"))
+    run.ffd("batch", *table("--positions", "link.npy", "--force"), code=IO, err=re.compile("^link.npy: exists and is not a NumPy array"))
+    equal(run.text("a.obj"), CUBE)
+
+
+@case
+def a_run_that_is_refused_leaves_the_array(run):
+    """What stands beside the array, the report and the page are looked at before an array gets its name or is replaced."""
+    sweep(run)
+    batch(run, *table("--positions", "old.npy"), done=ROWS)
+    before = [run.read("old.npy"), run.read("old.json")]
+    for name in ("new.json", "r.json", "j.json"):
+        run.write(name, "mine")
+    run.write("v", "no folder")
+    left = set(names(run))
+    for arguments, why in ((("--positions", "new.npy"), "^new.json: exists and is not a report"),
+                           (("--positions", "new2.npy", "--report", "r.json"), "^r.json: exists and is not a report"),
+                           (("--positions", "new2.npy", "--report", "./new2.json"), "^new2.json: says what is in the rows of --positions"),
+                           (("--positions", "new2.npy", "--journal", "j.json"), "^j.json: is not a journal"),
+                           (("--positions", "new2.npy", "--view", "v"), "^v"),
+                           (("--positions", "old.npy", "--report", "r.json", "--force"), "^r.json: exists and is not a report")):
+        run.ffd("batch", *table(*arguments), code=(USAGE, IO, INVALID), err=re.compile(why))
+        equal(set(names(run)), left, arguments)
+        equal([run.read("old.npy"), run.read("old.json")], before, arguments)
+    run.ffd("batch", *table("--positions", "new.npy", "--dry-run"), code=IO, err=re.compile("^new.json: exists and is not a report"))
+
+
+@case
+def an_array_that_is_made_is_left_when_interrupted(run):
+    """Two gigabytes of NaN are not written to the end."""
+    sweep(run, 9000)
+    run.write("a.obj", "".join(f"v {i % 7} {i % 5} {i % 3}\n" for i in range(20000)))
+
+    process = subprocess.Popen([FFD, "batch", *table("--positions", "all.npy")], cwd=run.folder, stderr=subprocess.PIPE)
+    limit = time.monotonic() + SECONDS
+    while not run.exists(".all.npy.ffd-tmp"):
+        check(process.poll() is None and time.monotonic() < limit, "it has ended, or never got there")
+        time.sleep(0.001)
+    process.send_signal(signal.SIGINT)
+    told = process.communicate(timeout=SECONDS)[1].decode()
+    equal(process.returncode, NO, told)
+    check("interrupted" in told, told)
+    equal([name for name in names(run) if "npy" in name], [], "an array that was interrupted")
 
 
 @case

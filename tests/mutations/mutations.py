@@ -770,6 +770,12 @@ m("written-edges", "off by one", "cli_convert", "plan->edges = lines->corner_cou
   "plan->edges = lines->corner_count;")
 m("colours-of-255", "check left out", "cli_convert", "value > 255 || floor(value) < value)", "value > 255)")
 m("colours-above-1", "check left out", "cli_convert", "limit_colours(&model, target, log);", "")
+m("row-of-a-failed-job-stays", "clean-up left out", "cli_batch_positions",
+  "if (task->outcome == OUTCOME_FAILED) clear_row(run, task);", "if (task->outcome == OUTCOME_FAILED && 0) clear_row(run, task);")
+m("row-of-another-run-cleared", "condition", "cli_batch_positions",
+  "task->took_row = head.took_row;", "task->took_row = true;")
+m("array-of-an-interrupt", "check left out", "row_array, cli_batch_positions",
+  "if (status || ffd_interrupt_requested()) ffd_output_destroy(made);", "if (status) ffd_output_destroy(made);")
 m("zeros-are-blank", "check left out", "cli_batch, cli_batch_table", "line->data[i] == 0 || !strchr(", "!strchr(")
 m("lone-returns-not-seen", "check left out", "cli_batch_table", "if (has_lone_return(name))", "if (!name)")
 m("glb-stride", "stride", "cli_convert, validator", "{12, 12, 8, glb_colour_size(w), 12, 12, 0, 0, 0}",
@@ -1089,15 +1095,15 @@ m("page-of-all-shards", "name", "run_view, cli_batch_view", "if (desc->shards > 
 m("old-picture-is-current", "check left out", "run_view, cli_batch_view", "&& !is_older(&picture, &mesh);", "&& (mesh.size || !is_older(&picture, &mesh));")
 m("older-by-seconds", "order", "run_view", "a->written[1] < b->written[1];", "a->written[1] < 0;")
 m("row-not-marked-last", "order", "row_array, cli_batch_positions", "if (!status && count > 1) status = write_vertices(array, row, file, positions, 1, count, piece, error);", "if (!status && count > 1)\n        status = write_vertices(array, row, file, positions, 2, count, piece, error);")
-m("row-of-a-failure", "state left", "cli_batch_positions", "if (row->is_written) ffd_row_clear(&row->array, row->number);", "")
-m("row-replaced", "check left out", "cli_batch_positions", "if (row && !replaces && ffd_row_is_done(&row->array, row->number))", "if (row && !replaces && task->dry && ffd_row_is_done(&row->array, row->number))")
+m("row-replaced", "check left out", "cli_batch_positions",
+  "desc->if_changed || !ffd_row_is_done(&row->array, row->number);", "desc->if_changed || !task->dry || !ffd_row_is_done(&row->array, row->number);")
 m("row-too-large", "check left out", "row_array, cli_batch_positions", "if (isinf((float)positions[i]) && isfinite(positions[i]))", "if (isinf((float)positions[i]) && isnan(positions[i]))")
 m("row-of-its-shard", "count", "cli_batch_positions", "job->row = source->count - 1;", "job->row = (source->count - 1) / source->desc.shards;")
 m("row-hash-left-out", "check left out", "cli_batch_positions", "if (row && ffd_row_hash(&row->array, row->number, &parts[count++], NULL))", "if (row && count > 0 && ffd_row_hash(&row->array, row->number, &parts[count++], NULL))")
 m("array-of-a-pipe", "check left out", "cli_batch_positions", "if (origin && ffd_file_reads_once(origin)) return ffd_fail(error, FFD_E_ARGUMENT, \"--positions reads", "if (origin && ffd_file_is_stream(origin))\n        return ffd_fail(error, FFD_E_ARGUMENT, \"--positions reads")
 m("size-of-an-array", "overflow", "row_array", "(row_size(array) == 0 || array->rows <= most / row_size(array)))", "(row_size(array) == 0 || array->rows * row_size(array) <= most))")
 m("shown-positions", "state", "cli_batch_positions", "counting.deformed = job->positions;", "counting.deformed = NULL;")
-m("picture-not-checked-before", "check left out", "cli_batch_view", "return picture ? ffd_job_picture_check(picture, replaces, error) : FFD_OK;",
+m("picture-not-checked-before", "check left out", "cli_batch_view", "return picture ? ffd_job_picture_check(picture, desc->force || desc->if_changed, error) : FFD_OK;",
   "return picture ? ffd_job_picture_check(picture, true, error) : FFD_OK;")
 m("missing-picture-is-skipped", "condition", "cli_batch_view", "if (has_output && (!picture || answer->has_picture))", "if (has_output)")
 m("output-made-for-its-picture", "condition", "cli_batch_view", "if (!has_output) status = judge_row(", "if (!picture || !has_output || picture)\n        status = judge_row(")

@@ -9,14 +9,24 @@
 
 #include "../support/test_folder.h"
 #include "base/file/input.h"
+#include "base/system/interrupt.h"
 #include "batch/row_array.h"
 #include <math.h>
+#include <signal.h>
 
 enum { HEAD = 128, VERTICES = 5000 };
 
 static row_array array_of(const char *name, uint64_t rows, uint64_t vertices, bool is_double)
 {
     return (row_array){in_folder(name), rows, vertices, is_double};
+}
+
+static ffd_status create(const row_array *array, bool force, ffd_error *error)
+{
+    file_output *made = NULL;
+    const ffd_status status = ffd_rows_make(array, force, &made, error);
+    assert_true(status == FFD_OK || !made);
+    return status ? status : ffd_rows_place(array, force, &made, error);
 }
 
 /* The numbers of an array, which must be whole. Free with ffd_file_unload. */
@@ -68,7 +78,7 @@ static void rows_are_written_and_cleared(void **state)
     for (int type = 0; type < 2; type++) {
         const row_array array = array_of(type ? "f8.npy" : "f4.npy", 3, VERTICES, type);
         hash128 before, after;
-        assert_int_equal(ffd_rows_create(&array, false, NULL), FFD_OK);
+        assert_int_equal(create(&array, false, NULL), FFD_OK);
         assert_int_equal(ffd_row_hash(&array, 1, &before, NULL), FFD_OK);
         assert_false(ffd_row_is_done(&array, 1));
         assert_int_equal(ffd_row_write(&array, 1, positions, VERTICES, NULL), FFD_OK);
@@ -99,17 +109,35 @@ static void other_arrays_are_refused(void **state)
     assert_false(ffd_row_is_done(&array, 0));
     assert_int_equal(ffd_row_write(&array, 0, positions, 4, NULL), FFD_E_IO); /* and makes none */
     assert_false(ffd_file_exists(array.path));
-    assert_int_equal(ffd_rows_create(&array, false, NULL), FFD_OK);
-    assert_int_equal(ffd_rows_create(&array, false, NULL), FFD_OK); /* somebody else's will do */
+    assert_int_equal(create(&array, false, NULL), FFD_OK);
+    assert_int_equal(create(&array, false, NULL), FFD_OK); /* somebody else's will do */
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
         assert_int_equal(ffd_rows_find(&others[i], &is_there, &error), FFD_E_EXISTS);
         assert_non_null(strstr(error.message, "is not an array of"));
-        assert_int_equal(ffd_rows_create(&others[i], false, NULL), FFD_E_EXISTS);
+        assert_int_equal(create(&others[i], false, NULL), FFD_E_EXISTS);
         assert_int_equal(ffd_row_write(&others[i], 0, positions, (size_t)others[i].vertices, NULL),
                          FFD_E_EXISTS);
     }
-    assert_int_equal(ffd_rows_create(&others[1], true, NULL), FFD_OK);
+    assert_int_equal(create(&others[1], true, NULL), FFD_OK);
     assert_int_equal(ffd_rows_find(&array, &is_there, NULL), FFD_E_EXISTS);
+    (void)state;
+}
+
+static void arrays_have_no_name_until_they_are_placed(void **state)
+{
+    const row_array array = array_of("late.npy", 2, 4, false), other = array_of("late.npy", 3, 4, false);
+    file_output *made;
+    bool is_there;
+    assert_int_equal(ffd_rows_make(&array, false, &made, NULL), FFD_OK);
+    assert_false(ffd_file_exists(array.path));
+    ffd_output_destroy(&made);
+    assert_int_equal(create(&array, false, NULL), FFD_OK);
+    assert_int_equal(ffd_rows_make(&other, true, &made, NULL), FFD_OK);
+    assert_int_equal(ffd_rows_find(&array, &is_there, NULL), FFD_OK); /* still the old one */
+    assert_int_equal(ffd_rows_place(&other, true, &made, NULL), FFD_OK);
+    assert_null(made);
+    assert_int_equal(ffd_rows_find(&other, &is_there, NULL), FFD_OK);
+    assert_int_equal(ffd_rows_place(&other, true, &made, NULL), FFD_OK); /* nothing to do */
     (void)state;
 }
 
@@ -118,8 +146,8 @@ static void what_is_no_row_is_refused(void **state)
     double positions[] = {1, 2, 3, 4, -1e39, 6};
     const row_array array = array_of("single.npy", 1, 2, false), wide = array_of("wide.npy", 1, 2, true);
     ffd_error error;
-    assert_int_equal(ffd_rows_create(&array, false, NULL), FFD_OK);
-    assert_int_equal(ffd_rows_create(&wide, false, NULL), FFD_OK);
+    assert_int_equal(create(&array, false, NULL), FFD_OK);
+    assert_int_equal(create(&wide, false, NULL), FFD_OK);
     assert_int_equal(ffd_row_write(&array, 0, positions, 1, &error), FFD_E_INVALID);
     assert_non_null(strstr(error.message, "has 1 vertices"));
     assert_int_equal(ffd_row_write(&array, 0, positions, 2, &error), FFD_E_INVALID);
@@ -151,7 +179,7 @@ static void rows_of_no_vertices_are_never_done(void **state)
 {
     const row_array array = array_of("none.npy", 2, 0, false);
     hash128 hash;
-    assert_int_equal(ffd_rows_create(&array, false, NULL), FFD_OK);
+    assert_int_equal(create(&array, false, NULL), FFD_OK);
     assert_int_equal(ffd_row_write(&array, 1, NULL, 0, NULL), FFD_OK);
     assert_int_equal(ffd_row_hash(&array, 1, &hash, NULL), FFD_OK);
     assert_false(ffd_row_is_done(&array, 1));
@@ -159,12 +187,34 @@ static void rows_of_no_vertices_are_never_done(void **state)
     (void)state;
 }
 
+/* The last test: an interrupt stays. */
+static void nothing_is_made_after_an_interrupt(void **state)
+{
+    const row_array array = array_of("wait.npy", 2, 4, false);
+    file_output *other, *made;
+    assert_int_equal(ffd_rows_make(&array, false, &other, NULL), FFD_OK);
+    assert_int_equal(ffd_rows_make(&array, true, &made, NULL), FFD_E_IO); /* what it replaces is no other's */
+    ffd_interrupt_watch();
+    raise(SIGINT);
+    assert_int_equal(ffd_rows_make(&array, false, &made, NULL), FFD_OK); /* it does not wait for the other */
+    assert_null(made);
+    ffd_output_destroy(&other);
+    assert_int_equal(ffd_rows_make(&array, false, &made, NULL), FFD_OK);
+    assert_null(made);
+    assert_false(ffd_file_exists(array.path));
+    (void)state;
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rows_are_written_and_cleared),       cmocka_unit_test(other_arrays_are_refused),
-        cmocka_unit_test(what_is_no_row_is_refused),          cmocka_unit_test(sizes_are_counted_in_64_bits),
+        cmocka_unit_test(rows_are_written_and_cleared),
+        cmocka_unit_test(other_arrays_are_refused),
+        cmocka_unit_test(what_is_no_row_is_refused),
+        cmocka_unit_test(sizes_are_counted_in_64_bits),
         cmocka_unit_test(rows_of_no_vertices_are_never_done),
+        cmocka_unit_test(arrays_have_no_name_until_they_are_placed),
+        cmocka_unit_test(nothing_is_made_after_an_interrupt),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -132,13 +132,23 @@ static ffd_status create(const char *path, bool stable, ffd_written *written, me
     return status;
 }
 
+static ffd_status check_kind(const char *path, ffd_error *error)
+{
+    return ffd_replace_check(path, ffd_report_has_lines(path) ? is_report_of_lines : is_report, "report",
+                             error);
+}
+
+ffd_status ffd_report_check(const char *path, ffd_error *error)
+{
+    const ffd_status status = check_kind(path, error);
+    return status ? status : ffd_output_check(path, true, error);
+}
+
 ffd_status ffd_report_create(const char *path, bool stable, ffd_written *written, ffd_report **report,
                              ffd_error *error)
 {
-    const bool lines = ffd_report_has_lines(path);
     *report = NULL;
-    const ffd_status status =
-        ffd_replace_check(path, lines ? is_report_of_lines : is_report, "report", error);
+    const ffd_status status = check_kind(path, error);
     return status ? status : create(path, stable, written, NULL, report, error);
 }
 

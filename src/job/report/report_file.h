@@ -8,6 +8,8 @@
 
 /* Whether the name is that of JSON Lines. */
 bool ffd_report_has_lines(const char *path);
+/* The refusals of ffd_report_create, for a run that writes nothing. */
+ffd_status ffd_report_check(const char *path, ffd_error *error);
 /* Whether entries have to be added in the order of the jobs: what goes to a stream stays there. */
 bool ffd_report_is_ordered(const ffd_report *report);
 /* Adds the entry of a job by its text. Jobs are numbered from 0, in their order, in which the report has them
