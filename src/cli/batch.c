@@ -66,7 +66,6 @@ static const cli_option own_options[] = {
      AT(view), NULL},
     {"positions", 0, "ALL.npy",
      "write the deformed positions of all jobs into one array, jobs x vertices x 3, and ALL.json; meshes "
-
      "only of jobs with \"out\"",
      cli_set_text, AT(positions), NULL},
     {"dtype", 0, "f4|f8", "numbers of --positions: float32 or float64; default f4", cli_set_choice, AT(type),
