@@ -221,7 +221,8 @@ static bool know_results(batch_worker *worker, const wire_task *task, const ffd_
                          const job_row *row, hash128 *results)
 {
     hash128 bytes;
-    if (!desc->output || !ffd_cache_find_output(worker->share, &bytes) ||
+    const bool has_output = desc->output || desc->in_place;
+    if (!has_output || !ffd_cache_find_output(worker->share, &bytes) ||
         (!task->look && ffd_fingerprint_has_copies(desc, &worker->hashes)))
         return hash_results(desc, NULL, row, results);
     const hash128 output = ffd_fingerprint_written(&bytes);
