@@ -370,8 +370,10 @@ static ffd_status do_task(batch_worker *worker, const wire_task *task, const fin
         status = look(worker, desc, answer, &result->error);
     if (status || answer->looked)
         return status;
-    if (task->count)
-        return count_vertices(task, desc, answer, &result->error);
+    if (task->count) {
+        status = count_vertices(task, desc, answer, &result->error);
+        return ffd_mapping_judge(losses, status, &result->error);
+    }
     if (desc->in_place && !task->dry)
         status = ffd_restore_output(desc->input.path, &result->error);
     if (!status && task->measure)
