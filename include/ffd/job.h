@@ -101,12 +101,12 @@ typedef ffd_status (*ffd_resolve_function)(void *user, const char *name, ffd_byt
    it, as above: those that it has taken by then it keeps, without the output. */
 typedef ffd_status (*ffd_sink_function)(void *user, const char *name, const void *bytes, size_t size);
 
-/* Takes where a job brings the vertices of its mesh: x, y, z of each, count of them, in the order of
-   `ffd embed` and in the lattice's space (that of the scene, or of its own with FFD_SPACE_MESH), as doubles
-   that are not rounded to the file's numbers. Vertices that are not selected, or that stay, are there as
-   well; those of a node whose matrix has no inverse are NaN. Of a glTF they are the stored shapes, not what
-   weights of morph targets or an animation show. Lent during the call, which is made once by the caller's
-   thread: after all gates, and before the output is written. Any status but FFD_OK ends the job with it. */
+/* Takes the deformed vertices of a job's mesh: x, y, z of each, count of them, in the order of `ffd embed`
+   and in the lattice's space (that of the scene; with FFD_SPACE_MESH that of each mesh), as doubles that are
+   not rounded to the file's numbers. Vertices that are not selected, or that stay, are there as well; those
+   of a node whose matrix has no inverse are NaN. Of a glTF they are the stored shapes, without weights of
+   morph targets or an animation. Lent during the call, which the caller's thread makes once, with dry_run
+   too: after all gates, and before the output. Any status but FFD_OK ends the job with it, as above. */
 typedef ffd_status (*ffd_positions_function)(void *user, const double *positions, size_t count);
 
 /* A mesh to read. */
@@ -286,7 +286,7 @@ typedef struct ffd_deform_desc {
     ffd_sink_function sink;
     void *sink_user;
     /* Takes the deformed positions, of ffd_deform_run and ffd_check_run; or NULL. With it output may be NULL:
-       then no mesh is written. FFD_E_ARGUMENT with morphs. */
+       then no mesh is written, and as_morph, depfile and output_format are FFD_E_ARGUMENT. So are morphs. */
     ffd_positions_function positions;
     void *positions_user;
 } ffd_deform_desc;

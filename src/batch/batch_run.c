@@ -271,6 +271,18 @@ static ffd_status open_view(batch_run *run, ffd_error *error)
     return ffd_run_view_create(&view, &run->view, error);
 }
 
+/* Where no mesh can be read nobody knows how many vertices a row should have. */
+static void say_kept_array(batch_run *run)
+{
+    const char *const path = run->desc->positions;
+    ffd_error note;
+    if (!path || run->rows.is_there || run->desc->quiet || ffd_interrupt_requested() ||
+        ffd_jobs_count(run->source) == 0 || !ffd_file_exists(path))
+        return;
+    ffd_fail_file(&note, FFD_E_INVALID, path, "stays as it is: no mesh could be read");
+    ffd_run_say_error(run, &note);
+}
+
 static ffd_status open_all(batch_run *run, ffd_error *error)
 {
     const batch_desc *const desc = run->desc;
@@ -395,8 +407,10 @@ ffd_status ffd_batch_run(const batch_desc *desc, bool *failed, ffd_error *error)
         if (!status && run.depfile && !run.counts.failed && !run.dropped)
             status = write_depfile(&run, error);
         say_flaws(&run);
-        if (!status)
+        if (!status) {
             say_none(&run);
+            say_kept_array(&run);
+        }
         say_counts(&run);
         if (!status)
             ffd_progress_end(&run.progress, &run.counts, desc->pool.dry ? "to do" : "done", remark_of(&run));

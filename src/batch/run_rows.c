@@ -4,6 +4,7 @@
 #include "base/file/output.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
+#include "base/system/interrupt.h"
 #include "base/text/buffer.h"
 #include "batch/manifest/file_table.h"
 #include "batch/measure.h"
@@ -88,9 +89,11 @@ ffd_status ffd_run_rows_open(run_rows *rows, const batch_desc *desc, ffd_error *
 
 ffd_status ffd_run_rows_place(run_rows *rows, const batch_desc *desc, ffd_error *error)
 {
-    const ffd_status status =
-        desc->pool.dry ? FFD_OK
-                       : ffd_report_create(rows->list, desc->pool.stable, NULL, &rows->report, error);
+    /* A run that was interrupted ends without a job: what an earlier one has made is worth more than nothing.
+     */
+    if (desc->pool.dry || ffd_interrupt_requested())
+        return FFD_OK;
+    const ffd_status status = ffd_report_create(rows->list, desc->pool.stable, NULL, &rows->report, error);
     return status ? status : ffd_rows_place(&rows->array, rows->replaces, &rows->made, error);
 }
 

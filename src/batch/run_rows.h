@@ -11,7 +11,7 @@ typedef struct run_rows {
     row_array array;
     bool is_there;      /* or will be: the meshes' vertices are known */
     char *list;         /* the path of the report beside it */
-    ffd_report *report; /* NULL: of a dry run */
+    ffd_report *report; /* NULL: of a dry run, or one that was interrupted before its first job */
     hash128 file;       /* the array's identity */
     file_output *made;  /* the array, which has no name yet; NULL: it is there, or none is to be written */
     bool replaces;      /* an array that is there */

@@ -221,7 +221,8 @@ static bool know_results(batch_worker *worker, const wire_task *task, const ffd_
                          const job_row *row, hash128 *results)
 {
     hash128 bytes;
-    if (!desc->output || !ffd_cache_find_output(worker->share, &bytes) ||
+    const bool has_output = desc->output || desc->in_place;
+    if (!has_output || !ffd_cache_find_output(worker->share, &bytes) ||
         (!task->look && ffd_fingerprint_has_copies(desc, &worker->hashes)))
         return hash_results(desc, NULL, row, results);
     const hash128 output = ffd_fingerprint_written(&bytes);
@@ -369,8 +370,10 @@ static ffd_status do_task(batch_worker *worker, const wire_task *task, const fin
         status = look(worker, desc, answer, &result->error);
     if (status || answer->looked)
         return status;
-    if (task->count)
-        return count_vertices(task, desc, answer, &result->error);
+    if (task->count) {
+        status = count_vertices(task, desc, answer, &result->error);
+        return ffd_mapping_judge(losses, status, &result->error);
+    }
     if (desc->in_place && !task->dry)
         status = ffd_restore_output(desc->input.path, &result->error);
     if (!status && task->measure)

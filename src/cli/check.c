@@ -129,7 +129,10 @@ static void print_summary(const cli_job *job, const char *input, const ffd_job_r
     print_tear(result);
     print_extent("area", result->area_before, result->area_after, "not known");
     print_extent("volume", result->volume_before, result->volume_after,
-                 isnan(result->area_before) ? "not known" : "none: the mesh is not closed");
+                 isnan(result->area_before) ? "not known"
+                 : result->faces == 0 && fpclassify(result->area_before) == FP_ZERO
+                     ? "none: the mesh has no faces"
+                     : "none: the mesh is not closed");
     if (result->det_min <= result->det_max)
         printf("  det F          %g to %g at the vertices\n", result->det_min, result->det_max);
     printf("  edges          %" PRIu64 ", %g at most from the deformed surface, %g on average\n",

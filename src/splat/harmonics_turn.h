@@ -105,6 +105,8 @@ static ALWAYS_INLINE void turn_lobes(const number turned[LOBES][3], int degree, 
     const int count = 2 * degree + 1;
     number lobes[LOBES][HARMONICS_CHANNELS];
     memset(lobes, 0, sizeof lobes);
+    /* As often as the longest table has terms: then the compiler knows these, and the lobes stay in
+     * registers. */
 #pragma GCC unroll 22
     for (int t = 0; t < term_count; t++)
         for (int k = 0; k < HARMONICS_CHANNELS; k++)

@@ -153,6 +153,45 @@ def a_job_that_fails_clears_an_older_row(run):
 
 
 @case
+def an_array_stays_where_no_mesh_can_be_read(run):
+    sweep(run)
+    batch(run, *table("--positions", "all.npy"), done=ROWS)
+    before = run.read("all.npy")
+    run.remove("a.obj")
+    done = run.ffd("batch", *table("--positions", "all.npy", "--force"), code=NO, err=lambda said: None)
+    equal([line for line in done.err if "all.npy" in line], ["all.npy: stays as it is: no mesh could be read"])
+    equal(run.read("all.npy"), before)
+
+
+def has_child(number):
+    """Whether a process has begun another one."""
+    for name in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            with open(f"/proc/{name}/stat", encoding="utf-8", errors="replace") as file:
+                if int(file.read().rpartition(")")[2].split()[1]) == number:
+                    return True
+        except OSError:  # it has ended
+            pass
+    return False
+
+
+@case
+def an_interrupt_while_vertices_are_counted_replaces_nothing(run):
+    """A worker looks for a mesh that can be read, and so many are missing that the signal comes before the last."""
+    start(run, [{"in": "gone.obj", "lattice": "l.json"}] * 200000)
+    empty = '{"format": "ffd-report", "version": 1, "jobs": []}\n'
+    run.write("all.npy", "mine")
+    run.write("all.json", empty)
+    process = subprocess.Popen([FFD, "batch", "m.jsonl", "--positions", "all.npy", "--force"], cwd=run.folder, stderr=subprocess.DEVNULL)
+    limit = time.monotonic() + SECONDS
+    while not has_child(process.pid) and time.monotonic() < limit:
+        check(process.poll() is None, "it ended before the signal came")
+    process.send_signal(signal.SIGINT)
+    check(process.wait(timeout=SECONDS) in (NO, -signal.SIGINT, 128 + signal.SIGINT), process.returncode)
+    equal([run.text("all.npy"), run.text("all.json")], ["mine", empty])
+
+
+@case
 def meshes_of_another_size_fail(run):
     """The first mesh that can be read says how many vertices a row has; nothing is written of one with others."""
     start(run, [{"in": "gone.obj", "lattice": "l.json"}, job(1), {"in": "b.obj", "lattice": "l.json", "out": "b2.obj"},

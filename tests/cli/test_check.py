@@ -275,6 +275,9 @@ def area_and_volume(run):
             equal(entry["area"], {"before": 6, "after": 22})
     text = run.ffd("check", "b.obj", "-l", "l.json").text
     check("  volume         none: the mesh is not closed\n" in text, text)
+    run.write("cloud.obj", "v 0 0 0\nv 1 1 1\n")
+    text = run.ffd("check", "cloud.obj", "-l", "l.json").text
+    check("  volume         none: the mesh has no faces\n" in text, text)
     # What a primitive of no known mode draws is not known, so that nobody can say whether it is closed.
     asset, data = gltf_json([(0, 0, 0), (1, 0, 0), (0, 1, 0)])
     asset["meshes"][0]["primitives"][0]["mode"] = 9

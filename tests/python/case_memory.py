@@ -3,6 +3,7 @@
 import filecmp
 import io
 import json
+import mmap
 import os
 import shutil
 import tempfile
@@ -55,6 +56,9 @@ class Facts(Folder):
             self.addCleanup(stream.close)
         for data in (spot, memoryview(spot), *streams):
             self.assertEqual(ffd.info_bytes(data, name="spot.obj"), ffd.info("spot.obj"))
+        with open("spot.obj", "rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as mapped:
+            for _ in range(2):  # its place is not moved
+                self.assertEqual(ffd.info_bytes(mapped, name="spot.obj"), ffd.info("spot.obj"))
         self.assertEqual(ffd.info("spot.obj"), json.loads(support.program("info", "spot.obj", "--json")))
         self.assertEqual(ffd.info_bytes(spot, name="spot", input_format="obj", parts=True)["vertices"], 11533)
         found = ffd.info_bytes(LIFT, name="lift.json", set={"lift": 2})
@@ -264,4 +268,10 @@ class Derivatives(Folder):
                 run()
         with self.assertRaises(ffd.ArgumentError):
             ffd.jacobian_bytes(TRIANGLE, "twist.json", name="a.obj", output="j.txt")
+        gltf = json.loads(self.files["t.gltf"])
+        gltf["scenes"][0]["nodes"] *= 2
+        with self.assertRaises(ffd.InvalidError) as caught:
+            ffd.jacobian_bytes(json.dumps(gltf).encode(), LIFT, name="t.gltf", files=self.files, output="p.npy", set={"lift": 1},
+                               times=np.zeros((1, 3)))
+        self.assertRegex("".join(caught.exception.warnings), "node")
         self.assertEqual(sorted(os.listdir()), self.names)

@@ -80,7 +80,8 @@ void *ffd_alloc_sparse(size_t count, size_t size)
 {
     char *const block = ffd_alloc_zero(count, size);
 #ifdef MADV_HUGEPAGE
-    /* The library clears no block that it has from the system; such a one may begin anywhere. */
+    /* calloc need not clear a block that is new from the system, so that none of it is touched yet. Such a
+       block may begin anywhere, a huge page only at a multiple of its size. */
     const size_t before = block ? (LARGE_PAGE - (uintptr_t)block % LARGE_PAGE) % LARGE_PAGE : 0;
     if (block && count * size >= LARGE_BLOCK)
         madvise(block + before, (count * size - before) / LARGE_PAGE * LARGE_PAGE, MADV_HUGEPAGE);

@@ -28,9 +28,9 @@ static double square_sum(const double m[9])
 }
 
 /* One step: x becomes (s x + x^-T / s) / 2, with the s that makes both terms equally large. Returns how far
-   the entries move; negative where there is no inverse. ffd_splat_orthogonalise takes its steps as the
-   kernels of splats do, and mirrors: its last bits are nearly always others, and so would be those of
-   outputs. */
+   the entries move; negative where there is no inverse. ffd_splat_orthogonalise does the same in the order of
+   the kernels of splats, and keeps mirrors. Its last bits nearly always differ: here it would change outputs.
+ */
 static double step(double x[9])
 {
     double inverse[9], moved = 0;

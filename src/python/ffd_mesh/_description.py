@@ -62,12 +62,21 @@ def resolved(*sources: Any) -> Iterator[None]:
         raise
 
 
+def _content(data: Any) -> Any:
+    """What has bytes as it is, even if it can be read as a file is (mmap), from wherever it stands; what a file has still."""
+    try:
+        memoryview(data).release()
+    except TypeError:
+        return data.read() if hasattr(data, "read") else data
+    return data
+
+
 class Memory:
     """A mesh in memory, and what it names."""
 
     def __init__(self, data: Any, name: str, files: Files | None) -> None:
         self.name, self.resolver = library.path(name), None
-        self.address, self.size, self.kept = library.lend_bytes(data.read() if hasattr(data, "read") else data, "data")
+        self.address, self.size, self.kept = library.lend_bytes(_content(data), "data")
         if files is not None and not callable(files) and not isinstance(files, Mapping):
             raise TypeError(f"files must be a dict or a function, not {type(files).__name__}")
         self.find = files.get if isinstance(files, Mapping) else files

@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _library as library
 from ._description import INPUT_OPTIONS, AnyLattice, Files, Memory, Path, described, resolved
-from ._errors import GateError
+from ._errors import Error, GateError
 from ._library import lib
 from ._result import beside, plain
 
@@ -55,8 +55,10 @@ def _jacobian(source: Any, output: Any, lattices: Any, taken: list[Any] | None, 
                 library.sink_into(job, taken)
             desc.job = ctypes.pointer(job)
             library.call(lib.ffd_jacobian_run, ctypes.byref(desc), ctypes.byref(result))
-    except GateError as refused:
-        refused.result, refused.warnings = _figures(result, check), warnings
+    except Error as refused:
+        refused.warnings = warnings
+        if isinstance(refused, GateError):
+            refused.result = _figures(result, check)
         raise
     del kept
     return _figures(result, check)
