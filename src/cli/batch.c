@@ -110,6 +110,8 @@ static const char *wrong_positions(const settings *s, const cli_words *words)
         return "--positions needs the name of a file: its rows are written as the jobs come";
     if (!ffd_path_has_ending(s->positions, ".npy"))
         return "--positions needs a name that ends in .npy";
+    if (jobs->job.embedding && ffd_paths_meet(jobs->job.embedding, s->positions))
+        return "--positions would replace the embedding";
     if (jobs->in_place)
         return "--in-place cannot be used with --positions";
     if (jobs->job.morph_count > 0)

@@ -105,6 +105,23 @@ def rows_of_gltf_are_in_the_scene(run):
 
 
 @case
+def rows_are_of_the_stored_shape(run):
+    """Where the output shows a morph target, by its default weight, the row does not."""
+    start(run)
+    points = [[0.0, 0.0, 0.25], [1.0, 0.0, 0.25], [0.0, 1.0, 0.25]]
+    scene = Scene(scenes=[{"nodes": [0]}], nodes=[{"mesh": 0}])
+    primitive = {"attributes": {"POSITION": scene.add(points, bounds=True)},
+                 "targets": [{"POSITION": scene.add([[0, 0, 0.5]] * 3, bounds=True)}]}
+    scene.asset["meshes"] = [{"primitives": [primitive], "weights": [1]}]
+    run.write("a.glb", scene.glb())
+    run.write("m.jsonl", lines_of([{"in": "a.glb", "lattice": "l.json", "out": "o.obj"}, {"in": "a.glb", "lattice": "l.json"}]))
+    run.ffd("batch", "m.jsonl", "--positions", "all.npy", "--dtype", "f8", "--report", "r.json", "--quiet")
+    moved = [[x + 0.5, y + 0.25, z + 0.125] for x, y, z in points]
+    equal(array(run)[1], [moved, moved])
+    near(obj_vertices(run.text("o.obj")), [[x, y, z + 0.5] for x, y, z in moved], 1e-7)
+
+
+@case
 def a_job_that_fails_leaves_its_row(run):
     """A gate, a value of the wrong kind, a mesh that is missing, a crash of the disk: their rows are NaN, the others are whole."""
     start(run, [job(out="o0.obj"), {"in": "a.obj", "lattice": "fold.json", "options": {"fail-on": "folds"}},
@@ -395,6 +412,7 @@ def what_has_no_row_is_refused(run):
     for arguments, why in ((table("--positions", "-"), "needs the name of a file"),
                            (table("--positions", "all.bin"), "ends in .npy"),
                            (table("--positions", "all.npy", "--in-place"), "--in-place"),
+                           (table("--positions", "all.npy", "--embedding", "./all.npy"), "would replace the embedding"),
                            (table("--positions", "all.npy", "--depfile", "d"), "--depfile"),
                            (table("--dtype", "f8"), "--dtype needs --positions"),
                            (table("--positions", "all.npy", "--dtype", "f2"), "f2"),
