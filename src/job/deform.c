@@ -22,12 +22,6 @@ static ffd_status restore_output(const ffd_deform_desc *desc, ffd_error *error)
     return path && !ffd_output_is_stream(path) ? ffd_restore_output(path, error) : FFD_OK;
 }
 
-/* Whether a mesh is written: else only the positions are wanted. */
-static bool has_output(const ffd_deform_desc *desc)
-{
-    return desc->in_place || desc->output || !desc->positions;
-}
-
 /* What a job without an output cannot have. */
 static ffd_status check_no_output(const ffd_deform_desc *desc, ffd_error *error)
 {
@@ -48,7 +42,7 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
                                    .force = desc->force || desc->if_changed,
                                    .resources = desc->resources,
                                    .input = input};
-    if (!has_output(desc)) {
+    if (!ffd_deform_job_writes(desc)) {
         const ffd_status status = check_no_output(desc, error);
         return status ? status : ffd_source_format(&desc->input, &options->format, error);
     }
@@ -291,7 +285,7 @@ static ffd_status run(deform_job *job, ffd_job_result *result, ffd_error *error)
     if (!status)
         status =
             job->desc->morphs ? ffd_morphs_run(job, result, error) : ffd_deform_job_run(job, result, error);
-    if (status || !has_output(job->desc))
+    if (status || !ffd_deform_job_writes(job->desc))
         return status;
     if (job->desc->dry_run)
         return rehearse(job, &options, error);
@@ -318,7 +312,7 @@ static ffd_status deform(const ffd_deform_desc *desc, ffd_job_result *result, ff
 {
     ffd_share *share = NULL;
     ffd_deform_desc own = *desc;
-    if (!has_output(desc)) /* nobody sees the normals */
+    if (!ffd_deform_job_writes(desc)) /* nobody sees the normals */
         own.normals = FFD_NORMALS_KEEP;
     if (!desc->morphs || ffd_cache_holds_meshes(desc->share))
         return run_job(&own, result, error);

@@ -312,10 +312,17 @@ static ffd_status locate(deform_job *job, ffd_error *error)
                                &job->embedding, error);
 }
 
-/* Whether it matters what the document places beside vertices: no conversion and no morph target has it. */
+bool ffd_deform_job_writes(const ffd_deform_desc *desc)
+{
+    return desc->in_place || desc->output || !desc->positions;
+}
+
+/* Whether it matters what the document places beside vertices: no conversion, no morph target and no array of
+   positions has it. */
 static bool has_rig(const deform_job *job)
 {
-    return !job->desc->as_morph && (!job->document->converted || job->details);
+    return !job->desc->as_morph && (job->check || ffd_deform_job_writes(job->desc)) &&
+           (!job->document->converted || job->details);
 }
 
 /* Finds what the lattices do where the document places something, and moves it along if it follows. */

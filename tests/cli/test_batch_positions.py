@@ -5,6 +5,7 @@ import json
 import math
 import os
 import re
+import shutil
 import signal
 import struct
 import subprocess
@@ -102,6 +103,23 @@ def rows_of_gltf_are_in_the_scene(run):
         batch(run, "m.jsonl", "--positions", f"{i}.npy", "--dtype", "f8", *options, done=1)
         # The conversion goes through the file's float32 numbers, a row does not.
         near(array(run, f"{i}.npy")[1][0], obj_vertices(run.text(f"{i}.obj")), 1e-7, options)
+
+
+@case
+def nothing_is_said_of_joints_that_no_file_has(run):
+    """Positions are those of --rig follow too."""
+    start(run)
+    shutil.copy(os.path.join(os.environ["FFD_DATA"], "models", "knight.glb"), run.path("a.glb"))
+    run.write("l.json", lattice(low=(-9, -9, -9), high=(9, 9, 9), moves=[{"twist": {"axis": "y", "degrees": 50}}]))
+    run.write("m.jsonl", lines_of([{"in": "a.glb", "lattice": "l.json"}, {"in": "a.glb", "lattice": "l.json", "options": {"rig": "follow"}}]))
+    batch(run, "m.jsonl", "--positions", "all.npy", done=2)
+    rows = array(run)[1]
+    equal(rows[0], rows[1])
+    said = []
+    run.write("m.jsonl", lines_of([{"in": "a.glb", "lattice": "l.json", "out": "o.glb"}]))
+    run.ffd("batch", "m.jsonl", "--positions", "out.npy", err=said.extend)
+    check(any("--rig" in line for line in said), said)
+    equal(array(run, "out.npy")[1], rows[:1])
 
 
 @case

@@ -797,8 +797,8 @@ m("behind-out-of-reach", "check left out", "cli_stays_behind", "if (move->moves 
 m("behind-a-name-cut", "operation", "cli_stays_behind", "((unsigned char)name[length] & 0xc0) == 0x80",
   "((unsigned char)name[length] & 0xc0) == 0xc0")
 m("behind-a-morph", "check left out", "cli_stays_behind",
-  "return !job->desc->as_morph && (!job->document->converted || job->details);",
-  "return !job->document->converted || job->details;")
+  "return !job->desc->as_morph && (job->check ||", "return (job->check ||")
+m("joints-of-no-file", "condition", "cli_batch_positions", "(job->check || ffd_deform_job_writes(job->desc)) &&", "(job->check || job->desc) &&")
 m("splats-moved", "figure", "cli_stays_behind, job", "totals->splats_moved += moved;", "totals->splats_moved = moved;")
 m("splats-in-the-scene", "left out", "cli_splats", "if (!transform.identity && !transform.singular) ffd_splat_turn_to_file",
   "if (transform.singular)\n            ffd_splat_turn_to_file")
