@@ -7,7 +7,6 @@
 #include "base/system/interrupt.h"
 #include "io/npy/npy.h"
 #include "job/report/replace.h"
-#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>

@@ -29,17 +29,14 @@ static char *name_list(const batch_desc *desc)
 static ffd_status measure(run_rows *rows, const batch_desc *desc, ffd_error *error)
 {
     job_source_desc all = desc->jobs;
-    const char *const origin = all.manifest ? all.manifest : all.table;
     rows->array = (row_array){.path = desc->positions, .is_double = desc->positions_double};
-    if (origin && ffd_file_reads_once(origin))
-        return ffd_fail(error, FFD_E_ARGUMENT,
-                        "--positions reads the jobs twice, which neither standard input nor a pipe can be");
     all.shard = 0;
     all.shards = 1;
-    ffd_status status = ffd_jobs_total(&all, &rows->array.rows, error);
+    /* It refuses jobs that can be read only once. */
+    ffd_status status =
+        ffd_batch_count_vertices(&desc->jobs, &desc->pool, &rows->array.vertices, &rows->is_there, error);
     if (!status)
-        status =
-            ffd_batch_count_vertices(&desc->jobs, &desc->pool, &rows->array.vertices, &rows->is_there, error);
+        status = ffd_jobs_total(&all, &rows->array.rows, error);
     return status ? status : ffd_rows_check_size(&rows->array, error);
 }
 

@@ -1103,7 +1103,7 @@ m("row-replaced", "check left out", "cli_batch_positions",
 m("row-too-large", "check left out", "row_array, cli_batch_positions", "if (isinf((float)positions[i]) && isfinite(positions[i]))", "if (isinf((float)positions[i]) && isnan(positions[i]))")
 m("row-of-its-shard", "count", "cli_batch_positions", "job->row = source->count - 1;", "job->row = (source->count - 1) / source->desc.shards;")
 m("row-hash-left-out", "check left out", "cli_batch_positions", "if (row && ffd_row_hash(&row->array, row->number, &parts[count++], NULL))", "if (row && count > 0 && ffd_row_hash(&row->array, row->number, &parts[count++], NULL))")
-m("array-of-a-pipe", "check left out", "cli_batch_positions", "if (origin && ffd_file_reads_once(origin)) return ffd_fail(error, FFD_E_ARGUMENT, \"--positions reads", "if (origin && ffd_file_is_stream(origin))\n        return ffd_fail(error, FFD_E_ARGUMENT, \"--positions reads")
+m("array-of-a-pipe", "check left out", "cli_batch_positions", "if (origin && ffd_file_reads_once(origin))", "if (origin && ffd_file_is_stream(origin))")
 m("size-of-an-array", "overflow", "row_array", "(row_size(array) == 0 || array->rows <= most / row_size(array)))", "(row_size(array) == 0 || array->rows * row_size(array) <= most))")
 m("shown-positions", "state", "cli_batch_positions", "counting.deformed = job->positions;", "counting.deformed = NULL;")
 m("picture-not-checked-before", "check left out", "cli_batch_view", "return picture ? ffd_job_picture_check(picture, desc->force || desc->if_changed, error) : FFD_OK;",
