@@ -91,7 +91,7 @@ static ffd_status read_values(const char *path, const file_input *file, size_t n
 {
     npy_header header = {.descr = ""};
     if (!read_header(file, &header))
-        return ffd_fail_file(error, FFD_E_INVALID, path, "is no array file of NumPy (.npy) in C order");
+        return ffd_fail_file(error, FFD_E_INVALID, path, "is not a NumPy array file (.npy) in C order");
     const size_t size = strcmp(header.descr + 1, "f8") == 0 ? 8 : strcmp(header.descr + 1, "f4") == 0 ? 4 : 0;
     if (!header.descr[0] || size == 0 || !strchr("<>=|", header.descr[0]))
         return ffd_fail_file(error, FFD_E_INVALID, path, "has numbers of type %s, not float32 or float64",

@@ -117,8 +117,7 @@ ffd_status check(const mesh_faces &faces, ffd_error *error)
 {
     const size_t corners = faces.face_count ? faces.start[faces.face_count] : 0;
     if (corners > most_corners)
-        return ffd_fail(error, FFD_E_LIMIT,
-                        "%zu corners of faces are more than the %zu that topology is made for", corners,
+        return ffd_fail(error, FFD_E_LIMIT, "%zu corners of faces are more than the limit of %zu", corners,
                         most_corners);
     for (size_t c = 0; c < corners; c++)
         if (faces.corners[c] >= faces.vertex_count)

@@ -254,7 +254,7 @@ extern "C" ffd_status ffd_gltf_parse_model(const char *text, size_t size, const 
     } catch (const std::exception &problem) {
         status = ffd_fail_file(error, FFD_E_INVALID, name, "is not valid glTF: %s", problem.what());
     } catch (...) {
-        status = ffd_fail_file(error, FFD_E_INVALID, name, "is not valid glTF: tinygltf gives up");
+        status = ffd_fail_file(error, FFD_E_INVALID, name, "is not valid glTF: tinygltf cannot read it");
     }
     if (status)
         ffd_gltf_free_model(model);

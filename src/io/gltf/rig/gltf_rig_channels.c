@@ -102,9 +102,9 @@ static ffd_status fill_values(const channel_work *w, const change_key *key,
         change_value(key, is_tangent, old, made);
         for (size_t c = 0; c < width; c++) {
             if (!(fabs(made[c]) <= FLT_MAX))
-                return ffd_json_span_fail(&w->document->tree, sampler->value, w->document->name,
-                                          FFD_E_INVALID, w->error,
-                                          "floats cannot hold element %zu of the output that follows", i);
+                return ffd_json_span_fail(
+                    &w->document->tree, sampler->value, w->document->name, FFD_E_INVALID, w->error,
+                    "with the deformation, element %zu of the sampler's output is too large for floats", i);
             values[c] = as_stored(key, is_tangent, made[c]);
             *changes = *changes || values[c] != (float)old[c];
         }

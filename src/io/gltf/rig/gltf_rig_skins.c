@@ -133,7 +133,7 @@ static bool find_change(const gltf_document *d, const gltf_rig *rig, size_t join
 static ffd_status refuse_infinite(const gltf_document *d, size_t skin, size_t joint, ffd_error *error)
 {
     return ffd_json_span_fail(&d->tree, d->skin_values.values[skin], d->name, FFD_E_INVALID, error,
-                              "floats cannot hold inverse bind matrix %zu of the joint that follows", joint);
+                              "with the deformation, inverse bind matrix %zu is too large for floats", joint);
 }
 
 /* Multiplies an inverse bind matrix (16 numbers, column by column) by a change from the left. Returns false
