@@ -712,8 +712,8 @@ m("results-of-zeros", "condition", "cli_memory", "if (memcmp(vectors + 3 * first
   "if (memcmp(vectors + 3 * first, zeros, 3 * some * sizeof *zeros) != 0 || first < count)")
 m("ply-turns-without-harmonics", "condition", "cli_splats", "const bool is_turn = d->new_turns && turns[i].is_turn;",
   "const bool is_turn = turns[i].is_turn;")
-m("ply-splats-of-two-types", "condition", "cli_splats", "all = all && d->types[slot] == PLY_FLOAT; return all; } /* Makes room",
-  "all = d->types[slot] == PLY_FLOAT;\n    return all;\n}\n\n/* Makes room")
+m("ply-splats-of-two-types", "condition", "cli_splats", "all = all && d->types[slot] == PLY_FLOAT; return all; } /* Allocates the results",
+  "all = d->types[slot] == PLY_FLOAT;\n    return all;\n}\n\n/* Allocates the results")
 m("ply-rests-that-do-not-fit", "bound", "cli_splats", "excess |= limit - (bits & INT64_MAX);", "excess = limit - (bits & INT64_MAX);")
 m("ply-splats-without-marks", "condition", "cli_splats", "if (d->splat_marks && d->splat_marks[vertex])", "if (d->splat_marks)")
 m("ply-read-in-tiles", "bound", "cli_ply, cli_splats", "for (size_t row = first; row < last; row++) { const char *const at",

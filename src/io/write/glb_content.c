@@ -51,7 +51,7 @@ static void put_u16(gltf_writer *w, uint16_t value)
     put_bytes(w, bytes, sizeof bytes);
 }
 
-/* Alpha is linear in all formats. */
+/* Alpha is linear in every format. */
 static void put_byte_colour(gltf_writer *w, const double colour[4])
 {
     for (size_t c = 0; c < 4; c++) {
@@ -134,7 +134,7 @@ static void put_vertices(gltf_writer *w, const glb_primitive *primitive, int vie
         put_vertex(w, &w->plan.vertices[primitive->first_vertex + v], view, morph);
 }
 
-/* Those of all morph targets, one after the other. */
+/* The offsets of all morph targets, one target after another. */
 static void put_offsets(gltf_writer *w, const glb_primitive *primitive, int view)
 {
     for (size_t k = 0; k < w->model->morph_count; k++)

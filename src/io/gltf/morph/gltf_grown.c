@@ -9,7 +9,7 @@ static bool extends_bin(const gltf_document *d)
     return d->buffer_values.count > 0 && d->buffers[0].kind == BUFFER_BIN;
 }
 
-/* Returns where the BIN chunk's old bytes end and new ones begin. */
+/* Returns the offset in the BIN chunk where the old bytes end and new ones begin. */
 static size_t bin_end(const gltf_document *d)
 {
     return ffd_gltf_align(d->buffers[0].length);
@@ -30,7 +30,7 @@ static void write_buffer(gltf_grown *w, byte_buffer *text)
     ffd_free(encoded);
 }
 
-/* Adds the bufferView of the new bytes, in the BIN chunk if there is one, else in a buffer of their own. */
+/* Adds a bufferView of the new bytes: in the BIN chunk if the file has one, else in a new buffer. */
 static void add_bytes(gltf_grown *w)
 {
     gltf_saver *saver = &w->saver;
