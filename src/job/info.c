@@ -16,7 +16,7 @@ void ffd_info_desc_init(ffd_info_desc *desc, size_t size)
     ffd_struct_give(&defaults, sizeof defaults, desc, size);
 }
 
-/* What is asked for must be there in a file of its kind. */
+/* Refuses options that do not apply to this kind of file. */
 static ffd_status check_desc(const ffd_info_desc *desc, bool lattice, ffd_error *error)
 {
     if (!desc->file.path)

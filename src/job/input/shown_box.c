@@ -32,7 +32,7 @@ void ffd_shown_box_join(shown_box *box, const shown_box *other)
     join(&box->all, &other->all);
 }
 
-/* A part, and the box that is to hold its places. */
+/* A part, and the box of its positions. */
 typedef struct part_box {
     const mesh_part *part;
     shown_box *box;

@@ -103,7 +103,7 @@ static ffd_status run(const ffd_jacobian_desc *desc, ffd_jacobian_result *result
     return ffd_deform_job_end(&j.job, status, &figures, error);
 }
 
-/* Gives paths to what is in memory. The job's own output is not looked at. */
+/* Registers data in memory under paths. The job's own output is ignored. */
 static ffd_status take_memory(job_memory *memory, ffd_jacobian_desc *desc, ffd_deform_desc *job,
                               ffd_error *error)
 {
