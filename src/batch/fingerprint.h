@@ -23,8 +23,8 @@ ffd_status ffd_fingerprint_output(const ffd_deform_desc *desc, hash128 *hash, ff
 /* Whether images or material libraries are copied with the output, existing or not. True also if memory runs
    out. */
 bool ffd_fingerprint_has_copies(const ffd_deform_desc *desc, hash_cache *cache);
-/* Returns what ffd_fingerprint_output would, for an output that is a single file without references, from the
-   hash of its bytes. */
+/* Returns the hash that ffd_fingerprint_output computes for a single file without references. bytes: hash of
+   the file. */
 hash128 ffd_fingerprint_written(const hash128 *bytes);
 
 #endif

@@ -50,7 +50,7 @@ static ffd_source source(const settings *s, const char *file, const char *other)
     return (ffd_source){.path = file, .format = format, .memory = s->memory, .strict = s->strict};
 }
 
-/* Prints such as "3 differences: 2 positions, 1 other". */
+/* Prints the counts, such as "3 differences: 2 positions, 1 other". */
 static void print_counts(const ffd_comparison *comparison)
 {
     static const char *const names[FFD_DIFFERENCE_KIND_COUNT] = {

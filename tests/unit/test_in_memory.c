@@ -26,7 +26,7 @@ static const char open_text[] = "{\"format\":\"ffd-lattice\",\"version\":1,\"siz
                                 "\"box\":{\"min\":[-1,-1,-1],\"max\":[2,2,2]}},"
                                 "\"moves\":[{\"by\":[0,{\"$\":\"lift\"},1]}]}";
 
-/* Files: those of an input, and those of an output. */
+/* The files of an input, or of an output. */
 typedef struct named {
     char name[200];
     unsigned char *bytes;
@@ -993,7 +993,7 @@ static void jobs_run_in_threads_and_in_callbacks(void **state)
     (void)state;
 }
 
-/* If memory runs out, nothing is lost silently, such as an image that seems to be missing. */
+/* Wherever memory runs out the job fails; for example, an image is never just taken as missing. */
 static void memory_may_run_out_anywhere(void **state)
 {
     both b;

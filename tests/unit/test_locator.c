@@ -252,7 +252,7 @@ static void a_point_has_the_same_bits_alone_and_in_company(void **state)
     (void)state;
 }
 
-/* The map overlaps itself along u: x goes forth and back. */
+/* The map overlaps itself along u: x goes back and forth. */
 static void folded_map(const double g[3], double out[3])
 {
     out[0] = 4 * g[0] * (1 - g[0]) + 0.01 * g[1];

@@ -1,13 +1,13 @@
 /* embedding_file.h - the file that `ffd embed -o` writes and `ffd deform --embedding` reuses: u,v,w and
-   status of every vertex, and of which mesh and rest lattice they are.
+   status of every vertex, with hashes that identify the mesh and the rest lattice.
 
-   It is an array file of NumPy with a trailer, which numpy.load does not look at. For N vertices in the order
-   of `ffd embed`, H being the length of the array's header (a multiple of 64):
+   It is a NumPy array file with a trailer that numpy.load ignores. Layout for N vertices in the order of
+   `ffd embed`; H is the length of the array's header (a multiple of 64):
 
      offset       size
-     0            H     header of NumPy's format 1.0: float64, shape (N, 3), C order; descr '<f8' or '>f8', as
-                        the machine that wrote it holds numbers
-     H            24 N  u,v,w of vertex 0, of vertex 1, ..., in the knots' range; NaN where there is none
+     0            H     NumPy header, version 1.0: float64, shape (N, 3), C order; descr '<f8' or '>f8', the
+                        byte order of the machine that wrote the file
+     H            24 N  u,v,w of vertex 0, of vertex 1, ..., in the range of the knots; NaN: none
      H + 24 N     N     statuses, one byte a vertex: 0 inside 1 outside 2 multiple 3 singular 4 invalid
      F = H + 25 N       the footer, 72 bytes:
      F            16    hash of the mesh's positions (ffd_embedding_hash_positions)
@@ -18,9 +18,9 @@
      F + 60       4     reserved, 0
      F + 64       8     "ffd-embd": the end of the file
 
-   Numbers of the footer are little-endian unsigned integers. Hashes are XXH3's with 128 bits, seed 0, in its
-   canonical form (the highest byte first); numbers that are hashed are the 8 bytes of a double or of an
-   unsigned integer, little-endian. */
+   Numbers in the footer are little-endian unsigned integers. Hashes are XXH3 with 128 bits and seed 0, in its
+   canonical form (big-endian). The input of a hash is numbers of 8 bytes, doubles or unsigned integers,
+   little-endian. */
 #ifndef FFD_JOB_INPUT_EMBEDDING_FILE_H
 #define FFD_JOB_INPUT_EMBEDDING_FILE_H
 

@@ -86,8 +86,8 @@ void ffd_result_note_flaws(ffd_job_result *result, const mesh_flaws *flaws)
     result->flaw_count = flaws->count;
 }
 
-/* Writes such as "2 moved with the nearest boundary point, 1 left where it is beyond the falloff"; without
-   numbers if only one kind occurs. */
+/* Writes the kinds, such as "2 moved with the nearest boundary point, 1 left where it is beyond the falloff";
+   without numbers if only one kind occurs. */
 static void tell_kinds(const pass_totals *totals, const chain_outside *outside, char *text, size_t capacity)
 {
     const uint64_t count = totals->counts[FFD_OUTSIDE], followed = totals->extended_moved;

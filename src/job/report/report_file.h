@@ -6,7 +6,7 @@
 #include "base/text/buffer.h"
 #include <ffd/job.h>
 
-/* Whether the name's ending stands for JSON Lines. */
+/* Whether the name has the ending of JSON Lines. */
 bool ffd_report_has_lines(const char *path);
 /* Makes the checks of ffd_report_create without writing, for a dry run. */
 ffd_status ffd_report_check(const char *path, ffd_error *error);

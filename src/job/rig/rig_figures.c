@@ -92,7 +92,7 @@ ffd_status ffd_rig_figures_find(const mesh_document *document, const rig_places 
     return status;
 }
 
-/* Writes such as "the joints of 1 skin, 2 animated pivots and 1 socket". */
+/* Writes a list, such as "the joints of 1 skin, 2 animated pivots and 1 socket". */
 static void tell_lagging(const ffd_rig_result *figures, char *text, size_t capacity)
 {
     const struct {
