@@ -132,7 +132,8 @@ static ffd_status measure(measuring *m, const job_source_desc *jobs, pool_desc *
     const char *const origin = jobs->manifest ? jobs->manifest : jobs->table;
     if (origin && ffd_file_reads_once(origin))
         return ffd_fail(error, FFD_E_ARGUMENT,
-                        "%s reads the jobs twice, which neither standard input nor a pipe can be", option);
+                        "%s reads the jobs twice, but standard input and pipes can be read only once",
+                        option);
     all.shard = 0;
     all.shards = 1;
     ffd_status status = ffd_jobs_open(&all, &m->source, error);

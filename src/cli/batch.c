@@ -117,9 +117,9 @@ static const char *wrong_positions(const settings *s, const cli_words *words)
     if (jobs->job.morph_count > 0)
         return "--morph cannot be used with --positions: a row is of one deformation";
     if (jobs->depfile_path)
-        return "--depfile cannot be used with --positions: it is of meshes";
+        return "--depfile cannot be used with --positions: its rules are for meshes";
     if (words->count && cli_is_stream(words->words[0]))
-        return "--positions reads the jobs twice, which standard input cannot be";
+        return "--positions reads the jobs twice, but standard input can be read only once";
     return NULL;
 }
 

@@ -211,7 +211,7 @@ static const char *wrong_streams(const cli_job *job, const cli_words *words, siz
     for (size_t i = 0; i < job->lattice_count; i++)
         others += cli_is_stream(job->lattices[i]);
     if (meshes && job->shares_box)
-        return "--shared-box reads each IN twice, which standard input cannot be";
+        return "--shared-box reads each IN twice, but standard input can be read only once";
     return meshes + others > 1 || (others && inputs > 1) ? "standard input can be read only once" : NULL;
 }
 

@@ -158,9 +158,9 @@ static const char *mistake_of_files(const settings *s, const cli_words *words)
     if (s->job.fail_on)
         return "--fail-on judges a deformation: it needs -l, and no OUT-MESH";
     if (s->job.report)
-        return "--report is of a deformation: it needs -l, and no OUT-MESH";
+        return "--report describes a deformation: it needs -l, and no OUT-MESH";
     if (s->job.embedding)
-        return "--embedding is of a deformation: it needs -l, and no OUT-MESH";
+        return "--embedding is for a deformation: it needs -l, and no OUT-MESH";
     return cli_job_option_mistake(&s->job, words, words->count);
 }
 
@@ -170,11 +170,11 @@ static const char *mistake_of_kind(const settings *s)
     const bool is_picture = ffd_path_has_ending(s->output, ".png"),
                is_page = ffd_path_has_ending(s->output, ".html") || ffd_path_has_ending(s->output, ".htm");
     if (is_picture && s->full)
-        return "--full is of a page, and the output is a picture";
+        return "--full is for pages, but the output is a picture";
     if (is_page && s->size[0])
-        return "--size is of a picture, and the output is a page";
+        return "--size is for pictures, but the output is a page";
     if (is_page && s->frames)
-        return "--frames is of a picture, and the output is a page";
+        return "--frames is for pictures, but the output is a page";
     return NULL;
 }
 

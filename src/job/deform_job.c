@@ -57,7 +57,8 @@ static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
     if (desc->falloff > 0 && desc->outside != FFD_OUTSIDE_EXTEND)
         return ffd_fail(error, FFD_E_ARGUMENT, "--falloff needs --outside extend");
     if (desc->positions && desc->morphs)
-        return ffd_fail(error, FFD_E_ARGUMENT, "several morph targets (--morph) have no positions in common");
+        return ffd_fail(error, FFD_E_ARGUMENT,
+                        "positions are of one deformation, but --morph makes several targets");
     if (desc->rig == FFD_RIG_FOLLOW &&
         (desc->as_morph || desc->morphs || desc->input.space == FFD_SPACE_MESH))
         return ffd_fail(error, FFD_E_ARGUMENT, "--rig follow cannot be used with %s",

@@ -35,7 +35,7 @@ static ffd_status check(const view_scene *scene, ffd_error *error)
     for (size_t i = 0; i < scene->part_count && holds; i++)
         holds = scene->parts[i].first_triangle <= scene->triangle_count &&
                 scene->parts[i].triangle_count <= scene->triangle_count - scene->parts[i].first_triangle;
-    return holds ? FFD_OK : ffd_fail(error, FFD_E_ARGUMENT, "an index of the scene is beyond what it is of");
+    return holds ? FFD_OK : ffd_fail(error, FFD_E_ARGUMENT, "an index of the scene is out of range");
 }
 
 /* Sets places to 0 for the vertices that are finite before and after, to VIEW_NONE for the others. */

@@ -33,9 +33,9 @@ def _set_look(desc: Any, output: Any, color: str, camera: Any, size: tuple[int, 
     """Sets the options of the page or picture. Like the program, refuses options without effect."""
     is_picture = os.fsdecode(output).lower().endswith(".png")
     if full and is_picture:
-        raise ValueError("full is of a page, and the output is a picture")
+        raise ValueError("full is for pages, but the output is a picture")
     if not is_picture and (size is not None or frames is not None):
-        raise ValueError("size and frames are of a picture, and the output is a page")
+        raise ValueError("size and frames are for pictures, but the output is a page")
     desc.color, desc.full = library.number_of("ffd_view_color", color, "color"), bool(full)
     _set_camera(desc, camera)
     if size is not None:
