@@ -69,7 +69,7 @@ static void print_folds(const ffd_job_result *result, const char *lattice)
         print_witness(folds, lattice);
 }
 
-/* Why the edge with the largest step is torn. */
+/* Says why the edge with the largest step is torn. */
 static void print_tear_reason(const ffd_job_result *result)
 {
     const uint64_t faces = result->disagreeing, stay = result->tear_stays;
@@ -140,7 +140,7 @@ static void print_summary(const cli_job *job, const char *input, const ffd_job_r
     print_rig(&result->rig);
 }
 
-/* The check, and where one is asked for, its picture. */
+/* Runs the check, and draws the picture if one is wanted. */
 static ffd_status run_job(const settings *s, const ffd_deform_desc *desc, ffd_job_result *result)
 {
     ffd_view_desc view;

@@ -21,8 +21,8 @@ static const ffd_gate gates[] = {FFD_GATE_FOLDS,   FFD_GATE_OUTSIDE, FFD_GATE_MU
                                  FFD_GATE_INVALID, FFD_GATE_TEAR,    FFD_GATE_TEAR,     FFD_GATE_FLIPPED,
                                  FFD_GATE_FLIPPED, FFD_GATE_EDGES};
 
-/* Takes the value of a gate: of several the strictest. text: "LENGTH" or "N", and what follows in the list;
- * NULL: there is none. */
+/* Sets the limit of a gate; of several the strictest counts. text: the limit, followed by the rest of the
+   list; NULL: none. */
 static bool set_gate_value(cli_job *job, const cli_option *option, ffd_gate gate, const char *text,
                            size_t length)
 {
@@ -53,7 +53,7 @@ static bool set_gate_value(cli_job *job, const cli_option *option, ffd_gate gate
     return true;
 }
 
-/* A name ends in '=' where a value follows. */
+/* Whether a word is this gate's name. A name that ends in '=' is followed by a value. */
 static bool is_gate(const char *name, const char *word, size_t length)
 {
     const size_t size = strlen(name);
@@ -81,7 +81,7 @@ static bool add_gate(cli_job *job, const cli_option *option, const char *word, s
     return false;
 }
 
-/* A list: folds,outside. */
+/* Parses a list such as "folds,outside". */
 static bool add_gates(void *context, const cli_option *option, const char *value)
 {
     for (;;) {
@@ -211,11 +211,11 @@ static const char *wrong_streams(const cli_job *job, const cli_words *words, siz
     for (size_t i = 0; i < job->lattice_count; i++)
         others += cli_is_stream(job->lattices[i]);
     if (meshes && job->shares_box)
-        return "--shared-box reads each IN twice, which standard input cannot be";
+        return "--shared-box reads each IN twice, but standard input can be read only once";
     return meshes + others > 1 || (others && inputs > 1) ? "standard input can be read only once" : NULL;
 }
 
-/* A report replaces the file of its name, which must not be a file of the job. */
+/* A report replaces an existing report, but must not be a file of the job. */
 static const char *wrong_report(const cli_job *job, const cli_words *words)
 {
     if (!job->report || cli_is_stream(job->report))
@@ -348,7 +348,7 @@ static int run_each(cli_job *job, const cli_words *words, size_t inputs, cli_job
     return code;
 }
 
-/* Lays the shared box round all inputs. One that cannot be read is left out: its own job says so. */
+/* Measures the shared box of all inputs. An unreadable one is skipped, as its own job reports it. */
 static int share_box(cli_job *job, const cli_words *words, size_t inputs)
 {
     ffd_error error;

@@ -17,7 +17,7 @@ static void print_overview(void)
            "list the commands, or show the help of one", "--version", "the version");
 }
 
-/* The number of words of a command's name that the arguments begin with, or 0. */
+/* Returns the number of words of a command's name, if the arguments begin with it; else 0. */
 static int name_words(const cli_command *command, int count, char **arguments)
 {
     const char *space = strchr(command->name, ' ');
@@ -39,7 +39,7 @@ static const cli_command *find_command(int count, char **arguments, int *words)
     return NULL;
 }
 
-/* "lattice" or "report" alone means its only command where help is asked for. */
+/* In a request for help, "lattice" or "report" alone means its only command. */
 static const cli_command *only_command_of(const char *word)
 {
     return strcmp(word, "lattice") == 0  ? &cli_lattice_new
@@ -47,7 +47,7 @@ static const cli_command *only_command_of(const char *word)
                                          : NULL;
 }
 
-/* A command of two words is near by its first one where only one was typed. */
+/* If a single word was typed, a command of two words is compared by its first word. */
 static void offer_command(cli_nearest *nearest, const char *name, bool one_word)
 {
     const size_t length = strcspn(name, " ");
@@ -147,9 +147,9 @@ static int run(int count, char **arguments)
                    : unknown_command(count, arguments);
 }
 
-/* Where a standard stream is closed, the next file to be opened would take its number, and would receive what
-   is said on it. These files, open for reading only and never closed, take the free numbers first: writing to
-   them stays an error. */
+/* If a standard stream is closed, the next file opened would get its descriptor and receive messages. So
+   these descriptors are taken first by files that are open for reading only and never closed: writing to them
+   remains an error. */
 static void occupy_closed_streams(void)
 {
     FILE *file;
@@ -160,8 +160,7 @@ static void occupy_closed_streams(void)
         fclose(file);
 }
 
-/* Past a limit on the size of files a write shall fail like any other, with a message,
-   and not end the program. */
+/* Beyond a limit on file sizes, a write must fail with a message instead of ending the program. */
 static void ignore_size_signal(void)
 {
 #ifdef SIGXFSZ
@@ -186,7 +185,7 @@ int main(int argc, char **argv)
     if (fflush(stdout) != 0 || ferror(stdout)) {
         cli_complain("standard output: cannot be written%s%s", errno ? ": " : "",
                      errno ? strerror(errno) : "");
-        if (code == EXIT_DONE || code == EXIT_NO) /* nobody has seen the answer */
+        if (code == EXIT_DONE || code == EXIT_NO) /* the output did not reach anyone */
             code = ffd_status_exit_code(FFD_E_IO);
     }
     return code;

@@ -1,7 +1,7 @@
 #include "cli/nearest.h"
 #include <string.h>
 
-/* Words are compared by this many letters: names are shorter. */
+/* Only this many letters are compared; names are shorter. */
 enum { LONGEST = 24 };
 
 static size_t least(size_t a, size_t b)
@@ -9,7 +9,8 @@ static size_t least(size_t a, size_t b)
     return a < b ? a : b;
 }
 
-/* Edit distance (insert, delete, replace) by Wagner and Fischer's table, of which one row is kept. */
+/* Edit distance (insert, delete, replace) by the Wagner-Fischer algorithm, with one row of the table in
+   memory. */
 static size_t edit_distance(const char *a, size_t a_length, const char *b, size_t b_length)
 {
     size_t row[LONGEST + 1];

@@ -22,7 +22,7 @@ static ffd_status write_meshes(const ffd_lattice *lattice, json_text *json, ffd_
     return status;
 }
 
-/* The box round the meshes, with its margin; fits the lattice to it. */
+/* Measures the box round the named meshes, with the margin. fits: also fit the lattice to it. */
 static ffd_status go_round(ffd_lattice *lattice, const ffd_source *like, bool fits, ffd_bounds *box,
                            ffd_error *error)
 {

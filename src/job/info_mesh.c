@@ -7,14 +7,14 @@
 
 typedef struct vertex_facts {
     size_t vertices, normals, tangents;
-    size_t not_finite; /* vertices with a coordinate that is not finite: left out of the bounds */
+    size_t not_finite; /* vertices with a coordinate that is not finite, excluded from the bounds */
     ffd_bounds bounds;
 } vertex_facts;
 
 static void write_vertices(const mesh_document *document, json_text *json)
 {
     vertex_facts facts = {.bounds = ffd_bounds_empty()};
-    ffd_bounds hidden = ffd_bounds_empty(); /* of what is no part of the shape shown */
+    ffd_bounds hidden = ffd_bounds_empty(); /* of vertices that are not visible */
     for (size_t part = 0; part < document->part_count; part++) {
         const mesh_part *p = &document->parts[part];
         if (!p->repeats_positions) {
@@ -60,7 +60,7 @@ static ffd_status check_room(const mesh_document *document, const mesh_faces *fa
     return status ? status : ffd_budget_check(&budget, ffd_half_edge_bytes(faces), 1, error);
 }
 
-/* Faces that this build cannot show do not keep the rest from being described. */
+/* Faces that this build cannot read do not keep the rest from being described. */
 static ffd_status survey_faces(const mesh_document *document, json_text *json, ffd_error *error)
 {
     mesh_faces faces = {0};

@@ -30,7 +30,7 @@ static ffd_status write_named(const mesh_thing *thing, json_text *json, ffd_erro
     return FFD_OK;
 }
 
-/* That of a kind in which something else has a name, if it draws something. */
+/* Whether to list an unnamed thing: it draws something, and others of its kind have names. */
 static bool is_worth_telling(const mesh_thing *thing, unsigned named)
 {
     return !thing->name && thing->vertices > 0 && named & SELECTOR_BIT(thing->kind);

@@ -17,7 +17,8 @@ void ffd_page_floats_put(byte_buffer *to, const double *values, size_t count)
         ffd_buffer_float(to, values[i]);
 }
 
-/* Whether all keys have one value; of a spline this is not all. */
+/* Whether all keys have the same value. A cubic spline may still move between equal keys, so it never
+   counts. */
 static bool is_still(const rig_channel *channel)
 {
     for (size_t i = channel->width; i < channel->key_count * channel->width; i++)
@@ -27,7 +28,8 @@ static bool is_still(const rig_channel *channel)
     return channel->interpolation != RIG_CUBICSPLINE;
 }
 
-/* Where the times of each accessor begin; SIZE_MAX: they are not there yet. */
+/* For each accessor of times: the index of its first time in PAGE_TIMES; SIZE_MAX: not written yet. So
+   channels that share an accessor share their times. */
 typedef struct time_table {
     size_t *places;
     size_t count;

@@ -1198,7 +1198,7 @@ m("flipped-triangles-first", "offset", "cli_view", "size_t plain = 0, flipped = 
 m("coloured-before", "condition", "cli_view", "if (s->share > 0) *own = w->palette;", "*own = w->palette;")
 m("broken-image-fails", "error kept", "cli_view", "if (status == FFD_E_MEMORY) return ffd_fail_memory(error); if (status && lost++ == 0)",
   "if (status)\n            return ffd_fail_memory(error);\n        if (status && lost++ == 0)")
-m("texture-of-a-broken-image", "colour left out", "cli_view", "to->alpha_cutoff = 0; /* it was the texture's */", "to->color[0] = 1;")
+m("texture-of-a-broken-image", "colour left out", "cli_view", "to->alpha_cutoff = 0; /* it applied to the texture */", "to->color[0] = 1;")
 m("frames-of-any-number", "limit left out", "view", "if (frames == 1 || frames > VIEW_FRAMES)", "if (frames == 1)")
 m("picture-not-said", "result left out", "cli_view", "result->picture = desc->output;", "result->picture = NULL;")
 m("tears-in-the-first-picture", "condition", "cli_view", "if (!status && share > 0) status = add_marks", "if (!status)\n        status = add_marks")

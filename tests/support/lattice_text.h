@@ -1,5 +1,5 @@
-/* lattice_text.h - lattices for tests from the text of a rest volume and of moves. Includes come after
- * cmocka.h. */
+/* lattice_text.h - makes lattices from the JSON of a rest volume and of moves. Includes come after
+   cmocka.h. */
 #ifndef FFD_TEST_LATTICE_TEXT_H
 #define FFD_TEST_LATTICE_TEXT_H
 
@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* rest: members "size" to "rest"; moves: the elements of "moves". */
+/* rest: the members "size" to "rest". moves: the elements of "moves". */
 static inline ffd_status parse(const char *rest, const char *moves, ffd_lattice **lattice, ffd_error *error)
 {
     static char text[8192];
@@ -23,7 +23,7 @@ static inline const char *message_of(const ffd_error *error)
     return text;
 }
 
-/* The test fails where the text is refused. */
+/* Fails the test if the text is refused. */
 static inline ffd_lattice *make(const char *rest, const char *moves)
 {
     ffd_lattice *lattice;

@@ -1,4 +1,4 @@
-/* test_deform.c - displacement, normals, tangents on lattices whose answers are known. */
+/* test_deform.c - displacements, normals and tangents of lattices with known answers. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,7 +11,7 @@
 #include <ffd/deform.h>
 #include <float.h>
 
-/* A unit cube, cubic, clamped, 6 points a side, undeformed. */
+/* A cubic clamped unit cube, 6 points a side, undeformed. */
 static ffd_lattice *cube(void)
 {
     knot_vector knots[3];
@@ -27,7 +27,7 @@ static ffd_lattice *cube(void)
     return lattice;
 }
 
-/* Moves every control point by the matrix (row by row). */
+/* Moves every control point by the matrix (row-major). */
 static void transform(ffd_lattice *lattice, const double m[9])
 {
     for (size_t n = 0; n < lattice->count; n++)
@@ -121,7 +121,7 @@ static void linear_maps_carry_points_normals_and_tangents(void **state)
 static void a_control_point_acts_in_its_spans_only(void **state)
 {
     ffd_lattice *lattice = cube();
-    lattice->deformed[0] -= 0.1; /* control point 0,0,0 acts in the first span of each direction only */
+    lattice->deformed[0] -= 0.1; /* control point 0,0,0 acts only in the first span of each direction */
     assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
     const double inside[3] = {0.1, 0.2, 0.3}, outside[3] = {0.1, 0.2, 0.34};
     double delta[3], gradient[9];
@@ -154,8 +154,8 @@ static void a_moved_weight_moves_points_near_it_only(void **state)
 
 static void a_collapsed_direction_keeps_its_bits(void **state)
 {
-    /* Everything flattened into z = 0: the normal of a vertical face has no direction, that of a level one
-     * has. */
+    /* Everything is flattened to z = 0: the normal of a vertical face loses its direction, that of a
+       horizontal one does not. */
     const double gradient[9] = {0, 0, 0, 0, 0, 0, 0, 0, -1}, zero[9] = {0};
     const double level[3] = {0, 0, 1}, upright[3] = {1, 0, 0};
     double result[3];
@@ -169,7 +169,7 @@ static void a_collapsed_direction_keeps_its_bits(void **state)
     assert_int_equal(collapsed, 1);
     assert_int_equal(ffd_deform_tangent(gradient, upright, NULL, result, NULL), 1);
     assert_memory_equal(result, upright, sizeof result);
-    /* Where nothing moves the bits stay, even of vectors that are not unit vectors. */
+    /* Without motion the bits stay, even of vectors that are not unit vectors. */
     const double odd[3] = {3, -0.0, 1e-300};
     assert_int_equal(ffd_deform_normal(zero, odd, result, &collapsed), 0);
     assert_memory_equal(result, odd, sizeof result);
@@ -177,7 +177,7 @@ static void a_collapsed_direction_keeps_its_bits(void **state)
     (void)state;
 }
 
-/* Everything comes to a line: all that is left of a normal, or of a tangent across it, is rounding. */
+/* Everything collapses to a line: what is left of a normal, or of a tangent across the line, is rounding. */
 static void a_collapse_to_rounding_counts_as_collapsed(void **state)
 {
     draw d = {draw_seed()};
@@ -201,7 +201,7 @@ static void a_collapse_to_rounding_counts_as_collapsed(void **state)
     (void)state;
 }
 
-/* What had no direction before has not lost one. */
+/* A vector without direction before does not count as collapsed. */
 static void what_had_no_direction_has_not_collapsed(void **state)
 {
     const double gradient[9] = {0, 0, 0, 0, 1, 0, 0, 0, -0.5};

@@ -1,5 +1,5 @@
-/* test_gltf_models.c - the sample models of FFD_MODELS: read, written back unchanged, and broken at random.
- */
+/* test_gltf_models.c - the sample models of FFD_MODELS: read, written back unchanged, and mutated at
+   random. */
 #define _XOPEN_SOURCE 700 /* nftw, mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -71,7 +71,7 @@ static void twist(const double place[3], double xyz[3])
     xyz[1] -= 0.5 * place[2] + 0.125;
 }
 
-/* Where it cannot be deformed a model is still described; what it shows is in faces unless compressed. */
+/* A model that cannot be deformed is still described. It has faces, unless it is compressed. */
 static void describe(mesh_document *document, const char *path)
 {
     byte_buffer text = {0};
@@ -103,7 +103,7 @@ static void check_same(const char *path, const char *output)
     file_input before, after;
     assert_int_equal(ffd_file_load(path, &before, NULL), FFD_OK);
     assert_int_equal(ffd_file_load(output, &after, NULL), FFD_OK);
-    /* Only the names of buffers' files may differ. */
+    /* Only names of buffer files may differ. */
     if (!names_files(&before) &&
         (before.size != after.size || memcmp(before.data, after.data, before.size) != 0))
         fail_msg("%s: changed though no vertex moved", path);
@@ -121,7 +121,7 @@ static void check_same(const char *path, const char *output)
     gltf->close(b);
 }
 
-/* In a folder of its own for each model, where its images go too. */
+/* Each model gets a folder of its own, which also receives its images. */
 static const char *output_for(size_t model)
 {
     static char output[200];
@@ -158,8 +158,8 @@ static void models_that_stay_are_written_back_as_they_are(void **state)
     assert_true(deformed > 0);
 }
 
-/* How far what is stored may be from what was asked for: half a step of integers. Where these become floats,
-   the number that stands on the same step has been rounded once more. */
+/* Returns the largest error of a stored number: half a step for integers. If they are converted to floats, an
+   unchanged number is rounded once more. */
 static double allowed_error(const mesh_document *document, size_t part, double value)
 {
     const gltf_document *d = ffd_gltf_of(document);
@@ -170,7 +170,7 @@ static double allowed_error(const mesh_document *document, size_t part, double v
     return 0.5 / (accessor->normalized ? scales[accessor->component - GLTF_I8] : 1) + 1e-7 * fabs(value);
 }
 
-/* What the output shows at each node is what was asked for: the parts of the new file, one by one. */
+/* At each node the output shows what was asked for. The parts of the new file are checked one by one. */
 static void moved_models_show_what_was_asked_for(void **state)
 {
     (void)state;
@@ -208,7 +208,7 @@ static void moved_models_show_what_was_asked_for(void **state)
     assert_true(vertices > 0);
 }
 
-/* Changes some bytes of a copy, most often of its JSON. */
+/* Changes some bytes of a copy, mostly of its JSON. */
 static void break_bytes(draw *d, unsigned char *bytes, size_t size)
 {
     static const char likely[] = "0123456789-.e,:[]{}\"";

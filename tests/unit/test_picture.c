@@ -1,8 +1,7 @@
-/* test_picture.c - pictures as a whole: cameras, light and creases, textures, cages, letters, threads and
-   memory.
+/* test_picture.c - whole pictures: cameras, light and creases, textures, cages, letters, threads and memory.
 
-       test_picture FOLDER      the folder tests/golden/pictures: what some of them looked like,
-   FFD_REMEMBER=1 writes them */
+       test_picture FOLDER      the folder tests/golden/pictures with the expected pixels of some pictures;
+                                FFD_REMEMBER=1 writes them */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -41,7 +40,7 @@ static void cameras_have_axes_of_a_right_hand(void **state)
         for (int a = 0; a < 3; a++)
             assert_true(near(cross[a], c.back[a]));
         assert_true(near(vec_dot(c.right, c.right), 1) && near(vec_dot(c.up, c.up), 1));
-        /* The horizon is level. */
+        /* The horizon is horizontal. */
         assert_true(near(c.right[1], 0));
     }
 }
@@ -117,13 +116,13 @@ static void normals_break_at_creases_only(void **state)
     ffd_error error;
     (void)state;
     assert_int_equal(ffd_surface_normals(&cube.mesh, 100, NULL, &found, &error), FFD_OK);
-    /* Three faces at each of eight corners. */
+    /* Three faces meet at each of eight corners. */
     assert_int_equal(found.split_count, 16);
     for (size_t t = 0; t < 12; t++)
         for (size_t c = 0; c < 3; c++) {
             const uint32_t v = found.triangles[3 * t + c];
             assert_int_equal(v < 8 ? v : found.origins[v - 8], cube.triangles[3 * t + c]);
-            /* Along one axis, outward. */
+            /* Each normal is along one axis, outwards. */
             int axes = 0;
             for (size_t a = 0; a < 3; a++) {
                 const double n = found.normals[3 * v + a];
@@ -145,7 +144,7 @@ static void normals_break_at_creases_only(void **state)
         assert_memory_equal(found.normals + 3 * (40 * r), found.normals + 3 * (40 * r + 39),
                             3 * sizeof(float));
     }
-    /* Outward, as the place itself is. */
+    /* Outwards, like the position itself. */
     for (size_t v = 0; v < 800; v++) {
         const double n[3] = {found.normals[3 * v], found.normals[3 * v + 1], found.normals[3 * v + 2]};
         assert_true(vec_dot(n, ball.positions + 3 * v) > 0.99 * vec_length(n));
@@ -155,7 +154,7 @@ static void normals_break_at_creases_only(void **state)
     shape_free(&ball);
 }
 
-/* Columns of black and white, so many texels each, by turns. */
+/* Alternating black and white columns, each this many texels wide. */
 static texture make_stripes(uint32_t width, uint32_t height, uint32_t each)
 {
     image stripes = {width, height, ffd_alloc((size_t)width * height, 4)};
@@ -184,20 +183,20 @@ static void a_texture_far_away_is_the_mean_of_its_light(void **state)
         ffd_texture_sample(&stripes, &tables, wrap, 0.3, 0.7, size, c);
         assert_true(fabs(c[0] - 0.5) < 0.003 && near(c[3], 1));
     }
-    /* Near by: the middle of a column, and the border of two. */
+    /* Enlarged: the middle of a column, and the border between two. */
     ffd_texture_sample(&stripes, &tables, wrap, 3.5 / 64, 0.5, 1, c);
     assert_true(near(c[0], 1));
     ffd_texture_sample(&stripes, &tables, wrap, 4.5 / 64 - 7, 0.5, 0, c);
     assert_true(near(c[0], 0));
     ffd_texture_sample(&stripes, &tables, wrap, 4.0 / 64, 0.5, 0.5, c);
     assert_true(near(c[0], 0.5));
-    /* Half way between the two levels. */
+    /* Halfway between two levels. */
     ffd_texture_sample(&stripes, &tables, wrap, 3.5 / 64, 0.5, 1.5, c);
     assert_true(fabs(c[0] - 0.75) < 0.003);
     ffd_texture_sample(&stripes, &tables, wrap, NAN, HUGE_VAL, 1, c);
     assert_true(c[0] >= 0 && c[0] <= 1);
     ffd_texture_free(&stripes);
-    /* Halves are seen until a pixel spans all. */
+    /* Two halves are visible until a pixel spans both. */
     texture halves = make_stripes(64, 64, 32);
     for (double size = 1; size < 100; size *= 2) {
         ffd_texture_sample(&halves, &tables, wrap, 0.75, 0.5, size, c);
@@ -257,7 +256,7 @@ static void bytes_survive_the_way_to_light_and_back(void **state)
         assert_int_equal(linear_to_byte(&tables, tables.light[byte]), byte);
 }
 
-/* The red of a pixel. */
+/* Returns the red of a pixel. */
 static int red_at(const picture *p, const uint8_t *pixels, uint32_t x, uint32_t y)
 {
     return pixels[3 * ((size_t)y * p->width + x)];
@@ -272,7 +271,7 @@ static uint8_t *draw_all(const picture *p)
     return pixels;
 }
 
-/* A white square that a black line crosses, before it and behind it. */
+/* A white square and a black line in front of it and behind it. */
 static void what_hides_a_line_lets_a_little_through(void **state)
 {
     static const double corners[] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
@@ -301,7 +300,7 @@ static void what_hides_a_line_lets_a_little_through(void **state)
     }
     assert_in_range(reds[0], 0, 5);
     assert_in_range(reds[1], 150, 230);
-    /* In the surface itself it is seen. */
+    /* A line within the surface is visible. */
     assert_in_range(reds[2], 0, 5);
 }
 
@@ -343,7 +342,7 @@ typedef struct scene {
 
 static const char *const steps[] = {"0", "0.5", "1 mm"}, *const kinds[] = {"inside", "outside"};
 
-/* 0: textured cube; 1: coloured ball, with a scale; 2: before and after with cages; 3: fields. */
+/* 0: textured cube; 1: coloured ball with a scale; 2: before and after with cages; 3: status fields. */
 static void make_scene(scene *s, int which)
 {
     memset(s, 0, sizeof *s);
@@ -476,7 +475,7 @@ static void what_is_wrong_with_a_mesh_is_left_out(void **state)
     free_scene(&s);
 }
 
-/* A cube has as few vertices as can be, and a crease at each: 36 corners that want their own. */
+/* A cube has few vertices, but a crease at each one: 36 corners need their own vertex. */
 static void the_budget_holds_for_creases_and_lists_too(void **state)
 {
     scene s;
@@ -517,7 +516,7 @@ static void memory_may_run_out_anywhere(void **state)
     free_scene(&s);
 }
 
-/* How many files are in the test's folder; hidden ones too. */
+/* Returns the number of files in the test's folder, including hidden ones. */
 static size_t count_files(void)
 {
     DIR *const all = opendir(folder);

@@ -1,5 +1,4 @@
-/* test_rig.c - a rig that follows, through the library: its figures, memory that ends anywhere, and jobs that
-   share its mesh. */
+/* test_rig.c - --rig follow through the library: figures, failing memory, and jobs that share the mesh. */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,7 +15,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* A triangle with two joints, hip and knee, and another one below the hip; all turn or shift. */
+/* A triangle with joints hip and knee, and another joint below the hip; all are animated. */
 static const char scene[] =
     "{\"asset\": {\"version\": \"2.0\"}, \"scenes\": [{\"nodes\": [0, 1]}], \"nodes\": [{\"mesh\": 0, "
     "\"skin\":"
@@ -125,7 +124,7 @@ static long read_all(const char *path, char *text, size_t capacity)
     return (long)size;
 }
 
-/* A job that follows leaves nothing to the next one, which has the mesh from it and does not. */
+/* After a job with --rig follow, the next job gets its mesh from the cache without any change. */
 static void a_job_after_one_that_follows_is_as_alone(void **state)
 {
     static char alone[1 << 16], after[1 << 16];

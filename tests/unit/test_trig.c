@@ -36,7 +36,7 @@ static void multiples_of_30_and_45_degrees_are_exact(void **state)
         check(turn + 210, -0.5, -h);
         check(turn + 300, -h, 0.5);
     }
-    /* 10^22 is a double, and 280 more than a multiple of 360. */
+    /* 10^22 is exact in double, and is 280 modulo 360. */
     double sine, cosine;
     ffd_sincos_degrees(280, &sine, &cosine);
     check(1e22, sine, cosine);
@@ -61,7 +61,7 @@ static double ulps(double value, long double exact)
 static void random_angles_are_within_one_ulp(void **state)
 {
     (void)state;
-    /* valgrind computes long double as double, which is too coarse to compare with. */
+    /* valgrind computes long double as double, which is too coarse as a reference. */
     const volatile long double small = LDBL_EPSILON;
     if (1 + small == 1)
         skip();
@@ -72,7 +72,7 @@ static void random_angles_are_within_one_ulp(void **state)
         const double degrees = (2 * random_unit(&seed) - 1) * range[i % 3];
         double s, c;
         ffd_sincos_degrees(degrees, &s, &c);
-        /* Reduced exactly first: near a zero the long double product would not be exact enough. */
+        /* Reduced exactly first: near a zero the long double product would be too coarse. */
         const long double turn = fmodl((long double)degrees, 360), quadrant = floorl(turn / 90 + 0.5L);
         const long double x = (turn - 90 * quadrant) * radian, sine = sinl(x), cosine = cosl(x);
         const int q = (int)quadrant & 3;
@@ -133,13 +133,13 @@ static void the_arc_tangent_matches_the_c_library(void **state)
     uint64_t seed = 54321;
     double worst = 0;
     for (int i = 0; i < 300000; i++) {
-        /* All directions, and ratios of all sizes. */
+        /* All directions, and ratios of all magnitudes. */
         const double angle = random_unit(&seed), size = ldexp(1, (int)(600 * random_unit(&seed)) - 300);
         const double ratio = i % 2 ? 1 : ldexp(1, (int)(100 * random_unit(&seed)) - 50);
         const double y = angle * size, x = (2 * random_unit(&seed) - 1) * size * ratio;
         const double exact = atan2(y, x);
         worst = fmax(worst, fabs(ffd_arc_tangent(y, x) - exact));
-        /* Small angles to their own size. */
+        /* Small angles are compared relatively. */
         if (exact > 0 && fabs(ffd_arc_tangent(y, x) - exact) > 4 * DBL_EPSILON * exact)
             fail_msg("atan2(%a, %a): %.17g, expected %.17g", y, x, ffd_arc_tangent(y, x), exact);
     }

@@ -5,16 +5,16 @@
 #include <math.h>
 #include <string.h>
 
-/* Bytes of a triangle: its corners, their texture coordinates, its polygon and a mark. */
+/* Memory of a triangle: corners, their texture coordinates, its polygon and a mark. */
 #define TRIANGLE_BYTES (3 * sizeof(uint32_t) + 6 * sizeof(float) + sizeof(uint32_t) + 1)
 
 typedef struct mesh_taker {
     const mesh_model *model;
     view_scene *scene;
     uint32_t *faces;
-    size_t triangles; /* so far */
+    size_t triangles; /* triangles so far */
     polygon_cutter cutter;
-    double *points; /* of a polygon */
+    double *points; /* corners of the current polygon */
     uint32_t *cut;
     size_t points_capacity, cut_capacity;
     ffd_error *error;
@@ -87,7 +87,7 @@ static const char *name_of_run(const mesh_model *model, const model_run *run)
     return "";
 }
 
-/* The material of that number; else the first of that name. */
+/* Returns the material of this number, or else the first of this name. */
 static uint32_t material_of_run(const mesh_taker *t, const model_run *run)
 {
     const mesh_materials *const materials = &t->scene->materials;
@@ -135,7 +135,7 @@ static void take_lines(mesh_taker *t)
         t->scene->points[t->scene->point_count++] = points->corners[p].position;
 }
 
-/* Positions, colours and numbers change hands. */
+/* Moves positions, colours and numbers from the model to the scene. */
 static void take_vertices(mesh_model *model, view_scene *scene)
 {
     scene->vertex_count = scene->vertices_all = model->position_count;
