@@ -248,6 +248,11 @@ def copy_program(folder):
     return os.path.join(folder, "ffd")
 
 
+def float32(x):
+    """The number of single precision that is nearest to x."""
+    return struct.unpack("<f", struct.pack("<f", x))[0]
+
+
 def lattice(size=(4, 4, 4), low=(-2, -2, -2), high=(2, 2, 2), moves=(), **members):
     content = {"format": "ffd-lattice", "version": 1, "size": list(size),
                "rest": {"box": {"min": list(low), "max": list(high)}}, "moves": list(moves)}

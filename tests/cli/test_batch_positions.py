@@ -13,7 +13,7 @@ import time
 
 from batches import FFD, batch, case, check, equal, job, lattice, lines_of, main, names, report, start
 from gltf_build import Scene
-from harness import CUBE, CUBE_CORNERS, INVALID, IO, NO, SANITIZED, SECONDS, USAGE, near, npy, obj_vertices
+from harness import CUBE, CUBE_CORNERS, INVALID, IO, NO, SANITIZED, SECONDS, USAGE, float32, near, npy, obj_vertices
 from report_schema import faults
 
 ROWS = 6
@@ -59,7 +59,7 @@ def entries(run, name="all.json"):
 
 
 def as_floats(points):
-    return [[struct.unpack("<f", struct.pack("<f", x))[0] for x in p] for p in points]
+    return [[float32(x) for x in p] for p in points]
 
 
 @case

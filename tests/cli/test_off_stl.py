@@ -6,7 +6,7 @@ import os
 import re
 import struct
 
-from harness import (INVALID, IO, MODELS, NO, UNSUPPORTED, carried, case, check, equal, lattice, main, models,
+from harness import (INVALID, IO, MODELS, NO, UNSUPPORTED, carried, case, check, equal, float32, lattice, main, models,
                      near)
 from vectors import cross, minus
 
@@ -267,10 +267,6 @@ def cross_normal(facet):
     return [x / length for x in n]
 
 
-def as_float(value):
-    return struct.unpack("<f", struct.pack("<f", value))[0]
-
-
 def binary_stl(facets, normals, header=b"a test", attributes=None):
     data = header.ljust(80, b"\0") + struct.pack("<I", len(facets))
     for i, (facet, normal) in enumerate(zip(facets, normals)):
@@ -304,7 +300,7 @@ def flat(facets):
 
 
 def rounded(points):
-    return [[as_float(x) for x in p] for p in points]
+    return [[float32(x) for x in p] for p in points]
 
 
 @case

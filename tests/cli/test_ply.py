@@ -5,7 +5,7 @@ import json
 import re
 import struct
 
-from harness import (CUBE, INVALID, IO, LIMIT, MODELS, NO, UNSUPPORTED, carried, case, check, equal, lattice, main,
+from harness import (CUBE, INVALID, IO, LIMIT, MODELS, NO, UNSUPPORTED, carried, case, check, equal, float32, lattice, main,
                      models, near)
 
 BUMP = [{"at": [[1, 2], [1, 2], [1, 2]], "by": [0.5, 0.25, -0.125]}]
@@ -34,7 +34,7 @@ def number(code, value):
     """value's shortest text, as the type holds it."""
     if code != "f":
         return repr(value)
-    value = struct.unpack("f", struct.pack("f", value))[0]
+    value = float32(value)
     return next(t for t in (f"{value:.{n}g}" for n in range(1, 10)) if struct.pack("f", float(t)) == struct.pack("f", value))
 
 
@@ -97,10 +97,6 @@ def vectors(data, names=("x", "y", "z")):
     return [[row[name] for name in names] for row in read_ply(data)["vertex"]]
 
 
-def as_float(value):
-    return struct.unpack("f", struct.pack("f", value))[0]
-
-
 def obj_of(points):
     return "".join("v %r %r %r\n" % tuple(p) for p in points)
 
@@ -123,13 +119,13 @@ def doubles_are_those_of_obj(run):
 @case
 def floats_are_rounded_once(run):
     run.write("l.json", lattice(moves=BUMP))
-    start = [[as_float(x) for x in p] for p in POINTS]
-    expected = [[as_float(x) for x in p] for p in carried(run, start, "l.json", **OUTSIDE)]
+    start = [[float32(x) for x in p] for p in POINTS]
+    expected = [[float32(x) for x in p] for p in carried(run, start, "l.json", **OUTSIDE)]
     for encoding in ENCODINGS:
         run.write("p.ply", write_ply(elements("float32"), encoding))
         run.ffd("deform", "p.ply", f"{encoding}.ply", "-l", "l.json", **OUTSIDE)
         found = vectors(run.read(f"{encoding}.ply"))
-        equal([[as_float(x) for x in p] for p in found], expected, encoding)
+        equal([[float32(x) for x in p] for p in found], expected, encoding)
     for word in (w for line in run.text("ascii.ply").split("end_header\n")[1].split("\n")[2:7] for w in line.split()):
         check(word == number("f", float(word)) or float(word).is_integer(), f"{word} is longer than needed")
 
@@ -496,9 +492,9 @@ def sample_models(run):
         run.ffd("deform", path, "q.ply", "-l", "moved.json", "--force")
         after = run.read("q.ply")
         old, new = read_ply(before), read_ply(after)
-        start = [[as_float(x) for x in p] for p in vectors(before)]
-        expected = [[as_float(x) for x in p] for p in carried(run, start, "moved.json")]
-        equal([[as_float(x) for x in p] for p in vectors(after)], expected, name)
+        start = [[float32(x) for x in p] for p in vectors(before)]
+        expected = [[float32(x) for x in p] for p in carried(run, start, "moved.json")]
+        equal([[float32(x) for x in p] for p in vectors(after)], expected, name)
         check(expected != start, name, "does not move")
         for element in old:
             equal(len(new[element]), len(old[element]), name)

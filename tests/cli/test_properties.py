@@ -9,8 +9,8 @@ import random
 import re
 import struct
 
-from harness import (MODELS, OK, UNSUPPORTED, INVALID, SANITIZED, case, check, equal, glb, glb_positions, glb_split, gltf_json, gltf_vectors,
-                     lattice, main, near, obj_vertices)
+from harness import (MODELS, OK, UNSUPPORTED, INVALID, SANITIZED, case, check, equal, float32, glb, glb_positions,
+                     glb_split, gltf_json, gltf_vectors, lattice, main, near, obj_vertices)
 
 SEED = int(os.environ.get("FFD_SEED") or struct.unpack("<I", os.urandom(4))[0])
 # The instruction sets that kernels are compiled for, as far as this processor has them.
@@ -26,12 +26,8 @@ FLOAT_EPS = 2.0 ** -23
 NOT_VALID = {"cube_att.gltf", "unassigned-skeleton.gltf", "synthetic_partial_attrib_0_obj.obj"}
 
 
-def single(x):
-    return struct.unpack("<f", struct.pack("<f", x))[0]
-
-
 def cloud(draw, count=300):
-    return [[single(draw.uniform(-1, 1)) for _ in range(3)] for _ in range(count)]
+    return [[float32(draw.uniform(-1, 1)) for _ in range(3)] for _ in range(count)]
 
 
 def obj(points):
@@ -41,7 +37,7 @@ def obj(points):
 def unit(draw):
     v = [draw.gauss(0, 1) for _ in range(3)]
     length = math.sqrt(sum(x * x for x in v))
-    return [single(x / length) for x in v]
+    return [float32(x / length) for x in v]
 
 
 def rest_kinds(draw):
@@ -175,7 +171,7 @@ def a_large_mesh_gives_what_its_pieces_give(run):
         asset, data = glb_split(run.read("b.glb"))
         streams = [gltf_vectors(asset, data, stream) for stream in (0, 1)]
         for name, edge in (("min", min), ("max", max)):
-            equal([single(x) for x in asset["accessors"][0][name]], [edge(axis) for axis in zip(*streams[0])], name)
+            equal([float32(x) for x in asset["accessors"][0][name]], [edge(axis) for axis in zip(*streams[0])], name)
         return streams
 
     whole = deformed(0, len(points), "3")
@@ -207,7 +203,7 @@ def order_company_threads_and_format_change_nothing(run):
         equal(obj_vertices(run.text("part-out.obj")), [straight[n] for n in numbers], kind)
         run.write("part.glb", glb(*gltf_json([points[n] for n in numbers])))
         run.ffd("deform", "part.glb", "part-out.glb", "-l", "l.json", "--force", "-q")
-        equal(glb_positions(run.read("part-out.glb"))[0], [[single(x) for x in straight[n]] for n in numbers], kind)
+        equal(glb_positions(run.read("part-out.glb"))[0], [[float32(x) for x in straight[n]] for n in numbers], kind)
 
 
 def long_obj(draw, backwards):

@@ -10,7 +10,7 @@ from decimal import Decimal
 
 from gltf_build import SHIFT, Scene
 from gltf_reader import Gltf
-from harness import INVALID, case, check, equal, lattice, main
+from harness import INVALID, case, check, equal, float32, lattice, main
 from said import anything, lines_with, told
 
 decimal.getcontext().prec = 40
@@ -26,7 +26,7 @@ def names_of(rests, scales=3):
 
 
 def rounded(value, real):
-    return struct.unpack("f", struct.pack("f", value))[0] if real == "float" else value
+    return float32(value) if real == "float" else value
 
 
 def cloud(count, rests, real, seed=1, scales=3, span=5):
