@@ -1,4 +1,5 @@
 /* The lattice file: what it says, what is refused and how, and that it is written as it is read. */
+#include "../support/message.h"
 #include "base/memory/memory.h"
 #include "lattice/file/spec_text.h"
 #include "lattice/lattice.h"
@@ -22,13 +23,6 @@
 #define EIGHT "[0,0,0],[1,0,0],[0,1,0],[1,1,0],[0,0,1],[1,0,1],[0,1,1],[1,1,1]"
 #define CYLINDER(text) SIZE "\"rest\":{\"cylinder\":{" text "}}}"
 #define MOVE(text) BOX ",\"moves\":[" text "]}"
-
-static const char *message_of(const ffd_error *error)
-{
-    static char text[2048];
-    ffd_error_format(error, text, sizeof text);
-    return text;
-}
 
 static ffd_status parse(const char *text, ffd_lattice **lattice, ffd_error *error)
 {
