@@ -12,6 +12,7 @@
 
 #include "../support/picture_shapes.h"
 #include "../support/test_folder.h"
+#include "base/file/input.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "mesh/bounds.h"
@@ -407,17 +408,6 @@ static void any_number_of_threads_draws_the_same(void **state)
     }
 }
 
-static unsigned char *read_all(const char *path, size_t *size)
-{
-    FILE *const file = fopen(path, "rb");
-    unsigned char *const bytes = malloc(1 << 20);
-    assert_non_null(file);
-    assert_non_null(bytes);
-    *size = fread(bytes, 1, 1 << 20, file);
-    fclose(file);
-    return bytes;
-}
-
 static void pictures_look_as_ever(void **state)
 {
     static const char *const names[] = {"texture", "scale", "cages", "fields"};
@@ -427,14 +417,14 @@ static void pictures_look_as_ever(void **state)
         scene s;
         char path[4096];
         ffd_error error;
-        size_t size;
+        file_input file;
         image then;
         make_scene(&s, which);
         assert_true(snprintf(path, sizeof path, "%s/%s.png", golden, names[which]) < (int)sizeof path);
         if (remember && *remember == '1')
             assert_int_equal(ffd_picture_save(&s.picture, NULL, path, true, &error), FFD_OK);
-        unsigned char *const bytes = read_all(path, &size);
-        assert_int_equal(ffd_image_decode(bytes, size, NULL, &then, &error), FFD_OK);
+        assert_int_equal(ffd_file_load(path, &file, &error), FFD_OK);
+        assert_int_equal(ffd_image_decode(file.data, file.size, NULL, &then, &error), FFD_OK);
         uint8_t *const now = draw_all(&s.picture);
         assert_true(then.width == 160 && then.height == 120);
         for (size_t i = 0; i < 160 * 120; i++)
@@ -443,7 +433,7 @@ static void pictures_look_as_ever(void **state)
                          now[3 * i + 1], now[3 * i + 2]);
         ffd_free(now);
         ffd_free(then.pixels);
-        free(bytes);
+        ffd_file_unload(&file);
         free_scene(&s);
     }
 }
@@ -535,7 +525,7 @@ static void a_file_is_complete_or_absent(void **state)
     const char *const path = in_folder("a.png");
     ffd_error error;
     ffd_status status = FFD_E_MEMORY;
-    size_t size;
+    file_input file;
     image found;
     (void)state;
     make_scene(&s, 0);
@@ -546,10 +536,10 @@ static void a_file_is_complete_or_absent(void **state)
         ffd_alloc_fail_after(-1);
         assert_true(status == FFD_OK || status == FFD_E_MEMORY);
     }
-    unsigned char *const bytes = read_all(path, &size);
-    assert_int_equal(ffd_image_decode(bytes, size, NULL, &found, &error), FFD_OK);
+    assert_int_equal(ffd_file_load(path, &file, &error), FFD_OK);
+    assert_int_equal(ffd_image_decode(file.data, file.size, NULL, &found, &error), FFD_OK);
     assert_true(found.width == 160 && found.height == 120);
-    free(bytes);
+    ffd_file_unload(&file);
     ffd_free(found.pixels);
     assert_int_equal(ffd_picture_save(&s.picture, NULL, path, false, &error), FFD_E_EXISTS);
     assert_int_equal(ffd_picture_save(&s.picture, NULL, path, true, &error), FFD_OK);
