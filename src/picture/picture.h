@@ -5,7 +5,7 @@
    The projection is parallel: equal lengths are equal wherever they are in a picture, so that what moved can
    be measured by eye, and no mesh is too near to be seen.
 
-   picture_file.c has ffd_picture_save, twins.c ffd_picture_twins. */
+   picture_file.c has ffd_picture_save. */
 #ifndef FFD_PICTURE_PICTURE_H
 #define FFD_PICTURE_PICTURE_H
 
@@ -13,7 +13,6 @@
 #include "mesh/memory_budget.h"
 #include "picture/picture_scene.h"
 #include <stdbool.h>
-#include <stddef.h>
 #include <stdint.h>
 
 /* The largest width and height, and the most pixels. */
@@ -30,8 +29,5 @@ ffd_status ffd_picture_draw(const picture *of, const memory_budget *budget, uint
    base/file/output.h. */
 ffd_status ffd_picture_save(const picture *of, const memory_budget *budget, const char *path, bool force,
                             ffd_error *error);
-
-/* Fills twins, one a vertex: the first vertex whose three coordinates are the same. Errors: FFD_E_MEMORY. */
-ffd_status ffd_picture_twins(const double *positions, size_t count, uint32_t *twins, ffd_error *error);
 
 #endif
