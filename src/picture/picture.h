@@ -3,9 +3,7 @@
    order.
 
    The projection is parallel: equal lengths are equal wherever they are in a picture, so that what moved can
-   be measured by eye, and no mesh is too near to be seen.
-
-   picture_file.c has ffd_picture_save. */
+   be measured by eye, and no mesh is too near to be seen. */
 #ifndef FFD_PICTURE_PICTURE_H
 #define FFD_PICTURE_PICTURE_H
 
@@ -23,11 +21,6 @@
    NULL; what drawing takes is checked against it. Errors: FFD_E_ARGUMENT (the size), FFD_E_MEMORY,
    FFD_E_LIMIT. */
 ffd_status ffd_picture_draw(const picture *of, const memory_budget *budget, uint8_t **pixels,
-                            ffd_error *error);
-
-/* Draws and writes a PNG file; an existing one is refused unless force. Errors: those above, and as
-   base/file/output.h. */
-ffd_status ffd_picture_save(const picture *of, const memory_budget *budget, const char *path, bool force,
                             ffd_error *error);
 
 #endif

@@ -26,7 +26,7 @@ LAYERS = {
     "mesh/resource": {"base", "base/file", "base/memory", "base/system", "base/text", "mesh"},
     "picture/image": {"base", "base/memory", "base/system", "mesh"},
     "picture": {
-        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "mesh", "picture/image",
+        "base", "base/memory", "base/system", "base/text", "base/vector", "mesh", "picture/image",
     },
     "io/gltf/document": {"io/gltf/file", "io/gltf/model", "json", "mesh"},
     "io/gltf/decode": {
