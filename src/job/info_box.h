@@ -1,9 +1,12 @@
-/* info_box.h - the box that the rest volume of a lattice covers. */
+/* info_box.h - boxes in what `ffd info` says: any bounds, and what the rest volume of a lattice covers. */
 #ifndef FFD_JOB_INFO_BOX_H
 #define FFD_JOB_INFO_BOX_H
 
 #include "json/json_text.h"
 #include <ffd/job.h>
+
+/* Appends "key": {"min": [..], "max": [..]}, or null if there are no points. */
+void ffd_info_bounds(json_text *json, const char *key, const ffd_bounds *box);
 
 /* Appends to an open JSON object the box of a lattice that has one: the meshes that it goes round, its
    margin, its sides, its axes. A lattice round meshes that are named is fitted to them where fits. Finds box,

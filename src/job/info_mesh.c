@@ -1,6 +1,7 @@
 #include "job/info_mesh.h"
 #include "io/openmesh/half_edges.h"
 #include "io/openmesh/topology.h"
+#include "job/info_box.h"
 #include "job/info_parts.h"
 #include "job/input/source.h"
 #include "mesh/bounds.h"
@@ -29,7 +30,7 @@ static void write_vertices(const mesh_document *document, json_text *json)
     ffd_json_count(json, "not_finite", facts.not_finite);
     ffd_json_count(json, "normals", facts.normals);
     ffd_json_count(json, "tangents", facts.tangents);
-    ffd_bounds_json(json, "bounds", &facts.bounds);
+    ffd_info_bounds(json, "bounds", &facts.bounds);
 }
 
 static void write_topology(const mesh_faces *faces, const mesh_topology *topology, json_text *json)

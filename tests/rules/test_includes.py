@@ -163,6 +163,7 @@ INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)', re.M
 def main():
     findings = []
     checked = 0
+    used = set()
     for path in tree.files():
         if not path.endswith((".c", ".h", ".cpp")) or not path.startswith(("src/", "include/")):
             continue
@@ -179,12 +180,15 @@ def main():
                 break
             if quoted:
                 target = os.path.dirname(quoted) or folder
+                used.add((folder, target))
                 if target != folder and target not in LAYERS[folder]:
                     findings.append(f'{path}: src/{folder} must not include "{quoted}"')
                 continue
             for pattern, allowed in OUTSIDE:
                 if re.match(pattern, angled) and folder not in allowed:
                     findings.append(f"{path}: <{angled}> belongs in {', '.join(sorted(allowed))} only")
+    findings += [f"the table of {__file__} has src/{target} below src/{folder}, but nothing of it is included there"
+                 for folder, targets in LAYERS.items() for target in sorted(targets) if (folder, target) not in used]
     tree.finish(checked, "files", findings)
 
 
