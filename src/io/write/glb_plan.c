@@ -2,7 +2,7 @@
 #include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include "io/write/glb_values.h"
-#include "io/write/triangles.h"
+#include "mesh/model_triangles.h"
 #include <stdlib.h>
 #include <string.h>
 
