@@ -82,13 +82,9 @@ typedef struct lattice_basis {
 /* uvw must be in the domain (ffd_knots_wrap). */
 void ffd_lattice_basis(const ffd_lattice *lattice, const double uvw[3], lattice_basis *basis);
 
-/* sum over the basis' control points of field[3] * N N N (no weights), ascending index, u innermost;
-   derivative (9, row by row, may be NULL) is by u,v,w. */
-void ffd_lattice_sum(const ffd_lattice *lattice, const lattice_basis *basis, const double *field,
-                     double value[3], double derivative[9]);
-
-/* The same for sum field R with R = h N N N / sum h N N N and these weights h (count; NULL: ffd_lattice_sum),
-   the derivative by the quotient rule (NURBS Book 4.4). */
+/* sum over the basis' control points of field[3] * R, ascending index, u innermost: R = h N N N / sum h N N N
+   with these weights h (count), R = N N N where they are NULL. derivative (9, row by row, may be NULL) is by
+   u,v,w, with weights by the quotient rule (NURBS Book 4.4). */
 void ffd_lattice_sum_rational(const ffd_lattice *lattice, const lattice_basis *basis, const double *field,
                               const double *weights, double value[3], double derivative[9]);
 

@@ -198,7 +198,8 @@ m("extent-of-the-last-lowest", "tie", "tangents", "first = s.v < first.v ? s : f
 m("weight-without-its-derivative", "term left out", "tangents", "made->weight = (dual){m->weight, d->weight};", "made->weight = (dual){m->weight, 0};")
 m("image-not-reflected", "sign", "tangents", "derivative[c] = plane && c == plane->axis ? -moved.c[c].d : moved.c[c].d;", "derivative[c] = moved.c[c].d;")
 m("exact-weights-not-followed", "term left out", "tangents", "*d = dual_mul((dual){weights ? weights[point] : 1, *d}, cosine).d;", "*d = dual_mul((dual){weights ? weights[point] : 1, *d}, (dual){cosine.v, 0}).d;")
-m("rows-not-faded", "factor left out", "cli_jacobian, points", "ffd_basis_row_at(embedding->rest, weights, nearest->uvw, fade, row);", "ffd_basis_row_at(embedding->rest, weights, nearest->uvw, 1, row);")
+m("rows-not-faded", "factor left out", "cli_jacobian, points", "fill_row(embedding->rest, weights, nearest->uvw, fade, row);", "fill_row(embedding->rest, weights, nearest->uvw, 1, row);",
+  "ffd_basis_row_at(embedding->rest, weights, nearest->uvw, fade, row);", "ffd_basis_row_at(embedding->rest, weights, nearest->uvw, 1, row);")
 m("later-lattice-forgotten", "factor left out", "cli_jacobian", "return later ? later : inverse ? inverse : identity;", "return inverse ? inverse : identity;")
 m("columns-by-how-names-begin", "comparison", "cli_jacobian", "if (strcmp(j->names[*column], name) == 0)", "if (strncmp(j->names[*column], name, 150) == 0)")
 m("size-of-a-result-not-checked", "check left out", "older_callers", "if (!status && callers_result) status = ffd_struct_check(sizeof result, callers_result, \"ffd_jacobian_result\", &own);", "")

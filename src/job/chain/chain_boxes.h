@@ -4,9 +4,6 @@
 
 #include "job/chain/chain.h"
 
-/* Returns the bounds of a lattice's control points, which hold its volume. */
-bounds ffd_lattice_bounds(const ffd_lattice *lattice);
-
 /* Returns the box outside of which a link with a fitted lattice moves nothing: the bounds of its control
    points, which hold the volume, widened by how far the link extends. */
 bounds ffd_chain_reach(const lattice_chain *chain, size_t link);
