@@ -70,9 +70,6 @@ ffd_status ffd_lattice_make_difference(ffd_lattice *lattice, ffd_error *error);
    FFD_E_INVALID, FFD_E_MEMORY. */
 ffd_status ffd_lattice_finish_moved(ffd_lattice *lattice, ffd_error *error);
 
-/* Both, of a lattice whose points were not moved one after the other. */
-ffd_status ffd_lattice_finish(ffd_lattice *lattice, ffd_error *error);
-
 /* The (d_u+1)(d_v+1)(d_w+1) basis functions that are not 0 at one u,v,w, per direction. */
 typedef struct lattice_basis {
     int span[3];

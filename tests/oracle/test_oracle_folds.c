@@ -1,5 +1,5 @@
 /* test_oracle_folds.c - verdicts on random deformed lattices against determinants that the oracle samples. */
-#include "lattice/lattice.h"
+#include "../support/lattice_by_hand.h"
 #include "moves_sample.h"
 #include "volume_sample.h"
 #include <ffd/fold.h>
@@ -447,7 +447,7 @@ static ffd_folds verdict_at(ffd_lattice *lattice, const double *way, double amou
     ffd_folds folds = {.struct_size = sizeof folds};
     for (size_t i = 0; i < 3 * lattice->count; i++)
         lattice->deformed[i] = lattice->rest[i] + amount * way[i];
-    if (ffd_lattice_finish(lattice, NULL) || ffd_folds_find(lattice, 1, &folds, NULL))
+    if (finish_by_hand(lattice, NULL) || ffd_folds_find(lattice, 1, &folds, NULL))
         abort();
     return folds;
 }
