@@ -257,7 +257,7 @@ def extend_among_many(run):
 
 
 @case
-def curved_blocks(run):
+def every_vertex_is_in_one_of_two_curved_blocks(run):
     """Two halves of a tube that meet at two faces, both lifted: every vertex is in one of them and rises by 1."""
     for name, angle in (("a.json", [0, 180]), ("b.json", [180, 360])):
         run.write(name, {"format": "ffd-lattice", "version": 1, "size": [2, 7, 2],

@@ -257,7 +257,7 @@ def some_line(run, source, target, *options, **more):
 
 
 @case
-def every_pair(run):
+def every_format_becomes_every_other_one(run):
     start(run)
     run.ffd("deform", "a.obj", "m.obj", "-l", "moved.json")
     moved = places(read_faces(run, "m.obj"))
@@ -300,7 +300,7 @@ def doubles_go_round(run):
 
 
 @case
-def attributes_follow(run):
+def texture_coordinates_and_normals_go_where_the_target_holds_them(run):
     """Texture coordinates and normals of every corner, where the target holds them."""
     start(run)
     faces = read_obj(SHAPE.encode())
@@ -703,7 +703,7 @@ def many_vertices_need_long_indices(run):
 
 
 @case
-def streams(run):
+def conversions_go_through_streams(run):
     start(run)
     for target in FORMATS[1:]:
         convert(run, "a.obj", f"b.{target}")
@@ -954,7 +954,7 @@ def quiet_says_nothing(run):
 
 
 @case
-def unknown_formats(run):
+def unknown_formats_are_refused(run):
     start(run)
     run.ffd("deform", "a.obj", "b.fbx", "-l", "still.json", code=USAGE)
     run.ffd("deform", "a.obj", "b.obj.txt", "-l", "still.json", code=USAGE)

@@ -422,7 +422,7 @@ def copies_of_integers_are_aligned(run):
 
 
 @case
-def interleaved_integers(run):
+def interleaved_integers_keep_what_is_between_them(run):
     """Position, normal and tangent of different types in one view; the rest between them stays."""
     points = integers(5122, 0.5)
     rows = [struct.pack("<3hxx4h3bx2HBBBB", *p, 0, 32767, 0, (-1) ** i * 32767, 0, 0, 127, 7 * i, 9 * i, 1, 2, 3, i)

@@ -298,7 +298,7 @@ def random_control_points(run):
 
 
 @case
-def no_volume(run):
+def lattices_without_volume_are_refused(run):
     """Control points in a plane, on a line, at a point: the lattice is refused."""
     draw = random.Random(4)
     write_points(run, within(draw, [(0, 3)] * 3, 100) + [[1, 1, 0], [1, 0, 0], [0, 0, 0], [1.5, 1.5, 1.5]])

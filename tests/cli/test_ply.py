@@ -165,7 +165,7 @@ def texts_that_need_not_change_stay(run):
 
 
 @case
-def nothing_moves(run):
+def where_nothing_moves_every_byte_stays(run):
     run.write("l.json", lattice())
     for real in ("float", "float64"):
         for encoding in ENCODINGS:
@@ -175,7 +175,7 @@ def nothing_moves(run):
 
 
 @case
-def normals(run):
+def normals_of_ply_follow_those_of_obj(run):
     """They follow as those of an OBJ do; --normals keep leaves their bytes."""
     run.write("l.json", lattice(moves=BUMP))
     run.write("p.obj", obj_of(POINTS) + "".join("vn %r %r %r\n" % tuple(n) for n in NORMALS)
@@ -193,7 +193,7 @@ def normals(run):
 
 
 @case
-def whole_numbers(run):
+def coordinates_of_whole_numbers_are_not_deformed(run):
     """Coordinates or normals that are no floating point numbers are read, and not deformed."""
     run.write("l.json", lattice(moves=BUMP))
     head = "ply\nformat ascii 1.0\nelement vertex 1\n"
@@ -262,7 +262,7 @@ FACE_NORMALS = [[0.0, 0.0, -1.0], [0.0, 0.0, -2.0], [0.0, 0.0, 0.0], [1.0, 0.0, 
 
 
 @case
-def face_normals(run):
+def face_normals_are_those_of_the_moved_corners(run):
     """They are those of the moved corners, on their side; zeros, faces without area and all other bytes stay."""
     wide = {"low": (-10, -10, -10), "high": (10, 10, 10)}
     run.write("turn.json", lattice(**wide, moves=[{"rotate": {"axis": "x", "degrees": 90, "about": [0, 0, 0]}}]))
@@ -297,7 +297,7 @@ def face_normals(run):
 
 
 @case
-def info(run):
+def facts_of_ply_files_are_right(run):
     for encoding in ENCODINGS:
         run.write("p.ply", write_ply(elements("double"), encoding, "\r\n") + b"\n\nmore")
         found = run.ffd("info", "p.ply", "--json").json
@@ -324,7 +324,7 @@ def strip_triangles(strip):
 
 
 @case
-def triangle_strips(run):
+def triangle_strips_are_faces(run):
     """They are faces: for topology, figures, tears, selections of the border and conversions."""
     wide = {"low": (-10, -10, -10), "high": (10, 10, 10)}
     run.write("l.json", lattice(**wide, moves=[{"twist": {"axis": "y", "degrees": 40}}]))
@@ -359,7 +359,7 @@ def triangle_strips(run):
 
 
 @case
-def compare(run):
+def ply_files_are_the_same_in_every_encoding(run):
     for encoding in ENCODINGS:
         run.write(f"{encoding}.ply", write_ply(elements("double"), encoding))
     for a in ENCODINGS:
@@ -381,7 +381,7 @@ def compare(run):
 
 
 @case
-def compare_floats(run):
+def a_text_of_a_float_is_the_nearest_float(run):
     """A text of a float stands for the nearest float, of normals and other numbers too: the forms of a file are one
     mesh. Floats that differ are shown as short as they can be told apart."""
     vertex = [("float", name) for name in ("x", "y", "z", "nx", "ny", "nz", "quality")]
@@ -413,7 +413,7 @@ def vertices_that_are_not_finite(run):
 
 
 @case
-def refused(run):
+def broken_ply_files_are_refused(run):
     run.write("l.json", lattice(moves=BUMP))
     head = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
     face = "element face 1\nproperty list uchar int vertex_indices\n"
@@ -480,7 +480,7 @@ def words_of(data):
 
 
 @case
-def sample_models(run):
+def sample_models_are_copied_and_deformed(run):
     """An empty move copies each sample; a real one takes each vertex where the lattice takes its position, rounded
     to the file's precision, and changes nothing but positions and normals."""
     found = models(".ply")

@@ -68,7 +68,7 @@ def write_meshes(run, draw):
 
 
 @case
-def nothing_moves(run):
+def an_identity_lattice_leaves_every_byte(run):
     """An identity lattice leaves every byte; of a .gltf with a buffer of its own only the buffer's name differs."""
     draw = random.Random(SEED)
     write_meshes(run, draw)
@@ -127,7 +127,7 @@ def normals_follow_an_affine_map(run):
 
 
 @case
-def locality(run):
+def what_no_moved_control_point_reaches_keeps_its_bytes(run):
     """What no moved control point reaches keeps its bytes; all else of the files too."""
     draw = random.Random(SEED + 3)
     points = write_meshes(run, draw)
@@ -244,7 +244,7 @@ def blocks_change_nothing(run):
 
 
 @case
-def several_lattices(run):
+def two_lattices_are_one_on_the_result_of_the_other(run):
     """-l A -l B is B on the result of A, with one rounding at the end."""
     draw = random.Random(SEED + 5)
     write_meshes(run, draw)

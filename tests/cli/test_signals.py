@@ -72,14 +72,14 @@ def reading_and_deforming(run):
 
 
 @case
-def viewing(run):
+def a_signal_ends_a_view_and_leaves_nothing(run):
     start(run)
     ends(run, "view", "big.ply", "-l", "l.json", "-o", "p.html", out=["p.html"])
     ends(run, "view", "big.ply", "other.ply", "-o", "p.html", out=["p.html"])
 
 
 @case
-def embedding(run):
+def a_signal_ends_an_embedding_and_leaves_nothing(run):
     start(run)
     ends(run, "embed", "big.ply", "-l", "bent.json", "-o", "e.npy", "--status", "s.npy", out=["e.npy", "s.npy"])
 
@@ -114,7 +114,7 @@ def patterns_of_a_box_that_all_share(run):
 
 
 @case
-def batches(run):
+def a_signal_ends_a_batch_and_leaves_nothing(run):
     start(run)
     run.write("m.jsonl", '{"in": "big.ply", "lattice": "bent.json", "out": "o.ply"}\n' * 3)
     for more in ([], ["--shared-box"], ["--report", "r.json", "--force"]):
