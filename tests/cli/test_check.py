@@ -263,7 +263,7 @@ def a_fold_in_one_cell_of_many(run):
 
 
 @case
-def area_and_volume(run):
+def area_and_volume_are_right(run):
     """Of a cube that is stretched, of one without a lid, of one that --only tears."""
     stretch = [{"scale": {"factor": [2, 1, 3], "about": [0, 0, 0]}}]
     run.write("l.json", lattice(moves=stretch))

@@ -132,7 +132,7 @@ def all_else_of_gltf(run):
 
 
 @case
-def containers_of_gltf(run):
+def a_gltf_and_a_glb_of_one_content_are_the_same(run):
     """A .gltf with a .bin and a .glb of the same content are the same mesh."""
     asset, data = gltf_json(CUBE_CORNERS)
     run.write("a.glb", glb(asset, data))
@@ -346,7 +346,7 @@ def relative_in_the_scene(run):
 
 
 @case
-def normals_and_tolerances(run):
+def normals_are_exact_unless_a_tolerance_is_given(run):
     """Exact, unless the tolerance is relative or one of their own is given."""
     a, n = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 0, 1]] * 3
     for form, write in FORMS.items():
@@ -388,7 +388,7 @@ def numbers_that_are_none(run):
 
 
 @case
-def counts_of_obj(run):
+def each_statement_of_obj_that_differs_counts_once(run):
     """Each statement that differs is counted once, by its kind."""
     text = ("mtllib m.mtl\nv 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvn 0 0 1\nusemtl red\nf 1/1/1 2/1/1 3/1/1\n"
             "f 3 2 1\nl 1 2\n")
@@ -461,7 +461,7 @@ def each_face_that_differs_counts_once(run):
 
 
 @case
-def worst_of_kinds(run):
+def a_normal_is_never_worse_than_a_position(run):
     """A normal that differs more, and before, is not worse than a position."""
     a, n = [[0.0, 0, 0]] * 3, [[0.0, 0, 1]] * 3
     for form, write in FORMS.items():
@@ -474,7 +474,7 @@ def worst_of_kinds(run):
 
 
 @case
-def texcoords_and_colours(run):
+def no_tolerance_lets_texture_coordinates_and_colours_pass(run):
     """No tolerance lets them pass. One difference a vertex."""
     ply = ("ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nproperty float s\n"
            "property float t\nproperty uchar red\nend_header\n0 0 0 0.5 0.5 7\n1 1 1 0 0 7\n")
@@ -533,7 +533,7 @@ def compare_assets(run, a, b, *arguments):
 
 
 @case
-def counts_of_gltf(run):
+def vertices_of_gltf_count_one_by_one(run):
     """Vertices, texture coordinates, indices and tangents are counted one by one; positions under each node."""
     base = triangle(CORNERS)
     equal(counts(compare_assets(run, base, triangle(MOVED))), {"position": 2})
@@ -571,7 +571,7 @@ def hidden_differences_of_gltf(run):
 
 
 @case
-def json_of_gltf(run):
+def differences_of_json_count_beside_those_of_buffers(run):
     """Differences of the JSON are counted beside those of the buffers, unless the latter cannot be matched."""
     def with_extras(asset, **members):
         return {**asset[0], **members}, asset[1]
@@ -633,7 +633,7 @@ def json_is_valid_whatever_files_are_called(run):
 
 
 @case
-def json_to_programs(run):
+def json_is_data_even_with_quiet(run):
     """Of streams too; also with -q, for it is data; nothing of a failure."""
     run.write("a.obj", CUBE)
     run.write("b.obj", CUBE.replace("1", "2"))

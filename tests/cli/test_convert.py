@@ -890,7 +890,7 @@ def what_a_conversion_needs_to_be_valid(run):
 
 
 @case
-def containers_of_gltf(run):
+def a_gltf_and_a_glb_hold_the_same_json(run):
     """A .gltf and a .glb hold the same JSON, but for the buffer's place; images come along."""
     run.write("still.json", STILL)
     asset, data = gltf_json([[0, 0, 0], [1, 0, 0], [0, 1, 0]], uri="a.bin")

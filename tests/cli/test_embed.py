@@ -143,7 +143,7 @@ def a_value_that_no_placeholder_takes(run):
 
 
 @case
-def an_empty_mesh(run):
+def an_empty_mesh_gives_empty_arrays(run):
     start(run)
     run.write("a.obj", "o nothing\n")
     run.ffd("embed", "a.obj", "-l", "l.json", "-o", "e.npy", "--status", "s.npy", err="a.obj: there are no vertices")

@@ -127,7 +127,7 @@ def images_in_thin_sheets_are_found(run):
 
 
 @case
-def steep_and_thin(run):
+def images_under_steep_weights_in_thin_sheets_are_found(run):
     none_is_outside(run, 4, 12, 1e-3)
 
 

@@ -259,7 +259,7 @@ def broken_glb_containers_are_refused(run):
 
 
 @case
-def gltf_json_text(run):
+def broken_json_of_gltf_is_refused(run):
     start(run)
     for text, message in (
             ("{", ":1: not valid JSON: a key in double quotes is expected, found the end of the text (column 2)"),
@@ -353,7 +353,7 @@ def gltf_buffers_outside_the_folder(run):
 
 
 @case
-def gltf_data_uris(run):
+def broken_data_uris_are_refused(run):
     start(run)
     for uri, message in (("data:application/octet-stream;base64,!!!!", ":/buffers/0/uri: the data URI is not valid base64"),
                          ("data:application/octet-stream;base64,AAAA",

@@ -148,7 +148,7 @@ def sparse_positions_become_dense(run):
 
 
 @case
-def zeros_without_bytes(run):
+def zeros_without_bytes_get_a_buffer(run):
     """An accessor without bufferView and sparse is all zeros; its results need a buffer, perhaps the first."""
     zeros = [(0.0, 0.0, 0.0)] * 3
     for container, alone in itertools.product(CONTAINERS, (True, False)):
@@ -204,7 +204,7 @@ def a_new_buffer_beside_others(run):
 
 
 @case
-def too_many_zeros(run):
+def too_many_zeros_are_refused(run):
     run.write("l.json", ALL)
     for count, code in ((1 << 20, OK), (1 << 23, LIMIT), (1 << 31, LIMIT), (1 << 52, LIMIT)):
         maker = Maker()

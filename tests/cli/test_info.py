@@ -107,7 +107,7 @@ def what_is_no_mesh_and_no_lattice_is_refused(run):
 
 
 @case
-def every_sample_model(run):
+def every_sample_model_is_described_or_refused_with_a_reason(run):
     """Described, or refused with a reason; never anything else."""
     refused = 0
     paths = sorted(os.path.join(folder, name) for folder, _, names in os.walk(MODELS or "") for name in names

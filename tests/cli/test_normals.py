@@ -466,7 +466,7 @@ def models(ending, limit):
 
 
 @case
-def models_of_obj(run):
+def normals_of_obj_models_are_those_of_the_slow_implementation(run):
     """The models with normals: as the slow implementation says; an empty move leaves every byte."""
     if not MODELS:
         return
@@ -557,7 +557,7 @@ def is_plain(asset):
 
 
 @case
-def models_of_gltf(run):
+def normals_of_gltf_models_are_those_of_the_slow_implementation(run):
     """An empty move leaves every byte; a twist in mesh space gives what the slow implementation says of the
     output's own positions."""
     if not MODELS:

@@ -233,7 +233,7 @@ def too_large_for_the_file(run):
 
 
 @case
-def embedding_and_lattice(run):
+def other_commands_take_a_ply_as_any_mesh(run):
     """embed, lattice new and check take a PLY as any mesh."""
     run.write("p.ply", write_ply(elements("double"), "binary_little_endian"))
     run.write("p.obj", obj_of(POINTS) + "".join("f " + " ".join(str(i + 1) for i in f) + "\n" for f in FACES))

@@ -261,7 +261,7 @@ def two_lattices_are_one_on_the_result_of_the_other(run):
 
 
 @case
-def there_and_back(run):
+def a_lattice_that_moves_back_gives_the_mesh_again(run):
     """A lattice that moves the mesh, then the one that moves it back: the mesh again, to rounding."""
     draw = random.Random(SEED + 6)
     points = write_meshes(run, draw)

@@ -65,7 +65,7 @@ def ends(run, *words, out=(), codes=None):
 
 
 @case
-def reading_and_deforming(run):
+def a_signal_ends_a_deformation_and_leaves_nothing(run):
     start(run)
     ends(run, "deform", "big.ply", "o.ply", "-l", "l.json", "--report", "r.json", out=["o.ply"])
     ends(run, "deform", "big.ply", "o.obj", "-l", "bent.json", out=["o.obj"])
@@ -85,7 +85,7 @@ def a_signal_ends_an_embedding_and_leaves_nothing(run):
 
 
 @case
-def quality_and_folds(run):
+def a_signal_ends_a_check(run):
     start(run)
     ends(run, "check", "big.ply", "-l", "l.json", "--report", "r.json")
     draw, n = random.Random(3), 30
@@ -96,7 +96,7 @@ def quality_and_folds(run):
 
 
 @case
-def describing_and_comparing(run):
+def a_signal_ends_a_description_and_a_comparison(run):
     start(run)
     ends(run, "info", "big.ply")
     ends(run, "compare", "big.ply", "other.ply")
