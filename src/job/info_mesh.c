@@ -53,7 +53,7 @@ static void write_topology(const mesh_faces *faces, const mesh_topology *topolog
     ffd_json_end(json, '}');
 }
 
-static ffd_status check_room(const mesh_document *document, const mesh_faces *faces, ffd_error *error)
+static ffd_status check_memory(const mesh_document *document, const mesh_faces *faces, ffd_error *error)
 {
     memory_budget budget = document->budget;
     const size_t corners = faces->start[faces->face_count];
@@ -69,7 +69,7 @@ static ffd_status survey_faces(const mesh_document *document, json_text *json, f
     ffd_error reason = {0};
     ffd_status status = document->format->faces(document, &faces, &reason);
     if (status == FFD_OK)
-        status = check_room(document, &faces, &reason);
+        status = check_memory(document, &faces, &reason);
     if (status == FFD_OK)
         status = ffd_topology_compute(&faces, &topology, &reason);
     if (status == FFD_OK)

@@ -117,7 +117,8 @@ m("digits-of-tiny-numbers", "rounding", "charconv, number", "return whole + (par
 m("module-of-another-version", "check left out", "cli_modules",
   "strcmp(found->version, wanted->version) == 0 &&", "")
 m("module-of-another-name", "check left out", "cli_modules", "strcmp(found->file, wanted->file) == 0 &&", "")
-m("module-without-memory", "error code", "cli_modules", "if (!has_room(MODULE_BYTES)) return ffd_fail_memory(error);", "")
+m("module-without-memory", "error code", "cli_modules", "if (!has_memory(MODULE_BYTES)) return ffd_fail_memory(error);", "",
+  "if (!has_room(MODULE_BYTES)) return ffd_fail_memory(error);", "")
 m("modules-of-the-working-folder", "path", "cli_modules", "snprintf(file, LONGEST_PATH, \"%.*s\", (int)length, path);",
   "snprintf(file, LONGEST_PATH, \"%s\", \"./x\");")
 m("module-of-another-user", "check left out", "cli_modules", "return has_link && has_file;", "return has_link || file.st_size >= 0;")

@@ -276,7 +276,7 @@ static ffd_status number_vertices(planner *p, glb_primitive *primitive, size_t d
 }
 
 /* At most as many vertices as corners are drawn; the rest is released. */
-static ffd_status make_room(planner *p)
+static ffd_status allocate(planner *p)
 {
     glb_plan *plan = p->plan;
     size_t corners = 0, indices = 0, largest = 0;
@@ -297,7 +297,7 @@ static ffd_status make_vertices(planner *p)
 {
     glb_plan *plan = p->plan;
     size_t at[MODEL_KINDS] = {0};
-    ffd_status status = make_room(p);
+    ffd_status status = allocate(p);
     for (size_t i = 0; i < plan->primitive_count && status == FFD_OK; i++) {
         glb_primitive *primitive = &plan->primitives[i];
         size_t drawn = 0;

@@ -16,7 +16,7 @@ typedef struct mesh_box {
     hash128 rules;      /* by which they are read (ffd_source_rules) */
     path_list files;    /* that the meshes were read from */
     file_stamp *stamps; /* files.count */
-    size_t stamp_count, stamp_room;
+    size_t stamp_count, stamp_capacity;
     ffd_bounds bounds;
     path_list warnings; /* lines that tell the meshes' flaws */
 } mesh_box;

@@ -39,7 +39,7 @@ static ffd_status count_normals(grouping *g, ffd_error *error)
     return FFD_OK;
 }
 
-static ffd_status make_room(grouping *g, ffd_error *error)
+static ffd_status allocate(grouping *g, ffd_error *error)
 {
     normal_groups *groups = g->groups;
     const size_t corners = g->faces->start[g->faces->face_count], normals = groups->normal_count;
@@ -229,7 +229,7 @@ static ffd_status make(grouping *g, ffd_error *error)
     size_t *first_vertices = NULL;
     ffd_status status = count_normals(g, error);
     if (status == FFD_OK)
-        status = make_room(g, error);
+        status = allocate(g, error);
     if (status == FFD_OK)
         status = ffd_parts_number(g->document, &first_vertices, error);
     if (status == FFD_OK)
