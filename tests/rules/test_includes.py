@@ -133,7 +133,7 @@ LAYERS = {
         "base", "base/file", "base/memory", "base/system", "base/text", "batch/manifest", "io", "io/npy", "job/chain", "job/input",
         "job/judge", "job/report", "json", "lattice", "lattice/file", "mesh", "view",
     },
-    "cli": {"base/file", "batch"},
+    "cli": {"base/file", "base/text", "batch"},
     "cli/pages": {"cli"},
     "python": set(),
     "job": {
