@@ -11,7 +11,7 @@ import subprocess
 import time
 
 from harness import (CUBE, CUBE_CORNERS, FFD, INVALID, IO, SECONDS, USAGE, case, check, equal, glb, gltf_json, gltf_vectors,
-                     lattice, main)
+                     lattice, main, wait_until)
 
 
 def start(run):
@@ -302,8 +302,7 @@ def ignored_signals_stay_ignored(run):
     expected = start(run)
     child = subprocess.Popen([FFD, "deform", "-", "b.obj", "--input-format", "obj", "-l", "l.json", "--report", "r.json"], cwd=run.folder,
                              stdin=subprocess.PIPE, preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
-    while not run.exists("r.json"):
-        time.sleep(0.01)
+    wait_until(lambda: run.exists("r.json"), "the report is not begun")
     child.send_signal(signal.SIGHUP)
     child.communicate(run.read("a.obj"), timeout=SECONDS)
     equal(child.returncode, 0)
