@@ -1,6 +1,6 @@
 /* message.h - the line that an error is told as. */
-#ifndef FFD_TEST_MESSAGE_H
-#define FFD_TEST_MESSAGE_H
+#ifndef FFD_TESTS_MESSAGE_H
+#define FFD_TESTS_MESSAGE_H
 
 #include <ffd/error.h>
 
