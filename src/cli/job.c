@@ -198,6 +198,17 @@ void cli_job_end(cli_job *job, cli_words *words)
     free_lists(job);
 }
 
+int cli_job_run(const cli_command *command, cli_job *job, int count, char **arguments, cli_action *action)
+{
+    cli_words words;
+    int code = EXIT_USAGE;
+    if (!cli_job_begin(command, job, count, arguments, &words, &code))
+        return code;
+    code = action(command, job, &words);
+    cli_job_end(job, &words);
+    return code;
+}
+
 bool cli_is_stream(const char *path)
 {
     return strcmp(path, "-") == 0 || strcmp(path, "/dev/stdin") == 0 || strcmp(path, "/dev/stdout") == 0;
