@@ -1163,8 +1163,9 @@ m("smallest-torn-edges", "order", "view", "return x->step > y->step ? -1 : x->st
   "return x->step > y->step ? 1 : x->step < y->step ? -1 : compare_ends(a, b);")
 m("report-over-its-picture", "check left out", "cli_view", "if (s->job.report && ffd_paths_meet(s->job.report, s->output))",
   "if (s->job.report && strcmp(s->job.report, s->output) == 1000)")
-m("report-over-the-picture-of-check", "check left out", "cli_view", "s.picture && s.job.report && ffd_paths_meet(s.job.report, s.picture)",
-  "s.picture && s.job.report && s.job.report == s.picture")
+m("report-over-the-picture-of-check", "check left out", "cli_view", "s->picture && s->job.report && ffd_paths_meet(s->job.report, s->picture)",
+  "s->picture && s->job.report && s->job.report == s->picture",
+  "s.picture && s.job.report && ffd_paths_meet(s.job.report, s.picture)", "s.picture && s.job.report && s.job.report == s.picture")
 m("lost-triangles-of-a-corner", "loop", "cli_view", "for (size_t c = 0; c < 3 && finite; c++)", "for (size_t c = 0; c < 1 && finite; c++)")
 m("cage-of-any-size", "limit left out", "cli_view", "ffd_multiply_size(*count, size[2], count) && *count <= left;",
   "ffd_multiply_size(*count, size[2], count) && *count <= 1000 * left;", "ffd_multiply_size(points, size[2], &points) && points <= left;",
