@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """ffd batch --positions: a row of one array for each job, NaN until it is done, and a report that says what is in it."""
 
-import json
 import math
 import os
 import re

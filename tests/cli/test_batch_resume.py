@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
 """ffd batch --resume: an output is left alone only where it is what its job would make, judged by content."""
 
-import json
 import os
 
-from batches import MOVE, batch, case, check, equal, job, lattice, lines_of, main, report, start, statuses
+from batches import MOVE, batch, case, check, equal, job, lattice, lines_of, main, start, statuses
 from harness import CUBE, PNG, gltf_json
 
 ALL = ["o0.obj", "o1.obj", "o2.obj"]

@@ -3,7 +3,7 @@
 import json
 import re
 
-from harness import (CUBE, CUBE_CORNERS, EMBEDDING, INVALID, IO, NO, OK, case, check, equal, glb, gltf_json, lattice,
+from harness import (CUBE, CUBE_CORNERS, EMBEDDING, IO, NO, OK, case, check, equal, glb, gltf_json, lattice,
                      main)
 
 SHIFT = [{"by": [1, 0, 0]}]

@@ -5,7 +5,7 @@ import os
 import struct
 import subprocess
 
-from harness import (INVALID, MODELS, NO, SANITIZED, UNSUPPORTED, USAGE, case, check, equal, glb, glb_split, gltf_json, gltf_vectors, lattice,
+from harness import (MODELS, NO, SANITIZED, UNSUPPORTED, USAGE, case, check, equal, glb, glb_split, gltf_json, gltf_vectors, lattice,
                      main, near, obj_vertices)
 
 SHIFT = [{"by": [0.5, -0.25, 1]}]

@@ -17,7 +17,6 @@ from said import anything, counts, entry
 # Misses the face x = 1 by a millionth, as a file of six decimals does; a second one by three, a third is far away.
 NEAR = [[1.000001, 0.5, 0.25], [0.5, -0.000003, 0.75], [1.5, 0.5, 0.5], [0.5, 0.5, 0.5]]
 LOW, HIGH = [0.0, 0.0, 0.0], [1.0, 1.0, 1.0]
-DIAGONAL = math.sqrt(3)
 
 
 def obj(points):

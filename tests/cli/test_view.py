@@ -6,7 +6,7 @@ import re
 import struct
 
 from bspline import BoxVolume
-from harness import (CUBE, CUBE_CORNERS, EMBEDDING, INVALID, IO, LIMIT, NO, SANITIZED, UNSUPPORTED, USAGE, case, check, equal, glb,
+from harness import (CUBE, CUBE_CORNERS, EMBEDDING, INVALID, IO, NO, SANITIZED, UNSUPPORTED, USAGE, case, check, equal, glb,
                      gltf_json, lattice, main, near)
 from page import read_page
 from png import make_png, read_png

@@ -6,7 +6,7 @@ import signal
 import socket
 import subprocess
 
-from harness import FFD, check, wait_until
+from harness import FFD, wait_until
 
 NODES = ("node1", "node2")
 SECONDS = 90
