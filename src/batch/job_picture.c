@@ -28,7 +28,7 @@ bool ffd_job_picture_is_current(const char *path, const char *output)
     return ffd_file_stamp(path, &picture) && ffd_file_stamp(output, &mesh) && !is_older(&picture, &mesh);
 }
 
-void ffd_job_picture_make_room(const ffd_deform_desc *desc)
+void ffd_job_picture_drop_mesh(const ffd_deform_desc *desc)
 {
     file_stamp stamp;
     if (!desc->share || !ffd_file_stamp(desc->input.path, &stamp) || stamp.size < LARGE)

@@ -311,7 +311,7 @@ static bool rebuild(job_journal *journal, uint64_t slots)
 }
 
 /* Ensures that a record can be added. Returns false if not. */
-static bool make_room(job_journal *journal)
+static bool reserve_slot(job_journal *journal)
 {
     if (journal->used > journal->slots / 2)
         return (journal->slots <= MOST_SLOTS / 2 && rebuild(journal, 2 * journal->slots)) ||
@@ -326,7 +326,7 @@ bool ffd_journal_put(job_journal *journal, const hash128 *target, const job_reco
 {
     journal_slot slot = {.target = *target, .record = *record}, there;
     uint64_t number;
-    if (size > FIGURES_MOST || !make_room(journal) ||
+    if (size > FIGURES_MOST || !reserve_slot(journal) ||
         !look_up(journal->file, journal->slots, target, &number, &there))
         return false;
     journal->used += is_free(&there);

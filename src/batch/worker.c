@@ -203,7 +203,7 @@ static ffd_status draw(const char *picture, bool is_all, const ffd_deform_desc *
     ffd_job_result drawn;
     byte_buffer *const lines = ((const job_log *)desc->log_user)->lines;
     const size_t before = lines->size;
-    ffd_job_picture_make_room(desc);
+    ffd_job_picture_drop_mesh(desc);
     const ffd_status status = ffd_job_picture_write(picture, desc, desc->force || desc->if_changed, &drawn);
     drop_repeated(lines, before);
     answer->has_picture = status == FFD_OK || status == FFD_E_GATE;

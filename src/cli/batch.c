@@ -205,16 +205,17 @@ static int run_batch(const settings *s, const cli_words *words)
     return failed ? EXIT_NO : EXIT_DONE;
 }
 
+static int act(const cli_command *command, void *context, const cli_words *words)
+{
+    const settings *const s = context;
+    const char *const why = wrong(s, words);
+    return why ? cli_usage(command, why) : run_batch(s, words);
+}
+
 static int run(const cli_command *command, int count, char **arguments)
 {
     settings s = {.type = -1};
-    cli_words words;
-    int code = EXIT_USAGE;
-    if (cli_job_begin(command, &s.jobs.job, count, arguments, &words, &code)) {
-        const char *why = wrong(&s, &words);
-        code = why ? cli_usage(command, why) : run_batch(&s, &words);
-        cli_job_end(&s.jobs.job, &words);
-    }
+    const int code = cli_job_run(command, &s.jobs.job, count, arguments, act);
     free(s.defaults);
     return code;
 }

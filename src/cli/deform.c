@@ -232,19 +232,18 @@ static int run_all(settings *s, const cli_words *words, size_t inputs)
     return code;
 }
 
+static int act(const cli_command *command, void *context, const cli_words *words)
+{
+    settings *const s = context;
+    const size_t inputs = has_many(s) || !words->count ? words->count : 1;
+    const int code = refuse(command, s, words, inputs);
+    return code ? code : run_all(s, words, inputs);
+}
+
 static int run(const cli_command *command, int count, char **arguments)
 {
     settings s = {0};
-    cli_words words;
-    int code = EXIT_USAGE;
-    if (!cli_job_begin(command, &s.job, count, arguments, &words, &code))
-        return code;
-    const size_t inputs = has_many(&s) || !words.count ? words.count : 1;
-    code = refuse(command, &s, &words, inputs);
-    if (!code)
-        code = run_all(&s, &words, inputs);
-    cli_job_end(&s.job, &words);
-    return code;
+    return cli_job_run(command, &s.job, count, arguments, act);
 }
 
 static const cli_example examples[] = {

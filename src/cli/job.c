@@ -1,6 +1,6 @@
 #include "cli/job.h"
 #include "base/file/folder.h"
-#include "cli/nearest.h"
+#include "base/text/words.h"
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -63,7 +63,7 @@ static bool is_gate(const char *name, const char *word, size_t length)
 
 static bool add_gate(cli_job *job, const cli_option *option, const char *word, size_t length)
 {
-    cli_nearest nearest = {.word = word, .length = strcspn(word, "=,")};
+    nearest_word nearest = {.word = word, .length = strcspn(word, "=,")};
     for (int i = 0; gate_names[i]; i++) {
         if (is_gate(gate_names[i], word, length)) {
             const size_t size = strlen(gate_names[i]);
@@ -74,7 +74,7 @@ static bool add_gate(cli_job *job, const cli_option *option, const char *word, s
             job->fail_on |= (unsigned)gates[i];
             return taken;
         }
-        cli_nearest_offer(&nearest, gate_names[i]);
+        ffd_nearest_offer(&nearest, gate_names[i]);
     }
     cli_complain("--%s: unknown gate \"%.*s\" (nearest: %s)", option->name, (int)(length < 60 ? length : 60),
                  word, nearest.best);
@@ -196,6 +196,17 @@ void cli_job_end(cli_job *job, cli_words *words)
 {
     free(words->words);
     free_lists(job);
+}
+
+int cli_job_run(const cli_command *command, cli_job *job, int count, char **arguments, cli_action *action)
+{
+    cli_words words;
+    int code = EXIT_USAGE;
+    if (!cli_job_begin(command, job, count, arguments, &words, &code))
+        return code;
+    code = action(command, job, &words);
+    cli_job_end(job, &words);
+    return code;
 }
 
 bool cli_is_stream(const char *path)

@@ -74,6 +74,8 @@ bool cli_job_begin(const cli_command *command, cli_job *job, int count, char **a
                    int *exit_code);
 /* Frees the words and the memory of options. */
 void cli_job_end(cli_job *job, cli_words *words);
+/* cli_run for commands with a job, the head of their settings: the action's settings are these. */
+int cli_job_run(const cli_command *command, cli_job *job, int count, char **arguments, cli_action *action);
 
 /* Returns what is wrong with the options, or NULL. inputs: the number of words that are read; the others are
    written. */

@@ -1,8 +1,8 @@
 /* main.c - the program ffd: finds the command and runs it. */
+#include "base/text/words.h"
 #include "batch/worker.h"
 #include "cli/commands.h"
 #include "cli/deform.h"
-#include "cli/nearest.h"
 #include <errno.h>
 #include <signal.h>
 #include <stdio.h>
@@ -48,17 +48,17 @@ static const cli_command *only_command_of(const char *word)
 }
 
 /* If a single word was typed, a command of two words is compared by its first word. */
-static void offer_command(cli_nearest *nearest, const char *name, bool one_word)
+static void offer_command(nearest_word *nearest, const char *name, bool one_word)
 {
     const size_t length = strcspn(name, " ");
     char first[32];
     if (!one_word || !name[length]) {
-        cli_nearest_offer(nearest, name);
+        ffd_nearest_offer(nearest, name);
         return;
     }
-    cli_nearest own = {.word = nearest->word, .length = nearest->length};
+    nearest_word own = {.word = nearest->word, .length = nearest->length};
     snprintf(first, sizeof first, "%.*s", (int)length, name);
-    cli_nearest_offer(&own, first);
+    ffd_nearest_offer(&own, first);
     if (nearest->best && own.distance >= nearest->distance)
         return;
     nearest->best = name;
@@ -71,10 +71,10 @@ static int unknown_command(int count, char **arguments)
     const cli_command *group = only_command_of(arguments[0]);
     const bool two = group && count > 1;
     snprintf(typed, sizeof typed, "%s%s%s", arguments[0], two ? " " : "", two ? arguments[1] : "");
-    cli_nearest nearest = {.word = typed, .length = strlen(typed)};
+    nearest_word nearest = {.word = typed, .length = strlen(typed)};
     for (int i = 0; cli_commands[i]; i++)
         offer_command(&nearest, cli_commands[i]->name, !two);
-    cli_nearest_offer(&nearest, "help");
+    ffd_nearest_offer(&nearest, "help");
     cli_complain("unknown command \"%s\" (nearest: %s)", typed, group ? group->name : nearest.best);
     return EXIT_USAGE;
 }
@@ -117,9 +117,9 @@ static int run_version(int count, char **arguments)
 static int unknown_option(const char *argument)
 {
     static const char *const known[] = {"--help", "--version"};
-    cli_nearest nearest = {.word = argument, .length = strlen(argument)};
+    nearest_word nearest = {.word = argument, .length = strlen(argument)};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-        cli_nearest_offer(&nearest, known[i]);
+        ffd_nearest_offer(&nearest, known[i]);
     cli_complain("unknown option %.60s (nearest: %s; other options follow a command)", argument,
                  nearest.best);
     return EXIT_USAGE;

@@ -1,5 +1,5 @@
 #include "cli/options.h"
-#include "cli/nearest.h"
+#include "base/text/words.h"
 #include <errno.h>
 #include <ffd/ffd.h>
 #include <math.h>
@@ -193,10 +193,10 @@ const cli_option *cli_next_option(cli_option_walk *walk)
 
 static bool unknown_option(const cli_table *options, const char *name, size_t length)
 {
-    cli_nearest nearest = {.word = name, .length = length};
+    nearest_word nearest = {.word = name, .length = length};
     cli_option_walk walk = cli_begin_walk(options);
     for (const cli_option *option; (option = cli_next_option(&walk));)
-        cli_nearest_offer(&nearest, option->name);
+        ffd_nearest_offer(&nearest, option->name);
     cli_complain("unknown option --%.*s (nearest: --%s)", (int)(length < 60 ? length : 60), name,
                  nearest.best);
     return false;

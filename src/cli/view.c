@@ -196,23 +196,22 @@ static const char *mistake(const settings *s, const cli_words *words)
     return cli_job_mistake(&s->job, words, 1);
 }
 
+static int act(const cli_command *command, void *context, const cli_words *words)
+{
+    settings *const s = context;
+    const char *const why = mistake(s, words);
+    if (why)
+        return cli_usage(command, why);
+    if (!cli_job_knows_formats(&s->job, words, words->count))
+        return EXIT_USAGE;
+    s->deformed = words->count == 2 ? words->words[1] : NULL;
+    return cli_job_run_all(&s->job, words, 1, show);
+}
+
 static int run(const cli_command *command, int count, char **arguments)
 {
     settings s = {0};
-    cli_words words;
-    int code = EXIT_USAGE;
-    if (!cli_job_begin(command, &s.job, count, arguments, &words, &code))
-        return code;
-    const char *const why = mistake(&s, &words);
-    s.deformed = words.count == 2 ? words.words[1] : NULL;
-    if (why)
-        code = cli_usage(command, why);
-    else if (cli_job_knows_formats(&s.job, &words, words.count))
-        code = cli_job_run_all(&s.job, &words, 1, show);
-    else
-        code = EXIT_USAGE;
-    cli_job_end(&s.job, &words);
-    return code;
+    return cli_job_run(command, &s.job, count, arguments, act);
 }
 
 static const cli_example examples[] = {

@@ -1,9 +1,12 @@
-/* info_box.h - the box of a lattice's rest volume. */
+/* info_box.h - boxes in what `ffd info` prints: any bounds, and the box of a lattice's rest volume. */
 #ifndef FFD_JOB_INFO_BOX_H
 #define FFD_JOB_INFO_BOX_H
 
 #include "json/json_text.h"
 #include <ffd/job.h>
+
+/* Appends "key": {"min": [..], "max": [..]}, or null if there are no points. */
+void ffd_info_bounds(json_text *json, const char *key, const ffd_bounds *box);
 
 /* Appends the box of a lattice to an open JSON object: the meshes that it goes round, its margin, sides and
    axes. Nothing if the lattice has no box. fits: fit a lattice round named meshes to them. like: options for

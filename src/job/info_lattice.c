@@ -163,11 +163,11 @@ static ffd_status write_volume(const ffd_lattice *lattice, json_text *json, ffd_
 {
     const ffd_bounds rest = bounds_of(lattice->rest, lattice->count);
     const ffd_bounds deformed = bounds_of(lattice->deformed, lattice->count);
-    ffd_bounds_json(json, "rest_bounds", &rest);
+    ffd_info_bounds(json, "rest_bounds", &rest);
     if (lattice->spec->open.count > 0)
         ffd_json_null(json, "deformed_bounds");
     else
-        ffd_bounds_json(json, "deformed_bounds", &deformed);
+        ffd_info_bounds(json, "deformed_bounds", &deformed);
     ffd_json_number(json, "diagonal", lattice->diagonal);
     write_moves(lattice, json);
     return write_inversion(lattice, json, error);

@@ -166,7 +166,7 @@ static ffd_status run_one(deform_job *job, size_t k, const mesh_log *log, ffd_jo
 
 /* Whether memory suffices to keep u,v,w of all vertices beside the targets, and there are later targets to
    use them. */
-static bool has_room(const deform_job *job, size_t targets)
+static bool fits_budget(const deform_job *job, size_t targets)
 {
     return targets > 1 && ffd_budget_check(&job->document->budget, ffd_mesh_vertex_count(job->document),
                                            sizeof(ffd_location) + targets * TARGET_BYTES, NULL) == FFD_OK;
@@ -178,7 +178,7 @@ static ffd_status run_all(deform_job *job, ffd_job_result *results, size_t *done
     const mesh_log log = job->log;
     const size_t count = job->desc->lattice_count;
     job->document->sparse_targets = true;
-    job->forgets_locations = !has_room(job, count);
+    job->forgets_locations = !fits_budget(job, count);
     ffd_status status = keep_clips(job, error);
     if (!status)
         status = begin(job, error);

@@ -2,6 +2,7 @@
 #include "base/memory/memory.h"
 #include "base/text/words.h"
 #include "mesh/bounds.h"
+#include "mesh/positions.h"
 #include "picture/image/image.h"
 #include "view/view_cages.h"
 #include "view/view_fit.h"
@@ -366,7 +367,7 @@ static ffd_status prepare(picture_work *w)
         return ffd_fail_memory(w->error);
     say_what_is_left_out(w);
     ffd_view_palette_make(scene, options->color, &w->palette);
-    status = ffd_picture_twins(scene->before, scene->vertex_count, w->twins, w->error);
+    status = ffd_positions_twins(scene->before, scene->vertex_count, w->twins, w->error);
     if (!status)
         status = find_used(scene, &w->used, w->error);
     if (!status)

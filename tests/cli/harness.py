@@ -20,6 +20,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import time
 import traceback
 
 from driver import Driver
@@ -81,6 +82,13 @@ def near(found, expected, tolerance, what=""):
             near(a, b, tolerance, f"{what}[{i}]")
         elif not abs(a - b) <= tolerance:
             check(False, f"{what}[{i}]: {a!r} and {b!r} differ by more than {tolerance}")
+
+
+def wait_until(condition, what):
+    limit = time.monotonic() + SECONDS
+    while not condition():
+        check(time.monotonic() < limit, what)
+        time.sleep(0.001)
 
 
 class Done:
@@ -253,6 +261,11 @@ def copy_program(folder):
         shutil.copy(path, target)
         os.chmod(target, 0o755)
     return os.path.join(folder, "ffd")
+
+
+def float32(x):
+    """The number of single precision that is nearest to x."""
+    return struct.unpack("<f", struct.pack("<f", x))[0]
 
 
 def lattice(size=(4, 4, 4), low=(-2, -2, -2), high=(2, 2, 2), moves=(), **members):

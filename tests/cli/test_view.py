@@ -6,7 +6,7 @@ import re
 import struct
 
 from bspline import BoxVolume
-from harness import (CUBE, CUBE_CORNERS, EMBEDDING, INVALID, IO, LIMIT, NO, SANITIZED, UNSUPPORTED, USAGE, case, check, equal, glb,
+from harness import (CUBE, CUBE_CORNERS, EMBEDDING, INVALID, IO, NO, SANITIZED, UNSUPPORTED, USAGE, case, check, equal, glb,
                      gltf_json, lattice, main, near)
 from page import read_page
 from png import make_png, read_png
@@ -730,7 +730,7 @@ def what_is_not_finite_is_not_drawn_and_said(run):
 
 
 @case
-def empty_meshes(run):
+def an_empty_mesh_is_a_page(run):
     run.write("l.json", lattice(moves=SHIFT))
     run.write("a.off", "OFF\n0 0 0\n")
     equal(len(view(run, "a.off", "-l", "l.json", err=lambda said: None).before), 0)

@@ -27,6 +27,13 @@ static inline ffd_lattice *lattice_of_knots(const knot_vector knots[3])
     return lattice;
 }
 
+/* Call it after points were set or changed. */
+static inline ffd_status finish_by_hand(ffd_lattice *lattice, ffd_error *error)
+{
+    const ffd_status status = ffd_lattice_make_difference(lattice, error);
+    return status ? status : ffd_lattice_finish_moved(lattice, error);
+}
+
 /* Kinds and sizes of the knots, one for each direction. */
 typedef struct lattice_kinds {
     knot_kind kind[3];

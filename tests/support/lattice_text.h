@@ -5,6 +5,7 @@
 
 #include "base/fail.h"
 #include "lattice/lattice.h"
+#include "message.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -14,13 +15,6 @@ static inline ffd_status parse(const char *rest, const char *moves, ffd_lattice 
     static char text[8192];
     snprintf(text, sizeof text, "{\"format\":\"ffd-lattice\",\"version\":1,%s,\"moves\":[%s]}", rest, moves);
     return ffd_lattice_parse(text, strlen(text), "t.json", lattice, error);
-}
-
-static inline const char *message_of(const ffd_error *error)
-{
-    static char text[2048];
-    ffd_error_format(error, text, sizeof text);
-    return text;
 }
 
 /* Fails the test if the text is refused. */

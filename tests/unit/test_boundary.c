@@ -30,7 +30,7 @@ static void finish(ffd_lattice *lattice)
     memcpy(lattice->deformed, lattice->rest, 3 * lattice->count * sizeof(double));
     if (lattice->rest_weights)
         memcpy(lattice->deformed_weights, lattice->rest_weights, lattice->count * sizeof(double));
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
 }
 
 /* Sets control points to the images of their Greville abscissae, perturbed by `shake`. */

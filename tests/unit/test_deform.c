@@ -32,7 +32,7 @@ static void transform(ffd_lattice *lattice, const double m[9])
 {
     for (size_t n = 0; n < lattice->count; n++)
         mat_apply(m, lattice->rest + 3 * n, lattice->deformed + 3 * n);
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
 }
 
 static void check_close(const double *a, const double *b, int count, double allowed)
@@ -45,7 +45,7 @@ static void check_close(const double *a, const double *b, int count, double allo
 static void an_undeformed_lattice_moves_nothing(void **state)
 {
     ffd_lattice *lattice = cube();
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
     const double uvw[3] = {0.3, 0.6, 1};
     double delta[3] = {1, 1, 1}, gradient[9] = {1};
     assert_int_equal(ffd_displacement(lattice, uvw, delta, gradient), 0);
@@ -62,7 +62,7 @@ static void a_translation_moves_every_point_alike(void **state)
     const double by[3] = {0.5, -0.25, 4};
     for (size_t i = 0; i < 3 * lattice->count; i++)
         lattice->deformed[i] += by[i % 3];
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
     const double zero[9] = {0};
     for (int i = 0; i < 100; i++) {
         const double uvw[3] = {draw_unit(&d), draw_unit(&d), draw_unit(&d)};
@@ -122,7 +122,7 @@ static void a_control_point_acts_in_its_spans_only(void **state)
 {
     ffd_lattice *lattice = cube();
     lattice->deformed[0] -= 0.1; /* control point 0,0,0 acts only in the first span of each direction */
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
     const double inside[3] = {0.1, 0.2, 0.3}, outside[3] = {0.1, 0.2, 0.34};
     double delta[3], gradient[9];
     assert_int_equal(ffd_displacement(lattice, inside, delta, gradient), 1);
@@ -138,7 +138,7 @@ static void a_moved_weight_moves_points_near_it_only(void **state)
     ffd_lattice *lattice = cube();
     lattice_add_weights(lattice);
     lattice->deformed_weights[lattice_index(lattice, 1, 1, 1)] = 3;
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
     const double uvw[3] = {0.4, 0.5, 0.45}, far[3] = {0.99, 0.99, 0.99};
     double delta[3], gradient[9], rest[3], deformed[3];
     assert_int_equal(ffd_displacement(lattice, uvw, delta, gradient), 1);

@@ -59,7 +59,7 @@ static ffd_lattice *random_lattice(draw *d, int number)
         for (int i = 0; i < 9; i++)
             lattice->frame[i] = draw_between(d, -1, 1) + (i % 4 == 0 ? 4 : 0);
     }
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
     return lattice;
 }
 
@@ -167,7 +167,7 @@ static void corners_are_exact(void **state)
             lattice->rest[i] = draw_between(&d, -1, 1);
             lattice->deformed[i] = draw_between(&d, -1, 1);
         }
-        assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+        assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
         for (int corner = 0; corner < 8; corner++) {
             size_t n = 0;
             double uvw[3], delta[3];
@@ -198,7 +198,7 @@ static void check_function(int degree, int i, double rest, double distance)
                          FFD_OK);
     ffd_lattice *lattice = lattice_of_knots(knots);
     lattice->deformed[3 * lattice_index(lattice, (size_t)i, 0, 1)] = distance;
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
     const double uvw[3] = {u, 0.5, 0.25};
     const long double share = 0.5L * 0.25L * binomial * (long double)distance,
                       value = share * powl(u, i) * powl(rest, degree - i),

@@ -39,7 +39,7 @@ static void place_at_greville(ffd_lattice *lattice)
 static void finish(ffd_lattice *lattice)
 {
     ffd_error error;
-    if (ffd_lattice_finish(lattice, &error))
+    if (finish_by_hand(lattice, &error))
         fail_msg("%s", error.message);
 }
 
@@ -274,7 +274,7 @@ static void the_diagonal_survives_extreme_sizes(void **state)
 static void check_refusal(ffd_lattice *lattice, const char *message)
 {
     ffd_error error = {0};
-    assert_int_equal(ffd_lattice_finish(lattice, &error), FFD_E_INVALID);
+    assert_int_equal(finish_by_hand(lattice, &error), FFD_E_INVALID);
     assert_string_equal(error.message, message);
 }
 
@@ -339,7 +339,7 @@ static void each_failed_allocation_is_reported(void **state)
     for (long successes = 0; successes < 2; successes++) {
         ffd_lattice *lattice = make(KNOTS_CLAMPED, 1, 1, 1, 2, 2, 2);
         ffd_alloc_fail_after(successes);
-        const ffd_status status = ffd_lattice_finish(lattice, NULL);
+        const ffd_status status = finish_by_hand(lattice, NULL);
         ffd_alloc_fail_after(-1);
         assert_int_equal(status, FFD_E_MEMORY);
         finish(lattice);

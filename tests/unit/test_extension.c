@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "../support/draw.h"
+#include "../support/lattice_by_hand.h"
 #include "base/vector/vec.h"
 #include "deform/displacement.h"
 #include "deform/extension.h"
@@ -64,7 +65,7 @@ static sample shaken(const char *members, double amount, draw *d)
     sample s = make(members);
     for (size_t i = 0; i < 3 * s.lattice->count; i++)
         s.lattice->deformed[i] += draw_between(d, -amount, amount);
-    assert_int_equal(ffd_lattice_finish(s.lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(s.lattice, NULL), FFD_OK);
     return s;
 }
 

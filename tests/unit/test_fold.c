@@ -45,7 +45,7 @@ static ffd_lattice *mapped(const lattice_kinds *shape, point_map map)
 static void finish(ffd_lattice *lattice)
 {
     ffd_error error;
-    if (ffd_lattice_finish(lattice, &error))
+    if (finish_by_hand(lattice, &error))
         fail_msg("%s", error.message);
 }
 

@@ -10,6 +10,7 @@
 #include "../support/draw.h"
 #include "../support/gltf_file.h"
 #include "../support/repetitions.h"
+#include "../support/test_folder.h"
 #include "io/gltf/document/gltf_document.h"
 #include "mesh/difference.h"
 #include <ftw.h>
@@ -21,7 +22,6 @@
 #define LARGEST_TO_BREAK 20000
 #define BROKEN_COPIES 20
 
-static char folder[] = "/tmp/ffd-test-models-XXXXXX";
 static char *models[MOST_MODELS];
 static size_t model_count;
 
@@ -42,22 +42,18 @@ static int compare_names(const void *a, const void *b)
 
 static int find_models(void **state)
 {
-    (void)state;
     const char *const root = getenv("FFD_MODELS");
     if (root && nftw(root, add_model, 16, FTW_PHYS) != 0)
         return -1;
     qsort(models, model_count, sizeof *models, compare_names);
-    return mkdtemp(folder) ? 0 : -1;
+    return make_folder(state);
 }
 
 static int forget_models(void **state)
 {
-    (void)state;
     for (size_t i = 0; i < model_count; i++)
         ffd_free(models[i]);
-    char command[100];
-    snprintf(command, sizeof command, "rm -r '%s'", folder);
-    return system(command);
+    return remove_folder(state);
 }
 
 static bool is_binary(const char *path)

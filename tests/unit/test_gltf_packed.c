@@ -11,11 +11,11 @@
 #include "../support/gltf_file.h"
 #include "../support/repetitions.h"
 #include "../support/sheet.h"
+#include "../support/test_folder.h"
 #include "base/text/base64.h"
 #include "io/gltf/decode/gltf_read.h"
 #include "mesh/difference.h"
 #include <meshoptimizer.h>
-#include <unistd.h>
 
 #define DRACO "KHR_draco_mesh_compression"
 #define MESHOPT "EXT_meshopt_compression"
@@ -25,7 +25,6 @@
 #define POINTS (SIDE * SIDE)
 #define TRIANGLES (2 * (SIDE - 1) * (SIDE - 1))
 
-static char folder[] = "/tmp/ffd-test-packed-XXXXXX";
 static char output[100];
 
 /* A sheet of squares in the unit square of x and y. */
@@ -56,7 +55,7 @@ typedef struct blob {
 } blob;
 
 /* Appends bytes at a multiple of 4. Returns their offset. */
-static size_t put(blob *b, const void *bytes, size_t size)
+static size_t put_aligned(blob *b, const void *bytes, size_t size)
 {
     const size_t offset = (b->size + 3) / 4 * 4;
     assert_in_range(offset + size, 0, sizeof b->bytes);
@@ -68,7 +67,7 @@ static size_t put(blob *b, const void *bytes, size_t size)
 
 static void add_view(blob *b, const void *bytes, size_t size)
 {
-    const size_t offset = put(b, bytes, size);
+    const size_t offset = put_aligned(b, bytes, size);
     ffd_buffer_format(&b->views, "%s{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":%zu}",
                       b->views.size > 0 ? "," : "", offset, size);
 }
@@ -422,7 +421,7 @@ static char *make_meshopt_text(const char *extension, const char *fallback, cons
         memcpy(vertices + 24 * i + 12, normals + 3 * i, 12);
     }
     size_t size = meshopt_encodeVertexBuffer(bytes, sizeof bytes, vertices, POINTS, 24);
-    const size_t first = put(&b, bytes, size);
+    const size_t first = put_aligned(&b, bytes, size);
     ffd_buffer_format(
         &b.views,
         "{\"buffer\":1,\"byteLength\":600,\"byteStride\":24,\"target\":34962,\"extensions\":{\"%s\":"
@@ -430,7 +429,7 @@ static char *make_meshopt_text(const char *extension, const char *fallback, cons
         "\"ATTRIBUTES\",\"count\":25}}},",
         extension, first, size);
     size = meshopt_encodeIndexSequence(bytes, sizeof bytes, triangles, 3 * TRIANGLES);
-    const size_t second = put(&b, bytes, size);
+    const size_t second = put_aligned(&b, bytes, size);
     ffd_buffer_format(
         &b.views,
         "{\"buffer\":1,\"byteOffset\":600,\"byteLength\":192,\"target\":34963,\"extensions\":{\"%s\":"
@@ -639,7 +638,7 @@ static void many_views_of_the_same_bytes_are_too_much(void **state)
     unsigned char bytes[4096];
     const size_t size = meshopt_encodeVertexBuffer(bytes, sizeof bytes, zeros, COUNT, 4);
     assert_in_range(size, 1, sizeof bytes);
-    put(&b, bytes, size);
+    put_aligned(&b, bytes, size);
     for (size_t i = 0; i < VIEWS; i++)
         ffd_buffer_format(&b.views,
                           "%s{\"buffer\":1,\"byteLength\":160000,\"extensions\":{\"" MESHOPT
@@ -690,7 +689,7 @@ static void the_same_draco_data_is_decoded_too_often(void **state)
     size_t size;
     unsigned char *const bytes = make_large_draco(LARGE, &size);
     b = (blob){.size = 0};
-    put(&b, bytes, size);
+    put_aligned(&b, bytes, size);
     ffd_buffer_format(&rest,
                       LISTS("\"" DRACO "\"") ",\"nodes\":[{\"mesh\":0}],\"accessors\":[{"
                                              "\"componentType\":5126,\"count\":%d,\"type\":\"VEC3\",\"min\":"
@@ -738,21 +737,13 @@ static void memory_failures_are_reported(void **state)
     }
 }
 
-static int make_folder(void **state)
+static int begin(void **state)
 {
-    (void)state;
+    if (make_folder(state))
+        return -1;
     make_sheet();
-    if (!mkdtemp(folder))
-        return 1;
     snprintf(output, sizeof output, "%s/out.gltf", folder);
     return 0;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    unlink(output);
-    return rmdir(folder);
 }
 
 int main(void)
@@ -774,5 +765,5 @@ int main(void)
         cmocka_unit_test(the_same_draco_data_is_decoded_too_often),
         cmocka_unit_test(memory_failures_are_reported),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, begin, remove_folder);
 }

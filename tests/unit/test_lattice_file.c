@@ -14,6 +14,9 @@
 
 #include <cmocka.h>
 
+#include "../support/message.h"
+#include "../support/test_folder.h"
+
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 #define HEAD "{\"format\":\"ffd-lattice\",\"version\":1,"
 #define SIZE HEAD "\"size\":[2,2,2],"
@@ -22,13 +25,6 @@
 #define EIGHT "[0,0,0],[1,0,0],[0,1,0],[1,1,0],[0,0,1],[1,0,1],[0,1,1],[1,1,1]"
 #define CYLINDER(text) SIZE "\"rest\":{\"cylinder\":{" text "}}}"
 #define MOVE(text) BOX ",\"moves\":[" text "]}"
-
-static const char *message_of(const ffd_error *error)
-{
-    static char text[2048];
-    ffd_error_format(error, text, sizeof text);
-    return text;
-}
 
 static ffd_status parse(const char *text, ffd_lattice **lattice, ffd_error *error)
 {
@@ -590,14 +586,10 @@ static void text_is_written_in_a_fixed_layout(void **state)
 static void the_rest_needs_no_values(void **state)
 {
     (void)state;
-    char folder[] = "/tmp/ffd-test-XXXXXX", path[64];
     const ffd_setting values[] = {{"A", "1"}, {"C", "1"}, {"B", "0.5"}};
-    assert_non_null(mkdtemp(folder));
-    snprintf(path, sizeof path, "%s/l.json", folder);
-    FILE *const file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(MOVE("{\"by\":[{\"$\":\"A\",\"name\":\"a\"},0,0]},{\"by\":{\"$\":\"B\"},\"weight\":7}"), file);
-    fclose(file);
+    const char *const path = in_folder("values.json");
+    put_text("values.json",
+             MOVE("{\"by\":[{\"$\":\"A\",\"name\":\"a\"},0,0]},{\"by\":{\"$\":\"B\"},\"weight\":7}"));
     ffd_lattice *l;
     ffd_error error;
     bool used[3] = {false};
@@ -610,16 +602,12 @@ static void the_rest_needs_no_values(void **state)
     /* With all values, the moves are read and checked. */
     assert_int_equal(ffd_lattice_load_rest(path, values, 3, used, &l, &error), FFD_E_INVALID);
     assert_string_equal(error.pointer, "/moves/1/weight");
-    unlink(path);
-    rmdir(folder);
 }
 
 static void a_saved_file_loads_and_is_kept_unless_forced(void **state)
 {
     (void)state;
-    char folder[] = "/tmp/ffd-test-XXXXXX", path[64];
-    assert_non_null(mkdtemp(folder));
-    snprintf(path, sizeof path, "%s/l.json", folder);
+    const char *const path = in_folder("saved.json");
     ffd_lattice *saved, *loaded;
     ffd_error error;
     assert_int_equal(parse(rich, &saved, &error), FFD_OK);
@@ -634,7 +622,6 @@ static void a_saved_file_loads_and_is_kept_unless_forced(void **state)
     assert_int_equal(ffd_lattice_load(path, &loaded, &error), FFD_E_IO);
     assert_null(loaded);
     assert_string_equal(error.file, path);
-    rmdir(folder);
 }
 
 /* Each allocation fails once: the status is right, and nothing leaks (checked by sanitizers). */
@@ -714,5 +701,5 @@ int main(void)
         cmocka_unit_test(every_failed_allocation_is_reported),
         cmocka_unit_test(broken_text_is_read_or_refused_with_a_message),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -26,7 +26,7 @@ static void set_points(ffd_lattice *lattice, point_map map)
 {
     lattice_map(lattice, map);
     memcpy(lattice->deformed, lattice->rest, 3 * lattice->count * sizeof(double));
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
 }
 
 static void box_map(const double g[3], double out[3])
@@ -335,7 +335,7 @@ static void make_sheet(draw *d, sheet_shape shape, double thickness, double far,
                     p[r] = origin[r] + g[0] * axis[0][r] + g[1] * axis[1][r] + up * axis[2][r];
             }
     memcpy(lattice->deformed, lattice->rest, 3 * lattice->count * sizeof(double));
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
 }
 
 /* A sheet whose thickness is only rounding of control points has no volume; a somewhat thicker one has,
@@ -459,7 +459,7 @@ static void a_seam_point_is_one_root_whatever_the_moves(void **state)
     for (size_t k = 0; k < size[2]; k++)
         for (size_t i = 0; i < size[0]; i++)
             lattice->deformed[3 * (i + size[0] * (0 + size[1] * k)) + 1] += 0.25;
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
     assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
     found = find_one(locator, 2.5, 0, 0.3);
     assert_int_equal(found.status, FFD_INSIDE);
@@ -515,7 +515,7 @@ static void folds_are_refused_only_beyond_the_limit(void **state)
     draw d = {draw_seed()};
     for (size_t i = 0; i < 3 * lattice->count; i++)
         lattice->rest[i] = lattice->deformed[i] = draw_unit(&d);
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
     assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
     const double middle[3] = {0.5, 0.5, 0.5};
     assert_int_equal(ffd_locator_find(locator, middle, 1, &found, NULL), FFD_OK);
@@ -557,7 +557,7 @@ static void u_v_w_do_not_depend_on_the_unit(void **state)
             scaled->rest[i] = scaled->deformed[i] = ldexp(unit->rest[i], exponents[e]);
         for (int i = 0; i < 3 * POINTS; i++)
             scaled_xyz[i] = ldexp(xyz[i], exponents[e]);
-        assert_int_equal(ffd_lattice_finish(scaled, NULL), FFD_OK);
+        assert_int_equal(finish_by_hand(scaled, NULL), FFD_OK);
         assert_int_equal(ffd_locator_create(scaled, &locator, NULL), FFD_OK);
         assert_int_equal(ffd_locator_find(locator, scaled_xyz, POINTS, found, NULL), FFD_OK);
         for (int i = 0; i < POINTS; i++) {
@@ -614,7 +614,7 @@ static void points_in_narrow_spans_are_inside(void **state)
                 p[2] = z + (bent ? 0.1 * sin(x) : 0);
             }
             memcpy(lattice->deformed, lattice->rest, 3 * lattice->count * sizeof(double));
-            assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+            assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
             check_all_inside(lattice, &d);
             ffd_lattice_destroy(&lattice);
         }
@@ -683,7 +683,7 @@ static void the_root_with_the_sign_of_the_volume_is_taken(void **state)
     ffd_locator *locator;
     memcpy(lattice->rest, points, sizeof points);
     memcpy(lattice->deformed, points, sizeof points);
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
     assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
     const ffd_location found = find_one(locator, 0.7323, -0.0194, 0.4003);
     assert_int_equal(found.status, FFD_MULTIPLE);

@@ -11,15 +11,9 @@
 #include <cmocka.h>
 
 #include "../support/lattice_points.h"
+#include "../support/message.h"
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
-
-static const char *message_of(const ffd_error *error)
-{
-    static char text[2048];
-    ffd_error_format(error, text, sizeof text);
-    return text;
-}
 
 static ffd_lattice *make(const char *size, const char *rest, const char *more)
 {

@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include "../support/repetitions.h"
+#include "../support/test_folder.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "embed/locator.h"
@@ -20,7 +21,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #define PARTS 4
 #define WHOLE VERTEX_TRANSFORMS /* exactly one tile */
@@ -424,28 +424,6 @@ static void points_outside_stay_or_follow_with_falloff(void **state)
 
 /* A file */
 
-static char folder[] = "/tmp/ffd-test-pass-XXXXXX";
-
-static const char *path(void)
-{
-    static char text[64];
-    snprintf(text, sizeof text, "%s/e.npy", folder);
-    return text;
-}
-
-static int make_folder(void **state)
-{
-    (void)state;
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    remove(path());
-    return rmdir(folder);
-}
-
 static void write_embedding(const lattice_chain *chain, const double *uvw, const uint8_t *statuses,
                             embedding_file *file)
 {
@@ -455,12 +433,13 @@ static void write_embedding(const lattice_chain *chain, const double *uvw, const
     const hash128 rest = ffd_rest_hash(chain->links[0].lattice);
     assert_int_equal(ffd_embedding_hash_positions(&mesh->head, 1, &positions, NULL), FFD_OK);
     assert_int_equal(ffd_output_create(&output, NULL), FFD_OK);
-    assert_int_equal(ffd_output_begin(output, path(), true, NULL), FFD_OK);
+    assert_int_equal(ffd_output_begin(output, in_folder("e.npy"), true, NULL), FFD_OK);
     assert_int_equal(ffd_embedding_write(output, uvw, statuses, NUMBERED, &positions, &rest, NULL), FFD_OK);
     assert_int_equal(ffd_output_commit(output, NULL), FFD_OK);
     ffd_output_destroy(&output);
-    assert_int_equal(ffd_embedding_reuse(path(), &mesh->head, chain->links[0].lattice, 0, 1, file, NULL),
-                     FFD_OK);
+    assert_int_equal(
+        ffd_embedding_reuse(in_folder("e.npy"), &mesh->head, chain->links[0].lattice, 0, 1, file, NULL),
+        FFD_OK);
     free(mesh);
 }
 

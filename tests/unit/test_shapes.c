@@ -1,4 +1,5 @@
 /* Control points of boxes and cylinders, and the extent of their volumes. */
+#include "../support/message.h"
 #include "../support/repetitions.h"
 #include "lattice/border.h"
 #include "lattice/spec.h"
@@ -13,13 +14,6 @@
 #include <cmocka.h>
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
-
-static const char *message_of(const ffd_error *error)
-{
-    static char text[2048];
-    ffd_error_format(error, text, sizeof text);
-    return text;
-}
 
 static ffd_lattice *parse(const char *text)
 {

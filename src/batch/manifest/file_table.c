@@ -67,9 +67,9 @@ static void merge(file_table *table)
     table->used = 0;
 }
 
-/* Makes room for a recent entry. There are slots for a sixteenth of all entries: little memory, yet merges
-   are rare. */
-static bool make_room(file_table *table)
+/* Reserves a slot for a recent entry. There are slots for a sixteenth of all entries: little memory, yet
+   merges are rare. */
+static bool reserve_slot(file_table *table)
 {
     if (table->used < table->slots / 2)
         return true;
@@ -99,7 +99,7 @@ ffd_status ffd_files_put(file_table *table, const hash128 *file, uint64_t number
     memcpy(entry.file, file->bytes, sizeof entry.file);
     memcpy(entry.number, bytes, sizeof entry.number);
     file_entry *place = find_sorted(table, &entry);
-    if (!place && !make_room(table))
+    if (!place && !reserve_slot(table))
         return ffd_fail_memory(error);
     place = find_sorted(table, &entry);
     if (!place) {

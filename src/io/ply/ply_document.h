@@ -112,7 +112,6 @@ mesh_read_splats_function ffd_ply_read_splats;
 mesh_write_splats_function ffd_ply_write_splats;
 mesh_open_function ffd_ply_open;
 mesh_close_function ffd_ply_close;
-mesh_check_function ffd_ply_check;
 mesh_begin_results_function ffd_ply_begin_results;
 mesh_write_function ffd_ply_write_positions;
 mesh_write_function ffd_ply_write_normals;

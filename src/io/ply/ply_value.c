@@ -116,12 +116,9 @@ size_t ffd_ply_store(ply_encoding encoding, ply_type type, double value, char by
     const size_t size = types[type].size;
     if (encoding == PLY_ASCII)
         return store_text(type, value, bytes);
-    if (type == PLY_FLOAT) {
-        const float narrow = (float)value;
-        uint32_t bits;
-        memcpy(&bits, &narrow, sizeof bits);
-        store_u32(low_first, bits);
-    } else
+    if (type == PLY_FLOAT)
+        store_float(low_first, (float)value);
+    else
         store_double(low_first, value);
     for (size_t i = 0; i < size; i++)
         bytes[i] = (char)low_first[encoding == PLY_BIG_ENDIAN ? size - 1 - i : i];

@@ -6,22 +6,14 @@
 
 void ffd_stl_load(const unsigned char *bytes, double xyz[3])
 {
-    for (size_t a = 0; a < 3; a++) {
-        const uint32_t bits = load_u32(bytes + 4 * a);
-        float value;
-        memcpy(&value, &bits, sizeof value);
-        xyz[a] = (double)value;
-    }
+    for (size_t a = 0; a < 3; a++)
+        xyz[a] = load_float(bytes + 4 * a);
 }
 
 void ffd_stl_store(unsigned char *bytes, const double *values, size_t count)
 {
-    for (size_t i = 0; i < count; i++) {
-        const float value = (float)values[i];
-        uint32_t bits;
-        memcpy(&bits, &value, sizeof bits);
-        store_u32(bytes + 4 * i, bits);
-    }
+    for (size_t i = 0; i < count; i++)
+        store_float(bytes + 4 * i, (float)values[i]);
 }
 
 void ffd_stl_read_positions(const mesh_document *document, size_t part, size_t first, size_t count,

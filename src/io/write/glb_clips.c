@@ -1,6 +1,6 @@
 #include "io/write/glb_clips.h"
 #include "base/memory/memory.h"
-#include "base/text/buffer_float.h"
+#include "base/text/buffer_binary.h"
 #include "mesh/morph/morph_clip.h"
 #include <string.h>
 

@@ -6,7 +6,6 @@
 #include "mesh/srgb.h"
 #include <float.h>
 #include <math.h>
-#include <string.h>
 
 static void flush_block(gltf_writer *w)
 {
@@ -29,25 +28,19 @@ static void put_bytes(gltf_writer *w, const unsigned char *bytes, size_t size)
     }
 }
 
-static void put_u32(gltf_writer *w, uint32_t value)
-{
-    unsigned char bytes[4];
-    store_u32(bytes, value);
-    put_bytes(w, bytes, sizeof bytes);
-}
-
 static void put_floats(gltf_writer *w, const float *values, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
-        uint32_t bits;
-        memcpy(&bits, values + i, sizeof bits);
-        put_u32(w, bits);
+        unsigned char bytes[4];
+        store_float(bytes, values[i]);
+        put_bytes(w, bytes, sizeof bytes);
     }
 }
 
 static void put_u16(gltf_writer *w, uint16_t value)
 {
-    const unsigned char bytes[2] = {value & 255, (unsigned char)(value >> 8)};
+    unsigned char bytes[2];
+    store_u16(bytes, value);
     put_bytes(w, bytes, sizeof bytes);
 }
 

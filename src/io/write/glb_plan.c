@@ -2,7 +2,7 @@
 #include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include "io/write/glb_values.h"
-#include "io/write/triangles.h"
+#include "mesh/model_triangles.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -277,7 +277,7 @@ static ffd_status number_vertices(planner *p, glb_primitive *primitive, size_t d
 }
 
 /* Allocates for the maximum, one vertex per drawn corner; the rest is released later. */
-static ffd_status make_room(planner *p)
+static ffd_status allocate(planner *p)
 {
     glb_plan *plan = p->plan;
     size_t corners = 0, indices = 0, largest = 0;
@@ -298,7 +298,7 @@ static ffd_status make_vertices(planner *p)
 {
     glb_plan *plan = p->plan;
     size_t at[MODEL_KINDS] = {0};
-    ffd_status status = make_room(p);
+    ffd_status status = allocate(p);
     for (size_t i = 0; i < plan->primitive_count && status == FFD_OK; i++) {
         glb_primitive *primitive = &plan->primitives[i];
         size_t drawn = 0;

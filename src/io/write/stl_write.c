@@ -1,8 +1,8 @@
 /* stl_write.c - writes a model as a new STL file. */
 #include "io/stl/stl_document.h"
 #include "io/write/sink.h"
-#include "io/write/triangles.h"
 #include "io/write/write.h"
+#include "mesh/model_triangles.h"
 #include <float.h>
 #include <inttypes.h>
 

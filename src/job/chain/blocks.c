@@ -5,8 +5,8 @@
 #include "embed/locator.h"
 #include "job/chain/block_faces.h"
 #include "job/chain/common_faces.h"
-#include "job/chain/look_again.h"
 #include "job/chain/point_outcome.h"
+#include "job/chain/point_rounding.h"
 #include "job/chain/seams.h"
 #include <float.h>
 #include <string.h>
@@ -40,11 +40,9 @@ static bool offer_block(void *context, uint32_t block)
 static uint32_t find_next(const block_work *work, size_t i, uint32_t first)
 {
     const lattice_chain *const chain = work->chain;
-    const chain_rounding *const rounding = work->run->rounding;
     const double *const p = work->run->x + 3 * i;
-    double slack[3] = {0, 0, 0};
-    if (rounding)
-        rounding->find(rounding->context, i, true, p, slack);
+    double slack[3];
+    ffd_rounding_find(work->run->rounding, i, true, p, slack);
     double *const cell = &work->run->scratch->cell;
     *cell = larger_of(*cell, vec_length(slack));
     for (int a = 0; a < 3; a++)
@@ -146,10 +144,7 @@ static double snap_of(const block_work *work, uint32_t block)
 /* Half the extents of the rounding cell of point i. */
 static void find_half(const block_work *work, size_t i, double half[3])
 {
-    const chain_rounding *const rounding = work->run->rounding;
-    memset(half, 0, 3 * sizeof *half);
-    if (rounding)
-        rounding->find(rounding->context, i, true, work->run->x + 3 * i, half);
+    ffd_rounding_find(work->run->rounding, i, true, work->run->x + 3 * i, half);
 }
 
 /* Compares the displacements of a point that a second block holds too, and notes a disagreement. */

@@ -6,8 +6,8 @@
 #include "embed/locator.h"
 #include "job/chain/blocks.h"
 #include "job/chain/common_faces.h"
-#include "job/chain/look_again.h"
 #include "job/chain/point_outcome.h"
+#include "job/chain/point_rounding.h"
 #include "job/chain/seams.h"
 #include "lattice/lattice.h"
 #include <string.h>

@@ -4,9 +4,6 @@
 
 #include "job/chain/chain.h"
 
-/* Returns the bounds of the control points, which enclose the rest volume. */
-bounds ffd_lattice_bounds(const ffd_lattice *lattice);
-
 /* Returns a box outside of which a fitted link moves nothing: the bounds of its control points, widened by
    the falloff if it extends. */
 bounds ffd_chain_reach(const lattice_chain *chain, size_t link);

@@ -2,8 +2,8 @@
 #include "base/vector/vec.h"
 #include "embed/frame/frame.h"
 #include "embed/locator.h"
-#include "job/chain/look_again.h"
 #include "job/chain/point_outcome.h"
+#include "job/chain/point_rounding.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -94,7 +94,7 @@ void ffd_common_begin(chain_run *run)
         double half[3];
         if (!vec_is_finite(run->x + 3 * i))
             continue;
-        run->rounding->find(run->rounding->context, i, true, run->x + 3 * i, half);
+        ffd_rounding_find(run->rounding, i, true, run->x + 3 * i, half);
         scratch->cell = larger_of(scratch->cell, vec_length(half));
     }
 }
@@ -113,11 +113,10 @@ void ffd_common_note(const lattice_chain *chain, size_t link, const chain_run *r
     const face_ends ends = ffd_face_ends(of->lattice, ffd_faces_near(of, of->snap, run));
     for (size_t i = 0; i < run->count; i++) {
         const double *const uvw = scratch->locations[i].uvw, *const x = run->x + 3 * i;
-        double half[3] = {0, 0, 0}, jacobian[9];
+        double half[3], jacobian[9];
         if (!ffd_faces_at(&ends, uvw) || scratch->on_face[i] || !vec_is_finite(uvw))
             continue;
-        if (run->rounding)
-            run->rounding->find(run->rounding->context, i, link == 0, x, half);
+        ffd_rounding_find(run->rounding, i, link == 0, x, half);
         if (!ffd_faces_reached(of, uvw, half, of->snap, jacobian))
             continue;
         face_place *const place = &scratch->places[scratch->place_count++];

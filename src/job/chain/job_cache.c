@@ -39,7 +39,7 @@ struct ffd_share {
 
     kept_lattice *lattices;
     kept_rest *rests;
-    size_t lattice_count, lattice_room, rest_count, rest_room;
+    size_t lattice_count, lattice_capacity, rest_count, rest_capacity;
 
     mesh_boxes boxes;
 
@@ -413,9 +413,9 @@ void ffd_cache_put_chain(ffd_share *share, lattice_chain *chain)
 {
     if (!share)
         return;
-    if (ffd_grow((void **)&share->rests, &share->rest_room, share->rest_count + chain->count,
+    if (ffd_grow((void **)&share->rests, &share->rest_capacity, share->rest_count + chain->count,
                  sizeof *share->rests) &&
-        ffd_grow((void **)&share->lattices, &share->lattice_room, share->lattice_count + chain->count,
+        ffd_grow((void **)&share->lattices, &share->lattice_capacity, share->lattice_count + chain->count,
                  sizeof *share->lattices))
         for (size_t i = 0; i < chain->count; i++)
             keep_link(share, &chain->links[i], chain->isa);

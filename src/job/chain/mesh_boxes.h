@@ -16,7 +16,7 @@ typedef struct mesh_box {
     hash128 rules;      /* of the options with which they were read (ffd_source_rules) */
     path_list files;    /* read for this box */
     file_stamp *stamps; /* files.count entries */
-    size_t stamp_count, stamp_room;
+    size_t stamp_count, stamp_capacity;
     ffd_bounds bounds;
     path_list warnings; /* about flaws of the meshes */
 } mesh_box;

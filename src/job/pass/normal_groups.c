@@ -1,5 +1,6 @@
 #include "job/pass/normal_groups.h"
 #include "base/memory/memory.h"
+#include "base/memory/slots.h"
 #include "base/vector/vec.h"
 #include "io/openmesh/normals.h"
 #include "job/pass/vertex_transform.h"
@@ -38,28 +39,22 @@ static ffd_status count_normals(grouping *g, ffd_error *error)
     return FFD_OK;
 }
 
-static ffd_status make_room(grouping *g, ffd_error *error)
+static ffd_status allocate(grouping *g, ffd_error *error)
 {
     normal_groups *groups = g->groups;
     const size_t corners = g->faces->start[g->faces->face_count], normals = groups->normal_count;
     const size_t most = normals < corners ? normals : corners;
-    size_t slots = 16;
-    while (slots / 2 < most)
-        slots *= 2;
-    g->mask = slots - 1;
     groups->group = ffd_alloc(normals, sizeof *groups->group);
     g->values = ffd_alloc(normals, 3 * sizeof *g->values);
     g->sides = ffd_alloc_zero(g->faces->vertex_count, 1);
     g->transforms = ffd_alloc(1, sizeof *g->transforms);
     g->corners = ffd_alloc(corners, sizeof *g->corners);
     g->firsts = ffd_alloc(most, sizeof *g->firsts);
-    g->slots = ffd_alloc(slots, sizeof *g->slots);
+    g->slots = ffd_slots_make(most, sizeof *g->slots, &g->mask);
     if (!groups->group || !g->values || !g->sides || !g->transforms || !g->corners || !g->firsts || !g->slots)
         return ffd_fail_memory(error);
     for (size_t i = 0; i < normals; i++)
         groups->group[i] = NORMAL_NO_GROUP;
-    for (size_t i = 0; i < slots; i++)
-        g->slots[i] = NORMAL_NO_GROUP;
     return FFD_OK;
 }
 
@@ -235,7 +230,7 @@ static ffd_status make(grouping *g, ffd_error *error)
     size_t *first_vertices = NULL;
     ffd_status status = count_normals(g, error);
     if (status == FFD_OK)
-        status = make_room(g, error);
+        status = allocate(g, error);
     if (status == FFD_OK)
         status = ffd_parts_number(g->document, &first_vertices, error);
     if (status == FFD_OK)

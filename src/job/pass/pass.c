@@ -5,7 +5,7 @@
 #include "base/vector/vec.h"
 #include "deform/attribute.h"
 #include "job/chain/chain_apply.h"
-#include "job/chain/recalled.h"
+#include "job/chain/point_rounding.h"
 #include "job/chain/seams.h"
 #include "job/pass/pass_shapes.h"
 #include "job/pass/pass_splats.h"

@@ -59,20 +59,14 @@ static void tell_names(const view_scene *scene, char *text, size_t capacity)
 static ffd_status refuse_name(const view_rigs_desc *desc, const view_scene *scene, ffd_error *error)
 {
     char names[SHOWN * (NAME + 4) + 40], wanted[NAME], shown[NAME] = "";
-    const char *nearest = NULL;
-    size_t least = 0;
+    nearest_word nearest = {.word = desc->animation, .length = strlen(desc->animation)};
     if (scene->animation_count == 0)
         return ffd_fail_file(error, FFD_E_ARGUMENT, desc->before_name,
                              "--animation: there are no animations that can be shown");
-    for (size_t a = 0; a < scene->animation_count; a++) {
-        const size_t distance = ffd_word_distance(desc->animation, scene->animations[a].name);
-        if (nearest && distance >= least)
-            continue;
-        nearest = scene->animations[a].name;
-        least = distance;
-    }
+    for (size_t a = 0; a < scene->animation_count; a++)
+        ffd_nearest_offer(&nearest, scene->animations[a].name);
     ffd_name_shown(desc->animation, wanted, sizeof wanted);
-    ffd_name_shown(nearest, shown, sizeof shown);
+    ffd_name_shown(nearest.best, shown, sizeof shown);
     tell_names(scene, names, sizeof names);
     return ffd_fail_file(error, FFD_E_ARGUMENT, desc->before_name,
                          "--animation: none is called \"%s\" (nearest: \"%s\"; there %s %s)", wanted, shown,

@@ -1,6 +1,6 @@
 #include "io/gltf/morph/gltf_clip.h"
 #include "base/memory/memory.h"
-#include "base/text/buffer_float.h"
+#include "base/text/buffer_binary.h"
 #include "base/text/number.h"
 #include "base/text/words.h"
 #include "io/gltf/morph/gltf_grown.h"

@@ -1,6 +1,6 @@
 #include "io/gltf/morph/gltf_morph_weights.h"
 #include "base/memory/memory.h"
-#include "base/text/buffer_float.h"
+#include "base/text/buffer_binary.h"
 #include "io/gltf/decode/gltf_read.h"
 #include "io/gltf/refer/gltf_index_table.h"
 #include "io/gltf/save/gltf_json_insert.h"

@@ -82,4 +82,7 @@ void ffd_gltf_free_elements(gltf_rig *rig, gltf_rig_content *content);
    the index in rig->contents; GLTF_NONE if memory runs out. */
 size_t ffd_gltf_add_content(gltf_rig *rig, gltf_rig_content *content);
 
+/* Sets used[a] for each accessor a whose original content a skin or an animation has in the output. */
+void ffd_gltf_mark_rig_originals(const gltf_document *document, bool *used);
+
 #endif

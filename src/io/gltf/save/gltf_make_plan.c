@@ -4,7 +4,6 @@
 #include "io/gltf/decode/gltf_read.h"
 #include "io/gltf/refer/gltf_accessor_users.h"
 #include "io/gltf/rig/gltf_rig.h"
-#include "io/gltf/rig/gltf_rig_users.h"
 #include "io/gltf/save/gltf_join_uses.h"
 #include "io/gltf/save/gltf_overlap.h"
 #include "io/gltf/save/gltf_plan.h"

@@ -1,6 +1,6 @@
-/* triangles.h - cuts a model's faces into triangles, one face at a time. */
-#ifndef FFD_IO_WRITE_TRIANGLES_H
-#define FFD_IO_WRITE_TRIANGLES_H
+/* model_triangles.h - cuts a model's faces into triangles, one face at a time. */
+#ifndef FFD_MESH_MODEL_TRIANGLES_H
+#define FFD_MESH_MODEL_TRIANGLES_H
 
 #include "mesh/model.h"
 #include "mesh/polygon_cut.h"
@@ -17,7 +17,7 @@ typedef struct face_triangles {
 static inline size_t model_triangle_count(const mesh_model *model)
 {
     const model_list *faces = &model->lists[MODEL_FACES];
-    return faces->corner_count - 2 * faces->count;
+    return faces->corner_count - 2 * faces->count; /* polygons have at least three corners */
 }
 
 /* Cuts a face into `count` triangles: scratch->triangles has 3 of the face's corner numbers for each. */
