@@ -183,7 +183,7 @@ def errors_of_differences(place):
                      for a, (p, q) in enumerate(zip(points[v], moved[v]))) / largest
         of_stl = max(abs((q - p) / taken - exact[3 * numbers_of[corner] + a]) for corner, other in zip(corners, moved_corners)
                      for a, (p, q) in enumerate(zip(corner, other))) / largest
-        stated = place.stated(rf"\| {re.escape(step)} \| ([\d.]+) \| ([\d.]+)")
+        stated = place.stated(rf"\| {re.escape(step)} \| ([\d.e-]+) \| ([\d.]+)")
         near(of_obj, stated[0], f"the derivative of an OBJ by a step of {step}")
         near(of_stl, stated[1], f"the derivative of an STL by a step of {step}")
 
