@@ -65,8 +65,7 @@ static const cli_option own_options[] = {
      "draw each job before and after into this folder, and an index.html that compares them", cli_set_text,
      AT(view), NULL},
     {"positions", 0, "ALL.npy",
-     "write the deformed positions of all jobs into one array, jobs x vertices x 3, and ALL.json; meshes "
-     "only of jobs with \"out\"",
+     "one array of all deformed positions, jobs x vertices x 3, and ALL.json; meshes need \"out\"",
      cli_set_text, AT(positions), NULL},
     {"dtype", 0, "f4|f8", "numbers of --positions: float32 or float64; default f4", cli_set_choice, AT(type),
      type_names},
@@ -224,6 +223,8 @@ static const cli_example examples[] = {
     {"the jobs of a manifest, two at a time", "ffd batch jobs.jsonl -j 2 --report report.json"},
     {"go on where a run was stopped", "ffd batch jobs.jsonl --resume"},
     {"a folder of meshes", "ffd batch --in 'meshes/*.obj' -l bend.json --out-dir out"},
+    {"variants of one mesh, a row of a table each, as one array",
+     "ffd batch --csv table.csv --in vase.obj -l swept.json --positions all.npy"},
     {NULL, NULL},
 };
 

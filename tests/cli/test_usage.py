@@ -65,7 +65,9 @@ def help_of_each_command(run):
             equal(run.ffd(*arguments).text, text, str(arguments))
         equal(set(re.findall(r"^ +(?:-\w, )?(--[\w-]+)", text, re.M)), OPTIONS[command] | COMMON, command)
         check(f"usage: ffd {command} " in text, f"{command}: no usage line")
-        check(all(len(line) < 130 for line in text.splitlines()), f"{command}: a line too long")
+    for command in [*COMMANDS, "batch", "jacobian"]:
+        lines = run.ffd("help", *command.split()).text.splitlines()
+        check(all(len(line) < 130 for line in lines), f"{command}: a line too long")
     for group, command in (("lattice", "new"), ("report", "merge")):
         equal(run.ffd("help", group).text, run.ffd("help", group, command).text)
         equal(run.ffd(group, "--help").text, run.ffd("help", group, command).text)
