@@ -1,11 +1,11 @@
-/* buffer_float.h - numbers as bytes of a growing buffer. */
+/* buffer_float.h - appends binary numbers to a growing buffer. */
 #ifndef FFD_BASE_TEXT_BUFFER_FLOAT_H
 #define FFD_BASE_TEXT_BUFFER_FLOAT_H
 
 #include "base/little_endian.h"
 #include "base/text/buffer.h"
 
-/* Appends the bytes of a number as a float32, the lowest first. */
+/* Appends a number as a little-endian float32. */
 static inline void ffd_buffer_float(byte_buffer *buffer, double value)
 {
     unsigned char bytes[4];
