@@ -1,9 +1,9 @@
-/* locate.c - ffd_locator_locate (ffd/embedding.h): locations of the size that the caller's header has. */
+/* locate.c - ffd_locator_locate (ffd/embedding.h), which supports callers with a smaller ffd_location. */
 #include "base/struct_size.h"
 #include "embed/locator.h"
 #include <string.h>
 
-/* Locations that are found at once where the caller's are shorter. */
+/* The number of locations that are computed at a time if those of the caller are smaller. */
 #define AT_ONCE 256
 
 static ffd_status find_shorter(const ffd_locator *locator, const double *xyz, size_t count,
