@@ -20,21 +20,21 @@ void ffd_embedding_desc_init(ffd_embedding_desc *desc, size_t size)
     ffd_struct_give(&defaults, sizeof defaults, desc, size);
 }
 
-/* Points outside that a tile has found, until all are joined. */
+/* The extended points of a tile, until the lists are joined. */
 typedef struct extended_list {
     extended_point *points;
     size_t count, capacity;
 } extended_list;
 
-/* One call of ffd_embedding_create. */
+/* The state of a call of ffd_embedding_create. */
 typedef struct embed_work {
     const ffd_embedding_desc *desc;
     ffd_embedding *embedding;
     ffd_locator *locator;
-    const boundary *border;  /* NULL: points outside stay */
-    ffd_location *locations; /* POINT_TILE a thread */
-    double *positions;       /* 3 * POINT_TILE a thread */
-    extended_list *outside;  /* one a tile */
+    const boundary *border;  /* NULL: points outside are not extended */
+    ffd_location *locations; /* POINT_TILE for each thread */
+    double *positions;       /* 3 * POINT_TILE for each thread */
+    extended_list *outside;  /* one for each tile */
 } embed_work;
 
 static bool is_placed(const ffd_location *location)
@@ -43,7 +43,7 @@ static bool is_placed(const ffd_location *location)
            vec_is_finite(location->uvw);
 }
 
-/* The nearest point of the border, if it is within the falloff. */
+/* Finds the nearest border point of a point outside, and lists the point if it is within the falloff. */
 static ffd_status extend(const embed_work *work, size_t point, const double x[3], extended_list *list,
                          ffd_error *error)
 {
@@ -94,7 +94,7 @@ static ffd_status embed_tile(void *context, size_t first, size_t count, int work
     return status;
 }
 
-/* Joins what the tiles have found. */
+/* Joins the lists of the tiles. */
 static ffd_status join_extended(const embed_work *work, size_t tiles, ffd_error *error)
 {
     ffd_embedding *const embedding = work->embedding;
