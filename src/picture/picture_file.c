@@ -1,4 +1,4 @@
-/* picture_file.c - a picture as a PNG file. */
+/* picture_file.c - ffd_picture_save: writes a picture as a PNG file. */
 #include "base/file/output.h"
 #include "base/memory/memory.h"
 #include "picture/image/image.h"

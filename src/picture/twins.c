@@ -1,11 +1,11 @@
-/* twins.c - vertices at the same place. */
+/* twins.c - ffd_picture_twins: finds vertices at the same position. */
 #include "base/memory/memory.h"
 #include "picture/picture.h"
 #include <string.h>
 
 #define EMPTY UINT32_MAX
 
-/* The bits of a coordinate; -0 is 0. */
+/* Returns the bits of a coordinate, with -0 as 0. */
 static uint64_t bits_of(double coordinate)
 {
     uint64_t bits;
@@ -19,7 +19,7 @@ static uint64_t key_of(const double point[3], uint64_t bits[3])
     uint64_t key = 0;
     for (int a = 0; a < 3; a++) {
         bits[a] = bits_of(point[a]);
-        /* SplitMix64's last steps (Steele, Lea, Flood 2014). */
+        /* The finalizer of SplitMix64 (Steele, Lea, Flood 2014). */
         key = (key ^ bits[a]) * UINT64_C(0xBF58476D1CE4E5B9);
         key = (key ^ (key >> 29)) * UINT64_C(0x94D049BB133111EB);
         key ^= key >> 32;
