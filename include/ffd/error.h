@@ -30,7 +30,7 @@ typedef enum ffd_status {
    NULL if the details are not needed. They write the record only when they fail. All strings end with a 0
    byte and contain no control characters. */
 typedef struct ffd_error {
-    ffd_status status;
+    ffd_status status; /* the status that the function returned */
     char file[1024];   /* path or name of the file; "": none */
     size_t line;       /* line in the file, from 1; 0: none */
     char pointer[256]; /* JSON pointer (RFC 6901) into the file; "": none */

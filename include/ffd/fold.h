@@ -21,18 +21,18 @@ typedef enum ffd_fold_verdict {
 
 /* The result of ffd_folds_find. Set struct_size to sizeof(ffd_folds) before the call. */
 typedef struct ffd_folds {
-    size_t struct_size;
-    ffd_fold_verdict verdict;
-    uint64_t cells;         /* number of span cells of the lattice */
-    uint64_t folded_cells;  /* cells in which sign * det J_Q <= 0 at some u,v,w */
-    uint64_t unknown_cells; /* cells that are not decided */
-    double min_det;         /* a lower bound of sign * det J_Q over the domain, divided by the size of the
-                               mean of det J_P */
-    bool has_witness;       /* true if verdict is FFD_FOLDS_SOME; else the next four are not set */
-    double witness_uvw[3];  /* in the range of the knots */
-    double witness_xyz[3];  /* C_Q(witness_uvw), world units */
-    double witness_rest[3]; /* C_P(witness_uvw), world units */
-    double witness_det;     /* sign * det J_Q at witness_uvw, divided as min_det is; <= 0 */
+    size_t struct_size;       /* sizeof(ffd_folds) in the caller's header */
+    ffd_fold_verdict verdict; /* of all cells together */
+    uint64_t cells;           /* number of span cells of the lattice */
+    uint64_t folded_cells;    /* cells in which sign * det J_Q <= 0 at some u,v,w */
+    uint64_t unknown_cells;   /* cells that are not decided */
+    double min_det;           /* a lower bound of sign * det J_Q over the domain, divided by the size of the
+                                 mean of det J_P */
+    bool has_witness;         /* true if verdict is FFD_FOLDS_SOME; else the next four are not set */
+    double witness_uvw[3];    /* in the range of the knots */
+    double witness_xyz[3];    /* C_Q(witness_uvw), world units */
+    double witness_rest[3];   /* C_P(witness_uvw), world units */
+    double witness_det;       /* sign * det J_Q at witness_uvw, divided as min_det is; <= 0 */
 } ffd_folds;
 
 /* Proves for each span cell that sign * det J_Q > 0 in all of it, or finds a witness of the contrary. J_Q =

@@ -36,14 +36,14 @@ typedef enum ffd_jacobian_by { FFD_BY_POINTS = 0, FFD_BY_PARAMETERS } ffd_jacobi
    Rows of vertices that do not move (outside, invalid, not selected) are empty. A vertex that
    FFD_OUTSIDE_EXTEND moves has the row of its border point. */
 typedef struct ffd_jacobian_desc {
-    size_t struct_size;         /* sizeof(ffd_jacobian_desc) of the caller */
+    size_t struct_size;         /* sizeof(ffd_jacobian_desc) in the caller's header */
     const ffd_deform_desc *job; /* used are input, lattices, set, outside, falloff, snap, only, threads, isa,
                                    force, log, sink */
     const char *output; /* a path or name that ends in .npz (CSR as SciPy reads it), .mtx (Matrix Market) or
                            .npy (dense); not "-" */
     ffd_jacobian_by by;
-    bool components;
-    size_t of; /* FFD_BY_POINTS: index of the lattice, from 0; default FFD_LATTICE_LAST */
+    bool components; /* 3 x 3 blocks in the space of the file, as above; default false */
+    size_t of;       /* FFD_BY_POINTS: index of the lattice, from 0; default FFD_LATTICE_LAST */
     /* At most one of these: an .npy whose array is multiplied with the matrix; output is then the product, an
        .npy. times: J x. By points x has n rows of 3 numbers, for n control points (with components in the
        space of the file), and the product is N x 3; by parameters x has m numbers. transposed: J^T x; x is N
@@ -60,7 +60,7 @@ FFD_API void ffd_jacobian_desc_init(ffd_jacobian_desc *desc, size_t size);
 
 /* What ffd_jacobian_run has written. Set struct_size to sizeof(ffd_jacobian_result) before the call. */
 typedef struct ffd_jacobian_result {
-    size_t struct_size;
+    size_t struct_size;              /* sizeof(ffd_jacobian_result) in the caller's header */
     uint64_t rows, columns, entries; /* of the matrix; entries: stored values, which are not 0 */
     uint64_t vertices, moving;       /* N, and how many of them have rows that are not empty */
     double worst; /* with check: the largest difference, relative to the largest number of the row */

@@ -230,7 +230,7 @@ FFD_API ffd_status ffd_depfile_write(ffd_depfile *depfile, ffd_error *error);
    lattices. */
 typedef struct ffd_deform_desc {
     size_t struct_size; /* sizeof(ffd_deform_desc) in the caller's header */
-    ffd_source input;
+    ffd_source input;   /* the mesh */
     const char *output; /* path; "-": standard output */
     /* If it differs from the format of the input, the deformed mesh is converted, in scene space; the log is
        warned of what the format cannot hold. .gltf and .glb are the same format in two containers. */
@@ -244,7 +244,7 @@ typedef struct ffd_deform_desc {
        placeholder that no lattice has. */
     const ffd_setting *set;
     size_t set_count;
-    ffd_outside outside;
+    ffd_outside outside; /* for vertices without u,v,w in a lattice */
     /* With FFD_OUTSIDE_EXTEND: the distance in world units over which the displacement fades to 0; 0: it does
        not fade. */
     double falloff;
@@ -263,7 +263,7 @@ typedef struct ffd_deform_desc {
     double edges_most;     /* FFD_GATE_EDGES: world units */
     bool quality; /* also compute the folds, flipped faces and det F of the result, which takes time and
                      memory */
-    ffd_normals normals;
+    ffd_normals normals; /* normals and tangents of the output */
     /* FOLLOW is FFD_E_ARGUMENT with as_morph, in mesh space, and if the input or the output is not a glTF. */
     ffd_rig rig;
     /* glTF output: keep the base shape, and store the deformation as a morph target of this name with weight
@@ -291,10 +291,10 @@ typedef struct ffd_deform_desc {
        does not have. */
     const char *const *only;
     size_t only_count;
-    ffd_resources resources;
-    int threads; /* >= 1, or 0 for all cores; does not affect the output */
-    ffd_isa isa; /* does not affect the output; FFD_E_ARGUMENT if not available */
-    bool force;  /* overwrite an existing output */
+    ffd_resources resources; /* images and material libraries, if the output is in another folder */
+    int threads;             /* >= 1, or 0 for all cores; does not affect the output */
+    ffd_isa isa;             /* does not affect the output; FFD_E_ARGUMENT if not available */
+    bool force;              /* overwrite an existing output */
     /* Overwrite an existing output only if its bytes, or those of a file that belongs to it, would change;
        otherwise all of them stay untouched. */
     bool if_changed;
@@ -307,8 +307,8 @@ typedef struct ffd_deform_desc {
     /* The box for lattices whose box is "mesh", instead of the bounds of this mesh; may be NULL. */
     const ffd_shared_box *shared_box;
     ffd_depfile *depfile; /* receives the rule of the output; not with "-" and in_place; may be NULL */
-    ffd_log_function log; /* may be NULL */
-    void *log_user;
+    ffd_log_function log; /* receives warnings and, by level, more; may be NULL */
+    void *log_user;       /* passed to log, as the other _user members to their functions */
     /* lattice_count lattices, or NULL. An element that is not NULL replaces the file of that index, whose
        path is then only a name for messages, or NULL. The job works on a copy. Placeholders (set) are for
        files and texts only. */
@@ -358,7 +358,7 @@ typedef enum ffd_behind_kind {
 #define FFD_BEHIND_NAMES 3
 /* The things of one kind that are left behind. */
 typedef struct ffd_behind {
-    uint64_t count;
+    uint64_t count; /* number of things of this kind that are left behind */
     /* The first names in the order of the file (for splats: of the nodes that show them), cut to fit, with
        control characters replaced by '?'; "": no further name. */
     char names[FFD_BEHIND_NAMES][80];
@@ -388,9 +388,9 @@ typedef struct ffd_rig_result {
    world units unless stated otherwise. */
 typedef struct ffd_job_result {
     size_t struct_size; /* sizeof(ffd_job_result) in the caller's header, set before the call */
-    ffd_status status;
-    ffd_error error;
-    uint64_t vertices;
+    ffd_status status;  /* what the function returned */
+    ffd_error error;    /* details of a failure */
+    uint64_t vertices;  /* selected vertices that are counted */
     /* Vertices by ffd_vertex_status. With several lattices a vertex is outside if it is outside of all of
        them; otherwise its status is the highest of those it has in the lattices. */
     uint64_t counts[FFD_VERTEX_STATUS_COUNT];
@@ -401,10 +401,10 @@ typedef struct ffd_job_result {
        finite, counted for each target; vertices that the default weights of all targets move outside. The
        gates include them. */
     uint64_t targets_outside, targets_invalid, shown_outside;
-    bool own_box; /* a box "mesh" was laid round the mesh of this job */
-    uint64_t moved;
+    bool own_box;                      /* a box "mesh" was laid round the mesh of this job */
+    uint64_t moved;                    /* vertices whose position changes */
     double residual_max, residual_rms; /* relative to the diagonal of the rest lattice */
-    double evaluations_mean;
+    double evaluations_mean;           /* evaluations of C for a vertex */
     uint32_t evaluations_max;
     /* Of vertices that are not hidden, in the shape that the default weights of morph targets show; if the
        deformation becomes a morph target itself (as_morph), of the base shape. */
@@ -441,7 +441,7 @@ typedef struct ffd_job_result {
        count. Counted with ffd_check_run, quality and FFD_GATE_TEAR, and if vertices stay in a mesh of at most
        5.5 million. */
     bool has_tear;
-    uint64_t tear_edges;
+    uint64_t tear_edges; /* number of torn edges */
     double tear_largest; /* the largest step of a torn edge */
     /* An end of that edge: the one that stays, if one does. An index from 0 in the order of `ffd
        embed`. */
@@ -525,7 +525,7 @@ typedef struct ffd_view_desc {
     bool force;         /* overwrite an existing output */
     /* Direction from the mesh to the camera, y upwards; zeros: from the right, above and in front. */
     double camera[3];
-    ffd_view_color color;
+    ffd_view_color color; /* default FFD_VIEW_DISPLACEMENT */
     bool full; /* page: show all vertices; else a mesh of more than 200,000 is simplified, and the page says
                   so */
     /* Of a picture, or of each picture in a row, in pixels; 0: 1600 and 900. A page fills its window. */
@@ -558,16 +558,16 @@ FFD_API ffd_status ffd_view_run(const ffd_view_desc *desc, ffd_job_result *resul
    "mesh" is fitted to the mesh. */
 typedef struct ffd_embed_desc {
     size_t struct_size; /* sizeof(ffd_embed_desc) in the caller's header */
-    ffd_source input;
+    ffd_source input;   /* the mesh */
     /* Path. Only the rest volume is used: placeholders in moves need no values. */
     const char *lattice;
-    const char *output;
+    const char *output;        /* path; "-": standard output */
     const char *status_output; /* NULL: none */
     double snap;               /* as in ffd_deform_desc */
     bool snap_relative;
-    int threads;
-    bool force;
-    ffd_log_function log;
+    int threads;          /* >= 1, or 0 for all cores; does not affect the output */
+    bool force;           /* overwrite existing outputs */
+    ffd_log_function log; /* receives warnings; may be NULL */
     void *log_user;
     const ffd_setting *set; /* set_count values for placeholders, as in ffd_deform_desc; or NULL */
     size_t set_count;
@@ -637,7 +637,7 @@ typedef struct ffd_compare_desc {
     /* Allowed difference of each coordinate of a position: world units, or if relative is true a fraction of
        the diagonal of a's bounding box (of its finite vertices, in the default pose). >= 0. */
     double tolerance;
-    bool relative;
+    bool relative; /* whether tolerance is relative */
     /* Allowed difference of each component of normals and tangents, without unit. >= 0. */
     double direction_tolerance;
     ffd_log_function log; /* receives warnings, which begin with the file name; may be NULL */
@@ -696,10 +696,10 @@ typedef struct ffd_lattice_new_desc {
        Each mesh must have every name. */
     const char *const *only;
     size_t only_count;
-    const ffd_lattice_desc *lattice;
-    const char *output;   /* path; "-": standard output */
-    bool force;           /* overwrite an existing output */
-    ffd_log_function log; /* receives warnings, which begin with the name of a mesh; may be NULL */
+    const ffd_lattice_desc *lattice; /* shape, size, margin and so on of the lattice */
+    const char *output;              /* path; "-": standard output */
+    bool force;                      /* overwrite an existing output */
+    ffd_log_function log;            /* receives warnings, which begin with the name of a mesh; may be NULL */
     void *log_user;
     ffd_sink_function sink; /* as in ffd_deform_desc */
     void *sink_user;

@@ -43,11 +43,11 @@ typedef enum ffd_spacing { FFD_SPACING_GREVILLE = 0, FFD_SPACING_UNIFORM } ffd_s
 
 /* How ffd_lattice_create makes a lattice. Fill with ffd_lattice_desc_init, then change members. */
 typedef struct ffd_lattice_desc {
-    size_t struct_size; /* sizeof(ffd_lattice_desc) in the caller's header */
-    ffd_lattice_shape shape;
-    size_t size[3];     /* control points along u,v,w; default 4,4,4 */
-    int degree[3];      /* 1..9, less than size; 0 (default): the smaller of 3 and size-1 */
-    ffd_knots knots[3]; /* default FFD_KNOTS_DEFAULT */
+    size_t struct_size;      /* sizeof(ffd_lattice_desc) in the caller's header */
+    ffd_lattice_shape shape; /* default FFD_SHAPE_BOX */
+    size_t size[3];          /* control points along u,v,w; default 4,4,4 */
+    int degree[3];           /* 1..9, less than size; 0 (default): the smaller of 3 and size-1 */
+    ffd_knots knots[3];      /* default FFD_KNOTS_DEFAULT */
     /* Added on both sides, as a fraction of the extent in that direction; >= 0, default 0.05. Box: along x,
        y, z, or along the principal axes. Cylinder: applied to the radius and the height; all three must be
        equal. */

@@ -126,10 +126,10 @@ FFD_API ffd_status ffd_embedding_affected(const ffd_embedding *embedding, const 
 
 /* A sparse matrix in compressed rows (CSR). Free it with ffd_csr_free. */
 typedef struct ffd_csr {
-    size_t rows, columns;
-    size_t *starts;    /* rows + 1 offsets: row i has the entries starts[i] to starts[i+1]-1 */
-    uint32_t *indices; /* the column of each entry, ascending in each row */
-    double *values;    /* the value of each entry */
+    size_t rows, columns; /* number of rows and columns */
+    size_t *starts;       /* rows + 1 offsets: row i has the entries starts[i] to starts[i+1]-1 */
+    uint32_t *indices;    /* the column of each entry, ascending in each row */
+    double *values;       /* the value of each entry */
 } ffd_csr;
 
 /* Computes dX/dQ, an N x n matrix (n control points). Entry i,j is R_j(u_i) (The NURBS Book 4.2): the

@@ -7,7 +7,7 @@
 
 typedef struct exact_bend {
     ffd_lattice *lattice;
-    const unsigned char *selected; /* a byte a point */
+    const unsigned char *selected; /* one byte for each point */
     const ready_move *ready;
     const mirror_plane *plane; /* NULL: no mirror image */
     const char *file;
@@ -16,7 +16,7 @@ typedef struct exact_bend {
 /* The layers that an exact bend moves. */
 typedef struct exact_layers {
     int direction;
-    size_t step;        /* from a point to the next along the direction */
+    size_t step;        /* index difference of consecutive points in the direction */
     size_t first, last; /* both are joints between arcs, as is every second layer between them */
 } exact_layers;
 

@@ -49,10 +49,10 @@ typedef struct model_run {
 typedef enum model_feature {
     /* Content of the model. */
     MODEL_HAS_NORMALS = 1 << 0,
-    MODEL_HAS_CORNER_NORMALS = 1 << 1, /* several at one position */
+    MODEL_HAS_CORNER_NORMALS = 1 << 1, /* several at a position */
     MODEL_HAS_POINT_NORMALS = 1 << 2,  /* of lines or points */
     MODEL_HAS_TEXCOORDS = 1 << 3,
-    MODEL_HAS_CORNER_TEXCOORDS = 1 << 4, /* several at one position */
+    MODEL_HAS_CORNER_TEXCOORDS = 1 << 4, /* several at a position */
     MODEL_HAS_COLOURS = 1 << 5,
     MODEL_HAS_ALPHA = 1 << 6, /* in colours */
     MODEL_HAS_POLYGONS = 1 << 7,

@@ -18,7 +18,7 @@ static bool has_texture(const shade *of)
     return of->material->texture && of->surface->mesh->texcoords;
 }
 
-/* Returns the number of texels for a pixel: the geometric mean of its two sides. It is constant in a
+/* Returns the number of texels for a pixel: the root mean square of its two sides. It is constant in a
    triangle, because the projection is parallel. */
 static double texel_size(const shade *of)
 {
