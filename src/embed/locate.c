@@ -37,8 +37,8 @@ ffd_status ffd_locator_locate(const ffd_locator *locator, const double *xyz, siz
     if (!location_size || location_size % _Alignof(ffd_location) || location_size > sizeof *locations)
         return ffd_fail(
             error, FFD_E_ARGUMENT,
-            "locations of %zu bytes: this library knows %zu, and is older than the caller's header "
-            "where that has more",
+            "ffd_location has %zu bytes, and this library knows %zu: if the caller's has more, it is "
+            "from a newer header",
             location_size, sizeof *locations);
     if (callers_allowance)
         status =

@@ -122,8 +122,7 @@ static ffd_status check(ffd_embedding_desc *desc, ffd_error *error)
         return ffd_fail(error, FFD_E_ARGUMENT,
                         "the lattice has no control points yet: its box is that of a mesh");
     if ((int)desc->outside < FFD_OUTSIDE_KEEP || desc->outside > FFD_OUTSIDE_ERROR)
-        return ffd_fail(error, FFD_E_ARGUMENT, "%d is not what can be done with points outside",
-                        (int)desc->outside);
+        return ffd_fail(error, FFD_E_ARGUMENT, "%d is not a value of ffd_outside", (int)desc->outside);
     if (!(desc->falloff >= 0 && isfinite(desc->falloff)))
         return ffd_fail(error, FFD_E_ARGUMENT, "falloff %g is not 0 or more", desc->falloff);
     if (!(desc->snap >= 0 && isfinite(desc->snap)))

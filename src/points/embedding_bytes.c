@@ -106,18 +106,18 @@ static ffd_status read_head(const unsigned char *bytes, size_t size, bytes_head 
     size_t content;
     hash128 hash;
     if (size < sizeof *head + sizeof hash || memcmp(bytes, magic, sizeof magic) != 0)
-        return ffd_fail(error, FFD_E_INVALID, "these bytes are no embedding");
+        return ffd_fail(error, FFD_E_INVALID, "these bytes are not an embedding");
     memcpy(head, bytes, sizeof *head);
     if (strncmp(head->version, FFD_VERSION, sizeof head->version) != 0 || head->order != 1)
-        return ffd_fail(error, FFD_E_INVALID,
-                        "the embedding is of another version or another kind of machine");
+        return ffd_fail(error, FFD_E_INVALID, "the embedding is of another version or another byte order");
     if (head->count > UINT32_MAX || head->extended_count > head->count ||
         !size_of((size_t)head->count, (size_t)head->extended_count, &content) ||
         content + sizeof hash != size)
-        return ffd_fail(error, FFD_E_INVALID, "the embedding has %zu bytes, which is not its size", size);
+        return ffd_fail(error, FFD_E_INVALID,
+                        "the embedding has %zu bytes, which is not the size of its content", size);
     hash = ffd_hash(bytes, content);
     if (memcmp(&hash, bytes + content, sizeof hash) != 0)
-        return ffd_fail(error, FFD_E_INVALID, "the embedding was changed: its hash is another");
+        return ffd_fail(error, FFD_E_INVALID, "the embedding is damaged: its hash does not match");
     return FFD_OK;
 }
 
@@ -127,7 +127,7 @@ static ffd_status check_points(const ffd_embedding *embedding, ffd_error *error)
     for (size_t i = 0; i < embedding->count; i++) {
         const bool finite = vec_is_finite(embedding->uvw + 3 * i);
         if (embedding->status[i] >= FFD_VERTEX_STATUS_COUNT || (ffd_embedding_has(embedding, i) && !finite))
-            return ffd_fail(error, FFD_E_INVALID, "the embedding's point %zu cannot be", i);
+            return ffd_fail(error, FFD_E_INVALID, "point %zu of the embedding is not valid", i);
     }
     return FFD_OK;
 }
@@ -150,7 +150,7 @@ static ffd_status fill(const unsigned char *bytes, const bytes_head *head, ffd_e
         memcpy(numbers, bytes, sizeof numbers);
         if (!unpack(numbers, count, &embedding->extended[i]) ||
             (i > 0 && embedding->extended[i].point <= embedding->extended[i - 1].point))
-            return ffd_fail(error, FFD_E_INVALID, "the embedding's point %zu outside cannot be", i);
+            return ffd_fail(error, FFD_E_INVALID, "extended point %zu of the embedding is not valid", i);
     }
     if (count > 0)
         memcpy(embedding->status, bytes, count);

@@ -25,7 +25,7 @@ static const char first_line[] = "ffd-set 1\n", last_line[] = "end\n";
 /* How often a lock is tried, at intervals of a millisecond. */
 #define MOST_LOOKS 1000
 
-static const char strange[] = "is not what a run has left: it is in the way";
+static const char strange[] = "is not the record of a run, though it has the name of one: remove it";
 
 static char *path_for(const char *head)
 {
@@ -146,8 +146,8 @@ static ffd_status check_owner(const set_record *record, const struct stat *info,
         return FFD_OK;
     return refuse(
         record,
-        "is of another user's run, which was killed while it wrote the files beside this: only that "
-        "user's next run brings them back",
+        "belongs to another user, whose run was killed while it wrote the files next to this: only that "
+        "user's next run restores them",
         error);
 }
 

@@ -250,7 +250,7 @@ static ffd_status open_device(output_file *file, const char *path, ffd_error *er
     if (file->fd < 0 || fstat(file->fd, &info) != 0 ||
         fcntl(file->fd, F_SETFL, fcntl(file->fd, F_GETFL) & ~O_NONBLOCK) != 0)
         return ffd_fail_errno(error, path, "cannot be written");
-    return S_ISCHR(info.st_mode) ? FFD_OK : ffd_fail_file(error, FFD_E_IO, path, "is no device any more");
+    return S_ISCHR(info.st_mode) ? FFD_OK : ffd_fail_file(error, FFD_E_IO, path, "is not a device any more");
 }
 
 /* Opens the temporary file. *busy: another run is writing the target. */

@@ -112,7 +112,7 @@ static ffd_status read_pixels(png_structp png, png_infop info, png_task *task, c
         return status;
     const int passes = ask_for_colors(png, info);
     if (png_get_rowbytes(png, info) != (size_t)4 * width)
-        png_error(png, "its rows are of another size");
+        png_error(png, "its rows have an unexpected size");
     *result = (image){width, height, ffd_alloc_zero((size_t)width * height, 4)};
     if (!result->pixels)
         return ffd_fail_memory(error);
