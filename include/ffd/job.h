@@ -69,7 +69,7 @@ typedef enum ffd_gate {
     FFD_GATE_EDGES = 128   /* a straight edge is farther than edges_most from the deformed surface */
 } ffd_gate;
 
-/* The importance of a log line: DETAIL is what `-v` shows. */
+/* The importance of a log line. The program `ffd` shows warnings, and with `-v` all lines. */
 typedef enum ffd_log_level { FFD_LOG_WARNING = 0, FFD_LOG_INFO, FFD_LOG_DETAIL } ffd_log_level;
 
 /* Receives one line without a line break, during the call only, in the thread that called the library. */
@@ -131,7 +131,7 @@ typedef ffd_status (*ffd_positions_function)(void *user, const double *positions
 typedef struct ffd_source {
     /* "-": standard input. With bytes it is only a name for messages, and its ending says the format if
        format is FFD_FORMAT_AUTO; NULL then stands for "mesh". FFD_E_ARGUMENT if the last component of such a
-       name is empty, "." or "..". */
+       name, or of that of an output in memory, is empty, "." or "..". */
     const char *path;
     ffd_format format; /* FFD_FORMAT_AUTO is not allowed for "-" */
     ffd_space space;   /* of the lattice; for glTF only */
