@@ -69,8 +69,6 @@ static inline size_t ffd_cursor_count(json_cursor cursor)
     return cursor.tree->values[cursor.value].count;
 }
 
-/* Writes the JSON pointer of the value, truncated to capacity. */
-void ffd_cursor_pointer(json_cursor cursor, char *text, size_t capacity);
 /* Fills the file's error with a message at the value. Returns FFD_E_INVALID. */
 ffd_status ffd_cursor_fail(json_cursor cursor, const char *format, ...) FFD_PRINTF(2, 3);
 /* The same with another status. */

@@ -71,9 +71,6 @@ ffd_status ffd_lattice_make_difference(ffd_lattice *lattice, ffd_error *error);
    overflow; FFD_E_MEMORY. */
 ffd_status ffd_lattice_finish_moved(ffd_lattice *lattice, ffd_error *error);
 
-/* Does both, for a lattice whose displacements are given by its deformed points. */
-ffd_status ffd_lattice_finish(ffd_lattice *lattice, ffd_error *error);
-
 /* The basis functions that are not 0 at one u,v,w: d+1 in each direction. */
 typedef struct lattice_basis {
     int span[3];
@@ -83,14 +80,10 @@ typedef struct lattice_basis {
 /* Evaluates the basis functions. uvw must be in the domain (ffd_knots_wrap). */
 void ffd_lattice_basis(const ffd_lattice *lattice, const double uvw[3], lattice_basis *basis);
 
-/* Sums field * N N N over the control points of the basis, without weights, in ascending index, u innermost.
-   field: 3 numbers for each control point. derivative: 9 numbers, row-major, with respect to u,v,w; may be
-   NULL. */
-void ffd_lattice_sum(const ffd_lattice *lattice, const lattice_basis *basis, const double *field,
-                     double value[3], double derivative[9]);
-
-/* Sums field * R with R = h N N N / sum h N N N, the derivative by the quotient rule (NURBS Book 4.4).
-   weights: the h of all control points; NULL: as ffd_lattice_sum. */
+/* Sums field * R over the control points of the basis, in ascending index, u innermost. field: 3 numbers for
+   each control point. weights: the h of all control points, R = h N N N / sum h N N N; NULL: R = N N N.
+   derivative: 9 numbers, row-major, with respect to u,v,w, with weights by the quotient rule (NURBS Book
+   4.4); may be NULL. */
 void ffd_lattice_sum_rational(const ffd_lattice *lattice, const lattice_basis *basis, const double *field,
                               const double *weights, double value[3], double derivative[9]);
 

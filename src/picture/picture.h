@@ -2,9 +2,7 @@
    number of threads, because it uses only integers and + - * / and square roots in a fixed order.
 
    The projection is parallel: equal lengths have equal size everywhere in a picture, so displacements can be
-   compared by eye, and there is no near plane.
-
-   ffd_picture_save is in picture_file.c, ffd_picture_twins in twins.c. */
+   compared by eye, and there is no near plane. */
 #ifndef FFD_PICTURE_PICTURE_H
 #define FFD_PICTURE_PICTURE_H
 
@@ -12,7 +10,6 @@
 #include "mesh/memory_budget.h"
 #include "picture/picture_scene.h"
 #include <stdbool.h>
-#include <stddef.h>
 #include <stdint.h>
 
 /* The greatest width and height, and the greatest number of pixels. */
@@ -24,14 +21,5 @@
    FFD_E_LIMIT. */
 ffd_status ffd_picture_draw(const picture *of, const memory_budget *budget, uint8_t **pixels,
                             ffd_error *error);
-
-/* Draws a picture and writes it as a PNG file. force: replace an existing file. Errors: those above, and
-   those of base/file/output.h. */
-ffd_status ffd_picture_save(const picture *of, const memory_budget *budget, const char *path, bool force,
-                            ffd_error *error);
-
-/* Sets twins[i] to the first vertex with the same coordinates as vertex i, for count vertices. Errors:
-   FFD_E_MEMORY. */
-ffd_status ffd_picture_twins(const double *positions, size_t count, uint32_t *twins, ffd_error *error);
 
 #endif

@@ -31,7 +31,7 @@ typedef struct picture_mesh {
     const picture_material *material_list;
     size_t material_count;
     const uint32_t *twins; /* for each vertex the first one at the same position, so that shading is
-                              continuous across seams (ffd_picture_twins); NULL: all are distinct */
+                              continuous across seams (ffd_positions_twins); NULL: all are distinct */
 } picture_mesh;
 
 /* Line segments with points at their ends, such as a control lattice. Parts that a mesh hides are drawn

@@ -13,10 +13,6 @@ typedef struct basis_row {
     double values[BASIS_ENTRIES];    /* R_j(u), none 0 */
 } basis_row;
 
-/* Computes the row at u,v,w: scale * R_j with R_j = h_j N N N / sum h N N N (NURBS Book 4.2). */
-void ffd_basis_row_at(const ffd_lattice *lattice, const double *weights, const double uvw[3], double scale,
-                      basis_row *row);
-
 /* Computes the row of a point. next: index of the first extended point not before this point; advanced for
    the next point. weights: those of the deformed volume; NULL: all 1. */
 void ffd_basis_row(const ffd_embedding *embedding, const double *weights, size_t point, size_t *next,

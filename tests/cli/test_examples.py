@@ -40,6 +40,8 @@ def write_batch(work):
     with open(os.path.join(work, "swept.json"), "w", encoding="ascii") as file:
         json.dump({"format": "ffd-lattice", "version": 1, "size": [4, 4, 6], "rest": {"box": "mesh"},
                    "moves": [{"twist": {"axis": "y", "degrees": {"$": "SWEEP"}}}]}, file)
+    with open(os.path.join(work, "table.csv"), "w", encoding="ascii") as file:
+        file.write("SWEEP\n10\n20\n")
     with open(os.path.join(work, "vase.obj"), encoding="ascii") as file:
         numbers = 3 * sum(line.startswith("v ") for line in file)
     head = f"{{'descr': '<f8', 'fortran_order': False, 'shape': ({numbers},), }}\n".encode()
@@ -52,7 +54,7 @@ def write_batch(work):
 
 
 @case
-def examples_run(run):
+def the_examples_do_what_they_say(run):
     tools = run.folder_of("tools")
     os.symlink(FFD, run.path(os.path.join(tools, "ffd")))
     environment = dict(os.environ, PATH=run.path(tools) + os.pathsep + os.environ["PATH"])

@@ -42,7 +42,7 @@ def refused(run, *arguments, says=None):
 
 
 @case
-def version(run):
+def the_version_is_three_numbers(run):
     check(re.fullmatch(r"ffd \d+\.\d+\.\d+\n", run.ffd("--version").text), "the version")
     refused(run, "--version", "x")
 
@@ -65,19 +65,21 @@ def help_of_each_command(run):
             equal(run.ffd(*arguments).text, text, str(arguments))
         equal(set(re.findall(r"^ +(?:-\w, )?(--[\w-]+)", text, re.M)), OPTIONS[command] | COMMON, command)
         check(f"usage: ffd {command} " in text, f"{command}: no usage line")
-        check(all(len(line) < 130 for line in text.splitlines()), f"{command}: a line too long")
+    for command in [*COMMANDS, "batch", "jacobian"]:
+        lines = run.ffd("help", *command.split()).text.splitlines()
+        check(all(len(line) < 130 for line in lines), f"{command}: a line too long")
     for group, command in (("lattice", "new"), ("report", "merge")):
         equal(run.ffd("help", group).text, run.ffd("help", group, command).text)
         equal(run.ffd(group, "--help").text, run.ffd("help", group, command).text)
 
 
 @case
-def no_command(run):
+def without_a_command_usage_is_told(run):
     refused(run)
 
 
 @case
-def unknown_commands(run):
+def an_unknown_command_gets_the_nearest_one_proposed(run):
     for word, nearest in (("defrom", "deform"), ("emebd", "embed"), ("comp", "compare"), ("inf", "info"), ("hlep", "help")):
         refused(run, word, says=nearest)
         refused(run, "help", word, says=nearest)
@@ -100,7 +102,7 @@ def commands_of_later_versions_are_absent(run):
 
 
 @case
-def unknown_options(run):
+def an_unknown_option_gets_the_nearest_one_proposed(run):
     work = files(run)
     for option, nearest in (("--latice", "--lattice"), ("--thread", "--threads"), ("--outdir", "--out-dir"),
                             ("--forse", "--force"), ("--report_stable", "--report-stable")):
@@ -122,7 +124,7 @@ def options_of_later_versions_are_absent(run):
 
 
 @case
-def values(run):
+def values_that_an_option_does_not_take_are_refused(run):
     work = files(run)
     for option, value in (("--outside", "kep"), ("--outside", "KEEP"), ("--normals", ""), ("--space", "world"),
                           ("--resources", "move"), ("--memory", ""), ("--memory", "0"), ("--memory", "M"),
@@ -244,7 +246,7 @@ def words_of_the_others(run):
 
 
 @case
-def unknown_endings(run):
+def unknown_endings_are_refused(run):
     work = files(run)
     refused(run, "deform", "a.obj", "b.xyz", "-l", "l.json", says="b.xyz")
     refused(run, "deform", "a.obj", "b", "-l", "l.json", says="b: ")

@@ -10,11 +10,23 @@
 bool ffd_word_is_known(const char *word, const char *const *known, size_t count);
 
 /* Returns the edit distance of two words (insertions, deletions, replacements, swaps of adjacent letters).
-   Long words are compared by their first letters only. */
-size_t ffd_word_distance(const char *a, const char *b);
+   Long words are compared by their first letters only. a has a_length letters. */
+size_t ffd_word_distance(const char *a, size_t a_length, const char *b);
 
-/* Returns the entry of known (count words) with the least edit distance to word, the first one if there are
-   several; NULL if count is 0. */
+/* Finds the known word that is most similar to a word of the user's, by edit distance. Set word and length,
+   and all other members to 0; then offer the known words one by one. */
+typedef struct nearest_word {
+    const char *word;
+    size_t length;
+    const char *best; /* borrowed; the first one if there are several; NULL before a word is offered */
+    size_t distance;
+} nearest_word;
+
+/* Offers a known word; keeps it if it is more similar than those before. */
+void ffd_nearest_offer(nearest_word *nearest, const char *known);
+
+/* Returns the entry of known (count words) that is most similar to word, the first one if there are several;
+   NULL if count is 0. */
 const char *ffd_nearest_word(const char *word, const char *const *known, size_t count);
 
 /* Returns `one` if count is 1, else `many`: "1 vertex is", "0 vertices are". */

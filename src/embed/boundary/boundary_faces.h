@@ -48,8 +48,6 @@ typedef struct boundary {
 ffd_status ffd_boundary_build(boundary *border, ffd_error *error);
 /* Makes the patch of a whole cell of a face, not measured yet. */
 void ffd_boundary_patch(const boundary *border, int face, const size_t cell[2], face_patch *made);
-/* Allocates a patch with the orders of a face. Returns NULL if memory runs out. */
-face_patch *ffd_boundary_new_patch(const boundary *border, int face);
 /* Frees a list of patches. */
 void ffd_boundary_free_patches(face_patch *list);
 

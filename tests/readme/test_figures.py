@@ -1,0 +1,200 @@
+#!/usr/bin/env python3
+"""The figures of README.md's section "Good to know" are what the program computes.
+
+    test_figures.py FFD SOURCE
+"""
+import ast
+import json
+import math
+import os
+import re
+import struct
+import subprocess
+import sys
+import tempfile
+
+TWIST = {"twist": {"axis": "y", "degrees": 90}}
+SAMPLES = 1001
+STEPS = ("0.001", "0.000001")
+
+
+class Place:
+    """A folder with the program."""
+
+    def __init__(self, ffd, source, folder):
+        self.ffd, self.source, self.folder = os.path.abspath(ffd), os.path.abspath(source), folder
+        with open(os.path.join(source, "README.md"), encoding="utf-8") as file:
+            self.readme = file.read()
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def model(self, name):
+        return os.path.join(self.source, "data/models", name)
+
+    def write(self, name, text):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+
+    def lattice(self, name, **members):
+        self.write(name, json.dumps({"format": "ffd-lattice", "version": 1, **members}))
+
+    def run(self, *words):
+        done = subprocess.run([self.ffd, *words], cwd=self.folder, text=True, check=False,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        if done.returncode != 0:
+            sys.exit(f"{words} ended with {done.returncode}:\n{done.stdout}")
+
+    def points(self, name):
+        with open(self.path(name), encoding="utf-8") as file:
+            return [tuple(map(float, line.split()[1:4])) for line in file if line.startswith("v ")]
+
+    def stated(self, pattern):
+        """The numbers that the README has where the pattern is."""
+        match = re.search(pattern, self.readme)
+        if not match:
+            sys.exit(f"README.md has no {pattern}")
+        return match.groups()
+
+
+def near(found, stated, what):
+    """Whether a figure is the stated one, to the digits that are stated."""
+    mantissa, _, exponent = stated.partition("e")
+    digits = len(mantissa.partition(".")[2]) - int(exponent or 0)
+    if not abs(found - float(stated)) <= 0.51 * 10.0 ** -digits:
+        sys.exit(f"{what}: README.md says {stated}, found is {found!r}")
+
+
+def turn_of_the_column(place):
+    rest = place.points(place.model("column.obj"))
+    low, high = min(p[1] for p in rest), max(p[1] for p in rest)
+    turns = []
+    for margin in (0.05, 0):
+        place.lattice("twist.json", size=[4, 6, 4], rest={"box": "mesh", "margin": margin}, moves=[TWIST])
+        place.run("deform", place.model("column.obj"), "turned.obj", "-l", "twist.json", "--force")
+        ends = []
+        for end in (low, high):
+            angles = [math.atan2(p[0], p[2]) - math.atan2(q[0], q[2])
+                      for q, p in zip(rest, place.points("turned.obj")) if q[1] == end and math.hypot(q[0], q[2]) > 0.1]
+            ends.append(math.degrees(math.atan2(sum(map(math.sin, angles)), sum(map(math.cos, angles)))))
+        turns.append((ends[1] - ends[0]) % 360)
+    stated = place.stated(r"turns by ([\d.]+) degrees between its foot and its top\. With `\"margin\": 0` it turns by ([\d.]+)")
+    for found, number in zip(turns, stated):
+        near(found, number, "the turn of the column")
+
+
+def exact_corners(place):
+    length = 2.0
+    place.write("line.obj", "".join(f"v 0 {length * i / (SAMPLES - 1)!r} 0\n" for i in range(SAMPLES)))
+    radius = length / (math.pi / 2)
+    rows = re.findall(r"^\| (\d), degree (\d)(, exact)? \| ([\de.-]+) \|$", place.readme, re.M)
+    if len(rows) != 3:
+        sys.exit(f"README.md has {len(rows)} rows of exact corners")
+    for row in rows:
+        layers, degree, exact, stated = int(row[0]), int(row[1]), bool(row[2]), row[3]
+        knots = [0, 0, 0, 1, 1, 2, 2, 2] if exact else "clamped"
+        place.lattice("bend.json", size=[4, layers, 4], degree=[3, degree, 3], knots=["clamped", knots, "clamped"],
+                      rest={"box": {"min": [-0.5, 0, -0.5], "max": [0.5, length, 0.5]}},
+                      moves=[{"bend": {"axis": "y", "toward": "x", "degrees": 90, **({"exact": True} if exact else {})}}])
+        place.run("deform", "line.obj", "bent.obj", "-l", "bend.json", "--force")
+        found = max(abs(math.hypot(x - radius, y) - radius) for x, y, _ in place.points("bent.obj")) / radius
+        if exact and found > 1e-15:
+            sys.exit(f"an exact corner: {found}")
+        if not exact:
+            near(found, stated, f"{layers} layers of degree {degree}")
+
+
+def outer_layers(place):
+    """With k layers at rest the displacement begins as the k-th power of the distance from the border."""
+    steps = [2.0 ** -12, 2.0 ** -11]
+    place.write("row.obj", "".join(f"v {x!r} 0.5 0.5\n" for x in (0.0, *steps)))
+    for layers in range(4):
+        place.lattice("layers.json", size=[12, 4, 4], rest={"box": {"min": [0, 0, 0], "max": [1, 1, 1]}},
+                      moves=[{"at": [[layers, 11], "all", "all"], "by": [0, 0, 1]}])
+        place.run("deform", "row.obj", "moved.obj", "-l", "layers.json", "--force")
+        border, first, second = (p[2] - 0.5 for p in place.points("moved.obj"))
+        if (border != 0) != (layers == 0) or abs(second / first / 2 ** layers - 1) > 0.02:
+            sys.exit(f"{layers} layers at rest: displacements {border}, {first}, {second}")
+
+
+def falloff_that_folds(place):
+    """det F of a vertex in the middle of the falloff, where the border moves outward."""
+    top, bottom = map(float, place.stated(r"outward by more than half of R \((\d+)/(\d+)\)"))
+    place.write("beyond.obj", "v 1.5 0.5 0.5\nv 0.5 0.5 0.5\n")
+    for factor, folds in ((0.99, False), (1.01, True)):
+        place.lattice("out.json", size=[4, 4, 4], rest={"box": {"min": [0, 0, 0], "max": [1, 1, 1]}},
+                      moves=[{"by": [factor * top / bottom, 0, 0]}])
+        place.run("check", "beyond.obj", "-l", "out.json", "--outside", "extend", "--falloff", "1", "--report", "r.json")
+        with open(place.path("r.json"), encoding="utf-8") as file:
+            least = json.load(file)["jobs"][0]["det"]["outside"]
+        if (least <= 0) != folds:
+            sys.exit(f"det F outside is {least} where the border moves by {factor} of {top}/{bottom} of R")
+
+
+def corners_of_stl(path):
+    with open(path, "rb") as file:
+        data = file.read()
+    (count,) = struct.unpack_from("<I", data, 80)
+    for facet in range(count):
+        numbers = struct.unpack_from("<12f", data, 84 + 50 * facet)
+        yield from (numbers[3:6], numbers[6:9], numbers[9:12])
+
+
+def dense(path):
+    """The shape and the numbers of an array of doubles."""
+    with open(path, "rb") as file:
+        data = file.read()
+    (size,) = struct.unpack_from("<H", data, 8)
+    shape = ast.literal_eval(data[10:10 + size].decode("latin-1"))["shape"]
+    return shape, struct.unpack_from(f"<{math.prod(shape)}d", data, 10 + size)
+
+
+def float32(point):
+    return struct.unpack("<3f", struct.pack("<3f", *point))
+
+
+def errors_of_differences(place):
+    """The table of derivatives: doubles of an OBJ, and floats of an STL."""
+    sweep = re.search(r"```json sweep\.json\n(.*?)```", place.readme, re.S)[1]
+    place.write("sweep.json", sweep)
+    column = place.model("column.obj")
+
+    def words(degrees):
+        return ["-l", "sweep.json", "--set", "HEIGHT=1", "--set", "GIRTH=1", "--set", f"DEGREES={degrees}", "--force"]
+
+    place.run("jacobian", column, *words("30"), "--wrt", "parameters", "-o", "J.npy")
+    with open(place.path("J.columns.txt"), encoding="utf-8") as file:
+        column_number = [line.strip() for line in file].index("DEGREES")
+    (vertices, _, names), numbers = dense(place.path("J.npy"))
+    exact = [numbers[names * row + column_number] for row in range(3 * vertices)]
+    largest = max(map(abs, exact))
+
+    def results(degrees, name):
+        for ending in ("obj", "stl"):
+            place.run("deform", column, f"{name}.{ending}", *words(degrees))
+        return place.points(f"{name}.obj"), list(corners_of_stl(place.path(f"{name}.stl")))
+
+    points, corners = results("30", "a")
+    numbers_of = {float32(point): number for number, point in enumerate(points)}
+    for step in STEPS:
+        moved, moved_corners = results(repr(30 + float(step)), "b")
+        taken = (30 + float(step)) - 30
+        of_obj = max(abs((q - p) / taken - exact[3 * v + a]) for v in range(vertices)
+                     for a, (p, q) in enumerate(zip(points[v], moved[v]))) / largest
+        of_stl = max(abs((q - p) / taken - exact[3 * numbers_of[corner] + a]) for corner, other in zip(corners, moved_corners)
+                     for a, (p, q) in enumerate(zip(corner, other))) / largest
+        stated = place.stated(rf"\| {re.escape(step)} \| ([\d.e-]+) \| ([\d.]+)")
+        near(of_obj, stated[0], f"the derivative of an OBJ by a step of {step}")
+        near(of_stl, stated[1], f"the derivative of an STL by a step of {step}")
+
+
+def main():
+    checks = (turn_of_the_column, exact_corners, outer_layers, falloff_that_folds, errors_of_differences)
+    for check in checks:
+        with tempfile.TemporaryDirectory(prefix="ffd-test-") as folder:
+            check(Place(*sys.argv[1:], folder))
+    print(f"{len(checks)} groups of figures are what is computed")
+
+
+if __name__ == "__main__":
+    main()
