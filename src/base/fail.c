@@ -13,7 +13,7 @@ static void copy_text(char *to, size_t capacity, const char *from)
     to[length] = 0;
 }
 
-/* A message is one line on a terminal: whatever a file or name put into it must not break that. */
+/* A message is one line on a terminal, even if it quotes a file or a name with control characters. */
 static void make_one_line(char *text)
 {
     for (unsigned char *c = (unsigned char *)text; *c; c++)
@@ -24,7 +24,7 @@ static void make_one_line(char *text)
 static void fill(ffd_error *error, ffd_status status, const char *file, size_t line, const char *pointer,
                  const char *format, va_list arguments)
 {
-    /* The arguments may point into the record itself (a message that wraps another). */
+    /* The arguments may point into the record itself (a message that quotes an earlier one). */
     char message[sizeof error->message];
     vsnprintf(message, sizeof message, format, arguments);
     char file_copy[sizeof error->file], pointer_copy[sizeof error->pointer];

@@ -1,17 +1,18 @@
-/* edit.c - control points and weights that the library's caller sets. */
+/* edit.c - lets the caller set deformed control points and weights. */
 #include "base/memory/memory.h"
 #include "lattice/lattice.h"
 #include <string.h>
 
 typedef enum edit_kind { EDIT_POINTS, EDIT_OFFSETS, EDIT_WEIGHTS } edit_kind;
 
-/* Control points that are set, and what was there before. */
+/* Control points to be set, and their previous values. */
 typedef struct point_edit {
     edit_kind kind;
-    const size_t *index; /* NULL: the first ones */
+    const size_t *index; /* NULL: points 0 to count - 1 */
     size_t count;
     const double *values;
-    double *before; /* EDIT_WEIGHTS: one for each; else deformed and difference, 6 for each */
+    double *before; /* previous values. EDIT_WEIGHTS: 1 number for each point; else 6, deformed and
+                       difference */
 } point_edit;
 
 static size_t point_of(const point_edit *edit, size_t i)
@@ -34,7 +35,7 @@ static ffd_status check(const ffd_lattice *lattice, const point_edit *edit, ffd_
     return FFD_OK;
 }
 
-/* Gives a lattice weights of 1, where it has none. */
+/* Adds weights of 1 to a lattice that has none. */
 static ffd_status make_weights(ffd_lattice *lattice, ffd_error *error)
 {
     if (lattice->rest_weights)
@@ -53,7 +54,7 @@ static ffd_status make_weights(ffd_lattice *lattice, ffd_error *error)
     return FFD_OK;
 }
 
-/* Sets the values, and keeps what was there. */
+/* Sets the values, and saves the previous ones. */
 static void set_values(ffd_lattice *lattice, const point_edit *edit)
 {
     for (size_t i = 0; i < edit->count; i++) {
@@ -75,7 +76,7 @@ static void set_values(ffd_lattice *lattice, const point_edit *edit)
     }
 }
 
-/* Backwards, for what was set twice. */
+/* Restores the previous values, backwards because a point may have been set twice. */
 static void restore(ffd_lattice *lattice, const point_edit *edit)
 {
     for (size_t i = edit->count; i-- > 0;) {

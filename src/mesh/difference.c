@@ -24,7 +24,7 @@ static void without_control_characters(char *text)
             *text = '?';
 }
 
-/* True: it is the first one, and its words are wanted. */
+/* Counts a difference. Returns whether it is the first one, whose text is needed. */
 static bool count(ffd_comparison *comparison, ffd_difference_kind kind)
 {
     comparison->equal = false;

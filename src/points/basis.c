@@ -1,4 +1,4 @@
-/* basis.c - dX/dQ, stored or multiplied. */
+/* basis.c - computes dX/dQ as a matrix, or its product with a vector. */
 #include "base/memory/memory.h"
 #include "points/basis_row.h"
 #include "points/point_run.h"
@@ -7,9 +7,9 @@
 typedef struct basis_work {
     const ffd_embedding *embedding;
     const double *weights;
-    basis_row *rows;  /* one a thread */
-    ffd_csr *matrix;  /* filled, or, where it has no values yet, its rows' lengths */
-    const double *dq; /* a product: */
+    basis_row *rows;  /* one for each thread */
+    ffd_csr *matrix;  /* to be filled; in the first pass the lengths of its rows */
+    const double *dq; /* for a product: */
     double *dx;
 } basis_work;
 
@@ -62,7 +62,7 @@ static ffd_status multiply_tile(void *context, size_t first, size_t count, int w
     return FFD_OK;
 }
 
-/* The weights that count: the caller's, or those at rest. */
+/* Returns the weights to be used: those of the caller, or those at rest. */
 static const double *weights_of(const ffd_embedding *embedding, const double *weights)
 {
     return weights ? weights : embedding->rest->rest_weights;
@@ -93,7 +93,7 @@ void ffd_csr_free(ffd_csr *matrix)
     *matrix = (ffd_csr){0};
 }
 
-/* Room for the entries that the rows' lengths ask for. */
+/* Allocates the entries from the lengths of the rows. */
 static ffd_status make_entries(ffd_csr *matrix, ffd_error *error)
 {
     for (size_t i = 0; i < matrix->rows; i++)

@@ -2,17 +2,17 @@
 #include "deform/extension.h"
 #include "spline/knots.h"
 
-/* The control points of one direction that act at u, and their basis functions. */
+/* The control points of a direction whose basis functions are not 0 at u, with these functions. */
 typedef struct factor {
     size_t count, index[MAX_ORDER];
     double value[MAX_ORDER];
 } factor;
 
-/* In ascending order of the control points: those of a closed direction go round. */
+/* Sorts by control point, because the indices wrap round in a closed direction. */
 static void make_factor(const knot_vector *knots, int span, const double value[MAX_ORDER], factor *made)
 {
     const size_t order = (size_t)knots->degree + 1, first = (size_t)span - (size_t)knots->degree;
-    size_t wrapped = 0; /* how many come before the seam */
+    size_t wrapped = 0; /* number of functions before the seam */
     while (wrapped < order && ffd_knots_point(knots, first + wrapped) >= ffd_knots_point(knots, first))
         wrapped++;
     made->count = order;

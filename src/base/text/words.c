@@ -1,7 +1,7 @@
 #include "base/text/words.h"
 #include <string.h>
 
-/* Longer words are compared by their first letters only: names are short. */
+/* Longer words are compared by their first LONGEST letters. */
 #define LONGEST 40
 
 static size_t least(size_t a, size_t b)
@@ -17,7 +17,7 @@ bool ffd_word_is_known(const char *word, const char *const *known, size_t count)
     return false;
 }
 
-/* Optimal string alignment distance. */
+/* The optimal string alignment distance. */
 size_t ffd_word_distance(const char *a, size_t a_length, const char *b)
 {
     const size_t m = least(a_length, LONGEST), n = least(strlen(b), LONGEST);
