@@ -4,8 +4,8 @@ import json
 import math
 import struct
 
-from harness import (CUBE, CUBE_CORNERS, CUBE_FACES, EMBEDDING, INVALID, NO, IO, UNSUPPORTED, case, check, equal, glb,
-                     gltf_json, lattice, main, near)
+from harness import (CUBE, CUBE_CORNERS, CUBE_FACES, EMBEDDING, INVALID, IO, NO, UNSUPPORTED, case, check, equal, glb,
+                     gltf_json, lattice, main, near, obj_of)
 from said import anything
 
 SHIFT = [{"by": [1, 0, 0]}]
@@ -92,7 +92,7 @@ TRIANGLES = [t for a, b, c, d in CUBE_FACES for t in ([a, b, c], [a, c, d])]
 
 
 def obj(points, faces):
-    return "".join("v %r %r %r\n" % tuple(p) for p in points) + "".join("f %s\n" % " ".join(map(str, f)) for f in faces)
+    return obj_of(points) + "".join("f %s\n" % " ".join(map(str, f)) for f in faces)
 
 
 def edges_of(faces):

@@ -6,7 +6,7 @@ import re
 import struct
 
 from bspline import BoxVolume
-from harness import NO, OK, case, check, equal, glb, gltf_json, lattice, main, near
+from harness import NO, OK, case, check, equal, glb, gltf_json, lattice, main, near, obj_of
 from said import anything, entry, not_told, told
 
 # Holds x up to 1.5 and all else.
@@ -542,7 +542,7 @@ def a_border_through_what_is_drawn_at_random(run):
 @case
 def threads_change_nothing(run):
     points = [[math.cos(n) * 2, math.sin(2 * n) * 2, math.sin(3 * n)] for n in range(3000)]
-    run.write("a.obj", "".join("v %r %r %r\n" % tuple(p) for p in points)
+    run.write("a.obj", obj_of(points)
               + "".join(f"f {n} {n + 1} {n + 2}\n" for n in range(1, 2990)))
     run.write("l.json", lattice(low=(-1, -1, -1), high=(1, 1, 1), moves=[{"twist": {"axis": "z", "degrees": 40}}]))
     texts = {run.ffd("check", "a.obj", "-l", "l.json", "--report", "-", "--report-stable", "-j", str(n), err=anything).text

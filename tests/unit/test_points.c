@@ -1,6 +1,5 @@
 /* test_points.c - arrays of points in memory: the results are exactly those of a job on a file; also parts,
    strides, derivatives, serialization, refusals. */
-#define _XOPEN_SOURCE 700
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
