@@ -1,4 +1,4 @@
-/* batch_ends.c - jobs of a batch that have ended: what is said, counted, recorded and reported of them. */
+/* batch_ends.c - handles ended jobs of a batch: prints, counts, records and reports them. */
 #include "base/memory/memory.h"
 #include "batch/batch_run.h"
 #include "batch/task_text.h"
@@ -26,7 +26,7 @@ static const row_array *rows_of(const batch_run *run)
     return run->desc->positions ? &run->rows.array : NULL;
 }
 
-/* rows: of the positions, or NULL. */
+/* rows: of positions, or NULL. */
 static void print_plan(const pool_task *task, const row_array *rows)
 {
     const batch_job *const job = &task->job;
@@ -38,7 +38,7 @@ static void print_plan(const pool_task *task, const row_array *rows)
         printf("%s row %" PRIu64 "\n", rows->path, job->row);
 }
 
-/* Where the worker has made no entry of a report, there is one afterwards. */
+/* Makes the report entry of a job whose worker has not made it. */
 static ffd_status complete_entry(const batch_run *run, pool_task *task, ffd_error *error)
 {
     if (!task->entry.size)
@@ -71,7 +71,7 @@ static ffd_status say_task(batch_run *run, const pool_task *task, ffd_error *err
     return status;
 }
 
-/* A job that fails leaves no positions: neither its own nor those of a run before. */
+/* A failed job must not leave positions, neither its own nor those of an earlier run. */
 static void clear_row(const batch_run *run, const pool_task *task)
 {
     const batch_desc *const desc = run->desc;
@@ -81,7 +81,7 @@ static void clear_row(const batch_run *run, const pool_task *task)
         ffd_row_clear(&run->rows.array, task->job.row);
 }
 
-/* Does what follows at once from the end of a job, even if jobs before it still run. */
+/* Does what must happen as soon as a job ends, even if earlier jobs still run. */
 static ffd_status note_end(batch_run *run, pool_task *task, ffd_error *error)
 {
     uint64_t *const counts[] = {&run->counts.done, &run->counts.skipped, &run->counts.failed};
@@ -105,7 +105,7 @@ static ffd_status note_end(batch_run *run, pool_task *task, ffd_error *error)
 
 ffd_status ffd_run_note_ends(batch_run *run, ffd_error *error)
 {
-    bool is_first = true; /* of those that have not ended */
+    bool is_first = true; /* no earlier job is still running or waiting */
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < run->count && !status; i++) {
         pool_task *const task = run->tasks[i];
@@ -123,7 +123,7 @@ ffd_status ffd_run_note_ends(batch_run *run, ffd_error *error)
     return status;
 }
 
-/* What is told in the order of the jobs. */
+/* Does what must happen in the order of the jobs. */
 static ffd_status tell_task(batch_run *run, pool_task *task, ffd_error *error)
 {
     if (run->desc->pool.dry && task->outcome != OUTCOME_FAILED)
@@ -142,7 +142,7 @@ static ffd_status tell_task(batch_run *run, pool_task *task, ffd_error *error)
                                                              : FFD_OK;
 }
 
-/* Whether something of the jobs is told in their order. */
+/* Whether any output is in the order of the jobs. */
 static bool tells_in_order(const batch_run *run)
 {
     return run->desc->pool.dry || run->depfile || run->view ||

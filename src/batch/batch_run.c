@@ -10,13 +10,13 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Jobs that wait for a worker; further ones are not read yet. */
+/* Jobs read ahead that wait for a worker. */
 #define AHEAD ((size_t)256)
 
-/* Bytes of a mesh that several workers may have at a time. */
+/* Meshes with more bytes are read by one worker only. */
 #define MOST_SHARED ((uint64_t)1 << 28)
 
-/* Seconds between looks at the clock. */
+/* The longest wait for a worker, in seconds. */
 #define LOOK 0.1
 
 /* Reading jobs */
@@ -34,7 +34,7 @@ static void find_record(batch_run *run, pool_task *task)
     task->has_record = ffd_journal_find(run->journal, &task->target, &task->record, figures);
 }
 
-/* A job that was not there when they were counted has no row. */
+/* A job that was added after the jobs were counted has no row. */
 static void check_row(const batch_run *run, batch_job *job)
 {
     const row_array *const array = &run->rows.array;
@@ -81,7 +81,7 @@ static ffd_status read_jobs(batch_run *run, ffd_error *error)
     return FFD_OK;
 }
 
-/* Names the picture of a job and takes it likewise, with the output: its name is known as early. */
+/* Names the picture of a job and claims its file, at the same time as the output. */
 static ffd_status claim_picture(batch_run *run, pool_task *task, ffd_error *error)
 {
     hash128 file;
@@ -91,7 +91,7 @@ static ffd_status claim_picture(batch_run *run, pool_task *task, ffd_error *erro
                                               task->picture, error);
 }
 
-/* Takes the output of a job for it, or fails the job because one before it writes that file. */
+/* Claims the output file for a job; fails the job if an earlier one writes that file. */
 static ffd_status claim_output(batch_run *run, pool_task *task, ffd_error *error)
 {
     batch_job *const job = &task->job;
@@ -111,7 +111,7 @@ static ffd_status claim_output(batch_run *run, pool_task *task, ffd_error *error
     return FFD_OK;
 }
 
-/* Likewise the files beside it and those that are copied with it, which are known. */
+/* Claims the files beside the output and copied with it, once they are known. */
 static ffd_status claim_others(batch_run *run, pool_task *task, ffd_error *error)
 {
     batch_job *const job = &task->job;
@@ -127,8 +127,9 @@ static ffd_status claim_others(batch_run *run, pool_task *task, ffd_error *error
     return status;
 }
 
-/* Lets jobs begin. No file of a mesh's name is written beside an output or copied with it: such an output can
-   be taken at once, all others when the files of all jobs before are known. */
+/* Makes jobs ready to run. No file beside an output, or copied with it, has the ending of a mesh format. So
+   an output with one is claimed at once; any other is claimed when the files of all earlier jobs are
+   known. */
 static ffd_status claim_tasks(batch_run *run, ffd_error *error)
 {
     ffd_status status = FFD_OK;
@@ -169,8 +170,8 @@ static void heed_interrupts(batch_run *run)
         ffd_pool_stop(run->pool);
 }
 
-/* If the rest of the manifest cannot be read, or no worker can be started, the jobs that were begun are
-   finished all the same. */
+/* If the rest of the manifest cannot be read, or no worker can be started, the running jobs are still
+   finished. */
 static ffd_status begin_jobs(batch_run *run, ffd_error *error)
 {
     ffd_status status = read_jobs(run, error);
@@ -182,8 +183,8 @@ static ffd_status begin_jobs(batch_run *run, ffd_error *error)
     return status;
 }
 
-/* Waits until jobs have ended. Their workers get the next jobs before the ends are noted, unless one of these
-   may stop the run (--stop). */
+/* Waits for jobs to end. Free workers get their next jobs before the ends are handled, unless an end may stop
+   the run (--stop). */
 static ffd_status wait_for_ends(batch_run *run, ffd_error *error)
 {
     if (ffd_pool_running(run->pool) > 0 || run->starved)
@@ -207,7 +208,7 @@ static ffd_status run_jobs(batch_run *run, ffd_error *error)
         status = ffd_run_note_ends(run, first ? NULL : error);
         heed_interrupts(run);
         if (!status && run->ending)
-            status = ffd_run_note_ends(run, first ? NULL : error); /* of those that were stopped */
+            status = ffd_run_note_ends(run, first ? NULL : error); /* of those that were just stopped */
         if (!status)
             status = ffd_run_take_ended(run, first ? NULL : error);
         ffd_progress_show(&run->progress, &run->counts, ffd_jobs_fraction(run->source));
@@ -226,7 +227,7 @@ static ffd_status open_journal(batch_run *run, ffd_error *error)
                                      : ffd_journal_default_path(origin, jobs->shard, jobs->shards);
     ffd_error reason;
     if (path && desc->pool.dry && !(desc->pool.resume && ffd_file_exists(path))) {
-        ffd_free(path); /* nothing is written, not even there */
+        ffd_free(path); /* a dry run writes nothing, not even a journal */
         return FFD_OK;
     }
     ffd_status status =
@@ -235,7 +236,7 @@ static ffd_status open_journal(batch_run *run, ffd_error *error)
     ffd_free(path);
     if (!status)
         return FFD_OK;
-    if (!desc->journal) { /* a journal only saves time */
+    if (!desc->journal) { /* the default journal is optional: it only saves time */
         if (desc->pool.resume)
             ffd_run_say_error(run, &reason);
         return FFD_OK;
@@ -245,7 +246,7 @@ static ffd_status open_journal(batch_run *run, ffd_error *error)
     return status;
 }
 
-/* No job may write the files of the run itself. */
+/* Reserves the files of the run itself, so that no job writes them. */
 static ffd_status claim_own(batch_run *run, ffd_error *error)
 {
     const char *const own[] = {run->desc->report,  run->desc->depfile,
@@ -271,7 +272,7 @@ static ffd_status open_view(batch_run *run, ffd_error *error)
     return ffd_run_view_create(&view, &run->view, error);
 }
 
-/* Where no mesh can be read nobody knows how many vertices a row should have. */
+/* Without a readable mesh the number of vertices is unknown, so the array cannot be made. */
 static void say_kept_array(batch_run *run)
 {
     const char *const path = run->desc->positions;
@@ -288,7 +289,7 @@ static ffd_status open_all(batch_run *run, ffd_error *error)
     const batch_desc *const desc = run->desc;
     pool_desc pool = desc->pool;
     ffd_status status = FFD_OK;
-    /* Before there are workers a signal ends the program as it ends any other command. */
+    /* Until workers exist, a signal may end the program in the default way. */
     if (desc->shared_box) {
         ffd_interrupt_watch();
         status = ffd_batch_measure(&desc->jobs, &pool, desc->depfile && !pool.dry, &run->box, &run->box_files,
@@ -334,7 +335,7 @@ static const char *remark_of(const batch_run *run)
 static void say_line(void *user, ffd_log_level level, const char *line)
 {
     byte_buffer text = {0};
-    (void)level; /* there are warnings only */
+    (void)level; /* all lines are warnings */
     ffd_buffer_format(&text, "%s\n", line);
     char *const whole = ffd_buffer_finish(&text);
     if (whole)
@@ -342,7 +343,7 @@ static void say_line(void *user, ffd_log_level level, const char *line)
     ffd_free(whole);
 }
 
-/* What the jobs have cost beyond themselves. */
+/* Logs how often meshes were read and searched, with --verbose. */
 static void say_counts(batch_run *run)
 {
     char line[200];
@@ -356,7 +357,7 @@ static void say_counts(batch_run *run)
         ffd_progress_print(&run->progress, line);
 }
 
-/* What is odd about the table. */
+/* Warns of flaws of the table. */
 static void say_flaws(batch_run *run)
 {
     const mesh_log log = {say_line, &run->progress};
@@ -364,7 +365,7 @@ static void say_flaws(batch_run *run)
         ffd_flaws_warn(ffd_jobs_flaws(run->source), ffd_jobs_name(run->source), &log);
 }
 
-/* An empty text is valid, but seldom what was meant. */
+/* An empty manifest is valid, but seldom intended. */
 static void say_none(batch_run *run)
 {
     ffd_error note;
@@ -374,7 +375,7 @@ static void say_none(batch_run *run)
     ffd_run_say_error(run, &note);
 }
 
-/* With one rule for all outputs of what the box that they share was taken from. */
+/* Writes the depfile, with one common rule that makes all outputs depend on the files of the shared box. */
 static ffd_status write_depfile(batch_run *run, ffd_error *error)
 {
     byte_buffer rule = {0};

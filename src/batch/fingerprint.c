@@ -7,7 +7,7 @@
 #include "job/input/source.h"
 #include <ffd/version.h>
 
-/* The hashes that a fingerprint is the hash of. */
+/* The hashes that are combined into a fingerprint. */
 typedef struct hash_list {
     hash128 *hashes;
     size_t count, capacity;
@@ -36,7 +36,7 @@ static ffd_status add_files(hash_list *list, hash_cache *cache, const path_list 
     return status;
 }
 
-/* A file that is missing or cannot be read counts too. */
+/* A missing or unreadable image has a hash too. */
 static ffd_status add_images(hash_list *list, hash_cache *cache, const path_list *images, ffd_error *error)
 {
     static const hash128 missing = {{0}};
@@ -66,8 +66,8 @@ static ffd_status finish(hash_list *list, ffd_status status, hash128 *hash)
     return status;
 }
 
-/* Whether images and material libraries go with the output into another folder: not from one format to
-   another. */
+/* Whether images and material libraries are copied with the output. They are not in place, in the same
+   folder, or in a conversion. */
 static bool copies_images(const ffd_deform_desc *desc)
 {
     ffd_format from_format, format = desc->output_format;
@@ -89,7 +89,7 @@ bool ffd_fingerprint_has_copies(const ffd_deform_desc *desc, hash_cache *cache)
     return !has_none;
 }
 
-/* Images that are there become files of the job. */
+/* Adds the input's images. Those that exist become files of the job. */
 static ffd_status add_images_of_input(hash_list *list, hash_cache *cache, const ffd_deform_desc *desc,
                                       path_list *files, ffd_error *error)
 {
@@ -104,8 +104,7 @@ static ffd_status add_images_of_input(hash_list *list, hash_cache *cache, const 
     return status;
 }
 
-/* What the boxes of lattices go round, but for the mesh itself: the files that they name, and the box that
-   all jobs share. */
+/* Adds the meshes that lattices take their boxes from: those named in lattice files, and the shared box. */
 static ffd_status add_boxes(hash_list *list, hash_cache *cache, const ffd_deform_desc *desc, path_list *files,
                             ffd_error *error)
 {
@@ -171,8 +170,8 @@ static ffd_status find_copies(const char *path, const mesh_format *format, path_
     return status;
 }
 
-/* What the output refers to: its buffers, and images and material libraries (a format's find_resources finds
-   those that came with it), which may be missing. */
+/* Lists the files that the output refers to: its buffers, and images and material libraries
+   (format.find_resources finds those that were copied), which may be missing. */
 static ffd_status list_output(const ffd_source *output, bool has_copies, path_list *files, path_list *images,
                               ffd_error *error)
 {

@@ -1,29 +1,30 @@
-/* fingerprint.h - decides whether an output is up to date: by content, not by time. */
+/* fingerprint.h - decides by content, not by time, whether an output is up to date. */
 #ifndef FFD_BATCH_FINGERPRINT_H
 #define FFD_BATCH_FINGERPRINT_H
 
 #include "batch/hash_cache.h"
 #include <stdint.h>
 
-/* What a job says (batch_job's content). */
+/* The content of a job (batch_job.content). */
 typedef struct fingerprint_words {
-    const char *first; /* each ended by 0 */
+    const char *first; /* count words, each terminated by 0 */
     uint32_t count;
 } fingerprint_words;
 
-/* Hashes all that the output depends on: the program's version, what the job says, and the bytes of the mesh,
-   of the buffers that it refers to, of the images and material libraries that go with it, of the lattices, of
-   the meshes that they name, and the embedding; and the box that it shares with other jobs. The files are
-   added to files. cache is that of the jobs before. Errors: those of reading. */
+/* Hashes everything that the output depends on: the version of the program, the job's content, and the bytes
+   of the mesh, its buffers, the images and material libraries copied with it, the lattices, the meshes that
+   these name, the embedding, and the shared box. Adds the files to `files`. cache: of the jobs before; may be
+   NULL. Errors: those of reading. */
 ffd_status ffd_fingerprint_inputs(const ffd_deform_desc *desc, const fingerprint_words *words,
                                   hash_cache *cache, path_list *files, hash128 *hash, ffd_error *error);
-/* Hashes the output, the buffers that it refers to, and the images and material libraries beside it. Errors:
- * those of reading. */
+/* Hashes the output, its buffers, and the images and material libraries beside it. Errors: those of
+   reading. */
 ffd_status ffd_fingerprint_output(const ffd_deform_desc *desc, hash128 *hash, ffd_error *error);
-/* Whether images or material libraries go with the output, be they there or not. True too where memory runs
+/* Whether images or material libraries are copied with the output, existing or not. True also if memory runs
    out. */
 bool ffd_fingerprint_has_copies(const ffd_deform_desc *desc, hash_cache *cache);
-/* The same of an output that is one file which refers to no other, by the hash of its bytes. */
+/* Returns the hash that ffd_fingerprint_output computes for a single file without references. bytes: hash of
+   the file. */
 hash128 ffd_fingerprint_written(const hash128 *bytes);
 
 #endif

@@ -35,7 +35,7 @@ static void remember(hash_cache *cache, const char *path, const file_stamp *stam
 
 ffd_status ffd_cache_hash(hash_cache *cache, const char *path, hash128 *hash, ffd_error *error)
 {
-    /* The stamp is taken before the file is read: a change meanwhile makes it an old one. */
+    /* Stamp before reading: if the file changes meanwhile, the entry is outdated. */
     file_stamp stamp;
     const bool is_file = cache && ffd_file_stamp(path, &stamp);
     const cached_file *const known = is_file ? find(cache, path, &stamp) : NULL;
@@ -73,7 +73,7 @@ static void forget_mesh(cached_mesh *mesh)
     *mesh = (cached_mesh){0};
 }
 
-/* stamp: of the source's file as it is now. */
+/* stamp: current stamp of the source's file. */
 static const cached_mesh *find_mesh(const hash_cache *cache, const ffd_source *source, ffd_format format,
                                     const file_stamp *stamp)
 {
@@ -98,7 +98,7 @@ static ffd_status list_by_document(cached_mesh *mesh, const ffd_source *source, 
     return status;
 }
 
-/* Loads a file whose stamp was taken, and hashes it as well: its bytes are in memory then. */
+/* Loads a file that was stamped before, and stores its hash too, as its bytes are in memory. */
 static ffd_status load_and_hash(hash_cache *cache, const char *path, const file_stamp *stamp,
                                 file_input *bytes, ffd_error *error)
 {
@@ -122,7 +122,7 @@ static ffd_status list_by_bytes(hash_cache *cache, cached_mesh *mesh, const ffd_
     return status;
 }
 
-/* stamp: of the source's file before it is read; NULL: it is none. */
+/* stamp: of the source's file, taken before it is read; NULL: it has none. */
 static ffd_status look_into(hash_cache *cache, cached_mesh *mesh, const ffd_source *source, ffd_format format,
                             const file_stamp *stamp, ffd_error *error)
 {
@@ -140,7 +140,7 @@ static ffd_status look_into(hash_cache *cache, cached_mesh *mesh, const ffd_sour
     return status;
 }
 
-/* The mesh of the source, lent until the next one is asked for. */
+/* Finds or reads the file lists of a mesh. The result is borrowed until the next call. */
 static ffd_status know_mesh(hash_cache *cache, const ffd_source *source, ffd_format format,
                             const cached_mesh **known, ffd_error *error)
 {
@@ -195,7 +195,7 @@ static bool is_last_look(const cached_look *look, const char *path, const file_s
            look->from == from && look->to == to;
 }
 
-/* Looks at the bytes of a file of a format that can refer to files of its own. */
+/* Parses a file of a format that may refer to other files. */
 static ffd_status look_at_bytes(hash_cache *cache, const char *path, const file_stamp *stamp, ffd_format from,
                                 ffd_format to, ffd_error *error)
 {
@@ -237,7 +237,7 @@ ffd_status ffd_cache_look(hash_cache *cache, const ffd_source *source, ffd_forma
     return copy_list(&cache->look.copied, copied, error);
 }
 
-/* Whether the text of a lattice may have the member "meshes", however it is written. */
+/* Whether the text may contain the member "meshes", possibly with escapes. */
 static bool may_name_meshes(const file_input *input)
 {
     static const char key[] = "\"meshes\"";
@@ -251,7 +251,8 @@ static bool may_name_meshes(const file_input *input)
     return false;
 }
 
-/* Adds the meshes that a lattice file names for its box. One that cannot be read fails its job later. */
+/* Adds the meshes that a lattice file names for its box. Unreadable files are ignored here: they fail their
+   job later. */
 static ffd_status look_through(const char *path, path_list *meshes, ffd_error *error)
 {
     const spec_settings rest_only = {.may_be_open = true};

@@ -1,5 +1,4 @@
-/* hash_cache.h - hashes of the files that jobs have in common with those before them: while a file stays as
-   it is, it is not read again. */
+/* hash_cache.h - cached hashes of files: a file is read again only if it has changed. */
 #ifndef FFD_BATCH_HASH_CACHE_H
 #define FFD_BATCH_HASH_CACHE_H
 
@@ -8,26 +7,26 @@
 #include "base/memory/hash.h"
 #include <ffd/job.h>
 
-/* Files, and meshes, that are remembered: those looked at last. */
+/* Entries for files, and for meshes; the oldest are replaced. */
 enum { CACHED_FILES = 256 };
 
 typedef struct cached_file {
-    char *path; /* NULL: none */
+    char *path; /* NULL: empty entry */
     file_stamp stamp;
     hash128 hash;
-    bool is_looked_through; /* what follows is known: */
-    path_list meshes;       /* that it names for its box, if it is a lattice */
+    bool is_looked_through; /* meshes is valid: */
+    path_list meshes;       /* named by a lattice file for its box */
 } cached_file;
 
-/* A mesh and, of formats that can refer to files, what it was read from, itself first. */
+/* A mesh with the files that it was read from (itself first), if its format can refer to files. */
 typedef struct cached_mesh {
-    char *path; /* NULL: none */
+    char *path; /* NULL: empty entry */
     ffd_format format;
     file_stamp stamp;
-    path_list files, images; /* images, material libraries */
+    path_list files, images; /* images: with material libraries */
 } cached_mesh;
 
-/* What the last look at a mesh has shown. */
+/* The result of the last ffd_cache_look. */
 typedef struct cached_look {
     char *path; /* NULL: none */
     file_stamp stamp;
@@ -36,30 +35,29 @@ typedef struct cached_look {
     path_list copied;
 } cached_look;
 
-/* An empty cache is all zeros. */
+/* All zeros: empty. */
 typedef struct hash_cache {
     cached_file files[CACHED_FILES];
     cached_mesh meshes[CACHED_FILES];
     cached_look look;
-    size_t next, next_mesh; /* to be replaced */
-    kept_file kept;         /* the first small file that was read for the job under way: its mesh */
+    size_t next, next_mesh; /* entries to replace next */
+    kept_file kept;         /* bytes of the current job's mesh, if it is small */
 } hash_cache;
 
-/* Hashes the file's bytes; without a cache (NULL) it reads them in any case. Errors: those of reading. */
+/* Hashes a file's bytes. cache NULL: always read the file. Errors: those of reading. */
 ffd_status ffd_cache_hash(hash_cache *cache, const char *path, hash128 *hash, ffd_error *error);
-/* Adds the files that a mesh is read from. Only formats that can refer to files are opened for that. Errors:
+/* Adds the files that a mesh is read from. Opens the mesh only if its format can refer to files. Errors:
    those of reading. */
 ffd_status ffd_cache_list(hash_cache *cache, const ffd_source *source, path_list *files, ffd_error *error);
-/* Adds the images and material libraries beside it that it refers to, whether they exist or not. */
+/* Adds the images and material libraries that a mesh refers to, existing or not. Errors: those of reading. */
 ffd_status ffd_cache_images(hash_cache *cache, const ffd_source *source, path_list *images, ffd_error *error);
-/* Looks at the bytes of a mesh that is saved in its own format, as `to`: how many files are written beside
-   the output, and adds the paths of those that may be copied with it. Errors: those of reading. */
+/* Finds what saving a mesh in its own format, as `to`, writes beside it: *beside is the number of other
+   files; paths that may be copied with it are added to `copied`. Errors: those of reading. */
 ffd_status ffd_cache_look(hash_cache *cache, const ffd_source *source, ffd_format to, size_t *beside,
                           path_list *copied, ffd_error *error);
-/* Adds the meshes that the box of a lattice file names to go round; none where it cannot be read. Errors:
-   FFD_E_MEMORY. */
+/* Adds the meshes that a lattice file names for its box; none if it cannot be read. Errors: FFD_E_MEMORY. */
 ffd_status ffd_cache_box_meshes(hash_cache *cache, const char *path, path_list *meshes, ffd_error *error);
-/* Leaves an empty cache. */
+/* Frees all entries; leaves an empty cache. */
 void ffd_cache_free(hash_cache *cache);
 
 #endif

@@ -3,7 +3,7 @@
 #include "json/json_parse.h"
 #include <string.h>
 
-/* Lends a text of the entry; NULL where it is none or memory runs out, which sets *failed. */
+/* Returns a text of the entry, owned by it. NULL: absent, or memory ran out (*failed). */
 static const char *text_of(index_entry *entry, const json_span *tree, const char *key, bool *failed)
 {
     const uint32_t value = ffd_json_span_member(tree, 0, key);
@@ -41,7 +41,8 @@ static void read_figures(const json_span *tree, index_row *row)
             row->folds = (index_folds)v;
 }
 
-/* A job that has failed before it had figures, or of which no run has left any, has zeros in their places. */
+/* Whether the entry has figures. Zeros stand for those of a job that failed early, or that no run has
+   recorded. */
 static bool has_figures(const json_span *tree)
 {
     double vertices = 0;

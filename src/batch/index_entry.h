@@ -1,21 +1,20 @@
-/* index_entry.h - what the page of a run says of a job, out of its entry of a report. */
+/* index_entry.h - makes a row of the comparing page from a job's entry of the report. */
 #ifndef FFD_BATCH_INDEX_ENTRY_H
 #define FFD_BATCH_INDEX_ENTRY_H
 
 #include "base/text/buffer.h"
 #include "view/index.h"
 
-/* The row and the texts that it lends from. All zeros: empty. */
+/* A row, and the texts that it refers to. All zeros: empty. */
 typedef struct index_entry {
     index_row row;
     char *texts[4];
     size_t text_count;
 } index_entry;
 
-/* Reads an entry, an object of JSON; its picture is not among the row's members. Errors: FFD_E_INVALID,
-   FFD_E_MEMORY. */
+/* Fills the row from an entry, a JSON object; except for its picture. Errors: FFD_E_INVALID, FFD_E_MEMORY. */
 ffd_status ffd_index_entry_read(const byte_buffer *text, index_entry *entry, ffd_error *error);
-/* Leaves an empty one. */
+/* Frees the texts; leaves an empty entry. */
 void ffd_index_entry_free(index_entry *entry);
 
 #endif

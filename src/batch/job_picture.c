@@ -9,7 +9,7 @@
 #include "job/input/source.h"
 #include "job/judge/result.h"
 
-/* Bytes of a mesh's file from which on its memory counts. */
+/* Mesh files of at least this many bytes take too much memory to be kept while drawing. */
 #define LARGE ((uint64_t)1 << 22)
 
 ffd_status ffd_job_picture_check(const char *path, bool force, ffd_error *error)
@@ -28,7 +28,7 @@ bool ffd_job_picture_is_current(const char *path, const char *output)
     return ffd_file_stamp(path, &picture) && ffd_file_stamp(output, &mesh) && !is_older(&picture, &mesh);
 }
 
-void ffd_job_picture_make_room(const ffd_deform_desc *desc)
+void ffd_job_picture_drop_mesh(const ffd_deform_desc *desc)
 {
     file_stamp stamp;
     if (!desc->share || !ffd_file_stamp(desc->input.path, &stamp) || stamp.size < LARGE)
@@ -37,7 +37,7 @@ void ffd_job_picture_make_room(const ffd_deform_desc *desc)
     ffd_source_close(&mesh);
 }
 
-/* Makes the folder of the picture. Free *folder with ffd_free. */
+/* Makes the folder of the picture. *folder: freed with ffd_free. *made: the number of folders made. */
 static ffd_status make_folder(const char *path, char **folder, size_t *made, ffd_error *error)
 {
     *made = 0;
@@ -52,7 +52,7 @@ ffd_status ffd_job_picture_write(const char *path, const ffd_deform_desc *desc, 
     ffd_view_desc view;
     char *folder;
     size_t made;
-    job.share = NULL; /* the picture is made of the mesh at rest, which has no results of the job yet */
+    job.share = NULL; /* draw the mesh at rest; a mesh of the share may have results */
     ffd_view_desc_init(&view, sizeof view);
     view.job = &job;
     view.output = path;

@@ -1,13 +1,12 @@
-/* journal.c - a table file of our own instead of SQLite, which was tried with 10,000 records on
-   one disk.
+/* journal.c - a table file of our own instead of SQLite, which was tried with 10,000 records on one disk.
 
-   Every job must be recorded when it ends, since a batch that was killed goes on from there. A transaction
-   for each costs SQLite 165 to 225 us, and this table 21 to 27 us; one for 100 jobs costs it 13 to 18 us a
-   job, and a kill then loses up to 99 of them. Nor does our one way of opening files reach SQLite's second
-   file: one of that name that somebody put into a shared folder is played back (it took 3,000 records of
-   3,001 away). Shards whose journals lie on NFS would depend on its locks, which SQLite's authors advise
-   against. Linked in, the shared library makes an empty program take 1.34 times as long to start, the static
-   one 1.11 times. */
+   Every job must be recorded when it ends, because a batch that was killed resumes from there. One
+   transaction a job takes SQLite 165 to 225 us, and this table 21 to 27 us. One transaction for 100 jobs
+   takes SQLite 13 to 18 us a job, but a kill then loses up to 99 records. SQLite also opens its rollback
+   journal itself, without our checks: a file of that name, planted in a shared folder, is played back (in a
+   trial it removed 3,000 of 3,001 records). Shards with journals on NFS would depend on NFS locks, which
+   SQLite's authors advise against. Linking SQLite makes an empty program start 1.34 times as slowly (shared
+   library), or 1.11 times (static). */
 #include "batch/journal.h"
 #include "base/file/folder.h"
 #include "base/file/path.h"
@@ -22,47 +21,49 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The file: a head, then slots, then figures. A record is in the slot that its output says, or in the next
-   one that is free. Figures that no slot refers to any more are dropped when the table is copied. */
+/* The file has a header, slots, then figures. It is a hash table with open addressing: a record is in the
+   slot given by its output's hash, or in the next free one. Figures that no slot refers to any more are
+   dropped when the table is copied. */
 typedef struct journal_slot {
     hash128 target;
     job_record record;
-    uint64_t begin, size; /* of the figures in the file */
-    hash128 figures;      /* what these are */
-    hash128 check;        /* of the members before; zeros where the slot is free */
+    uint64_t begin, size; /* position of the figures in the file */
+    hash128 figures;      /* hash of the figures */
+    hash128 check;        /* hash of the members above; zeros in a free slot */
 } journal_slot;
 
 _Static_assert(sizeof(journal_slot) == 96, "the file's slots have 96 bytes");
 
-/* Files of another version are of no use: with the program's version all fingerprints are others. */
+/* Tables of other versions are discarded: another version of the program makes other fingerprints anyway. */
 static const char magic[16] = "ffd-journal 2\n";
-#define MAGIC_WORD 12 /* bytes that all versions have */
+#define MAGIC_WORD 12 /* length of the part that all versions share */
 
-/* Figures of one job are never longer. */
+/* Upper bound of a job's figures in bytes. */
 #define FIGURES_MOST ((uint64_t)1 << 20)
 
-/* Bytes that nothing refers to before it is worth while to copy the table. */
+/* Unreferenced bytes that make copying the table worthwhile. */
 #define WASTE ((uint64_t)16 << 20)
 
-/* Most slots of a table: 6 GB, of 33 million jobs. A file that tells of more was damaged, or forged. */
+/* Upper bound of slots: 6 GB, for 33 million jobs. A header with more is corrupt or forged. */
 #define MOST_SLOTS ((uint64_t)1 << 26)
 
-enum { HEAD = 64, FIRST_SLOTS = 1024, LEAST_SLOT = 64 /* bytes, of any version */ };
+enum { HEAD = 64, FIRST_SLOTS = 1024, LEAST_SLOT = 64 /* smallest slot of any version, in bytes */ };
 
-/* Slots that are read or written at once, where all are. */
+/* Slots per read or write of the whole table. */
 #define SLOTS_AT_ONCE 256
 
-/* Slots that a loop looks at however soon the program is to end: what was done is recorded. */
+/* Loops over slots visit at least this many slots after an interrupt, so that finished jobs are still
+   recorded. */
 #define FEW_SLOTS 1024
 
 struct job_journal {
     update_file *file;
     char *path;
     uint64_t slots, used;
-    uint64_t end, live; /* of the file; bytes of the figures that slots refer to */
+    uint64_t end, live; /* end of the file; bytes of referenced figures */
 };
 
-/* Whether a loop over slots is to end here, because the program is. */
+/* Whether a loop over slots must stop because the program was interrupted. */
 static bool is_interrupted(uint64_t slot)
 {
     return slot > FEW_SLOTS && ffd_interrupt_requested();
@@ -100,13 +101,13 @@ static bool read_slot(const update_file *file, uint64_t number, journal_slot *sl
     return ffd_update_read(file, slot_begin(number), slot, sizeof *slot);
 }
 
-/* Where the slots of a target begin. */
+/* Returns the first slot to try for a target. */
 static uint64_t first_slot(const hash128 *target, uint64_t slots)
 {
     return load_u64(target->bytes) % slots;
 }
 
-/* Looks up the target's slot, or the one where it can be put. Returns false if there is none. */
+/* Finds the target's slot, or the free slot where it belongs. Returns false if there is none. */
 static bool look_up(const update_file *file, uint64_t slots, const hash128 *target, uint64_t *number,
                     journal_slot *slot)
 {
@@ -125,13 +126,13 @@ static bool write_slot(update_file *file, uint64_t number, const journal_slot *s
     return ffd_update_write(file, slot_begin(number), slot, sizeof *slot);
 }
 
-/* How many of the slots from `first` on are read or written at once. */
+/* Returns the number of slots in the next read or write, from `first` on. */
 static size_t piece_of(uint64_t first, uint64_t slots)
 {
     return slots - first < SLOTS_AT_ONCE ? (size_t)(slots - first) : SLOTS_AT_ONCE;
 }
 
-/* A new table without records. */
+/* Writes a table without records. */
 static bool write_empty(update_file *file, uint64_t slots)
 {
     static const journal_slot none[SLOTS_AT_ONCE] = {0};
@@ -145,7 +146,7 @@ static bool write_empty(update_file *file, uint64_t slots)
     return written;
 }
 
-/* Reads the figures that a slot refers to. */
+/* Reads the figures of a slot. */
 static bool read_figures(const update_file *file, const journal_slot *slot, byte_buffer *figures)
 {
     figures->size = 0;
@@ -157,7 +158,7 @@ static bool read_figures(const update_file *file, const journal_slot *slot, byte
     return ffd_hash_equal(&hash, &slot->figures);
 }
 
-/* Writes figures for the slot at the end of the file, which another run may have moved. */
+/* Appends the figures of a slot to the file. Another run may have moved the end of the file. */
 static bool write_figures(job_journal *journal, const char *figures, size_t size, journal_slot *slot)
 {
     if (!ffd_update_size(journal->file, &slot->begin))
@@ -169,7 +170,8 @@ static bool write_figures(job_journal *journal, const char *figures, size_t size
     return ffd_update_write(journal->file, slot->begin, figures, size);
 }
 
-/* Reads the head of a journal of any version. *own: it is this one. Returns false if there is none. */
+/* Reads the header of a journal of any version. *own: it has this version. Returns false if it is not a
+   journal. */
 static bool read_head(job_journal *journal, bool *own)
 {
     unsigned char head[HEAD];
@@ -180,7 +182,7 @@ static bool read_head(job_journal *journal, bool *own)
     return ffd_update_size(journal->file, &journal->end) && journal->end >= HEAD;
 }
 
-/* Whether the slots that the head tells of are there, of this many bytes each. */
+/* Whether the file holds the slots that its header claims, of this size each. */
 static bool has_slots(const job_journal *journal, size_t size)
 {
     return journal->slots > 0 && journal->slots <= MOST_SLOTS &&
@@ -204,7 +206,7 @@ static bool read_slots(job_journal *journal)
     return true;
 }
 
-/* Whether the file that is there is a journal, of any version, even one that was cut off early. */
+/* Whether an existing file is a journal of any version, possibly truncated. */
 static bool is_journal(const update_file *file)
 {
     char start[MAGIC_WORD];
@@ -221,7 +223,7 @@ static ffd_status open_table(job_journal *journal, ffd_error *error)
     const ffd_status status = ffd_update_open(journal->path, &journal->file, error);
     if (status)
         return status;
-    /* Only the first table is made under the journal's own name, so that it may have been cut off. */
+    /* Only the first table is written under the journal's own name, so only it can be truncated. */
     if (read_head(journal, &own) && journal->slots != 0 && journal->slots != FIRST_SLOTS &&
         !has_slots(journal, own ? sizeof(journal_slot) : LEAST_SLOT))
         return ffd_fail_file(error, FFD_E_INVALID, journal->path,
@@ -269,7 +271,7 @@ bool ffd_journal_find(job_journal *journal, const hash128 *target, job_record *r
     return !figures || read_figures(journal->file, &slot, figures);
 }
 
-/* Copies the whole records and their figures into an empty table. */
+/* Copies the valid records and their figures into an empty table. */
 static bool copy_table(const job_journal *journal, job_journal *copy)
 {
     journal_slot slot, other;
@@ -290,7 +292,7 @@ static bool copy_table(const job_journal *journal, job_journal *copy)
     return copied;
 }
 
-/* Replaces the table by a copy with so many slots. */
+/* Replaces the table by a copy with this many slots. */
 static bool rebuild(job_journal *journal, uint64_t slots)
 {
     file_successor successor;
@@ -308,8 +310,8 @@ static bool rebuild(job_journal *journal, uint64_t slots)
     return rebuilt;
 }
 
-/* Before a record is put. Returns false if there is no room for it. */
-static bool make_room(job_journal *journal)
+/* Ensures that a record can be added. Returns false if not. */
+static bool reserve_slot(job_journal *journal)
 {
     if (journal->used > journal->slots / 2)
         return (journal->slots <= MOST_SLOTS / 2 && rebuild(journal, 2 * journal->slots)) ||
@@ -324,12 +326,12 @@ bool ffd_journal_put(job_journal *journal, const hash128 *target, const job_reco
 {
     journal_slot slot = {.target = *target, .record = *record}, there;
     uint64_t number;
-    if (size > FIGURES_MOST || !make_room(journal) ||
+    if (size > FIGURES_MOST || !reserve_slot(journal) ||
         !look_up(journal->file, journal->slots, target, &number, &there))
         return false;
     journal->used += is_free(&there);
     journal->live += size - (is_free(&there) ? 0 : there.size);
-    /* The figures are there before the slot that refers to them. */
+    /* Write the figures before the slot that refers to them. */
     return write_figures(journal, figures, size, &slot) && write_slot(journal->file, number, &slot);
 }
 
@@ -343,7 +345,7 @@ void ffd_journal_close(job_journal **journal)
     *journal = NULL;
 }
 
-/* The folder of the user's caches, and below it: free with ffd_free. */
+/* Returns the user's cache folder, extended by ours; freed with ffd_free. */
 static char *cache_folder(void)
 {
     const char *const caches = getenv("XDG_CACHE_HOME"), *const home = getenv("HOME"),

@@ -1,7 +1,7 @@
-/* journal.h - remembers on disk what each output was made of, and the figures of that job: a hash table of
-   records by output, of which only the records being looked at are in memory. A program that is ended at any
-   moment leaves a valid table, in which a record that is not complete shows that it is not. Losing it costs
-   only the time to do jobs again. */
+/* journal.h - remembers on disk, for each output, what it was made from and the job's figures: a hash table
+   of records by output; only the records in use are in memory. If the program is killed at any moment, the
+   table stays valid, and an incomplete record is recognized by its check sum. Without the journal, jobs are
+   only done again. */
 #ifndef FFD_BATCH_JOURNAL_H
 #define FFD_BATCH_JOURNAL_H
 
@@ -11,21 +11,21 @@
 
 typedef struct job_journal job_journal;
 
-/* Opens the journal of that name, made where it does not exist, with its folder; a file that is not a journal
-   is refused. Errors: FFD_E_IO, FFD_E_INVALID, FFD_E_MEMORY. */
+/* Opens a journal; creates it and its folder if missing. Refuses a file that is not a journal. Errors:
+   FFD_E_IO, FFD_E_INVALID, FFD_E_MEMORY. */
 ffd_status ffd_journal_open(const char *path, job_journal **journal, ffd_error *error);
-/* What is known of an output (ffd_file_identity). figures: NULL, or gets the text that was put; it is emptied
-   before. */
+/* Looks up the record of an output (target: ffd_file_identity). figures: NULL, or replaced by the stored
+   text. Returns false if there is none. */
 bool ffd_journal_find(job_journal *journal, const hash128 *target, job_record *record, byte_buffer *figures);
-/* Stores the record with a text of this size. Returns false if that failed; the record before may then be
-   lost. */
+/* Stores a record with figures of this size. Returns false on failure, which may also lose the old record. */
 bool ffd_journal_put(job_journal *journal, const hash128 *target, const job_record *record,
                      const char *figures, size_t size);
-/* Sets *journal to NULL; it may be NULL before. */
+/* Closes a journal and sets *journal to NULL, which it may be already. */
 void ffd_journal_close(job_journal **journal);
 
-/* The default path of a batch's journal: in the user's cache (XDG_CACHE_HOME or ~/.cache; LOCALAPPDATA),
-   named by the manifest and the shard. Free with ffd_free; NULL if there is no such folder, or no memory. */
+/* Returns the default path of a batch's journal, named by the manifest and the shard, in the user's cache
+   folder (XDG_CACHE_HOME or ~/.cache; LOCALAPPDATA). Freed with ffd_free; NULL: no such folder, or out of
+   memory. */
 char *ffd_journal_default_path(const char *jobs, uint64_t shard, uint64_t shards);
 
 #endif

@@ -4,29 +4,29 @@
 #include "base/system/interrupt.h"
 #include <string.h>
 
-/* Jobs that are known at a time. */
+/* Jobs in memory at a time. */
 #define WINDOW ((size_t)256)
 
-/* Seconds between looks at the source. */
+/* The longest wait, in seconds. */
 #define LOOK 0.1
 
 typedef struct measuring {
     job_source *source;
     worker_pool *pool;
-    pool_task *tasks[WINDOW]; /* count */
+    pool_task *tasks[WINDOW]; /* count entries */
     size_t count;
-    hash128 last; /* what the job before reads, and how */
+    hash128 last; /* hash of the last job's mesh and the options for reading it */
     bool has_last;
-    bool ended, starved; /* the source: has no more jobs; the next one has not come yet */
-    size_t window;       /* jobs that are known at a time */
-    bool counts;         /* vertices of the first mesh that can be read, and: */
+    bool ended, starved; /* the source has no more jobs; its next job is not complete yet */
+    size_t window;       /* jobs in memory at a time */
+    bool counts;         /* only count the vertices of the first readable mesh: */
     bool found;
     uint64_t vertices;
-    shown_box *box; /* else the box round all of them */
+    shown_box *box; /* else: the box round all meshes */
     path_list *files;
 } measuring;
 
-/* Hashes what a job reads, and how: its content without output and placeholders. */
+/* Hashes a job's mesh and its options: its content without output and placeholders. */
 static hash128 hash_input(const batch_job *job)
 {
     byte_buffer text = {0};
@@ -39,7 +39,7 @@ static hash128 hash_input(const batch_job *job)
     return hash;
 }
 
-/* Keeps a job that has something new to measure. */
+/* Whether a job has a mesh that was not measured just before. */
 static bool is_new(measuring *m, const batch_job *job)
 {
     if (job->error.status)
@@ -124,7 +124,7 @@ static ffd_status measure_all(measuring *m, ffd_error *error)
     return status;
 }
 
-/* Sends the jobs of all shards to the workers that pool describes. */
+/* Sends the jobs of all shards to workers. option: the reason, for messages. */
 static ffd_status measure(measuring *m, const job_source_desc *jobs, pool_desc *pool, const char *option,
                           ffd_error *error)
 {
@@ -132,7 +132,8 @@ static ffd_status measure(measuring *m, const job_source_desc *jobs, pool_desc *
     const char *const origin = jobs->manifest ? jobs->manifest : jobs->table;
     if (origin && ffd_file_reads_once(origin))
         return ffd_fail(error, FFD_E_ARGUMENT,
-                        "%s reads the jobs twice, which neither standard input nor a pipe can be", option);
+                        "%s reads the jobs twice, but standard input and pipes can be read only once",
+                        option);
     all.shard = 0;
     all.shards = 1;
     ffd_status status = ffd_jobs_open(&all, &m->source, error);
@@ -164,7 +165,7 @@ ffd_status ffd_batch_measure(const job_source_desc *jobs, const pool_desc *pool,
 ffd_status ffd_batch_count_vertices(const job_source_desc *jobs, const pool_desc *pool, uint64_t *vertices,
                                     bool *found, ffd_error *error)
 {
-    measuring m = {.window = 1, .counts = true}; /* one after the other: the first one counts */
+    measuring m = {.window = 1, .counts = true}; /* one at a time, as the first readable mesh counts */
     pool_desc counters = *pool;
     counters.workers = 1;
     counters.count = true;

@@ -1,5 +1,5 @@
-/* measure.h - what has to be known of the jobs' meshes before the first job: the box round all of them, which
-   they share (`--shared-box`), and how many vertices they have (`--positions`). */
+/* measure.h - measures the jobs' meshes before the first job: their common box (`--shared-box`), and their
+   number of vertices (`--positions`). */
 #ifndef FFD_BATCH_MEASURE_H
 #define FFD_BATCH_MEASURE_H
 
@@ -7,15 +7,15 @@
 #include "batch/manifest/job_source.h"
 #include "batch/pool.h"
 
-/* Reads the mesh of every job, of all shards, in the workers. A job that is not valid, or whose mesh cannot
-   be read, is left out: it fails by itself later. The files of the meshes come into files, where they are
-   wanted. Ends early where the program is asked to end. Errors: those of the manifest and the workers;
-   FFD_E_ARGUMENT for a manifest that cannot be read twice. */
+/* Measures the meshes of all jobs, of all shards, in workers. Skips an invalid job or an unreadable mesh,
+   which fails by itself later. wants_files: add the files of the meshes to `files`. Ends early if the program
+   is interrupted. Errors: those of the manifest and the workers; FFD_E_ARGUMENT for a manifest that cannot be
+   read twice. */
 ffd_status ffd_batch_measure(const job_source_desc *jobs, const pool_desc *pool, bool wants_files,
                              shown_box *box, path_list *files, ffd_error *error);
 
-/* Counts the vertices of the first mesh that can be read, in a worker. Returns 0 in *vertices and false in
- *found where there is none. Errors: those of the manifest and the workers. */
+/* Counts the vertices of the first readable mesh, in a worker. *found: false (and *vertices 0) if there is
+   none. Errors: those of the manifest and the workers. */
 ffd_status ffd_batch_count_vertices(const job_source_desc *jobs, const pool_desc *pool, uint64_t *vertices,
                                     bool *found, ffd_error *error);
 

@@ -1,7 +1,8 @@
 #include "batch/mesh_states.h"
 #include "base/little_endian.h"
 
-/* Bits of a state that are kept: a number of the table has 39, and one says whether the mesh was told. */
+/* Bits of a state that fit into the table: its numbers have 39 bits, and one says whether a warning was
+   given. */
 #define STATE_BITS 38
 #define TOLD 1u
 

@@ -1,5 +1,5 @@
-/* mesh_states.h - in which state the jobs of a run have read each mesh: outputs of two states are not to be
-   mixed without a word. */
+/* mesh_states.h - detects that jobs of a run have read different states of a mesh, so that their outputs are
+   not mixed without a warning. */
 #ifndef FFD_BATCH_MESH_STATES_H
 #define FFD_BATCH_MESH_STATES_H
 
@@ -7,15 +7,15 @@
 #include "batch/manifest/file_table.h"
 #include "batch/pool.h"
 
-/* All zeros: none is known. */
+/* All zeros: empty. */
 typedef struct mesh_states {
-    file_table first; /* of each mesh: of the state that was read first, and whether another one was told */
+    file_table first; /* for each mesh: its first state, and whether a warning was given */
 } mesh_states;
 
-/* Notes the state that an ended job has read its mesh in, and adds a line to the job's log where a job before
-   it has read another one: once for each mesh. Errors: FFD_E_MEMORY. */
+/* Records the state of the mesh that an ended job has read. Appends a warning to its log, once for each mesh,
+   if an earlier job has read another state. Errors: FFD_E_MEMORY. */
 ffd_status ffd_states_note(mesh_states *states, pool_task *task, ffd_error *error);
-/* Leaves none. */
+/* Frees the table; leaves all zeros. */
 void ffd_states_free(mesh_states *states);
 
 #endif

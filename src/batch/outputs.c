@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The format that an option of the job names, or else a path. */
+/* Returns the format that an option of the job gives, or else that of a path. */
 static ffd_format format_of(const batch_job *job, const char *option, const char *path)
 {
     const char *const value = ffd_job_option(job, option);
@@ -19,12 +19,12 @@ static ffd_format format_of(const batch_job *job, const char *option, const char
     return ffd_format_from_name(name);
 }
 
-/* This decides what a job may write beside its output, and copy with it. */
+/* The formats, which determine what a job writes beside its output and copies with it. */
 typedef struct output_kind {
-    const char *input; /* its path from here */
+    const char *input; /* path of the input */
     ffd_format from, to;
-    const mesh_format *format; /* of the output; NULL: none is known */
-    bool is_kept;              /* it is that of the input */
+    const mesh_format *format; /* of the output; NULL: unknown */
+    bool is_kept;              /* input and output have the same one */
 } output_kind;
 
 static output_kind kind_of(const batch_job *job)
@@ -36,7 +36,7 @@ static output_kind kind_of(const batch_job *job)
     return (output_kind){input, from, to, format, format == ffd_format_table(from)};
 }
 
-/* Whether what the mesh refers to goes with the output. */
+/* Whether resources of the mesh are copied with the output. */
 static bool has_copies(const batch_job *job, const output_kind *kind)
 {
     const char *const resources = ffd_job_option(job, "resources");
@@ -87,7 +87,7 @@ ffd_status ffd_outputs_learn(run_outputs *outputs, const batch_job *job, size_t 
     return status;
 }
 
-/* Lists the files beside the output. One in place keeps its own. */
+/* Lists the files beside the output. In place, the mesh keeps its own. */
 static ffd_status list_beside(const run_outputs *outputs, const batch_job *job, const output_kind *kind,
                               path_list *files, ffd_error *error)
 {
@@ -117,7 +117,8 @@ static void refuse(const char *manifest, batch_job *job, const char *file, uint6
         ffd_fail_file(&job->error, FFD_E_INVALID, job->input, "%s", what);
 }
 
-/* Whether a job before writes a file, by its own name or as a copy, or the run does, and in which line. */
+/* Whether an earlier job writes a file, as an output or as a copy, or the run does. *line: of that job; 0:
+   the run. */
 static bool is_taken(const run_outputs *outputs, const hash128 *file, uint64_t *line)
 {
     uint64_t number;
@@ -129,7 +130,7 @@ static bool is_taken(const run_outputs *outputs, const hash128 *file, uint64_t *
     return true;
 }
 
-/* Copies of equal files, as of one texture in many folders, are one file. */
+/* Copies of identical files may share a target, as one texture in many folders. */
 static bool is_same_copy(const char *a, const char *b)
 {
     file_input bytes;
@@ -155,7 +156,7 @@ static ffd_status add_copy(run_outputs *outputs, const hash128 *file, const char
     return ffd_files_put(&outputs->copies, file, outputs->copied_count++, error);
 }
 
-/* Notes a file that the job copies, or refuses the job. */
+/* Claims the target of a file that the job copies, or refuses the job. */
 static ffd_status claim_copy(run_outputs *outputs, const char *manifest, batch_job *job, const char *source,
                              ffd_error *error)
 {
@@ -179,7 +180,7 @@ static ffd_status claim_copy(run_outputs *outputs, const char *manifest, batch_j
     return status;
 }
 
-/* Notes the files that the job writes, or refuses it. */
+/* Claims the files that the job writes, or refuses the job. */
 static ffd_status claim_files(run_outputs *outputs, const char *manifest, batch_job *job,
                               const path_list *files, ffd_error *error)
 {

@@ -7,27 +7,27 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Seconds that running jobs have to finish when all are to be stopped; and that a worker has for removing
-   what it was writing. Both together are less than a second. */
+/* Seconds for running jobs to finish when all are stopped, and again for a worker to remove unfinished files.
+   Together they stay below a second. */
 #define GRACE 0.4
 
 typedef struct pool_worker {
     worker_process *process; /* NULL: not started, or ended */
     pool_task *task;         /* NULL: idle */
-    byte_buffer answer;      /* what has come of it */
-    hash128 mesh;            /* of the task before or now */
+    byte_buffer answer;      /* bytes received so far */
+    hash128 mesh;            /* of the current or last task */
     bool has_mesh, timed_out, stopped, retires;
-    bool was_told;   /* of its task */
+    bool was_told;   /* the task was sent */
     bool is_ending;  /* its time is up */
     double deadline; /* 0: none */
 } pool_worker;
 
 struct worker_pool {
-    pool_desc desc;             /* its workers above 0 */
-    int processors;             /* that they share */
-    pool_worker *workers;       /* desc.workers */
-    worker_process **processes; /* the same, for waiting */
-    bool rehearsed;             /* of a dry run: a job was tried, all but the writing */
+    pool_desc desc;             /* with desc.workers > 0 */
+    int processors;             /* shared by the workers */
+    pool_worker *workers;       /* desc.workers entries */
+    worker_process **processes; /* the same processes, as an array to wait for */
+    bool rehearsed;             /* dry run: a job was tried, all but writing */
     pool_counts counts;
 };
 
@@ -69,9 +69,9 @@ static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_t
 {
     const pool_desc *const desc = &pool->desc;
     const batch_job *const job = &task->job;
-    byte_buffer text = {0}; /* with the head before it: two messages would wake the worker twice */
+    byte_buffer text = {0}; /* sent together with its header: two messages would wake the worker twice */
     wire_task head;
-    memset(&head, 0, sizeof head); /* the bytes between members too: they are sent */
+    memset(&head, 0, sizeof head); /* also clears padding, which is sent */
     ffd_buffer_append(&text, &head, sizeof head);
     ffd_buffer_append(&text, job->words.data, job->words.size);
     ffd_buffer_append(&text, job->content.data, job->content.size);
@@ -124,7 +124,7 @@ static bool is_of(const pool_worker *worker, const pool_task *task)
     return worker->has_mesh && ffd_hash_equal(&worker->mesh, &task->mesh);
 }
 
-/* Whether another worker has the task's mesh already. */
+/* Whether another worker has loaded the task's mesh. */
 static bool is_taken(const worker_pool *pool, const pool_worker *worker, const pool_task *task)
 {
     for (int i = 0; i < pool->desc.workers; i++)
@@ -133,9 +133,9 @@ static bool is_taken(const worker_pool *pool, const pool_worker *worker, const p
     return false;
 }
 
-/* The first task whose mesh the worker has, or nobody. If there is none, the first one of all whose mesh is
-   not large: to read it once more costs less than a processor that waits. Of a large one N workers would take
-   N times the memory, while the threads of one are as many. */
+/* Chooses the next task of a worker: the first one whose mesh the worker has, or no other worker has. Else
+   the first one with a mesh that is not large: reading it again is cheaper than an idle processor. A large
+   mesh in N workers would take N times the memory, while one worker can use as many threads. */
 static pool_task *choose(const worker_pool *pool, const pool_worker *worker, pool_task *const *tasks,
                          size_t count)
 {
@@ -151,8 +151,8 @@ static pool_task *choose(const worker_pool *pool, const pool_worker *worker, poo
     return first;
 }
 
-/* Counts the tasks that can run at the same time, with those that run: one a worker at most, and one a large
-   mesh. */
+/* Counts the tasks that can run at the same time, including running ones: at most one a worker, and one for
+   each large mesh. */
 static int count_runnable(const worker_pool *pool, pool_task *const *tasks, size_t count)
 {
     int found = (int)ffd_pool_running(pool);
@@ -192,13 +192,13 @@ ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t co
         const ffd_status status =
             worker->process ? FFD_OK : ffd_process_start(WORKER_NAME, &worker->process, error);
         if (status && ffd_pool_running(pool) > 0)
-            return FFD_OK; /* with those that there are */
+            return FFD_OK; /* go on with the workers that exist */
         if (status)
             return status;
         pool->counts.workers += !worker->has_mesh;
         begin_task(pool, worker, task);
         const int share = pool->processors / count_runnable(pool, tasks, count);
-        /* If it cannot be sent, the worker has ended, which shows when its answer is read. */
+        /* If sending fails, the worker has ended; that shows when its answer is read. */
         worker->was_told = send_task(pool, worker, task,
                                      desc->threads ? desc->threads
                                      : share < 1   ? 1
@@ -217,7 +217,7 @@ static void end_task(pool_worker *worker, wire_outcome outcome)
     worker->deadline = 0;
 }
 
-/* Takes what a look has found: the task goes back. */
+/* Takes the result of a look; the task goes back to the window. */
 static void take_look(pool_worker *worker, const wire_answer *head, const char *copied)
 {
     pool_task *const task = worker->task;
@@ -235,7 +235,7 @@ static void take_look(pool_worker *worker, const wire_answer *head, const char *
     worker->deadline = 0;
 }
 
-/* Takes the answer, once it is complete. False if it is not valid. */
+/* Takes a worker's answer if it is complete. Returns false if it is invalid. */
 static bool take_answer(worker_pool *pool, pool_worker *worker)
 {
     byte_buffer *const bytes = &worker->answer;
@@ -282,7 +282,7 @@ static bool take_answer(worker_pool *pool, pool_worker *worker)
     return true;
 }
 
-/* A job's failure that its worker could not report. */
+/* Describes a failure that the worker could not report. */
 static void describe_failure(const worker_pool *pool, const pool_worker *worker, const process_end *end,
                              ffd_error *error)
 {
@@ -310,7 +310,8 @@ static void end_worker(const worker_pool *pool, pool_worker *worker)
     if (!worker->task)
         return;
     pool_task *const task = worker->task;
-    if (!worker->was_told && !task->was_returned) { /* it had ended before: somebody else's turn */
+    if (!worker->was_told &&
+        !task->was_returned) { /* the worker had ended before: give the task to another one, once */
         task->state = task->looks ? TASK_NEW : TASK_WAITS;
         task->was_returned = true;
         worker->task = NULL;
@@ -318,7 +319,7 @@ static void end_worker(const worker_pool *pool, pool_worker *worker)
     }
     describe_failure(pool, worker, &end, &task->failure);
     if (task->job.target) {
-        ffd_restore_output(task->job.target, NULL); /* it may have been killed among the renames */
+        ffd_restore_output(task->job.target, NULL); /* it may have been killed while renaming files */
         ffd_temporary_discard(task->job.target);
     }
     if (task->picture)
@@ -333,7 +334,7 @@ static void receive(worker_pool *pool, pool_worker *worker)
     if (understood && alive && !worker->retires)
         return;
     if (!understood && alive)
-        ffd_process_kill(worker->process); /* its message is not valid */
+        ffd_process_kill(worker->process); /* its message is invalid */
     end_worker(pool, worker);
 }
 
@@ -352,7 +353,7 @@ static void check_time(pool_worker *worker, double now)
     ffd_process_stop(worker->process);
 }
 
-/* Seconds until the next deadline, at most `seconds`. */
+/* Returns the seconds until the next deadline, at most `seconds`. */
 static double time_left(const worker_pool *pool, double seconds)
 {
     const double now = ffd_clock_seconds();

@@ -1,4 +1,4 @@
-/* pool.h - the workers of a batch: which job each does, and how it ended. */
+/* pool.h - the worker processes of a batch: assigns jobs to them and takes their results. */
 #ifndef FFD_BATCH_POOL_H
 #define FFD_BATCH_POOL_H
 
@@ -7,86 +7,88 @@
 #include "batch/wire.h"
 
 typedef struct pool_desc {
-    int workers;        /* jobs at once; 0: one a processor */
-    int threads;        /* of a job; 0: what the others leave it */
-    double timeout;     /* seconds that a job may take; 0: any */
-    const char *origin; /* the name of the manifest, for messages */
+    int workers;        /* number of processes; 0: one for each processor */
+    int threads;        /* of each job; 0: an equal share of the processors */
+    double timeout;     /* limit of a job in seconds; 0: none */
+    const char *origin; /* name of the manifest, for messages */
     bool records, resume, dry, depfile, report, quality, stable, quiet, verbose, measure, count; /* as in
                                                                                                   wire_task */
-    const row_array *rows; /* of the jobs' positions, or NULL */
-    const shown_box *box;  /* that all jobs share, or NULL */
+    const row_array *rows; /* array of positions, or NULL */
+    const shown_box *box;  /* shared box, or NULL */
 } pool_desc;
 
 typedef enum task_state {
-    TASK_WAITS,   /* all files that it writes are known */
-    TASK_NEW,     /* its worker has a look first at what it writes beside its output, and copies with it */
-    TASK_LOOKED,  /* there is such a file: its turn comes when the files of all before it are known */
-    TASK_ORDERED, /* its output is not claimed yet; it waits likewise if its name is not that of a mesh */
+    TASK_WAITS, /* ready to run: all files that it writes are known */
+    TASK_NEW,   /* ready to run, but its worker must first look for files beside and copied with its output */
+    TASK_LOOKED,  /* such files were found: it waits until the files of all earlier jobs are known */
+    TASK_ORDERED, /* its output is not claimed yet; it waits likewise, unless the output has the ending of a
+                     mesh format */
     TASK_RUNS,
     TASK_ENDED,
     TASK_DROPPED
 } task_state;
 
-/* A job on its way through the pool. */
+/* A job of the batch, from reading to its end. */
 typedef struct pool_task {
     batch_job job;
     uint64_t number;    /* in the run, from 0 */
-    hash128 target;     /* which file its output is */
-    hash128 mesh;       /* of the name of its input: a worker goes on with the one that it has */
-    bool is_large;      /* the input: it is left to one worker */
-    bool has_mesh_name; /* the output */
-    job_record record;  /* before: of the last time, where has_record; afterwards: of this time, likewise */
+    hash128 target;     /* identity of the output */
+    hash128 mesh;       /* hash of the input's name: a worker prefers the mesh that it has */
+    bool is_large;      /* the input is large: only one worker may read it */
+    bool has_mesh_name; /* the output has the ending of a mesh format */
+    job_record record;  /* if has_record: before the job, of the last time; after it, of this time */
     bool has_record;
-    byte_buffer figures; /* likewise: of the run that made the output, as JSON, ended by 0; or empty */
+    byte_buffer
+        figures; /* likewise: figures of the run that made the output, as JSON terminated by 0; or empty */
     task_state state;
-    char *picture;            /* its path; NULL: none is wanted */
-    const char *picture_name; /* the part of it below the folder of pictures */
-    bool looks;               /* while it runs: begun when it was new */
-    size_t beside;            /* that a look has found: files beside the output; */
-    byte_buffer copied;       /* and files that may be copied, each path ended by 0 */
-    bool was_returned;        /* by a worker that had ended before it could take it */
-    bool noted;               /* what its end means at once was seen to */
-    bool took_row;            /* its worker may have written to it */
-    /* Once it has ended: */
+    char *picture;            /* path; NULL: none is wanted */
+    const char *picture_name; /* part of that path below the folder of pictures */
+    bool looks;               /* while running: it began as TASK_NEW */
+    size_t beside;            /* result of a look: number of files beside the output, */
+    byte_buffer copied;       /* and files that may be copied, each path terminated by 0 */
+    bool was_returned;        /* a worker had ended before it could take the task */
+    bool noted;               /* its end was handled (ffd_run_note_ends) */
+    bool took_row;            /* its row may have been written to */
+    /* After the end: */
     wire_outcome outcome;
-    bool has_picture; /* it is there, of this job */
+    bool has_picture; /* it exists and shows this job */
     bool has_mesh_state;
-    hash128 mesh_state; /* as wire_answer's state */
-    byte_buffer log;    /* lines for people */
-    byte_buffer rule;   /* of the depfile; or the files of a measured mesh */
+    hash128 mesh_state; /* as in wire_answer.state */
+    byte_buffer log;    /* lines of messages */
+    byte_buffer rule;   /* rule of the depfile; of a measured mesh: its files */
     shown_box box;      /* of a measured mesh */
-    uint64_t vertices;  /* of a mesh whose vertices were to be counted */
-    byte_buffer entry;  /* of the report; empty where no worker has made it */
-    ffd_error failure;  /* of a job whose worker ended, or that was not valid from the start */
+    uint64_t vertices;  /* if only vertices were counted */
+    byte_buffer entry;  /* of the report; empty if no worker has made it */
+    ffd_error failure;  /* of a job whose worker died, or that was invalid from the start */
 } pool_task;
 
 typedef struct worker_pool worker_pool;
 
-/* Makes a pool without workers: they are started when there are tasks. desc's texts must outlive it.
-   Errors: FFD_E_MEMORY. */
+/* Makes a pool. Workers are started when there are tasks. The texts of desc must outlive it. Errors:
+   FFD_E_MEMORY. */
 ffd_status ffd_pool_create(const pool_desc *desc, worker_pool **pool, ffd_error *error);
-/* Gives waiting and new tasks, which are listed in their order with gaps (NULL), to idle workers. Errors: no
+/* Assigns ready tasks to idle workers. tasks: in the order of the jobs; entries may be NULL. Errors: no
    worker can be started. */
 ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t count, ffd_error *error);
-/* Waits until a task has ended, at most for this many seconds, and takes note of what has happened. */
+/* Waits at most this many seconds for a worker's answer, and handles what has happened. */
 void ffd_pool_wait(worker_pool *pool, double seconds);
-/* The number of tasks that run. */
+/* Returns the number of running tasks. */
 size_t ffd_pool_running(const worker_pool *pool);
-/* What the jobs have cost beyond themselves. */
+/* Statistics for --verbose. */
 typedef struct pool_counts {
-    uint64_t workers; /* that were given jobs */
+    uint64_t workers; /* number of workers used */
     share_counts jobs;
 } pool_counts;
 /* Returns the counts so far. */
 pool_counts ffd_pool_counts(const worker_pool *pool);
-/* Gives running tasks a moment to finish, then ends the others as failures. */
+/* Gives running tasks a moment to finish, then fails the others. */
 void ffd_pool_stop(worker_pool *pool);
-/* Ends the workers. Sets *pool to NULL; it may be NULL before. */
+/* Ends the workers and sets *pool to NULL, which it may be already. */
 void ffd_pool_destroy(worker_pool **pool);
 
-/* Whether a task has not begun, but for a look. */
+/* Whether a task has not run, except for a look. */
 bool ffd_task_is_pending(const pool_task *task);
-/* Whether all files that a task writes are known, or there will be none. */
+/* Whether all files that a task writes are known, or it writes none. */
 bool ffd_task_is_settled(const pool_task *task);
 /* Frees a task with its job and texts. */
 void ffd_task_free(pool_task *task);

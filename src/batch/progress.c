@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Seconds between bars, and between lines. */
+/* Seconds between updates of the bar; between lines. */
 #define BAR_SECONDS 0.1
 #define LINE_SECONDS 10.0
 
@@ -25,7 +25,7 @@ static void clear_bar(batch_progress *progress)
     progress->drawn = false;
 }
 
-/* "3:07", "2:15:09" */
+/* Writes a duration, such as "3:07" or "2:15:09". */
 static void format_time(double seconds, char *text, size_t capacity)
 {
     const uint64_t whole = (uint64_t)(seconds + 0.5), hours = whole / 3600;
@@ -35,7 +35,7 @@ static void format_time(double seconds, char *text, size_t capacity)
         snprintf(text, capacity, "%d:%02d", (int)(whole / 60), (int)(whole % 60));
 }
 
-/* "1234 jobs, 3 failed, 812/s, 0:07 left" */
+/* Writes the state, such as "1234 jobs, 3 failed, 812/s, 0:07 left". */
 static void describe(const batch_progress *progress, const batch_counts *counts, double fraction, char *text,
                      size_t capacity)
 {

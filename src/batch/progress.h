@@ -1,5 +1,5 @@
-/* progress.h - shows people on standard error how far a batch is: a bar that is drawn again and again on a
-   terminal, else a line now and then. */
+/* progress.h - shows the progress of a batch on standard error: a bar that is redrawn on a terminal, else a
+   line from time to time. */
 #ifndef FFD_BATCH_PROGRESS_H
 #define FFD_BATCH_PROGRESS_H
 
@@ -11,18 +11,18 @@ typedef struct batch_counts {
 } batch_counts;
 
 typedef struct batch_progress {
-    bool quiet, bar; /* bar: it is a terminal */
+    bool quiet, bar; /* bar: standard error is a terminal */
     bool drawn;      /* a bar is on the screen */
     double begin, last;
 } batch_progress;
 
-/* Starts the clock. quiet: nothing but the lines of ffd_progress_print is written. */
+/* Starts the clock. quiet: only ffd_progress_print writes. */
 void ffd_progress_begin(batch_progress *progress, bool quiet);
-/* Writes the progress if it is time to. fraction: of all jobs; negative if it is not known. */
+/* Shows the progress if an update is due. fraction: of all jobs; negative: unknown. */
 void ffd_progress_show(batch_progress *progress, const batch_counts *counts, double fraction);
-/* Writes lines "ffd: ..." of a log, each ended by a line break, and moves the bar out of their way. */
+/* Writes lines of a log as "ffd: ...". Each must end in a line break. Removes the bar before. */
 void ffd_progress_print(batch_progress *progress, const char *lines);
-/* Writes the last line: what was done, and in which time. done: what counts->done are. */
+/* Writes the final line with the counts and the time. done: the word for counts->done. */
 void ffd_progress_end(batch_progress *progress, const batch_counts *counts, const char *done,
                       const char *remark);
 

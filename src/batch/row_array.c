@@ -12,10 +12,10 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Bytes that are read or written at once: whole vertices of either type. */
+/* Bytes per read or write: whole vertices of either number type. */
 #define PIECE ((size_t)3 * 8 * 4096)
 
-/* Seconds between looks at a file that another run makes. */
+/* Seconds between checks of a file that another run is making. */
 #define LOOK 0.02
 
 static size_t number_size(const row_array *array)
@@ -28,7 +28,7 @@ static size_t vertex_size(const row_array *array)
     return 3 * number_size(array);
 }
 
-/* Both are known not to overflow (ffd_rows_check_size). */
+/* No overflow: ffd_rows_check_size was called. */
 static uint64_t row_size(const row_array *array)
 {
     return array->vertices * vertex_size(array);
@@ -57,7 +57,7 @@ static uint64_t row_begin(const row_array *array, uint64_t row)
     return make_head(array, head) + row * row_size(array);
 }
 
-/* Opens the file if it is this array. */
+/* Opens the file, if it is this array. */
 static ffd_status open_array(const row_array *array, update_file **file, ffd_error *error)
 {
     char head[NPY_HEADER_CAPACITY], found[NPY_HEADER_CAPACITY];
@@ -87,7 +87,7 @@ ffd_status ffd_rows_find(const row_array *array, bool *is_there, ffd_error *erro
     return status;
 }
 
-/* Fills memory with numbers of the array's type that are NaN. */
+/* Fills bytes with NaNs of the array's number type. */
 static void fill_nan(const row_array *array, unsigned char *bytes, size_t size)
 {
     for (size_t i = 0; i < size; i += number_size(array))
@@ -117,7 +117,7 @@ static ffd_status write_empty(const row_array *array, file_output *output, ffd_e
     return status;
 }
 
-/* busy: another run was writing the file. */
+/* *busy: another run is writing the file. */
 static ffd_status begin(const row_array *array, bool force, file_output **made, bool *busy, ffd_error *error)
 {
     ffd_status status = ffd_output_create(made, error);
@@ -156,7 +156,7 @@ ffd_status ffd_rows_make(const row_array *array, bool force, file_output **made,
     }
     if (busy && ffd_interrupt_requested())
         return FFD_OK;
-    /* It has appeared meanwhile. */
+    /* Another run has made it meanwhile. */
     return status == FFD_E_EXISTS && !force ? ffd_rows_find(array, &is_there, error) : status;
 }
 
@@ -184,7 +184,7 @@ static ffd_status fail_writing(const row_array *array, ffd_error *error)
     return ffd_fail_errno(error, array->path, "cannot be written");
 }
 
-/* Makes the beginning of a row NaN: what follows is not to be taken for positions. */
+/* Sets the first vertex of a row to NaN, so that the rest does not count as positions. */
 static bool unmark(const row_array *array, uint64_t row, update_file *file)
 {
     unsigned char nan[24];
@@ -207,7 +207,7 @@ ffd_status ffd_row_check(const row_array *array, const double *positions, size_t
     return FFD_OK;
 }
 
-/* Stores numbers as the array has them. */
+/* Converts numbers to the array's number type. */
 static void store_numbers(const row_array *array, const double *numbers, size_t count, unsigned char *bytes)
 {
     for (size_t i = 0; i < count; i++)
@@ -217,7 +217,7 @@ static void store_numbers(const row_array *array, const double *numbers, size_t 
             store_float(bytes + 4 * i, (float)numbers[i]);
 }
 
-/* Writes vertices from `first` on. */
+/* Writes the vertices from `first` on. */
 static ffd_status write_vertices(const row_array *array, uint64_t row, update_file *file,
                                  const double *positions, size_t first, size_t count, unsigned char *piece,
                                  ffd_error *error)

@@ -12,7 +12,7 @@
 #include <inttypes.h>
 #include <string.h>
 
-/* "ALL.json" for "ALL.npy"; a shard has its own, since all of them may write at a time. */
+/* Returns "ALL.json" for "ALL.npy". Shards write at the same time, so each has its own. */
 static char *name_list(const batch_desc *desc)
 {
     const job_source_desc *const jobs = &desc->jobs;
@@ -25,7 +25,7 @@ static char *name_list(const batch_desc *desc)
     return ffd_buffer_finish(&name);
 }
 
-/* What the array has to hold. */
+/* Finds the size of the array. */
 static ffd_status measure(run_rows *rows, const batch_desc *desc, ffd_error *error)
 {
     job_source_desc all = desc->jobs;
@@ -40,7 +40,7 @@ static ffd_status measure(run_rows *rows, const batch_desc *desc, ffd_error *err
     return status ? status : ffd_rows_check_size(&rows->array, error);
 }
 
-/* An array that is there stays where others may write to it, or this run goes on with it. */
+/* An existing array stays if others may be writing to it, or if this run resumes it. */
 static ffd_status make_array(run_rows *rows, const batch_desc *desc, ffd_error *error)
 {
     const bool is_shared = desc->jobs.shards > 1, joins = is_shared || desc->jobs.resume;
@@ -54,14 +54,14 @@ static ffd_status make_array(run_rows *rows, const batch_desc *desc, ffd_error *
         return FFD_OK;
     const bool force = desc->force || is_shared;
     status = is_there && rows->replaces ? ffd_rows_check_replaced(&rows->array, error) : FFD_OK;
-    if (!status && (is_there || desc->pool.dry)) /* what would be refused is, before any work */
+    if (!status && (is_there || desc->pool.dry)) /* report all refusals before any work */
         status = ffd_output_check(rows->array.path, force, error);
     if (status || desc->pool.dry)
         return status;
     return ffd_rows_make(&rows->array, rows->replaces, &rows->made, error);
 }
 
-/* The report beside the array is a file of its own. */
+/* Checks that the report beside the array does not replace other files. */
 static ffd_status check_list(const run_rows *rows, const batch_desc *desc, ffd_error *error)
 {
     if (!rows->list)
@@ -86,8 +86,7 @@ ffd_status ffd_run_rows_open(run_rows *rows, const batch_desc *desc, ffd_error *
 
 ffd_status ffd_run_rows_place(run_rows *rows, const batch_desc *desc, ffd_error *error)
 {
-    /* A run that was interrupted ends without a job: what an earlier one has made is worth more than nothing.
-     */
+    /* An interrupted run ends without jobs; it must not replace what an earlier run has made. */
     if (desc->pool.dry || ffd_interrupt_requested())
         return FFD_OK;
     const ffd_status status = ffd_report_create(rows->list, desc->pool.stable, NULL, &rows->report, error);

@@ -13,9 +13,9 @@
 
 struct run_view {
     run_view_desc desc;
-    char *page;          /* its path */
-    char *resolved;      /* the folder without links; as it was named where it is not there (a dry run) */
-    file_output *output; /* of the page; NULL: of a dry run */
+    char *page;          /* path of the page */
+    char *resolved;      /* the folder with links resolved; as given if it does not exist (dry run) */
+    file_output *output; /* of the page; NULL: dry run */
     view_index index;
 };
 
@@ -79,7 +79,7 @@ const char *ffd_run_view_page(const run_view *view)
     return view->page;
 }
 
-/* The part of an output's path below the folder of outputs. */
+/* Returns the part of an output's path below the folder of outputs. */
 static const char *below(const char *out_dir, const char *output)
 {
     size_t length = out_dir ? strlen(out_dir) : 0;
@@ -90,7 +90,7 @@ static const char *below(const char *out_dir, const char *output)
     return output + length;
 }
 
-/* The name of a picture below the folder, to be freed; NULL: memory ran out. */
+/* Returns the picture's name below the folder, freed by the caller; NULL: out of memory. */
 static char *name_picture(const char *out_dir, const char *output)
 {
     byte_buffer name = {0};
@@ -106,7 +106,7 @@ static char *name_picture(const char *out_dir, const char *output)
     return text;
 }
 
-/* The same of a job that has a row of positions and no output. */
+/* Likewise for a job with a row of positions and no output. */
 static char *name_picture_of_row(uint64_t row)
 {
     byte_buffer name = {0};
@@ -121,7 +121,7 @@ ffd_status ffd_run_view_name(const run_view *view, pool_task *task, hash128 *fil
         job->output ? name_picture(view->desc.out_dir, job->output) : name_picture_of_row(job->row);
     char *const whole = name ? ffd_path_join(view->resolved, name) : NULL;
     task->picture = name ? ffd_path_join(view->desc.folder, name) : NULL;
-    if (whole) /* the same before and after folders below this one are made */
+    if (whole) /* same identity whether or not folders below exist yet */
         *file = ffd_file_identity(whole);
     if (task->picture)
         task->picture_name = task->picture + strlen(task->picture) - strlen(name);

@@ -13,7 +13,7 @@ static void append_error(const ffd_error *error, byte_buffer *text)
     ffd_buffer_text(text, "\n");
 }
 
-/* "FILE:LINE: " */
+/* Appends "FILE:LINE: ". */
 static void append_place(const batch_job *job, const char *manifest, byte_buffer *text)
 {
     ffd_error place;
@@ -23,7 +23,7 @@ static void append_place(const batch_job *job, const char *manifest, byte_buffer
     ffd_buffer_text(text, line);
 }
 
-/* "NAME=VALUE, NAME=VALUE: ", whatever the values are made of. */
+/* Appends "NAME=VALUE, NAME=VALUE: ", with control characters replaced. */
 static void append_settings(const batch_job *job, byte_buffer *text)
 {
     const size_t before = text->size;
@@ -55,7 +55,7 @@ void ffd_task_lines(const pool_task *task, const char *manifest, byte_buffer *te
     for (const char *line = lines.data, *const end = line + lines.size, *next; line < end; line = next) {
         next = memchr(line, '\n', (size_t)(end - line));
         next = next ? next + 1 : end;
-        /* What is wrong with the line of the manifest has its place already. */
+        /* An error of the manifest line has its place already. */
         if (!place || (size_t)(next - line) < place || memcmp(line, lead.data, place) != 0)
             ffd_buffer_append(text, lead.data, lead.size);
         ffd_buffer_append(text, line, (size_t)(next - line));

@@ -21,17 +21,17 @@
 
 typedef struct batch_worker {
     const worker_program *program;
-    hash_cache hashes; /* of files, likewise */
-    ffd_share *share;  /* what the next job may have in common with the last */
-    byte_buffer text;  /* of the task: words, then content, then what input and output are called */
+    hash_cache hashes; /* of the files of all jobs so far */
+    ffd_share *share;  /* cache between jobs */
+    byte_buffer text;  /* of the task: words, content, names */
     char **words;
     size_t word_capacity;
     byte_buffer log, entry, rule, figures; /* of the answer */
     byte_buffer message;                   /* the whole answer */
-    void *opened; /* of the task: what its description and its result lend; or NULL */
+    void *opened;                          /* of the task: owns what desc borrows; or NULL */
 } batch_worker;
 
-/* The word after this one. */
+/* Returns the next word. */
 static const char *next_word(const char *word)
 {
     return word + strlen(word) + 1;
@@ -52,14 +52,14 @@ static bool read_task(batch_worker *worker, wire_task *task)
     return !worker->text.failed;
 }
 
-/* A line of the job's log. */
+/* Context of a job's log. */
 typedef struct job_log {
     byte_buffer *lines;
     const char *subject;
     bool quiet, verbose;
 } job_log;
 
-/* One line, whatever files are called. */
+/* Appends one line. File names may contain control characters, which are replaced. */
 static void add_line(byte_buffer *lines, const char *subject, const char *line)
 {
     const size_t before = lines->size;
@@ -77,7 +77,7 @@ static void log_line(void *user, ffd_log_level level, const char *line)
         add_line(log->lines, log->subject, line);
 }
 
-/* Whether a line is among the first lines of a text. */
+/* Whether a text of `size` bytes contains a line. */
 static bool has_line(const char *text, size_t size, const char *line, size_t length)
 {
     for (const char *at = text, *end; at < text + size; at = end + 1) {
@@ -88,8 +88,8 @@ static bool has_line(const char *text, size_t size, const char *line, size_t len
     return false;
 }
 
-/* Drops lines from an offset on that stand before it too: what the job says its picture need not say again.
- */
+/* Removes the lines from offset `before` on that also occur earlier: the picture repeats warnings of its
+   job. */
 static void drop_repeated(byte_buffer *lines, size_t before)
 {
     size_t kept = before, length;
@@ -111,15 +111,15 @@ static void log_error(batch_worker *worker, const ffd_error *error)
     add_line(&worker->log, "", line);
 }
 
-/* The row that a job's positions go to. */
+/* The row for a job's positions. */
 typedef struct job_row {
     row_array array;
     uint64_t number;
-    bool dry;          /* nothing is to be written */
+    bool dry;          /* write nothing */
     ffd_error failure; /* why it was not written */
 } job_row;
 
-/* Takes the positions of a job (ffd_deform_desc). */
+/* An ffd_positions_function. */
 static ffd_status take_positions(void *user, const double *positions, size_t count)
 {
     job_row *const row = user;
@@ -127,7 +127,7 @@ static ffd_status take_positions(void *user, const double *positions, size_t cou
                     : ffd_row_write(&row->array, row->number, positions, count, &row->failure);
 }
 
-/* Hashes all that the job has made: the output, whose hash is known or else read (NULL), and the row. */
+/* Hashes the results of a job: the output (known: its hash; NULL: read it) and the row. */
 static bool hash_results(const ffd_deform_desc *desc, const hash128 *known, const job_row *row, hash128 *hash)
 {
     hash128 parts[2];
@@ -144,7 +144,7 @@ static bool hash_results(const ffd_deform_desc *desc, const hash128 *known, cons
     return true;
 }
 
-/* Whether what the job makes is there, and what it would become. */
+/* Whether the results exist and are what the job would make. */
 static bool is_up_to_date(const wire_task *task, const ffd_deform_desc *desc, const job_row *row,
                           wire_answer *answer)
 {
@@ -153,8 +153,7 @@ static bool is_up_to_date(const wire_task *task, const ffd_deform_desc *desc, co
            ffd_hash_equal(&answer->record.outputs, &task->record.outputs);
 }
 
-/* What is kept for the next jobs counts as memory too: if there is too little, there may
-   be enough without it. */
+/* The cache counts against the memory limit: if the limit is reached, tries again without it. */
 static ffd_status deform(ffd_deform_desc *desc, ffd_job_result *result)
 {
     byte_buffer *const lines = ((const job_log *)desc->log_user)->lines;
@@ -167,14 +166,14 @@ static ffd_status deform(ffd_deform_desc *desc, ffd_job_result *result)
     return ffd_deform_run(desc, result, NULL);
 }
 
-/* Looks at the files that the output is made of, for what has to be known of them. */
+/* Hashes the input files and makes the depfile rule, as far as wanted. */
 static ffd_status look_at_files(batch_worker *worker, const wire_task *task, const fingerprint_words *words,
                                 const ffd_deform_desc *desc, wire_answer *answer, ffd_error *error)
 {
     path_list files = {0};
     if (!task->records && !task->dry && !task->depfile)
         return FFD_OK;
-    /* For a plan it also shows that they can be read. */
+    /* In a dry run this also shows that they can be read. */
     ffd_status status =
         ffd_fingerprint_inputs(desc, words, &worker->hashes, &files, &answer->record.inputs, error);
     if (!status && task->depfile && !task->dry && desc->output)
@@ -183,7 +182,7 @@ static ffd_status look_at_files(batch_worker *worker, const wire_task *task, con
     return status;
 }
 
-/* Looks for what would be refused, but for what only the mesh shows. */
+/* Dry run: makes the checks that do not need the mesh. */
 static ffd_status plan(const ffd_deform_desc *desc, ffd_error *error)
 {
     const chain_files files = {.paths = desc->lattices,
@@ -196,15 +195,15 @@ static ffd_status plan(const ffd_deform_desc *desc, ffd_error *error)
     return status ? status : ffd_chain_check(&files, error);
 }
 
-/* The picture, of a job that was done or that a gate refuses, with what it adds to the log. result: of the
-   job; it becomes that of the picture where this is all that is made, or fails. */
+/* Draws the picture of a job that was done or refused by a gate. result: of the job; replaced if only the
+   picture is made (is_all), or if drawing fails. */
 static ffd_status draw(const char *picture, bool is_all, const ffd_deform_desc *desc, wire_answer *answer,
                        ffd_job_result *result)
 {
     ffd_job_result drawn;
     byte_buffer *const lines = ((const job_log *)desc->log_user)->lines;
     const size_t before = lines->size;
-    ffd_job_picture_make_room(desc);
+    ffd_job_picture_drop_mesh(desc);
     const ffd_status status = ffd_job_picture_write(picture, desc, desc->force || desc->if_changed, &drawn);
     drop_repeated(lines, before);
     answer->has_picture = status == FFD_OK || status == FFD_E_GATE;
@@ -215,8 +214,8 @@ static ffd_status draw(const char *picture, bool is_all, const ffd_deform_desc *
     return result->status;
 }
 
-/* What was just written: the output is read again where its bytes were not hashed on their way. A job that
-   went on after a look copies nothing. */
+/* Hashes the results that were just written. The output is read again unless its bytes were hashed while
+   written. A job that went on after a look copies nothing. */
 static bool know_results(batch_worker *worker, const wire_task *task, const ffd_deform_desc *desc,
                          const job_row *row, hash128 *results)
 {
@@ -229,7 +228,7 @@ static bool know_results(batch_worker *worker, const wire_task *task, const ffd_
     return hash_results(desc, &output, row, results);
 }
 
-/* Deforms, and takes note of what that cost. */
+/* Deforms, and fills in the counts. */
 static ffd_status make_output(batch_worker *worker, const wire_task *task, ffd_deform_desc *desc,
                               wire_answer *answer, ffd_job_result *result)
 {
@@ -242,7 +241,7 @@ static ffd_status make_output(batch_worker *worker, const wire_task *task, ffd_d
     return status;
 }
 
-/* Refuses a row that may not be replaced, before anything else: whatever becomes of the job, it stays. */
+/* Refuses to replace a row, before anything else, so that it stays whatever happens to the job. */
 static ffd_status take_row(const wire_task *task, const job_row *row, const ffd_deform_desc *desc,
                            wire_answer *answer, ffd_error *error)
 {
@@ -257,15 +256,15 @@ static ffd_status take_row(const wire_task *task, const job_row *row, const ffd_
                                row->number);
 }
 
-/* Refuses a picture that may not be replaced, before anything is written. */
+/* Refuses to replace a picture, before anything is written. */
 static ffd_status check(const wire_task *task, const char *picture, ffd_deform_desc *desc, ffd_error *error)
 {
-    /* This run may replace what an earlier one left. */
+    /* A resumed run may replace what an earlier one left. */
     desc->force = desc->force || task->resume;
     return picture ? ffd_job_picture_check(picture, desc->force || desc->if_changed, error) : FFD_OK;
 }
 
-/* What went wrong with a row is said as it is. */
+/* Restores the error of the row, which the callback cannot return. */
 static ffd_status judge_row(const job_row *row, ffd_status status, ffd_error *error)
 {
     if (!row || !status || !row->failure.status)
@@ -274,7 +273,7 @@ static ffd_status judge_row(const job_row *row, ffd_status status, ffd_error *er
     return error->status;
 }
 
-/* Deforms, or sees that it need not; and draws the picture (NULL: none is wanted). */
+/* Deforms, unless the results are up to date, and draws the picture (NULL: none is wanted). */
 static ffd_status do_job(batch_worker *worker, const wire_task *task, const char *picture, job_row *row,
                          ffd_deform_desc *desc, wire_answer *answer, ffd_job_result *result)
 {
@@ -296,14 +295,14 @@ static ffd_status do_job(batch_worker *worker, const wire_task *task, const char
         return status;
     if (picture && (status == FFD_OK || status == FFD_E_GATE))
         status = draw(picture, has_output, desc, answer, result);
-    /* What was written exists: a signal that ends the worker now is seen first. */
+    /* Results exist now: defer a signal that would end the worker, so that they are recorded. */
     ffd_process_defer_stop(true);
     if (!status && task->records)
         answer->has_record = has_output || know_results(worker, task, desc, row, &answer->record.outputs);
     return status;
 }
 
-/* What is wrong with the words is wrong with the line that they come from. Returns the status. */
+/* An error in the words is an error in the line of the manifest. Returns the status. */
 static ffd_status blame_manifest(const char *origin, const wire_task *task, ffd_error *error)
 {
     char what[sizeof error->message];
@@ -313,7 +312,7 @@ static ffd_status blame_manifest(const char *origin, const wire_task *task, ffd_
     return ffd_fail_line(error, FFD_E_INVALID, origin, (size_t)task->line, "%s", what);
 }
 
-/* Measures the mesh of a job for the box that all jobs share. */
+/* Measures the mesh of a job, for the shared box. */
 static ffd_status measure(batch_worker *worker, const wire_task *task, const ffd_deform_desc *desc,
                           wire_answer *answer, ffd_error *error)
 {
@@ -326,7 +325,7 @@ static ffd_status measure(batch_worker *worker, const wire_task *task, const ffd
     return status;
 }
 
-/* Counts the vertices that a row of the job would have. */
+/* Counts the vertices of a job's mesh. */
 static ffd_status count_vertices(const wire_task *task, const ffd_deform_desc *desc, wire_answer *answer,
                                  ffd_error *error)
 {
@@ -339,8 +338,8 @@ static ffd_status count_vertices(const wire_task *task, const ffd_deform_desc *d
     return status;
 }
 
-/* Looks at the mesh for what the job writes beside its output and copies with it. If there is such a file,
-   answer->looked is set. What cannot be read fails the job itself. */
+/* Opens the mesh to find the files that the job writes beside its output and copies with it. answer->looked:
+   there are some. An unreadable mesh fails the job later. */
 static ffd_status look(batch_worker *worker, const ffd_deform_desc *desc, wire_answer *answer,
                        ffd_error *error)
 {
@@ -357,7 +356,7 @@ static ffd_status look(batch_worker *worker, const ffd_deform_desc *desc, wire_a
     return status == FFD_E_MEMORY ? ffd_fail_memory(error) : FFD_OK;
 }
 
-/* Does all that is wanted of a job. */
+/* Does everything that the task asks for. */
 static ffd_status do_task(batch_worker *worker, const wire_task *task, const fingerprint_words *words,
                           const char *picture, job_row *row, ffd_deform_desc *desc, wire_answer *answer,
                           ffd_job_result *result)
@@ -365,7 +364,7 @@ static ffd_status do_task(batch_worker *worker, const wire_task *task, const fin
     const ffd_shared_box shared = {.box = task->box};
     const unsigned losses = ffd_mapping_losses();
     ffd_status status = take_row(task, row, desc, answer, &result->error);
-    /* What a killed run had set aside is to be read. */
+    /* Files that a killed run has set aside are restored before they are read. */
     if (!status && task->look)
         status = look(worker, desc, answer, &result->error);
     if (status || answer->looked)
@@ -453,10 +452,10 @@ static void answer_task(batch_worker *worker, const wire_task *task, wire_answer
     result.status = run_words(worker, task, answer, &result);
     if (result.status) {
         answer->outcome = OUTCOME_FAILED;
-        if (!task->measure && !task->count) /* the job itself will say it */
+        if (!task->measure && !task->count) /* the job itself reports it later */
             log_error(worker, &result.error);
     }
-    /* One that has run out of memory may do so again, with any job. */
+    /* After running out of memory, a worker may fail with any job. */
     answer->retires = result.status == FFD_E_MEMORY;
     if (answer->has_record && !task->dry) {
         ffd_report_figures(&result, &worker->figures);
@@ -469,8 +468,8 @@ static void answer_task(batch_worker *worker, const wire_task *task, wire_answer
     worker->opened = NULL;
 }
 
-/* Sent at once: each part would wake the first process. If memory runs out for the message, its head says
-   so. */
+/* Sends one message: several would wake the first process several times. If memory runs out for it, sends a
+   header that says so. */
 static bool send_answer(batch_worker *worker, wire_answer *answer)
 {
     const byte_buffer *const texts[] = {&worker->log, &worker->entry, &worker->rule, &worker->figures};
@@ -512,7 +511,7 @@ int ffd_worker_run(const worker_program *program)
     bool going = !worker.text.failed;
     while (going && read_task(&worker, &task)) {
         wire_answer answer;
-        memset(&answer, 0, sizeof answer); /* the bytes between members too: they are sent */
+        memset(&answer, 0, sizeof answer); /* also clears padding, which is sent */
         ffd_shown_box_clear(&answer.box);
         worker.log.size = worker.entry.size = worker.rule.size = worker.figures.size = 0;
         answer_task(&worker, &task, &answer);

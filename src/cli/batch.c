@@ -9,18 +9,18 @@
 #include <string.h>
 
 typedef struct settings {
-    cli_deform_settings jobs; /* what the options that each job can have are checked with */
+    cli_deform_settings jobs; /* for checking the options that a job can have */
     const char *journal, *table, *ignored, *pattern, *view, *positions;
-    int type; /* of the positions' numbers, by type_names; negative: not given */
+    int type; /* index into type_names; negative: not given */
     int at_once;
     uint64_t shard, shards;
     double timeout;
     bool resume, stop, keep_going, dry;
-    batch_default *defaults; /* what was given of them */
+    batch_default *defaults; /* the options given */
     size_t default_count;
 } settings;
 
-/* Options that a job can have and that say something of the batch here. */
+/* Options that a job can have too, but that have a meaning of their own for the batch. */
 static const char *const common[] = {"lattice", "out-dir", "report",  "report-stable", "threads", "quiet",
                                      "verbose", "help",    "depfile", "shared-box",    "morph",   NULL};
 
@@ -83,7 +83,7 @@ static bool is_own(const char *name)
     return false;
 }
 
-/* What is said of all jobs. */
+/* Records an option that applies to all jobs. */
 static bool note_default(void *context, const cli_option *option, const char *value)
 {
     settings *s = context;
@@ -99,7 +99,7 @@ static bool note_default(void *context, const cli_option *option, const char *va
     return true;
 }
 
-/* What is wrong with the array of positions. */
+/* Returns what is wrong with the options for the array of positions, or NULL. */
 static const char *wrong_positions(const settings *s, const cli_words *words)
 {
     const cli_deform_settings *jobs = &s->jobs;
@@ -116,9 +116,9 @@ static const char *wrong_positions(const settings *s, const cli_words *words)
     if (jobs->job.morph_count > 0)
         return "--morph cannot be used with --positions: a row is of one deformation";
     if (jobs->depfile_path)
-        return "--depfile cannot be used with --positions: it is of meshes";
+        return "--depfile cannot be used with --positions: its rules are for meshes";
     if (words->count && cli_is_stream(words->words[0]))
-        return "--positions reads the jobs twice, which standard input cannot be";
+        return "--positions reads the jobs twice, but standard input can be read only once";
     return NULL;
 }
 
@@ -204,16 +204,17 @@ static int run_batch(const settings *s, const cli_words *words)
     return failed ? EXIT_NO : EXIT_DONE;
 }
 
+static int act(const cli_command *command, void *context, const cli_words *words)
+{
+    const settings *const s = context;
+    const char *const why = wrong(s, words);
+    return why ? cli_usage(command, why) : run_batch(s, words);
+}
+
 static int run(const cli_command *command, int count, char **arguments)
 {
     settings s = {.type = -1};
-    cli_words words;
-    int code = EXIT_USAGE;
-    if (cli_job_begin(command, &s.jobs.job, count, arguments, &words, &code)) {
-        const char *why = wrong(&s, &words);
-        code = why ? cli_usage(command, why) : run_batch(&s, &words);
-        cli_job_end(&s.jobs.job, &words);
-    }
+    const int code = cli_job_run(command, &s.jobs.job, count, arguments, act);
     free(s.defaults);
     return code;
 }

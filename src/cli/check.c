@@ -69,7 +69,7 @@ static void print_folds(const ffd_job_result *result, const char *lattice)
         print_witness(folds, lattice);
 }
 
-/* Why the edge with the largest step is torn. */
+/* Says why the edge with the largest step is torn. */
 static void print_tear_reason(const ffd_job_result *result)
 {
     const uint64_t faces = result->disagreeing, stay = result->tear_stays;
@@ -140,7 +140,7 @@ static void print_summary(const cli_job *job, const char *input, const ffd_job_r
     print_rig(&result->rig);
 }
 
-/* The check, and where one is asked for, its picture. */
+/* Runs the check, and draws the picture if one is wanted. */
 static ffd_status run_job(const settings *s, const ffd_deform_desc *desc, ffd_job_result *result)
 {
     ffd_view_desc view;
@@ -166,26 +166,25 @@ static int check(cli_job *job, const char *input, ffd_report *report)
     return cli_job_ended(job, &result, input, NULL, report);
 }
 
+static int act(const cli_command *command, void *context, const cli_words *words)
+{
+    settings *const s = context;
+    const char *why = words->count ? cli_job_mistake(&s->job, words, words->count) : "needs IN";
+    if (!why && s->picture && words->count > 1)
+        why = "--picture is of one mesh, but several IN are given";
+    if (!why && s->picture && s->job.report && ffd_paths_meet(s->job.report, s->picture))
+        why = "the report would replace the picture";
+    if (why)
+        return cli_usage(command, why);
+    if (!cli_job_knows_formats(&s->job, words, words->count))
+        return EXIT_USAGE;
+    return cli_job_run_all(&s->job, words, words->count, check);
+}
+
 static int run(const cli_command *command, int count, char **arguments)
 {
     settings s = {0};
-    cli_words words;
-    int code = EXIT_USAGE;
-    if (!cli_job_begin(command, &s.job, count, arguments, &words, &code))
-        return code;
-    const char *why = words.count ? cli_job_mistake(&s.job, &words, words.count) : "needs IN";
-    if (!why && s.picture && words.count > 1)
-        why = "--picture is of one mesh, but several IN are given";
-    if (!why && s.picture && s.job.report && ffd_paths_meet(s.job.report, s.picture))
-        why = "the report would replace the picture";
-    if (why)
-        code = cli_usage(command, why);
-    else if (cli_job_knows_formats(&s.job, &words, words.count))
-        code = cli_job_run_all(&s.job, &words, words.count, check);
-    else
-        code = EXIT_USAGE;
-    cli_job_end(&s.job, &words);
-    return code;
+    return cli_job_run(command, &s.job, count, arguments, act);
 }
 
 static const cli_example examples[] = {

@@ -1,70 +1,70 @@
-/* command.h - what a command is, and what all commands do alike. */
+/* command.h - the description of a command, and code that all commands share. */
 #ifndef FFD_CLI_COMMAND_H
 #define FFD_CLI_COMMAND_H
 
 #include "cli/options.h"
 #include <ffd/ffd.h>
 
-/* Exit codes that are not those of a status. */
+/* Exit codes that do not come from an ffd_status. */
 enum { EXIT_DONE = 0, EXIT_NO = 1, EXIT_USAGE = 2 };
 
 typedef struct cli_example {
-    const char *what; /* it does, as "deform a mesh" */
-    const char *line; /* of a shell, "ffd deform ..." */
+    const char *what; /* what it does: "deform a mesh" */
+    const char *line; /* shell command, "ffd deform ..." */
 } cli_example;
 
-/* What there is to know of a command: help, the man page and the completions of shells are made from it. */
+/* Everything about a command. Help, man page and shell completions are made from it. */
 typedef struct cli_command {
     const char *name;     /* "lattice new" */
     const char *summary;  /* one line */
-    const char *synopsis; /* lines of usage, each ended by a line break */
+    const char *synopsis; /* lines of usage, each with its line break */
     cli_table options;
-    /* Gets the arguments after the name. Returns the exit code. */
+    /* Runs the command. Gets the arguments behind its name. Returns the exit code. */
     int (*run)(const struct cli_command *command, int count, char **arguments);
-    /* What the positional arguments are, in the words of options' values: "MESH". */
+    /* The kind of the positional arguments, in the words for options' values: "MESH". */
     const char *arguments;
-    const cli_example *examples; /* ended by NULL; a test runs them, one after the other */
+    const cli_example *examples; /* terminated by NULL; a test runs them in order */
 } cli_command;
 
-/* The commands, each in the source of its name. */
+/* The commands, each in the source file of its name. */
 extern const cli_command cli_batch, cli_deform, cli_check, cli_embed, cli_compare, cli_info, cli_lattice_new,
     cli_view, cli_jacobian, cli_report_merge;
 
-/* Prints the help text of the command. */
+/* Prints the help of a command to stdout. */
 void cli_print_help(const cli_command *command);
 
-/* What is common to commands that log: filled by the options -q, -v. */
+/* Logging of a command, set by the options -q and -v. */
 typedef struct cli_logging {
     bool quiet, verbose;
-    /* The mesh that is being worked on, "-" for standard input; NULL: the lines name it themselves. */
+    /* The current mesh, "-" for standard input; NULL: lines name it themselves. */
     const char *subject;
 } cli_logging;
 
 /* An ffd_log_function whose user is a cli_logging. */
 void cli_log(void *user, ffd_log_level level, const char *line);
 
-/* The name of an input in messages. */
+/* Returns the name of an input for messages. */
 const char *cli_display_name(const char *path);
 
-/* Whether the format of a mesh is known: as given, or by the name's ending. Else says what is missing. */
+/* Whether the format of a mesh is known: given, or by the ending of its name. Complains if not. */
 bool cli_knows_format(const char *path, ffd_format given);
 
-/* Says what went wrong, returns its exit code. */
+/* Prints an error. Returns its exit code. */
 int cli_fail(const ffd_error *error);
 
-/* "usage: ..." for a wrong number of words. */
+/* Prints why the arguments are wrong, and the usage. Returns the exit code. */
 int cli_usage(const cli_command *command, const char *why);
 
-/* What a command does with its settings and words. Returns the exit code. */
+/* Runs a command with its parsed settings and words. Returns the exit code. */
 typedef int cli_action(const cli_command *command, void *settings, const cli_words *words);
 
-/* Runs a command: parses into settings and words, and lets the action do the rest. Returns the exit code: the
-   action's, or that of a complaint or of help. */
+/* Parses the arguments into settings and words, and runs the action. Returns its exit code, or that of a
+   complaint or of help. */
 int cli_run(const cli_command *command, void *settings, const bool *help, int count, char **arguments,
             cli_action *action);
 
-/* Parses into settings and words (to be freed by the caller). Returns 0 to go on, else with *exit_code to
-   end: after a complaint, or help. */
+/* Parses the arguments into settings and words, which the caller frees. Returns true to go on; else the
+   command must end with *exit_code, after a complaint or help. */
 bool cli_begin(const cli_command *command, void *settings, const bool *help, int count, char **arguments,
                cli_words *words, int *exit_code);
 

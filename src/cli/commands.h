@@ -4,7 +4,7 @@
 
 #include "cli/command.h"
 
-/* All commands, in the order of the help, ended by NULL. */
+/* All commands, in the order of the help, terminated by NULL. */
 extern const cli_command *const cli_commands[];
 
 #endif

@@ -42,7 +42,7 @@ static const cli_option options[] = {
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
 
-/* file's format, where other is what it is compared with. */
+/* Describes a file. other: the one that it is compared with, for its format. */
 static ffd_source source(const settings *s, const char *file, const char *other)
 {
     const bool other_only = strcmp(other, "-") == 0 && strcmp(file, "-") != 0;
@@ -50,7 +50,7 @@ static ffd_source source(const settings *s, const char *file, const char *other)
     return (ffd_source){.path = file, .format = format, .memory = s->memory, .strict = s->strict};
 }
 
-/* "3 differences: 2 positions, 1 other" */
+/* Prints the counts, such as "3 differences: 2 positions, 1 other". */
 static void print_counts(const ffd_comparison *comparison)
 {
     static const char *const names[FFD_DIFFERENCE_KIND_COUNT] = {

@@ -1,4 +1,4 @@
-/* deform.c - ffd deform: one mesh to a file, many to a folder; and the same for the jobs of a batch. */
+/* deform.c - ffd deform: one mesh to a file, or many to a folder; and single jobs of a batch. */
 #include "cli/deform.h"
 #include "base/file/folder.h"
 #include "cli/morphs.h"
@@ -48,7 +48,8 @@ static int compare_paths(const void *a, const void *b)
     return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
-/* Two jobs with one output would overwrite each other's. Returns 0 or an exit code, after a complaint. */
+/* Refuses inputs of equal names: their outputs would overwrite each other. Returns 0, or an exit code after a
+   complaint. */
 static int refuse_equal_outputs(const cli_words *inputs, int (*compare)(const void *, const void *))
 {
     const char **sorted = calloc(inputs->count, sizeof *sorted);
@@ -72,7 +73,7 @@ static int refuse_equal_outputs(const cli_words *inputs, int (*compare)(const vo
     return code;
 }
 
-/* "folder/name", to be freed; NULL after a complaint. */
+/* Returns "folder/name", freed by the caller; NULL after a complaint. */
 static char *join(const char *folder, const char *name)
 {
     const size_t length = strlen(folder), capacity = length + strlen(name) + 2;
@@ -84,7 +85,7 @@ static char *join(const char *folder, const char *name)
     return path;
 }
 
-/* A missing folder would fail every job; it is said once, before any work. */
+/* A missing folder would fail every job: complain once, before any work. */
 static int refuse_missing_folder(const char *folder)
 {
     char *inside = join(folder, ".");
@@ -140,7 +141,7 @@ static int run_job(cli_job *job, const char *input, ffd_report *report)
     return code;
 }
 
-/* Whether IN or OUT is meant for all words or for the first of two. */
+/* Whether all words are IN; else they are IN and OUT. */
 static bool has_many(const settings *s)
 {
     return s->in_place || s->out_dir;
@@ -155,7 +156,7 @@ static const char *wrong_words(const settings *s, const cli_words *words)
     return words->count > 2 ? "more than IN and OUT: several IN need --out-dir or --in-place" : NULL;
 }
 
-/* A depfile is of files that are made anew, and is none of those of the job. */
+/* A depfile needs outputs with names, and must not be a file of a job. */
 static const char *wrong_depfile(const settings *s, const cli_words *words)
 {
     const bool stream = cli_is_stream(s->depfile_path);
@@ -190,7 +191,7 @@ static const char *wrong_outputs(const settings *s, const cli_words *words, size
     return s->depfile_path ? wrong_depfile(s, words) : NULL;
 }
 
-/* All that can be refused before the first job. Returns 0 or an exit code, after a complaint. */
+/* Makes all checks before the first job. Returns 0, or an exit code after a complaint. */
 static int refuse(const cli_command *command, settings *s, const cli_words *words, size_t inputs)
 {
     const char *why = s->job.lattice_count ? wrong_words(s, words) : NULL;
@@ -214,14 +215,14 @@ static int refuse(const cli_command *command, settings *s, const cli_words *word
     return code || !s->out_dir || words->count == 1 ? code : refuse_missing_folder(s->out_dir);
 }
 
-/* The jobs and, if all of them succeed, the depfile. */
+/* Runs the jobs and, if all succeed, writes the depfile. */
 static int run_all(settings *s, const cli_words *words, size_t inputs)
 {
     ffd_error error;
     if (s->depfile_path && ffd_depfile_create(s->depfile_path, &s->depfile, &error))
         return cli_fail(&error);
-    /* What a killed run had set aside counts for the shared box too. If it cannot come back, its job says
-     * why. */
+    /* The shared box needs files that a killed run has set aside. A file that cannot be restored is reported
+       by its own job. */
     for (size_t i = 0; i < inputs && s->in_place && s->job.shares_box; i++)
         ffd_restore_output(words->words[i], NULL);
     int code = cli_job_run_all(&s->job, words, inputs, run_job);
@@ -231,19 +232,18 @@ static int run_all(settings *s, const cli_words *words, size_t inputs)
     return code;
 }
 
+static int act(const cli_command *command, void *context, const cli_words *words)
+{
+    settings *const s = context;
+    const size_t inputs = has_many(s) || !words->count ? words->count : 1;
+    const int code = refuse(command, s, words, inputs);
+    return code ? code : run_all(s, words, inputs);
+}
+
 static int run(const cli_command *command, int count, char **arguments)
 {
     settings s = {0};
-    cli_words words;
-    int code = EXIT_USAGE;
-    if (!cli_job_begin(command, &s.job, count, arguments, &words, &code))
-        return code;
-    const size_t inputs = has_many(&s) || !words.count ? words.count : 1;
-    code = refuse(command, &s, &words, inputs);
-    if (!code)
-        code = run_all(&s, &words, inputs);
-    cli_job_end(&s.job, &words);
-    return code;
+    return cli_job_run(command, &s.job, count, arguments, act);
 }
 
 static const cli_example examples[] = {

@@ -72,7 +72,7 @@ static int embed(settings *s, const char *input)
     return ffd_embed_run(&desc, &result, &error) ? cli_fail(&error) : EXIT_DONE;
 }
 
-/* --force is for older outputs, not for what is read. */
+/* --force replaces older outputs, but never an input. */
 static bool replaces_input(const settings *s, const char *output, const char *mesh)
 {
     return output && strcmp(output, "-") != 0 &&

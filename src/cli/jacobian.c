@@ -121,20 +121,19 @@ static const char *mistake(const settings *s, const cli_words *words)
     return cli_job_mistake(&s->job, words, 1);
 }
 
+static int act(const cli_command *command, void *context, const cli_words *words)
+{
+    settings *const s = context;
+    const char *const why = mistake(s, words);
+    if (why)
+        return cli_usage(command, why);
+    return cli_job_knows_formats(&s->job, words, 1) ? jacobian(s, words->words[0]) : EXIT_USAGE;
+}
+
 static int run(const cli_command *command, int count, char **arguments)
 {
     settings s = {.by = FFD_BY_POINTS};
-    cli_words words;
-    int code = EXIT_USAGE;
-    if (!cli_job_begin(command, &s.job, count, arguments, &words, &code))
-        return code;
-    const char *const why = mistake(&s, &words);
-    if (why)
-        code = cli_usage(command, why);
-    else if (cli_job_knows_formats(&s.job, &words, 1))
-        code = jacobian(&s, words.words[0]);
-    cli_job_end(&s.job, &words);
-    return code;
+    return cli_job_run(command, &s.job, count, arguments, act);
 }
 
 static const cli_example examples[] = {

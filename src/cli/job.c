@@ -1,6 +1,6 @@
 #include "cli/job.h"
 #include "base/file/folder.h"
-#include "cli/nearest.h"
+#include "base/text/words.h"
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -21,8 +21,8 @@ static const ffd_gate gates[] = {FFD_GATE_FOLDS,   FFD_GATE_OUTSIDE, FFD_GATE_MU
                                  FFD_GATE_INVALID, FFD_GATE_TEAR,    FFD_GATE_TEAR,     FFD_GATE_FLIPPED,
                                  FFD_GATE_FLIPPED, FFD_GATE_EDGES};
 
-/* Takes the value of a gate: of several the strictest. text: "LENGTH" or "N", and what follows in the list;
- * NULL: there is none. */
+/* Sets the limit of a gate; of several the strictest counts. text: the limit, followed by the rest of the
+   list; NULL: none. */
 static bool set_gate_value(cli_job *job, const cli_option *option, ffd_gate gate, const char *text,
                            size_t length)
 {
@@ -53,7 +53,7 @@ static bool set_gate_value(cli_job *job, const cli_option *option, ffd_gate gate
     return true;
 }
 
-/* A name ends in '=' where a value follows. */
+/* Whether a word is this gate's name. A name that ends in '=' is followed by a value. */
 static bool is_gate(const char *name, const char *word, size_t length)
 {
     const size_t size = strlen(name);
@@ -63,7 +63,7 @@ static bool is_gate(const char *name, const char *word, size_t length)
 
 static bool add_gate(cli_job *job, const cli_option *option, const char *word, size_t length)
 {
-    cli_nearest nearest = {.word = word, .length = strcspn(word, "=,")};
+    nearest_word nearest = {.word = word, .length = strcspn(word, "=,")};
     for (int i = 0; gate_names[i]; i++) {
         if (is_gate(gate_names[i], word, length)) {
             const size_t size = strlen(gate_names[i]);
@@ -74,14 +74,14 @@ static bool add_gate(cli_job *job, const cli_option *option, const char *word, s
             job->fail_on |= (unsigned)gates[i];
             return taken;
         }
-        cli_nearest_offer(&nearest, gate_names[i]);
+        ffd_nearest_offer(&nearest, gate_names[i]);
     }
     cli_complain("--%s: unknown gate \"%.*s\" (nearest: %s)", option->name, (int)(length < 60 ? length : 60),
                  word, nearest.best);
     return false;
 }
 
-/* A list: folds,outside. */
+/* Parses a list such as "folds,outside". */
 static bool add_gates(void *context, const cli_option *option, const char *value)
 {
     for (;;) {
@@ -198,6 +198,17 @@ void cli_job_end(cli_job *job, cli_words *words)
     free_lists(job);
 }
 
+int cli_job_run(const cli_command *command, cli_job *job, int count, char **arguments, cli_action *action)
+{
+    cli_words words;
+    int code = EXIT_USAGE;
+    if (!cli_job_begin(command, job, count, arguments, &words, &code))
+        return code;
+    code = action(command, job, &words);
+    cli_job_end(job, &words);
+    return code;
+}
+
 bool cli_is_stream(const char *path)
 {
     return strcmp(path, "-") == 0 || strcmp(path, "/dev/stdin") == 0 || strcmp(path, "/dev/stdout") == 0;
@@ -211,11 +222,11 @@ static const char *wrong_streams(const cli_job *job, const cli_words *words, siz
     for (size_t i = 0; i < job->lattice_count; i++)
         others += cli_is_stream(job->lattices[i]);
     if (meshes && job->shares_box)
-        return "--shared-box reads each IN twice, which standard input cannot be";
+        return "--shared-box reads each IN twice, but standard input can be read only once";
     return meshes + others > 1 || (others && inputs > 1) ? "standard input can be read only once" : NULL;
 }
 
-/* A report replaces the file of its name, which must not be a file of the job. */
+/* A report replaces an existing report, but must not be a file of the job. */
 static const char *wrong_report(const cli_job *job, const cli_words *words)
 {
     if (!job->report || cli_is_stream(job->report))
@@ -348,7 +359,7 @@ static int run_each(cli_job *job, const cli_words *words, size_t inputs, cli_job
     return code;
 }
 
-/* Lays the shared box round all inputs. One that cannot be read is left out: its own job says so. */
+/* Measures the shared box of all inputs. An unreadable one is skipped, as its own job reports it. */
 static int share_box(cli_job *job, const cli_words *words, size_t inputs)
 {
     ffd_error error;

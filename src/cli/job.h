@@ -1,4 +1,4 @@
-/* job.h - what the commands that deform meshes have in common: deform and check. */
+/* job.h - what the commands that deform meshes share: deform and check. */
 #ifndef FFD_CLI_JOB_H
 #define FFD_CLI_JOB_H
 
@@ -6,7 +6,7 @@
 #include "cli/names.h"
 #include "cli/values.h"
 
-/* Filled by cli_job_options. Each command's own settings begin with it. */
+/* Set by cli_job_options. Each command's settings begin with it. */
 typedef struct cli_job {
     const char **lattices;
     size_t lattice_count;
@@ -21,8 +21,8 @@ typedef struct cli_job {
     const char **morphs; /* morph_count names, owned: of the targets that the lattices make */
     size_t morph_count;
     cli_names clips;
-    ffd_job_result *morph_results; /* of the job that was last, morph_count */
-    unsigned fail_on;              /* of ffd_gate, with the values of some: */
+    ffd_job_result *morph_results; /* of the last job, morph_count entries */
+    unsigned fail_on;              /* bits of ffd_gate, with limits: */
     double tear_most, edges_most;
     uint64_t flipped_most;
     const char *report;
@@ -30,24 +30,24 @@ typedef struct cli_job {
     ffd_format input_format;
     uint64_t memory;
     bool strict, stable, shares_box;
-    bool own_box;               /* a job laid a lattice's box round its own mesh */
+    bool own_box;               /* a job has used a box round its own mesh */
     ffd_shared_box *shared_box; /* of all jobs, or NULL */
-    ffd_written *written;       /* by the jobs so far */
-    ffd_share *share;           /* of several jobs: all have one set of lattices */
+    ffd_written *written;       /* files written so far */
+    ffd_share *share;           /* cache of several jobs, which all have the same lattices */
     cli_logging logging;
     bool help;
 } cli_job;
 
 extern const cli_option cli_job_options[];
 
-/* A setter of settings that begin with a cli_job: adds a lattice file. */
+/* Setter for settings that begin with a cli_job: adds a lattice file. */
 bool cli_add_lattice(void *settings, const cli_option *option, const char *value);
 
 /* The names of ffd_outside, ffd_space and ffd_isa. */
 extern const char *const cli_outside_names[], *const cli_space_names[], *const cli_isa_names[];
 
-/* Options of deform's that a command line may keep when "deform" becomes another command. They do nothing
-   there. */
+/* Options of ffd deform without effect on other commands. They are accepted, so that "deform" in a command
+   line can be replaced by another command. */
 typedef struct cli_kept {
     int resources;
     const char *depfile;
@@ -57,7 +57,7 @@ typedef struct cli_kept {
 /* The names of ffd_resources. */
 extern const char *const cli_resources_names[];
 
-/* Their entries in a command's table; `at` is where its settings have a cli_kept. */
+/* Entries for these options in a command's table. at: the offset of the cli_kept in its settings. */
 #define CLI_KEPT_HELP "without effect: no mesh is written"
 #define CLI_KEPT_OPTIONS(at)                                                                                 \
     {"in-place", 0, NULL, CLI_KEPT_HELP, cli_set_flag, (at) + offsetof(cli_kept, in_place), NULL},           \
@@ -68,37 +68,38 @@ extern const char *const cli_resources_names[];
             (at) + offsetof(cli_kept, resources), cli_resources_names                                        \
     }
 
-/* Parses the arguments into job, the head of the command's settings, and words. True to go on: then
-   cli_job_end must follow; else *exit_code is there. */
+/* Parses the arguments into job, the head of the command's settings, and words. Returns true to go on;
+   cli_job_end must follow. Else *exit_code is set. */
 bool cli_job_begin(const cli_command *command, cli_job *job, int count, char **arguments, cli_words *words,
                    int *exit_code);
-/* Frees the words and what the options have filled. */
+/* Frees the words and the memory of options. */
 void cli_job_end(cli_job *job, cli_words *words);
+/* cli_run for commands with a job, the head of their settings: the action's settings are these. */
+int cli_job_run(const cli_command *command, cli_job *job, int count, char **arguments, cli_action *action);
 
-/* Returns what is wrong with the options, given the meshes that are read (the first inputs of words; the
-   others are written), or NULL. */
+/* Returns what is wrong with the options, or NULL. inputs: the number of words that are read; the others are
+   written. */
 const char *cli_job_mistake(const cli_job *job, const cli_words *words, size_t inputs);
-/* The same, where there may be no lattice. */
+/* The same for commands that work without a lattice. */
 const char *cli_job_option_mistake(const cli_job *job, const cli_words *words, size_t inputs);
 
-/* Whether the formats of all inputs are known. Else says what is missing. */
+/* Whether the formats of all inputs are known. Complains if not. */
 bool cli_job_knows_formats(const cli_job *job, const cli_words *words, size_t inputs);
 
-/* Whether a path is standard input or output, by any of their names. */
+/* Whether a path means standard input or output, under any of their names. */
 bool cli_is_stream(const char *path);
 
-/* The job on one mesh, but for its output. */
+/* Fills desc for one mesh, except for its output. */
 void cli_job_describe(cli_job *job, const char *input, ffd_deform_desc *desc);
 
-/* Says how a job ended if it failed, and adds it to the report (NULL: there is none). Returns its exit code.
- */
+/* Complains if a job failed, and adds it to the report (NULL: none). Returns its exit code. */
 int cli_job_ended(cli_job *job, const ffd_job_result *result, const char *input, const char *output,
                   ffd_report *report);
 
-/* Does one mesh; returns its exit code. */
+/* Runs the job for one mesh. Returns its exit code. */
 typedef int (*cli_job_function)(cli_job *job, const char *input, ffd_report *report);
 
-/* Runs one for each input, and writes the report. */
+/* Runs the job for each input, and writes the report. Returns the exit code. */
 int cli_job_run_all(cli_job *job, const cli_words *words, size_t inputs, cli_job_function one);
 
 #endif

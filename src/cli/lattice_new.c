@@ -12,12 +12,12 @@ typedef struct settings {
     ffd_format input_format;
     uint64_t memory;
     bool strict, force, help;
-    bool has_axis, has_margins; /* has_margins: --margin has three numbers */
+    bool has_axis, has_margins; /* has_margins: --margin was given three numbers */
     cli_names only, allowed;    /* selectors; extensions */
     cli_logging logging;
 } settings;
 
-/* Splits "4,4,4" (or "4" for all three) into texts. */
+/* Splits "4,4,4" into three texts; "4" stands for three. */
 static bool split_three(const char *value, char part[3][32])
 {
     for (int a = 0; a < 3; a++) {

@@ -1,8 +1,8 @@
 /* main.c - the program ffd: finds the command and runs it. */
+#include "base/text/words.h"
 #include "batch/worker.h"
 #include "cli/commands.h"
 #include "cli/deform.h"
-#include "cli/nearest.h"
 #include <errno.h>
 #include <signal.h>
 #include <stdio.h>
@@ -17,7 +17,7 @@ static void print_overview(void)
            "list the commands, or show the help of one", "--version", "the version");
 }
 
-/* The number of words of a command's name that the arguments begin with, or 0. */
+/* Returns the number of words of a command's name, if the arguments begin with it; else 0. */
 static int name_words(const cli_command *command, int count, char **arguments)
 {
     const char *space = strchr(command->name, ' ');
@@ -39,7 +39,7 @@ static const cli_command *find_command(int count, char **arguments, int *words)
     return NULL;
 }
 
-/* "lattice" or "report" alone means its only command where help is asked for. */
+/* In a request for help, "lattice" or "report" alone means its only command. */
 static const cli_command *only_command_of(const char *word)
 {
     return strcmp(word, "lattice") == 0  ? &cli_lattice_new
@@ -47,18 +47,18 @@ static const cli_command *only_command_of(const char *word)
                                          : NULL;
 }
 
-/* A command of two words is near by its first one where only one was typed. */
-static void offer_command(cli_nearest *nearest, const char *name, bool one_word)
+/* If a single word was typed, a command of two words is compared by its first word. */
+static void offer_command(nearest_word *nearest, const char *name, bool one_word)
 {
     const size_t length = strcspn(name, " ");
     char first[32];
     if (!one_word || !name[length]) {
-        cli_nearest_offer(nearest, name);
+        ffd_nearest_offer(nearest, name);
         return;
     }
-    cli_nearest own = {.word = nearest->word, .length = nearest->length};
+    nearest_word own = {.word = nearest->word, .length = nearest->length};
     snprintf(first, sizeof first, "%.*s", (int)length, name);
-    cli_nearest_offer(&own, first);
+    ffd_nearest_offer(&own, first);
     if (nearest->best && own.distance >= nearest->distance)
         return;
     nearest->best = name;
@@ -71,10 +71,10 @@ static int unknown_command(int count, char **arguments)
     const cli_command *group = only_command_of(arguments[0]);
     const bool two = group && count > 1;
     snprintf(typed, sizeof typed, "%s%s%s", arguments[0], two ? " " : "", two ? arguments[1] : "");
-    cli_nearest nearest = {.word = typed, .length = strlen(typed)};
+    nearest_word nearest = {.word = typed, .length = strlen(typed)};
     for (int i = 0; cli_commands[i]; i++)
         offer_command(&nearest, cli_commands[i]->name, !two);
-    cli_nearest_offer(&nearest, "help");
+    ffd_nearest_offer(&nearest, "help");
     cli_complain("unknown command \"%s\" (nearest: %s)", typed, group ? group->name : nearest.best);
     return EXIT_USAGE;
 }
@@ -117,9 +117,9 @@ static int run_version(int count, char **arguments)
 static int unknown_option(const char *argument)
 {
     static const char *const known[] = {"--help", "--version"};
-    cli_nearest nearest = {.word = argument, .length = strlen(argument)};
+    nearest_word nearest = {.word = argument, .length = strlen(argument)};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-        cli_nearest_offer(&nearest, known[i]);
+        ffd_nearest_offer(&nearest, known[i]);
     cli_complain("unknown option %.60s (nearest: %s; other options follow a command)", argument,
                  nearest.best);
     return EXIT_USAGE;
@@ -147,9 +147,9 @@ static int run(int count, char **arguments)
                    : unknown_command(count, arguments);
 }
 
-/* Where a standard stream is closed, the next file to be opened would take its number, and would receive what
-   is said on it. These files, open for reading only and never closed, take the free numbers first: writing to
-   them stays an error. */
+/* If a standard stream is closed, the next file opened would get its descriptor and receive messages. So
+   these descriptors are taken first by files that are open for reading only and never closed: writing to them
+   remains an error. */
 static void occupy_closed_streams(void)
 {
     FILE *file;
@@ -160,8 +160,7 @@ static void occupy_closed_streams(void)
         fclose(file);
 }
 
-/* Past a limit on the size of files a write shall fail like any other, with a message,
-   and not end the program. */
+/* Beyond a limit on file sizes, a write must fail with a message instead of ending the program. */
 static void ignore_size_signal(void)
 {
 #ifdef SIGXFSZ
@@ -186,7 +185,7 @@ int main(int argc, char **argv)
     if (fflush(stdout) != 0 || ferror(stdout)) {
         cli_complain("standard output: cannot be written%s%s", errno ? ": " : "",
                      errno ? strerror(errno) : "");
-        if (code == EXIT_DONE || code == EXIT_NO) /* nobody has seen the answer */
+        if (code == EXIT_DONE || code == EXIT_NO) /* the output did not reach anyone */
             code = ffd_status_exit_code(FFD_E_IO);
     }
     return code;

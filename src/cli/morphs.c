@@ -2,8 +2,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Copies a name in quotes, of which two stand for one. Returns where the text goes on; NULL: the name has no
- * end. */
+/* Copies a quoted name, in which a doubled quote stands for one. Returns the position behind it; NULL: the
+   closing quote is missing. */
 static const char *copy_quoted(const char *text, char *name)
 {
     for (const char *c = text + 1; *c; c++) {

@@ -6,12 +6,12 @@
 
 /* Setters of a cli_job. */
 
-/* Adds NAME=LATTICE to the lattices and the names of morph targets. */
+/* Adds NAME=LATTICE as a morph target. */
 bool cli_add_morph(void *settings, const cli_option *option, const char *value);
 /* Adds an animation of weights. */
 bool cli_add_clip(void *settings, const cli_option *option, const char *value);
 
-/* Fills desc's morphs. False if memory runs out, after a complaint. */
+/* Sets the morph targets of desc. Returns false if memory runs out, after a complaint. */
 bool cli_morphs_describe(cli_job *job, ffd_deform_desc *desc);
 
 #endif

@@ -1,5 +1,5 @@
 #include "cli/options.h"
-#include "cli/nearest.h"
+#include "base/text/words.h"
 #include <errno.h>
 #include <ffd/ffd.h>
 #include <math.h>
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Where complaints go in place of standard error. */
+/* Buffer for complaints instead of standard error; or NULL. */
 static char *captured;
 static size_t captured_capacity;
 
@@ -25,7 +25,7 @@ void cli_complain(const char *format, ...)
     va_start(arguments, format);
     vsnprintf(line, sizeof line, format, arguments);
     va_end(arguments);
-    /* One line, whatever was on the command line. */
+    /* Control characters from the command line are replaced, so that it stays one line. */
     for (char *c = line; *c; c++)
         if ((unsigned char)*c < 0x20 || *c == 0x7f)
             *c = '?';
@@ -152,7 +152,7 @@ bool cli_set_format(void *settings, const cli_option *option, const char *value)
 
 bool cli_parse_number(const char *text, double *value)
 {
-    /* strtod takes spaces, hexadecimal numbers, infinities and a locale's comma: none of them is meant. */
+    /* Excludes what strtod also accepts: spaces, hexadecimal numbers, infinities, a locale's comma. */
     if (!*text || strspn(text, "+-.0123456789eE") != strlen(text))
         return false;
     char *end;
@@ -193,16 +193,16 @@ const cli_option *cli_next_option(cli_option_walk *walk)
 
 static bool unknown_option(const cli_table *options, const char *name, size_t length)
 {
-    cli_nearest nearest = {.word = name, .length = length};
+    nearest_word nearest = {.word = name, .length = length};
     cli_option_walk walk = cli_begin_walk(options);
     for (const cli_option *option; (option = cli_next_option(&walk));)
-        cli_nearest_offer(&nearest, option->name);
+        ffd_nearest_offer(&nearest, option->name);
     cli_complain("unknown option --%.*s (nearest: --%s)", (int)(length < 60 ? length : 60), name,
                  nearest.best);
     return false;
 }
 
-/* The nearest to a letter is the name that begins with it. */
+/* Complains; suggests the option whose name begins with the letter. */
 static bool unknown_letter(const cli_table *options, char letter)
 {
     cli_option_walk walk = cli_begin_walk(options);
@@ -229,7 +229,7 @@ static bool set(const cli_table *options, void *settings, const cli_option *opti
     return option->set(settings, option, value) && (!options->note || options->note(settings, option, value));
 }
 
-/* --name, --name=value, --name value. *next is the argument after it. */
+/* Parses --name, --name=value or --name value. *next: the following argument. */
 static bool parse_long(const cli_table *options, void *settings, const char *text, char ***next, char **end)
 {
     const char *equals = strchr(text, '=');
@@ -253,7 +253,7 @@ static bool parse_long(const cli_table *options, void *settings, const char *tex
     return set(options, settings, option, value);
 }
 
-/* -q, -lFILE, -l FILE; letters without values may be combined. */
+/* Parses -q, -lFILE or -l FILE. Letters without values may be combined. */
 static bool parse_letters(const cli_table *options, void *settings, const char *text, char ***next,
                           char **end)
 {

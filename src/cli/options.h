@@ -1,4 +1,4 @@
-/* options.h - the options of a command: one table from which words are parsed and help is printed. */
+/* options.h - the options of a command: the same table parses them and prints their help. */
 #ifndef FFD_CLI_OPTIONS_H
 #define FFD_CLI_OPTIONS_H
 
@@ -24,91 +24,92 @@
 
 typedef struct cli_option cli_option;
 
-/* Takes the option's value (NULL where it has none) into the command's settings. Returns false after having
-   said what is wrong with the value (cli_complain). */
+/* Stores the option's value (NULL: it takes none) in the command's settings. Returns false after a complaint
+   (cli_complain) about the value. */
 typedef bool (*cli_setter)(void *settings, const cli_option *option, const char *value);
 
 struct cli_option {
-    const char *name; /* "lattice", without the dashes */
+    const char *name; /* without dashes: "lattice" */
     char letter;      /* 'l', or 0 */
-    /* The name of the value in the help; NULL: the option takes none. Shells complete what words and
-       names of files they know in it (cli/pages/value.h). */
+    /* The value's name in the help; NULL: the option takes none. Shells complete the words and kinds of files
+       in it (cli/pages/value.h). */
     const char *value;
     const char *help;
     cli_setter set;
-    size_t offset; /* of the field that set fills, for the common setters */
-    /* Ended by NULL. Of cli_set_choice: names in the order of the enum; of others: what a list may hold. */
+    size_t offset; /* of the field to set, for the common setters */
+    /* Terminated by NULL. For cli_set_choice: names in the order of the enum; for others: the possible
+       entries of a list. */
     const char *const *choices;
 };
 
-/* The options of a command, in parts that end with a name of NULL. Of options with one name, or one letter,
-   the first counts. */
+/* The options of a command, in arrays that end in an entry without a name. If two options have the same name
+   or letter, the first one counts. */
 typedef struct cli_table {
     const cli_option *first, *more, *base; /* more and base may be NULL */
-    /* Called for every option that was set; or NULL. */
+    /* Called for each option that was set; or NULL. */
     bool (*note)(void *settings, const cli_option *option, const char *value);
 } cli_table;
 
-/* The way through the parts of a table. */
+/* Position in a walk over a table. */
 typedef struct cli_option_walk {
     const cli_table *options;
     const cli_option *at;
     int part;
 } cli_option_walk;
 
-/* Begins a walk over the options that count. */
+/* Starts a walk over the options that count. */
 cli_option_walk cli_begin_walk(const cli_table *options);
 
-/* The next option that counts; NULL after the last. */
+/* Returns the next option; NULL after the last. */
 const cli_option *cli_next_option(cli_option_walk *walk);
 
-/* Positional arguments, in their order. */
+/* Positional arguments, in order. */
 typedef struct cli_words {
     const char **words;
     size_t count;
 } cli_words;
 
-/* Common setters, each for a kind of field at offset. */
+/* Common setters, by the type of the field at offset. */
 
-/* Sets a bool to true. */
+/* bool: set to true. */
 bool cli_set_flag(void *settings, const cli_option *option, const char *value);
-/* A const char *, given once and not empty. */
+/* const char *: given once, and not empty. */
 bool cli_set_text(void *settings, const cli_option *option, const char *value);
-/* An int: a number of threads. */
+/* int: a number of threads. */
 bool cli_set_count(void *settings, const cli_option *option, const char *value);
-/* An int: the index into choices. */
+/* int: index into choices. */
 bool cli_set_choice(void *settings, const cli_option *option, const char *value);
-/* An ffd_format. */
+/* ffd_format. */
 bool cli_set_format(void *settings, const cli_option *option, const char *value);
-/* A double, positive and finite. */
+/* double: positive and finite. */
 bool cli_set_positive(void *settings, const cli_option *option, const char *value);
-/* A length, or with r after it a part of another one. */
+/* A length; or, written with r behind it, a fraction of another length. */
 typedef struct cli_distance {
     double value;
     bool is_relative;
 } cli_distance;
 
-/* A cli_distance. */
+/* cli_distance. */
 bool cli_set_distance(void *settings, const cli_option *option, const char *value);
-/* A uint64_t: bytes, as 700M or 4G. */
+/* uint64_t: bytes, such as 700M or 4G. */
 bool cli_set_bytes(void *settings, const cli_option *option, const char *value);
 
-/* The whole text as a number. */
+/* Parses the whole text as a number. Returns false if it is not one. */
 bool cli_parse_number(const char *text, double *value);
 
-/* Sorts the arguments of a command (without its name) into settings and words. words->words must have space
-   for count entries. Stops where *help (a field of settings) becomes true: what follows is not looked at.
-   False after a complaint. */
+/* Sorts the arguments of a command (without its name) into settings and words. words->words needs capacity
+   for count entries. Stops as soon as *help (a member of settings) becomes true. Returns false after a
+   complaint. */
 bool cli_parse(const cli_table *options, void *settings, const bool *help, int count, char **arguments,
                cli_words *words);
 
 #ifdef __GNUC__
 __attribute__((__format__(__printf__, 1, 2)))
 #endif
-/* Prints one line "ffd: ..." to stderr. */
+/* Prints one line "ffd: ..." to stderr, or to the buffer of cli_capture. */
 void cli_complain(const char *format, ...);
 
-/* From now on a complaint goes to text, without "ffd: "; NULL: to stderr again. */
+/* Redirects complaints to text, without "ffd: "; NULL: back to stderr. */
 void cli_capture(char *text, size_t capacity);
 
 /* Prints the options and their help, one a line. */

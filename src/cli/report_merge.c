@@ -1,4 +1,4 @@
-/* report_merge.c - ffd report merge: the reports of several runs as one. */
+/* report_merge.c - ffd report merge: merges the reports of several runs. */
 #include "cli/command.h"
 #include <string.h>
 

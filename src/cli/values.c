@@ -11,7 +11,7 @@ static bool is_set(const cli_values *values, const char *name, size_t length)
     return false;
 }
 
-/* NAME=VALUE. */
+/* Parses NAME=VALUE. */
 bool cli_add_value(void *settings, const cli_option *option, const char *value)
 {
     cli_values *const values = (cli_values *)(void *)((char *)settings + option->offset);

@@ -1,4 +1,4 @@
-/* values.h - the values of placeholders on the command line: --set NAME=VALUE, repeatable. */
+/* values.h - values of placeholders on the command line: --set NAME=VALUE, repeatable. */
 #ifndef FFD_CLI_VALUES_H
 #define FFD_CLI_VALUES_H
 
@@ -7,13 +7,13 @@
 
 /* All zeros: none. */
 typedef struct cli_values {
-    ffd_setting *set; /* count; their names are owned */
+    ffd_setting *set; /* count entries; their names are owned */
     size_t count;
 } cli_values;
 
 /* A setter: adds to the cli_values at the option's offset. */
 bool cli_add_value(void *settings, const cli_option *option, const char *value);
-/* Leaves none. */
+/* Frees the settings; leaves all zeros. */
 void cli_values_free(cli_values *values);
 
 #endif

@@ -1,4 +1,4 @@
-/* view.c - ffd view: a page or a picture that shows a mesh before and after. */
+/* view.c - ffd view: a page or a picture of a mesh before and after. */
 #include "base/file/folder.h"
 #include "base/file/path.h"
 #include "cli/job.h"
@@ -6,7 +6,7 @@
 
 typedef struct settings {
     cli_job job;
-    const char *output, *deformed; /* deformed: the second mesh; NULL: there is none */
+    const char *output, *deformed; /* deformed: path of the second mesh, or NULL */
     const char *animation;
     double camera[3];
     int color;
@@ -15,18 +15,18 @@ typedef struct settings {
     cli_kept kept;
 } settings;
 
-/* Sides of a picture in pixels, and pictures in a row. */
+/* Limits of the side of a picture in pixels, and of pictures in a row. */
 #define LEAST_SIDE 16
 #define MOST_SIDE 32767
 #define MOST_FRAMES 64
 
-/* Where the camera is, seen from the mesh. */
+/* Directions from the mesh to the camera. */
 typedef struct named_camera {
     const char *name;
     double at[3];
 } named_camera;
 
-/* The last one is where a page opens without an option. */
+/* The last one is the default of a page. */
 static const named_camera cameras[] = {{"front", {0, 0, 1}}, {"back", {0, 0, -1}}, {"left", {-1, 0, 0}},
                                        {"right", {1, 0, 0}}, {"top", {0, 1, 0}},   {"iso", {0, 0, 0}}};
 
@@ -62,7 +62,7 @@ static bool set_camera(void *context, const cli_option *option, const char *valu
     return false;
 }
 
-/* A whole number up to `most`; *text then points behind it. */
+/* Parses a whole number between least and most; *text then points behind it. */
 static bool parse_whole(const char **text, unsigned least, unsigned most, uint32_t *number)
 {
     unsigned value = 0;
@@ -151,29 +151,30 @@ static int show(cli_job *job, const char *input, ffd_report *report)
     return cli_job_ended(job, &result, input, NULL, report);
 }
 
-/* What is wrong where nothing is deformed: files are shown as they are. */
+/* Without a deformation files are shown as they are. Returns the option that does not apply to that, or
+   NULL. */
 static const char *mistake_of_files(const settings *s, const cli_words *words)
 {
     if (s->job.fail_on)
         return "--fail-on judges a deformation: it needs -l, and no OUT-MESH";
     if (s->job.report)
-        return "--report is of a deformation: it needs -l, and no OUT-MESH";
+        return "--report describes a deformation: it needs -l, and no OUT-MESH";
     if (s->job.embedding)
-        return "--embedding is of a deformation: it needs -l, and no OUT-MESH";
+        return "--embedding is for a deformation: it needs -l, and no OUT-MESH";
     return cli_job_option_mistake(&s->job, words, words->count);
 }
 
-/* An option of the other kind of output would do nothing. */
+/* Returns an option that applies only to the other kind of output, or NULL. */
 static const char *mistake_of_kind(const settings *s)
 {
     const bool is_picture = ffd_path_has_ending(s->output, ".png"),
                is_page = ffd_path_has_ending(s->output, ".html") || ffd_path_has_ending(s->output, ".htm");
     if (is_picture && s->full)
-        return "--full is of a page, and the output is a picture";
+        return "--full is for pages, but the output is a picture";
     if (is_page && s->size[0])
-        return "--size is of a picture, and the output is a page";
+        return "--size is for pictures, but the output is a page";
     if (is_page && s->frames)
-        return "--frames is of a picture, and the output is a page";
+        return "--frames is for pictures, but the output is a page";
     return NULL;
 }
 
@@ -195,23 +196,22 @@ static const char *mistake(const settings *s, const cli_words *words)
     return cli_job_mistake(&s->job, words, 1);
 }
 
+static int act(const cli_command *command, void *context, const cli_words *words)
+{
+    settings *const s = context;
+    const char *const why = mistake(s, words);
+    if (why)
+        return cli_usage(command, why);
+    if (!cli_job_knows_formats(&s->job, words, words->count))
+        return EXIT_USAGE;
+    s->deformed = words->count == 2 ? words->words[1] : NULL;
+    return cli_job_run_all(&s->job, words, 1, show);
+}
+
 static int run(const cli_command *command, int count, char **arguments)
 {
     settings s = {0};
-    cli_words words;
-    int code = EXIT_USAGE;
-    if (!cli_job_begin(command, &s.job, count, arguments, &words, &code))
-        return code;
-    const char *const why = mistake(&s, &words);
-    s.deformed = words.count == 2 ? words.words[1] : NULL;
-    if (why)
-        code = cli_usage(command, why);
-    else if (cli_job_knows_formats(&s.job, &words, words.count))
-        code = cli_job_run_all(&s.job, &words, 1, show);
-    else
-        code = EXIT_USAGE;
-    cli_job_end(&s.job, &words);
-    return code;
+    return cli_job_run(command, &s.job, count, arguments, act);
 }
 
 static const cli_example examples[] = {

@@ -29,7 +29,7 @@ const mesh_format *ffd_format_table(ffd_format format)
     return NULL;
 }
 
-/* Adds to the message of a file that is not valid what it seems to be, if that is another format. */
+/* Where the content of a file that is not valid looks like another format, adds that to the message. */
 static void tell_content(const mesh_format *format, const file_input *input, ffd_error *error)
 {
     const content_kind *const kind = ffd_content_kind(input->data, input->size);

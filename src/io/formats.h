@@ -4,14 +4,15 @@
 
 #include "mesh/mesh.h"
 
-/* For messages. */
+/* The endings of file names, for messages. */
 #define FORMAT_NAMES "obj, gltf, glb, vrm, ply, off or stl"
 
-/* The table for a format; NULL for FFD_FORMAT_AUTO. */
+/* Returns the table of a format; NULL for FFD_FORMAT_AUTO. */
 const mesh_format *ffd_format_table(ffd_format format);
 
-/* Opens a document by a format's table, and gives it this table, so that no format's reader needs to know its
-   own. input is the document's after success only. Errors: those of the format's open function. */
+/* Opens a document with a format's table, and stores the table in the document, so that a reader need not
+   know its own. The document owns input after success, the caller after a failure. Errors: those of the
+   format's open function. */
 ffd_status ffd_format_open(const mesh_format *format, file_input *input, const ffd_source *source,
                            mesh_document **document, ffd_error *error);
 

@@ -23,7 +23,7 @@ static ffd_status open_source(const ffd_source *given, mesh_document **document,
     return ffd_source_open(&source, 0, document, error);
 }
 
-/* Returns at most the largest double, even if the box's sides are longer. */
+/* Returns the diagonal of the mesh's box, clamped to the largest double. */
 static double find_diagonal(const mesh_document *document)
 {
     ffd_bounds box = ffd_bounds_empty();
@@ -43,7 +43,8 @@ static ffd_status compare(const ffd_compare_desc *desc, const mesh_document *a, 
 {
     const double diagonal = desc->relative ? find_diagonal(a) : 0;
     const double tolerance = desc->relative ? desc->tolerance * diagonal : desc->tolerance;
-    /* At most the largest double: every finite difference is within that, and an infinite one is not. */
+    /* Clamp to the largest double: then every finite difference is within the tolerance, and an infinite one
+       is not. */
     ffd_difference_begin(comparison, fmin(tolerance, DBL_MAX), fmin(desc->direction_tolerance, DBL_MAX));
     comparison->diagonal = diagonal;
     if (a->format == b->format)

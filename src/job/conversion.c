@@ -25,14 +25,15 @@ static bool fits(double value, const model_target *target)
     return fabs(value) <= target->largest_coordinate || (target->takes_not_finite && !isfinite(value));
 }
 
-/* morph: one more than the target's number; 0: of the shape that stays. */
+/* Returns coordinate i of a morph target's offset. morph: the target's number plus 1; 0: coordinate i of the
+   base shape. */
 static double coordinate(const mesh_model *model, size_t i, size_t morph)
 {
     return morph ? model->morphs[morph - 1].positions[i] - model->positions[i] : model->positions[i];
 }
 
-/* The first coordinate, or (morph) offset to one, that the target's numbers cannot hold, of the positions
-   with a mark (NULL: of all); SIZE_MAX: there is none. */
+/* Returns the index of the first coordinate (*morph as above) that the target's number type cannot hold,
+   among the marked positions (marks NULL: all); SIZE_MAX: none. */
 static size_t find_unfit(const mesh_model *model, const model_target *target, const uint8_t *marks,
                          size_t *morph)
 {
@@ -44,7 +45,7 @@ static size_t find_unfit(const mesh_model *model, const model_target *target, co
     return SIZE_MAX;
 }
 
-/* Marks the positions of all that the target holds; NULL where memory runs out. */
+/* Marks the positions used by elements that the target format can hold. Returns NULL if memory runs out. */
 static uint8_t *mark_held(const mesh_model *model, const model_target *target)
 {
     const bool held[MODEL_KINDS] = {[MODEL_FACES] = true,
@@ -76,7 +77,7 @@ static ffd_status refuse(const mesh_model *model, const model_target *target, si
         target->name);
 }
 
-/* A target without room for positions that nothing uses writes those only of what it holds. */
+/* A format that cannot hold unused positions writes only those of its elements, so only these must fit. */
 static ffd_status check_range(const mesh_model *model, const model_target *target, const char *path,
                               ffd_error *error)
 {
@@ -92,7 +93,7 @@ static ffd_status check_range(const mesh_model *model, const model_target *targe
     return unfit == SIZE_MAX ? FFD_OK : refuse(model, target, unfit, morph, path, error);
 }
 
-/* Makes vectors that are not finite zero. Returns how many there are. */
+/* Sets vectors that are not finite to zero. Returns their number. */
 static size_t clear_not_finite(double *vectors, size_t count, size_t numbers)
 {
     size_t cleared = 0;
@@ -107,7 +108,8 @@ static size_t clear_not_finite(double *vectors, size_t count, size_t numbers)
     return cleared;
 }
 
-/* Without a normal, a texture coordinate or a colour the shape is still what it is. */
+/* Clears normals, texture coordinates and colours that are not finite: they do not change the shape, so they
+   are no reason to fail. */
 static void clear_attributes(mesh_model *model, const model_target *target, const mesh_log *log)
 {
     if (target->takes_not_finite)
@@ -122,7 +124,7 @@ static void clear_attributes(mesh_model *model, const model_target *target, cons
                      ffd_plural(colours, "colour", "colours"));
 }
 
-/* No format has brighter colours than 1. */
+/* No format can hold colours above 1. */
 static void limit_colours(mesh_model *model, const model_target *target, const mesh_log *log)
 {
     size_t limited = 0;
@@ -160,7 +162,7 @@ static void warn(const mesh_model *model, const model_target *target, const mesh
                      MORPHS_PLAYED);
 }
 
-/* The model as it is to be written; models take what they need from the budget. */
+/* Makes the model to write. Models take their memory from the budget. */
 static ffd_status make_model(const mesh_document *document, const conversion_morph *morph,
                              memory_budget *budget, mesh_model *model, ffd_error *error)
 {

@@ -15,14 +15,14 @@
 #include "job/report/output_set.h"
 #include <string.h>
 
-/* What a killed run had set aside comes back before it is read. */
+/* Restores files that a killed run had set aside, before they are read. */
 static ffd_status restore_output(const ffd_deform_desc *desc, ffd_error *error)
 {
     const char *const path = desc->in_place ? desc->input.path : desc->output;
     return path && !ffd_output_is_stream(path) ? ffd_restore_output(path, error) : FFD_OK;
 }
 
-/* What a job without an output cannot have. */
+/* Refuses options that need an output file. */
 static ffd_status check_no_output(const ffd_deform_desc *desc, ffd_error *error)
 {
     const char *const what = desc->as_morph                           ? "--as-morph"
@@ -33,7 +33,7 @@ static ffd_status check_no_output(const ffd_deform_desc *desc, ffd_error *error)
                 : FFD_OK;
 }
 
-/* Where the result goes: path, format and whether it may replace a file. */
+/* Determines the output's path and format, and whether it may replace a file. */
 static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options *options, ffd_error *error)
 {
     const char *input = desc->input.path;
@@ -68,7 +68,7 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
         return ffd_fail_file(error, FFD_E_ARGUMENT, desc->output,
                              "the ending \"%s\" is not that of a mesh format (" FORMAT_NAMES ")",
                              ffd_path_ending(desc->output));
-    /* The output first: mostly there is none, which answers it. */
+    /* The output first: usually it does not exist, which is a quick answer. */
     if (!ffd_output_is_stream(desc->output) && ffd_file_same(desc->output, input))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the input (--in-place overwrites it)");
     for (size_t i = 0; i < desc->lattice_count && !ffd_output_is_stream(desc->output); i++)
@@ -97,7 +97,7 @@ static void warn_of_name(const deform_job *job, const char *name)
                      "the depfile names \"%s\": make or ninja cannot read such a name", name);
 }
 
-/* Adds the paths that are not there yet. */
+/* Adds the paths that `to` does not have yet. */
 static ffd_status add_paths(path_list *to, const path_list *from, ffd_error *error)
 {
     ffd_status status = FFD_OK;
@@ -112,7 +112,7 @@ static ffd_status add_paths(path_list *to, const path_list *from, ffd_error *err
     return status;
 }
 
-/* Whether a lattice has the shared box. */
+/* Whether a lattice takes the shared box. */
 static bool goes_round_all(const deform_job *job)
 {
     for (size_t i = 0; i < job->chain.count; i++) {
@@ -123,7 +123,7 @@ static bool goes_round_all(const deform_job *job)
     return false;
 }
 
-/* The rule of the output, given the files of the mesh. */
+/* Makes the depfile rule of the output. inputs: the files of the mesh; the other inputs are added. */
 static ffd_status make_rule(const deform_job *job, path_list *inputs, byte_buffer *rule, ffd_error *error)
 {
     const ffd_deform_desc *desc = job->desc;
@@ -147,7 +147,7 @@ static ffd_status make_rule(const deform_job *job, path_list *inputs, byte_buffe
     return FFD_OK;
 }
 
-/* Writes the mesh and, where a depfile is wanted, makes its rule. */
+/* Writes the mesh and, if a depfile is wanted, makes its rule. */
 static ffd_status write_all(deform_job *job, const mesh_save_options *options, file_output *output,
                             byte_buffer *rule, ffd_error *error)
 {
@@ -165,7 +165,7 @@ static ffd_status write_all(deform_job *job, const mesh_save_options *options, f
     return status;
 }
 
-/* Whether the output is what the share wants to know the hash of. What is converted may refer to files under
+/* Whether the share wants a hash of this output. A conversion is not hashed: it may refer to files under
    other names. */
 static bool is_hashed(const deform_job *job)
 {
@@ -189,7 +189,7 @@ static ffd_status save(deform_job *job, const mesh_save_options *options, ffd_er
         ffd_output_hash(output);
     status = write_all(job, options, output, &rule, error);
     status = ffd_mapping_judge(job->losses, status, error);
-    if (!status) /* what was found missing may have been there */
+    if (!status) /* a missing resource may be the fault of a resolve callback */
         status = ffd_memory_judge_path(job->desc->input.path, status, error);
     if (!status)
         status = ffd_output_commit(output, error);
@@ -202,7 +202,7 @@ static ffd_status save(deform_job *job, const mesh_save_options *options, ffd_er
     return status;
 }
 
-/* Refuses what writing would refuse because of other files than OUT. */
+/* Refuses an output whose other files cannot be written, as writing would. */
 static ffd_status rehearse(deform_job *job, const mesh_save_options *options, ffd_error *error)
 {
     const mesh_format *const format = job->document->format, *const to = ffd_format_table(options->format);
@@ -240,20 +240,20 @@ static ffd_status check_rig(const deform_job *job, const mesh_save_options *opti
                          "cannot hold nodes that follow: only .gltf and .glb can (--rig follow)");
 }
 
-/* Keeps the base shape if a morph target is wanted. */
+/* If a morph target is wanted, keeps the base shape. */
 static ffd_status begin_morph(deform_job *job, ffd_error *error)
 {
     const mesh_format *format = job->document->format;
     if (!job->desc->as_morph)
         return FFD_OK;
-    if (!format->keep_base) { /* then it is a conversion */
+    if (!format->keep_base) { /* a conversion */
         job->base.budget = &job->document->budget;
         return format->model(job->document, &job->base, error);
     }
     return format->keep_base(job->document, job->desc->as_morph, error);
 }
 
-/* Whether nothing that is asked for needs normals. */
+/* Whether no option needs normals. */
 static bool needs_only_positions(const ffd_deform_desc *desc, const mesh_save_options *options)
 {
     ffd_format input;
@@ -307,12 +307,13 @@ static ffd_status run_job(const ffd_deform_desc *desc, ffd_job_result *result, f
     return ffd_deform_job_end(&job, status, result, error);
 }
 
-/* The targets of a job have where its vertices are in a rest volume in common. */
+/* Deforms and saves. Several morph targets share the locations of the vertices through a share of the job's
+   own. */
 static ffd_status deform(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
 {
     ffd_share *share = NULL;
     ffd_deform_desc own = *desc;
-    if (!ffd_deform_job_writes(desc)) /* nobody sees the normals */
+    if (!ffd_deform_job_writes(desc)) /* normals are not written */
         own.normals = FFD_NORMALS_KEEP;
     if (!desc->morphs || ffd_cache_holds_meshes(desc->share))
         return run_job(&own, result, error);

@@ -57,7 +57,8 @@ static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
     if (desc->falloff > 0 && desc->outside != FFD_OUTSIDE_EXTEND)
         return ffd_fail(error, FFD_E_ARGUMENT, "--falloff needs --outside extend");
     if (desc->positions && desc->morphs)
-        return ffd_fail(error, FFD_E_ARGUMENT, "several morph targets (--morph) have no positions in common");
+        return ffd_fail(error, FFD_E_ARGUMENT,
+                        "positions are of one deformation, but --morph makes several targets");
     if (desc->rig == FFD_RIG_FOLLOW &&
         (desc->as_morph || desc->morphs || desc->input.space == FFD_SPACE_MESH))
         return ffd_fail(error, FFD_E_ARGUMENT, "--rig follow cannot be used with %s",
@@ -71,15 +72,14 @@ static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
     return check_embedding(desc, error);
 }
 
-/* Hands the results of morph targets to the caller, whose structs are one after the other, size bytes each.
- */
+/* Copies the results of morph targets to the caller's array, whose elements have size bytes each. */
 static void give_morphs(const ffd_job_result *own, size_t count, ffd_job_result *callers, size_t size)
 {
     for (size_t k = 0; k < count; k++)
         ffd_struct_give(&own[k], sizeof own[k], (char *)callers + k * size, size);
 }
 
-/* A job with structs of the library's size. */
+/* Runs a job with structs of this library's size. size: of each of the caller's results of morph targets. */
 static ffd_status run_own(deform_job_function run, ffd_deform_desc *desc, ffd_job_result *result, size_t size,
                           ffd_error *error)
 {
@@ -100,7 +100,7 @@ static ffd_status run_own(deform_job_function run, ffd_deform_desc *desc, ffd_jo
     return status;
 }
 
-/* The same where some of what the description names may be in memory. */
+/* The same for a description that may hold data in memory. */
 static ffd_status run_in_memory(deform_job_function run, ffd_deform_desc *desc, ffd_job_result *result,
                                 size_t size)
 {
@@ -229,20 +229,20 @@ static bool wants_figures(const deform_job *job)
     return job->check || job->desc->quality || job->desc->fail_on & (FFD_GATE_FLIPPED | FFD_GATE_EDGES);
 }
 
-/* With points outside that move, the gate of folds looks at det F there too. */
+/* The gate of folds also checks det F at extended vertices. */
 static bool wants_determinants(const deform_job *job)
 {
     return wants_figures(job) ||
            (job->desc->fail_on & FFD_GATE_FOLDS && job->desc->outside == FFD_OUTSIDE_EXTEND);
 }
 
-/* A conversion writes what the weights of the morph targets show. */
+/* Whether the output is the shape with default weights of morph targets, as in conversions. */
 static bool converts_shown(const deform_job *job)
 {
     return job->document->converted && ffd_mesh_shows_shapes(job->document);
 }
 
-/* A gate of faces does not pass where some of them are not known. */
+/* A gate that depends on faces fails if some faces are unknown. */
 static ffd_status check_unknown(const deform_job *job, ffd_error *error)
 {
     const size_t unknown = job->document->unknown_drawings;
@@ -253,7 +253,7 @@ static ffd_status check_unknown(const deform_job *job, ffd_error *error)
                          unknown, unknown == 1 ? "primitive are" : "primitives are");
 }
 
-/* Makes the array of the positions that the caller asks for. */
+/* Allocates the positions that the caller wants. */
 static ffd_status prepare_positions(deform_job *job, memory_budget *budget, ffd_error *error)
 {
     const uint64_t count = ffd_mesh_vertex_count(job->document);
@@ -267,7 +267,7 @@ static ffd_status prepare_positions(deform_job *job, memory_budget *budget, ffd_
     return job->positions ? FFD_OK : ffd_fail_memory(error);
 }
 
-/* Refuses what can be refused before a vertex is touched, and allocates memory for the results. */
+/* Refuses what can be refused before vertices are processed, and allocates the results. */
 static ffd_status prepare(deform_job *job, figure_arrays *arrays, ffd_error *error)
 {
     const bool attributes = job->desc->normals != FFD_NORMALS_KEEP;
@@ -317,15 +317,16 @@ bool ffd_deform_job_writes(const ffd_deform_desc *desc)
     return desc->in_place || desc->output || !desc->positions;
 }
 
-/* Whether it matters what the document places beside vertices: no conversion, no morph target and no array of
-   positions has it. */
+/* Whether nodes and other places matter: conversions, morph targets and arrays of positions do not contain
+   them. */
 static bool has_rig(const deform_job *job)
 {
     return !job->desc->as_morph && (job->check || ffd_deform_job_writes(job->desc)) &&
            (!job->document->converted || job->details);
 }
 
-/* Finds what the lattices do where the document places something, and moves it along if it follows. */
+/* Finds how the lattices move the document's places (nodes, joints, sockets), and with --rig follow moves
+   them. */
 static ffd_status move_rig(deform_job *job, ffd_error *error)
 {
     const bool follows = job->desc->rig == FFD_RIG_FOLLOW;
@@ -339,7 +340,7 @@ static ffd_status move_rig(deform_job *job, ffd_error *error)
                                 error);
 }
 
-/* What is left behind, and how far joints, pivots and sockets lag. */
+/* Finds what is left behind, and how far joints, pivots and sockets lag. */
 static ffd_status find_left(deform_job *job, ffd_job_result *result, ffd_error *error)
 {
     const ffd_status status = ffd_behind_find(job, result, error);
@@ -356,20 +357,20 @@ static void warn_of_left(const deform_job *job, const ffd_job_result *result)
         ffd_rig_warn(&result->rig, job->desc->rig == FFD_RIG_FOLLOW, diagonal, &job->log);
 }
 
-/* What u,v,w of a mesh depend on. */
+/* Hashes all that determines the locations of a mesh's vertices in a link. */
 static hash128 located_in(const chain_link *link)
 {
     const hash128 parts[] = {link->rest, ffd_hash_doubles(&link->snap, 1)};
     return ffd_hash(parts, sizeof parts);
 }
 
-/* Sends what is shown through the chain, and hands it back: the totals, which count base and targets, then
-   have what concerns the output. */
+/* Deforms the shape with default weights. job->totals then holds the counts of base and targets, but the
+   figures of the output come from this pass. */
 static ffd_status deform_shown(deform_job *job, const mesh_pass *first, ffd_error *error)
 {
     mesh_pass pass = *first;
     pass_totals totals;
-    pass.embedding = NULL; /* it is of the base */
+    pass.embedding = NULL; /* it belongs to the base shape */
     pass.locations = NULL;
     pass.is_located = false;
     job->document->shown = true;
@@ -382,7 +383,8 @@ static ffd_status deform_shown(deform_job *job, const mesh_pass *first, ffd_erro
     return status;
 }
 
-/* Sends base and targets through the chain. Those of a conversion of something else are only counted. */
+/* Sends base and morph targets through the chain. If the output is the shape with default weights, they are
+   only counted, and that shape is deformed. */
 static ffd_status send(deform_job *job, const mesh_pass *pass, ffd_error *error)
 {
     if (!converts_shown(job))
@@ -440,7 +442,7 @@ static ffd_status deform(deform_job *job, const figure_arrays *arrays, ffd_error
     return status;
 }
 
-/* Computes the figures that cost extra time, then judges all figures by the gates. */
+/* Computes the figures that take extra time, then applies the gates to all figures. */
 static ffd_status judge(deform_job *job, figure_arrays *arrays, ffd_job_result *result, ffd_error *error)
 {
     const ffd_deform_desc *desc = job->desc;
@@ -453,7 +455,7 @@ static ffd_status judge(deform_job *job, figure_arrays *arrays, ffd_job_result *
         status = ffd_tear_figures_find(job, arrays, result, error);
     if (!status && wants_figures(job))
         status = ffd_figures_faces(job, arrays, result, error);
-    if (!status && job->details) /* the picture is wanted all the same */
+    if (!status && job->details) /* check late, so that the picture can be drawn all the same */
         status = check_unknown(job, error);
     if (!status)
         status = ffd_gates_judge(desc, name, &job->totals, result, error);
@@ -461,7 +463,7 @@ static ffd_status judge(deform_job *job, figure_arrays *arrays, ffd_job_result *
     return status;
 }
 
-/* Hands over what the figures were made of; its memory stays taken. */
+/* Hands over the arrays of the figures; their memory stays charged to the budget. */
 static void keep_arrays(figure_arrays *arrays, job_details *details, memory_budget *budget)
 {
     if (arrays->budget.taken > budget->taken)
@@ -473,7 +475,7 @@ static void keep_arrays(figure_arrays *arrays, job_details *details, memory_budg
     *arrays = (figure_arrays){0};
 }
 
-/* Hands over the positions that the caller asks for. */
+/* Passes the positions to the caller's callback. */
 static ffd_status give_positions(deform_job *job, ffd_error *error)
 {
     const ffd_deform_desc *const desc = job->desc;
@@ -540,7 +542,7 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
 
 ffd_status ffd_deform_job_end(deform_job *job, ffd_status status, ffd_job_result *result, ffd_error *error)
 {
-    /* A job that has written was judged before that: what becomes shorter later changes nothing. */
+    /* A job that has written an output was judged before that: later changes to its inputs do not matter. */
     if (status)
         status = ffd_mapping_judge(job->losses, status, &result->error);
     result->status = status;
@@ -548,7 +550,7 @@ ffd_status ffd_deform_job_end(deform_job *job, ffd_status status, ffd_job_result
         ffd_fail_name_file(&result->error, ffd_source_name(&job->desc->input));
     ffd_embedding_close(&job->embedding);
     ffd_model_free(&job->base);
-    if (job->document) /* the next job may want it otherwise */
+    if (job->document) /* reset for the next job */
         job->document->shown = job->document->converted = false;
     if (status == FFD_OK)
         ffd_cache_put_mesh(job->desc->share, job->desc, job->document);

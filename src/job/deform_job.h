@@ -1,38 +1,38 @@
-/* deform_job.h - what `ffd deform` and `ffd check` have in common: everything but the writing. */
+/* deform_job.h - the steps that `ffd deform` and `ffd check` share: everything except writing. */
 #ifndef FFD_JOB_DEFORM_JOB_H
 #define FFD_JOB_DEFORM_JOB_H
 
 #include "job/judge/job_state.h"
 
-/* What a job does with a description and a result of this library's sizes. */
+/* Runs a job. The structs have this library's sizes. */
 typedef ffd_status (*deform_job_function)(const ffd_deform_desc *desc, ffd_job_result *result,
                                           ffd_error *error);
 
-/* Does a job for a caller whose description and result may be those of an older header. */
+/* Runs a job for a caller whose structs may have the sizes of an older header. */
 ffd_status ffd_job_for_caller(deform_job_function run, const ffd_deform_desc *desc, ffd_job_result *result,
                               ffd_error *error);
 
-/* Clears result and takes desc, after checking the options that do not concern the output. Errors:
-   FFD_E_ARGUMENT, FFD_E_EXISTS, in result. */
+/* Clears result, checks the options that do not concern the output, and takes desc. Errors, stored in result:
+   FFD_E_ARGUMENT, FFD_E_EXISTS. */
 ffd_status ffd_deform_job_begin(deform_job *job, const ffd_deform_desc *desc, bool check,
                                 ffd_job_result *result);
 
-/* Whether a deformation writes a mesh: else only its positions are wanted. */
+/* Whether a deformation writes a mesh; else only its positions are wanted. */
 bool ffd_deform_job_writes(const ffd_deform_desc *desc);
 
-/* Reads the job's lattices into its chain, to be placed round a mesh later. share may be NULL. Errors: those
-   of ffd_chain_load. */
+/* Loads the job's lattices into its chain; they are fitted later. share may be NULL. Errors: those of
+   ffd_chain_load. */
 ffd_status ffd_deform_job_load_chain(deform_job *job, const chain_outside *outside, ffd_share *share,
                                      ffd_error *error);
 
-/* Reads lattices and mesh. */
+/* Opens the lattices and the mesh. */
 ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_error *error);
 
-/* Deforms the document's vertices, fills result with the figures and judges them. The document is ready to be
-   saved afterwards. */
+/* Deforms the vertices, fills result with the figures and judges them. The document can be saved
+   afterwards. */
 ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error *error);
 
-/* Frees what the job holds, puts the outcome into result and *error (which may be NULL), and returns it. */
+/* Frees the job's memory, stores the outcome in result and in *error (may be NULL), and returns it. */
 ffd_status ffd_deform_job_end(deform_job *job, ffd_status status, ffd_job_result *result, ffd_error *error);
 
 #endif

@@ -24,7 +24,7 @@ void ffd_embed_desc_init(ffd_embed_desc *desc, size_t size)
     ffd_struct_give(&defaults, sizeof defaults, desc, size);
 }
 
-/* The arrays of one embedding, and what they are of. */
+/* An embedding's arrays, and what they belong to. */
 typedef struct embedding {
     mesh_document *document;
     lattice_chain chain;
@@ -32,7 +32,7 @@ typedef struct embedding {
     uint8_t *statuses;
     size_t count;
     hash128 positions, lattice;
-    unsigned losses; /* of inputs, before (base/file/mapping.h) */
+    unsigned losses; /* of mapped inputs, before the job (base/file/mapping.h) */
 } embedding;
 
 static ffd_status write_files(const ffd_embed_desc *desc, const embedding *made, ffd_error *error)
@@ -67,8 +67,8 @@ static ffd_status check_output(const ffd_embed_desc *desc, const char *path, ffd
     return ffd_output_check(path, desc->force, error);
 }
 
-/* Returns the full path of a file that need not exist; NULL if its folder does not
-   exist or memory runs out. */
+/* Returns the absolute path of a file that need not exist. NULL: its folder does not exist, or memory runs
+   out. */
 static char *path_of(const char *path)
 {
     char *folder = ffd_path_folder(path);
@@ -100,7 +100,7 @@ static ffd_status check_outputs(const ffd_embed_desc *desc, ffd_error *error)
         return ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete");
     if (!(desc->snap >= 0 && isfinite(desc->snap)))
         return ffd_fail(error, FFD_E_ARGUMENT, "the snap %g is not a length", desc->snap);
-    /* What a killed run had set aside. */
+    /* Restore files that a killed run had set aside. */
     ffd_status status = ffd_output_is_stream(desc->output) ? FFD_OK : ffd_restore_output(desc->output, error);
     if (!status)
         status = check_output(desc, desc->output, error);
@@ -112,7 +112,7 @@ static ffd_status check_outputs(const ffd_embed_desc *desc, ffd_error *error)
     return status;
 }
 
-/* Reads the mesh and fits the lattice, which has been read, to it. */
+/* Opens the mesh and fits the loaded lattice to it. */
 static ffd_status open_mesh(const ffd_embed_desc *desc, embedding *made, int threads, ffd_error *error)
 {
     const mesh_log log = {desc->log, desc->log_user};
@@ -126,7 +126,7 @@ static ffd_status open_mesh(const ffd_embed_desc *desc, embedding *made, int thr
     return status;
 }
 
-/* Fills in the arrays. */
+/* Allocates and fills the arrays. */
 static ffd_status make(embedding *made, int threads, pass_totals *totals, ffd_error *error)
 {
     made->count = (size_t)ffd_mesh_vertex_count(made->document);
@@ -149,7 +149,7 @@ static ffd_status make(embedding *made, int threads, pass_totals *totals, ffd_er
     return ffd_pass_run(&pass, totals, error);
 }
 
-/* Writes the embedding together with what it was made of. */
+/* Writes the arrays with the hashes of mesh and rest lattice. */
 static ffd_status write(const ffd_embed_desc *desc, embedding *made, int threads, ffd_error *error)
 {
     const chain_link *const link = &made->chain.links[0];
@@ -158,7 +158,7 @@ static ffd_status write(const ffd_embed_desc *desc, embedding *made, int threads
     return status ? status : write_files(desc, made, error);
 }
 
-/* All that follows the reading of the lattice. */
+/* Runs the job once the lattice is loaded. */
 static ffd_status embed(const ffd_embed_desc *desc, embedding *made, double start, ffd_job_result *result,
                         ffd_error *error)
 {
@@ -217,7 +217,7 @@ static ffd_status run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_er
     return status;
 }
 
-/* Gives paths to what is in memory. */
+/* Registers data in memory under paths. */
 static ffd_status take_memory(job_memory *memory, ffd_embed_desc *desc, ffd_error *error)
 {
     const ffd_bytes text = desc->lattice_object ? (ffd_bytes){"", 0} : desc->lattice_text;

@@ -16,11 +16,11 @@ void ffd_info_desc_init(ffd_info_desc *desc, size_t size)
     ffd_struct_give(&defaults, sizeof defaults, desc, size);
 }
 
-/* What is asked for must be there in a file of its kind. */
+/* Refuses options that do not apply to this kind of file. */
 static ffd_status check_desc(const ffd_info_desc *desc, bool lattice, ffd_error *error)
 {
     if (!desc->file.path)
-        return ffd_fail(error, FFD_E_ARGUMENT, "the description of what to describe is not complete");
+        return ffd_fail(error, FFD_E_ARGUMENT, "the description is not complete: it names no file");
     if (lattice && desc->parts)
         return ffd_fail_file(error, FFD_E_ARGUMENT, ffd_source_name(&desc->file),
                              "a lattice has no parts (--parts is for meshes)");

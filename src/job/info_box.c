@@ -7,6 +7,18 @@
 #include "mesh/bounds.h"
 #include <string.h>
 
+void ffd_info_bounds(json_text *json, const char *key, const ffd_bounds *box)
+{
+    if (box->min[0] > box->max[0]) {
+        ffd_json_null(json, key);
+        return;
+    }
+    ffd_json_object(json, key, false);
+    ffd_json_vector(json, "min", box->min, 3);
+    ffd_json_vector(json, "max", box->max, 3);
+    ffd_json_end(json, '}');
+}
+
 static ffd_status write_meshes(const ffd_lattice *lattice, json_text *json, ffd_error *error)
 {
     ffd_status status = FFD_OK;
@@ -22,7 +34,7 @@ static ffd_status write_meshes(const ffd_lattice *lattice, json_text *json, ffd_
     return status;
 }
 
-/* The box round the meshes, with its margin; fits the lattice to it. */
+/* Measures the box round the named meshes, with the margin. fits: also fit the lattice to it. */
 static ffd_status go_round(ffd_lattice *lattice, const ffd_source *like, bool fits, ffd_bounds *box,
                            ffd_error *error)
 {
@@ -75,7 +87,7 @@ ffd_status ffd_info_box(ffd_lattice *lattice, const ffd_source *like, bool fits,
             status = describe_meshes(lattice, like, fits, box, json, error);
         ffd_json_vector(json, "margin", spec->margin, 3);
     }
-    ffd_bounds_json(json, "box", box);
+    ffd_info_bounds(json, "box", box);
     if (spec->rest == SPEC_BOX && spec->has_axes) {
         ffd_json_array(json, "axes", true);
         for (size_t a = 0; a < 3; a++)

@@ -84,7 +84,7 @@ static void write_nulls(const char *const *keys, size_t count, json_text *json)
         ffd_json_null(json, keys[i]);
 }
 
-/* The names of placeholders without a value; nothing where all have one. */
+/* Writes the names of placeholders without a value, if there are any. */
 static void write_open(const intern_table *open, json_text *json)
 {
     if (open->count == 0)
@@ -95,7 +95,7 @@ static void write_open(const intern_table *open, json_text *json)
     ffd_json_end(json, ']');
 }
 
-/* What the file says of its placeholders; nothing where it says nothing. */
+/* Writes the parameters that the file describes, if there are any. */
 static void write_parameters(const lattice_spec *spec, json_text *json)
 {
     if (spec->parameter_count == 0)
@@ -138,7 +138,7 @@ static void write_moves(const ffd_lattice *lattice, json_text *json)
     ffd_json_bool(json, "weights_moved", lattice->weights_moved);
 }
 
-/* A lattice that cannot be inverted can still be described. */
+/* A lattice that cannot be inverted is still described. */
 static ffd_status write_inversion(const ffd_lattice *lattice, json_text *json, ffd_error *error)
 {
     ffd_locator *locator = NULL;
@@ -163,11 +163,11 @@ static ffd_status write_volume(const ffd_lattice *lattice, json_text *json, ffd_
 {
     const ffd_bounds rest = bounds_of(lattice->rest, lattice->count);
     const ffd_bounds deformed = bounds_of(lattice->deformed, lattice->count);
-    ffd_bounds_json(json, "rest_bounds", &rest);
+    ffd_info_bounds(json, "rest_bounds", &rest);
     if (lattice->spec->open.count > 0)
         ffd_json_null(json, "deformed_bounds");
     else
-        ffd_bounds_json(json, "deformed_bounds", &deformed);
+        ffd_info_bounds(json, "deformed_bounds", &deformed);
     ffd_json_number(json, "diagonal", lattice->diagonal);
     write_moves(lattice, json);
     return write_inversion(lattice, json, error);
@@ -183,7 +183,7 @@ static ffd_status check_values(const ffd_info_desc *desc, const bool *used, ffd_
     return FFD_OK;
 }
 
-/* Control points that would take more memory than is allowed are not made; else they fit. */
+/* *fits: whether the control points are within the memory limit. If not, they are not made. */
 static ffd_status build(lattice_spec *spec, memory_budget *budget, ffd_lattice **lattice, bool *fits,
                         ffd_error *error)
 {
@@ -197,7 +197,7 @@ static ffd_status build(lattice_spec *spec, memory_budget *budget, ffd_lattice *
                : ffd_spec_build_knots(spec, lattice, error);
 }
 
-/* Reads the lattice, with values that it must have placeholders for; others may stay open. */
+/* Loads the lattice with the values given. Each must have a placeholder; other placeholders may stay open. */
 static ffd_status load(const ffd_info_desc *desc, ffd_lattice **lattice, bool *fits, ffd_error *error)
 {
     bool *const used = ffd_alloc_zero(desc->set_count, sizeof *used);
@@ -220,7 +220,7 @@ static ffd_status load(const ffd_info_desc *desc, ffd_lattice **lattice, bool *f
     return status;
 }
 
-/* What is known without control points. */
+/* Writes what is known without control points. */
 static void write_unbuilt(const ffd_lattice *lattice, bool fits, json_text *json)
 {
     static const char *const unknown[] = {"rest_bounds",  "deformed_bounds", "diagonal", "moved",
@@ -234,7 +234,7 @@ static void write_unbuilt(const ffd_lattice *lattice, bool fits, json_text *json
     else
         ffd_json_count(json, "moves", lattice->spec->move_count);
     const bool comes = ffd_lattice_needs_bounds(lattice) && ffd_lattice_get_mesh_count(lattice) == 0;
-    if (fits || comes) /* the rest is decided by meshes that are not known */
+    if (fits || comes) /* the rest depends on meshes that are not known */
         return;
     char reason[100];
     snprintf(reason, sizeof reason, "the control points need %.0f MB of memory (--memory allows more)",

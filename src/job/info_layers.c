@@ -5,11 +5,11 @@
 #include "lattice/spec.h"
 #include <math.h>
 
-/* More layers than this along a direction are not listed: nobody reads them. */
+/* Directions with more layers than this are not listed. */
 #define MOST_LAYERS 4096
-/* What is nearer to a side of the box than this fraction of it is on it, but for rounding. */
+/* Distances from a side of the box, relative to its length, that count as rounding. */
 #define ON_THE_SIDE 1e-12
-/* Angles are given to this part of a degree: what is finer is the rounding of the arc tangent. */
+/* Angles are rounded to this part of a degree, as smaller digits are rounding of the arc tangent. */
 #define ANGLE_STEPS 1e9
 #define DEGREES (180 / 3.14159265358979323846)
 
@@ -26,7 +26,7 @@ static double box_place(const ffd_lattice *lattice, const ffd_bounds *box, int a
     return box->min[a] <= box->max[a] ? ffd_shape_between(box->min[a], box->max[a], fraction) : fraction;
 }
 
-/* Coordinates of a control point across the axis of a cylinder. */
+/* Finds the coordinates of a control point in the plane across a cylinder's axis. */
 static void point_across(const ffd_lattice *lattice, size_t point, double *x, double *y)
 {
     const lattice_spec *const spec = lattice->spec;
@@ -38,7 +38,7 @@ static void point_across(const ffd_lattice *lattice, size_t point, double *x, do
     *y = vec_dot(p, side);
 }
 
-/* In degrees, at most half a turn from the angle at which v begins. */
+/* Returns the angle of a layer in degrees, within half a turn of the angle where v begins. */
 static double ring_angle(const ffd_lattice *lattice, size_t layer)
 {
     const size_t outer = lattice->size[0] - 1;
@@ -64,7 +64,7 @@ static double cylinder_place(const ffd_lattice *lattice, const ffd_bounds *box, 
 
 typedef double place_function(const ffd_lattice *lattice, const ffd_bounds *box, int a, size_t layer);
 
-/* turns: the places are angles, each of which is to be more than the one before. */
+/* turns: the places are angles, to be written in ascending order. */
 static void write_direction(const ffd_lattice *lattice, const ffd_bounds *box, int a, place_function *place,
                             bool turns, json_text *json)
 {
@@ -101,7 +101,7 @@ static size_t count_beyond(const ffd_lattice *lattice, int a)
     return count;
 }
 
-/* Says nothing where there are none. */
+/* Writes the number of layers beyond the box, if there are any. */
 static void write_beyond(const ffd_lattice *lattice, json_text *json)
 {
     const size_t beyond[3] = {count_beyond(lattice, 0), count_beyond(lattice, 1), count_beyond(lattice, 2)};

@@ -1,20 +1,21 @@
 #include "job/info_mesh.h"
 #include "io/openmesh/half_edges.h"
 #include "io/openmesh/topology.h"
+#include "job/info_box.h"
 #include "job/info_parts.h"
 #include "job/input/source.h"
 #include "mesh/bounds.h"
 
 typedef struct vertex_facts {
     size_t vertices, normals, tangents;
-    size_t not_finite; /* vertices with a coordinate that is not finite: left out of the bounds */
+    size_t not_finite; /* vertices with a coordinate that is not finite, excluded from the bounds */
     ffd_bounds bounds;
 } vertex_facts;
 
 static void write_vertices(const mesh_document *document, json_text *json)
 {
     vertex_facts facts = {.bounds = ffd_bounds_empty()};
-    ffd_bounds hidden = ffd_bounds_empty(); /* of what is no part of the shape shown */
+    ffd_bounds hidden = ffd_bounds_empty(); /* of vertices that are not visible */
     for (size_t part = 0; part < document->part_count; part++) {
         const mesh_part *p = &document->parts[part];
         if (!p->repeats_positions) {
@@ -29,7 +30,7 @@ static void write_vertices(const mesh_document *document, json_text *json)
     ffd_json_count(json, "not_finite", facts.not_finite);
     ffd_json_count(json, "normals", facts.normals);
     ffd_json_count(json, "tangents", facts.tangents);
-    ffd_bounds_json(json, "bounds", &facts.bounds);
+    ffd_info_bounds(json, "bounds", &facts.bounds);
 }
 
 static void write_topology(const mesh_faces *faces, const mesh_topology *topology, json_text *json)
@@ -52,7 +53,7 @@ static void write_topology(const mesh_faces *faces, const mesh_topology *topolog
     ffd_json_end(json, '}');
 }
 
-static ffd_status check_room(const mesh_document *document, const mesh_faces *faces, ffd_error *error)
+static ffd_status check_memory(const mesh_document *document, const mesh_faces *faces, ffd_error *error)
 {
     memory_budget budget = document->budget;
     const size_t corners = faces->start[faces->face_count];
@@ -60,7 +61,7 @@ static ffd_status check_room(const mesh_document *document, const mesh_faces *fa
     return status ? status : ffd_budget_check(&budget, ffd_half_edge_bytes(faces), 1, error);
 }
 
-/* Faces that this build cannot show do not keep the rest from being described. */
+/* Faces that this build cannot read do not keep the rest from being described. */
 static ffd_status survey_faces(const mesh_document *document, json_text *json, ffd_error *error)
 {
     mesh_faces faces = {0};
@@ -68,7 +69,7 @@ static ffd_status survey_faces(const mesh_document *document, json_text *json, f
     ffd_error reason = {0};
     ffd_status status = document->format->faces(document, &faces, &reason);
     if (status == FFD_OK)
-        status = check_room(document, &faces, &reason);
+        status = check_memory(document, &faces, &reason);
     if (status == FFD_OK)
         status = ffd_topology_compute(&faces, &topology, &reason);
     if (status == FFD_OK)

@@ -1,6 +1,6 @@
 #include "job/info_parts.h"
 #include "base/memory/memory.h"
-#include "mesh/bounds.h"
+#include "job/info_box.h"
 #include "mesh/listing.h"
 #include <stdio.h>
 #include <string.h>
@@ -9,7 +9,7 @@ static void write_drawing(const mesh_thing *thing, json_text *json)
 {
     ffd_json_count(json, "vertices", thing->vertices);
     ffd_json_count(json, "faces", thing->faces);
-    ffd_bounds_json(json, "bounds", &thing->bounds);
+    ffd_info_bounds(json, "bounds", &thing->bounds);
     ffd_json_end(json, '}');
 }
 
@@ -30,7 +30,7 @@ static ffd_status write_named(const mesh_thing *thing, json_text *json, ffd_erro
     return FFD_OK;
 }
 
-/* That of a kind in which something else has a name, if it draws something. */
+/* Whether to list an unnamed thing: it draws something, and others of its kind have names. */
 static bool is_worth_telling(const mesh_thing *thing, unsigned named)
 {
     return !thing->name && thing->vertices > 0 && named & SELECTOR_BIT(thing->kind);

@@ -9,22 +9,22 @@
 #define INDENT 2
 #define GAP 2
 
-/* A walk over the facts: the first finds how wide the names are, the second writes. */
+/* A walk over the JSON. The first one measures the widest name, the second one writes. */
 typedef struct renderer {
     const json_span *facts;
     byte_buffer *out; /* NULL in the first walk */
     size_t width;
-    bool failed; /* memory ran out */
+    bool failed; /* out of memory */
 } renderer;
 
-/* Control characters would reach the terminal; the rest is UTF-8. */
+/* Escapes control characters, which would reach the terminal. The rest is UTF-8. */
 static void write_string(byte_buffer *out, const char *text)
 {
     for (const char *c = text; *c; c++)
         ffd_buffer_append(out, (unsigned char)*c < 0x20 || *c == 0x7f ? "?" : c, 1);
 }
 
-/* The number of characters. */
+/* Returns the number of characters. */
 static size_t text_width(const char *text)
 {
     size_t width = 0;
@@ -75,7 +75,7 @@ static bool has_inner_parts(const renderer *r, uint32_t array)
     return false;
 }
 
-/* Numbers are separated by spaces, names (which may hold spaces) by commas. */
+/* Numbers are separated by spaces; names, which may contain spaces, by commas. */
 static void write_value(renderer *r, uint32_t value)
 {
     const uint32_t first = ffd_json_span_first(r->facts, value);
@@ -96,14 +96,14 @@ static void write_spaces(byte_buffer *out, size_t count)
         ffd_buffer_text(out, " ");
 }
 
-/* "boundary_loops" is written as "boundary loops". */
+/* Writes "boundary_loops" as "boundary loops". */
 static void write_name(byte_buffer *out, const char *name)
 {
     for (const char *c = name; *c; c++)
         ffd_buffer_append(out, *c == '_' || (unsigned char)*c < 0x20 ? " " : c, 1);
 }
 
-/* value JSON_NONE: the name alone. */
+/* value JSON_NONE: write the name alone. */
 static void render_line(renderer *r, size_t depth, const char *name, uint32_t value)
 {
     const size_t used = INDENT * depth + text_width(name);
@@ -121,7 +121,7 @@ static void render_line(renderer *r, size_t depth, const char *name, uint32_t va
     ffd_buffer_text(r->out, "\n");
 }
 
-/* The numbers of an array within one of a thing's members: "min" of "bounds". */
+/* Writes the numbers of an array inside one of a thing's members, such as "min" of "bounds". */
 static void write_corner(renderer *r, uint32_t bounds, const char *key)
 {
     const uint32_t corner = ffd_json_span_member(r->facts, bounds, key);
@@ -129,7 +129,7 @@ static void write_corner(renderer *r, uint32_t bounds, const char *key)
         write_value(r, corner);
 }
 
-/* "12 faces", of the member "faces"; one: its word for one. */
+/* Writes "12 faces" for the member "faces". one: the word for a single one. */
 static void write_count(renderer *r, uint32_t thing, const char *key, const char *one)
 {
     double count = 0;
@@ -137,7 +137,7 @@ static void write_count(renderer *r, uint32_t thing, const char *key, const char
     ffd_buffer_format(r->out, "%.0f %s", count, ffd_plural((uint64_t)count, one, key));
 }
 
-/* What a thing draws, on one line: a mesh may have thousands of them. */
+/* Writes a thing's vertices, faces and bounds on one line, as a mesh may have thousands of things. */
 static void write_drawing(renderer *r, uint32_t thing)
 {
     const uint32_t bounds = ffd_json_span_member(r->facts, thing, "bounds");
@@ -152,7 +152,8 @@ static void write_drawing(renderer *r, uint32_t thing)
     write_corner(r, bounds, "max");
 }
 
-/* The selector of a thing with a name, the kind and number of one without. The caller's; NULL: no memory. */
+/* Returns the selector of a named thing, or the kind and number of an unnamed one. The caller frees it; NULL:
+   out of memory. */
 static char *thing_name(const renderer *r, uint32_t thing)
 {
     const uint32_t selector = ffd_json_span_member(r->facts, thing, "selector");
@@ -169,7 +170,7 @@ static char *thing_name(const renderer *r, uint32_t thing)
     return name;
 }
 
-/* A selector is written as it is: it is an argument of --only. */
+/* A selector is written verbatim, so that it can be passed to --only. */
 static void render_thing(renderer *r, size_t depth, uint32_t thing)
 {
     char *const name = thing_name(r, thing);
@@ -190,7 +191,7 @@ static void render_thing(renderer *r, size_t depth, uint32_t thing)
 
 static void render_value(renderer *r, size_t depth, const char *name, uint32_t value);
 
-/* An element of an array has its number for a name. */
+/* Elements of an array are named by their index. */
 static void render_elements(renderer *r, size_t depth, uint32_t array)
 {
     size_t i = 0;
@@ -219,7 +220,7 @@ static void render_members(renderer *r, size_t depth, uint32_t object)
     }
 }
 
-/* Depth is bounded by FFD_JSON_DEPTH, with which the JSON was written. */
+/* The recursion is bounded by FFD_JSON_DEPTH, with which the JSON was written. */
 static void render_value(renderer *r, size_t depth, const char *name, uint32_t value)
 {
     const bool is_object = is_kind(r, value, JSON_OBJECT) && r->facts->values[value].count > 0;

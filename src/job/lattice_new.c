@@ -16,13 +16,13 @@ void ffd_lattice_new_desc_init(ffd_lattice_new_desc *desc, size_t size)
     ffd_struct_give(&defaults, sizeof defaults, desc, size);
 }
 
-/* Places in the lattice's space. */
+/* Positions in the lattice's space. */
 typedef struct place_list {
-    double *xyz; /* 3 a place */
+    double *xyz; /* 3 numbers each */
     size_t count, capacity;
 } place_list;
 
-/* What of a part goes to the list: of the selected vertices those that are shown, or all. */
+/* Context of a walk over a part: which positions to list. Of selected vertices, the visible ones or all. */
 typedef struct part_places {
     const mesh_part *part;
     bool all;
@@ -69,7 +69,7 @@ static ffd_status add_mesh(const ffd_lattice_new_desc *desc, const ffd_source *m
         status = ffd_mesh_mark_used(document, error);
     if (!status)
         status = list_places(document, all, places, error);
-    if (!status && !all) /* the second time they are said */
+    if (!status && !all) /* in the second walk they are logged already */
         ffd_flaws_warn(&document->flaws, ffd_source_name(mesh), &log);
     ffd_source_close(&document);
     if (status == FFD_E_INVALID)
@@ -85,7 +85,7 @@ static ffd_status add_meshes(const ffd_lattice_new_desc *desc, bool all, place_l
     return status;
 }
 
-/* Sizes that are not valid are told by ffd_lattice_create. */
+/* Invalid sizes are left to ffd_lattice_create. */
 static ffd_status check_memory(const ffd_lattice_new_desc *desc, ffd_error *error)
 {
     lattice_spec spec = {.count = 1};
@@ -110,7 +110,7 @@ static ffd_status create_round(const ffd_lattice_new_desc *desc, ffd_lattice **l
     if (!status)
         status = ffd_lattice_create(desc->lattice, points.xyz, points.count, lattice, error);
     ffd_free(points.xyz);
-    /* Other failures are of the description, not of the meshes. */
+    /* other failures concern the description, not the meshes */
     if (status == FFD_E_INVALID)
         ffd_fail_name_file(error, ffd_source_name(&desc->meshes[0]));
     return status;
@@ -127,7 +127,7 @@ static ffd_status check_desc(const ffd_lattice_new_desc *desc, ffd_error *error)
     return ffd_output_check(desc->output, desc->force, error);
 }
 
-/* Gives paths to meshes that are in memory, in a copy of their array, which is the caller's to free. */
+/* Registers meshes in memory under paths, in a copy of their array (*meshes), which the caller frees. */
 static ffd_status take_memory(job_memory *memory, ffd_lattice_new_desc *desc, ffd_source **meshes,
                               ffd_error *error)
 {

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Of a vertex, for what a target makes of it. */
+/* Memory for the result of one vertex in one target, in bytes. */
 #define TARGET_BYTES 64
 
 static ffd_status check_name(const char *name, ffd_error *error)
@@ -77,7 +77,7 @@ void ffd_morphs_end(deform_job *job)
     job->clip_count = 0;
 }
 
-/* Hands the clips to what will write them. A conversion knows no other targets than the new ones. */
+/* Passes the clips to the writer. In a conversion only the new targets exist. */
 static ffd_status keep_clips(const deform_job *job, ffd_error *error)
 {
     const ffd_deform_desc *const desc = job->desc;
@@ -95,7 +95,7 @@ static ffd_status keep_clips(const deform_job *job, ffd_error *error)
     return status;
 }
 
-/* Begins a conversion with the shape that stays. */
+/* Starts a conversion with the base shape. */
 static ffd_status begin(deform_job *job, ffd_error *error)
 {
     if (!job->document->converted)
@@ -107,7 +107,7 @@ static ffd_status begin(deform_job *job, ffd_error *error)
     return status;
 }
 
-/* Keeps what the pass of a target has made of a document that becomes another format. */
+/* Conversion: adds the deformed shape to the model as a morph target. */
 static ffd_status keep_shape(deform_job *job, const char *name, ffd_error *error)
 {
     mesh_model after = {.budget = &job->document->budget};
@@ -118,7 +118,7 @@ static ffd_status keep_shape(deform_job *job, const char *name, ffd_error *error
     return status;
 }
 
-/* Says in a failure which target it is of. */
+/* Adds the target's name to the message of a failure. */
 static void name_target(const char *name, size_t count, ffd_error *error)
 {
     char shown[80], message[sizeof error->message];
@@ -129,7 +129,8 @@ static void name_target(const char *name, size_t count, ffd_error *error)
     memcpy(error->message, message, sizeof message);
 }
 
-/* The pass of one target. Its warnings name it; those of the file come with the first. */
+/* Runs the pass for one target. Its warnings name it; warnings about the file come with the first one
+   only. */
 static ffd_status run_one(deform_job *job, size_t k, const mesh_log *log, ffd_job_result *result,
                           ffd_error *error)
 {
@@ -157,26 +158,27 @@ static ffd_status run_one(deform_job *job, size_t k, const mesh_log *log, ffd_jo
         name_target(name, all->lattice_count, error);
     ffd_chain_end_alone(&job->chain);
     job->chain = whole;
-    job->document_is_shared = true; /* where its vertices are in a rest volume is known from now on */
+    job->document_is_shared = true; /* the cache may know the locations of its vertices from now on */
     job->desc = all;
     job->log = job->file_log = *log;
     return status;
 }
 
-/* Whether there is memory for u,v,w of all vertices beside what the targets need, of which there are some. */
-static bool has_room(const deform_job *job, size_t targets)
+/* Whether memory suffices to keep u,v,w of all vertices beside the targets, and there are later targets to
+   use them. */
+static bool fits_budget(const deform_job *job, size_t targets)
 {
     return targets > 1 && ffd_budget_check(&job->document->budget, ffd_mesh_vertex_count(job->document),
                                            sizeof(ffd_location) + targets * TARGET_BYTES, NULL) == FFD_OK;
 }
 
-/* done: how many have figures afterwards, also one that a gate refuses. */
+/* *done: the number of targets with figures, including one that a gate refuses. */
 static ffd_status run_all(deform_job *job, ffd_job_result *results, size_t *done, ffd_error *error)
 {
     const mesh_log log = job->log;
     const size_t count = job->desc->lattice_count;
     job->document->sparse_targets = true;
-    job->forgets_locations = !has_room(job, count);
+    job->forgets_locations = !fits_budget(job, count);
     ffd_status status = keep_clips(job, error);
     if (!status)
         status = begin(job, error);

@@ -61,7 +61,8 @@ json_cursor ffd_cursor_next(json_cursor element)
     return move_to(element, ffd_json_span_after(element.tree, element.value));
 }
 
-void ffd_cursor_pointer(json_cursor cursor, char *text, size_t capacity)
+/* The JSON pointer of the value, cut to capacity. */
+static void write_pointer(json_cursor cursor, char *text, size_t capacity)
 {
     size_t length = 0;
     if (is_substitute(cursor)) {
@@ -77,7 +78,7 @@ static ffd_status fail(json_cursor cursor, ffd_status status, const char *format
     if (!error)
         return status;
     char pointer[sizeof error->pointer], message[sizeof error->message];
-    ffd_cursor_pointer(cursor, pointer, sizeof pointer);
+    write_pointer(cursor, pointer, sizeof pointer);
     vsnprintf(message, sizeof message, format, arguments);
     return ffd_fail_at(error, status, cursor.file->name, pointer, "%s", message);
 }

@@ -68,8 +68,6 @@ static inline size_t ffd_cursor_count(json_cursor cursor)
     return cursor.tree->values[cursor.value].count;
 }
 
-/* The JSON pointer of the value, cut to capacity. */
-void ffd_cursor_pointer(json_cursor cursor, char *text, size_t capacity);
 /* A failure at the value: FFD_E_INVALID, or another status. Returns it. */
 ffd_status ffd_cursor_fail(json_cursor cursor, const char *format, ...) FFD_PRINTF(2, 3);
 /* The same with another status. */

@@ -111,8 +111,9 @@ void ffd_lattice_basis(const ffd_lattice *lattice, const double uvw[3], lattice_
     }
 }
 
-void ffd_lattice_sum(const ffd_lattice *lattice, const lattice_basis *basis, const double *field,
-                     double value[3], double derivative[9])
+/* Without weights. */
+static void sum_plain(const ffd_lattice *lattice, const lattice_basis *basis, const double *field,
+                      double value[3], double derivative[9])
 {
     const partial_sum sum = sum_cell(lattice, basis, (summand){field, NULL}, derivative != NULL);
     for (int r = 0; r < 3; r++) {
@@ -130,7 +131,7 @@ void ffd_lattice_sum_rational(const ffd_lattice *lattice, const lattice_basis *b
                               const double *weights, double value[3], double derivative[9])
 {
     if (!weights) {
-        ffd_lattice_sum(lattice, basis, field, value, derivative);
+        sum_plain(lattice, basis, field, value, derivative);
         return;
     }
     const partial_sum sum = sum_cell(lattice, basis, (summand){field, weights}, derivative != NULL);

@@ -260,12 +260,6 @@ ffd_status ffd_lattice_finish_moved(ffd_lattice *lattice, ffd_error *error)
     return FFD_OK;
 }
 
-ffd_status ffd_lattice_finish(ffd_lattice *lattice, ffd_error *error)
-{
-    const ffd_status status = ffd_lattice_make_difference(lattice, error);
-    return status ? status : ffd_lattice_finish_moved(lattice, error);
-}
-
 void ffd_lattice_get_size(const ffd_lattice *lattice, size_t size[3])
 {
     for (int a = 0; a < 3; a++)

@@ -70,9 +70,6 @@ ffd_status ffd_lattice_make_difference(ffd_lattice *lattice, ffd_error *error);
    FFD_E_INVALID, FFD_E_MEMORY. */
 ffd_status ffd_lattice_finish_moved(ffd_lattice *lattice, ffd_error *error);
 
-/* Both, of a lattice whose points were not moved one after the other. */
-ffd_status ffd_lattice_finish(ffd_lattice *lattice, ffd_error *error);
-
 /* The (d_u+1)(d_v+1)(d_w+1) basis functions that are not 0 at one u,v,w, per direction. */
 typedef struct lattice_basis {
     int span[3];
@@ -82,13 +79,9 @@ typedef struct lattice_basis {
 /* uvw must be in the domain (ffd_knots_wrap). */
 void ffd_lattice_basis(const ffd_lattice *lattice, const double uvw[3], lattice_basis *basis);
 
-/* sum over the basis' control points of field[3] * N N N (no weights), ascending index, u innermost;
-   derivative (9, row by row, may be NULL) is by u,v,w. */
-void ffd_lattice_sum(const ffd_lattice *lattice, const lattice_basis *basis, const double *field,
-                     double value[3], double derivative[9]);
-
-/* The same for sum field R with R = h N N N / sum h N N N and these weights h (count; NULL: ffd_lattice_sum),
-   the derivative by the quotient rule (NURBS Book 4.4). */
+/* sum over the basis' control points of field[3] * R, ascending index, u innermost: R = h N N N / sum h N N N
+   with these weights h (count), R = N N N where they are NULL. derivative (9, row by row, may be NULL) is by
+   u,v,w, with weights by the quotient rule (NURBS Book 4.4). */
 void ffd_lattice_sum_rational(const ffd_lattice *lattice, const lattice_basis *basis, const double *field,
                               const double *weights, double value[3], double derivative[9]);
 

@@ -3,7 +3,6 @@
 #define FFD_MESH_BOUNDS_H
 
 #include "base/vector/vec.h"
-#include "json/json_text.h"
 #include <ffd/job.h>
 
 /* The bounds of no points: min is greater than max. */
@@ -20,8 +19,5 @@ static inline void ffd_bounds_widen(ffd_bounds *box, const double point[3])
         box->max[a] = larger_of(box->max[a], point[a]);
     }
 }
-
-/* Appends "key": {"min": [..], "max": [..]}, or null if there are no points. */
-void ffd_bounds_json(json_text *json, const char *key, const ffd_bounds *box);
 
 #endif

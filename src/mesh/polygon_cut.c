@@ -28,7 +28,7 @@ static size_t count_leaves(size_t count)
     return leaves;
 }
 
-static ffd_status make_room(polygon_cutter *cutter, size_t count, ffd_error *error)
+static ffd_status reserve(polygon_cutter *cutter, size_t count, ffd_error *error)
 {
     if (count >= UINT32_MAX / 2)
         return ffd_fail(error, FFD_E_LIMIT, "a polygon has %zu corners, more than can be cut into triangles",
@@ -309,7 +309,7 @@ ffd_status ffd_polygon_cut(polygon_cutter *cutter, const double *points, size_t 
 {
     bool fan = count == 3;
     if (!fan) {
-        const ffd_status status = make_room(cutter, count, error);
+        const ffd_status status = reserve(cutter, count, error);
         if (status)
             return status;
         project(cutter, points, count);

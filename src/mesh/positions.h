@@ -28,4 +28,7 @@ uint32_t *ffd_positions_at(const position_table *table, const double position[3]
 /* Frees the table. */
 void ffd_positions_end(position_table *table);
 
+/* Fills twins, one a vertex: the first vertex whose three coordinates are the same. Errors: FFD_E_MEMORY. */
+ffd_status ffd_positions_twins(const double *positions, size_t count, uint32_t *twins, ffd_error *error);
+
 #endif

@@ -70,7 +70,7 @@ void ffd_selector_offer(selector_nearest *nearest, const char *name, size_t size
 {
     char offered[sizeof nearest->name];
     snprintf(offered, sizeof offered, "%.*s", (int)(size < sizeof offered ? size : sizeof offered), name);
-    const size_t distance = ffd_word_distance(nearest->selector->name, offered);
+    const size_t distance = ffd_word_distance(nearest->selector->name, nearest->selector->size, offered);
     if (nearest->offered && distance >= nearest->distance)
         return;
     nearest->offered = true;

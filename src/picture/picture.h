@@ -3,9 +3,7 @@
    order.
 
    The projection is parallel: equal lengths are equal wherever they are in a picture, so that what moved can
-   be measured by eye, and no mesh is too near to be seen.
-
-   picture_file.c has ffd_picture_save, twins.c ffd_picture_twins. */
+   be measured by eye, and no mesh is too near to be seen. */
 #ifndef FFD_PICTURE_PICTURE_H
 #define FFD_PICTURE_PICTURE_H
 
@@ -13,7 +11,6 @@
 #include "mesh/memory_budget.h"
 #include "picture/picture_scene.h"
 #include <stdbool.h>
-#include <stddef.h>
 #include <stdint.h>
 
 /* The largest width and height, and the most pixels. */
@@ -25,13 +22,5 @@
    FFD_E_LIMIT. */
 ffd_status ffd_picture_draw(const picture *of, const memory_budget *budget, uint8_t **pixels,
                             ffd_error *error);
-
-/* Draws and writes a PNG file; an existing one is refused unless force. Errors: those above, and as
-   base/file/output.h. */
-ffd_status ffd_picture_save(const picture *of, const memory_budget *budget, const char *path, bool force,
-                            ffd_error *error);
-
-/* Fills twins, one a vertex: the first vertex whose three coordinates are the same. Errors: FFD_E_MEMORY. */
-ffd_status ffd_picture_twins(const double *positions, size_t count, uint32_t *twins, ffd_error *error);
 
 #endif

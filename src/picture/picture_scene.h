@@ -30,7 +30,7 @@ typedef struct picture_mesh {
     const picture_material *material_list;
     size_t material_count;
     const uint32_t *twins; /* of each vertex the first one at its place, so that light does not break at seams
-                              (ffd_picture_twins); NULL: each is its own */
+                              (ffd_positions_twins); NULL: each is its own */
 } picture_mesh;
 
 /* Segments with points at their ends, as a control lattice has. What a mesh hides is drawn faintly. */

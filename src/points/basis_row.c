@@ -23,8 +23,9 @@ static void make_factor(const knot_vector *knots, int span, const double value[M
     }
 }
 
-void ffd_basis_row_at(const ffd_lattice *lattice, const double *weights, const double uvw[3], double scale,
-                      basis_row *row)
+/* Fills the row at u,v,w of a lattice, times the scale: R_j = h_j N N N / sum h N N N (NURBS Book 4.2). */
+static void fill_row(const ffd_lattice *lattice, const double *weights, const double uvw[3], double scale,
+                     basis_row *row)
 {
     lattice_basis basis;
     factor of[3];
@@ -58,7 +59,7 @@ void ffd_basis_row(const ffd_embedding *embedding, const double *weights, size_t
 {
     row->count = 0;
     if (ffd_embedding_has(embedding, point)) {
-        ffd_basis_row_at(embedding->rest, weights, embedding->uvw + 3 * point, 1, row);
+        fill_row(embedding->rest, weights, embedding->uvw + 3 * point, 1, row);
         return;
     }
     while (*next < embedding->extended_count && embedding->extended[*next].point < point)
@@ -68,5 +69,5 @@ void ffd_basis_row(const ffd_embedding *embedding, const double *weights, size_t
     const boundary_point *const nearest = &embedding->extended[*next].nearest;
     const double fade = ffd_extension_fade(nearest->distance, embedding->falloff, NULL);
     if (fade > 0)
-        ffd_basis_row_at(embedding->rest, weights, nearest->uvw, fade, row);
+        fill_row(embedding->rest, weights, nearest->uvw, fade, row);
 }

@@ -13,10 +13,6 @@ typedef struct basis_row {
     double values[BASIS_ENTRIES];    /* R_j(u), none 0 */
 } basis_row;
 
-/* Fills the row at u,v,w of a lattice, times the scale: R_j = h_j N N N / sum h N N N (NURBS Book 4.2). */
-void ffd_basis_row_at(const ffd_lattice *lattice, const double *weights, const double uvw[3], double scale,
-                      basis_row *row);
-
 /* Fills the row of a point. next: the first extended point from this one on, moved to where the next point
    looks. weights: of the deformed volume; NULL: all are 1. */
 void ffd_basis_row(const ffd_embedding *embedding, const double *weights, size_t point, size_t *next,

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Makes from include/ffd what the Python package calls: the library's structures and functions for ctypes, and a C
-source by which the compiler checks that both sides agree on every size and offset.
+"""Generates from include/ffd the ctypes declarations of the library's structures and functions for the Python package,
+and a C source with which the compiler checks that both sides agree on every size and offset.
 
     declare.py HEADERS DECLARATIONS.py LAYOUT.c COMPILER...
 
-The compiler is only asked to expand the headers. Nothing of the library is declared by hand anywhere.
+COMPILER is used as a preprocessor only. No declaration of the library is written by hand.
 """
 
 import ctypes
@@ -15,7 +15,7 @@ import tempfile
 
 from pycparser import c_ast, c_parser
 
-# Stand in for the system's headers, which pycparser need not read.
+# Replacements for the system's headers, which pycparser cannot parse.
 STANDARD = {
     "stddef.h": "typedef unsigned long size_t; typedef long ptrdiff_t;\n",
     "stdint.h": "typedef unsigned char uint8_t; typedef unsigned uint32_t; typedef unsigned long uint64_t;\n",
@@ -29,7 +29,7 @@ NUMBERS = {
 
 
 def expand(headers, compiler):
-    """The text of all public headers after the preprocessor."""
+    """The preprocessed text of all public headers."""
     with tempfile.TemporaryDirectory() as folder:
         for name, text in STANDARD.items():
             with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
@@ -40,7 +40,7 @@ def expand(headers, compiler):
 
 
 class Headers:
-    """What the headers declare, as lines of Python."""
+    """The declarations in the headers, with types as ctypes expressions."""
 
     def __init__(self, text):
         self.structures, self.enumerations, self.functions, self.callbacks, self.opaque = {}, {}, {}, set(), set()
@@ -82,7 +82,7 @@ class Headers:
         return self.type(node.type), [] if arguments == ["None"] else arguments
 
     def type(self, node, argument=False):
-        """The ctypes expression of a type. Arrays of arguments are pointers."""
+        """The ctypes expression of a type. An array argument is a pointer."""
         if isinstance(node, c_ast.ArrayDecl):
             return "c_void_p" if argument else f"{self.type(node.type)} * {self.number(node.dim)}"
         if isinstance(node, c_ast.PtrDecl):
@@ -99,7 +99,7 @@ class Headers:
         sys.exit(f"declare.py: unknown type: {name}")
 
     def pointer(self, target, argument):
-        """Texts and arrays that a structure holds keep what they point to alive; any other is an address."""
+        """A typed pointer for texts and structures that a structure holds, so that ctypes keeps them alive; else an address."""
         if isinstance(target, c_ast.TypeDecl) and isinstance(target.type, c_ast.IdentifierType):
             name = target.type.names[-1]
             if name == "char" and "const" in target.quals:
@@ -112,7 +112,7 @@ class Headers:
 
 
 def python(headers):
-    """The text of the module."""
+    """The text of the generated module."""
     lines = ['"""Made from include/ffd by src/python/declare.py."""', "", "from ctypes import *", ""]
     for name, members in headers.structures.items():
         lines += ["", f"class {name}(Structure):", "    _fields_ = ["]
@@ -125,9 +125,9 @@ def python(headers):
 
 
 def layout(headers, text):
-    """C that compiles only where the compiler's structures are those of the module."""
+    """C code that compiles only if the compiler's structures match those of the module."""
     names = {}
-    exec(text, names)  # what was just made
+    exec(text, names)  # the generated module
     lines = ["/* layout.c - made by declare.py: the structures of ctypes are those of the compiler. */",
              "#include <ffd/ffd.h>", "#include <stddef.h>", ""]
     for name, members in headers.structures.items():

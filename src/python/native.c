@@ -1,9 +1,8 @@
-/* native.c - the Python extension that holds the library, and what the library calls back. ctypes calls all
-   else.
+/* native.c - the Python extension that contains the library and its callbacks. All other calls go through
+   ctypes.
 
-   These functions are C because an interrupt must not arrive in a Python function that the library has
-   called: it would be raised where nobody can catch it. Each takes the interpreter, and leaves what it has to
-   say in a list. */
+   The callbacks are in C because a KeyboardInterrupt inside a Python callback of ctypes could not be caught
+   by the caller. Each callback acquires the GIL and stores its results, or an exception, in a list. */
 #include <Python.h>
 #include <ffd/job.h>
 #include <ffd/lattice.h>
@@ -12,7 +11,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* Appends the exception that is set to the list, and clears it. */
+/* Appends the pending exception to the list, and clears it. */
 static void keep_exception(PyObject *list)
 {
     PyObject *type, *value, *trace;
@@ -27,7 +26,8 @@ static void keep_exception(PyObject *list)
     Py_XDECREF(trace);
 }
 
-/* Asks the caller's function, if it is not None, whether to go on. Returns 1, 0, or -1 with an exception. */
+/* Calls the caller's progress function, if it is not None. Returns 1 to go on, 0 to stop, -1 with an
+   exception. */
 static int ask(PyObject *function, double done)
 {
     if (Py_IsNone(function))
@@ -40,8 +40,8 @@ static int ask(PyObject *function, double done)
     return goes_on;
 }
 
-/* The progress of an ffd_run. user: a list of the caller's function or None; what is raised is appended.
-   Between the main thread's calls this is where an interrupt is noticed. */
+/* ffd_run.progress. user: a list with the caller's function or None, to which an exception is appended. It
+   also checks for an interrupt (Ctrl-C), which Python cannot handle during a call. */
 static bool progress(void *user, double done)
 {
     PyObject *const list = user;
@@ -55,7 +55,7 @@ static bool progress(void *user, double done)
     return goes_on != 0;
 }
 
-/* Appends an object to the list and gives it up; what cannot be is dropped. */
+/* Appends a new reference to the list and releases it. Drops the object on failure. */
 static void append(PyObject *list, PyObject *object)
 {
     if (!object || PyList_Append(list, object) != 0)
@@ -63,14 +63,14 @@ static void append(PyObject *list, PyObject *object)
     Py_XDECREF(object);
 }
 
-/* A text of the library, in which a file may have other bytes than UTF-8; None for NULL. */
+/* Converts a text of the library, which may contain bytes of files that are not UTF-8. NULL becomes None. */
 static PyObject *text(const char *bytes)
 {
     return bytes ? PyUnicode_DecodeUTF8(bytes, (Py_ssize_t)strlen(bytes), "backslashreplace")
                  : Py_NewRef(Py_None);
 }
 
-/* An ffd_log_function. user: a list, which gets (level, line). */
+/* ffd_log_function. user: a list, to which (level, line) is appended. */
 static void take_line(void *user, ffd_log_level level, const char *line)
 {
     const PyGILState_STATE state = PyGILState_Ensure();
@@ -78,7 +78,7 @@ static void take_line(void *user, ffd_log_level level, const char *line)
     PyGILState_Release(state);
 }
 
-/* An ffd_parameter_function. user: a list, which gets (name, default, unit, comment, min, max). */
+/* ffd_parameter_function. user: a list, to which (name, default, unit, comment, min, max) is appended. */
 static bool take_parameter(void *user, const ffd_parameter *parameter)
 {
     const PyGILState_STATE state = PyGILState_Ensure();
@@ -89,13 +89,14 @@ static bool take_parameter(void *user, const ffd_parameter *parameter)
     return true;
 }
 
-/* The name of a file, as os.fsdecode has it. */
+/* Converts a file name like os.fsdecode. */
 static PyObject *file_name(const char *name)
 {
     return PyUnicode_DecodeFSDefaultAndSize(name, (Py_ssize_t)strlen(name));
 }
 
-/* Asks the function for a file: NULL with an exception, None, or bytes, of which the list is the owner. */
+/* Calls the caller's function for a file's bytes. Returns NULL with an exception, None, or bytes that the
+   list keeps alive. */
 static PyObject *find_bytes(PyObject *list, const char *name)
 {
     if (PyErr_CheckSignals() != 0)
@@ -103,15 +104,15 @@ static PyObject *find_bytes(PyObject *list, const char *name)
     PyObject *const answer = PyObject_CallFunction(PyList_GetItem(list, 0), "N", file_name(name));
     if (!answer || Py_IsNone(answer))
         return answer;
-    PyObject *const bytes = PyBytes_FromObject(answer); /* the same, if these are bytes */
+    PyObject *const bytes = PyBytes_FromObject(answer); /* bytes stay the same object */
     Py_DECREF(answer);
     const int failed = !bytes || PyList_Append(PyList_GetItem(list, 1), bytes) != 0;
     Py_XDECREF(bytes);
     return failed ? NULL : bytes;
 }
 
-/* An ffd_resolve_function. user: a list of the caller's function of a name, a list that gets the bytes to
-   keep them alive, and what was raised. */
+/* ffd_resolve_function. user: a list with the caller's function, a list that keeps the bytes alive, and then
+   an exception, if the function has raised one. */
 static ffd_status resolve(void *user, const char *name, ffd_bytes *bytes)
 {
     PyObject *const list = user;
@@ -133,7 +134,7 @@ static ffd_status resolve(void *user, const char *name, ffd_bytes *bytes)
     return status;
 }
 
-/* An ffd_sink_function. user: a list, which gets (name, bytes). */
+/* ffd_sink_function. user: a list, to which (name, bytes) is appended. */
 static ffd_status take_file(void *user, const char *name, const void *bytes, size_t size)
 {
     const PyGILState_STATE state = PyGILState_Ensure();
@@ -147,7 +148,7 @@ static ffd_status take_file(void *user, const char *name, const void *bytes, siz
     return failed ? FFD_E_MEMORY : FFD_OK;
 }
 
-/* An ffd_positions_function. user: a list, which gets the numbers' bytes. */
+/* ffd_positions_function. user: a list, to which the bytes of the numbers are appended. */
 static ffd_status take_positions(void *user, const double *positions, size_t count)
 {
     const PyGILState_STATE state = PyGILState_Ensure();
@@ -170,7 +171,7 @@ static int add_address(PyObject *module, const char *name, uintptr_t address)
     return failed;
 }
 
-/* The module has the addresses of the functions above. */
+/* The module's attributes are the addresses of the functions above. */
 PyMODINIT_FUNC PyInit__native(void);
 PyMODINIT_FUNC PyInit__native(void)
 {

@@ -24,16 +24,11 @@ static void add_identity(const double gradient[9], double f[9])
         f[i] = gradient[i] + (i % 4 == 0 ? 1 : 0);
 }
 
-static double square_sum(const double m[9])
-{
-    return vec_dot(m, m) + vec_dot(m + 3, m + 3) + vec_dot(m + 6, m + 6);
-}
-
 /* Whether the least singular value, which is the determinant by the product of the others, is nothing beside
    the largest. */
 static bool is_flattening(const double f[9], const double cofactor[9])
 {
-    return !(fabs(vec_dot(f, cofactor)) > NOTHING * mat_largest_entry(f) * sqrt(square_sum(cofactor)));
+    return !(fabs(vec_dot(f, cofactor)) > NOTHING * mat_largest_entry(f) * sqrt(mat_square_sum(cofactor)));
 }
 
 void ffd_splat_matrix(const double q[4], double m[9])
@@ -93,7 +88,7 @@ static bool prepare_turn(const double gradient[9], splat_turn *turn, double f[9]
     mat_cofactor(f, cofactor);
     if (is_flattening(f, cofactor)) {
         /* Cofactors have the directions of F, with a size across the plane that it leaves. */
-        const double size = sqrt(square_sum(f));
+        const double size = sqrt(mat_square_sum(f));
         for (int i = 0; i < 9; i++)
             f[i] += cofactor[i] / size;
         mat_cofactor(f, cofactor);

@@ -1,11 +1,6 @@
 #include "splat/splat_iterations.h"
 #include "base/vector/vec.h"
 
-static double square_sum(const double m[9])
-{
-    return vec_dot(m, m) + vec_dot(m + 3, m + 3) + vec_dot(m + 6, m + 6);
-}
-
 void ffd_splat_orthogonalise(double x[9])
 {
     bool is_near = false;
@@ -13,8 +8,8 @@ void ffd_splat_orthogonalise(double x[9])
         double cofactor[9], change = 0;
         mat_cofactor(x, cofactor);
         const double determinant = vec_dot(x, cofactor);
-        const double inverse_sum = square_sum(cofactor) / (determinant * determinant);
-        const double scale = is_near ? 1 : sqrt(sqrt(inverse_sum / square_sum(x)));
+        const double inverse_sum = mat_square_sum(cofactor) / (determinant * determinant);
+        const double scale = is_near ? 1 : sqrt(sqrt(inverse_sum / mat_square_sum(x)));
         const double back = 1 / (determinant * scale);
         for (int i = 0; i < 9; i++) {
             const double next = 0.5 * (scale * x[i] + cofactor[i] * back);

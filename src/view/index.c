@@ -6,11 +6,11 @@
 #include <inttypes.h>
 #include <string.h>
 
-/* Sides of a job's picture in pixels, so that a row has its height before the picture is loaded. */
+/* Size of a job's picture in pixels: it reserves the row's height before the picture is loaded. */
 #define PICTURE_WIDTH 1600
 #define PICTURE_HEIGHT 900
 
-/* A name as the page may show it, as text or as an attribute's value. */
+/* Appends a name, made fit to be shown. escape: for text, or for the value of an attribute. */
 static void append_name(byte_buffer *html, const char *name, void (*escape)(byte_buffer *, const char *))
 {
     char *const shown = ffd_page_name(name ? name : "");
@@ -36,8 +36,8 @@ static void append_picture(byte_buffer *html, const index_row *row)
     ffd_buffer_text(html, "\"></a></td>");
 }
 
-/* Cells have the keys that they are sorted by: numbers, of which the later ones decide where the first are
-   equal; none where a figure is not known. */
+/* Each cell holds its sort keys in data-key: numbers, of which a later one decides where the earlier ones are
+   equal. The key is empty where a figure is not known. */
 static void append_job(byte_buffer *html, const index_row *row)
 {
     ffd_buffer_format(html, "<td data-label=\"Line\" data-key=\"%" PRIu64 "\">%" PRIu64 "</td>", row->number,

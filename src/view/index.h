@@ -1,5 +1,5 @@
-/* index.h - the page that compares the jobs of a batch by their pictures and figures: a table that a browser
-   sorts. Its policy allows pictures from where the page itself comes from, and nothing else. */
+/* index.h - the page that compares the jobs of a batch by their pictures and figures: a table that the
+   browser sorts. The page's Content-Security-Policy allows pictures from its own origin and nothing else. */
 #ifndef FFD_VIEW_INDEX_H
 #define FFD_VIEW_INDEX_H
 
@@ -9,13 +9,13 @@
 typedef enum index_folds {
     INDEX_FOLDS_NOT_KNOWN,
     INDEX_FOLDS_NONE,
-    INDEX_FOLDS_UNKNOWN, /* could not be decided */
+    INDEX_FOLDS_UNKNOWN, /* the proof was not conclusive */
     INDEX_FOLDS_SOME
 } index_folds;
 
-/* A job. Texts are of any bytes; NULL where there is none. Counts are as a report has them. */
+/* One job. Texts may hold any bytes, and are NULL where absent. Counts are those of the report. */
 typedef struct index_row {
-    uint64_t number; /* its line */
+    uint64_t number; /* line of the manifest */
     const char *input, *output;
     const char *picture;  /* relative to the page */
     const char *settings; /* "NAME=VALUE, NAME=VALUE" */
@@ -26,20 +26,20 @@ typedef struct index_row {
     double displacement, torn_edges, largest_step, folded_cells, min_det, flipped_faces;
 } index_row;
 
-/* A page on its way into a file. All zeros: none. */
+/* A page while it is written. All zeros: no page. */
 typedef struct view_index {
     page_writer writer;
     uint64_t jobs, skipped, failed;
 } view_index;
 
-/* Begins a page, with the name of what the jobs come from, in the file begun last. Errors: FFD_E_IO,
+/* Begins a page in the file that output began last. name: the manifest's, for the title. Errors: FFD_E_IO,
    FFD_E_MEMORY. */
 ffd_status ffd_index_begin(view_index *index, const char *name, file_output *output, ffd_error *error);
-/* Adds a job. Errors: the same. */
+/* Adds a row for a job. Errors: as of ffd_index_begin. */
 ffd_status ffd_index_add(view_index *index, const index_row *row, ffd_error *error);
-/* Ends the page. Errors: the same. */
+/* Ends the page. Errors: as of ffd_index_begin. */
 ffd_status ffd_index_end(view_index *index, ffd_error *error);
-/* Frees what a page holds while it is written. */
+/* Frees the writer's memory. May be called in every case. */
 void ffd_index_free(view_index *index);
 
 #endif

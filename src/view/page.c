@@ -21,7 +21,7 @@ typedef struct page_work {
     page_writer writer;
 } page_work;
 
-/* Says on the page, and to the log, that something is not shown. */
+/* Adds a notice that something is not shown, on the page and in the log. */
 static void FFD_PRINTF(2, 3) give_notice(page_work *work, const char *format, ...)
 {
     page_description *const page = &work->description;
@@ -35,7 +35,7 @@ static void FFD_PRINTF(2, 3) give_notice(page_work *work, const char *format, ..
     ffd_log_line(work->options->log, FFD_LOG_WARNING, "the page: %s", notice);
 }
 
-/* Chooses the cages whose points the page has, the first ones. */
+/* Chooses the cages whose points the page gets: in order, as long as the limit allows. */
 static ffd_status choose_cages(page_work *work, ffd_error *error)
 {
     const view_scene *const scene = work->scene;
@@ -78,7 +78,7 @@ static void say_what_is_left_out(page_work *work, size_t used)
         give_notice(work, "the mesh has no vertices");
 }
 
-/* Animations that a page cannot have are left out, and said. */
+/* Animations that exceed a limit are left out, with a notice. */
 static ffd_status make_rig(page_work *work, ffd_error *error)
 {
     ffd_error own = {0};

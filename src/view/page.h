@@ -6,10 +6,10 @@
 #include "view/page_options.h"
 #include "view/view_scene.h"
 
-/* Writes a page into the file that output began last, up to its last byte; the commit is the caller's. What
-   is too much for a browser is reduced; the page and the log say so. Errors: FFD_E_ARGUMENT (a scene whose
-   indices are beyond its arrays), FFD_E_LIMIT, FFD_E_IO, FFD_E_MEMORY, FFD_E_UNSUPPORTED (a mesh that has to
-   be reduced, without meshoptimizer). */
+/* Writes a page into the file that output began last; the caller commits it. A mesh that is too large for a
+   browser is simplified; the page and the log say so. Errors: FFD_E_ARGUMENT (an index of the scene is out of
+   range), FFD_E_LIMIT, FFD_E_IO, FFD_E_MEMORY, FFD_E_UNSUPPORTED (a mesh must be simplified, and
+   meshoptimizer is missing). */
 ffd_status ffd_view_page_write(const view_scene *scene, const view_page_options *options, file_output *output,
                                ffd_error *error);
 

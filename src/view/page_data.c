@@ -45,7 +45,8 @@ void ffd_page_data_measure(const page_mesh *mesh, page_data *data)
     data->move_step = most / MOVE_STEPS;
 }
 
-/* The step that is nearest. A step of 0, of a flat box or a denormal one, has none. */
+/* Returns the nearest step, at most `most` in absolute value; 0 where the step is 0 (a flat box, or an extent
+   so small that the step underflows). */
 static double quantize(double x, double step, double most)
 {
     const double q = step > 0 ? nearbyint(x / step) : 0;
@@ -78,7 +79,7 @@ static void fill_statuses(const void *of, size_t first, size_t count, unsigned c
         bytes[v] = mesh->scene->statuses[mesh->vertices[first + v]];
 }
 
-/* What is beyond a float is shown as its largest. */
+/* Clamps to the range of a float. */
 static float to_float(double x)
 {
     const double most = 3.4e38;

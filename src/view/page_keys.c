@@ -1,15 +1,7 @@
 /* page_keys.c - the channels and keys of a page's animations. */
-#include "base/little_endian.h"
 #include "base/memory/memory.h"
-#include "base/text/buffer_float.h"
+#include "base/text/buffer_binary.h"
 #include "view/page_rig.h"
-
-static void put_u32(byte_buffer *to, uint64_t value)
-{
-    unsigned char bytes[4];
-    store_u32(bytes, (uint32_t)value);
-    ffd_buffer_append(to, bytes, sizeof bytes);
-}
 
 void ffd_page_floats_put(byte_buffer *to, const double *values, size_t count)
 {
@@ -17,7 +9,8 @@ void ffd_page_floats_put(byte_buffer *to, const double *values, size_t count)
         ffd_buffer_float(to, values[i]);
 }
 
-/* Whether all keys have one value; of a spline this is not all. */
+/* Whether all keys have the same value. A cubic spline may still move between equal keys, so it never
+   counts. */
 static bool is_still(const rig_channel *channel)
 {
     for (size_t i = channel->width; i < channel->key_count * channel->width; i++)
@@ -27,7 +20,8 @@ static bool is_still(const rig_channel *channel)
     return channel->interpolation != RIG_CUBICSPLINE;
 }
 
-/* Where the times of each accessor begin; SIZE_MAX: they are not there yet. */
+/* For each accessor of times: the index of its first time in PAGE_TIMES; SIZE_MAX: not written yet. So
+   channels that share an accessor share their times. */
 typedef struct time_table {
     size_t *places;
     size_t count;
@@ -61,13 +55,13 @@ static void put_channel(page_rig_side *side, const rig_channel *channel, const t
     byte_buffer *const to = &side->blocks[PAGE_CHANNELS], *const values = &side->blocks[PAGE_VALUES];
     const size_t keys = is_still(channel) ? 1 : channel->key_count;
     const size_t per_key = channel->interpolation == RIG_CUBICSPLINE ? 3 : 1;
-    put_u32(to, channel->path == RIG_WEIGHTS ? channel->first_weight : channel->node);
-    put_u32(to, channel->path);
-    put_u32(to, channel->interpolation);
-    put_u32(to, keys);
-    put_u32(to, channel->width);
-    put_u32(to, put_times(side, channel, table));
-    put_u32(to, values->size / 4);
+    ffd_buffer_u32(to, (uint32_t)(channel->path == RIG_WEIGHTS ? channel->first_weight : channel->node));
+    ffd_buffer_u32(to, (uint32_t)channel->path);
+    ffd_buffer_u32(to, (uint32_t)channel->interpolation);
+    ffd_buffer_u32(to, (uint32_t)keys);
+    ffd_buffer_u32(to, (uint32_t)channel->width);
+    ffd_buffer_u32(to, (uint32_t)put_times(side, channel, table));
+    ffd_buffer_u32(to, (uint32_t)(values->size / 4));
     ffd_page_floats_put(values, channel->values, keys * per_key * channel->width);
 }
 

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Coordinates beyond it count as not finite: the sides of a box must not overflow. */
+/* Larger coordinates are treated as not finite, so that the sides of a box do not overflow. */
 #define FARTHEST 1e300
 
 static bool is_shown(const double *position)
@@ -12,7 +12,7 @@ static bool is_shown(const double *position)
     return fabs(position[0]) <= FARTHEST && fabs(position[1]) <= FARTHEST && fabs(position[2]) <= FARTHEST;
 }
 
-/* Whether all indices name vertices. */
+/* Whether all indices are less than vertices. */
 static bool are_vertices(const uint32_t *indices, size_t count, size_t vertices)
 {
     for (size_t i = 0; i < count; i++)
@@ -35,10 +35,10 @@ static ffd_status check(const view_scene *scene, ffd_error *error)
     for (size_t i = 0; i < scene->part_count && holds; i++)
         holds = scene->parts[i].first_triangle <= scene->triangle_count &&
                 scene->parts[i].triangle_count <= scene->triangle_count - scene->parts[i].first_triangle;
-    return holds ? FFD_OK : ffd_fail(error, FFD_E_ARGUMENT, "an index of the scene is beyond what it is of");
+    return holds ? FFD_OK : ffd_fail(error, FFD_E_ARGUMENT, "an index of the scene is out of range");
 }
 
-/* Marks the vertices that can be drawn: places is 0 there. */
+/* Sets places to 0 for the vertices that are finite before and after, to VIEW_NONE for the others. */
 static void find_finite(page_mesh *mesh)
 {
     const view_scene *const scene = mesh->scene;
@@ -58,7 +58,8 @@ static bool can_be_drawn(const page_mesh *mesh, const uint32_t *indices, size_t 
     return true;
 }
 
-/* Copies the elements, of corners vertices each, that can be drawn. Returns how many. */
+/* Copies the elements whose vertices can all be drawn. corners: vertices of an element. Returns their
+   number. */
 static size_t take_elements(const page_mesh *mesh, const uint32_t *from, size_t count, size_t corners,
                             uint32_t *to)
 {
@@ -86,7 +87,7 @@ static void take_part(page_mesh *mesh, size_t first, size_t count, page_part *pa
     part->triangle_count = mesh->triangle_count - part->first_triangle;
 }
 
-/* A mesh of vertices alone is shown as points. */
+/* A mesh that has vertices and nothing else is shown as points. */
 static void take_lone_points(page_mesh *mesh)
 {
     for (size_t v = 0; v < mesh->scene->vertex_count; v++)
@@ -107,7 +108,7 @@ static bool allocate(page_mesh *mesh, size_t triangles, size_t points)
            mesh->points && mesh->places;
 }
 
-/* Parts may overlap, so what they hold together is counted. */
+/* Counts the triangles of all parts, which may overlap. Returns SIZE_MAX on overflow. */
 static size_t count_triangles(const view_scene *scene)
 {
     size_t count = scene->part_count ? 0 : scene->triangle_count;

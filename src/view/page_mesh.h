@@ -1,5 +1,5 @@
-/* page_mesh.h - what of a scene's mesh a page shows: the triangles, segments and points whose vertices are
-   finite, and these vertices. */
+/* page_mesh.h - the part of a scene's mesh that a page shows: the triangles, segments and points whose
+   vertices are all finite, and the vertices they use. */
 #ifndef FFD_VIEW_PAGE_MESH_H
 #define FFD_VIEW_PAGE_MESH_H
 
@@ -9,31 +9,32 @@ typedef struct page_part {
     size_t first_triangle, triangle_count;
 } page_part;
 
-/* Indices are of the scene's vertices, until ffd_page_mesh_number. */
+/* Indices refer to the scene's vertices until ffd_page_mesh_number, then to those of the page. */
 typedef struct page_mesh {
     const view_scene *scene;
-    uint32_t *triangles; /* 3 each, the parts one after the other */
-    uint8_t *flipped;    /* one a triangle, or NULL */
+    uint32_t *triangles; /* 3 indices each, part by part */
+    uint8_t *flipped;    /* one flag a triangle, or NULL */
     size_t triangle_count;
     page_part *parts; /* as many as the scene has; one where it has none */
     size_t part_count;
-    uint32_t *segments, *points; /* 2 and 1 vertices each */
+    uint32_t *segments, *points; /* 2 indices and 1 index each */
     size_t segment_count, point_count;
-    uint32_t *vertices; /* of the scene: those that are used, ascending */
+    uint32_t *vertices; /* the scene's indices of the vertices in use, ascending */
     size_t vertex_count;
-    uint32_t *places;      /* where each vertex of the scene is in vertices, or VIEW_NONE */
-    uint64_t not_finite;   /* vertices that are left out, with what they are part of */
-    size_t triangles_lost; /* for that reason */
+    uint32_t *places;      /* of each vertex of the scene: its index in vertices, or VIEW_NONE */
+    uint64_t not_finite;   /* vertices left out, with every element that uses one */
+    size_t triangles_lost; /* triangles left out for that reason */
 } page_mesh;
 
-/* Takes all that can be drawn. Errors: FFD_E_ARGUMENT (an index or a part beyond its array), FFD_E_LIMIT,
-   FFD_E_MEMORY. Free it in every case. */
+/* Takes every element that can be drawn. Errors: FFD_E_ARGUMENT (an index or a part is out of range),
+   FFD_E_LIMIT, FFD_E_MEMORY. Call ffd_page_mesh_free in every case. */
 ffd_status ffd_page_mesh_take(const view_scene *scene, page_mesh *mesh, ffd_error *error);
-/* Returns how many vertices the elements use; places has their number in that count, or VIEW_NONE. */
+/* Fills places by the elements' vertices, numbered in ascending order. Returns the number of vertices in
+   use. */
 size_t ffd_page_mesh_mark(page_mesh *mesh);
-/* Lists the vertices that are used, and gives all indices their numbers. Errors: FFD_E_MEMORY. */
+/* Fills vertices, and makes all indices refer to it. Errors: FFD_E_MEMORY. */
 ffd_status ffd_page_mesh_number(page_mesh *mesh, ffd_error *error);
-/* Frees what a mesh holds. */
+/* Frees the arrays of a mesh. */
 void ffd_page_mesh_free(page_mesh *mesh);
 
 #endif

@@ -5,7 +5,7 @@
 #include "mesh/mesh_log.h"
 #include <stdbool.h>
 
-/* What a page is coloured by when it opens. In the order of ffd_view_color. */
+/* The colouring with which a page opens. In the order of ffd_view_color. */
 typedef enum view_page_color {
     VIEW_BY_DISPLACEMENT,
     VIEW_BY_STATUS,
@@ -13,15 +13,15 @@ typedef enum view_page_color {
     VIEW_BY_MATERIAL
 } view_page_color;
 
-/* Vertices and control points of a page that is not full. */
+/* Limits of a page without `full`: vertices, and control points of all lattices. */
 #define VIEW_PAGE_VERTICES 200000
 #define VIEW_PAGE_CONTROLS 100000
 
 typedef struct view_page_options {
-    bool full; /* all vertices, whatever their number */
+    bool full; /* show all vertices and control points */
     view_page_color color;
-    double camera[3];    /* where it is, seen from the mesh; zeros: from the right, above and in front */
-    const mesh_log *log; /* gets a line where the page shows less than the mesh; may be NULL */
+    double camera[3]; /* direction from the mesh to the camera; zeros: from the right, above and in front */
+    const mesh_log *log; /* gets a line for each reduction of the mesh; may be NULL */
 } view_page_options;
 
 #endif

@@ -4,28 +4,28 @@
 #include <math.h>
 #include <string.h>
 
-/* Triangles that are simplified at once: the library's memory grows with them. */
+/* Triangles per call of meshoptimizer, whose memory grows with their number. */
 #define RUN_TRIANGLES ((size_t)1 << 21)
-/* At most this share of the triangles that are wanted stays for being torn. */
+/* Triangles at torn edges are all kept if they are at most this share of the target. */
 #define TORN_SHARE 0.25
 #define PASSES 8
-/* Of the vertices that a pass aims at: it seldom meets them exactly. */
+/* Each pass aims at this share of the vertex limit, as simplification seldom hits its target exactly. */
 #define AIM 0.97
-/* After a pass that leaves more of the vertices, surfaces may be cut up. */
+/* If a pass leaves more than this share of the vertices, the next one may cut surfaces apart (is_rough). */
 #define STUCK 0.99
 
-/* A triangle's kind, of those that are simplified together. */
+/* Triangles of a part are simplified class by class; torn ones are kept. */
 enum { PLAIN, FLIPPED, TORN, CLASSES };
 
 typedef struct reducer {
     page_mesh *mesh;
-    double low[3], scale; /* positions to 0 .. 1 */
-    uint8_t *torn;        /* one a vertex of the scene: at an edge that is torn */
-    uint32_t *local;      /* one a vertex of the scene: its number in a run; VIEW_NONE between runs */
-    uint32_t *global;     /* of a run's vertices: of the scene */
+    double low[3], scale; /* map positions to 0 .. 1 */
+    uint8_t *torn;        /* of each vertex of the scene: whether it is an end of a torn edge */
+    uint32_t *local;  /* of each vertex of the scene: its index in the current run; VIEW_NONE between runs */
+    uint32_t *global; /* of each vertex of the run: its index in the scene */
     float *positions;
-    uint32_t *indices, *result; /* of a run */
-    uint32_t *kept;             /* the triangles of a part, while it is sorted */
+    uint32_t *indices, *result; /* of the run: before and after simplification */
+    uint32_t *kept;             /* copy of a part's triangles, sorted by class */
 } reducer;
 
 static void measure(reducer *r)
@@ -75,8 +75,8 @@ static int class_of(const reducer *r, size_t triangle)
     return r->mesh->flipped && r->mesh->flipped[triangle] ? FLIPPED : PLAIN;
 }
 
-/* Marks the ends of torn edges, but not where so many triangles would stay that little is left for the
-   rest. */
+/* Marks the ends of torn edges; marks none if keeping their triangles would leave too little of the target
+   for the rest of the mesh. */
 static void mark_torn(reducer *r, double ratio)
 {
     const view_scene *const scene = r->mesh->scene;
@@ -90,7 +90,7 @@ static void mark_torn(reducer *r, double ratio)
         memset(r->torn, 0, scene->vertex_count);
 }
 
-/* Numbers the vertices of a run. Returns how many. */
+/* Gives the vertices of a run their local indices and scaled positions. Returns their number. */
 static size_t enter_run(reducer *r, const uint32_t *corners, size_t count)
 {
     size_t vertices = 0;
@@ -110,7 +110,7 @@ static size_t enter_run(reducer *r, const uint32_t *corners, size_t count)
     return vertices;
 }
 
-/* Simplifies triangles in place; *count of them are left. */
+/* Simplifies the triangles of a run in place. *count: their number before and after. */
 static ffd_status reduce_run(reducer *r, double ratio, bool is_rough, uint32_t *corners, size_t *count,
                              ffd_error *error)
 {
@@ -120,7 +120,7 @@ static ffd_status reduce_run(reducer *r, double ratio, bool is_rough, uint32_t *
     if (vertices == 0)
         return FFD_OK;
     const ffd_status status = ffd_meshopt_simplify(&run, target, is_rough, r->result, &left, error);
-    /* No part may vanish without a word. */
+    /* A run that would vanish is kept as it was: no part may disappear unnoticed. */
     if (status || left == 0)
         return status;
     for (size_t i = 0; i < left; i++)
@@ -129,7 +129,7 @@ static ffd_status reduce_run(reducer *r, double ratio, bool is_rough, uint32_t *
     return FFD_OK;
 }
 
-/* Copies a part's triangles into kept, the classes one after the other. */
+/* Copies a part's triangles into kept, sorted by class. */
 static void sort_part(reducer *r, const page_part *part, size_t counts[CLASSES])
 {
     size_t at = 0;
@@ -142,7 +142,7 @@ static void sort_part(reducer *r, const page_part *part, size_t counts[CLASSES])
     }
 }
 
-/* Puts what is left of a part to the end of the mesh's triangles. */
+/* Appends triangles to the mesh. */
 static void put_back(page_mesh *mesh, const uint32_t *corners, size_t count, int kind)
 {
     if (count)
@@ -152,7 +152,7 @@ static void put_back(page_mesh *mesh, const uint32_t *corners, size_t count, int
     mesh->triangle_count += count;
 }
 
-/* A triangle at a torn edge may be flipped too. */
+/* Appends torn triangles. They may also be flipped, which marks tells. */
 static void put_torn(page_mesh *mesh, const uint8_t *marks, const uint32_t *corners, size_t count)
 {
     const size_t first = mesh->triangle_count;
@@ -176,7 +176,7 @@ static ffd_status reduce_class(reducer *r, double ratio, bool is_rough, int kind
     return FFD_OK;
 }
 
-/* The marks of torn triangles, in their order, into the bytes of marks. */
+/* Copies the flipped marks of a part's torn triangles, in order. */
 static void note_flipped(const reducer *r, const page_part *part, uint8_t *marks)
 {
     for (size_t t = part->first_triangle; t < part->first_triangle + part->triangle_count; t++)
@@ -205,7 +205,7 @@ static ffd_status reduce_part(reducer *r, double ratio, bool is_rough, page_part
     return status;
 }
 
-/* Keeps about that share of elements, evenly. Returns how many. */
+/* Keeps this share of the elements, evenly spaced. Returns their number. */
 static size_t thin_out(uint32_t *indices, size_t count, size_t corners, double ratio)
 {
     size_t left = 0;
@@ -228,14 +228,15 @@ static ffd_status reduce_once(reducer *r, double ratio, bool is_rough, ffd_error
     r->kept = ffd_alloc(largest, 3 * sizeof *r->kept);
     if (!r->kept)
         return ffd_fail_memory(error);
-    /* What is left of a part is never more than it was, so no part is written over before it is read. */
+    /* Triangles are written back in place: no part grows, so none is overwritten before it is read. */
     mesh->triangle_count = 0;
     for (size_t i = 0; i < mesh->part_count && !status; i++)
         status = reduce_part(r, ratio, is_rough, &mesh->parts[i], error);
     return status;
 }
 
-/* The last resort, for meshes that consist of borders: leaves triangles out. */
+/* The last resort, for meshes that simplification cannot reduce, such as unconnected triangles: drops
+   triangles evenly. */
 static void drop_triangles(page_mesh *mesh, double ratio)
 {
     size_t left = 0;
@@ -256,8 +257,8 @@ static void drop_triangles(page_mesh *mesh, double ratio)
     mesh->point_count = thin_out(mesh->points, mesh->point_count, 1, ratio);
 }
 
-/* The share of the triangles that a pass aims at. A mesh of several runs is brought down to one first: the
-   borders between runs stay, and show. */
+/* Returns the share of triangles that a pass aims at. A mesh of several runs is first reduced until one run
+   holds it, because borders between runs are kept and would show. */
 static double choose_ratio(const page_mesh *mesh, size_t limit, size_t used)
 {
     const double wanted = AIM * (double)limit / (double)used;

@@ -1,12 +1,13 @@
-/* page_reduce.h - a page's mesh with fewer vertices, which a browser still opens. */
+/* page_reduce.h - simplifies a page's mesh to a number of vertices that a browser can open. */
 #ifndef FFD_VIEW_PAGE_REDUCE_H
 #define FFD_VIEW_PAGE_REDUCE_H
 
 #include "view/page_mesh.h"
 
-/* Simplifies each part of a mesh that is not numbered yet, by the shape before, until it uses at most limit
-   vertices; a part's borders stay, and the triangles at torn edges. Segments and points are thinned out.
-   Does nothing where it has no more. Errors: FFD_E_UNSUPPORTED (no meshoptimizer), FFD_E_MEMORY. */
+/* Simplifies each part of a mesh that is not numbered yet, by its shape before the deformation, until the
+   mesh uses at most limit vertices. Borders of parts and triangles at torn edges are kept as far as that
+   allows. Segments and points are thinned out evenly. Does nothing if the mesh is within the limit. Errors:
+   FFD_E_UNSUPPORTED (meshoptimizer is missing), FFD_E_MEMORY. */
 ffd_status ffd_page_reduce(page_mesh *mesh, size_t limit, ffd_error *error);
 
 #endif

@@ -4,7 +4,7 @@
 #include "view/page_text.h"
 #include <string.h>
 
-#define SHARES 65535 /* of a vertex, over its bones */
+#define SHARES 65535 /* what the weights of a vertex add up to in PAGE_FOLLOWS */
 
 static const char *const block_names[PAGE_RIG_BLOCKS] = {
     "parent", "node", "bone", "bind", "weight", "channel", "time", "value", "follow", "anchor", "offset"};
@@ -49,14 +49,14 @@ static void put_skeleton(page_rig_side *side)
     ffd_page_floats_put(&side->blocks[PAGE_WEIGHTS], s->weights, s->weight_count);
 }
 
-/* The vertex of the document that a vertex of the page is. */
+/* Returns the index in the document of a vertex of the page. */
 static size_t number_of(const page_mesh *mesh, size_t vertex)
 {
     const uint32_t of = mesh->vertices[vertex];
     return mesh->scene->numbers ? (size_t)mesh->scene->numbers[of] : of;
 }
 
-/* The largest shares, the largest first. */
+/* Chooses the bones of a vertex with the largest weights, in descending order. Returns their number. */
 static size_t choose_bones(const mesh_skeleton *s, size_t vertex, rig_influence chosen[PAGE_BONES])
 {
     size_t count = 0;
@@ -86,7 +86,7 @@ static void put_follow(page_rig *rig, page_rig_side *side, size_t vertex)
     memset(at, 0, PAGE_BONES * 4);
     for (size_t i = 0; i < count; i++)
         total += (double)chosen[i].weight;
-    /* The first one, which is the largest, has what is left. */
+    /* The bone with the largest weight, the first, gets the remainder of the rounding. */
     for (size_t i = count; i-- > 0;) {
         const double share = total > 0 ? SHARES * (double)chosen[i].weight / total + 0.5 : 0;
         uint32_t part = i == 0 || !(share > 0) ? 0 : share > left ? left : (uint32_t)share;
@@ -190,7 +190,8 @@ void ffd_page_rig_free(page_rig *rig)
     *rig = (page_rig){0};
 }
 
-/* The channels of an animation on a side, [first, count]; null: it has none there. */
+/* Describes an animation's channels on a side as [first, count], or null where the side has no such
+   animation. */
 static void describe_channels(const page_rig *rig, int number, size_t animation, json_text *json)
 {
     const page_rig_side *const side = &rig->sides[number == 1 && rig->is_shared ? 0 : number];

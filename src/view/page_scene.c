@@ -94,7 +94,7 @@ static void put_vertex(json_text *json, const page_mesh *mesh, uint32_t vertex)
     const double *const after = scene->after ? scene->after : scene->before;
     ffd_json_object(json, NULL, true);
     ffd_json_count(json, "number", number_of(scene, vertex));
-    /* A vertex that the page leaves out has no place in its arrays. */
+    /* A vertex that the page leaves out has no index in its arrays. */
     if (mesh->places[vertex] != VIEW_NONE)
         ffd_json_count(json, "vertex", mesh->places[vertex]);
     ffd_json_vector(json, "before", scene->before + 3 * (size_t)vertex, 3);

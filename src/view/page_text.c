@@ -6,8 +6,8 @@
 #define ELLIPSIS "\xe2\x80\xa6"
 #define REPLACEMENT "\xef\xbf\xbd"
 
-/* Whether a character is no picture of its own: it breaks a line, turns the direction of what follows, or
-   cannot be seen. The joiners U+200C and U+200D are part of words. */
+/* Whether a character is a control or formatting character: it breaks the line, changes the direction of the
+   text, or is invisible. The joiners U+200C and U+200D are not among them, as words need them. */
 static bool is_hidden(uint32_t code)
 {
     static const uint32_t ranges[][2] = {{0, 0x1f},        {0x7f, 0x9f},      {0xad, 0xad},

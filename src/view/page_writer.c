@@ -4,7 +4,7 @@
 #include <assert.h>
 #include <string.h>
 
-/* Elements at once; a multiple of three, so that base64 goes on without a gap. */
+/* Elements per write. A multiple of three, so that runs of base64 can be concatenated without padding. */
 #define RUN 3072
 
 ffd_status ffd_page_writer_begin(page_writer *w, file_output *output, ffd_error *error)

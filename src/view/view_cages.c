@@ -3,9 +3,9 @@
 #include "view/view_palette.h"
 #include <string.h>
 
-/* Lines of the mesh, its points, torn edges, the witness. */
+/* Beside the lattices: the mesh's segments, its points, torn edges, the witness of a fold. */
 #define OTHERS 4
-/* Arrays that a cage owns at most. */
+/* The most arrays that one picture_cage owns. */
 #define ARRAYS 2
 
 static const uint8_t cage_color[3] = {29, 91, 208}, line_color[3] = {60, 64, 72};
@@ -28,7 +28,7 @@ bool ffd_view_cage_fits(const view_cage *cage, size_t left, size_t *count)
     return fits;
 }
 
-/* Joins each point of a lattice with the next along u, v and w. Returns how many segments there are. */
+/* Joins each control point with its neighbours along u, v and w. Returns the number of segments. */
 static size_t join(const view_cage *from, uint32_t *segments)
 {
     const size_t *const n = from->size, steps[3] = {1, n[0], n[0] * n[1]};
@@ -79,7 +79,7 @@ static void add_lines(const view_scene *scene, const double *positions, uint32_t
     to->width = 1 + height / 900.0;
 }
 
-/* A mesh of vertices alone is drawn as points. */
+/* A mesh that has vertices and nothing else is drawn as points. */
 static ffd_status add_points(const view_scene *scene, const double *positions, uint32_t height, view_cages *c,
                              ffd_error *error)
 {

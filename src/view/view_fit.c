@@ -3,8 +3,8 @@
 #include "mesh/bounds.h"
 #include "view/view_cages.h"
 
-/* How far lattices widen a picture on each side at most, in the largest extent of the mesh: it keeps a fifth
-   of what there would be without them. */
+/* Lattices widen a picture on each side by at most this many times the largest extent of the mesh, so that
+   the mesh still fills a fifth of the picture (1 / (1 + 2 REACH)). */
 #define REACH 2.0
 
 static bool is_empty(const ffd_bounds *bounds)
@@ -73,7 +73,7 @@ void ffd_view_fit(const view_fit *fit, ffd_bounds *seen, size_t *points, size_t 
     widen_by_lattices(fit, seen);
     for (int a = 0; a < 3 && !is_empty(&mesh); a++)
         reach = larger_of(reach, REACH * (mesh.max[a] - mesh.min[a]));
-    /* A single point has no size that could be too small. */
+    /* A single point has no extent, so no limit applies. */
     for (int a = 0; a < 3 && reach > 0; a++) {
         seen->min[a] = larger_of(seen->min[a], mesh.min[a] - reach);
         seen->max[a] = lesser_of(seen->max[a], mesh.max[a] + reach);

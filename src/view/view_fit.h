@@ -1,5 +1,5 @@
-/* view_fit.h - what of a scene a picture shows: the mesh before and after as a whole, and of the lattices as
-   much as leaves the mesh large enough to be looked at. */
+/* view_fit.h - the region of a scene that a picture shows: the whole mesh before and after, and as much of
+   the lattices as leaves the mesh large enough to look at. */
 #ifndef FFD_VIEW_VIEW_FIT_H
 #define FFD_VIEW_VIEW_FIT_H
 
@@ -8,13 +8,13 @@
 
 typedef struct view_fit {
     const view_scene *scene;
-    const uint8_t *used; /* one a vertex: something is drawn of it; NULL: of all */
+    const uint8_t *used; /* of each vertex: whether an element uses it; NULL: all are used */
     const camera *camera;
-    size_t most; /* control points that are drawn (view_cages.h) */
+    size_t most; /* control points that may be drawn (view_cages.h) */
 } view_fit;
 
-/* Fills the bounds along the camera's axes. points: the control points that are drawn; beyond: those that are
-   outside of the bounds, at rest or deformed. */
+/* Fills seen with the bounds along the camera's axes. *points: the number of control points drawn; *beyond:
+   how many of them lie outside of the bounds, at rest or deformed. */
 void ffd_view_fit(const view_fit *fit, ffd_bounds *seen, size_t *points, size_t *beyond);
 
 #endif

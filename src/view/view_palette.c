@@ -12,12 +12,13 @@ static const uint8_t status_colors[FFD_VERTEX_STATUS_COUNT][3] = {
     {74, 144, 217}, {160, 164, 170}, {240, 160, 32}, {150, 96, 210}, {214, 40, 40}};
 static const char *const status_names[] = {"inside", "outside", "multiple", "singular", "invalid"};
 
-/* viridis (van der Walt, Smith), and a ramp from blue over white to red. */
+/* viridis (van der Walt, Smith), and a diverging ramp from blue over white to red. */
 static const uint32_t sequential[] = {0x440154, 0x482878, 0x3e4989, 0x31688e, 0x26828e,
                                       0x1f9e89, 0x35b779, 0x6ece58, 0xb5de2b, 0xfde725};
 static const uint32_t diverging[] = {0x1d3f8f, 0x2f66b8, 0x5b95d3, 0x9cc3e6, 0xd7e6f2, 0xf6f6f4,
                                      0xf7dccb, 0xf0b08f, 0xdd7757, 0xbd3a33, 0x8a1222};
-/* det F beyond these is as the last colour. */
+/* The scale of det F ends at 1 / most and most, where most is between these two. Values beyond get the end
+   colours. */
 #define LEAST_DET 1.04
 #define MOST_DET 16
 
@@ -34,7 +35,7 @@ static void make_ramp(const uint32_t *stops, unsigned count, uint8_t ramp[PALETT
     }
 }
 
-/* 0 to 1 along the scale of det F: det F and 1 / det F are as far from the middle, which is 1. */
+/* Maps det F to 0 .. 1 along the scale, 1 to the middle, det F and 1 / det F to mirror images. */
 static double place_of_det(double det, double most)
 {
     return 0.5 + (det - 1) / (det + 1) * (most + 1) / (most - 1) / 2;
@@ -75,7 +76,7 @@ static void make_bar(view_palette *p, const char *title)
     p->has_scale = true;
 }
 
-/* Those that there are, and the first two. */
+/* Legend of the statuses: inside and outside always, each other one if a vertex has it. */
 static void make_fields(const view_scene *scene, view_palette *p)
 {
     size_t counts[FFD_VERTEX_STATUS_COUNT] = {0}, fields = 0;

@@ -1,6 +1,5 @@
-/* view_palette.h - what a picture is coloured by: a colour for each vertex, and the scale that explains it.
-   By
-   + - * / and square roots only, so that the same bits come out on every machine. */
+/* view_palette.h - how a picture is coloured: a colour for each vertex, and the scale that explains them.
+   Uses + - * / and square roots only, so that the bits are the same on every machine. */
 #ifndef FFD_VIEW_VIEW_PALETTE_H
 #define FFD_VIEW_VIEW_PALETTE_H
 
@@ -12,23 +11,25 @@
 #define PALETTE_LABELS 5
 
 typedef struct view_palette {
-    view_page_color color; /* what the scene has of what was asked for */
-    double most; /* the largest displacement; or the largest det F, or 1 / det F, of those above 0 */
+    view_page_color color; /* the colouring asked for, or what replaces it where the scene lacks the data */
+    double most; /* end of the scale: the largest displacement; or the largest of det F and 1 / det F, where
+                    det F > 0 */
     uint8_t ramp[PALETTE_COLORS][3];
     char texts[PALETTE_LABELS][32];
     const char *labels[PALETTE_LABELS];
-    picture_scale scale; /* of the above, so that a palette must stay where it was made */
+    picture_scale scale; /* refers to the members above, so a palette must not be copied */
     bool has_scale;
 } view_palette;
 
-/* Of flipped faces and folded volume, and of torn edges; sRGB. */
+/* Colours of flipped faces and folded volume, and of torn edges; sRGB. */
 extern const uint8_t ffd_view_folded[3], ffd_view_torn[3];
 
-/* Makes the palette of a scene. Without statuses and det F, displacements are what is left; where nothing
-   moves, the mesh is drawn plainly. */
+/* Makes the palette of a scene. Without the statuses or det F that were asked for, it shows displacements;
+   where nothing moves, the mesh's own colours. */
 void ffd_view_palette_make(const view_scene *scene, view_page_color color, view_palette *palette);
 
-/* Fills the colour of each vertex, red, green, blue, alpha, when it has gone this share of its way. */
+/* Fills the colour of each vertex (red, green, blue, alpha) at a share of the way from before (0) to after
+   (1). */
 void ffd_view_palette_fill(const view_palette *palette, const view_scene *scene, double share,
                            uint8_t *colors);
 

@@ -2,6 +2,7 @@
 #include "base/memory/memory.h"
 #include "base/text/words.h"
 #include "mesh/bounds.h"
+#include "mesh/positions.h"
 #include "picture/image/image.h"
 #include "view/view_cages.h"
 #include "view/view_fit.h"
@@ -13,17 +14,17 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Bytes of a vertex: its place and its colour. */
+/* Bytes per vertex: position and colour. */
 #define VERTEX_BYTES (3 * sizeof(double) + 4)
-/* Meshes of a panel: what is as it was, and what is flipped. */
+/* Meshes in a panel: the ordinary triangles, and the flipped ones. */
 #define MESHES 2
 
-/* Bytes of a caption. */
+/* Size of a caption in bytes. */
 #define CAPTION 40
 
-/* One step of the way from before to after, or a pose of either. */
+/* One step from before to after, or one pose of an animation. */
 typedef struct step {
-    double share; /* of the way: 0 to 1 */
+    double share; /* of the way from before (0) to after (1) */
     double *positions;
     bool owns_positions;
     uint8_t *colors;
@@ -36,14 +37,14 @@ typedef struct picture_work {
     const view_picture_options *options;
     view_palette palette;
     view_surface surface;
-    uint8_t *used;           /* one a vertex: something is drawn of it; NULL: of all */
-    uint32_t *twins, *white; /* white: the material of each triangle that is coloured by a palette */
-    step step;               /* the one that is drawn */
+    uint8_t *used;           /* of each vertex: whether an element uses it; NULL: all are used */
+    uint32_t *twins, *white; /* white: a material index of 0 for each triangle that a palette colours */
+    step step;               /* the one being drawn */
     picture_panel *panels;
-    char (*captions)[CAPTION]; /* of each panel */
+    char (*captions)[CAPTION]; /* one for each panel */
     size_t step_count;
     camera camera;
-    ffd_bounds seen; /* along the camera's axes */
+    ffd_bounds seen; /* bounds along the camera's axes */
     ffd_error *error;
 } picture_work;
 
@@ -77,7 +78,7 @@ ffd_status ffd_view_picture_check(const view_picture_options *options, ffd_error
     return FFD_OK;
 }
 
-/* A mesh that nothing moves is drawn once. */
+/* A mesh without a deformation has a single step. */
 static size_t count_steps(const view_scene *scene, const view_picture_options *options)
 {
     if (options->frames)
@@ -85,8 +86,8 @@ static size_t count_steps(const view_scene *scene, const view_picture_options *o
     return scene->statuses || scene->output || scene->cage_count ? 2 : 1;
 }
 
-/* Marks the vertices that something is drawn of: a picture makes room for no others. *used stays NULL where
-   all are. */
+/* Marks the vertices that an element uses: the camera need not show the others. *used stays NULL if all are
+   used. */
 static ffd_status find_used(const view_scene *scene, uint8_t **used, ffd_error *error)
 {
     const struct {
@@ -116,7 +117,8 @@ static bool is_finite(const double *p)
     return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
 }
 
-/* A triangle that has no place is left out of every picture that it has none in. */
+/* Logs the triangles that are not drawn (each picture leaves out those with a vertex that is not finite) and
+   the torn edges that are not marked. */
 static void say_what_is_left_out(const picture_work *w)
 {
     const view_scene *const scene = w->scene;
@@ -139,7 +141,7 @@ static void say_what_is_left_out(const picture_work *w)
                      scene->tear_count, scene->tear_edges);
 }
 
-/* The time of the animation that a panel shows: from its first key to its last. */
+/* Returns the time that a panel shows. The panels of a row go from the first key to the last. */
 static double time_of(const picture_work *w, size_t number)
 {
     const view_scene *const scene = w->scene;
@@ -149,7 +151,7 @@ static double time_of(const picture_work *w, size_t number)
     return i + 1 == count ? of->end : of->begin + (of->end - of->begin) * (double)i / (double)(count - 1);
 }
 
-/* The mesh before in the first row, after in the second. */
+/* Computes the pose of a panel: the first row is the mesh before, the second the mesh after. */
 static ffd_status pose(picture_work *w, size_t number, step *s)
 {
     const int side = number < w->options->frames ? 0 : 1;
@@ -185,7 +187,7 @@ static ffd_status place(picture_work *w, size_t number, step *s)
     return s->positions ? FFD_OK : ffd_fail_memory(w->error);
 }
 
-/* The rest shape is drawn as the mesh is, and what moved in the colours of the palette. */
+/* At rest the mesh has its own colours; once it has moved, those of the palette. */
 static ffd_status paint(picture_work *w, step *s, view_palette *own)
 {
     const view_scene *const scene = w->scene;
@@ -257,7 +259,7 @@ static void free_step(picture_work *w)
     *s = (step){0};
 }
 
-/* The first step has all lattices that there is room for, and so have the others. */
+/* Called for the first step only: all steps leave out the same lattices. */
 static void say_which_are_left_out(const picture_work *w)
 {
     const size_t left_out = w->step.cages.left_out, all = w->scene->cage_count;
@@ -267,7 +269,7 @@ static void say_which_are_left_out(const picture_work *w)
                      ffd_plural(all, "lattice is", "lattices are"), VIEW_PICTURE_CONTROLS);
 }
 
-/* The lattices stand round the mesh at rest, and so does a witness: with poses they are not drawn. */
+/* Poses are drawn without lattices and witness, which belong to the mesh at rest. */
 static ffd_status make_cages(const picture_work *w, step *s, ffd_error *error)
 {
     view_scene scene = *w->scene;
@@ -279,7 +281,8 @@ static ffd_status make_cages(const picture_work *w, step *s, ffd_error *error)
                                &s->cages, error);
 }
 
-/* One step is there at a time: each has its own places and colours of all vertices. */
+/* Makes the step of a panel. Only one step is in memory at a time, as each has its own positions and
+   colours. */
 static ffd_status make_step(void *context, size_t number, ffd_error *error)
 {
     picture_work *const w = context;
@@ -316,7 +319,7 @@ static ffd_status name_panels(picture_work *w)
     return FFD_OK;
 }
 
-/* All poses are in the picture. */
+/* Finds the bounds of all poses. */
 static ffd_status find_posed(picture_work *w)
 {
     ffd_status status = FFD_OK;
@@ -343,7 +346,7 @@ static void find_seen(picture_work *w)
                      beyond, points, ffd_plural(beyond, "is", "are"));
 }
 
-/* All that the steps share. */
+/* Makes everything that the steps share. */
 static ffd_status prepare(picture_work *w)
 {
     const view_scene *const scene = w->scene;
@@ -364,7 +367,7 @@ static ffd_status prepare(picture_work *w)
         return ffd_fail_memory(w->error);
     say_what_is_left_out(w);
     ffd_view_palette_make(scene, options->color, &w->palette);
-    status = ffd_picture_twins(scene->before, scene->vertex_count, w->twins, w->error);
+    status = ffd_positions_twins(scene->before, scene->vertex_count, w->twins, w->error);
     if (!status)
         status = find_used(scene, &w->used, w->error);
     if (!status)

@@ -6,7 +6,7 @@
 typedef struct pose_work {
     mesh_skeleton *skeleton;
     double *worlds, *weights, *bones;
-    double *points; /* the anchors as the weights have them */
+    double *points; /* anchors with the offsets of morph targets added */
 } pose_work;
 
 static ffd_status allocate(const view_rig *rig, pose_work *w, ffd_error *error)

@@ -4,12 +4,12 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Of what has lost its texture, and of what is white without one: a little darker it shows its shape. Linear.
- */
+/* Linear base colours. grey: of a material whose texture is lost. paper: of a white material without texture,
+   a little darker than white so that shading shows its shape. */
 static const double grey[3] = {0.47, 0.49, 0.52}, paper[3] = {0.72, 0.72, 0.73};
 #define WHITE 0.9
 
-/* Bytes of a triangle. */
+/* Bytes per triangle. */
 #define TRIANGLE_BYTES (4 * sizeof(uint32_t) + 6 * sizeof(float))
 
 static ffd_status decode(const mesh_image *from, const memory_budget *budget, texture *to, ffd_error *error)
@@ -25,7 +25,8 @@ static ffd_status decode(const mesh_image *from, const memory_budget *budget, te
     return status;
 }
 
-/* One that cannot be decoded is grey, and said; but memory that ends is an error. */
+/* An image that cannot be decoded is logged, and its material is drawn grey; running out of memory is an
+   error. */
 static ffd_status decode_all(const mesh_materials *from, const memory_budget *budget, const mesh_log *log,
                              view_surface *s, ffd_error *error)
 {
@@ -64,7 +65,7 @@ static void fill_material(const view_surface *s, const mesh_material *from, pict
         to->texture = of;
     else {
         memcpy(to->color, grey, sizeof grey);
-        to->alpha_cutoff = 0; /* it was the texture's */
+        to->alpha_cutoff = 0; /* it applied to the texture */
     }
 }
 
@@ -88,7 +89,7 @@ static void put_triangle(const view_scene *scene, size_t t, uint32_t material, s
     s->materials[to] = material;
 }
 
-/* Flipped triangles go to the end, in their order. */
+/* Copies the triangles, the flipped ones behind the others. Order is kept within both. */
 static void fill_triangles(const view_scene *scene, view_surface *s)
 {
     const view_part whole = {.material = VIEW_NONE, .triangle_count = scene->triangle_count};
@@ -102,7 +103,7 @@ static void fill_triangles(const view_scene *scene, view_surface *s)
         }
 }
 
-/* Counts the triangles of the parts, which together are those of the scene. */
+/* Counts plain and flipped triangles. */
 static void count_triangles(const view_scene *scene, view_surface *s)
 {
     for (size_t t = 0; t < scene->triangle_count; t++)

@@ -1,4 +1,4 @@
-/* view_surface.h - the materials and triangles of a scene as a picture takes them. */
+/* view_surface.h - the materials and triangles of a scene in the form that a picture takes. */
 #ifndef FFD_VIEW_VIEW_SURFACE_H
 #define FFD_VIEW_VIEW_SURFACE_H
 
@@ -8,21 +8,21 @@
 
 /* All zeros: none. */
 typedef struct view_surface {
-    /* The triangles, with those whose faces are flipped last; their corners' texture coordinates and their
-       materials likewise (the latter two may be NULL). */
+    /* Flipped triangles come last. materials (1 a triangle) and texcoords (6 a triangle; NULL if not
+       textured) are in the same order. */
     uint32_t *triangles, *materials;
     float *texcoords;
     size_t plain_count, flipped_count;
-    picture_material *list; /* of the scene's materials */
-    texture *textures;      /* of its images; empty where one cannot be decoded */
+    picture_material *list; /* one for each material of the scene */
+    texture *textures;      /* one for each image; empty where it cannot be decoded */
     size_t list_count, texture_count;
 } view_surface;
 
-/* Makes the surface. textured: decode the images; the log says which are broken, and their materials are
-   grey. Errors: FFD_E_LIMIT (the budget), FFD_E_MEMORY. */
+/* Makes the surface. textured: decode the images; one that cannot be decoded is logged, and its materials are
+   drawn grey. Errors: FFD_E_LIMIT (the budget), FFD_E_MEMORY. Call ffd_view_surface_free in every case. */
 ffd_status ffd_view_surface_make(const view_scene *scene, bool textured, const memory_budget *budget,
                                  const mesh_log *log, view_surface *surface, ffd_error *error);
-/* Frees it; leaves an empty one. */
+/* Frees the arrays; leaves an empty surface. */
 void ffd_view_surface_free(view_surface *surface);
 
 #endif

@@ -56,7 +56,7 @@ static ffd_lattice *make_lattice(size_t size, bool is_box)
         for (int i = 0; i < 9; i += 4)
             lattice->frame[i] = 1;
     }
-    if (ffd_lattice_finish(lattice, NULL))
+    if (finish_by_hand(lattice, NULL))
         abort();
     return lattice;
 }

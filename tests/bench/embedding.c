@@ -154,7 +154,7 @@ static ffd_lattice *make_lattice(const subject *of)
             lattice->rest_weights[n] = lattice->deformed_weights[n] = 1 + 0.5 * draw_unit(&random);
     }
     memcpy(lattice->deformed, lattice->rest, lattice->count * 3 * sizeof(double));
-    if (ffd_lattice_finish(lattice, &error))
+    if (finish_by_hand(lattice, &error))
         stop(&error);
     return lattice;
 }

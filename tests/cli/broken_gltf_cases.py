@@ -109,10 +109,6 @@ def container(change):
     return lambda: change(Model())
 
 
-def two_buffers(model):
-    model.asset["buffers"].append({"byteLength": 4})
-
-
 def quantized(model, **members):
     model.primitive["attributes"]["POSITION"] = model.add([(100, 100, 100)] * 8, component=SHORT, bounds=True, **members)
 

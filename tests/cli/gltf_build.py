@@ -3,7 +3,7 @@
 import struct
 
 from gltf_asset import CODES, SIZES, GltfAsset
-from harness import glb, gltf_vectors, glb_split, lattice
+from harness import float32, glb, gltf_vectors, glb_split, lattice
 
 # Everything within 10 of the origin by 1 along x; the volume is an affine map.
 SHIFT = lattice(low=(-10, -10, -10), high=(10, 10, 10), moves=[{"by": [1, 0, 0]}])
@@ -19,7 +19,7 @@ class Scene(GltfAsset):
     def add(self, rows, component=5126, shape="VEC3", bounds=False, **members):
         """A new accessor; its number."""
         if bounds:
-            rows = [[struct.unpack("<f", struct.pack("<f", x))[0] for x in row] for row in rows]
+            rows = [[float32(x) for x in row] for row in rows]
         data = b"".join(struct.pack(f"<{SIZES[shape]}{CODES[component]}", *row) for row in rows)
         return self.view_accessor(self.view(data), rows, shape, component, bounds, **members)
 

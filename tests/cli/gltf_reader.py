@@ -6,7 +6,7 @@ import os
 import struct
 import urllib.parse
 
-from harness import check, equal
+from harness import check, equal, float32
 
 TYPES = {5120: ("b", 1), 5121: ("B", 1), 5122: ("h", 2), 5123: ("H", 2), 5125: ("I", 4), 5126: ("f", 4)}
 SCALES = {5120: 127, 5121: 255, 5122: 32767, 5123: 65535}
@@ -137,7 +137,7 @@ def check_bounds(file, index):
     for key, edge in (("min", min), ("max", max)):
         if key in accessor:
             found = [edge(column) for column in zip(*file.stored(index))]
-            wanted = [struct.unpack("<f", struct.pack("<f", x))[0] if accessor["componentType"] == FLOAT else x
+            wanted = [float32(x) if accessor["componentType"] == FLOAT else x
                       for x in accessor[key]]
             equal(wanted, found, f"{key} of accessor {index}")
 

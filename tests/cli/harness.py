@@ -1,12 +1,12 @@
-"""Runs the program as its users do and checks what every run owes them.
+"""Runs the program like a user, and makes the checks that apply to every run.
 
-A test file registers functions by @case; each gets a Run with a temporary folder of its own. The program is
-named by the environment variable FFD. Every run must end in time, print nothing but lines "ffd: ..." on stderr
-(a single one where it fails), and leave no temporary file.
+A test file registers functions with @case; each gets a Run with its own temporary folder. The environment variable
+FFD is the path of the program. Every run must end in time, print only lines "ffd: ..." on stderr (a single one if it
+fails), and leave no temporary file.
 
-Most runs are forked from a process that has the program loaded (driver.py, FFD_DRIVER). A process of its own is
-started for the first run of each command with each exit code in each test file, for ffd batch, whose workers are
-processes of the program, and where a run has options of its own: another environment, a limit, descriptors."""
+Most runs are forked from a process that has loaded the program (driver.py, FFD_DRIVER). A new process is started for
+the first run of each command with each exit code in a test file, for ffd batch (its workers are processes of the
+program), and for a run with options such as an environment, a limit or descriptors."""
 
 import glob
 import itertools
@@ -20,6 +20,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import time
 import traceback
 
 from driver import Driver
@@ -27,22 +28,22 @@ from driver import Driver
 FFD = os.path.abspath(os.environ["FFD"])
 MODELS = os.environ.get("FFD_MODELS")
 SECONDS = 120
-# What a glTF's output stores otherwise than its input is said at the end, a line a kind.
+# Lines about glTF data that the output stores differently from the input. They are not counted in checks of stderr.
 ANNOUNCED = re.compile("deformed differently under other nodes$|(is|are) stored as floats|(is|are) written uncompressed")
 NOBODY = 65534
 LEFTOVER = re.compile(r"\.ffd-(tmp|old|set)$")
 
 
 def announce(pattern):
-    """From now on lines that the pattern matches do not count either: another file has their subject."""
+    """Excludes further lines of stderr from checks, by a pattern: another test file covers them."""
     global ANNOUNCED
     ANNOUNCED = re.compile(f"{ANNOUNCED.pattern}|{pattern}")
 
 
 OK, NO, USAGE, IO, INVALID, EMBEDDING, UNSUPPORTED, LIMIT = range(8)
 
-# In the program, memory that was not written holds what nobody expects. Meson asks for that in every process of a
-# test; in this one it takes more time than all else.
+# Fills new memory with a random byte in the program. Meson sets MALLOC_PERTURB_ for all processes of a test, but in this
+# one it would take more time than everything else.
 os.environ["MALLOC_PERTURB_"] = os.environ.get("FFD_PERTURB") or str(random.randrange(1, 256))
 
 with open(FFD, "rb") as _program:
@@ -50,7 +51,7 @@ with open(FFD, "rb") as _program:
 
 _cases = []
 _driver = Driver(os.environ["FFD_DRIVER"]) if os.environ.get("FFD_DRIVER") else None
-_seen = set()  # commands with exit codes
+_seen = set()  # (command, .., exit code) of the runs so far
 
 
 def case(function):
@@ -59,8 +60,8 @@ def case(function):
 
 
 def repetitions(count):
-    """Of so many repetitions, those that are worth their time: a sanitizer takes up to twenty times as long, and the
-    same code with other numbers shows it nothing new."""
+    """How many of `count` repetitions to make. Sanitizers are up to twenty times as slow, and find no further errors in the
+    same code with other numbers."""
     return (count + 9) // 10 if SANITIZED else count
 
 
@@ -70,7 +71,7 @@ def check(condition, *shown):
 
 
 def equal(found, expected, what=""):
-    if not found == expected:  # only then is it worth while to put megabytes into words
+    if not found == expected:  # format the message only on failure: values may have megabytes
         check(False, f"{what}: found {found!r}, expected {expected!r}")
 
 
@@ -83,8 +84,15 @@ def near(found, expected, tolerance, what=""):
             check(False, f"{what}[{i}]: {a!r} and {b!r} differ by more than {tolerance}")
 
 
+def wait_until(condition, what):
+    limit = time.monotonic() + SECONDS
+    while not condition():
+        check(time.monotonic() < limit, what)
+        time.sleep(0.001)
+
+
 class Done:
-    """What a run left: exit code, stdout (bytes), stderr (lines, and those that ANNOUNCED matches apart)."""
+    """The result of a run: exit code, stdout (bytes), stderr (lines; those that match ANNOUNCED separately)."""
 
     def __init__(self, code, out, err, announced):
         self.code, self.out, self.err, self.announced = code, out, err, announced
@@ -127,7 +135,7 @@ class Run:
         return sorted(os.listdir(self.path(folder)))
 
     def remove(self, name):
-        """Removes a file, if it is there."""
+        """Removes a file if it exists."""
         if self.exists(name):
             os.unlink(self.path(name))
 
@@ -136,9 +144,16 @@ class Run:
         return name
 
     def ffd(self, *arguments, code=OK, err=None, out=None, data=False, stdin=b"", lines=None, **options):
-        """Runs ffd in the folder. code: the exit code, or a tuple of those allowed. err: the lines of stderr without "ffd: " (a string: the only one; a compiled
-        pattern: what the only one matches; a function: it judges them); out: the text of stdout; data: a failure too may print some; lines:
-        how many lines stderr has where err does not say; neither counts what ANNOUNCED matches; options go to subprocess.run."""
+        """Runs ffd in the folder, and returns a Done.
+
+        code: the expected exit code, or a tuple of allowed ones
+        err: the expected lines of stderr without "ffd: ": a list; a string or compiled pattern for a single line; or a
+          function that checks the list
+        lines: the expected number of lines, if err is None; default: one for a failure, else none
+        out: the expected text of stdout; data: a failure may print to stdout
+        options: passed to subprocess.run
+        Lines that match ANNOUNCED are not counted.
+        """
         reports = self.reports(arguments)
         done = self.done(arguments, code, stdin, options)
         shown = "ffd " + " ".join(arguments)
@@ -173,9 +188,9 @@ class Run:
         return Done(done.returncode, done.stdout or b"", said, announced)
 
     def done(self, arguments, code, stdin, options):
-        """A finished run: of a process of its own, or forked."""
+        """Runs ffd to its end, in a new process or in a forked one."""
         head = arguments[:2 if arguments[:1] in (("lattice",), ("report",)) else 1]
-        # Batches are not forked: each set of options is a kind of its own.
+        # Batches are not forked. Each set of options counts as another command.
         modes = sorted({a for a in arguments if a.startswith("--")}) if head == ("batch",) else []
         kind = (*head, *modes, code)
         is_first = kind not in _seen
@@ -186,7 +201,7 @@ class Run:
             return done
         options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options}
         program = options.pop("program", FFD)
-        if not is_first:  # filling memory and the search for leaks take more time than all else
+        if not is_first:  # these checks take most of the time, so make them once for each kind
             options.setdefault("env", {**os.environ, "MALLOC_PERTURB_": "0",
                                        "ASAN_OPTIONS": os.environ.get("ASAN_OPTIONS", "") + ":detect_leaks=0"})
         return subprocess.run([program, *arguments], cwd=self.folder, input=stdin, timeout=SECONDS, check=False, **options)
@@ -197,27 +212,27 @@ class Run:
                 check(not LEFTOVER.search(name), f"{os.path.join(folder, name)} was left")
 
     def reports(self, arguments):
-        """The files that are named as reports, each with what tells it from another of that name; "-" too."""
+        """The names of reports in the arguments (also "-"), each with the inode of an existing file or None."""
         names = [b if a == "--report" else a.partition("=")[2] for a, b in zip(arguments, (*arguments[1:], ""))
                  if a.partition("=")[0] == "--report"]
         return {name: os.stat(self.path(name)).st_ino if os.path.isfile(self.path(name)) else None for name in names}
 
     def check_reports(self, arguments, before, out):
-        """Every report that a run has written follows the published schema. With a sanitizer it is the one that the build
-        without has written, and judging it takes longer than making it."""
+        """Checks every report that the run has written against the published schema. Not with a sanitizer: the report is the
+        same as in other builds, and checking takes longer than the run."""
         if SANITIZED:
             return
         for name, file in self.reports(arguments).items():
             content = out if name == "-" else self.read(name) if file != before[name] else None
             if content and content.lstrip().startswith(b"{"):
-                from report_schema import faults  # not for the tests that write none
-                if name.endswith(".jsonl"):  # as a whole report: its entries are those of one
+                from report_schema import faults  # imported late: many tests write no report
+                if name.endswith(".jsonl"):  # wrapped as a report: the entries are the same
                     content = b'{"format": "ffd-report", "version": 1, "jobs": [' + content.strip().replace(b"\n", b",") + b"]}"
                 equal(faults(content), [], f"ffd {' '.join(arguments)}: its report against the schema")
 
     def unprivileged(self):
-        """Options with which ffd runs as a user that is not root, or None where that cannot be had. The folder
-        is opened for all."""
+        """Options for running ffd as another user than root; None if that is not possible. Makes the folder accessible to
+        all users."""
         program = self.path("ffd-for-all/ffd")
         if not os.path.exists(program):
             copy_program(self.path("ffd-for-all"))
@@ -234,18 +249,23 @@ class Run:
 
 
 def modules():
-    """The files that the program loads when it needs them, where it was built."""
+    """The modules that the program loads on demand, in the build folder."""
     return sorted(glob.glob(os.path.join(os.path.dirname(os.path.dirname(FFD)), "ffd-*.so")))
 
 
 def copy_program(folder):
-    """Makes a folder with the program and, as they are installed beside a library, its modules; returns the program."""
+    """Copies the program to a new folder, and its modules as they are installed beside a library. Returns the program's path."""
     os.makedirs(os.path.join(folder, "ffd-0.2"))
     for path in [FFD, *modules()]:
         target = os.path.join(folder, "" if path == FFD else "ffd-0.2", os.path.basename(path))
         shutil.copy(path, target)
         os.chmod(target, 0o755)
     return os.path.join(folder, "ffd")
+
+
+def float32(x):
+    """The number of single precision that is nearest to x."""
+    return struct.unpack("<f", struct.pack("<f", x))[0]
 
 
 def lattice(size=(4, 4, 4), low=(-2, -2, -2), high=(2, 2, 2), moves=(), **members):
@@ -266,14 +286,14 @@ def obj_vertices(text):
 
 
 def carried(run, points, lattice_name, **options):
-    """Where the lattice of a file takes points: an OBJ file of them, in double precision, is deformed."""
+    """The points deformed by a lattice file, in double precision (through an OBJ file)."""
     run.write("carried-in.obj", "".join("v %r %r %r\n" % tuple(p) for p in points))
     run.ffd("deform", "carried-in.obj", "carried-out.obj", "-l", lattice_name, "--force", **options)
     return obj_vertices(run.text("carried-out.obj"))
 
 
 def models(ending):
-    """The sample models whose names end so: (name, path, bytes)."""
+    """The sample models whose names have this ending: (name, path, bytes)."""
     found = []
     for folder, _, names in sorted(os.walk(MODELS or "")):
         for name in sorted(names):
@@ -285,7 +305,7 @@ def models(ending):
 
 
 def npy(data):
-    """Reads NumPy's array file, version 1.0, C order: (dtype text, shape, list of rows or of values)."""
+    """Parses a .npy file, version 1.0, C order. Returns (dtype text, shape, list of rows or of values)."""
     equal(data[:8], b"\x93NUMPY\x01\x00", "the magic and version of the .npy")
     length = struct.unpack_from("<H", data, 8)[0]
     equal((10 + length) % 64, 0, "the alignment of the .npy header")
@@ -304,7 +324,7 @@ def npy(data):
     return descr, shape, values
 
 
-# How an image begins, without which it is not copied.
+# The signature of an image: files without one are not copied.
 PNG = b"\x89PNG\r\n\x1a\n"
 
 
@@ -313,7 +333,7 @@ def pad(data, filler):
 
 
 def gltf_json(positions, nodes=None, uri=None, normals=None):
-    """A glTF asset of points, or of triangles where normals are given, in one buffer, and the buffer's bytes."""
+    """Makes a glTF asset of points, or of triangles if normals are given. Returns it with the bytes of its single buffer."""
     data, views, accessors = b"", [], []
     for stream in [positions] + ([normals] if normals else []):
         views.append({"buffer": 0, "byteOffset": len(data), "byteLength": 12 * len(stream)})
@@ -341,7 +361,7 @@ def glb(asset, data):
 
 
 def glb_split(file):
-    """The asset and the binary chunk of a GLB."""
+    """Returns the asset and the binary chunk of a GLB."""
     magic, version, length = struct.unpack_from("<III", file)
     equal((magic, version, length), (0x46546C67, 2, len(file)), "the GLB's header")
     size, kind = struct.unpack_from("<II", file, 12)
@@ -350,7 +370,7 @@ def glb_split(file):
 
 
 def gltf_vectors(asset, data, index):
-    """The VEC3 of a float accessor in the one buffer."""
+    """Returns the VEC3 elements of a float accessor in the single buffer."""
     accessor = asset["accessors"][index]
     view = asset["bufferViews"][accessor["bufferView"]]
     start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)

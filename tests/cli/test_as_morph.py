@@ -79,7 +79,7 @@ def the_target_is_the_difference(run):
 
 
 @case
-def nothing_moves(run):
+def a_zero_shape_has_its_target_too(run):
     """A zero shape has its target too, in every mesh: shapes made by one pipeline have the same names."""
     scene = plain()
     scene.asset["meshes"].append({"primitives": [{"attributes": {"POSITION": 0}, "mode": 0}]})

@@ -18,7 +18,7 @@ def expected(run, name="a.obj", *options, lattices=("l.json",)):
 
 
 @case
-def a_manifest(run):
+def every_job_of_a_manifest_is_done(run):
     start(run, [job(0), job(1, lattice=["l.json"]), job(2, lattice=["l.json", "l.json"])])
     batch(run, "m.jsonl", done=3, out="")
     equal(names(run), ["a.obj", "l.json", "m.jsonl", "o0.obj", "o1.obj", "o2.obj"])
@@ -112,7 +112,7 @@ BAD_LINES = [
 
 
 @case
-def malformed_lines(run):
+def malformed_lines_are_refused_each_by_its_number(run):
     start(run, [])
     lines = []
     for i, (line, _) in enumerate(BAD_LINES):
@@ -243,7 +243,7 @@ def a_pattern_instead_of_a_manifest(run):
 
 
 @case
-def usage(run):
+def words_that_do_not_fit_are_refused(run):
     start(run, [job()])
     for arguments in ([], ["m.jsonl", "m.jsonl"], ["m.jsonl", "--in", "*.obj"], ["m.jsonl", "--csv", "t.csv"], ["--in", "*.obj"],
                       ["--in", "*.obj", "-l", "l.json"], ["--in", "*.obj", "--out-dir", "."],
@@ -262,7 +262,7 @@ def usage(run):
 
 
 @case
-def shards(run):
+def shards_share_all_jobs_out(run):
     start(run, [job(i) if i % 5 else "" for i in range(40)])
     whole = [i for i in range(40) if i % 5]
     for count in (1, 7) if SANITIZED else (1, 3, 7, 40):
@@ -333,7 +333,7 @@ def a_dry_run_writes_nothing(run):
 
 
 @case
-def quiet(run):
+def quiet_tells_of_failures_only(run):
     start(run, [job(0), job(1, **{"in": "none.obj"}), job(2)])
     run.write("l.json", lattice(high=(2, 2, 0), moves=MOVE))
     run.ffd("batch", "m.jsonl", "-q", code=NO, err=["m.jsonl:2: none.obj: cannot be opened: No such file or directory"])
@@ -383,7 +383,7 @@ def reports_of_single_runs(run):
 
 
 @case
-def unwritable_places(run):
+def a_place_that_cannot_be_written_fails_its_own_job_only(run):
     start(run, [job(0), job(1, out="closed/x.obj")])
     run.folder_of("closed")
     os.chmod(run.path("closed"), 0o555)

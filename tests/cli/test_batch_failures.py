@@ -57,7 +57,7 @@ def run_trapped(run, arguments, folder):
 
 
 @case
-def every_trap(run):
+def jobs_that_end_a_worker_fail_alone(run):
     """The batches run at the same time: each waits for jobs that never end, and for nothing else. What goes into another
     folder takes material libraries along: the mesh is looked at before the job begins, by a worker too."""
     options = (["-j1"], ["-j", "2"], ["-j", "5"], ["-j3", "--report", "r.json"], ["-j2"])

@@ -11,7 +11,7 @@ import subprocess
 import time
 
 from batches import batch, case, check, equal, job, lines_of, main, report, start, statuses
-from harness import CUBE, FFD, INVALID, NO, OK, PNG, SANITIZED, SECONDS, gltf_json
+from harness import CUBE, FFD, INVALID, NO, OK, PNG, SANITIZED, SECONDS, gltf_json, wait_until
 
 SLOW = CUBE * 60000  # some 0.3 s and more where a cube takes a thousandth of it
 POINTS = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
@@ -41,13 +41,6 @@ def ended(process, seconds=SECONDS):
         process.communicate()
         raise AssertionError(f"it has not ended within {seconds} s") from late
     return said
-
-
-def wait_until(condition, what, seconds=15):
-    limit = time.monotonic() + seconds
-    while not condition():
-        check(time.monotonic() < limit, what)
-        time.sleep(0.001)
 
 
 @case

@@ -166,7 +166,7 @@ def tables_and_patterns(run):
 
 
 @case
-def many_jobs(run):
+def the_first_of_many_outputs_is_still_known(run):
     """More than the table holds at first; the last is the first again."""
     count = 600
     start(run, [job(i) for i in range(count)] + [job(0), job(count - 1)])

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """ffd batch --positions: a row of one array for each job, NaN until it is done, and a report that says what is in it."""
 
-import json
 import math
 import os
 import re
@@ -13,7 +12,7 @@ import time
 
 from batches import FFD, batch, case, check, equal, job, lattice, lines_of, main, names, report, start
 from gltf_build import Scene
-from harness import CUBE, CUBE_CORNERS, INVALID, IO, NO, SANITIZED, SECONDS, USAGE, near, npy, obj_vertices
+from harness import CUBE, CUBE_CORNERS, INVALID, IO, NO, SANITIZED, SECONDS, USAGE, float32, near, npy, obj_vertices, wait_until
 from report_schema import faults
 
 ROWS = 6
@@ -59,7 +58,7 @@ def entries(run, name="all.json"):
 
 
 def as_floats(points):
-    return [[struct.unpack("<f", struct.pack("<f", x))[0] for x in p] for p in points]
+    return [[float32(x) for x in p] for p in points]
 
 
 @case
@@ -218,9 +217,8 @@ def an_interrupt_while_vertices_are_counted_replaces_nothing(run):
     run.write("all.npy", "mine")
     run.write("all.json", empty)
     process = subprocess.Popen([FFD, "batch", "m.jsonl", "--positions", "all.npy", "--force"], cwd=run.folder, stderr=subprocess.DEVNULL)
-    limit = time.monotonic() + SECONDS
-    while not has_child(process.pid) and time.monotonic() < limit:
-        check(process.poll() is None, "it ended before the signal came")
+    wait_until(lambda: has_child(process.pid) or process.poll() is not None, "it has no worker")
+    check(process.poll() is None, "it ended before the signal came")
     process.send_signal(signal.SIGINT)
     check(process.wait(timeout=SECONDS) in (NO, -signal.SIGINT, 128 + signal.SIGINT), process.returncode)
     equal([run.text("all.npy"), run.text("all.json")], ["mine", empty])
@@ -311,10 +309,8 @@ def an_array_that_is_made_is_left_when_interrupted(run):
     run.write("a.obj", "".join(f"v {i % 7} {i % 5} {i % 3}\n" for i in range(20000)))
 
     process = subprocess.Popen([FFD, "batch", *table("--positions", "all.npy")], cwd=run.folder, stderr=subprocess.PIPE)
-    limit = time.monotonic() + SECONDS
-    while not run.exists(".all.npy.ffd-tmp"):
-        check(process.poll() is None and time.monotonic() < limit, "it has ended, or never got there")
-        time.sleep(0.001)
+    wait_until(lambda: run.exists(".all.npy.ffd-tmp") or process.poll() is not None, "it never got there")
+    check(process.poll() is None, "it ended before the signal came")
     process.send_signal(signal.SIGINT)
     told = process.communicate(timeout=SECONDS)[1].decode()
     equal(process.returncode, NO, told)

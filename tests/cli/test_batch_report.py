@@ -6,10 +6,9 @@ import json
 import os
 import signal
 import subprocess
-import time
 
 from batches import batch, case, check, equal, job, lattice, lines_of, main, report, start, statuses
-from harness import CUBE, FFD, IO, NO, OK, SANITIZED, SECONDS
+from harness import CUBE, FFD, IO, NO, OK, SANITIZED, SECONDS, wait_until
 
 HEIGHT = [{"by": [0, {"$": "H"}, 0]}]
 
@@ -24,13 +23,6 @@ def running(run, *arguments):
                             stderr=subprocess.PIPE)
 
 
-def wait_until(what):
-    limit = time.monotonic() + SECONDS
-    while not what() and time.monotonic() < limit:
-        time.sleep(0.002)
-    check(what(), "it does not come")
-
-
 def line(number, **members):
     return (json.dumps(job(number, **members)) + "\n").encode()
 
@@ -42,15 +34,15 @@ def what_has_ended_is_there(run):
     run.write("long.obj", CUBE * 200000)
     for name, read in (("r.json", lambda: report(run)), ("r.jsonl", lambda: entries(run, "r.jsonl"))):
         process = running(run, "-", "-j", "2", "--force", "--report", name)
-        wait_until(lambda: run.exists(name))
+        wait_until(lambda: run.exists(name), "it does not come")
         equal(read(), [], "before the first job")
         for i in range(3):
             process.stdin.write(line(i))
             process.stdin.flush()
-            wait_until(lambda: len(read()) == i + 1)
+            wait_until(lambda: len(read()) == i + 1, "it does not come")
         process.stdin.write(line(7, **{"in": "long.obj"}) + line(8))
         process.stdin.flush()
-        wait_until(lambda: len(read()) >= 4)
+        wait_until(lambda: len(read()) >= 4, "it does not come")
         process.kill()
         process.communicate(timeout=SECONDS)
         equal([e["output"] for e in read()][:4], ["o0.obj", "o1.obj", "o2.obj", "o8.obj"], name)
@@ -71,7 +63,8 @@ def a_report_is_whole_at_any_moment(run):
     run.folder_of("out")
     for made in (1, 50, 200):
         process = running(run, "m.jsonl", "-j", "3", "--force", "--report", "r.json")
-        wait_until(lambda: run.exists("r.json") and run.read("r.json").count(b'"status": "ok"') >= made or process.poll() is not None)
+        wait_until(lambda: run.exists("r.json") and run.read("r.json").count(b'"status": "ok"') >= made or process.poll() is not None,
+                   "it does not come")
         process.kill()
         process.communicate(timeout=SECONDS)
         try:
@@ -131,7 +124,7 @@ def broken_lines_are_refused(run):
 def two_runs_with_one_report(run):
     start(run)
     process = running(run, "-", "--report", "r.json")
-    wait_until(lambda: run.exists("r.json"))
+    wait_until(lambda: run.exists("r.json"), "it does not come")
     run.write("m.jsonl", lines_of([job(1)]))
     run.ffd("batch", "m.jsonl", "--report", "r.json", code=IO, err="r.json: is being written by another run")
     process.stdin.write(line(0))
@@ -242,7 +235,7 @@ def a_report_of_several_meshes_grows_too(run):
     run.write("long.obj", CUBE * 300000)
     process = subprocess.Popen([FFD, "check", "a.obj", "long.obj", "-l", "l.json", "--report", "r.json"], cwd=run.folder,
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    wait_until(lambda: run.exists("r.json") and b'"a.obj"' in run.read("r.json"))
+    wait_until(lambda: run.exists("r.json") and b'"a.obj"' in run.read("r.json"), "it does not come")
     process.send_signal(signal.SIGKILL)
     process.wait(timeout=SECONDS)
     equal([e["input"] for e in report(run)], ["a.obj"])

@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
 """ffd batch --resume: an output is left alone only where it is what its job would make, judged by content."""
 
-import json
 import os
 
-from batches import MOVE, batch, case, check, equal, job, lattice, lines_of, main, report, start, statuses
+from batches import MOVE, batch, case, check, equal, job, lattice, lines_of, main, start, statuses
 from harness import CUBE, PNG, gltf_json
 
 ALL = ["o0.obj", "o1.obj", "o2.obj"]
@@ -27,7 +26,7 @@ def three(run):
 
 
 @case
-def nothing_changed(run):
+def what_has_not_changed_is_not_done_again(run):
     three(run)
     resume(run, [])
     resume(run, [], "-j1")
@@ -143,7 +142,7 @@ def a_copied_image(run):
 
 
 @case
-def the_journal(run):
+def a_journal_that_is_lost_or_broken_changes_no_output(run):
     three(run)
     files = [os.path.join(w, n) for w, _, names in os.walk(run.path("cache")) for n in names]
     check(files, "there is no journal in XDG_CACHE_HOME")
@@ -213,7 +212,7 @@ def an_interrupted_run_without_resume(run):
 
 
 @case
-def in_place(run):
+def in_place_and_resume_exclude_each_other(run):
     """An input that its own job has replaced must not be deformed a second time: --resume and this exclude each other."""
     start(run, [{"in": "p.obj", "lattice": "l.json", "options": {"in-place": True}}, job(1)])
     run.write("p.obj", CUBE)

@@ -11,7 +11,7 @@ from neighbours import COMBINATIONS, LATTICES, words, write_meshes
 
 
 @case
-def every_format(run):
+def a_batch_gives_what_single_runs_give(run):
     start(run)
     for name, content in LATTICES.items():
         run.write(name, content)

@@ -8,7 +8,7 @@ import subprocess
 import time
 
 from batches import batch, case, check, equal, job, main, report, start, statuses
-from harness import CUBE, FFD, NO, SANITIZED, SECONDS
+from harness import CUBE, FFD, NO, SANITIZED, SECONDS, wait_until
 
 JOBS = 200 if SANITIZED else 1000
 
@@ -17,9 +17,7 @@ def interrupted(run, number, made, *arguments, times=1):
     """Begins a batch, sends it a signal when so many outputs are there; returns its exit code and what it said."""
     process = subprocess.Popen([FFD, "batch", "m.jsonl", "-j", "2", *arguments], cwd=run.folder, stdout=subprocess.PIPE,
                                stderr=subprocess.PIPE, start_new_session=True)
-    limit = time.monotonic() + SECONDS
-    while len(os.listdir(run.path("out"))) < made and time.monotonic() < limit and process.poll() is None:
-        time.sleep(0.001)
+    wait_until(lambda: len(os.listdir(run.path("out"))) >= made or process.poll() is not None, "outputs do not come")
     check(process.poll() is None, "it ended before the signal came")
     for _ in range(times):
         process.send_signal(number)
@@ -115,8 +113,7 @@ def a_terminal_s_interrupt_reaches_the_workers_too(run):
     singles = begin(run)
     process = subprocess.Popen([FFD, "batch", "m.jsonl", "-j", "2", "--report", "r.json"], cwd=run.folder,
                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True)
-    while len(os.listdir(run.path("out"))) < 20 and process.poll() is None:
-        time.sleep(0.001)
+    wait_until(lambda: len(os.listdir(run.path("out"))) >= 20 or process.poll() is not None, "outputs do not come")
     os.killpg(process.pid, signal.SIGINT)
     said = process.communicate(timeout=SECONDS)[1].decode()
     entries = judge(run, singles, process.returncode, signal.SIGINT)

@@ -109,7 +109,7 @@ def a_pipe_that_breaks(run):
 
 
 @case
-def full_devices(run):
+def a_full_stream_ends_a_batch_with_exit_3(run):
     start(run, [job(i) for i in range(3)])
     with open("/dev/full", "wb") as full:
         for arguments in (["--dry-run"], ["--report", "-"]):

@@ -120,7 +120,7 @@ def set_in_a_manifest(run):
 
 
 @case
-def bad_sets(run):
+def a_set_that_does_not_fit_fails_its_job(run):
     begin(run)
     bad = [([], '"set"'), (3, '"set"'), ("H=1", '"set"'), ({}, '"H"'), ({"H": "1"}, r"p\.json:/moves/0/by/1"), ({"H": [1]}, r"p\.json:/moves/0/by/1"),
            ({"H": None}, r"p\.json:/moves/0/by/1"), ({"H": True}, r"p\.json:/moves/0/by/1"), ({"H": 1, "K": 2}, '"K"'), ({"h": 1}, '"H"')]
@@ -131,7 +131,7 @@ def bad_sets(run):
 
 
 @case
-def a_table(run):
+def a_row_of_a_table_is_a_job(run):
     begin(run)
     run.write("two.json", lattice(moves=[{"by": [{"$": "dx"}, {"$": "H"}, 0]}]))
     run.write("sweep/a.obj", CUBE)
@@ -149,7 +149,7 @@ def a_table(run):
 
 
 @case
-def quoted_cells(run):
+def quoted_cells_hold_commas_quotes_and_line_ends(run):
     begin(run)
     run.write('with "quotes", comma.obj', CUBE)
     run.write("line\nbreak.obj", CUBE)
@@ -165,7 +165,7 @@ def quoted_cells(run):
 
 
 @case
-def bad_rows(run):
+def bad_rows_fail_alone(run):
     begin(run)
     rows = [(b"a.obj,p.json,x1.obj", r"^t\.csv:2: .*3.*4"), (b"a.obj,p.json,x2.obj,1,2", r"^t\.csv:3: .*5.*4"), (b"a.obj,p.json,good1.obj,1", None),
             (b'a.obj,p.json,"x3.obj"x,1', r"^t\.csv:5: "), (b'a.obj,p.json,x".obj,1', r"^t\.csv:6: "), (b",p.json,x4.obj,1", r'^t\.csv:7: .*"in"'),
@@ -181,7 +181,7 @@ def bad_rows(run):
 
 
 @case
-def bad_tables(run):
+def bad_tables_are_refused(run):
     begin(run)
     for header in ("", "\n", "in,lattice,out,H,H\na.obj,p.json,x.obj,1,2\n", "in,in,lattice,out,H\na.obj,a.obj,p.json,x.obj,1\n",
                    "in,lattice,out,H,\na.obj,p.json,x.obj,1,2\n", '"in,lattice,out,H\n'):
@@ -262,7 +262,7 @@ def numbers_as_people_write_them(run):
 
 
 @case
-def semicolons(run):
+def semicolons_and_decimal_commas_are_understood(run):
     begin(run)
     said = "t.csv: line 1: the columns are separated by semicolons: numbers may have a decimal comma"
     values = {"0,5": 0.5, "-1,25": -1.25, ",5": 0.5, "+2": 2, "3": 3, "0.75": 0.75, '"1,5"': 1.5, "1,5e1": 15}

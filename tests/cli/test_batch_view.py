@@ -8,10 +8,9 @@ import shutil
 import signal
 import struct
 import subprocess
-import time
 
 from batches import batch, case, check, equal, job, lattice, lines_of, main, names, report, start
-from harness import CUBE, FFD, IO, NO, SANITIZED, SECONDS, USAGE
+from harness import CUBE, FFD, IO, NO, SANITIZED, SECONDS, USAGE, wait_until
 from png import chunks
 from urllib.parse import unquote
 
@@ -339,9 +338,7 @@ def a_run_that_fails_leaves_no_folder(run):
 def begun(run, *arguments):
     process = subprocess.Popen([FFD, "batch", "m.jsonl", "-j", "2", "--view", "v", *arguments], cwd=run.folder, stdout=subprocess.PIPE,
                                stderr=subprocess.PIPE, start_new_session=True)
-    limit = time.monotonic() + SECONDS
-    while not (run.exists("v") and len(pictures(run)) > 2) and time.monotonic() < limit and process.poll() is None:
-        time.sleep(0.002)
+    wait_until(lambda: (run.exists("v") and len(pictures(run)) > 2) or process.poll() is not None, "pictures do not come")
     check(process.poll() is None, "it ended before the signal came")
     return process
 

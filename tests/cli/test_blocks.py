@@ -70,7 +70,7 @@ def two_blocks_that_share_a_face(run):
 
 
 @case
-def a_thousand_blocks(run):
+def a_thousand_blocks_make_one_field(run):
     """10 x 10 x 10 blocks of degree 1 whose corners move by x y z: together that very field, as each is trilinear."""
     side, names = 10, []
     for k in range(side):
@@ -228,7 +228,7 @@ def still(run, name, low, high):
 
 
 @case
-def extend_among_many(run):
+def among_many_blocks_the_nearest_border_is_followed(run):
     """9 x 9 blocks, of which each lifts by its own number: a point outside follows the one whose border is nearest,
     which is looked for here in all; with a falloff only as far as that reaches."""
     boxes, names = [], []
@@ -257,7 +257,7 @@ def extend_among_many(run):
 
 
 @case
-def curved_blocks(run):
+def every_vertex_is_in_one_of_two_curved_blocks(run):
     """Two halves of a tube that meet at two faces, both lifted: every vertex is in one of them and rises by 1."""
     for name, angle in (("a.json", [0, 180]), ("b.json", [180, 360])):
         run.write(name, {"format": "ffd-lattice", "version": 1, "size": [2, 7, 2],
@@ -296,7 +296,7 @@ def a_box_round_the_mesh_is_round_the_mesh_at_rest(run):
 
 
 @case
-def one_block_alone(run):
+def one_block_is_the_same_as_without_blocks(run):
     """Is the same as without --blocks."""
     beam(run)
     run.ffd("deform", "beam.obj", "plain.obj", "-l", "a.json", err=anything)
@@ -305,7 +305,7 @@ def one_block_alone(run):
 
 
 @case
-def edges_of_blocks(run):
+def edges_through_several_blocks_are_measured(run):
     """check measures an edge through three blocks of which only the middle one moves: its middle rises by 1."""
     run.write("a.obj", "v 0.5 0 0\nv 2.5 0 0\nv 0.5 1 0\nf 1 2 3\n")
     still(run, "a.json", (0, -2, -2), (1, 2, 2))
@@ -317,7 +317,7 @@ def edges_of_blocks(run):
 
 
 @case
-def in_a_manifest(run):
+def a_manifest_takes_blocks(run):
     beam(run)
     run.ffd("deform", "beam.obj", "one.obj", *both("a.json", "b.json"), "--blocks")
     run.write("m.jsonl", lines_of([{"in": "beam.obj", "lattice": ["a.json", "b.json"], "out": "many.obj", "options": {"blocks": True}}]))

@@ -263,7 +263,7 @@ def a_fold_in_one_cell_of_many(run):
 
 
 @case
-def area_and_volume(run):
+def area_and_volume_are_right(run):
     """Of a cube that is stretched, of one without a lid, of one that --only tears."""
     stretch = [{"scale": {"factor": [2, 1, 3], "about": [0, 0, 0]}}]
     run.write("l.json", lattice(moves=stretch))
@@ -298,7 +298,7 @@ def area_and_volume(run):
 
 
 @case
-def a_mirror(run):
+def a_mirror_has_det_minus_one_and_turns_every_face(run):
     """det F = -1, and every face shows another side."""
     run.write("a.obj", CUBE)
     run.write("l.json", lattice(moves=[{"scale": {"factor": [-1, 1, 1], "about": [0, 0, 0]}}]))
@@ -329,7 +329,7 @@ def flipped_faces_are_those_in_the_fold(run):
 
 
 @case
-def several_lattices(run):
+def the_worst_of_several_lattices_counts(run):
     """Cells are summed, the worst verdict counts, the witness is of the first lattice that has one; det F is that of
     the whole, and of vertices that some lattice holds."""
     run.write("a.obj", obj([[2 * x, y, z] for x, y, z in CORNERS] + [[9, 9, 9]], CUBE_FACES) + "p 9\n")
@@ -380,7 +380,7 @@ def meshes_without_faces_or_vertices(run):
 
 
 @case
-def failures(run):
+def a_check_refuses_what_deform_refuses(run):
     """Everything that deform refuses but for outputs, with its codes, and nothing on standard output."""
     work = start(run, moves=SHIFT)
     run.write("far.json", lattice(moves=[{"by": [1e39, 0, 0]}]))
@@ -422,7 +422,7 @@ def faces_that_are_not_valid(run):
 
 
 @case
-def standard_input(run):
+def a_mesh_from_standard_input_is_checked_alike(run):
     work = start(run, moves=SHIFT)
     done = run.ffd("check", "-", "-l", "l.json", "--input-format", "obj", stdin=CUBE.encode())
     equal(done.text, run.ffd("check", *work).text.replace("a.obj", "standard input"))
@@ -431,7 +431,7 @@ def standard_input(run):
 
 
 @case
-def several_meshes(run):
+def several_meshes_are_checked_one_by_one(run):
     start(run, moves=SHIFT)
     run.write("sub/a.obj", CUBE)
     one = run.ffd("check", "a.obj", "-l", "l.json").text

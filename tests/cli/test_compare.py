@@ -69,7 +69,7 @@ def same(run, a, b, *arguments):
 
 
 @case
-def equal_files(run):
+def equal_files_are_the_same(run):
     run.write("a.obj", CUBE)
     run.write("b.obj", CUBE)
     same(run, "a.obj", "b.obj")
@@ -77,7 +77,7 @@ def equal_files(run):
 
 
 @case
-def positions(run):
+def positions_beyond_the_tolerance_differ(run):
     run.write("a.obj", "v 0 0 0\nv 1 2 3\n")
     run.write("b.obj", "v 0 0 0\nv 1 2.25 3\n")
     text = differ(run, "a.obj", "b.obj")
@@ -110,7 +110,7 @@ def all_else_of_obj(run):
 
 
 @case
-def glb_positions(run):
+def positions_of_glb_files_differ_alike(run):
     asset, data = gltf_json(CUBE_CORNERS)
     run.write("a.glb", glb(asset, data))
     run.write("b.glb", glb(asset, data[:12] + struct.pack("<f", 1.125) + data[16:]))
@@ -132,7 +132,7 @@ def all_else_of_gltf(run):
 
 
 @case
-def containers_of_gltf(run):
+def a_gltf_and_a_glb_of_one_content_are_the_same(run):
     """A .gltf with a .bin and a .glb of the same content are the same mesh."""
     asset, data = gltf_json(CUBE_CORNERS)
     run.write("a.glb", glb(asset, data))
@@ -155,7 +155,7 @@ def other_formats_differ(run):
 
 
 @case
-def failures(run):
+def what_cannot_be_read_cannot_be_compared(run):
     run.write("a.obj", CUBE)
     run.write("bad.obj", "v 1 2\n")
     run.folder_of("d.obj")
@@ -178,7 +178,7 @@ def streams_quiet_verbose(run):
 
 
 @case
-def with_deform(run):
+def a_deformed_file_is_the_same_when_deformed_again(run):
     """As users do: a deformed file is the same as one deformed again, and not the same as its input."""
     run.write("a.obj", CUBE)
     run.write("l.json", {"format": "ffd-lattice", "version": 1, "size": [2, 2, 2], "rest": {"box": "mesh"},
@@ -305,7 +305,7 @@ def counts_are_right(run):
 
 
 @case
-def relative_tolerance(run):
+def a_relative_tolerance_is_a_part_of_the_diagonal(run):
     """At, just below and just above the border: a box of 3 x 4 x 12 has the diagonal 13, a quarter of which is
     3.25. What is no finite vertex does not count."""
     corners = "v 0 0 0\nv 3 4 12\nv 1 1 1\nv nan 1e9 0\nv inf 0 0\n"
@@ -346,7 +346,7 @@ def relative_in_the_scene(run):
 
 
 @case
-def normals_and_tolerances(run):
+def normals_are_exact_unless_a_tolerance_is_given(run):
     """Exact, unless the tolerance is relative or one of their own is given."""
     a, n = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 0, 1]] * 3
     for form, write in FORMS.items():
@@ -388,7 +388,7 @@ def numbers_that_are_none(run):
 
 
 @case
-def counts_of_obj(run):
+def each_statement_of_obj_that_differs_counts_once(run):
     """Each statement that differs is counted once, by its kind."""
     text = ("mtllib m.mtl\nv 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvn 0 0 1\nusemtl red\nf 1/1/1 2/1/1 3/1/1\n"
             "f 3 2 1\nl 1 2\n")
@@ -427,7 +427,7 @@ def what_cannot_be_matched(run):
 
 
 @case
-def faces(run):
+def each_face_that_differs_counts_once(run):
     """Each face that differs counts once, whatever it differs in, and those behind it are matched all the same."""
     shapes = [[0, 1, 2], [1, 2, 3], [2, 3, 4, 5], [0, 5, 4]]
     others = [[0, 2, 1], [1, 2, 3], [2, 3, 4], [0, 5, 4, 3, 2]]
@@ -461,7 +461,7 @@ def faces(run):
 
 
 @case
-def worst_of_kinds(run):
+def a_normal_is_never_worse_than_a_position(run):
     """A normal that differs more, and before, is not worse than a position."""
     a, n = [[0.0, 0, 0]] * 3, [[0.0, 0, 1]] * 3
     for form, write in FORMS.items():
@@ -474,7 +474,7 @@ def worst_of_kinds(run):
 
 
 @case
-def texcoords_and_colours(run):
+def no_tolerance_lets_texture_coordinates_and_colours_pass(run):
     """No tolerance lets them pass. One difference a vertex."""
     ply = ("ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nproperty float s\n"
            "property float t\nproperty uchar red\nend_header\n0 0 0 0.5 0.5 7\n1 1 1 0 0 7\n")
@@ -533,7 +533,7 @@ def compare_assets(run, a, b, *arguments):
 
 
 @case
-def counts_of_gltf(run):
+def vertices_of_gltf_count_one_by_one(run):
     """Vertices, texture coordinates, indices and tangents are counted one by one; positions under each node."""
     base = triangle(CORNERS)
     equal(counts(compare_assets(run, base, triangle(MOVED))), {"position": 2})
@@ -571,7 +571,7 @@ def hidden_differences_of_gltf(run):
 
 
 @case
-def json_of_gltf(run):
+def differences_of_json_count_beside_those_of_buffers(run):
     """Differences of the JSON are counted beside those of the buffers, unless the latter cannot be matched."""
     def with_extras(asset, **members):
         return {**asset[0], **members}, asset[1]
@@ -618,7 +618,7 @@ def sparse_positions_of_gltf(run):
 
 
 @case
-def strange_names(run):
+def json_is_valid_whatever_files_are_called(run):
     """The JSON is valid whatever the files are called, and what is in them."""
     for name in ('quote".obj', "back\\slash.obj", "line\nbreak.obj", "tab\t.obj", "\u00fc\u4e2d.obj", "' .obj"):
         run.write(name, CUBE)
@@ -633,7 +633,7 @@ def strange_names(run):
 
 
 @case
-def json_to_programs(run):
+def json_is_data_even_with_quiet(run):
     """Of streams too; also with -q, for it is data; nothing of a failure."""
     run.write("a.obj", CUBE)
     run.write("b.obj", CUBE.replace("1", "2"))
@@ -645,7 +645,7 @@ def json_to_programs(run):
 
 
 @case
-def any_input(run):
+def broken_files_are_compared_or_refused(run):
     """Files with random changes of their bytes: an answer or a refusal, never more."""
     draw = random.Random(SEED + 1)
     a, n = [[float(i), i * i / 8, 1.0] for i in range(6)], [[0, 0, 1.0]] * 6

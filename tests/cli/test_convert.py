@@ -8,7 +8,7 @@ import struct
 from random import Random
 
 from gltf_build import Scene
-from harness import (INVALID, IO, PNG, SANITIZED, USAGE, case, check, equal, glb, glb_split, gltf_json, lattice, main,
+from harness import (INVALID, IO, PNG, SANITIZED, USAGE, case, check, equal, float32, glb, glb_split, gltf_json, lattice, main,
                      near)
 from said import anything, told
 
@@ -51,10 +51,6 @@ usemtl red
 f 1/1/3 10/2/3 2/3/3
 """
 CORNERS = 17
-
-
-def as_float(value):
-    return struct.unpack("<f", struct.pack("<f", value))[0]
 
 
 # Readers. Each gives the faces in order, a face as its corners: (position, texture coordinate, normal).
@@ -219,7 +215,7 @@ def places(faces):
 def rounded(faces, target):
     if target not in FLOATS:
         return [[tuple(p) for p in face] for face in faces]
-    return [[tuple(as_float(x) for x in p) for p in face] for face in faces]
+    return [[tuple(float32(x) for x in p) for p in face] for face in faces]
 
 
 def check_places(found, expected, target, what):
@@ -261,7 +257,7 @@ def some_line(run, source, target, *options, **more):
 
 
 @case
-def every_pair(run):
+def every_format_becomes_every_other_one(run):
     start(run)
     run.ffd("deform", "a.obj", "m.obj", "-l", "moved.json")
     moved = places(read_faces(run, "m.obj"))
@@ -304,13 +300,13 @@ def doubles_go_round(run):
 
 
 @case
-def attributes_follow(run):
+def texture_coordinates_and_normals_go_where_the_target_holds_them(run):
     """Texture coordinates and normals of every corner, where the target holds them."""
     start(run)
     faces = read_obj(SHAPE.encode())
     for target in ("glb", "gltf"):
         convert(run, "a.obj", f"b.{target}")
-        expected = {(tuple(as_float(x) for x in p), t, n) for face in faces for p, t, n in face}
+        expected = {(tuple(float32(x) for x in p), t, n) for face in faces for p, t, n in face}
         found = {(tuple(p), tuple(t), tuple(round(x, 6) for x in n))
                  for face in read_faces(run, f"b.{target}") for p, t, n in face}
         equal(found, expected, target)
@@ -581,7 +577,7 @@ def every_byte_of_a_colour_comes_back(run):
     equal([[float(x) for x in line.split()[4:]] for line in run.text("b.obj").splitlines() if line[0] == "v"],
           [[c / 255 for c in row[:3]] for row in COLOUR_BYTES])
     # Floats of another program.
-    rows = [(*(as_float(to_linear(c / 255)) for c in row[:3]), as_float(row[3] / 255)) for row in COLOUR_BYTES]
+    rows = [(*(float32(to_linear(c / 255)) for c in row[:3]), float32(row[3] / 255)) for row in COLOUR_BYTES]
     run.write("f.glb", cloud_of_colours(rows, 5126, normalized=False))
     some_line(run, "f.glb", "c.ply")
     equal(bytes_of("c.ply"), COLOUR_BYTES)
@@ -601,7 +597,7 @@ def linear_colours_become_those_for_display(run):
     # Floats, and those beyond 0 to 1, which viewers clamp.
     rows = [(0.5, 0.001, 0.25, 0.5), (2.0, -1.0, 1.0, 2.0), (0.75, 0.003, 0.004, 1.0)]
     run.write("f.glb", cloud_of_colours(rows, 5126, normalized=False))
-    clamped = [[to_srgb(min(max(as_float(c), 0), 1)) for c in row[:3]] for row in rows]
+    clamped = [[to_srgb(min(max(float32(c), 0), 1)) for c in row[:3]] for row in rows]
     some_line(run, "f.glb", "f.obj")
     near([[float(x) for x in line.split()[4:]] for line in run.text("f.obj").splitlines() if line[0] == "v"],
          clamped, 1e-15)
@@ -634,7 +630,7 @@ def texture_coordinates_of_ply_are_floats(run):
         run.ffd("deform", "a.obj", "a.ply", "-l", "still.json", "--force")
         check(wanted.encode() in run.read("a.ply").split(b"end_header")[0], second)
         equal([[t for _, t, _ in face] for face in read_faces(run, "a.ply")],
-              [[tuple(as_float(x) for x in t) for _, t, _ in face] for face in read_obj(run.read("a.obj"))], second)
+              [[tuple(float32(x) for x in t) for _, t, _ in face] for face in read_obj(run.read("a.obj"))], second)
 
 
 @case
@@ -650,7 +646,7 @@ def faces_of_many_corners(run):
         run.ffd("deform", "a.obj", "a.ply", "-l", "still.json", "--force")
         rows = ply_elements(run.read("a.ply"))["face"]
         equal([len(row["vertex_indices"]) for row in rows], [corners, 3], corners)
-        equal(rows[0]["texcoord"], [as_float(x) for point in ring for x in point], corners)
+        equal(rows[0]["texcoord"], [float32(x) for point in ring for x in point], corners)
 
 
 @case
@@ -707,7 +703,7 @@ def many_vertices_need_long_indices(run):
 
 
 @case
-def streams(run):
+def conversions_go_through_streams(run):
     start(run)
     for target in FORMATS[1:]:
         convert(run, "a.obj", f"b.{target}")
@@ -894,7 +890,7 @@ def what_a_conversion_needs_to_be_valid(run):
 
 
 @case
-def containers_of_gltf(run):
+def a_gltf_and_a_glb_hold_the_same_json(run):
     """A .gltf and a .glb hold the same JSON, but for the buffer's place; images come along."""
     run.write("still.json", STILL)
     asset, data = gltf_json([[0, 0, 0], [1, 0, 0], [0, 1, 0]], uri="a.bin")
@@ -958,7 +954,7 @@ def quiet_says_nothing(run):
 
 
 @case
-def unknown_formats(run):
+def unknown_formats_are_refused(run):
     start(run)
     run.ffd("deform", "a.obj", "b.fbx", "-l", "still.json", code=USAGE)
     run.ffd("deform", "a.obj", "b.obj.txt", "-l", "still.json", code=USAGE)

@@ -56,7 +56,7 @@ def every_format_at_every_place(run):
 
 
 @case
-def every_command(run):
+def a_file_cut_while_it_is_read_is_exit_3_in_every_command(run):
     start(run)
     before = run.names()
     told = f"cut.obj: {TOLD}"

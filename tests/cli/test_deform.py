@@ -68,7 +68,7 @@ def a_lattice_round_the_mesh(run):
 
 
 @case
-def vertices_outside(run):
+def vertices_outside_stay_and_are_told_of(run):
     start(run, high=(2, 2, 0))
     run.write("l.json", lattice(high=(2, 2, 0), moves=MOVE))
     run.ffd("deform", "a.obj", "b.obj", "-l", "l.json",
@@ -93,7 +93,7 @@ def nothing_moves_nothing_changes(run):
 
 
 @case
-def normals(run):
+def normals_turn_by_the_cofactor_matrix(run):
     start(run, moves=[{"scale": {"factor": [1, 2, 1], "about": [0, 0, 0]}}])
     run.write("n.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0.6 0.8 0\nvn 0 0 1\nf 1//1 2//1 3//2\n")
     run.ffd("deform", "n.obj", "t.obj", "-l", "l.json")
@@ -107,7 +107,7 @@ def normals(run):
 
 
 @case
-def zero_normals(run):
+def zero_normals_stay_in_silence(run):
     """A zero normal keeps its text, and is not told of as one that the deformation collapses."""
     start(run, moves=[{"scale": {"factor": [1, 1, 0], "about": [0, 0, 0]}}])
     run.write("n.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0.0 -0 0\nvn 1 0 0\nf 1//1 2//1 3//1\n")
@@ -165,7 +165,7 @@ def gltf_with_a_buffer_of_its_own(run):
 
 
 @case
-def gltf_resources(run):
+def resources_of_gltf_are_copied_or_named(run):
     start(run)
     asset, data = gltf_json(CUBE_CORNERS, uri="a.bin")
     asset["images"] = [{"uri": "maps/one.png"}]
@@ -253,7 +253,7 @@ def a_missing_folder_is_said_once(run):
 
 
 @case
-def in_place(run):
+def in_place_gives_the_same_file(run):
     start(run)
     run.write("b.obj", CUBE)
     run.ffd("deform", "a.obj", "out.obj", "-l", "l.json")
@@ -278,7 +278,7 @@ def in_place_gltf(run):
 
 
 @case
-def report(run):
+def the_report_counts_what_was_told(run):
     start(run, high=(2, 2, 0))
     run.write("l.json", lattice(high=(2, 2, 0), moves=MOVE))
     run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--report", "r.json", lines=2)

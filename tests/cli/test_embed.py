@@ -17,7 +17,7 @@ def uvw(p, low=-2, high=2):
 
 
 @case
-def both_arrays(run):
+def both_arrays_have_a_row_for_each_vertex(run):
     start(run)
     run.write("a.obj", CUBE + "v 3 0 0\nv 0.5 0.25 2\np 9 10\n")
     run.ffd("embed", "a.obj", "-l", "l.json", "-o", "e.npy", "--status", "s.npy",
@@ -45,7 +45,7 @@ def embedding(run, mesh="a.obj", lattice_file="l.json", *more):
 
 
 @case
-def the_trailer(run):
+def the_trailer_holds_statuses_and_hashes(run):
     start(run)
     for mesh in (CUBE, CUBE + "v 3 0 0\nv nan 0 0\nv 0.5 0.25 2\n", "o\n"):
         run.write("a.obj", mesh)
@@ -112,7 +112,7 @@ def parameters_in_the_range_of_the_knots(run):
 
 
 @case
-def general_lattices(run):
+def images_under_a_general_lattice_are_the_vertices(run):
     points = [[x + 0.1 * y * y, y - 0.05 * x * z, z] for z in (-2, 0, 2) for y in (-2, 0, 2) for x in (-2, 0, 2)]
     start(run, size=(3, 3, 3), rest={"points": points})
     run.ffd("embed", "a.obj", "-l", "l.json", "-o", "e.npy", "--status", "s.npy")
@@ -124,7 +124,7 @@ def general_lattices(run):
 
 
 @case
-def statuses(run):
+def statuses_say_what_was_found(run):
     """An axis that is collapsed is singular or answered; points outside, and coordinates that are no numbers."""
     run.write("a.obj", "v 0.5 0 0\nv 9 0 0\nv nan 0 0\nv 0 inf 0\n")
     run.write("l.json", lattice())
@@ -143,7 +143,7 @@ def a_value_that_no_placeholder_takes(run):
 
 
 @case
-def an_empty_mesh(run):
+def an_empty_mesh_gives_empty_arrays(run):
     start(run)
     run.write("a.obj", "o nothing\n")
     run.ffd("embed", "a.obj", "-l", "l.json", "-o", "e.npy", "--status", "s.npy", err="a.obj: there are no vertices")
@@ -152,7 +152,7 @@ def an_empty_mesh(run):
 
 
 @case
-def gltf_order(run):
+def vertices_of_gltf_come_in_json_order(run):
     """Meshes and primitives in JSON order, an accessor once for each node that shows it."""
     start(run, low=(-20, -20, -20), high=(20, 20, 20))
     nodes = [{"mesh": 0, "translation": [10, 0, 0]}, {"mesh": 0, "translation": [0, -5, 0]}]
@@ -173,7 +173,7 @@ def lattice_round_the_mesh(run):
 
 
 @case
-def outputs(run):
+def outputs_of_embed_are_not_replaced_without_force(run):
     start(run)
     run.ffd("embed", "a.obj", "-l", "l.json", "-o", "e.npy", "--status", "s.npy")
     before = run.read("e.npy")

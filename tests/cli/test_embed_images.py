@@ -117,17 +117,17 @@ def none_is_outside(run, most_steep, most_thin, most_singular=None, far=1):
 
 
 @case
-def steep_weights(run):
+def images_under_steep_weights_are_found(run):
     none_is_outside(run, 4, 0, 1e-3)
 
 
 @case
-def thin_sheets(run):
+def images_in_thin_sheets_are_found(run):
     none_is_outside(run, 0, 12, 1e-3)
 
 
 @case
-def steep_and_thin(run):
+def images_under_steep_weights_in_thin_sheets_are_found(run):
     none_is_outside(run, 4, 12, 1e-3)
 
 

@@ -50,7 +50,7 @@ def the_same_bytes_as_a_search(run):
 
 
 @case
-def of_a_scene(run):
+def an_embedding_of_a_scene_serves_its_deformation(run):
     run.write("l.json", lattice(low=(-20, -20, -20), high=(20, 20, 20), moves=TWIST))
     nodes = [{"mesh": 0, "translation": [10, 0, 0]}, {"mesh": 0, "translation": [0, -5, 0], "scale": [2, 1, 1]}]
     run.write("a.glb", glb(*gltf_json(CUBE_CORNERS, nodes=nodes)))

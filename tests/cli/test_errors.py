@@ -175,7 +175,7 @@ def refused(run, name, content, code, message):
 
 
 @case
-def obj_files(run):
+def broken_obj_files_are_refused_with_their_line(run):
     start(run)
     for content, code, message in OBJ:
         refused(run, "m.obj", content, code, message)
@@ -186,7 +186,7 @@ def obj_files(run):
 
 
 @case
-def lattice_files(run):
+def broken_lattice_files_are_refused_with_their_place(run):
     start(run)
     for content, code, message in LATTICES:
         run.write("t.json", content)
@@ -235,7 +235,7 @@ def changed(asset, path, value):
 
 
 @case
-def glb_containers(run):
+def broken_glb_containers_are_refused(run):
     start(run)
     good = glb(*gltf_json(CUBE_CORNERS))
     size = len(good)
@@ -259,7 +259,7 @@ def glb_containers(run):
 
 
 @case
-def gltf_json_text(run):
+def broken_json_of_gltf_is_refused(run):
     start(run)
     for text, message in (
             ("{", ":1: not valid JSON: a key in double quotes is expected, found the end of the text (column 2)"),
@@ -353,7 +353,7 @@ def gltf_buffers_outside_the_folder(run):
 
 
 @case
-def gltf_data_uris(run):
+def broken_data_uris_are_refused(run):
     start(run)
     for uri, message in (("data:application/octet-stream;base64,!!!!", ":/buffers/0/uri: the data URI is not valid base64"),
                          ("data:application/octet-stream;base64,AAAA",

@@ -54,7 +54,7 @@ def write_batch(work):
 
 
 @case
-def examples_run(run):
+def the_examples_do_what_they_say(run):
     tools = run.folder_of("tools")
     os.symlink(FFD, run.path(os.path.join(tools, "ffd")))
     environment = dict(os.environ, PATH=run.path(tools) + os.pathsep + os.environ["PATH"])

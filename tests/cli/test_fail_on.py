@@ -3,7 +3,7 @@
 import json
 import re
 
-from harness import (CUBE, CUBE_CORNERS, EMBEDDING, INVALID, IO, NO, OK, case, check, equal, glb, gltf_json, lattice,
+from harness import (CUBE, CUBE_CORNERS, EMBEDDING, IO, NO, OK, case, check, equal, glb, gltf_json, lattice,
                      main)
 
 SHIFT = [{"by": [1, 0, 0]}]
@@ -63,7 +63,7 @@ def refused(run, command, *options, says, **expected):
 
 
 @case
-def each_gate_violated(run):
+def each_gate_finds_its_own_violation(run):
     for gate, (mesh, bad, says) in VIOLATIONS.items():
         start(run, mesh, bad)
         for command in commands():
@@ -76,7 +76,7 @@ def warnings(command, violated):
 
 
 @case
-def each_gate_kept(run):
+def each_gate_asks_for_its_own_figure_only(run):
     """A gate asks for its own figure only: those that others would object to pass."""
     for gate in GATES:
         for other, (mesh, bad, _) in VIOLATIONS.items():
@@ -92,7 +92,7 @@ def each_gate_kept(run):
 
 
 @case
-def all_gates_kept(run):
+def all_gates_let_a_good_mesh_pass(run):
     start(run)
     run.ffd("deform", "a.obj", "plain.obj", "-l", "good.json")
     run.ffd("deform", "a.obj", "b.obj", "-l", "good.json", "--fail-on", ",".join(GATES))

@@ -10,7 +10,6 @@ import json
 import os
 import re
 import shutil
-import struct
 import subprocess
 
 from harness import CUBE, CUBE_CORNERS, FFD, IO, OK, SANITIZED, SECONDS, case, check, equal, gltf_json, lattice, main

@@ -120,7 +120,7 @@ def check_refused(run, arguments, why):
 
 
 @case
-def full_device(run):
+def a_full_device_is_exit_3(run):
     start(run)
     for ending in FORMATS[:-1]:
         run.ffd("deform", f"a.{ending}", "/dev/full", "--output-format", ending, "-l", "l.json", code=IO,
@@ -136,7 +136,7 @@ def full_device(run):
 
 
 @case
-def full(run):
+def a_full_disk_leaves_nothing_behind(run):
     """Not a byte is left; then space for a part of the output; then enough."""
     start(run)
     for folder in disks(run):
@@ -194,7 +194,7 @@ def full_for_what_comes_after_the_mesh(run):
 
 
 @case
-def mounted_files(run):
+def no_file_takes_the_place_of_a_mount(run):
     """No file takes the place of a mount: OUT, report and depfile are refused before any work."""
     start(run)
     for name, content in (("b.obj", "old"), ("r.json", '{"format": "ffd-report"}'), ("d", "b.obj: a.obj\n")):
@@ -276,7 +276,7 @@ def equal_outputs_on_a_full_disk(run):
 
 
 @case
-def read_only(run):
+def a_disk_for_reading_only_is_exit_3(run):
     start(run)
     for folder in disks(run):
         for files, arguments in commands():

@@ -22,7 +22,7 @@ def quadratic(dx, dz):
 
 
 @case
-def tear(run):
+def a_torn_edge_violates_the_gate_tear(run):
     """A square whose far side stays, one step of 1/4."""
     run.write("a.obj", "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nf 1 2 3 4\n")
     run.write("l.json", lattice(low=(-1, -1, -1), high=(1, 2, 1), moves=[{"by": [0, 0, 0.25]}]))
@@ -33,7 +33,7 @@ def tear(run):
 
 
 @case
-def flipped(run):
+def a_flipped_face_violates_the_gate_flipped(run):
     """x' = 3u - 2u^2 turns round at 3/4: the cube's face at u = 1 shows its other side."""
     run.write("a.obj", CORNERS + FACES)
     run.write("l.json", quadratic(1, 0))
@@ -44,7 +44,7 @@ def flipped(run):
 
 
 @case
-def edges(run):
+def edges_far_from_the_true_surface_violate_the_gate_edges(run):
     """Edges along x bend to parabolas of height 1/8."""
     run.write("a.obj", CORNERS + FACES)
     run.write("l.json", quadratic(0, 0.25))
@@ -53,7 +53,7 @@ def edges(run):
 
 
 @case
-def invalid(run):
+def a_vertex_that_is_no_number_violates_the_gate_invalid(run):
     run.write("a.obj", CUBE + "v nan 0 0\nf 1 2 9\n")
     run.write("l.json", lattice(moves=[{"by": [1, 0, 0]}]))
     judged(run, "outside", OK)
@@ -76,7 +76,7 @@ def folds_outside_of_the_lattice(run):
 
 
 @case
-def several(run):
+def one_violated_gate_among_others_is_enough(run):
     """A violated one among others that are kept."""
     run.write("a.obj", CORNERS + FACES)
     run.write("l.json", quadratic(0, 0.25))

@@ -7,7 +7,8 @@ import re
 import struct
 
 from gltf_build import SHEAR, SHIFT, Scene, vectors
-from harness import (EMBEDDING, INVALID, NO, OK, UNSUPPORTED, announce, case, check, equal, glb_split, gltf_vectors, lattice, main, near, npy)
+from harness import (EMBEDDING, INVALID, NO, OK, UNSUPPORTED, announce, case, check, equal, float32, glb_split,
+                     gltf_vectors, lattice, main, near, npy)
 
 announce("off the deformed mesh")
 
@@ -685,7 +686,7 @@ def each_coordinate_counts_by_its_own_ulp(run):
 
     lifted = lattice(low=(999999, -10, 9), high=(1000002, 10, 11), moves=[{"by": [0, 0, 0.05]}])
     far = [[1000000.0, 0.0, 0.0], [1000001.0, 0.0, 0.0], [1000000.0, 1.0, 0.0]]
-    float_005 = struct.unpack("<f", struct.pack("<f", 0.05))[0]
+    float_005 = float32(0.05)
     sheared = lattice(low=(0, -10, -1), high=(2000, 10, 11), size=(2, 2, 2),
                       moves=[{"at": ["all", "all", 1], "by": [0, 2e-5, 0]}])
     near_zero = [[1000.0, 0.001, 0.0], [1001.0, 0.0, 0.0], [1000.0, 1.0, 0.0]]

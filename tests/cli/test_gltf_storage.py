@@ -148,7 +148,7 @@ def sparse_positions_become_dense(run):
 
 
 @case
-def zeros_without_bytes(run):
+def zeros_without_bytes_get_a_buffer(run):
     """An accessor without bufferView and sparse is all zeros; its results need a buffer, perhaps the first."""
     zeros = [(0.0, 0.0, 0.0)] * 3
     for container, alone in itertools.product(CONTAINERS, (True, False)):
@@ -204,7 +204,7 @@ def a_new_buffer_beside_others(run):
 
 
 @case
-def too_many_zeros(run):
+def too_many_zeros_are_refused(run):
     run.write("l.json", ALL)
     for count, code in ((1 << 20, OK), (1 << 23, LIMIT), (1 << 31, LIMIT), (1 << 52, LIMIT)):
         maker = Maker()
@@ -422,7 +422,7 @@ def copies_of_integers_are_aligned(run):
 
 
 @case
-def interleaved_integers(run):
+def interleaved_integers_keep_what_is_between_them(run):
     """Position, normal and tangent of different types in one view; the rest between them stays."""
     points = integers(5122, 0.5)
     rows = [struct.pack("<3hxx4h3bx2HBBBB", *p, 0, 32767, 0, (-1) ** i * 32767, 0, 0, 127, 7 * i, 9 * i, 1, 2, 3, i)

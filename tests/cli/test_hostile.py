@@ -277,7 +277,7 @@ def a_cylinder_of_many_control_points(run):
 
 
 @case
-def random_control_points(run):
+def random_control_points_are_answered_truly(run):
     """Thousands of folds: nearly every point has many u,v,w or none."""
     roots, side = 0, 7 if SANITIZED else 12
     for size, degree, count in (([side] * 3, [3] * 3, 32), ([side] * 3, [1] * 3, 32), ([6, 5, 4], [4, 2, 3], 48)):
@@ -298,7 +298,7 @@ def random_control_points(run):
 
 
 @case
-def no_volume(run):
+def lattices_without_volume_are_refused(run):
     """Control points in a plane, on a line, at a point: the lattice is refused."""
     draw = random.Random(4)
     write_points(run, within(draw, [(0, 3)] * 3, 100) + [[1, 1, 0], [1, 0, 0], [0, 0, 0], [1.5, 1.5, 1.5]])
@@ -315,7 +315,7 @@ def no_volume(run):
 
 
 @case
-def hardly_any_volume(run):
+def lattices_of_hardly_any_volume_are_refused_or_answered_truly(run):
     """Planes and lines up to rounding: refused, or answered truly."""
     draw = random.Random(5)
     for thickness in (1e-9, 1e-13, 1e-15, 1e-16, 1e-18, 1e-100, 5e-324):

@@ -11,7 +11,7 @@ def facts(run, name, *arguments, **options):
 
 
 @case
-def a_mesh(run):
+def facts_of_a_mesh_are_right(run):
     run.write("a.obj", CUBE + "v 9 0 0\n")
     found = facts(run, "a.obj")
     equal([found[key] for key in ("format", "version", "file", "kind", "mesh_format", "vertices")],
@@ -23,7 +23,7 @@ def a_mesh(run):
 
 
 @case
-def topology(run):
+def the_topology_of_known_surfaces_is_right(run):
     for name, text, expected in (
             ("triangle", "v 0 0 0\nv 3 0 0\nv 0 4 0\nf 1 2 3\n", (1, 1, 1, 0, 6)),
             ("two apart", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf 1 2 3\nf 4 5 6\n", (2, 2, 2, 0, 1)),
@@ -37,7 +37,7 @@ def topology(run):
 
 
 @case
-def gltf(run):
+def bounds_of_gltf_are_those_of_the_scene(run):
     run.write("a.glb", glb(*gltf_json(CUBE_CORNERS, nodes=[{"mesh": 0, "translation": [10, 0, 0]}])))
     found = facts(run, "a.glb")
     equal([found["kind"], found["vertices"], found["bounds"]],
@@ -46,7 +46,7 @@ def gltf(run):
 
 
 @case
-def a_lattice(run):
+def facts_of_a_lattice_are_right(run):
     run.write("l.json", lattice(size=(5, 4, 3), degree=[3, 2, 2], knots=["clamped", "open", "uniform"],
                                 moves=[{"at": [0, 0, 0], "by": [0, 3, 4]}]))
     found = facts(run, "l.json")
@@ -93,7 +93,7 @@ def streams_and_formats(run):
 
 
 @case
-def failures(run):
+def what_is_no_mesh_and_no_lattice_is_refused(run):
     run.write("bad.obj", "v 1\n")
     run.write("bad.json", "{")
     run.write("not.json", {"format": "other"})
@@ -107,7 +107,7 @@ def failures(run):
 
 
 @case
-def every_sample_model(run):
+def every_sample_model_is_described_or_refused_with_a_reason(run):
     """Described, or refused with a reason; never anything else."""
     refused = 0
     paths = sorted(os.path.join(folder, name) for folder, _, names in os.walk(MODELS or "") for name in names

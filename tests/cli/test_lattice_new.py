@@ -19,7 +19,7 @@ def box(content):
 
 
 @case
-def the_defaults(run):
+def the_defaults_are_those_of_the_interface(run):
     content = new(run)
     equal([content["format"], content["version"], content["size"]], ["ffd-lattice", 1, [4, 4, 4]])
     equal(content.get("degree", [3, 3, 3]), [3, 3, 3])
@@ -42,7 +42,7 @@ def the_new_lattice_holds_its_mesh_and_moves_nothing(run):
 
 
 @case
-def options(run):
+def options_come_out_as_they_went_in(run):
     content = new(run, "--size", "5,6,7", "--degree", "1,2,5", "--knots", "clamped,open,uniform", "--margin", "0.25")
     equal([content["size"], content["degree"], content["knots"]], [[5, 6, 7], [1, 2, 5], ["clamped", "open", "uniform"]])
     near(box(content)["max"], [1.5] * 3, 1e-15)
@@ -60,7 +60,7 @@ def margins_are_fractions_of_each_side(run):
 
 
 @case
-def cylinders(run):
+def cylinders_go_round_the_mesh(run):
     for axis, direction in (("x", [1, 0, 0]), ("y", [0, 1, 0]), ("z", [0, 0, 1]), ("0,0,-2", [0, 0, -1])):
         content = new(run, "--shape", "cylinder", "--axis", axis, "--margin", "0")
         cylinder = content["rest"]["cylinder"]
@@ -73,7 +73,7 @@ def cylinders(run):
 
 
 @case
-def principal_axes(run):
+def principal_axes_are_those_of_the_points(run):
     c, s = math.cos(0.5), math.sin(0.5)
     points = [[c * x - s * y, s * x + c * y, z] for x in (-5, -2, 2, 5) for y in (-1, 1) for z in (-0.25, 0.25)]
     run.write("a.obj", "".join("v %r %r %r\n" % tuple(p) for p in points))
@@ -130,7 +130,7 @@ def meshes_without_points(run):
 
 
 @case
-def outputs(run):
+def outputs_of_lattice_new_are_not_replaced_without_force(run):
     run.write("a.obj", CUBE)
     run.ffd("lattice", "new", "a.obj", "-o", "n.json")
     first = run.text("n.json")

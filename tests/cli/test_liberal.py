@@ -221,7 +221,7 @@ def requiring(*names):
 
 
 @case
-def required_extensions(run):
+def a_required_extension_that_touches_no_vertices_is_let_pass(run):
     """What does not touch vertices is let pass, and everything else is the user's to decide."""
     start(run)
     for name in ("KHR_node_visibility", "KHR_materials_unlit", "KHR_texture_basisu", "KHR_xmp_json_ld", "KHR_interactivity",

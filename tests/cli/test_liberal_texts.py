@@ -37,7 +37,7 @@ def start(run):
 
 
 @case
-def flaws_of_texts(run):
+def flaws_of_texts_are_said_and_change_nothing_else(run):
     """Said, reported, refused with --strict; vertices move as in the plain file, and nothing else changes."""
     start(run)
     for name, text, said, line, count in FLAWS:
@@ -102,7 +102,7 @@ def junk_is_refused(run):
 
 
 @case
-def meshes_without_vertices(run):
+def a_mesh_without_vertices_is_warned_of(run):
     """A warning, and a violated gate."""
     start(run)
     for name, text in (("m.obj", "mtllib a.mtl\n"), ("m.obj", "s off\n"), ("m.off", "OFF\n0 0 0\n"), ("m.stl", "solid\nendsolid\n"),

@@ -21,7 +21,7 @@ def lattice_words(grids):
 
 
 @case
-def every_format(run):
+def many_meshes_give_what_each_gives_alone(run):
     meshes = start(run)
     failures = 0
     for i, (grids, options) in enumerate(COMBINATIONS):
@@ -43,7 +43,7 @@ def every_format(run):
 
 
 @case
-def checks(run):
+def many_checks_say_what_each_says_alone(run):
     meshes = start(run)
     for grids in (["curved.json"], ["half.json", "twist.json"], ["round.json"]):
         many = run.ffd("check", *meshes, *lattice_words(grids), **ANY)

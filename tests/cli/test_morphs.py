@@ -8,7 +8,8 @@ import struct
 
 from batches import batch, lines_of, start
 from gltf_build import SHEAR, SHIFT, Scene
-from harness import (CUBE, INVALID, NO, SANITIZED, USAGE, case, check, equal, glb, glb_split, gltf_vectors, lattice, main, near)
+from harness import (CUBE, INVALID, NO, SANITIZED, USAGE, case, check, equal, float32, glb, glb_split, gltf_vectors,
+                     lattice, main, near)
 from said import anything
 
 POINTS = [[1.0, 2.0, 0.0], [2.0, -4.0, 1.0], [-3.0, 5.0, 2.0]]
@@ -163,7 +164,7 @@ def a_clip_has_a_channel_for_each_node_with_targets(run):
     write(run, scene)
     text = "hop: 0 squash=1, 0.2 stretch=1 squash=0.5 old-1=2, 0.5,2 squash=-1.5"
     asset, data = deformed(run, "--clip", text)
-    times = [struct.unpack("<f", struct.pack("<f", t))[0] for t in (0, 0.2, 0.5, 2)]
+    times = [float32(t) for t in (0, 0.2, 0.5, 2)]
     rows = [[0.25, 0, 1, 0], [0.25, 2, 0.5, 1], [0.25, 0, 0, 0], [0.25, 0, -1.5, 0]]
     found = clip_of(asset, data, "hop")
     equal(sorted(found), [0, 2, 3])

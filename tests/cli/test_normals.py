@@ -203,7 +203,7 @@ def corners_that_shared_a_normal_share_one_again(run):
 
 
 @case
-def polygons(run):
+def normals_of_polygons_are_weighed_by_their_angles(run):
     """Concave faces have angles beyond 180 degrees; corners at one place and repeated corners do no harm."""
     text = """v 0 0 0
 v 2 0 0
@@ -262,7 +262,7 @@ def where_nothing_moves_the_bits_stay(run):
 
 
 @case
-def no_normals(run):
+def without_normals_there_is_nothing_to_recompute(run):
     run.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     as_without_recompute(run, "a.obj", "has no normals to recompute")
 
@@ -466,7 +466,7 @@ def models(ending, limit):
 
 
 @case
-def models_of_obj(run):
+def normals_of_obj_models_are_those_of_the_slow_implementation(run):
     """The models with normals: as the slow implementation says; an empty move leaves every byte."""
     if not MODELS:
         return
@@ -557,7 +557,7 @@ def is_plain(asset):
 
 
 @case
-def models_of_gltf(run):
+def normals_of_gltf_models_are_those_of_the_slow_implementation(run):
     """An empty move leaves every byte; a twist in mesh space gives what the slow implementation says of the
     output's own positions."""
     if not MODELS:

@@ -225,7 +225,7 @@ unknown 1 2 3 \\
 
 
 @case
-def dialects(run):
+def line_ends_and_marks_stay_as_they_are(run):
     """The same file with each line end, with and without byte order mark and end of its last line."""
     for end in ("\n", "\r\n", "\r"):
         for mark in (b"", b"\xef\xbb\xbf"):
@@ -248,7 +248,7 @@ def dialect_is_read_as_meant(run):
 
 
 @case
-def sample_models(run):
+def sample_models_are_copied_and_deformed(run):
     found = models(".obj")
     changed = 0
     # Under a sanitizer some of them: test_obj_models.c reads others.

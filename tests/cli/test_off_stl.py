@@ -6,7 +6,7 @@ import os
 import re
 import struct
 
-from harness import (INVALID, IO, MODELS, NO, UNSUPPORTED, carried, case, check, equal, lattice, main, models,
+from harness import (INVALID, IO, MODELS, NO, UNSUPPORTED, carried, case, check, equal, float32, lattice, main, models,
                      near)
 from vectors import cross, minus
 
@@ -98,7 +98,7 @@ def off_words_in_a_row(run):
 
 
 @case
-def off_normals(run):
+def normals_of_off_follow_those_of_obj(run):
     """They follow as those of an OBJ do; --normals keep leaves their bytes."""
     run.write("l.json", lattice(moves=BUMP))
     run.write("p.obj", obj_of(POINTS, True))
@@ -134,7 +134,7 @@ def streams(run, name, data, **options):
 
 
 @case
-def off_streams(run):
+def off_files_go_through_streams(run):
     streams(run, "p.off", off(keyword="NOFF"), **OUTSIDE)
 
 
@@ -163,7 +163,7 @@ def off_embedding_and_lattice(run):
 
 
 @case
-def off_info(run):
+def facts_of_off_files_are_right(run):
     run.write("p.off", off(keyword="CNOFF", behind=" 255 0 0 255", end="\r\n") + "\r\n\r\nmore")
     found = run.ffd("info", "p.off", "--json").json
     equal([found[key] for key in ("mesh_format", "vertices", "normals", "not_finite")], ["OFF", 5, 5, 0])
@@ -176,7 +176,7 @@ def off_info(run):
 
 
 @case
-def off_compare(run):
+def off_files_are_the_same_by_their_numbers(run):
     run.write("a.off", off())
     run.write("b.off", off(end="\r\n").replace("0.1 0.2", "1e-1  .2") + "# more\n")
     run.ffd("compare", "a.off", "b.off", out="")
@@ -195,7 +195,7 @@ def refused(run, ending, content, code, says):
 
 
 @case
-def off_refused(run):
+def broken_off_files_are_refused(run):
     run.write("l.json", lattice())
     for content, code, says in (
             (b"", INVALID, "p.off:1: the file has no content"),
@@ -235,7 +235,7 @@ def other_commands(run, path):
 
 
 @case
-def off_models(run):
+def sample_models_of_off_are_copied_and_deformed(run):
     """An empty move copies each sample; a real one takes each vertex where the lattice takes its position, and
     changes nothing else."""
     found = models(".off")
@@ -265,10 +265,6 @@ def cross_normal(facet):
     n = cross(minus(b, a), minus(c, a))
     length = math.hypot(*n)
     return [x / length for x in n]
-
-
-def as_float(value):
-    return struct.unpack("<f", struct.pack("<f", value))[0]
 
 
 def binary_stl(facets, normals, header=b"a test", attributes=None):
@@ -304,11 +300,11 @@ def flat(facets):
 
 
 def rounded(points):
-    return [[as_float(x) for x in p] for p in points]
+    return [[float32(x) for x in p] for p in points]
 
 
 @case
-def stl_text(run):
+def stl_texts_get_the_numbers_of_obj(run):
     """Positions get the bits that those of an OBJ do; normals are those of the corners as written; all else stays."""
     run.write("l.json", lattice(moves=BUMP))
     facets = cube_facets()
@@ -329,7 +325,7 @@ def stl_text(run):
 
 
 @case
-def stl_binary(run):
+def binary_stl_files_get_rounded_numbers(run):
     run.write("l.json", lattice(moves=BUMP))
     facets = [rounded(f) for f in cube_facets()]
     normals = rounded([cross_normal(f) for f in facets])
@@ -380,7 +376,7 @@ def stl_normals_that_stay(run):
 
 
 @case
-def stl_solids(run):
+def every_solid_of_an_stl_text_is_deformed(run):
     text = ("SOLID first\r\nfacet normal 0 0 1 outer loop vertex 0 0 0 vertex 1.0 0 0 vertex 0 1 0 endloop endfacet\r\n"
             "endsolid first\r\n\r\nsolid\nendsolid\nsolid second facet normal 0 0 1\nOUTER LOOP\nVertex 0\n0\t1e0 vertex 1 0 1\n"
             "vertex 0 1 1\nENDLOOP\nENDFACET\nendsolid")
@@ -395,7 +391,7 @@ def stl_solids(run):
 
 
 @case
-def stl_streams(run):
+def stl_files_go_through_streams(run):
     facets = cube_facets()
     normals = [cross_normal(f) for f in facets]
     streams(run, "p.stl", text_stl(facets, normals))
@@ -413,7 +409,7 @@ def stl_embedding_and_lattice(run):
 
 
 @case
-def stl_compare(run):
+def stl_files_are_the_same_by_their_numbers(run):
     facets = [rounded(f) for f in cube_facets()]
     normals = rounded([cross_normal(f) for f in facets])
     moved = [[list(p) for p in f] for f in facets]
@@ -455,7 +451,7 @@ def vertices_that_are_not_finite(run):
 
 
 @case
-def stl_refused(run):
+def broken_stl_files_are_refused(run):
     run.write("l.json", lattice())
     good = binary_stl([[[0, 0, 0], [1, 0, 0], [0, 1, 0]]], [[0, 0, 1]])
     for content, says in (
@@ -479,7 +475,7 @@ def stl_refused(run):
 
 
 @case
-def stl_models(run):
+def sample_models_of_stl_are_copied_and_deformed(run):
     found = models(".stl")
     write_model_lattices(run)
     for name, path, before in found:

@@ -5,7 +5,7 @@ import os
 import struct
 import subprocess
 
-from harness import (INVALID, MODELS, NO, SANITIZED, UNSUPPORTED, USAGE, case, check, equal, glb, glb_split, gltf_json, gltf_vectors, lattice,
+from harness import (MODELS, NO, SANITIZED, UNSUPPORTED, USAGE, case, check, equal, glb, glb_split, gltf_json, gltf_vectors, lattice,
                      main, near, obj_vertices)
 
 SHIFT = [{"by": [0.5, -0.25, 1]}]
@@ -79,7 +79,7 @@ def groups_objects_and_materials_of_obj(run):
 
 
 @case
-def dialects_of_obj(run):
+def names_are_read_in_every_dialect_of_obj(run):
     """Names go on behind a continuation, end with CR, and come before or after what they name."""
     run.write("l.json", lattice(moves=SHIFT))
     text = SHEET.replace("g left both", "g left \\\n  both").replace("\n", "\r")

@@ -11,7 +11,7 @@ import subprocess
 import time
 
 from harness import (CUBE, CUBE_CORNERS, FFD, INVALID, IO, SECONDS, USAGE, case, check, equal, glb, gltf_json, gltf_vectors,
-                     lattice, main)
+                     lattice, main, wait_until)
 
 
 def start(run):
@@ -112,7 +112,7 @@ def read_only_folder(run):
 
 
 @case
-def unreadable_files(run):
+def unreadable_files_are_exit_3(run):
     start(run)
     user = run.unprivileged()
     check(user, "there is no unprivileged user to run as")
@@ -134,7 +134,7 @@ def mode_under(run, mask, name):
 
 
 @case
-def permissions(run):
+def permissions_of_a_replaced_file_stay(run):
     expected = start(run)
     for mode in (0o600, 0o644, 0o755, 0o640):
         run.write("b.obj", "old")
@@ -173,7 +173,7 @@ def permissions_of_every_file(run):
 
 
 @case
-def links(run):
+def a_link_stays_and_its_target_is_written(run):
     expected = start(run)
     run.folder_of("far")
     run.write("far/target.obj", "old")
@@ -218,7 +218,7 @@ def hard_links_keep_the_old_content(run):
 
 
 @case
-def devices(run):
+def devices_are_written_and_not_replaced(run):
     expected = start(run)
     deform(run, "/dev/null", "--output-format", "obj")
     check(stat.S_ISCHR(os.stat("/dev/null").st_mode), "/dev/null was replaced")
@@ -228,7 +228,7 @@ def devices(run):
 
 
 @case
-def full_disk(run):
+def a_write_that_fails_in_the_middle_leaves_the_old_file(run):
     """A limit on the size of files imitates a full disk: the write fails in the middle."""
     run.write("big.obj", CUBE + "v 0.123456789 0 0\n" * 20000)
     run.write("l.json", lattice(moves=[{"by": [1e-7, 0, 0]}]))
@@ -302,8 +302,7 @@ def ignored_signals_stay_ignored(run):
     expected = start(run)
     child = subprocess.Popen([FFD, "deform", "-", "b.obj", "--input-format", "obj", "-l", "l.json", "--report", "r.json"], cwd=run.folder,
                              stdin=subprocess.PIPE, preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
-    while not run.exists("r.json"):
-        time.sleep(0.01)
+    wait_until(lambda: run.exists("r.json"), "the report is not begun")
     child.send_signal(signal.SIGHUP)
     child.communicate(run.read("a.obj"), timeout=SECONDS)
     equal(child.returncode, 0)
@@ -406,7 +405,7 @@ def a_report_or_depfile_under_another_spelling_of_out(run):
 
 
 @case
-def long_names(run):
+def long_names_leave_room_for_a_temporary_one(run):
     expected = start(run)
     name = "n" * 240 + ".obj"  # with the temporary name's letters still a name
     deform(run, name)

@@ -105,7 +105,7 @@ def cofactor(f):
 
 
 @case
-def normals(run):
+def normals_outside_follow_the_extended_displacement(run):
     """Those of vertices outside follow the difference quotients of the displacement there."""
     step, n = 1e-5, unit([1, 2, -0.5])
     places = [[3, 0.2, 0.7], [2.5, 3, 0.4], [0.1, -0.3, 2.8], [3, 3, 3.5], [-0.4, -2.9, 1.1]]
@@ -132,7 +132,7 @@ def normals(run):
 
 
 @case
-def several_lattices(run):
+def the_second_lattice_extends_from_where_the_first_brought_points(run):
     """The second takes the points where the first, extended, has brought them."""
     run.write("l.json", lattice(moves=BEND))
     run.write("k.json", bent(moves=BEND[:1]))
@@ -218,7 +218,7 @@ def counts_in_the_report(run):
 
 
 @case
-def gltf(run):
+def extending_is_in_scene_space(run):
     """Scene space: the nearest point and the falloff are of where the nodes show the mesh."""
     run.write("l.json", lattice(moves=SHIFT))
     points = [[0.5, 0, 0], [1.25, 0, 0], [0, 0, -2], [3, 3, 3]]

@@ -215,7 +215,7 @@ def check_rebuilds(run, inputs, build):
 
 
 @case
-def ninja_rebuilds(run):
+def ninja_rebuilds_what_has_changed(run):
     for deps in ("", "  deps = gcc\n"):
         for name in run.names():
             subprocess.run(["rm", "-rf", run.path(name)], check=True)
@@ -234,7 +234,7 @@ def ninja_rebuilds(run):
 
 
 @case
-def make_rebuilds(run):
+def make_rebuilds_what_has_changed(run):
     inputs, out, command = prepare_step(run)
     quoted = out.replace("\\ ", "\\\\ ").replace("$", "$$").replace(" ", "\\ ").replace("#", "\\#").replace(":", "\\:")
     run.write("Makefile", f"{quoted}:\n\t{command.replace('$', '$$')}\n-include step.d\n")

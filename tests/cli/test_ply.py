@@ -5,7 +5,7 @@ import json
 import re
 import struct
 
-from harness import (CUBE, INVALID, IO, LIMIT, MODELS, NO, UNSUPPORTED, carried, case, check, equal, lattice, main,
+from harness import (CUBE, INVALID, IO, LIMIT, MODELS, NO, UNSUPPORTED, carried, case, check, equal, float32, lattice, main,
                      models, near)
 
 BUMP = [{"at": [[1, 2], [1, 2], [1, 2]], "by": [0.5, 0.25, -0.125]}]
@@ -34,7 +34,7 @@ def number(code, value):
     """value's shortest text, as the type holds it."""
     if code != "f":
         return repr(value)
-    value = struct.unpack("f", struct.pack("f", value))[0]
+    value = float32(value)
     return next(t for t in (f"{value:.{n}g}" for n in range(1, 10)) if struct.pack("f", float(t)) == struct.pack("f", value))
 
 
@@ -97,10 +97,6 @@ def vectors(data, names=("x", "y", "z")):
     return [[row[name] for name in names] for row in read_ply(data)["vertex"]]
 
 
-def as_float(value):
-    return struct.unpack("f", struct.pack("f", value))[0]
-
-
 def obj_of(points):
     return "".join("v %r %r %r\n" % tuple(p) for p in points)
 
@@ -123,13 +119,13 @@ def doubles_are_those_of_obj(run):
 @case
 def floats_are_rounded_once(run):
     run.write("l.json", lattice(moves=BUMP))
-    start = [[as_float(x) for x in p] for p in POINTS]
-    expected = [[as_float(x) for x in p] for p in carried(run, start, "l.json", **OUTSIDE)]
+    start = [[float32(x) for x in p] for p in POINTS]
+    expected = [[float32(x) for x in p] for p in carried(run, start, "l.json", **OUTSIDE)]
     for encoding in ENCODINGS:
         run.write("p.ply", write_ply(elements("float32"), encoding))
         run.ffd("deform", "p.ply", f"{encoding}.ply", "-l", "l.json", **OUTSIDE)
         found = vectors(run.read(f"{encoding}.ply"))
-        equal([[as_float(x) for x in p] for p in found], expected, encoding)
+        equal([[float32(x) for x in p] for p in found], expected, encoding)
     for word in (w for line in run.text("ascii.ply").split("end_header\n")[1].split("\n")[2:7] for w in line.split()):
         check(word == number("f", float(word)) or float(word).is_integer(), f"{word} is longer than needed")
 
@@ -169,7 +165,7 @@ def texts_that_need_not_change_stay(run):
 
 
 @case
-def nothing_moves(run):
+def where_nothing_moves_every_byte_stays(run):
     run.write("l.json", lattice())
     for real in ("float", "float64"):
         for encoding in ENCODINGS:
@@ -179,7 +175,7 @@ def nothing_moves(run):
 
 
 @case
-def normals(run):
+def normals_of_ply_follow_those_of_obj(run):
     """They follow as those of an OBJ do; --normals keep leaves their bytes."""
     run.write("l.json", lattice(moves=BUMP))
     run.write("p.obj", obj_of(POINTS) + "".join("vn %r %r %r\n" % tuple(n) for n in NORMALS)
@@ -197,7 +193,7 @@ def normals(run):
 
 
 @case
-def whole_numbers(run):
+def coordinates_of_whole_numbers_are_not_deformed(run):
     """Coordinates or normals that are no floating point numbers are read, and not deformed."""
     run.write("l.json", lattice(moves=BUMP))
     head = "ply\nformat ascii 1.0\nelement vertex 1\n"
@@ -237,7 +233,7 @@ def too_large_for_the_file(run):
 
 
 @case
-def embedding_and_lattice(run):
+def other_commands_take_a_ply_as_any_mesh(run):
     """embed, lattice new and check take a PLY as any mesh."""
     run.write("p.ply", write_ply(elements("double"), "binary_little_endian"))
     run.write("p.obj", obj_of(POINTS) + "".join("f " + " ".join(str(i + 1) for i in f) + "\n" for f in FACES))
@@ -266,7 +262,7 @@ FACE_NORMALS = [[0.0, 0.0, -1.0], [0.0, 0.0, -2.0], [0.0, 0.0, 0.0], [1.0, 0.0, 
 
 
 @case
-def face_normals(run):
+def face_normals_are_those_of_the_moved_corners(run):
     """They are those of the moved corners, on their side; zeros, faces without area and all other bytes stay."""
     wide = {"low": (-10, -10, -10), "high": (10, 10, 10)}
     run.write("turn.json", lattice(**wide, moves=[{"rotate": {"axis": "x", "degrees": 90, "about": [0, 0, 0]}}]))
@@ -301,7 +297,7 @@ def face_normals(run):
 
 
 @case
-def info(run):
+def facts_of_ply_files_are_right(run):
     for encoding in ENCODINGS:
         run.write("p.ply", write_ply(elements("double"), encoding, "\r\n") + b"\n\nmore")
         found = run.ffd("info", "p.ply", "--json").json
@@ -328,7 +324,7 @@ def strip_triangles(strip):
 
 
 @case
-def triangle_strips(run):
+def triangle_strips_are_faces(run):
     """They are faces: for topology, figures, tears, selections of the border and conversions."""
     wide = {"low": (-10, -10, -10), "high": (10, 10, 10)}
     run.write("l.json", lattice(**wide, moves=[{"twist": {"axis": "y", "degrees": 40}}]))
@@ -363,7 +359,7 @@ def triangle_strips(run):
 
 
 @case
-def compare(run):
+def ply_files_are_the_same_in_every_encoding(run):
     for encoding in ENCODINGS:
         run.write(f"{encoding}.ply", write_ply(elements("double"), encoding))
     for a in ENCODINGS:
@@ -385,7 +381,7 @@ def compare(run):
 
 
 @case
-def compare_floats(run):
+def a_text_of_a_float_is_the_nearest_float(run):
     """A text of a float stands for the nearest float, of normals and other numbers too: the forms of a file are one
     mesh. Floats that differ are shown as short as they can be told apart."""
     vertex = [("float", name) for name in ("x", "y", "z", "nx", "ny", "nz", "quality")]
@@ -417,7 +413,7 @@ def vertices_that_are_not_finite(run):
 
 
 @case
-def refused(run):
+def broken_ply_files_are_refused(run):
     run.write("l.json", lattice(moves=BUMP))
     head = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
     face = "element face 1\nproperty list uchar int vertex_indices\n"
@@ -484,7 +480,7 @@ def words_of(data):
 
 
 @case
-def sample_models(run):
+def sample_models_are_copied_and_deformed(run):
     """An empty move copies each sample; a real one takes each vertex where the lattice takes its position, rounded
     to the file's precision, and changes nothing but positions and normals."""
     found = models(".ply")
@@ -496,9 +492,9 @@ def sample_models(run):
         run.ffd("deform", path, "q.ply", "-l", "moved.json", "--force")
         after = run.read("q.ply")
         old, new = read_ply(before), read_ply(after)
-        start = [[as_float(x) for x in p] for p in vectors(before)]
-        expected = [[as_float(x) for x in p] for p in carried(run, start, "moved.json")]
-        equal([[as_float(x) for x in p] for p in vectors(after)], expected, name)
+        start = [[float32(x) for x in p] for p in vectors(before)]
+        expected = [[float32(x) for x in p] for p in carried(run, start, "moved.json")]
+        equal([[float32(x) for x in p] for p in vectors(after)], expected, name)
         check(expected != start, name, "does not move")
         for element in old:
             equal(len(new[element]), len(old[element]), name)

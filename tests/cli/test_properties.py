@@ -9,8 +9,8 @@ import random
 import re
 import struct
 
-from harness import (MODELS, OK, UNSUPPORTED, INVALID, SANITIZED, case, check, equal, glb, glb_positions, glb_split, gltf_json, gltf_vectors,
-                     lattice, main, near, obj_vertices)
+from harness import (MODELS, OK, UNSUPPORTED, INVALID, SANITIZED, case, check, equal, float32, glb, glb_positions,
+                     glb_split, gltf_json, gltf_vectors, lattice, main, near, obj_vertices)
 
 SEED = int(os.environ.get("FFD_SEED") or struct.unpack("<I", os.urandom(4))[0])
 # The instruction sets that kernels are compiled for, as far as this processor has them.
@@ -26,12 +26,8 @@ FLOAT_EPS = 2.0 ** -23
 NOT_VALID = {"cube_att.gltf", "unassigned-skeleton.gltf", "synthetic_partial_attrib_0_obj.obj"}
 
 
-def single(x):
-    return struct.unpack("<f", struct.pack("<f", x))[0]
-
-
 def cloud(draw, count=300):
-    return [[single(draw.uniform(-1, 1)) for _ in range(3)] for _ in range(count)]
+    return [[float32(draw.uniform(-1, 1)) for _ in range(3)] for _ in range(count)]
 
 
 def obj(points):
@@ -41,7 +37,7 @@ def obj(points):
 def unit(draw):
     v = [draw.gauss(0, 1) for _ in range(3)]
     length = math.sqrt(sum(x * x for x in v))
-    return [single(x / length) for x in v]
+    return [float32(x / length) for x in v]
 
 
 def rest_kinds(draw):
@@ -72,7 +68,7 @@ def write_meshes(run, draw):
 
 
 @case
-def nothing_moves(run):
+def an_identity_lattice_leaves_every_byte(run):
     """An identity lattice leaves every byte; of a .gltf with a buffer of its own only the buffer's name differs."""
     draw = random.Random(SEED)
     write_meshes(run, draw)
@@ -131,7 +127,7 @@ def normals_follow_an_affine_map(run):
 
 
 @case
-def locality(run):
+def what_no_moved_control_point_reaches_keeps_its_bytes(run):
     """What no moved control point reaches keeps its bytes; all else of the files too."""
     draw = random.Random(SEED + 3)
     points = write_meshes(run, draw)
@@ -175,7 +171,7 @@ def a_large_mesh_gives_what_its_pieces_give(run):
         asset, data = glb_split(run.read("b.glb"))
         streams = [gltf_vectors(asset, data, stream) for stream in (0, 1)]
         for name, edge in (("min", min), ("max", max)):
-            equal([single(x) for x in asset["accessors"][0][name]], [edge(axis) for axis in zip(*streams[0])], name)
+            equal([float32(x) for x in asset["accessors"][0][name]], [edge(axis) for axis in zip(*streams[0])], name)
         return streams
 
     whole = deformed(0, len(points), "3")
@@ -207,7 +203,7 @@ def order_company_threads_and_format_change_nothing(run):
         equal(obj_vertices(run.text("part-out.obj")), [straight[n] for n in numbers], kind)
         run.write("part.glb", glb(*gltf_json([points[n] for n in numbers])))
         run.ffd("deform", "part.glb", "part-out.glb", "-l", "l.json", "--force", "-q")
-        equal(glb_positions(run.read("part-out.glb"))[0], [[single(x) for x in straight[n]] for n in numbers], kind)
+        equal(glb_positions(run.read("part-out.glb"))[0], [[float32(x) for x in straight[n]] for n in numbers], kind)
 
 
 def long_obj(draw, backwards):
@@ -248,7 +244,7 @@ def blocks_change_nothing(run):
 
 
 @case
-def several_lattices(run):
+def two_lattices_are_one_on_the_result_of_the_other(run):
     """-l A -l B is B on the result of A, with one rounding at the end."""
     draw = random.Random(SEED + 5)
     write_meshes(run, draw)
@@ -265,7 +261,7 @@ def several_lattices(run):
 
 
 @case
-def there_and_back(run):
+def a_lattice_that_moves_back_gives_the_mesh_again(run):
     """A lattice that moves the mesh, then the one that moves it back: the mesh again, to rounding."""
     draw = random.Random(SEED + 6)
     points = write_meshes(run, draw)

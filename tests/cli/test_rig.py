@@ -528,7 +528,7 @@ def rotations_of_nodes_that_stay_are_said(run):
 
 
 @case
-def constraints_of_vrm(run):
+def constraints_of_vrm_are_kept_or_said(run):
     """Turns that are copied are copied still; a node that aims is said, where it or what it is below has moved."""
     for kind, said in (("aim", 1), ("roll", 0), ("rotation", 0)):
         made = with_tail({"VRMC_vrm": {}})

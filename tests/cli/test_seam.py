@@ -2,7 +2,7 @@
 """Edges across the seam of a full turn that is not closed: torn where its moved faces part."""
 import math
 
-from harness import case, check, equal, lattice, main, near, npy, obj_vertices
+from harness import case, equal, lattice, main, near, npy, obj_vertices
 from said import anything, counts, entry, told
 
 

@@ -65,27 +65,27 @@ def ends(run, *words, out=(), codes=None):
 
 
 @case
-def reading_and_deforming(run):
+def a_signal_ends_a_deformation_and_leaves_nothing(run):
     start(run)
     ends(run, "deform", "big.ply", "o.ply", "-l", "l.json", "--report", "r.json", out=["o.ply"])
     ends(run, "deform", "big.ply", "o.obj", "-l", "bent.json", out=["o.obj"])
 
 
 @case
-def viewing(run):
+def a_signal_ends_a_view_and_leaves_nothing(run):
     start(run)
     ends(run, "view", "big.ply", "-l", "l.json", "-o", "p.html", out=["p.html"])
     ends(run, "view", "big.ply", "other.ply", "-o", "p.html", out=["p.html"])
 
 
 @case
-def embedding(run):
+def a_signal_ends_an_embedding_and_leaves_nothing(run):
     start(run)
     ends(run, "embed", "big.ply", "-l", "bent.json", "-o", "e.npy", "--status", "s.npy", out=["e.npy", "s.npy"])
 
 
 @case
-def quality_and_folds(run):
+def a_signal_ends_a_check(run):
     start(run)
     ends(run, "check", "big.ply", "-l", "l.json", "--report", "r.json")
     draw, n = random.Random(3), 30
@@ -96,7 +96,7 @@ def quality_and_folds(run):
 
 
 @case
-def describing_and_comparing(run):
+def a_signal_ends_a_description_and_a_comparison(run):
     start(run)
     ends(run, "info", "big.ply")
     ends(run, "compare", "big.ply", "other.ply")
@@ -114,7 +114,7 @@ def patterns_of_a_box_that_all_share(run):
 
 
 @case
-def batches(run):
+def a_signal_ends_a_batch_and_leaves_nothing(run):
     start(run)
     run.write("m.jsonl", '{"in": "big.ply", "lattice": "bent.json", "out": "o.ply"}\n' * 3)
     for more in ([], ["--shared-box"], ["--report", "r.json", "--force"]):

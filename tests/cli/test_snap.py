@@ -10,13 +10,13 @@ import struct
 from batches import lines_of, start
 from bspline import BoxVolume
 from gltf_build import Scene
-from harness import INVALID, NO, SANITIZED, USAGE, case, check, equal, glb_split, gltf_vectors, lattice, main, near, npy, obj_vertices
+from harness import (INVALID, NO, SANITIZED, USAGE, case, check, equal, float32, glb_split, gltf_vectors, lattice,
+                     main, near, npy, obj_vertices)
 from said import anything, counts, entry
 
 # Misses the face x = 1 by a millionth, as a file of six decimals does; a second one by three, a third is far away.
 NEAR = [[1.000001, 0.5, 0.25], [0.5, -0.000003, 0.75], [1.5, 0.5, 0.5], [0.5, 0.5, 0.5]]
 LOW, HIGH = [0.0, 0.0, 0.0], [1.0, 1.0, 1.0]
-DIAGONAL = math.sqrt(3)
 
 
 def obj(points):
@@ -323,7 +323,7 @@ def edges_behind_another_lattice_have_the_rounding_of_where_it_brings_them(run):
 @case
 def a_morph_target_has_the_rounding_of_base_and_offset(run):
     """0.05 and 0.05 as floats: each stands for 1.86e-9 to both sides, their sum for 3.72e-9."""
-    part = struct.unpack("<f", struct.pack("<f", 0.05))[0]
+    part = float32(0.05)
     for miss, inside in ((3e-9, True), (4.5e-9, False)):
         made = Scene(nodes=[{"mesh": 0}], scene=0, scenes=[{"nodes": [0]}])
         made.asset["meshes"] = [{"primitives": [{
@@ -341,7 +341,7 @@ def behind_another_lattice_a_vertex_stands_for_as_much_as_if_it_were_stored(run)
     """Ten times as large, 0.1 misses the second box by ten times as much; a float of 1 stands for that, text does not."""
     run.write("ten.json", lattice(low=(-1, -1, -1), high=(1, 1, 1), moves=[{"scale": {"factor": 10, "about": [0, 0, 0]}}]))
     run.write("one.json", lattice(low=(0, 0, 0), high=(1, 1, 1), moves=UP))
-    x = struct.unpack("<f", struct.pack("<f", 0.1))[0]
+    x = float32(0.1)
     run.write("a.glb", glb_of([[x, 0.05, 0.05]]))
     run.write("a.obj", f"v {x!r} 0.05 0.05\n")
     # The first one makes it ten times as large, about 0; the second one moves what is in it up.
@@ -386,7 +386,7 @@ def an_embedding_of_another_snap_or_number_type_is_refused(run):
         done = run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--embedding", "e.npy", *used, code=INVALID, err=anything)
         check("--snap" in done.err[0], done.err)
     run.write("l.json", tenth())
-    rows = [[struct.unpack("<f", struct.pack("<f", 0.1))[0], 0.05, 0.05]]
+    rows = [[float32(0.1), 0.05, 0.05]]
     run.write("a.glb", glb_of(rows))
     run.write("a.obj", obj(rows))
     run.ffd("embed", "a.glb", "-l", "l.json", "-o", "e.npy", "--force")

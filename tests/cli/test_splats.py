@@ -10,7 +10,7 @@ from decimal import Decimal
 
 from gltf_build import SHIFT, Scene
 from gltf_reader import Gltf
-from harness import INVALID, case, check, equal, lattice, main
+from harness import INVALID, case, check, equal, float32, lattice, main
 from said import anything, lines_with, told
 
 decimal.getcontext().prec = 40
@@ -26,7 +26,7 @@ def names_of(rests, scales=3):
 
 
 def rounded(value, real):
-    return struct.unpack("f", struct.pack("f", value))[0] if real == "float" else value
+    return float32(value) if real == "float" else value
 
 
 def cloud(count, rests, real, seed=1, scales=3, span=5):
@@ -203,7 +203,7 @@ def equal_sizes_do_not_turn_by_themselves(run):
 
 
 @case
-def a_sheared_cloud(run):
+def harmonics_of_a_sheared_cloud_turn_by_its_rotation(run):
     """The harmonics turn by the rotation of F, here by atan(k/2); sizes differ by up to e^15."""
     k = 0.7
     shear = [[1, k, 0], [0, 1, 0], [0, 0, 1]]
@@ -228,7 +228,7 @@ def a_small_change_is_small(run):
 
 
 @case
-def a_mirrored_cloud(run):
+def a_mirror_mirrors_splats(run):
     mirror = [[-1, 0, 0], [0, 1, 0], [0, 0, 1]]
     before = cloud(10, 45, "double", seed=4)
     after = read(deform(run, ply(before, real="double"), by(mirror)))
@@ -237,7 +237,7 @@ def a_mirrored_cloud(run):
 
 
 @case
-def a_bent_cloud(run):
+def each_splat_of_a_bent_cloud_has_its_own_gradient(run):
     """F differs from splat to splat: differences of the lattice's own displacements tell it."""
     box = lattice(low=(-10, -10, -10), high=(10, 10, 10), moves=[{"bend": {"axis": "z", "toward": [1, 0, 0], "degrees": 140}}])
     before = cloud(12, 24, "double", seed=5)
@@ -279,7 +279,7 @@ def any_threads_and_lanes(run):
 
 
 @case
-def a_flattened_cloud(run):
+def sizes_of_a_flattened_cloud_stay_numbers(run):
     """Sizes that F takes away stay numbers."""
     before = cloud(8, 45, "float", seed=7)
     after = read(deform(run, ply(before), by([[1, 0, 0], [0, 1, 0], [0, 0, 0]]), warned=1))

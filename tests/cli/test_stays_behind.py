@@ -356,7 +356,7 @@ def ignored(*places):
 
 
 @case
-def references_to_nothing(run):
+def references_to_nothing_are_said(run):
     """Of another type, below 0, a fraction, beyond the end: said, and nothing is taken to be there."""
     physics = lambda value: {"KHR_physics_rigid_bodies": {"trigger": {"geometry": {"shape": value}}}}
     kinds = {"/camera": (lambda value: {"camera": value}, {"cameras": [CAMERA]}),

@@ -19,7 +19,7 @@ def start(run):
 
 
 @case
-def obj_through(run):
+def obj_files_go_through_streams(run):
     expected = start(run)
     run.ffd("deform", "-", "-", "--input-format", "obj", "--output-format", "obj", "-l", "l.json", stdin=CUBE.encode(),
             out=expected)
@@ -31,7 +31,7 @@ def obj_through(run):
 
 
 @case
-def glb_through(run):
+def glb_files_go_through_streams(run):
     start(run)
     file = glb(*gltf_json(CUBE_CORNERS))
     run.write("a.glb", file)
@@ -83,7 +83,7 @@ def one_open_file_for_several_runs(run):
 
 
 @case
-def other_streams(run):
+def other_outputs_go_behind_what_a_stream_holds(run):
     """Reports, lattices and arrays to a stream that was led into a file go behind what is there, as text would."""
     start(run)
     for arguments in (["lattice", "new", "a.obj", "-o"], ["embed", "a.obj", "-l", "l.json", "-o"],
@@ -204,7 +204,7 @@ def a_gltf_to_standard_output(run):
 
 
 @case
-def full_output(run):
+def a_full_standard_output_is_exit_3(run):
     start(run)
     for arguments in (["deform", "a.obj", "-", "--output-format", "obj", "-l", "l.json"],
                       ["info", "a.obj"], ["info", "a.obj", "--json"], ["embed", "a.obj", "-l", "l.json", "-o", "-"], ["lattice", "new", "a.obj", "-o", "-"], ["help"],
@@ -224,7 +224,7 @@ def closed(*descriptors):
 
 
 @case
-def closed_streams(run):
+def nothing_lands_in_a_file_with_the_number_of_a_closed_stream(run):
     """No message and no data may land in a file that happened to get the number of a closed stream."""
     expected = start(run)
     run.write("l.json", lattice(moves=[{"by": [1, 0, 0]}]))
@@ -262,7 +262,7 @@ def run_without_reader(run, arguments, ignored):
 
 
 @case
-def broken_pipes(run):
+def a_reader_that_goes_away_ends_the_program_quietly(run):
     """A reader that goes away: a quiet end by the signal, or exit 3 with a message where it is ignored. Nothing is left."""
     run.write("a.obj", CUBE + "v 0.123 0.456 0.789\n" * 20000)
     run.write("l.json", lattice(moves=[{"by": [1e-3, 0, 0]}]))
@@ -284,7 +284,7 @@ def broken_pipes(run):
 
 
 @case
-def slow_writers(run):
+def input_in_small_pieces_is_read_to_its_end(run):
     """Input that arrives in small pieces is read to its end."""
     expected = start(run)
     child = subprocess.Popen([FFD, "deform", "-", "-", "--input-format", "obj", "--output-format", "obj", "-l", "l.json"],

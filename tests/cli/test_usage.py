@@ -42,7 +42,7 @@ def refused(run, *arguments, says=None):
 
 
 @case
-def version(run):
+def the_version_is_three_numbers(run):
     check(re.fullmatch(r"ffd \d+\.\d+\.\d+\n", run.ffd("--version").text), "the version")
     refused(run, "--version", "x")
 
@@ -74,12 +74,12 @@ def help_of_each_command(run):
 
 
 @case
-def no_command(run):
+def without_a_command_usage_is_told(run):
     refused(run)
 
 
 @case
-def unknown_commands(run):
+def an_unknown_command_gets_the_nearest_one_proposed(run):
     for word, nearest in (("defrom", "deform"), ("emebd", "embed"), ("comp", "compare"), ("inf", "info"), ("hlep", "help")):
         refused(run, word, says=nearest)
         refused(run, "help", word, says=nearest)
@@ -102,7 +102,7 @@ def commands_of_later_versions_are_absent(run):
 
 
 @case
-def unknown_options(run):
+def an_unknown_option_gets_the_nearest_one_proposed(run):
     work = files(run)
     for option, nearest in (("--latice", "--lattice"), ("--thread", "--threads"), ("--outdir", "--out-dir"),
                             ("--forse", "--force"), ("--report_stable", "--report-stable")):
@@ -124,7 +124,7 @@ def options_of_later_versions_are_absent(run):
 
 
 @case
-def values(run):
+def values_that_an_option_does_not_take_are_refused(run):
     work = files(run)
     for option, value in (("--outside", "kep"), ("--outside", "KEEP"), ("--normals", ""), ("--space", "world"),
                           ("--resources", "move"), ("--memory", ""), ("--memory", "0"), ("--memory", "M"),
@@ -246,7 +246,7 @@ def words_of_the_others(run):
 
 
 @case
-def unknown_endings(run):
+def unknown_endings_are_refused(run):
     work = files(run)
     refused(run, "deform", "a.obj", "b.xyz", "-l", "l.json", says="b.xyz")
     refused(run, "deform", "a.obj", "b", "-l", "l.json", says="b: ")

@@ -6,7 +6,7 @@ import re
 import struct
 
 from bspline import BoxVolume
-from harness import (CUBE, CUBE_CORNERS, EMBEDDING, INVALID, IO, LIMIT, NO, SANITIZED, UNSUPPORTED, USAGE, case, check, equal, glb,
+from harness import (CUBE, CUBE_CORNERS, EMBEDDING, INVALID, IO, NO, SANITIZED, UNSUPPORTED, USAGE, case, check, equal, glb,
                      gltf_json, lattice, main, near)
 from page import read_page
 from png import make_png, read_png
@@ -197,9 +197,9 @@ def mistakes_are_refused_before_any_work(run):
             ([*work, "-o", "p.html", "--camera", "behind"], "--camera"), ([*work, "-o", "p.html", "--camera", "0,0,0"], "--camera"),
             ([*work, "-o", "p.html", "--camera", "1,2"], "--camera"), ([*work, "-o", "p.html", "--camera", "1,2,3,4"], "--camera"),
             ([*work, "-o", "p.html", "--color", "heat"], "--color"),
-            ([*work, "-o", "p.html", "--size", "100x100"], "--size is of a picture"),
-            (["a.obj", "b.obj", "-o", "p.html", "--frames", "5"], "--frames is of a picture"),
-            ([*work, "-o", "p.png", "--full"], "--full is of a page"),
+            ([*work, "-o", "p.html", "--size", "100x100"], "--size is for pictures"),
+            (["a.obj", "b.obj", "-o", "p.html", "--frames", "5"], "--frames is for pictures"),
+            ([*work, "-o", "p.png", "--full"], "--full is for pages"),
             (["a.obj", "-o", "p.html", "--fail-on", "folds"], "--fail-on"),
             (["a.obj", "b.obj", "-l", "l.json", "-o", "p.html", "--fail-on", "folds"], "--fail-on"),
             (["a.obj", "-o", "p.html", "--report", "r.json"], "--report"),
@@ -730,7 +730,7 @@ def what_is_not_finite_is_not_drawn_and_said(run):
 
 
 @case
-def empty_meshes(run):
+def an_empty_mesh_is_a_page(run):
     run.write("l.json", lattice(moves=SHIFT))
     run.write("a.off", "OFF\n0 0 0\n")
     equal(len(view(run, "a.off", "-l", "l.json", err=lambda said: None).before), 0)

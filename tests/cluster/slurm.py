@@ -5,9 +5,8 @@ import pwd
 import signal
 import socket
 import subprocess
-import time
 
-from harness import FFD, check
+from harness import FFD, wait_until
 
 NODES = ("node1", "node2")
 SECONDS = 90
@@ -58,13 +57,6 @@ def free_ports(count):
     for one in sockets:
         one.close()
     return ports
-
-
-def wait_until(condition, what):
-    end = time.monotonic() + SECONDS
-    while not condition():
-        check(time.monotonic() < end, f"{what}: not within {SECONDS} seconds")
-        time.sleep(0.02)
 
 
 def process(pid):

@@ -6,9 +6,9 @@ import os
 import subprocess
 import tempfile
 
-from harness import case, check, equal, main
+from harness import case, check, equal, main, wait_until
 from many import (check_report, contents, manifest, one_run, readme_commands, readme_folder, shell)
-from slurm import Slurm, wait_until
+from slurm import Slurm
 
 JOBS, SHARDS = 60, 4
 # Rows of vertices of a mesh; of one whose job takes long enough to be interrupted.

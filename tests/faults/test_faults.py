@@ -13,7 +13,7 @@ import struct
 
 from bspline import BoxVolume
 from gltf_reader import Gltf
-from harness import INVALID, NO, UNSUPPORTED, case, check, equal, main, near, npy, obj_vertices
+from harness import INVALID, NO, UNSUPPORTED, case, check, equal, float32, main, near, npy, obj_vertices
 from said import anything, counts, entry, not_told, told
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -24,10 +24,6 @@ HALF_FLOAT = 2.0 ** -25 * 1.001
 
 def use(run, name):
     shutil.copytree(os.path.join(HERE, name), run.folder, dirs_exist_ok=True)
-
-
-def float32(x):
-    return struct.unpack("<f", struct.pack("<f", x))[0]
 
 
 def positions(run, name, mesh=0):

@@ -2,7 +2,7 @@
 """Files that were made to do harm (siege-*): a journal, a lattice, an embedding, and the images that a model names. The
 inputs are made here.
 
-    FFD=... PYTHONPATH=tests/cli python3 tests/faults/test_hostile_inputs.py siege_10
+    FFD=... PYTHONPATH=tests/cli python3 tests/faults/test_hostile_inputs.py siege_10_an_embedding_that_misses_a_vertex_is_refused
 """
 
 import json
@@ -28,7 +28,7 @@ def sheet(moved=None):
 
 
 @case
-def siege_06(run):
+def siege_06_a_journal_of_more_records_than_it_has_is_refused(run):
     """A journal that tells of more records than it has, or than there can be: refused at once."""
     run.write("a.obj", sheet())
     run.write("l.json", BOX)
@@ -48,7 +48,7 @@ def siege_06(run):
 
 
 @case
-def siege_09(run):
+def siege_09_millions_of_control_points_take_little_memory(run):
     """A line that asks for 67 million control points: described in little memory; else refused before they are made."""
     run.write("a.obj", sheet())
     options = {} if SANITIZED else {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_AS, (10 ** 9, 10 ** 9))}
@@ -92,7 +92,7 @@ TURNED = {"format": "ffd-lattice", "version": 1, "size": [3, 2, 2], "degree": [1
 
 
 @case
-def siege_10(run):
+def siege_10_an_embedding_that_misses_a_vertex_is_refused(run):
     """u,v,w that miss a vertex, be it inside or multiple, with hashes that say all is well: refused, nothing is written."""
     place = "v 0.5 0.5 0.5\nv %g 0.5 0.5\np 1 2\n"
     for lattice_file, mesh, moved, vertex, far in ((BOX, sheet(), sheet(40), 40, 0.3), (TURNED, place % 1.25, place % 1.5, 1, 0.25)):
@@ -111,7 +111,7 @@ def siege_10(run):
 
 
 @case
-def siege_11(run):
+def siege_11_what_is_no_image_is_not_copied(run):
     """A model names scripts, hidden files, a link and what only seems to be an image: none is copied, which is said."""
     asset, data = gltf_json([[0, 0, 0], [1, 0, 0], [0, 1, 0]], uri="m.bin")
     left = {".bashrc": "does not have the ending", "Makefile": "does not have the ending", ".git/hooks/post-checkout": "does not have the ending",

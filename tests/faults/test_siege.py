@@ -3,7 +3,7 @@
 whole, and what is not the run's own is as it was. The inputs are made here. siege-02, a run that is killed at any call, is
 tests/cli/test_file_sets.py.
 
-    FFD=... PYTHONPATH=tests/cli python3 tests/faults/test_siege.py siege_05
+    FFD=... PYTHONPATH=tests/cli python3 tests/faults/test_siege.py siege_05_a_file_that_appears_under_the_name_of_the_output_stays
 """
 
 import json
@@ -34,7 +34,7 @@ def ended(child):
 
 
 @case
-def siege_01(run):
+def siege_01_a_buffer_that_cannot_be_renamed_leaves_all_as_it_was(run):
     """A buffer that this user must not rename, in a folder with the sticky bit: nothing is replaced."""
     user = run.unprivileged()
     if os.geteuid() != 0 or not user:
@@ -64,7 +64,7 @@ def siege_01(run):
 
 
 @case
-def siege_03(run):
+def siege_03_an_input_cut_at_any_moment_leaves_nothing(run):
     """The input becomes shorter at any moment: one line, exit 3, and nothing is left; or it was read before that."""
     run.write("l.json", TWIST)
     run.write("big.obj", grid(150))
@@ -90,7 +90,7 @@ def siege_03(run):
 
 
 @case
-def siege_04(run):
+def siege_04_a_journal_touches_nothing_beside_it(run):
     """A journal grows without touching what stands beside it."""
     run.write("a.obj", CUBE)
     run.write("l.json", TWIST)
@@ -106,7 +106,7 @@ def siege_04(run):
 
 
 @case
-def siege_05(run):
+def siege_05_a_file_that_appears_under_the_name_of_the_output_stays(run):
     """A file that appears under the output's name while the run goes on stays."""
     run.write("l.json", TWIST)
     run.write("big.obj", grid(100))
@@ -128,7 +128,7 @@ def siege_05(run):
 
 
 @case
-def siege_07(run):
+def siege_07_pipes_sockets_and_disks_are_refused_at_once(run):
     """Pipes, sockets and disks as outputs of any kind: one line at once, and no work is done."""
     run.write("a.obj", CUBE)
     run.write("l.json", TWIST)

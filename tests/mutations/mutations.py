@@ -117,7 +117,8 @@ m("digits-of-tiny-numbers", "rounding", "charconv, number", "return whole + (par
 m("module-of-another-version", "check left out", "cli_modules",
   "strcmp(found->version, wanted->version) == 0 &&", "")
 m("module-of-another-name", "check left out", "cli_modules", "strcmp(found->file, wanted->file) == 0 &&", "")
-m("module-without-memory", "error code", "cli_modules", "if (!has_room(MODULE_BYTES)) return ffd_fail_memory(error);", "")
+m("module-without-memory", "error code", "cli_modules", "if (!has_memory(MODULE_BYTES)) return ffd_fail_memory(error);", "",
+  "if (!has_room(MODULE_BYTES)) return ffd_fail_memory(error);", "")
 m("modules-of-the-working-folder", "path", "cli_modules", "snprintf(file, LONGEST_PATH, \"%.*s\", (int)length, path);",
   "snprintf(file, LONGEST_PATH, \"%s\", \"./x\");")
 m("module-of-another-user", "check left out", "cli_modules", "return has_link && has_file;", "return has_link || file.st_size >= 0;")
@@ -198,7 +199,8 @@ m("extent-of-the-last-lowest", "tie", "tangents", "first = s.v < first.v ? s : f
 m("weight-without-its-derivative", "term left out", "tangents", "made->weight = (dual){m->weight, d->weight};", "made->weight = (dual){m->weight, 0};")
 m("image-not-reflected", "sign", "tangents", "derivative[c] = plane && c == plane->axis ? -moved.c[c].d : moved.c[c].d;", "derivative[c] = moved.c[c].d;")
 m("exact-weights-not-followed", "term left out", "tangents", "*d = dual_mul((dual){weights ? weights[point] : 1, *d}, cosine).d;", "*d = dual_mul((dual){weights ? weights[point] : 1, *d}, (dual){cosine.v, 0}).d;")
-m("rows-not-faded", "factor left out", "cli_jacobian, points", "ffd_basis_row_at(embedding->rest, weights, nearest->uvw, fade, row);", "ffd_basis_row_at(embedding->rest, weights, nearest->uvw, 1, row);")
+m("rows-not-faded", "factor left out", "cli_jacobian, points", "fill_row(embedding->rest, weights, nearest->uvw, fade, row);", "fill_row(embedding->rest, weights, nearest->uvw, 1, row);",
+  "ffd_basis_row_at(embedding->rest, weights, nearest->uvw, fade, row);", "ffd_basis_row_at(embedding->rest, weights, nearest->uvw, 1, row);")
 m("later-lattice-forgotten", "factor left out", "cli_jacobian", "return later ? later : inverse ? inverse : identity;", "return inverse ? inverse : identity;")
 m("columns-by-how-names-begin", "comparison", "cli_jacobian", "if (strcmp(j->names[*column], name) == 0)", "if (strncmp(j->names[*column], name, 150) == 0)")
 m("size-of-a-result-not-checked", "check left out", "older_callers", "if (!status && callers_result) status = ffd_struct_check(sizeof result, callers_result, \"ffd_jacobian_result\", &own);", "")
@@ -712,8 +714,8 @@ m("results-of-zeros", "condition", "cli_memory", "if (memcmp(vectors + 3 * first
   "if (memcmp(vectors + 3 * first, zeros, 3 * some * sizeof *zeros) != 0 || first < count)")
 m("ply-turns-without-harmonics", "condition", "cli_splats", "const bool is_turn = d->new_turns && turns[i].is_turn;",
   "const bool is_turn = turns[i].is_turn;")
-m("ply-splats-of-two-types", "condition", "cli_splats", "all = all && d->types[slot] == PLY_FLOAT; return all; } /* Makes room",
-  "all = d->types[slot] == PLY_FLOAT;\n    return all;\n}\n\n/* Makes room")
+m("ply-splats-of-two-types", "condition", "cli_splats", "all = all && d->types[slot] == PLY_FLOAT; return all; } /* Allocates the results",
+  "all = d->types[slot] == PLY_FLOAT;\n    return all;\n}\n\n/* Allocates the results")
 m("ply-rests-that-do-not-fit", "bound", "cli_splats", "excess |= limit - (bits & INT64_MAX);", "excess = limit - (bits & INT64_MAX);")
 m("ply-splats-without-marks", "condition", "cli_splats", "if (d->splat_marks && d->splat_marks[vertex])", "if (d->splat_marks)")
 m("ply-read-in-tiles", "bound", "cli_ply, cli_splats", "for (size_t row = first; row < last; row++) { const char *const at",
@@ -1161,8 +1163,9 @@ m("smallest-torn-edges", "order", "view", "return x->step > y->step ? -1 : x->st
   "return x->step > y->step ? 1 : x->step < y->step ? -1 : compare_ends(a, b);")
 m("report-over-its-picture", "check left out", "cli_view", "if (s->job.report && ffd_paths_meet(s->job.report, s->output))",
   "if (s->job.report && strcmp(s->job.report, s->output) == 1000)")
-m("report-over-the-picture-of-check", "check left out", "cli_view", "s.picture && s.job.report && ffd_paths_meet(s.job.report, s.picture)",
-  "s.picture && s.job.report && s.job.report == s.picture")
+m("report-over-the-picture-of-check", "check left out", "cli_view", "s->picture && s->job.report && ffd_paths_meet(s->job.report, s->picture)",
+  "s->picture && s->job.report && s->job.report == s->picture",
+  "s.picture && s.job.report && ffd_paths_meet(s.job.report, s.picture)", "s.picture && s.job.report && s.job.report == s.picture")
 m("lost-triangles-of-a-corner", "loop", "cli_view", "for (size_t c = 0; c < 3 && finite; c++)", "for (size_t c = 0; c < 1 && finite; c++)")
 m("cage-of-any-size", "limit left out", "cli_view", "ffd_multiply_size(*count, size[2], count) && *count <= left;",
   "ffd_multiply_size(*count, size[2], count) && *count <= 1000 * left;", "ffd_multiply_size(points, size[2], &points) && points <= left;",
@@ -1198,7 +1201,7 @@ m("flipped-triangles-first", "offset", "cli_view", "size_t plain = 0, flipped = 
 m("coloured-before", "condition", "cli_view", "if (s->share > 0) *own = w->palette;", "*own = w->palette;")
 m("broken-image-fails", "error kept", "cli_view", "if (status == FFD_E_MEMORY) return ffd_fail_memory(error); if (status && lost++ == 0)",
   "if (status)\n            return ffd_fail_memory(error);\n        if (status && lost++ == 0)")
-m("texture-of-a-broken-image", "colour left out", "cli_view", "to->alpha_cutoff = 0; /* it was the texture's */", "to->color[0] = 1;")
+m("texture-of-a-broken-image", "colour left out", "cli_view", "to->alpha_cutoff = 0; /* it applied to the texture */", "to->color[0] = 1;")
 m("frames-of-any-number", "limit left out", "view", "if (frames == 1 || frames > VIEW_FRAMES)", "if (frames == 1)")
 m("picture-not-said", "result left out", "cli_view", "result->picture = desc->output;", "result->picture = NULL;")
 m("tears-in-the-first-picture", "condition", "cli_view", "if (!status && share > 0) status = add_marks", "if (!status)\n        status = add_marks")

@@ -219,10 +219,10 @@ static void apply(moved_points *all, const move *m)
 }
 
 /* One entry of "at": an index, a range or all, negative ones counted from the end. */
-static void select_indices(text *out, random_source *random, int n, int *first, int *last)
+static void select_indices(text *out, draw *random, int n, int *first, int *last)
 {
-    const int kind = random_int(random, 0, 3);
-    *first = random_int(random, 0, n - 1);
+    const int kind = draw_int(random, 0, 3);
+    *first = draw_int(random, 0, n - 1);
     *last = *first;
     if (kind == 0) {
         *first = 0;
@@ -231,13 +231,13 @@ static void select_indices(text *out, random_source *random, int n, int *first, 
     } else if (kind == 1) {
         text_add(out, "%d", random_chance(random, 0.5) ? *first : *first - n);
     } else {
-        *last = random_int(random, *first, n - 1);
+        *last = draw_int(random, *first, n - 1);
         text_add(out, "[%d,%d]", random_chance(random, 0.5) ? *first : *first - n,
                  random_chance(random, 0.5) ? *last : *last - n);
     }
 }
 
-static void select_at(moved_points *m, text *out, random_source *random)
+static void select_at(moved_points *m, text *out, draw *random)
 {
     int first[3], last[3];
     text_add(out, "\"at\":[");
@@ -255,7 +255,7 @@ static void select_at(moved_points *m, text *out, random_source *random)
 }
 
 /* A box round some rest points; in box units (only without axes) by fractions. */
-static void select_within(moved_points *m, text *out, random_source *random)
+static void select_within(moved_points *m, text *out, draw *random)
 {
     double lo[3], hi[3], bounds[2][3];
     for (size_t i = 0; i < m->count; i++)
@@ -269,8 +269,8 @@ static void select_within(moved_points *m, text *out, random_source *random)
             from = m->s->box_min[a];
             side = m->s->box_max[a] - from;
         }
-        const double ends[2] = {lo[a] + (hi[a] - lo[a]) * random_range(random, -0.1, 0.45),
-                                lo[a] + (hi[a] - lo[a]) * random_range(random, 0.55, 1.1)};
+        const double ends[2] = {lo[a] + (hi[a] - lo[a]) * draw_between(random, -0.1, 0.45),
+                                lo[a] + (hi[a] - lo[a]) * draw_between(random, 0.55, 1.1)};
         for (int end = 0; end < 2; end++)
             bounds[end][a] = (ends[end] - from) / side;
         lo[a] = ends[0];
@@ -288,9 +288,9 @@ static void select_within(moved_points *m, text *out, random_source *random)
     }
 }
 
-static void select_points(moved_points *m, text *out, random_source *random)
+static void select_points(moved_points *m, text *out, draw *random)
 {
-    const int kind = random_int(random, 0, 2);
+    const int kind = draw_int(random, 0, 2);
     for (size_t i = 0; i < m->count; i++)
         m->selected[i] = true;
     if (kind == 0)
@@ -302,18 +302,18 @@ static void select_points(moved_points *m, text *out, random_source *random)
         m->selected_count += m->selected[i];
 }
 
-static void choose_axis(move *m, text *out, random_source *random)
+static void choose_axis(move *m, text *out, draw *random)
 {
     double axis[3];
     if (random_chance(random, 0.4)) {
-        const int a = random_int(random, 0, 2);
+        const int a = draw_int(random, 0, 2);
         for (int r = 0; r < 3; r++)
             m->axis[r] = r == a;
         text_add(out, "\"axis\":\"%c\"", "xyz"[a]);
         return;
     }
     random_direction(random, axis);
-    const double length = random_range(random, 0.1, 10);
+    const double length = draw_between(random, 0.1, 10);
     for (int r = 0; r < 3; r++)
         m->axis[r] = axis[r] = axis[r] * length;
     unit(m->axis);
@@ -321,12 +321,12 @@ static void choose_axis(move *m, text *out, random_source *random)
     text_numbers(out, axis, 3);
 }
 
-static void choose_about(const moved_points *all, move *m, text *out, random_source *random)
+static void choose_about(const moved_points *all, move *m, text *out, draw *random)
 {
     if (random_chance(random, 0.5)) {
         double about[3];
         for (int a = 0; a < 3; a++)
-            about[a] = random_range(random, -1, 1);
+            about[a] = draw_between(random, -1, 1);
         to_world(all->s, about, true, m->about);
         text_add(out, ",\"about\":");
         text_numbers(out, about, 3);
@@ -339,16 +339,16 @@ static void choose_about(const moved_points *all, move *m, text *out, random_sou
     }
 }
 
-static double choose_degrees(random_source *random)
+static double choose_degrees(draw *random)
 {
-    const int kind = random_int(random, 0, 7);
+    const int kind = draw_int(random, 0, 7);
     if (kind == 0)
-        return 90 * random_int(random, -5, 5);
+        return 90 * draw_int(random, -5, 5);
     if (kind == 1)
-        return random_range(random, -2000, 2000);
+        return draw_between(random, -2000, 2000);
     if (kind == 2)
-        return random_range(random, -1e-4, 1e-4);
-    return random_range(random, -180, 180);
+        return draw_between(random, -1e-4, 1e-4);
+    return draw_between(random, -180, 180);
 }
 
 /* The extent of the selected points along the axis; false where there is none to speak of. */
@@ -368,22 +368,22 @@ static bool choose_extent(const moved_points *all, move *m)
     return m->high - m->low > 1e-2L * all->size;
 }
 
-static void write_vector(const moved_points *all, move *m, text *out, random_source *random)
+static void write_vector(const moved_points *all, move *m, text *out, draw *random)
 {
     double vector[3];
     for (int a = 0; a < 3; a++)
-        vector[a] = random_range(random, -1, 1);
+        vector[a] = draw_between(random, -1, 1);
     to_world(all->s, vector, m->kind == ACT_TO, m->vector);
     text_add(out, m->kind == ACT_TO ? "\"to\":" : "\"by\":");
     text_numbers(out, vector, 3);
 }
 
-static void write_scale(const moved_points *all, move *m, text *out, random_source *random)
+static void write_scale(const moved_points *all, move *m, text *out, draw *random)
 {
     double factors[3];
     const bool even = random_chance(random, 0.5);
     for (int a = 0; a < 3; a++)
-        m->vector[a] = factors[a] = even && a > 0 ? factors[0] : random_range(random, -1.5, 2);
+        m->vector[a] = factors[a] = even && a > 0 ? factors[0] : draw_between(random, -1.5, 2);
     text_add(out, "\"scale\":{\"factor\":");
     if (even)
         text_add(out, "%.17g", factors[0]);
@@ -393,18 +393,18 @@ static void write_scale(const moved_points *all, move *m, text *out, random_sour
     text_add(out, "}");
 }
 
-static void write_matrix(move *m, text *out, random_source *random)
+static void write_matrix(move *m, text *out, draw *random)
 {
     double matrix[16] = {0};
     for (int i = 0; i < 12; i++)
-        m->matrix[i] = matrix[i] = random_range(random, -1, 1);
+        m->matrix[i] = matrix[i] = draw_between(random, -1, 1);
     matrix[15] = 1;
     text_add(out, "\"matrix\":");
     text_numbers(out, matrix, 16);
 }
 
 /* rotate, twist, taper, bend. */
-static bool write_about_axis(const moved_points *all, move *m, text *out, random_source *random)
+static bool write_about_axis(const moved_points *all, move *m, text *out, draw *random)
 {
     static const char *const names[ACT_COUNT] = {
         [ACT_ROTATE] = "rotate", [ACT_TWIST] = "twist", [ACT_TAPER] = "taper", [ACT_BEND] = "bend"};
@@ -420,7 +420,7 @@ static bool write_about_axis(const moved_points *all, move *m, text *out, random
         text_add(out, ",\"toward\":");
         text_numbers(out, toward, 3);
     }
-    amount = m->kind == ACT_TAPER ? random_range(random, -0.5, 2) : choose_degrees(random);
+    amount = m->kind == ACT_TAPER ? draw_between(random, -0.5, 2) : choose_degrees(random);
     m->amount = amount;
     text_add(out, ",\"%s\":%.17g", m->kind == ACT_TAPER ? "factor" : "degrees", amount);
     choose_about(all, m, out, random);
@@ -428,18 +428,18 @@ static bool write_about_axis(const moved_points *all, move *m, text *out, random
     return m->kind == ACT_ROTATE || choose_extent(all, m);
 }
 
-static void choose_place(double place[3], random_source *random)
+static void choose_place(double place[3], draw *random)
 {
     for (int a = 0; a < 3; a++)
-        place[a] = random_range(random, -1, 1);
+        place[a] = draw_between(random, -1, 1);
 }
 
-static void write_pull(const moved_points *all, move *m, text *out, random_source *random)
+static void write_pull(const moved_points *all, move *m, text *out, draw *random)
 {
     double by[3];
     choose_place(m->place, random);
     choose_place(by, random);
-    m->radius = random_range(random, 0.2, 3);
+    m->radius = draw_between(random, 0.2, 3);
     to_world(all->s, by, false, m->vector);
     text_add(out, "\"pull\":{\"point\":");
     text_numbers(out, m->place, 3);
@@ -449,28 +449,28 @@ static void write_pull(const moved_points *all, move *m, text *out, random_sourc
 }
 
 /* Along an axis of another length, in world units; or round a place. */
-static void write_falloff(const moved_points *all, move *m, text *out, random_source *random)
+static void write_falloff(const moved_points *all, move *m, text *out, draw *random)
 {
     m->falls = true;
     m->falls_along = !all->s->box_units && random_chance(random, 0.5);
     choose_place(m->fall_place, random);
-    m->fall_to = random_range(random, 0.2, 3);
+    m->fall_to = draw_between(random, 0.2, 3);
     text_add(out, m->falls_along ? "\"falloff\":{\"axis\":" : "\"falloff\":{\"center\":");
     text_numbers(out, m->fall_place, 3);
     if (m->falls_along) {
-        m->fall_from = m->fall_to + (random_chance(random, 0.5) ? 1 : -1) * random_range(random, 0.2, 3);
+        m->fall_from = m->fall_to + (random_chance(random, 0.5) ? 1 : -1) * draw_between(random, 0.2, 3);
         text_add(out, ",\"from\":%.17g,\"to\":%.17g},", m->fall_from, m->fall_to);
     } else {
         text_add(out, ",\"radius\":%.17g},", m->fall_to);
     }
 }
 
-static bool write_move(moved_points *all, move *m, text *out, random_source *random)
+static bool write_move(moved_points *all, move *m, text *out, draw *random)
 {
     text_add(out, "{");
     select_points(all, out, random);
     if (random_chance(random, 0.4)) {
-        const double weight = random_chance(random, 0.2) ? random_int(random, 0, 1) : random_unit(random);
+        const double weight = random_chance(random, 0.2) ? draw_int(random, 0, 1) : draw_unit(random);
         m->weight = weight;
         text_add(out, "\"weight\":%.17g,", weight);
     }
@@ -491,11 +491,11 @@ static bool write_move(moved_points *all, move *m, text *out, random_source *ran
     return usable;
 }
 
-void moved_random(moved_points *all, sample *s, random_source *random)
+void moved_random(moved_points *all, sample *s, draw *random)
 {
     for (;;) {
         text out = {NULL, 0, 0};
-        move m = {.kind = (action)random_int(random, 0, ACT_COUNT - 1), .weight = 1};
+        move m = {.kind = (action)draw_int(random, 0, ACT_COUNT - 1), .weight = 1};
         /* In box units a matrix has no agreed meaning. */
         const bool usable = !(m.kind == ACT_MATRIX && s->box_units) && write_move(all, &m, &out, random);
         if (usable) {

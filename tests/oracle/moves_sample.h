@@ -20,6 +20,6 @@ moved_points moved_start(const sample *s, const double *rest, const double *defo
 void moved_free(moved_points *m);
 
 /* Appends one random move to s->moves and applies it. */
-void moved_random(moved_points *m, sample *s, random_source *random);
+void moved_random(moved_points *m, sample *s, draw *random);
 
 #endif

@@ -8,55 +8,31 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include <cmocka.h>
 
-uint64_t random_bits(random_source *random)
+bool random_chance(draw *random, double probability)
 {
-    uint64_t z = random->state += UINT64_C(0x9E3779B97F4A7C15);
-    z = (z ^ (z >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
-    z = (z ^ (z >> 27)) * UINT64_C(0x94D049BB133111EB);
-    return z ^ (z >> 31);
+    return draw_unit(random) < probability;
 }
 
-double random_unit(random_source *random)
-{
-    return (double)(random_bits(random) >> 11) / 9007199254740992.0;
-}
-
-double random_range(random_source *random, double lo, double hi)
-{
-    return lo + (hi - lo) * random_unit(random);
-}
-
-int random_int(random_source *random, int lo, int hi)
-{
-    return lo + (int)(random_bits(random) % (uint64_t)(hi - lo + 1));
-}
-
-bool random_chance(random_source *random, double probability)
-{
-    return random_unit(random) < probability;
-}
-
-void random_direction(random_source *random, double v[3])
+void random_direction(draw *random, double v[3])
 {
     double length;
     do {
         for (int a = 0; a < 3; a++)
-            v[a] = random_range(random, -1, 1);
+            v[a] = draw_between(random, -1, 1);
         length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     } while (length < 0.1 || length > 1);
     for (int a = 0; a < 3; a++)
         v[a] /= length;
 }
 
-void random_rotation(random_source *random, double m[9])
+void random_rotation(draw *random, double m[9])
 {
     long double q[4], n = 0;
     for (int i = 0; i < 4; i++) {
-        q[i] = random_range(random, -1, 1) + (i == 0 ? 0.01 : 0);
+        q[i] = draw_between(random, -1, 1) + (i == 0 ? 0.01 : 0);
         n += q[i] * q[i];
     }
     const long double s = 2 / n;
@@ -167,27 +143,27 @@ void sample_named_axis(sample *s, int a, const char *kind, int n, int degree)
 }
 
 /* Steps between knots; some are 0, but no more than keeps the multiplicity at most degree. */
-static double knot_step(random_source *random, int degree, int *run, bool may_repeat)
+static double knot_step(draw *random, int degree, int *run, bool may_repeat)
 {
     if (may_repeat && *run < degree && random_chance(random, 0.2)) {
         ++*run;
         return 0;
     }
     *run = 1;
-    return random_int(random, 12, 96) / 64.0;
+    return draw_int(random, 12, 96) / 64.0;
 }
 
 /* Range and position of listed knots. Powers of two and whole offsets keep the sums of a period exact. */
-static void place_knots(random_source *random, double values[ORACLE_MAX_KNOTS], int count)
+static void place_knots(draw *random, double values[ORACLE_MAX_KNOTS], int count)
 {
-    const double scale = ldexp(1, random_int(random, -6, 6));
-    const double offset = random_chance(random, 0.5) ? 0 : random_int(random, -8, 8);
-    const double odd = random_chance(random, 0.3) ? random_range(random, 0.5, 1) : 1;
+    const double scale = ldexp(1, draw_int(random, -6, 6));
+    const double offset = random_chance(random, 0.5) ? 0 : draw_int(random, -8, 8);
+    const double odd = random_chance(random, 0.3) ? draw_between(random, 0.5, 1) : 1;
     for (int i = 0; i < count; i++)
         values[i] = odd * (scale * (values[i] + offset));
 }
 
-static void listed_axis(sample *s, int a, random_source *random, int n, int degree, bool closed)
+static void listed_axis(sample *s, int a, draw *random, int n, int degree, bool closed)
 {
     oracle_axis *axis = &s->axis[a];
     *axis = (oracle_axis){.n = n, .degree = degree, .closed = closed};
@@ -226,13 +202,13 @@ void sample_shift_knots(sample *s, int a, double shift)
     text_add(&s->knots[a], "%s", axis->closed ? "}" : "");
 }
 
-void sample_axes(sample *s, random_source *random, const sample_limits *limits)
+void sample_axes(sample *s, draw *random, const sample_limits *limits)
 {
     static const char *const kinds[] = {"clamped", "open", "unclamped", "uniform"};
     sample_clear_axes(s);
     for (int a = 0; a < 3; a++) {
-        const int degree = random_int(random, 1, limits->max_degree);
-        const int n = degree + 1 + random_int(random, 0, limits->max_extra);
+        const int degree = draw_int(random, 1, limits->max_degree);
+        const int n = degree + 1 + draw_int(random, 0, limits->max_extra);
         const bool closed = limits->always_closed[a] || (limits->closed[a] && random_chance(random, 0.3));
         if (closed && random_chance(random, 0.5))
             listed_axis(s, a, random, n < 3 ? 3 : n, degree, true);
@@ -244,24 +220,24 @@ void sample_axes(sample *s, random_source *random, const sample_limits *limits)
         else if (random_chance(random, 0.4))
             listed_axis(s, a, random, n, degree, false);
         else
-            sample_named_axis(s, a, kinds[random_int(random, 0, 3)], n, degree);
+            sample_named_axis(s, a, kinds[draw_int(random, 0, 3)], n, degree);
     }
 }
 
-void sample_weights(sample *s, random_source *random, double spread)
+void sample_weights(sample *s, draw *random, double spread)
 {
     free(s->weights);
     s->weights = sample_array(sample_count(s));
     for (size_t i = 0; i < sample_count(s); i++)
-        s->weights[i] = pow(spread, random_range(random, -1, 1));
+        s->weights[i] = pow(spread, draw_between(random, -1, 1));
 }
 
-void sample_box(sample *s, random_source *random, double scale, double offset)
+void sample_box(sample *s, draw *random, double scale, double offset)
 {
     s->rest = SAMPLE_BOX;
     for (int a = 0; a < 3; a++) {
-        s->box_min[a] = scale * (random_range(random, -1, 1) + offset);
-        s->box_max[a] = s->box_min[a] + scale * random_range(random, 0.2, 2);
+        s->box_min[a] = scale * (draw_between(random, -1, 1) + offset);
+        s->box_max[a] = s->box_min[a] + scale * draw_between(random, 0.2, 2);
     }
     s->has_axes = random_chance(random, 0.4);
     if (s->has_axes) {
@@ -272,14 +248,14 @@ void sample_box(sample *s, random_source *random, double scale, double offset)
     }
 }
 
-void sample_cylinder(sample *s, random_source *random, bool full_turn)
+void sample_cylinder(sample *s, draw *random, bool full_turn)
 {
     s->rest = SAMPLE_CYLINDER;
     for (int a = 0; a < 3; a++)
-        s->center[a] = random_range(random, -3, 3);
+        s->center[a] = draw_between(random, -3, 3);
     random_direction(random, s->cylinder_axis);
     if (random_chance(random, 0.4))
-        for (int a = 0, keep = random_int(random, 0, 2); a < 3; a++)
+        for (int a = 0, keep = draw_int(random, 0, 2); a < 3; a++)
             s->cylinder_axis[a] = a == keep ? 1 : 0;
     double other[3];
     random_direction(random, other);
@@ -293,11 +269,11 @@ void sample_cylinder(sample *s, random_source *random, bool full_turn)
     }
     for (int a = 0; a < 3; a++)
         s->zero[a] = (double)(zero[a] / sqrtl(length));
-    s->radius[0] = random_range(random, 0.2, 1);
-    s->radius[1] = s->radius[0] + random_range(random, 0.3, 2);
-    s->height = random_range(random, 0.5, 4);
-    s->angle[0] = random_int(random, -180, 180);
-    s->angle[1] = s->angle[0] + (full_turn ? 360 : random_int(random, 20, 270));
+    s->radius[0] = draw_between(random, 0.2, 1);
+    s->radius[1] = s->radius[0] + draw_between(random, 0.3, 2);
+    s->height = draw_between(random, 0.5, 4);
+    s->angle[0] = draw_int(random, -180, 180);
+    s->angle[1] = s->angle[0] + (full_turn ? 360 : draw_int(random, 20, 270));
 }
 
 double sample_widest_angle(const sample *s)
@@ -309,7 +285,7 @@ double sample_widest_angle(const sample *s)
     return (double)(widest / (oracle_last(axis) - oracle_first(axis)) * (s->angle[1] - s->angle[0]));
 }
 
-void sample_round_cylinder(sample *s, random_source *random, bool full_turn)
+void sample_round_cylinder(sample *s, draw *random, bool full_turn)
 {
     sample_cylinder(s, random, full_turn);
     if (sample_widest_angle(s) <= 100)

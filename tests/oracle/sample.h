@@ -3,22 +3,14 @@
 #ifndef FFD_TEST_SAMPLE_H
 #define FFD_TEST_SAMPLE_H
 
+#include "../support/draw.h"
 #include "oracle.h"
 #include <ffd/ffd.h>
 #include <stdint.h>
 
-/* splitmix64: the same numbers everywhere. */
-typedef struct random_source {
-    uint64_t state;
-} random_source;
-
-uint64_t random_bits(random_source *random);
-double random_unit(random_source *random); /* [0,1) */
-double random_range(random_source *random, double lo, double hi);
-int random_int(random_source *random, int lo, int hi); /* inclusive */
-bool random_chance(random_source *random, double probability);
-void random_rotation(random_source *random, double m[9]); /* orthonormal to rounding, right-handed */
-void random_direction(random_source *random, double v[3]);
+bool random_chance(draw *random, double probability);
+void random_rotation(draw *random, double m[9]); /* orthonormal to rounding, right-handed */
+void random_direction(draw *random, double v[3]);
 
 /* Growing text; ends in 0. */
 typedef struct text {
@@ -65,7 +57,7 @@ void sample_init(sample *s, uint64_t seed);
 void sample_free(sample *s);
 
 /* Random sizes, degrees and knots of all kinds. */
-void sample_axes(sample *s, random_source *random, const sample_limits *limits);
+void sample_axes(sample *s, draw *random, const sample_limits *limits);
 /* One direction with a kind of data/schema/lattice.md 4 by its name. */
 void sample_named_axis(sample *s, int a, const char *kind, int n, int degree);
 /* Lists the knots of direction a with shift added to each. */
@@ -77,15 +69,15 @@ size_t sample_count(const sample *s);
 double *sample_array(size_t count);
 
 /* Positive weights within [1/spread, spread]. */
-void sample_weights(sample *s, random_source *random, double spread);
+void sample_weights(sample *s, draw *random, double spread);
 
 /* A box with random sides, sometimes with axes (also left-handed), scaled by scale and moved by offset *
  * scale. */
-void sample_box(sample *s, random_source *random, double scale, double offset);
-void sample_cylinder(sample *s, random_source *random, bool full_turn);
+void sample_box(sample *s, draw *random, double scale, double offset);
+void sample_cylinder(sample *s, draw *random, bool full_turn);
 /* With evenly spaced knots along v where the random ones leave more than 100 degrees between control points.
  */
-void sample_round_cylinder(sample *s, random_source *random, bool full_turn);
+void sample_round_cylinder(sample *s, draw *random, bool full_turn);
 /* The widest angle in degrees between neighbouring control points of a cylinder placed by Greville abscissae.
  */
 double sample_widest_angle(const sample *s);

@@ -82,31 +82,31 @@ void judge_add_known(judge *j, const long double uvw[3])
     add(j, point);
 }
 
-void judge_add_within(judge *j, random_source *random)
+void judge_add_within(judge *j, draw *random)
 {
     long double point[3];
     for (int a = 0; a < 3; a++)
-        point[a] = j->lo[a] + (j->hi[a] - j->lo[a]) * (long double)random_range(random, -0.1, 1.1);
+        point[a] = j->lo[a] + (j->hi[a] - j->lo[a]) * (long double)draw_between(random, -0.1, 1.1);
     add(j, point);
 }
 
-void judge_add_near(judge *j, random_source *random, const long double uvw[3], double distance)
+void judge_add_near(judge *j, draw *random, const long double uvw[3], double distance)
 {
     long double point[3];
     oracle_evaluate(&j->volume, uvw, point, NULL);
     for (int a = 0; a < 3; a++)
-        point[a] += (j->hi[a] - j->lo[a]) * (long double)random_range(random, -distance, distance);
+        point[a] += (j->hi[a] - j->lo[a]) * (long double)draw_between(random, -distance, distance);
     add(j, point);
 }
 
-void judge_add_far(judge *j, random_source *random)
+void judge_add_far(judge *j, draw *random)
 {
     long double point[3];
-    const int far = random_int(random, 0, 2);
+    const int far = draw_int(random, 0, 2);
     const double sign = random_chance(random, 0.5) ? -1 : 1;
     for (int a = 0; a < 3; a++) {
         const double part =
-            a == far ? 0.5 + sign * pow(10, random_range(random, 0, 30)) : random_range(random, -0.5, 1.5);
+            a == far ? 0.5 + sign * pow(10, draw_between(random, 0, 30)) : draw_between(random, -0.5, 1.5);
         point[a] = j->lo[a] + (j->hi[a] - j->lo[a]) * (long double)part;
     }
     add(j, point);
@@ -553,12 +553,12 @@ static bool same_location(const ffd_location *a, const ffd_location *b)
            a->unresolved == b->unresolved && a->evaluations == b->evaluations && a->leaves == b->leaves;
 }
 
-static void shuffle(int *order, int count, random_source *random)
+static void shuffle(int *order, int count, draw *random)
 {
     for (int i = 0; i < count; i++)
         order[i] = i;
     for (int i = count - 1; i > 0; i--) {
-        const int k = random_int(random, 0, i), swap = order[i];
+        const int k = draw_int(random, 0, i), swap = order[i];
         order[i] = order[k];
         order[k] = swap;
     }
@@ -572,7 +572,7 @@ static void check_company(const judge *j, const char *company, const ffd_locatio
                 j->found[i].uvw[1], j->found[i].uvw[2], status_name(j->found[i].status));
 }
 
-void judge_order(judge *j, random_source *random)
+void judge_order(judge *j, draw *random)
 {
     enum { EACH = 3 }; /* each point twice and a stranger */
     static const double strangers[4] = {0, 1, -1e300, INFINITY};
@@ -587,7 +587,7 @@ void judge_order(judge *j, random_source *random)
     for (int k = 0; k < count; k++) {
         const bool strange = order[k] >= 2 * j->count;
         for (int a = 0; a < 3; a++)
-            xyz[3 * k + a] = strange ? strangers[random_int(random, 0, 3)] + (double)j->origin[a]
+            xyz[3 * k + a] = strange ? strangers[draw_int(random, 0, 3)] + (double)j->origin[a]
                                      : j->xyz[3 * (order[k] % j->count) + a];
     }
     for (int fresh = 0; other && fresh < 2; fresh++) {

@@ -29,10 +29,10 @@ void judge_close(judge *j);
 /* Adds C(uvw), rounded to double; a point within the bounds of the control points, grown by a tenth; C(uvw)
    moved by up to so much of the extents. */
 void judge_add_known(judge *j, const long double uvw[3]);
-void judge_add_within(judge *j, random_source *random);
-void judge_add_near(judge *j, random_source *random, const long double uvw[3], double distance);
+void judge_add_within(judge *j, draw *random);
+void judge_add_near(judge *j, draw *random, const long double uvw[3], double distance);
 /* A point far from the control points. */
-void judge_add_far(judge *j, random_source *random);
+void judge_add_far(judge *j, draw *random);
 /* The point so many tolerances (src/maths.md 6.6) out of face u_a = face[a], opposite to C(face). */
 void judge_add_beside(judge *j, const long double face[3], int a, long double tolerance_count);
 bool judge_find(judge *j);
@@ -57,6 +57,6 @@ void judge_beside(judge *j, int i, const long double face[3], int a);
 void judge_far(judge *j, int i);
 
 /* The bits of every point alone, twice, shuffled, and among strangers. */
-void judge_order(judge *j, random_source *random);
+void judge_order(judge *j, draw *random);
 
 #endif

@@ -19,15 +19,15 @@ void shape_list_axis(sample *s, int a, int n, int degree, const double *knots)
 }
 
 /* Clamped, with steps of unequal length and inner knots of the multiplicity given. */
-static void uneven_axis(sample *s, int a, random_source *random, int spans, int degree, int multiplicity)
+static void uneven_axis(sample *s, int a, draw *random, int spans, int degree, int multiplicity)
 {
-    double knots[ORACLE_MAX_KNOTS], at = random_int(random, -2, 2);
+    double knots[ORACLE_MAX_KNOTS], at = draw_int(random, -2, 2);
     int count = 0;
     for (int k = 0; k <= spans; k++) {
         const int times = k == 0 || k == spans ? degree + 1 : multiplicity;
         for (int i = 0; i < times; i++)
             knots[count++] = at;
-        at += random_int(random, 40, 88) / 64.0;
+        at += draw_int(random, 40, 88) / 64.0;
     }
     shape_list_axis(s, a, count - degree - 1, degree, knots);
 }
@@ -38,44 +38,44 @@ static void named(shape *x, sample *s, int part, const char *kind, int n, int de
 }
 
 /* A direction that is not closed, with at least so many spans. */
-static void any_axis(shape *x, sample *s, random_source *random, int part, int spans, int degree)
+static void any_axis(shape *x, sample *s, draw *random, int part, int spans, int degree)
 {
     static const char *const kinds[] = {"clamped", "open", "uniform"};
-    const int kind = random_int(random, 0, 4);
+    const int kind = draw_int(random, 0, 4);
     if (kind < 3)
         named(x, s, part, kinds[kind], spans + degree, degree);
     else
         uneven_axis(s, x->role[part], random, spans, degree, 1);
 }
 
-static void short_axis(shape *x, sample *s, random_source *random, int part, int most)
+static void short_axis(shape *x, sample *s, draw *random, int part, int most)
 {
-    any_axis(x, s, random, part, random_int(random, 1, 2), random_int(random, 1, most));
+    any_axis(x, s, random, part, draw_int(random, 1, 2), draw_int(random, 1, most));
 }
 
 /* A collapsed face needs an end that lies on its control points. */
-static void clamped_axis(shape *x, sample *s, random_source *random, int part, int most)
+static void clamped_axis(shape *x, sample *s, draw *random, int part, int most)
 {
-    const int degree = random_int(random, 1, most);
-    named(x, s, part, "clamped", degree + random_int(random, 1, 2), degree);
+    const int degree = draw_int(random, 1, most);
+    named(x, s, part, "clamped", degree + draw_int(random, 1, 2), degree);
 }
 
-static void closed_axis(shape *x, sample *s, random_source *random, int part)
+static void closed_axis(shape *x, sample *s, draw *random, int part)
 {
-    named(x, s, part, "closed", random_int(random, 6, 8), random_int(random, 2, 3));
+    named(x, s, part, "closed", draw_int(random, 6, 8), draw_int(random, 2, 3));
 }
 
-static void kinked_axes(sample *s, random_source *random)
+static void kinked_axes(sample *s, draw *random)
 {
     for (int a = 0; a < 3; a++) {
-        const int degree = random_int(random, 1, 3);
-        uneven_axis(s, a, random, random_int(random, 2, 3), degree, degree);
+        const int degree = draw_int(random, 1, 3);
+        uneven_axis(s, a, random, draw_int(random, 2, 3), degree, degree);
     }
 }
 
-static void make_axes(shape *x, sample *s, random_source *random)
+static void make_axes(shape *x, sample *s, draw *random)
 {
-    const int degree = random_int(random, 2, 4);
+    const int degree = draw_int(random, 2, 4);
     const bool from_zero = x->kind == SHAPE_CYLINDER || x->kind == SHAPE_SECTOR || x->kind == SHAPE_BALL;
     if (from_zero)
         clamped_axis(x, s, random, 0, 3);
@@ -210,7 +210,7 @@ static void make_points(const shape *x, sample *s)
             }
 }
 
-static void make_frame(shape *x, random_source *random, const shape_setting *setting)
+static void make_frame(shape *x, draw *random, const shape_setting *setting)
 {
     if (setting->bare) {
         for (int a = 0; a < 3; a++)
@@ -220,41 +220,41 @@ static void make_frame(shape *x, random_source *random, const shape_setting *set
     const double unit = setting->scale == SCALE_HUGE ? 1e9 : setting->scale == SCALE_TINY ? 1e-6 : 1;
     double side[3], rotation[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     for (int a = 0; a < 3; a++)
-        side[a] = unit * random_range(random, 0.5, 2);
+        side[a] = unit * draw_between(random, 0.5, 2);
     if (setting->scale == SCALE_THIN)
-        side[random_int(random, 0, 2)] *= 1e-6;
+        side[draw_int(random, 0, 2)] *= 1e-6;
     if (random_chance(random, 0.4))
-        side[random_int(random, 0, 2)] *= -1;
+        side[draw_int(random, 0, 2)] *= -1;
     if (setting->rotated)
         random_rotation(random, rotation);
     for (int r = 0; r < 3; r++) {
-        x->origin[r] = unit * (random_range(random, -1, 1) + (setting->scale == SCALE_FAR ? 1e6 : 0));
+        x->origin[r] = unit * (draw_between(random, -1, 1) + (setting->scale == SCALE_FAR ? 1e6 : 0));
         for (int c = 0; c < 3; c++)
             x->frame[3 * r + c] = (long double)rotation[3 * r + c] * side[c];
     }
 }
 
-static void make_roles(shape *x, random_source *random)
+static void make_roles(shape *x, draw *random)
 {
     for (int a = 0; a < 3; a++)
         x->role[a] = a;
     for (int a = 2; a > 0; a--) {
-        const int b = random_int(random, 0, a), swap = x->role[a];
+        const int b = draw_int(random, 0, a), swap = x->role[a];
         x->role[a] = x->role[b];
         x->role[b] = swap;
     }
 }
 
-static void begin(shape *x, sample *s, random_source *random, shape_kind kind, const shape_setting *setting)
+static void begin(shape *x, sample *s, draw *random, shape_kind kind, const shape_setting *setting)
 {
     *x = (shape){
-        .kind = kind, .radius = random_range(random, 0.4, 1), .across = random_range(random, 0.5, 1.2)};
+        .kind = kind, .radius = draw_between(random, 0.4, 1), .across = draw_between(random, 0.5, 1.2)};
     make_roles(x, random);
     make_frame(x, random, setting);
     x->turn = radians(360);
     switch (kind) {
     case SHAPE_C:
-        x->turn = radians(random_range(random, 180, 330));
+        x->turn = radians(draw_between(random, 180, 330));
         break;
     case SHAPE_SPIRAL:
         x->turn = radians(720);
@@ -267,11 +267,11 @@ static void begin(shape *x, sample *s, random_source *random, shape_kind kind, c
         x->turn = radians(180);
         break;
     case SHAPE_OVERLAP:
-        x->turn = radians(random_range(random, 400, 680));
-        x->climb = 3e-10L * random_int(random, -1, 1);
+        x->turn = radians(draw_between(random, 400, 680));
+        x->climb = 3e-10L * draw_int(random, -1, 1);
         break;
     case SHAPE_SECTOR:
-        x->turn = radians(random_range(random, 60, 250));
+        x->turn = radians(draw_between(random, 60, 250));
         x->radius = 0;
         break;
     case SHAPE_CYLINDER:
@@ -286,7 +286,7 @@ static void begin(shape *x, sample *s, random_source *random, shape_kind kind, c
 
 /* The exact torus (P&T 8.5): quarter circles as quadratics with the weights 1, sqrt(1/2), 1; the tube in one
    or in four of them, the ring in one. */
-static void make_quarter_torus(shape *x, sample *s, random_source *random)
+static void make_quarter_torus(shape *x, sample *s, draw *random)
 {
     static const long double circle[9][2] = {{1, 0},   {1, 1},  {0, 1},  {-1, 1}, {-1, 0},
                                              {-1, -1}, {0, -1}, {1, -1}, {1, 0}};
@@ -317,12 +317,12 @@ static void make_quarter_torus(shape *x, sample *s, random_source *random)
             }
 }
 
-void shape_make(shape *x, sample *s, random_source *random, shape_kind kind, const shape_setting *setting)
+void shape_make(shape *x, sample *s, draw *random, shape_kind kind, const shape_setting *setting)
 {
     begin(x, s, random, kind, setting);
     if (kind == SHAPE_KINKED) {
         kinked_axes(s, random);
-        sample_warped(s, random, setting->scale, setting->rotated, random_range(random, 0.3, 0.9));
+        sample_warped(s, random, setting->scale, setting->rotated, draw_between(random, 0.3, 0.9));
     } else if (kind == SHAPE_QUARTER_TORUS) {
         make_quarter_torus(x, s, random);
     } else {
@@ -331,7 +331,7 @@ void shape_make(shape *x, sample *s, random_source *random, shape_kind kind, con
     }
 }
 
-void shape_make_degree(shape *x, sample *s, random_source *random, int degree, const shape_setting *setting)
+void shape_make_degree(shape *x, sample *s, draw *random, int degree, const shape_setting *setting)
 {
     begin(x, s, random, SHAPE_C, setting);
     x->turn = radians(150);
@@ -360,8 +360,8 @@ static void join_ends(sample *s, int a)
             }
 }
 
-void shape_make_seam(shape *x, sample *s, random_source *random, shape_kind kind,
-                     const shape_setting *setting, bool same_points)
+void shape_make_seam(shape *x, sample *s, draw *random, shape_kind kind, const shape_setting *setting,
+                     bool same_points)
 {
     const bool torus = kind == SHAPE_TORUS;
     begin(x, s, random, kind, setting);
@@ -370,7 +370,7 @@ void shape_make_seam(shape *x, sample *s, random_source *random, shape_kind kind
     short_axis(x, s, random, 0, 3);
     short_axis(x, s, random, 2, 2);
     for (int part = 1; part <= (torus ? 2 : 1); part++) {
-        const int degree = random_int(random, 1, 4);
+        const int degree = draw_int(random, 1, 4);
         if (random_chance(random, 0.5))
             named(x, s, part, "clamped", degree + 7, degree);
         else
@@ -388,7 +388,7 @@ static bool to_least(const shape *x, const sample *s, int part, long double uvw[
     return true;
 }
 
-bool shape_to_collapsed(const shape *x, const sample *s, random_source *random, long double uvw[3])
+bool shape_to_collapsed(const shape *x, const sample *s, draw *random, long double uvw[3])
 {
     const int across = x->role[0], up = x->role[2];
     switch (x->kind) {

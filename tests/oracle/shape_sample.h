@@ -41,13 +41,13 @@ typedef struct shape_setting {
 } shape_setting;
 
 /* Makes s (its axes, control points and, of the quarter torus, weights) and describes the shape in x. */
-void shape_make(shape *x, sample *s, random_source *random, shape_kind kind, const shape_setting *setting);
+void shape_make(shape *x, sample *s, draw *random, shape_kind kind, const shape_setting *setting);
 
 /* The same with the degree of the longest direction given. For SHAPE_C. */
-void shape_make_degree(shape *x, sample *s, random_source *random, int degree, const shape_setting *setting);
+void shape_make_degree(shape *x, sample *s, draw *random, int degree, const shape_setting *setting);
 
 /* Puts u,v,w on a collapsed face; false where the shape has none. */
-bool shape_to_collapsed(const shape *x, const sample *s, random_source *random, long double uvw[3]);
+bool shape_to_collapsed(const shape *x, const sample *s, draw *random, long double uvw[3]);
 
 /* Takes u,v,w to the least one with the same C, by the shape's collapsed faces. Returns whether there are
  * several. */
@@ -55,8 +55,8 @@ bool shape_collapse(const shape *x, const sample *s, long double uvw[3]);
 
 /* A full turn (SHAPE_OVERLAP) or torus (SHAPE_TORUS) whose directions are clamped instead of closed, so that
    end faces meet: in the same control points, or in what rounding leaves of them. */
-void shape_make_seam(shape *x, sample *s, random_source *random, shape_kind kind,
-                     const shape_setting *setting, bool same_points);
+void shape_make_seam(shape *x, sample *s, draw *random, shape_kind kind, const shape_setting *setting,
+                     bool same_points);
 
 /* Knots of direction a as a list. */
 void shape_list_axis(sample *s, int a, int n, int degree, const double *knots);

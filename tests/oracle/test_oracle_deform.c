@@ -236,7 +236,7 @@ static void check_unit(trial *t, const sample *s, const char *what, const double
                     length / size);
 }
 
-static void check_directions(trial *t, const sample *s, const double gradient[9], random_source *random)
+static void check_directions(trial *t, const sample *s, const double gradient[9], draw *random)
 {
     double normal[3], tangent[3], result[3], turned[3], alone[3];
     long double expected[3], size, along = 0, image[3];
@@ -373,13 +373,13 @@ static bool any_not_zero(const double *numbers, int count)
     return false;
 }
 
-static void check_displacement(const edited *x, random_source *random)
+static void check_displacement(const edited *x, draw *random)
 {
     double uvw[3], delta[3], gradient[9], alone[3];
     long double at[3];
     for (int a = 0; a < 3; a++) {
         const long double first = oracle_first(&x->s->axis[a]), last = oracle_last(&x->s->axis[a]);
-        uvw[a] = (double)(first + (last - first) * (long double)random_unit(random));
+        uvw[a] = (double)(first + (last - first) * (long double)draw_unit(random));
         if (random_chance(random, 0.1))
             uvw[a] = (double)(random_chance(random, 0.5) || x->s->axis[a].closed ? first : last);
         at[a] = oracle_wrap(&x->s->axis[a], uvw[a]);
@@ -415,10 +415,10 @@ static void check_displacement(const edited *x, random_source *random)
         check_directions(x->t, x->s, gradient, random);
 }
 
-static void random_rest(sample *s, random_source *random)
+static void random_rest(sample *s, draw *random)
 {
     sample_limits limits = {.max_degree = random_chance(random, 0.2) ? 9 : 4, .max_extra = 4};
-    const int kind = random_int(random, 0, 3);
+    const int kind = draw_int(random, 0, 3);
     limits.always_closed[1] = kind == 0;
     limits.max_degree = kind == 0 ? 4 : limits.max_degree;
     sample_axes(s, random, &limits);
@@ -427,8 +427,8 @@ static void random_rest(sample *s, random_source *random)
     else if (kind == 1)
         sample_box(s, random, 1, random_chance(random, 0.2) ? 1e6 : 0);
     else
-        sample_warped(s, random, (volume_scale)random_int(random, 0, SCALE_COUNT - 1),
-                      random_chance(random, 0.5), random_range(random, 0, 0.9));
+        sample_warped(s, random, (volume_scale)draw_int(random, 0, SCALE_COUNT - 1),
+                      random_chance(random, 0.5), draw_between(random, 0, 0.9));
     if (random_chance(random, 0.3))
         sample_weights(s, random, 2);
 }
@@ -454,36 +454,36 @@ static shift_move scale_and_shift(sample *s)
 }
 
 /* Moves a block of points, the whole lattice at times. */
-static shift_move shift_some(sample *s, random_source *random, double z)
+static shift_move shift_some(sample *s, draw *random, double z)
 {
-    shift_move made = {.here = true, .by = {random_range(random, -1, 1), random_range(random, -1, 1), z}};
-    const int form = random_int(random, 0, 3);
+    shift_move made = {.here = true, .by = {draw_between(random, -1, 1), draw_between(random, -1, 1), z}};
+    const int form = draw_int(random, 0, 3);
     for (int a = 0; a < 3; a++) {
         const int last = s->axis[a].n - 1;
-        made.first[a] = form == 0 ? 0 : random_int(random, 0, last);
-        made.last[a] = form == 0 ? last : form == 1 ? random_int(random, made.first[a], last) : made.first[a];
+        made.first[a] = form == 0 ? 0 : draw_int(random, 0, last);
+        made.last[a] = form == 0 ? last : form == 1 ? draw_int(random, made.first[a], last) : made.first[a];
     }
     add_by(s, &made);
     return made;
 }
 
 /* New deformed points, a moved weight, or a move of a few points: some or all of them. */
-static shift_move random_edit(sample *s, random_source *random)
+static shift_move random_edit(sample *s, draw *random)
 {
     const size_t count = sample_count(s);
-    const int kind = random_int(random, 0, 3);
+    const int kind = draw_int(random, 0, 3);
     if (kind == 0 || (kind == 1 && !s->weights)) {
         if (s->rest == SAMPLE_POINTS) {
             s->deformed_points = sample_array(3 * count);
             for (size_t i = 0; i < 3 * count; i++)
-                s->deformed_points[i] = s->points[i] * random_range(random, 0.5, 1.5);
+                s->deformed_points[i] = s->points[i] * draw_between(random, 0.5, 1.5);
         } else
             return scale_and_shift(s);
     } else if (kind == 1) {
         s->deformed_weights = sample_array(count);
         for (size_t i = 0; i < count; i++)
             s->deformed_weights[i] =
-                s->weights[i] * (random_chance(random, 0.5) ? 1 : random_range(random, 0.5, 2));
+                s->weights[i] * (random_chance(random, 0.5) ? 1 : draw_between(random, 0.5, 2));
     } else {
         return shift_some(s, random, kind == 2 ? 0.0 : 0.25);
     }
@@ -498,7 +498,7 @@ static void displacements(void **state)
         sample s;
         edited x;
         sample_init(&s, trial_seed() + (uint64_t)k);
-        random_source random = {s.seed};
+        draw random = {s.seed};
         random_rest(&s, &random);
         const shift_move shift = random_edit(&s, &random);
         if (open_edited(&x, &t, &s, &shift)) {
@@ -520,7 +520,7 @@ static void nothing_moved(void **state)
         sample s;
         edited x;
         sample_init(&s, trial_seed() + (uint64_t)k);
-        random_source random = {s.seed};
+        draw random = {s.seed};
         random_rest(&s, &random);
         if (open_edited(&x, &t, &s, &(shift_move){.here = false})) {
             for (int i = 0; i < 4; i++)
@@ -540,13 +540,13 @@ static void directions(void **state)
     for (long k = 0; trial_next(&t, 2000); k++, t.cases++) {
         sample s;
         sample_init(&s, trial_seed() + (uint64_t)k);
-        random_source random = {s.seed};
+        draw random = {s.seed};
         double gradient[9];
-        const double size = pow(10, random_range(&random, -9, 4));
+        const double size = pow(10, draw_between(&random, -9, 4));
         for (int i = 0; i < 9; i++)
-            gradient[i] = random_range(&random, -size, size);
+            gradient[i] = draw_between(&random, -size, size);
         if (random_chance(&random, 0.2))
-            gradient[4 * random_int(&random, 0, 2)] -= 2;
+            gradient[4 * draw_int(&random, 0, 2)] -= 2;
         check_directions(&t, &s, gradient, &random);
     }
     trial_end(&t);

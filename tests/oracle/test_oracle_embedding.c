@@ -234,7 +234,7 @@ static bool same_location(const ffd_location *a, const ffd_location *b)
 }
 
 /* Order and company of the points do not matter: reversed, one by one, and in unequal parts. */
-static void check_order(const subject *x, random_source *random)
+static void check_order(const subject *x, draw *random)
 {
     double xyz[3 * POINTS];
     int order[POINTS];
@@ -242,14 +242,14 @@ static void check_order(const subject *x, random_source *random)
     for (int i = 0; i < x->count; i++)
         order[i] = i;
     for (int i = x->count - 1; i > 0; i--) {
-        const int k = random_int(random, 0, i), swap = order[i];
+        const int k = draw_int(random, 0, i), swap = order[i];
         order[i] = order[k];
         order[k] = swap;
     }
     for (int i = 0; i < x->count; i++)
         memcpy(xyz + 3 * i, x->xyz + 3 * order[i], 3 * sizeof xyz[0]);
     for (int begin = 0, size; begin < x->count; begin += size) {
-        size = random_int(random, 1, 7);
+        size = draw_int(random, 1, 7);
         size = size < x->count - begin ? size : x->count - begin;
         const ffd_status status =
             ffd_locator_find(x->locator, xyz + 3 * begin, (size_t)size, found + begin, NULL);
@@ -264,7 +264,7 @@ static void check_order(const subject *x, random_source *random)
                     x->found[order[i]].uvw[1], x->found[order[i]].uvw[2]);
 }
 
-static void add_known(subject *x, random_source *random)
+static void add_known(subject *x, draw *random)
 {
     long double point[3];
     long double *uvw = x->uvw + 3 * x->count;
@@ -277,16 +277,16 @@ static void add_known(subject *x, random_source *random)
 
 /* Outside the bounds of the control points: by an extent of one coordinate, by a small part of it, or far
  * away. */
-static void add_outside(subject *x, random_source *random)
+static void add_outside(subject *x, draw *random)
 {
     static const long double distances[] = {1e-6L, 1e-3L, 1, 1e12L};
-    const int beyond = random_int(random, 0, 2);
+    const int beyond = draw_int(random, 0, 2);
     for (int a = 0; a < 3; a++) {
         const long double extent = x->hi[a] - x->lo[a];
-        long double value = x->lo[a] + extent * (long double)random_unit(random);
+        long double value = x->lo[a] + extent * (long double)draw_unit(random);
         if (a == beyond) {
             const long double distance =
-                extent * distances[random_int(random, 0, 3)] + 1e-9L * fabsl(x->origin[a]);
+                extent * distances[draw_int(random, 0, 3)] + 1e-9L * fabsl(x->origin[a]);
             value = random_chance(random, 0.5) ? x->lo[a] - distance : x->hi[a] + distance;
         }
         x->xyz[3 * x->count + a] = (double)(x->origin[a] + value);
@@ -294,17 +294,17 @@ static void add_outside(subject *x, random_source *random)
     x->count++;
 }
 
-static void add_invalid(subject *x, random_source *random)
+static void add_invalid(subject *x, draw *random)
 {
     const double wrong[] = {NAN, INFINITY, -INFINITY};
     for (int a = 0; a < 3; a++)
         x->xyz[3 * x->count + a] = (double)x->origin[a];
-    x->xyz[3 * x->count + random_int(random, 0, 2)] = wrong[random_int(random, 0, 2)];
+    x->xyz[3 * x->count + draw_int(random, 0, 2)] = wrong[draw_int(random, 0, 2)];
     x->count++;
 }
 
 /* The usual round: known points, points outside, points that are none. */
-static void round_trip(subject *x, random_source *random)
+static void round_trip(subject *x, draw *random)
 {
     const int known = POINTS - 8;
     while (x->count < known)
@@ -325,9 +325,9 @@ static void round_trip(subject *x, random_source *random)
 }
 
 /* Makes the case's lattice; false skips it. method is the way it must take, NULL where it is open. */
-typedef bool (*make_function)(sample *s, random_source *random, const char **method);
+typedef bool (*make_function)(sample *s, draw *random, const char **method);
 
-static bool make_far_knots(sample *s, random_source *random, const char **method);
+static bool make_far_knots(sample *s, draw *random, const char **method);
 
 static void run(const char *name, make_function make, long cases)
 {
@@ -336,7 +336,7 @@ static void run(const char *name, make_function make, long cases)
         sample s;
         const char *method = NULL;
         sample_init(&s, seed);
-        random_source random = {seed};
+        draw random = {seed};
         if (!make(&s, &random, &method)) {
             sample_free(&s);
             continue;
@@ -358,16 +358,16 @@ static void run(const char *name, make_function make, long cases)
 
 static const sample_limits no_closed = {.max_degree = 5, .max_extra = 4};
 
-static bool make_box(sample *s, random_source *random, const char **method)
+static bool make_box(sample *s, draw *random, const char **method)
 {
     static const double scales[] = {1, 1e-6, 1e9};
     sample_axes(s, random, &no_closed);
-    sample_box(s, random, scales[random_int(random, 0, 2)], 0);
+    sample_box(s, random, scales[draw_int(random, 0, 2)], 0);
     /* Thin, or far from the origin: without axes, whose products would round. */
     if (random_chance(random, 0.25)) {
         s->has_axes = false;
         const bool thin = random_chance(random, 0.5);
-        const int a = random_int(random, 0, 2);
+        const int a = draw_int(random, 0, 2);
         const double side = s->box_max[a] - s->box_min[a];
         if (!thin)
             s->box_min[a] += 1e6 * side;
@@ -377,16 +377,16 @@ static bool make_box(sample *s, random_source *random, const char **method)
     return true;
 }
 
-static bool make_affine_points(sample *s, random_source *random, const char **method)
+static bool make_affine_points(sample *s, draw *random, const char **method)
 {
     sample_axes(s, random, &no_closed);
-    sample_warped(s, random, (volume_scale)random_int(random, 0, SCALE_COUNT - 1), random_chance(random, 0.5),
+    sample_warped(s, random, (volume_scale)draw_int(random, 0, SCALE_COUNT - 1), random_chance(random, 0.5),
                   0);
     (void)method; /* rounded points are affine to a few eps only; the way is the library's choice */
     return true;
 }
 
-static bool make_uniform_box(sample *s, random_source *random, const char **method)
+static bool make_uniform_box(sample *s, draw *random, const char **method)
 {
     sample_limits limits = no_closed;
     limits.only_clamped = true;
@@ -398,10 +398,10 @@ static bool make_uniform_box(sample *s, random_source *random, const char **meth
     return true;
 }
 
-static bool make_separable(sample *s, random_source *random, const char **method)
+static bool make_separable(sample *s, draw *random, const char **method)
 {
     sample_axes(s, random, &no_closed);
-    sample_separable(s, random, (volume_scale)random_int(random, 0, SCALE_COUNT - 1));
+    sample_separable(s, random, (volume_scale)draw_int(random, 0, SCALE_COUNT - 1));
     bool bent = false; /* two points a side of degree 1 are affine */
     for (int a = 0; a < 3; a++)
         bent = bent || s->axis[a].n > 2;
@@ -409,30 +409,30 @@ static bool make_separable(sample *s, random_source *random, const char **method
     return true;
 }
 
-static bool make_warped(sample *s, random_source *random, const char **method)
+static bool make_warped(sample *s, draw *random, const char **method)
 {
     sample_axes(s, random, &no_closed);
-    sample_warped(s, random, (volume_scale)random_int(random, 0, SCALE_COUNT - 1), random_chance(random, 0.5),
-                  random_range(random, 0.2, 0.95));
+    sample_warped(s, random, (volume_scale)draw_int(random, 0, SCALE_COUNT - 1), random_chance(random, 0.5),
+                  draw_between(random, 0.2, 0.95));
     *method = "general";
     return true;
 }
 
-static bool make_high_degree(sample *s, random_source *random, const char **method)
+static bool make_high_degree(sample *s, draw *random, const char **method)
 {
     const sample_limits limits = {.max_degree = 9, .max_extra = 1};
     sample_axes(s, random, &limits);
-    sample_warped(s, random, SCALE_PLAIN, true, random_range(random, 0.2, 0.9));
+    sample_warped(s, random, SCALE_PLAIN, true, draw_between(random, 0.2, 0.9));
     *method = "general";
     return true;
 }
 
-static bool make_rational(sample *s, random_source *random, const char **method)
+static bool make_rational(sample *s, draw *random, const char **method)
 {
     sample_axes(s, random, &no_closed);
-    sample_warped(s, random, (volume_scale)random_int(random, 0, SCALE_COUNT - 1), random_chance(random, 0.5),
-                  random_range(random, 0.1, 0.5));
-    sample_weights(s, random, random_range(random, 1.01, 1.3));
+    sample_warped(s, random, (volume_scale)draw_int(random, 0, SCALE_COUNT - 1), random_chance(random, 0.5),
+                  draw_between(random, 0.1, 0.5));
+    sample_weights(s, random, draw_between(random, 1.01, 1.3));
     oracle_volume volume = oracle_with_points(s->axis, s->points, s->weights);
     const bool valid = volume_has_one_sign(&volume);
     oracle_free(&volume);
@@ -440,13 +440,13 @@ static bool make_rational(sample *s, random_source *random, const char **method)
     return valid;
 }
 
-static bool make_rational_box(sample *s, random_source *random, const char **method)
+static bool make_rational_box(sample *s, draw *random, const char **method)
 {
     sample_limits limits = no_closed;
     limits.only_clamped = true;
     sample_axes(s, random, &limits);
     sample_box(s, random, 1, 0);
-    sample_weights(s, random, random_range(random, 1.01, 1.3));
+    sample_weights(s, random, draw_between(random, 1.01, 1.3));
     long double corner[3];
     oracle_volume volume = sample_box_volume(s, corner);
     const bool valid = volume_has_one_sign(&volume);
@@ -455,7 +455,7 @@ static bool make_rational_box(sample *s, random_source *random, const char **met
     return valid;
 }
 
-static bool make_ring(sample *s, random_source *random, const char **method)
+static bool make_ring(sample *s, draw *random, const char **method)
 {
     const sample_limits limits = {.max_degree = 3, .max_extra = 5, .always_closed = {false, true, false}};
     sample_axes(s, random, &limits);
@@ -469,7 +469,7 @@ static bool make_ring(sample *s, random_source *random, const char **method)
     return valid;
 }
 
-static bool make_cylinder(sample *s, random_source *random, const char **method, bool full)
+static bool make_cylinder(sample *s, draw *random, const char **method, bool full)
 {
     sample_limits limits = {.max_degree = 3, .max_extra = 4, .always_closed = {false, full, false}};
     sample_axes(s, random, &limits);
@@ -478,12 +478,12 @@ static bool make_cylinder(sample *s, random_source *random, const char **method,
     return true;
 }
 
-static bool make_full_cylinder(sample *s, random_source *random, const char **method)
+static bool make_full_cylinder(sample *s, draw *random, const char **method)
 {
     return make_cylinder(s, random, method, true);
 }
 
-static bool make_part_cylinder(sample *s, random_source *random, const char **method)
+static bool make_part_cylinder(sample *s, draw *random, const char **method)
 {
     return make_cylinder(s, random, method, false);
 }
@@ -538,15 +538,15 @@ static void rational_boxes(void **state)
 
 /* Knots far from 0: the distance of two doubles there moves C by more than the tolerance, but a point does
    not lie outside for it. */
-static bool make_far_knots(sample *s, random_source *random, const char **method)
+static bool make_far_knots(sample *s, draw *random, const char **method)
 {
     static const make_function makes[] = {make_box, make_separable, make_warped, make_rational};
-    if (!makes[random_int(random, 0, 3)](s, random, method))
+    if (!makes[draw_int(random, 0, 3)](s, random, method))
         return false;
     for (int a = 0; a < 3; a++)
         sample_shift_knots(s, a,
                            (double)(oracle_last(&s->axis[a]) - oracle_first(&s->axis[a])) *
-                               random_int(random, -1000, 1000));
+                               draw_int(random, -1000, 1000));
     return true;
 }
 
@@ -593,11 +593,11 @@ static void check_counted(subject *x, int i)
         check_root(x, i, roots[0]);
 }
 
-static void add_within_bounds(subject *x, random_source *random)
+static void add_within_bounds(subject *x, draw *random)
 {
     for (int a = 0; a < 3; a++)
         x->xyz[3 * x->count + a] =
-            (double)(x->origin[a] + x->lo[a] + (x->hi[a] - x->lo[a]) * (long double)random_unit(random));
+            (double)(x->origin[a] + x->lo[a] + (x->hi[a] - x->lo[a]) * (long double)draw_unit(random));
     x->count++;
 }
 
@@ -611,8 +611,8 @@ static void bent_bars(void **state)
         sample s;
         subject x;
         sample_init(&s, trial_seed() + (uint64_t)k);
-        random_source random = {s.seed};
-        sample_arc(&s, &random, random_range(&random, 90, 560));
+        draw random = {s.seed};
+        sample_arc(&s, &random, draw_between(&random, 90, 560));
         if (open_subject(&x, &t, &s)) {
             trial_check(&t, &s, volume_has_one_sign(&x.volume), "the arc is not regular");
             while (x.count < POINTS)
@@ -644,7 +644,7 @@ static void near_faces(void **state)
         subject x;
         const char *method;
         sample_init(&s, seed);
-        random_source random = {seed};
+        draw random = {seed};
         if (!makes[seed % 4](&s, &random, &method)) {
             sample_free(&s);
             continue;
@@ -653,14 +653,14 @@ static void near_faces(void **state)
         if (open_subject(&x, &t, &s)) {
             while (x.count < POINTS / 2) {
                 long double uvw[3], point[3];
-                const int a = random_int(&random, 0, 2);
+                const int a = draw_int(&random, 0, 2);
                 for (int c = 0; c < 3; c++)
                     uvw[c] = oracle_first(&s.axis[c]) + (oracle_last(&s.axis[c]) - oracle_first(&s.axis[c])) *
-                                                            (long double)random_unit(&random);
+                                                            (long double)draw_unit(&random);
                 uvw[a] = random_chance(&random, 0.5) ? oracle_first(&s.axis[a]) : oracle_last(&s.axis[a]);
                 oracle_evaluate(&x.volume, uvw, point, NULL);
                 for (int c = 0; c < 3; c++) {
-                    const long double way = (x.hi[c] - x.lo[c]) * random_range(&random, -1e-3, 1e-3);
+                    const long double way = (x.hi[c] - x.lo[c]) * draw_between(&random, -1e-3, 1e-3);
                     x.xyz[3 * x.count + c] = (double)(x.origin[c] + point[c] + way);
                 }
                 x.count++;
@@ -686,7 +686,7 @@ static void collapsed_axes(void **state)
         subject x;
         const char *method;
         sample_init(&s, seed);
-        random_source random = {s.seed};
+        draw random = {s.seed};
         if (!make_cylinder(&s, &random, &method, true)) {
             sample_free(&s);
             continue;
@@ -699,7 +699,7 @@ static void collapsed_axes(void **state)
         }
         s.has_zero = false;
         s.axis[0] = (oracle_axis){.n = 0};
-        sample_named_axis(&s, 0, "clamped", 4, random_int(&random, 1, 3));
+        sample_named_axis(&s, 0, "clamped", 4, draw_int(&random, 1, 3));
         if (open_subject(&x, &t, &s)) {
             const int known = POINTS / 2;
             while (x.count < known) {
@@ -710,7 +710,7 @@ static void collapsed_axes(void **state)
             for (int i = 0; i < 6; i++, x.count++) {
                 double *p = x.xyz + 3 * x.count;
                 p[0] = p[1] = 0;
-                p[2] = s.height * random_range(&random, -0.49, 0.49);
+                p[2] = s.height * draw_between(&random, -0.49, 0.49);
             }
             if (find(&x)) {
                 for (int i = 0; i < known; i++)

@@ -9,37 +9,37 @@
 
 #include <cmocka.h>
 
-static void random_points(sample *s, random_source *random)
+static void random_points(sample *s, draw *random)
 {
     static const double scales[] = {1, 1, 1e-6, 1e9};
-    const double scale = scales[random_int(random, 0, 3)];
+    const double scale = scales[draw_int(random, 0, 3)];
     const double offset = random_chance(random, 0.2) ? 1e6 : 0;
     s->rest = SAMPLE_POINTS;
     s->points = sample_array(3 * sample_count(s));
     for (size_t i = 0; i < 3 * sample_count(s); i++)
-        s->points[i] = scale * (random_range(random, -1, 1) + offset);
+        s->points[i] = scale * (draw_between(random, -1, 1) + offset);
 }
 
-static void random_deformed(sample *s, random_source *random)
+static void random_deformed(sample *s, draw *random)
 {
     if (random_chance(random, 0.5)) {
         s->deformed_points = sample_array(3 * sample_count(s));
         for (size_t i = 0; i < 3 * sample_count(s); i++)
-            s->deformed_points[i] = random_range(random, -2, 2);
+            s->deformed_points[i] = draw_between(random, -2, 2);
     }
     if (s->weights && random_chance(random, 0.5)) {
         s->deformed_weights = sample_array(sample_count(s));
         for (size_t i = 0; i < sample_count(s); i++)
-            s->deformed_weights[i] = random_range(random, 0.2, 5);
+            s->deformed_weights[i] = draw_between(random, 0.2, 5);
     }
     if (random_chance(random, 0.3))
         text_add(&s->moves, "{\"at\":[0,\"all\",[0,-1]],\"by\":[0.25,-0.5,1.5]}");
 }
 
 /* Lattices of every kind of knots and rest. */
-static void random_sample(sample *s, random_source *random)
+static void random_sample(sample *s, draw *random)
 {
-    const int kind = random_int(random, 0, 9);
+    const int kind = draw_int(random, 0, 9);
     sample_limits limits = {.max_degree = random_chance(random, 0.5) ? 9 : 4, .max_extra = 4};
     if (kind < 3) { /* box */
         sample_axes(s, random, &limits);
@@ -68,18 +68,18 @@ static void random_sample(sample *s, random_source *random)
 }
 
 /* Ends, knots and anything between; now and then outside, where the library must come back to the domain. */
-static double random_parameter(random_source *random, const oracle_axis *axis)
+static double random_parameter(draw *random, const oracle_axis *axis)
 {
     const long double first = oracle_first(axis), last = oracle_last(axis);
-    const int kind = random_int(random, 0, 11);
-    double u = (double)(first + (last - first) * (long double)random_unit(random));
+    const int kind = draw_int(random, 0, 11);
+    double u = (double)(first + (last - first) * (long double)draw_unit(random));
     if (kind == 0)
         u = (double)first;
     else if (kind == 1)
         u = (double)last;
     else if (kind == 2)
         u = (double)oracle_knot(axis, axis->degree +
-                                          random_int(random, 0, axis->n - (axis->closed ? 1 : axis->degree)));
+                                          draw_int(random, 0, axis->n - (axis->closed ? 1 : axis->degree)));
     return u;
 }
 
@@ -154,7 +154,7 @@ static void every_kind_of_lattice(void **state)
     for (long k = 0; trial_next(&t, 400); k++, t.cases++) {
         sample s;
         sample_init(&s, trial_seed() + (uint64_t)k);
-        random_source random = {s.seed};
+        draw random = {s.seed};
         random_sample(&s, &random);
         ffd_lattice *lattice = trial_parse(&t, &s);
         if (lattice) {
@@ -187,7 +187,7 @@ static void given_numbers_are_kept(void **state)
     for (long k = 0; trial_next(&t, 50); k++, t.cases++) {
         sample s;
         sample_init(&s, trial_seed() + (uint64_t)k);
-        random_source random = {s.seed};
+        draw random = {s.seed};
         sample_axes(&s, &random, &limits);
         random_points(&s, &random);
         sample_weights(&s, &random, 4);
@@ -228,18 +228,18 @@ static void outside_comes_back(void **state)
     for (long k = 0; trial_next(&t, 50); k++, t.cases++) {
         sample s;
         sample_init(&s, trial_seed() + (uint64_t)k);
-        random_source random = {s.seed};
-        sample_named_axis(&s, 0, "open", 6, random_int(&random, 1, 5));
-        sample_named_axis(&s, 1, "closed", 5, random_int(&random, 1, 4));
-        sample_named_axis(&s, 2, "clamped", 5, random_int(&random, 1, 4));
+        draw random = {s.seed};
+        sample_named_axis(&s, 0, "open", 6, draw_int(&random, 1, 5));
+        sample_named_axis(&s, 1, "closed", 5, draw_int(&random, 1, 4));
+        sample_named_axis(&s, 2, "clamped", 5, draw_int(&random, 1, 4));
         random_points(&s, &random);
         sample_write(&s);
         ffd_lattice *lattice = trial_parse(&t, &s);
         if (lattice) {
             oracle_volume volume = sample_volume(&s, lattice, FFD_VOLUME_REST);
-            const double fraction = random_int(&random, 1, 1023) / 1024.0;
+            const double fraction = draw_int(&random, 1, 1023) / 1024.0;
             const double uvw[3] = {random_chance(&random, 0.5) ? -0.25 : 1.5,
-                                   random_int(&random, -3, 3) + fraction,
+                                   draw_int(&random, -3, 3) + fraction,
                                    random_chance(&random, 0.5) ? -1e300 : 1e300};
             check_values(&t, &s, lattice, FFD_VOLUME_REST, &volume, uvw);
             oracle_free(&volume);

@@ -1,5 +1,5 @@
 /* test_oracle_folds.c - verdicts on random deformed lattices against determinants that the oracle samples. */
-#include "lattice/lattice.h"
+#include "../support/lattice_by_hand.h"
 #include "moves_sample.h"
 #include "volume_sample.h"
 #include <ffd/fold.h>
@@ -285,10 +285,10 @@ static void check_lattice(trial *t, sample *s, double fineness, tally *sum)
 /* Lattices */
 
 /* The rest points, each moved at random by up to `strength` of the way to its next ones. */
-static void shake(trial *t, sample *s, random_source *random)
+static void shake(trial *t, sample *s, draw *random)
 {
     static const double strengths[] = {0, 0.1, 0.3, 0.6, 1.5};
-    const double strength = strengths[random_int(random, 0, 4)];
+    const double strength = strengths[draw_int(random, 0, 4)];
     sample_write(s);
     ffd_lattice *still = trial_parse(t, s);
     if (!still)
@@ -302,14 +302,14 @@ static void shake(trial *t, sample *s, random_source *random)
             double way = 0;
             for (int a = 0; a < 3; a++) {
                 const double there = rest[3 * ((i + stride[a]) % count) + r];
-                way += random_range(random, -1, 1) * strength / s->axis[a].degree * (there - rest[3 * i + r]);
+                way += draw_between(random, -1, 1) * strength / s->axis[a].degree * (there - rest[3 * i + r]);
             }
             s->deformed_points[3 * i + r] = rest[3 * i + r] + way;
         }
     ffd_lattice_destroy(&still);
 }
 
-static void move(trial *t, sample *s, random_source *random)
+static void move(trial *t, sample *s, draw *random)
 {
     sample_write(s);
     ffd_lattice *still = trial_parse(t, s);
@@ -317,13 +317,13 @@ static void move(trial *t, sample *s, random_source *random)
         return;
     const double *rest = ffd_lattice_get_points(still, FFD_VOLUME_REST);
     moved_points m = moved_start(s, rest, rest);
-    for (int count = random_int(random, 1, 2); count > 0; count--)
+    for (int count = draw_int(random, 1, 2); count > 0; count--)
         moved_random(&m, s, random);
     moved_free(&m);
     ffd_lattice_destroy(&still);
 }
 
-typedef double (*make_function)(trial *t, sample *s, random_source *random); /* returns the fineness */
+typedef double (*make_function)(trial *t, sample *s, draw *random); /* returns the fineness */
 
 static void run(const char *name, make_function make, long cases, long least_none, long least_some,
                 long most_unknown)
@@ -333,7 +333,7 @@ static void run(const char *name, make_function make, long cases, long least_non
     for (; trial_next(&t, cases); t.cases++) {
         sample s;
         sample_init(&s, trial_seed() + (uint64_t)t.cases);
-        random_source random = {s.seed};
+        draw random = {s.seed};
         const double fineness = make(&t, &s, &random);
         sample_write(&s);
         check_lattice(&t, &s, fineness, &sum);
@@ -350,7 +350,7 @@ static void run(const char *name, make_function make, long cases, long least_non
     assert_true(sum.near * 100 >= 90 * sum.bounds);
 }
 
-static double make_box(trial *t, sample *s, random_source *random)
+static double make_box(trial *t, sample *s, draw *random)
 {
     const sample_limits limits = {.max_degree = 4, .max_extra = 2};
     sample_axes(s, random, &limits);
@@ -363,52 +363,52 @@ static double make_box(trial *t, sample *s, random_source *random)
     return 1e-15;
 }
 
-static double make_warped(trial *t, sample *s, random_source *random)
+static double make_warped(trial *t, sample *s, draw *random)
 {
     const sample_limits limits = {.max_degree = 3, .max_extra = 2};
-    const volume_scale scale = (volume_scale)random_int(random, 0, SCALE_COUNT - 1);
+    const volume_scale scale = (volume_scale)draw_int(random, 0, SCALE_COUNT - 1);
     sample_axes(s, random, &limits);
     if (random_chance(random, 0.3)) {
         sample_separable(s, random, scale);
     } else {
-        sample_warped(s, random, scale, random_chance(random, 0.5), random_range(random, 0, 0.9));
+        sample_warped(s, random, scale, random_chance(random, 0.5), draw_between(random, 0, 0.9));
     }
     shake(t, s, random);
     return 1e-15;
 }
 
-static double make_rational(trial *t, sample *s, random_source *random)
+static double make_rational(trial *t, sample *s, draw *random)
 {
     const sample_limits limits = {.max_degree = 3, .max_extra = 1};
     sample_axes(s, random, &limits);
-    sample_warped(s, random, SCALE_PLAIN, true, random_range(random, 0, 0.6));
+    sample_warped(s, random, SCALE_PLAIN, true, draw_between(random, 0, 0.6));
     shake(t, s, random);
     sample_weights(s, random, random_chance(random, 0.5) ? 1.1 : 2);
     if (random_chance(random, 0.6)) {
         s->deformed_weights = sample_array(sample_count(s));
         for (size_t i = 0; i < sample_count(s); i++)
-            s->deformed_weights[i] = s->weights[i] * random_range(random, 0.8, 1.25);
+            s->deformed_weights[i] = s->weights[i] * draw_between(random, 0.8, 1.25);
     }
     return 1e-14;
 }
 
-static double make_high_degree(trial *t, sample *s, random_source *random)
+static double make_high_degree(trial *t, sample *s, draw *random)
 {
     static const int degree[][3] = {{5, 1, 2}, {2, 6, 1}, {1, 2, 7}, {8, 1, 1}, {1, 9, 2}, {5, 5, 2}};
-    const int *d = degree[random_int(random, 0, 5)];
+    const int *d = degree[draw_int(random, 0, 5)];
     for (int a = 0; a < 3; a++)
         sample_named_axis(s, a, random_chance(random, 0.5) ? "clamped" : "open",
-                          d[a] + 1 + random_int(random, 0, 1), d[a]);
-    sample_warped(s, random, SCALE_PLAIN, true, random_range(random, 0, 0.5));
+                          d[a] + 1 + draw_int(random, 0, 1), d[a]);
+    sample_warped(s, random, SCALE_PLAIN, true, draw_between(random, 0, 0.5));
     shake(t, s, random);
     return 1e-13;
 }
 
-static double make_closed(trial *t, sample *s, random_source *random)
+static double make_closed(trial *t, sample *s, draw *random)
 {
     const sample_limits limits = {.max_degree = 3, .max_extra = 2};
     sample_axes(s, random, &limits);
-    sample_named_axis(s, 1, "closed", random_int(random, 8, 12), random_int(random, 2, 3));
+    sample_named_axis(s, 1, "closed", draw_int(random, 8, 12), draw_int(random, 2, 3));
     sample_ring(s, random);
     if (random_chance(random, 0.5))
         shake(t, s, random);
@@ -416,11 +416,11 @@ static double make_closed(trial *t, sample *s, random_source *random)
 }
 
 /* From the axis, which stays a line or is moved at random. */
-static double make_collapsed(trial *t, sample *s, random_source *random)
+static double make_collapsed(trial *t, sample *s, draw *random)
 {
     const sample_limits limits = {.max_degree = 3, .max_extra = 2, .always_closed = {false, true, false}};
     sample_axes(s, random, &limits);
-    sample_named_axis(s, 0, "clamped", random_int(random, 4, 5), random_int(random, 1, 3));
+    sample_named_axis(s, 0, "clamped", draw_int(random, 4, 5), draw_int(random, 1, 3));
     sample_round_cylinder(s, random, true);
     s->radius[0] = 0;
     if (random_chance(random, 0.6)) {
@@ -432,7 +432,7 @@ static double make_collapsed(trial *t, sample *s, random_source *random)
             "{\"at\":[0,1,\"all\"],\"by\":[0.05,-0.05,0.02]}",
             "{\"at\":[1,\"all\",\"all\"],\"scale\":{\"factor\":-0.2}}",
         };
-        text_add(&s->moves, "%s", moves[random_int(random, 0, 5)]);
+        text_add(&s->moves, "%s", moves[draw_int(random, 0, 5)]);
     } else if (random_chance(random, 0.5)) {
         shake(t, s, random);
     }
@@ -447,7 +447,7 @@ static ffd_folds verdict_at(ffd_lattice *lattice, const double *way, double amou
     ffd_folds folds = {.struct_size = sizeof folds};
     for (size_t i = 0; i < 3 * lattice->count; i++)
         lattice->deformed[i] = lattice->rest[i] + amount * way[i];
-    if (ffd_lattice_finish(lattice, NULL) || ffd_folds_find(lattice, 1, &folds, NULL))
+    if (finish_by_hand(lattice, NULL) || ffd_folds_find(lattice, 1, &folds, NULL))
         abort();
     return folds;
 }
@@ -518,7 +518,7 @@ static void edge(void **state)
     for (; trial_next(&t, 12); t.cases++) {
         sample s;
         sample_init(&s, trial_seed() + (uint64_t)t.cases);
-        random_source random = {s.seed};
+        draw random = {s.seed};
         const sample_limits limits = {.max_degree = 3, .max_extra = 1};
         sample_axes(&s, &random, &limits);
         sample_warped(&s, &random, t.cases % 3 ? SCALE_PLAIN : SCALE_THIN, false, 0.3);
@@ -529,7 +529,7 @@ static void edge(void **state)
         double *way = sample_array(3 * sample_count(&s));
         for (size_t i = 0; i < 3 * sample_count(&s); i++)
             way[i] =
-                random_range(&random, -1, 1) * (s.points[3 * sample_count(&s) - 3 + i % 3] - s.points[i % 3]);
+                draw_between(&random, -1, 1) * (s.points[3 * sample_count(&s) - 3 + i % 3] - s.points[i % 3]);
         if (lattice && verdict_at(lattice, way, 0).verdict == FFD_FOLDS_NONE)
             check_edge(&t, &s, lattice, way);
         free(way);

@@ -10,9 +10,9 @@
 
 #include <cmocka.h>
 
-static void random_rest(sample *s, random_source *random)
+static void random_rest(sample *s, draw *random)
 {
-    const int kind = random_int(random, 0, 3);
+    const int kind = draw_int(random, 0, 3);
     const sample_limits limits = {
         .max_degree = 3, .max_extra = 2, .always_closed = {false, kind == 0, false}};
     sample_axes(s, random, &limits);
@@ -24,7 +24,7 @@ static void random_rest(sample *s, random_source *random)
     if (random_chance(random, 0.2)) {
         s->deformed_points = sample_array(3 * sample_count(s));
         for (size_t i = 0; i < 3 * sample_count(s); i++)
-            s->deformed_points[i] = random_range(random, -1, 1);
+            s->deformed_points[i] = draw_between(random, -1, 1);
     }
 }
 
@@ -36,7 +36,7 @@ static void random_moves(void **state)
     for (long k = 0; trial_next(&t, 1000); k++, t.cases++) {
         sample s;
         sample_init(&s, trial_seed() + (uint64_t)k);
-        random_source random = {s.seed};
+        draw random = {s.seed};
         random_rest(&s, &random);
         sample_write(&s);
         ffd_lattice *still = trial_parse(&t, &s);
@@ -46,7 +46,7 @@ static void random_moves(void **state)
         }
         const double *rest = ffd_lattice_get_points(still, FFD_VOLUME_REST);
         moved_points m = moved_start(&s, rest, s.deformed_points ? s.deformed_points : rest);
-        for (int count = random_int(&random, 1, 3); count > 0; count--)
+        for (int count = draw_int(&random, 1, 3); count > 0; count--)
             moved_random(&m, &s, &random);
         sample_write(&s);
         ffd_lattice *lattice = trial_parse(&t, &s);
@@ -177,13 +177,13 @@ static void check_angles(trial *t, const sample *s, const cylinder *c, const ora
 }
 
 static void check_coverage(trial *t, const sample *s, const cylinder *c, const oracle_volume *volume,
-                           random_source *random)
+                           draw *random)
 {
     for (int k = 0; k < 4; k++) {
         const long double rah[3] = {
-            s->radius[0] + (s->radius[1] - s->radius[0]) * (long double)random_range(random, 1e-9, 1 - 1e-9),
-            s->angle[0] + (s->angle[1] - s->angle[0]) * (long double)random_range(random, 1e-9, 1 - 1e-9),
-            s->height * (long double)random_range(random, -0.5 + 1e-9, 0.5 - 1e-9)};
+            s->radius[0] + (s->radius[1] - s->radius[0]) * (long double)draw_between(random, 1e-9, 1 - 1e-9),
+            s->angle[0] + (s->angle[1] - s->angle[0]) * (long double)draw_between(random, 1e-9, 1 - 1e-9),
+            s->height * (long double)draw_between(random, -0.5 + 1e-9, 0.5 - 1e-9)};
         long double point[3], roots[ORACLE_MAX_ROOTS][3];
         point_of(s, c, rah, point);
         const int count = oracle_find_all(volume, point, 1e-15L, roots);
@@ -203,7 +203,7 @@ static void cylinders(bool full, bool wide, const char *name)
     for (uint64_t seed = trial_seed(); trial_next(&t, 150); seed++) {
         sample s;
         sample_init(&s, seed);
-        random_source random = {seed};
+        draw random = {seed};
         sample_axes(&s, &random, &limits);
         sample_cylinder(&s, &random, full);
         if ((sample_widest_angle(&s) >= 180) != wide) {

@@ -9,12 +9,12 @@
 
 #include <cmocka.h>
 
-static long double random_parameter(random_source *random, const oracle_axis *axis)
+static long double random_parameter(draw *random, const oracle_axis *axis)
 {
     const long double first = oracle_first(axis), last = oracle_last(axis);
     if (random_chance(random, 0.1))
         return axis->closed || random_chance(random, 0.5) ? first : last;
-    return first + (last - first) * (long double)random_unit(random);
+    return first + (last - first) * (long double)draw_unit(random);
 }
 
 /* sum N = 1, N >= 0, sum N' = 0, and sum g N = u where the direction is not closed. */
@@ -26,7 +26,7 @@ static void partition_of_unity(void **state)
     for (long k = 0; trial_next(&t, 300); k++, t.cases++) {
         sample s;
         sample_init(&s, trial_seed() + (uint64_t)k);
-        random_source random = {s.seed};
+        draw random = {s.seed};
         sample_axes(&s, &random, &limits);
         for (int a = 0; a < 3; a++) {
             const oracle_axis *axis = &s.axis[a];
@@ -56,14 +56,14 @@ static void partition_of_unity(void **state)
     trial_end(&t);
 }
 
-static oracle_volume random_volume(sample *s, random_source *random)
+static oracle_volume random_volume(sample *s, draw *random)
 {
     oracle_volume volume = oracle_make(s->axis, random_chance(random, 0.5));
     for (size_t i = 0; i < oracle_count(&volume); i++) {
         for (size_t a = 0; a < 3; a++)
-            volume.points[3 * i + a] = random_range(random, -1, 1);
+            volume.points[3 * i + a] = draw_between(random, -1, 1);
         if (volume.weights)
-            volume.weights[i] = random_range(random, 0.3, 3);
+            volume.weights[i] = draw_between(random, 0.3, 3);
     }
     return volume;
 }
@@ -77,7 +77,7 @@ static void jacobian_is_the_slope(void **state)
     for (long k = 0; trial_next(&t, 60); k++, t.cases++) {
         sample s;
         sample_init(&s, trial_seed() + (uint64_t)k);
-        random_source random = {s.seed};
+        draw random = {s.seed};
         sample_axes(&s, &random, &limits);
         oracle_volume volume = random_volume(&s, &random);
         long double uvw[3], point[3], jacobian[9], size[3], steepness[9];
@@ -85,7 +85,7 @@ static void jacobian_is_the_slope(void **state)
             uvw[a] = random_parameter(&random, &s.axis[a]);
         for (int a = 0; a < 3; a++) {
             const long double length = oracle_last(&s.axis[a]) - oracle_first(&s.axis[a]);
-            uvw[a] = oracle_first(&s.axis[a]) + length * (long double)random_range(&random, 0.001, 0.999);
+            uvw[a] = oracle_first(&s.axis[a]) + length * (long double)draw_between(&random, 0.001, 0.999);
         }
         oracle_evaluate(&volume, uvw, point, jacobian);
         oracle_magnitude(&volume, uvw, size, steepness);
@@ -201,14 +201,14 @@ static void finds_what_was_put_in(void **state)
     for (long k = 0; trial_next(&t, 20); k++, t.cases++) {
         sample s;
         sample_init(&s, trial_seed() + (uint64_t)k);
-        random_source random = {s.seed};
+        draw random = {s.seed};
         sample_axes(&s, &random, &limits);
         sample_box(&s, &random, 1, 0);
         s.has_axes = false;
         long double corner[3];
         oracle_volume volume = sample_box_volume(&s, corner);
         for (size_t i = 0; i < 3 * oracle_count(&volume); i++)
-            volume.points[i] += random_range(&random, -0.002, 0.002);
+            volume.points[i] += draw_between(&random, -0.002, 0.002);
         long double uvw[3], point[3], roots[ORACLE_MAX_ROOTS][3] = {{0}};
         for (int a = 0; a < 3; a++)
             uvw[a] = random_parameter(&random, &s.axis[a]);

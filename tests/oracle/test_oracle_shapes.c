@@ -35,22 +35,22 @@ static void print_totals(const char *name, const judge *totals)
            totals->seen[FFD_SINGULAR], totals->left_out, totals->judged);
 }
 
-static void put_on_face(const sample *s, random_source *random, long double uvw[3])
+static void put_on_face(const sample *s, draw *random, long double uvw[3])
 {
-    const int a = random_int(random, 0, 2);
+    const int a = draw_int(random, 0, 2);
     const oracle_axis *axis = &s->axis[a];
     uvw[a] = random_chance(random, 0.5) || axis->closed ? oracle_first(axis) : oracle_last(axis);
 }
 
-static void somewhere(const sample *s, random_source *random, long double uvw[3])
+static void somewhere(const sample *s, draw *random, long double uvw[3])
 {
     for (int a = 0; a < 3; a++)
         uvw[a] = oracle_first(&s->axis[a]) + (oracle_last(&s->axis[a]) - oracle_first(&s->axis[a])) *
-                                                 (long double)random_range(random, 0.05, 0.95);
+                                                 (long double)draw_between(random, 0.05, 0.95);
 }
 
 /* Points of the volume (also on knots, faces, edges, corners), around it, and on both sides of its faces. */
-static void judge_shape(judge *j, random_source *random)
+static void judge_shape(judge *j, draw *random)
 {
     enum { KNOWN = 12, WITHIN = 9, NEAR = 9 };
     long double uvw[KNOWN][3], face[3];
@@ -75,7 +75,7 @@ static void judge_shape(judge *j, random_source *random)
 /* A lattice of a known shape, and what is judged in it. */
 typedef struct shape_case {
     long number; /* from 0 in its trial */
-    random_source random;
+    draw random;
     sample s;
     shape x;
     judge j;
@@ -91,7 +91,7 @@ static void run_case(trial *t, const case_steps *steps, shape_kind kind, long nu
 {
     shape_case c = {.number = number};
     sample_init(&c.s, trial_seed() + (uint64_t)number);
-    c.random = (random_source){c.s.seed};
+    c.random = (draw){c.s.seed};
     steps->make(&c, kind);
     if (judge_open(&c.j, t, &c.s)) {
         steps->judge(&c);
@@ -194,7 +194,7 @@ static void folds(void **state)
 }
 
 /* Known points only where the oracle's recursion would take minutes to look for all. */
-static void judge_known(judge *j, random_source *random)
+static void judge_known(judge *j, draw *random)
 {
     enum { KNOWN = 24 };
     long double uvw[KNOWN][3];
@@ -238,7 +238,7 @@ static void degrees(void **state)
 }
 
 /* Points a few tolerances out of a face, and a few inside of it; points that no box holds. */
-static void judge_faces(judge *j, random_source *random)
+static void judge_faces(judge *j, draw *random)
 {
     static const double steps[] = {2, 4, 50, 1e4, 0.1, 0, -1, -50};
     enum { STEPS = sizeof steps / sizeof steps[0], BESIDE = 5 * STEPS, FAR = 8 };
@@ -248,7 +248,7 @@ static void judge_faces(judge *j, random_source *random)
         const oracle_axis *axis;
         somewhere(j->s, random, face[i]);
         do
-            axis = &j->s->axis[direction[i] = random_int(random, 0, 2)];
+            axis = &j->s->axis[direction[i] = draw_int(random, 0, 2)];
         while (axis->closed);
         face[i][direction[i]] = random_chance(random, 0.5) ? oracle_first(axis) : oracle_last(axis);
         judge_add_beside(j, face[i], direction[i], steps[i % STEPS]);
@@ -372,7 +372,7 @@ static void quarter_tori(void **state)
 /* Points of collapsed faces have a set of roots, the least of which is the answer; points next to them have
    one. Steps from the face are 1e-3, 1e-4, ... of the domain; below 2^-24 a point may be called singular
    (src/maths.md 6.5). */
-static void judge_collapsed(judge *j, const shape *x, random_source *random)
+static void judge_collapsed(judge *j, const shape *x, draw *random)
 {
     enum { ON = 12, STEPS = 8, CLEAR_STEPS = 5, NEXT = 2 * STEPS, KNOWN = 10, WITHIN = 6 };
     long double uvw[ON + NEXT + KNOWN][3], before[3];
@@ -469,14 +469,14 @@ static void prisms(void **state)
 typedef enum ends_kind { ENDS_AT_REST, ENDS_ALIKE, ENDS_APART } ends_kind;
 
 /* Moves every control point by its own vector, or by one that control points of one position share. */
-static void deform(sample *s, random_source *random, ends_kind kind, double size)
+static void deform(sample *s, draw *random, ends_kind kind, double size)
 {
     const size_t count = sample_count(s);
     if (kind == ENDS_AT_REST)
         return;
     s->deformed_points = sample_array(3 * count);
     for (size_t i = 0; i < 3 * count; i++)
-        s->deformed_points[i] = s->points[i] + size * random_range(random, 0.1, 0.2);
+        s->deformed_points[i] = s->points[i] + size * draw_between(random, 0.1, 0.2);
     if (kind == ENDS_APART)
         return;
     const double shift[3] = {size, -size / 2, size / 4};

@@ -45,12 +45,12 @@ static long double slope_bound(const sample *s, const double *field, int r, int 
 }
 
 /* A random displacement of the control points, scaled so that its slopes' row sums stay below strength. */
-static double *displacement(const sample *s, random_source *random, double strength)
+static double *displacement(const sample *s, draw *random, double strength)
 {
     double *field = sample_array(3 * sample_count(s));
     long double most = 0;
     for (size_t i = 0; i < 3 * sample_count(s); i++)
-        field[i] = random_range(random, -1, 1);
+        field[i] = draw_between(random, -1, 1);
     for (int r = 0; r < 3; r++) {
         long double sum = 0;
         for (int c = 0; c < 3; c++)
@@ -63,27 +63,27 @@ static double *displacement(const sample *s, random_source *random, double stren
 }
 
 /* The frame of a lattice: columns of m are its sides. */
-static void random_frame(random_source *random, volume_scale scale, bool rotated, long double origin[3],
+static void random_frame(draw *random, volume_scale scale, bool rotated, long double origin[3],
                          long double m[9])
 {
     double side[3], rotation[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     double unit = scale == SCALE_HUGE ? 1e9 : scale == SCALE_TINY ? 1e-6 : 1;
     for (int a = 0; a < 3; a++)
-        side[a] = unit * random_range(random, 0.5, 2);
+        side[a] = unit * draw_between(random, 0.5, 2);
     if (scale == SCALE_THIN)
-        side[random_int(random, 0, 2)] *= 1e-6;
+        side[draw_int(random, 0, 2)] *= 1e-6;
     if (rotated)
         random_rotation(random, rotation);
     if (random_chance(random, 0.3))
-        side[random_int(random, 0, 2)] *= -1;
+        side[draw_int(random, 0, 2)] *= -1;
     for (int r = 0; r < 3; r++) {
-        origin[r] = unit * (random_range(random, -1, 1) + (scale == SCALE_FAR ? 1e6 : 0));
+        origin[r] = unit * (draw_between(random, -1, 1) + (scale == SCALE_FAR ? 1e6 : 0));
         for (int c = 0; c < 3; c++)
             m[3 * r + c] = (long double)rotation[3 * r + c] * side[c];
     }
 }
 
-void sample_warped(sample *s, random_source *random, volume_scale scale, bool rotated, double strength)
+void sample_warped(sample *s, draw *random, volume_scale scale, bool rotated, double strength)
 {
     long double origin[3], m[9];
     double *field = displacement(s, random, strength);
@@ -103,7 +103,7 @@ void sample_warped(sample *s, random_source *random, volume_scale scale, bool ro
     free(field);
 }
 
-void sample_separable(sample *s, random_source *random, volume_scale scale)
+void sample_separable(sample *s, draw *random, volume_scale scale)
 {
     long double origin[3], m[9];
     double grid[3][ORACLE_MAX_POINTS];
@@ -114,7 +114,7 @@ void sample_separable(sample *s, random_source *random, volume_scale scale)
         long double x = origin[a];
         for (int k = 0; k < n; k++) {
             grid[a][k] = (double)x;
-            x += m[4 * a] * random_range(random, 0.3, 1.7) / (n - 1);
+            x += m[4 * a] * draw_between(random, 0.3, 1.7) / (n - 1);
         }
     }
     s->rest = SAMPLE_POINTS;
@@ -125,15 +125,15 @@ void sample_separable(sample *s, random_source *random, volume_scale scale)
     } while (next_point(s, i));
 }
 
-void sample_arc(sample *s, random_source *random, double degrees)
+void sample_arc(sample *s, draw *random, double degrees)
 {
     const long double pi = acosl(-1);
-    const int across = random_int(random, 1, 3);
-    const int along = random_int(random, 2, 4);
+    const int across = draw_int(random, 1, 3);
+    const int along = draw_int(random, 2, 4);
     int i[3] = {0, 0, 0};
-    sample_named_axis(s, 0, "clamped", across + 1 + random_int(random, 0, 1), across);
+    sample_named_axis(s, 0, "clamped", across + 1 + draw_int(random, 0, 1), across);
     sample_named_axis(s, 1, "clamped", (int)(degrees / 22) + along, along);
-    sample_named_axis(s, 2, "clamped", 2 + random_int(random, 0, 1), 1);
+    sample_named_axis(s, 2, "clamped", 2 + draw_int(random, 0, 1), 1);
     s->rest = SAMPLE_POINTS;
     s->points = sample_array(3 * sample_count(s));
     do {
@@ -146,11 +146,11 @@ void sample_arc(sample *s, random_source *random, double degrees)
     } while (next_point(s, i));
 }
 
-void sample_ring(sample *s, random_source *random)
+void sample_ring(sample *s, draw *random)
 {
     const long double pi = acosl(-1);
-    const double phase = random_unit(random), odd = random_range(random, 0, 0.03),
-                 mirror = random_int(random, 0, 1);
+    const double phase = draw_unit(random), odd = draw_between(random, 0, 0.03),
+                 mirror = draw_int(random, 0, 1);
     double rotation[9];
     int i[3] = {0, 0, 0};
     random_rotation(random, rotation);
@@ -162,25 +162,25 @@ void sample_ring(sample *s, random_source *random)
         long double local[3] = {radius * cosl(turn), radius * sinl(turn), unit_greville(&s->axis[2], i[2])};
         local[2] = mirror > 0 ? -local[2] : local[2];
         for (int a = 0; a < 3; a++)
-            local[a] += odd * random_range(random, -1, 1);
+            local[a] += odd * draw_between(random, -1, 1);
         for (int r = 0; r < 3; r++)
             for (int c = 0; c < 3; c++)
                 s->points[3 * index_of(s, i) + (size_t)r] += (double)(rotation[3 * r + c] * local[c]);
     } while (next_point(s, i));
 }
 
-void sample_parameters(const sample *s, random_source *random, long double uvw[3])
+void sample_parameters(const sample *s, draw *random, long double uvw[3])
 {
     const bool special = random_chance(random, 0.5);
     for (int a = 0; a < 3; a++) {
         const oracle_axis *axis = &s->axis[a];
         const long double first = oracle_first(axis), last = oracle_last(axis);
-        const int kind = special ? random_int(random, 0, 3) : 0;
+        const int kind = special ? draw_int(random, 0, 3) : 0;
         if (kind == 0)
-            uvw[a] = first + (last - first) * (long double)random_unit(random);
+            uvw[a] = first + (last - first) * (long double)draw_unit(random);
         else if (kind == 1)
-            uvw[a] = oracle_knot(
-                axis, axis->degree + random_int(random, 0, axis->n - (axis->closed ? 0 : axis->degree)));
+            uvw[a] = oracle_knot(axis, axis->degree +
+                                           draw_int(random, 0, axis->n - (axis->closed ? 0 : axis->degree)));
         else
             uvw[a] = kind == 2 ? first : last;
         uvw[a] = oracle_wrap(axis, uvw[a]);

@@ -312,7 +312,7 @@ static void draw_points(draw *random, ffd_lattice *lattice)
         for (size_t i = 0; i < lattice->count; i++)
             lattice->rest_weights[i] = draw_between(random, 0.25, 4);
     }
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
 }
 
 static ffd_lattice *draw_lattice(draw *random)
@@ -415,7 +415,7 @@ static ffd_lattice *unroll(const ffd_lattice *lattice)
                 if (lattice->rest_weights)
                     open->rest_weights[to] = lattice->rest_weights[from];
             }
-    assert_int_equal(ffd_lattice_finish(open, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(open, NULL), FFD_OK);
     return open;
 }
 

@@ -11,7 +11,6 @@ test_package.py, and without them it is skipped.
 import glob
 import os
 import shutil
-import subprocess
 import sys
 import sysconfig
 import tempfile

@@ -8,8 +8,8 @@ import re
 from bspline import BoxVolume
 from cases import (ARMS, BENT, DOUBLE, EVEN, LARGER, QUARTER, RIGID, WAVED, affine, plain, posed_with_morphs, text,
                    text_at_rest, uneven, volume)
-from follow import CLOSE, PARTS, carried, deformed, has_turned, is_kept, moves_as, moves_as_one, poses, single
-from harness import USAGE, case, check, equal, main
+from follow import CLOSE, PARTS, carried, deformed, has_turned, is_kept, moves_as, moves_as_one, poses
+from harness import USAGE, case, check, equal, float32, main
 from made import Arm, posed
 from matrices import apply, turn
 from pose import largest_difference, size_of
@@ -240,7 +240,7 @@ def keys_that_hold_the_rest_hold_it_exactly(run):
     _, after, _ = deformed(run, ARMS["constant"](), WAVED)
     for channel in after.animations[0]:
         rest = after.nodes[channel.node].parts[channel.path]
-        equal({tuple(v) for v in channel.values}, {tuple(single(x) for x in rest)}, after.nodes[channel.node].name)
+        equal({tuple(v) for v in channel.values}, {tuple(float32(x) for x in rest)}, after.nodes[channel.node].name)
 
 
 @case

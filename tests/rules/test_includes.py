@@ -21,12 +21,12 @@ LAYERS = {
     "io/gltf/model": {"base", "base/memory", "base/system", "json"},
     "splat": {"base", "base/vector"},
     "mesh": {"base", "base/file", "base/memory", "base/text", "base/vector", "json", "splat"},
-    "mesh/morph": {"base", "base/memory", "base/text", "json", "mesh"},
+    "mesh/morph": {"base", "base/memory", "base/text", "json"},
     "mesh/meshopt": {"base", "base/system", "base/text"},
     "mesh/resource": {"base", "base/file", "base/memory", "base/system", "base/text", "mesh"},
     "picture/image": {"base", "base/memory", "base/system", "mesh"},
     "picture": {
-        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "mesh", "picture/image",
+        "base", "base/memory", "base/system", "base/text", "base/vector", "mesh", "picture/image",
     },
     "io/gltf/document": {"io/gltf/file", "io/gltf/model", "json", "mesh"},
     "io/gltf/decode": {
@@ -43,21 +43,20 @@ LAYERS = {
         "io/gltf/scene",
     },
     "io/gltf/skeleton": {
-        "base/memory", "base/vector", "io/gltf/animation", "io/gltf/decode", "io/gltf/document", "io/gltf/rig",
-        "io/gltf/scene", "mesh",
+        "base/memory", "base/vector", "io/gltf/animation", "io/gltf/decode", "io/gltf/rig", "io/gltf/scene", "mesh",
     },
     "io/gltf/rig": {
         "base", "base/memory", "base/text", "base/vector", "io/gltf/animation", "io/gltf/decode", "io/gltf/document",
-        "io/gltf/refer", "io/gltf/scene", "json", "mesh",
+        "io/gltf/refer", "io/gltf/scene", "json",
     },
     "io/gltf/splat": {"base/memory", "io/gltf/decode", "io/gltf/document", "splat"},
     "io/gltf/save": {
         "base", "base/file", "base/memory", "base/system", "base/text", "io/gltf/decode", "io/gltf/document",
-        "io/gltf/file", "io/gltf/refer", "io/gltf/rig", "io/gltf/scene", "json", "mesh", "mesh/resource",
+        "io/gltf/file", "io/gltf/refer", "io/gltf/rig", "io/gltf/scene", "json", "mesh/resource",
     },
     "io/gltf/morph": {
-        "base", "base/file", "base/memory", "base/text", "io/gltf/decode", "io/gltf/document", "io/gltf/refer", "io/gltf/save",
-        "io/gltf/scene", "json", "mesh", "mesh/morph",
+        "base", "base/memory", "base/text", "io/gltf/decode", "io/gltf/document", "io/gltf/refer", "io/gltf/save",
+        "io/gltf/scene", "json", "mesh/morph",
     },
     "io/gltf": {
         "base", "base/file", "base/memory", "base/system", "base/vector", "io/gltf/decode", "io/gltf/document", "io/gltf/file",
@@ -65,7 +64,7 @@ LAYERS = {
         "mesh/resource",
     },
     "io/openmesh": {"base/memory", "base/system", "base/vector", "mesh"},
-    "io/text": {"base", "base/file", "base/memory", "base/text", "mesh"},
+    "io/text": {"base/file", "base/memory", "base/text", "mesh"},
     "io/obj/resource": {"base", "base/file", "base/memory", "base/text", "io/text", "mesh", "mesh/resource"},
     "io/obj": {
         "base", "base/file", "base/memory", "base/system", "base/text", "io/obj/resource", "io/text", "mesh",
@@ -74,7 +73,7 @@ LAYERS = {
     "io/ply": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/text", "mesh", "splat",
     },
-    "io/stl": {"base", "base/file", "base/memory", "base/text", "base/vector", "io/text", "mesh"},
+    "io/stl": {"base", "base/memory", "base/text", "base/vector", "io/text", "mesh"},
     "io": {"base/file", "io/gltf", "io/obj", "io/off", "io/ply", "io/stl", "io/text", "mesh"},
     "io/write": {
         "base", "base/file", "base/memory", "base/text", "base/vector", "io/gltf/file", "io/stl", "json",
@@ -84,20 +83,17 @@ LAYERS = {
         "base", "base/file", "base/memory", "base/text", "base/vector", "json", "mesh", "mesh/meshopt", "picture",
         "picture/image",
     },
-    "job/report": {"base", "base/file", "base/memory", "base/text", "json", "mesh"},
+    "job/report": {"base", "base/file", "base/memory", "base/text", "json"},
     "spline": {"base", "base/memory", "base/text"},
-    "lattice": {"base", "base/file", "base/memory", "base/text", "base/vector", "json", "spline"},
-    "lattice/file": {"base", "base/file", "base/memory", "base/text", "base/vector", "json", "lattice", "spline"},
-    "lattice/tangent": {"base", "base/memory", "base/vector", "lattice"},
+    "lattice": {"base", "base/file", "base/memory", "base/text", "base/vector", "spline"},
+    "lattice/file": {"base/file", "base/memory", "base/text", "base/vector", "json", "lattice"},
+    "lattice/tangent": {"base/memory", "base/vector", "lattice"},
     "embed/frame": {"base/memory", "base/vector", "lattice", "spline"},
     "embed/boundary": {"base", "base/memory", "base/vector", "embed/frame", "lattice", "spline"},
     "deform": {"base", "base/vector", "embed/boundary", "lattice"},
     "embed/cells": {"base/memory", "base/vector", "embed/frame", "lattice", "spline"},
     "embed/direct": {"base", "base/memory", "base/vector", "embed/frame", "spline"},
-    "embed": {
-        "base", "base/memory", "base/vector", "embed/boundary", "embed/cells", "embed/direct", "embed/frame", "lattice",
-        "spline",
-    },
+    "embed": {"base", "base/memory", "base/vector", "embed/boundary", "embed/cells", "embed/direct", "embed/frame"},
     "fold": {"base", "base/memory", "base/system", "base/vector", "embed/frame", "lattice", "spline"},
     "points": {
         "base", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed", "embed/boundary", "lattice",
@@ -122,7 +118,7 @@ LAYERS = {
     },
     "job/jacobian": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed/boundary", "io/npy",
-        "job", "job/chain", "job/input", "job/judge", "job/pass", "lattice", "lattice/tangent", "points",
+        "job", "job/chain", "job/input", "job/judge", "job/pass", "lattice/tangent", "points",
     },
     "job/view": {
         "base", "base/file", "base/memory", "base/text", "base/vector", "job", "job/chain", "job/input", "job/judge",
@@ -131,9 +127,9 @@ LAYERS = {
     "batch/manifest": {"base", "base/file", "base/memory", "base/system", "base/text", "json", "mesh"},
     "batch": {
         "base", "base/file", "base/memory", "base/system", "base/text", "batch/manifest", "io", "io/npy", "job/chain", "job/input",
-        "job/judge", "job/report", "json", "lattice", "lattice/file", "mesh", "view",
+        "job/judge", "job/report", "json", "lattice/file", "view",
     },
-    "cli": {"base/file", "batch"},
+    "cli": {"base/file", "base/text", "batch"},
     "cli/pages": {"cli"},
     "python": set(),
     "job": {
@@ -163,6 +159,7 @@ INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)', re.M
 def main():
     findings = []
     checked = 0
+    used = set()
     for path in tree.files():
         if not path.endswith((".c", ".h", ".cpp")) or not path.startswith(("src/", "include/")):
             continue
@@ -179,12 +176,15 @@ def main():
                 break
             if quoted:
                 target = os.path.dirname(quoted) or folder
+                used.add((folder, target))
                 if target != folder and target not in LAYERS[folder]:
                     findings.append(f'{path}: src/{folder} must not include "{quoted}"')
                 continue
             for pattern, allowed in OUTSIDE:
                 if re.match(pattern, angled) and folder not in allowed:
                     findings.append(f"{path}: <{angled}> belongs in {', '.join(sorted(allowed))} only")
+    findings += [f"the table of {__file__} has src/{target} below src/{folder}, but nothing of it is included there"
+                 for folder, targets in LAYERS.items() for target in sorted(targets) if (folder, target) not in used]
     tree.finish(checked, "files", findings)
 
 

@@ -1,5 +1,5 @@
-/* another_case.h - how many cases a property test makes: by time, after a fixed least number, so that a slow
-   build makes fewer and ends no later. FFD_CASES=N: exactly N. FFD_SECONDS=N: for N seconds. */
+/* another_case.h - limits the number of cases of a property test: a fixed minimum, then by time, so that slow
+   builds make fewer cases and end as early. FFD_CASES=N: exactly N cases. FFD_SECONDS=N: for N seconds. */
 #ifndef FFD_TESTS_ANOTHER_CASE_H
 #define FFD_TESTS_ANOTHER_CASE_H
 
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-/* A positive number of the environment, else 0. */
+/* Returns a positive number from an environment variable, else 0. */
 static inline double case_setting(const char *name)
 {
     const char *const value = getenv(name);
@@ -15,8 +15,8 @@ static inline double case_setting(const char *name)
     return number > 0 ? number : 0;
 }
 
-/* Whether a test that has made so many cases makes another: always the least number, then up to `most` for so
-   many seconds of processor time. began is set at the first case. */
+/* Whether to make another case after `made` ones: up to `least` always, then until `most`, or for this many
+   seconds of processor time. *began: set at the first case. */
 static inline bool another_case(long made, double *began, long least, long most, double seconds)
 {
     const double now = (double)clock() / CLOCKS_PER_SEC, cases = case_setting("FFD_CASES"),

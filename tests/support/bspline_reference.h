@@ -1,11 +1,11 @@
-/* bspline_reference.h - basis functions by the plain Cox-de Boor recursion in long double: slow, over all
-   functions, and sharing nothing with the triangular scheme that it judges. */
+/* bspline_reference.h - reference basis functions: the plain Cox-de Boor recursion in long double, over all
+   functions. Slow, and shares no code with the triangular scheme that it checks. */
 #ifndef FFD_TESTS_BSPLINE_REFERENCE_H
 #define FFD_TESTS_BSPLINE_REFERENCE_H
 
 #include <stddef.h>
 
-/* The span on which N_{i,0} is 1: the last one of the domain that begins at or before u and is not empty. */
+/* Returns the span where N_{i,0} is 1: the last non-empty span of the domain that begins at or before u. */
 static inline size_t reference_span(const double *t, size_t functions, int degree, double u)
 {
     size_t span = (size_t)degree;
@@ -36,7 +36,7 @@ static inline long double reference_value(const double *t, size_t span, size_t i
                reference_value(t, span, i + 1, degree - 1, u);
 }
 
-/* The two terms of N'_{i,d}; the derivative is rising - falling. */
+/* The two terms of N'_{i,d}. The derivative is rising - falling. */
 static inline void reference_slopes(const double *t, size_t span, size_t i, int degree, double u,
                                     long double *rising, long double *falling)
 {

@@ -1,7 +1,7 @@
-/* Loaded before a program's libraries (LD_PRELOAD): a file whose name holds the word "cut" is made shorter as
-   soon as it is mapped, as by another program that writes it anew in its place. FFD_CUT is its new size. */
+/* Preloaded into a program (LD_PRELOAD): truncates a file whose name contains "cut" as soon as it is mapped,
+   as if another program overwrote it. FFD_CUT is its new size. */
 #define _GNU_SOURCE
-#undef _FILE_OFFSET_BITS /* mmap and mmap64 are two functions here */
+#undef _FILE_OFFSET_BITS /* mmap and mmap64 must be two functions here */
 #include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>

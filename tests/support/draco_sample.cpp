@@ -1,4 +1,4 @@
-/* draco_sample.cpp - compresses sample meshes by the Draco library. */
+/* draco_sample.cpp - compresses sample meshes with the Draco library. */
 #include "draco_sample.h"
 #include <cstdlib>
 #include <cstring>

@@ -1,4 +1,4 @@
-/* draco_sample.h - meshes compressed by the Draco library, for tests. */
+/* draco_sample.h - meshes compressed with the Draco library, for tests. */
 #ifndef TESTS_DRACO_SAMPLE_H
 #define TESTS_DRACO_SAMPLE_H
 
@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-/* Ids of the attributes that a sample has, as far as its mesh has them. */
+/* Ids of a sample's attributes, if its mesh has them. */
 enum { SAMPLE_POSITION = 3, SAMPLE_NORMAL = 7, SAMPLE_JOINTS = 300, SAMPLE_FACTOR = 8, SAMPLE_TEXCOORD = 9 };
 
 typedef struct sample_mesh {
@@ -25,15 +25,15 @@ typedef struct sample_mesh {
 
 typedef struct sample_options {
     bool edgebreaker; /* else the sequential method, which keeps the order of points and triangles */
-    int bits;         /* of quantized numbers; 0: floats as they are */
-    bool metadata;    /* with some metadata */
-    bool as_points;   /* a point cloud instead of a mesh */
+    int bits;         /* of quantization; 0: floats are not quantized */
+    bool metadata;    /* add some metadata */
+    bool as_points;   /* encode a point cloud instead of a mesh */
 } sample_options;
 
-/* Compresses a mesh; NULL where the library fails. Free the bytes with free(). */
+/* Compresses a mesh. Returns NULL if the library fails. Free the bytes with free(). */
 unsigned char *make_draco(const sample_mesh *mesh, const sample_options *options, size_t *size);
 
-/* Writes the unit vector at a place of the unfolded octahedron, by the library's header. */
+/* Computes the unit vector at a place of the unfolded octahedron with the library's own header. */
 void unfold_as_draco(int bits, const int32_t place[2], float normal[3]);
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-/* draw.h - random numbers for property tests: the same sequence everywhere for the same seed. */
+/* draw.h - random numbers for property tests. The same seed gives the same sequence on every machine. */
 #ifndef FFD_TESTS_DRAW_H
 #define FFD_TESTS_DRAW_H
 
@@ -12,7 +12,8 @@ typedef struct draw {
     uint64_t state;
 } draw;
 
-/* The seed is FFD_SEED where that is set, else the time; it is printed, so that a failure can be repeated. */
+/* Takes the seed from FFD_SEED if set, else from the time, and prints it, so that a failure can be
+   repeated. */
 static inline uint64_t draw_seed(void)
 {
     const char *const text = getenv("FFD_SEED");
@@ -40,13 +41,13 @@ static inline uint64_t draw_bits(draw *d)
     return z ^ (z >> 31);
 }
 
-/* In 0..2^31 - 1. */
+/* Returns 0 to 2^31 - 1. */
 static inline uint32_t draw_number(draw *d)
 {
     return (uint32_t)(draw_bits(d) >> 33);
 }
 
-/* In [0, 1). */
+/* Returns a number in [0, 1). */
 static inline double draw_unit(draw *d)
 {
     return (double)(draw_bits(d) >> 11) / 9007199254740992.0;
@@ -57,7 +58,7 @@ static inline double draw_between(draw *d, double low, double high)
     return low + (high - low) * draw_unit(d);
 }
 
-/* In low..high, both included. */
+/* Returns low to high, inclusive. */
 static inline int draw_int(draw *d, int low, int high)
 {
     return low + (int)(draw_bits(d) % (uint64_t)(high - low + 1));

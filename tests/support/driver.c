@@ -1,12 +1,13 @@
 /* driver.c - a fork server for the program's command lines.
 
-   Starting the program costs more than most of what the tests ask of it: the dynamic linker, the C++ library
-   and, above all, a sanitizer. This process has all that behind it. It takes command lines from a socket and
-   runs each in a forked child, by the program's own main; so exit(), signals, globals and memory stay apart.
+   Starting the program takes longer than most of its work in tests: the dynamic linker, the C++ library and,
+   above all, a sanitizer. This process has started already. It takes command lines from a socket and runs
+   each in a forked child with the program's own main, so that exit(), signals, globals and memory stay
+   separate.
 
-   A packet holds three numbers (words, variables, umask) and then texts, each with its 0: the working folder,
-   the words with the program's name first, and the environment. Standard input, output and error go along as
-   descriptors. The answer is the child's status as of waitpid. */
+   A packet holds three numbers (of words, of variables, umask) and then texts, each terminated by 0: the
+   working folder, the words with the program's name first, and the environment. Standard input, output and
+   error are passed as descriptors. The answer is the child's status from waitpid. */
 #ifdef __linux__
 #include <sys/prctl.h>
 #endif
@@ -44,7 +45,7 @@ typedef struct command_line {
 } command_line;
 
 extern char **environ;
-/* Of a sanitizer, where there is one. */
+/* From a sanitizer's runtime, if there is one. */
 void __lsan_do_leak_check(void) __attribute__((weak));
 size_t __sanitizer_get_current_allocated_bytes(void) __attribute__((weak));
 static command_line line;
@@ -72,7 +73,7 @@ static bool receive(int channel, int streams[STREAMS])
     return line.words + line.variables + 2 < MOST_TEXTS;
 }
 
-/* The texts, with a NULL behind the words and one behind the variables. Returns the folder. */
+/* Splits the packet into texts, with a NULL after the words and after the variables. Returns the folder. */
 static char *split(void)
 {
     char *const folder = line.text, *at = folder + strlen(folder) + 1;
@@ -89,7 +90,7 @@ static int run_line(int channel, const int streams[STREAMS])
 {
     char *const folder = split();
 #ifdef __linux__
-    prctl(PR_SET_PDEATHSIG, SIGKILL); /* who gives up on a run kills the driver */
+    prctl(PR_SET_PDEATHSIG, SIGKILL); /* giving up on a run kills the driver, so end with it */
 #endif
     close(channel);
     for (int i = 0; i < STREAMS; i++)
@@ -103,8 +104,9 @@ static int run_line(int channel, const int streams[STREAMS])
 }
 
 #if !IS_SANITIZED
-/* As MALLOC_PERTURB_ does, which fills all of every block and thereby makes memory of what never would be
-   any: nothing may depend on what is in a block at first, or after its end. */
+/* Fills new memory as MALLOC_PERTURB_ does, to detect a dependence on the initial content of a block or on
+   what follows it. But only this many bytes at each end: filling whole blocks would make memory resident that
+   is never used. */
 enum { FILLED = 4096 };
 void *__libc_malloc(size_t size);
 void *__libc_memalign(size_t alignment, size_t size);
@@ -140,8 +142,8 @@ static size_t allocated(void)
     return __sanitizer_get_current_allocated_bytes ? __sanitizer_get_current_allocated_bytes() : 0;
 }
 
-/* The search for leaks takes longer than most runs: it is for those after which more is allocated than there
-   should be. The destructors are those of the libraries, and run where the program itself does. */
+/* The leak check takes longer than most runs, so it is made only if more memory is allocated than expected.
+   Destructors of libraries run as in the program itself. */
 static _Noreturn void end(int code, size_t expected)
 {
     fflush(NULL);

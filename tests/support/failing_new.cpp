@@ -1,4 +1,4 @@
-/* failing_new.cpp - replaces the global operator new by one that can fail. */
+/* failing_new.cpp - replaces the global operator new by one that can fail on request. */
 #include "failing_new.h"
 #include <atomic>
 #include <cstdlib>
@@ -9,7 +9,7 @@ namespace
 
 std::atomic<long> remaining{-1}, calls{0};
 
-/* NULL: none. */
+/* Returns NULL on failure. */
 void *allocate(std::size_t size)
 {
     calls++;
@@ -35,7 +35,7 @@ extern "C" long new_fail_after(long successes)
     return calls.exchange(0);
 }
 
-/* All forms but those with an alignment, for a sanitizer's own would not call these. */
+/* All forms except the aligned ones. A sanitizer's own forms would not call these. */
 void *operator new(std::size_t size)
 {
     return allocate_or_throw(size);

@@ -1,4 +1,4 @@
-/* failing_new.h - makes C++'s operator new fail, as base/memory/memory.h makes ffd_alloc. */
+/* failing_new.h - makes operator new fail on request, like ffd_alloc (base/memory/memory.h). */
 #ifndef FFD_TESTS_FAILING_NEW_H
 #define FFD_TESTS_FAILING_NEW_H
 
@@ -6,8 +6,8 @@
 extern "C" {
 #endif
 
-/* After `successes` further calls of operator new every one throws std::bad_alloc; a negative number turns
-   this off. Returns the calls since the last time. */
+/* After `successes` more calls, each operator new throws std::bad_alloc; negative: never. Returns the number
+   of calls since the last time. */
 long new_fail_after(long successes);
 
 #ifdef __cplusplus

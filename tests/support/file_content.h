@@ -1,11 +1,11 @@
-/* file_content.h - what a file holds. Includes come after cmocka.h. */
+/* file_content.h - checks the content of files. Includes come after cmocka.h. */
 #ifndef FFD_TESTS_FILE_CONTENT_H
 #define FFD_TESTS_FILE_CONTENT_H
 
 #include "base/file/input.h"
 #include "test_folder.h"
 
-/* The file in the test's folder has this text. */
+/* Checks the text of a file in the test's folder. */
 static inline void check_content(const char *name, const char *text)
 {
     file_input input;

@@ -1,4 +1,4 @@
-/* gltf_file.h - opens glTF from memory or a folder, deforms it plainly, and saves it. */
+/* gltf_file.h - opens glTF from memory or from a folder, moves its vertices by a function, and saves it. */
 #ifndef TESTS_GLTF_FILE_H
 #define TESTS_GLTF_FILE_H
 
@@ -12,7 +12,7 @@
 
 static const mesh_format *const gltf = &ffd_gltf_format;
 
-/* Opens bytes (which must stay) as if they were the file `path`. */
+/* Opens bytes, which must outlive the document, as if they were the file `path`. */
 static inline ffd_status open_bytes(const void *bytes, size_t size, const char *path, ffd_format format,
                                     ffd_space space, mesh_document **document, ffd_error *error)
 {
@@ -37,7 +37,7 @@ static inline ffd_status open_file(const char *path, ffd_space space, mesh_docum
     return status;
 }
 
-/* How a test moves x,y,z of a vertex that is at `place` in the scene. */
+/* Changes x,y,z of a vertex. place: its position in the scene. */
 typedef void (*mover)(const double place[3], double xyz[3]);
 
 static inline void stay(const double place[3], double xyz[3])
@@ -52,7 +52,7 @@ static inline void add_one(const double place[3], double xyz[3])
     xyz[0] += 1;
 }
 
-/* Only what is beyond x = 10 moves. */
+/* Moves only vertices beyond x = 10. */
 static inline void move_far(const double place[3], double xyz[3])
 {
     if (place[0] >= 10)
@@ -72,7 +72,7 @@ static inline void move_positions(mesh_document *document, size_t part, mover mo
     }
 }
 
-/* Moves all positions; turns the components of normals and tangents round with `attributes`. */
+/* Moves all positions. attributes: also rotates the components of normals and tangents. */
 static inline ffd_status deform(mesh_document *document, mover move, bool attributes, ffd_error *error)
 {
     const ffd_status status = gltf->begin_results(document, attributes, attributes, error);
@@ -117,7 +117,7 @@ static inline ffd_status save_to(mesh_document *document, const char *path, ffd_
     return save_with(document, &options, NULL, error);
 }
 
-/* A file as a string. Free it with free(). */
+/* Returns a file as a string. Free it with free(). */
 static inline char *load_text(const char *path)
 {
     file_input input;
@@ -129,7 +129,7 @@ static inline char *load_text(const char *path)
     return text;
 }
 
-/* Opens, describes, deforms and saves, whatever comes of it. */
+/* Opens, describes, deforms and saves, as far as each step succeeds. */
 static inline ffd_status run_all(const void *bytes, size_t size, const char *path, ffd_format format,
                                  ffd_space space, mover move, const char *output, ffd_error *error)
 {

@@ -1,4 +1,4 @@
-/* gltf_text.h - the text of a glTF file that holds its buffer. Includes come after cmocka.h. */
+/* gltf_text.h - makes the text of a glTF file with an embedded buffer. Includes come after cmocka.h. */
 #ifndef FFD_TESTS_GLTF_TEXT_H
 #define FFD_TESTS_GLTF_TEXT_H
 
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* One bufferView has all bytes of the buffer. members: all that follows, from "accessors" on. Free it with
+/* One bufferView covers the buffer. members: the rest of the JSON, from "accessors" on. Free the text with
    free(). */
 static inline char *gltf_text(const void *bytes, size_t size, const char *members)
 {

@@ -1,10 +1,10 @@
-/* job_description.h - what a test of jobs asks for, before it changes some of it. */
+/* job_description.h - a default description of a job, for tests to change. */
 #ifndef FFD_TEST_JOB_DESCRIPTION_H
 #define FFD_TEST_JOB_DESCRIPTION_H
 
 #include <ffd/job.h>
 
-/* By the first of the lattices, with one thread; an output may be there. */
+/* One lattice, one thread, force. */
 static inline ffd_deform_desc describe_job(const char *mesh, const char *output, const char *const *lattices)
 {
     ffd_deform_desc desc;

@@ -1,4 +1,4 @@
-/* json_facts.h - JSON that the program has written, for tests that look at single values. */
+/* json_facts.h - parses JSON that the program has written, for tests of single values. */
 #ifndef FFD_TESTS_JSON_FACTS_H
 #define FFD_TESTS_JSON_FACTS_H
 
@@ -11,7 +11,7 @@ typedef struct json_facts {
     json_span tree;
 } json_facts;
 
-/* Takes a copy of a text that must be JSON; free with facts_free. */
+/* Parses a copy of a text, which must be JSON. Free it with facts_free. */
 static inline json_facts *facts_read(const char *text, size_t size)
 {
     json_facts *const facts = calloc(1, sizeof *facts);
@@ -34,7 +34,8 @@ static inline void facts_free(json_facts *facts)
     free(facts);
 }
 
-/* A value by the names of members with points between, "topology.edges"; JSON_NONE: there is none. */
+/* Finds a value by member names separated by dots, such as "topology.edges". Returns JSON_NONE if there is
+   none. */
 static inline uint32_t facts_member(const json_facts *facts, const char *names)
 {
     char copy[64];
@@ -56,7 +57,7 @@ static inline int facts_is(const json_facts *facts, const char *names, json_kind
     return value != JSON_NONE && facts->tree.values[value].kind == kind;
 }
 
-/* The number that a value is; fails where it is not one. */
+/* Returns a number; fails if the value is not one. */
 static inline double facts_number(const json_facts *facts, uint32_t value)
 {
     double number = 0;

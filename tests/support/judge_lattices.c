@@ -1,6 +1,6 @@
-/* judge_lattices.c - reads lattice files, many in one process: a line on stdin names a file and, after tabs,
-   the values of its placeholders (FILE[<tab>NAME=VALUE]...); a line on stdout says the exit code that `ffd
-   info` would have and, where it is not 0, why. */
+/* judge_lattices.c - reads many lattice files in one process. A line on stdin names a file and, after tabs,
+   values of placeholders: FILE[<tab>NAME=VALUE]... A line on stdout gives the exit code of `ffd info` and, if
+   it is not 0, the reason. */
 #include <ffd/ffd.h>
 #include <stdio.h>
 #include <string.h>

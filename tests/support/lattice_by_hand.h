@@ -1,5 +1,4 @@
-/* lattice_by_hand.h - a lattice without a file, for tests: knots and control points are put in, then
- * finished. */
+/* lattice_by_hand.h - makes lattices without files for tests: set knots and control points, then finish. */
 #ifndef FFD_TESTS_LATTICE_BY_HAND_H
 #define FFD_TESTS_LATTICE_BY_HAND_H
 
@@ -8,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Takes the knots over; all control points are at 0. */
+/* Takes ownership of the knots. All control points are 0. */
 static inline ffd_lattice *lattice_of_knots(const knot_vector knots[3])
 {
     ffd_lattice *const lattice = ffd_alloc_zero(1, sizeof *lattice);
@@ -28,7 +27,14 @@ static inline ffd_lattice *lattice_of_knots(const knot_vector knots[3])
     return lattice;
 }
 
-/* The knots of a lattice, a direction each. */
+/* Call it after points were set or changed. */
+static inline ffd_status finish_by_hand(ffd_lattice *lattice, ffd_error *error)
+{
+    const ffd_status status = ffd_lattice_make_difference(lattice, error);
+    return status ? status : ffd_lattice_finish_moved(lattice, error);
+}
+
+/* Kinds and sizes of the knots, one for each direction. */
 typedef struct lattice_kinds {
     knot_kind kind[3];
     int degree[3];
@@ -47,7 +53,7 @@ static inline ffd_lattice *lattice_of_kinds(const lattice_kinds *shape)
 
 typedef void (*point_map)(const double g[3], double out[3]);
 
-/* Puts the control points at rest at the images of their Greville abscissae (fractions of the domain). */
+/* Sets each control point at rest to the image of its Greville abscissae, as fractions of the domain. */
 static inline void lattice_map(ffd_lattice *lattice, point_map map)
 {
     double *p = lattice->rest;
@@ -65,7 +71,7 @@ static inline void lattice_map(ffd_lattice *lattice, point_map map)
             }
 }
 
-/* Gives the lattice weights, all 1. */
+/* Adds weights, all 1. */
 static inline void lattice_add_weights(ffd_lattice *lattice)
 {
     lattice->rest_weights = ffd_alloc(lattice->count, sizeof(double));

@@ -1,4 +1,5 @@
-/* lattice_maps.h - what tests bend rest lattices by (lattice_map): functions of fractions of the domain. */
+/* lattice_maps.h - maps that bend rest lattices in tests (lattice_map), as functions of fractions of the
+   domain. */
 #ifndef FFD_TESTS_LATTICE_MAPS_H
 #define FFD_TESTS_LATTICE_MAPS_H
 
@@ -18,7 +19,7 @@ static inline void far_map(const double g[3], double out[3])
     out[1] -= 1e6;
 }
 
-/* A bar bent to 3/4 of a circle: v along the bar. */
+/* A bar bent to 3/4 of a circle; v runs along it. */
 static inline void bent_map(const double g[3], double out[3])
 {
     const double angle = 4.7 * g[1], radius = 1 + g[0];

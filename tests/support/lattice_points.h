@@ -1,4 +1,4 @@
-/* lattice_points.h - the control points of a lattice, for tests of moves. Includes come after cmocka.h. */
+/* lattice_points.h - checks control points in tests of moves. Includes come after cmocka.h. */
 #ifndef FFD_TEST_LATTICE_POINTS_H
 #define FFD_TEST_LATTICE_POINTS_H
 
@@ -10,7 +10,7 @@ static inline const double *point_of(const ffd_lattice *l, size_t i, size_t j, s
     return l->deformed + 3 * (i + l->size[0] * (j + l->size[1] * k));
 }
 
-/* No coordinate is off by more than `most`. */
+/* Checks that each coordinate is within `most` of the expected one. */
 static inline void check_within(const ffd_lattice *l, const size_t ijk[3], const double expected[3],
                                 double most)
 {

@@ -1,14 +1,15 @@
-/* lattice_text.h - lattices for tests from the text of a rest volume and of moves. Includes come after
- * cmocka.h. */
+/* lattice_text.h - makes lattices from the JSON of a rest volume and of moves. Includes come after
+   cmocka.h. */
 #ifndef FFD_TEST_LATTICE_TEXT_H
 #define FFD_TEST_LATTICE_TEXT_H
 
 #include "base/fail.h"
 #include "lattice/lattice.h"
+#include "message.h"
 #include <stdio.h>
 #include <string.h>
 
-/* rest: members "size" to "rest"; moves: the elements of "moves". */
+/* rest: the members "size" to "rest". moves: the elements of "moves". */
 static inline ffd_status parse(const char *rest, const char *moves, ffd_lattice **lattice, ffd_error *error)
 {
     static char text[8192];
@@ -16,14 +17,7 @@ static inline ffd_status parse(const char *rest, const char *moves, ffd_lattice 
     return ffd_lattice_parse(text, strlen(text), "t.json", lattice, error);
 }
 
-static inline const char *message_of(const ffd_error *error)
-{
-    static char text[2048];
-    ffd_error_format(error, text, sizeof text);
-    return text;
-}
-
-/* The test fails where the text is refused. */
+/* Fails the test if the text is refused. */
 static inline ffd_lattice *make(const char *rest, const char *moves)
 {
     ffd_lattice *lattice;

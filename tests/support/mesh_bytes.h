@@ -1,5 +1,5 @@
-/* mesh_bytes.h - meshes of any format but glTF, broken at random, changed, saved, and with memory that runs
-   out. */
+/* mesh_bytes.h - opens meshes of any format except glTF from bytes that are mutated at random, changes and
+   saves them, also with failing memory. */
 #ifndef FFD_TESTS_MESH_BYTES_H
 #define FFD_TESTS_MESH_BYTES_H
 
@@ -21,7 +21,7 @@ static inline bool same_number(double a, double b)
     return a == b || (isnan(a) && isnan(b));
 }
 
-/* What was written is there again when the saved file is read. */
+/* Checks that the saved file contains the written positions. */
 static inline void assert_holds(const mesh_document *before, const file_input *saved, const double *positions)
 {
     mesh_document *document = opened_bytes(before->format, saved->data, saved->size);
@@ -35,7 +35,7 @@ static inline void assert_holds(const mesh_document *before, const file_input *s
     document->format->close(document);
 }
 
-/* Moves about half of the vertices by small numbers. */
+/* Moves about half of the vertices a little, and saves. */
 static inline void change_and_save(mesh_document *document, draw *d)
 {
     const mesh_format *format = document->format;
@@ -63,8 +63,8 @@ static inline void change_and_save(mesh_document *document, draw *d)
     free(positions);
 }
 
-/* The rest of the format's table, on a file that opened. Only PLY may find that faces cannot be read or
-   results not be written. Returns whether they can be written. */
+/* Calls the other functions of the format's table. Only PLY may report, after opening, that faces cannot be
+   read or results cannot be written. Returns whether they can be written. */
 static inline bool use_document(mesh_document *document)
 {
     const mesh_format *format = document->format;
@@ -92,7 +92,7 @@ static inline bool use_document(mesh_document *document)
     return begun == FFD_OK;
 }
 
-/* Refusals have words. What is wrong with an OBJ, which is all text and of one kind, is on a line of it. */
+/* Checks that a refusal has a message. Errors in an OBJ, which is a pure text format, must name a line. */
 static inline void assert_refusal(const mesh_format *format, ffd_status status, const ffd_error *error)
 {
     if (format->format == FFD_FORMAT_OBJ)
@@ -102,12 +102,12 @@ static inline void assert_refusal(const mesh_format *format, ffd_status status, 
     assert_true(error->message[0]);
 }
 
-/* Opens bytes and uses what opens. One in `one_in` of those is saved: as it is where nothing is changed, and
-   with changes. */
+/* Opens bytes and uses the document. One in `one_in` documents is also saved, unchanged and changed. */
 static inline ffd_status use_bytes(const mesh_format *format, const void *bytes, size_t size, int one_in,
                                    draw *d)
 {
-    char *copy = malloc(size ? size : 1); /* of the exact size, so that reading past it is seen */
+    char *copy =
+        malloc(size ? size : 1); /* of the exact size, so that a sanitizer detects reading past its end */
     mesh_document *document;
     ffd_error error;
     assert_non_null(copy);
@@ -159,7 +159,7 @@ typedef struct byte_seed {
         text, sizeof(text) - 1                                                                               \
     }
 
-/* Good files with bytes changed at random; likely: bytes that the format has a meaning for. */
+/* Uses valid files with random changes. likely: bytes that are meaningful in the format. */
 static inline void use_mutations(const mesh_format *format, const byte_seed *seeds, size_t count, int rounds,
                                  const char *likely)
 {
@@ -186,7 +186,7 @@ static inline void use_truncations(const mesh_format *format, const byte_seed *s
             use_bytes(format, seeds[i].bytes, size, 1, &d);
 }
 
-/* Opens, describes, shows faces, and saves, with changes. */
+/* Opens, describes, reads faces, and saves, unchanged and changed. */
 static inline ffd_status use_all(const mesh_format *format, const byte_seed *seed)
 {
     static const double moved[3] = {7, 8, 9}, turned[2][3] = {{1, 2, 3}, {4, 5, 6}};
@@ -221,7 +221,7 @@ static inline ffd_status use_all(const mesh_format *format, const byte_seed *see
     return status;
 }
 
-/* One allocation after the other fails. */
+/* Repeats this, with each allocation failing in turn. */
 static inline void use_with_failing_memory(const mesh_format *format, const byte_seed *seed)
 {
     long successes = 0;

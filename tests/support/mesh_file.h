@@ -1,5 +1,5 @@
-/* mesh_file.h - meshes of any format but glTF, whose documents have one part: opened from memory, described,
-   compared, and saved. */
+/* mesh_file.h - opens, describes, compares and saves meshes in memory, of any format except glTF. Their
+   documents have a single part. */
 #ifndef FFD_TESTS_MESH_FILE_H
 #define FFD_TESTS_MESH_FILE_H
 
@@ -13,7 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Opens bytes (which must stay) as if they were the file "a.mesh". */
+/* Opens bytes, which must outlive the document, as if they were the file "a.mesh". */
 static inline ffd_status open_bytes(const mesh_format *format, const void *bytes, size_t size,
                                     mesh_document **document, ffd_error *error)
 {
@@ -36,7 +36,7 @@ static inline mesh_document *opened_bytes(const mesh_format *format, const void 
     return document;
 }
 
-/* A path for the saved files of this process; remove_saved takes it away again. */
+/* Returns a path for saved files, unique to this process. remove_saved removes the file. */
 static inline const char *saved_path(void)
 {
     static char path[64];
@@ -51,7 +51,7 @@ static inline int remove_saved(void **state)
     return 0;
 }
 
-/* Saves into a file and reads that. */
+/* Saves to a file and reads it back. */
 static inline ffd_status save_bytes(mesh_document *document, file_input *saved, ffd_error *error)
 {
     const mesh_format *format = document->format;
@@ -85,7 +85,7 @@ static inline void assert_saved(mesh_document *document, const void *bytes, size
     ffd_file_unload(&saved);
 }
 
-/* Appends all positions, as "1,2,3 4,5,6"; after each `row` of them there is a bar. */
+/* Appends all positions, as "1,2,3 4,5,6", with a bar after each `row` of them. */
 static inline void append_positions(const mesh_document *document, size_t row, byte_buffer *text)
 {
     for (size_t i = 0; i < document->parts->vertex_count; i++) {
@@ -99,7 +99,7 @@ typedef struct read_text {
     const char *text, *contents;
 } read_text;
 
-/* Texts that open, and are saved as they are. append_contents: puts in words what a document holds. */
+/* Checks texts that open, and are saved unchanged. append_contents: describes a document's content. */
 static inline void assert_read(const mesh_format *format, const read_text *cases, size_t count,
                                void (*append_contents)(const mesh_document *document, byte_buffer *text))
 {
@@ -123,7 +123,7 @@ typedef struct refused_text {
     const char *text;
     ffd_status status;
     size_t line;
-    const char *says; /* the message, or a part of it */
+    const char *says; /* the message, or part of it */
 } refused_text;
 
 static inline bool has_words(const char *message, const char *words)
@@ -136,7 +136,7 @@ static inline bool is_words(const char *message, const char *words)
     return strcmp(message, words) == 0;
 }
 
-/* Texts that do not open. agrees: compares the message with what the case says. */
+/* Checks texts that do not open. agrees: compares the message with the expected one. */
 static inline void assert_refused(const mesh_format *format, const refused_text *cases, size_t count,
                                   bool (*agrees)(const char *message, const char *says))
 {
@@ -166,7 +166,7 @@ static inline void assert_described(mesh_document *document, const char *expecte
     ffd_free(text);
 }
 
-/* Compares a with b; b with a must come to the same. */
+/* Compares a with b, and checks that b with a gives the same. */
 static inline ffd_comparison compared(mesh_document *a, mesh_document *b, double tolerance,
                                       double direction_tolerance)
 {

@@ -1,6 +1,5 @@
-/* obj_check.h - gives the normals of an OBJ document new values, saves it, and checks the file with a reader
-   of its own: each corner has the normal it should have, everything else is what it was, and no `vn` too many
-   was added. */
+/* obj_check.h - sets normals of an OBJ document, saves it, and checks the file with an independent reader:
+   each corner has its normal, everything else is unchanged, and no more `vn` than necessary were added. */
 #ifndef FFD_TESTS_OBJ_CHECK_H
 #define FFD_TESTS_OBJ_CHECK_H
 
@@ -13,7 +12,8 @@
 
 static const mesh_format *const obj = &ffd_obj_format;
 
-/* New values for the document's pairs: unchanged, one of a few for all, or one of its own. 3 a pair. */
+/* Draws new values for the document's pairs, 3 a pair: unchanged, one of a few shared values, or a unique
+   one. */
 static inline double *draw_normals(mesh_document *document, draw *d)
 {
     const size_t count = document->parts->normal_count;
@@ -31,7 +31,8 @@ static inline double *draw_normals(mesh_document *document, draw *d)
     return values;
 }
 
-/* The value that a corner must have after the change, -1 (no pair) is not possible. */
+/* Returns the value that a corner must have after the change. A normal of -1 (no pair) does not occur
+   here. */
 static inline const double *wanted_normal(const obj_document *document, const double *values,
                                           plain_corner corner)
 {
@@ -47,7 +48,7 @@ static inline bool same_bits(const double *a, const double *b)
     return memcmp(a, b, 3 * sizeof *a) == 0;
 }
 
-/* How many `vn` must be added: each distinct value of one `vn` but the first. */
+/* Returns how many `vn` must be added: for each `vn` its distinct values minus one. */
 static inline size_t needed_additions(const obj_document *document, const double *values)
 {
     const size_t pairs = document->file.part.normal_count;
@@ -66,7 +67,7 @@ static inline size_t needed_additions(const obj_document *document, const double
     return needed;
 }
 
-/* As written, but for the empty line that a continuation may have got at its end. */
+/* Equal texts, except for an empty line that may have been added to end a continuation. */
 static inline void check_text(char *a, char *b)
 {
     for (size_t size = strlen(a); size && a[size - 1] == '\n'; size--)
@@ -76,7 +77,7 @@ static inline void check_text(char *a, char *b)
     assert_string_equal(a, b);
 }
 
-/* A face stays as it is written unless one of its corners has another normal now. */
+/* The text of a face is unchanged unless one of its corners has a different normal now. */
 static inline void check_face(const plain_obj *a, const plain_statement *x, const plain_obj *b,
                               const plain_statement *y, const obj_document *document, const double *values)
 {
@@ -85,7 +86,7 @@ static inline void check_face(const plain_obj *a, const plain_statement *x, cons
     for (size_t i = 0; i < x->corners; i++) {
         const plain_corner old = a->corners[x->first_corner + i], new = b->corners[y->first_corner + i];
         assert_int_equal(old.vertex, new.vertex);
-        if (old.normal < 0 || a->normal_count == 0) { /* indices without any vn: left alone */
+        if (old.normal < 0 || a->normal_count == 0) { /* indices without any vn: unchanged */
             assert_int_equal(old.normal, new.normal);
             continue;
         }
@@ -97,8 +98,8 @@ static inline void check_face(const plain_obj *a, const plain_statement *x, cons
         check_text(x->text, y->text);
 }
 
-/* Goes through the statements of both files; those that only the second has must be `vn`, or an empty line
-   that ends a continuation before them. Returns how many `vn` there are. */
+/* Compares the statements of both files. Statements that only the second one has must be `vn`, or an empty
+   line that ends a continuation before them. Returns the number of such `vn`. */
 static inline size_t check_statements(const plain_obj *a, const plain_obj *b, const obj_document *document,
                                       const double *values)
 {

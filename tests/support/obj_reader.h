@@ -1,5 +1,6 @@
-/* obj_reader.h - a second, plain reader of OBJ files, to check what ffd wrote: lines first, then words,
-   strtod and strtol. For valid files only; a failed allocation ends the program. */
+/* obj_reader.h - an independent, simple reader of OBJ files, to check files that ffd has written: splits
+   lines, then words, and uses strtod and strtol. For valid files only; a failed allocation ends the
+   program. */
 #ifndef FFD_TESTS_OBJ_READER_H
 #define FFD_TESTS_OBJ_READER_H
 
@@ -10,11 +11,11 @@
 
 typedef struct plain_corner {
     size_t vertex;
-    long normal; /* from 0; -1: none */
+    long normal; /* index from 0; -1: none */
 } plain_corner;
 
 typedef struct plain_statement {
-    char keyword[8]; /* cut; "" for a line without one */
+    char keyword[8]; /* truncated; "" if there is none */
     char *text;      /* its lines, joined by '\n' */
     size_t first_corner, corners;
 } plain_statement;
@@ -29,7 +30,7 @@ typedef struct plain_obj {
 
 static inline void *plain_grow(void *block, size_t count, size_t size)
 {
-    /* In steps of powers of two. */
+    /* grow at powers of two only */
     if (count & (count - 1))
         return block;
     void *grown = realloc(block, (count ? 2 * count : 1) * size);
@@ -50,7 +51,7 @@ static inline char *plain_join(char *text, const char *line, const char *between
     return strcat(joined, line);
 }
 
-/* Cuts the next line off *rest; the result is freed by the caller. NULL at the end. */
+/* Takes the next line off *rest. The caller frees it; NULL: the end. */
 static inline char *plain_line(const char **rest, const char *end)
 {
     const char *first = *rest, *at = first;
@@ -68,8 +69,8 @@ static inline char *plain_line(const char **rest, const char *end)
     return line;
 }
 
-/* Whether the line goes on in the next; cuts the comment and the backslash off. names: #
-   does not begin a comment. */
+/* Removes a comment and a final backslash. Returns whether the line continues. names: # does not begin a
+   comment. */
 static inline bool plain_strip(char *line, bool names)
 {
     char *comment = names ? NULL : strchr(line, '#');
@@ -116,7 +117,7 @@ static inline void plain_read_vector(double xyz[3])
     }
 }
 
-/* words: the statement on one line, without comment; text: as it is in the file. Takes both. */
+/* Takes ownership of both. words: the statement on one line, without comment. text: as in the file. */
 static inline void plain_add_statement(plain_obj *file, char *words, char *text)
 {
     plain_statement statement = {.text = text, .first_corner = file->corner_count};

@@ -1,8 +1,8 @@
-/* Loaded before a program's libraries (LD_PRELOAD): opening a file for reading whose name holds one of these
-   words "abort", "segv" or "kill" ends the program so, "sleep" never comes back, and after "nomemory" all
-   allocations fail until another file is opened. */
+/* Preloaded into a program (LD_PRELOAD): opening a file for reading triggers a fault if its name contains one
+   of these words. "abort", "segv", "kill": the program ends in this way. "sleep": the call never returns.
+   "nomemory": all allocations fail until another file is opened. */
 #define _GNU_SOURCE
-#undef _FILE_OFFSET_BITS /* open and open64 are two functions here */
+#undef _FILE_OFFSET_BITS /* open and open64 must be two functions here */
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -42,7 +42,7 @@ static bool reads(int flags)
     return (flags & O_ACCMODE) == O_RDONLY;
 }
 
-/* The function of this name that the one here replaces. */
+/* Finds the library's function of this name, which the one here replaces. */
 static void find(const char *name, void *function)
 {
     void *const found = dlsym(RTLD_NEXT, name);
@@ -90,7 +90,7 @@ int open64(const char *path, int flags, ...)
     return open_as("open64", path, flags, mode);
 }
 
-/* What open is where writes are guarded (-D_FORTIFY_SOURCE) and the flags are no constant. */
+/* Called in place of open with -D_FORTIFY_SOURCE, if the flags are not constant. */
 int __open_2(const char *path, int flags)
 {
     return open_as("__open_2", path, flags, 0);

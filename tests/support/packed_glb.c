@@ -1,5 +1,5 @@
-/* packed_glb.c - writes a GLB of one compressed sheet of squares, to see how much memory a few bytes ask for:
-   packed_glb edgebreaker|sequential|meshopt SIDE FILE */
+/* packed_glb.c - writes a GLB with a large compressed sheet of squares, to show how much memory a few bytes
+   can ask for: packed_glb edgebreaker|sequential|meshopt SIDE FILE */
 #include "draco_sample.h"
 #include "sheet.h"
 #include <meshoptimizer.h>
@@ -12,10 +12,10 @@ typedef struct sheet {
     uint32_t *triangles;
 } sheet;
 
-/* A file's bytes behind its JSON. */
+/* The binary data of a file. */
 typedef struct packed {
     unsigned char *bytes;
-    size_t size, first; /* first: of the positions; the rest is indices */
+    size_t size, first; /* first: size of the positions; the rest is indices */
 } packed;
 
 static void make_sheet(uint32_t side, sheet *s)

@@ -1,5 +1,5 @@
-/* picture_shapes.h - meshes and cages for pictures, made by + - * / and square roots only: the same
- * everywhere. */
+/* picture_shapes.h - meshes and cages for pictures, computed with + - * / and square roots only, so that they
+   are the same on every machine. */
 #ifndef FFD_TESTS_PICTURE_SHAPES_H
 #define FFD_TESTS_PICTURE_SHAPES_H
 
@@ -46,8 +46,8 @@ static inline void shape_corner(shape *s, size_t corner, size_t vertex, double u
     s->texcoords[2 * corner + 1] = (float)v;
 }
 
-/* Two triangles for each field of columns x rows vertices, counter-clockwise where columns run to the right
-   and rows upwards. */
+/* Makes two triangles for each cell of a grid of columns x rows vertices. They are counter-clockwise if
+   columns run to the right and rows upwards. */
 static inline void shape_weave(shape *s, size_t columns, size_t rows)
 {
     size_t corner = 0;
@@ -62,7 +62,7 @@ static inline void shape_weave(shape *s, size_t columns, size_t rows)
         }
 }
 
-/* A ball whose radius swells and sinks. waves: how often round it; height: by how much. */
+/* A ball with a wavy radius. waves: number of waves around it; height: their amplitude. */
 static inline shape shape_ball(size_t columns, size_t rows, int waves, double height)
 {
     shape s = shape_of(columns * rows, 2 * (columns - 1) * (rows - 1));
@@ -100,7 +100,7 @@ static inline shape shape_cube(void)
     return s;
 }
 
-/* The cage of a box of so many control points a side, of a size; segments for all neighbours. */
+/* The cage of a box with this many control points a side, with segments between all neighbours. */
 typedef struct shape_cage {
     double *points;
     uint32_t *segments;

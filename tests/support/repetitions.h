@@ -1,5 +1,5 @@
-/* repetitions.h - how often a test repeats itself where memory is checked. A checker takes up to thirty times
-   the time; the same code with other numbers shows it nothing new. */
+/* repetitions.h - reduces repetitions in memory-checked builds, which are up to thirty times as slow.
+   Repeating the same code with other numbers finds no further memory errors. */
 #ifndef FFD_TEST_REPETITIONS_H
 #define FFD_TEST_REPETITIONS_H
 
@@ -29,14 +29,14 @@ static inline bool is_memory_checked(void)
     return is_under_valgrind() || FFD_SANITIZED;
 }
 
-/* Of so many repetitions, those that are worth their time. */
+/* Returns how many of `count` repetitions to make. */
 static inline int repetitions(int count)
 {
     return is_memory_checked() ? (count + 19) / 20 : count;
 }
 
-/* The step through an enumeration: 1, so many under valgrind, which takes longest, and half as many with a
-   sanitizer. */
+/* Returns the step through an enumeration: 1 normally, this many under valgrind, the slowest, and half as
+   many with a sanitizer. */
 static inline int stride(int under_valgrind)
 {
     return is_under_valgrind() ? under_valgrind : FFD_SANITIZED ? (under_valgrind + 1) / 2 : 1;

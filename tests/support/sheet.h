@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* Of side * side points, row by row: 2 * (side - 1) * (side - 1) triangles of 3 corners. */
+/* Fills the triangles of side * side points in rows: 2 * (side - 1) * (side - 1) triangles of 3 corners. */
 static inline void sheet_triangles(uint32_t side, uint32_t *triangles)
 {
     for (uint32_t y = 0; y + 1 < side; y++)

@@ -1,4 +1,4 @@
-/* test_folder.h - a folder for the files of a test. mkdtemp wants _XOPEN_SOURCE 700 before any #include. */
+/* test_folder.h - a temporary folder for a test. mkdtemp needs _XOPEN_SOURCE 700 before any #include. */
 #ifndef FFD_TESTS_TEST_FOLDER_H
 #define FFD_TESTS_TEST_FOLDER_H
 
@@ -23,7 +23,7 @@ static inline int remove_folder(void **state)
     return system(command);
 }
 
-/* Removes files that may be there, and the folder, which fails where a test left anything else in it. */
+/* Removes files, which may be missing, and the folder. Fails if a test has left anything else in it. */
 static inline int remove_files(const char *const *paths, size_t count)
 {
     for (size_t i = 0; i < count; i++)
@@ -31,7 +31,7 @@ static inline int remove_files(const char *const *paths, size_t count)
     return rmdir(folder);
 }
 
-/* A path in the folder, good for the next seven calls. */
+/* Returns a path in the folder, valid during the next seven calls. */
 static inline const char *in_folder(const char *name)
 {
     static char path[8][200];

@@ -1,4 +1,4 @@
-/* view_by_hand.h - scenes as `ffd view` shows them, made by hand: arrays, parts, a cage, what went wrong. */
+/* view_by_hand.h - makes scenes of `ffd view` without files: arrays, parts, a cage, marks. */
 #ifndef FFD_TESTS_VIEW_BY_HAND_H
 #define FFD_TESTS_VIEW_BY_HAND_H
 
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Where a point goes. */
+/* Deforms a point. */
 typedef void (*hand_map)(const double from[3], double to[3]);
 
 static inline void *hand_array(size_t count, size_t size)
@@ -27,7 +27,7 @@ static inline char *hand_text(const char *text)
     return copy;
 }
 
-/* A scene without parts; positions and triangles are the caller's to fill. */
+/* A scene without parts. The caller fills positions and triangles. */
 static inline view_scene hand_scene(size_t vertices, size_t triangles)
 {
     view_scene scene = {.vertex_count = vertices, .vertices_all = vertices, .triangle_count = triangles};
@@ -46,7 +46,7 @@ static inline void hand_part(view_scene *scene, const char *name, size_t first, 
     scene->parts[scene->part_count++] = (view_part){hand_text(name), VIEW_NONE, first, count};
 }
 
-/* A square of side x side cells, from 0 to 1 in x and y, bent a little in z. */
+/* A grid of side x side cells over the unit square, slightly bent in z. */
 static inline view_scene hand_grid(size_t side)
 {
     view_scene scene = hand_scene((side + 1) * (side + 1), 2 * side * side);
@@ -68,7 +68,7 @@ static inline view_scene hand_grid(size_t side)
     return scene;
 }
 
-/* det F of a map, by differences. */
+/* det F of a map, from differences. */
 static inline double hand_det(hand_map map, const double at[3])
 {
     const double step = 1e-5;
@@ -87,7 +87,7 @@ static inline double hand_det(hand_map map, const double at[3])
            d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0]);
 }
 
-/* Moves what is in a box; statuses and det F say so. */
+/* Deforms the vertices inside a box, and sets statuses and det F. */
 static inline void hand_deform(view_scene *scene, const double low[3], const double high[3], hand_map map)
 {
     scene->statuses = hand_array(scene->vertex_count, 1);
@@ -109,8 +109,8 @@ static inline void hand_deform(view_scene *scene, const double low[3], const dou
     }
 }
 
-/* Edges between what moves and what stays are torn, up to most of them; triangles with det F < 0 are flipped.
- */
+/* Marks edges between moving and staying vertices as torn (at most `most`), and triangles with det F < 0 as
+   flipped. */
 static inline void hand_judge(view_scene *scene, size_t most, double least_step)
 {
     scene->tears = hand_array(most, sizeof *scene->tears);
@@ -137,7 +137,7 @@ static inline void hand_judge(view_scene *scene, size_t most, double least_step)
     }
 }
 
-/* A cage over a box, whose points go where the map says. */
+/* Adds a cage over a box, deformed by the map. */
 static inline void hand_cage(view_scene *scene, const char *name, size_t nu, size_t nv, size_t nw,
                              const double low[3], const double high[3], hand_map map)
 {
@@ -157,7 +157,7 @@ static inline void hand_cage(view_scene *scene, const char *name, size_t nu, siz
     scene->cages[scene->cage_count++] = cage;
 }
 
-/* Two halves of a square, the left one flipped in a corner, torn at one edge. */
+/* A square in two parts. The left one has a flipped triangle in a corner and a torn edge. */
 static inline view_scene hand_halves(void)
 {
     view_scene scene = hand_grid(100);

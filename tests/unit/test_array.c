@@ -1,5 +1,5 @@
-/* test_array.c - loops over arrays give the same bits with each instruction set that this processor has, and
-   what the plainest loop gives. */
+/* test_array.c - array loops give the same bits with each instruction set of this processor, equal to a plain
+   loop. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -32,7 +32,7 @@ static const array_kernel *next_kernel(ffd_isa *isa)
     return NULL;
 }
 
-/* Equal to the bit, except that a NaN may be any NaN. */
+/* Equal bits, except that any two NaNs are equal. */
 static bool is_same(double a, double b)
 {
     return isnan(a) ? isnan(b) : memcmp(&a, &b, sizeof a) == 0;
@@ -67,7 +67,7 @@ static void floats_are_read_and_rounded(void **state)
     (void)state;
 }
 
-/* At any address, and nothing behind them is written. */
+/* At any alignment, and without writing past the end. */
 static void whole_numbers_are_read(void **state)
 {
     draw d = {draw_seed()};

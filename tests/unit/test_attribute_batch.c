@@ -1,5 +1,5 @@
-/* test_attribute_batch.c - normals and tangents of a batch become what they become alone, to the bit, with
-   each instruction set that this processor has. */
+/* test_attribute_batch.c - normals and tangents in a batch get the same bits as one at a time, with each
+   instruction set of this processor. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,7 +20,7 @@ typedef struct sample {
     uint8_t outcomes[MOST];
 } sample;
 
-/* Ordinary numbers most often. */
+/* Mostly ordinary numbers. */
 static double number(draw *d, double size)
 {
     static const double odd[] = {0, -0.0, 1e-200, -1e-160, 1e200, -1e160, 1e308, HUGE_VAL, -HUGE_VAL, 5e-324};
@@ -30,7 +30,7 @@ static double number(draw *d, double size)
     return choice < 11 ? odd[choice - 1] : draw_between(d, -size, size);
 }
 
-/* F - I: some are 0, some take the volume away. */
+/* Draws F - I: sometimes 0, sometimes with det F = 0. */
 static void draw_gradient(draw *d, double gradient[9])
 {
     const int choice = draw_int(d, 0, 7);
@@ -50,7 +50,7 @@ static void draw_direction(draw *d, double v[3])
         v[a] = is_zero ? 0 : size * number(d, 1);
 }
 
-/* The same one by one. */
+/* Computes the expected results one at a time. */
 static void expect(const attribute_batch *batch, const double *directions, bool tangents)
 {
     for (size_t i = 0; i < batch->count; i++) {

@@ -35,7 +35,7 @@ static void sizes_that_overflow_are_refused(void **state)
     (void)state;
 }
 
-/* Around the size from which blocks have large pages. */
+/* Around the size from which on blocks use large pages. */
 static const size_t block_sizes[] = {0, 1, ((size_t)4 << 20) - 1, (size_t)4 << 20, ((size_t)6 << 20) + 1};
 #define BLOCK_SIZES (sizeof block_sizes / sizeof *block_sizes)
 
@@ -46,7 +46,7 @@ static void check_bytes(const unsigned char *block, size_t size, int value)
             fail_msg("byte %zu of %zu", at, size);
 }
 
-/* Each has all its bytes, and grows as any other. */
+/* Each block is fully usable, and can be grown like any other. */
 static void blocks_of_any_size_hold_their_bytes_and_grow(void **state)
 {
     for (size_t i = 0; i < BLOCK_SIZES; i++) {
@@ -66,7 +66,7 @@ static void blocks_of_any_size_hold_their_bytes_and_grow(void **state)
     (void)state;
 }
 
-/* Also where the same memory held something else. */
+/* Even if the memory held something else before. */
 static void sparse_blocks_of_any_size_are_zeros(void **state)
 {
     for (size_t i = 0; i < 2 * BLOCK_SIZES; i++) {
@@ -244,7 +244,7 @@ static void messages_name_their_place_in_one_line(void **state)
     ffd_fail_name_file(&error, "g");
     assert_string_equal(error.file, "f");
     assert_int_equal(ffd_fail(NULL, FFD_E_LIMIT, "nobody listens"), FFD_E_LIMIT);
-    /* A text longer than the record is cut, and a message made of the record itself is whole. */
+    /* A text longer than the record is truncated. A message may be made from the record itself. */
     char longest[3000];
     memset(longest, 'y', sizeof longest - 1);
     longest[sizeof longest - 1] = 0;
@@ -330,7 +330,7 @@ static void tiles_visit_each_item_once(void **state)
     static tile_log log;
     for (size_t t = 0; t < 4; t++) {
         memset(&log, 0, sizeof log);
-        /* 1000 threads for 8 tiles: no more than 8 workers. */
+        /* 1000 threads for 8 tiles: at most 8 workers run. */
         ffd_parallel_tiles(sizeof log.seen, t == 3 ? 1300 : 100, threads[t], mark_tile, &log);
         for (size_t i = 0; i < sizeof log.seen; i++)
             assert_int_equal(log.seen[i], 1);
@@ -342,9 +342,9 @@ static void tiles_visit_each_item_once(void **state)
 }
 
 typedef struct ordered_log {
-    unsigned char made[1000]; /* of each tile, by its thread */
-    size_t in_slot[32];       /* 1 + tile, until it is finished */
-    size_t finished;          /* by one thread at a time */
+    unsigned char made[1000]; /* by thread, for each tile */
+    size_t in_slot[32];       /* tile + 1, until it is finished */
+    size_t finished;          /* only one thread at a time writes it */
     size_t out_of_order;
 } ordered_log;
 

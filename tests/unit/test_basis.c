@@ -37,7 +37,7 @@ static void check_values(const double *values, const double *expected, size_t co
             fail_msg("entry %zu is %.17g, expected %.17g", i, values[i], expected[i]);
 }
 
-/* Over one span between clamped ends the functions are Bernstein's: binomial(9, i) / 2^9 in the middle. */
+/* With a single clamped span the functions are Bernstein polynomials: binomial(9, i) / 2^9 in the middle. */
 static void one_clamped_span_is_bernstein(void **state)
 {
     (void)state;
@@ -54,7 +54,7 @@ static void one_clamped_span_is_bernstein(void **state)
     ffd_knots_free(&knots);
 }
 
-/* The uniform cubic: (1, 4, 1, 0)/6 at a knot, (1, 23, 23, 1)/48 between two. */
+/* Values of the uniform cubic: (1, 4, 1, 0)/6 at a knot, (1, 23, 23, 1)/48 midway between two. */
 static void the_uniform_cubic_has_its_known_values(void **state)
 {
     (void)state;
@@ -69,7 +69,7 @@ static void the_uniform_cubic_has_its_known_values(void **state)
     ffd_knots_free(&knots);
 }
 
-/* Degree 1 is not a special case: slopes +1/width and -1/width, the right-hand ones at an inner knot, the
+/* Degree 1 is not a special case: the slopes are +1/width and -1/width, right-hand ones at an inner knot,
    left-hand ones at the end of the domain. */
 static void slopes_at_degree_one_are_one_sided_at_knots(void **state)
 {
@@ -90,7 +90,7 @@ static void slopes_at_degree_one_are_one_sided_at_knots(void **state)
     ffd_knots_free(&knots);
 }
 
-/* Clamped ends are met to the bit, with any knots between. */
+/* Clamped ends are interpolated exactly, whatever the inner knots. */
 static void clamped_ends_are_exact(void **state)
 {
     (void)state;
@@ -108,8 +108,8 @@ static void clamped_ends_are_exact(void **state)
         }
 }
 
-/* First d+1 times, inside d times, last d+1 times, unevenly: at the inner knot the control point between is
- * met. */
+/* Multiplicity d+1 at the start, d inside, d+1 at the end, uneven: the control point at the inner knot is
+   interpolated. */
 static void a_knot_repeated_d_times_meets_its_control_point(void **state)
 {
     (void)state;
@@ -132,8 +132,8 @@ static void a_knot_repeated_d_times_meets_its_control_point(void **state)
     ffd_knots_free(&knots);
 }
 
-/* An end knot d+1 times, but one place too far in: the first control point has no effect, the second is met.
- */
+/* An end knot of multiplicity d+1, but one place too far inside: the first control point has no effect, the
+   second one is interpolated. */
 static void a_shifted_clamp_meets_the_second_control_point(void **state)
 {
     (void)state;
@@ -166,7 +166,7 @@ static void values_alone_are_the_same_bits(void **state)
     }
 }
 
-/* Against the recursion, on every preset kind and degree, at the knots themselves and between. */
+/* Compared with the recursion, for every preset and degree, at knots and between them. */
 static void values_and_slopes_are_those_of_the_recursion(void **state)
 {
     (void)state;
@@ -196,7 +196,7 @@ static void values_and_slopes_are_those_of_the_recursion(void **state)
         }
 }
 
-/* The cubic between clamped ends, first of two spans: knot insertion by hand (Boehm). */
+/* The clamped cubic, first of two spans: knot insertion by hand (Boehm). */
 static void extraction_of_two_spans_is_knot_insertion(void **state)
 {
     (void)state;

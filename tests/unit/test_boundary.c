@@ -30,10 +30,10 @@ static void finish(ffd_lattice *lattice)
     memcpy(lattice->deformed, lattice->rest, 3 * lattice->count * sizeof(double));
     if (lattice->rest_weights)
         memcpy(lattice->deformed_weights, lattice->rest_weights, lattice->count * sizeof(double));
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
 }
 
-/* Control points at the images of their Greville abscissae, shaken by `shake`. */
+/* Sets control points to the images of their Greville abscissae, perturbed by `shake`. */
 static void set_points(ffd_lattice *lattice, point_map map, double shake, draw *d)
 {
     lattice_map(lattice, map);
@@ -68,7 +68,7 @@ static void tiny_map(const double g[3], double out[3])
         out[c] *= 1e-100;
 }
 
-/* A tube round z: v goes round. */
+/* A tube round z, closed along v. */
 static void tube_map(const double g[3], double out[3])
 {
     const double angle = 6.283185307179586 * g[1], radius = 1 + g[0];
@@ -77,7 +77,7 @@ static void tube_map(const double g[3], double out[3])
     out[2] = g[2] + 0.2 * out[0];
 }
 
-/* A tube whose ends meet as well: v and w go round. */
+/* A tube whose ends meet: closed along v and w. */
 static void torus_map(const double g[3], double out[3])
 {
     const double a = 6.283185307179586 * g[1], b = 6.283185307179586 * g[2], radius = 0.3 + 0.7 * g[0];
@@ -86,7 +86,7 @@ static void torus_map(const double g[3], double out[3])
     out[2] = radius * sin(a);
 }
 
-/* The face u = 0 is one point. */
+/* The face u = 0 collapses to a point. */
 static void cone_map(const double g[3], double out[3])
 {
     out[0] = g[0] * (g[1] - 0.3);
@@ -94,7 +94,7 @@ static void cone_map(const double g[3], double out[3])
     out[2] = g[0] * (1 + 0.2 * g[1] * g[1]);
 }
 
-/* The edges u = 0, w = 0 and u = 0, w = 1 are points: the face u = 0 has two poles. */
+/* The edges u = 0, w = 0 and u = 0, w = 1 collapse to points, so the face u = 0 has two poles. */
 static void wedge_map(const double g[3], double out[3])
 {
     out[0] = g[0] + 0.2 * g[1] * g[2];
@@ -115,7 +115,7 @@ static void bounds_of(const ffd_lattice *lattice, double lo[3], double hi[3])
     }
 }
 
-/* Points in the lattice's bounds grown by `factor` of the diagonal on every side. */
+/* Draws a point in the lattice's bounds, grown by `factor` of the diagonal on every side. */
 static void draw_point(draw *d, const ffd_lattice *lattice, double factor, double p[3])
 {
     double lo[3], hi[3];
@@ -131,7 +131,7 @@ static double distance_at(const ffd_lattice *lattice, const double uvw[3], const
     return hypot(hypot(c[0] - p[0], c[1] - p[1]), c[2] - p[2]);
 }
 
-/* Whether u,v,w are in the domain and one of them is its end. */
+/* Whether u,v,w are in the domain, and at least one is at its end. */
 static bool is_on_border(const ffd_lattice *lattice, const double uvw[3])
 {
     bool at_end = false;
@@ -145,7 +145,7 @@ static bool is_on_border(const ffd_lattice *lattice, const double uvw[3])
     return at_end;
 }
 
-/* Goes downhill from uvw along the two directions of a face, by steps that shorten. */
+/* Descends from uvw along the two directions of a face, with decreasing steps. */
 static double descend(const ffd_lattice *lattice, const double p[3], const int along[2],
                       const double start[2], double uvw[3])
 {
@@ -177,7 +177,7 @@ static double descend(const ffd_lattice *lattice, const double p[3], const int a
 
 enum { GRID = 24, STARTS = 4 };
 
-/* The distance of one face: a grid of samples, the best few refined. */
+/* Approximates the distance to one face: a grid of samples, the best few refined. */
 static double face_distance(const ffd_lattice *lattice, int direction, int end, const double p[3])
 {
     const int along[2] = {direction == 0 ? 1 : 0, direction == 2 ? 1 : 2};
@@ -219,7 +219,7 @@ static double brute_distance(const ffd_lattice *lattice, const double p[3])
     return least;
 }
 
-/* What holds of every answer. */
+/* Checks what must hold for every answer. */
 static void check_answer(const ffd_lattice *lattice, const double p[3], const boundary_point *nearest)
 {
     const double offset = fabs(lattice->rest[0]) + fabs(lattice->rest[1]) + fabs(lattice->rest[2]) +
@@ -251,7 +251,7 @@ static void check_lattice(const char *name, const ffd_lattice *lattice, draw *d,
         draw_point(d, lattice, i % 4 ? 0.3 * factor : 2 * factor, p);
         assert_int_equal(ffd_boundary_find(border, p, HUGE_VAL, &nearest, NULL), FFD_OK);
         check_answer(lattice, p, &nearest);
-        if (is_memory_checked()) /* samples take long, and all memory that they use is this test's own */
+        if (is_memory_checked()) /* samples take long, and test only this test's own memory */
             continue;
         const double brute = brute_distance(lattice, p);
         if (!(nearest.distance <= brute + 1e-9 * lattice->diagonal))
@@ -343,8 +343,8 @@ static void feet_on_cylinders_are_as_near_as_samples(void **state)
     }
 }
 
-/* Above the end of a collapsed axis every v is equally near: the least counts. On the axis of a tube a whole
-   circle, or several places of it, are equally near. */
+/* Above the end of a collapsed axis every v is equally near; the least one counts. On the axis of a tube a
+   circle, or several places, are equally near. */
 static void the_least_of_equally_near_feet_is_taken(void **state)
 {
     (void)state;
@@ -382,14 +382,14 @@ static void the_least_of_equally_near_feet_is_taken(void **state)
     assert_true(fabs(nearest.distance - 1) < 1e-14);
     assert_true(nearest.uvw[0] == 0 && nearest.uvw[1] < 1e-9);
     assert_true(fabs(nearest.uvw[2] - 0.375) < 1e-9);
-    for (int i = 0; i < 9; i++) /* v rests on its end, as u does */
+    for (int i = 0; i < 9; i++) /* v rests on its end, like u */
         assert_true(fabs(nearest.uvw_by_p[i] - (i == 8 ? 0.5 : 0)) < 1e-12);
     ffd_boundary_destroy(&border);
     ffd_lattice_destroy(&lattice);
 }
 
-/* A valley z = x^2 seen from its centre of curvature: the second derivative is 0, and how the point moves is
-   not defined. */
+/* A valley z = x^2 seen from its centre of curvature: the second derivative of the distance is 0, so the
+   motion of the point is undefined. */
 static void the_derivative_at_a_centre_of_curvature_is_zero(void **state)
 {
     (void)state;
@@ -409,13 +409,13 @@ static void the_derivative_at_a_centre_of_curvature_is_zero(void **state)
     assert_int_equal(ffd_boundary_find(border, below, HUGE_VAL, &nearest, NULL), FFD_OK);
     check_answer(lattice, below, &nearest);
     assert_true(nearest.uvw[2] == 1 && fabs(nearest.uvw[0] - 0.5) < 1e-12);
-    /* x = (u - 1/2) / 2 follows by 1 / (1 - 0.25 / 0.5). */
+    /* dx/dp is 1 / (1 - 0.25 / 0.5) = 2, and x = (u - 1/2) / 2. */
     assert_true(fabs(nearest.uvw_by_p[0] - 4) < 1e-9 && fabs(nearest.uvw_by_p[4] - 1) < 1e-9);
     ffd_boundary_destroy(&border);
     ffd_lattice_destroy(&lattice);
 }
 
-/* Boxes: the clip, worked out in long double. */
+/* Boxes: compared with a clip in long double. */
 static void check_box(const char *text, const double origin[3], const double side[3], const double axes[9],
                       draw *d)
 {
@@ -491,7 +491,7 @@ static void feet_of_a_box_are_those_of_the_clip(void **state)
         corner, side, turned, &d);
 }
 
-/* The corner of a box of places that is nearest to a turned box stands before a face of it or behind. */
+/* The corner of a box of places that is nearest to a turned box is in front of a face or not. */
 static void a_box_of_places_meets_a_turned_box_or_not(void **state)
 {
     (void)state;
@@ -520,7 +520,7 @@ static void a_box_of_places_meets_a_turned_box_or_not(void **state)
     ffd_lattice_destroy(&lattice);
 }
 
-/* The search agrees with the clip where the box is given by its points. */
+/* The search agrees with the clip if the box is given by its points. */
 static void the_search_agrees_with_the_clip(void **state)
 {
     (void)state;
@@ -550,8 +550,8 @@ static void the_search_agrees_with_the_clip(void **state)
     ffd_lattice_destroy(&box);
 }
 
-/* The first derivative against differences, where the foot moves smoothly: both one-sided differences agree,
-   and the same coordinates rest. */
+/* Compares the first derivative with differences where the nearest point moves smoothly: both one-sided
+   differences agree, and the same coordinates are fixed. */
 static void compare_derivative(const ffd_lattice *lattice, const boundary *border, const double p[3],
                                const boundary_point *nearest, int *compared)
 {
@@ -608,7 +608,7 @@ static void the_derivative_agrees_with_differences(void **state)
     }
 }
 
-/* At the answer no step along a face that the point rests on goes nearer, to rounding. */
+/* No step from the answer along its face gets nearer, up to rounding. */
 static void no_step_along_a_face_goes_nearer(void **state)
 {
     (void)state;
@@ -624,7 +624,7 @@ static void no_step_along_a_face_goes_nearer(void **state)
             assert_int_equal(ffd_boundary_find(border, p, HUGE_VAL, &nearest, NULL), FFD_OK);
             ffd_lattice_evaluate(lattice, FFD_VOLUME_REST, nearest.uvw, c, jacobian);
             for (int a = 0; a < 3; a++) {
-                /* Coordinates that move: their rows are not 0. */
+                /* Coordinates that are free have rows that are not 0. */
                 const double *row = nearest.uvw_by_p + 3 * a;
                 if (row[0] == 0 && row[1] == 0 && row[2] == 0)
                     continue;
@@ -673,7 +673,7 @@ static void feet_are_the_same_bits_in_any_order(void **state)
     }
 }
 
-/* A reach changes nothing but whether the point is found. */
+/* The reach only decides whether the point is found. */
 static void a_reach_decides_only_whether_a_foot_is_found(void **state)
 {
     (void)state;
@@ -706,7 +706,7 @@ static void a_reach_decides_only_whether_a_foot_is_found(void **state)
     }
 }
 
-/* Far points: the answer is the farthest extent in their direction, and no number overflows. */
+/* For far points the answer is the extreme point in their direction, and nothing overflows. */
 static void far_points_find_their_foot_without_overflow(void **state)
 {
     (void)state;
@@ -739,7 +739,7 @@ static void far_points_find_their_foot_without_overflow(void **state)
     }
 }
 
-/* Points of the border itself. */
+/* Points on the border itself. */
 static void points_on_the_border_are_their_own_feet(void **state)
 {
     (void)state;
@@ -788,7 +788,7 @@ static void an_all_closed_lattice_has_no_border(void **state)
     ffd_lattice_destroy(&lattice);
 }
 
-/* Inner knots at which the faces have ridges: the foot rests on a ridge from a whole range of points. */
+/* Inner knots where the faces have ridges: a whole range of points has its nearest point on a ridge. */
 static void a_foot_rests_on_a_ridge(void **state)
 {
     (void)state;
@@ -824,7 +824,7 @@ static void a_foot_rests_on_a_ridge(void **state)
     ffd_lattice_destroy(&lattice);
 }
 
-/* More patches than are kept, each search makes its own; and leaves of several cells. */
+/* More patches than are cached, so each search makes its own; and leaves with several cells. */
 static void lattices_of_many_cells_are_searched_right(void **state)
 {
     (void)state;
@@ -839,7 +839,7 @@ static void lattices_of_many_cells_are_searched_right(void **state)
     }
 }
 
-/* Every allocation may fail. */
+/* Any allocation may fail. */
 static void each_failed_allocation_is_reported(void **state)
 {
     (void)state;
@@ -859,7 +859,7 @@ static void each_failed_allocation_is_reported(void **state)
             assert_int_equal(status, FFD_E_MEMORY);
     }
     assert_true(failing > 3);
-    /* The bar's middle, where nearly equal distances make it halve patches. */
+    /* The centre of the bar, where nearly equal distances cause subdivision. */
     const double p[3] = {0, 0, 0.5};
     status = FFD_E_MEMORY;
     for (failing = 0; status; failing += stride(31)) {

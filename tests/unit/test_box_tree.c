@@ -1,4 +1,4 @@
-/* test_box_tree.c - the tree of boxes against a walk over all of them. */
+/* test_box_tree.c - the tree of boxes compared with a linear search. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,7 +13,7 @@ enum { MOST = 300 };
 
 typedef struct seen {
     uint32_t items[MOST];
-    size_t count, stop; /* after this many, if any */
+    size_t count, stop; /* stop after this many, if not 0 */
 } seen;
 
 static bool bounds_meet(const bounds *box, const bounds *query, const double slack[3])
@@ -31,7 +31,7 @@ static bool note(void *context, uint32_t item)
     return s->count != s->stop;
 }
 
-/* Flat, equal and unbounded ones too. */
+/* Includes flat, equal and unbounded boxes. */
 static void draw_boxes(draw *d, bounds *boxes, size_t count)
 {
     for (size_t i = 0; i < count; i++)
@@ -86,13 +86,13 @@ static void no_box_that_meets_is_missed(void **state)
         all += count;
         ffd_box_tree_free(&tree);
     }
-    /* It tells most of the others apart, too. */
+    /* It also excludes most of the others. */
     assert_true(met > 500); /* 956 to 1204 in 400 seeds */
     if (visited - met > (all - met) / 10)
         fail_msg("%zu of %zu boxes are visited, where %zu meet", visited, all, met);
 }
 
-/* Looks for the box that is nearest to p, as the tree offers them. */
+/* Finds the box nearest to p among those that the tree offers. */
 typedef struct nearest {
     const bounds *boxes;
     const double *p;
@@ -145,7 +145,7 @@ static void the_nearest_box_is_found_and_few_others_are_visited(void **state)
         fail_msg("%zu of %zu boxes are visited", visited, all);
 }
 
-/* The order is that of the tree: the same in every walk, whatever is asked for. */
+/* The tree's order is the same in every walk, whatever is asked for. */
 static void boxes_come_in_the_order_of_the_tree(void **state)
 {
     (void)state;
@@ -173,7 +173,7 @@ static void boxes_come_in_the_order_of_the_tree(void **state)
     ffd_box_tree_free(&tree);
 }
 
-/* However many boxes there are, each is in the tree once. */
+/* Each box is in the tree once, for any number of boxes. */
 static void each_box_is_in_the_tree_once(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* test_buffer_count.c - counts the buffers of a glTF that are files, without a tree of its JSON. */
+/* test_buffer_count.c - counts the external buffers of a glTF without parsing its JSON into a tree. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -24,7 +24,7 @@ static void buffers_with_a_uri_count(void **state)
     (void)state;
 }
 
-/* Words that are values, keys of other objects, quotes within strings. */
+/* Words that are values, keys of other objects, or quotes inside strings. */
 static void what_looks_like_one_does_not(void **state)
 {
     assert_int_equal(count("{\"x\":\"buffers\",\"images\":[{\"uri\":\"p\"}]}"), 0);
@@ -37,7 +37,7 @@ static void what_looks_like_one_does_not(void **state)
     (void)state;
 }
 
-/* Any text ends, and is not left. */
+/* Any text ends, and is not read past its end. */
 static void texts_that_are_cut_off(void **state)
 {
     static const char whole[] =

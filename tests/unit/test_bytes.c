@@ -1,5 +1,5 @@
-/* Which of many bytes are of a kind, and the numbers that digits make: as one after the other says, at any
- * place, by any way. */
+/* Classifying many bytes at a time, and parsing digits: the same results as byte by byte, at any alignment,
+   in every implementation. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -29,7 +29,7 @@ static uint32_t not_digits_one_by_one(const char *at)
     return found;
 }
 
-/* Any bytes, or those around the ones that are looked for. */
+/* Draws any bytes, or those near the ones that are searched for. */
 static void draw_bytes(draw *d, char *bytes, size_t count)
 {
     static const char near[] = "\0\x1f !\"\x7f\x80\xa0\xff/0123456789:\xb0\xb9";
@@ -63,7 +63,7 @@ static void number_is_that_of_its_digits(void **state)
     draw d = {draw_seed()};
     for (int round = 0; round < ROUNDS; round++) {
         const int count = draw_int(&d, 0, 16), before = draw_int(&d, 0, count);
-        char *const text = malloc(17); /* nothing behind it is to be read */
+        char *const text = malloc(17); /* so that reading past the end is detected */
         uint64_t expected = 0;
         assert_non_null(text);
         draw_bytes(&d, text, 17);

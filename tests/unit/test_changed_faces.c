@@ -1,5 +1,5 @@
-/* A mesh whose file is written to while it is read: the faces are read a second time, and others are there.
- */
+/* A mesh file that is overwritten while it is in use: the faces are read twice, and the second time they
+   differ. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,7 +15,7 @@
 #define SIZE 200
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
-/* Two texts of one length: as the document is opened, and as its faces are read. */
+/* Two texts of equal length: when the document is opened, and when its faces are read. */
 typedef struct changed_text {
     ffd_format format;
     const char *before, *after;
@@ -34,8 +34,7 @@ static const changed_text texts[] = {
     {FFD_FORMAT_OFF, OFF_START "3 0 1 2\n3 1 2 3\n", OFF_START "3 0 1 2\n3 1 2 7\n"},
 };
 
-/* Writes into the bytes that an open document is read from, as a mapping shows what others write to a file.
- */
+/* Overwrites the bytes of an open document, as another program may overwrite a mapped file. */
 static void overwrite(char *bytes, const char *text)
 {
     assert_true(strlen(text) <= strlen(bytes));

@@ -1,5 +1,4 @@
-/* Numbers are read and written as the C++ library's <charconv> does, bit for bit and character for character.
- */
+/* Numbers are parsed and printed exactly like the C++ library's <charconv>. */
 #include "base/text/number.h"
 #include <charconv>
 #include <cmath>
@@ -39,7 +38,7 @@ size_t write(float value, char *text)
     return ffd_number_format_float(value, text);
 }
 
-/* Of what is out of range the C++ library does not say on which side. */
+/* For numbers out of range the C++ library does not tell overflow from underflow. */
 template <typename T> void check_read(const std::string &text)
 {
     T expected = 0, value = -7;
@@ -130,7 +129,7 @@ void texts_of_all_lengths(void **)
     }
 }
 
-/* Exactly between two numbers, and a little more than that. */
+/* Exactly halfway between two numbers, and slightly above. */
 void halves(void **)
 {
     draw d = {draw_seed()};
@@ -142,7 +141,7 @@ void halves(void **)
         snprintf(text, sizeof text, "%.*e", draw_int(&d, 0, 2) ? 150 : draw_int(&d, 1, 40), half);
         check_read<float>(text);
         check_read<float>(std::to_string(draw_bits(&d) | 1) + ".5");
-        /* So many digits that a double of them can lie halfway between floats where the text does not. */
+        /* So many digits that the text, rounded to double first, could be a tie between two floats. */
         const float near_one = static_cast<float>(draw_between(&d, 1, 8));
         snprintf(text, sizeof text, "%.15f",
                  (static_cast<double>(near_one) + static_cast<double>(std::nextafter(near_one, HUGE_VALF))) /

@@ -1,4 +1,4 @@
-/* test_cleanup.c - a signal that ends a program in the middle of its writing leaves no temporary file. */
+/* test_cleanup.c - a signal that ends a program while it writes leaves no temporary file. */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -20,7 +20,7 @@
 static const int signals[] = {SIGHUP, SIGINT, SIGPIPE, SIGQUIT, SIGTERM};
 enum { SIGNALS = sizeof signals / sizeof *signals };
 
-/* The number of names in the folder, but for those of complete files. */
+/* Returns the number of names in the folder other than those of complete files. */
 static int leftovers(void)
 {
     int count = 0;
@@ -42,7 +42,8 @@ static void write_file(const char *path, bool commit)
         ffd_output_destroy(&output);
 }
 
-/* How a child ends that does work and then sends itself a signal: its number, or 100 and its exit code. */
+/* Runs work in a child that then sends itself a signal. Returns the signal that ended it, or 100 plus its
+   exit code. */
 static int end_of(void (*work)(void), int number)
 {
     const pid_t child = fork();
@@ -58,7 +59,7 @@ static int end_of(void (*work)(void), int number)
     return WIFSIGNALED(status) ? WTERMSIG(status) : 100 + WEXITSTATUS(status);
 }
 
-static file_output *unfinished; /* of a child that ends */
+static file_output *unfinished; /* of a child that is killed */
 
 static void begin_two_files(void)
 {
@@ -96,7 +97,7 @@ static void a_signal_leaves_no_temporary_file(void **state)
     (void)state;
 }
 
-/* A worker of a batch, which may crash and which its batch may stop. */
+/* A worker of a batch, which may crash or be stopped by its batch. */
 static void a_crashed_worker_leaves_no_temporary_file(void **state)
 {
     static const int crashes[] = {SIGABRT, SIGALRM, SIGBUS, SIGFPE, SIGILL, SIGSEGV};
@@ -116,7 +117,7 @@ static void ignore_hangup(void)
 
 static void do_nothing(void) {}
 
-/* What a program ignores it goes on to ignore, and without a call nothing is changed. */
+/* A signal that was ignored stays ignored, and without a call nothing is changed. */
 static void ignored_signals_stay_ignored(void **state)
 {
     assert_int_equal(end_of(ignore_hangup, SIGHUP), 108);
@@ -124,7 +125,7 @@ static void ignored_signals_stay_ignored(void **state)
     (void)state;
 }
 
-/* A forked child leaves the files of its parent alone. */
+/* A forked child does not remove its parent's files. */
 static void a_child_leaves_the_files_of_its_parent(void **state)
 {
     file_output *output;
@@ -156,7 +157,7 @@ static void run_writers(void)
     }
 }
 
-/* Whatever the threads of a program are at: every name that is there is a complete file. */
+/* Whatever its threads are doing: every name in the folder is that of a complete file. */
 static void threads_at_work_leave_only_complete_files(void **state)
 {
     for (int n = 0; n < 60; n++) {
@@ -217,7 +218,7 @@ static void wait_for(const char *name)
         nanosleep(&(struct timespec){.tv_nsec = 20000}, NULL);
 }
 
-/* A signal between the renames of a set waits until all its files are there. */
+/* A signal during the renames of a set is deferred until all its files are in place. */
 static void a_signal_never_tears_a_set(void **state)
 {
     enum { FILES = 500 };

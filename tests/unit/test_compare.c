@@ -1,5 +1,5 @@
-/* The comparison of two files as the library offers it: tolerances, what is refused, counts, the JSON. What
-   the formats compare is in their own tests and in tests/cli/test_compare.py. */
+/* The comparison of two files in the library: tolerances, refusals, counts, the JSON. What the formats
+   compare is in their own tests and in tests/cli/test_compare.py. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -31,7 +31,7 @@ static ffd_comparison run(const ffd_compare_desc *desc)
 {
     ffd_comparison comparison = {.struct_size = sizeof comparison};
     ffd_error error = {0};
-    memset(&comparison, 0xff, sizeof comparison); /* all of it is to be filled in */
+    memset(&comparison, 0xff, sizeof comparison); /* so that every member must be filled in */
     comparison.struct_size = sizeof comparison;
     if (ffd_compare_run(desc, &comparison, &error))
         fail_msg("%s", error.message);
@@ -73,7 +73,7 @@ static void tolerances_decide_what_counts_as_different(void **state)
     }
 }
 
-/* The source's own wish not to see normals does not hide them. */
+/* A source that asks for positions only does not hide normals from the comparison. */
 static void only_positions_does_not_hide_normals(void **state)
 {
     (void)state;
@@ -117,7 +117,7 @@ static void say_nothing(const void *context, char *text, size_t capacity)
     snprintf(text, capacity, "%s", (const char *)context);
 }
 
-/* The worst is that of the first kind that differs, and of its amounts the first of the largest. */
+/* The worst difference is of the first kind that differs; of equal ones the first counts. */
 static void the_worst_is_the_first_largest_of_the_first_kind(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* test_contraction.c - the contraction bound of a box holds wherever it is looked at, halves are the box's
-   own parts, and each instruction set that this processor has finds the same bits. */
+/* test_contraction.c - the contraction bound of a box holds at samples, halves are parts of the box, and each
+   instruction set of this processor gives the same bits. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -23,7 +23,7 @@ static const contraction_kernel *const kernels[] = {
 #endif
 };
 
-/* A bent brick: t itself, times its weights, with each number somewhat off. */
+/* A bent brick: the identity map, times weights, with every number perturbed. */
 static void random_box(draw *d, bezier_box *box, double bend)
 {
     double *c = box->coefficients;
@@ -44,7 +44,7 @@ static void random_box(draw *d, bezier_box *box, double bend)
             }
 }
 
-/* All degree+1 Bernstein polynomials and their derivatives. */
+/* Evaluates all degree+1 Bernstein polynomials and their derivatives. */
 static void bernstein(int degree, double t, double *value, double *slope)
 {
     for (int i = 0; i <= degree; i++) {
@@ -57,7 +57,7 @@ static void bernstein(int degree, double t, double *value, double *slope)
     }
 }
 
-/* A - p W (3 numbers) and its derivatives by t, row by row (9). */
+/* Evaluates A - p W (3 numbers) and its derivatives by t, row-major (9). */
 static void evaluate(const bezier_box *box, const double t[3], const double p[3], double f[3],
                      double jacobian[9])
 {
@@ -79,7 +79,7 @@ static void evaluate(const bezier_box *box, const double t[3], const double p[3]
                 }
 }
 
-/* At some places of the box, its corners and its middle among them. */
+/* Samples the box, including its corners and its middle. */
 static void check_bound(draw *d, const bezier_box *box, const double middle[3], const double reach[3],
                         const contraction_bound *found)
 {
@@ -151,7 +151,7 @@ static void what_has_no_bound_gets_none(void **state)
     double numbers[4 * 8], columns[3 * 4 * 8];
     bezier_box box = {.order = {2, 2, 2}, .hi = {1, 1, 1}, .coefficients = numbers};
     contraction_bound found;
-    /* So thin that the inverse leaves the range of numbers on its way. */
+    /* So thin that computing the inverse overflows on the way. */
     for (int n = 0; n < 8; n++) {
         const double i = n & 1, j = n >> 1 & 1, k = n >> 2;
         const double point[4] = {i * 2.42e-308 + (1 - j) * 1.9, (1 - j) * 1.9, k, 1};
@@ -174,7 +174,7 @@ static void what_has_no_bound_gets_none(void **state)
     (void)state;
 }
 
-/* The lower half has at t what the box has at t/2, the upper one what it has at (1+t)/2. */
+/* The lower half at t is the box at t/2, the upper half is the box at (1+t)/2. */
 static void halves_are_parts(void **state)
 {
     static double numbers[MOST], low_numbers[MOST], high_numbers[MOST];

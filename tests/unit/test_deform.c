@@ -1,4 +1,4 @@
-/* test_deform.c - displacement, normals, tangents on lattices whose answers are known. */
+/* test_deform.c - displacements, normals and tangents of lattices with known answers. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,7 +11,7 @@
 #include <ffd/deform.h>
 #include <float.h>
 
-/* A unit cube, cubic, clamped, 6 points a side, undeformed. */
+/* A cubic clamped unit cube, 6 points a side, undeformed. */
 static ffd_lattice *cube(void)
 {
     knot_vector knots[3];
@@ -27,12 +27,12 @@ static ffd_lattice *cube(void)
     return lattice;
 }
 
-/* Moves every control point by the matrix (row by row). */
+/* Moves every control point by the matrix (row-major). */
 static void transform(ffd_lattice *lattice, const double m[9])
 {
     for (size_t n = 0; n < lattice->count; n++)
         mat_apply(m, lattice->rest + 3 * n, lattice->deformed + 3 * n);
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
 }
 
 static void check_close(const double *a, const double *b, int count, double allowed)
@@ -45,7 +45,7 @@ static void check_close(const double *a, const double *b, int count, double allo
 static void an_undeformed_lattice_moves_nothing(void **state)
 {
     ffd_lattice *lattice = cube();
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
     const double uvw[3] = {0.3, 0.6, 1};
     double delta[3] = {1, 1, 1}, gradient[9] = {1};
     assert_int_equal(ffd_displacement(lattice, uvw, delta, gradient), 0);
@@ -62,7 +62,7 @@ static void a_translation_moves_every_point_alike(void **state)
     const double by[3] = {0.5, -0.25, 4};
     for (size_t i = 0; i < 3 * lattice->count; i++)
         lattice->deformed[i] += by[i % 3];
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
     const double zero[9] = {0};
     for (int i = 0; i < 100; i++) {
         const double uvw[3] = {draw_unit(&d), draw_unit(&d), draw_unit(&d)};
@@ -121,8 +121,8 @@ static void linear_maps_carry_points_normals_and_tangents(void **state)
 static void a_control_point_acts_in_its_spans_only(void **state)
 {
     ffd_lattice *lattice = cube();
-    lattice->deformed[0] -= 0.1; /* control point 0,0,0 acts in the first span of each direction only */
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    lattice->deformed[0] -= 0.1; /* control point 0,0,0 acts only in the first span of each direction */
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
     const double inside[3] = {0.1, 0.2, 0.3}, outside[3] = {0.1, 0.2, 0.34};
     double delta[3], gradient[9];
     assert_int_equal(ffd_displacement(lattice, inside, delta, gradient), 1);
@@ -138,7 +138,7 @@ static void a_moved_weight_moves_points_near_it_only(void **state)
     ffd_lattice *lattice = cube();
     lattice_add_weights(lattice);
     lattice->deformed_weights[lattice_index(lattice, 1, 1, 1)] = 3;
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
     const double uvw[3] = {0.4, 0.5, 0.45}, far[3] = {0.99, 0.99, 0.99};
     double delta[3], gradient[9], rest[3], deformed[3];
     assert_int_equal(ffd_displacement(lattice, uvw, delta, gradient), 1);
@@ -154,8 +154,8 @@ static void a_moved_weight_moves_points_near_it_only(void **state)
 
 static void a_collapsed_direction_keeps_its_bits(void **state)
 {
-    /* Everything flattened into z = 0: the normal of a vertical face has no direction, that of a level one
-     * has. */
+    /* Everything is flattened to z = 0: the normal of a vertical face loses its direction, that of a
+       horizontal one does not. */
     const double gradient[9] = {0, 0, 0, 0, 0, 0, 0, 0, -1}, zero[9] = {0};
     const double level[3] = {0, 0, 1}, upright[3] = {1, 0, 0};
     double result[3];
@@ -169,7 +169,7 @@ static void a_collapsed_direction_keeps_its_bits(void **state)
     assert_int_equal(collapsed, 1);
     assert_int_equal(ffd_deform_tangent(gradient, upright, NULL, result, NULL), 1);
     assert_memory_equal(result, upright, sizeof result);
-    /* Where nothing moves the bits stay, even of vectors that are not unit vectors. */
+    /* Without motion the bits stay, even of vectors that are not unit vectors. */
     const double odd[3] = {3, -0.0, 1e-300};
     assert_int_equal(ffd_deform_normal(zero, odd, result, &collapsed), 0);
     assert_memory_equal(result, odd, sizeof result);
@@ -177,7 +177,7 @@ static void a_collapsed_direction_keeps_its_bits(void **state)
     (void)state;
 }
 
-/* Everything comes to a line: all that is left of a normal, or of a tangent across it, is rounding. */
+/* Everything collapses to a line: what is left of a normal, or of a tangent across the line, is rounding. */
 static void a_collapse_to_rounding_counts_as_collapsed(void **state)
 {
     draw d = {draw_seed()};
@@ -201,7 +201,7 @@ static void a_collapse_to_rounding_counts_as_collapsed(void **state)
     (void)state;
 }
 
-/* What had no direction before has not lost one. */
+/* A vector without direction before does not count as collapsed. */
 static void what_had_no_direction_has_not_collapsed(void **state)
 {
     const double gradient[9] = {0, 0, 0, 0, 1, 0, 0, 0, -0.5};

@@ -1,5 +1,5 @@
-/* test_displacement.c - batches of points give every point what it gets alone, to the bit, with each
-   instruction set that this processor has. */
+/* test_displacement.c - points in a batch get the same bits as one at a time, with each instruction set of
+   this processor. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,7 +19,7 @@
 static const char *const names[] = {"auto", "scalar", "sse2", "avx2", "avx512"};
 
 /* Degrees 1 to 9 (mostly 3), all kinds of knots; some control points stay. In some lattices layers along w
-   move alike: by numbers that need no rounding. */
+   move alike, by numbers without rounding. */
 static ffd_lattice *random_lattice(draw *d, int number)
 {
     static const knot_kind kinds[] = {KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_UNIFORM, KNOTS_CLOSED};
@@ -46,7 +46,7 @@ static ffd_lattice *random_lattice(draw *d, int number)
         }
     }
     if (number % 7 == 0) {
-        /* With weights points go one by one. */
+        /* With weights, points are evaluated one by one. */
         lattice->rest_weights = malloc(lattice->count * sizeof(double));
         lattice->deformed_weights = malloc(lattice->count * sizeof(double));
         assert_true(lattice->rest_weights && lattice->deformed_weights);
@@ -54,16 +54,16 @@ static ffd_lattice *random_lattice(draw *d, int number)
             lattice->rest_weights[n] = lattice->deformed_weights[n] = draw_between(d, 0.5, 2);
     }
     if (number % 3 == 0) {
-        /* As if it were a box: d uvw / d p is taken from here. */
+        /* Treated as a box, from whose frame d uvw / d p is taken. */
         lattice->form = REST_BOX_AFFINE;
         for (int i = 0; i < 9; i++)
             lattice->frame[i] = draw_between(d, -1, 1) + (i % 4 == 0 ? 4 : 0);
     }
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
     return lattice;
 }
 
-/* Some parameters are knots, some the domain's ends, some near the end of a span. */
+/* Some parameters are knots, ends of the domain, or near the end of a span. */
 static void random_uvw(draw *d, const ffd_lattice *lattice, double uvw[3])
 {
     for (int a = 0; a < 3; a++) {
@@ -98,7 +98,7 @@ static void check_point(const ffd_lattice *lattice, const displacement_batch *ba
                  batch->count, batch->delta[3 * n], delta[0]);
 }
 
-/* Whole groups of every width and what is left over, at addresses of every kind. */
+/* Whole vectors of every width plus a remainder, at every alignment. */
 static void check_batch(draw *d, const ffd_lattice *lattice, sample *s)
 {
     static const size_t counts[] = {0, 1, 2, 3, 5, 7, 8, 9, 17, 64, 333, DISPLACEMENT_BATCH};
@@ -112,7 +112,7 @@ static void check_batch(draw *d, const ffd_lattice *lattice, sample *s)
                                 .moves = s->moves};
     for (size_t n = 0; n < DISPLACEMENT_BATCH; n++) {
         random_uvw(d, lattice, s->uvw + odd + n * batch.stride);
-        /* Neighbours are most often in one cell. */
+        /* Neighbours are mostly in the same cell. */
         if (n > 0 && draw_int(d, 0, 3))
             memcpy(s->uvw + odd + n * batch.stride, s->uvw + odd + (n - 1) * batch.stride,
                    2 * sizeof(double));
@@ -124,7 +124,7 @@ static void check_batch(draw *d, const ffd_lattice *lattice, sample *s)
             continue;
         memset(s->delta, 0xff, sizeof s->delta);
         memset(s->gradient, 0xff, sizeof s->gradient);
-        /* Cells from the batch before, or none. */
+        /* With cells kept from the last batch, or without. */
         if (draw_int(d, 0, 1))
             ffd_displacement_scratch_clear(&s->scratch);
         ffd_displacements(lattice, isa, &batch, &s->scratch);
@@ -150,7 +150,7 @@ static void batches_give_what_points_get_alone(void **state)
     (void)state;
 }
 
-/* At the ends of a clamped direction the corner control points are met to the bit. */
+/* At the ends of a clamped direction the corner control points are interpolated exactly. */
 static void corners_are_exact(void **state)
 {
     draw d = {draw_seed()};
@@ -167,7 +167,7 @@ static void corners_are_exact(void **state)
             lattice->rest[i] = draw_between(&d, -1, 1);
             lattice->deformed[i] = draw_between(&d, -1, 1);
         }
-        assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+        assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
         for (int corner = 0; corner < 8; corner++) {
             size_t n = 0;
             double uvw[3], delta[3];
@@ -183,8 +183,8 @@ static void corners_are_exact(void **state)
     (void)state;
 }
 
-/* Point i of a row, moved alone by distance in a lattice of one cell: where 1 - u is rest, its function's
-   value and slope are met to a few units in the last place, however small they are. */
+/* Moves a single point, number i of a row, in a lattice of one cell. Where 1 - u is `rest`, value and slope
+   of its function have an error of a few ulps, however small they are. */
 static void check_function(int degree, int i, double rest, double distance)
 {
     const double u = 1 - rest;
@@ -198,7 +198,7 @@ static void check_function(int degree, int i, double rest, double distance)
                          FFD_OK);
     ffd_lattice *lattice = lattice_of_knots(knots);
     lattice->deformed[3 * lattice_index(lattice, (size_t)i, 0, 1)] = distance;
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
     const double uvw[3] = {u, 0.5, 0.25};
     const long double share = 0.5L * 0.25L * binomial * (long double)distance,
                       value = share * powl(u, i) * powl(rest, degree - i),

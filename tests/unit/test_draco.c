@@ -1,5 +1,5 @@
-/* test_draco.c - decoding of Draco data: both methods, types, what the file says against what the data says,
-   and data that is broken. */
+/* test_draco.c - decoding of Draco data: both methods, all types, contradictions between file and data, and
+   corrupt data. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -109,7 +109,7 @@ static void sequential_data_comes_back_as_it_was(void **state)
     ffd_draco_free(mesh);
 }
 
-/* The original point at the position of a decoded one. */
+/* Finds the original point at a decoded position. */
 static uint32_t find_point(const grid *g, const float position[3])
 {
     for (uint32_t i = 0; i < POINTS; i++) {
@@ -123,7 +123,7 @@ static uint32_t find_point(const grid *g, const float position[3])
     return 0;
 }
 
-/* Edgebreaker changes the order of points and triangles, and quantizes. */
+/* Edgebreaker reorders points and triangles, and quantizes. */
 static void edgebreaker_data_comes_back_within_its_bits(void **state)
 {
     (void)state;
@@ -139,7 +139,7 @@ static void edgebreaker_data_comes_back_within_its_bits(void **state)
     read_attribute(mesh, SAMPLE_NORMAL, GLTF_FLOAT, 3, 12, normals);
     read_attribute(mesh, SAMPLE_TEXCOORD, GLTF_FLOAT, 2, 8, texcoords);
     read_attribute(mesh, SAMPLE_JOINTS, GLTF_U16, 4, 8, joints);
-    /* The greatest side is 1; what was is within half a step of what is. */
+    /* The longest side is 1; the error is at most half a step. */
     const double step = ffd_draco_step(mesh, SAMPLE_POSITION);
     assert_true(step >= 1 / 4095.0 && step < 1 / 4095.0 + 1e-6);
     assert_true(ffd_draco_step(mesh, SAMPLE_JOINTS) == 0 && ffd_draco_step(mesh, 1000) == 0);
@@ -161,12 +161,12 @@ static void edgebreaker_data_comes_back_within_its_bits(void **state)
                 area += points[corners[3 * t]] == g.triangles[3 * i + turn] &&
                         points[corners[3 * t + 1]] == g.triangles[3 * i + (turn + 1) % 3] &&
                         points[corners[3 * t + 2]] == g.triangles[3 * i + (turn + 2) % 3];
-    assert_int_equal(area, TRIANGLES); /* each triangle once, none turned over */
+    assert_int_equal(area, TRIANGLES); /* each triangle once, none flipped */
     ffd_draco_free(mesh);
 }
 
-/* One rounding after the product and one after the sum: fused, they would be one, and the last bit another.
- */
+/* Rounded after the product and after the sum. A fused operation would round once and give another last
+   bit. */
 static void floats_are_rounded_after_each_operation(void **state)
 {
     (void)state;
@@ -189,7 +189,7 @@ static void floats_are_rounded_after_each_operation(void **state)
     assert_true(fused > 100);
 }
 
-/* The vectors of the library's own header, which this program compiles without fused operations. */
+/* Compared with the library's own header, which this program compiles without fused operations. */
 static void normals_are_unfolded_as_the_library_does(void **state)
 {
     (void)state;
@@ -290,7 +290,7 @@ static void other_data_is_refused(void **state)
     free(bytes);
 }
 
-/* A header that asks for 2^31 triangles, and the file agrees. */
+/* A header that asks for 2^31 triangles, in agreement with the file. */
 static void memory_is_asked_for_in_proportion(void **state)
 {
     (void)state;
@@ -304,7 +304,7 @@ static void memory_is_asked_for_in_proportion(void **state)
                   "needs more than the 100 MB of memory allowed (--memory raises this)");
 }
 
-/* A tree whose nodes each promise as many children as there are bytes. */
+/* A tree in which each node promises as many children as there are bytes. */
 static void metadata_is_skipped(void **state)
 {
     (void)state;
@@ -335,8 +335,8 @@ static ffd_status try_number(unsigned char *bytes, size_t size, size_t at, uint3
     return status;
 }
 
-/* Somewhere in the data is the number of orientations that texture coordinates are predicted with: as many as
-   there are corners are accepted, one more is not. */
+/* The data contains the number of orientations for predicting texture coordinates. As many as there are
+   corners are accepted, one more is not. */
 static void orientations_are_limited(void **state)
 {
     (void)state;
@@ -358,7 +358,7 @@ static void orientations_are_limited(void **state)
     free(bytes);
 }
 
-/* Cut and changed data ends in success or a refusal; sanitizers watch the memory. */
+/* Truncated and changed data ends in success or a refusal; sanitizers check memory. */
 static void broken_data_does_no_harm(void **state)
 {
     (void)state;

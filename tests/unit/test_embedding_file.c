@@ -1,5 +1,5 @@
-/* test_embedding_file.c - hashes, and the file of `ffd embed`: what it holds, and that no other is taken for
-   it. */
+/* test_embedding_file.c - hashes, and the file of `ffd embed`: its content, and that no other file is
+   accepted. */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include "lattice/rest_hash.h"
 #include <setjmp.h>
@@ -18,7 +18,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-/* Of the format (embedding_file.h), written down again. */
+/* Constants of the format (embedding_file.h), written independently. */
 #define HEADER 128
 #define FOOTER 72
 
@@ -32,7 +32,7 @@ static void assert_hash(hash128 hash, const char *expected)
     assert_string_equal(text, expected);
 }
 
-/* XXH3, 128 bits, seed 0; the values are what libxxhash itself computes. */
+/* XXH3, 128 bits, seed 0. The expected values are libxxhash's own. */
 static void the_hash_is_xxh3(void **state)
 {
     (void)state;
@@ -79,7 +79,7 @@ static void the_hash_of_doubles_is_that_of_their_bytes(void **state)
     assert_false(ffd_hash_equal(&a, &b));
 }
 
-/* Positions: a document of the test's own. */
+/* Positions, in a document of the test's own */
 
 #define PARTS 3
 #define MOST 2600
@@ -161,7 +161,7 @@ static void other_positions_have_other_hashes(void **state)
         *x = kept;
     }
     assert_positions(mesh, &before, true);
-    /* Another order: within a tile, and across tiles. */
+    /* Another order, within a tile and across tiles. */
     swap_vertices(mesh, 0, 3, 4);
     assert_positions(mesh, &before, false);
     swap_vertices(mesh, 0, 3, 4);
@@ -171,7 +171,7 @@ static void other_positions_have_other_hashes(void **state)
     mesh->parts[0].vertex_count--;
     assert_positions(mesh, &before, false);
     mesh->parts[0].vertex_count++;
-    mesh->parts[1].offset[2] = 4; /* another place in the scene */
+    mesh->parts[1].offset[2] = 4; /* another position in the scene */
     assert_positions(mesh, &before, false);
     mesh->parts[1].offset[2] = 5;
     assert_positions(mesh, &before, true);
@@ -279,7 +279,7 @@ static void other_rest_lattices_have_other_hashes(void **state)
         }
 }
 
-/* A closed direction is held as the equal open one: kind and knots tell them apart. */
+/* A closed direction is stored as the equivalent open one: kind and knots tell them apart. */
 static void closed_lattices_hash_unlike_open_ones(void **state)
 {
     (void)state;
@@ -299,7 +299,7 @@ static void closed_lattices_hash_unlike_open_ones(void **state)
     }
 }
 
-/* A ring whose ends meet at rest: an embedding is of the rest lattice alone. */
+/* A ring whose ends meet at rest: an embedding depends on the rest lattice alone. */
 static void a_seam_that_a_move_opens_keeps_the_hash(void **state)
 {
     (void)state;
@@ -344,13 +344,13 @@ static ffd_status try_write(const char *name, const double *uvw, const uint8_t *
     return status;
 }
 
-/* The bytes of a file that was written; the caller's. */
+/* Returns the bytes of a written file, freed by the caller. */
 static unsigned char *written(const double *uvw, const uint8_t *statuses, size_t count, size_t *size)
 {
     file_input input;
     assert_int_equal(try_write("w.npy", uvw, statuses, count), FFD_OK);
     assert_int_equal(ffd_file_load(in_folder("w.npy"), &input, NULL), FFD_OK);
-    unsigned char *bytes = malloc(input.size + 1); /* with room for a byte more */
+    unsigned char *bytes = malloc(input.size + 1); /* with capacity for one more byte */
     assert_non_null(bytes);
     memcpy(bytes, input.data, input.size);
     *size = input.size;
@@ -366,7 +366,8 @@ static ffd_status try_open(const unsigned char *bytes, size_t size, size_t count
     return ffd_embedding_open(in_folder("r.npy"), count, &positions, &rest, file, error);
 }
 
-/* That bytes are refused: exit 4, the file's name, and these words; nothing stays open. */
+/* Checks that bytes are refused as invalid, with the file's name and these words, and that nothing stays
+   open. */
 static void assert_refused(const unsigned char *bytes, size_t size, size_t count, const char *words)
 {
     embedding_file file;
@@ -381,7 +382,7 @@ static void assert_refused(const unsigned char *bytes, size_t size, size_t count
     assert_int_equal(file.input.size, 0);
 }
 
-/* After a change on purpose: the content's hash is that of the new content. */
+/* Updates the hash of the content after a deliberate change. */
 static void seal(unsigned char *bytes, size_t size)
 {
     const hash128 content = ffd_hash(bytes, size - FOOTER);
@@ -430,7 +431,7 @@ static void what_is_written_is_read_back(void **state)
         assert_int_equal((uintptr_t)file.uvw % sizeof(double), 0);
         ffd_embedding_close(&file);
         assert_null(file.uvw);
-        ffd_embedding_close(&file); /* of what is closed */
+        ffd_embedding_close(&file); /* closing twice is allowed */
         free(uvw);
         free(statuses);
     }
@@ -460,7 +461,7 @@ static void every_other_length_is_refused(void **state)
     unsigned char *bytes = written(three, three_statuses, 3, &size);
     for (size_t length = 0; length < size; length++) {
         assert_refused(bytes, length, 3, "is not an embedding written by ffd embed");
-        /* Without its beginning, or with a hole: the footer is there. */
+        /* Truncated at the start, or with a gap: the footer is intact. */
         assert_refused(bytes + size - length, length, 3,
                        length < FOOTER ? "is not an embedding" : "is damaged");
     }
@@ -504,7 +505,7 @@ static void other_versions_are_refused(void **state)
     free(bytes);
 }
 
-/* Files that somebody made: the hashes hold, the content does not. */
+/* Forged files: valid hashes, but a wrong content. */
 
 static void headers_of_other_arrays_are_refused(void **state)
 {
@@ -529,7 +530,7 @@ static void headers_of_other_arrays_are_refused(void **state)
     free(bytes);
 }
 
-/* A count and a header that agree, but not with the file's size. */
+/* A count that agrees with the header, but not with the file's size. */
 static void counts_beyond_the_file_are_refused(void **state)
 {
     (void)state;
@@ -569,7 +570,7 @@ static void statuses_that_do_not_fit_are_refused(void **state)
     bytes = written(three, multiple, 3, &size);
     assert_refused(bytes, size, 3, "u,v,w of vertex 1 is not finite, although its status is 2");
     free(bytes);
-    /* A set of solutions that was not resolved has no u,v,w. */
+    /* An unresolved set of solutions has no u,v,w. */
     bytes = written(three, singular, 3, &size);
     embedding_file file;
     ffd_error error;

@@ -1,4 +1,4 @@
-/* Evaluation of lattices: exact maps, arcs and corners, what is marked as moved, what is refused. */
+/* Evaluation of lattices: exact maps, arcs and corners, marks of moved points, refusals. */
 #include "../support/lattice_by_hand.h"
 #include <ffd/deform.h>
 #include <float.h>
@@ -22,7 +22,7 @@ static ffd_lattice *make(knot_kind kind, int du, int dv, int dw, size_t nu, size
     return lattice_of_knots(knots);
 }
 
-/* Control points at (Greville u, 10 Greville v, 100 Greville w), so that C = (u, 10 v, 100 w). */
+/* Sets control points to (Greville u, 10 Greville v, 100 Greville w), so that C = (u, 10 v, 100 w). */
 static void place_at_greville(ffd_lattice *lattice)
 {
     for (size_t k = 0, point = 0; k < lattice->size[2]; k++)
@@ -39,7 +39,7 @@ static void place_at_greville(ffd_lattice *lattice)
 static void finish(ffd_lattice *lattice)
 {
     ffd_error error;
-    if (ffd_lattice_finish(lattice, &error))
+    if (finish_by_hand(lattice, &error))
         fail_msg("%s", error.message);
 }
 
@@ -93,7 +93,7 @@ static void points_at_greville_abscissae_give_an_affine_map(void **state)
     ffd_lattice_destroy(&lattice);
 }
 
-/* C = (u v, v w, u w) by 2 x 2 x 2 control points of degree 1; J by hand, rows are x, y, z. */
+/* C = (u v, v w, u w) with 2 x 2 x 2 control points of degree 1. J by hand; rows are x, y, z. */
 static void degree_one_is_trilinear(void **state)
 {
     (void)state;
@@ -118,8 +118,8 @@ static void degree_one_is_trilinear(void **state)
     ffd_lattice_destroy(&lattice);
 }
 
-/* The corners of a clamped volume are its corner control points, to the bit; parameters outside go to them.
- */
+/* The corners of a clamped volume are exactly its corner control points; parameters outside are clamped to
+   them. */
 static void corners_are_exact_and_parameters_are_clamped(void **state)
 {
     (void)state;
@@ -140,8 +140,7 @@ static void corners_are_exact_and_parameters_are_clamped(void **state)
     ffd_lattice_destroy(&lattice);
 }
 
-/* A quarter of the unit circle as a rational quadratic (P&T 7.3: weights 1, 1, 2), drawn out along v and w.
- */
+/* A quarter of the unit circle as a rational quadratic (P&T 7.3: weights 1, 1, 2), extruded along v and w. */
 static ffd_lattice *quarter_cylinder(void)
 {
     ffd_lattice *const lattice = make(KNOTS_CLAMPED, 2, 1, 1, 3, 2, 2);
@@ -214,7 +213,7 @@ static void a_cell_has_its_points_and_weights_in_order(void **state)
         lattice->rest_weights[i] = (double)(i + 1);
     }
     finish(lattice);
-    /* Functions 1,2,3 = points 1,2,0 along u; 1,2 = points 1,0 along v; 0,1 along w. */
+    /* Along u functions 1,2,3 use points 1,2,0; along v functions 1,2 use points 1,0; along w 0,1. */
     const int span[3] = {3, 2, 1};
     const size_t expected[12] = {4, 5, 3, 1, 2, 0, 10, 11, 9, 7, 8, 6};
     double points[36], weights[12];
@@ -237,7 +236,7 @@ static void moved_points_and_weights_are_marked(void **state)
     ffd_lattice *lattice = quarter_cylinder();
     memcpy(lattice->deformed, lattice->rest, 3 * lattice->count * sizeof(double));
     finish(lattice);
-    assert_true(lattice->diagonal == 3); /* of 2 by 2 by 1 */
+    assert_true(lattice->diagonal == 3); /* of a box of 2 by 2 by 1 */
     assert_false(lattice->weights_moved);
     for (size_t i = 0; i < lattice->count; i++)
         assert_int_equal(lattice->moved[i], 0);
@@ -275,7 +274,7 @@ static void the_diagonal_survives_extreme_sizes(void **state)
 static void check_refusal(ffd_lattice *lattice, const char *message)
 {
     ffd_error error = {0};
-    assert_int_equal(ffd_lattice_finish(lattice, &error), FFD_E_INVALID);
+    assert_int_equal(finish_by_hand(lattice, &error), FFD_E_INVALID);
     assert_string_equal(error.message, message);
 }
 
@@ -313,8 +312,7 @@ static void broken_points_and_weights_are_refused(void **state)
     ffd_lattice_destroy(&lattice);
 }
 
-/* Points of a cubic cell are added up with factors of 27 at most: what these make of their numbers must be
-   numbers too. */
+/* Points of a cubic cell are multiplied by up to 27: the products must not overflow either. */
 static void points_too_far_to_compute_with_are_refused(void **state)
 {
     (void)state;
@@ -341,7 +339,7 @@ static void each_failed_allocation_is_reported(void **state)
     for (long successes = 0; successes < 2; successes++) {
         ffd_lattice *lattice = make(KNOTS_CLAMPED, 1, 1, 1, 2, 2, 2);
         ffd_alloc_fail_after(successes);
-        const ffd_status status = ffd_lattice_finish(lattice, NULL);
+        const ffd_status status = finish_by_hand(lattice, NULL);
         ffd_alloc_fail_after(-1);
         assert_int_equal(status, FFD_E_MEMORY);
         finish(lattice);

@@ -1,5 +1,4 @@
-/* Bends whose arcs are exact: control points and weights worked out by hand, the volume on its circles, what
-   is refused. */
+/* Exact bends: control points and weights computed by hand, the volume on its circles, refusals. */
 #include "lattice/lattice.h"
 #include <math.h>
 #include <setjmp.h>
@@ -38,7 +37,8 @@ static void check_point(const ffd_lattice *l, size_t i, size_t j, size_t k, cons
                      l->deformed_weights[point]);
 }
 
-/* 180 degrees over the length 4 toward x, R = 4/pi, in two arcs of 90: the corners of half a square. */
+/* 180 degrees over the length 4 toward x: R = 4/pi, in two arcs of 90 degrees, whose control points are
+   corners of half a square. */
 static void middle_layers_stand_where_the_tangents_cross(void **state)
 {
     (void)state;
@@ -99,7 +99,7 @@ static void the_volume_lies_on_its_circles(void **state)
         }
 }
 
-/* The upper half to one side, the lower half mirrored: the joint layer stays. */
+/* The upper half to one side, the lower half mirrored: the layer between them stays. */
 static void whole_arcs_may_be_bent_alone_and_mirrored(void **state)
 {
     (void)state;
@@ -126,13 +126,13 @@ static void no_angle_changes_nothing(void **state)
     assert_null(l->deformed_weights);
     assert_memory_equal(l->rest, l->deformed, 3 * l->count * sizeof(double));
     ffd_lattice_destroy(&l);
-    /* Not exact: as without the word. */
+    /* "exact": false is the same as no "exact". */
     l = make(TWO_ARCS, "{\"bend\":{\"axis\":\"z\",\"toward\":\"x\",\"degrees\":90,\"exact\":false}}");
     assert_null(l->deformed_weights);
     ffd_lattice_destroy(&l);
 }
 
-/* Weights that were there are multiplied. */
+/* Existing weights are multiplied. */
 static void weights_across_the_axis_are_kept(void **state)
 {
     (void)state;

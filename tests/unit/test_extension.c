@@ -1,5 +1,5 @@
-/* test_extension.c - the displacement of points outside a lattice: the fade, its gradient, its seam with the
-   inside. */
+/* test_extension.c - the displacement of points outside a lattice: fade, gradient, continuity at the
+   border. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "../support/draw.h"
+#include "../support/lattice_by_hand.h"
 #include "base/vector/vec.h"
 #include "deform/displacement.h"
 #include "deform/extension.h"
@@ -58,13 +59,13 @@ static sample make(const char *members)
     return s;
 }
 
-/* With every control point moved by up to `amount`. */
+/* Moves every control point by up to `amount`. */
 static sample shaken(const char *members, double amount, draw *d)
 {
     sample s = make(members);
     for (size_t i = 0; i < 3 * s.lattice->count; i++)
         s.lattice->deformed[i] += draw_between(d, -amount, amount);
-    assert_int_equal(ffd_lattice_finish(s.lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(s.lattice, NULL), FFD_OK);
     return s;
 }
 
@@ -120,7 +121,7 @@ static void the_fade_is_the_quintic_from_one_to_zero(void **state)
     }
 }
 
-/* Near its end the fade keeps its relative precision: 10 t^3 for small t = 1 - s. */
+/* Near its end the fade has full relative precision: 10 t^3 for small t = 1 - s. */
 static void the_fade_is_flat_at_its_ends(void **state)
 {
     (void)state;
@@ -187,7 +188,7 @@ static void an_undeformed_lattice_moves_no_far_point(void **state)
     }
 }
 
-/* Of all points of the border only those near the moved corner act. */
+/* Only border points near the moved corner act. */
 static void only_points_near_the_moved_corner_act(void **state)
 {
     (void)state;
@@ -199,7 +200,7 @@ static void only_points_near_the_moved_corner_act(void **state)
     assert_int_equal(ffd_extension_displacement(s.lattice, &nearest, 0, delta, gradient), 1);
     assert_true(delta[0] == 1 && delta[1] == 2 && delta[2] == -4);
     for (int i = 0; i < 9; i++)
-        assert_true(gradient[i] == 0); /* the corner is nearest all around */
+        assert_true(gradient[i] == 0); /* the corner is the nearest point all around */
     nearest = nearest_to(&s, beside);
     assert_int_equal(ffd_extension_displacement(s.lattice, &nearest, 0, delta, gradient), 0);
     assert_memory_equal(delta, zero, sizeof delta);
@@ -241,11 +242,11 @@ static unsigned resting_rows(const boundary_point *nearest)
     return rows;
 }
 
-/* The difference quotient of the displacement along direction c; false where the points to both sides follow
-   another face or edge of the border. */
+/* Difference quotient of the displacement along direction c. Returns false if the points on both sides follow
+   different faces or edges of the border. */
 static bool difference(const sample *s, const double p[3], int c, double falloff, double column[3])
 {
-    const double step = 1e-6; /* the quotient is off by its square times a third derivative */
+    const double step = 1e-6; /* its error is step^2 times a third derivative */
     double at[2][3], delta[2][3];
     const boundary_point here = nearest_to(s, p);
     for (int side = 0; side < 2; side++) {
@@ -301,7 +302,7 @@ static void gradients_agree_with_differences(void **state)
     }
 }
 
-/* A place of a face of the domain and the unit normal there, which leads out. */
+/* Draws a point on a face of the domain, with the outward unit normal. */
 static void draw_on_border(const sample *s, draw *d, double p[3], double outward[3])
 {
     double lo[3], hi[3], uvw[3], jacobian[9], cofactor[9], growing[3];
@@ -325,7 +326,7 @@ static void draw_on_border(const sample *s, draw *d, double p[3], double outward
         outward[a] /= length;
 }
 
-/* On both sides of the border displacements agree, and so does the gradient along the border. */
+/* On both sides of the border the displacements agree, and so do the gradients along the border. */
 static void the_displacement_has_no_step_at_the_border(void **state)
 {
     (void)state;
@@ -352,7 +353,7 @@ static void the_displacement_has_no_step_at_the_border(void **state)
                 const double out[2] = {vec_dot(gradient[0] + 3 * r, outward),
                                        vec_dot(gradient[1] + 3 * r, outward)};
                 assert_true(fabs(delta[0][r] - delta[1][r]) <= 1e-5);
-                assert_true(fabs(out[1]) <= 1e-5); /* the fade begins flat */
+                assert_true(fabs(out[1]) <= 1e-5); /* the fade starts with slope 0 */
                 for (int c = 0; c < 3; c++)
                     assert_true(fabs(gradient[0][3 * r + c] - out[0] * outward[c] - gradient[1][3 * r + c] +
                                      out[1] * outward[c]) <= 1e-4);

@@ -1,4 +1,4 @@
-/* test_file.c - files that appear whole or not at all, and reading of whatever a path leads to. */
+/* test_file.c - outputs that are complete or absent, and reading from any kind of path. */
 #define _DEFAULT_SOURCE /* syscall */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -20,7 +20,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-/* Stands before the C library's: as file systems that tell only here that a quota is used up. */
+/* Replaces the C library's function, like file systems that report an exceeded quota only on closing. */
 static bool closing_fails;
 
 int close(int fd)
@@ -58,7 +58,7 @@ static void files_load_and_folders_are_refused(void **state)
     (void)state;
 }
 
-/* Bytes that differ from place to place; free with free(). */
+/* Writes bytes that differ from place to place. Free the copy with free(). */
 static char *put_bytes(const char *name, size_t size)
 {
     char *const bytes = malloc(size);
@@ -90,7 +90,7 @@ static void check_loaded(size_t size, bool mapped)
     free(bytes);
 }
 
-/* Small files are read, but for those that are asked to be mapped. */
+/* Small files are read, except when a mapping is asked for. */
 static void small_files_are_read_and_large_ones_mapped(void **state)
 {
     enum { SMALL = 1 << 18 };
@@ -102,7 +102,7 @@ static void small_files_are_read_and_large_ones_mapped(void **state)
     (void)state;
 }
 
-/* What is released is there when it is read. */
+/* Released pages come back when they are read. */
 static void released_pages_are_there_when_read_again(void **state)
 {
     enum { SIZE = 100000 };
@@ -121,14 +121,14 @@ static void released_pages_are_there_when_read_again(void **state)
     ffd_file_release_pages(&input, input.data + SIZE, 0);
     assert_memory_equal(input.data, text, SIZE);
     ffd_file_unload(&input);
-    file_input held = {.data = (unsigned char *)text, .size = SIZE}; /* not mapped: nothing happens */
+    file_input held = {.data = (unsigned char *)text, .size = SIZE}; /* not mapped: nothing to release */
     ffd_file_release_pages(&held, text, SIZE);
     assert_int_equal(text[SIZE - 1], 'a' + (SIZE - 1) % 23);
     free(text);
     (void)state;
 }
 
-/* Bytes of mapped files that are in memory; 0 where the system does not tell. */
+/* Returns the resident bytes of mapped files; 0 if the system does not tell. */
 static size_t resident_bytes(void)
 {
     FILE *const status = fopen("/proc/self/status", "r");
@@ -141,7 +141,7 @@ static size_t resident_bytes(void)
     return kilobytes * 1024;
 }
 
-/* Pages that were read are released in large pieces, and are read in again when they are needed. */
+/* Pages that were read are released in large pieces, and come back when needed. */
 static void releasing_in_pieces_bounds_memory(void **state)
 {
     enum { SIZE = 20000000, STEP = 700001, PIECE = 1 << 23 };
@@ -158,7 +158,7 @@ static void releasing_in_pieces_bounds_memory(void **state)
         assert_int_equal(released, at / PIECE * PIECE);
         assert_true(before == 0 || resident_bytes() < before + PIECE + 4 * STEP);
     }
-    ffd_file_release_until(&input, input.data, &released); /* not back again */
+    ffd_file_release_until(&input, input.data, &released); /* never moves backwards */
     assert_int_equal(released, 2 * PIECE);
     assert_int_equal(input.data[0] | input.data[SIZE - 1], 0);
     ffd_file_unload(&input);
@@ -173,7 +173,7 @@ static void no_file_outside_the_folder_is_loaded(void **state)
     put_text("secret.bin", "secret");
     put_text("model/a.bin", "inside");
     assert_int_equal(symlink("../secret.bin", in_folder("model/link.bin")), 0);
-    size_t most = 10; /* the second time it is too large to be read */
+    size_t most = 10; /* too large to be read the second time */
     for (int i = 0; i < 2; i++) {
         assert_int_equal(ffd_file_load_within(in_folder("model"), "a.bin", "m.gltf", &most, &input, &error),
                          FFD_OK);
@@ -207,7 +207,7 @@ static void a_file_appears_only_when_committed(void **state)
     (void)state;
 }
 
-/* Sizes around those at which bytes are held back or written straight, into two files of a set. */
+/* Sizes around the limits for buffering and for direct writes, into two files of a set. */
 static void pieces_of_any_size_are_written_whole(void **state)
 {
     enum { HELD = 1 << 16, LARGEST = 3 * HELD + 1, PIECES = 60 };
@@ -243,7 +243,7 @@ static void pieces_of_any_size_are_written_whole(void **state)
     (void)state;
 }
 
-/* In pieces of some and of many bytes, some of which are held back. */
+/* In small and large pieces, some of which are buffered. */
 static void an_output_is_hashed_as_it_is_written(void **state)
 {
     enum { SIZE = 300000 };
@@ -258,14 +258,14 @@ static void an_output_is_hashed_as_it_is_written(void **state)
         assert_int_equal(ffd_output_create(&output, NULL), FFD_OK);
         assert_false(ffd_output_hash_value(output, &hash));
         ffd_output_hash(output);
-        assert_false(ffd_output_hash_value(output, &hash)); /* there is no file yet */
+        assert_false(ffd_output_hash_value(output, &hash)); /* no file was begun yet */
         assert_int_equal(ffd_output_begin(output, in_folder("hashed"), true, NULL), FFD_OK);
         for (size_t at = 0; at < SIZE; at += piece)
             assert_int_equal(ffd_output_write(output, bytes + at, piece, NULL), FFD_OK);
         assert_int_equal(ffd_output_commit(output, NULL), FFD_OK);
         assert_true(ffd_output_hash_value(output, &hash));
         assert_true(ffd_hash_equal(&hash, &expected));
-        /* Of two files the hash of one does not say what was written. */
+        /* With two files, the hash of one would not describe the output. */
         assert_int_equal(ffd_output_begin(output, in_folder("beside"), true, NULL), FFD_OK);
         assert_false(ffd_output_hash_value(output, &hash));
         ffd_output_destroy(&output);
@@ -275,7 +275,7 @@ static void an_output_is_hashed_as_it_is_written(void **state)
     (void)state;
 }
 
-/* The number that the next file to be opened gets: a greater one than before tells of one that stays open. */
+/* Returns the next free file descriptor. If it is greater than before, a file was left open. */
 static int next_descriptor(void)
 {
     const int fd = open("/dev/null", O_RDONLY);
@@ -315,7 +315,7 @@ static void targets_that_cannot_be_written_are_refused(void **state)
     (void)state;
 }
 
-/* Whether the refusal says this, of what is named and before any work. */
+/* Checks that a path is refused with this message, before any work. */
 static void check_refused(const char *path, const char *message)
 {
     file_output *output;
@@ -328,7 +328,7 @@ static void check_refused(const char *path, const char *message)
     ffd_output_destroy(&output);
 }
 
-/* None of them is opened, or waited for. */
+/* None of these is opened, or waited for. */
 static void pipes_and_links_to_nothing_are_refused(void **state)
 {
     assert_int_equal(mkfifo(in_folder("pipe"), 0600), 0);
@@ -367,7 +367,7 @@ static void an_output_that_appears_is_not_replaced(void **state)
     (void)state;
 }
 
-/* A temporary file that a killed run left is taken over; one of a living run is not. */
+/* A temporary file of a killed run is taken over; one of a running program is not. */
 static void a_leftover_is_taken_over_but_not_a_locked_one(void **state)
 {
     ffd_error error;
@@ -402,7 +402,7 @@ static void permissions_and_links_are_kept(void **state)
     (void)state;
 }
 
-/* What a run left has the bits of the target that it was for. */
+/* A leftover file gets the mode of its target. */
 static void a_leftover_gets_the_mode_of_its_target(void **state)
 {
     struct stat info;
@@ -416,7 +416,7 @@ static void a_leftover_gets_the_mode_of_its_target(void **state)
     assert_int_equal(stat(in_folder("fresh.txt"), &info), 0);
     assert_int_equal(info.st_mode & 0777, 0640);
     check_content("fresh.txt", "");
-    /* What is no file was not left by a run. */
+    /* Something that is not a regular file is not a leftover. */
     assert_int_equal(mkfifo(in_folder(".fresh.txt.ffd-tmp"), 0600), 0);
     const int reader = open(in_folder(".fresh.txt.ffd-tmp"), O_RDONLY | O_NONBLOCK);
     assert_true(reader >= 0);
@@ -435,7 +435,7 @@ static struct timespec time_of(const char *name)
     return info.st_mtim;
 }
 
-/* Writes two files, which stay where both are equal; whether the first, then the second, was replaced. */
+/* Writes two files, which are kept if both are equal. replaced: for each, whether it was replaced. */
 static void keep_equal(const char *a, const char *b, bool *replaced)
 {
     static const struct timespec old[2] = {{.tv_sec = 1000}, {.tv_sec = 1000}};
@@ -470,7 +470,7 @@ static void equal_outputs_leave_the_old_files(void **state)
     assert_true(replaced[0] && replaced[1]);
     keep_equal(text, "", replaced);
     assert_true(!replaced[0] && !replaced[1]);
-    text[LARGE - 1] = 'y'; /* one byte of one of them */
+    text[LARGE - 1] = 'y'; /* a difference of one byte in one file */
     keep_equal(text, "", replaced);
     assert_true(replaced[0] && replaced[1]);
     keep_equal(text, "z", replaced);
@@ -482,7 +482,7 @@ static void equal_outputs_leave_the_old_files(void **state)
     (void)state;
 }
 
-/* Several files appear together, large ones in many blocks. */
+/* Several files appear together, including large ones of many blocks. */
 static void files_of_a_set_are_all_committed(void **state)
 {
     enum { SIZE = 1000003 };
@@ -523,7 +523,7 @@ static void new_folders_go_unless_committed(void **state)
         ffd_output_destroy(&output);
         assert_int_equal(ffd_file_exists(in_folder("new")), commit);
     }
-    /* A folder that was there stays. */
+    /* An existing folder is kept. */
     file_output *output;
     assert_int_equal(ffd_output_create(&output, NULL), FFD_OK);
     assert_int_equal(ffd_output_folder(output, in_folder("new/a/c"), NULL), FFD_OK);
@@ -546,7 +546,7 @@ static void a_full_disk_is_reported(void **state)
     (void)state;
 }
 
-/* Whether the bytes have arrived is asked before the old file is replaced. */
+/* Writing is confirmed (close) before the old file is replaced. */
 static void a_failed_close_leaves_the_old_file(void **state)
 {
     ffd_error error;
@@ -577,7 +577,8 @@ static void write_file(const char *name, bool force, written_files *written, ffd
     ffd_output_destroy(&output);
 }
 
-/* A file is known by whatever name leads to it, and one that others have put in its place is not it. */
+/* A written file is recognized under any name that leads to it; a file that others have put in its place is
+   not. */
 static void written_files_are_known_by_any_name(void **state)
 {
     written_files written = {0};
@@ -603,7 +604,8 @@ static void written_files_are_known_by_any_name(void **state)
     assert_int_equal(link(in_folder("w7"), link_path), 0);
     assert_true(ffd_written_holds(&written, link_path));
     assert_int_equal(unlink(in_folder("w7")), 0);
-    assert_false(ffd_written_holds(&written, link_path)); /* nothing stands where it was written */
+    assert_false(
+        ffd_written_holds(&written, link_path)); /* the name it was written under has no file any more */
     write_file("w7", false, &written, FFD_OK);
     assert_true(ffd_written_holds(&written, in_folder("w7")));
     ffd_written_free(&written);

@@ -1,5 +1,5 @@
-/* test_file_set.c - files that are replaced together: whichever call fails, and whichever is the last one
-   before the program is killed, the old files or the new ones are whole. */
+/* test_file_set.c - files that are replaced together: whichever call fails, or is the last one before the
+   program is killed, either the old files or the new ones are complete. */
 #define _GNU_SOURCE /* renameat2 */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,9 +17,9 @@
 #include <sys/syscall.h>
 #include <sys/wait.h>
 
-/* Stand before the C library's: the calls that give files their names, and take them. */
+/* Replace the C library's functions that rename and remove files. */
 enum { NEVER = -1 };
-static long calls_left = NEVER; /* before the one that fails, or at which the program ends */
+static long calls_left = NEVER; /* calls before the one that fails or ends the program */
 static bool fails_on, ends, has_no_flags;
 enum { KILLED = 77 };
 
@@ -58,7 +58,7 @@ int unlink(const char *path)
     return fault_is_due() ? -1 : (int)syscall(SYS_unlinkat, AT_FDCWD, path, 0);
 }
 
-/* Three files: the first is new, the others replace old ones; the last is the head. */
+/* Three files: the first is new, the others replace old ones; the last one is the main file. */
 static const char *const names[] = {"s-1.bin", "s.bin", "s.gltf"};
 enum { FILES = 3, FIRST_OLD = 1 };
 
@@ -72,7 +72,7 @@ static bool holds(const char *name, const char *text)
     return same;
 }
 
-/* Whether the file of this text is there, under its name or set aside. */
+/* Whether a file with this text exists, under its name or set aside. */
 static bool stands(const char *name, const char *text)
 {
     char aside[64];
@@ -96,7 +96,7 @@ static bool new_is_whole(void)
     return whole;
 }
 
-/* Whether the files are the old ones under their names, and nothing else. */
+/* Whether the old files are in place, and there is nothing else. */
 static bool is_as_before(void)
 {
     bool same = !ffd_file_exists(in_folder(names[0]));
@@ -145,7 +145,7 @@ static ffd_status write_set(ffd_error *error)
     return status;
 }
 
-/* The next run brings all in order. */
+/* Checks that the next run restores order. */
 static void check_next_run(void)
 {
     ffd_error error;
@@ -156,7 +156,7 @@ static void check_next_run(void)
     assert_false(has_leftovers());
 }
 
-/* A run whose call `number` is the last one it makes. Returns whether it came so far. */
+/* Runs with call `number` being the last. Returns whether the run got that far. */
 static bool killed_at(long number)
 {
     int status;
@@ -199,7 +199,8 @@ static bool failed_at(long number)
     const ffd_status status = write_set(&error);
     const bool came_so_far = calls_left < 0 || fails_on;
     calls_left = NEVER;
-    if (status && !fails_on) { /* once: all as before; or what was replaced is left */
+    if (status &&
+        !fails_on) { /* after a single failed call all is as before, or only what was replaced is left over */
         assert_int_equal(status, FFD_E_IO);
         assert_true(is_as_before() ? !has_leftovers() : new_is_whole());
     }
@@ -223,13 +224,13 @@ static void failed_at_any_call(void **state)
     (void)state;
 }
 
-/* What could not even be brought back is named. */
+/* A file that could not be restored is named. */
 static void a_failure_says_where_the_old_file_is(void **state)
 {
     ffd_error error;
     lay_out();
     fails_on = true;
-    calls_left = 3; /* the old files are aside, one new one has its name */
+    calls_left = 3; /* the old files are set aside, and one new file is in place */
     assert_int_equal(write_set(&error), FFD_E_IO);
     calls_left = NEVER;
     fails_on = false;
@@ -256,7 +257,7 @@ static void a_target_that_must_not_be_replaced_undoes_all(void **state)
     (void)state;
 }
 
-/* A copy of the folder elsewhere is brought in order as well. */
+/* A copy of the folder, elsewhere, can be restored too. */
 static void a_copied_folder_is_mended(void **state)
 {
     char command[200], head[200];

@@ -1,4 +1,4 @@
-/* test_file_table.c - numbers of many files, and which file a path leads to. */
+/* test_file_table.c - numbers for many files, and the identity of the file at a path. */
 #define _XOPEN_SOURCE 700 /* mkdtemp, symlink */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -18,7 +18,7 @@ static hash128 file_of(uint64_t number)
     return ffd_hash(&number, sizeof number);
 }
 
-/* More than are sorted in at once, many times; some get another number. */
+/* Many merges, and some numbers are changed. */
 static void numbers_are_found(void **state)
 {
     const uint64_t count = 100000;
@@ -45,7 +45,7 @@ static void numbers_are_found(void **state)
             assert_int_equal(number, i);
     }
     assert_int_equal(table.count + table.used, count);
-    /* 16 bytes each, a sixteenth of that, and what is there from the beginning. */
+    /* 16 bytes each, plus a sixteenth, plus a constant. */
     assert_true((table.count + table.slots) * sizeof(file_entry) <= count * 17 + 2048 * sizeof(file_entry));
     ffd_files_free(&table);
     (void)state;

@@ -1,4 +1,4 @@
-/* test_fold.c - the proof that a deformed volume folds nowhere, and the witness where it does. */
+/* test_fold.c - the proof that a deformed volume does not fold, and the witness if it does. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -33,7 +33,7 @@ static ffd_lattice *parsed(const char *format, ...)
     return lattice;
 }
 
-/* Rest control points at the images of their Greville abscissae (fractions of the domain). */
+/* Sets rest control points to the images of their Greville abscissae, as fractions of the domain. */
 static ffd_lattice *mapped(const lattice_kinds *shape, point_map map)
 {
     ffd_lattice *lattice = lattice_of_kinds(shape);
@@ -45,7 +45,7 @@ static ffd_lattice *mapped(const lattice_kinds *shape, point_map map)
 static void finish(ffd_lattice *lattice)
 {
     ffd_error error;
-    if (ffd_lattice_finish(lattice, &error))
+    if (finish_by_hand(lattice, &error))
         fail_msg("%s", error.message);
 }
 
@@ -61,7 +61,7 @@ static void mirror(const double g[3], double out[3])
     out[0] = -g[0];
 }
 
-/* det J folds nowhere, and varies between about 1/3 and 3. */
+/* A map without folds, whose det J varies between about 1/3 and 3. */
 static void warp(const double g[3], double out[3])
 {
     out[0] = g[0] + 0.3 * g[1] * g[1] - 0.1 * g[0] * g[2];
@@ -69,7 +69,7 @@ static void warp(const double g[3], double out[3])
     out[2] = g[2] * (1 + 0.4 * g[0] * g[1]) + 0.2 * g[0];
 }
 
-/* A ring, v round the axis; turned by a phase, so that no coordinate is the axis' own. */
+/* A ring with v round the axis; the phase keeps control points off the coordinate axes. */
 static void ring_at(double radius, const double g[3], double out[3])
 {
     const double turn = 6.283185307179586 * g[1] + 0.7;
@@ -88,7 +88,7 @@ static void rod(const double g[3], double out[3])
     ring_at(g[0], g, out);
 }
 
-/* v and w both closed. */
+/* Closed along v and w. */
 static void torus(const double g[3], double out[3])
 {
     const double v = 6.283185307179586 * g[1], w = 6.283185307179586 * g[2], small = 0.2 + 0.3 * g[0];
@@ -98,7 +98,8 @@ static void torus(const double g[3], double out[3])
     out[2] = small * sin(w);
 }
 
-/* u the radius, v round the axis, w from pole to pole; exact: control points meet at centre and poles. */
+/* u is the radius, v goes round the axis, w from pole to pole. Exact: control points coincide at the centre
+   and the poles. */
 static void ball_with(double rim, const double g[3], double out[3])
 {
     const double turn = 6.283185307179586 * g[1], rise = 3.141592653589793 * (g[2] - 0.5);
@@ -113,7 +114,7 @@ static void ball(const double g[3], double out[3])
     ball_with(0, g, out);
 }
 
-/* As cos gives the poles: to rounding. */
+/* The poles from cos, up to rounding. */
 static void rough_ball(const double g[3], double out[3])
 {
     ball_with(6.1e-17, g, out);
@@ -123,7 +124,7 @@ static void rough_ball(const double g[3], double out[3])
 
 typedef struct determinant {
     long double value;
-    long double size; /* the greatest it could be, for errors to be relative to */
+    long double size; /* upper bound, for relative errors */
 } determinant;
 
 static long double determinant3(long double m[3][3])
@@ -133,7 +134,7 @@ static long double determinant3(long double m[3][3])
            m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
-/* det J by the recursion of Cox and de Boor and the quotient rule, about the cell's first control point. */
+/* det J by the Cox-de Boor recursion and the quotient rule, relative to the cell's first control point. */
 static determinant determinant_at(const ffd_lattice *lattice, ffd_volume volume, const double uvw[3])
 {
     const double *points = ffd_lattice_get_points(lattice, volume),
@@ -194,7 +195,7 @@ static determinant determinant_at(const ffd_lattice *lattice, ffd_volume volume,
     return (determinant){determinant3(dp), permanent};
 }
 
-/* The least determinant, times sign, among those at a grid over all cells; *at is where. */
+/* Returns the least sign * determinant on a grid over all cells, and its place. */
 static long double least_sampled(const ffd_lattice *lattice, int sign, int steps, double at[3])
 {
     long double least = LDBL_MAX;
@@ -257,7 +258,7 @@ static void check_witness(const ffd_lattice *lattice, const ffd_folds *folds, in
     }
 }
 
-/* sign: of the rest volume. */
+/* sign: that of the rest volume. */
 static ffd_folds find(const ffd_lattice *lattice, int sign)
 {
     ffd_folds folds = {.struct_size = sizeof folds}, again = folds;
@@ -289,7 +290,7 @@ static ffd_folds assert_verdict(const ffd_lattice *lattice, int sign, ffd_fold_v
         double at[3];
         assert_int_equal(folds.unknown_cells, 0);
         assert_true(folds.min_det >= 0);
-        if (is_memory_checked()) /* samples are numbers, which the other builds compare */
+        if (is_memory_checked()) /* samples check numbers, which other builds do */
             return folds;
         const long double least = least_sampled(lattice, sign, 2, at);
         assert_true(least >= -1e-12L * determinant_at(lattice, FFD_VOLUME_DEFORMED, at).size);
@@ -297,7 +298,7 @@ static ffd_folds assert_verdict(const ffd_lattice *lattice, int sign, ffd_fold_v
     return folds;
 }
 
-/* At rest, a volume without collapsed faces does not fold; scaled and moved neither. */
+/* At rest, a volume without collapsed faces does not fold, nor does it when scaled or translated. */
 static void assert_none_at_rest(ffd_lattice *lattice, int sign)
 {
     finish(lattice);
@@ -326,7 +327,7 @@ static void the_identity_and_its_mirror_have_no_folds(void **state)
                 assert_true(folds.min_det > 1 - 1e-8 && folds.min_det <= 1);
                 ffd_lattice_destroy(&lattice);
             }
-    if (is_under_valgrind()) /* undeformed_shapes_have_no_folds has a lattice of such degrees */
+    if (is_under_valgrind()) /* undeformed_shapes_have_no_folds covers such degrees */
         return;
     const lattice_kinds nine = {{KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {9, 9, 9}, {10, 10, 10}};
     ffd_lattice *lattice = mapped(&nine, identity);
@@ -356,7 +357,7 @@ static void undeformed_shapes_have_no_folds(void **state)
     assert_none_at_rest(mapped(&twice, torus), -1);
 }
 
-/* C0 knots, and control points of lattices as files give them. */
+/* C0 knots, with control points as in a lattice file. */
 static void a_kink_at_a_c0_knot_folds_one_side_only(void **state)
 {
     (void)state;
@@ -368,7 +369,7 @@ static void a_kink_at_a_c0_knot_folds_one_side_only(void **state)
                "{\"twist\":{\"axis\":\"x\",\"degrees\":40}}]}");
     assert_verdict(lattice, 1, FFD_FOLDS_NONE);
     ffd_lattice_destroy(&lattice);
-    /* A kink through which the volume comes back: folded on one side of the C0 knot only. */
+    /* A kink through which the volume returns: it folds on one side of the C0 knot only. */
     lattice = parsed("{\"format\":\"ffd-lattice\",\"version\":1,\"size\":[3,2,2],\"degree\":[1,1,1],"
                      "\"rest\":{\"box\":{\"min\":[0,0,0],\"max\":[4,2,1]}},"
                      "\"moves\":[{\"at\":[2,\"all\",\"all\"],\"by\":[-2.5,0,0]}]}");
@@ -379,7 +380,7 @@ static void a_kink_at_a_c0_knot_folds_one_side_only(void **state)
     ffd_lattice_destroy(&lattice);
 }
 
-/* valgrind computes long double as double: determinants of sizes of 1e200 are then out of range. */
+/* valgrind computes long double as double, so determinants around 1e200 overflow. */
 static bool has_long_double(void)
 {
     const volatile long double small = LDBL_EPSILON;
@@ -411,7 +412,7 @@ static void the_verdict_does_not_depend_on_size(void **state)
         }
 }
 
-/* A thin box whose sides are not along the coordinate axes. */
+/* A thin box that is not aligned with the coordinate axes. */
 static void a_thin_turned_box_has_no_folds(void **state)
 {
     (void)state;
@@ -433,7 +434,7 @@ static void verdicts_with_weights_agree_with_samples(void **state)
     draw d = {5};
     const int degree[][3] = {{1, 1, 1}, {2, 3, 1}, {3, 3, 3}, {4, 2, 5}};
     int none = 0, some = 0;
-    const int count = is_under_valgrind() ? 8 : is_memory_checked() ? 16 : 40; /* each degree, either map */
+    const int count = is_under_valgrind() ? 8 : is_memory_checked() ? 16 : 40; /* each degree with each map */
     for (int i = 0; i < count; i++) {
         const int *deg = degree[i % 4];
         const lattice_kinds shape = {{KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_CLAMPED},
@@ -464,7 +465,7 @@ static void verdicts_with_weights_agree_with_samples(void **state)
     assert_true(none >= count / 4 && some >= count / 12);
 }
 
-/* Weights that are all equal change nothing. */
+/* Weights that are all equal have no effect. */
 static void equal_weights_change_nothing(void **state)
 {
     (void)state;
@@ -486,8 +487,9 @@ static void equal_weights_change_nothing(void **state)
 
 /* Folds */
 
-/* Ten cells a direction; one control point moved along x. With N cubic, quadratic, quadratic of spacing h the
-   least of dx/du is 1 - move/h (2/3) (3/4)^2 in one point, within one cell: 0 for 8/3 h. */
+/* Ten cells a direction; one control point moved along x. With basis functions N of degrees 3, 2, 2 and
+   spacing h, the least dx/du is 1 - move/h (2/3) (3/4)^2, in a single point of a single cell: 0 for move =
+   8/3 h. */
 static ffd_lattice *one_point_moved(double move, bool mirrored)
 {
     const lattice_kinds shape = {{KNOTS_OPEN, KNOTS_OPEN, KNOTS_OPEN}, {3, 2, 2}, {13, 12, 12}};
@@ -508,7 +510,8 @@ static void one_folded_cell_of_a_thousand_is_found(void **state)
             assert_int_equal(folds.cells, 1000);
             assert_int_equal(folds.folded_cells, 1);
             assert_int_equal(folds.unknown_cells, 0);
-            /* Control point 6 is at 0.5; the least is 2/3 of a spacing on. 7, 4: cells 6, 3. */
+            /* Control point 6 is at 0.5; the minimum is 2/3 of a spacing further. Along v and w point 7 and
+               point 4: cells 6 and 3. */
             static const double lo[3] = {0.5, 0.6, 0.3};
             for (int a = 0; a < 3; a++)
                 assert_true(folds.witness_uvw[a] >= lo[a] - 1e-15 &&
@@ -533,7 +536,7 @@ static void a_hair_before_folding_is_no_fold(void **state)
         }
 }
 
-/* The least determinant at a corner: decided down to the rounding of one coefficient. */
+/* The least determinant is at a corner: decided down to the rounding of one coefficient. */
 static void a_hair_at_a_corner_is_decided(void **state)
 {
     (void)state;
@@ -544,7 +547,7 @@ static void a_hair_at_a_corner_is_decided(void **state)
                 {KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {degree, degree, degree}, {5, 5, 5}};
             ffd_lattice *lattice = mapped(&shape, identity);
             const double step = lattice->rest[3] - lattice->rest[0], sign = i < 4 ? 1 : -1;
-            /* C_u at the corner is the way to the next control point. */
+            /* C_u at the corner points to the next control point. */
             lattice->deformed[0] = step - sign * hair[i % 4] * step;
             finish(lattice);
             const ffd_folds folds = assert_verdict(lattice, 1, i < 4 ? FFD_FOLDS_NONE : FFD_FOLDS_SOME);
@@ -553,7 +556,7 @@ static void a_hair_at_a_corner_is_decided(void **state)
         }
 }
 
-/* det = 0 in one point and positive round it: nobody can tell, and nobody says "none". */
+/* det = 0 in one point, and positive around it: it cannot be decided, but the verdict is never "none". */
 static void exactly_on_the_edge_is_never_called_free(void **state)
 {
     (void)state;
@@ -563,7 +566,7 @@ static void exactly_on_the_edge_is_never_called_free(void **state)
     assert_int_equal(folds.unknown_cells, 1);
     assert_true(folds.min_det <= 0 && folds.min_det > -1e-6);
     ffd_lattice_destroy(&lattice);
-    /* At a corner: the coefficient is 0 to the bit. */
+    /* At a corner the coefficient is exactly 0. */
     const lattice_kinds shape = {{KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {3, 3, 3}, {5, 5, 5}};
     lattice = mapped(&shape, identity);
     lattice->deformed[0] = lattice->deformed[3];
@@ -594,7 +597,7 @@ static void too_few_boxes_leave_a_cell_unknown(void **state)
     ffd_lattice_destroy(&lattice);
 }
 
-/* A fold in the closed direction's seam, and where a lattice meets itself again. */
+/* A fold across the seam of a closed direction. */
 static void folds_at_the_seam_are_found(void **state)
 {
     (void)state;
@@ -617,7 +620,7 @@ static void flat_and_mirrored_volumes_fold_everywhere(void **state)
     (void)state;
     static const struct {
         const char *move;
-        double least, greatest; /* of min_det */
+        double least, greatest; /* range of min_det */
     } cases[] = {
         {"{\"scale\":{\"factor\":[1,1,0]}}", 0, 0},
         {"{\"scale\":{\"factor\":[0,0,0]}}", 0, 0},
@@ -669,7 +672,7 @@ static void random_control_points_are_found_to_fold(void **state)
 
 /* Collapsed axes */
 
-/* Every cell is decided after a few boxes. */
+/* Each cell is decided after few boxes. */
 static void assert_quick(const ffd_lattice *lattice, long boxes)
 {
     fold_plan plan;
@@ -708,7 +711,7 @@ static void a_collapsed_axis_is_no_fold(void **state)
     for (size_t i = 0; i < sizeof moves / sizeof *moves; i++)
         for (size_t k = 0; k < sizeof shapes / sizeof *shapes; k++)
             for (int far = 0; far < 2; far++) {
-                if (k >= 3 && (i == 4 || i == 5)) /* no single ring is the axis there */
+                if (k >= 3 && (i == 4 || i == 5)) /* with these knots no single ring of points is the axis */
                     continue;
                 if (is_under_valgrind() && (i + k + (size_t)far) % 5)
                     continue;
@@ -737,7 +740,7 @@ static void a_torn_axis_is_a_fold(void **state)
     }
 }
 
-/* The axis' ring turned inside out, or opened to a tube: by much, and by a hair. */
+/* The ring at the axis is turned inside out, or opened to a tube: by a lot, and by a hair. */
 static void an_axis_folds_inside_out_but_not_opened(void **state)
 {
     (void)state;
@@ -758,7 +761,7 @@ static void an_axis_folds_inside_out_but_not_opened(void **state)
         assert_true(radius[i] > 0 ? folds.min_det > 0 : folds.min_det < 0);
         ffd_lattice_destroy(&lattice);
     }
-    /* By less than can be told: neither proven nor shown. */
+    /* By too little to decide: neither proven nor refuted. */
     ffd_lattice *lattice = mapped(&shape, rod);
     lattice->deformed[0] = nextafter(lattice->deformed[0], 0);
     finish(lattice);
@@ -785,7 +788,7 @@ static void a_ball_folds_only_when_its_pole_is_pushed_in(void **state)
             finish(lattice);
             const ffd_folds folds = assert_verdict(lattice, 1, FFD_FOLDS_NONE);
             assert_true(folds.min_det >= 0 && folds.min_det < 1e-3);
-            /* The pole moved into the ball. */
+            /* The pole is pushed into the ball. */
             for (size_t u = 1; u < lattice->size[0]; u++)
                 for (size_t v = 0; v < lattice->size[1]; v++)
                     lattice->deformed[3 * lattice_index(lattice, u, v, lattice->size[2] - 1) + 2] -= 3;
@@ -795,7 +798,7 @@ static void a_ball_folds_only_when_its_pole_is_pushed_in(void **state)
         }
 }
 
-/* A quarter of a solid cylinder, exact by weights: its axis is not a line of equal homogeneous points. */
+/* A quarter of a solid cylinder, exact with weights. Its axis is not a line of equal homogeneous points. */
 static void a_rational_quarter_folds_only_when_its_axis_tears(void **state)
 {
     (void)state;
@@ -825,7 +828,7 @@ static void a_rational_quarter_folds_only_when_its_axis_tears(void **state)
     }
 }
 
-/* The rest volume is 0 across an inner plane too: that is not a border. */
+/* The rest volume is also 0 across an inner plane, which is not a border. */
 static void a_volume_that_is_zero_inside_is_never_called_free(void **state)
 {
     (void)state;

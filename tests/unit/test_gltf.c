@@ -1,4 +1,4 @@
-/* test_gltf.c - reading glTF: what is not valid, what is not supported, parts, faces. */
+/* test_gltf.c - reading glTF: invalid and unsupported files, parts, faces. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -165,7 +165,7 @@ static void broken_values_are_refused(void **state)
     check_refusals(cases, sizeof cases / sizeof *cases);
 }
 
-/* A flaw's text, and how its message ends. */
+/* A flaw, and the end of its message. */
 typedef struct flawed {
     const char *text, *pointer, *message;
 } flawed;
@@ -270,11 +270,11 @@ static void what_is_not_deformed_is_not_refused(void **state)
 {
     (void)state;
     static const char *const texts[] = {
-        /* A skin and a morph in a scene that is not shown. */
+        /* A skin and a morph target in a scene that is not shown. */
         "{" DATA "," ACCESSORS
         ",\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"targets\":[{}]}]}],"
         "\"skins\":[{\"joints\":[0]}],\"nodes\":[{\"mesh\":0,\"skin\":0},{}],\"scenes\":[{\"nodes\":[1]}]}",
-        /* Integers that are not plain digits, tinygltf would take 0 for them. */
+        /* Integers that are not plain digits, which tinygltf would read as 0. */
         "{" DATA
         ",\"accessors\":[{\"bufferView\":0.0,\"byteOffset\":1.2e1,\"componentType\":5126,\"count\":2.0,"
         "\"type\":\"VEC3\"}]," MESHES "," SCENE "}",
@@ -300,8 +300,8 @@ static void what_is_not_deformed_is_not_refused(void **state)
 static void parts_are_pairs_of_accessor_and_node(void **state)
 {
     (void)state;
-    /* Mesh 0 under nodes 1 (turned, moved) and 2; its second primitive has other normals; mesh 1 shares
-     * positions. */
+    /* Nodes 1 (turned, moved) and 2 show mesh 0, whose second primitive has other normals. Mesh 1 shares
+       positions. */
     static const char text[] =
         "{" DATA ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"
         "{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],"
@@ -487,7 +487,7 @@ static void base64_is_read_and_written(void **state)
     assert_false(ffd_base64_decode("Zm 9", 4, bytes, &count));
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     for (int c = 0; c < 256; c++)
-        for (size_t place = 0; place < 7; place++) { /* of the last characters '=' is none of the text */
+        for (size_t place = 0; place < 7; place++) { /* a final '=' is padding */
             const char *const digit = c ? strchr(digits, c) : NULL;
             memcpy(text, "AAAAAAA", 7);
             text[place] = (char)c;

@@ -1,4 +1,4 @@
-/* test_gltf_animation.c - animations of glTF: what is listed and refused, values between keys, poses. */
+/* test_gltf_animation.c - animations of glTF: listing, refusals, values between keys, poses. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,15 +14,15 @@
 #define H 0.70710678118654752440f /* sine of 45 degrees */
 #define NEAR 1e-6                 /* of float32 */
 
-/* What the accessors below hold, with the number of the first float of each. */
+/* The data of the accessors below, with the index of the first float of each. */
 static const struct {
-    float times[3];               /* 0 */
-    float translations[9];        /* 3 */
-    float turns[12];              /* 12: about z by 0, 90 and 180 degrees, the last one with the other sign */
-    float spline[27];             /* 24: tangent before, value, tangent behind */
-    float weights[6];             /* 51: of two targets */
-    float falling_times[3];       /* 57 */
-    float infinite_times[3];      /* 60 */
+    float times[3];          /* 0 */
+    float translations[9];   /* 3 */
+    float turns[12];         /* 12: about z by 0, 90 and 180 degrees; the last one has the opposite sign */
+    float spline[27];        /* 24: in-tangent, value, out-tangent */
+    float weights[6];        /* 51: of two morph targets */
+    float falling_times[3];  /* 57 */
+    float infinite_times[3]; /* 60 */
     float broken_translations[9]; /* 63 */
     float four_times[4];          /* 72 */
     unsigned char tail[20];       /* 76 */
@@ -30,14 +30,14 @@ static const struct {
     .times = {0, 1, 3},
     .translations = {0, 0, 0, 2, 4, 6, 2, 8, 0},
     .turns = {0, 0, 0, 1, 0, 0, H, H, 0, 0, -1, 0},
-    /* x = t^3 - 2t + 1; y = t^2, from 1 on 2 - t; z = 2t. The outermost tangents are not used. */
+    /* x = t^3 - 2t + 1; y = t^2, from 1 on 2 - t; z = 2t. The outermost tangents are unused. */
     .spline = {99, 99, 99, 1, 0, 0, -2, 0, 2, 1, 2, 2, 0, 1, 2, 1, -1, 2, 25, -1, 2, 22, -1, 6, 99, 99, 99},
     .weights = {0, 1, 1, 0, 0.5f, 0.25f},
     .falling_times = {0, 2, 1},
     .infinite_times = {0, INFINITY, 3},
     .broken_translations = {0, 0, 0, 0, NAN, 0, 0, 0, 0},
     .four_times = {0, 1, 1, 2},
-    /* Sparse indices 0 and 2; from byte 4 on normalized shorts 32767, 0, 0, 0 and 0, 0, 16384, -32768. */
+    /* Sparse indices 0 and 2. From byte 4 on, normalized shorts 32767, 0, 0, 0 and 0, 0, 16384, -32768. */
     .tail = {2, 0, 0, 0, 0xff, 0x7f, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x40, 0, 0x80},
 };
 
@@ -48,12 +48,12 @@ static const struct {
 #define NORMALIZED(at, count)                                                                                \
     ",{\"bufferView\":0,\"byteOffset\":" #at ",\"componentType\":5122,\"normalized\":true,\"count\":" #count \
     ",\"type\":\"VEC4\"}"
-/* Zeros, and the second of the translations last. */
+/* Zeros, with the second translation as the last element. */
 #define SPARSE                                                                                               \
     ",{\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"sparse\":{\"count\":1,"                        \
     "\"indices\":{\"bufferView\":0,\"byteOffset\":304,\"componentType\":5121},"                              \
     "\"values\":{\"bufferView\":0,\"byteOffset\":24}}}"
-/* Numbers 0 to 13; 9 is NORMALIZED, 10 SPARSE. */
+/* Accessors 0 to 13; 9 is NORMALIZED, 10 is SPARSE. */
 #define ACCESSORS                                                                                            \
     ACCESSOR(0, 3, "SCALAR")                                                                                 \
     NEXT(12, 3, "VEC3")                                                                                      \
@@ -73,7 +73,7 @@ static const struct {
     "\"nodes\":[{\"children\":[1,2]},{\"mesh\":0,\"translation\":[2,0,0]},"                                  \
     "{\"matrix\":[0,2,0,0,-2,0,0,0,0,0,2,0,5,6,7,1]},{\"mesh\":0,\"weights\":[1,2]}]"
 
-/* A file with these animations, which must stay as long as it is open. Free it with free(). */
+/* Makes a file with these animations. Free it with free(), after closing the document. */
 static char *file_with(const char *animations)
 {
     char members[16000];
@@ -167,7 +167,7 @@ static void channels_say_where_they_come_from(void **state)
     free(text);
 }
 
-/* Loads the animation of a file that has one. */
+/* Loads the animation of a file that has exactly one. */
 static ffd_status load(const char *animations, char **text, gltf_document **d, gltf_animations *list,
                        ffd_error *error)
 {
@@ -218,7 +218,7 @@ static void broken_keys_are_refused_when_they_are_wanted(void **state)
         int input, output;
         const char *interpolation;
         int node;
-        const char *path, *message; /* below the sampler */
+        const char *path, *message; /* of the error, below the sampler */
     } cases[] = {
         {1, 1, "LINEAR", 1, "scale", "input: accessor 1 does not hold times (SCALAR of floats)"},
         {11, 1, "LINEAR", 1, "scale", "input: accessor 11 has no times"},
@@ -267,7 +267,7 @@ static void what_drives_no_node_is_not_checked(void **state)
     unload(text, d, &list);
 }
 
-/* The sampler of a file whose only animation has only this one, at a time. */
+/* Checks the value at a time, in a file with a single animation of this single sampler. */
 static void check_value(const char *sampler, const char *channel, double time, size_t count,
                         const double *expected)
 {
@@ -323,7 +323,7 @@ static void rotations_take_the_shorter_arc(void **state)
     check_value(SAMPLER(13, 9, "STEP"), turn, 1, 4, (const double[]){1, 0, 0, 0});
     double q[4];
     const double a[4] = {0, 0, 0, 1}, b[4] = {0, 0, 1e-9, 1};
-    ffd_gltf_slerp(a, b, 0.5, q); /* an arc whose sine is lost */
+    ffd_gltf_slerp(a, b, 0.5, q); /* an angle whose sine underflows */
     assert_true(q[2] == 0.5e-9 && q[3] == 1);
 }
 
@@ -331,7 +331,7 @@ static void turns_of_splines_are_normalized(void **state)
 {
     (void)state;
     double times[] = {0, 2}, value[4];
-    double values[24] = {[7] = 1, [18] = 1}; /* no turn, and a half turn about z; the tangents are 0 */
+    double values[24] = {[7] = 1, [18] = 1}; /* no turn, then a half turn about z; tangents are 0 */
     const gltf_animation_sampler sampler = {
         .interpolation = GLTF_CUBICSPLINE, .key_count = 2, .width = 4, .times = times, .values = values};
     ffd_gltf_sample(&sampler, true, 1, value);
@@ -382,7 +382,7 @@ static void a_pose_has_all_nodes_and_weights(void **state)
     ffd_gltf_set_pose(d, list.list, 1, &pose);
     assert_place(pose.world + 12, 0, 2, 0);
     assert_place(pose.world + 24, -4, 2, 6);
-    /* Twice as large and turned by 90 degrees about z, as the matrix says, and by as much again. */
+    /* Scaled by 2 and turned by 90 degrees about z: once by the matrix, and once more. */
     static const double linear[9] = {-2, 0, 0, 0, -2, 0, 0, 0, 2};
     for (int i = 0; i < 9; i++)
         assert_true(fabs(pose.world[24 + i] - linear[i]) <= NEAR);

@@ -1,5 +1,5 @@
-/* test_gltf_models.c - the sample models of FFD_MODELS: read, written back unchanged, and broken at random.
- */
+/* test_gltf_models.c - the sample models of FFD_MODELS: read, written back unchanged, and mutated at
+   random. */
 #define _XOPEN_SOURCE 700 /* nftw, mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -10,6 +10,7 @@
 #include "../support/draw.h"
 #include "../support/gltf_file.h"
 #include "../support/repetitions.h"
+#include "../support/test_folder.h"
 #include "io/gltf/document/gltf_document.h"
 #include "mesh/difference.h"
 #include <ftw.h>
@@ -21,7 +22,6 @@
 #define LARGEST_TO_BREAK 20000
 #define BROKEN_COPIES 20
 
-static char folder[] = "/tmp/ffd-test-models-XXXXXX";
 static char *models[MOST_MODELS];
 static size_t model_count;
 
@@ -42,22 +42,18 @@ static int compare_names(const void *a, const void *b)
 
 static int find_models(void **state)
 {
-    (void)state;
     const char *const root = getenv("FFD_MODELS");
     if (root && nftw(root, add_model, 16, FTW_PHYS) != 0)
         return -1;
     qsort(models, model_count, sizeof *models, compare_names);
-    return mkdtemp(folder) ? 0 : -1;
+    return make_folder(state);
 }
 
 static int forget_models(void **state)
 {
-    (void)state;
     for (size_t i = 0; i < model_count; i++)
         ffd_free(models[i]);
-    char command[100];
-    snprintf(command, sizeof command, "rm -r '%s'", folder);
-    return system(command);
+    return remove_folder(state);
 }
 
 static bool is_binary(const char *path)
@@ -71,7 +67,7 @@ static void twist(const double place[3], double xyz[3])
     xyz[1] -= 0.5 * place[2] + 0.125;
 }
 
-/* Where it cannot be deformed a model is still described; what it shows is in faces unless compressed. */
+/* A model that cannot be deformed is still described. It has faces, unless it is compressed. */
 static void describe(mesh_document *document, const char *path)
 {
     byte_buffer text = {0};
@@ -103,7 +99,7 @@ static void check_same(const char *path, const char *output)
     file_input before, after;
     assert_int_equal(ffd_file_load(path, &before, NULL), FFD_OK);
     assert_int_equal(ffd_file_load(output, &after, NULL), FFD_OK);
-    /* Only the names of buffers' files may differ. */
+    /* Only names of buffer files may differ. */
     if (!names_files(&before) &&
         (before.size != after.size || memcmp(before.data, after.data, before.size) != 0))
         fail_msg("%s: changed though no vertex moved", path);
@@ -121,7 +117,7 @@ static void check_same(const char *path, const char *output)
     gltf->close(b);
 }
 
-/* In a folder of its own for each model, where its images go too. */
+/* Each model gets a folder of its own, which also receives its images. */
 static const char *output_for(size_t model)
 {
     static char output[200];
@@ -158,8 +154,8 @@ static void models_that_stay_are_written_back_as_they_are(void **state)
     assert_true(deformed > 0);
 }
 
-/* How far what is stored may be from what was asked for: half a step of integers. Where these become floats,
-   the number that stands on the same step has been rounded once more. */
+/* Returns the largest error of a stored number: half a step for integers. If they are converted to floats, an
+   unchanged number is rounded once more. */
 static double allowed_error(const mesh_document *document, size_t part, double value)
 {
     const gltf_document *d = ffd_gltf_of(document);
@@ -170,7 +166,7 @@ static double allowed_error(const mesh_document *document, size_t part, double v
     return 0.5 / (accessor->normalized ? scales[accessor->component - GLTF_I8] : 1) + 1e-7 * fabs(value);
 }
 
-/* What the output shows at each node is what was asked for: the parts of the new file, one by one. */
+/* At each node the output shows what was asked for. The parts of the new file are checked one by one. */
 static void moved_models_show_what_was_asked_for(void **state)
 {
     (void)state;
@@ -208,7 +204,7 @@ static void moved_models_show_what_was_asked_for(void **state)
     assert_true(vertices > 0);
 }
 
-/* Changes some bytes of a copy, most often of its JSON. */
+/* Changes some bytes of a copy, mostly of its JSON. */
 static void break_bytes(draw *d, unsigned char *bytes, size_t size)
 {
     static const char likely[] = "0123456789-.e,:[]{}\"";

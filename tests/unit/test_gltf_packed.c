@@ -1,5 +1,5 @@
-/* test_gltf_packed.c - glTF whose geometry is compressed, by Draco or by meshopt: read as plain data is,
-   written uncompressed where something changed and byte for byte where nothing did. */
+/* test_gltf_packed.c - glTF with geometry compressed by Draco or meshopt: read like plain data, written
+   uncompressed where something changed and unchanged where nothing did. */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,11 +11,11 @@
 #include "../support/gltf_file.h"
 #include "../support/repetitions.h"
 #include "../support/sheet.h"
+#include "../support/test_folder.h"
 #include "base/text/base64.h"
 #include "io/gltf/decode/gltf_read.h"
 #include "mesh/difference.h"
 #include <meshoptimizer.h>
-#include <unistd.h>
 
 #define DRACO "KHR_draco_mesh_compression"
 #define MESHOPT "EXT_meshopt_compression"
@@ -25,10 +25,9 @@
 #define POINTS (SIDE * SIDE)
 #define TRIANGLES (2 * (SIDE - 1) * (SIDE - 1))
 
-static char folder[] = "/tmp/ffd-test-packed-XXXXXX";
 static char output[100];
 
-/* A sheet of squares in x and y from 0 to 1. */
+/* A sheet of squares in the unit square of x and y. */
 static float positions[3 * POINTS], normals[3 * POINTS];
 static uint16_t joints[4 * POINTS];
 static uint8_t factors[POINTS];
@@ -48,15 +47,15 @@ static void make_sheet(void)
     sheet_triangles(SIDE, triangles);
 }
 
-/* Bytes of a buffer, and their bufferViews in JSON. */
+/* Bytes of a buffer, with the JSON of their bufferViews. */
 typedef struct blob {
     unsigned char bytes[16384];
     size_t size;
     byte_buffer views;
 } blob;
 
-/* Appends bytes at a multiple of 4; returns where. */
-static size_t put(blob *b, const void *bytes, size_t size)
+/* Appends bytes at a multiple of 4. Returns their offset. */
+static size_t put_aligned(blob *b, const void *bytes, size_t size)
 {
     const size_t offset = (b->size + 3) / 4 * 4;
     assert_in_range(offset + size, 0, sizeof b->bytes);
@@ -68,12 +67,12 @@ static size_t put(blob *b, const void *bytes, size_t size)
 
 static void add_view(blob *b, const void *bytes, size_t size)
 {
-    const size_t offset = put(b, bytes, size);
+    const size_t offset = put_aligned(b, bytes, size);
     ffd_buffer_format(&b->views, "%s{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":%zu}",
                       b->views.size > 0 ? "," : "", offset, size);
 }
 
-/* The JSON of a file: buffer 0 is the blob; more_buffers come behind it. The blob's views are used up. */
+/* Makes the JSON of a file. Buffer 0 is the blob, more_buffers follow it. Frees the blob's views. */
 static char *make_text(blob *b, const char *more_buffers, const char *rest)
 {
     byte_buffer text = {0};
@@ -152,7 +151,7 @@ static void count_line(void *user, ffd_log_level level, const char *line)
     log_count += level == FFD_LOG_INFO;
 }
 
-/* Deforms a file into `output` and gives its text; *lines: how many unpackings were told. */
+/* Deforms a file into `output` and returns its text. *lines: the number of log lines about decompression. */
 static char *run_text(const char *text, mover move, size_t *lines)
 {
     mesh_document *document = open_text(text);
@@ -168,7 +167,7 @@ static char *run_text(const char *text, mover move, size_t *lines)
     return load_text(output);
 }
 
-/* The same without normals and tangents, whatever is told. */
+/* Likewise without normals and tangents, ignoring the log. */
 static char *run_positions(const char *text, mover move)
 {
     mesh_document *document = open_text(text);
@@ -178,7 +177,8 @@ static char *run_positions(const char *text, mover move)
     return load_text(output);
 }
 
-/* Holds the first `components` of all elements of an accessor against floats that have `step` each. */
+/* Compares the first `components` of all elements of an accessor with floats, with the quantization
+   `step`. */
 static void check_values(const mesh_document *document, size_t accessor, size_t components, size_t step,
                          const float *wanted, double tolerance, double added)
 {
@@ -195,7 +195,7 @@ static void check_values(const mesh_document *document, size_t accessor, size_t 
     }
 }
 
-/* What the deformation leaves alone. */
+/* Checks what the deformation must not change. */
 static void check_unchanged(const mesh_document *document)
 {
     const gltf_document *d = ffd_gltf_of(document);
@@ -248,7 +248,7 @@ static void nothing_moved_gives_the_same_bytes(void **state)
     size_t lines;
     char *text = make_draco_text(true, DRACO_ACCESSORS, DRACO_REST);
     check_kept(text);
-    char *written = run_text(text, move_far, &lines); /* far away, there is nothing; normals are turned */
+    char *written = run_text(text, move_far, &lines); /* nothing is far away, so only normals change */
     assert_int_equal(lines, 1);
     free(written);
     check_kept(text);
@@ -262,8 +262,8 @@ static void a_moved_draco_primitive_is_written_uncompressed(void **state)
     char *text = make_draco_text(false, DRACO_ACCESSORS, DRACO_REST);
     char *written = run_text(text, add_one, &lines);
     assert_int_equal(lines, 1);
-    assert_null(strstr(written, "extensions")); /* neither lists nor the object */
-    /* Bounds of what was unpacked are those of the decoded numbers. */
+    assert_null(strstr(written, "extensions")); /* neither the lists nor the object */
+    /* Bounds of decompressed accessors are those of the decoded numbers. */
     assert_non_null(strstr(
         written, "{\"bufferView\":5,\"componentType\":5123,\"count\":96,\"type\":\"SCALAR\",\"max\":[24]}"));
     assert_non_null(strstr(written, "\"min\":[1,0,0.25],\"max\":[2,1,0.25]"));
@@ -282,7 +282,7 @@ static void a_moved_draco_primitive_is_written_uncompressed(void **state)
 static void other_draco_primitives_stay_compressed(void **state)
 {
     (void)state;
-    /* The second mesh is the same one again, with accessors of its own, and far away. */
+    /* The second mesh is a copy with accessors of its own, and far away. */
     char *text = make_draco_text(false, DRACO_ACCESSORS "," DRACO_ACCESSORS,
                                  "\"meshes\":[{\"primitives\":[" DRACO_PRIMITIVE
                                  "]},{\"primitives\":[{\"attributes\":{\"POSITION\":6},"
@@ -301,7 +301,7 @@ static void other_draco_primitives_stay_compressed(void **state)
     ffd_free(text);
 }
 
-/* One compressed mesh under two nodes, one of them far away: only the copy is unpacked. */
+/* One compressed mesh under two nodes, one of them far away: only the copy is decompressed. */
 static void a_copy_of_a_draco_mesh_is_uncompressed(void **state)
 {
     (void)state;
@@ -365,12 +365,12 @@ static void draco_that_cannot_be_is_refused(void **state)
         {DRACO_ACCESSORS, WITH(POSITION_ONLY("\"POSITION\":3", "\"indices\":0,\"mode\":5,")),
          "/meshes/0/primitives/0/extensions/" DRACO,
          "indices of mode 5 compressed by Draco are not supported, only triangles", FFD_E_UNSUPPORTED},
-        /* Accessor 1 comes out of the data here, and is zeros there. */
+        /* Accessor 1 comes from Draco data in one primitive, and is zeros in another. */
         {DRACO_ACCESSORS, WITH(DRACO_PRIMITIVE ",{\"attributes\":{\"POSITION\":1}}"), "/accessors/1",
          "primitives read different values for the accessor, from Draco data and from elsewhere: this is not "
          "supported",
          FFD_E_UNSUPPORTED},
-        /* As positions here, as normals there. */
+        /* Used as positions in one primitive, as normals in another. */
         {DRACO_ACCESSORS, WITH(POSITION_ONLY("\"POSITION\":3", "") "," POSITION_ONLY("\"POSITION\":7", "")),
          "/accessors/1",
          "primitives read different values for the accessor, from Draco data and from elsewhere: this is not "
@@ -393,7 +393,7 @@ static void draco_that_cannot_be_is_refused(void **state)
     }
 }
 
-/* Points without indices take what their accessors name. */
+/* Points without indices use the accessors they name. */
 static void draco_points_are_read(void **state)
 {
     (void)state;
@@ -409,7 +409,7 @@ static void draco_points_are_read(void **state)
     ffd_free(text);
 }
 
-/* Two compressed views: positions and normals interleaved, and indices; a plain one: factors. Views 0 and 1
+/* Two compressed views: interleaved positions and normals, and indices. A plain view: factors. Views 0 and 1
    are in buffer 1, which has no bytes. */
 static char *make_meshopt_text(const char *extension, const char *fallback, const char *rest)
 {
@@ -421,7 +421,7 @@ static char *make_meshopt_text(const char *extension, const char *fallback, cons
         memcpy(vertices + 24 * i + 12, normals + 3 * i, 12);
     }
     size_t size = meshopt_encodeVertexBuffer(bytes, sizeof bytes, vertices, POINTS, 24);
-    const size_t first = put(&b, bytes, size);
+    const size_t first = put_aligned(&b, bytes, size);
     ffd_buffer_format(
         &b.views,
         "{\"buffer\":1,\"byteLength\":600,\"byteStride\":24,\"target\":34962,\"extensions\":{\"%s\":"
@@ -429,7 +429,7 @@ static char *make_meshopt_text(const char *extension, const char *fallback, cons
         "\"ATTRIBUTES\",\"count\":25}}},",
         extension, first, size);
     size = meshopt_encodeIndexSequence(bytes, sizeof bytes, triangles, 3 * TRIANGLES);
-    const size_t second = put(&b, bytes, size);
+    const size_t second = put_aligned(&b, bytes, size);
     ffd_buffer_format(
         &b.views,
         "{\"buffer\":1,\"byteOffset\":600,\"byteLength\":192,\"target\":34963,\"extensions\":{\"%s\":"
@@ -477,10 +477,10 @@ static void a_changed_meshopt_view_is_written_uncompressed(void **state)
     char *text = make_meshopt_text(MESHOPT, FALLBACK, MESHOPT_REST);
     char *written = run_text(text, add_one, &lines);
     assert_int_equal(lines, 1);
-    /* The other view, its buffer and the lists keep the extension; the view keeps the rest of its own. */
+    /* The other view, its buffer and the lists keep the extension. This view keeps its other members. */
     const char *view = strstr(
         written, "\"bufferViews\":[{\"buffer\":0,\"byteLength\":600,\"byteStride\":24,\"target\":34962}");
-    assert_null(view); /* its byteOffset is not 0 any more */
+    assert_null(view); /* its byteOffset is no longer 0 */
     assert_non_null(
         strstr(written, ",\"buffer\":0,\"byteLength\":600,\"byteStride\":24,\"target\":34962},{\"buffer\":1,"
                         "\"byteOffset\":600,"));
@@ -502,7 +502,7 @@ static void a_changed_meshopt_view_is_written_uncompressed(void **state)
     ffd_free(text);
 }
 
-/* Without compressed indices and a marked buffer nothing is left that needs the extension. */
+/* Once no compressed indices and no marked buffer are left, nothing needs the extension. */
 static void the_last_meshopt_view_takes_the_extension_along(void **state)
 {
     (void)state;
@@ -513,7 +513,7 @@ static void the_last_meshopt_view_takes_the_extension_along(void **state)
     while (behind && behind < second)
         behind = strstr(behind + 1, ",{\"buffer\":0,\"byteOffset\":");
     assert_true(second && behind);
-    memset(second, ' ', (size_t)(behind - second)); /* takes the view of the indices out */
+    memset(second, ' ', (size_t)(behind - second)); /* removes the view of the indices */
     char *indices = strstr(text, "\"bufferView\":1");
     assert_non_null(indices);
     indices[strlen("\"bufferView\":")] = '2';
@@ -524,7 +524,7 @@ static void the_last_meshopt_view_takes_the_extension_along(void **state)
     assert_non_null(factor);
     factor[strlen("{\"bufferView\":")] = '1';
     indices[strlen("\"bufferView\":")] = '1';
-    /* The bytes there now are not indices of 25 vertices. */
+    /* The bytes are now not indices of 25 vertices. */
     char *use = strstr(text, ",\"indices\":0");
     assert_non_null(use);
     memset(use, ' ', strlen(",\"indices\":0"));
@@ -538,7 +538,7 @@ static void the_last_meshopt_view_takes_the_extension_along(void **state)
 static void meshopt_that_cannot_be_is_refused(void **state)
 {
     (void)state;
-    /* what is replaced in the text, by what (of the same length), what is said */
+    /* the text to replace, its replacement (of equal length), the message */
     static const struct {
         const char *old, *new, *pointer, *message;
         ffd_status status;
@@ -571,7 +571,7 @@ static void meshopt_that_cannot_be_is_refused(void **state)
             open_bytes(text, strlen(text), "t.gltf", FFD_FORMAT_GLTF, FFD_SPACE_SCENE, &document, &error);
         if (status == FFD_OK)
             status = gltf->check(document, &error);
-        if (status == FFD_OK) { /* indices are not needed before there are faces */
+        if (status == FFD_OK) { /* indices are not read before faces are needed */
             mesh_faces faces = {0};
             status = gltf->faces(document, &faces, &error);
             ffd_mesh_faces_free(&faces);
@@ -597,7 +597,7 @@ static void check_comparison(const char *first, const char *second, double toler
     gltf->close(b);
 }
 
-/* Sheets of the same size in which one number differs. */
+/* Sheets of equal size that differ in one number. */
 static void compressed_data_is_compared_as_what_it_becomes(void **state)
 {
     (void)state;
@@ -627,7 +627,7 @@ static void compressed_data_is_compared_as_what_it_becomes(void **state)
     }
 }
 
-/* Many views of the same few bytes: what they become together is limited. */
+/* Many views of the same few bytes: their total decoded size is limited. */
 static void many_views_of_the_same_bytes_are_too_much(void **state)
 {
     (void)state;
@@ -638,7 +638,7 @@ static void many_views_of_the_same_bytes_are_too_much(void **state)
     unsigned char bytes[4096];
     const size_t size = meshopt_encodeVertexBuffer(bytes, sizeof bytes, zeros, COUNT, 4);
     assert_in_range(size, 1, sizeof bytes);
-    put(&b, bytes, size);
+    put_aligned(&b, bytes, size);
     for (size_t i = 0; i < VIEWS; i++)
         ffd_buffer_format(&b.views,
                           "%s{\"buffer\":1,\"byteLength\":160000,\"extensions\":{\"" MESHOPT
@@ -677,12 +677,11 @@ static unsigned char *make_large_draco(uint32_t side, size_t *size)
     return bytes;
 }
 
-/* Many views of the same Draco data, each with a primitive that takes nothing out of it: it is decoded for
-   each of them. */
+/* Many views of the same Draco data, each with a primitive that uses none of it. Each would be decoded. */
 static void the_same_draco_data_is_decoded_too_often(void **state)
 {
     (void)state;
-    if (is_under_valgrind()) /* Draco's own decoder takes nearly all of the time */
+    if (is_under_valgrind()) /* Draco's decoder takes nearly all of the time */
         skip();
     enum { LARGE = 120, VIEWS = 300 };
     static blob b;
@@ -690,7 +689,7 @@ static void the_same_draco_data_is_decoded_too_often(void **state)
     size_t size;
     unsigned char *const bytes = make_large_draco(LARGE, &size);
     b = (blob){.size = 0};
-    put(&b, bytes, size);
+    put_aligned(&b, bytes, size);
     ffd_buffer_format(&rest,
                       LISTS("\"" DRACO "\"") ",\"nodes\":[{\"mesh\":0}],\"accessors\":[{"
                                              "\"componentType\":5126,\"count\":%d,\"type\":\"VEC3\",\"min\":"
@@ -738,21 +737,13 @@ static void memory_failures_are_reported(void **state)
     }
 }
 
-static int make_folder(void **state)
+static int begin(void **state)
 {
-    (void)state;
+    if (make_folder(state))
+        return -1;
     make_sheet();
-    if (!mkdtemp(folder))
-        return 1;
     snprintf(output, sizeof output, "%s/out.gltf", folder);
     return 0;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    unlink(output);
-    return rmdir(folder);
 }
 
 int main(void)
@@ -774,5 +765,5 @@ int main(void)
         cmocka_unit_test(the_same_draco_data_is_decoded_too_often),
         cmocka_unit_test(memory_failures_are_reported),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, begin, remove_folder);
 }

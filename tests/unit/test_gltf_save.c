@@ -1,4 +1,4 @@
-/* test_gltf_save.c - writing glTF back: bytes in place, appended copies, buffers' and images' files. */
+/* test_gltf_save.c - writing glTF: bytes in place, appended copies, files of buffers and images. */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -36,7 +36,7 @@ static void check_bytes(const char *name, const void *bytes, size_t size)
     ffd_file_unload(&input);
 }
 
-/* As a string, so that a difference is shown. */
+/* Compared as strings, so that a difference is printed. */
 static void check_text(const char *name, const char *text)
 {
     char *read = load_text(in_folder(name));
@@ -60,7 +60,7 @@ static void keep_line(void *user, ffd_log_level level, const char *line)
     snprintf(lines->text + length, sizeof lines->text - length, "%d %s\n", (int)level, line);
 }
 
-/* Deforms the file `name` and saves it as `output`; both in the test's folder. */
+/* Deforms the file `name` and saves it as `output`, both in the test's folder. */
 static ffd_status convert(const char *name, const char *output, ffd_space space, mover move, bool attributes,
                           ffd_resources resources, log_lines *lines, ffd_error *error)
 {
@@ -76,7 +76,7 @@ static ffd_status convert(const char *name, const char *output, ffd_space space,
     return status;
 }
 
-/* log: the lines, or NULL where it is to warn of a node that is not shown. */
+/* log: the expected lines; NULL: a warning about a node that is not shown. */
 static void check_conversion(const char *text, ffd_space space, mover move, const char *expected,
                              const char *log)
 {
@@ -99,7 +99,7 @@ static void check_conversion(const char *text, ffd_space space, mover move, cons
 static void only_what_changes_is_replaced(void **state)
 {
     (void)state;
-    /* max x was 1 and is 2; 0 becomes 1; the other numbers keep their text. */
+    /* max x becomes 2; 0 becomes 1; the text of other numbers is unchanged. */
     const char *const before = "\xef\xbb\xbf{ " ASSET ", " BUFFER(
         "36", TRIANGLE) ",\n" VIEWS "],\"accessors\":[" OLD_ACCESSOR
                         "],\"meshes\":[" MESH("0") "],\"nodes\":[{\"mesh\":0}] , \"extras\":1.50}\n ";
@@ -134,7 +134,7 @@ static void odd_data_uris_become_plain(void **state)
     "],\"nodes\":[{\"mesh\":" first "},{\"mesh\":" second                                                    \
     ",\"translation\":[10,0,0]}],\"scenes\":[{\"nodes\":[0,1]}]}"
 
-/* The far node's mesh has an accessor of its own, behind the first. */
+/* The far node's mesh has its own accessor, after the first. */
 #define FAR_HAS_ITS_OWN                                                                                      \
     "{" ASSET "," BUFFER("72", TRIANGLE MOVED) "," VIEWS                                                     \
                                                ",{\"buffer\":0,\"byteOffset\":36,\"byteLength\":36,"         \
@@ -150,12 +150,12 @@ static void a_mesh_under_two_nodes_is_copied_where_they_differ(void **state)
     const char *const before =
         "{" ASSET "," BUFFER("36", TRIANGLE) "," VIEWS "],\"accessors\":[" OLD_ACCESSOR
                                              "],\"meshes\":[" MESH("0") TWO_NODES("0", "0");
-    /* Both alike: in place. */
+    /* Both agree: in place. */
     check_conversion(before, FFD_SPACE_SCENE, add_one,
                      "{" ASSET "," BUFFER("36", MOVED) "," VIEWS "],\"accessors\":[" ACCESSOR(
                          "[1, 0,0.0]", "[2,1,0]") "],\"meshes\":[" MESH("0") TWO_NODES("0", "0"),
                      "");
-    /* The far one only: the first keeps mesh and bytes. */
+    /* Only the far one moves: the first one keeps its mesh and bytes. */
     check_conversion(
         before, FFD_SPACE_SCENE, move_far, FAR_HAS_ITS_OWN,
         "1 node 1 gets a copy of mesh 0 (mesh 1): the mesh is deformed differently under other nodes\n"
@@ -206,8 +206,8 @@ static void a_node_outside_the_scene_keeps_its_mesh(void **state)
 static void other_users_of_the_bytes_keep_them(void **state)
 {
     (void)state;
-    /* One more reader each: an attribute of another name, an animation, an unused accessor, an image, another
-       accessor that overlaps by one vertex. The position then gets a new accessor. */
+    /* One more user of the data: an attribute of another name, an animation, an unused accessor, an image,
+       another accessor that overlaps by one vertex. The positions then get a new accessor. */
     static const struct {
         const char *views, *accessors, *attributes, *rest;
         const char *number; /* of the new accessor */
@@ -252,15 +252,15 @@ static void accessors_of_the_same_bytes_that_agree_stay(void **state)
         FFD_SPACE_SCENE, add_one,
         "{" ASSET "," BUFFER("36", MOVED) "," VIEWS TWO("[1,0,0]", "[2,1,0]") TWO_NODES("0", "1"), "");
 #undef TWO
-    /* Two meshes of one accessor that do not agree: each gets its own. */
+    /* Two meshes with different results share an accessor: each gets its own. */
     check_conversion("{" ASSET "," BUFFER("36", TRIANGLE) "," VIEWS "],\"accessors\":[" OLD_ACCESSOR
                                                           "],\"meshes\":[" MESH("0") "," MESH("0")
                                                               TWO_NODES("0", "1"),
                      FFD_SPACE_SCENE, move_far, FAR_HAS_ITS_OWN, "");
 }
 
-/* Positions, normals and tangents of two vertices interleaved, so many floats a vertex: the tangent's last
-   number and the gap, if there is one, stay. */
+/* Positions, normals and tangents of two vertices, interleaved, with this many floats a vertex. The tangent's
+   last number and the gap, if any, are unchanged. */
 static void check_interleaved(size_t floats)
 {
     static const float values[2][11] = {{1, 2, 3, 4, 5, 6, 7, 8, 9, -1, 77},
@@ -318,7 +318,7 @@ static size_t make_glb(unsigned char *glb, const char *json, const void *bin, si
     return total + tail_size;
 }
 
-/* The text with spaces up to a multiple of 4, and more of them. */
+/* Pads a text with spaces to a multiple of 4, plus `more`. */
 static const char *pad(const char *text, size_t more)
 {
     static char padded[4][1024];
@@ -357,12 +357,12 @@ static void glb_lengths_and_padding_follow(void **state)
     const char *const plain = pad(GLB_JSON("36", "", "", "", ""), 0);
     check_glb(plain, triangle, 36, "tail", stay, plain, triangle, 36, "tail");
     check_glb(plain, triangle, 36, "tail", add_one, plain, moved, 36, "");
-    /* Odd sizes are kept where nothing grows. */
+    /* Odd sizes are kept if nothing grows. */
     const float padded[10] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 9},
                 padded_moved[10] = {1, 0, 0, 2, 0, 0, 1, 1, 0, 9};
     const char *const odd = pad(GLB_JSON("36", "", "", "", ""), 6);
     check_glb(odd, padded, 40, "", add_one, odd, padded_moved, 40, "");
-    /* A copy for the second node: both chunks grow. */
+    /* A copy for the second node makes both chunks grow. */
     float grown[18];
     memcpy(grown, triangle, sizeof triangle);
     memcpy(grown + 9, moved, sizeof moved);
@@ -386,7 +386,7 @@ static void buffer_files_are_named_after_the_output(void **state)
     (void)state;
     const float triangle[10] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 5}, moved[10] = {1, 0, 0, 2, 0, 0, 1, 1, 0, 5};
     put_text("own.gltf", WITH_FILE("some%20data.bin"));
-    put("some data.bin", triangle, sizeof triangle); /* longer than byteLength is allowed */
+    put("some data.bin", triangle, sizeof triangle); /* a buffer may be longer than its byteLength */
     assert_int_equal(
         convert("own.gltf", "new one.gltf", FFD_SPACE_SCENE, add_one, false, FFD_RESOURCES_COPY, NULL, NULL),
         FFD_OK);
@@ -394,7 +394,7 @@ static void buffer_files_are_named_after_the_output(void **state)
     check_bytes("new one.bin", moved, sizeof moved);
     check_bytes("some data.bin", triangle, sizeof triangle);
 
-    /* Either file that exists is refused without force. */
+    /* An existing file is refused without force, whichever it is. */
     ffd_error error = {0};
     unlink(in_folder("new one.gltf"));
     assert_int_equal(convert("own.gltf", "new one.gltf", FFD_SPACE_SCENE, add_one, false, FFD_RESOURCES_COPY,
@@ -403,7 +403,7 @@ static void buffer_files_are_named_after_the_output(void **state)
     assert_string_equal(error.file, in_folder("new one.bin"));
     assert_int_equal(access(in_folder("new one.gltf"), F_OK), -1);
 
-    /* The input's own buffer is not overwritten, force or not. */
+    /* The input's own buffer is never overwritten, even with force. */
     mesh_document *document = NULL;
     assert_int_equal(open_file(in_folder("own.gltf"), FFD_SPACE_SCENE, &document, NULL), FFD_OK);
     assert_int_equal(save_to(document, in_folder("some data.gltf"), &error), FFD_E_EXISTS);
@@ -418,7 +418,7 @@ static void buffer_files_are_named_after_the_output(void **state)
                         "name as output");
 }
 
-/* A changed buffer is named after the file in place too: another model may use the old one. */
+/* Also in place, a changed buffer gets a new name: another model may use the old one. */
 static void in_place_buffers_are_named_after_the_file(void **state)
 {
     (void)state;
@@ -444,7 +444,7 @@ static void in_place_buffers_are_named_after_the_file(void **state)
     check_bytes("own.bin", moved, sizeof moved);
 }
 
-/* Moves the file `name` and saves it in the container that the output's ending names. */
+/* Moves the file `name` and saves it in the container of the output's ending. */
 static void change_container(const char *name, const char *output, ffd_format format)
 {
     mesh_document *document = NULL;
@@ -459,7 +459,7 @@ static void change_container(const char *name, const char *output, ffd_format fo
     gltf->close(document);
 }
 
-/* The text of a GLB's JSON (the caller's) and where its BIN chunk begins; chunks are whole words. */
+/* Returns the JSON of a GLB, freed by the caller, and the offset of its BIN chunk. Chunks are whole words. */
 static char *split_glb(const file_input *file, glb_layout *layout)
 {
     assert_int_equal(ffd_glb_parse(file->data, file->size, "", layout, NULL), FFD_OK);
@@ -471,7 +471,7 @@ static char *split_glb(const file_input *file, glb_layout *layout)
     return text;
 }
 
-/* The text of its JSON, which spaces may follow, and the bytes of its BIN chunk. */
+/* Checks the JSON, except for trailing spaces, and the bytes of the BIN chunk. */
 static void check_container(const char *name, const char *expected, const void *bytes, size_t size)
 {
     file_input file;
@@ -487,8 +487,7 @@ static void check_container(const char *name, const char *expected, const void *
     ffd_file_unload(&file);
 }
 
-/* A file of its own goes into the BIN chunk and comes out of it, and the rest of the JSON is the same text.
- */
+/* A buffer moves from its file into the BIN chunk and back. The rest of the JSON is the same text. */
 static void containers_change(void **state)
 {
     (void)state;
@@ -509,7 +508,7 @@ static void containers_change(void **state)
 #undef CONTAINER
 }
 
-/* A GLB has one BIN chunk: it takes the first buffer, the others become data URIs. */
+/* A GLB has one BIN chunk, for the first buffer; the others become data URIs. */
 static void a_glb_holds_all_buffers(void **state)
 {
     (void)state;
@@ -545,7 +544,7 @@ static void images_are_copied_or_referred_to(void **state)
     check_text("out/i.gltf", text);
     check_text("out/tex/a b.png", PICTURE);
     assert_string_equal(lines.text, "");
-    /* Once more: the copy is there already. */
+    /* Again: the copy exists already. */
     assert_int_equal(
         convert("images.gltf", "out/j.gltf", FFD_SPACE_SCENE, stay, false, FFD_RESOURCES_COPY, NULL, &error),
         FFD_OK);
@@ -574,7 +573,7 @@ static void images_are_copied_or_referred_to(void **state)
 #undef IMAGES
 }
 
-/* None of the model's own files takes the place of an image, be it the input's or a copy. */
+/* No file of the model replaces an image, either the input's or a copy. */
 static void an_image_is_not_overwritten(void **state)
 {
     (void)state;
@@ -585,12 +584,12 @@ static void an_image_is_not_overwritten(void **state)
     "],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],"             \
     "\"meshes\":[" MESH("0") "],\"nodes\":[{\"mesh\":0}]}"
     static const struct {
-        const char *image, *text, *output, *file; /* file: the one that is refused */
+        const char *image, *text, *output, *file; /* file: the refused one */
     } cases[] = {
-        /* Beside the input, where the image itself would be overwritten. */
+        /* Beside the input, where it would overwrite the image itself. */
         {"skin.bin", WITH_IMAGE("./skin.bin"), "skin.gltf", "skin.bin"},
         {"skin.gltf", WITH_IMAGE("skin.gltf"), "skin.gltf", "skin.gltf"},
-        /* In another folder, where its copy would be. */
+        /* In another folder, where it would overwrite the copy. */
         {"skin.bin", WITH_IMAGE("a/../skin.bin"), "pics/skin.gltf", "pics/skin.bin"},
         {"skin.gltf", WITH_IMAGE("skin.gltf"), "pics/skin.gltf", "pics/skin.gltf"},
     };
@@ -677,7 +676,7 @@ static void compare_finds_what_differs(void **state)
 #undef WITH
 }
 
-/* Every allocation of the whole way may fail: an error, no leak, no output. */
+/* Any allocation may fail: an error, no leak, no output. */
 static void memory_may_run_out_anywhere(void **state)
 {
     (void)state;

@@ -1,5 +1,4 @@
-/* test_gltf_storage.c - numbers of every component type, and memory that runs out where results are stored.
- */
+/* test_gltf_storage.c - numbers of every component type, and failing memory while results are stored. */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -32,8 +31,8 @@ static void write_integer(int component, int value, unsigned char *bytes)
         bytes[i] = (unsigned char)((unsigned)value >> 8 * i);
 }
 
-/* Every integer of every type: it is read, its value fits and rounds to itself, and is encoded as it was,
-   also over another one. */
+/* Each integer of each type is decoded, fits, rounds to itself and is encoded unchanged, also over another
+   one. */
 static void every_integer_comes_back(void **state)
 {
     (void)state;
@@ -53,7 +52,7 @@ static void every_integer_comes_back(void **state)
             assert_true(ffd_gltf_fits(&a, results, 3));
             write_integer(a.component, q < 0 ? 1 : q + 1 > largest ? 0 : q + 1, others);
             ffd_gltf_encode(&a, a.component, others, results, 3, element);
-            const bool is_minus_one = a.normalized && q == -largest - 1; /* twice in the type */
+            const bool is_minus_one = a.normalized && q == -largest - 1; /* -1 has two representations */
             write_integer(a.component, is_minus_one ? q + 1 : q, bytes);
             assert_memory_equal(element, bytes, size);
             assert_memory_equal(element + size, bytes, size);
@@ -75,7 +74,7 @@ static void halves_go_to_the_even_step(void **state)
         assert_memory_equal(&found, &wanted, sizeof wanted); /* no -0 */
         const float part = ffd_gltf_round(&normalized, cases[i].value / 32767),
                     step = (float)(cases[i].expected / 32767.0);
-        if (fabs(cases[i].value - floor(cases[i].value)) != 0.5) /* a half is no longer exact */
+        if (fabs(cases[i].value - floor(cases[i].value)) != 0.5) /* a half may no longer be exact */
             assert_memory_equal(&part, &step, sizeof step);
     }
     const gltf_accessor real = accessor_of(GLTF_FLOAT, false);
@@ -102,8 +101,8 @@ static void what_does_not_fit_is_found(void **state)
     assert_true(ffd_gltf_fits(&real, &huge, 1));
 }
 
-/* A component that keeps its value keeps its bytes: -128 is not made -127. The 4th stays, as float it is
-   decoded. */
+/* A component that keeps its value keeps its bytes: -128 does not become -127. The 4th component is
+   unchanged, with the float that it decodes to. */
 static void only_what_changes_is_encoded(void **state)
 {
     (void)state;
@@ -118,7 +117,7 @@ static void only_what_changes_is_encoded(void **state)
     assert_memory_equal(element, "\0\0\x80\xbf\0\0\x80\xbf\0\0\x80\x3f\0\0\x80\xbf", 16);
 }
 
-/* Of so many vectors that groups of them and a rest are looked at. */
+/* Enough vectors for whole SIMD groups and a remainder. */
 static void bounds_are_those_of_all_vectors(void **state)
 {
     (void)state;
@@ -137,7 +136,7 @@ static void bounds_are_those_of_all_vectors(void **state)
     }
 }
 
-/* Elements are read a part at a time: one that a sparse accessor has behind the part is not written. */
+/* Elements are read in parts: a sparse element beyond the part is not written. */
 static void a_sparse_element_behind_the_part(void **state)
 {
     (void)state;
@@ -163,8 +162,8 @@ static void a_sparse_element_behind_the_part(void **state)
     gltf->close(document);
 }
 
-/* A sparse accessor and zeros without a buffer for them; integers that become floats, whose extension goes.
- */
+/* A sparse accessor with zeros instead of a buffer; and integers that become floats, whose extension is
+   removed. */
 static void memory_may_run_out_anywhere(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* test_hash_cache.c - what jobs of a batch know of files that jobs before them have looked at. */
+/* test_hash_cache.c - what jobs of a batch reuse of files that earlier jobs have read. */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -9,7 +9,7 @@
 #include "../support/test_folder.h"
 #include "batch/hash_cache.h"
 
-/* Puts another file in the place of one, as programs do. */
+/* Replaces a file by renaming another one onto it. */
 static void replace(const char *name, const char *text)
 {
     put_text("new", text);
@@ -31,7 +31,7 @@ static void a_file_is_read_again_when_it_is_another(void **state)
     ffd_cache_free(&cache);
 }
 
-/* A mesh that is read from a buffer. */
+/* A mesh with a buffer file. */
 static void put_asset(const char *name, const char *buffer)
 {
     char text[300];
@@ -64,7 +64,7 @@ static void the_files_of_a_mesh_are_those_of_now(void **state)
     ffd_cache_free(&cache);
 }
 
-/* As the jobs' meshes and those of a lattice's box come: by turns. */
+/* Alternating, like the jobs' meshes and those of a lattice's box. */
 static void meshes_by_turns_are_read_once(void **state)
 {
     (void)state;
@@ -86,7 +86,7 @@ static bool take(hash_cache *cache, const char *name, file_input *input)
     return ffd_kept_take(&cache->kept, in_folder(name), &stamp, input);
 }
 
-/* A worker hands them to the job, which need not read the file again. */
+/* A worker hands the bytes to the job, which need not read the file again. */
 static void the_bytes_of_a_mesh_are_kept_while_it_stays(void **state)
 {
     (void)state;
@@ -103,7 +103,7 @@ static void the_bytes_of_a_mesh_are_kept_while_it_stays(void **state)
         assert_int_equal(ffd_cache_images(&cache, &source, &images, NULL), FFD_OK);
         assert_int_equal(ffd_cache_hash(&cache, in_folder("l.json"), &hash, NULL), FFD_OK);
         assert_non_null(cache.kept.path);
-        assert_false(take(&cache, "l.json", &input)); /* the first file of a job is its mesh */
+        assert_false(take(&cache, "l.json", &input)); /* a job's first file is its mesh */
         assert_false(take(&cache, "same.obj", &input));
         if (change)
             replace("k.obj", "v 0 0 1 1\n");

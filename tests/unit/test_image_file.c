@@ -1,4 +1,4 @@
-/* test_image_file.c - which files are images, by their names and by how they begin. */
+/* test_image_file.c - recognizes image files by name and by content. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -55,7 +55,7 @@ static void contents_of_images(void **state)
     assert_true(IS_IMAGE("MM\0*"));
     assert_true(IS_IMAGE("#?RADIANCE\n"));
     assert_true(IS_IMAGE("v/1\1\2"));
-    /* Targa: no map, true colour, 32 bits; the same compressed. */
+    /* Targa: no colour map, true colour, 32 bits; the same compressed. */
     assert_true(IS_IMAGE("\0\0\2\0\0\0\0\0\0\0\0\0\4\0\4\0\x20\0"));
     assert_true(IS_IMAGE("\0\0\12\0\0\0\0\0\0\0\0\0\4\0\4\0\x18\0"));
 }

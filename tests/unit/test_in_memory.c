@@ -1,5 +1,5 @@
-/* test_in_memory.c - jobs whose meshes and lattices are in memory, and whose outputs go to a sink: what comes
-   out is, byte for byte, what a job on files writes, and no file has a part in it. */
+/* test_in_memory.c - jobs with meshes and lattices in memory, and outputs to a sink. The results are, byte
+   for byte, those of jobs on files, and no file is touched. */
 #define _GNU_SOURCE /* mkdtemp, nftw, memmem */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -26,7 +26,7 @@ static const char open_text[] = "{\"format\":\"ffd-lattice\",\"version\":1,\"siz
                                 "\"box\":{\"min\":[-1,-1,-1],\"max\":[2,2,2]}},"
                                 "\"moves\":[{\"by\":[0,{\"$\":\"lift\"},1]}]}";
 
-/* Files: those of an input, and those of an output. */
+/* The files of an input, or of an output. */
 typedef struct named {
     char name[200];
     unsigned char *bytes;
@@ -43,7 +43,7 @@ static void add(name_list *list, const char *name, const void *bytes, size_t siz
     assert_true(list->count < MOST);
     named *const file = &list->files[list->count++];
     snprintf(file->name, sizeof file->name, "%s", name);
-    /* At an odd address, and with nothing behind. */
+    /* Misaligned, and without a byte behind. */
     file->bytes = (unsigned char *)malloc(size + 1) + 1;
     file->size = size;
     memcpy(file->bytes, bytes, size);
@@ -74,8 +74,8 @@ static const named *find(const name_list *list, const char *name)
 typedef struct resolver {
     const name_list *files;
     size_t calls;
-    const char *fails; /* at this name, */
-    ffd_status with;   /* with this */
+    const char *fails; /* fail at this name */
+    ffd_status with;   /* with this status */
 } resolver;
 
 static ffd_status resolve(void *user, const char *name, ffd_bytes *bytes)
@@ -84,7 +84,7 @@ static ffd_status resolve(void *user, const char *name, ffd_bytes *bytes)
     const named *const file = find(r->files, name);
     r->calls++;
     if (r->fails && strcmp(r->fails, name) == 0) {
-        bytes->size = 3; /* and no data */
+        bytes->size = 3; /* and NULL */
         return r->with;
     }
     if (file)
@@ -94,7 +94,7 @@ static ffd_status resolve(void *user, const char *name, ffd_bytes *bytes)
 
 typedef struct sink {
     name_list files;
-    size_t takes; /* so many, and then fails */
+    size_t takes; /* fails after this many */
     ffd_status with;
 } sink;
 
@@ -194,7 +194,7 @@ static void make_stl(name_list *files)
     add(files, "head.stl", bytes, sizeof bytes);
 }
 
-/* What both kinds of job are given. */
+/* Writes the input of both kinds of jobs. */
 
 static void put_all(const name_list *files, const char *under)
 {
@@ -226,7 +226,7 @@ static size_t files_in(const char *name)
     return files_found;
 }
 
-/* The files of a folder are those that the sink has taken. */
+/* Checks that the files of a folder are those that the sink received. */
 static void check_same(const name_list *taken, const char *where)
 {
     for (size_t i = 0; i < taken->count; i++) {
@@ -263,7 +263,7 @@ typedef struct both {
     char input[200], output[200], path[200];
 } both;
 
-/* A job in memory, with the names that the files will have. */
+/* Starts a job in memory, with the names that the files will have. */
 static void begin(both *b, void (*make)(name_list *), const char *output)
 {
     *b = (both){0};
@@ -294,7 +294,7 @@ static void begin(both *b, void (*make)(name_list *), const char *output)
     said[0] = 0;
 }
 
-/* Gives the same to a job on files. */
+/* Gives the same input to a job on files. */
 static void use_files(both *b)
 {
     assert_int_equal(files_in("out"), 0);
@@ -314,7 +314,7 @@ static void end(both *b)
     ffd_lattice_destroy(&b->lattice);
 }
 
-/* Both jobs write the same and say the same. */
+/* Checks that both jobs write the same and log the same. */
 static void compare_jobs(void (*make)(name_list *), const char *output, size_t files)
 {
     both b;
@@ -378,7 +378,7 @@ static void one_of_both_may_be_a_file(void **state)
     (void)state;
 }
 
-/* Without a name there is a format; a name may have no folder; each file is asked for once. */
+/* Without a name, a format is needed. A name need not have a folder. Each file is requested once. */
 static void names_are_the_callers(void **state)
 {
     both b;
@@ -396,7 +396,7 @@ static void names_are_the_callers(void **state)
     assert_int_equal(b.resolver.calls, 3);
     assert_string_equal(said, "0 the image \"lost.png\" is missing and was not copied\n");
     clear(&b.sink.files);
-    b.desc.input.path = "head.gltf"; /* one name for both is no conflict */
+    b.desc.input.path = "head.gltf"; /* the input's name as the output is not a conflict */
     b.desc.output = "head.gltf";
     assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
     assert_non_null(find(&b.sink.files, "head.bin"));
@@ -408,7 +408,7 @@ static void names_are_the_callers(void **state)
     (void)state;
 }
 
-/* A name that ends in a folder's would lead nowhere. */
+/* A name that ends like a folder is refused. */
 static void names_that_are_no_files_are_refused(void **state)
 {
     static const char *const names[] = {"", "/", ".", "..", "in/", "in/.."};
@@ -428,7 +428,7 @@ static void names_that_are_no_files_are_refused(void **state)
     (void)state;
 }
 
-/* What a text names relative to itself is nowhere, even where there is such a file. */
+/* Relative paths in a lattice text lead nowhere, even if such a file exists. */
 static void a_text_names_no_meshes(void **state)
 {
     static const char around[] = "{\"format\":\"ffd-lattice\",\"version\":1,\"size\":[3,3,3],"
@@ -471,7 +471,7 @@ static void texts_of_lattices_have_values(void **state)
     (void)state;
 }
 
-/* A report of several morph targets names the lattice of each, also one that has no name. */
+/* The report of several morph targets names the lattice of each, even of one without a name. */
 static void check_lattice_names(const ffd_deform_desc *callers, const char *second)
 {
     ffd_deform_desc desc = *callers;
@@ -645,7 +645,8 @@ static void pictures_pages_and_derivatives_go_to_a_sink(void **state)
     (void)state;
 }
 
-/* u,v,w times the transposed derivative, and that times the derivative: in memory, or files. */
+/* The product with the transposed derivative, and the product of that with the derivative: in memory or in
+   files. */
 static void multiply(both *b, ffd_jacobian_desc *desc, const char *const outputs[3])
 {
     const bool in_memory = b->desc.sink != NULL;
@@ -732,8 +733,8 @@ static void a_report_goes_to_a_sink(void **state)
     (void)state;
 }
 
-/* Of a resolver that fails the job has the status; its name for the mesh is in the error; nothing is given
- * on. */
+/* The job has the status of a resolver that fails, the error has the caller's name for the mesh, and there is
+   no output. */
 static void check_resolver(const char *fails, ffd_status with, ffd_status expected)
 {
     both b;
@@ -754,7 +755,7 @@ static void check_resolver(const char *fails, ffd_status with, ffd_status expect
     end(&b);
 }
 
-/* The same of what a view would draw, with an image that is grey where it is missing. */
+/* Likewise for a view, in which a missing image is drawn grey. */
 static void check_resolver_of_view(const char *output)
 {
     both b;
@@ -784,9 +785,9 @@ static void a_resolver_that_fails_ends_the_job(void **state)
     check_resolver_of_view("v.html");
     check_resolver("head.bin", FFD_E_CANCELLED, FFD_E_CANCELLED);
     check_resolver("head.bin", FFD_E_IO, FFD_E_IO);
-    check_resolver("tex/skin.png", FFD_E_MEMORY, FFD_E_MEMORY); /* a missing image alone is no failure */
+    check_resolver("tex/skin.png", FFD_E_MEMORY, FFD_E_MEMORY); /* a missing image is not an error */
     check_resolver("lost.png", (ffd_status)77, FFD_E_IO);
-    check_resolver("lost.png", FFD_OK, FFD_E_ARGUMENT); /* bytes that are none are not a missing file */
+    check_resolver("lost.png", FFD_OK, FFD_E_ARGUMENT); /* invalid bytes are not treated as a missing file */
     (void)state;
 }
 
@@ -800,7 +801,7 @@ static void what_is_not_there_is_named(void **state)
     assert_int_equal(ffd_deform_run(&b.desc, &result, &error), FFD_E_IO);
     assert_string_equal(error.file, b.input);
     assert_string_equal(error.message, "the file \"head.bin\" cannot be opened: No such file or directory");
-    /* Not even where there is a file of the name. */
+    /* Even if a file of this name exists. */
     put_all(&b.given, "in");
     assert_int_equal(ffd_deform_run(&b.desc, &result, &error), FFD_E_IO);
     end(&b);
@@ -840,7 +841,7 @@ static void a_sink_that_fails_ends_the_job(void **state)
         assert_string_equal(error.message, "was not taken by the caller");
         assert_null(strstr(error.file, "ffd-memory"));
         assert_int_equal(b.sink.files.count, takes);
-        assert_null(find(&b.sink.files, b.output)); /* never the mesh without what it needs */
+        assert_null(find(&b.sink.files, b.output)); /* never the mesh without the files that it needs */
         end(&b);
     }
     begin(&b, make_off, "head.off");
@@ -859,7 +860,7 @@ static void a_sink_that_fails_ends_the_job(void **state)
     (void)state;
 }
 
-/* Each length of each format: what a job on a file of it says. */
+/* For each length of each format the error is that of a job on a file. */
 static void truncated_bytes_fail_as_files_do(void **state)
 {
     static void (*const make[])(name_list *) = {make_obj, make_gltf, make_glb, make_ply, make_off, make_stl};
@@ -909,7 +910,7 @@ static void descriptions_that_contradict_themselves_are_refused(void **state)
         if (wrong == 0)
             b.desc.input.bytes.data = NULL;
         if (wrong == 1)
-            b.desc.input.bytes = (ffd_bytes){0}; /* but a resolver */
+            b.desc.input.bytes = (ffd_bytes){0}; /* with a resolver only */
         if (wrong == 2)
             b.desc.in_place = true;
         if (wrong == 3)
@@ -917,7 +918,7 @@ static void descriptions_that_contradict_themselves_are_refused(void **state)
         if (wrong == 4)
             b.desc.resources = FFD_RESOURCES_REFERENCE;
         if (wrong == 5)
-            b.desc.lattice_texts = &text; /* and an object */
+            b.desc.lattice_texts = &text; /* together with an object */
         if (wrong == 6)
             b.desc.lattice_objects = NULL;
         if (wrong == 7)
@@ -930,14 +931,14 @@ static void descriptions_that_contradict_themselves_are_refused(void **state)
     }
     ffd_depfile_destroy(&depfile);
     b.desc = whole;
-    b.desc.input.bytes.size = 0; /* a file of no bytes */
+    b.desc.input.bytes.size = 0; /* an empty file */
     assert_int_equal(ffd_deform_run(&b.desc, &result, &error), FFD_E_INVALID);
     assert_int_equal(b.sink.files.count, 0);
     end(&b);
     (void)state;
 }
 
-/* A whole job from within the callback of another one. */
+/* Runs a whole job inside the callback of another one. */
 static ffd_status take_and_run(void *user, const char *name, const void *bytes, size_t size)
 {
     static const char lifted[] =
@@ -957,7 +958,7 @@ static ffd_status take_and_run(void *user, const char *name, const void *bytes, 
     return ffd_deform_run(&desc, &result, NULL);
 }
 
-/* The jobs of a thread: all are the same. Returns how many were as they should be. */
+/* Runs the same job several times in a thread. Returns the number of correct runs. */
 static void *run_some(void *user)
 {
     static const char off[] = "OFF\n1 0 0\n0 0 0\n";
@@ -992,7 +993,7 @@ static void jobs_run_in_threads_and_in_callbacks(void **state)
     (void)state;
 }
 
-/* Wherever memory runs out nothing is lost without a word, as an image that seems to be missing. */
+/* Wherever memory runs out the job fails; for example, an image is never just taken as missing. */
 static void memory_may_run_out_anywhere(void **state)
 {
     both b;

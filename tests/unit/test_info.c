@@ -1,4 +1,4 @@
-/* What `ffd info` says of meshes and lattices, as JSON and as text, and `ffd lattice new`. */
+/* The output of `ffd info` for meshes and lattices, as JSON and as text, and `ffd lattice new`. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -27,7 +27,7 @@ static ffd_info_desc describe(const char *path, bool json)
     return desc;
 }
 
-/* The JSON of a file in the folder; the caller's. */
+/* Returns the JSON for a file in the folder, freed by the caller. */
 static json_facts *info_of(const char *name)
 {
     const ffd_info_desc desc = describe(in_folder(name), true);
@@ -297,7 +297,7 @@ static void an_obj_file_is_described(void **state)
     facts_free(json);
 }
 
-/* Whether each fact has its line: the name at its depth, two spaces or more, the value. */
+/* Checks that a fact has a line: the name, indented, two or more spaces, and the value. */
 static void assert_told(const char *text, const char *line_name, const char *value)
 {
     for (const char *line = text; *line; line = strchr(line, '\n') + 1) {
@@ -381,7 +381,7 @@ static void a_box_lattice_is_described(void **state)
     assert_word(json, "rest", "box");
     assert_true(facts_is(json, "rational", JSON_FALSE));
     assert_vector(json, "rest_bounds.min", 0, -1,
-                  0); /* open: the outer layers are one spacing beyond the box */
+                  0); /* open: the outer layers are one spacing outside the box */
     assert_vector(json, "rest_bounds.max", 3, 3, 6);
     assert_vector(json, "deformed_bounds.min", -3, -1, -4);
     assert_number(json, "diagonal", sqrt(61));
@@ -448,7 +448,7 @@ static void a_lattice_awaiting_its_mesh_has_no_bounds(void **state)
     ffd_text_free(text_of("mesh.json"));
 }
 
-/* A lattice without volume is described all the same. */
+/* A lattice without volume is still described. */
 static void a_lattice_without_volume_is_described(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* test_job.c - whole jobs through the library: descriptions that are refused, what of the figures is filled,
-   and memory that ends anywhere. */
+/* test_job.c - whole jobs through the library: refused descriptions, which figures are filled, and failing
+   memory. */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -85,7 +85,7 @@ static void wrong_descriptions_are_refused(void **state)
     (void)state;
 }
 
-/* Figures that cost are there when they are asked for. */
+/* Expensive figures are computed if they are asked for. */
 static void costly_figures_are_there_when_asked_for(void **state)
 {
     ffd_job_result result = {.struct_size = sizeof result};
@@ -106,7 +106,7 @@ static void costly_figures_are_there_when_asked_for(void **state)
     assert_true(result.det_min <= result.det_max);
     assert_int_equal(result.faces, 2);
 
-    desc.output = NULL; /* is not looked at */
+    desc.output = NULL; /* ignored */
     desc.quality = false;
     assert_int_equal(ffd_check_run(&desc, &result, NULL), FFD_OK);
     assert_true(result.has_folds && result.has_flipped && result.has_edges);
@@ -140,7 +140,7 @@ static void fail_everywhere(ffd_status (*run)(const ffd_deform_desc *, ffd_job_r
     unlink(output);
 }
 
-/* A job with a depfile, and the writing of that. */
+/* Runs a job with a depfile, and writes it. */
 static ffd_status run_with_depfile(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
 {
     ffd_deform_desc with = *desc;
@@ -283,7 +283,7 @@ static void wrong_morph_targets_are_refused(void **state)
     ffd_deform_desc desc = describe();
     ffd_job_result result = {.struct_size = sizeof result};
     (void)state;
-    unlink(output); /* of a test before */
+    unlink(output); /* of an earlier test */
     desc.output_format = FFD_FORMAT_GLB;
     desc.lattice_count = 2;
     desc.morphs = twice;
@@ -334,7 +334,7 @@ static void each_failed_allocation_is_reported(void **state)
     (void)state;
 }
 
-/* Only what a selector names is counted; a kind or name that is not there is the caller's mistake. */
+/* Only selected vertices are counted. An unknown kind or name is an argument error. */
 static void only_what_a_selector_names_is_counted(void **state)
 {
     ffd_job_result result = {.struct_size = sizeof result};

@@ -1,5 +1,4 @@
-/* test_job_cache.c - a mesh or a lattice that is kept for the next job is not taken for one that has changed.
- */
+/* test_job_cache.c - a cached mesh or lattice is not reused after its file has changed. */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -29,13 +28,13 @@ static mesh_document *opened(const ffd_deform_desc *desc)
     return document;
 }
 
-/* Waits until files that are written have another time. */
+/* Waits until newly written files get a different time. */
 static void let_time_pass(void)
 {
     nanosleep(&(struct timespec){.tv_nsec = 20000000}, NULL);
 }
 
-/* Keeps the mesh as a job does that had opened it when its file had this stamp. */
+/* Caches the mesh, like a job that opened it when its file had this stamp. */
 static void keep(ffd_share *share, const ffd_deform_desc *desc, const file_stamp *stamp)
 {
     mesh_document *const document = opened(desc);
@@ -65,7 +64,7 @@ static void a_mesh_is_lent_only_while_nothing_changed(void **state)
     assert_false(takes(share, &desc, false));
     keep(share, &desc, &stamp);
     assert_true(takes(share, &desc, false));
-    assert_false(takes(share, &desc, false)); /* it was taken and not returned */
+    assert_false(takes(share, &desc, false)); /* it was taken and not put back */
 
     keep(share, &desc, &stamp);
     assert_false(takes(share, &desc, true));
@@ -75,22 +74,22 @@ static void a_mesh_is_lent_only_while_nothing_changed(void **state)
     assert_false(takes(share, &differs, false));
     keep(share, &desc, &stamp);
     differs = desc;
-    differs.as_morph = "name"; /* would change the document itself */
+    differs.as_morph = "name"; /* modifies the document */
     assert_false(takes(share, &differs, false));
 
-    /* The same size, a moment later. */
+    /* Equal size, written a moment later. */
     keep(share, &desc, &stamp);
     let_time_pass();
     put_text("m.obj", other);
     assert_false(takes(share, &desc, false));
-    /* Changed between the stamp and the opening, or while the job read it. */
+    /* Changed between stamping and opening, or while the job read it. */
     keep(share, &desc, &stamp);
     assert_false(takes(share, &desc, false));
     ffd_share_destroy(&share);
     (void)state;
 }
 
-/* What a job with this share has read, once it is over. */
+/* The state of the mesh that a job with this share has read. */
 static bool state_of(ffd_share *share, const ffd_deform_desc *desc, hash128 *hash)
 {
     file_stamp stamp;
@@ -127,7 +126,7 @@ static void a_mesh_that_has_changed_has_another_state(void **state)
     assert_false(ffd_hash_equal(&again, &first));
     assert_int_equal(ffd_cache_counts(share).reads, 2);
 
-    ffd_cache_begin_job(share, false, NULL); /* which fails before it reads */
+    ffd_cache_begin_job(share, false, NULL); /* fails before it reads */
     assert_false(ffd_cache_find_state(share, &late));
     desc.in_place = true;
     assert_false(state_of(share, &desc, &late));
@@ -167,7 +166,7 @@ static void a_mesh_is_lent_only_for_the_same_selection(void **state)
          "[0, 1, 1], [1, 1, 1]]}}"
 #define MESH_BOX HEAD "\"rest\": {\"box\": \"mesh\"}}"
 
-/* Each locator still has its lattice to look at. */
+/* Each locator still has the lattice that it refers to. */
 static void look_up(lattice_chain *chain, size_t link)
 {
     static const double box[2][3] = {{0, 0, 0}, {2, 2, 2}}, inside[3] = {0.5, 0.5, 0.5};
@@ -190,7 +189,7 @@ static lattice_chain load(ffd_share *share, const chain_files *files, const chai
     return chain;
 }
 
-/* What a job with these files had of the share, bit by bit: its lattices, then its locators. */
+/* Returns bits for what a job with these files took from the cache: its lattices, then its locators. */
 static unsigned borrowed(ffd_share *share, const chain_files *files, ffd_isa isa)
 {
     static const chain_outside outside;
@@ -219,9 +218,9 @@ static void only_lattices_of_unchanged_files_are_lent(void **state)
     put_text("box.json", MESH_BOX);
     assert_int_equal(borrowed(share, &a, FFD_ISA_AUTO), 0);
     assert_int_equal(borrowed(share, &a, FFD_ISA_AUTO), 3);
-    assert_int_equal(borrowed(share, &a, FFD_ISA_SCALAR), 1); /* another search in the same lattice */
+    assert_int_equal(borrowed(share, &a, FFD_ISA_SCALAR), 1); /* another locator of the same lattice */
     assert_int_equal(borrowed(share, &a, FFD_ISA_SCALAR), 3);
-    /* A box that goes round each mesh is read for each. */
+    /* A lattice whose box goes round each mesh is loaded for each mesh. */
     assert_int_equal(borrowed(share, &both, FFD_ISA_SCALAR), 5);
     assert_int_equal(borrowed(share, &both, FFD_ISA_SCALAR), 13);
 
@@ -229,7 +228,7 @@ static void only_lattices_of_unchanged_files_are_lent(void **state)
     put_text("a.json", BENT("0.25"));
     assert_int_equal(borrowed(share, &a, FFD_ISA_SCALAR), 0);
     assert_int_equal(borrowed(share, &a, FFD_ISA_SCALAR), 3);
-    /* The same rest volume in another file: its search is looked at with the lattice that it was made of. */
+    /* The same rest volume in another file: its locator still refers to the lattice it was made for. */
     let_time_pass();
     put_text("a.json", BENT("0.25") " ");
     assert_int_equal(borrowed(share, &a, FFD_ISA_SCALAR), 2);
@@ -238,8 +237,8 @@ static void only_lattices_of_unchanged_files_are_lent(void **state)
     (void)state;
 }
 
-/* Whether the lattice folds, and its border, are there for the next job once one has asked; the border is the
-   one that the locator looks at for points that miss the volume by a rounding. */
+/* Folds and border are available to the next job once one job has asked for them. The border is the one that
+   the locator uses for points that miss the volume by rounding. */
 static void folds_and_border_are_lent_once_asked_for(void **state)
 {
     static const chain_outside keep_them, extend = {.extend = true};
@@ -299,7 +298,7 @@ static void a_share_for_lattices_keeps_no_mesh(void **state)
     put_text("o.json", CURVED);
     assert_int_equal(borrowed(share, &files, FFD_ISA_AUTO), 0);
     assert_int_equal(borrowed(share, &files, FFD_ISA_AUTO), 3);
-    /* What counts against a limit would make the next job meet it sooner than alone. */
+    /* Work that counts against a limit would make the next job reach it earlier than alone. */
     lattice_chain chain = load(share, &files, &outside, FFD_ISA_AUTO);
     assert_non_null(chain.links[0].locator->cells);
     atomic_store(&chain.links[0].locator->cells->heavy_leaves, 1);

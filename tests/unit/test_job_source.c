@@ -1,4 +1,4 @@
-/* test_job_source.c - jobs out of manifests and tables: their words, and what is refused. */
+/* test_job_source.c - jobs from manifests and tables: their words, and refusals. */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,7 +11,7 @@
 #include "batch/manifest/lines.h"
 #include "batch/manifest/manifest.h"
 
-/* The words of a list, with bars between them. */
+/* Joins the words of a list with bars. */
 static const char *joined(const byte_buffer *words)
 {
     static char text[1000];
@@ -65,7 +65,7 @@ static void a_job_becomes_words_and_content(void **state)
     (void)state;
 }
 
-/* A job's own options come in the place of the batch's. */
+/* A job's own options replace those of the batch. */
 static void a_jobs_own_options_replace_the_batchs(void **state)
 {
     static const batch_default defaults[] = {
@@ -120,7 +120,7 @@ static void broken_jobs_are_refused(void **state)
     (void)state;
 }
 
-/* Line numbers and inputs of all jobs: "1 a, 3 b"; a job that is refused has none. */
+/* Line numbers and inputs of all jobs: "1 a, 3 b". Refused jobs have no input. */
 static const char *listed(const job_source_desc *desc)
 {
     static char text[1000];
@@ -163,7 +163,7 @@ static void shards_share_out_the_lines_of_a_manifest(void **state)
     (void)state;
 }
 
-/* A line without end costs no more memory than is said. */
+/* An endless line takes no more memory than the limit. */
 static void a_line_too_long_is_refused_and_skipped(void **state)
 {
     const size_t size = LINE_MOST + 100;

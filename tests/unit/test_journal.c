@@ -1,4 +1,4 @@
-/* test_journal.c - what a batch remembers of its outputs, also after it was ended at any moment. */
+/* test_journal.c - a batch's journal of its outputs, also after a kill at any moment. */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -26,7 +26,7 @@ static const hash128 *target_of(unsigned number)
     return &target;
 }
 
-/* Of different lengths, some empty. */
+/* Figures of different lengths, some empty. */
 static size_t figures_of(unsigned value, char text[100])
 {
     const size_t size = value % 97;
@@ -65,7 +65,7 @@ static job_journal *opened(const char *path)
     return journal;
 }
 
-/* More than the first table holds, some of them twice. */
+/* More records than the first table holds, some of them stored twice. */
 static void records_are_found_after_reopening(void **state)
 {
     const unsigned count = 5000;
@@ -87,7 +87,7 @@ static void records_are_found_after_reopening(void **state)
     (void)state;
 }
 
-/* Cut off anywhere, or with bytes that are not what was written: what is found is right, or nothing is. */
+/* Truncated anywhere, or with corrupt bytes: a record that is found is correct, or none is found. */
 static void a_damaged_journal_never_gives_a_wrong_record(void **state)
 {
     const unsigned count = 40, seed = (unsigned)time(NULL);
@@ -128,7 +128,7 @@ static void a_damaged_journal_never_gives_a_wrong_record(void **state)
     (void)state;
 }
 
-/* It grows under a temporary name of its own: what stands beside it, or where a link beside it leads, is not
+/* The table grows under a temporary name of its own. Existing files beside it, and targets of links, are not
    touched. */
 static void growing_touches_no_other_file(void **state)
 {
@@ -160,7 +160,7 @@ static long size_of(const char *name)
     return size;
 }
 
-/* Figures that are put again and again leave nothing for ever. */
+/* Figures that are stored again and again do not make the file grow for ever. */
 static void a_journal_stays_in_bounds(void **state)
 {
     static char text[1 << 18];
@@ -189,7 +189,7 @@ static void a_journal_stays_in_bounds(void **state)
     (void)state;
 }
 
-/* What another version of the program has left is of no use, but it is a journal. */
+/* A journal of another version is useless, but is recognized as a journal. */
 static void a_journal_of_another_version_is_replaced(void **state)
 {
     static const char old[64] = "ffd-journal 1\n";

@@ -1,4 +1,4 @@
-/* The span reader of JSON: spans, characters, what is refused and at which line, edits of the text. */
+/* The JSON span reader: spans, characters, refusals with their line, edits of the text. */
 #include "base/memory/memory.h"
 #include "json/json_edit.h"
 #include "json/json_parse.h"
@@ -63,7 +63,7 @@ static void characters_are_decoded(void **state)
     ffd_json_span_free(&tree);
 }
 
-/* What it is decoded to, wherever it is among others; NULL: it is refused. */
+/* The decoded text, wherever the character occurs; NULL: it is refused. */
 static void a_character_is_seen_anywhere(void **state)
 {
     (void)state;
@@ -137,13 +137,13 @@ static void broken_text_is_refused_with_its_line(void **state)
     }
 }
 
-/* What a reader may ask for beyond the grammar. */
+/* Rules beyond the grammar that a reader can enable. */
 static void rules_are_kept(void **state)
 {
     (void)state;
     static const struct {
         const char *text;
-        unsigned refused_by; /* any of these rules */
+        unsigned refused_by; /* by any of these rules */
         const char *message;
     } cases[] = {
         {"\"\\u0000\"", JSON_NO_NUL, "a string must not hold the character \\u0000 (column 2)"},
@@ -194,7 +194,7 @@ static void rules_are_kept(void **state)
     ffd_json_span_free(&tree);
 }
 
-/* A part of a text has the lines and columns of the whole. */
+/* Lines and columns in a part of a text are those of the whole. */
 static void parts_are_counted_from_the_beginning(void **state)
 {
     (void)state;
@@ -287,7 +287,7 @@ static void edits_replace_spans_only(void **state)
     ffd_buffer_free(&out);
 }
 
-/* Takes out of an object or array of 4 the children whose bits are set. */
+/* Removes the children whose bits are set from an object or array of 4. */
 static void check_removal(const char *text, unsigned gone, const char *expected)
 {
     json_span tree;

@@ -1,4 +1,4 @@
-/* Knot vectors: the presets and lists, spans, Greville abscissae, what is refused. */
+/* Knot vectors: presets and lists, spans, Greville abscissae, refusals. */
 #include "../support/repetitions.h"
 #include "base/memory/memory.h"
 #include "spline/knots.h"
@@ -91,7 +91,7 @@ static void a_closed_list_repeats_its_period(void **state)
     assert_true(ffd_knots_first(&knots) == 10 && ffd_knots_last(&knots) == 18);
     ffd_knots_free(&knots);
 
-    /* The presets are lists like any other. */
+    /* A preset equals the list of its knots. */
     const double fifths[] = {0, 1 / 5.0, 2 / 5.0, 3 / 5.0, 4 / 5.0, 1};
     knots = make_list(KNOTS_CLOSED_LIST, 4, 5, fifths, COUNT(fifths));
     knot_vector preset = make(KNOTS_CLOSED, 4, 5);
@@ -124,7 +124,7 @@ static void presets_have_exact_domain_ends(void **state)
 static void repeated_knots_bound_no_empty_span(void **state)
 {
     (void)state;
-    /* First d+1 times from index 1, inside d times, last d times. */
+    /* Multiplicity d+1 from index 1 on, d inside, d at the end. */
     const double list[] = {-1, 0, 0, 0, 0.5, 0.5, 2, 2, 3};
     knot_vector knots = make_list(KNOTS_LIST, 2, 6, list, COUNT(list));
     assert_int_equal(knots.span_count, 2);
@@ -171,7 +171,8 @@ static void parameters_are_clamped_or_go_round(void **state)
     assert_true(ffd_knots_wrap(&knots, 1.25) == 0.25);
     assert_true(ffd_knots_wrap(&knots, -0.25) == 0.75);
     assert_true(ffd_knots_wrap(&knots, 1e6 + 0.5) == 0.5);
-    assert_true(ffd_knots_wrap(&knots, -1e-30) == 0); /* 1 - 1e-30 rounds to the end, which is the start */
+    assert_true(ffd_knots_wrap(&knots, -1e-30) ==
+                0); /* 1 - 1e-30 rounds to the end, which is also the start */
     assert_true(isnan(ffd_knots_wrap(&knots, NAN)));
     ffd_knots_free(&knots);
 
@@ -193,7 +194,7 @@ static void greville_abscissae_of_equal_knots_are_exact(void **state)
     assert_true(ffd_knots_greville(&knots, 0) == 0 && ffd_knots_greville(&knots, 4) == 1);
     ffd_knots_free(&knots);
 
-    /* (0.1 + 0.1 + 0.1)/3 is not 0.1 in doubles: equal knots must still give themselves. */
+    /* (0.1 + 0.1 + 0.1)/3 is not 0.1 in double: equal knots must still give exactly themselves. */
     const double list[] = {0.1, 0.1, 0.1, 0.1, 0.7, 0.7, 0.7, 0.7};
     knots = make_list(KNOTS_LIST, 3, 4, list, COUNT(list));
     assert_true(ffd_knots_greville(&knots, 0) == 0.1);
@@ -388,7 +389,7 @@ static void broken_knots_are_refused(void **state)
         assert_int_equal(error.status, r->status);
         assert_null(knots.t);
         assert_null(knots.spans);
-        /* The words are not needed for the refusal. */
+        /* Refused without an error record too. */
         assert_int_equal(ffd_knots_make(r->kind, r->degree, r->points, list, r->count, 'v', &knots, NULL),
                          r->status);
     }

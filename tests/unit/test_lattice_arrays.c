@@ -1,5 +1,5 @@
-/* test_lattice_arrays.c - lattices from arrays, copies, and control points that the caller sets: each is the
-   lattice that a file with the same numbers gives. */
+/* test_lattice_arrays.c - lattices from arrays, copies, and control points set by the caller: each equals the
+   lattice of a file with the same numbers. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,7 +13,7 @@
 #include <float.h>
 #include <math.h>
 
-/* Whether two lattices are one in all that evaluation looks at. */
+/* Checks that two lattices agree in everything that evaluation uses. */
 static void assert_same(const ffd_lattice *a, const ffd_lattice *b)
 {
     assert_int_equal(a->count, b->count);
@@ -167,7 +167,7 @@ static void set_points_are_those_of_a_file(void **state)
     assert_int_equal(ffd_lattice_text(set, &text, &size, NULL), FFD_OK);
     assert_int_equal(strlen(text), size);
     assert_int_equal(ffd_lattice_parse(text, size, "t", &file, NULL), FFD_OK);
-    /* Offsets say what moves to the bit; the points themselves are sums. */
+    /* Offsets are stored exactly; the points are rounded sums. */
     assert_memory_equal(set->difference, file->difference, 54 * sizeof(double));
     assert_memory_equal(set->moved, file->moved, 18);
     for (int i = 0; i < 54; i++)
@@ -253,7 +253,7 @@ static void a_copy_is_equal_and_independent(void **state)
     (void)state;
 }
 
-/* A box round a mesh that was fitted keeps what was set when it is fitted anew. */
+/* A box that was fitted to a mesh keeps the control points that were set when it is fitted again. */
 static void a_box_that_is_fitted_anew_keeps_what_was_set(void **state)
 {
     const double first_min[3] = {0, 0, 0}, first_max[3] = {1, 1, 1}, then_min[3] = {-1, -1, -1},

@@ -1,4 +1,4 @@
-/* The lattice file: what it says, what is refused and how, and that it is written as it is read. */
+/* The lattice file: its content, refusals and their messages, and that writing and reading round-trip. */
 #include "base/memory/memory.h"
 #include "lattice/file/spec_text.h"
 #include "lattice/lattice.h"
@@ -14,6 +14,9 @@
 
 #include <cmocka.h>
 
+#include "../support/message.h"
+#include "../support/test_folder.h"
+
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 #define HEAD "{\"format\":\"ffd-lattice\",\"version\":1,"
 #define SIZE HEAD "\"size\":[2,2,2],"
@@ -23,19 +26,12 @@
 #define CYLINDER(text) SIZE "\"rest\":{\"cylinder\":{" text "}}}"
 #define MOVE(text) BOX ",\"moves\":[" text "]}"
 
-static const char *message_of(const ffd_error *error)
-{
-    static char text[2048];
-    ffd_error_format(error, text, sizeof text);
-    return text;
-}
-
 static ffd_status parse(const char *text, ffd_lattice **lattice, ffd_error *error)
 {
     return ffd_lattice_parse(text, strlen(text), "f.json", lattice, error);
 }
 
-/* A file that uses every part of the format at once. */
+/* A file that uses every part of the format. */
 static const char rich[] = HEAD "\"size\":[4,5,3],\"degree\":[3,2,1],"
                                 "\"knots\":[[0,0,0,0,1,1,1,1],{\"closed\":[0,1,2,3.5,4,5]},\"unclamped\"],"
                                 "\"rest\":{\"cylinder\":{\"center\":[1,2,3],\"axis\":[1,2,2],\"zero\":[1,0,0]"
@@ -55,7 +51,7 @@ static const char rich[] = HEAD "\"size\":[4,5,3],\"degree\":[3,2,1],"
                                 "5,0.5,0.5]},{\"matrix\":[1,0,0,0.1,0,1,"
                                 "0,0,0,0,1,0,0,0,0,1]}]}";
 
-/* Likewise with the moves that look at the place at rest, or need a rest of their kind. */
+/* Likewise for moves that depend on the rest position, or need a special rest volume. */
 static const char soft[] = HEAD
     "\"size\":[2,2,5],\"degree\":[1,1,2],\"knots\":[\"clamped\",\"clamped\",[0,0,0,1,1,2,2,2]],"
     "\"rest\":{\"box\":{\"min\":[0,0,-1],\"max\":[1,2,4]}},\"units\":\"box\",\"moves\":["
@@ -66,7 +62,7 @@ static const char soft[] = HEAD
     "{\"falloff\":{\"center\":[0,0,0],\"radius\":2},\"mirror\":\"x\",\"weight\":0.5,\"rotate\":{\"axis\":"
     "\"z\",\"degrees\":5}}]}";
 
-/* All forms that data/schema/lattice.md shows. */
+/* All forms shown in data/schema/lattice.md. */
 static void every_documented_form_is_accepted(void **state)
 {
     (void)state;
@@ -123,7 +119,7 @@ static void omitted_values_have_their_defaults(void **state)
     assert_true(l->knots[2].kind == KNOTS_CLAMPED);
     ffd_lattice_destroy(&l);
 
-    /* A full turn closes v unless knots say otherwise; a part of one does not. */
+    /* A full turn closes v unless knots are given; a partial turn does not. */
     static const struct turn {
         const char *text;
         knot_kind kind;
@@ -179,7 +175,7 @@ static void check_refusals(const refusal *refusals, size_t count)
             strcmp(message_of(&error), refusals[i].words) != 0)
             fail_msg("%s\nstatus %d, %s\nexpected %d, %s", refusals[i].text, status,
                      status ? message_of(&error) : "", refusals[i].status, refusals[i].words);
-        /* Who wants no words gets the same status. */
+        /* Without an error record the status is the same. */
         assert_int_equal(parse(refusals[i].text, &lattice, NULL), status);
     }
 }
@@ -205,7 +201,7 @@ static void invalid_json_is_refused_with_its_line(void **state)
         {"[1]", FFD_E_INVALID, "f.json: a lattice is an object, not an array of 1"},
     };
     check_refusals(refusals, COUNT(refusals));
-    /* Depth without end is refused by the reader, not by the stack. */
+    /* Unlimited depth is refused by the reader, and does not overflow the stack. */
     char *deep = malloc(1000001);
     memset(deep, '[', 1000000);
     deep[1000000] = 0;
@@ -228,7 +224,7 @@ static void bad_versions_sizes_degrees_and_weights_are_refused(void **state)
         {"{\"format\":\"ffd-lattice\"}", FFD_E_INVALID, "f.json: \"version\" is missing"},
         {"{\"format\":\"ffd-lattice\",\"version\":2,\"news\":1}", FFD_E_UNSUPPORTED,
          "f.json:/version: version 2 is newer than 1, the newest known here"},
-        /* A later version may mean something else by what is a placeholder in this one. */
+        /* In a later version, what is a placeholder now may mean something else. */
         {"{\"format\":\"ffd-lattice\",\"moves\":[{\"$\":\"A\"}],\"version\":2}", FFD_E_UNSUPPORTED,
          "f.json:/version: version 2 is newer than 1, the newest known here"},
         {"{\"format\":\"ffd-lattice\",\"version\":0}", FFD_E_INVALID,
@@ -515,7 +511,7 @@ static void check_same_points(const ffd_lattice *a, const ffd_lattice *b)
     }
 }
 
-/* parse(text(spec)) is the same lattice to the bit, and its text the same text. */
+/* parse(text(spec)) is exactly the same lattice, and its text is the same. */
 static void written_text_reads_back_to_the_bit(void **state)
 {
     (void)state;
@@ -585,19 +581,15 @@ static void text_is_written_in_a_fixed_layout(void **state)
     ffd_lattice_destroy(&l);
 }
 
-/* The rest of a lattice file is there without the values that its moves need; with all of them it is moved.
- */
+/* The rest volume can be loaded without the values that the moves need. With all values the moves are
+   applied. */
 static void the_rest_needs_no_values(void **state)
 {
     (void)state;
-    char folder[] = "/tmp/ffd-test-XXXXXX", path[64];
     const ffd_setting values[] = {{"A", "1"}, {"C", "1"}, {"B", "0.5"}};
-    assert_non_null(mkdtemp(folder));
-    snprintf(path, sizeof path, "%s/l.json", folder);
-    FILE *const file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(MOVE("{\"by\":[{\"$\":\"A\",\"name\":\"a\"},0,0]},{\"by\":{\"$\":\"B\"},\"weight\":7}"), file);
-    fclose(file);
+    const char *const path = in_folder("values.json");
+    put_text("values.json",
+             MOVE("{\"by\":[{\"$\":\"A\",\"name\":\"a\"},0,0]},{\"by\":{\"$\":\"B\"},\"weight\":7}"));
     ffd_lattice *l;
     ffd_error error;
     bool used[3] = {false};
@@ -607,19 +599,15 @@ static void the_rest_needs_no_values(void **state)
     ffd_lattice_destroy(&l);
     assert_int_equal(ffd_lattice_load_set(path, values, 2, used, &l, &error), FFD_E_INVALID);
     assert_string_equal(error.pointer, "/moves/1/by");
-    /* With all values the moves are read, and judged. */
+    /* With all values, the moves are read and checked. */
     assert_int_equal(ffd_lattice_load_rest(path, values, 3, used, &l, &error), FFD_E_INVALID);
     assert_string_equal(error.pointer, "/moves/1/weight");
-    unlink(path);
-    rmdir(folder);
 }
 
 static void a_saved_file_loads_and_is_kept_unless_forced(void **state)
 {
     (void)state;
-    char folder[] = "/tmp/ffd-test-XXXXXX", path[64];
-    assert_non_null(mkdtemp(folder));
-    snprintf(path, sizeof path, "%s/l.json", folder);
+    const char *const path = in_folder("saved.json");
     ffd_lattice *saved, *loaded;
     ffd_error error;
     assert_int_equal(parse(rich, &saved, &error), FFD_OK);
@@ -634,10 +622,9 @@ static void a_saved_file_loads_and_is_kept_unless_forced(void **state)
     assert_int_equal(ffd_lattice_load(path, &loaded, &error), FFD_E_IO);
     assert_null(loaded);
     assert_string_equal(error.file, path);
-    rmdir(folder);
 }
 
-/* Every allocation of ours fails once; nothing leaks (the sanitizers look) and the status is right. */
+/* Each allocation fails once: the status is right, and nothing leaks (checked by sanitizers). */
 static void fail_each_allocation(const char *file, long least)
 {
     long successes = 0;
@@ -672,7 +659,7 @@ static void every_failed_allocation_is_reported(void **state)
     ffd_lattice_destroy(&lattice);
 }
 
-/* Any beginning of a file, and any file with one byte changed, is read or refused with words. */
+/* Any prefix of a file, and any file with one changed byte, is read or refused with a message. */
 static void broken_text_is_read_or_refused_with_a_message(void **state)
 {
     (void)state;
@@ -714,5 +701,5 @@ int main(void)
         cmocka_unit_test(every_failed_allocation_is_reported),
         cmocka_unit_test(broken_text_is_read_or_refused_with_a_message),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

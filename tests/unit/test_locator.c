@@ -1,4 +1,4 @@
-/* test_locator.c - u,v,w of points: the three ways, statuses, the tolerance, independence of company. */
+/* test_locator.c - u,v,w of points: all three methods, statuses, tolerance, independence of other points. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -26,7 +26,7 @@ static void set_points(ffd_lattice *lattice, point_map map)
 {
     lattice_map(lattice, map);
     memcpy(lattice->deformed, lattice->rest, 3 * lattice->count * sizeof(double));
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
 }
 
 static void box_map(const double g[3], double out[3])
@@ -36,7 +36,7 @@ static void box_map(const double g[3], double out[3])
     out[2] = 10 * g[2];
 }
 
-/* Residuals whose squares are below the doubles. */
+/* Residuals whose squares underflow. */
 static void tiny_map(const double g[3], double out[3])
 {
     box_map(g, out);
@@ -82,11 +82,11 @@ typedef struct locator_case {
     const char *method;
 } locator_case;
 
-/* Round trip: random u,v,w, its point, and back. */
+/* Round trip: random u,v,w, their point, and back. */
 static void check_round_trip(const ffd_lattice *lattice, const char *method, draw *d, int points)
 {
-    /* Far from the origin a point of a face is rounded by more than the tolerance, which is that of the
-       lattice's own size: it may really lie outside. */
+    /* Far from the origin the rounding of a point on a face may exceed the tolerance, which depends on the
+       lattice's size: it may really be outside. */
     const bool far = fabs(lattice->rest[0]) > 1e5 * lattice->diagonal;
     ffd_locator *locator;
     ffd_error error;
@@ -137,7 +137,8 @@ static void u_v_w_come_back_by_each_method(void **state)
     draw d = {draw_seed()};
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++)
         for (int degree = 1; degree <= 9; degree += degree < 3 ? 1 : is_memory_checked() ? 6 : 3) {
-            if (is_memory_checked() && degree > 3 && c % 4) /* the highest for one method and for another */
+            if (is_memory_checked() && degree > 3 &&
+                c % 4) /* the highest degree for one method after the other */
                 continue;
             ffd_lattice *lattice = clamped(degree, (size_t)degree + 4);
             set_points(lattice, cases[c].map);
@@ -210,7 +211,7 @@ static void far_points_are_outside_and_nan_is_invalid(void **state)
         assert_int_equal(huge.status, FFD_OUTSIDE);
         assert_int_equal(nan.status, FFD_POINT_INVALID);
         assert_int_equal(inf.status, FFD_POINT_INVALID);
-        /* A hair beyond the faces of the box is outside: 1e-9 is far more than the tolerance. */
+        /* 1e-9 beyond the faces of a box is outside: that is far more than the tolerance. */
         if (maps[m] == box_map) {
             assert_int_equal(find_one(locator, -1 - 1e-9, 0.1, 5).status, FFD_OUTSIDE);
             assert_int_equal(find_one(locator, -1, 0.1, 5).status, FFD_INSIDE);
@@ -223,7 +224,7 @@ static void far_points_are_outside_and_nan_is_invalid(void **state)
     (void)state;
 }
 
-/* Shuffled, in pieces, alone: the same bits. */
+/* Shuffled, in pieces, and one at a time: the same bits. */
 static void a_point_has_the_same_bits_alone_and_in_company(void **state)
 {
     enum { COUNT = 500 };
@@ -251,7 +252,7 @@ static void a_point_has_the_same_bits_alone_and_in_company(void **state)
     (void)state;
 }
 
-/* The map folds over itself along u: x goes forth and back. */
+/* The map overlaps itself along u: x goes back and forth. */
 static void folded_map(const double g[3], double out[3])
 {
     out[0] = 4 * g[0] * (1 - g[0]) + 0.01 * g[1];
@@ -295,7 +296,7 @@ static void a_flat_lattice_is_refused(void **state)
     (void)state;
 }
 
-/* Three unit vectors at right angles, in a random position. */
+/* Draws three orthogonal unit vectors. */
 static void draw_axes(draw *d, double axis[3][3])
 {
     for (int a = 0; a < 2; a++)
@@ -312,7 +313,7 @@ static void draw_axes(draw *d, double axis[3][3])
 
 typedef enum sheet_shape { EVEN_SHEET, UNEVEN_SHEET, SKEW_SHEET, CURVED_SHEET, SHEET_SHAPES } sheet_shape;
 
-/* A sheet of this thickness, turned and far from the origin. */
+/* Makes a sheet of this thickness, turned and far from the origin. */
 static void make_sheet(draw *d, sheet_shape shape, double thickness, double far, ffd_lattice *lattice)
 {
     double axis[3][3], origin[3], *p = lattice->rest;
@@ -334,11 +335,11 @@ static void make_sheet(draw *d, sheet_shape shape, double thickness, double far,
                     p[r] = origin[r] + g[0] * axis[0][r] + g[1] * axis[1][r] + up * axis[2][r];
             }
     memcpy(lattice->deformed, lattice->rest, 3 * lattice->count * sizeof(double));
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
 }
 
-/* A sheet without thickness has none but for the rounding of its control points; one that is somewhat thicker
-   than that has a volume, whatever the weights. Those of a curved sheet without thickness can give it one. */
+/* A sheet whose thickness is only rounding of control points has no volume; a somewhat thicker one has,
+   whatever the weights. A curved sheet without thickness may get a volume from its weights. */
 static void a_sheet_is_refused_only_where_its_thickness_is_rounding(void **state)
 {
     draw d = {draw_seed()};
@@ -367,7 +368,7 @@ static void a_sheet_is_refused_only_where_its_thickness_is_rounding(void **state
     (void)state;
 }
 
-/* Axis of a wedge: the face u = 0 is a line, on which J has no inverse. */
+/* A wedge: the face u = 0 collapses to its axis, where J is singular. */
 static void wedge_map(const double g[3], double out[3])
 {
     const double angle = 1.2 * g[1];
@@ -401,7 +402,7 @@ static void a_point_on_a_collapsed_face_is_singular(void **state)
     (void)state;
 }
 
-/* The cost of a vertex, counted, not timed. */
+/* Bounds the cost of a point by counters, not by time. */
 static void a_point_takes_few_evaluations_and_leaves(void **state)
 {
     enum { POINTS = 4000 };
@@ -432,7 +433,7 @@ static void a_point_takes_few_evaluations_and_leaves(void **state)
     (void)state;
 }
 
-/* A bar bent to a ring whose end faces meet. */
+/* A bar bent to a ring, whose end faces meet. */
 static void whole_turn_map(const double g[3], double out[3])
 {
     const double radius = 2 + g[0], turn = 6.283185307179586;
@@ -453,12 +454,12 @@ static void a_seam_point_is_one_root_whatever_the_moves(void **state)
     assert_true(found.uvw[1] == 0);
     ffd_locator_destroy(&locator);
 
-    /* The ends part: the rest lattice is what it was. */
+    /* The moves separate the ends, but the rest lattice is the same. */
     const size_t size[3] = {10, 10, 10};
     for (size_t k = 0; k < size[2]; k++)
         for (size_t i = 0; i < size[0]; i++)
             lattice->deformed[3 * (i + size[0] * (0 + size[1] * k)) + 1] += 0.25;
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
     assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
     found = find_one(locator, 2.5, 0, 0.3);
     assert_int_equal(found.status, FFD_INSIDE);
@@ -470,7 +471,8 @@ static void a_seam_point_is_one_root_whatever_the_moves(void **state)
     (void)state;
 }
 
-/* Bricks that are made again and again, because the memory limit is reached, give what kept ones give. */
+/* Bricks that are remade again and again, because of the memory limit, give the same results as cached
+   ones. */
 static void bricks_without_room_give_the_same_results(void **state)
 {
     enum { POINTS = 500 };
@@ -503,7 +505,7 @@ static void bricks_without_room_give_the_same_results(void **state)
     (void)state;
 }
 
-/* A lattice that folds in every cell is refused once it would take too much memory, not before. */
+/* A lattice that overlaps itself in every cell is refused only when it exceeds the memory limit. */
 static void folds_are_refused_only_beyond_the_limit(void **state)
 {
     ffd_lattice *lattice = clamped(3, is_memory_checked() ? 5 : 8);
@@ -513,7 +515,7 @@ static void folds_are_refused_only_beyond_the_limit(void **state)
     draw d = {draw_seed()};
     for (size_t i = 0; i < 3 * lattice->count; i++)
         lattice->rest[i] = lattice->deformed[i] = draw_unit(&d);
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
     assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
     const double middle[3] = {0.5, 0.5, 0.5};
     assert_int_equal(ffd_locator_find(locator, middle, 1, &found, NULL), FFD_OK);
@@ -529,7 +531,7 @@ static void folds_are_refused_only_beyond_the_limit(void **state)
     (void)state;
 }
 
-/* The same lattice in other units has the same u,v,w, to the bit where the unit is a power of two. */
+/* The unit of the lattice does not change u,v,w: exactly not if it is a power of two. */
 static void u_v_w_do_not_depend_on_the_unit(void **state)
 {
     static const int exponents[] = {-900, -500, -100, 60, 330, 900};
@@ -555,7 +557,7 @@ static void u_v_w_do_not_depend_on_the_unit(void **state)
             scaled->rest[i] = scaled->deformed[i] = ldexp(unit->rest[i], exponents[e]);
         for (int i = 0; i < 3 * POINTS; i++)
             scaled_xyz[i] = ldexp(xyz[i], exponents[e]);
-        assert_int_equal(ffd_lattice_finish(scaled, NULL), FFD_OK);
+        assert_int_equal(finish_by_hand(scaled, NULL), FFD_OK);
         assert_int_equal(ffd_locator_create(scaled, &locator, NULL), FFD_OK);
         assert_int_equal(ffd_locator_find(locator, scaled_xyz, POINTS, found, NULL), FFD_OK);
         for (int i = 0; i < POINTS; i++) {
@@ -590,7 +592,7 @@ static void check_all_inside(ffd_lattice *lattice, draw *d)
     ffd_locator_destroy(&locator);
 }
 
-/* In a narrow span at the far end of the domain neighbouring doubles u lie farther apart in space than the
+/* In a narrow span at the far end of the domain, neighbouring doubles u are farther apart in space than the
    tolerance. */
 static void points_in_narrow_spans_are_inside(void **state)
 {
@@ -612,14 +614,14 @@ static void points_in_narrow_spans_are_inside(void **state)
                 p[2] = z + (bent ? 0.1 * sin(x) : 0);
             }
             memcpy(lattice->deformed, lattice->rest, 3 * lattice->count * sizeof(double));
-            assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+            assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
             check_all_inside(lattice, &d);
             ffd_lattice_destroy(&lattice);
         }
     (void)state;
 }
 
-/* Columns (1,1) and (1+e,1-e): the inverse has lost most of its digits. */
+/* Columns (1,1) and (1+e,1-e): the inverse has few correct digits. */
 static void steep_map(const double g[3], double out[3])
 {
     const double e = 1e-10;
@@ -638,8 +640,8 @@ static void points_in_a_steep_shear_are_inside(void **state)
     (void)state;
 }
 
-/* (uv, u+v, w + u/5): folded along u = v, where the determinant at the centre of many boxes is 0. A point
-   has two u,v where (u+v)^2/4 > uv and both are in the domain, none where it is less. */
+/* (uv, u+v, w + u/5): folded along u = v, where the determinant at the centre of many boxes is 0. A point has
+   two solutions u,v if (u+v)^2/4 > uv and both are in the domain, none if it is less. */
 static void product_map(const double g[3], double out[3])
 {
     out[0] = g[0] * g[1];
@@ -670,8 +672,8 @@ static void points_of_a_symmetric_fold_are_multiple(void **state)
     (void)state;
 }
 
-/* One trilinear cell whose determinant is negative in the middle and whose volume is positive: the root with
-   a positive determinant is taken. */
+/* A trilinear cell whose determinant is negative in the middle and whose volume is positive: the solution
+   with a positive determinant is taken. */
 static void the_root_with_the_sign_of_the_volume_is_taken(void **state)
 {
     static const double points[] = {0.14,   0.498, 0.569, 0.347, 0.284, -0.553, -0.134, 0.834,
@@ -681,7 +683,7 @@ static void the_root_with_the_sign_of_the_volume_is_taken(void **state)
     ffd_locator *locator;
     memcpy(lattice->rest, points, sizeof points);
     memcpy(lattice->deformed, points, sizeof points);
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
     assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
     const ffd_location found = find_one(locator, 0.7323, -0.0194, 0.4003);
     assert_int_equal(found.status, FFD_MULTIPLE);
@@ -716,8 +718,8 @@ static void every_failed_allocation_is_reported(void **state)
     (void)state;
 }
 
-/* Images of u,v,w inside, on the cells' borders and on those of the volume, some moved a little, and points
-   all round; some occur twice. */
+/* Draws images of u,v,w inside, on cell borders and on the border of the volume, some slightly moved, and
+   points around it; some occur twice. */
 static void draw_points(draw *d, const ffd_lattice *lattice, size_t count, double *points)
 {
     for (size_t i = 0; i < count; i++) {
@@ -763,7 +765,7 @@ static void every_instruction_set_gives_the_same_bits(void **state)
                  {steep_map, 3, 5},    {warped_map, 1, 6}, {warped_map, 5, 8}, {product_map, 2, 4},
                  {far_map, 3, 5},      {thin_map, 3, 6},   {box_map, 3, 5},    {sheared_map, 2, 4},
                  {mirrored_map, 4, 7}, {tiny_map, 3, 4}};
-    /* More than the lanes of any set, and some are left. */
+    /* More than the lanes of any instruction set, with a remainder. */
     const size_t count = is_memory_checked() ? 19 : COUNT;
     static double points[3 * COUNT];
     static ffd_location one_by_one[COUNT], several[COUNT];
@@ -780,7 +782,7 @@ static void every_instruction_set_gives_the_same_bits(void **state)
             if (!ffd_isa_available(isa))
                 continue;
             assert_int_equal(ffd_locator_create_for(lattice, isa, &locator, NULL), FFD_OK);
-            /* The first time bricks are made. The second time the lanes have other points. */
+            /* The first time, bricks are made. The second time, other points share the lanes. */
             for (size_t round = 0; round < 2; round++) {
                 assert_int_equal(
                     ffd_locator_find(locator, points + 3 * round, count - round, several + round, NULL),

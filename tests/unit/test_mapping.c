@@ -1,5 +1,4 @@
-/* test_mapping.c - input files that become shorter while they are read, and signals that are not about them.
- */
+/* test_mapping.c - input files that are truncated while they are read, and unrelated signals. */
 #define _XOPEN_SOURCE 700 /* mkdtemp, truncate */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -36,21 +35,21 @@ static void *read_all(void *argument)
     return zeros == LARGE - CUT ? argument : NULL;
 }
 
-/* Exit code of a child that does this; 100 and more: the signal that ended it. */
+/* Runs work in a child. Returns its exit code; 100 and more: the signal that ended it. */
 static int end_of(int (*work)(void))
 {
     int status;
     const pid_t child = fork();
     assert_true(child >= 0);
     if (child == 0) {
-        signal(SIGBUS, SIG_DFL); /* a sanitizer has one */
+        signal(SIGBUS, SIG_DFL); /* a sanitizer installs its own */
         _exit(work());
     }
     assert_int_equal(waitpid(child, &status, 0), child);
     return WIFSIGNALED(status) ? 100 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
-static bool is_removed; /* then no size tells */
+static bool is_removed; /* then the size cannot tell */
 
 static int read_a_cut_file(void)
 {
@@ -77,7 +76,7 @@ static int read_a_cut_file(void)
         strcmp(error.file, in_folder("cut")) != 0 ||
         strcmp(error.message, "became shorter while it was read") != 0)
         return 3;
-    /* It counts for those that began before, and not for others. */
+    /* A loss counts for everyone who began before it, and for nobody else. */
     const unsigned after = ffd_mapping_losses();
     return ffd_mapping_judge(after, FFD_E_INVALID, NULL) == FFD_E_INVALID ? 0 : 4;
 }
@@ -92,7 +91,7 @@ static void a_file_that_becomes_shorter_fails_its_job(void **state)
     (void)state;
 }
 
-/* Within the last page no signal comes; and it need not be touched at all. */
+/* A truncation within the last page raises no signal, and the page may not be touched at all. */
 static void the_size_tells_without_a_signal(void **state)
 {
     ffd_error error;
@@ -111,7 +110,7 @@ static void the_size_tells_without_a_signal(void **state)
     (void)state;
 }
 
-/* The old file is as it was, whatever stands under its name by now. */
+/* The old file is intact, whatever has its name by now. */
 static void a_file_that_was_replaced_is_no_loss(void **state)
 {
     file_input input;
@@ -141,7 +140,7 @@ static void many_files_at_once(void **state)
     (void)state;
 }
 
-/* A mapping that is not an input's, of a file that is gone. */
+/* A mapping that does not belong to an input, of a file that is gone. */
 static volatile char *foreign(void)
 {
     put_large("foreign");
@@ -166,7 +165,7 @@ static int touch_under_handler(void)
 {
     signal(SIGBUS, leave);
     ffd_guard_inputs();
-    ffd_guard_inputs(); /* once more does no harm */
+    ffd_guard_inputs(); /* a second call is harmless */
     const volatile char *const bytes = foreign();
     return bytes ? bytes[5000] : 1;
 }

@@ -1,5 +1,5 @@
-/* test_materials.c - the materials of glTF files and of OBJ libraries: base colours, where a surface is
-   drawn, and which images are loaded. */
+/* test_materials.c - materials of glTF files and of OBJ libraries: base colours, visibility, and which images
+   are loaded. */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,7 +22,7 @@
 
 static mesh_materials found;
 static ffd_error error;
-static char said[4000]; /* the lines of the log */
+static char said[4000]; /* lines of the log */
 static size_t line_count;
 
 static void keep_line(void *user, ffd_log_level level, const char *line)
@@ -72,7 +72,7 @@ static void list_obj(const char *text)
         fail_msg("%s: %s", text, error.message);
 }
 
-/* The materials of one library. */
+/* Lists the materials of an OBJ with this library. */
 static void list_library(const char *text)
 {
     put_text("m.mtl", text);
@@ -99,7 +99,7 @@ static void check_wrap(size_t i, texture_wrap u, texture_wrap v)
     assert_int_equal(found.list[i].wrap[1], v);
 }
 
-/* The image of a material is a file's text behind the mark of PNG. */
+/* Checks that a material's image is this text, after the signature of PNG. */
 static void check_image(size_t i, const char *name, const char *text)
 {
     assert_true(i < found.count);
@@ -170,7 +170,7 @@ static void alpha_of_gltf(void **state)
         check_cutoff(i, cutoffs[i]);
 }
 
-/* A material of the texture of each number below count. */
+/* A material with texture n. */
 #define TEXTURED(n) "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":" #n "}}}"
 
 static void images_of_gltf_once_each(void **state)
@@ -245,14 +245,14 @@ static void an_image_in_a_glb(void **state)
     assert_int_equal(line_count, 0);
 }
 
-/* One as it is, and one that is compressed as if it were numbers. */
+/* One plain image, and one that is compressed like numbers. */
 static void images_in_buffers(void **state)
 {
     (void)state;
     static const char png[] = PNG "compressed";
     unsigned char packed[400];
     char digits[600], text[2400];
-    const size_t plain = PNG_SIZE + 4, size = sizeof png - 1 - 2; /* of whole numbers */
+    const size_t plain = PNG_SIZE + 4, size = sizeof png - 1 - 2; /* a multiple of 4 */
     memcpy(packed, PNG "view", plain);
     const size_t packed_size =
         meshopt_encodeVertexBuffer(packed + plain, sizeof packed - plain, png, size / 4, 4);
@@ -294,8 +294,7 @@ static void only_extensions_have_the_image(void **state)
                         "KHR_texture_basisu only, \"texture 2\" has an image of EXT_texture_webp only\n");
 }
 
-/* Makes, in the folder, what must not be read: a hidden file, a link, a FIFO, and files that are no images.
- */
+/* Makes files that must not be read: a hidden file, a link, a FIFO, and files that are not images. */
 static void put_traps(void)
 {
     put_png(".hidden.png", "");
@@ -378,7 +377,7 @@ static void standard_input_has_no_folder(void **state)
                         "has no folder\n");
 }
 
-/* Values that glTF does not allow count as none. */
+/* Values that glTF does not allow are ignored. */
 static void hostile_json(void **state)
 {
     (void)state;
@@ -457,7 +456,7 @@ static void colours_of_libraries(void **state)
         "d -halo 0.75\nnewmtl tr\nTr 0.75\nnewmtl grey\nkd 0.5\nnewmtl xyz\nKd xyz 0 0 0\nnewmtl black\n"
         "Kd 0 0 0\nnewmtl mapped\nKd 0 0 0\nmap_Kd none.png\nnewmtl odd\nKd -1 2 nan\nd 7\nTr x\n"
         "newmtl tr\nKd 0 0 1\nTr 0\nnewmtl\nKd 0 0 0\nnewmtl leaves\nmap_d a.png\n");
-    const double half = 0.21404114048223255; /* of ((0.5 + 0.055) / 1.055) ^ 2.4 */
+    const double half = 0.21404114048223255; /* ((0.5 + 0.055) / 1.055) ^ 2.4 */
     static const char *const names[] = {"a b", "none",  "d",      "halo", "tr",    "grey",
                                         "xyz", "black", "mapped", "odd",  "leaves"};
     assert_int_equal(found.count, 11);
@@ -519,7 +518,7 @@ static void libraries_that_cannot_be_read(void **state)
               "outside the model's folder and 1 more\n");
 }
 
-/* 100 MB are allowed to a short file, and the images are larger together. */
+/* A short file may use 100 MB, and its images together need more. */
 static void images_count_in_the_budget(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
-/* test_memory.c - memory that ends anywhere, in every job and every format: in ffd_alloc, in C++'s operator
-   new. Each failure is told as such and leaves no file. That nothing leaks, the leak sanitizer
-   sees.
+/* test_memory.c - memory that runs out at any allocation, in every job and every format: in ffd_alloc, and in
+   C++'s operator new. Each failure is reported as such and leaves no file. The leak sanitizer checks for
+   leaks.
 
        test_memory CORPUS      the folder tests/fuzz/corpus */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
@@ -22,7 +22,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Up to here every failure is tried, then ever fewer. */
+/* Up to this allocation every failure is tried, then ever fewer. */
 #define FIRST_FAILURES 64
 
 enum { PATH = 128 };
@@ -52,7 +52,7 @@ static ffd_deform_desc describe(void)
 {
     static const char *const lattices[] = {lattice};
     ffd_deform_desc desc = describe_job(input, output, lattices);
-    desc.force = false; /* a failure that left a file would be found by the next job */
+    desc.force = false; /* so that the next job notices a file left by a failure */
     return desc;
 }
 
@@ -63,7 +63,7 @@ static ffd_status run_deform(ffd_error *error)
     return ffd_deform_run(&desc, &result, error);
 }
 
-/* Into another format. */
+/* Converts to another format. */
 static ffd_status run_convert(ffd_error *error)
 {
     ffd_deform_desc desc = describe();
@@ -177,7 +177,7 @@ static void cpp_fail_after(long successes)
     new_fail_after(successes);
 }
 
-/* Returns how many failures there were. */
+/* Returns the number of failures. */
 static size_t fail_everywhere(const char *name, job *run, void (*fail_after)(long))
 {
     const size_t files = count_files();
@@ -199,7 +199,7 @@ static size_t fail_everywhere(const char *name, job *run, void (*fail_after)(lon
     return failures;
 }
 
-/* Puts a file of the corpus into the folder; the bytes behind a .gltf's text are those of m.bin. */
+/* Copies a file of the corpus to the folder. Bytes after a .gltf's text go to m.bin. */
 static void take_input(const char *format, const char *name)
 {
     char path[512], own[32];
@@ -250,18 +250,17 @@ static void memory_of_morph_targets(void **state)
         take_input(models[i].format, models[i].name);
         assert_true(fail_everywhere(input, run_as_morph, ffd_alloc_fail_after) > 30);
         fail_everywhere(input, run_as_morph, cpp_fail_after);
-        if (i < 4 || i == 5) /* what the other formats allocate is the same */
+        if (i < 4 || i == 5) /* other formats allocate the same */
             assert_true(fail_everywhere(input, run_morphs, ffd_alloc_fail_after) > 60);
         unlink(input);
     }
     (void)state;
 }
 
-/* Whatever C++ is called: for glTF and for topology. */
+/* Failures in all C++ code: for glTF and for topology. */
 static void memory_of_cpp(void **state)
 {
-    /* Valgrind, which loads itself before the program, puts an operator new of its own in the place of ours.
-     */
+    /* Valgrind is loaded before the program and replaces our operator new. */
     if (is_under_valgrind())
         skip();
     size_t failures = 0;
@@ -276,7 +275,7 @@ static void memory_of_cpp(void **state)
     (void)state;
 }
 
-/* Their placeholders too: for numbers, an object, and a text that is not JSON. */
+/* Also placeholders: for numbers, an object, and a text that is not JSON. */
 static ffd_status run_lattice_load(ffd_error *error)
 {
     static const ffd_setting values[] = {

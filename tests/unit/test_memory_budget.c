@@ -1,4 +1,4 @@
-/* test_memory_budget.c - how much memory a document may take. */
+/* test_memory_budget.c - the memory limit of a document. */
 #include "mesh/memory_budget.h"
 #include <setjmp.h>
 #include <stdarg.h>
@@ -26,7 +26,7 @@ static void files_widen_it(void **state)
     memory_budget budget = ffd_budget_make(0);
     const uint64_t first = ffd_budget_left(&budget);
     assert_true(ffd_budget_most(&budget) == 100 * MB);
-    assert_in_range(first, 80 * MB, 95 * MB); /* the program itself takes some */
+    assert_in_range(first, 80 * MB, 95 * MB); /* the program itself takes some memory */
     check_left(&budget, first);
     ffd_budget_add_file(&budget, 3 * MB, 1);
     assert_true(ffd_budget_most(&budget) == 160 * MB);
@@ -63,7 +63,7 @@ static void what_is_taken_is_gone(void **state)
     assert_int_equal(ffd_budget_take(&budget, UINT64_MAX, 0, &error), FFD_OK);
 }
 
-/* Sizes are a file's to state. */
+/* A file may claim any size. */
 static void no_size_wraps_round(void **state)
 {
     (void)state;

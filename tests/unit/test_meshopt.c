@@ -1,4 +1,4 @@
-/* test_meshopt.c - views of EXT_meshopt_compression: every mode and filter, and streams that are broken. */
+/* test_meshopt.c - views of EXT_meshopt_compression: every mode and filter, and corrupt streams. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -60,7 +60,7 @@ static void make_indices(stream *s, size_t stride)
     finish(s, meshopt_encodeIndexSequence(s->bytes, CAPACITY, indices, COUNT / 3 * 3));
 }
 
-/* Decodes into a block of exactly the right size. */
+/* Decodes into a block of the exact size. */
 static ffd_status decode(const meshopt_view *view, unsigned char **bytes, ffd_error *error)
 {
     *bytes = NULL;
@@ -104,7 +104,7 @@ static uint32_t read_index(const unsigned char *bytes, size_t i, size_t stride)
     return value;
 }
 
-/* The codec may turn a triangle's corners round, but keeps its winding and place. */
+/* The codec may rotate a triangle's corners, but keeps its winding and its place. */
 static void check_triangle(const uint32_t *wanted, const uint32_t found[3])
 {
     for (size_t turn = 0; turn < 3; turn++)
@@ -141,7 +141,7 @@ static void indices_come_back(void **state)
     }
 }
 
-/* Four numbers of length 1. */
+/* Draws a unit vector. */
 static void make_unit(draw *d, int dimensions, float unit[4])
 {
     double square = 0, value[4] = {0};
@@ -153,7 +153,7 @@ static void make_unit(draw *d, int dimensions, float unit[4])
         unit[c] = (float)(value[c] / sqrt(square));
 }
 
-/* What a filter's elements decode to. Free it with ffd_free. */
+/* Returns the decoded elements of a filter. Free it with ffd_free. */
 static unsigned char *decode_filtered(size_t stride, const void *elements, meshopt_filter filter)
 {
     static stream s;
@@ -212,7 +212,7 @@ static int nearest(long double value)
     return (int)(value < 0 ? ceill(value - 0.5L) : floorl(value + 0.5L));
 }
 
-/* The direction that KHR_meshopt_compression gives three integers, in steps of the largest one. */
+/* The direction that KHR_meshopt_compression assigns to three integers, in steps of the largest one. */
 static void expect_direction(const int from[3], int largest, int to[3])
 {
     long double v[3] = {(long double)from[0] / from[2], (long double)from[1] / from[2]};
@@ -225,7 +225,7 @@ static void expect_direction(const int from[3], int largest, int to[3])
         to[a] = nearest(v[a] / length * largest);
 }
 
-/* Every pair of 8 bits, and pairs of 4 to 16 bits: to the last bit, on whatever processor. */
+/* Every pair of 8 bits, and pairs of 4 to 16 bits: exact to the last bit, on every processor. */
 static void octahedral_filter_is_exact(void **state)
 {
     (void)state;
@@ -299,8 +299,7 @@ static void exponential_filter_gives_floats(void **state)
     ffd_free(bytes);
 }
 
-/* Every number is a whole multiple of 2 to the power of its column's exponent, the least one that is stored.
- */
+/* Every number is a multiple of 2 to the smallest exponent in its column. */
 static void exponential_filter_tells_its_steps(void **state)
 {
     (void)state;
@@ -322,7 +321,7 @@ static void exponential_filter_tells_its_steps(void **state)
             int least = INT8_MAX;
             for (size_t i = 0; i < COUNT; i++) {
                 const unsigned char *const stored =
-                    elements + 12 * i + 4 * c; /* a factor of 3 bytes, an exponent */
+                    elements + 12 * i + 4 * c; /* a factor of 3 bytes, then an exponent */
                 float value;
                 memcpy(&value, bytes + 12 * i + 4 * c, sizeof value);
                 const double multiple = ldexp((double)value, -exponents[c]);
@@ -383,7 +382,7 @@ static void what_cannot_be_is_refused_before_there_is_memory(void **state)
     check_refusal(&s.view, FFD_E_INVALID, "764 bytes cannot hold 3000000000 elements of mode TRIANGLES");
 }
 
-/* Truncated and changed streams end in success or FFD_E_INVALID; sanitizers watch the memory. */
+/* Truncated and changed streams end in success or FFD_E_INVALID; sanitizers check memory. */
 static void broken_streams_do_no_harm(void **state)
 {
     (void)state;
@@ -417,7 +416,7 @@ static void broken_streams_do_no_harm(void **state)
             s.bytes[draw_number(&d) % s.view.size] ^= (unsigned char)(1 << draw_number(&d) % 8);
         if (draw_number(&d) % 2)
             s.view.size -= draw_number(&d) % s.view.size;
-        unsigned char *exact = malloc(s.view.size); /* so that reading past the end is seen */
+        unsigned char *exact = malloc(s.view.size); /* so that reading past its end is detected */
         memcpy(exact, s.bytes, s.view.size);
         s.view.bytes = exact;
         const ffd_status status = decode(&s.view, &bytes, &error);

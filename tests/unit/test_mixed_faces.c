@@ -1,5 +1,5 @@
-/* Faces whose vertices are not all marked alike: of each format those among all of its faces, for all marks.
- */
+/* Faces whose vertices have different marks: for each format, exactly the mixed ones among all faces, for all
+   combinations of marks. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -23,7 +23,7 @@ static bool is_marked(const vertex_marks *marks, size_t vertex)
     return false;
 }
 
-/* The numbers of the vertices ascend, and each is one of a face. */
+/* Vertex numbers ascend, and each one is used by a face. */
 static void assert_narrow(const mesh_faces *faces)
 {
     bool used[MANY] = {false};
@@ -35,7 +35,7 @@ static void assert_narrow(const mesh_faces *faces)
         assert_true(used[v]);
 }
 
-/* The corners of a face are those of another; those that are not marked may be others at their positions. */
+/* Two faces have the same corners; unmarked ones may be other vertices at the same position. */
 static void assert_same_face(const mesh_faces *all, size_t face, const mesh_faces *mixed, size_t found,
                              const vertex_marks *marks)
 {
@@ -47,11 +47,11 @@ static void assert_same_face(const mesh_faces *all, size_t face, const mesh_face
         if (is_marked(marks, a[c]))
             assert_int_equal(ffd_faces_number(mixed, b[c]), a[c]);
         for (size_t i = 0; i < 3; i++)
-            assert_true(mixed->positions[3 * b[c] + i] == all->positions[3 * a[c] + i]); /* 0 is -0 */
+            assert_true(mixed->positions[3 * b[c] + i] == all->positions[3 * a[c] + i]); /* also 0 and -0 */
     }
 }
 
-/* Each allocation that fails is said, and leaves nothing; the last try has them all. */
+/* Each failing allocation is reported without a leak; the last try succeeds. */
 static void assert_failures(const mesh_document *document, const vertex_marks *marks)
 {
     ffd_status status = FFD_E_MEMORY;
@@ -67,7 +67,7 @@ static void assert_failures(const mesh_document *document, const vertex_marks *m
     }
 }
 
-/* Returns how many faces are mixed. */
+/* Returns the number of mixed faces. */
 static size_t assert_mixed(const mesh_document *document, const mesh_faces *all, const vertex_marks *marks)
 {
     mesh_faces mixed;
@@ -88,8 +88,8 @@ static size_t assert_mixed(const mesh_document *document, const mesh_faces *all,
     return found;
 }
 
-/* Marks all subsets of the vertices in one plane, and in two that are not the same. Vertices at one position
-   are marked alike: places[v] is the first of those at the position of v. */
+/* Marks every subset of the vertices in one plane, and different subsets in two planes. Vertices at one
+   position have equal marks: places[v] is the first vertex at the position of v. */
 static void assert_all_marks(mesh_document *document, const size_t *places)
 {
     uint8_t bytes[2 * MOST_VERTICES];
@@ -151,7 +151,7 @@ static void of_ply(void **state)
                    PLY_HEAD("ascii", "5", "1", "float") "0 4\n" OFF_VERTICES "7 3 1e0 4 2 7\n", NULL);
 }
 
-/* Writes numbers of a size into bytes, the lowest byte first or last. */
+/* Stores an integer of this size, in either byte order. */
 static size_t put(unsigned char *bytes, uint64_t value, size_t size, bool big)
 {
     for (size_t i = 0; i < size; i++)
@@ -159,7 +159,7 @@ static size_t put(unsigned char *bytes, uint64_t value, size_t size, bool big)
     return size;
 }
 
-/* The faces are these; a vertex that they do not name is not used. */
+/* Checks that the faces are these; a vertex that they do not use is not listed. */
 static void assert_known(mesh_document *document, const uint32_t *corners, size_t words)
 {
     mesh_faces faces;
@@ -228,7 +228,7 @@ static void of_obj(void **state)
 #define FACET(a, b, c)                                                                                       \
     "facet normal 0 0 1\nouter loop\nvertex " a "\nvertex " b "\nvertex " c "\nendloop\nendfacet\n"
 
-/* The last corners are at positions of the first facet, once with another zero. */
+/* The last corners share positions with the first facet, once with -0 for 0. */
 static void of_stl(void **state)
 {
     (void)state;
@@ -239,8 +239,8 @@ static void of_stl(void **state)
                    places);
 }
 
-/* Three squares: with indices of 32 bits under two nodes, of which one is moved; with indices of 8; and
-   without, as two triangles. */
+/* Three squares: with 32-bit indices under two nodes, one of them moved; with 8-bit indices; and as two
+   triangles without indices. */
 static void of_gltf(void **state)
 {
     (void)state;
@@ -281,7 +281,7 @@ static void of_gltf(void **state)
     assert_all_marks(document, NULL);
 }
 
-/* Of many vertices, with long lines: those of faces have other numbers among themselves. */
+/* Many vertices, with long lines: the vertices of mixed faces are renumbered. */
 static void of_many(void **state)
 {
     (void)state;
@@ -310,7 +310,7 @@ static void of_many(void **state)
     }
 }
 
-/* Somebody turns the faces of a file into vertices after it was opened: there is room for those it had. */
+/* Faces of the file are overwritten by vertices after it was opened; the arrays have the old size. */
 static void of_a_file_that_changes(void **state)
 {
     (void)state;
@@ -322,7 +322,7 @@ static void of_a_file_that_changes(void **state)
     for (int f = 0; f < MANY; f++)
         size += (size_t)snprintf(text + size, sizeof text - size, "f 1 2 3\n");
     mesh_document *const document = opened_bytes(ffd_format_table(FFD_FORMAT_OBJ), text, size);
-    document->results_replace = true; /* so that positions are read once more */
+    document->results_replace = true; /* so that positions are read again */
     assert_int_equal(document->format->begin_results(document, false, false, NULL), FFD_OK);
     for (char *c = text; *c; c++)
         *c = *c == 'f' ? 'v' : *c;
@@ -330,7 +330,7 @@ static void of_a_file_that_changes(void **state)
     document->format->close(document);
 }
 
-/* Marks among many vertices without are found, in one plane and in two. */
+/* Finds marks among many unmarked vertices, in one plane and in two. */
 static void next_marks(void **state)
 {
     (void)state;

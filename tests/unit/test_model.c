@@ -1,4 +1,4 @@
-/* Models: elements and names, what is told of them, and conversions when memory runs out. */
+/* Models: elements, names, descriptions of losses, and conversions with failing memory. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -62,7 +62,7 @@ static void elements_fall_where_they_belong(void **state)
     make_square(&model);
     const model_corner corners[4] = {plain(0), plain(1), plain(2), plain(3)};
     assert_int_equal(ffd_model_begin_run(&model, "a", NULL, "", NULL), FFD_OK);
-    assert_int_equal(ffd_model_begin_run(&model, "a", NULL, NULL, NULL), FFD_OK); /* the same */
+    assert_int_equal(ffd_model_begin_run(&model, "a", NULL, NULL, NULL), FFD_OK); /* the same run */
     for (size_t count = 0; count <= 4; count++)
         assert_int_equal(ffd_model_add(&model, MODEL_FACES, corners, count, NULL), FFD_OK);
     assert_int_equal(ffd_model_begin_run(&model, "b", NULL, NULL, NULL), FFD_OK); /* stays empty */
@@ -88,7 +88,7 @@ static void elements_fall_where_they_belong(void **state)
     ffd_model_free(&model);
 }
 
-/* Several values at one position are several only where they differ. */
+/* Several values at one position count as several only if they differ. */
 static void values_of_a_position_are_compared(void **state)
 {
     (void)state;
@@ -113,7 +113,7 @@ static void values_of_a_position_are_compared(void **state)
     }
 }
 
-/* A colour goes into bytes where it is what six digits say of one. */
+/* A colour fits into bytes if six digits of it are those of a byte. */
 static void colours_that_bytes_hold(void **state)
 {
     (void)state;
@@ -130,7 +130,7 @@ static void colours_that_bytes_hold(void **state)
     }
 }
 
-/* Floats are too coarse where a mesh is far away for its size. */
+/* Floats are too coarse if a mesh is far from the origin for its size. */
 static void positions_that_floats_hold(void **state)
 {
     (void)state;
@@ -171,7 +171,7 @@ static void losses_are_named_once(void **state)
     const mesh_model all = {.features = UINT32_MAX};
     char text[800], cut[12];
     ffd_model_describe_loss(&all, 0, text, sizeof text);
-    assert_true(strlen(text) < sizeof text - 1); /* all of it fits */
+    assert_true(strlen(text) < sizeof text - 1); /* the text is not truncated */
     ffd_model_describe_loss(&all, 0, cut, sizeof cut);
     assert_true(strlen(cut) < sizeof cut);
 }
@@ -240,7 +240,7 @@ static ffd_status convert(const mesh_document *document, ffd_format format, cons
     return status;
 }
 
-/* Each allocation fails in turn: every time a clean end, and no file; then a whole one. */
+/* Each allocation fails in turn, without leak or file; then all succeed. */
 static void memory_may_run_out_anywhere(void **state)
 {
     (void)state;

@@ -1,5 +1,4 @@
-/* Clips: the text of an animation of weights becomes times and weights, or is refused with what stands there.
- */
+/* Clips: the text of an animation of weights is parsed to times and weights, or refused with a quotation. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -57,8 +56,7 @@ static void quotes_hold_any_name(void **state)
     ffd_morph_clip_free(&clip);
 }
 
-/* Each of a clip's texts, cut anywhere, is a clip or is refused, and leaves nothing that was not allocated.
- */
+/* Each prefix of a clip's text is parsed or refused, without leaks. */
 static void a_text_may_end_anywhere(void **state)
 {
     static const char text[] = "'a b': 0 'c d'=1 e=2, 1.5 e=-1e-3, 2e2 'c d'=0";

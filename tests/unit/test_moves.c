@@ -1,4 +1,4 @@
-/* What the moves of a lattice file do to its control points, against values worked out by hand. */
+/* Moves of a lattice file: control points compared with values computed by hand. */
 #include "lattice/lattice.h"
 #include <math.h>
 #include <setjmp.h>
@@ -11,15 +11,9 @@
 #include <cmocka.h>
 
 #include "../support/lattice_points.h"
+#include "../support/message.h"
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
-
-static const char *message_of(const ffd_error *error)
-{
-    static char text[2048];
-    ffd_error_format(error, text, sizeof text);
-    return text;
-}
 
 static ffd_lattice *make(const char *size, const char *rest, const char *more)
 {
@@ -34,7 +28,7 @@ static ffd_lattice *make(const char *size, const char *rest, const char *more)
     return lattice;
 }
 
-/* 3 x 3 x 5 points of degree 1: x and y 0, 1, 2; z 0, 1, 2, 3, 4. */
+/* 3 x 3 x 5 points of degree 1: x and y are 0, 1, 2; z is 0, 1, 2, 3, 4. */
 static const char tower[] = "{\"box\":{\"min\":[0,0,0],\"max\":[2,2,4]}}";
 
 static ffd_lattice *move_tower(const char *moves)
@@ -44,7 +38,7 @@ static ffd_lattice *move_tower(const char *moves)
     return make("[3,3,5]", tower, more);
 }
 
-/* Within a few rounding errors of coordinates of size 10. */
+/* Within a few rounding errors of coordinates around 10. */
 static void check_near(const ffd_lattice *l, size_t i, size_t j, size_t k, double x, double y, double z)
 {
     check_within(l, (const size_t[]){i, j, k}, (const double[]){x, y, z}, 5e-15);
@@ -89,8 +83,8 @@ static void at_and_within_select_the_right_points(void **state)
     ffd_lattice_destroy(&l);
 }
 
-/* Points that rest on a face of `within` are inside, also where their coordinate is rounded: thirds, and a
-   box whose axes turn it. And it is the rest position that counts. */
+/* Points with their rest position on a face of `within` are inside, even if the coordinate is rounded:
+   thirds, and a box with turned axes. */
 static void points_on_a_face_of_within_are_selected(void **state)
 {
     (void)state;
@@ -142,7 +136,7 @@ static void scale_is_about_the_centroid_or_a_given_point(void **state)
     check_exact(l, 1, 1, 2, 1, 1, 2);
     check_exact(l, 2, 0, 4, 4, -2, 8);
     ffd_lattice_destroy(&l);
-    /* The centroid of what is selected: the face z = 4. */
+    /* The centroid of the selected points: the face z = 4. */
     l = move_tower("{\"at\":[\"all\",\"all\",-1],\"scale\":{\"factor\":[0.5,1,-2]}}");
     check_exact(l, 0, 2, 4, 0.5, 2, 4);
     check_exact(l, 2, 0, 4, 1.5, 0, 4);
@@ -163,7 +157,7 @@ static void rotate_is_right_handed_about_its_axis(void **state)
     l = move_tower("{\"rotate\":{\"axis\":[0,0,-7],\"degrees\":90}}");
     check_exact(l, 2, 1, 3, 1, 0, 3);
     ffd_lattice_destroy(&l);
-    /* By 120 degrees about (1,1,1) x, y, z change places. */
+    /* A turn by 120 degrees about (1,1,1) permutes x, y, z. */
     l = move_tower("{\"rotate\":{\"axis\":[1,1,1],\"degrees\":120,\"about\":[0,0,0]}}");
     check_near(l, 2, 1, 3, 3, 2, 1);
     ffd_lattice_destroy(&l);
@@ -196,15 +190,15 @@ static void twist_grows_along_the_selected_extent(void **state)
     check_near(l, 2, 1, 4, 2, 1, 4);
     check_exact(l, 1, 1, 3, 1, 1, 3);
     ffd_lattice_destroy(&l);
-    /* The extent is that of the selected points: z from 2 to 4. The axis points down: s grows there, and so
-     * does f. */
+    /* The extent is that of the selected points, z from 2 to 4. The axis points down, so s and f grow
+       downwards. */
     l = move_tower(
         "{\"at\":[\"all\",\"all\",[2,4]],\"twist\":{\"axis\":[0,0,-1],\"degrees\":-90,\"about\":[0,0,0]}}");
     check_exact(l, 2, 1, 4, 2, 1, 4);
     check_near(l, 2, 0, 2, 0, 2, 2);
     check_near(l, 2, 0, 3, sqrt(2), sqrt(2), 3);
     ffd_lattice_destroy(&l);
-    /* No extent: nothing turns. */
+    /* Without extent nothing turns. */
     l = move_tower("{\"at\":[\"all\",\"all\",2],\"twist\":{\"axis\":\"z\",\"degrees\":90}}");
     assert_int_equal(count_moved(l), 0);
     ffd_lattice_destroy(&l);
@@ -226,7 +220,7 @@ static void taper_scales_across_its_axis_from_the_low_end(void **state)
     ffd_lattice_destroy(&l);
 }
 
-/* The formula of data/schema/lattice.md 8.3, as it is written there, with the C library's functions. */
+/* The formula of data/schema/lattice.md 8.3, with the C library's functions. */
 static void check_bend(const ffd_lattice *l, double degrees, double about_x)
 {
     const double pi = 3.14159265358979323846, radius = 4 / (degrees * pi / 180);
@@ -255,17 +249,17 @@ static void bend_makes_a_circular_arc_from_the_low_end(void **state)
                  angles[i]);
         ffd_lattice *l = move_tower(moves);
         check_bend(l, angles[i], 1);
-        /* The low end is fixed to the bit. */
+        /* The low end is exactly fixed. */
         check_exact(l, 2, 0, 0, 2, 0, 0);
         ffd_lattice_destroy(&l);
     }
-    /* 90 degrees over the length 4: R = 8/pi; the axis' end comes to lie at (R, R), pointing along x. */
+    /* 90 degrees over the length 4: R = 8/pi. The end of the axis moves to (R, R) and points along x. */
     ffd_lattice *l = move_tower("{\"bend\":{\"axis\":\"z\",\"toward\":\"x\",\"degrees\":90}}");
     const double radius = 8 / 3.14159265358979323846;
     check_near(l, 1, 1, 4, 1 + radius, 1, radius);
     check_near(l, 2, 1, 4, 1 + radius, 1, radius - 1);
     ffd_lattice_destroy(&l);
-    /* Tiny angles move by about s^2/2R and nothing more: no digits lost against the long radius. */
+    /* Tiny angles move by about s^2/2R: no cancellation with the long radius. */
     l = move_tower("{\"bend\":{\"axis\":\"z\",\"toward\":\"x\",\"degrees\":1e-9}}");
     const double *const p = point_of(l, 1, 1, 4);
     const double expected = 4 * (1e-9 * 3.14159265358979323846 / 180) / 2;
@@ -276,7 +270,7 @@ static void bend_makes_a_circular_arc_from_the_low_end(void **state)
 static void box_units_are_fractions_of_the_box(void **state)
 {
     (void)state;
-    /* Sides 2, 2, 4 from (0,0,0): fractions. */
+    /* Sides 2, 2, 4 from (0,0,0): fractions of these. */
     ffd_lattice *l =
         make("[3,3,5]", tower,
              "\"units\":\"box\",\"moves\":[{\"at\":[0,0,0],\"by\":[0.5,1,0.25]},{\"at\":[1,0,0],\"to\":"
@@ -298,7 +292,7 @@ static void box_units_are_fractions_of_the_box(void **state)
     check_exact(l, 0, 0, 0, -2, 4, 5);
     check_exact(l, 1, 1, 1, -2, 2.5, 3);
     ffd_lattice_destroy(&l);
-    /* A cylinder: the bounds of the solid cylinder, [-2,2] x [-2,2] x [-5,5]; points: their bounds. */
+    /* For a cylinder the bounds of the solid cylinder, [-2,2] x [-2,2] x [-5,5]; for points their bounds. */
     l = make(
         "[2,8,2]",
         "{\"cylinder\":{\"center\":[0,0,0],\"axis\":\"z\",\"radius\":[1,2],\"height\":10,\"angle\":[0,90]}}",
@@ -309,7 +303,7 @@ static void box_units_are_fractions_of_the_box(void **state)
              "\"units\":\"box\",\"moves\":[{\"at\":[0,0,0],\"by\":[1,0.5,0.25]}]");
     check_exact(l, 0, 0, 0, 5, 1, 1);
     ffd_lattice_destroy(&l);
-    /* The box of a mesh, margin included: its sides 4, 4, 4. */
+    /* For the box of a mesh, including its margin: sides 4, 4, 4. */
     l = make("[2,2,2]", "{\"box\":\"mesh\",\"margin\":0.5}",
              "\"units\":\"box\",\"moves\":[{\"at\":[0,0,0],\"by\":[0.5,0,0]}]");
     assert_int_equal(ffd_lattice_fit(l, (const double[]){0, 0, 0}, (const double[]){2, 2, 2}, NULL), FFD_OK);
@@ -319,7 +313,7 @@ static void box_units_are_fractions_of_the_box(void **state)
     ffd_lattice_destroy(&l);
 }
 
-/* Moves act on the deformed points; `within` looks at the rest. */
+/* Moves act on the deformed points; `within` selects by rest position. */
 static void moves_act_on_deformed_points_and_within_on_rest(void **state)
 {
     (void)state;

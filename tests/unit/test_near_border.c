@@ -1,4 +1,4 @@
-/* test_near_border.c - points that miss the volume by what they are known to, or by a snap distance. */
+/* test_near_border.c - points that miss the volume by their rounding cell, or by the snap distance. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -56,11 +56,11 @@ static ffd_lattice *lattice_of(point_map map)
     ffd_lattice *lattice = lattice_of_kinds(&shape);
     lattice_map(lattice, map);
     memcpy(lattice->deformed, lattice->rest, 3 * lattice->count * sizeof(double));
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
     return lattice;
 }
 
-/* u,v,w on a face, an edge or a corner. */
+/* Draws u,v,w on a face, an edge or a corner. */
 static void draw_on_border(draw *d, double uvw[3])
 {
     for (int a = 0; a < 3; a++)
@@ -68,7 +68,7 @@ static void draw_on_border(draw *d, double uvw[3])
     uvw[draw_int(d, 0, 2)] = draw_int(d, 0, 1);
 }
 
-/* Half an ulp of the float32 next to x. */
+/* Half an ulp of x as float32. */
 static double half_ulp(double x)
 {
     const float near = (float)x;
@@ -119,7 +119,7 @@ static void border_points_of_float32_are_inside(void **state)
             ffd_lattice_evaluate(lattice, FFD_VOLUME_REST, near[i].uvw, back, NULL);
             for (int a = 0; a < 3; a++)
                 back[a] -= xyz[3 * i + a];
-            /* The nearest point of the border: no farther than the one that was rounded. */
+            /* The nearest border point is no farther than the exact point that was rounded. */
             assert_true(vec_length(back) <= vec_length(rounding + 3 * i) * 1.0001 + 1e-13);
         }
         ffd_locator_destroy(&locator);
@@ -128,7 +128,7 @@ static void border_points_of_float32_are_inside(void **state)
     (void)state;
 }
 
-/* Rounding counts in its own coordinate only. */
+/* Rounding of a coordinate applies to that coordinate only. */
 static void rounding_of_one_coordinate_moves_along_it(void **state)
 {
     ffd_lattice *lattice = lattice_of(warped_map);
@@ -211,12 +211,12 @@ static ffd_lattice *pipe(void)
         lattice->rest_weights[n] = lattice->deformed_weights[n] = j % 2 ? sqrt(0.5) : 1;
     }
     memcpy(lattice->deformed, lattice->rest, 3 * lattice->count * sizeof(double));
-    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
     return lattice;
 }
 
-/* On the axis of a pipe all of a circle is equally near, and a snap that nearly reaches it would have to look
-   at more parts of it than a search may. */
+/* On the axis of a pipe a whole circle is equally near. A snap that nearly reaches it would need more patches
+   than a search may use. */
 static void a_search_of_the_border_that_ends_at_its_limit_is_said(void **state)
 {
     static const double axis[3] = {0, 0, 0.5};

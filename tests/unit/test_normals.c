@@ -1,4 +1,4 @@
-/* test_normals.c - angles of polygons, and the normals of groups of corners. */
+/* test_normals.c - angles of polygons, and normals of groups of corners. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -39,7 +39,7 @@ static void corner_angles_match_those_worked_out_by_hand(void **state)
     check_angles(concave, 4, (const double[]){atan2(3, 1) * 180 / acos(-1), sharp, 225, top});
     const double straight[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 2, 0};
     check_angles(straight, 4, (const double[]){90, 180, 45, 45});
-    /* Corners at one place share an angle, also round the end; 0 and -0 are one place. */
+    /* Corners at one place share an angle, also across the end of the list; 0 and -0 are equal. */
     const double doubled[] = {0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 1, 0, -0.0, 0, 0, 0, 0, -0.0};
     check_angles(doubled, 6, (const double[]){30, 22.5, 22.5, 45, 30, 30});
     const double huge[] = {0, 0, 0, 1e200, 0, 0, 0, 1e200, 0};
@@ -59,7 +59,7 @@ static void a_polygon_without_area_has_no_normal(void **state)
     assert_false(ffd_polygon_normal(place, corners, 3, normal, NULL));
 }
 
-/* The cube of -1 and 1; its quads look outward. */
+/* The cube from -1 to 1; its quads face outwards. */
 static double cube[24];
 static uint32_t cube_corners[] = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
 static size_t cube_start[] = {0, 4, 8, 12, 16, 20, 24};
@@ -94,13 +94,13 @@ static void cube_normals_follow_groups_and_mirroring(void **state)
     static const double outward[][3] = {{0, 0, -1}, {0, 0, 1}, {0, -1, 0}, {0, 1, 0}, {-1, 0, 0}, {1, 0, 0}};
     uint32_t groups[24];
     double found[72];
-    /* Hard edges: a group a corner. */
+    /* Hard edges: each corner is a group. */
     for (uint32_t c = 0; c < 24; c++)
         groups[c] = c;
     find(&faces, groups, NULL, 24, found);
     for (size_t c = 0; c < 24; c++)
         assert_memory_equal(found + 3 * c, outward[c / 4], sizeof outward[0]);
-    /* Smooth: a group a vertex; the diagonals. One corner takes no part. */
+    /* Smooth: each vertex is a group, so the normals are diagonals. One corner is in no group. */
     for (size_t c = 0; c < 24; c++)
         groups[c] = cube_corners[c];
     find(&faces, groups, NULL, 8, found);
@@ -110,13 +110,13 @@ static void cube_normals_follow_groups_and_mirroring(void **state)
     groups[0] = NORMALS_NONE;
     find(&faces, groups, NULL, 8, found);
     check_direction(found, -sqrt(0.5), -sqrt(0.5), 0);
-    /* Mirrored: from the other side. */
+    /* Mirrored: seen from the other side. */
     const uint8_t mirrored[8] = {1};
     find(&faces, groups, mirrored, 8, found);
     check_direction(found, sqrt(0.5), sqrt(0.5), 0);
 }
 
-/* Positions are those that are given, whatever faces has; sizes far from 1 do no harm. */
+/* Positions are taken from the argument, not from faces. Sizes far from 1 are fine. */
 static void normals_come_from_the_given_positions(void **state)
 {
     (void)state;
@@ -134,7 +134,7 @@ static void normals_come_from_the_given_positions(void **state)
     }
 }
 
-/* What half-edges cannot join counts all the same: three faces at an edge, one twice, one back to front. */
+/* Faces that half-edges cannot connect count too: three faces at an edge, one face twice, one reversed. */
 static void non_manifold_faces_count_like_others(void **state)
 {
     (void)state;
@@ -148,13 +148,13 @@ static void non_manifold_faces_count_like_others(void **state)
     for (size_t c = 0; c < 17; c++)
         groups[c] = corners[c] == 0 ? 0 : NORMALS_NONE;
     find(&faces, groups, NULL, 1, found);
-    /* Normals z, -z, -y, z, -z, each of area 1/2 and a right angle. */
+    /* Normals z, -z, -y, z, -z, each with area 1/2 and a right angle. */
     check_direction(found, 0, -1, 0);
 }
 
-/* In a slanted plane: all corners of a face have its normal to the bit, whatever their angles, and so have
-   corners of several faces with one normal, which a triangle and the same twice as large are; a face and its
-   back cancel out. */
+/* In a slanted plane, all corners of a face have exactly its normal, whatever their angles. So do corners of
+   several faces with the same normal: a triangle, and the same one twice as large. A face and its reverse
+   cancel out. */
 static void corners_of_one_plane_have_one_normal_to_the_bit(void **state)
 {
     (void)state;

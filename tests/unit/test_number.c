@@ -1,4 +1,4 @@
-/* test_number.c - number text both ways. */
+/* test_number.c - parsing and printing of numbers. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,7 +19,7 @@
 typedef struct number_case {
     const char *text;
     double value;
-    size_t length; /* of what is read; 0: nothing */
+    size_t length; /* bytes read; 0: refused */
 } number_case;
 
 static void the_longest_number_at_the_start_is_read(void **state)
@@ -71,13 +71,13 @@ static void the_longest_number_at_the_start_is_read(void **state)
     (void)state;
 }
 
-/* A float is rounded once, from the text: through a double 1.0000000596046448 would become 1. */
+/* A float is rounded once, from the text: through double 1.0000000596046448 would become 1. */
 static void a_float_is_rounded_once_from_its_text(void **state)
 {
     static const struct {
         const char *text;
         float value;
-        size_t length; /* of what is read; 0: nothing */
+        size_t length; /* bytes read; 0: refused */
     } cases[] = {
         {"0.1", 0.1F, 3},
         {"-0", -0.0F, 2},
@@ -140,7 +140,7 @@ static void known_numbers_have_their_shortest_text(void **state)
     (void)state;
 }
 
-/* Any double comes back as itself, under a locale with a decimal comma too where there is one. */
+/* Any double round-trips, also in a locale with a decimal comma if there is one. */
 static void any_double_comes_back_as_itself(void **state)
 {
     draw d = {draw_seed()};
@@ -160,9 +160,9 @@ static void any_double_comes_back_as_itself(void **state)
     (void)state;
 }
 
-/* The shortest text by trial: with ever more digits until it reads back, in the shorter of both forms. Not
-   for powers of two, whose neighbours are not equally far away: the nearest with that many digits may not
-   read back where the one beside it does. */
+/* Finds the shortest text by trial: increasing digits until it reads back, in the shorter of both forms. Not
+   for powers of two, whose neighbours are at different distances: the nearest number with that many digits
+   may not read back, while one beside it does. */
 static void write_by_trial(double value, char *text, size_t capacity)
 {
     char digits[40];
@@ -176,7 +176,7 @@ static void write_by_trial(double value, char *text, size_t capacity)
         snprintf(text, capacity, "%s", digits);
 }
 
-/* A double as meshes hold them: any bits, few digits, few bits, and what lies next to those. */
+/* Draws a double as meshes have them: any bits, few digits, few bits, and their neighbours. */
 static double draw_coordinate(draw *d)
 {
     double value = ldexp(draw_between(d, -2, 2), draw_int(d, -60, 51));
@@ -214,7 +214,7 @@ static size_t draw_digits(draw *d, int most, char *text)
     return (size_t)count;
 }
 
-/* Texts of all lengths read as the C library reads them. */
+/* Texts of all lengths are parsed like the C library does. */
 static void texts_read_as_the_c_library_reads_them(void **state)
 {
     draw d = {draw_seed()};
@@ -242,11 +242,11 @@ static void texts_read_as_the_c_library_reads_them(void **state)
     (void)state;
 }
 
-/* A number as meshes have them, or any. */
+/* Draws a number as meshes have them, or any. */
 static double any_number(draw *d)
 {
     switch (draw_int(d, 0, 6)) {
-    case 6: /* around where the form changes */
+    case 6: /* around the limits between both forms */
         return draw_int(d, -12, 12) * pow(10, draw_int(d, -10, 8)) + draw_int(d, 0, 1) / 8.0;
     case 0:
         return draw_int(d, -1000, 1000) / 16.0;
@@ -266,15 +266,15 @@ static double any_number(draw *d)
     }
 }
 
-/* The texts of an array's numbers, whichever of them are wanted and in whatever order, are those that they
-   have alone. */
+/* In an array, any subset of numbers gets the same texts as one at a time. */
 static void a_run_gives_each_number_the_text_it_has_alone(void **state)
 {
     enum { MOST = 200 };
     draw d = {draw_seed()};
     for (int round = 0; round < 5000; round++) {
         const int count = draw_int(&d, 1, MOST), step = draw_int(&d, 1, 12), skipped = draw_int(&d, 0, 3);
-        double *const values = malloc((size_t)count * sizeof *values); /* nothing behind it is to be read */
+        double *const values =
+            malloc((size_t)count * sizeof *values); /* so that reading past the end is detected */
         decimal_run run;
         assert_non_null(values);
         for (int i = 0; i < count; i++)

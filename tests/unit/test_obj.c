@@ -80,7 +80,7 @@ static void statements_are_split_into_words_with_their_lines(void **state)
     }
 }
 
-/* Reading only some words must lead to the same next statement. */
+/* Skipping words must lead to the same next statement. */
 static void unread_words_do_not_move_the_next_statement(void **state)
 {
     (void)state;
@@ -177,7 +177,7 @@ static void only_words_that_are_corners_are_read(void **state)
     }
     for (size_t i = 0; i < COUNT(bad); i++)
         assert_false(ffd_obj_corner(word_of(bad[i]), &corner));
-    /* Larger than 64 bits: in no range, on either side. */
+    /* More than 64 bits: out of every range, positive or negative. */
     size_t element;
     const obj_count full = {SIZE_MAX / 4096, SIZE_MAX / 4096};
     assert_true(ffd_obj_corner(word_of("18446744073709551617//-18446744073709551617"), &corner));
@@ -290,7 +290,7 @@ static void broken_files_are_refused_with_their_line(void **state)
 /* Saving */
 
 typedef struct edit {
-    char stream; /* 'v' or 'n'; 0 ends a list */
+    char stream; /* 'v' or 'n'; 0 ends the list */
     size_t item; /* vertex, or pair of a vertex and a normal */
     double xyz[3];
 } edit;
@@ -367,17 +367,17 @@ static void shared_normals_are_split_only_where_they_differ(void **state)
         const edit *edits;
         const char *expected;
     } cases[] = {
-        /* all agree: in place, what did not change keeps its text */
+        /* all agree: in place; an unchanged number keeps its text */
         {CORNERS "f 1//1 2//1 3//1\n", all, "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 1 1.0\nf 1//1 2//1 3//1\n"},
-        /* a value that somebody still has stays */
+        /* a value that is still in use stays */
         {CORNERS "f 1//1 2//1 3//1\n", one, CORNERS "vn 1 0 0\nf 1//1 2//2 3//1\n"},
         {CORNERS "f 1//1 2//1 3//1\n", first_moves, CORNERS "vn 1 0 0\nf 1//2 2//1 3//1\n"},
-        /* else the first vertex's takes its line */
+        /* otherwise the first vertex's value takes its line */
         {CORNERS "f 1//1 2//1 3//1\n", all_differ,
          "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1 0 0\nvn 2 0 0\nvn 3 0 0.5\nf 1//1 2//2 3//3\n"},
         {CORNERS "f 1//1 2//1 3//1\nf 3/4/1 2/5/1 1\n", two_alike,
          "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1 0 0\nvn 2 0 0\nf 1//1 2//2 3//2\nf 3/4/2 2/5/2 1\n"},
-        /* the same new value from two `vn` is not shared between them, and unused ones stay */
+        /* two `vn` with the same new value are not merged, and unused ones stay */
         {"v 0 0 0\nvn 1 1 1\nvn 5 5 5\nvn 2 2 2\nf 1//1 1//3", both,
          "v 0 0 0\nvn 1 0 0\nvn 5 5 5\nvn 2 0 0\nf 1//1 1//3"},
         /* after the last `vn`, whatever follows it */
@@ -394,14 +394,14 @@ static void shared_normals_are_split_only_where_they_differ(void **state)
          "vn 0 0 1 # \\\n\nvn 1 0 0\nv 0 0 0\nv 0 0 0\nf 1//1 2//2\n"},
         {"vn 0 0 \\\n1\nv 0 0 0\nv 0 0 0\nf 1//1 \\\n2//1", one,
          "vn 0 0 \\\n1\nvn 1 0 0\nv 0 0 0\nv 0 0 0\nf 1//1 \\\n2//2"},
-        /* indices that count back: at the end of the file */
+        /* relative indices: appended at the end of the file */
         {CORNERS "f -3//-1 -2//-1 -1//-1\n", one, CORNERS "f -3//-1 -2//2 -1//-1\nvn 1 0 0\n"},
         {CORNERS "f -3//-1 -2//-1 -1//-1", one, CORNERS "f -3//-1 -2//2 -1//-1\nvn 1 0 0\n"},
         {CORNERS "f -3//-1 -2//-1 -1//-1 \\", one, CORNERS "f -3//-1 -2//2 -1//-1 \\\n\nvn 1 0 0\n"},
         {CORNERS "f -3//-1 -2//-1 -1//-1\n# \\", one, CORNERS "f -3//-1 -2//2 -1//-1\n# \\\n\nvn 1 0 0\n"},
         {CORNERS "f 1//1 2//1 3//1\nsurf 0 1 0 1 -1/1/-1\n", one,
          CORNERS "f 1//1 2//2 3//1\nsurf 0 1 0 1 -1/1/-1\nvn 1 0 0\n"},
-        /* counting back only before the last `vn` does no harm */
+        /* relative indices before the last `vn` do not matter */
         {"v 0 0 0\nv 0 0 0\nvn 0 0 1\nf -2//-1 -1//-1\nvn 0 1 0\nf 1//2\n", one,
          "v 0 0 0\nv 0 0 0\nvn 0 0 1\nf -2//-1 -1//-1\nvn 1 0 0\nf 1//2\n"},
         /* a continued face, tabs, texcoords, comments */
@@ -434,7 +434,7 @@ static void without_results_the_same_bytes_are_saved(void **state)
     obj->close(document);
 }
 
-/* More text than a block, changed and not. */
+/* More text than a block, changed and unchanged. */
 static void files_larger_than_a_block_are_saved_whole(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* OBJ in blocks: wherever a file is cut, its blocks have the statements that it has in one piece; and
-   arguments read straight from the text are those that words give. */
+/* OBJ in blocks: however a file is divided, its blocks have the same statements as the whole; and arguments
+   parsed directly from the text equal those parsed as words. */
 #include "../support/draw.h"
 #include "base/memory/memory.h"
 #include "io/obj/obj_blocks.h"
@@ -68,7 +68,7 @@ static size_t draw_text(draw *d, char *text)
     return size;
 }
 
-/* Appends the statements of a scan: keyword, kind, line and words. Returns the line behind it. */
+/* Lists the statements of a scan: keyword, kind, line and words. Returns the next line number. */
 static size_t list_statements(obj_scan scan, char *list)
 {
     text_word word;
@@ -207,8 +207,8 @@ static bool same_index(obj_index a, obj_index b)
 
 static const char far[] = " 4/5/6 7/8/9 10/11/12 13/14/15 16/17/18 19/20/21\nf 1 2 3\n";
 
-/* How many vectors a text has is told by the first line with one, if that is long enough for three numbers.
- */
+/* The number of vectors is estimated from the first line with one, if that is long enough for three
+   numbers. */
 static void vectors_are_estimated_by_the_first(void **state)
 {
     (void)state;
@@ -231,7 +231,7 @@ static void vectors_are_estimated_by_the_first(void **state)
     }
 }
 
-/* What is taken straight from the text must be all of the word and mean the same; what is not, stays. */
+/* The direct parser must take a whole word with the same meaning; else it takes nothing. */
 static void arguments_are_read_as_words_are(void **state)
 {
     (void)state;
@@ -239,7 +239,7 @@ static void arguments_are_read_as_words_are(void **state)
     const size_t count = sizeof arguments / sizeof *arguments;
     for (size_t n = 0; n < 2 * count; n++) {
         char text[160];
-        const size_t i = n % count; /* near the file's end, and far from it */
+        const size_t i = n % count; /* near the end of the file, and far from it */
         snprintf(text, sizeof text, "f  %s%s", arguments[i], n < count ? "" : far);
         obj_scan scan;
         text_word word;
@@ -273,7 +273,7 @@ static void arguments_are_read_as_words_are(void **state)
     assert_in_range(corners, 24, 100);
 }
 
-/* Three words at once are those that come one by one, and what follows them is the same. */
+/* Three words at a time are the same as one by one, and so is what follows. */
 static void words_are_read_as_one_by_one(void **state)
 {
     (void)state;
@@ -308,7 +308,7 @@ static void words_are_read_as_one_by_one(void **state)
     assert_in_range(complete, 5000, 20000);
 }
 
-/* A word as numbers are, or nearly. */
+/* Appends a number, or almost one. */
 static size_t put_number(draw *d, char *text)
 {
     static const char odd[] = "0123456789..--+eE#\\/x\t\x01\xff";
@@ -326,7 +326,7 @@ static size_t put_number(draw *d, char *text)
     return size;
 }
 
-/* A line of three numbers and what may follow it, that ends with its block: nothing behind is to be read. */
+/* Draws a line of three numbers and possibly more, at the end of its block: reading past it is detected. */
 static char *draw_line(draw *d, size_t *size)
 {
     static const char *const ends[] = {"\n", "\r\n", "\r", " 1\n", "#\n", "\\\n", "\t\n", " \n"};
@@ -348,7 +348,7 @@ static char *draw_line(draw *d, size_t *size)
     return line;
 }
 
-/* Three numbers at once are those that words are one by one, to the last bit; what is not taken, stays. */
+/* Three numbers at a time are exactly those parsed one by one; what is refused is left in place. */
 static void numbers_are_read_as_one_by_one(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* OBJ: every sample model of the folder FFD_MODELS is read, and written with only what was changed. */
+/* OBJ: each sample model in the folder FFD_MODELS is read, and written with only the changed numbers. */
 #define _XOPEN_SOURCE 700 /* nftw */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,7 +12,7 @@
 #include "base/file/path.h"
 #include <ftw.h>
 
-/* Written to see what readers do with indices that name nothing. */
+/* Made to test readers with indices that refer to nothing. */
 static const char invalid_model[] = "synthetic_partial_attrib_0_obj.obj";
 
 static char **paths;
@@ -82,11 +82,11 @@ static void unchanged_models_are_saved_to_the_byte(void **state)
     for_each_model(check_unchanged);
 }
 
-/* Words and what is between them, of which it knows only where statements begin. */
+/* A walk over words and gaps, which only knows where statements begin. */
 typedef struct word_walk {
     const char *at, *end;
-    const char *gap, *word; /* the blanks before the word; the word */
-    char keyword[4];        /* of the statement, cut */
+    const char *gap, *word; /* the blanks before the word, and the word */
+    char keyword[4];        /* of the statement, truncated */
     int place;              /* of the word in its statement; 0: the keyword */
     bool continued;
 } word_walk;
@@ -121,7 +121,7 @@ static bool same_range(const char *a, const char *a_end, const char *b, const ch
     return a_end - a == b_end - b && memcmp(a, b, (size_t)(a_end - a)) == 0;
 }
 
-/* Only arguments 1 to 3 of `v` differ, each by 1 to the last bit. Returns how many. */
+/* Checks that only arguments 1 to 3 of `v` differ, each by exactly 1. Returns their number. */
 static size_t check_words(const char *path, const file_input *input, const file_input *saved)
 {
     const char *a_data = (const char *)input->data, *b_data = (const char *)saved->data;

@@ -1,4 +1,4 @@
-/* OBJ: normals that vertices share get new values, in files drawn at random in all dialects. */
+/* OBJ: normals shared by vertices get new values, in random files of all dialects. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,7 +12,7 @@ typedef struct writer {
     draw *d;
     char text[8192];
     int vertices, normals;             /* so far */
-    int vertices_total, normals_total; /* in the end */
+    int vertices_total, normals_total; /* when complete */
     int line_ends;                     /* 0..2: one kind; 3: all kinds */
     bool continues, counts_back;
 } writer;
@@ -43,7 +43,7 @@ static void put_number(writer *w, int number)
     sprintf(w->text + strlen(w->text), "%d", number);
 }
 
-/* Names element `number` (from 1) forwards, or back from the last so far where that is possible. */
+/* Writes element `number` (from 1) as an absolute index or, if possible, as a relative one. */
 static void put_index(writer *w, int number, int so_far)
 {
     const bool back = w->counts_back && number <= so_far && draw_int(w->d, 0, 1);
@@ -135,7 +135,7 @@ static void random_files_hold_their_new_normals(void **state)
     assert_true(pairs > 400);
 }
 
-/* A file where each vertex has the normal of its number, as most have. */
+/* A file in which each vertex has the normal of its own number, the usual case. */
 static void draw_plain_file(writer *w)
 {
     w->vertices_total = w->normals_total = draw_int(w->d, 3, 20);
@@ -149,7 +149,7 @@ static void draw_plain_file(writer *w)
     }
 }
 
-/* Half of the positions are moved, by an axis at least. */
+/* Moves half of the positions, each along one axis or more. */
 static void move_some(mesh_document *document, draw *d)
 {
     const size_t count = document->parts->vertex_count;
@@ -163,7 +163,7 @@ static void move_some(mesh_document *document, draw *d)
     obj->write_positions(document, 0, 0, count, xyz, changed);
 }
 
-/* The same changes, in the place of what was read or not. */
+/* Applies the same changes, with or without results in place of the input. */
 static void saved_text(const writer *file, uint64_t seed, bool in_place, byte_buffer *text)
 {
     draw d = {seed};

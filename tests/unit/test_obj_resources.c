@@ -1,5 +1,5 @@
-/* test_obj_resources.c - the names of libraries in an OBJ and of maps in a library, and copying them when
-   memory runs out. */
+/* test_obj_resources.c - libraries named in an OBJ, maps named in a library, and copying them with failing
+   memory. */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,7 +15,7 @@
 #include "io/obj/resource/obj_resources.h"
 #include <sys/stat.h>
 
-/* Joins names by '|'. */
+/* Checks names joined by '|'. */
 static void check_names(const intern_table *names, const char *expected)
 {
     char text[400] = "";
@@ -52,7 +52,7 @@ static void statements_that_name_libraries(void **state)
     }
 }
 
-/* Of a file that is larger than what is looked at at a time, with statements across the cuts. */
+/* A file larger than the window of the search, with statements across window borders. */
 static void statements_anywhere_in_a_large_file(void **state)
 {
     (void)state;
@@ -122,7 +122,7 @@ static void what_a_library_is(void **state)
 
 static const char mesh[] = "mtllib m.mtl none.mtl\nv 0 0 0\n";
 
-/* Brings what the mesh names, and commits it with the output. */
+/* Copies the resources of the mesh, and commits them with the output. */
 static ffd_status bring(void)
 {
     const file_input input = {.data = (const unsigned char *)mesh, .size = sizeof mesh - 1};

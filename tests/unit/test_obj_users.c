@@ -1,6 +1,6 @@
-/* OBJ: which elements the faces, lines and points of a file of many blocks name, some of them read before the
-   elements are: counts and pairs are those that a plain list of all corners gives, with any number of threads
-   and in any order of statements, and what is refused is what comes first. */
+/* OBJ: which elements are used by faces, lines and points in a file of many blocks, some of which are read
+   before the elements. Counts and pairs equal those of a plain list of all corners, with any number of
+   threads and in any order of statements, and the first fault is reported. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,18 +16,18 @@
 
 #define MOST_CORNERS 60000
 
-/* A file, and what it names. */
+/* A file, and the elements it uses. */
 typedef struct file {
     draw *d;
     byte_buffer text;
     int lines;
     int vertices, normals;             /* so far */
-    int vertices_total, normals_total; /* in the end */
-    int reach;                         /* the greatest vertex that a face names */
-    int back;                          /* one of this many indices counts back; 0: none */
-    bool pairs;                        /* vertices have more than one normal */
+    int vertices_total, normals_total; /* when complete */
+    int reach;                         /* the greatest vertex that a face uses */
+    int back;                          /* one in this many indices is relative; 0: none */
+    bool pairs;                        /* vertices have several normals */
     size_t faces, corners, named_lines;
-    uint64_t *named; /* vertex and normal of each corner of a face with a normal */
+    uint64_t *named; /* vertex and normal of each face corner with a normal */
     size_t named_count;
 } file;
 
@@ -71,7 +71,7 @@ static int index_of(const file *f, int number, int so_far)
 
 static void put_face(file *f)
 {
-    /* Texture coordinates of any length, so that corners end anywhere in what is looked at at once. */
+    /* Texture coordinates of any length, so that corners end anywhere in a SIMD window. */
     static const int coordinates[] = {9, 9, 9, 99, 12345, 123456789};
     char text[400] = "f";
     for (int corners = draw_int(f->d, 3, draw_int(f->d, 1, 20) > 1 ? 4 : 16); corners > 0; corners--) {
@@ -107,7 +107,8 @@ static void put_faces(file *f, int faces)
         }
 }
 
-/* Vertices among so many other lines that too few are expected, and faces that name some of the first. */
+/* Vertices among so many other lines that their number is underestimated, and faces that use the first
+   ones. */
 static void put_rare_vertices(file *f)
 {
     while (f->vertices < f->vertices_total) {
@@ -122,7 +123,7 @@ static void put_rare_vertices(file *f)
     put_faces(f, 3000);
 }
 
-/* The orders that files have: elements first, faces first, in turns, elements that are not expected. */
+/* Possible orders: elements first, faces first, alternating, unexpected elements. */
 static void fill_file(file *f, int order)
 {
     if (draw_int(f->d, 0, 1))
@@ -142,7 +143,7 @@ static void fill_file(file *f, int order)
     put_vectors(f, INT32_MAX, INT32_MAX);
 }
 
-/* How many blocks with faces can only be read when all elements are known. */
+/* Counts the blocks whose faces can only be read when all elements are known. */
 static size_t count_late(const file *f)
 {
     char name[] = "a.obj";
@@ -177,7 +178,7 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Sorts the corners and leaves each pair once. */
+/* Sorts the corners and removes duplicates. */
 static void make_pairs(file *f)
 {
     size_t kept = 0;
@@ -213,7 +214,7 @@ static void users_are_those_of_all_corners(void **state)
 {
     (void)state;
     draw d = {draw_seed()};
-    int early = 0; /* files of elements first where no block is late */
+    int early = 0; /* files with elements first and no late block */
     for (int round = 0; round < 32; round += is_memory_checked() ? 3 : 1) {
         file f;
         begin_file(&f, &d, draw_int(&d, 500, 12000), round / 4 == 7 ? 0 : draw_int(&d, 1, 9000));
@@ -247,8 +248,8 @@ static void assert_refused_so(const file *f, int line, const char *expected)
     }
 }
 
-/* The first fault of a face, whether it can be seen at first sight or not; but those of vectors before all of
-   them. */
+/* The first fault of a face is reported, whether it is detected early or late; but faults of vectors come
+   first. */
 static void the_first_fault_is_told(void **state)
 {
     (void)state;
@@ -294,7 +295,7 @@ static void the_first_fault_is_told(void **state)
     }
 }
 
-/* A `vn` that comes last decides about all normals that are named before it. */
+/* A last `vn` decides about all normals used before it. */
 static void a_late_normal_counts(void **state)
 {
     (void)state;
@@ -302,7 +303,7 @@ static void a_late_normal_counts(void **state)
     file f;
     begin_file(&f, &d, 600, 0);
     put_vectors(&f, 600, 0);
-    put_faces(&f, 9000); /* all name normal 7 */
+    put_faces(&f, 9000); /* all use normal 7 */
     for (int i = 0; i < 7; i++)
         put_line(&f, "vn 0 0 1");
     f.normals_total = 7;

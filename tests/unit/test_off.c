@@ -60,7 +60,7 @@ static void every_dialect_is_read(void **state)
         {"# a\nOFF # b\n\n# c\n3 1 0 # d\n\n\t\n0 0 0# e\n#\n 1\t0 0\n\n0 1 0\n# f\n3 0 1 2 # g\n",
          IS_TRIANGLE},
         {"OFF\n3 1 0\n+0 0.0 .0\n1.e0 0e5 -0\n0 10e-1 0\n3 0 1 2\n", "0,0,0 1,0,-0 0,1,0 F 0,1,2"},
-        /* colours, where the keyword tells and where not */
+        /* colours, with and without a keyword that says so */
         {"COFF\n3 1 0\n0 0 0 255 0 0 255\n1 0 0 .5 1 1\n0 1 0 3\n3 0 1 2\n", IS_TRIANGLE},
         {"OFF\n3 1 0\n0 0 0 255 0 0\n1 0 0\n0 1 0 3\n3 0 1 2 0.1 0.2 0.3 1\n", IS_TRIANGLE},
         {"OFF\n3 1 0\n" TRIANGLE "3 0 1 2 some map\n", IS_TRIANGLE},
@@ -71,7 +71,7 @@ static void every_dialect_is_read(void **state)
         {"STOFF\n1 0 0\n1 2 3 .5 .5\n", "1,2,3"},
         {"STCNOFF\n2 0 0\n1 2 3 0 1 0 9 9 9 9 .5 .5\n4 5 6 1 0 0 9 9 9 9 .5 .5\n",
          "1,2,3 4,5,6 N 0,1,0 1,0,0"},
-        /* fewer lines than vertices and faces: words */
+        /* fewer lines than vertices and faces: split into words */
         {"OFF 3 1 0 0 0 0 1 0 0 0 1 0 3 0 1 2", IS_TRIANGLE},
         {"OFF 3 1 0 0 0 0 1\n0 0 0 1 0 3\n 0 1 2 7 7 7", IS_TRIANGLE},
         {"COFF 2 0 0 1 2 3 9 9 9 9 4 5 6 9 9 9 9", "1,2,3 4,5,6"},
@@ -169,7 +169,7 @@ static void only_changed_values_get_new_text(void **state)
          "NOFF 2 0 0 1.0 0.1\t-1e+300  0 1 1.0 4 5 6 1 0 0"},
     };
     const double place[6] = {1, 0.1, -1e300, 9, 9, 9}, direction[6] = {0, 1, 1, 9, 9, 9};
-    const uint8_t changed[2] = {1, 0}; /* what is not changed is not looked at */
+    const uint8_t changed[2] = {1, 0}; /* an unchanged vertex is not read */
     for (size_t i = 0; i < COUNT(cases); i++) {
         mesh_document *document = opened(cases[i].before);
         assert_int_equal(off->begin_results(document, true, false, NULL), FFD_OK);
@@ -302,7 +302,7 @@ static void every_failed_allocation_is_reported(void **state)
         use_with_failing_memory(off, &seeds[i]);
 }
 
-/* What a message shows of a long word ends with a whole character. */
+/* In a message a long word is truncated at a whole character. */
 static void a_cut_word_ends_with_a_whole_character(void **state)
 {
     (void)state;

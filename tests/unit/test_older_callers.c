@@ -1,5 +1,5 @@
-/* test_older_callers.c - callers that were compiled with the header of an older version, whose structs ended
-   earlier: nothing is written behind what they have, and what they lack has its default. */
+/* test_older_callers.c - callers compiled with an older header, with shorter structs: nothing is written
+   beyond their size, and missing members have defaults. */
 #define _XOPEN_SOURCE 700
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,7 +12,7 @@
 
 #define BEHIND 0x5a
 
-/* A struct of which the caller knows the first `known` bytes; the others are guarded. */
+/* A struct of which the caller knows the first `known` bytes; the bytes behind are checked. */
 #define OLDER(type, name, known_bytes)                                                                       \
     union {                                                                                                  \
         type as;                                                                                             \
@@ -148,7 +148,7 @@ static void folds_of_older_callers_are_found(void **state)
     (void)state;
 }
 
-/* More points than are found at once, of which every other one is outside but for what is allowed. */
+/* More points than a batch; every other one is outside, except for the snap. */
 #define POINTS 700
 static void locations_of_older_callers_are_found(void **state)
 {
@@ -209,7 +209,7 @@ static void sizes_that_cannot_be_are_refused(void **state)
     (void)state;
 }
 
-/* What callers have arrays of, or within other structs, keeps its size for good. */
+/* Structs that callers put in arrays or in other structs never change size. */
 static void other_structs_have_their_size(void **state)
 {
     if (sizeof(void *) == 8) {

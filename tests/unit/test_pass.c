@@ -1,4 +1,4 @@
-/* test_pass.c - one pass over a document: its arrays and figures, what happens outside, u,v,w from a file. */
+/* test_pass.c - a pass over a document: its arrays and figures, points outside, u,v,w from a file. */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include "lattice/rest_hash.h"
 #include <setjmp.h>
@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include "../support/repetitions.h"
+#include "../support/test_folder.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "embed/locator.h"
@@ -20,14 +21,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #define PARTS 4
-#define WHOLE VERTEX_TRANSFORMS /* a tile, and no more */
+#define WHOLE VERTEX_TRANSFORMS /* exactly one tile */
 #define MOST (2 * WHOLE + 452)
-#define NUMBERED (MOST + WHOLE + 5) /* the parts 0, 2 and 3; part 1 repeats part 0 */
+#define NUMBERED (MOST + WHOLE + 5) /* parts 0, 2 and 3; part 1 repeats part 0 */
 
-/* A document of the test's own, which keeps what it is given. */
+/* A document of the test's own, which records its results. */
 typedef struct cloud {
     mesh_document head;
     mesh_part parts[PARTS];
@@ -53,7 +53,7 @@ static const mesh_format cloud_format = {.name = "cloud",
                                          .write_positions = write_positions,
                                          .largest_coordinate = 1e300};
 
-/* Points in [-3, 3]^3, and a last part whose matrix has no inverse. */
+/* Points in [-3, 3]^3, and a last part whose matrix is singular. */
 static cloud *make_cloud(void)
 {
     cloud *made = calloc(1, sizeof *made);
@@ -72,7 +72,7 @@ static cloud *make_cloud(void)
     return made;
 }
 
-/* The place of vertex `number`; false in the part that has no inverse. */
+/* The position of vertex `number` in the scene; false in the part with the singular matrix. */
 static bool place_of(const cloud *mesh, size_t number, double p[3])
 {
     const size_t part = number < MOST ? 0 : number < MOST + WHOLE ? 2 : 3;
@@ -103,7 +103,7 @@ static void add_link(lattice_chain *chain, const char *members)
         fail_msg("%s %s", error.pointer, error.message);
 }
 
-/* What a pass left. */
+/* The results of a pass. */
 typedef struct outcome {
     cloud *mesh;
     double uvw[3 * NUMBERED], deformed[3 * NUMBERED], gradients[9 * NUMBERED];
@@ -160,7 +160,7 @@ static double determinant(const double gradient[9])
     return mat_determinant(f);
 }
 
-/* Two thirds of part 0, one vertex of which is not finite, one at -0; nothing of part 2. */
+/* Selects two thirds of part 0, including a vertex that is not finite and one at -0; nothing of part 2. */
 static void select_some(cloud *mesh, uint8_t selected[MOST])
 {
     for (size_t i = 0; i < MOST; i++)
@@ -171,8 +171,8 @@ static void select_some(cloud *mesh, uint8_t selected[MOST])
     mesh->xyz[0][3 * 9] = -0.0;
 }
 
-/* Selected vertices get what they get without a selection, the others nothing; and the figures are of the
-   selected ones. */
+/* Selected vertices get the same results as without a selection, the others do not move; figures cover
+   selected ones only. */
 static void only_selected_vertices_move_and_are_counted(void **state)
 {
     (void)state;
@@ -233,7 +233,7 @@ static void only_selected_vertices_move_and_are_counted(void **state)
     assert_int_equal(made->totals.first_outside, first_outside);
     assert_int_equal(made->totals.counts[FFD_POINT_INVALID], 1);
     assert_int_equal(made->totals.first_invalid, 4500);
-    assert_true(made->totals.moved > 1000 && moved - made->totals.moved <= 1); /* NaN is not NaN */
+    assert_true(made->totals.moved > 1000 && moved - made->totals.moved <= 1); /* NaN differs from NaN */
     for (int a = 0; a < 3; a++) {
         assert_true(made->totals.before.min[a] == rest.min[a] && made->totals.before.max[a] == rest.max[a]);
         assert_true(made->totals.after.min[a] <= deformed.min[a] &&
@@ -245,7 +245,7 @@ static void only_selected_vertices_move_and_are_counted(void **state)
     ffd_chain_free(&chain);
 }
 
-/* The first vertex that the file's numbers cannot hold is named; one that stays may be anywhere. */
+/* The first vertex that overflows the file's number type is reported; vertices that stay may be anywhere. */
 static void the_first_vertex_too_large_to_store_is_named(void **state)
 {
     (void)state;
@@ -273,7 +273,7 @@ static void the_first_vertex_too_large_to_store_is_named(void **state)
     ffd_chain_free(&chain);
 }
 
-/* Every vertex by itself, with the library's own functions. */
+/* Each vertex alone, with the library's own functions. */
 static void every_vertex_gets_what_the_library_gives_it_alone(void **state)
 {
     (void)state;
@@ -313,7 +313,7 @@ static void every_vertex_gets_what_the_library_gives_it_alone(void **state)
     ffd_chain_free(&chain);
 }
 
-/* Two links: what the second does is done at the first one's results, F = F2 F1. */
+/* Two links: the second acts on the results of the first, F = F2 F1. */
 static void gradients_of_a_chain_multiply(void **state)
 {
     (void)state;
@@ -381,7 +381,7 @@ static double distance_to_box(const double p[3])
     return vec_length(away);
 }
 
-/* A box that is moved as a whole: outside, the same displacement, faded. */
+/* A box that is translated: outside, the same displacement, faded. */
 static void points_outside_stay_or_follow_with_falloff(void **state)
 {
     (void)state;
@@ -424,28 +424,6 @@ static void points_outside_stay_or_follow_with_falloff(void **state)
 
 /* A file */
 
-static char folder[] = "/tmp/ffd-test-pass-XXXXXX";
-
-static const char *path(void)
-{
-    static char text[64];
-    snprintf(text, sizeof text, "%s/e.npy", folder);
-    return text;
-}
-
-static int make_folder(void **state)
-{
-    (void)state;
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    remove(path());
-    return rmdir(folder);
-}
-
 static void write_embedding(const lattice_chain *chain, const double *uvw, const uint8_t *statuses,
                             embedding_file *file)
 {
@@ -455,12 +433,13 @@ static void write_embedding(const lattice_chain *chain, const double *uvw, const
     const hash128 rest = ffd_rest_hash(chain->links[0].lattice);
     assert_int_equal(ffd_embedding_hash_positions(&mesh->head, 1, &positions, NULL), FFD_OK);
     assert_int_equal(ffd_output_create(&output, NULL), FFD_OK);
-    assert_int_equal(ffd_output_begin(output, path(), true, NULL), FFD_OK);
+    assert_int_equal(ffd_output_begin(output, in_folder("e.npy"), true, NULL), FFD_OK);
     assert_int_equal(ffd_embedding_write(output, uvw, statuses, NUMBERED, &positions, &rest, NULL), FFD_OK);
     assert_int_equal(ffd_output_commit(output, NULL), FFD_OK);
     ffd_output_destroy(&output);
-    assert_int_equal(ffd_embedding_reuse(path(), &mesh->head, chain->links[0].lattice, 0, 1, file, NULL),
-                     FFD_OK);
+    assert_int_equal(
+        ffd_embedding_reuse(in_folder("e.npy"), &mesh->head, chain->links[0].lattice, 0, 1, file, NULL),
+        FFD_OK);
     free(mesh);
 }
 
@@ -488,7 +467,7 @@ static void u_v_w_of_a_file_give_what_a_search_gives(void **state)
     }
 }
 
-/* Whoever makes a file with hashes that hold can say anything of u,v,w. */
+/* A forged file with valid hashes may contain any u,v,w. */
 static void forged_u_v_w_stay_within_the_domain(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* test_picture_image.c - PNG and JPEG: what all kinds of them show, and what is broken, cut off or too large.
+/* test_picture_image.c - PNG and JPEG: pixels of all variants; corrupt, truncated and too large files.
 
        test_picture_image CORPUS      the folder tests/fuzz/corpus (make_images.py) */
 #include <setjmp.h>
@@ -102,7 +102,7 @@ static void all_kinds_of_png_show_their_pixels(void **state)
     }
 }
 
-/* They were made of: red across, green down, blue by fields, as far as a lossy format keeps them. */
+/* The images were made with red across, green down and blue in fields, up to the loss of the format. */
 static void all_kinds_of_jpeg_show_their_pixels(void **state)
 {
     static const struct {
@@ -141,7 +141,7 @@ static void expect(const file *f, size_t size, const memory_budget *budget, ffd_
 {
     image found = {1, 1, (uint8_t *)&found};
     ffd_error error = {0};
-    /* A block of its own size, so that reading past the end is seen. */
+    /* A block of the exact size, so that reading past its end is detected. */
     unsigned char *const copy = malloc(size > 0 ? size : 1);
     assert_non_null(copy);
     memcpy(copy, f->bytes, size);

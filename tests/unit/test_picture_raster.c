@@ -1,5 +1,5 @@
-/* test_picture_raster.c - which samples triangles take: each exactly once, the nearest first, whatever their
-   size, and what reaches beyond the picture. */
+/* test_picture_raster.c - rasterization: each sample is covered exactly once, the nearest triangle wins, for
+   triangles of any size, also beyond the picture. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -49,7 +49,7 @@ static void set(size_t vertex, int32_t x, int32_t y, float z)
     vertices[vertex] = (surface_vertex){x, y, z, {LIGHT_ONE, LIGHT_ONE}};
 }
 
-/* Draws each triangle alone, and counts in how many each sample is; looks whether the rows hold it. */
+/* Draws each triangle alone, and counts how often each sample is covered. Checks the range of rows. */
 static void count(size_t triangle_count, unsigned char counts[SAMPLES * PIXELS])
 {
     memset(counts, 0, SAMPLES * PIXELS);
@@ -67,8 +67,7 @@ static void count(size_t triangle_count, unsigned char counts[SAMPLES * PIXELS])
     }
 }
 
-/* A net of columns x rows fields, whose inner corners are moved anywhere within their surroundings, and
-   diagonals of any direction; fields of either orientation. */
+/* A grid of columns x rows cells. Inner corners are moved at random, diagonals and orientations vary. */
 static size_t make_net(draw *d, int columns, int rows, const int32_t box[4])
 {
     size_t next = 0;
@@ -78,7 +77,7 @@ static size_t make_net(draw *d, int columns, int rows, const int32_t box[4])
             const int32_t x = c == columns ? box[2] : box[0] + c * across,
                           y = r == rows ? box[3] : box[1] + r * down;
             const bool is_edge_x = c == 0 || c == columns, is_edge_y = r == 0 || r == rows;
-            /* Less than half of a field: no field is turned over. */
+            /* Less than half a cell, so that no cell is inverted. */
             const int32_t dx = is_edge_x ? 0 : draw_int(d, -across / 3, across / 3),
                           dy = is_edge_y ? 0 : draw_int(d, -down / 3, down / 3);
             set((size_t)(r * (columns + 1) + c), x + dx, y + dy, 0);
@@ -87,8 +86,8 @@ static size_t make_net(draw *d, int columns, int rows, const int32_t box[4])
         for (int c = 0; c < columns; c++) {
             const uint32_t a = (uint32_t)(r * (columns + 1) + c), b = a + 1, e = a + (uint32_t)columns + 1,
                            f = e + 1;
-            /* Quads may be arrow-shaped: the diagonal from a reflex corner is the right one, so choose by
-             * both areas. */
+            /* A quad may be concave: the diagonal from its reflex corner is the right one, so choose by the
+               areas of both. */
             const surface_vertex *const v = vertices;
             const int64_t side_b = (int64_t)(v[f].x - v[a].x) * (v[b].y - v[a].y) -
                                    (int64_t)(v[f].y - v[a].y) * (v[b].x - v[a].x),
@@ -108,7 +107,7 @@ static size_t make_net(draw *d, int columns, int rows, const int32_t box[4])
     return next / 3;
 }
 
-/* Whether a sample is within the box, by the rule for edges: those on the left and upper one are. */
+/* Whether a sample is inside the box. Samples on its left and upper edges are. */
 static bool is_in(const int32_t box[4], size_t sample)
 {
     static const int32_t xs[SAMPLES] = SAMPLE_X, ys[SAMPLES] = SAMPLE_Y;
@@ -123,7 +122,7 @@ static void each_sample_is_in_one_triangle(void **state)
     draw d = {draw_seed()};
     (void)state;
     for (int round = 0; round < 30; round++) {
-        /* Corners on samples too, and boxes far larger than the picture. */
+        /* Also corners at samples, and boxes far larger than the picture. */
         const int far_away = round % 3 == 0 ? 60000 * SUBPIXELS : 0, grain = round % 2 ? 1 : 32;
         const int32_t box[4] = {
             draw_int(&d, 0, 200) * grain - far_away, draw_int(&d, 0, 100) * grain - far_away,
@@ -151,7 +150,7 @@ static void triangles_without_area_take_no_sample(void **state)
         assert_int_equal(counts[i], 0);
 }
 
-/* Two planes that cross in the middle of the picture. */
+/* Two planes that intersect in the middle of the picture. */
 static void the_nearest_triangle_is_seen_in_any_order(void **state)
 {
     (void)state;
@@ -175,7 +174,7 @@ static void the_nearest_triangle_is_seen_in_any_order(void **state)
     }
 }
 
-/* Of two at one place the first is seen, as a file has them. */
+/* Of two triangles at the same depth the first one is visible, in the order of the file. */
 static void of_equally_near_ones_the_first_is_seen(void **state)
 {
     (void)state;
@@ -192,7 +191,7 @@ static void of_equally_near_ones_the_first_is_seen(void **state)
     assert_true(color[SAMPLES * (5 * WIDTH + 5)] == before);
 }
 
-/* Triangles whose corners are some of a rectangle's. */
+/* Triangles with corners of a rectangle. */
 static void begin_on_a_rectangle(size_t vertex_count, size_t count, const uint32_t corners[][3])
 {
     begin(vertex_count, count);
@@ -208,8 +207,8 @@ static void use_materials(uint32_t *of, const picture_material two[2])
     mesh.material_count = 2;
 }
 
-/* Of a face that a file repeats, also with slivers between, only the first is in the lists of rows; the same
-   corners in another material may be seen through its holes. */
+/* If a file repeats a face, also with degenerate triangles between, only the first one is listed. The same
+   corners with another material may be visible through its holes. */
 static void a_repeated_triangle_is_drawn_once(void **state)
 {
     static const picture_material materials[2] = {{.color = {1, 1, 1, 1}}, {.color = {1, 1, 1, 1}}};
@@ -225,8 +224,8 @@ static void a_repeated_triangle_is_drawn_once(void **state)
     }
 }
 
-/* A polygon that goes round three corners many times is cut into triangles that begin with each of them in
-   turn. Those that go round the other way show their other side. */
+/* A polygon that goes round three corners many times is cut into triangles that begin at each corner in turn.
+   Triangles of opposite orientation show the other side. */
 static void a_turned_triangle_is_drawn_once(void **state)
 {
     static const picture_material materials[2] = {{.color = {1, 1, 1, 1}, .alpha_cutoff = 0.5},
@@ -243,12 +242,12 @@ static void a_turned_triangle_is_drawn_once(void **state)
     for (size_t t = 0; t < 5; t++)
         assert_int_equal(ffd_raster_rows(&drawn, t, &first, &last), is_there[t]);
     of[0] = of[1] = of[2] = 0;
-    assert_true(ffd_raster_rows(&drawn, 1, &first, &last)); /* its holes may be elsewhere */
+    assert_true(ffd_raster_rows(&drawn, 1, &first, &last)); /* its transparent parts may differ */
     memcpy(texcoords[1], (float[]){0, 1, 0, 0, 1, 0}, sizeof texcoords[1]);
     assert_false(ffd_raster_rows(&drawn, 1, &first, &last));
 }
 
-/* Blocks that are behind what is there are passed over: the same samples as without. */
+/* Skipping hidden blocks gives the same samples as not skipping them. */
 static void blocks_hide_nothing_that_is_seen(void **state)
 {
     enum { TRIANGLES = 60 };
@@ -297,7 +296,7 @@ static void what_reaches_far_beyond_is_drawn_where_it_is_in_the_picture(void **s
     static unsigned char counts[SAMPLES * PIXELS];
     (void)state;
     begin(3, 1);
-    /* y upwards; the identity. */
+    /* The identity, with y upwards. */
     drawn.projection = (projection){.camera = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, .scale = 1};
     /* All to the right of x = 40. */
     set_far(0, 40, -1e7, 0);
@@ -308,7 +307,7 @@ static void what_reaches_far_beyond_is_drawn_where_it_is_in_the_picture(void **s
     count(1, counts);
     for (size_t i = 0; i < SAMPLES * PIXELS; i++)
         assert_int_equal(counts[i], is_in(right, i));
-    /* Everywhere; nowhere; beyond what doubles square. */
+    /* Everywhere; nowhere; coordinates whose squares overflow. */
     set_far(0, -1e12, -1e12, 0);
     set_far(2, -1e12, 1e12, 0);
     set_far(1, 1e13, 0, 0);
@@ -340,7 +339,7 @@ static void the_back_of_a_material_of_one_side_is_not_drawn(void **state)
             set(2, 15000, 0, 0);
             memcpy(triangles, turned ? (uint32_t[]){0, 2, 1} : (uint32_t[]){0, 1, 2}, 12);
             count(1, counts);
-            /* Rows run downwards: down, then to the right is counter-clockwise. */
+            /* Rows run downwards: down, then right, is counter-clockwise. */
             assert_int_equal(counts[SAMPLES * (5 * WIDTH + 5)], material || !turned);
         }
 }

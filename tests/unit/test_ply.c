@@ -90,7 +90,7 @@ static void every_type_is_loaded_and_stored(void **state)
 static void ascii_numbers_are_rounded_and_written_by_type(void **state)
 {
     (void)state;
-    /* Above the middle of 1 and the next float by less than a double can tell. */
+    /* Slightly above the midpoint of 1 and the next float: too little for a double to show. */
     static const char above[] = "1.000000059604644775390625000000001";
     double value;
     char text[FFD_NUMBER_CAPACITY];
@@ -123,7 +123,7 @@ static void only_whole_counts_are_accepted(void **state)
     assert_true(ffd_ply_load_count(PLY_BIG_ENDIAN, PLY_UCHAR, word_of("\xff", 1), &count) && count == 255);
 }
 
-/* What is refused */
+/* Refusals */
 
 #define XYZ "property float x\nproperty float y\nproperty float z\n"
 #define ASCII "ply\nformat ascii 1.0\n"
@@ -223,9 +223,9 @@ static void declarations_are_refused_only_beyond_the_limit(void **state)
         }
 }
 
-/* Files of all kinds, from one description */
+/* Files of all kinds, generated from one description */
 
-/* A square pyramid, with things around that are none of ours. */
+/* A square pyramid, with unrelated elements and properties around it. */
 typedef struct sample_kind {
     ply_encoding encoding;
     bool wide;            /* double coordinates */
@@ -307,7 +307,7 @@ static void put_rows(sample *s)
     const ply_type wide = s->kind.wide ? PLY_DOUBLE : PLY_FLOAT;
     put(s, PLY_USHORT, 2);
     put(s, PLY_SHORT, -3);
-    put(s, PLY_SHORT, 2570); /* in binary: two line feeds */
+    put(s, PLY_SHORT, 2570); /* two line feed bytes in binary */
     put(s, PLY_UINT, 4294967295.0);
     end_row(s);
     for (size_t v = 0; v < 5; v++) {
@@ -391,7 +391,7 @@ static void every_encoding_reads_and_saves_the_same_mesh(void **state)
     }
 }
 
-/* One vertex moves in two coordinates, another's normal turns: all other bytes stay. */
+/* Two coordinates of one vertex and the normal of another one change: all other bytes stay. */
 static void only_changed_values_are_written(void **state)
 {
     (void)state;
@@ -420,7 +420,7 @@ static void only_changed_values_are_written(void **state)
         ply->read_normals(after, 0, 0, 5, found);
         assert_memory_equal(found, expected, sizeof found);
 
-        /* Put back, the numbers have their old texts or bytes: 1, 0 and 0, 1. */
+        /* With the old values restored, the numbers have their old texts or bytes: 1, 0 and 0, 1. */
         assert_int_equal(ply->begin_results(after, true, true, NULL), FFD_OK);
         ply->read_positions(d, 0, 0, 5, expected);
         ply->write_positions(after, 0, 1, 1, expected + 3, first);
@@ -463,7 +463,7 @@ static void mixed_line_ends_are_read_and_kept(void **state)
     ply->close(d);
 }
 
-/* What the streams cannot show */
+/* Properties that results cannot be stored in */
 
 static void coordinates_of_a_whole_type_are_refused(void **state)
 {

@@ -1,5 +1,5 @@
-/* test_points.c - arrays of points in memory: what they become is what a job on a file makes of them, to the
-   bit; and what follows from that: parts, strides, derivatives, bytes, refusals. */
+/* test_points.c - arrays of points in memory: the results are exactly those of a job on a file; also parts,
+   strides, derivatives, serialization, refusals. */
 #define _XOPEN_SOURCE 700
 #include <setjmp.h>
 #include <stdarg.h>
@@ -18,7 +18,7 @@
 
 #define POINTS ((size_t)3000)
 
-/* Rest volumes that are inverted in each of the three ways, rational and closed ones too. */
+/* Rest volumes for each of the three methods of inversion, including rational and closed ones. */
 static const char *const rests[] = {
     "\"size\":[5,4,6],\"rest\":{\"box\":{\"min\":[-1,-1,-1],\"max\":[1,1,1]}}",
     "\"size\":[5,5,5],\"rest\":{\"box\":{\"min\":[-1,-1,-1],\"max\":[1,1,1],\"spacing\":\"uniform\"}}",
@@ -37,7 +37,7 @@ static ffd_lattice *lattice_of(size_t i, const char *moves)
     return make(rests[i], moves);
 }
 
-/* Points in and round the volumes, some on faces, one of them not finite. */
+/* Points in and around the volumes, some on faces, one not finite. */
 static void fill_points(double *xyz, draw *d)
 {
     for (size_t i = 0; i < 3 * POINTS; i++)
@@ -83,7 +83,7 @@ static void deform(const ffd_embedding *embedding, const ffd_lattice *moved, ffd
         fail_msg("%s", error.message);
 }
 
-/* What `ffd deform` makes of a PLY with these points. */
+/* Deforms a PLY with these points by a job. */
 static void deform_file(const ffd_lattice *lattice, const void *points, ffd_number type, ffd_outside outside,
                         double falloff, void *result)
 {
@@ -138,7 +138,7 @@ static void arrays_become_what_files_become(void **state)
         for (size_t t = 0; t < 3; t++)
             for (int type = FFD_FLOAT64; type <= FFD_FLOAT32; type++) {
                 if (is_memory_checked() &&
-                    (r + t + (size_t)type) % 3) /* each of them with some of the others */
+                    (r + t + (size_t)type) % 3) /* each combined with some of the others */
                     continue;
                 void *const points = type == FFD_FLOAT32 ? (void *)narrow_xyz : xyz;
                 ffd_lattice *rest = lattice_of(r, ""), *moved = lattice_of(r, MOVES);
@@ -209,7 +209,7 @@ static void nothing_moved_keeps_every_bit(void **state)
     (void)state;
 }
 
-/* Records of 5 numbers backwards in memory, z before y before x. */
+/* Records of 5 numbers in reverse order, with z before y before x. */
 static void strides_lead_to_the_same_points(void **state)
 {
     static double xyz[3 * POINTS], out[3 * POINTS], records[5 * POINTS];
@@ -241,7 +241,7 @@ static void strides_lead_to_the_same_points(void **state)
     (void)state;
 }
 
-/* What is listed as affected is enough: the others do not move; and it alone becomes what all become. */
+/* All points that move are listed as affected, and deforming these alone gives the same results. */
 static void the_affected_points_are_all_that_move(void **state)
 {
     static double xyz[3 * POINTS], all[3 * POINTS], some[3 * POINTS];
@@ -272,8 +272,8 @@ static void the_affected_points_are_all_that_move(void **state)
     (void)state;
 }
 
-/* dX/dQ times displacements is the displacement; the transposed product is its adjoint; the stored matrix
-   says the same as both. */
+/* dX/dQ times displacements is the displacement, the transposed product is its adjoint, and the stored matrix
+   agrees with both. */
 static void the_basis_is_the_derivative(void **state)
 {
     static double xyz[3 * POINTS], out[3 * POINTS], dx[3 * POINTS], dfdx[3 * POINTS];
@@ -385,7 +385,7 @@ static void progress_can_cancel(void **state)
     assert_int_equal(ffd_embedding_create(&desc, &run, &embedding, NULL), FFD_E_CANCELLED);
     assert_null(embedding);
     assert_int_equal(calls, 1);
-    /* Also where other threads are done before the caller's has begun. */
+    /* Even if other threads finish before the caller's starts. */
     run.threads = TILES;
     desc.points = (ffd_span){.data = many, .count = MANY, .type = FFD_FLOAT64};
     for (int i = 0; i < repetitions(100); i++) {
@@ -440,8 +440,7 @@ static void what_cannot_be_is_refused(void **state)
     (void)state;
 }
 
-/* A caller whose header ended earlier: nothing is written behind what it has, and what it lacks is the
- * default. */
+/* A caller with an older header: nothing is written beyond its struct, and missing members have defaults. */
 static void shorter_structs_of_older_callers_do(void **state)
 {
     struct old_run {

@@ -1,5 +1,5 @@
-/* test_points_threads.c - one embedding, one lattice and one locator, used by eight threads at once: for the
-   thread sanitizer, and to the bit what one thread makes. */
+/* test_points_threads.c - one embedding, lattice and locator shared by eight threads, for the thread
+   sanitizer; results equal those of one thread. */
 #define _XOPEN_SOURCE 700
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,7 +15,7 @@
 #include <string.h>
 
 #define THREADS 8
-/* More than two tiles, so that each call has threads of its own too. */
+/* More than two tiles, so that each call starts threads of its own. */
 #define POINTS ((size_t)9000)
 
 typedef struct results {

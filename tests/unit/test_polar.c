@@ -1,4 +1,4 @@
-/* The rotation in a matrix, cube roots and quaternions. */
+/* Polar decomposition, cube roots and quaternions. */
 #include "base/vector/polar.h"
 #include "base/vector/vec.h"
 #include <float.h>
@@ -19,7 +19,7 @@ static double next_number(uint64_t *seed)
     return (double)(*seed >> 11) / 4503599627370496.0 - 1;
 }
 
-/* A rotation by Rodrigues' formula: not the way of the code. */
+/* A rotation by Rodrigues' formula, unlike the code under test. */
 static void turn_about(const double axis[3], double angle, double m[9])
 {
     const double c = cos(angle), s = sin(angle), length = vec_length(axis);
@@ -36,7 +36,7 @@ static void assert_near(const double *found, const double *expected, size_t coun
         assert_true(fabs(found[i] - expected[i]) <= most);
 }
 
-/* m = R H with H symmetric and positive: the factor is R, whatever H stretches. */
+/* m = R H with H symmetric and positive definite: the factor is R, whatever H is. */
 static void the_rotation_of_a_turn_after_a_stretch(void **state)
 {
     uint64_t seed = 7;
@@ -105,7 +105,7 @@ static void cube_roots_are_those_of_the_library(void **state)
     }
 }
 
-/* Turns by every axis, also by half a turn, where w is 0. */
+/* Turns about all axes, including half turns, where w is 0. */
 static void quaternions_turn_as_their_matrices_do(void **state)
 {
     uint64_t seed = 5;
@@ -128,7 +128,7 @@ static void quaternions_turn_as_their_matrices_do(void **state)
     }
 }
 
-/* i j = k, and a product is that of the matrices. */
+/* i j = k, and a product corresponds to that of the matrices. */
 static void quaternions_are_multiplied_as_hamilton_says(void **state)
 {
     const double i[4] = {1, 0, 0, 0}, j[4] = {0, 1, 0, 0}, k[4] = {0, 0, 1, 0}, less[4] = {0, 0, -1, 0};

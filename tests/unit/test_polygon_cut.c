@@ -1,4 +1,4 @@
-/* Polygons are cut into triangles that cover them once. */
+/* Polygons are cut into triangles that cover them exactly once. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -30,7 +30,7 @@ static double outline_area(const double (*outline)[2], size_t count)
     return area;
 }
 
-/* A plane in space whose axes are at right angles and of equal length. */
+/* A plane in space with orthogonal axes of equal length. */
 static void place(const double flat[2], double point[3])
 {
     point[0] = 5 + flat[0] * 2 - flat[1];
@@ -38,8 +38,8 @@ static void place(const double flat[2], double point[3])
     point[2] = 1 - flat[0] + flat[1] * 2;
 }
 
-/* Cuts the outline as it lies in the planes x y, y z, z x and in one that is askew, and turned over. All
-   triangles must go round as it does, and their areas add up to its own: then they cover it once. */
+/* Cuts the outline in the planes x y, y z, z x, in a slanted plane, and reversed. All triangles must have its
+   orientation, and their areas must add up to its own: then they cover it exactly once. */
 static void check_cut(const double (*outline)[2], size_t count, bool flat_ones)
 {
     const double area = outline_area(outline, count);
@@ -112,7 +112,7 @@ static void concave_polygons_come_out_right(void **state)
     check_cut(spiral, COUNT(spiral), false);
 }
 
-/* Each corner may be the first. */
+/* Any corner may be the first. */
 static void any_corner_may_be_first(void **state)
 {
     (void)state;
@@ -135,7 +135,7 @@ static void corners_in_a_line_are_allowed(void **state)
     check_cut(divided, COUNT(divided), false);
 }
 
-/* A hole is joined to the outline by an edge that goes there and back. */
+/* A hole is connected to the outline by an edge that is used twice. */
 static void holes_stay_open(void **state)
 {
     (void)state;
@@ -147,7 +147,7 @@ static void holes_stay_open(void **state)
     check_cut(two, COUNT(two), true);
 }
 
-/* Random outlines seen from a point inside, far from convex; and the same far from the origin. */
+/* Random outlines, star-shaped about a point inside and far from convex; also far from the origin. */
 static void random_stars_come_out_right(void **state)
 {
     (void)state;
@@ -171,7 +171,7 @@ static void bent_quads_are_cut(void **state)
 {
     (void)state;
     const double saddle[12] = {0, 0, 1, 1, 0, -1, 1, 1, 1, 0, 1, -1};
-    /* Seen along z the third corner is inside of the triangle of the others: only one diagonal will do. */
+    /* Seen along z, the third corner is inside the triangle of the others: only one diagonal is valid. */
     const double dart[12] = {0, 0, 0, 4, 0, 1, 1, 1, 3, 0, 4, 1};
     uint32_t triangles[6];
     polygon_cutter cutter = {0};
@@ -189,7 +189,7 @@ static void bent_quads_are_cut(void **state)
     ffd_polygon_cutter_free(&cutter);
 }
 
-/* Whatever the corners are, there are count - 2 triangles of corners that exist. */
+/* Whatever the corners are, there are count - 2 triangles with valid corners. */
 static void degenerate_polygons_end(void **state)
 {
     (void)state;
@@ -218,7 +218,7 @@ static void degenerate_polygons_end(void **state)
     ffd_polygon_cutter_free(&cutter);
 }
 
-/* A tangle of many corners takes no quadratic time. */
+/* A tangle of many corners does not take quadratic time. */
 static void tangles_end_soon(void **state)
 {
     (void)state;
@@ -240,7 +240,7 @@ static void tangles_end_soon(void **state)
     free(triangles);
 }
 
-/* More teeth than all of them could be compared with each other for. */
+/* More teeth than could all be compared with each other. */
 static void a_comb_of_many_teeth_is_covered_once(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* test_positions_callback.c - what the callback for deformed positions is given, when, and what its answer
- * means. */
+/* test_positions_callback.c - the callback for deformed positions: its arguments, when it is called, and the
+   effect of its return value. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,16 +11,16 @@
 #include <stdint.h>
 #include <string.h>
 
-/* The second vertex is outside of the lattice, the third has a number that float32 would round. */
+/* The second vertex is outside of the lattice; the third has a number that float32 would round. */
 static const char mesh[] = "v 0 0 0\nv 9 9 9\nv 0.1 1 0.5\nf 1 2 3\n";
 static const char lattice[] = "{\"format\":\"ffd-lattice\",\"version\":1,\"size\":[2,2,2],\"rest\":{"
                               "\"box\":{\"min\":[-1,-1,-1],\"max\":[2,2,2]}},\"moves\":[{\"by\":[0,0.5,1]}]}";
 static const double expected[] = {0, 0.5, 1, 9, 9, 9, 0.1, 1.5, 1.5};
 
 typedef struct taker {
-    size_t calls, count, files; /* files: that the sink had taken by the last call */
+    size_t calls, count, files; /* files: received by the sink at the last call */
     double points[9];
-    ffd_status with; /* what is answered */
+    ffd_status with; /* the return value */
 } taker;
 
 static ffd_status take(void *user, const double *positions, size_t count)
@@ -39,7 +39,7 @@ static ffd_status take_file(void *user, const char *name, const void *bytes, siz
     assert_non_null(name);
     assert_true(bytes && size > 0);
     t->files++;
-    return t->calls == 1 ? FFD_OK : FFD_E_ARGUMENT; /* the positions came first */
+    return t->calls == 1 ? FFD_OK : FFD_E_ARGUMENT; /* positions come first */
 }
 
 typedef struct job {
@@ -87,7 +87,7 @@ static void no_output_is_needed(void **state)
     assert_int_equal(ffd_deform_run(&j.desc, &j.result, &j.error), FFD_OK);
     check_taken(&j.taker);
     begin(&j);
-    j.desc.sink = take_file; /* it has nothing to take */
+    j.desc.sink = take_file; /* receives nothing */
     j.desc.sink_user = &j.taker;
     assert_int_equal(ffd_deform_run(&j.desc, &j.result, &j.error), FFD_OK);
     check_taken(&j.taker);
@@ -125,7 +125,8 @@ static void a_gate_comes_first(void **state)
     (void)state;
 }
 
-/* Its status is that of the job; one that is none of ffd_status is FFD_E_IO. Nothing is written then. */
+/* The job has the callback's status; a value that is not an ffd_status becomes FFD_E_IO. Nothing is
+   written. */
 static void what_is_not_taken_fails(void **state)
 {
     const int answers[][2] = {{FFD_E_GATE, FFD_E_GATE},
@@ -170,7 +171,7 @@ static void what_needs_an_output_is_refused(void **state)
     j.desc.positions = NULL;
     assert_int_equal(ffd_deform_run(&j.desc, &j.result, &j.error), FFD_E_ARGUMENT);
     assert_non_null(strstr(j.error.message, "no output is given"));
-    /* A caller of an older version has no such members. */
+    /* A caller of an older version lacks these members. */
     begin(&j);
     j.desc.struct_size = offsetof(ffd_deform_desc, positions);
     assert_int_equal(ffd_deform_run(&j.desc, &j.result, &j.error), FFD_E_ARGUMENT);
@@ -178,7 +179,7 @@ static void what_needs_an_output_is_refused(void **state)
     (void)state;
 }
 
-/* Also a mesh without vertices has them, none. */
+/* Also called for a mesh without vertices. */
 static void many_jobs_in_a_row(void **state)
 {
     ffd_share *share;
@@ -197,7 +198,7 @@ static void many_jobs_in_a_row(void **state)
     j.desc.input.path = "a.off";
     j.desc.input.bytes = (ffd_bytes){"OFF\n0 0 0\n", 10};
     assert_int_equal(ffd_deform_run(&j.desc, &j.result, &j.error), FFD_OK);
-    assert_int_equal(j.taker.calls, 1); /* of a mesh without vertices too */
+    assert_int_equal(j.taker.calls, 1); /* also for the mesh without vertices */
     assert_int_equal(j.taker.count, 0);
     (void)state;
 }

@@ -1,4 +1,4 @@
-/* test_quality.c - flipped faces, areas, volumes, how far straight edges lie from the deformed surface. */
+/* test_quality.c - flipped faces, areas, volumes, deviation of straight edges from the deformed surface. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,7 +20,7 @@
 
 #define MOST_LINKS 2
 
-/* A mesh, and what a chain of lattices makes of its vertices. */
+/* A mesh, and its vertices deformed by a chain of lattices. */
 typedef struct sample {
     mesh_faces faces;
     double *deformed, *gradients;
@@ -128,7 +128,8 @@ static void check_near(double value, double expected, double allowed)
         fail_msg("%.17g is not %.17g", value, expected);
 }
 
-/* The largest distance from 10,000 deformed points of the edge between two vertices to its straight line. */
+/* The largest distance of 10,000 deformed points of an edge from the straight line between its deformed
+   ends. */
 static double brute_force(const sample *s, uint32_t from, uint32_t to)
 {
     enum { COUNT = 10001 };
@@ -158,7 +159,7 @@ static const double cube[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 
 static const uint32_t cube_corners[24] = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4,
                                           2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
 
-/* The square [lo, hi]^2 at z = 0.5 as n x n squares (divided in triangles: 2 n n faces). */
+/* The square [lo, hi]^2 at z = 0.5 as n x n squares, each of two triangles: 2 n n faces. */
 static void set_grid(sample *s, size_t n, double lo, double hi)
 {
     const size_t side = n + 1;
@@ -208,8 +209,7 @@ static void a_translation_bends_no_edge_and_flips_no_face(void **state)
     (void)state;
 }
 
-/* Edges across the axes, where points between the ends are rounded, are exactly straight where nothing moves.
- */
+/* For slanted edges, whose inner points are rounded, the deviation is exactly 0 where nothing moves. */
 static void edges_that_do_not_move_are_exactly_straight(void **state)
 {
     sample s = {0};
@@ -228,7 +228,7 @@ static void edges_that_do_not_move_are_exactly_straight(void **state)
     (void)state;
 }
 
-/* z rises by 2u(1-u), u = (x + 0.5)/4: a parabola of sagitta 0.5; and an edge that sees a quarter of it. */
+/* z rises by 2u(1-u), u = (x + 0.5)/4: a parabola of sagitta 0.5; and an edge over a quarter of it. */
 static void an_edge_on_a_parabola_deviates_by_its_sagitta(void **state)
 {
     sample s = {0};
@@ -243,8 +243,8 @@ static void an_edge_on_a_parabola_deviates_by_its_sagitta(void **state)
     check_near(quality.deviation_max, 0.5, 1e-14);
     assert_int_equal(quality.worst[0], 0);
     assert_int_equal(quality.worst[1], 1);
-    /* The other: 2u(1-u) from 1/4 to 1/2; the point at t is vertically 1/8 t(1-t) above a chord that rises
-       from 3/8 to 1/2 over 1. */
+    /* The other one: 2u(1-u) from 1/4 to 1/2. The point at t is 1/8 t(1-t) above a chord that rises from 3/8
+       to 1/2 over a length of 1. */
     check_near(quality.deviation_mean, (0.5 + 1 / 32.0 / sqrt(1 + 1 / 64.0)) / 2, 1e-14);
     clear(&s);
     (void)state;
@@ -268,7 +268,7 @@ static void an_edge_on_an_arc_deviates_by_its_sagitta(void **state)
     (void)state;
 }
 
-/* Eight cubic Bezier pieces along x, each 1 long; only one of the points inside the fifth is moved. */
+/* Eight cubic Bezier pieces along x, each of length 1; only a point inside the fifth one moves. */
 static void a_bump_inside_one_span_is_found(void **state)
 {
     sample s = {0};
@@ -286,7 +286,7 @@ static void a_bump_inside_one_span_is_found(void **state)
         set_mesh(&s, 4, positions, 2, 2, corners);
         deform(&s);
         const edge_quality quality = measure(&s, 1);
-        /* 3 t (1-t)^2 has its maximum 4/9 at 1/3 */
+        /* 3 t (1-t)^2 has its maximum 4/9 at t = 1/3 */
         const double peak = 4 / 9.0 * sqrt(1.04), straight = brute_force(&s, 0, 1),
                      oblique = brute_force(&s, 2, 3);
         check_near(straight, peak, 1e-5);
@@ -298,8 +298,8 @@ static void a_bump_inside_one_span_is_found(void **state)
     (void)state;
 }
 
-/* Edges hundreds of lattices long are looked at where they pass it: the bump of height 0.3 (3/4)^3 in its
-   middle is found wherever it falls on the edge. */
+/* Edges hundreds of times as long as the lattice are sampled where they pass it: the bump of height 0.3
+   (3/4)^3 in its middle is found wherever it is along the edge. */
 static void a_bump_on_a_very_long_edge_is_found(void **state)
 {
     for (int shift = 0; shift < 8; shift++) {
@@ -318,7 +318,7 @@ static void a_bump_on_a_very_long_edge_is_found(void **state)
     (void)state;
 }
 
-/* A lattice over [lo, hi]^3, every point of it moved, degrees (from lowest_degree) and sizes drawn. */
+/* Adds a lattice over [lo, hi]^3 with random degrees (from lowest_degree on) and sizes, every point moved. */
 static void add_random_lattice(sample *s, draw *d, int lowest_degree, double lo, double hi)
 {
     static char json[1 << 16];
@@ -347,7 +347,7 @@ static void add_random_lattice(sample *s, draw *d, int lowest_degree, double lo,
     add_lattice(s, json);
 }
 
-/* An edge in the unit cube, of any length. */
+/* Draws an edge in the unit cube, of any length. */
 static void draw_edge(draw *d, double positions[6])
 {
     const double reach = draw_between(d, 0.02, 0.5);
@@ -358,8 +358,8 @@ static void draw_edge(draw *d, double positions[6])
     }
 }
 
-/* The least part of an edge's largest deviation that is found, over edges in such lattices. The second one
-   holds whatever the first makes of the unit cube. */
+/* The smallest ratio of the deviation found to the true one, over edges in random lattices. The second
+   lattice covers everything to which the first moves the unit cube. */
 static double least_found(draw *d, int rounds, int lowest_degree, bool two_links)
 {
     const uint32_t corners[2] = {0, 1};
@@ -384,7 +384,7 @@ static double least_found(draw *d, int rounds, int lowest_degree, bool two_links
     return least;
 }
 
-/* Kinks, which degree 1 makes, are harder to meet than waves. */
+/* Kinks, as with degree 1, are harder to hit than waves. */
 static void random_edges_come_close_to_the_true_deviation(void **state)
 {
     draw d = {20};
@@ -397,7 +397,7 @@ static void random_edges_come_close_to_the_true_deviation(void **state)
     (void)state;
 }
 
-/* Across the border the deformed edge jumps; its end outside stays. */
+/* The deformed edge jumps at the border; its end outside stays. */
 static void the_jump_at_the_border_is_measured(void **state)
 {
     sample s = {0};
@@ -406,14 +406,14 @@ static void the_jump_at_the_border_is_measured(void **state)
     add_lattice(&s, CUBE("{\"by\": [0, 0, 1]}"));
     set_mesh(&s, 2, positions, 1, 2, corners);
     deform(&s);
-    /* At x = 1.5 the points are 1 above the rest, the chord from (0.5, 1) to (2.5, 0) is 0.5 above it there.
-     */
+    /* At x = 1.5 the points are 1 above their rest position, and the chord from (0.5, 1) to (2.5, 0) is 0.5
+       above it. */
     check_near(measure(&s, 1).deviation_max, 0.5 * 2 / sqrt(5), 0.03);
     clear(&s);
     (void)state;
 }
 
-/* A closed direction: a ring of edges round a cylinder, over its seam too. */
+/* A closed direction: a ring of edges round a cylinder, also across its seam. */
 static void edges_over_the_seam_are_measured(void **state)
 {
     sample s = {0};
@@ -466,7 +466,7 @@ static void mirrored_faces_are_flipped_and_turned_ones_are_not(void **state)
     (void)state;
 }
 
-/* x + 3 sum of the moved points' part: dx'/dx is below 0 in the middle of x only. */
+/* x + 3 times the basis functions of the moved points: dx'/dx is negative only in the middle of x. */
 static void flipped_faces_are_those_where_space_folds(void **state)
 {
     sample s = {0};
@@ -484,7 +484,7 @@ static void flipped_faces_are_those_where_space_folds(void **state)
         }
         if (highest < 0)
             expected++;
-        else if (lowest < 0) /* on the fold's edge: either answer would do */
+        else if (lowest < 0) /* at the limit of the fold, either answer is right */
             expected += UINT64_C(1) << 32;
     }
     const uint64_t folded = expected & UINT32_MAX, between = expected >> 32;
@@ -494,7 +494,7 @@ static void flipped_faces_are_those_where_space_folds(void **state)
     (void)state;
 }
 
-/* y rises by 2u(1-u): det F = 1 everywhere, but the middle vertex passes the line between the others. */
+/* y rises by 2u(1-u): det F = 1 everywhere, but the middle vertex crosses the line between the others. */
 static void a_coarse_face_can_flip_without_a_fold(void **state)
 {
     sample s = {0};
@@ -515,7 +515,7 @@ static void a_coarse_face_can_flip_without_a_fold(void **state)
     (void)state;
 }
 
-/* Faces with more corners than 4, without area, and with corners that are not numbers. */
+/* Faces with more than 4 corners, without area, and with NaN. */
 static void faces_without_area_or_with_nan_are_not_flipped(void **state)
 {
     sample s = {0};
@@ -563,7 +563,7 @@ static int compare_keys(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Against sorting by the C library; vertex numbers use all 32 bits. */
+/* Compared with the C library's sort; vertex numbers use all 32 bits. */
 static void each_edge_is_listed_once_in_order(void **state)
 {
     draw d = {7};
@@ -668,7 +668,7 @@ static void assert_near(double found, double expected)
         fail_msg("%.17g, not %.17g", found, expected);
 }
 
-/* A box of sides 2, 3, 4 whose low corner is at `at`, with faces that look outwards. */
+/* A box with sides 2, 3, 4 and its low corner at `at`; faces look outwards. */
 static const uint32_t box_faces[24] = {0, 4, 6, 2, 1, 3, 7, 5, 0, 1, 5, 4,
                                        2, 6, 7, 3, 0, 2, 3, 1, 4, 5, 7, 6};
 
@@ -722,11 +722,11 @@ static void what_is_not_closed_has_no_volume(void **state)
     double box[24], moebius[30];
     uint32_t turned[24], strip[20];
     put_box((const double[]){0, 0, 0}, box);
-    assert_true(isnan(extent_of(8, box, 5, 4, box_faces).volume)); /* a lid is open */
+    assert_true(isnan(extent_of(8, box, 5, 4, box_faces).volume)); /* one face is missing */
     memcpy(turned, box_faces, sizeof turned);
     turned[20] = box_faces[23], turned[21] = box_faces[22], turned[22] = box_faces[21],
     turned[23] = box_faces[20];
-    assert_true(isnan(extent_of(8, box, 6, 4, turned).volume)); /* and looks the other way */
+    assert_true(isnan(extent_of(8, box, 6, 4, turned).volume)); /* one face is reversed */
     for (uint32_t i = 0; i < 5; i++) {
         const double angle = 0.4 * 3.14159265358979 * i;
         for (uint32_t side = 0; side < 2; side++) {
@@ -740,7 +740,7 @@ static void what_is_not_closed_has_no_volume(void **state)
     }
     const mesh_extent extent = extent_of(10, moebius, 5, 4, strip);
     assert_true(isnan(extent.volume) && extent.area > 2);
-    assert_true(isnan(extent_of(0, NULL, 0, 3, NULL).volume)); /* nothing encloses nothing */
+    assert_true(isnan(extent_of(0, NULL, 0, 3, NULL).volume)); /* an empty mesh encloses no volume */
 }
 
 static void vertices_at_one_position_close_a_mesh(void **state)
@@ -755,9 +755,9 @@ static void vertices_at_one_position_close_a_mesh(void **state)
         numbers[i] = i;
     }
     assert_near(extent_of(24, corners, 6, 4, numbers).volume, 24);
-    corners[0] += 1e-15; /* a gap, however narrow */
+    corners[0] += 1e-15; /* a tiny gap */
     assert_true(isnan(extent_of(24, corners, 6, 4, numbers).volume));
-    /* Two boxes that touch along an edge, where four faces meet. */
+    /* Two boxes that share an edge, where four faces meet. */
     put_box((const double[]){0, 0, 0}, pair);
     put_box((const double[]){2, 3, 0}, pair + 24);
     for (uint32_t i = 0; i < 24; i++) {
@@ -784,11 +784,11 @@ static void what_hides_or_has_no_number_is_not_measured(void **state)
     put_box((const double[]){9, 9, 9}, pair + 24);
     for (uint32_t i = 0; i < 24; i++) {
         both[i] = 8 + box_faces[i];
-        both[24 + i] = i < 20 ? box_faces[i] : 0; /* what hides may be open */
+        both[24 + i] = i < 20 ? box_faces[i] : 0; /* hidden faces may be open */
     }
     memcpy(moved, pair, sizeof moved);
     for (size_t a = 0; a < 3; a++)
-        moved[3 * 9 + a] = NAN; /* its transform is singular: it stays */
+        moved[3 * 9 + a] = NAN; /* its transform is singular, so it stays */
     set_mesh(&s, 16, pair, 12, 4, both);
     ffd_extent_measure(&document, &s.faces, moved, &extent);
     assert_near(extent.area, 52);
@@ -805,7 +805,7 @@ static void small_parts_are_not_lost_in_a_large_sum(void **state)
     enum { SMALL = 1000 };
     double *const points = checked(ffd_alloc((SMALL + 1) * 3, 3 * sizeof(double)));
     uint32_t *const corners = checked(ffd_alloc(SMALL + 1, 3 * sizeof(uint32_t)));
-    for (uint32_t i = 0; i <= SMALL; i++) { /* 1e8 of area, then 1,000 times 2^-30 */
+    for (uint32_t i = 0; i <= SMALL; i++) { /* an area of 1e8, then 1,000 times 2^-30 */
         const double side = i ? 0x1p-14 : 0x1p14, height = i ? 0x1p-15 : 0x1p15;
         const double triangle[9] = {0, 0, i, side, 0, i, 0, height, i};
         memcpy(points + 9 * (size_t)i, triangle, sizeof triangle);

@@ -1,5 +1,4 @@
-/* test_rig.c - a rig that follows, through the library: its figures, memory that ends anywhere, and jobs that
-   share its mesh. */
+/* test_rig.c - --rig follow through the library: figures, failing memory, and jobs that share the mesh. */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -9,6 +8,7 @@
 
 #include "../support/job_description.h"
 #include "../support/test_folder.h"
+#include "base/file/input.h"
 #include "base/memory/memory.h"
 #include <ffd/job.h>
 #include <stdio.h>
@@ -16,7 +16,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* A triangle with two joints, hip and knee, and another one below the hip; all turn or shift. */
+/* A triangle with joints hip and knee, and another joint below the hip; all are animated. */
 static const char scene[] =
     "{\"asset\": {\"version\": \"2.0\"}, \"scenes\": [{\"nodes\": [0, 1]}], \"nodes\": [{\"mesh\": 0, "
     "\"skin\":"
@@ -116,19 +116,10 @@ static void memory_may_end_anywhere(void **state)
     assert_true(failures > 60);
 }
 
-static long read_all(const char *path, char *text, size_t capacity)
-{
-    FILE *const file = fopen(path, "rb");
-    assert_non_null(file);
-    const size_t size = fread(text, 1, capacity, file);
-    fclose(file);
-    return (long)size;
-}
-
-/* A job that follows leaves nothing to the next one, which has the mesh from it and does not. */
+/* After a job with --rig follow, the next job gets its mesh from the cache without any change. */
 static void a_job_after_one_that_follows_is_as_alone(void **state)
 {
-    static char alone[1 << 16], after[1 << 16];
+    file_input alone, after;
     ffd_job_result result = {.struct_size = sizeof result};
     ffd_share *share;
     (void)state;
@@ -137,15 +128,18 @@ static void a_job_after_one_that_follows_is_as_alone(void **state)
         ffd_deform_desc desc = describe(first == FFD_RIG_KEEP ? FFD_RIG_FOLLOW : FFD_RIG_KEEP);
         desc.output = kept;
         assert_int_equal(ffd_deform_run(&desc, &result, NULL), FFD_OK);
-        const long size = read_all(kept, alone, sizeof alone);
+        assert_int_equal(ffd_file_load(kept, &alone, NULL), FFD_OK);
         assert_int_equal(ffd_share_create(&share, NULL), FFD_OK);
         ffd_deform_desc before = describe(first);
         before.share = desc.share = share;
         assert_int_equal(ffd_deform_run(&before, &result, NULL), FFD_OK);
         assert_int_equal(ffd_deform_run(&desc, &result, NULL), FFD_OK);
         ffd_share_destroy(&share);
-        assert_int_equal(read_all(kept, after, sizeof after), size);
-        assert_memory_equal(alone, after, (size_t)size);
+        assert_int_equal(ffd_file_load(kept, &after, NULL), FFD_OK);
+        assert_int_equal(after.size, alone.size);
+        assert_memory_equal(after.data, alone.data, alone.size);
+        ffd_file_unload(&after);
+        ffd_file_unload(&alone);
     }
 }
 

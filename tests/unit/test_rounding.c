@@ -1,4 +1,4 @@
-/* test_rounding.c - what stored coordinates stand for. */
+/* test_rounding.c - rounding cells of stored coordinates. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -22,7 +22,7 @@ static double half_of(const mesh_rounding *rounding, double x)
     return half[0];
 }
 
-/* The next float by the C library. */
+/* Compared with the next float of the C library. */
 static void assert_half_float(float x)
 {
     const double expected = ((double)nextafterf(fabsf(x), INFINITY) - (double)fabsf(x)) / 2;
@@ -74,7 +74,7 @@ static void of_steps_and_floats_the_more_counts(void **state)
     assert_true(half[0] == 0x1p-24 && half[1] == 0 && half[2] == 0.25);
 }
 
-/* No corner of the cell, carried through the matrix, is farther along an axis, and one is as far. */
+/* No corner of the transformed cell exceeds the bounds along any axis, and one reaches them. */
 static void the_bounds_of_a_turned_cell(void **state)
 {
     (void)state;

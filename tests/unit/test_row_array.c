@@ -1,5 +1,5 @@
-/* test_row_array.c - one array for the positions of many jobs: complete from the beginning, and each row
-   whole or NaN. */
+/* test_row_array.c - an array for the positions of many jobs: of full size from the start, each row complete
+   or NaN. */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -29,7 +29,7 @@ static ffd_status create(const row_array *array, bool force, ffd_error *error)
     return status ? status : ffd_rows_place(array, force, &made, error);
 }
 
-/* The numbers of an array, which must be whole. Free with ffd_file_unload. */
+/* Returns the numbers of an array, which must be complete. Free with ffd_file_unload. */
 static const unsigned char *load(const row_array *array, file_input *input)
 {
     assert_int_equal(ffd_file_load(array->path, input, NULL), FFD_OK);
@@ -71,7 +71,7 @@ static void check_row(const row_array *array, size_t row, const double *position
     ffd_file_unload(&input);
 }
 
-/* More numbers than are written at once, of both types. */
+/* More numbers than are written at a time, of both types. */
 static void rows_are_written_and_cleared(void **state)
 {
     const double *const positions = make_positions();
@@ -107,10 +107,11 @@ static void other_arrays_are_refused(void **state)
     assert_int_equal(ffd_rows_find(&array, &is_there, NULL), FFD_OK);
     assert_false(is_there);
     assert_false(ffd_row_is_done(&array, 0));
-    assert_int_equal(ffd_row_write(&array, 0, positions, 4, NULL), FFD_E_IO); /* and makes none */
+    assert_int_equal(ffd_row_write(&array, 0, positions, 4, NULL),
+                     FFD_E_IO); /* and does not create the file */
     assert_false(ffd_file_exists(array.path));
     assert_int_equal(create(&array, false, NULL), FFD_OK);
-    assert_int_equal(create(&array, false, NULL), FFD_OK); /* somebody else's will do */
+    assert_int_equal(create(&array, false, NULL), FFD_OK); /* an equal array of another run is accepted */
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
         assert_int_equal(ffd_rows_find(&others[i], &is_there, &error), FFD_E_EXISTS);
         assert_non_null(strstr(error.message, "is not an array of"));
@@ -133,7 +134,7 @@ static void arrays_have_no_name_until_they_are_placed(void **state)
     ffd_output_destroy(&made);
     assert_int_equal(create(&array, false, NULL), FFD_OK);
     assert_int_equal(ffd_rows_make(&other, true, &made, NULL), FFD_OK);
-    assert_int_equal(ffd_rows_find(&array, &is_there, NULL), FFD_OK); /* still the old one */
+    assert_int_equal(ffd_rows_find(&array, &is_there, NULL), FFD_OK); /* still the old file */
     assert_int_equal(ffd_rows_place(&other, true, &made, NULL), FFD_OK);
     assert_null(made);
     assert_int_equal(ffd_rows_find(&other, &is_there, NULL), FFD_OK);
@@ -154,7 +155,7 @@ static void what_is_no_row_is_refused(void **state)
     assert_non_null(strstr(error.message, "vertex 1 is too large"));
     assert_false(ffd_row_is_done(&array, 0));
     assert_int_equal(ffd_row_write(&wide, 0, positions, 2, NULL), FFD_OK);
-    positions[4] = -INFINITY; /* it was so in the mesh */
+    positions[4] = -INFINITY; /* infinite in the mesh already */
     assert_int_equal(ffd_row_write(&array, 0, positions, 2, NULL), FFD_OK);
     assert_true(ffd_row_is_done(&array, 0));
     (void)state;
@@ -187,16 +188,17 @@ static void rows_of_no_vertices_are_never_done(void **state)
     (void)state;
 }
 
-/* The last test: an interrupt stays. */
+/* Must be the last test: the interrupt stays set. */
 static void nothing_is_made_after_an_interrupt(void **state)
 {
     const row_array array = array_of("wait.npy", 2, 4, false);
     file_output *other, *made;
     assert_int_equal(ffd_rows_make(&array, false, &other, NULL), FFD_OK);
-    assert_int_equal(ffd_rows_make(&array, true, &made, NULL), FFD_E_IO); /* what it replaces is no other's */
+    assert_int_equal(ffd_rows_make(&array, true, &made, NULL),
+                     FFD_E_IO); /* a file that would be replaced is not another run's */
     ffd_interrupt_watch();
     raise(SIGINT);
-    assert_int_equal(ffd_rows_make(&array, false, &made, NULL), FFD_OK); /* it does not wait for the other */
+    assert_int_equal(ffd_rows_make(&array, false, &made, NULL), FFD_OK); /* does not wait for the other run */
     assert_null(made);
     ffd_output_destroy(&other);
     assert_int_equal(ffd_rows_make(&array, false, &made, NULL), FFD_OK);

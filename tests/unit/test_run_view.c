@@ -1,4 +1,5 @@
-/* test_run_view.c - the pictures of a batch: what they are called, which are current; rows out of reports. */
+/* test_run_view.c - pictures of a batch: their names, whether they are up to date, and rows from report
+   entries. */
 #define _XOPEN_SOURCE 700
 #include <setjmp.h>
 #include <stdarg.h>
@@ -123,7 +124,7 @@ static void figures_that_are_not_there_are_not_known(void **state)
     (void)state;
     static const char *const texts[] = {"{\"status\": \"ok\", \"vertices\": 3, \"folds\": null, \"tear\": "
                                         "null, \"flipped_faces\": null, \"displacement\": null}",
-                                        /* It failed before it had figures. */
+                                        /* Failed before it had figures. */
                                         "{\"status\": \"failed\", \"vertices\": 0, \"tear\": {\"edges\": 0, "
                                         "\"largest\": 0}, \"displacement\": {\"max\": 0}}",
                                         "{\"status\": \"ok\"}"};

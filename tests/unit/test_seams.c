@@ -1,5 +1,4 @@
-/* test_seams.c - which lattices of a chain have a seam that their moves open, and what is marked of points
- * there. */
+/* test_seams.c - finds the lattices of a chain with a seam that their moves open, and marks points there. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,19 +11,19 @@
 #include <ffd/lattice.h>
 #include <string.h>
 
-/* A ring about z of 5 rays, of which the first and the last are one: radius 1 to 2, height 0 to 1. */
+/* A ring about z with 5 rays, of which the first and the last coincide: radius 1 to 2, height 0 to 1. */
 #define RING                                                                                                 \
     "\"format\":\"ffd-lattice\",\"version\":1,\"size\":[2,5,2],\"degree\":[1,1,1],"                          \
     "\"rest\":{\"points\":[[1,0,0],[2,0,0],[0,1,0],[0,2,0],[-1,0,0],[-2,0,0],[0,-1,0],[0,-2,0],[1,0,0],"     \
     "[2,0,0],[1,0,1],[2,0,1],[0,1,1],[0,2,1],[-1,0,1],[-2,0,1],[0,-1,1],[0,-2,1],[1,0,1],[2,0,1]]}"
 #define STILL "{" RING "}"
 #define LIFTED "{" RING ",\"moves\":[{\"by\":[0,0,1]}]}"
-/* The last ray's outer end rises. */
+/* The outer end of the last ray rises. */
 #define OPENED "{" RING ",\"moves\":[{\"at\":[1,4,\"all\"],\"by\":[0,0,3]}]}"
 #define BOX                                                                                                  \
     "{\"format\":\"ffd-lattice\",\"version\":1,\"size\":[2,2,2],\"rest\":{\"box\":{\"min\":[0,0,0],"         \
     "\"max\":[1,1,1]}},\"moves\":[{\"by\":[0,0,1]}]}"
-/* The weights of the last ray are not in the ratio of those of the first. */
+/* The weights of the last ray have other ratios than those of the first. */
 #define WEIGHTS ",\"weights\":[1,2,1,1,1,1,1,1,3,1,2,1,1,1,1,1,1,1,1,5]"
 #define WEIGHTED "{" RING WEIGHTS ",\"moves\":[{\"by\":[0,0,1]}]}"
 
@@ -59,7 +58,7 @@ static void only_faces_that_the_moves_part_are_a_seam(void **state)
         }
     ffd_chain_free(&chain);
     chain = make_chain(true, 5, all);
-    assert_int_equal(ffd_chain_marked(&chain), 5); /* outside, disagrees, and the directions */
+    assert_int_equal(ffd_chain_marked(&chain), 5); /* outside, disagrees, and one for each direction */
     ffd_chain_free(&chain);
     static const char *const none[] = {LIFTED, BOX};
     chain = make_chain(true, 2, none);
@@ -68,7 +67,7 @@ static void only_faces_that_the_moves_part_are_a_seam(void **state)
     (void)state;
 }
 
-/* Marks of a point at v in a link, as a set of links. */
+/* Returns the marks of a point at v in a link, as bits by link. */
 static unsigned marked(const lattice_chain *chain, size_t link, double v)
 {
     static uint8_t kept[2 * CHAIN_RUN];
@@ -94,7 +93,7 @@ static void points_nearer_to_the_last_face_are_marked(void **state)
             assert_int_equal(marked(&chain, l, i / 8.0), i > 4 ? mark : 0);
         }
     ffd_chain_free(&chain);
-    chain = make_chain(true, 3, all); /* marks are of directions there */
+    chain = make_chain(true, 3, all); /* with blocks, marks stand for directions */
     for (size_t l = 0; l < 3; l++)
         for (int i = 0; i <= 8; i++)
             assert_int_equal(marked(&chain, l, i / 8.0), i > 4 && l != 1 ? 1u << 3 : 0);
@@ -102,7 +101,7 @@ static void points_nearer_to_the_last_face_are_marked(void **state)
     (void)state;
 }
 
-/* Each face at its own u,w; what it says of v does not matter. */
+/* Each face at its own u,w; their v is ignored. */
 static void the_parting_is_that_of_the_two_faces(void **state)
 {
     static const char *const all[] = {OPENED, WEIGHTED};
@@ -110,7 +109,7 @@ static void the_parting_is_that_of_the_two_faces(void **state)
     const chain_seam *const seam = ffd_chain_seam(&chain, 0, 1), *const weighted =
                                                                      ffd_chain_seam(&chain, 1, 1);
     assert_non_null(seam);
-    assert_non_null(weighted); /* it cannot be told before */
+    assert_non_null(weighted); /* this case cannot be detected earlier */
     for (int i = 0; i <= 4; i++) {
         const double low[3] = {0.75, 0.25, 0.5}, high[3] = {i / 4.0, 0.5, 0.5};
         assert_float_equal(ffd_seam_parting(&chain, seam, low, high), 3 * i / 4.0, 1e-15);

@@ -1,4 +1,5 @@
-/* Where the control points of boxes and cylinders are, and what their volumes cover. */
+/* Control points of boxes and cylinders, and the extent of their volumes. */
+#include "../support/message.h"
 #include "../support/repetitions.h"
 #include "lattice/border.h"
 #include "lattice/spec.h"
@@ -14,13 +15,6 @@
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
-static const char *message_of(const ffd_error *error)
-{
-    static char text[2048];
-    ffd_error_format(error, text, sizeof text);
-    return text;
-}
-
 static ffd_lattice *parse(const char *text)
 {
     ffd_lattice *lattice;
@@ -30,7 +24,7 @@ static ffd_lattice *parse(const char *text)
     return lattice;
 }
 
-/* {size, degree, knots, rest} as JSON texts. */
+/* Makes a lattice of JSON texts: size, degree, knots, rest. */
 static ffd_lattice *make(const char *size, const char *degree, const char *knots, const char *rest)
 {
     static char text[65536];
@@ -58,7 +52,7 @@ static const char *const knots_of_8[] = {
     "[5,5,6,7,8,9,10,11,12,12,12,12]",
 };
 
-/* The volume of a box is the affine map of its domain onto the box, whatever the knots. */
+/* A box maps its domain affinely onto itself, whatever the knots. */
 static void a_box_is_affine_whatever_its_knots(void **state)
 {
     (void)state;
@@ -92,7 +86,7 @@ static void a_box_is_affine_whatever_its_knots(void **state)
         fail_msg("the box's map is off by %g of its size", worst);
 }
 
-/* All degrees, on the presets. */
+/* All degrees, with the presets. */
 static void a_box_is_affine_at_every_degree(void **state)
 {
     (void)state;
@@ -111,8 +105,8 @@ static void a_box_is_affine_at_every_degree(void **state)
                     uvw_of(lattice, i / 20.0, 0.5, 0.5, uvw);
                     ffd_lattice_get_domain(lattice, lo, hi);
                     ffd_lattice_evaluate(lattice, FFD_VOLUME_REST, uvw, point, NULL);
-                    /* The domain of "uniform" is (n-d)/(n+d) long: its parameters' rounding counts so much
-                     * more. */
+                    /* The domain of "uniform" has the length (n-d)/(n+d), so rounding of its parameters
+                       counts that much more. */
                     const double tolerance =
                         1e-15 * (1 + degree) * (kind == 2 ? (n + degree) / (n - degree) : 1);
                     if (!(fabs(point[0] - (uvw[0] - lo[0]) / (hi[0] - lo[0])) <= tolerance))
@@ -136,7 +130,7 @@ static void box_points_stand_where_spacing_and_axes_say(void **state)
     (void)state;
     ffd_lattice *l = make("[5,5,5]", "[3,3,3]", "[\"clamped\",\"open\",\"uniform\"]",
                           "{\"box\":{\"min\":[0,0,0],\"max\":[1,1,1]}}");
-    /* Clamped: knots 0 0 0 0 1/2 1 1 1 1. Open: spacing 1/(n-d) from (d-1)/2 spacings before the box. */
+    /* Clamped: knots 0 0 0 0 1/2 1 1 1 1. Open: spacing 1/(n-d), starting (d-1)/2 spacings before the box. */
     check_points(l, 1, 0, (const double[]){0, 1 / 6.0, 0.5, 5 / 6.0, 1}, 5);
     check_points(l, 5, 1, (const double[]){-0.5, 0, 0.5, 1, 1.5}, 5);
     check_points(l, 25, 2, (const double[]){-0.5, 0, 0.5, 1, 1.5}, 5);
@@ -148,14 +142,14 @@ static void box_points_stand_where_spacing_and_axes_say(void **state)
     check_points(l, 1, 0, (const double[]){0, 0.25, 0.5, 0.75, 1}, 5);
     ffd_lattice_destroy(&l);
 
-    /* The ends are the file's numbers to the bit: 0.2 - -0.1 + -0.1 is not 0.2. */
+    /* The ends are exactly the numbers of the file: 0.2 - -0.1 + -0.1 is not 0.2. */
     l = make("[4,4,4]", "[3,3,3]", "[\"clamped\",\"clamped\",\"clamped\"]",
              "{\"box\":{\"min\":[-0.1,0,0],\"max\":[0.2,1,1]}}");
     assert_true(l->rest[0] == -0.1);
     assert_true(l->rest[9] == 0.2);
     ffd_lattice_destroy(&l);
 
-    /* Axes: min and max are along them. */
+    /* min and max are measured along the axes. */
     l = make("[2,2,2]", "[1,1,1]", "[\"clamped\",\"clamped\",\"clamped\"]",
              "{\"box\":{\"min\":[1,2,3],\"max\":[4,5,6],\"axes\":[[0,1,0],[-1,0,0],[0,0,1]]}}");
     check_points(l, 1, 1, (const double[]){1, 4}, 2);
@@ -164,7 +158,7 @@ static void box_points_stand_where_spacing_and_axes_say(void **state)
     ffd_lattice_destroy(&l);
 }
 
-/* Weights: equal ones keep the map affine, others do not. */
+/* Equal weights keep the map affine, others do not. */
 static void only_equal_weights_keep_a_box_affine(void **state)
 {
     (void)state;
@@ -197,8 +191,8 @@ typedef struct turn {
     double first, last;
 } turn;
 
-/* The volume reaches from within r0 to beyond r1 at every v, starts and ends at the right angles, and has the
- * height. */
+/* The volume covers the radii r0 to r1 at every v, starts and ends at the right angles, and has the right
+   height. */
 static void check_cylinder(const ffd_lattice *lattice, double r0, double r1, double height, turn range,
                            const char *what)
 {
@@ -226,7 +220,7 @@ static void check_cylinder(const ffd_lattice *lattice, double r0, double r1, dou
     }
 }
 
-/* Nothing is farther out than it must be: somewhere the outer radius is r1, the inner one r0. */
+/* It is tight: the outer radius is r1 somewhere, and so is the inner radius r0. */
 static void check_tight(const ffd_lattice *lattice, double r0, double r1, const char *what)
 {
     double least = INFINITY, greatest = 0;
@@ -243,8 +237,7 @@ static void check_tight(const ffd_lattice *lattice, double r0, double r1, const 
         fail_msg("%s: least outer radius %g, greatest inner %g", what, least, greatest);
 }
 
-/* Whether both ends are one surface, though they are computed from other control points: only rounding may
-   tell them apart. */
+/* Whether both end faces coincide up to rounding, though they have different control points. */
 static void check_seam(const ffd_lattice *lattice, const char *knots, turn range, const char *what)
 {
     const bool meets = range.last - range.first == 360 && strcmp(knots, "\"closed\"") != 0;
@@ -280,7 +273,7 @@ static void a_full_turn_covers_its_cylinder(void **state)
     for (int degree = 1; degree <= 9; degree += stride(4))
         for (int n = degree < 3 ? 3 : degree + 1; n <= 40; n += n < 12 ? stride(3) : 9)
             check_one_cylinder(n, degree, "\"closed\"", turns[(n + degree) % 3], n % 2 ? 0 : 0.75);
-    /* A full turn that stays open has a seam, with enough points. */
+    /* A full turn that is not closed has a seam, if there are enough points. */
     for (int degree = 1; degree <= 5; degree += stride(2))
         for (int n = degree + 4; n <= 20; n += 3 * stride(3)) {
             check_one_cylinder(n, degree, "\"clamped\"", turns[n % 3], 0.5);
@@ -316,8 +309,9 @@ static void knot_lists_cover_their_cylinder(void **state)
     check_one_cylinder(7, 4, "{\"closed\":[-1,-0.5,0,0.25,0.5,0.75,1,1.5]}", (turn){-90, 270}, 0);
 }
 
-/* The radius by hand: quadratic closed splines are nearest at the knots, cos(pi/n); the outer control points
-   are at r1 / cos(pi/n), and v = 0 lies at angle a0, half a step after the first of them. */
+/* By hand: closed quadratic splines are nearest to the axis at the knots, by the factor cos(pi/n). So the
+   outer control points are at r1 / cos(pi/n), and v = 0 is at angle a0, half a step after the first of
+   them. */
 static void cylinder_points_match_those_worked_out_by_hand(void **state)
 {
     (void)state;
@@ -325,7 +319,7 @@ static void cylinder_points_match_those_worked_out_by_hand(void **state)
         make("[2,4,2]", "[1,2,1]", "[\"clamped\",\"closed\",\"clamped\"]",
              "{\"cylinder\":{\"center\":[10,20,30],\"axis\":[0,0,2],\"radius\":[0,1],\"height\":4}}");
     const double *const p = ffd_lattice_get_points(l, FFD_VOLUME_REST);
-    /* r1/cos 45 at -45, 45, 135, 225 degrees: the corners of the square of side 2. */
+    /* r1/cos 45 at -45, 45, 135, 225 degrees: the corners of a square with side 2. */
     static const double corner[4][2] = {{1, -1}, {1, 1}, {-1, 1}, {-1, -1}};
     for (size_t j = 0; j < 4; j++) {
         assert_true(p[3 * (2 * j)] == 10 && p[3 * (2 * j) + 1] == 20 && p[3 * (2 * j) + 2] == 28);
@@ -335,7 +329,7 @@ static void cylinder_points_match_those_worked_out_by_hand(void **state)
     assert_true(ffd_knots_closed(&l->knots[1]));
     ffd_lattice_destroy(&l);
 
-    /* Right-handed about the axis, from zero: about x, from y towards z. */
+    /* Right-handed about the axis, starting at zero: about x, from y towards z. */
     l = make(
         "[2,5,2]", "[1,1,1]", "[\"clamped\",\"clamped\",\"clamped\"]",
         "{\"cylinder\":{\"center\":[0,0,0],\"axis\":\"x\",\"radius\":[1,2],\"height\":2,\"angle\":[0,90]}}");
@@ -345,8 +339,8 @@ static void cylinder_points_match_those_worked_out_by_hand(void **state)
     ffd_lattice_destroy(&l);
 }
 
-/* A rational full circle: nine points of degree 2 with double knots and weights 1, cos 45: the ring is exact,
-   so that the control points' radius is r1 itself. */
+/* A rational full circle: nine points of degree 2 with double knots and weights 1, cos 45. The ring is exact,
+   so the control points on it have the radius r1 itself. */
 static void a_rational_circle_has_the_given_radius(void **state)
 {
     (void)state;
@@ -379,7 +373,7 @@ static void check_refused(const char *size, const char *degree, const char *knot
     assert_string_equal(message_of(&error), words);
 }
 
-/* What cannot go round is refused, not placed at infinity. */
+/* Too few points round the axis are refused, not placed at infinity. */
 static void too_few_points_round_a_cylinder_are_refused(void **state)
 {
     (void)state;
@@ -408,7 +402,7 @@ static void a_mesh_box_fits_the_mesh_with_its_margin(void **state)
     check_points(l, 1, 0, (const double[]){-1, 2, 5}, 3);
     check_points(l, 3, 1, (const double[]){-2, 4, 10}, 3);
     check_points(l, 9, 2, (const double[]){-0.5, 1, 2.5}, 3);
-    /* Other bounds; a failure leaves the lattice as it was. */
+    /* Other bounds. A failure leaves the lattice unchanged. */
     assert_int_equal(ffd_lattice_fit(l, (const double[]){0, 0, 0}, (const double[]){NAN, 8, 2}, &error),
                      FFD_E_INVALID);
     assert_int_equal(ffd_lattice_fit(l, (const double[]){1, 0, 0}, (const double[]){0, 8, 2}, NULL),
@@ -416,12 +410,12 @@ static void a_mesh_box_fits_the_mesh_with_its_margin(void **state)
     assert_int_equal(ffd_lattice_fit(l, (const double[]){-1e308, 0, 0}, (const double[]){1e308, 8, 2}, NULL),
                      FFD_E_INVALID);
     check_points(l, 1, 0, (const double[]){-1, 2, 5}, 3);
-    /* A flat mesh gets a box with volume, round it. */
+    /* A flat mesh gets a box that has volume. */
     assert_int_equal(ffd_lattice_fit(l, (const double[]){0, 5, 0}, (const double[]){3, 5, 4}, &error),
                      FFD_OK);
     const double low = l->rest[1], high = l->rest[3 * 6 + 1];
     assert_true(low < 5 && high > 5 && high - low > 0.01 && high - low < 0.5);
-    /* One point. */
+    /* A single point. */
     assert_int_equal(ffd_lattice_fit(l, (const double[]){7, 5, 1}, (const double[]){7, 5, 1}, &error),
                      FFD_OK);
     assert_true(l->rest[0] < 7 && l->rest[6] > 7 && l->rest[6] < 8);
@@ -435,7 +429,7 @@ static void a_mesh_box_fits_the_mesh_with_its_margin(void **state)
     ffd_lattice_destroy(&l);
 }
 
-/* A slanted bar: 4 by 2 by 1 along known directions, with its middle in (5,6,7). */
+/* A slanted bar: 4 by 2 by 1 along known directions, centred at (5,6,7). */
 static void fill_bar(double points[24], double rows[9])
 {
     static const double length[3] = {4, 2, 1};
@@ -462,8 +456,8 @@ static void a_principal_box_lies_along_its_points(void **state)
     ffd_lattice *l;
     ffd_error error;
     assert_int_equal(ffd_lattice_create(&desc, points, 8, &l, &error), FFD_OK);
-    /* The second axis comes with its largest component, -2/3 of x against 2/3 of z, positive: signs may flip,
-       and the third follows. */
+    /* The sign of the second axis makes its largest component positive, either -2/3 of x or 2/3 of z: both
+       may flip, and the third axis follows. */
     for (int a = 0; a < 3; a++) {
         const double *const axis = l->spec->box_axes + 3 * a, *const row = rows + 3 * a;
         assert_true(fabs(fabs(axis[0] * row[0] + axis[1] * row[1] + axis[2] * row[2]) - 1) <= 1e-14);
@@ -474,7 +468,7 @@ static void a_principal_box_lies_along_its_points(void **state)
     const double determinant = x[0] * (x[4] * x[8] - x[5] * x[7]) - x[1] * (x[3] * x[8] - x[5] * x[6]) +
                                x[2] * (x[3] * x[7] - x[4] * x[6]);
     assert_true(fabs(determinant - 1) <= 1e-14);
-    /* All points are in it. */
+    /* All points are inside. */
     double middle[3];
     ffd_lattice_evaluate(l, FFD_VOLUME_REST, (const double[]){0.5, 0.5, 0.5}, middle, NULL);
     for (int c = 0; c < 3; c++)
@@ -549,7 +543,7 @@ static void a_created_cylinder_encloses_its_points(void **state)
     assert_int_equal(ffd_lattice_create(&desc, points, 65, &l, &error), FFD_OK);
     assert_false(ffd_knots_closed(&l->knots[1]));
     ffd_lattice_destroy(&l);
-    /* All on the axis, or in a plane across it: still a volume. */
+    /* All points on the axis, or in a plane across it: the lattice still has volume. */
     desc.knots[1] = FFD_KNOTS_DEFAULT;
     assert_int_equal(ffd_lattice_create(&desc, points, 1, &l, &error), FFD_OK);
     assert_true(l->spec->radius[1] > 0 && l->spec->height > 0);

@@ -1,4 +1,4 @@
-/* Pulls, falloffs and mirrored moves of a lattice file, against values worked out by hand. */
+/* Pulls, falloffs and mirrored moves of a lattice file, compared with values computed by hand. */
 #include "lattice/lattice.h"
 #include "lattice/mirror.h"
 #include <math.h>
@@ -16,7 +16,7 @@
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
-/* 5 x 3 x 3 points of degree 1: x -2, -1, 0, 1, 2; y and z -1, 0, 1. */
+/* 5 x 3 x 3 points of degree 1: x is -2, -1, 0, 1, 2; y and z are -1, 0, 1. */
 static const char bar[] = "\"size\":[5,3,3],\"degree\":[1,1,1],\"rest\":{\"box\":{\"min\":[-2,-1,-1],\"max\":"
                           "[2,1,1]}}";
 
@@ -28,7 +28,7 @@ static void check_point(const ffd_lattice *l, size_t i, size_t j, size_t k, doub
 static void a_pull_takes_the_points_near_its_place(void **state)
 {
     (void)state;
-    /* Distances 0, 1, sqrt 2, sqrt 3 of radius 2: 1, 9/16, 1/4, 1/16; at 2 nothing. */
+    /* Distances 0, 1, sqrt 2, sqrt 3 for the radius 2: weights 1, 9/16, 1/4, 1/16; at distance 2 nothing. */
     ffd_lattice *l = make(bar, "{\"pull\":{\"point\":[0,0,0],\"by\":[0,16,32],\"radius\":2}}");
     check_point(l, 2, 1, 1, 0, 16, 32);
     check_point(l, 3, 1, 1, 1, 9, 18);
@@ -38,13 +38,13 @@ static void a_pull_takes_the_points_near_its_place(void **state)
     check_point(l, 0, 1, 1, -2, 0, 0);
     assert_int_equal(count_moved(l), 27);
     ffd_lattice_destroy(&l);
-    /* It is the rest position that counts; weight and selection are as of other moves. */
+    /* Distances are of rest positions. Weight and selection work as for other moves. */
     l = make(bar, "{\"by\":[9,0,0]},{\"at\":[-3,-2,1],\"weight\":0.5,\"pull\":{\"point\":[0,0,0],\"by\":[0,0,"
                   "8],\"radius\":1}}");
     check_point(l, 2, 1, 1, 9, 0, 4);
     check_point(l, 3, 1, 1, 10, 0, 0);
     ffd_lattice_destroy(&l);
-    /* In box units: sides 4, 2, 2; the ball of radius 1/2 round the middle touches all sides. */
+    /* In box units, with sides 4, 2, 2: a ball of radius 1/2 round the centre touches all sides. */
     l = make(bar, "");
     ffd_lattice_destroy(&l);
     l = make("\"units\":\"box\",\"size\":[5,3,3],\"degree\":[1,1,1],\"rest\":{\"box\":{\"min\":[-2,-1,-1],"
@@ -54,7 +54,7 @@ static void a_pull_takes_the_points_near_its_place(void **state)
     check_point(l, 3, 1, 1, 1 + 4 * 0.5625, 0, 0);
     assert_int_equal(count_moved(l), 3);
     ffd_lattice_destroy(&l);
-    /* One that reaches nothing moves nothing. */
+    /* A pull that reaches no point moves nothing. */
     l = make(bar, "{\"pull\":{\"point\":[0.5,0,0],\"by\":[1,0,0],\"radius\":0.5}}");
     assert_int_equal(count_moved(l), 0);
     ffd_lattice_destroy(&l);
@@ -63,7 +63,7 @@ static void a_pull_takes_the_points_near_its_place(void **state)
 static void a_falloff_scales_any_action_by_the_place_at_rest(void **state)
 {
     (void)state;
-    /* Quarters of the way: 1, 27/32, 1/2, 5/32, 0. */
+    /* At quarters of the way: 1, 27/32, 1/2, 5/32, 0. */
     static const double left[] = {1, 0.84375, 0.5, 0.15625, 0};
     static const char *const falloffs[] = {
         "{\"axis\":\"x\",\"from\":-2,\"to\":2}",
@@ -83,7 +83,7 @@ static void a_falloff_scales_any_action_by_the_place_at_rest(void **state)
         }
         ffd_lattice_destroy(&l);
     }
-    /* From more to less, and beyond both ends: from x = 1 to x = 0. */
+    /* Decreasing along the axis, and beyond both ends: from x = 1 to x = 0. */
     ffd_lattice *l = make(bar, "{\"falloff\":{\"axis\":\"x\",\"from\":1,\"to\":-1},\"by\":[0,2,0]}");
     check_point(l, 4, 1, 1, 2, 2, 0);
     check_point(l, 3, 1, 1, 1, 2, 0);
@@ -91,7 +91,7 @@ static void a_falloff_scales_any_action_by_the_place_at_rest(void **state)
     check_point(l, 1, 1, 1, -1, 0, 0);
     assert_int_equal(count_moved(l), 27);
     ffd_lattice_destroy(&l);
-    /* Round a place: distances 0 and 1 of 2. */
+    /* Round a centre: distances 0 and 1 of 2. */
     l = make(bar,
              "{\"falloff\":{\"center\":[-2,0,0],\"radius\":2},\"scale\":{\"factor\":3,\"about\":[0,0,0]}}");
     check_point(l, 0, 1, 1, -6, 0, 0);
@@ -101,7 +101,7 @@ static void a_falloff_scales_any_action_by_the_place_at_rest(void **state)
     ffd_lattice_destroy(&l);
 }
 
-/* The extent of a twist and the centroid are those of the selection, whatever is left of the weights. */
+/* The extent of a twist and the centroid are those of the selection, whatever the weights. */
 static void a_falloff_changes_neither_extent_nor_centroid(void **state)
 {
     (void)state;
@@ -118,7 +118,7 @@ static void a_falloff_changes_neither_extent_nor_centroid(void **state)
 static void a_falloff_in_box_units_runs_along_the_region(void **state)
 {
     (void)state;
-    /* The box turned by 90 degrees: its first side, of 4, is along y. */
+    /* A box turned by 90 degrees: its first side, of length 4, is along y. */
     ffd_lattice *l = make("\"units\":\"box\",\"size\":[5,3,3],\"degree\":[1,1,1],\"rest\":{\"box\":{\"min\":"
                           "[10,20,30],\"max\":[14,22,32],\"axes\":[[0,1,0],[-1,0,0],[0,0,1]]}}",
                           "{\"falloff\":{\"axis\":\"y\",\"from\":0,\"to\":1},\"by\":[0,0,1]}");
@@ -135,7 +135,7 @@ static void a_falloff_in_box_units_runs_along_the_region(void **state)
     ffd_lattice_destroy(&l);
 }
 
-/* Each action on the face x = 2 with its mirror on x = -2: all is symmetric, to the bit. */
+/* Each action on the face x = 2 with its mirror image on x = -2: the result is exactly symmetric. */
 static void a_mirrored_move_does_the_same_on_the_other_side(void **state)
 {
     (void)state;
@@ -182,7 +182,7 @@ static void a_point_selected_by_both_gets_both_in_order(void **state)
     check_point(l, 0, 1, 1, -3, 2, 0);
     check_point(l, 4, 1, 1, 3, 2, 0);
     ffd_lattice_destroy(&l);
-    /* First to x = 3, then scaled by 2 about the image of x = 1: -1 + 2 (3 + 1) = 7. */
+    /* First moved to x = 3, then scaled by 2 about the mirror image of x = 1: -1 + 2 (3 + 1) = 7. */
     l = make(bar, "{\"at\":[2,1,1],\"by\":[3,0,0]},{\"at\":[2,1,1],\"mirror\":\"x\",\"scale\":{\"factor\":2,"
                   "\"about\":[1,0,0]}}");
     check_point(l, 2, 1, 1, -1 + 2 * (5 + 1), 0, 0);
@@ -192,14 +192,14 @@ static void a_point_selected_by_both_gets_both_in_order(void **state)
 static void the_plane_goes_through_the_middle_of_the_rest(void **state)
 {
     (void)state;
-    /* A box from 1 to 4 along y: the plane y = 5/2. */
+    /* A box from 1 to 4 along y: the mirror plane is y = 5/2. */
     ffd_lattice *l = make("\"size\":[2,3,2],\"degree\":[1,1,1],\"rest\":{\"box\":{\"min\":[0,1,0],\"max\":[1,"
                           "4,1]}}",
                           "{\"at\":[0,0,0],\"mirror\":\"y\",\"to\":[9,0,7]}");
     check_point(l, 0, 0, 0, 9, 0, 7);
     check_point(l, 0, 2, 0, 9, 5, 7);
     ffd_lattice_destroy(&l);
-    /* Points in another order than along the indices: the image is that of the position. */
+    /* Points not ordered along the indices: the mirror image is found by position. */
     l = make("\"size\":[2,2,2],\"rest\":{\"points\":[[0,0,0],[4,0,0],[1,2,0],[3,2,0],[0,0,4],[4,0,4],[1,2,4],"
              "[3,2,4]]}",
              "{\"at\":[0,1,0],\"mirror\":\"x\",\"by\":[0.5,1,0]}");
@@ -207,7 +207,7 @@ static void the_plane_goes_through_the_middle_of_the_rest(void **state)
     check_point(l, 1, 1, 0, 2.5, 3, 0);
     assert_int_equal(count_moved(l), 2);
     ffd_lattice_destroy(&l);
-    /* A full cylinder whose axis is collapsed: all points on it are images. */
+    /* A full cylinder with a collapsed axis: all points on the axis are mirror images of each other. */
     l = make("\"size\":[2,8,2],\"rest\":{\"cylinder\":{\"center\":[3,0,0],\"axis\":\"z\",\"radius\":[0,1],"
              "\"height\":2}}",
              "{\"at\":[0,2,0],\"mirror\":\"z\",\"by\":[0,0,1]}");
@@ -218,7 +218,7 @@ static void the_plane_goes_through_the_middle_of_the_rest(void **state)
 #define FAR_ROW(yz)                                                                                          \
     "[1000000000000," yz "],[1000000000000.3334," yz "],[1000000000000.6667," yz "],[1000000000001," yz "]"
 
-/* Far from the origin coordinates are rounded by more than 1e-9 of a small lattice. */
+/* Far from the origin, rounding of coordinates exceeds 1e-9 of a small lattice. */
 static void images_are_found_within_1e_9_and_rounding(void **state)
 {
     (void)state;
@@ -238,7 +238,8 @@ static void images_are_found_within_1e_9_and_rounding(void **state)
     assert_string_equal(message_of(&error),
                         "t.json:/moves/0: control point 0,0,0 has no mirror image in x: no "
                         "other rests across the plane x = 0.5");
-    /* Doubles are 1/8192 apart there; of the two in the middle neither is the other's image to the bit. */
+    /* Doubles are 1/8192 apart there. Of the two points in the middle, neither is exactly the other's mirror
+       image. */
     l = make(
         "\"size\":[4,2,2],\"degree\":[1,1,1],\"rest\":{\"points\":[" FAR_ROW("0,0") "," FAR_ROW(
             "1,0") "," FAR_ROW("0,1") "," FAR_ROW("1,1") "]}",
@@ -247,7 +248,7 @@ static void images_are_found_within_1e_9_and_rounding(void **state)
     ffd_lattice_destroy(&l);
 }
 
-/* The tree finds what looking at all pairs finds, also where many points are at one place. */
+/* The tree finds the same as comparing all pairs, even with many points at one place. */
 static void selections_are_as_all_pairs_say(void **state)
 {
     (void)state;
@@ -261,7 +262,7 @@ static void selections_are_as_all_pairs_say(void **state)
             draw = draw * 1664525u + 1013904223u;
             rest[c] = (double)((draw >> 8) % places) - (round % 3 == 0 ? 0.5 * (double)(places - 1) : 0);
         }
-        for (size_t c = 0; c < 3; c++) { /* the bounds are all of it */
+        for (size_t c = 0; c < 3; c++) { /* the bounds of all points */
             rest[c] = round % 3 == 0 ? -0.5 * (double)(places - 1) : 0;
             rest[3 + c] = rest[c] + (double)(places - 1);
         }

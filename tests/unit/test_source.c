@@ -48,7 +48,7 @@ static void a_mesh_lists_the_files_it_is_read_from(void **state)
     check_files(&(ffd_source){.path = of_gltf[0]}, of_gltf, 3);
     const char *const of_obj[] = {in_folder("m.obj")};
     check_files(&(ffd_source){.path = of_obj[0]}, of_obj, 1);
-    /* In the working folder names stay as short as they were given. */
+    /* In the current folder names stay as short as given. */
     assert_int_equal(chdir(folder), 0);
     static const char *const here[] = {"m.gltf", "a.bin", "in/b c.bin"};
     check_files(&(ffd_source){.path = "m.gltf"}, here, 3);

@@ -1,4 +1,4 @@
-/* test_spill.c - arrays that move into a file when they grow large. */
+/* test_spill.c - large arrays that move to a file. */
 #include "base/file/spill.h"
 #include "base/memory/memory.h"
 #include <fcntl.h>
@@ -17,7 +17,7 @@
 
 #define STEP (SPILL_FROM / 4 + 12345)
 
-/* Skips where a machine has too little of it for this test. */
+/* Skips the test if the machine has too little space. */
 static void need_room(void)
 {
     static const char *const folders[] = {"/tmp", "/var/tmp"};
@@ -33,7 +33,7 @@ static unsigned char mark_of(size_t step)
     return (unsigned char)(17 * step + 1);
 }
 
-/* The number that the next file to be opened gets: a greater one than before tells of one that stays open. */
+/* Returns the next free file descriptor. If it is greater than before, a file was left open. */
 static int next_descriptor(void)
 {
     const int fd = open("/dev/null", O_RDONLY);
@@ -42,7 +42,7 @@ static int next_descriptor(void)
     return fd;
 }
 
-/* Grows in steps to three times the size of the least file; each step marks its ends. */
+/* Grows in steps to three times the smallest size of a file. Each step marks its ends. */
 static void grow_and_check(bool is_mapped)
 {
     spill_array array = {0};
@@ -84,7 +84,7 @@ static void without_a_folder_they_stay_in_memory(void **state)
     unsetenv("TMPDIR");
 }
 
-/* A limit on the size of files imitates a full disk. */
+/* A limit on file sizes simulates a full disk. */
 static void a_full_disk_brings_them_back(void **state)
 {
     (void)state;

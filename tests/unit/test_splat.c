@@ -1,4 +1,4 @@
-/* Gaussian splats: exponentials and logarithms, the turn of F, ellipsoids, harmonics. */
+/* Gaussian splats: exponentials and logarithms, the rotation in F, ellipsoids, spherical harmonics. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -34,7 +34,7 @@ static void exponentials_and_logarithms(void **state)
     check_close(ffd_log(1 + DBL_EPSILON), DBL_EPSILON, 1e-30);
 }
 
-/* F = I + gradient. */
+/* Returns F - I. */
 static void make_gradient(const double f[9], double gradient[9])
 {
     for (int i = 0; i < 9; i++)
@@ -60,7 +60,8 @@ static splat_outcome deform(const double f[9], const splat_form *form, splat_ell
     return (splat_outcome)outcome;
 }
 
-/* The rotation of the polar decomposition is the product of what it is made of, whatever the stretch. */
+/* The rotation of the polar decomposition is the one that was multiplied with a stretch, whatever the
+   stretch. */
 static void turns(void **state)
 {
     (void)state;
@@ -79,15 +80,15 @@ static void turns(void **state)
     }
     const splat_turn mirror = turn_of((double[9]){0, -1, 0, -1, 0, 0, 0, 0, 1});
     assert_true(mirror.is_mirrored);
-    check_close(fabs(mirror.quaternion[1]), h, 1e-15); /* half a turn about x = y */
+    check_close(fabs(mirror.quaternion[1]), h, 1e-15); /* a half turn about x = y */
     assert_false(turn_of((double[9]){2, 0, 0, 0, 3, 0, 0, 0, 0.1}).is_turn);
-    assert_false(turn_of((double[9]){2, 1, 0, 4, 2, 0, 0, 0, 0}).is_turn); /* a line is left */
+    assert_false(turn_of((double[9]){2, 1, 0, 4, 2, 0, 0, 0, 0}).is_turn); /* collapsed to a line */
     const splat_turn plane = turn_of((double[9]){0, -1, 0, 1, 0, 0, 0, 0, 0});
     check_close(plane.quaternion[3], h, 1e-15);
     assert_false(turn_of((double[9]){NAN, 0, 0, 0, 1, 0, 0, 0, 1}).is_turn);
 }
 
-/* A turn that is seen from a turned, stretched or mirrored frame. */
+/* A turn seen from a turned, stretched or mirrored frame. */
 static void turns_in_another_space(void **state)
 {
     (void)state;
@@ -100,7 +101,7 @@ static void turns_in_another_space(void **state)
         ffd_splat_turn_to_file(frames[i], &turn);
         ffd_splat_matrix(turn.quaternion, matrix);
         for (int k = 0; k < 9; k++)
-            axes[k] = (frames[i][k] > 0) - (frames[i][k] < 0); /* the orthogonal factor */
+            axes[k] = (frames[i][k] > 0) - (frames[i][k] < 0); /* its orthogonal factor */
         for (int r = 0; r < 3; r++)
             for (int c = 0; c < 3; c++)
                 back[3 * r + c] = axes[3 * c + r];
@@ -120,7 +121,7 @@ static void sizes_of_a_stretched_splat(void **state)
     check_close(splat.scale[0], 2, 1e-15);
     check_close(splat.scale[1], 0, 0);
     check_close(splat.scale[2], 2, 1e-15);
-    check_close(splat.rotation[0], 3, 1e-15); /* its length stays */
+    check_close(splat.rotation[0], 3, 1e-15); /* keeps its length */
     splat = (splat_ellipsoid){{1, 0, 0, 0}, {-INFINITY, 5, 1}};
     assert_int_equal(deform(f, &logarithms, &splat), SPLAT_CARRIED);
     assert_true(splat.scale[0] < -DBL_MAX);
@@ -128,7 +129,7 @@ static void sizes_of_a_stretched_splat(void **state)
     check_close(splat.scale[2], 1 - log(2), 1e-15);
 }
 
-/* The longest axis of a ball that is sheared is the first principal one; a needle follows its direction. */
+/* The longest axis of a sheared ball is the first principal axis; a needle follows its direction. */
 static void a_sheared_splat(void **state)
 {
     (void)state;
@@ -173,14 +174,14 @@ static void outcomes(void **state)
     assert_int_equal(deform(plane, &linear, &splat), SPLAT_BROKEN);
 }
 
-/* A draw from -1 to 1, always the same ones. */
+/* Returns a pseudorandom number from -1 to 1; the sequence is fixed. */
 static double draw(uint32_t *state)
 {
     *state = *state * 1664525 + 1013904223;
     return *state / 2147483648.0 - 1;
 }
 
-/* How well a frame fits another: the sum of cosines of its axes, in an order and with signs. */
+/* Returns how well a frame fits another: the sum of the cosines between axes, permuted and signed. */
 static double fit(const double axes[9], const double frame[9], const int order[3], const double signs[3])
 {
     double sum = 0;
@@ -190,7 +191,7 @@ static double fit(const double axes[9], const double frame[9], const int order[3
     return sum;
 }
 
-/* Of the 24 right-handed frames along the axes of an ellipsoid none is nearer to the turned old one. */
+/* Of the 24 right-handed frames along an ellipsoid's axes, none is nearer to the turned old frame. */
 static void the_nearest_axes(void **state)
 {
     (void)state;
@@ -230,7 +231,7 @@ static void the_nearest_axes(void **state)
 
 enum { MOST = 133 };
 
-/* Gradients, some of which do nothing, are no numbers, turn a little, mirror, flatten, or leave nothing. */
+/* Draws gradients: zeros, NaN, small turns, mirrors, flattening, collapse, and ordinary ones. */
 static void draw_gradients(uint32_t *seed, double gradients[9 * MOST])
 {
     for (int i = 0; i < 9 * MOST; i++) {
@@ -248,7 +249,7 @@ static void draw_gradients(uint32_t *seed, double gradients[9 * MOST])
     }
 }
 
-/* Splats, some of which have no rotation, or sizes that are equal, 0 or no numbers. */
+/* Draws splats, some without rotation, or with sizes that are equal, 0 or NaN. */
 static void draw_splats(uint32_t *seed, bool is_logarithmic, splat_ellipsoid splats[MOST])
 {
     for (int i = 0; i < MOST; i++)
@@ -265,7 +266,7 @@ static void draw_splats(uint32_t *seed, bool is_logarithmic, splat_ellipsoid spl
         }
 }
 
-/* Checks that two instruction sets give the same. */
+/* Checks that an instruction set gives the same bits as scalar code. */
 static void check_isa(ffd_isa isa, const splat_form *form, const double *gradients,
                       const splat_ellipsoid *splats, size_t count)
 {
@@ -292,7 +293,7 @@ static void check_isa(ffd_isa isa, const splat_form *form, const double *gradien
     assert_memory_equal(c[0], c[1], count * sizeof **c);
 }
 
-/* Any number of splats, some of them odd, with any instruction set. */
+/* Any number of splats, some of them degenerate, with any instruction set. */
 static void all_instruction_sets_give_the_same_bits(void **state)
 {
     (void)state;
@@ -311,7 +312,7 @@ static void all_instruction_sets_give_the_same_bits(void **state)
     }
 }
 
-/* The turned function has the values that the function had in the directions turned back. */
+/* The turned function has the same values as the original in the directions turned back. */
 static void harmonics(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* sRGB and linear colours: against long double, at known values, and there and back. */
+/* sRGB and linear colours: compared with long double, at known values, and round trips. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,8 +10,8 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* Relative. Where long double is no longer than double, as under valgrind, the expected value is off by an
-   ulp of the exponent 1 / 2.4 times the logarithm. */
+/* Relative. If long double is only double, as under valgrind, the expected value has an error of an ulp of
+   the exponent 1 / 2.4, times the logarithm. */
 static long double tolerance(void)
 {
     const volatile long double one = 1, little = 0x1p-60L;
@@ -39,7 +39,7 @@ static void curves_are_those_of_the_standard(void **state)
 {
     (void)state;
     for (int i = 0; i <= 20000; i++) {
-        const double at = i / 20011.0; /* no byte's value, but for the ends */
+        const double at = i / 20011.0; /* not the value of a byte, except at the ends */
         assert_near(ffd_srgb_to_linear(at), exact_linear(at), at);
         assert_near(ffd_srgb_from_linear(at), exact_srgb(at), at);
     }
@@ -52,7 +52,7 @@ static void curves_are_those_of_the_standard(void **state)
     }
 }
 
-/* So that another processor or compiler that gives other bits is found out. */
+/* Known bits, to detect a processor or compiler that gives others. */
 static void bits_are_known(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* STL: which encoding a file has, facets of text in every spacing, binary records, normals, saving and
+/* STL: detecting the encoding, facets of text with any spacing, binary records, normals, saving and
    comparing, on files written here. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -21,7 +21,7 @@ static mesh_document *opened(const char *text)
     return opened_bytes(stl, text, strlen(text));
 }
 
-/* A binary file. */
+/* A record of a binary file. */
 typedef struct record {
     float normal[3], corners[9];
     unsigned attribute;
@@ -65,7 +65,7 @@ static byte_buffer binary(const char *header, const record *records, size_t coun
         0, 0, 0, 1, 0, 0, 0, 1, 0                                                                            \
     }
 
-/* Positions as "0,0,0 1,0,0 0,1,0", a facet a bar. */
+/* Positions as "0,0,0 1,0,0 0,1,0", with a bar after each facet. */
 static void append_contents(const mesh_document *document, byte_buffer *text)
 {
     assert_int_equal(document->parts->normal_count, 0);
@@ -103,7 +103,7 @@ static void text_in_every_spacing_is_read(void **state)
              FACET("1 0 0", CORNERS) "endsolid b\nsolid\n" FACET("0 1 0", CORNERS) "endsolid\n",
          IS_TEXT " | " IS_TEXT " | " IS_TEXT},
         {"solid a\nendsolid a\n", ""},
-        /* normals of programs that had none */
+        /* normals written by programs without any */
         {"solid\n" FACET("nan -nan inf", CORNERS) "endsolid", IS_TEXT},
         {"solid\n" FACET("-1.#IND 1.#QNAN -1.#J", CORNERS) "endsolid", IS_TEXT},
         {"solid\n" FACET("0 0 1", "vertex nan 0 1e999\nvertex 1 2 3\nvertex 1 2 3\n") "endsolid",
@@ -169,7 +169,7 @@ static void binary_is_read_whatever_its_header_says(void **state)
             }
 }
 
-/* A header of 80 letters that begins with "solid" has no 0 in it: the size tells. */
+/* A header of 80 letters that begins with "solid" contains no NUL: the size decides. */
 static void a_full_header_that_says_solid_is_still_binary(void **state)
 {
     (void)state;
@@ -247,7 +247,7 @@ static void only_facets_of_finite_area_have_a_normal(void **state)
     }
 }
 
-/* What a move of the three corners to z x y (a turn) makes of a text's facet. */
+/* Checks the facet of a text after its corners were rotated (x y z to z x y). */
 static void assert_turned(const char *normal, bool renew, const char *expected)
 {
     static const double turned[9] = {0, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -270,9 +270,9 @@ static void normals_are_renewed_on_the_side_they_were(void **state)
 {
     (void)state;
     assert_turned("0 0 1.0", true, "1 0 0");
-    assert_turned("0 0.0\t0.99", true, "1 0.0\t0"); /* a number that stays keeps its text */
+    assert_turned("0 0.0\t0.99", true, "1 0.0\t0"); /* an unchanged number keeps its text */
     assert_turned("0 0 1.0", false, "0 0 1.0");
-    assert_turned("0 0 -1", true, "-1 0 0"); /* against the order of the corners */
+    assert_turned("0 0 -1", true, "-1 0 0"); /* opposite to the order of the corners */
     assert_turned("0 0.0 -0", true, "0 0.0 -0");
     assert_turned("nan nan nan", true, "1 0 0");
     assert_turned("-1.#IND -1.#IND -1.#IND", true, "1 0 0");
@@ -291,13 +291,13 @@ static void only_facets_that_turn_get_new_normals(void **state)
         place[i] = (double)records[i / 9].corners[i % 9];
     place[5] = -1.1; /* the first facet turns about its side on y */
     for (size_t i = 18; i < 27; i++)
-        place[i] = 1.0 / 3; /* the third collapses */
-    place[29] = 5;          /* a corner of the fourth */
+        place[i] = 1.0 / 3; /* the third one collapses */
+    place[29] = 5;          /* a corner of the fourth one */
     after[0].corners[5] = -1.1F;
     for (size_t i = 0; i < 9; i++)
         after[2].corners[i] = (float)(1.0 / 3);
     after[3].corners[2] = 5;
-    /* From the corner as it is written: a float. */
+    /* Computed from the corner as written, a float. */
     const double rise = (double)-1.1F, length = sqrt(1 + rise * rise);
     after[0].normal[0] = (float)(-rise / length);
     after[0].normal[2] = (float)(1 / length);
@@ -309,7 +309,7 @@ static void only_facets_that_turn_get_new_normals(void **state)
     assert_int_equal(save_bytes(document, &saved, NULL), FFD_OK);
     assert_int_equal(saved.size, after_file.size);
     for (size_t i = 0; i < saved.size; i++) {
-        /* the first normal, but for the last bit of a float */
+        /* the first normal, up to the last bit of a float */
         const bool normal = i >= STL_START && i < STL_START + 3 * sizeof(float);
         assert_true(saved.data[i] == (unsigned char)after_file.data[i] || normal);
     }

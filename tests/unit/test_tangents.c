@@ -1,5 +1,5 @@
-/* test_tangents.c - derivatives of control points by placeholders: those of each kind of move are what
-   differences of the lattices themselves say. */
+/* test_tangents.c - derivatives of control points by placeholders, compared with finite differences for each
+   kind of move. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -24,7 +24,7 @@
     "\"size\":[3,3,5],\"degree\":[2,2,2],\"knots\":[\"clamped\",\"clamped\",[0,0,0,1,1,2,2,2]],"             \
     "\"rest\":{\"box\":{\"min\":[-1,-1,0],\"max\":[1,1,4]}}"
 
-/* A value, one number or three, and moves that it stands in as {"$": "A"}. */
+/* A value, of one number or three, and moves that contain it as {"$": "A"}. */
 typedef struct sample {
     const char *rest, *moves;
     size_t size;
@@ -97,7 +97,7 @@ static const sample samples[] = {
      {1.2}},
 };
 
-/* The lattice with a value that is `by` more in one component. */
+/* Builds the lattice with one component of the value increased by `by`. */
 static ffd_lattice *built(const sample *s, size_t component, double by, bool derives)
 {
     static const double min[3] = {-1, 0.5, -1}, max[3] = {1, 2, 3};
@@ -128,7 +128,7 @@ static double weight_of(const ffd_lattice *lattice, size_t point)
     return lattice->deformed_weights ? lattice->deformed_weights[point] : 1;
 }
 
-/* The largest derivative. Compares with (8 (f(h) - f(-h)) - (f(2h) - f(-2h))) / 12h. */
+/* Returns the largest derivative. Compares with (8 (f(h) - f(-h)) - (f(2h) - f(-2h))) / 12h. */
 static double check_component(const sample *s, const ffd_lattice *lattice, const lattice_tangents *tangents,
                               size_t c)
 {

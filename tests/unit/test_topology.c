@@ -1,4 +1,4 @@
-/* Topology figures: known surfaces, and random meshes against plain counting. */
+/* Topology figures: known surfaces, and random meshes compared with plain counting. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,7 +18,7 @@
 #define MOST_FACES 64
 #define MOST_CORNERS 512
 
-/* A mesh being made by the tests. */
+/* A mesh that a test builds. */
 typedef struct sample {
     double positions[3 * MOST_VERTICES];
     size_t start[MOST_FACES + 1];
@@ -183,8 +183,8 @@ static void a_torus_has_euler_number_zero(void **state)
     expect(&s, (mesh_topology){.vertices = 16, .faces = 16, .edges = 32, .components = 1, .euler = 0});
 }
 
-/* A ladder of quads whose last rung is joined upside down: one edge has both its faces in the same direction.
- */
+/* A ladder of quads whose last rung is attached upside down: both faces of one edge use it in the same
+   direction. */
 static void a_moebius_band_has_one_non_manifold_edge(void **state)
 {
     (void)state;
@@ -237,7 +237,8 @@ static void a_bow_tie_has_one_non_manifold_vertex(void **state)
                                .euler = 1});
 }
 
-/* Two closed tetrahedra that share one vertex: half-edges refuse every face of the second at that vertex. */
+/* Two closed tetrahedra that share a vertex: half-edges cannot represent the faces of the second one
+   there. */
 static void solids_that_touch_share_a_non_manifold_vertex(void **state)
 {
     (void)state;
@@ -279,7 +280,7 @@ static void three_faces_make_an_edge_non_manifold(void **state)
                                .area = 3});
 }
 
-/* Faces without area in their numbers are counted apart; repeated neighbours are one corner. */
+/* Faces with fewer than three different corners are counted separately; equal neighbours are one corner. */
 static void degenerate_faces_are_counted_apart(void **state)
 {
     (void)state;
@@ -302,7 +303,7 @@ static void degenerate_faces_are_counted_apart(void **state)
                                .euler = 1});
 }
 
-/* A square ring as one face, cut open along 0-4: the cut is used twice and no boundary. */
+/* A square ring as one face, cut along 0-4: the cut is used twice, so it is not a boundary. */
 static void a_cut_within_one_face_is_no_boundary(void **state)
 {
     (void)state;
@@ -339,7 +340,7 @@ static void a_mesh_without_faces_has_only_vertices(void **state)
     expect(&s, (mesh_topology){.vertices = 4, .isolated_vertices = 4});
 }
 
-/* Vertices that others represent do not count as vertices; one that no face uses still does. */
+/* Vertices that repeat others do not count; a vertex that no face uses does. */
 static void repeated_vertices_are_not_counted(void **state)
 {
     (void)state;
@@ -362,7 +363,7 @@ static void a_concave_polygon_far_away_has_its_area(void **state)
 {
     (void)state;
     sample s;
-    sample_begin(&s, 12); /* an L of area 3, and vertices beyond it */
+    sample_begin(&s, 12); /* an L of area 3, and unused vertices */
     static const double corners[6][2] = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
     for (size_t i = 0; i < 6; i++)
         place(&s, i, corners[i][0] + 1e6, corners[i][1], -1e6);
@@ -395,7 +396,7 @@ static void separate_parts_are_separate_components(void **state)
                                .area = 6});
 }
 
-/* A cone of many faces: more than one half-edge vertex serves its tip, which must not show. */
+/* A cone of many faces: its tip needs several half-edge vertices, which must not show in the figures. */
 static void the_tip_of_a_large_fan_is_one_vertex(void **state)
 {
     (void)state;
@@ -422,7 +423,7 @@ static void the_tip_of_a_large_fan_is_one_vertex(void **state)
                                     .boundary_loops = 1,
                                     .boundary_edges = RIM,
                                     .euler = 1};
-    faces.face_count = got.edges == expected.edges ? RIM : 0; /* so that a failure does not print all faces */
+    faces.face_count = got.edges == expected.edges ? RIM : 0; /* limits the output of a failure */
     assert_same(&got, &expected, &faces);
     ffd_mesh_faces_free(&faces);
     assert_null(faces.positions);
@@ -433,7 +434,7 @@ static void the_tip_of_a_large_fan_is_one_vertex(void **state)
 /* Plain counting, for small meshes. */
 
 typedef struct counts {
-    int uses[MOST_VERTICES][MOST_VERTICES]; /* [a][b]: faces that pass from a to b */
+    int uses[MOST_VERTICES][MOST_VERTICES]; /* [a][b]: faces that run from a to b */
     size_t vertices;
 } counts;
 
@@ -442,7 +443,7 @@ static int uses_of(const counts *c, size_t a, size_t b)
     return c->uses[a][b] + c->uses[b][a];
 }
 
-/* The face's corners without equal neighbours; 0 where fewer than 3 differ. */
+/* The face's corners without equal neighbours; 0 if fewer than 3 are different. */
 static size_t clean_corners(const mesh_faces *faces, size_t face, uint32_t clean[MOST_CORNERS])
 {
     size_t count = 0, different = 0;
@@ -459,7 +460,7 @@ static size_t clean_corners(const mesh_faces *faces, size_t face, uint32_t clean
     return different < 3 ? 0 : count;
 }
 
-/* The number of sets that the pairs marked in joined make of the marked vertices. */
+/* The number of connected sets of marked vertices, with the pairs in joined as connections. */
 static size_t count_sets(bool joined[MOST_VERTICES][MOST_VERTICES], const bool marked[MOST_VERTICES])
 {
     bool reached[MOST_VERTICES] = {false};
@@ -559,7 +560,7 @@ static uint32_t random_below(uint32_t limit)
     return (uint32_t)((random_state >> 33) % limit);
 }
 
-/* Any corners at all. */
+/* Arbitrary corners. */
 static void make_wild(sample *s)
 {
     sample_begin(s, 1 + random_below(MOST_VERTICES));
@@ -573,8 +574,8 @@ static void make_wild(sample *s)
     }
 }
 
-/* Part of a 4x4 torus grid in any order, with some faces turned over and some vertices merged: near to a
- * surface. */
+/* Part of a 4x4 torus grid in random order, with some faces reversed and some vertices merged: almost a
+   surface. */
 static void make_near_surface(sample *s)
 {
     sample_begin(s, 16);
@@ -656,7 +657,7 @@ static void every_failed_allocation_is_reported(void **state)
     assert_true(failures > 5);
 }
 
-/* OpenMesh would complain on standard error. */
+/* OpenMesh would print complaints on standard error. */
 static void nothing_is_written_to_standard_error(void **state)
 {
     (void)state;

@@ -9,6 +9,8 @@
 
 #include <cmocka.h>
 
+#include "../support/draw.h"
+
 static void check(double degrees, double sine, double cosine)
 {
     double s, c;
@@ -36,20 +38,10 @@ static void multiples_of_30_and_45_degrees_are_exact(void **state)
         check(turn + 210, -0.5, -h);
         check(turn + 300, -h, 0.5);
     }
-    /* 10^22 is a double, and 280 more than a multiple of 360. */
+    /* 10^22 is exact in double, and is 280 modulo 360. */
     double sine, cosine;
     ffd_sincos_degrees(280, &sine, &cosine);
     check(1e22, sine, cosine);
-}
-
-/* splitmix64 */
-static double random_unit(uint64_t *state)
-{
-    uint64_t z = (*state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    z ^= z >> 31;
-    return (double)(z >> 11) * 0x1p-53;
 }
 
 static double ulps(double value, long double exact)
@@ -61,18 +53,18 @@ static double ulps(double value, long double exact)
 static void random_angles_are_within_one_ulp(void **state)
 {
     (void)state;
-    /* valgrind computes long double as double, which is too coarse to compare with. */
+    /* valgrind computes long double as double, which is too coarse as a reference. */
     const volatile long double small = LDBL_EPSILON;
     if (1 + small == 1)
         skip();
     const long double radian = acosl(-1.0L) / 180;
-    uint64_t seed = 12345;
+    draw d = {12345};
     for (int i = 0; i < 200000; i++) {
         static const double range[] = {45, 360, 1e6};
-        const double degrees = (2 * random_unit(&seed) - 1) * range[i % 3];
+        const double degrees = (2 * draw_unit(&d) - 1) * range[i % 3];
         double s, c;
         ffd_sincos_degrees(degrees, &s, &c);
-        /* Reduced exactly first: near a zero the long double product would not be exact enough. */
+        /* Reduced exactly first: near a zero the long double product would be too coarse. */
         const long double turn = fmodl((long double)degrees, 360), quadrant = floorl(turn / 90 + 0.5L);
         const long double x = (turn - 90 * quadrant) * radian, sine = sinl(x), cosine = cosl(x);
         const int q = (int)quadrant & 3;
@@ -87,9 +79,9 @@ static void random_angles_are_within_one_ulp(void **state)
 static void sine_is_odd_and_cosine_is_even(void **state)
 {
     (void)state;
-    uint64_t seed = 99;
+    draw d = {99};
     for (int i = 0; i < 20000; i++) {
-        const double degrees = random_unit(&seed) * 400;
+        const double degrees = draw_unit(&d) * 400;
         double s, c, s_back, c_back;
         ffd_sincos_degrees(degrees, &s, &c);
         ffd_sincos_degrees(-degrees, &s_back, &c_back);
@@ -130,16 +122,16 @@ static void the_arc_tangent_of_axes_and_diagonals_is_exact(void **state)
 static void the_arc_tangent_matches_the_c_library(void **state)
 {
     (void)state;
-    uint64_t seed = 54321;
+    draw d = {54321};
     double worst = 0;
     for (int i = 0; i < 300000; i++) {
-        /* All directions, and ratios of all sizes. */
-        const double angle = random_unit(&seed), size = ldexp(1, (int)(600 * random_unit(&seed)) - 300);
-        const double ratio = i % 2 ? 1 : ldexp(1, (int)(100 * random_unit(&seed)) - 50);
-        const double y = angle * size, x = (2 * random_unit(&seed) - 1) * size * ratio;
+        /* All directions, and ratios of all magnitudes. */
+        const double angle = draw_unit(&d), size = ldexp(1, (int)(600 * draw_unit(&d)) - 300);
+        const double ratio = i % 2 ? 1 : ldexp(1, (int)(100 * draw_unit(&d)) - 50);
+        const double y = angle * size, x = (2 * draw_unit(&d) - 1) * size * ratio;
         const double exact = atan2(y, x);
         worst = fmax(worst, fabs(ffd_arc_tangent(y, x) - exact));
-        /* Small angles to their own size. */
+        /* Small angles are compared relatively. */
         if (exact > 0 && fabs(ffd_arc_tangent(y, x) - exact) > 4 * DBL_EPSILON * exact)
             fail_msg("atan2(%a, %a): %.17g, expected %.17g", y, x, ffd_arc_tangent(y, x), exact);
     }

@@ -1,5 +1,4 @@
-/* test_update.c - files that are changed where they stand: nothing else is opened, waited for or overwritten.
- */
+/* test_update.c - files that are updated in place: no other file is opened, waited for or overwritten. */
 #define _XOPEN_SOURCE 700 /* mkdtemp, mkfifo */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -35,7 +34,7 @@ static void files_are_made_or_opened(void **state)
     assert_int_equal(size, 3);
     assert_true(ffd_update_read(file, 0, bytes, 3));
     assert_memory_equal(bytes, "\0\0x", 3);
-    assert_false(ffd_update_read(file, 1, bytes, 3)); /* the file ends before */
+    assert_false(ffd_update_read(file, 1, bytes, 3)); /* the file ends earlier */
     assert_false(ffd_update_read(file, UINT64_MAX - 1, bytes, 3));
     assert_false(ffd_update_write(file, UINT64_MAX - 1, bytes, 3));
     assert_false(ffd_update_write(file, INT64_MAX, bytes, 1));

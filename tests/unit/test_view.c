@@ -1,5 +1,5 @@
-/* test_view.c - the job of ffd view through the library: descriptions that are refused, its result, memory
-   that ends anywhere; and what it keeps of torn edges. */
+/* test_view.c - the job of ffd view through the library: refused descriptions, its result, failing memory;
+   and the list of torn edges. */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,7 +16,7 @@
 static char mesh[64], other[64], lattice[64], page[64], drawn[64];
 static const char *const lattices[] = {lattice};
 
-/* A square and a triangle beside it; the vertices from x = 2.5 on are outside. */
+/* A square and a triangle beside it; vertices from x = 2.5 on are outside. */
 #define MESH                                                                                                 \
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 3 0 0\nv 4 0 %d\ng a\nf 1 2 4 3\ng b\nf 2 5 4\nl 1 6\np 6\n"
 
@@ -104,7 +104,7 @@ static void descriptions_that_are_not_complete(void **state)
     (void)state;
 }
 
-/* The result is that of a check. */
+/* The result equals that of a check. */
 static void figures_are_those_of_a_check(void **state)
 {
     ffd_deform_desc job = describe_job();
@@ -142,7 +142,7 @@ static void what_is_written_is_recorded(void **state)
     (void)state;
 }
 
-/* Each allocation fails once; nothing is left then. */
+/* Each allocation fails once, and nothing is left over. */
 static void fail_everywhere(const ffd_view_desc *view)
 {
     long failures = 0;
@@ -181,14 +181,14 @@ static void memory_ends_anywhere(void **state)
     (void)state;
 }
 
-/* Of many edges those with the largest steps stay, each once, whichever end stays. */
+/* Of many edges those with the largest steps are kept, without duplicates, whichever end stays. */
 static void the_largest_torn_edges_are_kept(void **state)
 {
     torn_edges torn = {0};
     const uint32_t count = 3 * (uint32_t)TORN_EDGES_MOST;
     for (uint32_t turn = 0; turn < 2; turn++)
         for (uint32_t i = 0; i < count; i++) {
-            /* 7919 has no common factor with the count: all steps come, in no order. */
+            /* 7919 and the count are coprime: all steps occur, in a scrambled order. */
             const uint32_t step = (uint32_t)((uint64_t)i * 7919 % count);
             const uint32_t a = turn ? step + count : step, b = turn ? step : step + count;
             assert_int_equal(ffd_torn_edges_add(&torn, a, b, step + (turn ? 0.5 : 0), NULL), FFD_OK);

@@ -1,4 +1,5 @@
-/* test_view_index.c - the page that compares the jobs of a batch: text of files, keys, counts, the policy. */
+/* test_view_index.c - the page that compares the jobs of a batch: text from files, sort keys, counts, the
+   Content-Security-Policy. */
 #define _XOPEN_SOURCE 700
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,7 +12,7 @@
 #include "view/index.h"
 #include "view/page_text.h"
 
-/* The page of so many rows, to be freed. */
+/* Makes a page with these rows, freed by the caller. */
 static char *page_of(const char *name, const index_row *rows, size_t count)
 {
     view_index index;

@@ -1,6 +1,4 @@
-/* test_view_page.c - the page of ffd view: text from files, numbers, what is left out, scenes that are
- * broken.
- */
+/* test_view_page.c - the page of ffd view: text from files, numbers, omissions, broken scenes. */
 #define _XOPEN_SOURCE 700
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,7 +15,7 @@
 #include "view/page_data.h"
 #include "view/page_text.h"
 
-/* Without the geometry. */
+/* Without geometry. */
 #define LARGEST_PAGE 700000
 
 static char said[1000];
@@ -67,7 +65,7 @@ static char *page_of(const view_scene *scene, bool full)
     return read_page();
 }
 
-/* What is in the script element of that id; NULL: there is none. */
+/* Returns the content of the script element of that id; NULL: there is none. */
 static char *block_of(const char *page, const char *id)
 {
     char head[80];
@@ -93,7 +91,7 @@ static unsigned char *bytes_of(const char *page, const char *id, size_t expected
     return bytes;
 }
 
-/* A number or the first of an array behind a key of the page's JSON. */
+/* Returns the number, or an element of the array, of a key in the page's JSON. */
 static double value_of(const char *page, const char *key, int index)
 {
     char name[60];
@@ -202,12 +200,13 @@ static void a_page_allows_no_request(void **state)
     ffd_view_scene_free(&scene);
 }
 
-/* The bounds are half a step of each: of the box of both shapes, and of the largest component that moves. */
+/* Errors are at most half a quantization step: of the box of both shapes, and of the largest component of a
+   displacement. */
 static void numbers_come_back_to_half_a_step(void **state)
 {
     (void)state;
     const double low[3] = {0, 0.3, -1}, high[3] = {1, 1, 1};
-    view_scene scene = hand_grid(60); /* more vertices than are encoded at once */
+    view_scene scene = hand_grid(60); /* more vertices than are encoded at a time */
     hand_deform(&scene, low, high, wave);
     char *const page = page_of(&scene, false);
     const size_t count = scene.vertex_count;
@@ -217,7 +216,7 @@ static void numbers_come_back_to_half_a_step(void **state)
                          *const det = bytes_of(page, "data-det", 4 * count),
                          *const triangles = bytes_of(page, "data-triangle", 12 * scene.triangle_count);
     const double move_step = value_of(page, "moveStep", 0);
-    /* The box is that of both shapes: x falls, y grows. */
+    /* The box is that of both shapes: x decreases, y increases. */
     assert_true(value_of(page, "low", 0) < -0.015);
     assert_true(value_of(page, "low", 1) + 65535 * value_of(page, "step", 1) > 1.2499);
     assert_true(fabs(move_step - 0.25 / 32767) < 1e-12);
@@ -307,7 +306,7 @@ static void what_is_not_finite_is_left_out_and_said(void **state)
     scene.before[3 * 120 + 2] = -1e301;
     hand_part(&scene, "all", 0, scene.triangle_count);
     char *const page = page_of(&scene, false);
-    /* Corners of the square have two triangles or one, a vertex inside of it six. */
+    /* Corners of the square belong to one or two triangles, an inner vertex to six. */
     const size_t left = scene.triangle_count - 2 - 6 - 2;
     assert_int_equal(value_of(page, "vertices", 0), count - 3);
     assert_int_equal(value_of(page, "triangles", 0), left);
@@ -322,14 +321,14 @@ static void what_is_not_finite_is_left_out_and_said(void **state)
 }
 
 #define BONES 7
-#define FOLLOWED 5 /* bones of each vertex, one more than a page has */
+#define FOLLOWED 5 /* bones of each vertex: one more than a page keeps */
 
 static void free_nothing(mesh_skeleton *skeleton)
 {
     (void)skeleton;
 }
 
-/* Vertex v follows the bones v, v + 1 .. (of 7) by less and less, and its anchor is (v, 2v, -v). */
+/* Vertex v follows the bones v, v + 1 .. (modulo 7) with decreasing weights; its anchor is (v, 2v, -v). */
 static void give_rig(view_scene *scene, mesh_skeleton *skeleton, rig_node *nodes, rig_bone *bones,
                      rig_animation *animation)
 {
@@ -349,7 +348,7 @@ static void give_rig(view_scene *scene, mesh_skeleton *skeleton, rig_node *nodes
     for (size_t v = 0; v < count; v++) {
         skeleton->starts[v + 1] = FOLLOWED * (v + 1);
         for (size_t k = 0; k < FOLLOWED; k++)
-            /* The largest is not the first. */
+            /* The largest weight is not the first. */
             skeleton->influences[FOLLOWED * v + (k + 2) % FOLLOWED] =
                 (rig_influence){(uint32_t)((v + k) % BONES), 0.3f - 0.05f * (float)k};
         for (size_t a = 0; a < 3; a++)
@@ -357,7 +356,7 @@ static void give_rig(view_scene *scene, mesh_skeleton *skeleton, rig_node *nodes
     }
 }
 
-/* What the vertices that are left follow, and where they are, go along with their numbers. */
+/* Checks that bones and anchors of the remaining vertices match their numbers. */
 static void check_rig(const char *page, size_t vertices)
 {
     unsigned char *const numbers = bytes_of(page, "data-number", 4 * vertices);
@@ -417,7 +416,7 @@ static void a_scene_of_nothing_is_a_page(void **state)
     char *page = page_of(&scene, false);
     assert_non_null(strstr(said, "the mesh has no vertices"));
     ffd_free(page);
-    scene.vertex_count = 5; /* vertices alone are points */
+    scene.vertex_count = 5; /* a mesh of vertices alone is shown as points */
     scene.before = hand_array(5, 3 * sizeof(double));
     page = page_of(&scene, false);
     assert_int_equal(value_of(page, "points", 0), 5);

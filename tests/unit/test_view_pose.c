@@ -1,5 +1,5 @@
-/* test_view_pose.c - where vertices are at a time of an animation: skins, nodes, morph targets, before and
- * after. */
+/* test_view_pose.c - positions of vertices at a time of an animation: skins, nodes, morph targets, before and
+   after. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,10 +14,10 @@
 #define H 0.70710678118654752440f
 #define NEAR 2e-7
 
-/* An upper arm, which moves up by 4 in 2 seconds, and a lower arm at (1, 0, 0), which turns about z from 0 to
-   90 degrees; its default pose, 90 degrees, is not that of the inverse binds. On the upper arm is a mesh of
-   its own, twice as large, whose morph target goes from 0 to 1. */
-static const struct {         /* with the number of the first float of each */
+/* An upper arm that moves up by 4 in 2 seconds, and a lower arm at (1, 0, 0) that turns about z from 0 to 90
+   degrees. Its default pose, 90 degrees, is not that of the inverse bind matrices. The upper arm carries a
+   mesh without skin, scaled by 2, with a morph target whose weight goes from 0 to 1. */
+static const struct {         /* with the index of the first float of each */
     float positions[12];      /* 0 */
     float inverse_binds[32];  /* 12 */
     float weights[16];        /* 44 */
@@ -108,7 +108,7 @@ static void close_fixture(fixture *f)
     free(f->text);
 }
 
-/* Checks the eight vertices at a time, the skin's first. */
+/* Checks the eight vertices at a time; those of the skin come first. */
 static void check_pose(const fixture *f, int side, double time, const double expected[8][3])
 {
     double *found;
@@ -127,7 +127,7 @@ static void vertices_follow_their_joints_and_nodes(void **state)
     open_fixture(&f);
     const mesh_skeleton *const s = f.scene.rigs[0].skeleton;
     assert_int_equal(s->vertex_count, 8);
-    assert_int_equal(s->node_count, 3); /* the first node stands for its skin; the last moves nothing */
+    assert_int_equal(s->node_count, 3); /* the first node represents the skin; the last one moves nothing */
     assert_int_equal(gltf->read_anchors(s, false, &f.scene.rigs[0].anchors, NULL), FFD_OK);
     assert_int_equal(f.scene.rigs[0].anchors.target_count, 1);
     const double h = sqrt(0.5), c = cos(acos(-1) / 8), d = sin(acos(-1) / 8);

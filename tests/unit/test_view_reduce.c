@@ -1,4 +1,4 @@
-/* test_view_reduce.c - a page's mesh with fewer vertices: parts, marks, borders, and when memory runs out. */
+/* test_view_reduce.c - simplifying a page's mesh: parts, marks, borders, and failing memory. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -59,7 +59,7 @@ static void a_reduced_mesh_keeps_parts_marks_and_tears(void **state)
         flipped += mesh.flipped[t];
     }
     assert_true(fabs(area[0] - 0.5) < 1e-9 && fabs(area[1] - 0.5) < 1e-9);
-    /* All vertices between the parts stay in both: no crack opens. */
+    /* All vertices between the parts are kept in both: no gap opens. */
     for (size_t i = 0; i < 101; i++)
         assert_true(seam[0][i] && seam[1][i]);
     assert_true(flipped > 20 && flipped < mesh.parts[0].triangle_count);
@@ -67,7 +67,7 @@ static void a_reduced_mesh_keeps_parts_marks_and_tears(void **state)
     ffd_view_scene_free(&scene);
 }
 
-/* Triangles that share nothing are all border: no simplifier takes them. */
+/* Unconnected triangles consist of borders only: simplification cannot reduce them. */
 static void a_soup_is_reduced_too(void **state)
 {
     (void)state;
@@ -138,7 +138,7 @@ static void no_allocation_may_fail_unseen(void **state)
         assert_true(status == FFD_OK || status == FFD_E_MEMORY);
         ffd_page_mesh_free(&mesh);
     }
-    assert_in_range(count, is_under_valgrind() ? 1 : 7, 499); /* which has an operator new of its own */
+    assert_in_range(count, is_under_valgrind() ? 1 : 7, 499); /* valgrind has its own operator new */
     ffd_view_scene_free(&scene);
 }
 

@@ -74,7 +74,7 @@ static ffd_status read_stream(int fd, const char *name, file_input *input, ffd_e
     return status;
 }
 
-static ffd_status fail_room(const char *name, size_t size, ffd_error *error)
+static ffd_status fail_memory(const char *name, size_t size, ffd_error *error)
 {
     return ffd_fail_file(error, FFD_E_MEMORY, name, "out of memory for %zu bytes", size);
 }
@@ -85,7 +85,7 @@ static ffd_status read_file(int fd, const char *name, size_t size, file_input *i
 {
     unsigned char *const block = ffd_alloc(size, 1);
     if (!block)
-        return fail_room(name, size, error);
+        return fail_memory(name, size, error);
     size_t done = 0, got = 0;
     ffd_status status;
     do {
@@ -108,7 +108,7 @@ static ffd_status map_file(int fd, const char *name, const struct stat *info, fi
     const uint64_t identity[2] = {(uint64_t)info->st_dev, (uint64_t)info->st_ino};
     void *block = mmap(NULL, size, PROT_READ, MAP_PRIVATE, fd, 0);
     if (block == MAP_FAILED)
-        return errno == ENOMEM ? fail_room(name, size, error) : read_stream(fd, name, input, error);
+        return errno == ENOMEM ? fail_memory(name, size, error) : read_stream(fd, name, input, error);
     file_mapping *const mapping = ffd_mapping_note(block, size, name, fd == STDIN_FILENO ? NULL : identity);
     if (!mapping) {
         munmap(block, size);
@@ -215,7 +215,7 @@ static ffd_status lend(const void *bytes, size_t size, const char *name, file_in
     if (size > 0 && (uintptr_t)bytes % ALIGNED != 0) {
         copy = ffd_alloc(size, 1);
         if (!copy)
-            return fail_room(name, size, error);
+            return fail_memory(name, size, error);
         memcpy(copy, bytes, size);
     }
     *input = (file_input){.data = copy ? copy : size > 0 ? bytes : nothing, .size = size, .block = copy};

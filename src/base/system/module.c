@@ -84,10 +84,10 @@ static bool find_module(const char *file, char path[LONGEST_PATH])
 }
 
 /* Whether there is so much memory to spare. It is not touched, as an allocation may be. */
-static bool has_room(size_t bytes)
+static bool has_memory(size_t bytes)
 {
-    void *const room = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    return room != MAP_FAILED && munmap(room, bytes) == 0;
+    void *const mapped = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    return mapped != MAP_FAILED && munmap(mapped, bytes) == 0;
 }
 
 static bool is_wanted(const module_identity *found, const module_identity *wanted)
@@ -114,7 +114,7 @@ static ffd_status refuse_module(const char *path, const module_identity *found, 
 static ffd_status open_module(const module *of, const module_head **head, ffd_error *error)
 {
     char path[LONGEST_PATH];
-    if (!has_room(MODULE_BYTES))
+    if (!has_memory(MODULE_BYTES))
         return ffd_fail_memory(error);
     if (!find_module(of->wanted.file, path))
         return ffd_fail(error, FFD_E_UNSUPPORTED,
@@ -141,7 +141,7 @@ static bool prepare_thread(const module_head *head)
     static _Thread_local bool is_prepared __attribute__((tls_model("initial-exec")));
     if (is_prepared || !head->prepare)
         return true;
-    if (!has_room(THREAD_BYTES))
+    if (!has_memory(THREAD_BYTES))
         return false;
     head->prepare();
     is_prepared = true;

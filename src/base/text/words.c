@@ -18,9 +18,9 @@ bool ffd_word_is_known(const char *word, const char *const *known, size_t count)
 }
 
 /* Optimal string alignment distance. */
-size_t ffd_word_distance(const char *a, const char *b)
+size_t ffd_word_distance(const char *a, size_t a_length, const char *b)
 {
-    const size_t m = least(strlen(a), LONGEST), n = least(strlen(b), LONGEST);
+    const size_t m = least(a_length, LONGEST), n = least(strlen(b), LONGEST);
     size_t d[LONGEST + 1][LONGEST + 1];
     for (size_t i = 0; i <= m; i++)
         d[i][0] = i;
@@ -36,18 +36,21 @@ size_t ffd_word_distance(const char *a, const char *b)
     return d[m][n];
 }
 
+void ffd_nearest_offer(nearest_word *nearest, const char *known)
+{
+    const size_t distance = ffd_word_distance(nearest->word, nearest->length, known);
+    if (nearest->best && distance >= nearest->distance)
+        return;
+    nearest->best = known;
+    nearest->distance = distance;
+}
+
 const char *ffd_nearest_word(const char *word, const char *const *known, size_t count)
 {
-    const char *nearest = NULL;
-    size_t smallest = (size_t)-1;
-    for (size_t i = 0; i < count; i++) {
-        const size_t d = ffd_word_distance(word, known[i]);
-        if (d < smallest) {
-            smallest = d;
-            nearest = known[i];
-        }
-    }
-    return nearest;
+    nearest_word nearest = {.word = word, .length = strlen(word)};
+    for (size_t i = 0; i < count; i++)
+        ffd_nearest_offer(&nearest, known[i]);
+    return nearest.best;
 }
 
 const char *ffd_plural(uint64_t count, const char *one, const char *many)

@@ -10,11 +10,22 @@
 bool ffd_word_is_known(const char *word, const char *const *known, size_t count);
 
 /* The edit distance (insert, delete, replace, swap of neighbours) of two words, by their first letters where
-   they are long. */
-size_t ffd_word_distance(const char *a, const char *b);
+   they are long. a has a_length letters. */
+size_t ffd_word_distance(const char *a, size_t a_length, const char *b);
 
-/* The entry of known (count words) with the least edit distance to word, the first of equals; NULL when count
- * is 0. */
+/* The known word that is nearest to one that somebody wrote, by edit distance. Start with word and length set
+   and the rest 0; then offer the known words one by one. */
+typedef struct nearest_word {
+    const char *word;
+    size_t length;
+    const char *best; /* lent; the first of equals; NULL before a word was offered */
+    size_t distance;
+} nearest_word;
+
+/* Offers a known word: it becomes the best one if it is nearer than those before. */
+void ffd_nearest_offer(nearest_word *nearest, const char *known);
+
+/* The entry of known (count words) that is nearest to word, the first of equals; NULL when count is 0. */
 const char *ffd_nearest_word(const char *word, const char *const *known, size_t count);
 
 /* one where count is 1, else many: "1 vertex is", "0 vertices are". */

@@ -10,12 +10,8 @@
 
 static void read_floats(const unsigned char *restrict from, size_t count, double *restrict to)
 {
-    for (size_t i = 0; i < count; i++) {
-        const uint32_t bits = load_u32(from + 4 * i);
-        float value;
-        memcpy(&value, &bits, sizeof value);
-        to[i] = value;
-    }
+    for (size_t i = 0; i < count; i++)
+        to[i] = load_float(from + 4 * i);
 }
 
 static uint32_t read_u32(const unsigned char *restrict from, size_t count, uint32_t *restrict to)

@@ -82,6 +82,12 @@ static inline double mat_largest_entry(const double m[9])
     return largest;
 }
 
+/* Of the entries, row by row. */
+static inline double mat_square_sum(const double m[9])
+{
+    return vec_dot(m, m) + vec_dot(m + 3, m + 3) + vec_dot(m + 6, m + 6);
+}
+
 static inline double mat_determinant(const double m[9])
 {
     double c[3];

@@ -2,8 +2,8 @@
 #include "json/json_chars.h"
 #include <string.h>
 
-/* Reads a quoted cell from the quote at text[i]. Returns the index after its closing
-   quote; 0 if there is none. */
+/* Reads a quoted cell that begins at the quote text[i]. Returns the index behind its closing quote; 0: there
+   is none. */
 static size_t take_quoted(const char *text, size_t i, size_t size, byte_buffer *cell)
 {
     for (i++; i < size; i++) {
@@ -16,7 +16,7 @@ static size_t take_quoted(const char *text, size_t i, size_t size, byte_buffer *
     return 0;
 }
 
-/* The end of the cell at text[i], which is not quoted. */
+/* Returns the end of an unquoted cell at text[i]. */
 static size_t skip_plain(char separator, const char *text, size_t i, size_t size)
 {
     while (i < size && text[i] != separator && text[i] != '"')
@@ -31,11 +31,11 @@ bool ffd_csv_is_open(csv_scan *scan, const char *separators, const char *text, s
         if (scan->state == CSV_QUOTED)
             scan->state = c == '"' ? CSV_QUOTE_ENDS : CSV_QUOTED;
         else if (c == '"' && scan->state != CSV_PLAIN && scan->state != CSV_BROKEN)
-            scan->state = CSV_QUOTED; /* begins, or was one of two */
+            scan->state = CSV_QUOTED; /* opening quote, or the second of a doubled one */
         else if (c && strchr(separators, c) && scan->state != CSV_BROKEN)
             scan->state = CSV_CELL_BEGINS;
         else if (c == '"' || scan->state == CSV_QUOTE_ENDS)
-            scan->state = CSV_BROKEN; /* it is not a row, whatever follows */
+            scan->state = CSV_BROKEN; /* not a valid row, whatever follows */
         else if (scan->state == CSV_CELL_BEGINS)
             scan->state = CSV_PLAIN;
     }

@@ -9,7 +9,7 @@
 
 hash128 ffd_file_identity(const char *path)
 {
-    char *const whole = ffd_path_resolve(path); /* NULL: nothing is there yet */
+    char *const whole = ffd_path_resolve(path); /* NULL: the folder does not exist yet */
     char *const folder = ffd_path_folder(whole ? whole : path);
     char *const resolved = folder && !whole ? ffd_path_resolve(folder) : NULL;
     const char *const start = resolved ? resolved : folder ? folder : "";
@@ -22,7 +22,7 @@ hash128 ffd_file_identity(const char *path)
     return hash;
 }
 
-/* 0: it is free. */
+/* Returns 0 for a free slot. */
 static uint64_t number_of(const file_entry *entry)
 {
     unsigned char bytes[8] = {0};
@@ -35,13 +35,13 @@ static int compare(const void *a, const void *b)
     return memcmp(a, b, sizeof(((file_entry *)0)->file));
 }
 
-/* Among those that are sorted; NULL: it is not there. */
+/* Searches the sorted entries; NULL: not found. */
 static file_entry *find_sorted(const file_table *table, const file_entry *entry)
 {
     return table->count ? bsearch(entry, table->sorted, table->count, sizeof *entry, compare) : NULL;
 }
 
-/* The slot of a recent one, or the free one where it belongs. */
+/* Returns the slot of a recent entry, or the free slot where it belongs. */
 static file_entry *find_recent(const file_table *table, const file_entry *entry)
 {
     size_t i = (size_t)load_u64(entry->file) & (table->slots - 1);
@@ -50,14 +50,14 @@ static file_entry *find_recent(const file_table *table, const file_entry *entry)
     return &table->recent[i];
 }
 
-/* Sorts the recent ones in among the others, from the last one on: nothing is copied. */
+/* Merges the recent entries into the sorted ones, from the end, in place. */
 static void merge(file_table *table)
 {
     size_t kept = 0, to = table->count + table->used, from = table->count;
     for (size_t i = 0; i < table->slots; i++)
         if (number_of(&table->recent[i]))
             table->recent[kept++] = table->recent[i];
-    if (kept > 0) /* there may be no array at all */
+    if (kept > 0) /* the array may be NULL */
         qsort(table->recent, kept, sizeof *table->recent, compare);
     while (kept > 0) {
         const bool is_recent = from == 0 || compare(&table->recent[kept - 1], &table->sorted[from - 1]) > 0;
@@ -67,9 +67,9 @@ static void merge(file_table *table)
     table->used = 0;
 }
 
-/* Makes room for a recent one. There are slots for a sixteenth of all: few beside them, but not so few that
-   they are sorted in often. */
-static bool make_room(file_table *table)
+/* Reserves a slot for a recent entry. There are slots for a sixteenth of all entries: little memory, yet
+   merges are rare. */
+static bool reserve_slot(file_table *table)
 {
     if (table->used < table->slots / 2)
         return true;
@@ -99,7 +99,7 @@ ffd_status ffd_files_put(file_table *table, const hash128 *file, uint64_t number
     memcpy(entry.file, file->bytes, sizeof entry.file);
     memcpy(entry.number, bytes, sizeof entry.number);
     file_entry *place = find_sorted(table, &entry);
-    if (!place && !make_room(table))
+    if (!place && !reserve_slot(table))
         return ffd_fail_memory(error);
     place = find_sorted(table, &entry);
     if (!place) {

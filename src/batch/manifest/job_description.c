@@ -21,7 +21,7 @@ void ffd_description_add(job_description *description, job_part part, const char
         description->statements[description->count++] = (job_statement){part, name_begin, value_begin};
 }
 
-/* What is between values: brackets, commas, colons. */
+/* Appends the punctuation between values: brackets, commas, colons. */
 static void append_punctuation(const char *c, const char *last, byte_buffer *out)
 {
     for (; c < last; c++)
@@ -43,7 +43,7 @@ static void append_compact(const json_span *tree, uint32_t top, byte_buffer *out
             at = text + value->key_end;
         }
         append_punctuation(at, begin, out);
-        /* A whole number has no sign when it is 0. */
+        /* JSON's -0 as an integer becomes 0. */
         const bool is_zero = end - begin == 2 && memcmp(begin, "-0", 2) == 0;
         ffd_buffer_append(out, is_zero ? begin + 1 : begin, (size_t)(end - begin) - is_zero);
         at = end;

@@ -17,7 +17,8 @@ static bool is_json(const char *text)
     return parsed;
 }
 
-/* The JSON of a number that is written in another way (to be freed); NULL: the cell is none. */
+/* Converts a cell to a JSON number; freed by the caller. NULL: the cell is not a number. flaw: gets the first
+   cell that is not written as JSON. */
 static char *number_of(const job_commons *commons, const char *cell, csv_flaw *flaw)
 {
     byte_buffer text = {0};
@@ -29,7 +30,7 @@ static char *number_of(const job_commons *commons, const char *cell, csv_flaw *f
         ffd_free(number);
         number = NULL;
     }
-    /* A decimal comma belongs to the table. */
+    /* In a table with decimal commas, a comma is not a flaw. */
     const bool is_flaw = number && !flaw->cell[0] && !(commons->decimal_comma && strchr(cell, ','));
     if (is_flaw) {
         snprintf(flaw->cell, sizeof flaw->cell, "%s", cell);
@@ -38,7 +39,7 @@ static char *number_of(const job_commons *commons, const char *cell, csv_flaw *f
     return number;
 }
 
-/* Sets a placeholder to a cell. */
+/* Sets a placeholder to the value of a cell. */
 static void set_cell(const job_commons *commons, const char *column, const char *cell, job_description *job,
                      csv_flaw *flaw)
 {
@@ -52,7 +53,7 @@ static void set_cell(const job_commons *commons, const char *column, const char 
     ffd_free(number);
 }
 
-/* Adds a path, which is relative to folder ("": to the current one). */
+/* Adds a path, relative to folder ("": the current one). */
 static void add_path(job_description *job, job_part part, const char *folder, const char *path)
 {
     if (!*folder || ffd_path_is_absolute(path)) {
@@ -76,8 +77,8 @@ static void add_lattices(job_description *job, const job_commons *commons)
             ffd_description_add(job, JOB_LATTICE, NULL, commons->lattices[i]);
 }
 
-/* In the folder of outputs, the output has the name of the input; of one that makes several, with the number
-   of the row: STEM-ROW.EXT. */
+/* Adds the output: the input's name in the folder of outputs. number: appended if the input has several
+   outputs (STEM-ROW.EXT); 0: not appended. */
 static void add_output(job_description *job, const char *folder, const char *input, uint64_t number)
 {
     char *const stem = ffd_path_stem(input);
@@ -104,8 +105,8 @@ bool ffd_column_is_ignored(const char *ignored, const char *column)
     return false;
 }
 
-/* "in", "out", "lattice" are files, other columns values of placeholders. Relative paths start at the table's
-   folder, those of outputs at the batch's. */
+/* The columns "in", "out" and "lattice" are files; others are values of placeholders. Paths are relative to
+   the table's folder, those of outputs to --out-dir. */
 static void describe_cell(const job_commons *commons, const char *column, const char *cell,
                           job_description *job, csv_flaw *flaw)
 {

@@ -18,24 +18,25 @@
 struct job_source {
     job_source_desc desc;
     batch_frame frame;
-    char *folder;       /* the frame's */
-    uint64_t count;     /* of jobs so far, in all shards */
-    uint64_t line;      /* that the last one begins in */
-    line_reader reader; /* of manifest or table */
+    char *folder;       /* for frame.folder */
+    uint64_t count;     /* jobs so far, of all shards */
+    uint64_t line;      /* first line of the last job */
+    line_reader reader; /* of the manifest or table */
     csv_row columns, row;
-    char separator;       /* of cells; 0: not known yet */
-    bool numbers_outputs; /* a mesh that serves several rows is written with the number of the row */
-    file_table meshes;    /* how many rows (2: several) each serves; not known of a stream, where all may */
-    mesh_flaws flaws;     /* of the table */
-    csv_scan scan;        /* of the row */
-    bool row_goes_on;     /* in lines that have not come yet */
-    bool is_lost;         /* a row was too long: where the next one begins is not known */
-    file_list files;      /* of a pattern */
+    char separator;       /* of the table's cells; 0: not known yet */
+    bool numbers_outputs; /* several rows may use one mesh, so outputs get the number of the row */
+    file_table
+        meshes; /* number of rows that use each mesh (2: several); unknown for a stream, where all may */
+    mesh_flaws flaws; /* of the table */
+    csv_scan scan;    /* of the current row */
+    bool row_goes_on; /* the row continues in a line that has not arrived yet */
+    bool is_lost;     /* a row was too long, so the start of the next one is unknown */
+    file_list files;  /* matches of the pattern */
 };
 
 /* Lines */
 
-/* Blank lines are not jobs. */
+/* Blank lines are skipped. */
 static bool is_blank(const byte_buffer *line)
 {
     for (size_t i = 0; i < line->size; i++)
@@ -44,7 +45,7 @@ static bool is_blank(const byte_buffer *line)
     return true;
 }
 
-/* Whether a line is of NUL bytes, as in a file that was not written to the end before a crash. */
+/* Whether a line consists of NUL bytes, as after a crash during writing. */
 static bool is_zeros(const byte_buffer *line)
 {
     for (size_t i = 0; i < line->size; i++)
@@ -63,7 +64,7 @@ static void skip_mark(line_reader *reader)
     memmove(line->data, line->data + 3, line->size + 1);
 }
 
-/* The next line that is not blank. */
+/* Reads the next line that is not blank. */
 static ffd_status next_line(line_reader *reader, line_state *state, ffd_error *error)
 {
     ffd_status status;
@@ -87,7 +88,7 @@ static ffd_status read_manifest_line(job_source *source, batch_job *job)
 
 /* Tables */
 
-/* A row can go on over several lines. */
+/* Reads a row, which may extend over several lines. */
 static ffd_status next_row(job_source *source, csv_row *row, line_state *state, bool *valid, ffd_error *error)
 {
     line_reader *const reader = &source->reader;
@@ -106,7 +107,7 @@ static ffd_status next_row(job_source *source, csv_row *row, line_state *state, 
         status = ffd_lines_next(reader, true, state, error);
     source->row_goes_on = *state == LINE_LATER && source->scan.at > 0;
     if (*state == LINE_NONE && source->scan.at > 0)
-        *state = LINE_READ; /* the text has ended within a row */
+        *state = LINE_READ; /* the text ended inside quotes */
     if (status || *state != LINE_READ)
         return status;
     source->is_lost = reader->too_long;
@@ -159,7 +160,7 @@ static bool check_row(const job_source *source, bool valid, batch_job *job)
     return ffd_csv_is_text(&source->row) || refuse_row(source, job, "a cell is not text in UTF-8");
 }
 
-/* The mesh of a row as a path from here (to be freed); NULL: it has none, or memory runs out. */
+/* Returns the path of a row's mesh, freed by the caller; NULL: it has none, or memory runs out. */
 static char *mesh_of(const job_source *source)
 {
     const job_commons commons = list_commons(source);
@@ -173,7 +174,7 @@ static char *mesh_of(const job_source *source)
     return path;
 }
 
-/* Whether the mesh of a row serves others too, as far as that is known. */
+/* Whether other rows use the same mesh, or may do so. */
 static bool is_repeated(const job_source *source)
 {
     uint64_t rows;
@@ -213,7 +214,7 @@ static bool has_column(const job_source *source, const char *column)
     return false;
 }
 
-/* A name that no column has is a mistake. */
+/* Refuses names of ignored columns that the table does not have. */
 static ffd_status check_ignored(const job_source *source, ffd_error *error)
 {
     const char *word = source->desc.ignored;
@@ -228,7 +229,7 @@ static ffd_status check_ignored(const job_source *source, ffd_error *error)
     return FFD_OK;
 }
 
-/* Where lines end as on old Macs, the whole table is one line. */
+/* Whether lines end in CR alone (old Macs): then the whole table looks like one line. */
 static bool has_lone_return(const char *name)
 {
     const char *found = strchr(name, '\r');
@@ -262,7 +263,7 @@ static ffd_status check_columns(const job_source *source, ffd_error *error)
     return check_ignored(source, error);
 }
 
-/* Waits for the first row: without it there is nothing to do. */
+/* Waits for the first row, which names the columns. */
 static ffd_status read_columns(job_source *source, ffd_error *error)
 {
     line_state state;
@@ -301,7 +302,7 @@ static int compare_names(const void *a, const void *b)
     return strcmp(ffd_path_name(*(const char *const *)a), ffd_path_name(*(const char *const *)b));
 }
 
-/* Two jobs with one output would overwrite each other's. */
+/* Refuses files of equal names: their outputs would overwrite each other. */
 static ffd_status refuse_equal_names(const job_source *source, ffd_error *error)
 {
     const file_list *const files = &source->files;
@@ -370,7 +371,7 @@ static ffd_status count_row(const job_source *other, file_table *meshes, ffd_err
     return is_known && rows > 1 ? FFD_OK : ffd_files_put(meshes, &file, is_known ? 2 : 1, error);
 }
 
-/* Reads the whole table beforehand for the meshes that serve several rows. */
+/* Reads the whole table once, to find meshes that several rows use. */
 static ffd_status count_meshes(job_source *source, ffd_error *error)
 {
     job_source other = {.desc = source->desc, .frame = source->frame};
@@ -416,7 +417,7 @@ ffd_status ffd_jobs_open(const job_source_desc *desc, job_source **source, ffd_e
     return status;
 }
 
-/* The next job of any shard. */
+/* Finds the next job of any shard. */
 static ffd_status find_next(job_source *source, line_state *state, bool *valid, ffd_error *error)
 {
     *valid = true;
@@ -432,7 +433,7 @@ static ffd_status find_next(job_source *source, line_state *state, bool *valid, 
     return FFD_OK;
 }
 
-/* The same; a text without a job before NUL bytes is none. */
+/* Likewise; a text whose only content is NUL bytes is an error. */
 static ffd_status advance(job_source *source, line_state *state, bool *valid, ffd_error *error)
 {
     const ffd_status status = find_next(source, state, valid, error);
@@ -490,7 +491,7 @@ double ffd_jobs_fraction(const job_source *source)
     if (source->files.count)
         return (double)source->count / (double)source->files.count;
     const byte_stream *const stream = source->reader.stream;
-    if (!stream) /* a pattern that was not looked through to its end */
+    if (!stream) /* the pattern was not searched to its end */
         return -1;
     const uint64_t size = ffd_stream_size(stream);
     return size ? (double)ffd_stream_position(stream) / (double)size : -1;

@@ -7,14 +7,14 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A job on its way from its description to words. */
+/* A job being turned from a description into words. */
 typedef struct job_maker {
     const batch_frame *frame;
     const job_description *description;
     batch_job *job;
 } job_maker;
 
-/* Options of `ffd deform` that are the batch's own business, or have a member of their own. */
+/* Options of `ffd deform` that belong to the batch, or have members of their own in a manifest. */
 static const char *const reserved[] = {
     "jobs",          "shard", "resume",  "journal",   "timeout", "stop",       "keep-going",
     "dry-run",       "in",    "csv",     "lattice",   "depfile", "out-dir",    "report",
@@ -22,7 +22,7 @@ static const char *const reserved[] = {
     "view",          "morph", "clip",    "positions", "dtype"};
 enum { RESERVED = sizeof reserved / sizeof *reserved };
 
-/* Options whose values are files, whose relative paths start where the manifest's do. */
+/* Options whose values are paths, relative to the manifest's folder. */
 static const char *const files[] = {"embedding"};
 enum { FILES = sizeof files / sizeof *files };
 
@@ -45,13 +45,13 @@ static bool refuse(const job_maker *maker, const char *format, ...)
     return false;
 }
 
-/* A word with its final 0. */
+/* Appends a word with its terminating 0. */
 static void add_word(byte_buffer *words, const char *word)
 {
     ffd_buffer_append(words, word, strlen(word) + 1);
 }
 
-/* An option with its value, or without one (NULL). */
+/* Appends an option. value: NULL if it takes none. */
 static void add_option(byte_buffer *words, const char *name, const char *value)
 {
     ffd_buffer_text(words, "--");
@@ -60,7 +60,7 @@ static void add_option(byte_buffer *words, const char *name, const char *value)
     add_word(words, value ? value : "");
 }
 
-/* The same as an argument; and as content, if it can change the output. */
+/* Adds an option to the arguments and, if it can change the output, to the content. */
 static void add_argument(batch_job *job, const char *name, const char *value)
 {
     add_option(&job->words, name, value);
@@ -69,7 +69,7 @@ static void add_argument(batch_job *job, const char *name, const char *value)
         add_option(&job->content, name, value);
 }
 
-/* Makes a path relative to the manifest's folder, and not look like an option. Free with ffd_free. */
+/* Returns a path relative to the current folder that does not look like an option. Freed with ffd_free. */
 static char *resolve(const batch_frame *frame, const char *path)
 {
     if (ffd_path_is_absolute(path))
@@ -79,7 +79,7 @@ static char *resolve(const batch_frame *frame, const char *path)
     return *path == '-' ? ffd_path_join(".", path) : ffd_text_copy(path);
 }
 
-/* A file as an argument: of an option (NULL: none). */
+/* Adds a path as an argument, as the value of an option or (option NULL) alone. */
 static bool add_file(job_maker *maker, const char *option, const char *path)
 {
     batch_job *const job = maker->job;
@@ -95,7 +95,7 @@ static bool add_file(job_maker *maker, const char *option, const char *path)
     return resolved;
 }
 
-/* Whether a member can be the path of a file of a job. */
+/* Checks that a member's value can be a path. */
 static bool check_path(const job_maker *maker, const char *path, const char *key)
 {
     if (!*path)
@@ -127,7 +127,7 @@ static bool add_lattices(job_maker *maker)
     return true;
 }
 
-/* The name of a morph target as the command line takes it. */
+/* Quotes a morph target's name for the command line. */
 static void quote_name(const char *name, byte_buffer *text)
 {
     ffd_buffer_text(text, "'");
@@ -139,7 +139,7 @@ static void quote_name(const char *name, byte_buffer *text)
     ffd_buffer_text(text, "'");
 }
 
-/* A word "--morph='NAME'=PATH", of which the path is no content. */
+/* Adds "--morph='NAME'=PATH". The path is not part of the content. */
 static bool add_morph(job_maker *maker, const char *name, const char *path)
 {
     byte_buffer *const words = &maker->job->words, *const content = &maker->job->content;
@@ -160,7 +160,7 @@ static bool add_morph(job_maker *maker, const char *name, const char *path)
     return true;
 }
 
-/* Each lattice that makes a morph target of its own, in place of those that act together. */
+/* Adds the lattices that make a morph target each, if there are any. */
 static bool add_morphs(job_maker *maker)
 {
     const job_description *const description = maker->description;
@@ -234,7 +234,7 @@ static bool add_options(job_maker *maker)
     return true;
 }
 
-/* A word "--set=NAME=value". */
+/* Appends "--set=NAME=value". */
 static void add_setting(byte_buffer *words, const char *name, const char *value)
 {
     ffd_buffer_text(words, "--set=");
@@ -261,8 +261,7 @@ static bool add_settings(job_maker *maker)
     return true;
 }
 
-/* Whether a statement of the job overrides an option of the batch. Settings (NAME=VALUE) are
-   compared by their names. */
+/* Whether a statement of the job overrides an option of the batch. Settings are compared by their names. */
 static bool overrides(const job_description *description, const job_statement *statement,
                       const batch_default *option)
 {
@@ -277,7 +276,7 @@ static bool overrides(const job_description *description, const job_statement *s
     return strncmp(option->value, name, length) == 0 && option->value[length] == '=';
 }
 
-/* Adds the options of the batch that the job does not set. */
+/* Adds the options of the batch that the job does not override. */
 static void add_defaults(job_maker *maker)
 {
     const job_description *const description = maker->description;
@@ -291,7 +290,7 @@ static void add_defaults(job_maker *maker)
     }
 }
 
-/* Whether an option without a value is set, by the job or else by the batch. */
+/* Whether an option without value is set, by the job or else by the batch. */
 static bool has_flag(const job_maker *maker, const char *name)
 {
     const job_description *const description = maker->description;
@@ -386,7 +385,7 @@ const char *ffd_job_output_name(const batch_job *job)
 const char *ffd_job_option(const batch_job *job, const char *name)
 {
     const size_t length = strlen(name);
-    const char *word = job->words.data, *value = NULL; /* of several the last one holds */
+    const char *word = job->words.data, *value = NULL; /* the last one wins */
     for (size_t i = 0; i < job->word_count; i++, word += strlen(word) + 1)
         if (strncmp(word, "--", 2) == 0 && strncmp(word + 2, name, length) == 0 && word[2 + length] == '=')
             value = word + 2 + length + 1;

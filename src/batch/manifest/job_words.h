@@ -1,4 +1,4 @@
-/* job_words.h - a job as the words of `ffd deform` that do it. */
+/* job_words.h - turns a job's description into the words of an `ffd deform` command. */
 #ifndef FFD_BATCH_MANIFEST_JOB_WORDS_H
 #define FFD_BATCH_MANIFEST_JOB_WORDS_H
 
@@ -8,43 +8,43 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* An option that holds for all jobs that do not have it themselves. */
+/* An option of the batch, for jobs that do not override it. */
 typedef struct batch_default {
-    const char *name;  /* "normals" */
+    const char *name;  /* without dashes: "normals" */
     const char *value; /* NULL: it takes none */
 } batch_default;
 
-/* What all jobs of a batch have in common. */
+/* What all jobs of a batch share. Nothing is owned. */
 typedef struct batch_frame {
-    const char *name;   /* of the manifest, in messages; not owned, as all here */
-    const char *folder; /* that relative paths start from; "" for the current one */
+    const char *name;   /* of the manifest, for messages */
+    const char *folder; /* base of relative paths; "": the current one */
     const batch_default *defaults;
     size_t default_count;
-    bool resume;    /* jobs that cannot be resumed are refused */
-    bool pictures;  /* likewise those that have no OUT to name a picture after */
-    bool positions; /* jobs need no OUT: each has a row of positions; those without one are refused */
+    bool resume;    /* refuse jobs that cannot be resumed */
+    bool pictures;  /* refuse jobs without OUT, after which pictures are named */
+    bool positions; /* jobs need no OUT, as each has a row of positions; refuse jobs without positions */
 } batch_frame;
 
 typedef struct batch_job {
-    uint64_t line;     /* in the manifest, from 1 */
-    uint64_t row;      /* its number among the jobs of all shards, from 0 */
-    char *input;       /* as the manifest names it; NULL where it does not */
-    char *output;      /* likewise; NULL too where the input is overwritten, or no mesh is written */
-    char *target;      /* where the output goes; NULL likewise, but where the input is overwritten */
-    byte_buffer words; /* arguments of `ffd deform`, each ended by 0 */
+    uint64_t line;     /* of the manifest, from 1 */
+    uint64_t row;      /* number among the jobs of all shards, from 0 */
+    char *input;       /* as in the manifest; NULL: missing */
+    char *output;      /* as in the manifest; NULL: in place, or no mesh is written */
+    char *target;      /* path of the output, also in place; NULL: no mesh is written */
+    byte_buffer words; /* arguments of `ffd deform`, each terminated by 0 */
     size_t word_count;
-    byte_buffer content; /* what the job says, but for where files are: each word ended by 0 */
+    byte_buffer content; /* words that determine the output, without paths; each terminated by 0 */
     ffd_error error;     /* what is wrong with the line; FFD_OK: nothing */
 } batch_job;
 
-/* Makes an empty job, whose line is set, do what a description says. What is wrong with that comes into the
-   job's error; returns FFD_OK or FFD_E_MEMORY. */
+/* Fills an empty job, whose line is set, from a description. Errors in the description are stored in
+   job->error. Returns FFD_OK or FFD_E_MEMORY. */
 ffd_status ffd_job_make(const batch_frame *frame, const job_description *description, batch_job *job);
-/* Returns the name of its output; NULL if it has none. */
+/* Returns the output's name for messages; NULL: none. */
 const char *ffd_job_output_name(const batch_job *job);
-/* Returns the value of an option among its words; NULL: it has none. */
+/* Returns the value of an option of the job; NULL: not set. */
 const char *ffd_job_option(const batch_job *job, const char *name);
-/* Leaves an empty job. */
+/* Frees the texts; leaves an empty job. */
 void ffd_job_free(batch_job *job);
 
 #endif

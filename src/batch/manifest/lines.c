@@ -18,7 +18,7 @@ static void begin_line(line_reader *reader, bool append)
     }
 }
 
-/* Drops the line break, and ends the line by 0. */
+/* Removes the line break, and terminates the line by 0. */
 static ffd_status end_line(line_reader *reader, ffd_error *error)
 {
     if (reader->line.size > 0 && reader->line.data[reader->line.size - 1] == '\r')
@@ -30,11 +30,11 @@ static ffd_status end_line(line_reader *reader, ffd_error *error)
     return FFD_OK;
 }
 
-/* Takes bytes up to the line's end, as far as they have come. */
+/* Reads bytes up to the end of the line, as far as they have arrived. */
 static ffd_status take_bytes(line_reader *reader, line_state *state, ffd_error *error)
 {
     ffd_status status;
-    /* A line may be endless. */
+    /* A line may be endless, so interrupts must be noticed. */
     while (ffd_stream_is_ready(reader->stream) && !ffd_interrupt_requested()) {
         const int c = ffd_stream_byte(reader->stream, &status, error);
         const char byte = (char)c;

@@ -1,4 +1,4 @@
-/* lines.h - a text file or stream line by line, in the memory of one line. */
+/* lines.h - reads a text file or stream line by line, with one line in memory. */
 #ifndef FFD_BATCH_MANIFEST_LINES_H
 #define FFD_BATCH_MANIFEST_LINES_H
 
@@ -7,29 +7,29 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Longest line, in bytes. */
+/* The longest line, in bytes. */
 #define LINE_MOST ((size_t)1 << 20)
 
 typedef struct line_reader {
     byte_stream *stream;
-    uint64_t number;  /* of the line read last, from 1 */
-    byte_buffer line; /* the line read last, without its line break, with a 0 after it */
-    bool is_partial;  /* the rest of it has not come yet */
-    bool too_long;    /* only its first LINE_MOST bytes are there */
+    uint64_t number;  /* of the last line, from 1 */
+    byte_buffer line; /* the last line, without its line break, terminated by 0 */
+    bool is_partial;  /* its rest has not arrived yet */
+    bool too_long;    /* only its first LINE_MOST bytes are stored */
 } line_reader;
 
-/* path "-": standard input. name must outlive the reader. Errors: FFD_E_IO. */
+/* Opens a file. path "-": standard input. name: for messages; must outlive the reader. Errors: FFD_E_IO. */
 ffd_status ffd_lines_open(const char *path, const char *name, line_reader *reader, ffd_error *error);
 typedef enum line_state {
-    LINE_NONE, /* there are no more */
+    LINE_NONE, /* end of the text */
     LINE_READ,
-    LINE_LATER /* the line is not complete yet: call again with the same append */
+    LINE_LATER /* the line is incomplete: call again with the same append */
 } line_state;
 
-/* Reads the next line, as far as it has come. append: to what is there, after a line break. Errors:
-   FFD_E_IO, FFD_E_MEMORY. */
+/* Reads the next line, as far as it has arrived. append: add it to the current one, after a line break.
+   Errors: FFD_E_IO, FFD_E_MEMORY. */
 ffd_status ffd_lines_next(line_reader *reader, bool append, line_state *state, ffd_error *error);
-/* Closes the file, and frees the line. */
+/* Closes the file and frees the line. */
 void ffd_lines_close(line_reader *reader);
 
 #endif

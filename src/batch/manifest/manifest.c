@@ -6,8 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A line on its way to a description. What is wrong with a member becomes a part of it: the words of the
-   members before that are made all the same. */
+/* Turns a line into a description. An invalid member becomes a statement JOB_WRONG, so that earlier members
+   still take effect. */
 typedef struct line_parser {
     const json_span *tree;
     job_description description;
@@ -16,7 +16,7 @@ typedef struct line_parser {
 static const char *const members[] = {"in", "out", "lattice", "morph", "clip", "options", "set"};
 enum { MEMBERS = sizeof members / sizeof *members };
 
-/* Something is wrong with a member. */
+/* Records what is wrong with a member. */
 static void refuse(line_parser *parser, const char *member, const char *format, ...) FFD_PRINTF(3, 4);
 
 static void refuse(line_parser *parser, const char *member, const char *format, ...)
@@ -34,7 +34,7 @@ static bool is_kind(const line_parser *parser, uint32_t value, json_kind kind)
     return parser->tree->values[value].kind == kind;
 }
 
-/* Adds a part whose value is this string. */
+/* Adds a statement whose value is this string. */
 static void add_string(line_parser *parser, job_part part, const char *name, uint32_t value)
 {
     char *const text = ffd_json_span_string(parser->tree, value, NULL);
@@ -91,7 +91,7 @@ static void read_clips(line_parser *parser, uint32_t value)
         read_clip(parser, v);
 }
 
-/* A whole number is taken as it is written, which can be more exact than a double. */
+/* A whole number keeps its text, which can be more exact than a double. */
 static void add_number(line_parser *parser, const char *name, uint32_t value)
 {
     const json_value *const v = &parser->tree->values[value];
@@ -115,7 +115,7 @@ static void add_number(line_parser *parser, const char *name, uint32_t value)
     ffd_buffer_free(&text);
 }
 
-/* A text or a number. */
+/* Reads a string or a number. */
 static void read_option_value(line_parser *parser, const char *name, uint32_t value)
 {
     if (is_kind(parser, value, JSON_STRING))
@@ -150,7 +150,7 @@ static void read_setting(line_parser *parser, const char *name, uint32_t value)
     ffd_description_set(&parser->description, name, parser->tree, value);
 }
 
-/* Reads each member of an object. */
+/* Calls read for each member of an object. */
 static void read_members(line_parser *parser, uint32_t object,
                          void (*read)(line_parser *parser, const char *name, uint32_t value))
 {

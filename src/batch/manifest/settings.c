@@ -5,10 +5,10 @@
 #include "json/json_text.h"
 #include <string.h>
 
-/* The longest text of a message. */
+/* The most bytes that a message shows. */
 #define SHOWN ((size_t)160)
 
-/* "NAME=VALUE" of a word; NULL: it is another one. */
+/* Returns "NAME=VALUE" of a word "--set=NAME=VALUE"; NULL: another word. */
 static const char *setting_of(const char *word)
 {
     return strncmp(word, "--set=", 6) == 0 ? word + 6 : NULL;
@@ -29,7 +29,7 @@ static void write_setting(json_text *json, const char *setting)
         ffd_json_raw(json, key, value.tree.text + value.tree.values[0].begin,
                      value.tree.values[0].end - value.tree.values[0].begin);
     else
-        ffd_json_null(json, key); /* neither JSON nor UTF-8: the job fails */
+        ffd_json_null(json, key); /* neither JSON nor UTF-8: the job fails anyway */
     ffd_json_setting_free(&value);
     ffd_free(key);
 }
@@ -51,7 +51,7 @@ void ffd_settings_json(const char *words, size_t count, byte_buffer *text)
     ffd_buffer_free(&whole);
 }
 
-/* Cuts a text of UTF-8 that is too long. */
+/* Truncates UTF-8 that is too long, at a character. */
 static void shorten(byte_buffer *text, size_t most)
 {
     if (text->size <= most)

@@ -1,6 +1,6 @@
-/* main.c - makes the man page and the shells' completions: prints a template in which a line @NAME@ is
-   replaced by what the tables of commands and options say. Called by the build as `ffd-pages
-   TEMPLATE`; not installed. */
+/* main.c - generates the man page and the shell completions: prints a template in which each line @NAME@ is
+   replaced by text from the tables of commands and options. The build calls it as `ffd-pages TEMPLATE`; it is
+   not installed. */
 #include "cli/pages/pages.h"
 #include <stdio.h>
 #include <string.h>
@@ -17,7 +17,7 @@ static const struct {
 };
 enum { PARTS = sizeof parts / sizeof *parts };
 
-/* Returns 0 for a part that is not known. */
+/* Returns 0 for an unknown part. */
 static int print_line(const char *line)
 {
     if (line[0] != '@') {

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Text as it is: a hyphen stays what can be typed, and no line becomes a request. */
+/* Escapes text: hyphens stay ASCII, so that they can be copied, and no line begins a request. */
 static void put_text(const char *text, size_t length)
 {
     if (length && (*text == '.' || *text == '\''))
@@ -19,7 +19,7 @@ static void put_text(const char *text, size_t length)
     }
 }
 
-/* One line of input for each line of text, cut between words where it becomes long. */
+/* Writes each line of text as a line of input, breaking long ones between words. */
 static void put_paragraph(const char *text, size_t length)
 {
     enum { WIDTH = 70 };
@@ -43,7 +43,8 @@ void pages_man_version(void)
     printf(".Os ffd %s\n", ffd_version());
 }
 
-/* The next line of a synopsis, without "usage:" and spaces; its length, 0 after the last. */
+/* Finds the next line of a synopsis, without "usage:" and leading spaces. Returns its length; 0 after the
+   last. */
 static size_t next_line(const char **rest, const char **line)
 {
     *line = *rest + strspn(*rest, " ");
@@ -59,13 +60,13 @@ static bool is_usage(const char *line)
     return strncmp(line, "ffd ", 4) == 0;
 }
 
-/* The lines of the synopsis that are usage, or those that are not. */
+/* Prints the lines of the synopsis that are usage, or the other ones. */
 static void put_lines(const char *synopsis, bool usage)
 {
     const char *line;
     for (size_t length; (length = next_line(&synopsis, &line));)
         if (is_usage(line) == usage) {
-            /* A word of a command line stays in one piece. */
+            /* Do not break or hyphenate a command line. */
             fputs(usage ? ".br\n.nh\n" : ".Pp\n", stdout);
             put_paragraph(line, length);
         }

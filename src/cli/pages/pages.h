@@ -1,9 +1,9 @@
-/* pages.h - what the man page and the shells' completions say of the tables of commands and options.
-   Main header of the pages: declares man.c, bash.c, zsh.c. */
+/* pages.h - the parts of the man page and the shell completions that come from the tables of commands and
+   options. Main header of the pages: declares man.c, bash.c, zsh.c. */
 #ifndef FFD_CLI_PAGES_PAGES_H
 #define FFD_CLI_PAGES_PAGES_H
 
-/* Each prints to stdout the lines that replace @NAME@ in a template (main.c). */
+/* Each function prints to stdout the lines that replace @NAME@ in a template (main.c). */
 
 /* The version and its date. */
 void pages_man_version(void);
@@ -18,7 +18,7 @@ void pages_bash_commands(void);
 void pages_bash_options(void);
 /* The values of options. */
 void pages_bash_values(void);
-/* What arguments that are not options can be. */
+/* Kinds of positional arguments. */
 void pages_bash_arguments(void);
 
 /* The commands with their summaries, for zsh. */

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The names of kinds of files, and their endings. */
+/* Names for kinds of files, with their endings. */
 static const struct {
     const char *name, *endings;
 } kinds[] = {
@@ -40,7 +40,7 @@ static bool is_word(const char *part, size_t length)
     return length > 0;
 }
 
-/* One of the parts that | separates. */
+/* Takes one of the parts that | separates. */
 static void take(pages_value *value, const char *part, size_t length)
 {
     static const char file[] = "FILE";

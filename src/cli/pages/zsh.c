@@ -1,11 +1,11 @@
-/* zsh.c - the parts of the completion for zsh: specifications of its _arguments. */
+/* zsh.c - the parts of the zsh completion: specifications for _arguments. */
 #include "cli/commands.h"
 #include "cli/pages/pages.h"
 #include "cli/pages/value.h"
 #include <stdio.h>
 #include <string.h>
 
-/* Text inside of single quotes, in which the specification gives a meaning to some signs. */
+/* Escapes text inside single quotes, where specifications give some characters a meaning. */
 static void put_text(const char *text)
 {
     for (; *text; text++) {
@@ -26,7 +26,7 @@ void pages_zsh_commands(void)
     }
 }
 
-/* ":WHAT:ACTION" */
+/* Writes ":WHAT:ACTION". */
 static void put_value(const pages_value *value, const char *what)
 {
     putchar(':');

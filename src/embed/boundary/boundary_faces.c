@@ -31,7 +31,8 @@ typedef struct builder {
 
 /* Patches */
 
-face_patch *ffd_boundary_new_patch(const boundary *border, int face)
+/* A patch of the face's orders, without contents; NULL if memory runs out. */
+static face_patch *make_patch(const boundary *border, int face)
 {
     const int order[2] = {boundary_knots(border, face, 0)->degree + 1,
                           boundary_knots(border, face, 1)->degree + 1};
@@ -197,7 +198,7 @@ static ffd_status make_leaf(builder *build, uint32_t node)
     const boundary_node at = border->nodes[node];
     const size_t cell[2] = {at.cell[0], at.cell[1]};
     if (at.cells[0] == 1 && at.cells[1] == 1) {
-        face_patch *patch = build->keeps ? ffd_boundary_new_patch(border, at.face) : build->scratch;
+        face_patch *patch = build->keeps ? make_patch(border, at.face) : build->scratch;
         if (!patch)
             return ffd_fail_memory(build->error);
         ffd_boundary_patch(border, at.face, cell, patch);

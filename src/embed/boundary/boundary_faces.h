@@ -47,8 +47,6 @@ typedef struct boundary {
 ffd_status ffd_boundary_build(boundary *border, ffd_error *error);
 /* The whole cell of the face as a patch (of the face's orders), not yet measured. */
 void ffd_boundary_patch(const boundary *border, int face, const size_t cell[2], face_patch *made);
-/* A patch of the face's orders, without contents; NULL if memory runs out. */
-face_patch *ffd_boundary_new_patch(const boundary *border, int face);
 /* Frees a list of patches. */
 void ffd_boundary_free_patches(face_patch *list);
 

@@ -211,10 +211,10 @@ static void keep_light(cell_search *cells, uint32_t number, cell_brick *mine, ow
                        const cell_brick **kept)
 {
     const size_t leaves = mine->leaf_count;
-    const bool has_room = atomic_fetch_add(&cells->light_leaves, leaves) + leaves <= MOST_LIGHT_LEAVES;
-    if (!has_room || !keep(cells, number, mine, kept))
+    const bool fits = atomic_fetch_add(&cells->light_leaves, leaves) + leaves <= MOST_LIGHT_LEAVES;
+    if (!fits || !keep(cells, number, mine, kept))
         atomic_fetch_sub(&cells->light_leaves, leaves);
-    if (has_room)
+    if (fits)
         return;
     const size_t slot = number % OWN_BRICKS;
     brick_free(own->brick[slot]);

@@ -1,6 +1,6 @@
-/* gltf_as_morph.c - deformations as further morph targets, or in place of those with their names. The file
-   with targets of zeros is opened as a document of its own; the results of this document become the results
-   of these targets, and that document is saved. */
+/* gltf_as_morph.c - stores deformations as further morph targets, or in place of targets of the same name.
+   The file with targets of zeros is opened as a document of its own. This document's results become the
+   results of those targets, and that document is saved. */
 #include "io/gltf/gltf_as_morph.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
@@ -14,7 +14,7 @@
 #include "io/gltf/scene/gltf_results.h"
 #include <string.h>
 
-/* Takes the results of the target under way, which are complete, out of the streams. */
+/* Moves the results of the current target, which are complete, from the streams to document->morphs. */
 static ffd_status finish_target(gltf_document *d, ffd_error *error)
 {
     const size_t count = d->base.part_count * GLTF_DEFORMED;
@@ -69,7 +69,7 @@ static bool is_moved(const gltf_document *d, const gltf_morph *morph, size_t par
     return false;
 }
 
-/* moved caches the answers, one per stream of a part: 1 + the answer; 0: not known yet. */
+/* moved caches the answers, one per stream of a part: 1 + the answer; 0: not computed yet. */
 static bool is_stream_moved(const gltf_document *d, const gltf_morph *morph, size_t part, size_t semantic,
                             unsigned char *moved)
 {
@@ -81,16 +81,17 @@ static bool is_stream_moved(const gltf_document *d, const gltf_morph *morph, siz
     return *known > 1;
 }
 
-/* The meshes that get a target. */
+/* Which meshes get a target, and where. */
 typedef struct morph_marks {
     const gltf_morph *morph;
-    unsigned char *known; /* of is_stream_moved */
-    bool *meshes;         /* gets it */
-    bool *selected;       /* some node shows it, and is selected */
-    size_t *named;        /* its target of the name (ffd_gltf_find_target) */
-    size_t *places;       /* of the target among the mesh's own; GLTF_NONE: it does not get it */
-    size_t *in_primitive; /* of each primitive, among its own */
-    bool any, moved;      /* some mesh gets it; some mesh changed */
+    unsigned char *known; /* cache of is_stream_moved */
+    bool *meshes;         /* per mesh: whether it gets the target */
+    bool *selected;       /* per mesh: whether a selected node shows it */
+    size_t *named;        /* per mesh: its own target of that name (ffd_gltf_find_target) */
+    /* Per mesh: index of the new target among the mesh's targets; GLTF_NONE: it gets none. */
+    size_t *places;
+    size_t *in_primitive; /* per primitive: index of the new target among the primitive's targets */
+    bool any, moved;      /* whether any mesh gets the target; whether any mesh changed */
 } morph_marks;
 
 static bool make_marks(const gltf_document *d, const gltf_morph *morph, morph_marks *marks)
@@ -117,7 +118,7 @@ static void free_marks(morph_marks *marks)
     ffd_free(marks->in_primitive);
 }
 
-/* Marks the meshes that are selected, and those of them that changed under some node. */
+/* Marks the selected meshes, and among them those that change under a node. */
 static void mark_moved(const gltf_document *d, morph_marks *marks)
 {
     const gltf_instance *instance = d->instances;
@@ -132,8 +133,9 @@ static void mark_moved(const gltf_document *d, morph_marks *marks)
         }
 }
 
-/* A mesh gets the target where it changed, and where it has one of the name, which would be out of date;
-   where nothing changed at all, every mesh does. file: the document, which may have got other targets. */
+/* A mesh gets the target if it changed, or if it has one of the same name, which would be out of date. If
+   nothing changed at all, every selected mesh gets it. file: the document as it is now, which may have
+   further targets. */
 static void mark_meshes(const gltf_document *d, const gltf_document *file, morph_marks *marks)
 {
     mark_moved(d, marks);
@@ -151,8 +153,8 @@ static void mark_meshes(const gltf_document *d, const gltf_document *file, morph
     }
 }
 
-/* Lends a target's results to the other document's primitives, or takes them back. Both have the same
-   instances in the same order. */
+/* Lends a target's results to the primitives of the other document, or takes them back. Both documents have
+   the same instances in the same order. */
 static void lend_results(const gltf_document *d, const morph_marks *marks, bool back, gltf_document *other)
 {
     size_t k = 0;
@@ -173,12 +175,12 @@ static void lend_results(const gltf_document *d, const morph_marks *marks, bool 
             }
 }
 
-/* The file on its way to all targets. */
+/* The file, to which one target after another is added. */
 typedef struct morph_file {
     const gltf_document *source;
-    mesh_document *made; /* NULL: still the source */
-    file_input bytes;    /* its */
-    uint64_t bytes_left; /* that nothing uses any more, of what was replaced */
+    mesh_document *made; /* NULL: no target is added yet */
+    file_input bytes;    /* of made */
+    uint64_t bytes_left; /* bytes of replaced data that nothing uses any more */
 } morph_file;
 
 static const gltf_document *current(const morph_file *file)
@@ -194,7 +196,7 @@ static void close_file(morph_file *file)
     file->bytes = (file_input){0};
 }
 
-/* Goes on with a file that was made of this one, which it takes. */
+/* Continues with bytes, the file made from the current one. Takes ownership of them. */
 static ffd_status reopen(morph_file *file, file_input *bytes, ffd_error *error)
 {
     const gltf_document *const d = file->source;
@@ -217,7 +219,7 @@ static bool replaces(const gltf_document *d, const morph_marks *marks)
     return false;
 }
 
-/* Goes on with the file that has a target in place of another one, which may leave bytes unused. */
+/* Continues with a file in which a target replaced another one, which may leave unused bytes. */
 static ffd_status reopen_replaced(morph_file *file, file_input *bytes, const char *name, const mesh_log *log,
                                   ffd_error *error)
 {
@@ -230,7 +232,7 @@ static ffd_status reopen_replaced(morph_file *file, file_input *bytes, const cha
     return status;
 }
 
-/* Adds the target to the file. */
+/* Adds one target to the file. */
 static ffd_status add_target(morph_file *file, morph_marks *marks, const mesh_log *log, ffd_error *error)
 {
     const morph_request request = {file->source, marks->morph, marks->meshes, marks->named, log};
@@ -282,7 +284,7 @@ static ffd_status add_clips(morph_file *file, const morph_marks *marks, const me
     return status;
 }
 
-/* Says that a mesh that gets targets has more than many viewers play. */
+/* Warns of meshes that now have more targets than many viewers play. */
 static void warn_of_many(const gltf_document *d, const gltf_document *file, const mesh_log *log)
 {
     size_t meshes = 0, most = 0;

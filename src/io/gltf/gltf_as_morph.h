@@ -1,4 +1,4 @@
-/* gltf_as_morph.h - deformations as further morph targets. */
+/* gltf_as_morph.h - stores deformations as further morph targets. */
 #ifndef FFD_IO_GLTF_GLTF_AS_MORPH_H
 #define FFD_IO_GLTF_GLTF_AS_MORPH_H
 
@@ -10,8 +10,8 @@ mesh_keep_base_function ffd_gltf_keep_base;
 /* mesh_format's keep_clips. */
 mesh_keep_clips_function ffd_gltf_keep_clips;
 
-/* mesh_format's save: with a further morph target after ffd_gltf_keep_base, else as
-   ffd_gltf_save_results does. */
+/* mesh_format's save: adds the morph targets after ffd_gltf_keep_base, else works like
+   ffd_gltf_save_results. */
 mesh_save_function ffd_gltf_save;
 
 #endif

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #define DEGREES_OF_RADIAN 57.29577951308232
-/* The number of a set that a name is made of. */
+/* A set's number, which is part of an attribute's name, must be less. */
 #define SETS_MAX 1e6
 
 static uint32_t attributes_of(const gltf_document *d, size_t m, size_t p)
@@ -37,7 +37,7 @@ size_t ffd_gltf_attribute(const gltf_document *d, size_t m, size_t p, const char
     return fits ? a : GLTF_NONE;
 }
 
-/* JSON_NONE: the primitive has none. */
+/* Returns the JSON value of a primitive's material; JSON_NONE: it has none. */
 static uint32_t material_of(const gltf_document *d, size_t m, size_t p)
 {
     size_t material;
@@ -47,7 +47,8 @@ static uint32_t material_of(const gltf_document *d, size_t m, size_t p)
                : JSON_NONE;
 }
 
-/* A textureInfo, whatever extension of the material has it, is an object "...Texture" with an index. */
+/* Whether a JSON value is a textureInfo: in the material and in any of its extensions it is an object
+   "...Texture" with an index. */
 static bool is_texture(const json_span *tree, uint32_t v)
 {
     static const char ending[] = "Texture\"";
@@ -58,8 +59,8 @@ static bool is_texture(const json_span *tree, uint32_t v)
            ffd_json_span_member(tree, v, "index") != JSON_NONE;
 }
 
-/* Returns the first texture of a material after one of its values (or the material itself); JSON_NONE: none.
- */
+/* Returns the first texture of a material after v, one of its values or the material itself; JSON_NONE:
+   none. */
 static uint32_t next_texture(const json_span *tree, uint32_t material, uint32_t v)
 {
     const uint32_t end = tree->values[material].next;
@@ -71,7 +72,7 @@ static uint32_t next_texture(const json_span *tree, uint32_t material, uint32_t 
     return JSON_NONE;
 }
 
-/* Returns the texture that gives a surface its colour, else another one; JSON_NONE: there is none. */
+/* Returns the base colour texture of a material, else another of its textures; JSON_NONE: none. */
 static uint32_t main_texture(const gltf_document *d, uint32_t material)
 {
     const json_span *tree = &d->tree;
@@ -85,7 +86,7 @@ static uint32_t main_texture(const gltf_document *d, uint32_t material)
     return found == JSON_NONE ? next_texture(tree, material, material) : found;
 }
 
-/* Keeps *number where the value is none, or too large. */
+/* Reads a finite number; otherwise *number stays. */
 static void read_number(const json_span *tree, uint32_t value, double *number)
 {
     double read;
@@ -99,8 +100,8 @@ static void read_pair(const json_span *tree, uint32_t array, double pair[2])
         read_number(tree, ffd_json_span_element(tree, array, i), &pair[i]);
 }
 
-/* Translation times rotation times scale. A rotation is counter-clockwise with v upwards; in glTF v goes
-   down. */
+/* Translation times rotation times scale. A rotation is counter-clockwise if v points upwards, but in glTF v
+   points downwards. */
 static void read_transform(const gltf_document *d, uint32_t transform, gltf_texcoords *texcoords)
 {
     const json_span *tree = &d->tree;
@@ -114,7 +115,7 @@ static void read_transform(const gltf_document *d, uint32_t transform, gltf_texc
                                   .to_v = {-sine * scale[0], cosine * scale[1], offset[1]}};
 }
 
-/* Finds what a texture of a primitive's material takes. */
+/* Finds the texture coordinates that a texture of a primitive's material uses. */
 static void find_taken(const gltf_document *d, size_t m, size_t p, uint32_t texture, gltf_texcoords *taken)
 {
     const uint32_t transform = ffd_gltf_extension(d, texture, "KHR_texture_transform");

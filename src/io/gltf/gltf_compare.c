@@ -60,14 +60,14 @@ static void note_kinds(gltf_comparer *c)
         }
 }
 
-/* Elements */
+/* The elements */
 
 static bool both_read(const gltf_comparer *c, size_t accessor)
 {
     return c->a->layouts[accessor].readable && c->b->layouts[accessor].readable;
 }
 
-/* Whether all bytes of an accessor are known to be the same. */
+/* Whether all bytes of an accessor are known to be equal. */
 static bool has_same_bytes(const gltf_comparer *c, size_t accessor)
 {
     const gltf_accessor *stored = &c->a->model.accessors[accessor];
@@ -78,8 +78,8 @@ static bool has_same_bytes(const gltf_comparer *c, size_t accessor)
            (!sparse->present || (c->is_same[sparse->indices_view] && c->is_same[sparse->values_view]));
 }
 
-/* Compares elements [first, first + count), transformed by the part (GLTF_NONE: not): differences are
-   in the lattice's units, or in the file's where the part's matrix hides them. */
+/* Compares elements [first, first + count), transformed by the part (GLTF_NONE: untransformed). Differences
+   are in the lattice's units, or in the file's where the part's matrix hides them. */
 static void compare_block(gltf_comparer *c, size_t accessor, size_t part, size_t first, size_t count)
 {
     const ffd_difference_kind kind = (ffd_difference_kind)c->kinds[accessor];
@@ -135,7 +135,7 @@ static void compare_part(gltf_comparer *c, size_t i)
     }
 }
 
-/* Compares the bytes of elements that are not vectors. */
+/* Compares elements that are not vectors, byte by byte. */
 static void compare_elements(gltf_comparer *c, size_t accessor)
 {
     const uint64_t count = has_same_bytes(c, accessor) ? 0 : c->a->model.accessors[accessor].count;
@@ -149,8 +149,8 @@ static void compare_elements(gltf_comparer *c, size_t accessor)
         }
 }
 
-/* Limits the work if many accessors share the same few bytes: these bytes are then compared as such. (The
-   size of decoded Draco data was limited before.) */
+/* Limits the work where many accessors share the same few bytes: these are then compared as bytes of the
+   bufferView. (The size of decoded Draco data was limited before.) */
 static bool may_compare(gltf_comparer *c, size_t accessor)
 {
     const uint64_t count = c->a->model.accessors[accessor].count;
@@ -175,9 +175,9 @@ static void compare_accessors(gltf_comparer *c)
             ffd_gltf_differ_in_bound(c, &c->bounds[a]);
 }
 
-/* Bytes */
+/* The bytes */
 
-/* Returns the bytes of a view, decoded if they can be, else as they are stored. NULL: there are none. */
+/* Returns the bytes of a view, decoded if possible, else as stored. NULL: no bytes. */
 static const unsigned char *find_bytes(const gltf_document *d, size_t view, size_t *size)
 {
     const unsigned char *bytes = ffd_gltf_view_bytes(d, view);
@@ -194,14 +194,14 @@ static void find_same_views(gltf_comparer *c)
     }
 }
 
-/* Whether a view holds elements of an accessor, its own or its sparse ones. */
+/* Whether a view holds elements of an accessor, dense or sparse. */
 static bool lies_in(const gltf_accessor *accessor, size_t view)
 {
     return accessor->view == (int)view ||
            (accessor->sparse.present && accessor->sparse.values_view == (int)view);
 }
 
-/* In b's copy of a view, sets the elements that were compared on their own to a's. */
+/* Overwrites, in b's copy of a view, the elements that were compared on their own with a's. */
 static void equalize_elements(const gltf_comparer *c, size_t view, unsigned char *bytes)
 {
     const uintptr_t begin = (uintptr_t)ffd_gltf_view_bytes(c->b, view);
@@ -233,7 +233,7 @@ static void compare_bytes(gltf_comparer *c, size_t view, const unsigned char *a,
         }
 }
 
-/* Compares the rest of a view that differs, without its elements. */
+/* Compares the bytes of a view that are not elements. */
 static ffd_status compare_view(gltf_comparer *c, size_t i)
 {
     size_t size, other_size;
@@ -243,7 +243,7 @@ static ffd_status compare_view(gltf_comparer *c, size_t i)
                            i);
         return FFD_OK;
     }
-    if (!ffd_gltf_view_bytes(c->a, i) || !ffd_gltf_view_bytes(c->b, i)) { /* its content is unknown */
+    if (!ffd_gltf_view_bytes(c->a, i) || !ffd_gltf_view_bytes(c->b, i)) { /* the content is unknown */
         compare_bytes(c, i, a, b, size);
         return FFD_OK;
     }
@@ -264,7 +264,7 @@ static void find_unpacked(const gltf_document *d, bool *is_unpacked)
             is_unpacked[d->unpacked[a].view] = true;
 }
 
-/* If Draco data could not be decoded, its bytes are compared. */
+/* Unmarks Draco data that could not be decoded, so that its bytes are compared. */
 static void leave_problems(const gltf_document *d, bool *is_unpacked)
 {
     for (size_t m = 0; m < d->model.mesh_count; m++)
@@ -278,7 +278,7 @@ static void leave_problems(const gltf_document *d, bool *is_unpacked)
         }
 }
 
-/* Compares the contents of files whose JSON is the same for accessors and bufferViews. */
+/* Compares the contents of two files whose JSON agrees in accessors and bufferViews. */
 static ffd_status compare_contents(gltf_comparer *c)
 {
     ffd_status status = FFD_OK;

@@ -1,4 +1,4 @@
-/* gltf_compare.h - compares two glTF files: their JSON, and what their buffers hold. */
+/* gltf_compare.h - compares two glTF files: their JSON and the contents of their buffers. */
 #ifndef FFD_IO_GLTF_GLTF_COMPARE_H
 #define FFD_IO_GLTF_GLTF_COMPARE_H
 

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Returns the value `levels` above `value`; JSON_NONE past the top. */
+/* Returns the ancestor `levels` above `value`; JSON_NONE past the root. */
 static uint32_t above(const json_span *tree, uint32_t value, int levels)
 {
     for (; levels > 0 && value != JSON_NONE; levels--)
@@ -12,7 +12,7 @@ static uint32_t above(const json_span *tree, uint32_t value, int levels)
     return value;
 }
 
-/* Whether the value says where elements are stored, or what they are. */
+/* Whether the value describes where or how elements are stored. */
 static bool is_about_storage(const json_span *tree, uint32_t value)
 {
     static const char *const keys[] = {"accessors", "bufferViews", "buffers", "meshes"};
@@ -48,7 +48,8 @@ static void differ_at(gltf_comparer *c, uint32_t value, const char *what)
     say_at(c, value, what);
 }
 
-/* Whether the value may differ between equal files: a buffer's file, and its length past its views. */
+/* Whether the value may differ between equal files: the name of a buffer's file, and a buffer's length beyond
+   its views. */
 static bool is_storage(const json_span *tree, uint32_t value)
 {
     const uint32_t buffers = ffd_json_span_member(tree, 0, "buffers");
@@ -61,7 +62,8 @@ static bool is_value_before(const void *element, const void *value)
     return *(const uint32_t *)element < *(const uint32_t *)value;
 }
 
-/* Returns the accessor whose "min" or "max" has the value as a number; GLTF_NONE: it is not one. */
+/* Returns the accessor that has the value as a number of its "min" or "max"; GLTF_NONE: the value is not
+   one. */
 static size_t bounded_accessor(const gltf_comparer *c, uint32_t value)
 {
     const json_span *tree = &c->a->tree;
@@ -75,7 +77,7 @@ static size_t bounded_accessor(const gltf_comparer *c, uint32_t value)
     return found < list->count && list->values[found] == accessor ? found : GLTF_NONE;
 }
 
-/* Whether a number has neither fraction nor exponent. */
+/* Whether a number has neither a fraction nor an exponent. */
 static bool is_plain_integer(const json_span *tree, uint32_t value)
 {
     for (uint32_t i = tree->values[value].begin; i < tree->values[value].end; i++)
@@ -91,15 +93,15 @@ static bool same_text(const json_span *a, uint32_t x, const json_span *b, uint32
            memcmp(a->text + a->values[x].begin, b->text + b->values[y].begin, size) == 0;
 }
 
-/* Returns how many characters of a number go into a message. */
+/* Returns the number of characters of a number to show in a message. */
 static int shown_size(const json_span *tree, uint32_t value)
 {
     const uint32_t size = tree->values[value].end - tree->values[value].begin;
     return size > 40 ? 40 : (int)size;
 }
 
-/* Whether two numbers of different text are equal. Plain integers, which may have more digits than a
-   double holds, never are, since JSON has no leading zeros; but 0 and -0 are. */
+/* Whether two numbers with different text are equal. Two plain integers never are: JSON has no leading zeros,
+   and they may have more digits than a double holds. The exception is 0 and -0. */
 static bool equal_numbers(gltf_comparer *c, uint32_t x, double a, uint32_t y, double b)
 {
     if (is_plain_integer(&c->a->tree, x) && is_plain_integer(&c->b->tree, y) && (a < 0 || a > 0))
@@ -115,7 +117,7 @@ static void differ_in_numbers(const gltf_comparer *c, uint32_t x, uint32_t y, ch
     ffd_json_span_number(second, y, &b);
     if (a < b || a > b)
         snprintf(what, capacity, "%.17g and %.17g", a, b);
-    else /* a double does not distinguish them */
+    else /* doubles do not distinguish them */
         snprintf(what, capacity, "%.*s and %.*s", shown_size(first, x), first->text + first->values[x].begin,
                  shown_size(second, y), second->text + second->values[y].begin);
 }
@@ -127,8 +129,8 @@ void ffd_gltf_differ_in_bound(gltf_comparer *c, const gltf_bound *bound)
     say_at(c, bound->in_a, what);
 }
 
-/* Bounds follow from the elements, which are compared on their own. With a tolerance, which is in the
-   lattice's units unlike bounds, these are not compared. */
+/* Bounds follow from the elements, which are compared on their own. With a tolerance bounds are not compared:
+   the tolerance is in the lattice's units, bounds are not. */
 static void note_bound(gltf_comparer *c, size_t accessor, uint32_t x, uint32_t y)
 {
     const uint8_t kind = c->kinds[accessor];
@@ -180,7 +182,7 @@ static ffd_status compare_arrays(gltf_comparer *c, uint32_t x, uint32_t y)
     return status;
 }
 
-/* Adds the difference that only the second file has y, a member of x. */
+/* Adds the difference that only the second file has y, a member of object x. */
 static ffd_status differ_in_second(gltf_comparer *c, uint32_t x, uint32_t y)
 {
     char *key = ffd_json_span_key(&c->b->tree, y);
@@ -194,7 +196,7 @@ static ffd_status differ_in_second(gltf_comparer *c, uint32_t x, uint32_t y)
     return FFD_OK;
 }
 
-/* Compares the sorted members of two objects; a member that only one object has is a difference. */
+/* Compares the members of two objects, sorted by key; a member of only one of them is a difference. */
 static ffd_status compare_members(gltf_comparer *c, uint32_t x, const json_member *first, size_t first_count,
                                   const json_member *second, size_t second_count)
 {
@@ -235,7 +237,7 @@ static ffd_status compare_objects(gltf_comparer *c, uint32_t x, uint32_t y)
     return status;
 }
 
-/* The parser limits the depth of the recursion. */
+/* The parser limits the depth of this recursion. */
 static ffd_status compare_values(gltf_comparer *c, uint32_t x, uint32_t y)
 {
     const uint8_t kind = c->a->tree.values[x].kind;

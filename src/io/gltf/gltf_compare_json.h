@@ -7,7 +7,7 @@
 
 /* The first number of an accessor's "min" or "max" that differs in the second file. */
 typedef struct gltf_bound {
-    uint32_t in_a, in_b; /* values of the JSON; 0: none */
+    uint32_t in_a, in_b; /* JSON values; 0: none */
 } gltf_bound;
 
 typedef struct gltf_comparer {
@@ -15,24 +15,24 @@ typedef struct gltf_comparer {
     ffd_comparison *result;
     /* For each accessor of a. */
     uint8_t *kinds;  /* ffd_difference_kind: what its elements are */
-    uint8_t *states; /* of gltf_elements */
+    uint8_t *states; /* a gltf_elements */
     gltf_bound *bounds;
     /* For each bufferView of a. */
     bool *is_same;     /* all its bytes are equal, decoded if they can be */
-    bool *is_unpacked; /* it is Draco data, whose elements are compared instead */
+    bool *is_unpacked; /* it is Draco data: its elements are compared instead */
     /* The JSON differs in accessors, bufferViews or meshes: elements are not compared. */
     bool other_storage;
-    memory_budget budget; /* for going over elements; a copy of a's */
+    memory_budget budget; /* for visiting elements; a copy of a's */
     ffd_error *error;
 } gltf_comparer;
 
-/* What is known of an accessor's elements, beyond the bytes of their bufferViews. */
+/* What is known of an accessor's elements, besides the bytes of their bufferViews. */
 typedef enum gltf_elements { GLTF_NOT_COMPARED, GLTF_ALL_SAME, GLTF_DIFFER } gltf_elements;
 
-/* Compares the JSON. Leaves out the bounds of what may differ by a tolerance, and moves the bounds of
-   what else can be measured to c->bounds. Errors: FFD_E_MEMORY. */
+/* Compares the JSON. Ignores the bounds of elements that may differ by a tolerance, and stores differing
+   bounds of other measurable elements in c->bounds. Errors: FFD_E_MEMORY. */
 ffd_status ffd_gltf_compare_json(gltf_comparer *c);
-/* Adds the difference in a bound to the result. */
+/* Adds the difference of a bound to the result. */
 void ffd_gltf_differ_in_bound(gltf_comparer *c, const gltf_bound *bound);
 
 #endif

@@ -43,8 +43,8 @@ static void describe_strings(const gltf_document *d, const char *key, json_text 
 
 /* How the vertices that a deformation can change are stored. */
 typedef struct storage_facts {
-    size_t vertices;                                   /* of POSITION accessors, each once */
-    size_t morphed, sparse, quantized, draco, meshopt; /* primitives */
+    size_t vertices;                                   /* of POSITION accessors, counting each once */
+    size_t morphed, sparse, quantized, draco, meshopt; /* numbers of primitives */
 } storage_facts;
 
 static void survey_primitive(const gltf_document *d, size_t m, size_t p, bool *seen, storage_facts *facts)

@@ -14,22 +14,23 @@
 typedef struct extractor {
     const gltf_document *document;
     mesh_model *model;
-    size_t *first_position, *first_normal; /* of each part */
-    size_t *colours; /* of each part: the accessor that its colours were read from; GLTF_NONE: none yet */
-    intern_table texcoords; /* keys: gltf_texcoords */
-    size_t *first_texcoord; /* of each of these */
+    size_t *first_position, *first_normal; /* per part */
+    size_t *colours;                       /* per part: the accessor of its colours; GLTF_NONE: none yet */
+    intern_table texcoords;                /* keys: gltf_texcoords */
+    size_t *first_texcoord;                /* per key of texcoords */
     size_t texcoords_capacity;
     ffd_error *error;
 } extractor;
 
-/* What a primitive draws under one node. */
+/* A primitive under one node. */
 typedef struct drawn {
     const gltf_primitive *primitive;
-    size_t part; /* of its positions */
+    size_t part; /* the part of its positions */
     uint32_t *corners;
     size_t count;
-    size_t position, normal, texcoord; /* the first of each; GLTF_NONE: none */
-    bool mirrored;                     /* its triangles would face inward */
+    size_t position, normal, texcoord; /* index in the model of its first one; GLTF_NONE: none */
+    /* The node's transform mirrors, so that its triangles would face inward. */
+    bool mirrored;
 } drawn;
 
 static const gltf_mesh_uses *uses_of(const extractor *e, size_t mesh)
@@ -37,8 +38,7 @@ static const gltf_mesh_uses *uses_of(const extractor *e, size_t mesh)
     return &e->document->mesh_uses[mesh];
 }
 
-/* Whether a node is drawn: not if it only stands in for another at a distance, or is hidden, or stands for
-   instances. */
+/* Whether a node is drawn: not if it is hidden, replaces another at a distance, or has instances. */
 static bool is_drawn(const gltf_document *d, size_t node)
 {
     return node == GLTF_NONE ||
@@ -54,7 +54,7 @@ static bool is_mesh_drawn(const extractor *e, size_t m)
     return false;
 }
 
-/* Numbers the texture coordinates of a primitive, and counts them where they are new. */
+/* Interns the texture coordinates of a primitive, and adds new ones to *count. */
 static ffd_status add_texcoords(extractor *e, size_t m, size_t p, size_t *count)
 {
     const gltf_document *d = e->document;
@@ -62,7 +62,7 @@ static ffd_status add_texcoords(extractor *e, size_t m, size_t p, size_t *count)
     uint32_t number;
     ffd_gltf_texcoords(d, m, p, &texcoords);
     if (texcoords.accessor == GLTF_NONE || *count > MODEL_VALUES_MAX)
-        return FFD_OK; /* too many are refused */
+        return FFD_OK; /* too many: refused later */
     const size_t known = e->texcoords.count;
     if (!ffd_intern(&e->texcoords, &texcoords, sizeof texcoords, &number) ||
         !ffd_grow((void **)&e->first_texcoord, &e->texcoords_capacity, e->texcoords.count,
@@ -76,7 +76,7 @@ static ffd_status add_texcoords(extractor *e, size_t m, size_t p, size_t *count)
     return FFD_OK;
 }
 
-/* Returns the first of a primitive's texture coordinates, GLTF_NONE if it has none. */
+/* Returns the index of a primitive's first texture coordinate, GLTF_NONE if it has none. */
 static size_t find_texcoords(const extractor *e, size_t m, size_t p)
 {
     gltf_texcoords texcoords;
@@ -86,7 +86,7 @@ static size_t find_texcoords(const extractor *e, size_t m, size_t p)
                                                                                  : GLTF_NONE;
 }
 
-/* Counts the values and sets the first one of each part and of all texture coordinates. */
+/* Counts the values, and sets the first index of each part and of each set of texture coordinates. */
 static ffd_status count_values(extractor *e)
 {
     const gltf_document *d = e->document;
@@ -108,7 +108,7 @@ static ffd_status count_values(extractor *e)
     return status ? status : ffd_model_make_values(e->model, positions, texcoords, normals, e->error);
 }
 
-/* Reads a stream's results where they differ from the file's values as floats, else the file's values:
+/* Reads a stream's results where they differ from the file's values as floats, else the file's values: stored
    integers may be more precise than floats. */
 static void read_stream(const gltf_document *d, size_t part, gltf_semantic semantic, double *values)
 {
@@ -131,8 +131,8 @@ static void read_transform(const gltf_document *d, size_t part, size_t vertex, d
         memcpy(transform, p->linear, sizeof p->linear);
 }
 
-/* Normals transform by the inverse transpose, which is the cofactor matrix but for a factor; its sign
-   matters: it is negative if the matrix mirrors. */
+/* Transforms a normal by the inverse transpose of a matrix: the cofactor matrix divided by the determinant.
+   Only the determinant's sign matters: it is negative if the matrix mirrors. */
 static void turn_normal(const double linear[9], double normal[3])
 {
     double cofactor[9];
@@ -177,7 +177,8 @@ static void fill_values(const extractor *e)
     }
 }
 
-/* Colours are linear, and shown as if clamped to 0 to 1 (glTF 2.0, 3.9.2 and 3.7.2.1). */
+/* Reads the colours of a primitive, which are linear, and clamps them to 0 to 1 as viewers do (glTF 2.0,
+   3.9.2 and 3.7.2.1). */
 static ffd_status take_colours(extractor *e, size_t m, size_t p, const drawn *drawing)
 {
     const gltf_document *d = e->document;
@@ -253,7 +254,7 @@ static ffd_status add_points(extractor *e, const drawn *drawing)
     return status;
 }
 
-/* Returns the member "name" of element i of a list; JSON_NONE if it has none, or an empty one. */
+/* Returns the member "name" of element i of a list; JSON_NONE if it is absent or empty. */
 static uint32_t find_name(const gltf_document *d, const gltf_values *list, size_t i)
 {
     const uint32_t name =
@@ -261,7 +262,7 @@ static uint32_t find_name(const gltf_document *d, const gltf_values *list, size_
     return name != JSON_NONE && d->tree.values[name].end - d->tree.values[name].begin > 2 ? name : JSON_NONE;
 }
 
-/* Returns the name of element i of a list, "KIND i" if it has none; to be freed by the caller. */
+/* Returns the name of element i of a list, or "KIND i" if it has none. The caller frees it. */
 static char *name_of(const gltf_document *d, const gltf_values *list, size_t i, const char *kind)
 {
     const uint32_t name = find_name(d, list, i);
@@ -349,7 +350,7 @@ static uint32_t feature_of_attribute(const json_span *tree, uint32_t value)
         return MODEL_HAS_TANGENTS;
     const char *key = tree->text + tree->values[value].key_begin + 1;
     if (strncmp(key, "TEXCOORD_", 9) == 0)
-        return 0; /* ffd_gltf_has_more_texcoords looks at them */
+        return 0; /* see ffd_gltf_has_more_texcoords */
     return strncmp(key, "JOINTS_", 7) == 0 || strncmp(key, "WEIGHTS_", 8) == 0 ? MODEL_HAS_SKINS
                                                                                : MODEL_HAS_MORE;
 }
@@ -373,7 +374,7 @@ static bool has_any(const gltf_document *d, const char *array)
     return ffd_json_span_first(&d->tree, ffd_json_span_member(&d->tree, 0, array)) != JSON_NONE;
 }
 
-/* Returns the features of the file that the model lacks. */
+/* Returns the features of the file that a model cannot hold. */
 static uint32_t features_of(const extractor *e)
 {
     const gltf_document *d = e->document;
@@ -395,7 +396,7 @@ static uint32_t features_of(const extractor *e)
     return found;
 }
 
-/* Gives the positions their numbers, where what is not drawn has some too. */
+/* Sets the file's numbers of the positions; vertices that are not drawn count too. */
 static ffd_status number_positions(extractor *e)
 {
     const gltf_document *d = e->document;
@@ -426,7 +427,7 @@ static ffd_status extract(extractor *e)
     e->colours = ffd_alloc(d->base.part_count, sizeof *e->colours);
     if (!e->first_position || !e->first_normal || !e->colours)
         return ffd_fail_memory(e->error);
-    /* Memory for the corners of a primitive while it is added. */
+    /* For the corners of one primitive at a time. */
     ffd_status status = ffd_model_take(e->model, ffd_gltf_most_corners(d), sizeof(uint32_t), e->error);
     if (status == FFD_OK)
         status = count_values(e);
@@ -445,7 +446,7 @@ static ffd_status extract(extractor *e)
     return status;
 }
 
-/* A model has no instances, and the node's own matrix is not that of any of them. */
+/* A model has no instances, and the node's own matrix places none of them. */
 static ffd_status refuse_instances(const gltf_document *d, const mesh_model *model, ffd_error *error)
 {
     if (d->instanced_node_count == 0 || model->wants_details)

@@ -1,4 +1,4 @@
-/* gltf_extract.h - a glTF file as a mesh_model, for conversion to other formats. */
+/* gltf_extract.h - reads a glTF file into a mesh_model, for conversion to other formats. */
 #ifndef FFD_IO_GLTF_GLTF_EXTRACT_H
 #define FFD_IO_GLTF_GLTF_EXTRACT_H
 

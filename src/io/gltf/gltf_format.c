@@ -65,7 +65,8 @@ static ffd_status begin_results(mesh_document *document, bool normals, bool tang
     return status ? status : ffd_gltf_begin_splats((gltf_document *)document, error);
 }
 
-/* Splats that are not selected are brought back from where their nodes turn them, as vertices are. */
+/* mesh_format's follow. Nodes that follow also turn splats that are not selected; these are turned back, as
+   vertices are moved back. */
 static ffd_status follow(mesh_document *document, const mesh_places *places, mesh_place_move *moves,
                          const mesh_log *log, mesh_following *following, ffd_error *error)
 {

@@ -1,4 +1,4 @@
-/* gltf_format.h - the format glTF (.gltf and .glb), as the table of formats has it. */
+/* gltf_format.h - the format glTF (.gltf and .glb), for the table of formats. */
 #ifndef FFD_IO_GLTF_GLTF_FORMAT_H
 #define FFD_IO_GLTF_GLTF_FORMAT_H
 

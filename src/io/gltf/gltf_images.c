@@ -5,7 +5,7 @@
 #include "io/gltf/save/gltf_resources.h"
 #include <stdio.h>
 
-/* An image that is no file beside the model. */
+/* An image that is not a file beside the model. */
 typedef struct inner_image {
     const gltf_document *document;
     material_images *images;
@@ -67,7 +67,7 @@ static bool is_data(const gltf_document *d, uint32_t uri)
     return value->kind == JSON_STRING && ffd_uri_is_data(head);
 }
 
-/* key: what the image is known by; two images may be of one bufferView. */
+/* key: identifies the image; two images may share a bufferView. */
 static ffd_status load_inner(const gltf_document *d, material_images *images, size_t image, uint32_t *number,
                              ffd_error *error)
 {
@@ -75,7 +75,7 @@ static ffd_status load_inner(const gltf_document *d, material_images *images, si
     const uint32_t view = ffd_json_span_member(&d->tree, value, "bufferView");
     const uint32_t uri = ffd_json_span_member(&d->tree, value, "uri");
     const size_t v = ffd_gltf_index(d, view, d->model.view_count);
-    char key[40]; /* no path of a file: these are relative */
+    char key[40]; /* cannot be the path of a file: these are relative */
     bool is_known;
     snprintf(key, sizeof key, v == GLTF_NONE ? "/image %zu" : "/bufferView %zu", v == GLTF_NONE ? image : v);
     ffd_status status = ffd_images_find(images, key, &is_known, number, error);

@@ -6,7 +6,7 @@
 #include <float.h>
 #include <stdio.h>
 
-/* The default of alphaCutoff, and what blended surfaces are drawn by. */
+/* The default of alphaCutoff, also used for blended surfaces. */
 #define HALF 0.5
 
 typedef struct reader {
@@ -15,13 +15,13 @@ typedef struct reader {
     ffd_error *error;
 } reader;
 
-/* What says the colour of a material, each perhaps JSON_NONE. */
+/* The JSON values that define a material's base colour; each may be JSON_NONE. */
 typedef struct base_colour {
     uint32_t factor, texture;
 } base_colour;
 
-/* An older extension's diffuse colour stands in where only it has a texture, or a factor: so do the texture
-   coordinates of the model. */
+/* Finds the base colour. The diffuse colour of KHR_materials_pbrSpecularGlossiness takes its place if only
+   that has a texture, or a factor; the texture coordinates of the model are chosen in the same way. */
 static base_colour find_colour(const gltf_document *d, uint32_t material)
 {
     const json_span *const tree = &d->tree;
@@ -36,7 +36,7 @@ static base_colour find_colour(const gltf_document *d, uint32_t material)
     return second.texture != JSON_NONE || first.factor == JSON_NONE ? second : first;
 }
 
-/* Keeps what is not a number, or not 0 to 1. */
+/* Reads a colour factor: components that are not numbers stay, those outside 0 to 1 become 1. */
 static void read_factor(const json_span *tree, uint32_t array, double color[4])
 {
     double number;
@@ -70,7 +70,7 @@ static texture_wrap read_wrap(const gltf_document *d, uint32_t sampler, const ch
     return mode == CLAMP_TO_EDGE ? TEXTURE_CLAMP : mode == MIRRORED_REPEAT ? TEXTURE_MIRROR : TEXTURE_REPEAT;
 }
 
-/* Why a texture without a source that is there has no image. */
+/* Returns why a texture whose source is absent or not valid has no image. */
 static const char *why_no_image(const gltf_document *d, uint32_t texture)
 {
     static const char *const extensions[][2] = {
@@ -86,14 +86,14 @@ static const char *why_no_image(const gltf_document *d, uint32_t texture)
                : "names an image that is not there";
 }
 
-/* Says, once, why a texture (GLTF_NONE: one that is not there) has no image. */
+/* Notes, once per texture, why it has no image. number: GLTF_NONE if the texture does not exist. */
 static ffd_status leave_texture(reader *r, size_t number, const char *why, uint32_t *image)
 {
     char name[40] = "a texture", key[sizeof name + 1];
     bool is_known;
     if (number != GLTF_NONE)
         snprintf(name, sizeof name, "texture %zu", number);
-    snprintf(key, sizeof key, "/%s", name); /* no path of a file: these are relative */
+    snprintf(key, sizeof key, "/%s", name); /* cannot be the path of a file: these are relative */
     const ffd_status status = ffd_images_find(&r->images, key, &is_known, image, r->error);
     if (!status && !is_known)
         ffd_left_add(&r->images.left, name, why);

@@ -21,16 +21,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What the JSON library and tinygltf need at most for one object of a list, and what
-   the model keeps of it. */
+/* Upper bounds of what the JSON library and tinygltf need for one object of a list, and of what the model
+   keeps of it. */
 #define OBJECT_BYTES 1024
 #define KEPT_OBJECT_BYTES 256
 
-/* Bytes of small external buffers that are read: thousands may name one file. Others are mapped, which takes
-   no memory. */
+/* Total bytes of small external buffers that are read into memory: thousands of buffers may name one file.
+   Others are mapped, which takes no memory. */
 #define MOST_READ ((size_t)1 << 24)
 
-/* Bytes that are kept per byte of a file: the file itself. */
+/* Bytes that stay in memory per byte of a file: the file itself. */
 #define KEPT_PER_BYTE 1
 
 static ffd_status find_json(gltf_document *d, ffd_format format, ffd_error *error)
@@ -88,7 +88,7 @@ static int compare_files(const void *a, const void *b)
     return memcmp((*x)->identity, (*y)->identity, sizeof(*x)->identity);
 }
 
-/* Adds the files of buffers to the memory budget, each once even if several buffers name it. */
+/* Takes the buffers' files from the memory budget, each file once even if several buffers name it. */
 static ffd_status count_files(gltf_document *d, ffd_error *error)
 {
     size_t count = 0;
@@ -107,7 +107,7 @@ static ffd_status count_files(gltf_document *d, ffd_error *error)
     return FFD_OK;
 }
 
-/* Notes what is wrong with a buffer that was loaded all the same. */
+/* Notes the flaws of a loaded buffer. */
 static ffd_status note_buffer(gltf_document *d, size_t i, ffd_error *error)
 {
     const gltf_buffer *const buffer = &d->buffers[i];
@@ -167,7 +167,7 @@ static ffd_status list_primitives(gltf_document *d, ffd_error *error)
     return FFD_OK;
 }
 
-/* An object can take as few as 3 bytes of the file. */
+/* Limits the number of objects: one can take as few as 3 bytes of the file. */
 static ffd_status limit_objects(gltf_document *d, ffd_error *error)
 {
     const uint32_t scenes = ffd_json_span_member(&d->tree, 0, "scenes");
@@ -178,8 +178,8 @@ static ffd_status limit_objects(gltf_document *d, ffd_error *error)
     return status ? status : ffd_budget_take(&d->base.budget, count, KEPT_OBJECT_BYTES, error);
 }
 
-/* tinygltf refuses indices whose accessor has no bufferView, as compressed and sparse ones may not:
-   they are hidden from it. */
+/* Hides indices from tinygltf: it refuses those whose accessor has no bufferView, which is allowed for
+   compressed and sparse accessors. */
 static void hide_indices(const gltf_document *d, json_edits *edits)
 {
     for (size_t i = 0; i < d->primitive_values.count; i++) {
@@ -190,9 +190,9 @@ static void hide_indices(const gltf_document *d, json_edits *edits)
     }
 }
 
-/* Writes the JSON for tinygltf. It has only the geometry, so that tinygltf does not spend time on the
-   rest nor refuse the file because of it; buffers are stubs, so that it opens no files and decodes no
-   data; integers are plain digits. */
+/* Writes the JSON for tinygltf. It has only the geometry, so that tinygltf neither spends time on the rest
+   nor refuses the file because of it. Buffers are stubs, so that it opens no files and decodes no data.
+   Integers are plain digits. */
 static void write_model_text(const gltf_document *d, const json_edits *plain, byte_buffer *out)
 {
     static const char *const used[] = {"asset", "bufferViews", "accessors", "meshes",
@@ -212,7 +212,7 @@ static void write_model_text(const gltf_document *d, const json_edits *plain, by
     ffd_buffer_text(out, "}");
 }
 
-/* The counts must agree, since the model and the JSON are used side by side. */
+/* Checks that the counts agree, since the model and the JSON are used side by side. */
 static ffd_status check_counts(const gltf_document *d, ffd_error *error)
 {
     const gltf_model *model = &d->model;
@@ -396,7 +396,7 @@ ffd_status ffd_gltf_open_within(file_input *input, const ffd_source *source, con
     d->base.flaws.strict = source->strict;
     d->space = source->space;
     d->threads = source->threads > 0 ? source->threads : ffd_processor_count();
-    d->input = *input; /* the caller's until all succeeded */
+    d->input = *input; /* the caller keeps it until everything has succeeded */
     const ffd_status status = read_document(d, source, error);
     if (status) {
         if (error)

@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The header is padded so that the values start at a multiple of this (NumPy's format 1.0). */
+/* The header is padded so that the values start at a multiple of this (NumPy format 1.0). */
 #define ALIGNMENT 64
 
 size_t ffd_npy_header(const char *descr, size_t rows, size_t columns, char header[NPY_HEADER_CAPACITY])
@@ -17,7 +17,7 @@ size_t ffd_npy_header(const char *descr, size_t rows, size_t columns, char heade
 
 size_t ffd_npy_header_of(const char *descr, const char *shape, char header[NPY_HEADER_CAPACITY])
 {
-    const size_t prefix = 10; /* magic, version, length of the text */
+    const size_t prefix = 10; /* magic string, version, length of the text */
     int length = snprintf(header + prefix, NPY_HEADER_CAPACITY - prefix,
                           "{'descr': '%s', 'fortran_order': False, 'shape': %s, }", descr, shape);
     size_t size = prefix + (size_t)length;

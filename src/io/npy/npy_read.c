@@ -11,10 +11,10 @@ typedef struct npy_header {
     char descr[8];
     char shape[200];
     uint64_t numbers;
-    size_t values; /* offset of the first one */
+    size_t values; /* offset of the first value */
 } npy_header;
 
-/* The text that follows 'KEY': in the header; NULL where there is none. */
+/* Returns the text after 'KEY': in the header; NULL if there is no such key. */
 static const char *find_value(const char *text, const char *key)
 {
     char quoted[32];
@@ -23,7 +23,7 @@ static const char *find_value(const char *text, const char *key)
     return at ? at + strlen(quoted) + strspn(at + strlen(quoted), " ") : NULL;
 }
 
-/* The product of "(3, 4)". */
+/* Reads a shape like "(3, 4)": the product of its numbers. */
 static bool read_shape(const char *text, npy_header *header)
 {
     header->numbers = 1;
@@ -40,7 +40,7 @@ static bool read_shape(const char *text, npy_header *header)
     return true;
 }
 
-/* Reads the header; false: this is no array file, or one that is not known. */
+/* Reads the header. Returns false if the file is not an array file, or one of an unknown version. */
 static bool read_header(const file_input *file, npy_header *header)
 {
     char text[1024];
@@ -91,7 +91,7 @@ static ffd_status read_values(const char *path, const file_input *file, size_t n
 {
     npy_header header = {.descr = ""};
     if (!read_header(file, &header))
-        return ffd_fail_file(error, FFD_E_INVALID, path, "is no array file of NumPy (.npy) in C order");
+        return ffd_fail_file(error, FFD_E_INVALID, path, "is not a NumPy array file (.npy) in C order");
     const size_t size = strcmp(header.descr + 1, "f8") == 0 ? 8 : strcmp(header.descr + 1, "f4") == 0 ? 4 : 0;
     if (!header.descr[0] || size == 0 || !strchr("<>=|", header.descr[0]))
         return ffd_fail_file(error, FFD_E_INVALID, path, "has numbers of type %s, not float32 or float64",

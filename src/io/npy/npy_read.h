@@ -5,9 +5,9 @@
 #include "base/fail.h"
 #include <stddef.h>
 
-/* Reads an array of float32 or float64 numbers in C order whose shape has `numbers` numbers in all, whatever
-   its dimensions, as doubles (free with ffd_free). Errors: FFD_E_INVALID for another file, type, order or
-   size, FFD_E_IO, FFD_E_MEMORY. */
+/* Reads an array of float32 or float64 in C order as doubles. The product of its shape must be `numbers`,
+   whatever its dimensions. The caller frees *values with ffd_free. Errors: FFD_E_INVALID for another file,
+   type, order or size, FFD_E_IO, FFD_E_MEMORY. */
 ffd_status ffd_npy_read(const char *path, size_t numbers, double **values, ffd_error *error);
 
 #endif

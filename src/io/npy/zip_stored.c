@@ -13,10 +13,10 @@ enum {
 };
 #define VERSION_64 45
 #define FLAG_DESCRIPTOR 8
-#define DATE_1980 0x21 /* 1 January 1980, as the same archive has the same bytes at any time */
+#define DATE_1980 0x21 /* 1 January 1980: the bytes of an archive do not depend on the time */
 #define FULL_32 UINT32_MAX
 
-/* CRC-32 of ISO 3309, the polynomial of ZIP, reflected. */
+/* CRC-32 of ISO 3309 with ZIP's polynomial, reflected. */
 static uint32_t crc_of(uint32_t crc, const unsigned char *bytes, size_t size)
 {
     static const uint32_t nibbles[16] = {
@@ -31,7 +31,7 @@ static uint32_t crc_of(uint32_t crc, const unsigned char *bytes, size_t size)
     return ~crc;
 }
 
-/* A record that is being put together. */
+/* A record under construction. */
 typedef struct record {
     unsigned char bytes[160];
     size_t size;
@@ -73,7 +73,7 @@ void ffd_zip_begin(zip_writer *zip, file_output *output)
     *zip = (zip_writer){.output = output};
 }
 
-/* The size is in the extra field of ZIP64 whatever it is: readers take it from there. */
+/* The size is always in the ZIP64 extra field: readers take it from there. */
 ffd_status ffd_zip_member(zip_writer *zip, const char *name, uint64_t size, ffd_error *error)
 {
     zip_member *const member = &zip->members[zip->count++];

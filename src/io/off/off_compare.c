@@ -1,8 +1,9 @@
-/* off_compare.c - compares two OFF files. Two OFF files are the same mesh when their vertices have the same
-   attributes, and vertices and faces are the same one by one. Positions and normals may differ by their
-   tolerances; other numbers may not. Colours are equal where they are the same numbers and written in the
-   same of the two ways, whole (0 to 255) or not (0 to 1). Comments, blanks, the number of edges, where lines
-   end, and what follows the last face are not compared. */
+/* off_compare.c - compares two OFF files.
+
+   Two OFF files are the same mesh if their vertices have the same attributes, and vertices and faces are
+   equal one by one. Positions and normals may differ by their tolerances, other numbers may not. Colours are
+   equal if they are the same numbers in the same form: whole numbers (0 to 255) or decimals (0 to 1).
+   Comments, blanks, the number of edges, line breaks, and anything after the last face are not compared. */
 #include "io/off/off_document.h"
 #include "mesh/difference.h"
 #include <stdio.h>
@@ -16,7 +17,7 @@ typedef struct comparer {
     size_t number, lines[2];
 } comparer;
 
-/* "vertex 3 counted from 0 (lines 5 and 6)". A difference_label. */
+/* Writes "vertex 3 counted from 0 (lines 5 and 6)". A difference_label. */
 static void format_place(const void *context, char *text, size_t capacity)
 {
     const comparer *c = context;
@@ -33,7 +34,7 @@ static void differ(comparer *c, ffd_difference_kind kind, const char *what, text
                        a.first, ffd_text_display_size(b), b.first);
 }
 
-/* Whether vertices and faces of both files can be matched. */
+/* Whether the vertices and faces of both files can be matched one by one. */
 static bool same_header(comparer *c)
 {
     const off_header *a = &c->a->header, *b = &c->b->header;
@@ -67,7 +68,7 @@ static void compare_vectors(comparer *c)
     c->result->positions_compared++;
 }
 
-/* Whether a number would be read as one of 0 to 255. */
+/* Whether readers take a number as one of 0 to 255. */
 static bool is_whole(text_word word)
 {
     uint64_t value;
@@ -81,7 +82,7 @@ static bool same_number(text_word a, text_word b)
                                    ffd_text_number(b, &y) && !(ffd_difference_of(x, y) > 0));
 }
 
-/* Compares what follows: colours, u v. One difference at most. */
+/* Compares the remaining words of a vertex or face: colours, u v. Adds one difference at most. */
 static void compare_rest(comparer *c, ffd_difference_kind kind)
 {
     for (;;) {
@@ -109,7 +110,7 @@ static void compare_vertex(comparer *c)
                                                                   : FFD_DIFFERENCE_OTHER);
 }
 
-/* One difference at most; takes the corners of both. */
+/* Reads and compares the corners of a face in both files. Adds one difference at most. */
 static void compare_corners(comparer *c, uint64_t count_a, uint64_t count_b)
 {
     bool same = count_a == count_b;

@@ -1,10 +1,10 @@
-/* off_describe.c - what `ffd info` says of an OFF file. */
+/* off_describe.c - what `ffd info` reports of an OFF file. */
 #include "io/off/off_document.h"
 #include "mesh/face_sizes.h"
 #include <stdio.h>
 
 typedef struct off_facts {
-    size_t coloured, coloured_faces; /* vertices and faces with words of a colour */
+    size_t coloured, coloured_faces; /* numbers of vertices and of faces with colours */
     face_sizes sizes;
 } off_facts;
 

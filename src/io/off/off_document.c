@@ -25,7 +25,7 @@ static ffd_status read_numbers(off_document *d, const off_vertex *v, size_t numb
     return FFD_OK;
 }
 
-/* The colour and u v are kept as they are, but must be numbers. */
+/* Checks that the rest of a vertex (colour, u v) is numbers; these stay as they are. */
 static ffd_status check_rest(const off_document *d, off_walk *walk, ffd_error *error)
 {
     const size_t least = ffd_off_header_rest_min(&d->header), most = ffd_off_header_rest_max(&d->header);
@@ -75,7 +75,8 @@ static ffd_status read_body(off_document *d, ffd_error *error)
     if (status)
         return status;
     ffd_text_next_line(&walk.scan);
-    ffd_text_find(&walk.scan); /* empty lines and comments are not counted as bytes behind */
+    /* So that empty lines and comments do not count as bytes after the last face. */
+    ffd_text_find(&walk.scan);
     d->behind = walk.scan.at;
     return FFD_OK;
 }

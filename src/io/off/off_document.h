@@ -1,8 +1,8 @@
-/* off_document.h - an OFF file as a mesh document: one part, in the lattice's space. Declares
-   off_document.c and off_faces.c.
+/* off_document.h - an OFF file as a mesh document: one part, in the lattice's space. Declares off_document.c
+   and off_faces.c.
 
-   Every vertex of the file is one, in its order; that of NOFF has its normal. Coordinates are held as
-   numbers; all else stays in the file's bytes, which are read again where it is needed. */
+   The vertices are those of the file, in its order; with NOFF each has its normal. Coordinates are held as
+   numbers. Everything else stays in the file's bytes and is read again when needed. */
 #ifndef FFD_IO_OFF_OFF_DOCUMENT_H
 #define FFD_IO_OFF_OFF_DOCUMENT_H
 
@@ -12,10 +12,10 @@
 typedef struct off_document {
     file_document file;
     off_header header;
-    size_t lines, points; /* faces of two corners, and of one */
-    size_t corners;       /* of the other faces */
-    off_walk faces_begin; /* a walk at the first face */
-    const char *behind;   /* what follows the line of the last face, or of the last vertex */
+    size_t lines, points; /* numbers of faces with two corners, and with one */
+    size_t corners;       /* number of corners of the other faces */
+    off_walk faces_begin; /* the state of a walk at the first face */
+    const char *behind;   /* the text after the line of the last face, or of the last vertex */
 } off_document;
 
 static inline const off_document *ffd_off_of(const mesh_document *document)

@@ -1,4 +1,4 @@
-/* off_faces.c - reads and hands out the faces of an OFF file. */
+/* off_faces.c - reads the faces of an OFF file, and passes them on. */
 #include "base/memory/memory.h"
 #include "base/text/words.h"
 #include "io/off/off_document.h"
@@ -54,7 +54,8 @@ static ffd_status read_face(off_document *d, off_walk *walk, ffd_error *error)
 ffd_status ffd_off_read_faces(off_document *d, off_walk *walk, ffd_error *error)
 {
     ffd_status status = FFD_OK;
-    d->file.used = ffd_alloc_zero(d->header.vertices, 1); /* a vertex takes more bytes of the file */
+    /* Fits into memory: a vertex takes more bytes of the file. */
+    d->file.used = ffd_alloc_zero(d->header.vertices, 1);
     if (!d->file.used)
         return ffd_fail_memory(error);
     for (size_t i = 0; status == FFD_OK && i < d->header.faces; i++) {
@@ -109,11 +110,12 @@ ffd_status ffd_off_mixed_faces(const mesh_document *document, const vertex_marks
     for (size_t i = 0; i < d->header.faces && !has_changed; i++) {
         for (size_t left = ffd_off_walk_face_size(&walk); left > 0 && !has_changed; left--) {
             const uint32_t vertex = ffd_off_walk_corner_index(&walk);
-            has_changed = vertex >= d->header.vertices; /* it was looked at when the file was opened */
+            /* It was checked when the file was opened: the file has changed since. */
+            has_changed = vertex >= d->header.vertices;
             if (!has_changed)
                 ffd_face_list_corner(&list, vertex);
         }
-        if (list.pending == 1 || list.pending == 2) /* it is a point or a line */
+        if (list.pending == 1 || list.pending == 2) /* a point or a line */
             list.pending = 0;
         ffd_face_list_end(&list, marks);
     }
@@ -128,7 +130,7 @@ ffd_status ffd_off_mixed_faces(const mesh_document *document, const vertex_marks
 ffd_status ffd_off_mark_used(mesh_document *document, ffd_error *error)
 {
     off_document *const d = (off_document *)document;
-    /* The bytes are there since the file was read. */
+    /* The array exists since the file was read; only now is it counted. */
     const ffd_status status = ffd_budget_take(&document->budget, d->header.vertices, 1, error);
     if (status)
         return status;

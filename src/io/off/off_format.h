@@ -1,4 +1,4 @@
-/* off_format.h - the format OFF, as the table of formats has it. */
+/* off_format.h - the format OFF, for the table of formats. */
 #ifndef FFD_IO_OFF_OFF_FORMAT_H
 #define FFD_IO_OFF_OFF_FORMAT_H
 

@@ -40,7 +40,7 @@ static bool is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-/* Takes one of the letters before OFF. Returns false if it is another letter, or is given twice. */
+/* Takes one of the letters before OFF. Returns false for any other letter, or a second time. */
 static bool take_letter(const char **at, const char *end, off_header *header, bool *unsupported)
 {
     bool ignored = false;
@@ -59,7 +59,8 @@ static bool take_letter(const char **at, const char *end, off_header *header, bo
     return true;
 }
 
-/* Reads "CNOFF", or "OFF8" of which "8" is left in *rest. Returns false if the word is not a keyword. */
+/* Reads a keyword: "CNOFF", or "OFF8", of which *rest becomes "8". Returns false if the word is not a
+   keyword. */
 static bool take_keyword(off_header *header, text_word word, text_word *rest, bool *unsupported)
 {
     const char *at = word.first, *end = word.last;
@@ -99,7 +100,7 @@ static ffd_status read_keyword(header_reader *r, text_word *rest)
     return FFD_OK;
 }
 
-/* Reads a count from the word, or where that is empty from the next one. */
+/* Reads a count from the word or, if that is empty, from the next word. */
 static ffd_status read_count(header_reader *r, const char *what, text_word word, uint64_t *count)
 {
     if (word.first == word.last) {
@@ -115,7 +116,7 @@ static ffd_status read_count(header_reader *r, const char *what, text_word word,
                          ffd_text_display_size(word), word.first);
 }
 
-/* Passes the number of edges: the next word of the line, or one that has a line of its own. */
+/* Skips the number of edges: the next word of the line, or a line with this word only. */
 static void pass_edges(header_reader *r)
 {
     text_word word;
@@ -132,7 +133,7 @@ static void pass_edges(header_reader *r)
         r->scan = behind;
 }
 
-/* a * b + c * d, SIZE_MAX where that is too large. */
+/* Returns a * b + c * d; SIZE_MAX if that overflows. */
 static size_t least_bytes(size_t a, size_t b, size_t c, size_t d)
 {
     size_t first, second, sum;
@@ -142,7 +143,7 @@ static size_t least_bytes(size_t a, size_t b, size_t c, size_t d)
     return SIZE_MAX;
 }
 
-/* Every word takes two bytes at least, with its separator; the last one may have no separator. */
+/* Every word takes at least two bytes with its separator, except that the last one may have none. */
 static ffd_status check_size(header_reader *r, uint64_t vertices, uint64_t faces)
 {
     off_header *header = r->header;
@@ -176,7 +177,7 @@ static bool has_lines(text_scan scan, size_t count)
     return true;
 }
 
-/* Whether the next line that is not empty has as many words as a vertex may have. */
+/* Whether the number of words in the next nonempty line is one that a vertex may have. */
 static bool has_vertex_line(const off_header *header, text_scan scan)
 {
     const size_t numbers = off_header_numbers(header);

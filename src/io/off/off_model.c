@@ -3,19 +3,19 @@
 #include "io/off/off_document.h"
 #include <string.h>
 
-/* A colour, a texture coordinate, and one word more, which is too many. */
+/* A colour, a texture coordinate, and one more word, to notice too many. */
 #define REST_MAX 7
 
 typedef struct extractor {
     const off_document *document;
     mesh_model *model;
     off_walk walk;
-    model_corner *corners; /* of the current face */
+    model_corner *corners; /* those of the current face */
     size_t capacity;
     ffd_error *error;
 } extractor;
 
-/* The numbers after a vertex, up to REST_MAX. */
+/* Reads the numbers after a vertex, at most REST_MAX. Returns how many. */
 static size_t take_rest(extractor *e, double *numbers)
 {
     size_t count = 0;
@@ -26,7 +26,8 @@ static size_t take_rest(extractor *e, double *numbers)
     return count;
 }
 
-/* A colour (a single number would be an index into a table, which no file has with it) and then u v. */
+/* Takes a vertex's colour and u v. A single number would be an index into a table of colours, which no file
+   contains. */
 static ffd_status take_vertex(extractor *e, size_t i)
 {
     const bool texcoords = e->document->header.has_texcoords;

@@ -5,7 +5,7 @@ void ffd_off_walk_begin(const off_header *header, off_walk *walk)
     *walk = (off_walk){.header = header, .scan = header->body, .pass_line = !header->free_layout};
 }
 
-/* Goes to the first word of a vertex or face. */
+/* Moves to the first word of a vertex or face. */
 static bool begin_record(off_walk *walk)
 {
     if (walk->pass_line)
@@ -13,7 +13,7 @@ static bool begin_record(off_walk *walk)
     return ffd_text_find(&walk->scan);
 }
 
-/* Takes a word that the record needs. */
+/* Takes a required word of the record. */
 static bool take_word(off_walk *walk, text_word *word)
 {
     if (walk->header->free_layout)

@@ -1,6 +1,7 @@
 #include "io/openmesh/half_edges.h"
 
-/* Measured. More than eight corners a vertex are faces that share few edges: their vertices are copied. */
+/* Measured bytes per corner. More than eight corners per vertex mean faces that share few edges: their
+   vertices are copied. */
 #define SHARING_BYTES 72
 #define COPYING_BYTES 120
 #define LONGEST_BYTES 64

@@ -1,11 +1,11 @@
-/* half_edges.h - what OpenMesh's half-edges cost. */
+/* half_edges.h - the memory of OpenMesh's half-edges. */
 #ifndef FFD_IO_OPENMESH_HALF_EDGES_H
 #define FFD_IO_OPENMESH_HALF_EDGES_H
 
 #include "mesh/mesh.h"
 
-/* Bytes of memory that the half-edges of these faces need about at most, with what topology.h or normals.h
-   finds by them. */
+/* Returns about the maximum number of bytes for the half-edges of these faces, including what topology.h or
+   normals.h computes from them. */
 uint64_t ffd_half_edge_bytes(const mesh_faces *faces);
 
 #endif

@@ -10,7 +10,7 @@ namespace
 
 using namespace ffd_openmesh;
 
-/* The power of two that is not below any finite coordinate; 1 where all are 0. */
+/* Returns the smallest power of two that is not less than any finite coordinate; 1 if all are 0. */
 double unit_of(const mesh_faces &faces)
 {
     double largest = 0;
@@ -22,7 +22,7 @@ double unit_of(const mesh_faces &faces)
     return std::ldexp(1, exponent < 1000 ? exponent : 1000);
 }
 
-/* The corners of one face at a time. */
+/* The terms of one face's corners. */
 class face_terms
 {
   public:
@@ -30,15 +30,15 @@ class face_terms
     {
     }
 
-    /* Returns false if the face adds nothing. */
+    /* Reads a face. Returns false if it contributes nothing. */
     bool read(half_edge_mesh::FaceHandle face);
 
-    /* Figures of the face read last. */
+    /* Values of the face read last. */
     size_t count() const { return numbers_.size(); }
     uint32_t number(size_t i) const { return numbers_[i]; }
     uint32_t vertex(size_t i) const { return vertices_[i]; }
     const double *unit_normal() const { return normal_; }
-    /* The term of a corner; returns its length. */
+    /* Computes the term of a corner; returns its length. */
     double term(size_t i, double to[3]) const;
 
   private:
@@ -49,13 +49,13 @@ class face_terms
     array<double> angles_;
     array<size_t> scratch_;
     double normal_[3];
-    double vector_[3], length_ = 0; /* twice the area along the normal, in units */
+    double vector_[3], length_ = 0; /* twice the area times the normal, in squared units */
 };
 
-/* What the faces have added to a group. */
+/* The sum of a group so far. */
 struct group_sum {
-    double sum[3] = {0, 0, 0}, size = 0; /* of the terms, and of their lengths */
-    bool mixed = false;                  /* of faces that look different ways */
+    double sum[3] = {0, 0, 0}, size = 0; /* of the terms; of their lengths */
+    bool mixed = false;                  /* whether the faces have different normals */
 };
 
 bool face_terms::read(half_edge_mesh::FaceHandle face)
@@ -93,8 +93,8 @@ double face_terms::term(size_t i, double to[3]) const
     return weight * length_;
 }
 
-/* direction: the unit normal of the faces that the group has had so far, and has while they all look one way.
- */
+/* Adds a term to a group. direction: the common unit normal of the group's faces so far, valid until
+   mixed. */
 void add_term(group_sum &group, double sign, const double normal[3], const double term[3], double length,
               double direction[3])
 {
@@ -111,8 +111,8 @@ void add_term(group_sum &group, double sign, const double normal[3], const doubl
     group.size += length;
 }
 
-/* Leaves the one direction of a group as it is: from the sum of terms of different lengths it would come out
-   different in the last bit at each corner of the face. */
+/* Keeps the direction of a group whose faces have one normal: computed from the sum of terms of different
+   lengths, it could differ in the last bit at each corner of the face. */
 void finish_group(const group_sum &group, double direction[3])
 {
     if (!group.mixed)
@@ -156,7 +156,7 @@ ffd_status ffd_normals_of_groups(const mesh_faces *faces, const double *position
     return guarded(
         [&] {
             mesh_faces placed = *faces;
-            placed.positions = const_cast<double *>(positions); /* read only */
+            placed.positions = const_cast<double *>(positions); /* only read */
             const ffd_status status = check(placed, error);
             if (status == FFD_OK)
                 find_directions(placed, groups, group_count, mirrored, directions);

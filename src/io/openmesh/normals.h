@@ -1,5 +1,5 @@
-/* normals.h - normals from the faces of a polygon mesh by OpenMesh's half-edges (C++ behind C). Declares
-   openmesh_load.c too, which a program that loads them has instead. */
+/* normals.h - normals from the faces of a polygon mesh, with OpenMesh's half-edges (C++ behind a C
+   interface). Declares openmesh_load.c too: in a program that loads modules it has this function. */
 #ifndef FFD_IO_OPENMESH_NORMALS_H
 #define FFD_IO_OPENMESH_NORMALS_H
 
@@ -12,21 +12,21 @@
 extern "C" {
 #endif
 
-/* For each group of corners the direction of the sum over its corners of (area of the face) (interior angle
-   there) (unit normal of the face, by the order of its corners). Where all of these unit normals are equal,
-   the direction is that one, to the bit. Areas are relative to the square of a power of two that brings the
-   mesh's largest coordinate to 1 or less. Faces are added in their order. Corners of faces without an area
-   add nothing, and neither does a corner that repeats the vertex before it.
+/* Computes for each group of corners the direction of a sum over its corners: (area of the face) * (interior
+   angle at the corner) * (unit normal of the face, by the order of its corners). If all these unit normals
+   are equal, the direction has exactly their bits. Areas are relative to the square of a power of two that
+   is not less than the mesh's largest coordinate. Faces are added in order. Corners of faces without an area
+   contribute nothing, nor do corners that repeat the previous vertex.
 
-     positions   3 doubles a vertex, in place of those of faces
-     groups      one a corner of faces: a number below group_count, or NORMALS_NONE
-     mirrored    one a vertex, not 0: the faces there are shown from their other side, so that its corners
-                 count with the opposite sign; NULL: none
-     directions  3 a group, cleared by the caller: a unit vector, or 0 0 0 where nothing is added or the terms
-                 cancel out
+     positions   3 doubles per vertex, used in place of those in faces
+     groups      per corner of faces: a number less than group_count, or NORMALS_NONE
+     mirrored    per vertex, nonzero if the faces there are shown from their other side: the vertex's corners
+                 then count with the opposite sign; NULL: none
+     directions  3 doubles per group, zeroed by the caller; become a unit vector, or 0 0 0 if nothing is
+                 added or the terms cancel
 
-   No exception leaves, nothing is printed. Errors: FFD_E_MEMORY, FFD_E_LIMIT, FFD_E_UNSUPPORTED (no library),
-   FFD_E_ARGUMENT (a corner is not the number of a vertex). */
+   Throws no exception, prints nothing. Errors: FFD_E_MEMORY, FFD_E_LIMIT, FFD_E_UNSUPPORTED (no library),
+   FFD_E_ARGUMENT (a corner is not a vertex number). */
 ffd_status ffd_normals_of_groups(const mesh_faces *faces, const double *positions, const uint32_t *groups,
                                  size_t group_count, const uint8_t *mirrored, double *directions,
                                  ffd_error *error);

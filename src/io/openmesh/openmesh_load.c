@@ -1,4 +1,5 @@
-/* openmesh_load.c - topology and normals by the module, which is loaded when it is first needed. */
+/* openmesh_load.c - the functions of topology.h and normals.h, by the module, which is loaded at the first
+   call. */
 #include "io/openmesh/openmesh_module.h"
 
 static ffd_status load(const openmesh_module **functions, ffd_error *error)

@@ -1,5 +1,5 @@
-/* openmesh_module.h - what the module with OpenMesh shows. openmesh_module.c is part of the module;
-   openmesh_load.c, in its place, of a program that loads it. */
+/* openmesh_module.h - the functions of the OpenMesh module. openmesh_module.c is part of the module; a
+   program that loads the module has openmesh_load.c instead. */
 #ifndef FFD_IO_OPENMESH_OPENMESH_MODULE_H
 #define FFD_IO_OPENMESH_OPENMESH_MODULE_H
 

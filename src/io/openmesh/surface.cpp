@@ -5,11 +5,11 @@
 namespace ffd_openmesh
 {
 
-/* Half-edges are numbered by int, and a corner makes two at most. */
+/* OpenMesh numbers half-edges by int, and each corner makes at most two. */
 const size_t most_corners = INT_MAX / 2;
 
-/* add_face walks round each corner's vertex: a hub of a million faces would take their square. A vertex with
-   this many faces hands over to a copy of itself. */
+/* add_face visits all faces at each corner's vertex: for a hub of a million faces that would take quadratic
+   time. A vertex with this many faces is continued by a copy. */
 const unsigned most_faces_of_vertex = 64;
 
 surface::surface(const mesh_faces &faces)
@@ -32,7 +32,7 @@ vertex_handle surface::new_vertex(uint32_t source)
 }
 
 /* Whether a face between these two boundary half-edges, which meet at a vertex, would close the fan that they
-   bound while other fans are in its gap. */
+   bound although other fans are in its gap. */
 bool surface::closes_fan(halfedge_handle previous, halfedge_handle next) const
 {
     halfedge_handle incoming = mesh.opposite_halfedge_handle(next);
@@ -41,8 +41,8 @@ bool surface::closes_fan(halfedge_handle previous, halfedge_handle next) const
     return incoming == previous && mesh.next_halfedge_handle(previous) != next;
 }
 
-/* Whether add_face will take the face of handles_. It would find out itself, but says so on a stream that
-   belongs to the whole process. */
+/* Whether add_face will accept the face of handles_. add_face checks this too, but reports a failure on a
+   stream that belongs to the whole process. */
 bool surface::fits() const
 {
     const size_t count = handles_.size();
@@ -86,7 +86,7 @@ void surface::add_face(bool simple)
 
 size_t surface::add_faces(const mesh_faces &faces)
 {
-    array<size_t> seen_in(faces.vertex_count); /* the last face with the vertex, from 1 */
+    array<size_t> seen_in(faces.vertex_count); /* per vertex: the last face with it, counted from 1 */
     size_t degenerate = 0;
     for (size_t f = 0; f < faces.face_count; f++) {
         size_t distinct = 0;
@@ -117,8 +117,7 @@ ffd_status check(const mesh_faces &faces, ffd_error *error)
 {
     const size_t corners = faces.face_count ? faces.start[faces.face_count] : 0;
     if (corners > most_corners)
-        return ffd_fail(error, FFD_E_LIMIT,
-                        "%zu corners of faces are more than the %zu that topology is made for", corners,
+        return ffd_fail(error, FFD_E_LIMIT, "%zu corners of faces are more than the limit of %zu", corners,
                         most_corners);
     for (size_t c = 0; c < corners; c++)
         if (faces.corners[c] >= faces.vertex_count)

@@ -4,7 +4,8 @@
 
 #include "base/memory/memory.h"
 #include "mesh/mesh.h"
-/* OpenMesh's vectors begin unset, and gcc sees them copied into new vertices before they get their value. */
+/* OpenMesh's vectors are uninitialized at first, and gcc warns where they are copied into new vertices before
+   they are set. */
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
@@ -20,7 +21,7 @@
 namespace ffd_openmesh
 {
 
-/* Arrays whose memory comes from base/memory/memory.h. */
+/* Arrays that take their memory from base/memory/memory.h. */
 template <class T> struct base_allocator {
     typedef T value_type;
     base_allocator() = default;
@@ -48,19 +49,19 @@ typedef OpenMesh::PolyMesh_ArrayKernelT<double_traits> half_edge_mesh;
 typedef half_edge_mesh::VertexHandle vertex_handle;
 typedef half_edge_mesh::HalfedgeHandle halfedge_handle;
 
-/* The faces as half-edges. Vertices are made when a face first needs them and know their number in the file,
-   their source; where half-edges cannot express what the file has, a source has several vertices. */
+/* The faces as half-edges. A vertex is made when a face first needs it, and knows its number in the file: its
+   source. Where half-edges cannot express the mesh, one source has several vertices. */
 class surface
 {
   public:
     explicit surface(const mesh_faces &faces);
 
-    /* Adds all faces with at least three different corners; returns how many have not. A corner that repeats
-       the one before it is left out. */
+    /* Adds all faces with at least three different corners; returns the number of other faces. A corner that
+       repeats the previous one is left out. */
     size_t add_faces(const mesh_faces &faces);
 
     uint32_t source(vertex_handle vertex) const { return mesh.property(source_, vertex); }
-    /* The index in the file's corners of the corner that a half-edge of a face starts at. */
+    /* Returns the corner (an index in the file's corners) at which a half-edge of a face starts. */
     uint32_t corner(halfedge_handle half) const { return mesh.property(corner_, half); }
     bool has_copies(uint32_t vertex) const { return vertices_of_[vertex] > 1; }
 
@@ -76,17 +77,18 @@ class surface
     OpenMesh::VPropHandleT<uint32_t> source_;
     OpenMesh::VPropHandleT<unsigned> faces_of_;
     OpenMesh::HPropHandleT<uint32_t> corner_;
-    array<vertex_handle> current_;      /* of each source, what the next face joins; may be invalid */
-    array<unsigned char> vertices_of_;  /* of each source: 0, 1, or 2 for more */
-    array<uint32_t> sources_, numbers_; /* of the corners of the face being added: vertices, and their indices
-                                           in the file's corners; no neighbours equal */
-    array<vertex_handle> handles_;      /* likewise */
+    array<vertex_handle> current_;     /* per source: the vertex that the next face joins; may be invalid */
+    array<unsigned char> vertices_of_; /* per source: the number of its vertices: 0, 1, or 2 for more */
+    /* Per corner of the face being added: the vertex, and its index in the file's corners. Neighbours
+       differ. */
+    array<uint32_t> sources_, numbers_;
+    array<vertex_handle> handles_; /* per corner too */
 };
 
-/* Refuses what half-edges cannot number and corners that are not numbers of vertices. */
+/* Refuses more corners than half-edges can number, and corners that are not vertex numbers. */
 ffd_status check(const mesh_faces &faces, ffd_error *error);
 
-/* Calls what makes `what` of the faces, and turns exceptions into errors. */
+/* Calls make, and turns exceptions into errors. what: what it computes, for messages. */
 template <class function> ffd_status guarded(function make, const char *what, ffd_error *error)
 {
     try {

@@ -8,10 +8,10 @@ namespace
 
 using namespace ffd_openmesh;
 
-/* The edges of the file: those of the half-edge mesh, where edges between copies of the
-   same two sources are one. */
+/* The edges of the file. They are those of the half-edge mesh, except that edges between copies of the same
+   two sources count as one. */
 struct source_edges {
-    array<uint32_t> number; /* of each edge of the half-edge mesh */
+    array<uint32_t> number; /* per edge of the half-edge mesh */
     size_t count = 0;
 
     explicit source_edges(const surface &s);
@@ -39,7 +39,7 @@ source_edges::source_edges(const surface &s) : number(s.mesh.n_edges())
     }
 }
 
-/* Sets that are joined (Tarjan; path halving). */
+/* Disjoint sets (Tarjan), with path halving. */
 class disjoint_sets
 {
   public:
@@ -54,7 +54,7 @@ class disjoint_sets
             i = parent_[i] = parent_[parent_[i]];
         return i;
     }
-    /* 1 when a and b were in different sets, else 0. */
+    /* Returns 1 if a and b were in different sets, else 0. */
     size_t join(uint32_t a, uint32_t b)
     {
         a = find(a);
@@ -67,12 +67,13 @@ class disjoint_sets
     array<uint32_t> parent_;
 };
 
-/* What the faces say of each edge. An edge e has two ends, 2e at its lower vertex and 2e+1 at its higher one;
-   two ends at a vertex are in one set when they bound the same fan of faces. */
+/* The faces along each edge. Edge e has two ends: 2e at its lower vertex and 2e+1 at its higher one. Two ends
+   at a vertex are in the same set if they bound the same fan of faces. */
 struct edge_uses {
-    array<uint32_t> faces, upward; /* faces along each edge; those from its lower to its higher vertex */
-    array<uint32_t> vertex;        /* of each end */
-    disjoint_sets fans;            /* of ends */
+    /* Number of faces; of those, how many run from the lower to the higher vertex. */
+    array<uint32_t> faces, upward;
+    array<uint32_t> vertex; /* per end */
+    disjoint_sets fans;     /* sets of ends */
 
     explicit edge_uses(size_t edges) : faces(edges), upward(edges), vertex(2 * edges), fans(2 * edges) {}
     bool is_boundary(size_t edge) const { return faces[edge] == 1; }
@@ -103,7 +104,8 @@ void use_edges(const surface &s, const source_edges &edges, edge_uses &uses)
     }
 }
 
-/* Half the sum of the cross products of neighbouring corners, taken from the first: Newell's vector. */
+/* The length of Newell's vector: half the sum of the cross products of neighbouring corners, relative to the
+   first corner. */
 double face_area(const half_edge_mesh &mesh, half_edge_mesh::FaceHandle face)
 {
     const halfedge_handle first = mesh.halfedge_handle(face);
@@ -143,10 +145,10 @@ void count_edges(const edge_uses &uses, mesh_topology &topology)
     }
 }
 
-/* A vertex is manifold when the edges at it form one fan and each of them has two faces at most. */
+/* A vertex is manifold if the edges at it form one fan and none of them has more than two faces. */
 void count_vertices(edge_uses &uses, mesh_topology &topology)
 {
-    array<unsigned char> fans(topology.vertices); /* 0, 1, or 2 for more */
+    array<unsigned char> fans(topology.vertices); /* per vertex: 0, 1, or 2 for more */
     for (size_t end = 0; end < 2 * topology.edges; end++) {
         unsigned char &fan_count = fans[uses.vertex[end]];
         if (uses.faces[end / 2] > 2)

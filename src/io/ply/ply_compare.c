@@ -1,7 +1,9 @@
-/* ply_compare.c - compares two PLY files. Two PLY files are the same mesh when their elements, properties and
-   types are, in their order, and their values as numbers (1.0 and 1, NaN and NaN). x y z and nx ny nz of the
-   vertices may differ by their tolerances; other numbers may not. How the numbers are written (ascii, either
-   binary order), comments, blanks and line ends are not compared; obj_info and texture file names are. */
+/* ply_compare.c - compares two PLY files.
+
+   Two PLY files are the same mesh if their elements, properties and types are equal, in the same order, and
+   their values are equal as numbers (1.0 and 1, NaN and NaN). x y z and nx ny nz of the vertices may differ
+   by their tolerances, other numbers may not. The encoding (ascii, either byte order), comments, blanks and
+   line ends are not compared; obj_info and the names of texture files are. */
 #include "io/ply/ply_document.h"
 #include "mesh/difference.h"
 #include <inttypes.h>
@@ -10,12 +12,12 @@
 typedef struct comparer {
     const ply_document *a, *b;
     ply_walk in_a, in_b;
-    const ply_element *element; /* of a */
+    const ply_element *element; /* one of a */
     uint64_t row;
     ffd_comparison *result;
 } comparer;
 
-/* Headers */
+/* The headers */
 
 static void differ_in_words(comparer *c, const char *what, text_word a, text_word b)
 {
@@ -44,7 +46,7 @@ static void compare_properties(comparer *c, const ply_element *a, const ply_elem
                            b->property_count);
 }
 
-/* Whether the rows of one file are of the same form as those of the other. */
+/* Whether the rows of both files have the same form. */
 static bool same_elements(comparer *c)
 {
     const ply_header *a = &c->a->header, *b = &c->b->header;
@@ -76,9 +78,9 @@ static void compare_notes(comparer *c)
                            a->note_count, b->note_count);
 }
 
-/* Rows */
+/* The rows */
 
-/* "face 3 (lines 20 and 21)"; lines where both files have them. A difference_label. */
+/* Writes "face 3 (lines 20 and 21)", with lines if both files have lines. A difference_label. */
 static void format_place(const void *context, char *text, size_t capacity)
 {
     const comparer *c = context;
@@ -90,7 +92,7 @@ static void format_place(const void *context, char *text, size_t capacity)
              c->row, lines);
 }
 
-/* A number for a message: its text, or the shortest text for the value of its bytes. */
+/* Writes a number for a message: its text, or the shortest text of a binary number. */
 static void format_value(const ply_document *d, ply_type type, text_word word, char *text, size_t capacity)
 {
     double value = 0;
@@ -144,7 +146,7 @@ static bool same_value(const comparer *c, ply_type type, text_word a, text_word 
            !(ffd_difference_of(x, y) > 0);
 }
 
-/* One difference at most; moves past the list in both files. */
+/* Compares a list and moves past it in both files. Adds one difference at most. */
 static void compare_list(comparer *c, const ply_property *property)
 {
     text_word a, b;

@@ -1,4 +1,4 @@
-/* ply_describe.c - what `ffd info` says of a PLY file. */
+/* ply_describe.c - what `ffd info` reports of a PLY file. */
 #include "base/memory/memory.h"
 #include "io/ply/ply_document.h"
 #include "mesh/face_sizes.h"
@@ -41,7 +41,7 @@ static void append_word(byte_buffer *text, text_word word)
     ffd_buffer_append(text, word.first, (size_t)(word.last - word.first));
 }
 
-/* Writes what was gathered in text. Returns false if memory ran out. */
+/* Writes the collected text. Returns false if memory ran out. */
 static bool write_text(json_text *json, const char *key, byte_buffer *text)
 {
     char *string = ffd_buffer_finish(text);
@@ -51,7 +51,7 @@ static bool write_text(json_text *json, const char *key, byte_buffer *text)
     return string;
 }
 
-/* "float x", "list uchar int vertex_indices". */
+/* Writes "float x" or "list uchar int vertex_indices". */
 static bool write_property(json_text *json, const ply_property *property)
 {
     byte_buffer text = {0};

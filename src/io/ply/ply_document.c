@@ -28,7 +28,7 @@ ffd_status ffd_ply_refuse_vertex(const ply_document *d, const ply_walk *walk, co
                          text ? word.first : number.text, d->file.part.vertex_count);
 }
 
-/* Where the number of a slot is held; of harmonics, which stay in the file, nowhere. */
+/* Returns where the number of a slot is stored. Harmonics are not stored, but stay in the file: `nowhere`. */
 static double *place_of(ply_document *d, size_t slot, size_t row, double *nowhere)
 {
     if (slot >= PLY_REST_SLOT)
@@ -68,10 +68,11 @@ static ffd_status read_vertex(ply_document *d, ply_walk *walk, uint64_t row, ffd
     return status;
 }
 
-/* Rows of one size that a thread reads at a time. */
+/* Rows of fixed size that a thread reads at a time. */
 #define READ_TILE ((size_t)4096)
 
-/* Rows of one size, whose numbers are where they are in the first: what splats have stays in the file. */
+/* Reads rows of fixed size, in which each number has a fixed offset. The numbers of splats stay in the
+   file. */
 static void read_rows(void *context, size_t tile, size_t first, size_t last, int worker)
 {
     ply_document *const d = context;
@@ -87,7 +88,8 @@ static void read_rows(void *context, size_t tile, size_t first, size_t last, int
         for (size_t i = 0; i < slot_count; i++) {
             const size_t slot = slots[i];
             const double value = ply_load_binary(d->header.encoding, d->types[slot], at + d->offsets[slot]);
-            if (slot < PLY_NORMAL_SLOT || value != 0 || signbit(value)) /* normals are in an array of zeros */
+            /* The array of normals is zeroed already; not touching its pages saves their memory. */
+            if (slot < PLY_NORMAL_SLOT || value != 0 || signbit(value))
                 *place_of(d, slot, row, NULL) = value;
         }
     }
@@ -126,7 +128,7 @@ static void describe_part(ply_document *d)
     d->file.base.largest_coordinate = narrow ? FLT_MAX : DBL_MAX;
 }
 
-/* Marks that texts of other formats may have. */
+/* Notes marks that text files may have. */
 static ffd_status note_marks(ply_document *d, ffd_error *error)
 {
     const file_input *const input = &d->file.input;

@@ -1,23 +1,23 @@
-/* ply_face_normals.c - renews the normals that faces have, nx ny nz, where a corner has moved: they are those
-   of the corners as they are written, on the side on which they were. */
+/* ply_face_normals.c - computes the normals nx ny nz of faces anew where a corner has moved: from the corners
+   as written, on the same side of the face as before. */
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "io/ply/ply_save.h"
 #include "mesh/polygon.h"
 #include <string.h>
 
-/* The rows of the faces, one after the other. */
+/* A walk over the rows of the faces. */
 typedef struct face_writer {
     const ply_document *document;
     file_splice *splice;
-    uint32_t *corners; /* of the face */
+    uint32_t *corners; /* of the current face */
     size_t count, capacity;
-    /* What stands for nx ny nz, in the order of the row, and which it is. */
+    /* The words of nx ny nz in the order of the row, and the axis of each. */
     text_word words[3];
     size_t axes[3], found;
 } face_writer;
 
-/* Takes the corners. Those of a face that names a vertex that does not exist are not known: count is 0. */
+/* Reads the corners of a face. count is 0 if any of them is not the number of a vertex. */
 static void take_corners(face_writer *w, ply_walk walk)
 {
     const ply_document *d = w->document;
@@ -70,9 +70,9 @@ static bool has_moved(const face_writer *w)
     return false;
 }
 
-/* The normal of the moved face, of length 1. Where the order of its corners says otherwise than the file's
-   normal, the side of that is kept. Returns false if the normal is kept as it is: the corners give none, or
-   it is zero, by which programs mean that there is none. */
+/* Computes the unit normal of a moved face. It points to the side of the old normal, even if the order of the
+   corners says otherwise. Returns false if the old normal stays: the corners have no normal, or the old one
+   is zero, which programs write for none. */
 static bool renew(const face_writer *w, const double old[3], double normal[3])
 {
     const file_document *const file = &w->document->file;
@@ -84,7 +84,7 @@ static bool renew(const face_writer *w, const double old[3], double normal[3])
         ffd_polygon_normal(file->positions, w->corners, w->count, rest, NULL) && vec_dot(rest, old) < 0;
     const double length = is_other_side ? -vec_length(normal) : vec_length(normal);
     for (int a = 0; a < 3; a++)
-        normal[a] = normal[a] / length + 0.0; /* 0 has no sign */
+        normal[a] = normal[a] / length + 0.0; /* + 0.0: 0 without a sign */
     return true;
 }
 

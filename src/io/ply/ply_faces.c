@@ -1,4 +1,4 @@
-/* ply_faces.c - checks and hands out the faces of a PLY file. */
+/* ply_faces.c - checks the faces of a PLY file, and passes them on. */
 #include "base/memory/memory.h"
 #include "io/ply/ply_plain_faces.h"
 #include "io/ply/ply_strips.h"
@@ -9,22 +9,23 @@
 typedef struct face_reader {
     const ply_document *document;
     ply_walk walk;
-    mesh_faces *faces; /* NULL: the corners are only looked at */
-    uint8_t *used;     /* a byte for each vertex, set for those of a face; or NULL */
-    face_list *mixed;  /* gets the faces whose vertices the marks tell apart; or NULL */
+    mesh_faces *faces; /* NULL: the corners are only visited */
+    uint8_t *used;     /* a byte per vertex, set for vertices of faces; or NULL */
+    face_list *mixed;  /* gets the faces whose vertices have different marks; or NULL */
     const vertex_marks *marks;
     size_t face_count; /* so far */
     size_t corners, capacity;
     ffd_error *error;
 } face_reader;
 
-/* Begins a face of so many corners. Returns false if memory ran out. */
+/* Begins a face with count corners. Returns false if memory ran out. */
 static bool begin_face(face_reader *r, size_t count)
 {
     if (r->faces &&
         !ffd_grow((void **)&r->faces->corners, &r->capacity, r->corners + count, sizeof *r->faces->corners))
         return false;
-    if (r->faces && r->face_count < r->faces->face_count) /* a file that changes may have more now */
+    /* The file may have changed since the faces were counted. */
+    if (r->faces && r->face_count < r->faces->face_count)
         r->faces->start[r->face_count] = r->corners;
     r->face_count++;
     return true;
@@ -58,7 +59,7 @@ static bool take_triangle(void *context, const uint32_t corners[3])
     return true;
 }
 
-/* Does with a face that is read what add_corner and end_face do. Returns false if memory ran out. */
+/* Takes a whole face, like begin_face, add_corner and end_face. Returns false if memory ran out. */
 static bool take_plain(face_reader *r, const uint32_t *corners, size_t count)
 {
     if (!begin_face(r, count))
@@ -111,8 +112,8 @@ static ffd_status read_face(face_reader *r, uint64_t face)
     return status;
 }
 
-/* Reads the rows of element face. One that is not plain is read with care, which says what is wrong with it.
- */
+/* Reads the rows of element face. A row that is not plain is read value by value, which reports what is wrong
+   with it. */
 static ffd_status read_rows(face_reader *r)
 {
     const ply_document *const d = r->document;
@@ -132,7 +133,7 @@ static ffd_status read_rows(face_reader *r)
     return status;
 }
 
-/* Goes through all faces, then through the triangles of strips; what is done with them is set. */
+/* Visits all faces, then the triangles of strips. The members of r say what to do with them. */
 static ffd_status look_at_faces(face_reader *r)
 {
     const ply_document *const d = r->document;
@@ -148,7 +149,7 @@ static bool count_triangle(void *context, const uint32_t corners[3])
     return true;
 }
 
-/* Makes the arrays of the faces that are counted, and fills them. */
+/* Allocates the arrays for the counted faces, and fills them. */
 static ffd_status read_faces(const ply_document *d, mesh_faces *faces, ffd_error *error)
 {
     face_reader r = {.document = d, .faces = faces, .capacity = faces->face_count, .error = error};
@@ -202,7 +203,7 @@ ffd_status ffd_ply_mixed_faces(const mesh_document *document, const vertex_marks
     return status;
 }
 
-/* Marks the ends of the lines. Returns false if a row names a vertex that does not exist. */
+/* Marks the ends of the lines. Returns false if one is not the number of a vertex. */
 static bool mark_edges(const ply_document *d, const ply_element *edges, uint8_t *used)
 {
     const ply_property *const ends[2] = {ffd_ply_find_property(edges, "vertex1"),

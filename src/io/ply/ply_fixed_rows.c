@@ -1,4 +1,4 @@
-/* ply_fixed_rows.c - writes the vertices of a binary PLY file whose rows are of one size: threads change
+/* ply_fixed_rows.c - writes the vertices of a binary PLY file whose rows have a fixed size: threads change
    copies of them. */
 #include "base/inline.h"
 #include "base/memory/memory.h"
@@ -10,7 +10,7 @@
 typedef struct row_writer {
     const ply_document *document;
     file_splice *splice;
-    byte_buffer *texts; /* of tiles that are not written yet */
+    byte_buffer *texts; /* of the tiles that are not written yet */
     atomic_bool is_over;
     atomic_size_t unturned;
 } row_writer;
@@ -25,7 +25,7 @@ static void store(const ply_document *d, size_t slot, double value, char *row)
     ply_store_binary(d->header.encoding, d->types[slot], value, row + d->offsets[slot]);
 }
 
-/* Numbers whose bits are the old ones keep their bytes: those of a NaN may be others. */
+/* Stores only numbers whose bits differ: storing a NaN again could change its bytes. */
 static void store_vector(const ply_document *d, const double *before, const double *after, size_t slot,
                          char *row)
 {
@@ -53,7 +53,7 @@ static ALWAYS_INLINE void narrow(const double *c, int count, unsigned char *floa
         store_float(floats + (size_t)m * sizeof(float), (float)c[m]);
 }
 
-/* A count that the compiler knows, that of most files, takes half of the time. */
+/* For the count of most files, a constant that the compiler knows halves the time. */
 static void load_floats(const unsigned char *floats, int count, double *c)
 {
     if (count == HARMONICS_MOST)
@@ -84,7 +84,7 @@ static void load_rests(const ply_document *d, const char *row, harmonics_block c
     }
 }
 
-/* Returns whether some are not numbers of their types, and stay. */
+/* Returns whether their types cannot hold some coefficients, which then stay. */
 static bool store_rests(const ply_document *d, const harmonics_block c, char *row)
 {
     const int functions = harmonics_count(d->file.part.form.degree);
@@ -102,7 +102,7 @@ static bool store_rests(const ply_document *d, const harmonics_block c, char *ro
     return !all;
 }
 
-/* All but harmonics. */
+/* Stores a row, except for turned harmonics. */
 static void store_row(const ply_document *d, size_t vertex, char *row)
 {
     const double *const directions = d->file.new_directions;
@@ -114,7 +114,8 @@ static void store_row(const ply_document *d, size_t vertex, char *row)
         store_splat(d, vertex, row);
 }
 
-/* Stores TURNED rows at most. Returns how many have harmonics that are not numbers. */
+/* Stores at most TURNED rows. Returns the number of vertices with harmonics that stay because their types
+   cannot hold the results. */
 static size_t store_some(const ply_document *d, size_t first, size_t count, char *at)
 {
     const int degree = d->file.part.form.degree;
@@ -136,7 +137,7 @@ static size_t store_some(const ply_document *d, size_t first, size_t count, char
     return unturned;
 }
 
-/* Returns how many have harmonics that are not numbers. */
+/* Returns the number of vertices with harmonics that stay, as above. */
 static size_t store_rows(const ply_document *d, size_t first, size_t last, char *at)
 {
     size_t unturned = 0;
@@ -152,7 +153,8 @@ static void make_tile(void *context, size_t tile, size_t first, size_t last, int
     row_writer *const w = context;
     const ply_document *const d = w->document;
     const size_t size = (last - first) * d->vertex->least;
-    byte_buffer text = w->texts[worker]; /* a local copy: entries of the list share cache lines */
+    /* a local copy, because the entries of the array share cache lines. */
+    byte_buffer text = w->texts[worker];
     (void)tile;
     text.size = 0;
     if (atomic_load(&w->is_over))

@@ -2,7 +2,7 @@
 #include "io/ply/ply_document.h"
 #include <float.h>
 
-ffd_status ffd_ply_check(const mesh_document *document, ffd_error *error)
+static ffd_status check(const mesh_document *document, ffd_error *error)
 {
     const ply_document *d = ffd_ply_of(document);
     for (int a = 0; a < PLY_NORMAL_SLOT; a++)
@@ -18,7 +18,7 @@ const mesh_format ffd_ply_format = {
     .name = "PLY",
     .open = ffd_ply_open,
     .close = ffd_ply_close,
-    .check = ffd_ply_check,
+    .check = check,
     .warn = ffd_ply_warn,
     .mark_used = ffd_ply_mark_used,
     .largest_coordinate = DBL_MAX,

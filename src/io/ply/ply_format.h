@@ -1,4 +1,4 @@
-/* ply_format.h - the format PLY, ascii and binary, as the table of formats has it. */
+/* ply_format.h - the format PLY, ascii and binary, for the table of formats. */
 #ifndef FFD_IO_PLY_PLY_FORMAT_H
 #define FFD_IO_PLY_PLY_FORMAT_H
 

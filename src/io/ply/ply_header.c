@@ -4,20 +4,20 @@
 #include <inttypes.h>
 #include <string.h>
 
-/* "property list TYPE TYPE NAME", and one more that is too many. */
+/* "property list TYPE TYPE NAME", and one more to notice too many. */
 #define WORDS 6
 
 typedef struct header_line {
-    text_word text; /* without blanks at its ends */
+    text_word text; /* without leading and trailing blanks */
     text_word words[WORDS];
-    size_t count; /* of words, at most WORDS */
+    size_t count; /* number of words, at most WORDS */
 } header_line;
 
 typedef struct header_reader {
     ply_header *header;
     const char *at, *last;
     char line_end;
-    size_t line; /* of the one read last */
+    size_t line; /* number of the line read last */
     bool has_format;
     const char *name;
     ffd_error *error;
@@ -46,7 +46,7 @@ static void split_words(header_line *line, const char *first, const char *last)
     }
 }
 
-/* False at the end of the file. */
+/* Reads the next line. Returns false at the end of the file. */
 static bool next_line(header_reader *r, header_line *line)
 {
     if (r->at == r->last)
@@ -251,7 +251,7 @@ static void measure_row(const ply_header *h, ply_element *element)
     }
 }
 
-/* The counts must fit the bytes after the header; the last line of a text may lack its end. */
+/* Checks that the counts fit the bytes after the header. The last line of a text may lack its line end. */
 static ffd_status check_sizes(const header_reader *r)
 {
     const ply_header *h = r->header;

@@ -3,13 +3,13 @@
 #include "io/ply/ply_document.h"
 #include <string.h>
 
-/* What the model takes of a vertex beside its position and normal. */
+/* What the model takes of a vertex besides its position and normal. */
 enum { ROLE_U, ROLE_V, ROLE_RED, ROLE_GREEN, ROLE_BLUE, ROLE_ALPHA, ROLE_COUNT };
 
 typedef struct extractor {
     const ply_document *document;
     mesh_model *model;
-    const ply_property *roles[ROLE_COUNT]; /* NULL: not there */
+    const ply_property *roles[ROLE_COUNT]; /* NULL: absent */
     const ply_property *face_texcoords;    /* the list texcoord of the faces; NULL: none */
     mesh_faces faces;
     ffd_error *error;
@@ -21,7 +21,8 @@ static const ply_property *find_scalar(const ply_element *element, const char *n
     return found && !found->is_list ? found : NULL;
 }
 
-/* Names that programs have for texture coordinates and colours; both or all three must be there. */
+/* Finds texture coordinates and colours by the names that programs use. Both coordinates, or all three
+   colours, must be present. */
 static void find_roles(extractor *e)
 {
     static const char *const colours[][4] = {
@@ -54,7 +55,7 @@ static ffd_status make_values(const extractor *e)
     return status || !e->roles[ROLE_RED] ? status : ffd_model_make_colours(e->model, e->error);
 }
 
-/* Whole numbers of a type are parts of the largest one. */
+/* Returns the value of an integer type that stands for 1: the largest. */
 static double scale_of(ply_type type)
 {
     return type == PLY_UCHAR ? 255 : type == PLY_USHORT ? 65535 : 1;
@@ -106,8 +107,8 @@ static ffd_status take_vertices(extractor *e)
     return status;
 }
 
-/* The texture coordinates of a face's corners are a list of twice as many numbers; a list of another length
-   is ignored. Returns whether they are there. */
+/* Takes the texture coordinates of a face's corners, a list of twice as many numbers; a list of another
+   length is ignored. Returns whether they were taken. */
 static bool take_face_texcoords(const extractor *e, ply_walk *walk, size_t face)
 {
     const ply_document *d = e->document;
@@ -171,7 +172,7 @@ static ffd_status take_faces(extractor *e)
     return status;
 }
 
-/* Takes a row's vertex1 and vertex2. Returns false if one is not the number of a vertex. */
+/* Takes vertex1 and vertex2 of a row. Returns false if one is not the number of a vertex. */
 static bool take_ends(const extractor *e, ply_walk *walk, const ply_element *edges, model_corner ends[2])
 {
     const ply_property *named[2] = {find_scalar(edges, "vertex1"), find_scalar(edges, "vertex2")};
@@ -227,7 +228,7 @@ static bool is_texture_note(text_word note)
     return false;
 }
 
-/* Properties and elements that the model does not take. */
+/* Returns the features of the file that the model cannot hold. */
 static uint32_t features_of(const extractor *e)
 {
     const ply_document *d = e->document;

@@ -1,4 +1,4 @@
-/* ply_results.c - takes the results of a PLY file. */
+/* ply_results.c - stores the results of a PLY file. */
 #include "io/ply/ply_document.h"
 
 ffd_status ffd_ply_begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error)

@@ -1,4 +1,4 @@
-/* ply_roles.c - decides what the elements and properties of a PLY file are. */
+/* ply_roles.c - finds the meanings of the elements and properties of a PLY file. */
 #include "io/ply/ply_document.h"
 
 static const char *const slot_names[PLY_SLOT_COUNT] = {"x", "y", "z", "nx", "ny", "nz"};
@@ -6,8 +6,7 @@ static const char *const slot_names[PLY_SLOT_COUNT] = {"x", "y", "z", "nx", "ny"
 const char *const ffd_ply_texcoord_names[PLY_TEXCOORD_NAMES][2] = {
     {"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}};
 
-/* Marks and returns the property of the vertices that has a slot's name; NULL if there is none
-   with one value a vertex. */
+/* Marks and returns the vertex property of a slot's name; NULL if there is none, or it is a list. */
 static ply_property *fill_slot(ply_document *d, size_t slot)
 {
     const ply_property *found = ffd_ply_find_property(d->vertex, slot_names[slot]);
@@ -28,7 +27,7 @@ static ffd_status find_positions(ply_document *d, ffd_error *error)
     return FFD_OK;
 }
 
-/* All three must be there, as numbers with a fraction; otherwise none of them is used. */
+/* All three must be float or double; otherwise none of them is used. */
 static void find_normals(ply_document *d)
 {
     ply_property *properties[3];
@@ -45,7 +44,7 @@ static void find_normals(ply_document *d)
             properties[i]->slot = PLY_NO_SLOT;
 }
 
-/* The list of an element's vertices; NULL if it has none, or there is no element. */
+/* Returns the list of vertices of an element; NULL if it has none, or element is NULL. */
 static const ply_property *find_corners(const ply_element *element)
 {
     static const char *const names[] = {"vertex_indices", "vertex_index"};
@@ -67,7 +66,7 @@ static void find_faces(ply_document *d)
     d->strip_corners = find_corners(d->strips);
 }
 
-/* As for vertices, all three must be there. */
+/* As for vertices, all three must be present. */
 static void find_face_normals(ply_document *d)
 {
     const ply_property *found[3] = {NULL, NULL, NULL};
@@ -96,7 +95,7 @@ static void find_offsets(ply_document *d)
     }
 }
 
-/* Whether the harmonics that turn lie one after the other, as floats of this machine's order. */
+/* Whether the harmonics to turn are contiguous floats in the machine's byte order. */
 static bool are_plain(const ply_document *d)
 {
     const size_t count = HARMONICS_CHANNELS * (size_t)harmonics_count(d->file.part.form.degree);

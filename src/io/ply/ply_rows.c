@@ -1,9 +1,8 @@
-/* ply_rows.c - writes the vertices of a PLY file whose rows are not of one size, with what has changed. */
+/* ply_rows.c - writes the changed vertices of a PLY file whose rows do not have a fixed size. */
 #include "io/ply/ply_save.h"
 #include <string.h>
 
-/* What a row has by slot: where its numbers are (of a walk), what they become, and whether that is something
- * else. */
+/* Per slot of a row: the word of its number, the new number, and whether that differs. */
 typedef struct row_change {
     text_word words[PLY_SLOT_COUNT];
     double values[PLY_SLOT_COUNT];
@@ -38,7 +37,7 @@ static void change_splat(const ply_document *d, size_t number, row_change *row)
     }
 }
 
-/* Returns whether harmonics are not numbers, and stay. */
+/* Returns whether the types cannot hold some harmonics, which then stay. */
 static bool change_rests(const ply_document *d, size_t number, row_change *row)
 {
     const int degree = d->file.part.form.degree, functions = harmonics_count(degree);
@@ -64,7 +63,7 @@ static bool change_rests(const ply_document *d, size_t number, row_change *row)
     return !all;
 }
 
-/* Returns whether harmonics are not numbers, and stay. */
+/* Returns whether the types cannot hold some harmonics, which then stay. */
 static bool change_row(const ply_document *d, size_t number, row_change *row)
 {
     const double *const directions = d->file.new_directions;

@@ -1,7 +1,8 @@
 /* ply_save.c - writes a PLY file with its results. */
 #include "io/ply/ply_save.h"
 
-/* What changes, in the order of the file. Returns how many splats have harmonics that are not turned. */
+/* Writes everything that changes, in the order of the file. Returns the number of splats whose harmonics stay
+   because their types cannot hold the results. */
 static size_t write_elements(const ply_document *d, file_splice *splice)
 {
     size_t unturned = 0;

@@ -1,6 +1,6 @@
-/* ply_splats.c - the Gaussian splats of a PLY file, as programs of 3D Gaussian splatting write them: rot_0 to
-   rot_3 are w, x, y, z of a quaternion, scale_0 to scale_2 natural logarithms, f_rest_0 and so on the
-   spherical harmonics of degrees 1 to 3, those of red first. */
+/* ply_splats.c - the Gaussian splats of a PLY file, as 3D Gaussian splatting programs write them: rot_0 to
+   rot_3 are a quaternion w, x, y, z, scale_0 to scale_2 natural logarithms of scales, f_rest_0 and so on the
+   spherical harmonics of degrees 1 to 3, all coefficients of red first. */
 #include "base/inline.h"
 #include "base/memory/memory.h"
 #include "io/ply/ply_document.h"
@@ -10,7 +10,7 @@
 
 #define SPLAT_NAME 24
 
-/* "rot_2" for slot PLY_ROTATION_SLOT + 2. */
+/* Writes the property name of a slot: "rot_2" for PLY_ROTATION_SLOT + 2. */
 static void name_slot(size_t slot, char name[SPLAT_NAME])
 {
     if (slot >= PLY_REST_SLOT)
@@ -28,7 +28,7 @@ static const ply_property *find(const ply_document *d, size_t slot)
     return ffd_ply_find_property(d->vertex, name);
 }
 
-/* Whether the slots [first, last) are there as numbers with a fraction. */
+/* Whether all slots of [first, last) are present as float or double. */
 static bool have_fractions(const ply_document *d, size_t first, size_t last)
 {
     for (size_t slot = first; slot < last; slot++) {
@@ -56,7 +56,7 @@ static void fill_slots(ply_document *d, size_t first, size_t last)
     }
 }
 
-/* The number of properties whose names begin with "f_rest_". */
+/* Returns the number of properties whose names begin with "f_rest_". */
 static size_t count_rests(const ply_document *d)
 {
     static const char start[] = "f_rest_";
@@ -69,7 +69,7 @@ static size_t count_rests(const ply_document *d)
     return count;
 }
 
-/* The degree of the harmonics; 0: there are none, or they are not as they should be. */
+/* Returns the degree of the harmonics; 0: none, or not valid. */
 static int find_degree(const ply_document *d)
 {
     for (int degree = 1; degree <= HARMONICS_DEGREES; degree++) {
@@ -86,7 +86,7 @@ void ffd_ply_find_splats(ply_document *d)
     const bool is_flat = !find(d, PLY_SCALE_SLOT + 2);
     const size_t scales = is_flat ? PLY_REST_SLOT - 1 : PLY_REST_SLOT;
     part->place = MESH_NO_PLACE;
-    /* A splat is longest along one of its own axes, and turned: two sizes are the least. */
+    /* Two scales are enough: a disk has no third one. */
     part->splats = are_there(d, PLY_ROTATION_SLOT, PLY_SCALE_SLOT + 2);
     part->has_ellipsoids = part->splats && have_fractions(d, PLY_ROTATION_SLOT, scales);
     d->rest_count = count_rests(d);
@@ -98,7 +98,7 @@ void ffd_ply_find_splats(ply_document *d)
                PLY_REST_SLOT + HARMONICS_CHANNELS * (size_t)harmonics_count(part->form.degree));
 }
 
-/* The first slot of [first, last) that is missing. */
+/* Returns the first slot of [first, last) whose property is missing. */
 static size_t find_missing(const ply_document *d, size_t first, size_t last)
 {
     while (first < last && find(d, first))
@@ -106,7 +106,7 @@ static size_t find_missing(const ply_document *d, size_t first, size_t last)
     return first;
 }
 
-/* The first one that is there. */
+/* Returns the first slot whose property is present. */
 static size_t find_present(const ply_document *d, size_t first, size_t last)
 {
     while (first < last && !find(d, first))
@@ -114,14 +114,14 @@ static size_t find_present(const ply_document *d, size_t first, size_t last)
     return first;
 }
 
-/* Some properties of splats, and not all. */
+/* Warns if some properties of splats are present, but not all. */
 static void warn_of_part(const ply_document *d, const mesh_log *log)
 {
     char there[SPLAT_NAME], missing[SPLAT_NAME];
     const size_t rotation = find_present(d, PLY_ROTATION_SLOT, PLY_SCALE_SLOT);
     const size_t scale = find_present(d, PLY_SCALE_SLOT, PLY_REST_SLOT);
     if (rotation == PLY_SCALE_SLOT || scale == PLY_REST_SLOT)
-        return; /* they may be anything */
+        return; /* alone, they may be anything */
     name_slot(rotation, there);
     name_slot(find_missing(d, PLY_ROTATION_SLOT, PLY_SCALE_SLOT + 2), missing);
     ffd_log_line(log, FFD_LOG_WARNING,
@@ -151,7 +151,7 @@ double *ffd_ply_splat_number(splat_ellipsoid *splat, size_t slot)
                                  : &splat->scale[slot - PLY_SCALE_SLOT];
 }
 
-/* Whether floats hold all numbers of rotations and sizes; a disk's third size, which is 0, too. */
+/* Whether floats hold all rotations and scales. A disk's third scale, which is always 0, does not count. */
 static bool are_floats(const ply_document *d)
 {
     const size_t last = d->file.part.form.is_flat ? PLY_REST_SLOT - 1 : PLY_REST_SLOT;
@@ -161,8 +161,8 @@ static bool are_floats(const ply_document *d)
     return all;
 }
 
-/* Makes room for the results, for each vertex. They are as small as they can be: to touch memory for the
-   first time costs more than to compute what goes there. */
+/* Allocates the results of each vertex, as small as possible: touching memory for the first time costs more
+   than computing its content. */
 static ffd_status make_results(ply_document *d, ffd_error *error)
 {
     const size_t count = d->file.part.vertex_count;
@@ -208,7 +208,7 @@ void ffd_ply_read_splats(const mesh_document *document, size_t part, size_t firs
                          splat_ellipsoid *splats)
 {
     const ply_document *const d = ffd_ply_of(document);
-    (void)part; /* there is one */
+    (void)part; /* the only one */
     for (size_t i = 0; i < count; i++)
         if (d->has_fixed_rows)
             read_fixed(d, first + i, &splats[i]);
@@ -254,8 +254,8 @@ splat_turn ffd_ply_turn_of(const ply_document *d, size_t vertex)
     return turn;
 }
 
-/* Whether no magnitude is larger, nor a NaN. The bits of magnitudes have the order of the numbers; those of a
-   NaN come last. Their differences become SIMD, which comparisons of numbers do not. */
+/* Whether no magnitude exceeds `most`, and none is NaN. The bits of magnitudes are in the order of the
+   numbers, with NaN last. The compiler vectorizes these differences, but not comparisons of doubles. */
 static ALWAYS_INLINE bool are_within(const double *c, int count, double most)
 {
     uint64_t limit, excess = 0;

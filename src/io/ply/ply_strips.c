@@ -4,17 +4,17 @@ typedef struct strip_reader {
     const ply_document *document;
     ply_walk walk;
     uint32_t last[2]; /* the two vertices before */
-    size_t length;    /* vertices since the strip began */
+    size_t length;    /* number of vertices since the strip began */
     ply_triangle_visitor *visit;
     void *context;
     ffd_error *error;
 } strip_reader;
 
-/* Takes the strip's next vertex. */
+/* Takes the next vertex of the strip. */
 static ffd_status add_vertex(strip_reader *r, uint32_t vertex)
 {
     const uint32_t a = r->last[0], b = r->last[1];
-    const bool turned = r->length % 2 == 1; /* the second, the fourth .. */
+    const bool turned = r->length % 2 == 1; /* the second, the fourth, .. */
     const uint32_t triangle[3] = {turned ? b : a, turned ? a : b, vertex};
     const bool there = r->length >= 2 && a != b && a != vertex && b != vertex;
     r->last[0] = b;

@@ -2,7 +2,7 @@
 #include "base/little_endian.h"
 #include <string.h>
 
-/* The largest whole number up to which doubles represent every one. */
+/* Doubles represent every whole number up to this one. */
 #define WHOLE_MAX 9007199254740992.0
 
 static const struct {
@@ -46,7 +46,7 @@ static bool load_text(ply_type type, text_word word, double *value)
     return true;
 }
 
-/* The bits of a binary number, the lowest 8 in bytes[0] of the little endian order. */
+/* Loads the bits of a binary number, the lowest 8 bits from bytes[0] if little-endian. */
 static uint64_t load_bits(ply_encoding encoding, text_word word)
 {
     uint64_t bits = 0;
@@ -60,7 +60,7 @@ static uint64_t load_bits(ply_encoding encoding, text_word word)
     return bits;
 }
 
-/* Whether the bits of a whole number are those of a negative one. */
+/* Whether these bits of an integer type are a negative number. */
 static bool is_negative(ply_type type, text_word word, uint64_t bits)
 {
     const bool is_signed = type == PLY_CHAR || type == PLY_SHORT || type == PLY_INT;
@@ -116,12 +116,9 @@ size_t ffd_ply_store(ply_encoding encoding, ply_type type, double value, char by
     const size_t size = types[type].size;
     if (encoding == PLY_ASCII)
         return store_text(type, value, bytes);
-    if (type == PLY_FLOAT) {
-        const float narrow = (float)value;
-        uint32_t bits;
-        memcpy(&bits, &narrow, sizeof bits);
-        store_u32(low_first, bits);
-    } else
+    if (type == PLY_FLOAT)
+        store_float(low_first, (float)value);
+    else
         store_double(low_first, value);
     for (size_t i = 0; i < size; i++)
         bytes[i] = (char)low_first[encoding == PLY_BIG_ENDIAN ? size - 1 - i : i];

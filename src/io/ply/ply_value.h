@@ -1,5 +1,5 @@
-/* ply_value.h - the numbers of a PLY file: their types, and how the file stores them. A text_word holds a
-   binary number's bytes too. */
+/* ply_value.h - the numbers of a PLY file: their types, and their encoding. A text_word may also hold the
+   bytes of a binary number. */
 #ifndef FFD_IO_PLY_PLY_VALUE_H
 #define FFD_IO_PLY_PLY_VALUE_H
 
@@ -11,7 +11,7 @@
 
 typedef enum ply_encoding { PLY_ASCII, PLY_LITTLE_ENDIAN, PLY_BIG_ENDIAN } ply_encoding;
 
-/* Whole numbers first. */
+/* Integer types first. */
 typedef enum ply_type {
     PLY_CHAR,
     PLY_UCHAR,
@@ -23,11 +23,11 @@ typedef enum ply_type {
     PLY_DOUBLE
 } ply_type;
 
-/* "float" and "float32" are the same type; the former is its name here. */
+/* Finds the type of a name. "float" and "float32" are the same type, called float here. */
 bool ffd_ply_type_of(text_word word, ply_type *type);
-/* The name of a type in messages. */
+/* Returns the name of a type, for messages. */
 const char *ffd_ply_type_name(ply_type type);
-/* The bytes of a type's values. */
+/* Returns the size of a type in bytes. */
 size_t ffd_ply_type_size(ply_type type);
 
 static inline bool ply_is_whole(ply_type type)
@@ -35,11 +35,11 @@ static inline bool ply_is_whole(ply_type type)
     return type < PLY_FLOAT;
 }
 
-/* Reads a number as its type holds it (the text of a float means the nearest float). A text of a whole type
-   may be any number. Returns false if a text is not a number; binary values always are. */
+/* Reads a number, rounded to its type: the text of a float means the nearest float. The text of an integer
+   type may be any number. Returns false if a text is not a number; binary values always are. */
 bool ffd_ply_load(ply_encoding encoding, ply_type type, text_word word, double *value);
 
-/* Reads a binary number; most are floats. */
+/* Reads a binary number. The most common type, float, comes first. */
 static inline double ply_load_binary(ply_encoding encoding, ply_type type, const char *at)
 {
     double value;
@@ -49,20 +49,20 @@ static inline double ply_load_binary(ply_encoding encoding, ply_type type, const
     return value;
 }
 
-/* A list's count or an index: a whole number that is not negative. */
+/* Reads a list's count or an index. Returns false if it is not a nonnegative whole number. */
 bool ffd_ply_load_count(ply_encoding encoding, ply_type type, text_word word, size_t *count);
 
-/* value as a float or double holds it. */
+/* Rounds value to a float or double. */
 static inline double ply_round(ply_type type, double value)
 {
     return type == PLY_FLOAT ? (double)(float)value : value;
 }
 
-/* Writes a value that ply_round gave: the bytes, or the shortest text that reads back. Returns the size.
- */
+/* Writes a value that ply_round returned: its bytes, or the shortest text that reads back as the same number.
+   Returns the size. */
 size_t ffd_ply_store(ply_encoding encoding, ply_type type, double value, char bytes[FFD_NUMBER_CAPACITY]);
 
-/* Writes a binary one. */
+/* Writes a binary number. */
 static inline void ply_store_binary(ply_encoding encoding, ply_type type, double value, char *at)
 {
     char bytes[FFD_NUMBER_CAPACITY];

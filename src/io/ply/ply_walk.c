@@ -12,7 +12,7 @@ static bool is_line_end(char c)
     return c == '\n' || c == '\r';
 }
 
-/* Whether c is one of a word. Nearly all are above the space. */
+/* Whether c belongs to a word. Tested for > ' ' first, which nearly all characters of words are. */
 static bool is_of_word(char c)
 {
     return (unsigned char)c > ' ' || (!is_blank(c) && !is_line_end(c));
@@ -77,7 +77,7 @@ bool ffd_ply_walk_count(ply_walk *walk, ply_type type, text_word *word, size_t *
            ffd_ply_load_count(walk->header->encoding, type, *word, count);
 }
 
-/* Moves past count values. */
+/* Moves past `count` values. */
 static bool skip_values(ply_walk *walk, ply_type type, size_t count)
 {
     text_word word;
@@ -111,7 +111,7 @@ typedef struct row_checker {
     ffd_error *error;
 } row_checker;
 
-/* "row 17 of element face: ...", with the line in ascii. */
+/* Fails with "row 17 of element face: ...", with the line in ascii. */
 static ffd_status refuse(const row_checker *c, const char *what, const ply_property *property, text_word word)
 {
     const bool text = c->walk.header->encoding == PLY_ASCII;
@@ -168,7 +168,8 @@ static ffd_status check_row(row_checker *c)
                : FFD_OK;
 }
 
-/* Rows of a fixed size were found to fit the file, unless lists are before them. */
+/* Whether all rows of an element can be skipped at once: they have a fixed size and fit the file. The
+   header's check ensures that only if no lists precede them. */
 static bool is_fixed(const row_checker *c)
 {
     const size_t left = (size_t)(c->walk.last - c->walk.at);
@@ -204,7 +205,7 @@ ffd_status ffd_ply_walk_check(ply_header *header, const file_input *input, const
         header->elements[i].begin_line = c.walk.line;
         status = check_rows(&c);
     }
-    ffd_ply_walk_row(&c.walk); /* empty lines are not counted as bytes behind */
+    ffd_ply_walk_row(&c.walk); /* so that empty lines do not count as bytes after the last row */
     *behind = (size_t)(c.walk.at - first);
     return status;
 }

@@ -1,7 +1,7 @@
-/* ply_walk.h - the rows after a PLY header, value by value, in the order of the file.
+/* ply_walk.h - a walk over the rows of a PLY file, value by value, in the order of the file.
 
-   In ascii each row is a line of its own; empty lines are passed over, and lines end with LF, CRLF or CR,
-   also mixed. An element without properties has no rows. */
+   In ascii each row is a line; empty lines are skipped, and line ends may be any mixture of LF, CRLF and CR.
+   An element without properties has no rows. */
 #ifndef FFD_IO_PLY_PLY_WALK_H
 #define FFD_IO_PLY_PLY_WALK_H
 
@@ -10,24 +10,25 @@
 typedef struct ply_walk {
     const ply_header *header;
     const char *at, *last;
-    size_t line; /* ascii: of at */
+    size_t line; /* ascii: the line of at */
 } ply_walk;
 
-/* For an element: its rows, each begun and ended; in a row, the properties. The following return false
-   where the file is not as the header says, which does not happen in one that ffd_ply_walk_check passed. */
+/* Call ffd_ply_walk_row before each row of an element, then one function per property of the row. All return
+   false if the file does not match its header, which cannot happen after ffd_ply_walk_check has passed. */
 
-/* Goes to the next row. */
+/* Moves to the next row. */
 bool ffd_ply_walk_row(ply_walk *walk);
-/* Takes the next value: a scalar, a list's count or one of its items. False (and *word is
-   empty): it is not there. */
+/* Takes the next value: a scalar, a list's count or an item of a list. Returns false, with an empty *word, if
+   there is none. */
 bool ffd_ply_walk_value(ply_walk *walk, ply_type type, text_word *word);
-/* Takes the next value as a list's count or an index. False: it is not one, and *word is what is there. */
+/* Takes the next value as a list's count or an index. Returns false if it is not one; *word is then the
+   value. */
 bool ffd_ply_walk_count(ply_walk *walk, ply_type type, text_word *word, size_t *count);
-/* Moves past a property, a list with all of its items. */
+/* Moves past a property: one value, or a list with all its items. */
 bool ffd_ply_walk_skip(ply_walk *walk, const ply_property *property);
 
-/* Goes through all rows, refuses what is not as the header says, and sets where the rows of each element
-   begin. *behind: the offset after the last row. */
+/* Visits all rows, refuses a file that does not match its header, and sets where the rows of each element
+   begin. *behind becomes the offset after the last row. */
 ffd_status ffd_ply_walk_check(ply_header *header, const file_input *input, const char *name, size_t *behind,
                               ffd_error *error);
 

@@ -1,18 +1,20 @@
-/* stl_compare.c - compares two STL files. Two STL files are the same mesh when their facets are the same
-   one by one. Corners and normals may differ by their tolerances; not so the two bytes after a binary
-   file's facet (0 for text), nor, where both files are text or both are binary, the solids with their
-   names or the header. How numbers are written, lines and blanks, and what follows a binary file's last
-   facet are not compared. */
+/* stl_compare.c - compares two STL files.
+
+   Two STL files are the same mesh if their facets are equal one by one. Corners and normals may differ by
+   their tolerances. The two bytes after each facet of a binary file must be equal (in a text they count as
+   0). If both files are text, the solids and their names must be equal; if both are binary, the headers. The
+   writing of numbers, line breaks, blanks, and anything after the last facet of a binary file are not
+   compared. */
 #include "io/stl/stl_document.h"
 #include "mesh/difference.h"
 #include <stdio.h>
 #include <string.h>
 
-/* One of the two files, read on to a facet. */
+/* One of the two files, and the current facet. */
 typedef struct stl_side {
     const stl_document *document;
-    stl_text text; /* of a text */
-    size_t line;   /* likewise: of the facet */
+    stl_text text; /* of a text file */
+    size_t line;   /* of a text file: the line of the facet */
     double normal[3], corners[9];
     unsigned attribute;
 } stl_side;
@@ -57,8 +59,8 @@ static bool both_text(const comparer *c)
     return !c->a.document->binary && !c->b.document->binary;
 }
 
-/* "facet 3 counted from 0 (lines 20 and 21), corner 1"; lines where both files have
-   them. A difference_label. */
+/* Writes "facet 3 counted from 0 (lines 20 and 21), corner 1", with lines if both files have lines. A
+   difference_label. */
 static void format_place(const void *context, char *text, size_t capacity)
 {
     const comparer *c = context;
@@ -72,14 +74,15 @@ static void format_place(const void *context, char *text, size_t capacity)
 
 static void differ_in_solids(comparer *c, stl_event in_a, stl_event in_b)
 {
-    const bool first = in_a > in_b; /* which file has more here: a facet, or at least a solid */
+    const bool first = in_a > in_b; /* whether the first file has more here: a facet, or at least a solid */
     const size_t solid = (first ? c->a : c->b).text.solids - 1;
     ffd_difference_stop(c->result, FFD_DIFFERENCE_OTHER, "solid %zu counted from 0 %s the %s", solid,
                         (first ? in_a : in_b) == STL_AT_FACET ? "has more facets in" : "is only in",
                         first ? "first" : "second");
 }
 
-/* Solids of texts: how many facets each has, and its name. The facets are matched whatever the solids. */
+/* Compares the solids of two text files: the number of facets and the name of each. Facets are matched
+   regardless of solids. */
 static void compare_solids(comparer *c)
 {
     const stl_text *a = &c->a.text, *b = &c->b.text;
@@ -119,7 +122,7 @@ static void compare_facet(comparer *c)
     c->result->positions_compared += 3;
 }
 
-/* Compares what is before the facets. Returns false if the facets cannot be matched. */
+/* Compares everything before the facets. Returns false if the facets cannot be matched. */
 static bool same_frame(comparer *c)
 {
     const stl_document *a = c->a.document, *b = c->b.document;

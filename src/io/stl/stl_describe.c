@@ -1,8 +1,8 @@
-/* stl_describe.c - what `ffd info` says of an STL file. */
+/* stl_describe.c - what `ffd info` reports of an STL file. */
 #include "base/memory/memory.h"
 #include "io/stl/stl_document.h"
 
-/* Text of the file may have zeros in it, which become '?'. Returns false if memory ran out. */
+/* Writes a text of the file, with '?' for zero bytes. Returns false if memory ran out. */
 static bool write_text(json_text *json, const char *key, text_word text)
 {
     byte_buffer buffer = {0};
@@ -15,7 +15,7 @@ static bool write_text(json_text *json, const char *key, text_word text)
     return string;
 }
 
-/* The header without the blanks and zeros that fill it up. */
+/* Returns the header without the blanks and zeros that pad it. */
 static text_word header_text(const stl_document *d)
 {
     const char *first = (const char *)d->file.input.data, *last = first + STL_HEADER;
@@ -48,7 +48,7 @@ static bool describe_binary(const stl_document *d, json_text *json)
     return done;
 }
 
-/* Names that are shown at most: a file may have a solid every few bytes. */
+/* The maximum number of names shown: a file may have a solid every few bytes. */
 #define NAMES_MAX 16
 
 static bool describe_text(const stl_document *d, json_text *json)

@@ -7,7 +7,7 @@
 #include <inttypes.h>
 #include <string.h>
 
-/* The size that the number of facets in a binary file's header asks for. */
+/* Returns the size of a binary file with the number of facets in its header. */
 static uint64_t stated_size(const file_input *input)
 {
     return STL_START + (uint64_t)STL_FACET * load_u32(input->data + STL_HEADER);
@@ -21,8 +21,9 @@ static bool begins_with_solid(const file_input *input)
     return ffd_text_find(&scan) && ffd_text_word(&scan, &word) && ffd_text_is_any_case(word, "solid");
 }
 
-/* The header of a binary file may say "solid" too: its size decides, or (where bytes are missing or follow) a
-   0 among its first bytes: text has none, and the number of facets nearly always has one. */
+/* Whether the file is binary. The header of a binary file may begin with "solid" too, so its size decides. If
+   bytes are missing or follow, a 0 among the first bytes decides: a text has none, and the number of facets
+   nearly always has one. */
 static bool is_binary(const file_input *input)
 {
     if (input->size >= STL_START && stated_size(input) == input->size)
@@ -38,7 +39,8 @@ static ffd_status refuse_facets(const stl_document *d, ffd_error *error)
                          STL_FACETS_MAX);
 }
 
-/* Bytes may be behind the facets, but not after a header by which other programs know their files. */
+/* Whether it is another kind of file: bytes may follow the facets, but not if the header is that of another
+   program's files. */
 static bool is_other_file(const file_input *input)
 {
     const content_kind *const kind = ffd_content_kind(input->data, input->size);
@@ -92,7 +94,7 @@ static ffd_status read_text(stl_document *d, ffd_error *error)
         if (status == FFD_OK && found)
             status = add_facet(d, &facet, &capacity, error);
     }
-    /* Releases what growing has reserved too much; where that fails the larger block is kept. */
+    /* Releases the surplus capacity; if that fails, the larger block stays. */
     double *block = ffd_realloc(d->file.positions, d->facets, 9 * sizeof *d->file.positions);
     d->file.positions = block ? block : d->file.positions;
     return status;

@@ -1,26 +1,28 @@
 /* stl_document.h - an STL file, ascii or binary, as a mesh document: one part, in the lattice's space.
    Declares stl_document.c, stl_results.c, stl_normal.c.
 
-   Each corner of each facet is a vertex, in the order of the file. A facet's normal is not the normal of a
-   vertex: saving computes it anew from the corners. */
+   Each corner of each facet is a vertex, in the order of the file. A facet's normal is not a vertex normal:
+   saving computes it anew from the corners. */
 #ifndef FFD_IO_STL_STL_DOCUMENT_H
 #define FFD_IO_STL_STL_DOCUMENT_H
 
 #include "io/stl/stl_text.h"
 #include "io/text/file_document.h"
 
-/* Binary files: a header, the number of facets, and for each its normal, three corners and two bytes. */
+/* A binary file: a header, the number of facets, and for each facet its normal, three corners and two bytes.
+   In bytes: */
 #define STL_HEADER 80
 #define STL_START 84
 #define STL_FACET 50
-#define STL_NORMAL 12 /* bytes */
+#define STL_NORMAL 12 /* a facet's normal */
 #define STL_ATTRIBUTE 48
 
-/* Facets that a file may have: the numbers of their corners are 32 bits. */
+/* The maximum number of facets: their corners have 32-bit numbers. */
 #define STL_FACETS_MAX ((UINT32_MAX - 1) / 3)
 
 typedef struct stl_document {
-    file_document file; /* positions: of an ascii file only; new_positions: as the file can hold them */
+    /* positions: only of an ascii file; new_positions: rounded to what the file can hold. */
+    file_document file;
     bool binary;
     size_t facets;
     bool renew_normals;
@@ -31,22 +33,22 @@ static inline const stl_document *ffd_stl_of(const mesh_document *document)
     return (const stl_document *)document;
 }
 
-/* The bytes of a facet of a binary file. */
+/* Returns the bytes of a facet of a binary file. */
 static inline const unsigned char *ffd_stl_facet(const stl_document *document, size_t facet)
 {
     return document->file.input.data + STL_START + STL_FACET * facet;
 }
 
-/* Three floats of a binary file. */
+/* Loads three floats of a binary file. */
 void ffd_stl_load(const unsigned char *bytes, double xyz[3]);
 /* Stores count numbers as floats of a binary file. */
 void ffd_stl_store(unsigned char *bytes, const double *values, size_t count);
 
-/* The right-hand normal of a facet with 9 coordinates, of length 1. Returns false if they have no area beyond
-   what their rounding can make. */
+/* Computes the right-handed unit normal of a facet from its 9 coordinates. Returns false if the facet's area
+   is not larger than rounding can make it. */
 bool ffd_stl_normal(const double corners[9], double normal[3]);
 
-/* The entries of the format's table. */
+/* Functions of the mesh_format. */
 mesh_open_function ffd_stl_open;
 mesh_read_function ffd_stl_read_positions;
 mesh_begin_results_function ffd_stl_begin_results;

@@ -1,5 +1,5 @@
-/* stl_faces.c - the faces of an STL file. Corners at the same position are one vertex of the topology, which
-   would otherwise be separate triangles: the first of them represents all. */
+/* stl_faces.c - the faces of an STL file. Corners at the same position count as one vertex, because otherwise
+   the topology would be that of separate triangles. The first corner there represents all. */
 #include "base/memory/memory.h"
 #include "io/stl/stl_document.h"
 #include "mesh/mixed_faces.h"
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A position's bits, 0 and -0 being the same position, and the number of its vertex. */
+/* The bits of a position (-0 becomes 0), and the number of its vertex. */
 typedef struct stl_key {
     uint64_t bits[3];
     uint32_t vertex;
@@ -74,7 +74,7 @@ ffd_status ffd_stl_faces(const mesh_document *document, mesh_faces *faces, ffd_e
     return FFD_OK;
 }
 
-/* Whether some mark of the vertex is set. */
+/* Whether a vertex has any mark. */
 static bool is_marked(const vertex_marks *marks, size_t vertex)
 {
     unsigned any = 0;
@@ -83,8 +83,8 @@ static bool is_marked(const vertex_marks *marks, size_t vertex)
     return any != 0;
 }
 
-/* Lets the first vertices at their positions represent marked corners, as they do among all faces. The edges
-   go by the corners that are marked. */
+/* Replaces each marked corner by the first vertex at its position, as in the list of all faces. Edges are
+   determined by marked corners only. */
 static ffd_status join_marked(const stl_document *d, const vertex_marks *marks, mesh_faces *faces,
                               ffd_error *error)
 {

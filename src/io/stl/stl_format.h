@@ -1,4 +1,4 @@
-/* stl_format.h - the format STL, ascii and binary, as the table of formats has it. */
+/* stl_format.h - the format STL, ascii and binary, for the table of formats. */
 #ifndef FFD_IO_STL_STL_FORMAT_H
 #define FFD_IO_STL_STL_FORMAT_H
 

@@ -3,13 +3,14 @@
 #include "io/stl/stl_document.h"
 #include <string.h>
 
-/* Facets share no vertices in the file: corners at one position become one vertex. It is the file's position
-   that counts, so that a deformation that brings corners together changes no number of vertices. */
+/* Facets share no vertices in the file: corners at the same position become one vertex. Positions before the
+   deformation are compared, so that a deformation that moves corners together does not change the number of
+   vertices. */
 typedef struct extractor {
     const stl_document *document;
     mesh_model *model;
-    intern_table positions; /* of the file. Keys: 3 doubles */
-    char *name;             /* of the current solid */
+    intern_table positions; /* those of the file; keys: 3 doubles */
+    char *name;             /* that of the current solid */
     ffd_error *error;
 } extractor;
 
@@ -74,8 +75,8 @@ static ffd_status take_binary(extractor *e)
     return status;
 }
 
-/* Gives each vertex the result of its first corner; those of the others are equal. The model's corners are
-   those of the file. */
+/* Gives each vertex the result of its first corner; the results of its other corners are equal. The model's
+   corners are those of the file. */
 static void copy_results(extractor *e)
 {
     const double *results = e->document->file.new_positions;
@@ -85,7 +86,7 @@ static void copy_results(extractor *e)
             e->model->positions[3 * (size_t)faces->corners[i].position + a] = results[3 * i + a] + 0.0;
 }
 
-/* The number of a position is that of its first corner. */
+/* Sets the number of each position to that of its first corner. */
 static ffd_status number_positions(extractor *e)
 {
     const model_list *const faces = &e->model->lists[MODEL_FACES];

@@ -18,8 +18,8 @@ bool ffd_stl_normal(const double corners[9], double normal[3])
         for (int a = 0; a < 3; a++)
             sides[i][a] = (corners[3 * (i + 1) + a] - corners[a]) / largest;
     vec_cross(sides[0], sides[1], normal);
-    /* Differences of coordinates that are off by eps extent move their products by twice that times the
-       other side's length; twice again for good measure. */
+    /* Rounding bound: if the differences of coordinates are off by eps * extent, their products are off by
+       twice that times the length of the other side. Doubled again for safety. */
     const double length = vec_length(normal);
     if (!(length > 4 * DBL_EPSILON * (extent / largest) * (vec_length(sides[0]) + vec_length(sides[1]))))
         return false;

@@ -1,4 +1,4 @@
-/* stl_results.c - takes the results of an STL file. */
+/* stl_results.c - stores the results of an STL file. */
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include "io/stl/stl_document.h"
@@ -6,29 +6,21 @@
 
 void ffd_stl_load(const unsigned char *bytes, double xyz[3])
 {
-    for (size_t a = 0; a < 3; a++) {
-        const uint32_t bits = load_u32(bytes + 4 * a);
-        float value;
-        memcpy(&value, &bits, sizeof value);
-        xyz[a] = (double)value;
-    }
+    for (size_t a = 0; a < 3; a++)
+        xyz[a] = load_float(bytes + 4 * a);
 }
 
 void ffd_stl_store(unsigned char *bytes, const double *values, size_t count)
 {
-    for (size_t i = 0; i < count; i++) {
-        const float value = (float)values[i];
-        uint32_t bits;
-        memcpy(&bits, &value, sizeof bits);
-        store_u32(bytes + 4 * i, bits);
-    }
+    for (size_t i = 0; i < count; i++)
+        store_float(bytes + 4 * i, (float)values[i]);
 }
 
 void ffd_stl_read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
                             double *xyz)
 {
     const stl_document *d = ffd_stl_of(document);
-    (void)part; /* there is one */
+    (void)part; /* the only one */
     if (!d->binary) {
         ffd_vectors_read(d->file.positions, first, count, xyz);
         return;
@@ -42,7 +34,7 @@ void ffd_stl_read_positions(const mesh_document *document, size_t part, size_t f
 ffd_status ffd_stl_begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error)
 {
     stl_document *d = (stl_document *)document;
-    (void)tangents; /* there are none */
+    (void)tangents; /* STL has none */
     d->renew_normals = normals;
     if (!d->file.new_positions)
         d->file.new_positions = ffd_alloc(d->facets, 9 * sizeof *d->file.new_positions);

@@ -15,10 +15,9 @@ static void corners_before(const stl_document *d, size_t facet, double corners[9
     ffd_stl_read_positions(&d->file.base, 0, 3 * facet, 3, corners);
 }
 
-/* The normal of a moved facet, from its corners as they are written. It points to the side of the facet that
-   the file's normal does: where the order of the corners says otherwise, the side of the file's normal is
-   kept. Returns false if the normal is kept as it is: the corners give none, or it is zero, by which many
-   programs mean the normal of the corners. */
+/* Computes the unit normal of a moved facet from its corners as written. It points to the side of the old
+   normal, even if the order of the corners says otherwise. Returns false if the old normal stays: the corners
+   have no normal, or the old one is zero, by which many programs mean the normal of the corners. */
 static bool renew_normal(const stl_document *d, const double before[9], const double after[9],
                          const double old[3], double normal[3])
 {

@@ -70,7 +70,7 @@ static ffd_status take_corner(text_reader *r, text_word corner[3])
     return status;
 }
 
-/* What follows "facet". */
+/* Reads the words after "facet". */
 static ffd_status take_facet(text_reader *r, stl_facet *facet)
 {
     static const char *const before[] = {"outer", "loop"}, *const after[] = {"endloop", "endfacet"};
@@ -86,7 +86,7 @@ static ffd_status take_facet(text_reader *r, stl_facet *facet)
     return status;
 }
 
-/* Takes a name of any number of words. */
+/* Takes a name, which may have any number of words. */
 static text_word take_name(text_scan *scan)
 {
     text_word name = {scan->at, scan->at}, word;
@@ -121,7 +121,7 @@ static ffd_status begin_solid(text_reader *r, stl_text *text)
          ? ffd_flaw_line((text)->flaws, (reader)->name, (text)->scan.line, (reader)->error, __VA_ARGS__)     \
          : FFD_OK)
 
-/* Passes "color" and the numbers after it, if they are next. *passed: whether they were. */
+/* Skips "color" and its numbers, if they come next. *passed: whether they did. */
 static ffd_status pass_colour(text_reader *r, stl_text *text, bool *passed)
 {
     text_word word;
@@ -136,7 +136,7 @@ static ffd_status pass_colour(text_reader *r, stl_text *text, bool *passed)
     return NOTE(r, text, "a line \"color\", which STL does not have, is kept as it is");
 }
 
-/* Takes "solid" where it follows "end", in two words. Returns whether it does. */
+/* Takes "solid" after "end", written as two words. Returns whether it is there. */
 static bool takes_second_word(text_scan *scan)
 {
     text_scan ahead = *scan;
@@ -147,7 +147,7 @@ static bool takes_second_word(text_scan *scan)
     return true;
 }
 
-/* The word is not "facet": it must end the solid. */
+/* Handles a word other than "facet": it must end the solid. */
 static ffd_status end_solid(text_reader *r, stl_text *text, text_word word)
 {
     ffd_status status = FFD_OK;
@@ -160,7 +160,7 @@ static ffd_status end_solid(text_reader *r, stl_text *text, text_word word)
     return status;
 }
 
-/* What follows the beginning of a solid or a facet of it. */
+/* Takes the next step inside a solid: a facet, or its end. */
 static ffd_status step_inside(text_reader *r, stl_text *text, stl_facet *facet, stl_event *event)
 {
     text_word word;

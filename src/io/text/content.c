@@ -2,7 +2,7 @@
 #include "io/text/text_scan.h"
 #include <string.h>
 
-/* Magic numbers, at the first byte. */
+/* Magic numbers at the start of a file. */
 static const struct {
     const char *bytes;
     size_t size;
@@ -28,7 +28,7 @@ static const struct {
     {"\xfe\xff", 2, {"UTF-16 text", FFD_FORMAT_AUTO, true}},
 };
 
-/* First words, in small letters. A word that ends with a star stands for all that begin so. */
+/* First words, in lower case. A word that ends with a star matches all words with that beginning. */
 static const struct {
     const char *first, *second;
     content_kind kind;

@@ -1,4 +1,4 @@
-/* content.h - what a file seems to be that is not a mesh, or not one of the format that its name says. */
+/* content.h - guesses the kind of a file that is not a mesh, or not of the format that its name says. */
 #ifndef FFD_IO_TEXT_CONTENT_H
 #define FFD_IO_TEXT_CONTENT_H
 
@@ -8,11 +8,11 @@
 
 typedef struct content_kind {
     const char *name;  /* "a gzip file" */
-    ffd_format format; /* FFD_FORMAT_AUTO: none of ours */
-    bool is_binary;    /* no text begins so */
+    ffd_format format; /* FFD_FORMAT_AUTO: not a mesh format */
+    bool is_binary;    /* whether no text begins like this */
 } content_kind;
 
-/* By the first bytes. NULL: they say nothing. */
+/* Guesses the kind from the first bytes. NULL: unknown. */
 const content_kind *ffd_content_kind(const void *data, size_t size);
 
 #endif

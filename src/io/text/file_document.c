@@ -64,7 +64,7 @@ void ffd_file_document_close(mesh_document *document)
 void ffd_file_document_read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
                                       double *xyz)
 {
-    (void)part; /* there is one */
+    (void)part; /* the only one */
     ffd_vectors_read(((const file_document *)document)->positions, first, count, xyz);
 }
 
@@ -75,11 +75,11 @@ void ffd_file_document_read_normals(const mesh_document *document, size_t part, 
     ffd_vectors_read(((const file_document *)document)->directions, first, count, xyz);
 }
 
-/* Vectors that are looked at together, and zeros to compare them with: as many as a page has. */
+/* Vectors compared with zeros at a time: about a memory page. */
 #define RUN ((size_t)170)
 static const double zeros[3 * RUN];
 
-/* Copies runs of vectors into an array of zeros, but for those that are zeros too. */
+/* Copies vectors into a zeroed array, but not runs of zeros, so that their pages are not touched. */
 static void copy_into_zeros(const double *vectors, size_t count, double *results)
 {
     for (size_t first = 0; first < count; first += RUN) {
@@ -89,8 +89,8 @@ static void copy_into_zeros(const double *vectors, size_t count, double *results
     }
 }
 
-/* Makes *results a copy of count vectors, in the array that it has already, if any. The normals of splats are
-   zeros in most files: their copy takes no memory until one of them changes. */
+/* Makes *results a copy of count vectors, and allocates it unless it exists. In most files the normals of
+   splats are zeros: their copy takes no memory until one of them changes. */
 static ffd_status copy(const double *vectors, size_t count, double **results, ffd_error *error)
 {
     if (*results) {
@@ -108,7 +108,7 @@ ffd_status ffd_file_document_begin_results(mesh_document *document, bool normals
                                            ffd_error *error)
 {
     file_document *d = (file_document *)document;
-    (void)tangents; /* there are none */
+    (void)tangents; /* these formats have none */
     const ffd_status status = copy(d->positions, d->part.vertex_count, &d->new_positions, error);
     if (status || !normals || !d->directions) {
         ffd_free(d->new_directions);
@@ -118,7 +118,7 @@ ffd_status ffd_file_document_begin_results(mesh_document *document, bool normals
     return copy(d->directions, d->part.normal_count, &d->new_directions, error);
 }
 
-/* Copies those of count vectors at xyz that are marked as changed to results; NULL: they are not kept. */
+/* Copies the vectors that are marked as changed to results; NULL: nothing is kept. */
 static void write_vectors(double *results, size_t first, size_t count, const double *xyz,
                           const uint8_t *changed)
 {

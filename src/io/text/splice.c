@@ -1,7 +1,7 @@
 #include "io/text/splice.h"
 #include <string.h>
 
-/* Bytes of a file that are in memory while it is copied. */
+/* Bytes of a file held in memory while it is copied. */
 #define PIECE ((size_t)2 * 1024 * 1024)
 
 void ffd_splice_begin(file_splice *splice, const file_input *input, const mesh_save_options *options,
@@ -62,8 +62,8 @@ static size_t format(decimal_run *run, const double *value, char *text)
     return run ? ffd_decimal_run_format(run, value, text) : ffd_number_format(*value, text);
 }
 
-/* Copies the text between two numbers, mostly a blank: copying eight bytes at once is faster than copying the
-   exact size. The buffer has capacity for them. Returns the end of the copy. */
+/* Copies the text between two numbers, usually a blank: copying eight bytes at a time is faster than copying
+   the exact size. The buffer must have capacity for that. Returns the end of the copy. */
 static char *copy_between(const file_splice *splice, const char *to, char *buffer)
 {
     const size_t size = (size_t)(to - splice->copied);
@@ -74,7 +74,7 @@ static char *copy_between(const file_splice *splice, const char *to, char *buffe
     return buffer + size;
 }
 
-/* Writes straight into the text, whose capacity is checked once: a mesh has millions of numbers. */
+/* Writes straight into the text and checks its capacity only once: a mesh has millions of numbers. */
 static void replace_in_text(file_splice *splice, const text_word *words, const double *numbers,
                             unsigned changes, size_t count, decimal_run *run)
 {

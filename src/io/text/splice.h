@@ -1,4 +1,4 @@
-/* splice.h - writes a file's bytes with some of them replaced, in blocks. */
+/* splice.h - writes a file with some of its bytes replaced, in blocks. */
 #ifndef FFD_IO_TEXT_SPLICE_H
 #define FFD_IO_TEXT_SPLICE_H
 
@@ -10,32 +10,32 @@
 #include "mesh/mesh.h"
 
 typedef struct file_splice {
-    const file_input *input; /* NULL: of a part */
+    const file_input *input; /* NULL in a part */
     file_output *output;
     ffd_error *error;
     ffd_status status;         /* the first failure; nothing is written after it */
-    const char *copied, *last; /* the file is copied up to here, and ends there */
-    size_t released;           /* bytes of the file whose pages are released (ffd_file_release_until) */
-    byte_buffer *text;         /* of a part: the buffer for its bytes; NULL: they go to output */
+    const char *copied, *last; /* the file is copied up to here; the file's end */
+    size_t released;           /* bytes of the file whose mmap pages are released (ffd_file_release_until) */
+    byte_buffer *text;         /* in a part: the buffer for its bytes; NULL: they go to output */
 } file_splice;
 
-/* Begins the output that options name. ffd_splice_end must follow; it returns failures. */
+/* Begins the output that options name. ffd_splice_end must follow; it returns any failure. */
 void ffd_splice_begin(file_splice *splice, const file_input *input, const mesh_save_options *options,
                       file_output *output, ffd_error *error);
-/* Begins a part of the file, [first, last), whose bytes are appended to text: threads splice parts in
-   parallel. ffd_splice_end must follow. */
+/* Begins a part [first, last) of the file; its bytes are appended to text, so that threads can splice parts
+   in parallel. ffd_splice_end must follow. */
 void ffd_splice_begin_part(file_splice *splice, const char *first, const char *last, byte_buffer *text,
                            ffd_error *error);
-/* Writes a finished part instead of the file's bytes [first, last). text NULL: writes the file's bytes. */
+/* Writes a finished part in place of the file's bytes [first, last). text NULL: writes the file's bytes. */
 void ffd_splice_part(file_splice *splice, const char *first, const char *last, const byte_buffer *text);
-/* Copies the file up to a position, which is not before the last one. */
+/* Copies the file up to a position, which must not be before the last one. */
 void ffd_splice_copy(file_splice *splice, const char *to);
-/* Writes bytes that the file does not have. */
+/* Inserts bytes that the file does not have. */
 void ffd_splice_bytes(file_splice *splice, const void *bytes, size_t size);
-/* Copies up to a word and writes bytes instead of it. */
+/* Copies the file up to a word, and writes other bytes in its place. */
 void ffd_splice_replace(file_splice *splice, text_word word, const void *bytes, size_t size);
-/* Replaces the words of those of count numbers, 32 at most, whose bit is set in changes. run: that of the
-   array of the numbers, or NULL. */
+/* Replaces words by count numbers, at most 32: those whose bit is set in changes. run: the decimal_run of the
+   array with the numbers, or NULL. */
 void ffd_splice_numbers(file_splice *splice, const text_word *words, const double *numbers, unsigned changes,
                         size_t count, decimal_run *run);
 /* Copies the rest of the file and releases its pages. Returns the first failure, if any. */

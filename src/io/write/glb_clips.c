@@ -1,6 +1,6 @@
 #include "io/write/glb_clips.h"
 #include "base/memory/memory.h"
-#include "base/text/buffer_float.h"
+#include "base/text/buffer_binary.h"
 #include "mesh/morph/morph_clip.h"
 #include <string.h>
 
@@ -14,7 +14,7 @@ static size_t target_count(const glb_plan *plan, uint32_t mesh)
     return count;
 }
 
-/* Appends the weights that a key gives the targets of a mesh. weights: of all names of the clip. */
+/* Appends a key's weights for the targets of a mesh. weights: per name of the clip. */
 static void put_row(const glb_plan *plan, const morph_clip *clip, uint32_t mesh, const double *weights,
                     byte_buffer *out)
 {
@@ -92,7 +92,7 @@ static void add_channel(size_t sampler, size_t node, json_text *json)
     ffd_json_end(json, '}');
 }
 
-/* Nodes have the numbers of their meshes. */
+/* Each mesh has one node, of the same number. */
 static void add_clip(const glb_plan *plan, const morph_clip *clip, size_t *accessor, json_text *json)
 {
     const size_t input = (*accessor)++;

@@ -6,7 +6,6 @@
 #include "mesh/srgb.h"
 #include <float.h>
 #include <math.h>
-#include <string.h>
 
 static void flush_block(gltf_writer *w)
 {
@@ -29,29 +28,23 @@ static void put_bytes(gltf_writer *w, const unsigned char *bytes, size_t size)
     }
 }
 
-static void put_u32(gltf_writer *w, uint32_t value)
-{
-    unsigned char bytes[4];
-    store_u32(bytes, value);
-    put_bytes(w, bytes, sizeof bytes);
-}
-
 static void put_floats(gltf_writer *w, const float *values, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
-        uint32_t bits;
-        memcpy(&bits, values + i, sizeof bits);
-        put_u32(w, bits);
+        unsigned char bytes[4];
+        store_float(bytes, values[i]);
+        put_bytes(w, bytes, sizeof bytes);
     }
 }
 
 static void put_u16(gltf_writer *w, uint16_t value)
 {
-    const unsigned char bytes[2] = {value & 255, (unsigned char)(value >> 8)};
+    unsigned char bytes[2];
+    store_u16(bytes, value);
     put_bytes(w, bytes, sizeof bytes);
 }
 
-/* Alpha is linear in all formats. */
+/* Alpha is linear in every format. */
 static void put_byte_colour(gltf_writer *w, const double colour[4])
 {
     for (size_t c = 0; c < 4; c++) {
@@ -134,7 +127,7 @@ static void put_vertices(gltf_writer *w, const glb_primitive *primitive, int vie
         put_vertex(w, &w->plan.vertices[primitive->first_vertex + v], view, morph);
 }
 
-/* Those of all morph targets, one after the other. */
+/* The offsets of all morph targets, one target after another. */
 static void put_offsets(gltf_writer *w, const glb_primitive *primitive, int view)
 {
     for (size_t k = 0; k < w->model->morph_count; k++)

@@ -41,7 +41,7 @@ static void begin_accessor(gltf_writer *w, int view, size_t element, int compone
     w->filled[view] += element * count;
 }
 
-/* Of positions, or of their offsets in a morph target. */
+/* The bounds of positions, or of their offsets in a morph target. */
 static void add_bounds(gltf_writer *w, const glb_primitive *primitive, int view, size_t morph)
 {
     double least[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, largest[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
@@ -114,7 +114,7 @@ static void add_accessors(gltf_writer *w)
     ffd_json_end(&w->json, ']');
 }
 
-/* "object", "group" or "object/group"; nothing where there is neither. */
+/* Writes "object", "group" or "object/group"; nothing if the mesh has neither. */
 static void add_name(gltf_writer *w, uint32_t mesh)
 {
     uint32_t names[2];
@@ -158,7 +158,7 @@ static void add_targets(gltf_writer *w, const glb_primitive *primitive)
     ffd_json_end(&w->json, ']');
 }
 
-/* The targets' weights and names; primitive: one of the mesh. */
+/* Adds the weights and names of the targets. primitive: any one of the mesh. */
 static void add_morphs(gltf_writer *w, const glb_primitive *primitive)
 {
     ffd_json_array(&w->json, "weights", true);
@@ -235,7 +235,8 @@ static void add_nodes(gltf_writer *w)
     ffd_json_end(&w->json, ']');
 }
 
-/* Only names are known. A material is metal by default, which looks black with nothing to reflect. */
+/* Adds the materials, of which only names are known. They are not metallic: glTF's default is, which looks
+   black with nothing to reflect. */
 static void add_materials(gltf_writer *w)
 {
     ffd_json_array(&w->json, "materials", false);
@@ -267,7 +268,7 @@ static void add_scene(gltf_writer *w)
     ffd_json_end(&w->json, ']');
 }
 
-/* uri: NULL for the BIN chunk. Returns where the text of the uri ends in the JSON. */
+/* uri: NULL for the BIN chunk. Returns the offset in the JSON where the text of the uri ends. */
 static size_t add_buffer(gltf_writer *w, const char *uri)
 {
     size_t end = 0;

@@ -3,10 +3,10 @@
 #include <float.h>
 #include <math.h>
 
-/* Of the diagonal. */
+/* Relative to the diagonal. */
 #define STEP_TOLERANCE 1e-6
 
-/* The bounds of the vertices that are written. */
+/* Finds the bounds of the written vertices. */
 static void find_bounds(const glb_plan *plan, double least[3], double largest[3])
 {
     for (size_t i = 0; i < plan->vertex_count; i++) {
@@ -18,7 +18,7 @@ static void find_bounds(const glb_plan *plan, double least[3], double largest[3]
     }
 }
 
-/* The exponent of the power of two next above a size. */
+/* Returns the exponent of the smallest power of two greater than size. */
 static int exponent_above(double size)
 {
     int exponent;
@@ -39,10 +39,10 @@ bool ffd_glb_origin(const glb_plan *plan, double origin[3])
     const int far = exponent_above(farthest);
     if (!(diagonal > 0) || ldexp(1, far - FLT_MANT_DIG) <= STEP_TOLERANCE * diagonal)
         return false;
-    /* Multiples of less than a double's step cannot be told apart. */
+    /* Multiples smaller than a double's step cannot be distinguished. */
     const int step = far - DBL_MANT_DIG, above = exponent_above(diagonal);
     const double unit = ldexp(1, above > step ? above : step);
     for (int a = 0; a < 3; a++)
-        origin[a] = unit * floor((least[a] / 2 + largest[a] / 2) / unit + 0.5) + 0.0; /* no -0 */
+        origin[a] = unit * floor((least[a] / 2 + largest[a] / 2) / unit + 0.5) + 0.0; /* + 0.0: no -0 */
     return true;
 }

@@ -2,26 +2,26 @@
 #include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include "io/write/glb_values.h"
-#include "io/write/triangles.h"
+#include "mesh/model_triangles.h"
 #include <stdlib.h>
 #include <string.h>
 
-/* What the plan takes of a corner, and of a run with its mesh and its text. */
+/* Bytes of a corner in the plan, and of a run with its mesh and its text. */
 #define CORNER_BYTES 40
 #define RUN_BYTES 700
 
-/* What is needed to make a plan. */
+/* The state of making a plan. */
 typedef struct planner {
     glb_plan *plan;
     const mesh_model *model;
-    uint32_t *texcoords,
-        *normals;            /* of each, the first one with the same value; MODEL_NONE: cannot be used */
+    /* Per texture coordinate or normal, the first one with the same value; MODEL_NONE: it cannot be used. */
+    uint32_t *texcoords, *normals;
     intern_table primitives; /* keys: primitive_key */
     size_t primitive_capacity;
-    uint32_t *primitive_of[MODEL_KINDS]; /* of each element */
-    size_t *elements[MODEL_KINDS];       /* in the order of their primitives */
+    uint32_t *primitive_of[MODEL_KINDS]; /* per element */
+    size_t *elements[MODEL_KINDS];       /* sorted by primitive */
     face_triangles scratch;
-    model_corner *sorted; /* the corners of a primitive */
+    model_corner *sorted; /* the corners of the current primitive */
     ffd_error *error;
 } planner;
 
@@ -35,7 +35,7 @@ static bool read_texcoord(const mesh_model *model, uint32_t number, float *value
     return true;
 }
 
-/* With the offsets of morph targets. */
+/* The values include the offsets of morph targets. */
 static bool read_normal(const mesh_model *model, uint32_t number, float *values)
 {
     for (size_t k = 0; k < model->morph_count; k++)
@@ -45,8 +45,8 @@ static bool read_normal(const mesh_model *model, uint32_t number, float *values)
 
 typedef bool value_reader(const mesh_model *model, uint32_t number, float *values);
 
-/* Finds equal values, so that corners that name them by different numbers share a vertex. A value that cannot
-   be used gets MODEL_NONE. */
+/* Finds equal values, so that corners that refer to them by different numbers share a vertex. Values that
+   cannot be used get MODEL_NONE. */
 static ffd_status join_values(planner *p, size_t count, value_reader *read, size_t size, uint32_t **numbers)
 {
     intern_table values = {0};
@@ -101,7 +101,7 @@ static ffd_status find_primitive(planner *p, const primitive_key *key, uint32_t 
     return FFD_OK;
 }
 
-/* An attribute is there only where all corners of an element have it. */
+/* A primitive has an attribute only if all corners of its elements have it. */
 static ffd_status assign_element(planner *p, primitive_key *key, size_t i)
 {
     size_t count;
@@ -160,7 +160,7 @@ static ffd_status assign_all(planner *p)
     return status;
 }
 
-/* Lists the elements of each kind by their primitives, in the model's order within each. */
+/* Sorts the elements of each kind by primitive; within a primitive they keep the model's order. */
 static ffd_status sort_elements(planner *p)
 {
     const glb_plan *plan = p->plan;
@@ -207,7 +207,7 @@ static int compare_corners(const void *a, const void *b)
     return (x->normal > y->normal) - (x->normal < y->normal);
 }
 
-/* The corner of a primitive, without the attributes that the primitive does not have. */
+/* Returns a corner without the attributes that its primitive does not have. */
 static model_corner corner_of(const planner *p, const glb_primitive *primitive, const model_corner *corner)
 {
     model_corner own = joined(p, corner);
@@ -216,7 +216,7 @@ static model_corner corner_of(const planner *p, const glb_primitive *primitive, 
     return own;
 }
 
-/* Appends the corners that an element draws to those being sorted. */
+/* Appends the corners that an element draws to p->sorted. */
 static ffd_status draw(planner *p, const glb_primitive *primitive, size_t element, size_t *drawn)
 {
     size_t count, triangles = 0;
@@ -248,7 +248,8 @@ static uint32_t find_vertex(const model_corner *vertices, size_t count, const mo
     return (uint32_t)last_up_to(corner, vertices, count, sizeof *vertices, is_corner_up_to);
 }
 
-/* Vertices are in the order of the model's positions, each combination once. Points keep their own order. */
+/* Makes the vertices: each combination once, in the order of the model's positions. Points keep their own
+   order. */
 static ffd_status number_vertices(planner *p, glb_primitive *primitive, size_t drawn)
 {
     glb_plan *plan = p->plan;
@@ -275,8 +276,8 @@ static ffd_status number_vertices(planner *p, glb_primitive *primitive, size_t d
     return FFD_OK;
 }
 
-/* At most as many vertices as corners are drawn; the rest is released. */
-static ffd_status make_room(planner *p)
+/* Allocates for the maximum, one vertex per drawn corner; the rest is released later. */
+static ffd_status allocate(planner *p)
 {
     glb_plan *plan = p->plan;
     size_t corners = 0, indices = 0, largest = 0;
@@ -297,7 +298,7 @@ static ffd_status make_vertices(planner *p)
 {
     glb_plan *plan = p->plan;
     size_t at[MODEL_KINDS] = {0};
-    ffd_status status = make_room(p);
+    ffd_status status = allocate(p);
     for (size_t i = 0; i < plan->primitive_count && status == FFD_OK; i++) {
         glb_primitive *primitive = &plan->primitives[i];
         size_t drawn = 0;
@@ -336,8 +337,8 @@ static bool is_moved(const glb_plan *plan, const glb_primitive *primitive, size_
     return false;
 }
 
-/* A mesh has a target where something in it moves: then all its primitives have it. Where nothing moves at
-   all every mesh has it. */
+/* A mesh has a target if any of its primitives moves; then all its primitives have it. If nothing moves at
+   all, every mesh has it. */
 static void mark_morph(glb_plan *plan, size_t morph)
 {
     const size_t morphs = plan->model->morph_count;

@@ -5,13 +5,13 @@
 
 static float finite_float(double value)
 {
-    return fabs(value) <= (double)FLT_MAX ? (float)value + 0.0f : 0.0f; /* -0 becomes 0 */
+    return fabs(value) <= (double)FLT_MAX ? (float)value + 0.0f : 0.0f; /* + 0.0f: no -0 */
 }
 
 void ffd_glb_texcoord(const mesh_model *model, uint32_t number, float values[2])
 {
     values[0] = finite_float(model->texcoords[2 * (size_t)number]);
-    values[1] = finite_float(1 - model->texcoords[2 * (size_t)number + 1]); /* glTF's v goes down */
+    values[1] = finite_float(1 - model->texcoords[2 * (size_t)number + 1]); /* in glTF v points downwards */
 }
 
 static bool direction(const double *normal, float values[3])

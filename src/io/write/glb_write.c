@@ -71,7 +71,7 @@ static ffd_status put_glb(gltf_writer *w, const char *path)
     ffd_glb_make_json(w, true, NULL);
     if (w->text.failed)
         return ffd_fail_memory(w->error);
-    const size_t json = w->text.size - 1; /* without the line's end */
+    const size_t json = w->text.size - 1; /* without the line end */
     const size_t padded = ffd_gltf_align(json);
     const size_t bin = w->total > 0 ? GLB_CHUNK_HEADER_SIZE + w->total : 0;
     const size_t total = GLB_HEADER_SIZE + GLB_CHUNK_HEADER_SIZE + padded + bin;
@@ -93,7 +93,7 @@ static ffd_status put_glb(gltf_writer *w, const char *path)
     return w->sink.status;
 }
 
-/* On standard output all is in one file: the buffer is a data URI. */
+/* On standard output everything is in one file: the buffer is a data URI. */
 static ffd_status put_stream(gltf_writer *w)
 {
     const size_t split = ffd_glb_make_json(w, false, "data:application/octet-stream;base64,");
@@ -107,7 +107,7 @@ static ffd_status put_stream(gltf_writer *w)
     return w->sink.status;
 }
 
-/* The buffer's name (to be freed): that of the output with the ending .bin. */
+/* Returns the name of the buffer's file: the output's name with the ending .bin. The caller frees it. */
 static char *bin_name(const char *path)
 {
     char *stem = ffd_path_stem(path);

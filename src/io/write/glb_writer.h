@@ -1,5 +1,5 @@
 /* glb_writer.h - the parts of writing a model as glTF: glb_json.c makes the JSON, glb_content.c the buffer,
-   and glb_write.c the files of both. */
+   and glb_write.c writes both. */
 #ifndef FFD_IO_WRITE_GLB_WRITER_H
 #define FFD_IO_WRITE_GLB_WRITER_H
 
@@ -8,19 +8,19 @@
 #include "io/write/sink.h"
 #include "json/json_text.h"
 
-/* Bytes of base64 made at once: a multiple of 3, so that pieces join. */
+/* Bytes converted to base64 at a time: a multiple of 3, so that the pieces join. */
 #define GLB_BLOCK 3072
 
-/* Primitives with more vertices have indices of 32 bits: the largest of 16 is reserved. */
+/* Primitives with more vertices have 32-bit indices: the largest 16-bit index is reserved. */
 #define GLB_SHORT_INDEX_VERTICES 65535
 
-/* The bufferViews, in this order; one that is empty is left out. */
+/* The bufferViews, in this order; empty ones are left out. */
 enum {
     VIEW_POSITIONS,
     VIEW_NORMALS,
     VIEW_TEXCOORDS,
     VIEW_COLOURS,
-    VIEW_POSITION_OFFSETS, /* of the morph targets */
+    VIEW_POSITION_OFFSETS, /* those of morph targets */
     VIEW_NORMAL_OFFSETS,
     VIEW_SHORT,
     VIEW_LONG,
@@ -31,10 +31,10 @@ enum {
 typedef struct gltf_writer {
     const mesh_model *model;
     glb_plan plan;
-    bool is_far;                   /* the nodes do not stand at the origin, but at this place */
-    double origin[3];              /* else zeros */
-    bool byte_colours;             /* colours are bytes of sRGB, which 16 linear bits tell apart */
-    uint16_t linear_of_bytes[256]; /* what these are */
+    bool is_far;                   /* whether the nodes have a translation */
+    double origin[3];              /* that translation; else zeros */
+    bool byte_colours;             /* colours are sRGB bytes, which are stored as 16-bit linear numbers */
+    uint16_t linear_of_bytes[256]; /* the linear number of each byte */
     size_t sizes[VIEW_COUNT], begins[VIEW_COUNT], numbers[VIEW_COUNT], filled[VIEW_COUNT], total;
     glb_clips clips;
     byte_buffer text;
@@ -42,7 +42,7 @@ typedef struct gltf_writer {
     size_t accessors;
     model_sink sink;
     bool base64;
-    unsigned char block[GLB_BLOCK]; /* of bytes that become base64 */
+    unsigned char block[GLB_BLOCK]; /* bytes waiting to become base64 */
     size_t used;
     ffd_error *error;
 } gltf_writer;
@@ -57,11 +57,11 @@ static inline size_t glb_colour_size(const gltf_writer *w)
     return w->byte_colours ? 8 : 16;
 }
 
-/* Makes the JSON in text; w->text.failed: memory ran out. uri is that of the buffer, NULL: it is the BIN
-   chunk. Returns where the text of the uri ends, 0 where there is no buffer. */
+/* Makes the JSON in w->text; w->text.failed: memory ran out. uri is that of the buffer, NULL for the BIN
+   chunk. Returns the offset where the text of the uri ends, 0 without a buffer. */
 size_t ffd_glb_make_json(gltf_writer *w, bool on_one_line, const char *uri);
 
-/* Puts the buffer's bytes, w->total of them, into the sink, as base64 where that is set. */
+/* Puts the buffer's bytes, w->total in number, into the sink, as base64 if that is set. */
 void ffd_glb_put_content(gltf_writer *w);
 
 #endif

@@ -24,9 +24,9 @@ static void write_values(model_sink *sink, const mesh_model *model)
     }
 }
 
-/* A name is one line: line ends and other controls in it become '_', and so does a backslash at its end,
-   which would join the next line. OBJ has no statement that ends a name: "default" is written, the name
-   that a file begins with. */
+/* Writes a name as one line: control characters such as line ends become '_', and so does a backslash at the
+   end, which would join the next line. OBJ cannot end a name, so a run without one gets "default", the name
+   with which every file begins. */
 static void write_name(model_sink *sink, const char *keyword, const char *name)
 {
     ffd_sink_text(sink, keyword);
@@ -88,7 +88,7 @@ static ffd_status write(const mesh_model *model, const mesh_save_options *option
     model_sink sink = {output, error, ffd_output_begin(output, options->path, options->force, error)};
     (void)log;
     write_values(&sink, model);
-    /* A file without one statement is no OBJ file. */
+    /* A file without any statement is not an OBJ file. */
     if (model->position_count == 0 && (model->run_count == 0 || model->runs[0].object == MODEL_NONE))
         write_name(&sink, "o", NULL);
     for (size_t run = 0; run < model->run_count && sink.status == FFD_OK; run++) {

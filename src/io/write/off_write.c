@@ -10,7 +10,8 @@ typedef struct off_plan {
     const mesh_model *model;
     vertex_values values;
     bool byte_colours;
-    bool points; /* written as faces of one corner; those of a cloud are its vertices */
+    /* Whether points are written as faces of one corner; the points of a cloud are just its vertices. */
+    bool points;
 } off_plan;
 
 static ffd_status make_plan(const mesh_model *model, off_plan *plan, ffd_error *error)
@@ -33,7 +34,7 @@ static void write_header(model_sink *sink, const off_plan *plan)
     ffd_sink_count(sink, lists[MODEL_FACES].count +
                              (lists[MODEL_LINES].corner_count - lists[MODEL_LINES].count) +
                              (plan->points ? lists[MODEL_POINTS].count : 0));
-    ffd_sink_text(sink, " 0\n"); /* the number of edges is not used */
+    ffd_sink_text(sink, " 0\n"); /* nobody uses the number of edges */
 }
 
 static void write_named(model_sink *sink, const double *values, size_t numbers, uint32_t number)
@@ -42,8 +43,8 @@ static void write_named(model_sink *sink, const double *values, size_t numbers, 
     ffd_sink_numbers(sink, number == MODEL_NONE ? zeros : values + numbers * number, numbers);
 }
 
-/* Writes whole numbers up to 255, as in most files, or numbers with a decimal point, which tells readers
-   that the scale is 0 to 1. */
+/* Writes a colour: whole numbers up to 255, as in most files, or numbers with a decimal point, which tells
+   readers that the range is 0 to 1. */
 static void write_colour(model_sink *sink, const off_plan *plan, size_t vertex)
 {
     for (size_t c = 0; c < 4; c++) {

@@ -7,13 +7,13 @@
 
 #define LARGEST_UCHAR 255
 
-/* What the file holds. */
+/* What the file will hold. */
 typedef struct ply_plan {
     const mesh_model *model;
     vertex_values values;
-    bool corner_texcoords; /* a vertex has several: they are written with the faces */
+    bool corner_texcoords; /* vertices have several each: they are written with the faces */
     bool byte_colours, alpha;
-    size_t longest; /* corners of a face at most */
+    size_t longest; /* the largest number of corners of a face */
     size_t edges;
 } ply_plan;
 
@@ -79,14 +79,14 @@ static void write_header(model_sink *sink, const ply_plan *plan)
     ffd_sink_text(sink, "end_header\n");
 }
 
-/* The values that a number names, zeros where it names none. */
+/* Writes the values with this number, or zeros for MODEL_NONE. */
 static void write_values(model_sink *sink, const double *values, size_t numbers, uint32_t number)
 {
     for (size_t i = 0; i < numbers; i++)
         ffd_sink_double(sink, number == MODEL_NONE ? 0 : values[numbers * number + i]);
 }
 
-/* Many programs pass over texture coordinates that are doubles. */
+/* Written as floats: many programs ignore texture coordinates that are doubles. */
 static void write_texcoord(model_sink *sink, const ply_plan *plan, uint32_t number)
 {
     for (size_t i = 0; i < 2; i++)

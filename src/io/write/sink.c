@@ -39,10 +39,9 @@ void ffd_sink_u32(model_sink *sink, uint32_t value)
 
 void ffd_sink_float(model_sink *sink, double value)
 {
-    const float rounded = (float)value;
-    uint32_t bits;
-    memcpy(&bits, &rounded, sizeof bits);
-    ffd_sink_u32(sink, bits);
+    unsigned char bytes[4];
+    store_float(bytes, (float)value);
+    ffd_sink_bytes(sink, bytes, sizeof bytes);
 }
 
 void ffd_sink_double(model_sink *sink, double value)

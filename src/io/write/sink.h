@@ -1,5 +1,5 @@
-/* sink.h - the output of a writer: text, numbers and bytes, to the file begun last. The first failure is kept
-   and nothing is written after it. */
+/* sink.h - the output of a writer: appends text, numbers and bytes to the file begun last. The first failure
+   is kept, and nothing is written after it. */
 #ifndef FFD_IO_WRITE_SINK_H
 #define FFD_IO_WRITE_SINK_H
 
@@ -12,7 +12,7 @@ typedef struct model_sink {
     ffd_status status;
 } model_sink;
 
-/* Each appends to the output. After a failure, which sink holds, they do nothing. */
+/* These append to the output. After a failure, which is in sink, they do nothing. */
 
 /* Appends size bytes. */
 void ffd_sink_bytes(model_sink *sink, const void *bytes, size_t size);
@@ -20,13 +20,13 @@ void ffd_sink_bytes(model_sink *sink, const void *bytes, size_t size);
 void ffd_sink_text(model_sink *sink, const char *text);
 /* Appends a whole number in decimal digits. */
 void ffd_sink_count(model_sink *sink, uint64_t count);
-/* The shortest text of each number, with a blank before it. */
+/* Appends the shortest text of each number, preceded by a blank. */
 void ffd_sink_numbers(model_sink *sink, const double *numbers, size_t count);
-/* A whole number of 32 bits, little endian. */
+/* Appends a 32-bit integer, little-endian. */
 void ffd_sink_u32(model_sink *sink, uint32_t value);
-/* The nearest float, little endian. */
+/* Appends the nearest float, little-endian. */
 void ffd_sink_float(model_sink *sink, double value);
-/* A double, little endian. */
+/* Appends a double, little-endian. */
 void ffd_sink_double(model_sink *sink, double value);
 
 #endif

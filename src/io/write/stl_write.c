@@ -1,12 +1,12 @@
 /* stl_write.c - writes a model as a new STL file. */
 #include "io/stl/stl_document.h"
 #include "io/write/sink.h"
-#include "io/write/triangles.h"
 #include "io/write/write.h"
+#include "mesh/model_triangles.h"
 #include <float.h>
 #include <inttypes.h>
 
-/* The normal is that of the corners as the file has them; zeros where they have no area. */
+/* The normal is that of the corners as written; zeros if they have no area. */
 static void write_triangle(model_sink *sink, const double *const corners[3])
 {
     static const unsigned char no_attributes[2] = {0, 0};
@@ -38,7 +38,7 @@ static ffd_status write_face(model_sink *sink, const mesh_model *model, face_tri
 static ffd_status write(const mesh_model *model, const mesh_save_options *options, file_output *output,
                         const mesh_log *log, ffd_error *error)
 {
-    /* Readers take a file that begins with "solid" for text. */
+    /* Must not begin with "solid": readers would take the file for text. */
     static const char header[STL_HEADER] = "binary STL";
     const model_list *faces = &model->lists[MODEL_FACES];
     const size_t triangles = model_triangle_count(model);

@@ -1,4 +1,4 @@
-/* target.c - the table of formats that a model can be written in. */
+/* target.c - the table of formats in which a model can be written. */
 #include "io/write/write.h"
 
 const model_target *ffd_model_target(ffd_format format)

@@ -10,14 +10,13 @@
 #include <math.h>
 #include <string.h>
 
-/* Displacements of two blocks at a place are one where they differ by no more than this, in parts of the
-   diagonal. */
+/* Two blocks move a place alike if their displacements differ by at most this part of the diagonal. */
 #define AGREEMENT 1e-9
-/* A direction leads out of a face where its cosine with the normal is more than this. */
+/* A direction leads out of a face if its cosine with the outward normal exceeds this. */
 #define OUTWARD 0.01
 
-/* The direction number n of 27 into a block: along a parameter inward where the place is on a face of it, and
-   else any way. Returns false where it is none of them. */
+/* Direction n of 27 (-1, 0 or 1 along each parameter), as a sum of unit vectors along the columns of the
+   Jacobian. Returns false if it does not lead into the block from a place on these faces, or is zero. */
 static bool direction_into(unsigned faces, const double jacobian[9], unsigned n, double direction[3])
 {
     memset(direction, 0, 3 * sizeof *direction);
@@ -33,15 +32,16 @@ static bool direction_into(unsigned faces, const double jacobian[9], unsigned n,
     return vec_length(direction) > 0;
 }
 
-/* Whether the next block has points beyond the faces of the own one: then the displacement may jump there.
-   Two that lie on the same side of a face have the same normal there, and the first has what is in both. */
+/* Whether the next block contains points beyond the own block's faces at this place: then the displacement
+   may jump there. Otherwise both lie on the same side, and the own block, the earlier one, owns their
+   overlap. */
 static bool goes_on(const block_place *own, const block_place *next, const double half[3], double snap)
 {
     double of_own[9], of_next[9], normals[6][3], direction[3];
     const unsigned faces = ffd_faces_reached(own->link, own->uvw, half, snap, of_own);
     const unsigned others = ffd_faces_reached(next->link, next->uvw, half, snap, of_next);
     if (mat_determinant(of_own) == 0 || mat_determinant(of_next) == 0)
-        return true; /* without normals: nothing is passed over */
+        return true; /* the normals are undefined, so the displacements must be compared */
     ffd_faces_normals(faces, of_own, normals);
     for (unsigned n = 0; n < 27; n++) {
         if (!direction_into(others, of_next, n, direction))
@@ -53,7 +53,7 @@ static bool goes_on(const block_place *own, const block_place *next, const doubl
     return false;
 }
 
-/* How much a displacement changes over a short way at the most. */
+/* Returns an upper bound of the change of a displacement over a short distance. */
 static double change_of(const double gradient[9], double way)
 {
     double square = 0;
@@ -68,7 +68,7 @@ static double distance(const double a[3], const double b[3])
     return vec_length(way);
 }
 
-/* Looks for a place of one block in another one. uvw is left where that does not hold it. */
+/* Looks up a place of one block in another block. If that one does not hold it, uvw is left as it is. */
 static ffd_status find_there(const chain_link *link, const double place[3], double off, double uvw[3],
                              bool *found, ffd_error *error)
 {
@@ -104,8 +104,8 @@ ffd_status ffd_blocks_part(const block_place *own, const block_place *next, cons
         memcpy(uvw[b], both[b]->uvw, sizeof uvw[b]);
         ffd_lattice_evaluate(both[b]->link->lattice, FFD_VOLUME_REST, uvw[b], at[b], NULL);
     }
-    /* With what it stands for the point is at a place of each block: both are asked for the one that they
-       hold. Through a gap each has its own. */
+    /* A point's rounding cell may touch both blocks at slightly different places. Evaluate both displacements
+       at one place if a block holds the other's place; across a gap, each at its own. */
     bool found = distance(at[0], at[1]) <= off;
     ffd_status status = FFD_OK;
     for (int b = 0; b < 2 && !found && !status; b++)

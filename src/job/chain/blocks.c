@@ -5,26 +5,26 @@
 #include "embed/locator.h"
 #include "job/chain/block_faces.h"
 #include "job/chain/common_faces.h"
-#include "job/chain/look_again.h"
 #include "job/chain/point_outcome.h"
+#include "job/chain/point_rounding.h"
 #include "job/chain/seams.h"
 #include <float.h>
 #include <string.h>
 
-/* Distances from two borders are equal where they differ by no more than this part. */
+/* Distances to two borders count as equal if they differ by at most this relative amount. */
 #define EQUAL_DISTANCE 1e-12
 
 typedef struct block_work {
     const lattice_chain *chain;
     chain_run *run;
-    bool snaps; /* points are looked for that miss a block by no more than the snap */
+    bool snaps; /* second search: points that miss a block by at most the snap count as inside */
 } block_work;
 
-/* The first block after another one whose box holds a point. */
+/* Finds the first block, from `first` on, whose box holds a point. */
 typedef struct next_block {
     const bounds *boxes;
     const double *p, *slack;
-    uint32_t first, found; /* no less than first; BLOCK_NONE: there is none */
+    uint32_t first, found; /* found: at least first; BLOCK_NONE: no such block */
 } next_block;
 
 static bool offer_block(void *context, uint32_t block)
@@ -35,15 +35,14 @@ static bool offer_block(void *context, uint32_t block)
     return true;
 }
 
-/* Of point i of the run. What it stands for may reach a block. */
+/* Returns the first block, from `first` on, whose box is reached by the rounding cell of point i of the
+   run. */
 static uint32_t find_next(const block_work *work, size_t i, uint32_t first)
 {
     const lattice_chain *const chain = work->chain;
-    const chain_rounding *const rounding = work->run->rounding;
     const double *const p = work->run->x + 3 * i;
-    double slack[3] = {0, 0, 0};
-    if (rounding)
-        rounding->find(rounding->context, i, true, p, slack);
+    double slack[3];
+    ffd_rounding_find(work->run->rounding, i, true, p, slack);
     double *const cell = &work->run->scratch->cell;
     *cell = larger_of(*cell, vec_length(slack));
     for (int a = 0; a < 3; a++)
@@ -53,12 +52,12 @@ static uint32_t find_next(const block_work *work, size_t i, uint32_t first)
     return next.found;
 }
 
-/* Bits of a block's number that are sorted by at once. */
+/* Bits per pass of the radix sort by block number. */
 #define DIGIT_BITS 10
 #define DIGITS (1u << DIGIT_BITS)
 
-/* Sorts points by the blocks' numbers, of which the greatest is `last`; those of one block stay in their
-   order. Returns where they are: in points or spare. */
+/* Stable radix sort of points by block number. last: the largest block number. Returns the sorted array,
+   which is either points or spare. */
 static uint32_t *sort_by_block(const uint32_t *block, uint32_t last, size_t count, uint32_t *points,
                                uint32_t *spare)
 {
@@ -77,7 +76,7 @@ static uint32_t *sort_by_block(const uint32_t *block, uint32_t last, size_t coun
     return points;
 }
 
-/* How many points from the first on have its block. */
+/* Returns the number of points at the start of the array that share the first one's block. */
 static size_t same_block(const uint32_t *block, const uint32_t *points, size_t count)
 {
     size_t same = 1;
@@ -86,7 +85,7 @@ static size_t same_block(const uint32_t *block, const uint32_t *points, size_t c
     return same;
 }
 
-/* Every point is outside of all blocks so far, or has a coordinate that is not finite. */
+/* Initially each point is outside of all blocks, or invalid if a coordinate is not finite. */
 static void begin_points(const block_work *work)
 {
     chain_run *const run = work->run;
@@ -108,8 +107,8 @@ static void begin_points(const block_work *work)
     }
 }
 
-/* Asks the tree for the next block of each pending point, and drops those that have none. Returns the
-   greatest block. */
+/* Looks up the next candidate block of each pending point, and drops points without one. Returns the largest
+   block number found. */
 static uint32_t ask_next(const block_work *work)
 {
     block_scratch *const blocks = &work->run->scratch->blocks;
@@ -128,7 +127,7 @@ static uint32_t ask_next(const block_work *work)
     return last;
 }
 
-/* The links that marks are about (ffd_chain_marked). */
+/* The marks of blocks, in place of links (ffd_chain_marked). */
 enum { MARK_OUTSIDE, MARK_DISAGREES };
 
 static void mark(chain_run *run, size_t i, size_t link)
@@ -142,16 +141,13 @@ static double snap_of(const block_work *work, uint32_t block)
     return work->snaps ? work->chain->links[block].snap : 0;
 }
 
-/* What point i of the run stands for. */
+/* Half the extents of the rounding cell of point i. */
 static void find_half(const block_work *work, size_t i, double half[3])
 {
-    const chain_rounding *const rounding = work->run->rounding;
-    memset(half, 0, 3 * sizeof *half);
-    if (rounding)
-        rounding->find(rounding->context, i, true, work->run->x + 3 * i, half);
+    ffd_rounding_find(work->run->rounding, i, true, work->run->x + 3 * i, half);
 }
 
-/* A point that has a block is in another one too: do both move it alike? */
+/* Compares the displacements of a point that a second block holds too, and notes a disagreement. */
 static ffd_status compare(const block_work *work, size_t i, uint32_t other, const double uvw[3],
                           ffd_error *error)
 {
@@ -173,7 +169,7 @@ static ffd_status compare(const block_work *work, size_t i, uint32_t other, cons
     return FFD_OK;
 }
 
-/* Whether a point that a block has is on a face of it, with what it stands for. */
+/* Whether a point's rounding cell reaches a face of its block. */
 static bool is_on_face(const block_work *work, size_t i, uint32_t block, const double uvw[3])
 {
     double half[3], jacobian[9];
@@ -181,7 +177,7 @@ static bool is_on_face(const block_work *work, size_t i, uint32_t block, const d
     return ffd_faces_reached(&work->chain->links[block], uvw, half, snap_of(work, block), jacobian) != 0;
 }
 
-/* Takes note of where a point is in a block. *again: whether it is to be looked for in others too. */
+/* Records a point's location in a block. *again: whether later blocks must be searched too. */
 static ffd_status note_location(const block_work *work, size_t i, uint32_t block, const face_ends *ends,
                                 const ffd_location *location, bool *again, ffd_error *error)
 {
@@ -204,8 +200,8 @@ static ffd_status note_location(const block_work *work, size_t i, uint32_t block
     return FFD_OK;
 }
 
-/* Looks for points in a block that is asked for them. Those that are to be looked for in others too become
-   pending again, from *pending on. */
+/* Searches the block that these points ask for. Points that need further blocks are appended to
+   blocks->again. *pending: how many these are. */
 static ffd_status look_in_block(const block_work *work, const uint32_t *points, size_t count, size_t *pending,
                                 ffd_error *error)
 {
@@ -232,7 +228,7 @@ static ffd_status look_in_block(const block_work *work, const uint32_t *points, 
     return status;
 }
 
-/* Finds the blocks of the pending points. */
+/* Searches the pending points block by block, until none is pending. */
 static ffd_status locate_pending(const block_work *work, ffd_error *error)
 {
     block_scratch *const blocks = &work->run->scratch->blocks;
@@ -253,7 +249,7 @@ static ffd_status locate_pending(const block_work *work, ffd_error *error)
     return status;
 }
 
-/* The points that no block has are pending again. */
+/* Makes pending all finite points that no block has. */
 static void begin_again(const block_work *work)
 {
     const chain_run *const run = work->run;
@@ -266,7 +262,8 @@ static void begin_again(const block_work *work)
     }
 }
 
-/* Finds the block of each point: one that holds it goes before one that it misses by the snap. */
+/* Finds the block of each point. A block that holds the point has precedence over one that the point misses
+   by at most the snap. */
 static ffd_status locate(block_work *work, ffd_error *error)
 {
     begin_points(work);
@@ -278,18 +275,18 @@ static ffd_status locate(block_work *work, ffd_error *error)
     return locate_pending(work, error);
 }
 
-/* The border of all blocks that is nearest to a point. */
+/* Search for the border point of any block that is nearest to a point. */
 typedef struct nearest_border {
     const lattice_chain *chain;
     const double *p;
-    double reach; /* no farther one will do */
+    double reach; /* upper bound of the distance */
     boundary_point point;
     uint32_t block;
     ffd_status status;
     ffd_error *error;
 } nearest_border;
 
-/* Of equally near ones the first has it. */
+/* Among equally near borders that of the first block wins, whatever the order of visits. */
 static bool offer_border(void *context, uint32_t block)
 {
     nearest_border *const best = context;
@@ -307,7 +304,7 @@ static bool offer_border(void *context, uint32_t block)
     return true;
 }
 
-/* Moves a point that is in no block by what the nearest border of all says. */
+/* Displaces a point outside of all blocks like the nearest border point. */
 static ffd_status extend(const block_work *work, size_t i, ffd_error *error)
 {
     const chain_run *const run = work->run;
@@ -325,7 +322,7 @@ static ffd_status extend(const block_work *work, size_t i, ffd_error *error)
     return FFD_OK;
 }
 
-/* What is in no block stays, or follows the nearest border. */
+/* Points outside of all blocks stay, or are extended. Lists the other points in blocks->pending. */
 static ffd_status place_others(const block_work *work, ffd_error *error)
 {
     chain_run *const run = work->run;
@@ -352,7 +349,7 @@ static ffd_status place_others(const block_work *work, ffd_error *error)
     return status;
 }
 
-/* Moves the points that have a block. */
+/* Displaces the points inside blocks, block by block. */
 static void displace(const block_work *work)
 {
     const lattice_chain *const chain = work->chain;

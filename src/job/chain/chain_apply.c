@@ -6,13 +6,13 @@
 #include "embed/locator.h"
 #include "job/chain/blocks.h"
 #include "job/chain/common_faces.h"
-#include "job/chain/look_again.h"
 #include "job/chain/point_outcome.h"
+#include "job/chain/point_rounding.h"
 #include "job/chain/seams.h"
 #include "lattice/lattice.h"
 #include <string.h>
 
-/* F = F2 F1 in terms of what each differs from I: E = E1 + E2 + E2 E1. Zeros stay exact. */
+/* F = F2 F1, written with E = F - I: E = E1 + E2 + E2 E1. Zeros stay exact. */
 static void compose(double gradient[9], const double next[9])
 {
     double product[9];
@@ -21,7 +21,7 @@ static void compose(double gradient[9], const double next[9])
         gradient[i] = gradient[i] + next[i] + product[i];
 }
 
-/* Where a link's displacements are written: those of the first link straight to the run. */
+/* The first link writes its displacements directly to the run, later ones to scratch memory. */
 static displacement_batch begin_batch(const chain_run *run, size_t link)
 {
     chain_scratch *scratch = run->scratch;
@@ -35,7 +35,7 @@ static displacement_batch begin_batch(const chain_run *run, size_t link)
                                 .moves = scratch->moves};
 }
 
-/* Writes the displacement of a point outside of link l to where the batch writes those of the others. */
+/* Extends link l to a point outside of it; writes the displacement where the batch writes the others. */
 static ffd_status extend(const lattice_chain *chain, size_t l, chain_run *run,
                          const displacement_batch *batch, size_t i, ffd_error *error)
 {
@@ -61,7 +61,7 @@ static ffd_status extend(const lattice_chain *chain, size_t l, chain_run *run,
     return FFD_OK;
 }
 
-/* Marks a point without u,v,w in a link, unless the link moves it all the same. */
+/* Marks a point as left by link l, unless the link extends to it. */
 static void mark_kept(const chain_link *link, size_t l, chain_run *run, size_t i)
 {
     if (!run->kept || link->border || run->scratch->locations[i].status == FFD_POINT_INVALID)
@@ -70,7 +70,7 @@ static void mark_kept(const chain_link *link, size_t l, chain_run *run, size_t i
     run->keeps = true;
 }
 
-/* Notes what is known of the points, and lists those that have u,v,w in the link. */
+/* Records the outcomes of the points in a link, and lists the points that have u,v,w there. */
 static ffd_status note_locations(const lattice_chain *chain, size_t l, chain_run *run,
                                  displacement_batch *batch, ffd_error *error)
 {
@@ -101,7 +101,7 @@ static ffd_status note_locations(const lattice_chain *chain, size_t l, chain_run
     return status;
 }
 
-/* Adds what a link after the first does. */
+/* Adds the displacements of a link after the first. */
 static void add_link(const chain_run *run, const array_kernel *arrays)
 {
     const chain_scratch *scratch = run->scratch;

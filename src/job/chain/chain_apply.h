@@ -4,7 +4,8 @@
 
 #include "job/chain/chain.h"
 
-/* Sends the points through links [0, links), or through all blocks where links is not 0. */
+/* Sends the points through the first `links` links, or through all blocks if links is not 0. Errors:
+   FFD_E_MEMORY, FFD_E_LIMIT. */
 ffd_status ffd_chain_apply(const lattice_chain *chain, size_t links, chain_run *run, ffd_error *error);
 
 #endif

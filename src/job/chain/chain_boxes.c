@@ -5,7 +5,8 @@
 #include <float.h>
 #include <math.h>
 
-bounds ffd_lattice_bounds(const ffd_lattice *lattice)
+/* The bounds of the control points, which hold the volume. */
+static bounds rest_bounds(const ffd_lattice *lattice)
 {
     bounds box;
     for (int a = 0; a < 3; a++)
@@ -21,7 +22,7 @@ bounds ffd_chain_reach(const lattice_chain *chain, size_t link)
     const bool everywhere = outside->extend && !(outside->falloff > 0);
     const double falloff = outside->extend ? outside->falloff : 0;
     const double beyond = everywhere ? HUGE_VAL : larger_of(falloff, chain->links[link].snap);
-    bounds box = ffd_lattice_bounds(chain->links[link].lattice);
+    bounds box = rest_bounds(chain->links[link].lattice);
     for (int a = 0; a < 3; a++) {
         box.lo[a] -= beyond;
         box.hi[a] += beyond;
@@ -37,7 +38,7 @@ ffd_status ffd_chain_boxes(lattice_chain *chain, ffd_error *error)
     if (!chain->boxes)
         return ffd_fail_memory(error);
     for (size_t l = 0; l < chain->count; l++) {
-        const bounds box = chain->boxes[l] = ffd_lattice_bounds(chain->links[l].lattice);
+        const bounds box = chain->boxes[l] = rest_bounds(chain->links[l].lattice);
         for (int a = 0; a < 3; a++)
             chain->slack[a] = larger_of(chain->slack[a],
                                         chain->links[l].snap +

@@ -1,18 +1,15 @@
-/* chain_boxes.h - where the lattices of a chain are. */
+/* chain_boxes.h - bounding boxes of a chain's lattices. */
 #ifndef FFD_JOB_CHAIN_CHAIN_BOXES_H
 #define FFD_JOB_CHAIN_CHAIN_BOXES_H
 
 #include "job/chain/chain.h"
 
-/* Returns the bounds of a lattice's control points, which hold its volume. */
-bounds ffd_lattice_bounds(const ffd_lattice *lattice);
-
-/* Returns the box outside of which a link with a fitted lattice moves nothing: the bounds of its control
-   points, which hold the volume, widened by how far the link extends. */
+/* Returns a box outside of which a fitted link moves nothing: the bounds of its control points, widened by
+   the falloff if it extends. */
 bounds ffd_chain_reach(const lattice_chain *chain, size_t link);
 
-/* Makes the boxes of a chain of several lattices, which are fitted, and the tree over them where they act
-   side by side. */
+/* Makes the boxes of a chain of several lattices, and for blocks the tree over them. All must be fitted.
+   Errors: FFD_E_MEMORY. */
 ffd_status ffd_chain_boxes(lattice_chain *chain, ffd_error *error);
 
 #endif

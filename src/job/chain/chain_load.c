@@ -13,10 +13,10 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Lattices of a job. */
+/* The most lattices in a job. */
 #define MOST_LATTICES 1024
 
-/* The lattice of a job before, if it is this one. */
+/* Takes the lattice from the cache, if an earlier job has loaded the same file. */
 static void borrow_lattice(const chain_files *files, lattice_chain *chain, size_t i)
 {
     chain_link *const link = &chain->links[i];
@@ -27,7 +27,7 @@ static void borrow_lattice(const chain_files *files, lattice_chain *chain, size_
     ffd_cache_lend_lattice(chain->share, link);
 }
 
-/* Fits the lattice, unless its box goes round the mesh of the job. */
+/* Fits the lattice to its box, unless the box depends on the job's mesh. */
 static ffd_status fit(const chain_files *files, ffd_share *share, chain_link *link, bool *fitted,
                       ffd_error *error)
 {
@@ -48,7 +48,8 @@ static ffd_status fit(const chain_files *files, ffd_share *share, chain_link *li
     return status ? status : ffd_lattice_fit(link->lattice, box.min, box.max, error);
 }
 
-/* Makes a failure to load lattice i that is for want of values name the placeholders of all lattices. */
+/* Replaces the message of a failure that is due to open placeholders in lattice i by one that names those of
+   all lattices. */
 static void tell_open(const chain_files *files, size_t i, bool *used, ffd_error *error)
 {
     intern_table own = {0}, all = {0};
@@ -64,7 +65,7 @@ static void tell_open(const chain_files *files, size_t i, bool *used, ffd_error 
     ffd_intern_free(&all);
 }
 
-/* Copies a lattice that the caller holds, within the memory of the job. */
+/* Copies the caller's lattice, charged to the job's memory budget. */
 static ffd_status copy_object(const ffd_lattice *object, memory_budget *memory, ffd_lattice **lattice,
                               ffd_error *error)
 {
@@ -72,7 +73,7 @@ static ffd_status copy_object(const ffd_lattice *object, memory_budget *memory, 
     return status ? status : ffd_lattice_copy(object, lattice, error);
 }
 
-/* file_size: of a lattice that is there, from a job before. */
+/* file_size: of a lattice taken from the cache. */
 static ffd_status load_lattice(const chain_files *files, bool *used, size_t i, uint64_t file_size,
                                memory_budget *memory, ffd_lattice **lattice, ffd_error *error)
 {
@@ -108,7 +109,8 @@ static ffd_status load_link(const chain_files *files, bool *used, lattice_chain 
     return status;
 }
 
-/* All that no lattice has a placeholder for, at once. Only the jobs of a batch can come from a table. */
+/* Refuses the values that no lattice has a placeholder for, all in one message. in_batch: the values may come
+   from a table, which the hint mentions. */
 static ffd_status refuse_unused(const chain_files *files, const bool *used, bool in_batch, ffd_error *error)
 {
     char names[300] = "";
@@ -220,8 +222,8 @@ void ffd_chain_end_alone(lattice_chain *alone)
     ffd_box_tree_free(&alone->tree);
 }
 
-/* Hashes the rest volume and how it is searched: one volume may be known as a box or by its points, with
-   weights of 1 or with none, and u,v,w differs in the last bits. */
+/* Hashes the rest volume and its search method. The same volume may be searched as a box or by its points,
+   with weights of 1 or without weights, and u,v,w then differ in the last bits. */
 static hash128 hash_rest(const ffd_lattice *lattice)
 {
     const bool is_box = lattice->form == REST_BOX_AFFINE;

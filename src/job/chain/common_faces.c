@@ -2,25 +2,26 @@
 #include "base/vector/vec.h"
 #include "embed/frame/frame.h"
 #include "embed/locator.h"
-#include "job/chain/look_again.h"
 #include "job/chain/point_outcome.h"
+#include "job/chain/point_rounding.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-/* Outward normals of two lattices at a point of their common face are opposite: their cosine is no more than
-   this. Two boxes round the same mesh have the same normals there. */
+/* At a common face the outward normals of two lattices are opposite: their cosine is at most this. (Two boxes
+   round the same mesh have equal normals there.) */
 #define OPPOSITE (-0.99)
 
-/* Points are looked at more closely that are so near to a face, in parts of the domain, as so many of the
-   largest cells are long, in parts of the diagonal: a lattice that is no thinner misses none. */
+/* Points within this many of the largest rounding cells of a face are examined. Cells are measured relative
+   to the diagonal, distances relative to the domain, so no point is missed unless the lattice is thinner than
+   1 / NEAR_CELLS of its diagonal. */
 #define NEAR_CELLS 1e4
 
-/* A place in a lattice is off by no more than this, in parts of the coordinates. */
+/* Error bound of a place evaluated in a lattice, relative to the size of the coordinates. */
 #define ROUNDING (4 * DBL_EPSILON)
 
-/* A point is moved where it is displaced by more than this part of the diagonal: at a border to which the
-   lattice fades the rounding may be left. */
+/* A point counts as moved if its displacement exceeds this part of the diagonal: rounding may be left at a
+   border to which the lattice fades. */
 #define MOVED 1e-9
 
 double ffd_link_rounding(const chain_link *link)
@@ -68,7 +69,7 @@ void ffd_faces_normals(unsigned faces, const double jacobian[9], double normals[
     }
 }
 
-/* Whether the place is on a face of another link too, where it has these u,v,w. */
+/* Whether a place is also on a face of the link `to`, where its parameters are uvw. */
 static bool share_face(const chain_link *links, const face_place *place, const chain_link *to,
                        const double uvw[3])
 {
@@ -93,7 +94,7 @@ void ffd_common_begin(chain_run *run)
         double half[3];
         if (!vec_is_finite(run->x + 3 * i))
             continue;
-        run->rounding->find(run->rounding->context, i, true, run->x + 3 * i, half);
+        ffd_rounding_find(run->rounding, i, true, run->x + 3 * i, half);
         scratch->cell = larger_of(scratch->cell, vec_length(half));
     }
 }
@@ -112,11 +113,10 @@ void ffd_common_note(const lattice_chain *chain, size_t link, const chain_run *r
     const face_ends ends = ffd_face_ends(of->lattice, ffd_faces_near(of, of->snap, run));
     for (size_t i = 0; i < run->count; i++) {
         const double *const uvw = scratch->locations[i].uvw, *const x = run->x + 3 * i;
-        double half[3] = {0, 0, 0}, jacobian[9];
+        double half[3], jacobian[9];
         if (!ffd_faces_at(&ends, uvw) || scratch->on_face[i] || !vec_is_finite(uvw))
             continue;
-        if (run->rounding)
-            run->rounding->find(run->rounding->context, i, link == 0, x, half);
+        ffd_rounding_find(run->rounding, i, link == 0, x, half);
         if (!ffd_faces_reached(of, uvw, half, of->snap, jacobian))
             continue;
         face_place *const place = &scratch->places[scratch->place_count++];
@@ -128,7 +128,7 @@ void ffd_common_note(const lattice_chain *chain, size_t link, const chain_run *r
     }
 }
 
-/* Whether a link's displacements move a point at all. */
+/* Whether a link's displacement moves a point at all. */
 static bool is_moved(const chain_link *link, const double *deltas, size_t point)
 {
     return vec_length(deltas + 3 * point) > MOVED * link->lattice->diagonal;
@@ -147,10 +147,10 @@ static void drop_unmoved(const chain_link *of, size_t link, const double *deltas
     scratch->place_count = kept;
 }
 
-/* Places that are looked for at once. */
+/* Places per call of the locator. */
 #define PLACES 64
 
-/* Of the places with these numbers: counts, and notes that it did, those on a common face. */
+/* Counts those of the numbered places that are on a common face with a link, and marks them as counted. */
 static ffd_status count_places(const lattice_chain *chain, size_t link, const size_t *numbers, size_t count,
                                chain_run *run, ffd_error *error)
 {

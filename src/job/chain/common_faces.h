@@ -1,38 +1,37 @@
-/* common_faces.h - points on a face of a lattice, and those on a face that two lattices of a chain share,
-   which both move. */
+/* common_faces.h - finds points on a face of a lattice, and points on a common face of two consecutive
+   lattices that both move. */
 #ifndef FFD_JOB_CHAIN_COMMON_FACES_H
 #define FFD_JOB_CHAIN_COMMON_FACES_H
 
 #include "job/chain/chain.h"
 
-/* How far a place in a link may be off. */
+/* Returns the error bound of a place evaluated in a link, world units. */
 double ffd_link_rounding(const chain_link *link);
-/* How near to a face, in parts of the domain, a run's points may be that reach it, given the largest cell of
-   these (chain_scratch). */
+/* Returns the distance from a face, relative to the domain, within which points of a run may reach the face
+   with their rounding cells (chain_scratch.cell) and the snap. */
 double ffd_faces_near(const chain_link *link, double snap, const chain_run *run);
-/* Returns which faces of a link, as ffd_faces_at has them, a point with these u,v,w is on, or reaches with
-   half the cell that it stands for, the snap and the rounding of the place. jacobian: filled with that of the
-   rest volume there. */
+/* Returns the faces of a link (bits as in ffd_faces_at) that a point at uvw reaches with its rounding cell
+   (half: half its extents), the snap and the evaluation error. jacobian: filled with that of the rest
+   volume. */
 unsigned ffd_faces_reached(const chain_link *link, const double uvw[3], const double half[3], double snap,
                            double jacobian[9]);
-/* The outward unit normals of these faces; zeros for the other ones. */
+/* Fills the outward unit normals of these faces, with zeros for the others. */
 void ffd_faces_normals(unsigned faces, const double jacobian[9], double normals[6][3]);
 
-/* Whether a run through this chain looks for such points: not where each lattice moves what is outside too.
- */
+/* Whether runs through this chain look for such points. They need not if each lattice also moves points
+   outside of it. */
 static inline bool ffd_common_wanted(const lattice_chain *chain)
 {
     return chain->boxes && !chain->blocks && !chain->outside.extend;
 }
 
-/* Forgets the points of an earlier run, and finds the largest cell of this one's. */
+/* Clears the places of the last run, and finds the largest rounding cell of this one. */
 void ffd_common_begin(chain_run *run);
-/* Notes those of the points, which the run's locations are of, that are on a face of the link. Before they
-   are moved. */
+/* Records the points on a face of the link, by the run's locations. Call it before the link moves them. */
 void ffd_common_note(const lattice_chain *chain, size_t link, const chain_run *run);
-/* After the link has moved the points by these displacements: drops those that it noted and does not move,
-   and counts in the run those that a link before noted, which are on the same face of this link and which it
-   moves. */
+/* Call it after the link has moved the points by these displacements. Drops the recorded points that the link
+   does not move. Counts the points recorded by earlier links that are on the same face of this link, and that
+   it moves (chain_run.moved_twice). */
 ffd_status ffd_common_count(const lattice_chain *chain, size_t link, const double *deltas, chain_run *run,
                             ffd_error *error);
 

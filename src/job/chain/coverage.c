@@ -4,7 +4,7 @@
 #include "mesh/bounds.h"
 #include <stdio.h>
 
-/* The domain is sampled at this many points along each direction. */
+/* Samples of the domain along each direction. */
 #define SAMPLES 17
 
 static bool is_clamped(const knot_vector *knots)

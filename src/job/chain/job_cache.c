@@ -5,54 +5,54 @@
 #include "job/input/source.h"
 #include <string.h>
 
-/* A lattice, owned: of a file, or because a locator looks at it. */
+/* An owned lattice: of a file, or one that a cached locator refers to. */
 typedef struct kept_lattice {
     ffd_lattice *lattice;
-    char *path; /* NULL: not for whoever asks for a file */
+    char *path; /* NULL: kept for a locator only */
     file_stamp stamp;
     hash128 rest;
     bool has_folds;
     ffd_folds folds;
-    bool used; /* by the job under way */
+    bool used; /* by the current job */
 } kept_lattice;
 
-/* What a rest volume is searched with. */
+/* A cached locator. */
 typedef struct kept_rest {
     hash128 hash;
     ffd_isa isa;
-    const ffd_lattice *lattice; /* which it looks at: one that is kept */
+    const ffd_lattice *lattice; /* one of ffd_share.lattices that the locator refers to */
     ffd_locator *locator;
     bool used;
 } kept_rest;
 
 struct ffd_share {
     bool only_lattices, is_of_job;
-    mesh_document *document; /* NULL: none, or in a job's hands */
-    bool is_noted;           /* what follows is known of it */
-    ffd_source source;       /* its path is owned; of the extensions that it allows only rules knows */
+    mesh_document *document; /* NULL: none, or the current job has it */
+    bool is_noted;           /* the following members describe the document: */
+    ffd_source source; /* owns its path; its list of allowed extensions is dropped, rules has their hash */
     hash128 rules;
     bool only_positions;
-    char **only; /* only_count */
+    char **only; /* only_count entries */
     size_t only_count;
     path_list files;
-    file_stamp *stamps; /* files.count */
+    file_stamp *stamps; /* files.count entries */
 
     kept_lattice *lattices;
     kept_rest *rests;
-    size_t lattice_count, lattice_room, rest_count, rest_room;
+    size_t lattice_count, lattice_capacity, rest_count, rest_capacity;
 
     mesh_boxes boxes;
 
-    ffd_location *locations; /* of the vertices of the mesh that is kept, or was last */
-    hash128 located;         /* in the rest volume with this hash */
+    ffd_location *locations; /* of the vertices of the cached mesh, or of the last one */
+    hash128 located;         /* hash of the rest volume that they are in */
     bool is_located;
 
-    kept_file *kept; /* of the job under way; lent */
+    kept_file *kept; /* of the current job; borrowed */
     bool hashes_output, has_output;
-    hash128 output;  /* its hash */
-    bool has_state;  /* of the mesh of the job under way: */
-    hash128 state;   /* of that which is noted, or was last */
-    bool is_stamped; /* it is known */
+    hash128 output;  /* hash of the output */
+    bool has_state;  /* state holds for the current job's mesh: */
+    hash128 state;   /* hash of the stamps of the noted or last mesh */
+    bool is_stamped; /* state is known */
     share_counts counts;
 };
 
@@ -150,7 +150,7 @@ static bool same_source(const ffd_share *share, const ffd_deform_desc *desc, boo
     return true;
 }
 
-/* A job that changes the document itself, or its file, leaves nothing for the next one. */
+/* A job that changes the document itself, or overwrites its file, leaves no mesh to reuse. */
 static bool leaves_mesh(const ffd_deform_desc *desc)
 {
     return !desc->as_morph && !desc->morphs && !desc->in_place && !ffd_file_is_stream(desc->input.path);
@@ -190,9 +190,8 @@ static bool note_source(ffd_share *share, const ffd_deform_desc *desc, bool only
     return true;
 }
 
-/* Its own stamp is from before it was opened; those of the files that it refers to were taken right after
- * that.
- */
+/* stamp: of the mesh file, taken before it was opened. The files that it refers to are stamped here, right
+   after that. */
 static bool note_files(ffd_share *share, const ffd_source *source, const file_stamp *stamp,
                        const mesh_document *document)
 {
@@ -266,7 +265,7 @@ bool ffd_cache_find_state(const ffd_share *share, hash128 *state)
         return false;
     *state = share->state;
     if (!ffd_stamps_hold(share->files.paths, share->stamps, share->files.count))
-        state->bytes[0] ^= 0xff; /* the job may have read some of both */
+        state->bytes[0] ^= 0xff; /* the job may have read a mix of old and new content */
     return true;
 }
 
@@ -329,8 +328,8 @@ void ffd_cache_lend_locator(const ffd_share *share, ffd_isa isa, chain_link *lin
     link->locator_is_lent = true;
 }
 
-/* Takes the locator, if there is none yet for such a rest volume. Returns whether it looks at the link's own
-   lattice. There is memory for one more. */
+/* Moves the link's locator into the cache, unless it has one for the same rest volume. Returns whether the
+   locator refers to the link's own lattice. Capacity for one more must be there. */
 static bool keep_rest(ffd_share *share, chain_link *link, ffd_isa isa)
 {
     if (!link->locator || link->locator_is_lent || find_rest(share, &link->rest, isa))
@@ -341,7 +340,7 @@ static bool keep_rest(ffd_share *share, chain_link *link, ffd_isa isa)
     return true;
 }
 
-/* There is memory for one more of each. */
+/* Capacity for one more lattice and locator must be there. */
 static void keep_link(ffd_share *share, chain_link *link, ffd_isa isa)
 {
     const bool is_looked_at = keep_rest(share, link, isa);
@@ -385,8 +384,9 @@ void ffd_cache_evict_lattices(ffd_share *share)
         share->lattice_count = count;
 }
 
-/* Frees those that the job did not use. If no meshes are cached, a job that reaches a limit because of what
-   is kept is not run again: a locator that is nearer to its limit because of earlier jobs is freed too. */
+/* Frees the locators that the current job did not use. If no meshes are cached, jobs are not retried when
+   cached data makes them reach a limit; so a locator that earlier jobs have brought near its limit is freed
+   too. */
 static void forget_rests(ffd_share *share)
 {
     size_t count = 0;
@@ -400,7 +400,7 @@ static void forget_rests(ffd_share *share)
     share->rest_count = count;
 }
 
-/* The job is over. */
+/* Ends the loans of the current job. */
 static void take_back(ffd_share *share)
 {
     for (size_t i = 0; i < share->rest_count; i++)
@@ -413,9 +413,9 @@ void ffd_cache_put_chain(ffd_share *share, lattice_chain *chain)
 {
     if (!share)
         return;
-    if (ffd_grow((void **)&share->rests, &share->rest_room, share->rest_count + chain->count,
+    if (ffd_grow((void **)&share->rests, &share->rest_capacity, share->rest_count + chain->count,
                  sizeof *share->rests) &&
-        ffd_grow((void **)&share->lattices, &share->lattice_room, share->lattice_count + chain->count,
+        ffd_grow((void **)&share->lattices, &share->lattice_capacity, share->lattice_count + chain->count,
                  sizeof *share->lattices))
         for (size_t i = 0; i < chain->count; i++)
             keep_link(share, &chain->links[i], chain->isa);
@@ -440,7 +440,7 @@ ffd_location *ffd_cache_locations(ffd_share *share, mesh_document *document, boo
     share->is_located = false;
     share->located = *rest;
     if (taken && share->locations)
-        return share->locations; /* of the same vertices, in another volume */
+        return share->locations; /* of the same vertices, for another volume: reuse the memory */
     forget_locations(share);
     if (ffd_budget_take(&document->budget, count, sizeof *share->locations, NULL))
         return NULL;

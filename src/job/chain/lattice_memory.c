@@ -49,6 +49,6 @@ ffd_status ffd_lattice_memory_load(const char *path, const spec_settings *settin
 ffd_status ffd_lattice_memory_share(const lattice_chain *chain, memory_budget *budget, ffd_error *error)
 {
     const memory_budget none = ffd_budget_make(0);
-    budget->most += chain->memory.most - none.most; /* for the lattices' files */
+    budget->most += chain->memory.most - none.most; /* the share that sizes of lattice files add */
     return ffd_budget_take(budget, chain->memory.taken - none.taken, 1, error);
 }

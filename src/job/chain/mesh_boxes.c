@@ -48,14 +48,14 @@ static const mesh_box *find(const mesh_boxes *kept, const path_list *meshes, con
     return NULL;
 }
 
-/* Keeps a line for the jobs that find the box measured. */
+/* Collects a warning, to be repeated for later jobs that find the box in the cache. */
 static void keep_line(void *user, ffd_log_level level, const char *line)
 {
-    (void)level; /* flaws are warnings */
+    (void)level; /* all lines are warnings */
     ffd_paths_add(user, line, NULL);
 }
 
-/* A mesh's own stamp is from before it was read; those of the files that it refers to from right after. */
+/* The stamp of the mesh file is taken before it is read, those of the files that it refers to right after. */
 static ffd_status add_mesh(mesh_box *box, const char *path, const ffd_source *like, shown_box *shown,
                            ffd_error *error)
 {
@@ -70,7 +70,7 @@ static ffd_status add_mesh(mesh_box *box, const char *path, const ffd_source *li
     const ffd_status status = ffd_shown_box_add(shown, &source, NULL, 0, &box->files, &log, error);
     if (status)
         return status;
-    if (!ffd_grow((void **)&box->stamps, &box->stamp_room, box->files.count, sizeof *box->stamps))
+    if (!ffd_grow((void **)&box->stamps, &box->stamp_capacity, box->files.count, sizeof *box->stamps))
         return ffd_fail_memory(error);
     for (size_t first = box->stamp_count; box->stamp_count < box->files.count; box->stamp_count++) {
         file_stamp *const own = &box->stamps[box->stamp_count];

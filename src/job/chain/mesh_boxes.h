@@ -1,5 +1,5 @@
-/* mesh_boxes.h - boxes round the meshes that lattice files name ("box": {"meshes": [..]}). They are kept from
-   job to job while the files stay as they are. */
+/* mesh_boxes.h - boxes round the meshes that lattice files name ("box": {"meshes": [..]}), cached from job to
+   job while the files do not change. */
 #ifndef FFD_JOB_CHAIN_MESH_BOXES_H
 #define FFD_JOB_CHAIN_MESH_BOXES_H
 
@@ -13,29 +13,29 @@
 typedef struct mesh_box {
     path_list meshes;
     ffd_space space;
-    hash128 rules;      /* by which they are read (ffd_source_rules) */
-    path_list files;    /* that the meshes were read from */
-    file_stamp *stamps; /* files.count */
-    size_t stamp_count, stamp_room;
+    hash128 rules;      /* of the options with which they were read (ffd_source_rules) */
+    path_list files;    /* read for this box */
+    file_stamp *stamps; /* files.count entries */
+    size_t stamp_count, stamp_capacity;
     ffd_bounds bounds;
-    path_list warnings; /* lines that tell the meshes' flaws */
+    path_list warnings; /* about flaws of the meshes */
 } mesh_box;
 
-/* How many boxes are kept. */
+/* Boxes in the cache. */
 enum { MESH_BOXES = 8 };
 
-/* All zeros: none. */
+/* All zeros: empty. */
 typedef struct mesh_boxes {
     mesh_box boxes[MESH_BOXES];
-    size_t next; /* to be replaced */
+    size_t next; /* index of the one to replace next */
 } mesh_boxes;
 
-/* Finds the bounds that the meshes of a lattice file have, adds their files to files, and says their flaws in
-   log, which may be NULL. like: how they are read (its path and format are not used). Errors: those of
-   reading them. */
+/* Finds the bounds of the meshes that a lattice file names. Adds the files read to `files`, and logs flaws of
+   the meshes in `log` (may be NULL). like: options for reading them; its path and format are ignored. Errors:
+   those of reading the meshes. */
 ffd_status ffd_mesh_box_find(mesh_boxes *kept, const ffd_lattice *lattice, const ffd_source *like,
                              ffd_bounds *bounds, path_list *files, const mesh_log *log, ffd_error *error);
-/* Leaves no boxes. */
+/* Frees all boxes. */
 void ffd_mesh_boxes_free(mesh_boxes *kept);
 
 #endif

@@ -10,19 +10,19 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Places of each block that are looked for in others, three along each direction: the middle, and this part
-   of the domain from its ends. */
+/* Sample places of each block that are looked up in other blocks: along each direction the middle, and this
+   part of the domain from either end. */
 #define PLACES 27
 #define INSET 1e-3
-/* What is deeper than this part of the domain in both of two blocks is in their overlap. */
+/* A place is in the overlap of two blocks if it is deeper than this part of the domain in both. */
 #define DEEP 1e-6
 
 typedef struct overlap_search {
     const lattice_chain *chain;
-    double *places;      /* PLACES a block; the first is NaN until they are asked for */
-    uint32_t block;      /* those after it are looked at */
-    size_t pairs;        /* so many overlap, */
-    size_t first, other; /* the first of which are these */
+    double *places;      /* PLACES a block; the first is NaN until they are computed */
+    uint32_t block;      /* the current block, which is compared with later ones */
+    size_t pairs;        /* the number of overlapping pairs, */
+    size_t first, other; /* and the lowest pair */
     ffd_status status;
     ffd_error *error;
 } overlap_search;
@@ -42,7 +42,7 @@ static void find_places(const ffd_lattice *lattice, double *places)
     }
 }
 
-/* Whether some of the points are deep in a block. */
+/* Whether a point is deep inside a block. */
 static bool holds_one(overlap_search *search, uint32_t block, const double *points, size_t count)
 {
     const chain_link *const link = &search->chain->links[block];
@@ -55,7 +55,7 @@ static bool holds_one(overlap_search *search, uint32_t block, const double *poin
     return false;
 }
 
-/* Whether places of one block are deep in another one. */
+/* Whether a sample place of one block is deep inside another block. */
 static bool reaches_into(overlap_search *search, uint32_t from, uint32_t block)
 {
     static const double none[3] = {0, 0, 0};
@@ -75,7 +75,7 @@ static bool reaches_into(overlap_search *search, uint32_t from, uint32_t block)
     return count > 0 && holds_one(search, block, points, count);
 }
 
-/* The middle of what the bounds of two blocks share. Returns false where they only touch. */
+/* Returns the centre of the intersection of two bounding boxes; false if they only touch. */
 static bool find_middle(const overlap_search *search, uint32_t a, uint32_t b, double middle[3])
 {
     const bounds *const of_a = &search->chain->boxes[a], *const of_b = &search->chain->boxes[b];
@@ -89,7 +89,7 @@ static bool find_middle(const overlap_search *search, uint32_t a, uint32_t b, do
     return true;
 }
 
-/* Of boxes with the same axes the middle is in both. */
+/* Tests the centre first: if two boxes with the same axes overlap, it is in both. */
 static bool overlap(overlap_search *search, uint32_t a, uint32_t b)
 {
     double middle[3];
@@ -107,7 +107,7 @@ static bool look_at_pair(void *context, uint32_t other)
     const uint32_t block = search->block;
     if (other <= block)
         return true;
-    /* The order of a tree is its own: the pair with the least numbers is named. */
+    /* The tree visits in any order; report the pair with the lowest numbers. */
     if (overlap(search, block, other)) {
         if (search->pairs == 0 || (search->first == block && other < search->other)) {
             search->first = block;

@@ -1,4 +1,4 @@
-/* point_outcome.h - what is known of a point in one lattice, and in several. */
+/* point_outcome.h - the outcome of a point in one lattice, and its combination over several. */
 #ifndef FFD_JOB_CHAIN_POINT_OUTCOME_H
 #define FFD_JOB_CHAIN_POINT_OUTCOME_H
 
@@ -14,11 +14,11 @@ static inline bool ffd_location_is_placed(const ffd_location *location)
            vec_is_finite(location->uvw);
 }
 
-/* Fills outcome with what the location in a lattice says. */
+/* Fills the outcome of a point in one lattice from its location. */
 static inline void ffd_outcome_make(const ffd_lattice *lattice, const ffd_location *location,
                                     point_outcome *outcome)
 {
-    /* Member by member: a record that is made on the stack and copied has to wait for its own bytes. */
+    /* Assigned member by member: copying a whole record from the stack would stall on store forwarding. */
     const bool invalid = location->status == FFD_POINT_INVALID;
     const bool placed = ffd_location_is_placed(location);
     const double relative = location->residual / lattice->diagonal;
@@ -34,7 +34,7 @@ static inline void ffd_outcome_make(const ffd_lattice *lattice, const ffd_locati
     outcome->extended = false;
 }
 
-/* Being outside of one lattice says nothing where the point is in another one. */
+/* Being outside of one lattice does not matter if another one has the point. */
 static inline uint8_t ffd_status_joined(uint8_t a, uint8_t b)
 {
     if (a == FFD_OUTSIDE || b == FFD_OUTSIDE)
@@ -42,7 +42,7 @@ static inline uint8_t ffd_status_joined(uint8_t a, uint8_t b)
     return a > b ? a : b;
 }
 
-/* Adds what another lattice knows of the point. */
+/* Combines the outcome in a further lattice (now) into outcome. */
 static inline void ffd_outcome_join(const point_outcome *now, point_outcome *outcome)
 {
     outcome->residual_square = larger_of(outcome->residual_square, now->residual_square);
@@ -54,15 +54,14 @@ static inline void ffd_outcome_join(const point_outcome *now, point_outcome *out
     outcome->unresolved |= now->unresolved;
 }
 
-/* The parameters of a lattice from which on a point is on a face of its domain, or near one. A closed
-   direction has no faces. */
+/* The parameters beyond which a point is on or near a face of the domain. A closed direction has no faces. */
 typedef struct face_ends {
     double low[3], high[3];
 } face_ends;
 
 #define ON_FACE 1e-9
 
-/* near: parts of the domain; ON_FACE for points that are on a face. */
+/* near: distance relative to the domain; ON_FACE for points exactly on a face. */
 static inline face_ends ffd_face_ends(const ffd_lattice *lattice, double near)
 {
     face_ends ends;
@@ -76,7 +75,8 @@ static inline face_ends ffd_face_ends(const ffd_lattice *lattice, double near)
     return ends;
 }
 
-/* Returns which faces u,v,w is on: bit 2a where the domain begins in direction a, 2a + 1 where it ends. */
+/* Returns the faces that uvw is on: bit 2a for the start of the domain in direction a, bit 2a + 1 for its
+   end. */
 static inline unsigned ffd_faces_at(const face_ends *ends, const double uvw[3])
 {
     unsigned faces = 0;

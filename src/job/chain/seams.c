@@ -8,10 +8,10 @@
 #include <ffd/deform.h>
 #include <string.h>
 
-/* The faces agree where they part by no more than this part of the lattice's diagonal. */
+/* The displacements of both faces agree if they differ by at most this part of the lattice's diagonal. */
 #define AGREEMENT 1e-9
 
-/* Of blocks: the first mark that is about seams. */
+/* Blocks: the index of the first mark for seams. */
 #define BLOCK_MARKS 2
 
 ffd_status ffd_seams_find(lattice_chain *chain, ffd_error *error)
@@ -41,7 +41,7 @@ static bool is_of_link_before(const void *seam, const void *link)
     return ((const chain_seam *)seam)->link < *(const size_t *)link;
 }
 
-/* The first seam of link l or of one after it. */
+/* Returns the index of the first seam of link l or a later link. */
 static size_t first_seam(const lattice_chain *chain, size_t l)
 {
     return lower_bound(&l, chain->seams, chain->seam_count, sizeof *chain->seams, is_of_link_before);

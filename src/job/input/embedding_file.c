@@ -13,7 +13,7 @@
 #define TILE ((size_t)1024)
 #define FORMAT_VERSION 1
 
-/* The footer: the offsets of its members. */
+/* Offsets of the footer's members. */
 enum {
     POSITIONS = 0,
     LATTICE = 16,
@@ -59,7 +59,8 @@ static hash128 hash_rounding(const mesh_rounding *rounding)
     return ffd_hash_doubles(numbers, 6);
 }
 
-/* Hashes the parts' positions into list and returns the number of the hashes, then what they stand for. */
+/* Hashes the positions of each part in runs, appends the roundings of the parts, and writes both to list.
+   Returns the number of position hashes. *roundings: the number of entries for roundings. */
 static size_t hash_parts(const mesh_document *document, int threads, hash128 *list, size_t *roundings)
 {
     size_t count = 0;
@@ -115,7 +116,7 @@ static bool is_little_endian(void)
     return first == 1;
 }
 
-/* The number type of this machine, or of one with the other byte order. */
+/* NumPy's type string for this machine's byte order (own), or for the other one. */
 static const char *descr_of(bool own)
 {
     return own == is_little_endian() ? "<f8" : ">f8";
@@ -150,7 +151,7 @@ ffd_status ffd_embedding_write(file_output *output, const double *uvw, const uin
 
 /* Reading */
 
-/* What the file has before its footer. */
+/* The bytes of the file before its footer. */
 typedef struct file_content {
     const char *name; /* for messages */
     const unsigned char *data, *footer;
@@ -204,7 +205,7 @@ static ffd_status check_origin(const file_content *content, size_t count, const 
     return FFD_OK;
 }
 
-/* Finds the array of file->count vertices; own: whether its byte order is this machine's. */
+/* Finds the arrays of file->count vertices. *own: whether the numbers have this machine's byte order. */
 static ffd_status find_arrays(const file_content *content, embedding_file *file, bool *own, ffd_error *error)
 {
     size_t values = 0, size = 0;
@@ -215,7 +216,7 @@ static ffd_status find_arrays(const file_content *content, embedding_file *file,
         size != content->size - values)
         return ffd_fail_file(error, FFD_E_INVALID, content->name,
                              "does not hold float64 of the shape (%zu, 3) and as many statuses", file->count);
-    /* Aligned: the block is, and the header's length is a multiple of 64. */
+    /* Aligned, as the block is, and the header's length is a multiple of 64. */
     file->uvw = (const double *)(const void *)(content->data + values);
     file->statuses = content->data + values + 3 * sizeof(double) * file->count;
     return FFD_OK;

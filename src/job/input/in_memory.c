@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The longest line of a log. */
+/* The longest line of the log, in bytes. */
 #define LINE_CAPACITY 2048
 
 struct memory_callback {
@@ -56,7 +56,7 @@ ffd_status ffd_in_memory_source(job_memory *memory, ffd_source *source, ffd_erro
     if (!status)
         status = ffd_memory_lend(memory->files, name, bytes.data, bytes.size, callback ? resolve : NULL,
                                  callback, &source->path, error);
-    source->bytes = (ffd_bytes){0}; /* others are read likewise: meshes that lattices name */
+    source->bytes = (ffd_bytes){0}; /* the copy serves as options for the meshes that lattices name */
     source->resolve = NULL;
     return status;
 }
@@ -101,7 +101,7 @@ void ffd_in_memory_log(job_memory *memory, ffd_log_function *log, void **user)
     *user = memory;
 }
 
-/* Gives lattices that are objects or texts names of their own, by which no file is found. */
+/* Registers lattices that are objects or texts under names of their own, so that no file is meant. */
 static ffd_status name_lattices(job_memory *memory, ffd_deform_desc *desc, ffd_error *error)
 {
     static const char nothing[1] = "";

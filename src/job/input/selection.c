@@ -35,7 +35,7 @@ bool ffd_selection_is_all(const mesh_document *document)
     return true;
 }
 
-/* One byte a vertex of the document. */
+/* marks: one byte for each vertex of the document. */
 static void mark_selected(const mesh_document *document, uint8_t *marks)
 {
     for (size_t i = 0; i < document->part_count; i++) {

@@ -32,7 +32,7 @@ void ffd_shown_box_join(shown_box *box, const shown_box *other)
     join(&box->all, &other->all);
 }
 
-/* A part, and the box that is to hold its places. */
+/* A part, and the box of its positions. */
 typedef struct part_box {
     const mesh_part *part;
     shown_box *box;
@@ -107,7 +107,7 @@ ffd_status ffd_shared_box_add(ffd_shared_box *box, const ffd_deform_desc *caller
         status = ffd_in_memory_source(&memory, &own.input, error);
     if (!status && ffd_file_is_stream(desc->input.path))
         status = ffd_fail(error, FFD_E_ARGUMENT,
-                          "standard input can be read only once, not for a shared box and again");
+                          "a shared box reads its meshes twice, but standard input can be read only once");
     if (!status)
         status = ffd_shown_box_add(&box->box, &desc->input, desc->only, desc->only_count, &box->files, NULL,
                                    error);

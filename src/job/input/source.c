@@ -8,7 +8,7 @@
 #include "mesh/bounds.h"
 #include <string.h>
 
-/* Positions read at once. */
+/* Positions read per call. */
 #define BLOCK 256
 
 const char *ffd_source_name(const ffd_source *source)
@@ -39,7 +39,7 @@ ffd_status ffd_source_format(const ffd_source *source, ffd_format *format, ffd_e
                          ffd_path_ending(source->path));
 }
 
-/* Where a file is away because a run has set it aside, it is not lost. */
+/* If a run has set the file aside, says so in the message: it is not lost. */
 static void tell_of_set_aside(const char *path, ffd_error *error)
 {
     if (error && !ffd_file_is_stream(path) && !ffd_file_exists(path) && ffd_record_exists(path))
@@ -136,7 +136,7 @@ size_t ffd_source_widen(const mesh_document *document, size_t part, ffd_bounds *
     return not_finite;
 }
 
-/* A walk over the places of a part. */
+/* State of a walk over the positions of a part. */
 typedef struct place_walk {
     const mesh_document *document;
     size_t part;
@@ -144,7 +144,7 @@ typedef struct place_walk {
     void *context;
 } place_walk;
 
-/* Visits positions from first on that the offsets of a target, if there are any, move. */
+/* Visits those positions, from `first` on, that the offsets of a morph target move; shape NULL: all. */
 static bool visit_block(const place_walk *walk, const size_t *shape, size_t first, size_t count)
 {
     const mesh_format *const format = walk->document->format;

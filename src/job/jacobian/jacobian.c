@@ -44,8 +44,7 @@ static ffd_status check_desc(const ffd_jacobian_desc *desc, ffd_error *error)
     if (!desc->job || !desc->output)
         return ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete");
     if (desc->by != FFD_BY_POINTS && desc->by != FFD_BY_PARAMETERS)
-        return ffd_fail(error, FFD_E_ARGUMENT, "%d is not what positions can be differentiated by",
-                        (int)desc->by);
+        return ffd_fail(error, FFD_E_ARGUMENT, "%d is not a value of ffd_jacobian_by", (int)desc->by);
     if (desc->times && desc->transposed)
         return ffd_fail(error, FFD_E_ARGUMENT, "--times and --transposed cannot be used together");
     if (desc->of != FFD_LATTICE_LAST && desc->by == FFD_BY_PARAMETERS)
@@ -53,7 +52,7 @@ static ffd_status check_desc(const ffd_jacobian_desc *desc, ffd_error *error)
                         "--of is for --wrt points: parameters are those of all lattices");
     if (desc->job->blocks && desc->job->lattice_count > 1)
         return ffd_fail(error, FFD_E_UNSUPPORTED,
-                        "the derivative by lattices side by side (--blocks) is not known here");
+                        "the derivative is not supported for lattices side by side (--blocks)");
     return check_output(desc, error);
 }
 
@@ -103,7 +102,7 @@ static ffd_status run(const ffd_jacobian_desc *desc, ffd_jacobian_result *result
     return ffd_deform_job_end(&j.job, status, &figures, error);
 }
 
-/* Gives paths to what is in memory. The job's own output is not looked at. */
+/* Registers data in memory under paths. The job's own output is ignored. */
 static ffd_status take_memory(job_memory *memory, ffd_jacobian_desc *desc, ffd_deform_desc *job,
                               ffd_error *error)
 {

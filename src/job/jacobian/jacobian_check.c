@@ -13,7 +13,7 @@
 
 #define VERTICES 16
 
-/* What moves a vertex anew. */
+/* State of a check. */
 typedef struct check_work {
     const jacobian *j;
     jacobian_rows rows;
@@ -21,7 +21,8 @@ typedef struct check_work {
     double worst;
 } check_work;
 
-/* The displacement that a lattice gives to the vertex with u,v,w, or the border's point, of a link. */
+/* Evaluates the displacement of a vertex by a lattice with other control points, at the embedding's u,v,w or
+   border point. */
 static void displace(const ffd_embedding *embedding, const ffd_lattice *lattice, size_t vertex,
                      double delta[3])
 {
@@ -35,7 +36,7 @@ static void displace(const ffd_embedding *embedding, const ffd_lattice *lattice,
         ffd_extension_displacement(lattice, &embedding->extended[e].nearest, embedding->falloff, delta, NULL);
 }
 
-/* Sends a position through the links from one on. */
+/* Sends a position through the links from number `from` on. */
 static ffd_status send(check_work *work, const lattice_chain *chain, size_t from, double x[3],
                        ffd_error *error)
 {
@@ -51,8 +52,8 @@ static ffd_status send(check_work *work, const lattice_chain *chain, size_t from
     return later.count == 0 ? FFD_OK : ffd_chain_apply(&later, later.count, &run, error);
 }
 
-/* Notes how far a row's numbers are from differences; infinitely far where one of both is NaN. found: the
-   derivatives of x, y, z by one number. */
+/* Compares the derivatives of x, y, z by one number with differences. scale: of the relative error. NaN on
+   either side counts as an infinite error. */
 static void compare(check_work *work, const double found[3], const double difference[3], double scale)
 {
     for (int a = 0; a < 3; a++) {
@@ -70,7 +71,7 @@ static double largest_of(const check_work *work)
     return largest;
 }
 
-/* The number of a row at a column; 0 where it is not stored. */
+/* Returns the value of a row at a column; 0 if it is not stored. */
 static double number_at(const check_work *work, int row, uint64_t column)
 {
     for (size_t e = 0; e < work->rows.counts[row]; e++)
@@ -79,14 +80,15 @@ static double number_at(const check_work *work, int row, uint64_t column)
     return 0;
 }
 
-/* M^-1 times a difference of positions in the scene. */
+/* Transforms a difference of positions from the scene to the file's space by M^-1. */
 static void to_file(const jacobian *j, size_t vertex, double difference[3])
 {
     if (j->inverses)
         mat_apply(j->inverses + 9 * vertex, difference, difference);
 }
 
-/* By a coordinate of one control point: where the vertex comes when it is h more, less h less, over 2 h. */
+/* Central difference by one coordinate of a control point: the deformed position for +h minus that for -h,
+   over 2 h. */
 static ffd_status differ_point(check_work *work, ffd_lattice *lattice, const double base[3], size_t vertex,
                                size_t point, int coordinate, double h, double difference[3], ffd_error *error)
 {
@@ -138,7 +140,7 @@ static ffd_status check_points(check_work *work, size_t vertex, const double bas
     return status;
 }
 
-/* The value of a placeholder with one number that is `by` more, as JSON. */
+/* Returns a placeholder's value as JSON, with one number increased by `by`. */
 static char *value_text(const spec_variable *variable, size_t component, double by)
 {
     byte_buffer text = {0};
@@ -151,7 +153,7 @@ static char *value_text(const spec_variable *variable, size_t component, double 
     return ffd_buffer_finish(&text);
 }
 
-/* Where a number of the columns comes from. */
+/* Finds the placeholder, and the component of its value, that a column belongs to. */
 static const spec_variable *variable_of(const jacobian *j, size_t column, size_t *component)
 {
     for (size_t l = 0; l < j->link_count; l++) {
@@ -166,7 +168,7 @@ static const spec_variable *variable_of(const jacobian *j, size_t column, size_t
     return NULL;
 }
 
-/* Loads all lattices with a placeholder's number changed, and fits them as those of the job. */
+/* Loads all lattices with a changed placeholder, and fits them to the same boxes as the job's. */
 static ffd_status load_changed(const jacobian *j, const spec_variable *variable, const char *text,
                                lattice_chain *chain, ffd_error *error)
 {
@@ -198,7 +200,7 @@ static ffd_status load_changed(const jacobian *j, const spec_variable *variable,
     return status;
 }
 
-/* Where the vertices come with a placeholder's number changed: through the first link by its u,v,w. */
+/* Deforms the vertices with one number of a placeholder changed. */
 static ffd_status move_changed(check_work *work, const spec_variable *variable, size_t component, double by,
                                size_t count, const double *rest, double *to, ffd_error *error)
 {
@@ -238,7 +240,7 @@ static ffd_status check_parameter(check_work *work, size_t column, const size_t 
     return status;
 }
 
-/* Vertices that move, evenly from the first to the last. */
+/* Chooses moving vertices, evenly from the first to the last. */
 static size_t choose(check_work *work, size_t vertices[VERTICES])
 {
     const size_t count = work->j->count;
@@ -258,7 +260,7 @@ static size_t choose(check_work *work, size_t vertices[VERTICES])
     return chosen;
 }
 
-/* Where the vertices are before the first link that counts: at rest, or after the links before it. */
+/* Finds the positions before the first link that matters: at rest, or after the earlier links. */
 static ffd_status find_base(const jacobian *j, const size_t *vertices, size_t count, double *base,
                             ffd_error *error)
 {

@@ -11,26 +11,26 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Vertices whose rows a thread makes at a time. */
+/* Vertices per tile. */
 #define ROWS_TILE ((size_t)256)
 
-/* The bytes of the rows of a tile, until their turn comes. */
+/* The bytes of a tile's rows, kept until all earlier tiles are written. */
 typedef struct rows_slot {
     jacobian_rows rows;
     byte_buffer bytes;
     ffd_status status;
 } rows_slot;
 
-/* A pass over all rows. put appends what is wanted of one row to the bytes. */
+/* A pass over all rows. put appends one row's share of the output to bytes. */
 typedef struct rows_pass {
     const jacobian *j;
     rows_slot *slots;
     int slot_count;
     void (*put)(const struct rows_pass *pass, const jacobian_entry *entries, size_t count, uint64_t row,
                 byte_buffer *bytes);
-    bool is_wide;              /* indices of 64 bits */
-    uint64_t *starts, *moving; /* of a pass that counts */
-    zip_writer *zip;           /* or else: */
+    bool is_wide;              /* indices have 64 bits */
+    uint64_t *starts, *moving; /* filled by a pass that only counts */
+    zip_writer *zip;           /* otherwise one of these is written: */
     file_output *output;
     ffd_status status;
     ffd_error *error;
@@ -142,7 +142,8 @@ static void put_values(const rows_pass *pass, const jacobian_entry *entries, siz
         put_double(entries[e].value, bytes);
 }
 
-/* A line of Matrix Market: row and column from 1, and the shortest text of the value. */
+/* Writes entries as lines of Matrix Market: row and column counted from 1, and the shortest text of the
+   value. */
 static void put_lines(const rows_pass *pass, const jacobian_entry *entries, size_t count, uint64_t row,
                       byte_buffer *bytes)
 {
@@ -167,7 +168,7 @@ static void put_dense(const rows_pass *pass, const jacobian_entry *entries, size
     }
 }
 
-/* A member that is an array of one dimension. */
+/* Begins a member of the archive: a one-dimensional array. */
 static ffd_status begin_array(zip_writer *zip, const char *name, const char *descr, uint64_t size,
                               size_t each, ffd_error *error)
 {
@@ -201,7 +202,7 @@ static ffd_status write_starts(const jacobian *j, zip_writer *zip, const uint64_
     return status ? status : ffd_zip_member_end(zip, error);
 }
 
-/* The word "csr" as a 0-dimensional array of three bytes. */
+/* Writes the word "csr" as a 0-dimensional array of three bytes. */
 static ffd_status write_format(zip_writer *zip, ffd_error *error)
 {
     char header[NPY_HEADER_CAPACITY];
@@ -225,7 +226,7 @@ static ffd_status write_shape(const jacobian *j, zip_writer *zip, ffd_error *err
     return status ? status : ffd_zip_member_end(zip, error);
 }
 
-/* As scipy.sparse.load_npz reads it. */
+/* Writes an archive that scipy.sparse.load_npz reads. */
 static ffd_status write_npz(const jacobian *j, const uint64_t *starts, file_output *output, ffd_error *error)
 {
     const uint64_t entries = starts[j->rows], most = INT32_MAX;
@@ -260,7 +261,7 @@ static ffd_status write_mtx(const jacobian *j, const uint64_t *starts, file_outp
     return status ? status : run_pass(&pass, error);
 }
 
-/* N x 3 x m. */
+/* Writes an array of shape (N, 3, m). */
 static ffd_status write_npy(const jacobian *j, file_output *output, ffd_error *error)
 {
     rows_pass pass = {.j = j, .output = output, .put = put_dense};
@@ -271,7 +272,7 @@ static ffd_status write_npy(const jacobian *j, file_output *output, ffd_error *e
     return status ? status : run_pass(&pass, error);
 }
 
-/* The names of the columns, one a line. */
+/* Writes the names of the columns, one a line. */
 static ffd_status write_names(const jacobian *j, file_output *output, ffd_error *error)
 {
     const char *const path = j->desc->output;

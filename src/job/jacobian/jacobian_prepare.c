@@ -1,5 +1,4 @@
-/* jacobian_prepare.c - what the rows are made of: embeddings, gradients of later lattices, derivatives of
- * moves. */
+/* jacobian_prepare.c - prepares the rows: embeddings, gradients of later lattices, derivatives of moves. */
 #include "base/memory/memory.h"
 #include "base/text/buffer.h"
 #include "embed/boundary/boundary.h"
@@ -28,7 +27,7 @@ ffd_status ffd_jacobian_positions(const jacobian *j, size_t link, double *before
     return ffd_pass_run(&pass, &totals, error);
 }
 
-/* Lists the vertices without u,v,w that follow the border. */
+/* Lists the vertices outside that are extended from the border. */
 static ffd_status find_extended(jacobian *j, const chain_link *link, const double *before,
                                 ffd_embedding *embedding, ffd_error *error)
 {
@@ -55,8 +54,7 @@ static ffd_status find_extended(jacobian *j, const chain_link *link, const doubl
     return status;
 }
 
-/* Vertices that are not selected have no status of their own: none is outside then but of what is selected.
- */
+/* Marks the selected vertices: only these can be outside. */
 static ffd_status mark_selected(const jacobian *j, uint8_t *selected, ffd_error *error)
 {
     vertex_owners owners;
@@ -105,14 +103,14 @@ static ffd_status fill_embedding(jacobian *j, jacobian_link *link, ffd_error *er
     return status || !of->border ? status : extend(j, link->number, link->embedding, error);
 }
 
-/* What a run of points through the later links needs. */
+/* Scratch memory for a run of points through the later links. */
 typedef struct later_scratch {
     double x[3 * CHAIN_RUN], delta[3 * CHAIN_RUN];
     point_outcome outcomes[CHAIN_RUN];
     chain_scratch chain;
 } later_scratch;
 
-/* Sends positions through the later links and gives their F. */
+/* Sends positions through the later links and stores their gradients F. */
 static ffd_status find_later_run(const lattice_chain *later, const double *after, size_t count,
                                  later_scratch *s, double *gradients, ffd_error *error)
 {
@@ -130,7 +128,7 @@ static ffd_status find_later_run(const lattice_chain *later, const double *after
     return status;
 }
 
-/* F of all links after one, at each vertex. */
+/* Computes, at each vertex, F of all links after one. */
 static ffd_status find_later(const jacobian *j, jacobian_link *link, ffd_error *error)
 {
     lattice_chain later = j->job.chain;
@@ -155,7 +153,7 @@ static ffd_status find_later(const jacobian *j, jacobian_link *link, ffd_error *
     return status;
 }
 
-/* M^-1 of all vertices, where one is not I. */
+/* Computes M^-1 at each vertex, unless all are the identity. */
 static ffd_status find_inverses(jacobian *j, ffd_error *error)
 {
     const mesh_document *const document = j->job.document;
@@ -188,7 +186,8 @@ static ffd_status find_inverses(jacobian *j, ffd_error *error)
     return status;
 }
 
-/* The whole name, or NULL without memory: two that only begin alike are two columns. */
+/* Returns the full name of a column, NULL: out of memory. It is not shortened, as two columns may share a
+   long prefix. */
 static char *column_name(const spec_variable *variable, size_t component)
 {
     char number[32] = "";
@@ -200,7 +199,7 @@ static char *column_name(const spec_variable *variable, size_t component)
     return ffd_buffer_finish(&name);
 }
 
-/* The column of a placeholder's number, which several lattices may share; added where it is new. */
+/* Finds the column of a number of a placeholder, which several lattices may share; adds it if it is new. */
 static ffd_status find_column(jacobian *j, const spec_variable *variable, size_t component, size_t *column,
                               ffd_error *error)
 {
@@ -220,7 +219,8 @@ static ffd_status find_column(jacobian *j, const spec_variable *variable, size_t
     return FFD_OK;
 }
 
-/* Takes 3 coordinates and a weight of each control point, for each number of a placeholder. */
+/* Charges the derivatives: 3 coordinates and a weight of each control point, for each number of a
+   placeholder. */
 static ffd_status take_tangents(jacobian *j, const ffd_lattice *lattice, ffd_error *error)
 {
     return ffd_budget_take(&j->budget, ffd_spec_column_count(lattice->spec),
@@ -246,7 +246,7 @@ static ffd_status find_tangents(jacobian *j, jacobian_link *link, ffd_error *err
     return status;
 }
 
-/* The links that count: one, or all that have placeholders. */
+/* Chooses the links to derive by: one, or all with placeholders. */
 static ffd_status choose_links(jacobian *j, ffd_error *error)
 {
     const size_t all = j->job.chain.count;
@@ -266,8 +266,8 @@ static ffd_status choose_links(jacobian *j, ffd_error *error)
                : ffd_fail(error, FFD_E_INVALID, "no lattice has a placeholder to differentiate by");
 }
 
-/* Takes what the arrays of all vertices need: u,v,w, statuses, gradients of later lattices, inverses, starts
-   of rows, and positions, which are there for a while. */
+/* Charges the arrays of all vertices: u,v,w, statuses, gradients of later lattices, inverses, starts of rows,
+   and temporary positions. */
 static ffd_status take_vertices(jacobian *j, ffd_error *error)
 {
     size_t bytes = 3 * sizeof(double) + 3 * sizeof(uint64_t);

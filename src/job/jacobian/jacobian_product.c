@@ -7,7 +7,8 @@
 #include "job/jacobian/jacobian_rows.h"
 #include <string.h>
 
-/* Vertices whose sums are joined in their order, whatever threads there are. */
+/* Vertices per block. The sums of blocks are joined in order, so that the number of threads does not
+   matter. */
 #define BLOCK ((size_t)4096)
 
 typedef struct product {
@@ -15,16 +16,16 @@ typedef struct product {
     jacobian_rows rows;
     const double *in;
     double *out;
-    double *block; /* of a transposed product: the sums of one block; as many as out */
+    double *block; /* transposed product: the sums of one block, as many as out has */
 } product;
 
-/* Numbers on the side of the columns: 3 a control point, or one a parameter. */
+/* Returns the length of a vector on the side of the columns: 3 a control point, or 1 a parameter. */
 static size_t column_numbers(const jacobian *j)
 {
     return j->desc->by == FFD_BY_PARAMETERS ? j->columns : 3 * j->links[0].embedding->rest->count;
 }
 
-/* A row without blocks acts on x, y and z alike. */
+/* Without blocks, a row applies to x, y and z alike. */
 static void times_vertex(product *p, size_t vertex)
 {
     double *const to = p->out + 3 * vertex;

@@ -34,7 +34,8 @@ void ffd_jacobian_rows_begin(const jacobian *j, size_t vertex, jacobian_rows *ro
         rows->next[l] = ffd_embedding_first_extended(j->links[l].embedding, vertex);
 }
 
-/* What the displacement that a link gives to a vertex becomes: later F, then M^-1. Returns a matrix lent. */
+/* Returns the matrix that maps a link's displacement of a vertex to the result: F of the later links, then
+   M^-1. It is product or borrowed memory. */
 static const double *block_of(const jacobian *j, const jacobian_link *link, size_t vertex, double product[9])
 {
     const double *const later = link->later ? link->later + 9 * vertex : NULL;
@@ -69,7 +70,7 @@ static void fill_by_points(const jacobian *j, size_t vertex, jacobian_rows *rows
     }
 }
 
-/* sum R_j dQ_j, and where weights follow sum R_j (Q_j - X) dh_j / h_j (the quotient rule). */
+/* sum R_j dQ_j, plus, if weights have derivatives, sum R_j (Q_j - X) dh_j / h_j (the quotient rule). */
 static void find_tangent(const ffd_lattice *lattice, const lattice_tangents *tangents, size_t column,
                          const basis_row *basis, const double x[3], double tangent[3])
 {
@@ -86,7 +87,7 @@ static void find_tangent(const ffd_lattice *lattice, const lattice_tangents *tan
     }
 }
 
-/* Where the deformed volume is at the point of a row. */
+/* Evaluates the deformed volume at a row's point. */
 static void find_place(const ffd_lattice *lattice, const basis_row *basis, double x[3])
 {
     double sum = 0;

@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Adds a name where there is room for one. */
+/* Adds a place's name to the list, if it is not full. */
 static ffd_status add_name(const mesh_document *document, size_t place, ffd_behind *behind, ffd_error *error)
 {
     size_t used = 0;
@@ -37,7 +37,7 @@ static ffd_status count_place(const mesh_document *document, const mesh_place *p
     return status;
 }
 
-/* Counts those of the places at which vertices would be moved and that have not gone along. */
+/* Counts the places where vertices would be moved, but that have not moved along. */
 static ffd_status find_places(const deform_job *job, ffd_job_result *result, ffd_error *error)
 {
     const double diagonal = ffd_rig_diagonal(&result->before);
@@ -63,10 +63,10 @@ static ffd_status find_splats(const deform_job *job, ffd_behind *splats, ffd_err
     return status;
 }
 
-/* Differences of control points' moves that are only rounding, as a part of the lattice's diagonal. */
+/* Displacements of control points are equal if they differ by at most this part of the lattice's diagonal. */
 #define ONE_MOVE 1e-12
 
-/* Whether the lattice moves all of its volume by one vector. */
+/* Whether the lattice only translates its volume. */
 static bool translates(const ffd_lattice *lattice)
 {
     const double *const first = lattice->difference;
@@ -76,8 +76,7 @@ static bool translates(const ffd_lattice *lattice)
     return !lattice->weights_moved;
 }
 
-/* Whether no part of the mesh is turned or stretched: rotations and scales of splats then are right as they
-   are. */
+/* Whether the mesh is only translated: then the rotations and scales of splats stay correct. */
 static bool only_translates(const lattice_chain *chain)
 {
     for (size_t l = 0; l < chain->count; l++)
@@ -88,17 +87,18 @@ static bool only_translates(const lattice_chain *chain)
 
 ffd_status ffd_behind_find(const deform_job *job, ffd_job_result *result, ffd_error *error)
 {
-    /* A conversion has neither nodes nor properties of splats. */
+    /* Conversions drop nodes and the properties of splats. */
     if (job->totals.moved == 0 || (job->document->converted && !job->details))
         return FFD_OK;
     ffd_status status = FFD_OK;
     if (job->totals.splats_moved > 0 && !only_translates(&job->chain))
         status = find_splats(job, &result->behind[FFD_BEHIND_SPLAT], error);
-    /* The base shape is where it was, and so is all that belongs to it. */
+    /* A morph target leaves the base shape, and all places, where they were. */
     return status || job->desc->as_morph ? status : find_places(job, result, error);
 }
 
-/* "hand, foot, tail and 2 more"; more: how many there are in all, 0 where the names are not of each. */
+/* Writes ": hand, foot, tail and 2 more". all: the number of things; 0: names are of parts that hold
+   several. */
 static void tell_names(const ffd_behind *behind, uint64_t all, char *text, size_t capacity)
 {
     size_t length = 0, named = 0;
@@ -110,7 +110,7 @@ static void tell_names(const ffd_behind *behind, uint64_t all, char *text, size_
         snprintf(text + length, capacity - length, " and %" PRIu64 " more", all - named);
 }
 
-/* Of what is moved with the rig one line says all, and how far it lags. */
+/* Joints, pivots and sockets have a warning of their own (ffd_rig_warn). */
 static bool is_said_elsewhere(int kind, ffd_rig rig)
 {
     return rig == FFD_RIG_KEEP &&

@@ -1,23 +1,23 @@
-/* details.h - what a job knows of single vertices and edges, for a picture of it. */
+/* details.h - the per-vertex and per-edge results of a job, for a picture. */
 #ifndef FFD_JOB_JUDGE_DETAILS_H
 #define FFD_JOB_JUDGE_DETAILS_H
 
 #include "job/judge/torn_edges.h"
 #include "mesh/mesh.h"
 
-/* Filled by ffd_deform_job_run where job->details is set; arrays are in the order of `ffd embed`. */
+/* Filled by ffd_deform_job_run if job->details is set. Arrays are in the order of `ffd embed`. */
 typedef struct job_details {
-    uint8_t *statuses;            /* ffd_vertex_status */
-    bool has_faces;               /* these are known, and with them: */
-    mesh_faces faces;             /* at rest, those that are selected */
-    double *deformed, *gradients; /* as mesh_pass has them */
+    uint8_t *statuses;            /* ffd_vertex_status of each vertex */
+    bool has_faces;               /* the following members are set: */
+    mesh_faces faces;             /* at rest, selected faces only */
+    double *deformed, *gradients; /* as in mesh_pass */
     torn_edges tears;
 } job_details;
 
-/* Makes the array of statuses, out of the budget. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
+/* Allocates statuses, charged to the budget. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_details_begin(job_details *details, size_t vertex_count, memory_budget *budget,
                              ffd_error *error);
-/* Frees what there is; leaves all zeros. */
+/* Frees the arrays; leaves all zeros. */
 void ffd_details_free(job_details *details);
 
 #endif

@@ -19,8 +19,7 @@ static size_t list_sides(const mesh_faces *faces, uint64_t *keys)
     return count;
 }
 
-/* Sorts by one byte after the other from the lowest; bytes that are the same in all keys need no turn.
-   Returns where the result is: keys or scratch. */
+/* LSD radix sort by bytes; skips a byte that all keys share. Returns the sorted array: keys or scratch. */
 static uint64_t *radix_sort(uint64_t *keys, uint64_t *scratch, size_t count)
 {
     size_t histogram[DIGITS][RADIX];

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-/* A sum with the error of its roundings (A. Neumaier, Rundungsfehleranalyse einiger Verfahren zur Summation
-   endlicher Summen, 1974). */
+/* A compensated sum (A. Neumaier, Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen,
+   1974). */
 typedef struct exact_sum {
     double sum, lost;
 } exact_sum;
@@ -25,10 +25,10 @@ static double total(const exact_sum *s)
 typedef struct extent_work {
     const mesh_document *document;
     const double *rest, *xyz;
-    size_t part, first, end; /* the part looked at last, and its vertices */
-    const double *origin;    /* volumes are taken from here: NULL before the first face */
+    size_t part, first, end; /* part of the last vertex looked up, and its vertices [first, end) */
+    const double *origin;    /* a vertex relative to which volumes are computed; NULL before the first face */
     exact_sum area, volume;
-    uint64_t border; /* the sum of the edges */
+    uint64_t border; /* sum of edge hashes; 0 if the mesh is closed */
 } extent_work;
 
 static const double *position(const extent_work *work, uint32_t vertex)
@@ -37,7 +37,7 @@ static const double *position(const extent_work *work, uint32_t vertex)
     return isnan(xyz[0]) ? work->rest + 3 * (size_t)vertex : xyz;
 }
 
-/* Goes on to the part of a vertex; faces of a part are mostly in a row. */
+/* Finds the part of a vertex. Resumes at the last part, as faces mostly come part by part. */
 static void find_part(extent_work *work, uint32_t vertex)
 {
     const mesh_document *const document = work->document;
@@ -59,7 +59,7 @@ static bool is_hidden(extent_work *work, uint32_t vertex)
     return work->document->parts[work->part - 1].hidden;
 }
 
-/* Bijective (D. Stafford's variant 13 of the finalizer of MurmurHash3). */
+/* A bijective mix (D. Stafford's variant 13 of the finalizer of MurmurHash3). */
 static uint64_t mix(uint64_t value)
 {
     value = (value ^ value >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
@@ -67,11 +67,12 @@ static uint64_t mix(uint64_t value)
     return value ^ value >> 31;
 }
 
-/* The lower bits of short numbers are 0: a product alone would not see the upper ones. */
+/* Folds the upper bits into the lower ones, which are 0 in short numbers: multiplication carries bits upwards
+   only. */
 static uint64_t spread(double number, uint64_t factor)
 {
     uint64_t bits;
-    number += 0.0; /* -0 is 0 */
+    number += 0.0; /* makes -0 equal to 0 */
     memcpy(&bits, &number, sizeof bits);
     return (bits ^ bits >> 32) * factor;
 }
@@ -82,7 +83,7 @@ static uint64_t hash_of(const double p[3])
                spread(p[2], UINT64_C(0xd6e8feb86659fd93)));
 }
 
-/* Of an edge that is run along one way; the other way its negative. */
+/* Hash of a directed edge. The opposite direction has the negative hash. */
 static uint64_t edge_hash(uint64_t from, uint64_t to)
 {
     if (from == to)
@@ -92,7 +93,7 @@ static uint64_t edge_hash(uint64_t from, uint64_t to)
     return from < to ? hash : 0 - hash;
 }
 
-/* The vector area, twice, goes to normal. */
+/* Adds the area and volume of a face, and the hashes of its edges. normal: twice the vector area. */
 static void measure_face(extent_work *work, const uint32_t *corners, size_t count)
 {
     const double *const p = position(work, corners[0]);

@@ -1,26 +1,25 @@
-/* extent.h - the area of a mesh, and the volume that it encloses. */
+/* extent.h - the area of a mesh, and its enclosed volume. */
 #ifndef FFD_JOB_JUDGE_EXTENT_H
 #define FFD_JOB_JUDGE_EXTENT_H
 
 #include "mesh/mesh.h"
 
 typedef struct mesh_extent {
-    double area;   /* of all faces; NaN where it is not a number that double holds */
-    double volume; /* by the divergence theorem: negative where the faces show their backs outside. NaN where
-                      the mesh is not closed, has no faces, or it is no such number */
+    double area;   /* of all faces; NaN if it overflows */
+    double volume; /* by the divergence theorem, negative if faces are inside out. NaN if the mesh is not
+                      closed, has no faces, or the volume overflows */
 } mesh_extent;
 
-/* Measures the faces of nodes that are not hidden. Of a polygon that is not flat the area is that of its
-   largest shadow, and the volume is bounded by its fan of triangles.
+/* Measures the faces of visible nodes. The area of a polygon that is not flat is that of its largest
+   projection, and its volume is bounded by its fan of triangles.
 
-   A mesh is closed where each edge has as many faces that run along it one way as the other. What is at one
-   position is one vertex, since formats list a vertex once more for other normals or texture coordinates: a
-   mesh that is closed by the numbers of its vertices is closed by their positions too. Edges are summed up
-   by their hashes, with opposite signs for opposite ways: that a mesh which is not closed sums up to 0 has a
-   chance of 2^-64.
+   A mesh is closed if each edge is used equally often in both directions. Vertices at one position are one,
+   because formats repeat vertices for other normals or texture coordinates; a mesh that is closed by its
+   indices is also closed by its positions. The test sums hashes of directed edges, opposite directions with
+   opposite signs: the sum of an open mesh is 0 with a probability of 2^-64.
 
-     document   whose vertices they are; NULL: nothing is hidden
-     xyz        3 doubles a vertex; one whose first is NaN is where it is in faces */
+     document   of the vertices, to find hidden nodes; NULL: nothing is hidden
+     xyz        3 doubles a vertex; if the first is NaN, the position in faces is taken */
 void ffd_extent_measure(const mesh_document *document, const mesh_faces *faces, const double *xyz,
                         mesh_extent *extent);
 

@@ -11,13 +11,13 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-/* Bytes of a vertex in the arrays. */
+/* Memory of the arrays for each vertex, in bytes. */
 #define ARRAY_BYTES (12 * sizeof(double))
 
-/* Gates that faces are needed for. */
+/* Gates that need the faces. */
 #define NEED_FACES (FFD_GATE_TEAR | FFD_GATE_FLIPPED | FFD_GATE_EDGES)
 
-/* Checks that the budget suffices for making normals from faces. */
+/* Checks that the budget suffices for recomputing normals. */
 static ffd_status check_normals(const deform_job *job, const mesh_faces *faces, memory_budget budget,
                                 ffd_error *error)
 {
@@ -32,8 +32,8 @@ static bool wants_edges(const deform_job *job)
     return job->check || job->desc->fail_on & FFD_GATE_EDGES;
 }
 
-/* Takes the memory for the figures of these faces from the budget, and checks that it suffices for the
-   normals, which are made before. */
+/* Charges the memory for the figures of these faces, and checks that the rest suffices for recomputing
+   normals, which happens earlier. */
 static ffd_status take_memory(const deform_job *job, const mesh_faces *faces, memory_budget *budget,
                               ffd_error *error)
 {
@@ -130,7 +130,7 @@ ffd_status ffd_figures_folds(lattice_chain *chain, int threads, ffd_job_result *
     return FFD_OK;
 }
 
-/* Of a mesh of which some faces are not known it would be a part. */
+/* Measures area and volume, unless some faces are unknown. */
 static void measure_extent(const deform_job *job, const figure_arrays *arrays, ffd_job_result *result)
 {
     mesh_extent before, after;

@@ -12,7 +12,7 @@ static const char *what_moves(const pass_totals *totals)
     return totals->shapes_outside ? "morph targets move" : "the default weights of morph targets move";
 }
 
-/* No vertex may stay outside, whether it is shown or not. */
+/* --outside error: fails if any vertex is outside, visible or not. */
 static ffd_status fail_outside(const char *name, const lattice_chain *chain, const pass_totals *totals,
                                ffd_error *error)
 {
@@ -31,7 +31,7 @@ static ffd_status fail_outside(const char *name, const lattice_chain *chain, con
                          *coverage ? "; " : "", coverage);
 }
 
-/* Its hashes may have been made anew with its content. */
+/* An embedding may miss its mesh: a forged file can have valid hashes. */
 static ffd_status fail_missed(const char *embedding, const pass_totals *totals, ffd_error *error)
 {
     return ffd_fail_file(error, FFD_E_INVALID, embedding,
@@ -61,7 +61,7 @@ ffd_status ffd_policies_judge(const ffd_deform_desc *desc, const char *name, con
     return FFD_OK;
 }
 
-/* A line that grows by what each violated gate has to say. */
+/* A message to which each violated gate adds its part. */
 typedef struct complaint {
     char text[500];
     size_t length;
@@ -75,7 +75,7 @@ static void add(complaint *line, const char *text, const char *gate)
     line->length += length < 0 ? 0 : (size_t)length < space ? (size_t)length : space - 1;
 }
 
-/* one, many: what is said of one vertex and of several. */
+/* one, many: the words for one vertex and for several. */
 static void add_count(complaint *line, uint64_t count, const pass_totals *totals, const char *one,
                       const char *many, const char *gate)
 {
@@ -86,8 +86,8 @@ static void add_count(complaint *line, uint64_t count, const pass_totals *totals
         add(line, text, gate);
 }
 
-/* A figure that is the limit to this part of it keeps it: the limit may be a figure of another machine's
-   report, or one worked out. */
+/* A figure that exceeds the limit by at most this relative amount passes: the limit may come from another
+   machine's report, or have been computed by hand. */
 #define KEEPS_LIMIT 1e-12
 
 static bool is_above(double figure, double limit)
@@ -95,7 +95,7 @@ static bool is_above(double figure, double limit)
     return figure > limit + KEEPS_LIMIT * limit;
 }
 
-/* The gates with a value. */
+/* Adds the gates with a limit. */
 static void add_values(complaint *line, const ffd_deform_desc *desc, const ffd_job_result *result)
 {
     char text[400];

@@ -14,7 +14,7 @@ static uint64_t more(uint64_t a, uint64_t b)
     return a > b ? a : b;
 }
 
-/* Counts of vertices by their places: those of the target with the fewest inside. */
+/* Vertex counts by status come from the target with the fewest vertices inside. */
 static void join_counts(const ffd_job_result *target, bool is_first, ffd_job_result *all)
 {
     all->vertices = target->vertices;
@@ -61,7 +61,7 @@ static void join_bounds(const ffd_job_result *target, ffd_job_result *all)
     ffd_bounds_widen(&all->after, target->after.max);
 }
 
-/* After several targets there are several shapes. */
+/* With several targets there is no single deformed shape. */
 static void join_extent(const ffd_job_result *target, bool is_only, ffd_job_result *all)
 {
     all->area_before = target->area_before;
@@ -84,7 +84,7 @@ static void join_tears(const ffd_job_result *target, bool is_first, ffd_job_resu
     all->tear_seam = target->tear_seam;
 }
 
-/* What costs extra time, where it is known of all. */
+/* Combines the figures that take extra time, where all targets have them. */
 static void join_quality(const ffd_job_result *target, size_t number, ffd_job_result *all)
 {
     const bool had_witness = all->folds.has_witness, is_first = number == 0;
@@ -117,7 +117,7 @@ static void join_edges(const ffd_job_result *target, bool is_first, ffd_job_resu
     all->deviation_mean = larger(all->deviation_mean, target->deviation_mean);
 }
 
-/* Of each kind what the first target with the most leaves behind. */
+/* For each kind, the result of the first target that leaves the most behind. */
 static void join_behind(const ffd_job_result *target, ffd_job_result *all)
 {
     for (int kind = 0; kind < FFD_BEHIND_KIND_COUNT; kind++)

@@ -12,52 +12,53 @@
 #include <float.h>
 #include <string.h>
 
-/* The points of an edge that may be looked at are the slots 0 .. PIECES of its window: the part that comes to
-   the lattices, or all of it. At level k its pieces are PIECES >> k slots wide. */
+/* An edge is sampled at slots 0 .. PIECES of its window: the part of the edge within reach of the lattices,
+   or all of it. A piece at level k is PIECES >> k slots wide. */
 #define PIECES 64
 #define SLOTS (PIECES + 1)
-#define FIRST_LEVEL 2 /* that every edge is sampled to */
+#define FIRST_LEVEL 2 /* every edge is sampled to this level */
 #define LAST_LEVEL 6
 
 #define TILE ((size_t)256)   /* edges */
 #define BATCH ((size_t)1024) /* points sent through the chain at once */
 
-/* The rule of quality_edges.h. Extents are in span cells, or in parts of 1/4 of a diagonal. */
+/* The rules of quality_edges.h. An extent is measured in span cells, or in quarters of a lattice's
+   diagonal. */
 #define LONG_QUARTER (1.0 / 16)
 #define WIDEST_PIECE (1.0 / 2)
 #define DIAGONAL_EXTENT 4.0
 #define OVERSHOOT (1 + 1.0 / 64)
-/* Deviations that are less than this part of the coordinates may be rounding: they are no
-   reason to look closer. */
+/* Deviations below this, relative to the coordinates, may be rounding and do not cause refinement. */
 #define ROUNDING (256 * DBL_EPSILON)
 
 typedef struct sampled_edge {
-    double start[3], along[3];             /* at rest: start + t along */
-    double start_delta[3], along_delta[3]; /* of the straight deformed edge */
-    double chord[3], chord_square;         /* the straight deformed edge */
-    double first, share;                   /* the window: t from first to first + share */
-    double length;                         /* of the window at rest */
+    double start[3], along[3]; /* position at rest: start + t along */
+    double start_delta[3],
+        along_delta[3]; /* displacement of the straight deformed edge: start_delta + t along_delta */
+    double chord[3], chord_square; /* from end to end of the straight deformed edge, and its squared length */
+    double first, share;           /* the window: t from first to first + share */
+    double length;                 /* of the window at rest */
     double rounding, largest;
-    uint64_t sampled; /* inner slots */
-    uint64_t open;    /* pieces of the level that is looked at */
+    uint64_t sampled; /* bit set of inner slots */
+    uint64_t open;    /* bit set of pieces at the current level that may be halved */
     bool is_long, left_out;
 } sampled_edge;
 
 typedef struct sample_request {
-    uint16_t edge; /* in the tile */
+    uint16_t edge; /* index in the tile */
     uint8_t slot;
 } sample_request;
 
-/* What one worker needs for a tile. */
+/* Scratch memory of one worker. */
 typedef struct edge_scratch {
     sampled_edge edges[TILE];
     double offset[TILE][SLOTS][3]; /* from the nearest point of the straight deformed edge */
-    double *cells; /* TILE x SLOTS x layers x 3: u,v,w counted in span cells; NaN: none, or not asked for */
-    uint32_t owners[TILE * SLOTS]; /* the blocks that these are of */
-    size_t first;                  /* number of the tile's first edge */
+    double *cells; /* TILE x SLOTS x layers x 3: u,v,w in span cells; NaN: outside, or not sampled */
+    uint32_t owners[TILE * SLOTS]; /* blocks that cells refers to */
+    size_t first;                  /* index of the tile's first edge */
     size_t requested;
     sample_request requests[BATCH];
-    double x[3 * BATCH], delta[3 * BATCH]; /* delta: of all links */
+    double x[3 * BATCH], delta[3 * BATCH]; /* delta: by all links */
     double link_delta[3 * BATCH];
     point_outcome point_outcomes[BATCH];
     chain_scratch chain;
@@ -66,19 +67,19 @@ typedef struct edge_scratch {
 typedef struct edge_tile {
     uint64_t edges;
     double largest, sum;
-    uint64_t worst; /* key */
+    uint64_t worst; /* edge with the largest deviation */
     ffd_status status;
 } edge_tile;
 
 typedef struct edge_work {
     const mesh_faces *faces;
-    vertex_owners owners; /* of the vertices; document NULL: their rounding is not known */
+    vertex_owners owners; /* for rounding cells; document NULL: coordinates are exact */
     const double *deformed;
     const lattice_chain *chain;
     size_t layers;
-    bounds *reach; /* of each layer: no point beyond moves */
+    bounds *reach; /* of each layer: a box outside of which nothing moves */
     edge_list list;
-    edge_scratch *scratch; /* one a worker */
+    edge_scratch *scratch; /* one for each worker */
     edge_tile *tiles;
 } edge_work;
 
@@ -87,7 +88,7 @@ static double *cells_of(const edge_work *work, edge_scratch *scratch, size_t edg
     return scratch->cells + (edge * SLOTS + slot) * work->layers * 3;
 }
 
-/* u as the number of the non-empty span that holds it, and how far in it u is. */
+/* Returns u as the number of its non-empty span plus the fraction within it. */
 static double cell_coordinate(const knot_vector *knots, double u)
 {
     const size_t number = ffd_knots_span_number(knots, u);
@@ -95,8 +96,8 @@ static double cell_coordinate(const knot_vector *knots, double u)
     return (double)number + (u - from) / (to - from);
 }
 
-/* How far apart two parameters are, in span cells: the short way round where the direction is closed. More
-   than any bound where only one is in the lattice: the displacement may jump between them. */
+/* Returns the distance of two parameters in span cells, the shorter way round in a closed direction. HUGE_VAL
+   if only one of them is in the lattice: the displacement may jump between them. */
 static double cells_between(const knot_vector *knots, double a, double b)
 {
     if (isnan(a) || isnan(b))
@@ -105,7 +106,7 @@ static double cells_between(const knot_vector *knots, double a, double b)
     return ffd_knots_closed(knots) && round < distance ? round : distance;
 }
 
-/* The extent from slot l to r in one lattice, given the u,v,w there. */
+/* The extent from slot l to slot r in one lattice. left, right: u,v,w there, in span cells. */
 static double lattice_extent(const ffd_lattice *lattice, double length, const double left[3],
                              const double right[3])
 {
@@ -115,8 +116,8 @@ static double lattice_extent(const ffd_lattice *lattice, double length, const do
     return result;
 }
 
-/* The extent from slot l to r in the block that has both: from one block to another the displacement may
-   jump. */
+/* The extent from slot l to slot r in their block. HUGE_VAL if they are in different blocks: the displacement
+   may jump between them. */
 static double block_extent(const edge_work *work, const edge_scratch *scratch, double length, size_t l,
                            size_t r)
 {
@@ -128,7 +129,7 @@ static double block_extent(const edge_work *work, const edge_scratch *scratch, d
                                                 scratch->cells + 3 * l, scratch->cells + 3 * r);
 }
 
-/* The extent of the edge from slot l to r in the lattice where it is the largest. */
+/* The largest extent of the edge from slot l to slot r in any lattice. */
 static double extent(const edge_work *work, edge_scratch *scratch, size_t edge, size_t l, size_t r)
 {
     const double *left = cells_of(work, scratch, edge, l), *right = cells_of(work, scratch, edge, r);
@@ -142,7 +143,7 @@ static double extent(const edge_work *work, edge_scratch *scratch, size_t edge, 
     return result;
 }
 
-/* Where the line start + t along is in the box: *from > *to if nowhere. */
+/* Clips the segment start + t along, t in 0 .. 1, to a box. *from > *to if it misses the box. */
 static void clip(const bounds *box, const double start[3], const double along[3], double *from, double *to)
 {
     *from = 0;
@@ -158,8 +159,8 @@ static void clip(const bounds *box, const double start[3], const double along[3]
     }
 }
 
-/* What the points of an edge stand for: in each coordinate the more of what its ends do. x: where lattices
-   have brought a point; NULL: it is at rest. */
+/* Half the extents of an edge's rounding cells: in each coordinate the larger of its two ends'. x: where
+   links have moved a point; NULL: at rest. */
 static void edge_rounding(const edge_work *work, uint64_t key, const double x[3], double half[3])
 {
     double other[3];
@@ -169,8 +170,8 @@ static void edge_rounding(const edge_work *work, uint64_t key, const double x[3]
         half[a] = larger_of(half[a], other[a]);
 }
 
-/* An edge that is long against the lattices is looked at only where it passes them: what is in none of them
-   before the first link stays for all links. */
+/* Only the part of an edge within reach of the lattices is sampled. A point beyond them all is moved by no
+   link. */
 static void find_window(const edge_work *work, const double half[3], sampled_edge *edge)
 {
     double first = 2, last = -1;
@@ -197,7 +198,7 @@ static double parameter_of(const sampled_edge *edge, size_t slot)
     return edge->first + (double)slot / PIECES * edge->share;
 }
 
-/* The edge's own ends lie on the straight deformed edge. */
+/* Whether the slot is an end of the edge, where the deviation is 0. */
 static bool is_end(const sampled_edge *edge, size_t slot)
 {
     return (slot == 0 && edge->first == 0) || (slot == PIECES && edge->first + edge->share >= 1);
@@ -222,7 +223,7 @@ static void begin_edge(const edge_work *work, uint64_t key, sampled_edge *edge)
     }
     edge->rounding = ROUNDING * size;
     find_window(work, none, edge);
-    if (work->owners.document && edge->share < 1) { /* it ends where what its points stand for does */
+    if (work->owners.document && edge->share < 1) { /* widen the window by the rounding cells */
         edge_rounding(work, key, NULL, half);
         find_window(work, half, edge);
     }
@@ -232,8 +233,8 @@ static void begin_edge(const edge_work *work, uint64_t key, sampled_edge *edge)
                      !vec_is_finite(edge->start_delta) || !vec_is_finite(edge->along_delta);
 }
 
-/* The way from the nearest point of the straight deformed edge to the deformed point at t. Both are taken
-   relative to start + t along, so that where nothing moves the way is 0 and not the coordinates' rounding. */
+/* Finds the vector from the nearest point of the straight deformed edge to the deformed point at t. Both are
+   taken relative to start + t along, so that it is exactly 0 if nothing moves. */
 static void find_offset(const sampled_edge *edge, double t, const double delta[3], double offset[3])
 {
     double shift = 0;
@@ -249,7 +250,7 @@ static void keep_sample(const sample_request *request, const double delta[3], ed
 {
     sampled_edge *edge = &scratch->edges[request->edge];
     double *offset = scratch->offset[request->edge][request->slot];
-    if (is_end(edge, request->slot)) /* only u,v,w are new */
+    if (is_end(edge, request->slot)) /* only its u,v,w are needed */
         return;
     find_offset(edge, parameter_of(edge, request->slot), delta, offset);
     const double deviation = vec_length(offset);
@@ -274,7 +275,7 @@ static void keep_cells(const edge_work *work, edge_scratch *scratch, size_t link
     }
 }
 
-/* A tile whose samples' rounding is asked for, on their way to a link. */
+/* Context of find_rounding. */
 typedef struct tile_rounding {
     const edge_work *work;
     const edge_scratch *scratch;
@@ -285,11 +286,11 @@ static void find_rounding(const void *context, size_t point, bool is_first, cons
 {
     const tile_rounding *tile = context;
     const size_t edge = tile->scratch->first + tile->scratch->requests[point].edge;
-    (void)is_first; /* there is one link at a time */
+    (void)is_first; /* links are applied one at a time */
     edge_rounding(tile->work, tile->work->list.keys[edge], tile->link == 0 ? NULL : x, half);
 }
 
-/* Sends the requested points through the blocks. */
+/* Sends the requested points through blocks. */
 static ffd_status take_blocks(const edge_work *work, edge_scratch *scratch)
 {
     const tile_rounding tile = {work, scratch, 0};
@@ -312,7 +313,7 @@ static ffd_status take_blocks(const edge_work *work, edge_scratch *scratch)
     return status;
 }
 
-/* Sends the requested points through the chain, link by link to see the u,v,w in each. */
+/* Sends the requested points through the chain, one link at a time to get the u,v,w in each. */
 static ffd_status take_links(const edge_work *work, edge_scratch *scratch)
 {
     tile_rounding tile = {work, scratch, 0};
@@ -359,15 +360,15 @@ static ffd_status request_sample(const edge_work *work, edge_scratch *scratch, s
     return scratch->requested == BATCH ? take_samples(work, scratch) : FFD_OK;
 }
 
-/* What the curve's middle adds to the straight line between slots l and r. */
+/* The sagitta from slot l to slot r: the deviation of the middle sample from the mean of both ends. */
 static void find_sagitta(double (*offset)[3], size_t l, size_t r, double sagitta[3])
 {
     for (int a = 0; a < 3; a++)
         sagitta[a] = offset[l + (r - l) / 2][a] - (offset[l][a] + offset[r][a]) / 2;
 }
 
-/* The sagitta that the piece from slot l, which has not been halved, may have. The piece is half of a piece
-   that is half of a whole, and both of these have been halved; so may have been the whole's other half. */
+/* Upper estimate of the sagitta of a piece that has not been halved. Its parent and its grandparent (`whole`)
+   have been halved, and possibly its parent's sibling. */
 static double expected_sagitta(const sampled_edge *edge, double (*offset)[3], size_t l, size_t width)
 {
     const size_t parent = l & ~(2 * width - 1), whole = l & ~(4 * width - 1);
@@ -386,7 +387,7 @@ static double expected_sagitta(const sampled_edge *edge, double (*offset)[3], si
     return vec_length(own) / 4 + missed;
 }
 
-/* The greatest value of the parabola from `left` to `right` with this sagitta. */
+/* Returns the maximum of the parabola with these end values and this sagitta. */
 static double parabola_peak(double left, double right, double sagitta)
 {
     const double rise = right - left;
@@ -406,8 +407,8 @@ static bool must_halve(const edge_work *work, edge_scratch *scratch, size_t numb
     return peak > OVERSHOOT * edge->largest + edge->rounding;
 }
 
-/* Halves those of the edge's open pieces that need it; their halves are open then. All is decided before the
-   first sample is asked for, so that it does not matter when a batch is full. */
+/* Requests the midpoints of the open pieces that must be halved; their halves become open. All decisions come
+   before the first request, because a request may take a full batch of samples. */
 static ffd_status halve_pieces(const edge_work *work, edge_scratch *scratch, size_t number, int level)
 {
     sampled_edge *edge = &scratch->edges[number];
@@ -426,7 +427,8 @@ static ffd_status halve_pieces(const edge_work *work, edge_scratch *scratch, siz
     return status;
 }
 
-/* The ends of a window that is not the whole edge: beyond them nothing moves. */
+/* Requests the ends of a window that is shorter than the edge: there nothing moves, but the straight edge may
+   deviate. */
 static ffd_status begin_window(const edge_work *work, edge_scratch *scratch, size_t number)
 {
     static const double still[3] = {0, 0, 0};
@@ -443,7 +445,7 @@ static ffd_status begin_window(const edge_work *work, edge_scratch *scratch, siz
     return status;
 }
 
-/* The first points of all edges of the tile, and which edges are long. */
+/* Takes the first samples of all edges of the tile, and decides which edges are long. */
 static ffd_status begin_samples(const edge_work *work, edge_scratch *scratch, size_t count)
 {
     const size_t quarter = PIECES >> FIRST_LEVEL;
@@ -508,7 +510,7 @@ static ffd_status join_tiles(const edge_work *work, size_t tiles, edge_quality *
     double sum = 0;
     for (size_t i = 0; i < tiles; i++) {
         const edge_tile *tile = &work->tiles[i];
-        if (tile->status) /* memory is all that a search can want for */
+        if (tile->status) /* a search can fail only for lack of memory */
             return ffd_fail(error, tile->status, "out of memory while measuring edges");
         if (tile->edges && (result->edges == 0 || tile->largest > result->deviation_max)) {
             result->deviation_max = tile->largest;
@@ -523,7 +525,7 @@ static ffd_status join_tiles(const edge_work *work, size_t tiles, edge_quality *
     return FFD_OK;
 }
 
-/* Of blocks: one box round all. */
+/* Finds the boxes of the layers; with blocks, one box round all of them. */
 static bool find_reach(edge_work *work)
 {
     work->reach = ffd_alloc(work->layers, sizeof *work->reach);

@@ -11,7 +11,7 @@ void ffd_result_clear(ffd_job_result *result)
     memset(result, 0, sizeof *result);
     result->struct_size = sizeof *result;
     for (int a = 0; a < 3; a++) {
-        result->before.min[a] = result->after.min[a] = 1; /* nothing yet: min > max */
+        result->before.min[a] = result->after.min[a] = 1; /* empty: min > max */
         result->before.max[a] = result->after.max[a] = -1;
     }
     result->det_outside = HUGE_VAL;
@@ -37,7 +37,7 @@ void ffd_result_fill(ffd_job_result *result, const pass_totals *totals, double s
     result->evaluations_max = totals->evaluations_max;
     result->before = totals->before;
     result->after = totals->after;
-    for (int a = 0; a < 3; a++) { /* of -0 and 0, which are equal, either may have been found first */
+    for (int a = 0; a < 3; a++) { /* normalize zeros: which of -0 and 0 was found depends on the order */
         result->before.min[a] += 0.0;
         result->before.max[a] += 0.0;
         result->after.min[a] += 0.0;
@@ -86,8 +86,8 @@ void ffd_result_note_flaws(ffd_job_result *result, const mesh_flaws *flaws)
     result->flaw_count = flaws->count;
 }
 
-/* "2 moved with the nearest boundary point, 1 left where it is beyond the falloff"; without numbers where
-   there is one kind only. */
+/* Writes the kinds, such as "2 moved with the nearest boundary point, 1 left where it is beyond the falloff";
+   without numbers if only one kind occurs. */
 static void tell_kinds(const pass_totals *totals, const chain_outside *outside, char *text, size_t capacity)
 {
     const uint64_t count = totals->counts[FFD_OUTSIDE], followed = totals->extended_moved;
@@ -111,7 +111,7 @@ static void tell_kinds(const pass_totals *totals, const chain_outside *outside, 
     }
 }
 
-/* Says in words what was done with the vertices outside. */
+/* Describes what happened to the vertices outside. */
 static void tell_outside(const pass_totals *totals, const chain_outside *outside, bool deformed, char *text,
                          size_t capacity)
 {
@@ -121,7 +121,7 @@ static void tell_outside(const pass_totals *totals, const chain_outside *outside
     snprintf(text, capacity, "%" PRIu64 " outside (%s)", totals->counts[FFD_OUTSIDE], kinds);
 }
 
-/* Adds why vertices are singular, where that is not the search's end, which has a line of its own. */
+/* Says why vertices are singular, unless the search gave up, which has a message of its own. */
 static void tell_degenerate(const pass_totals *totals, char *text, size_t capacity)
 {
     const size_t length = strlen(text);
@@ -132,7 +132,7 @@ static void tell_degenerate(const pass_totals *totals, char *text, size_t capaci
                  totals->degenerate);
 }
 
-/* Lists how many vertices have each status but inside, and what was done with them. */
+/* Lists the number of vertices of each status other than inside, and what happened to them. */
 static void tell_others(const pass_totals *totals, const chain_outside *outside, bool deformed, char *text,
                         size_t capacity)
 {
@@ -153,7 +153,7 @@ static void tell_others(const pass_totals *totals, const chain_outside *outside,
     }
 }
 
-/* A sum that is this far from 1 shows another shape in viewers that take weights as they are. */
+/* Viewers that do not normalize weights show a visibly different shape if a sum is this far from 1. */
 #define WEIGHTS_FAR 0.01
 
 static void tell_weights(const skin_weights *weights, const mesh_log *log)
@@ -169,7 +169,7 @@ static void tell_weights(const skin_weights *weights, const mesh_log *log)
                      ffd_plural(weights->none, "it follows its", "they follow their"));
 }
 
-/* What there is to say of faces that lattices share. */
+/* Warns about vertices on common faces of lattices. */
 static void warn_of_faces(const pass_totals *totals, const mesh_log *log)
 {
     if (totals->moved_twice)
@@ -191,7 +191,7 @@ static void warn_of_unshown(const pass_totals *totals, const mesh_log *log)
                      ffd_plural(totals->hidden, "it", "them"));
 }
 
-/* What there is to say of morph targets, and of the shape that their default weights show. */
+/* Warns about morph targets, and the shape with their default weights. */
 static void warn_of_shapes(const pass_totals *totals, const lattice_chain *chain, const mesh_log *log)
 {
     if (totals->shapes_outside)
@@ -201,7 +201,7 @@ static void warn_of_shapes(const pass_totals *totals, const lattice_chain *chain
                          ? left_alone(totals->shapes_outside)
                          : ffd_plural(totals->shapes_outside, "it goes with the nearest boundary point",
                                       "they go with the nearest boundary point"));
-    if (totals->shown_outside && !totals->shapes_outside) /* else the reason is said already */
+    if (totals->shown_outside && !totals->shapes_outside) /* else the reason was given already */
         ffd_log_line(log, FFD_LOG_WARNING,
                      "%" PRIu64 " %s %s outside the lattice as the default weights of morph targets show %s",
                      totals->shown_outside, vertices(totals->shown_outside), are(totals->shown_outside),

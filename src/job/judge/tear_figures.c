@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Of larger meshes a deformation reads the faces only where the figures are asked for. */
+/* A deformation of a larger mesh reads the faces only if the figures are asked for. */
 #define UNASKED_VERTICES ((uint64_t)5500000)
 
 static bool is_asked_for(const deform_job *job)
@@ -23,7 +23,7 @@ ffd_status ffd_tear_figures_prepare(deform_job *job, ffd_error *error)
     const uint64_t count = ffd_mesh_vertex_count(job->document);
     if (count == 0)
         return FFD_OK;
-    /* Pages of it that no vertex writes to take no memory. */
+    /* Zeroed pages that are never written to take no memory. */
     job->kept = ffd_alloc_zero((size_t)count, ffd_kept_planes(ffd_chain_marked(&job->chain)));
     return job->kept ? FFD_OK : ffd_fail_memory(error);
 }
@@ -36,7 +36,7 @@ static bool moves_nothing(const ffd_lattice *lattice)
     return true;
 }
 
-/* Marks that lattices which move nothing leave all vertices: what only they hold stays. */
+/* Marks all vertices as left by lattices that move nothing. */
 static void mark_left(const deform_job *job)
 {
     const size_t vertices = (size_t)ffd_mesh_vertex_count(job->document);
@@ -49,8 +49,7 @@ static void mark_left(const deform_job *job)
     }
 }
 
-/* Lists the vertices that are not shown, as far as they have positions of their own. *ranges is the caller's
-   to free. */
+/* Lists the hidden vertices, except in parts that repeat positions. *ranges is freed by the caller. */
 static ffd_status list_hidden(const deform_job *job, vertex_range **ranges, size_t *count, ffd_error *error)
 {
     const mesh_document *const document = job->document;
@@ -70,15 +69,14 @@ static ffd_status list_hidden(const deform_job *job, vertex_range **ranges, size
     return FFD_OK;
 }
 
-/* The marks of all vertices of the document. */
 static vertex_marks marks_of(const deform_job *job)
 {
     return (vertex_marks){job->kept, ffd_kept_planes(ffd_chain_marked(&job->chain)),
                           (size_t)ffd_mesh_vertex_count(job->document)};
 }
 
-/* Leaves a byte for each vertex: whether it stays, and is shown, as messages about vertices outside count
-   them. */
+/* Reduces the marks to one byte a vertex: whether it stays and is visible, as in messages about vertices
+   outside. */
 static void mark_still(const deform_job *job)
 {
     const mesh_document *const document = job->document;
@@ -97,7 +95,7 @@ static void mark_still(const deform_job *job)
     }
 }
 
-/* Finds the name of what stays, and how many vertices of it do. */
+/* Finds the name of the part that stays, and how many of its vertices do. */
 static void name_part(const deform_job *job, ffd_job_result *result)
 {
     const vertex_marks still = {job->kept, 1, (size_t)ffd_mesh_vertex_count(job->document)};
@@ -106,7 +104,7 @@ static void name_part(const deform_job *job, ffd_job_result *result)
     if (format->name_part)
         result->tear_stays = format->name_part(job->document, result->tear_vertex, job->kept,
                                                result->tear_part, sizeof result->tear_part);
-    for (char *c = result->tear_part; *c; c++) /* messages are one line */
+    for (char *c = result->tear_part; *c; c++) /* messages have one line */
         if ((unsigned char)*c < 0x20 || *c == 0x7f)
             *c = '?';
     if (*result->tear_part)
@@ -183,8 +181,8 @@ static ffd_status count_torn(const deform_job *job, const mesh_faces *faces, con
     return status;
 }
 
-/* Whether there are vertices that no link may move. They may stand where something is that moves: all
-   positions are looked at then. */
+/* Whether some vertices may not be moved by any link. They may share a position with vertices that move, so
+   then all faces are read, not only those with mixed marks. */
 static bool some_may_not_move(const deform_job *job)
 {
     const vertex_marks marks = marks_of(job);

@@ -13,21 +13,21 @@
 #include <math.h>
 #include <string.h>
 
-/* How often the part of an edge that passes a seam is halved. */
+/* Bisections of an edge across a seam. */
 #define HALVINGS 20
-/* From here on an edge along which u,v,w has no jump is known by its smaller and smaller part. */
+/* After this many bisections, an edge whose u,v,w do not jump is recognized by its shrinking gap. */
 #define SURE_HALVINGS 4
 
-/* A point of an edge in the lattice of a seam, or the border's nearest one. */
+/* A point of an edge in the lattice of a seam, or the nearest border point if it is outside. */
 typedef struct seam_side {
-    double uvw[3], at; /* at: from the edge's end at the last face, 0 .. 1 */
-    double distance;   /* to the border; 0 inside */
+    double uvw[3], at; /* at: 0 .. 1 from the edge's marked end, which is at the last face */
+    double distance;   /* from the border; 0 if inside */
 } seam_side;
 
-/* An edge between whose ends may be a seam. */
+/* An edge that may cross a seam. */
 typedef struct seam_edge {
-    const chain_seam *seam; /* NULL: none */
-    seam_side low, high;    /* nearer to the first face, and to the last one */
+    const chain_seam *seam; /* NULL: no seam */
+    seam_side low, high;    /* nearer to the first face; nearer to the last face */
     bool settled;
 } seam_edge;
 
@@ -37,7 +37,7 @@ struct tear_steps {
     const uint8_t *marks;
     tear_walks *walks; /* of lattices one after the other */
     vertex_owners owners;
-    lattice_chain extended; /* the chain's lattices, which move what is outside of them too */
+    lattice_chain extended; /* the chain with blocks set to extend to points outside */
     chain_scratch *scratch;
     double x[3 * TEAR_RUN], delta[3 * TEAR_RUN];
     point_outcome outcomes[TEAR_RUN];
@@ -50,7 +50,7 @@ static const double *position_of(const tear_steps *steps, uint32_t vertex)
     return steps->faces->positions + 3 * (size_t)vertex;
 }
 
-/* A run of the points x, which are changed. */
+/* Prepares a run of the points in steps->x, which it changes. */
 static chain_run start_run(tear_steps *steps, size_t count)
 {
     return (chain_run){.x = steps->x,
@@ -60,7 +60,7 @@ static chain_run start_run(tear_steps *steps, size_t count)
                        .outcomes = steps->outcomes};
 }
 
-/* Edges whose ends that stay are sent. */
+/* Context of find_rounding: edges whose staying ends are sent. */
 typedef struct sent_edges {
     const tear_steps *steps;
     const uint64_t *edges;
@@ -69,13 +69,14 @@ typedef struct sent_edges {
 static void find_rounding(const void *context, size_t point, bool is_first, const double x[3], double half[3])
 {
     const sent_edges *const sent = context;
-    (void)is_first; /* of blocks every point is where the file has it */
+    (void)is_first; /* in blocks every point is at its position in the file */
     (void)x;
     const uint32_t stays = ffd_faces_number(sent->steps->faces, ffd_tear_end_stays(sent->edges[point]));
     ffd_vertex_rounding(&sent->steps->owners, stays, NULL, half);
 }
 
-/* Of blocks: what the nearest border of all would do, or how far two blocks part. */
+/* Blocks: the step is either the displacement by the nearest border of all blocks, or the disagreement of two
+   blocks. */
 static ffd_status find_block_steps(tear_steps *steps, size_t mode, const uint64_t *edges, size_t count,
                                    double *lengths, ffd_error *error)
 {
@@ -100,7 +101,8 @@ static ffd_status find_block_steps(tear_steps *steps, size_t mode, const uint64_
     return status;
 }
 
-/* Where the points x, which are changed, are in one link; of blocks in the one that has them. */
+/* Finds the locations of the points in steps->x in one link or, with blocks, in their own blocks. Changes
+   steps->x. */
 static ffd_status locate(tear_steps *steps, size_t link, size_t count, ffd_error *error)
 {
     const lattice_chain *const chain = steps->chain;
@@ -114,8 +116,8 @@ static ffd_status locate(tear_steps *steps, size_t link, size_t count, ffd_error
     return FFD_OK;
 }
 
-/* The side of a seam on which point i of those that were located is. One outside is where the border's
-   nearest point is. */
+/* Finds the side of the seam that point i (located by locate) is on. If it is outside, takes the nearest
+   border point. */
 static ffd_status find_side(tear_steps *steps, size_t i, double at, seam_side *side, ffd_error *error)
 {
     const lattice_chain *const chain = steps->chain;
@@ -137,7 +139,7 @@ static ffd_status find_side(tear_steps *steps, size_t i, double at, seam_side *s
     return FFD_OK;
 }
 
-/* Along a seam's direction, in parts of the domain. */
+/* Returns the distance of two sides along the seam's direction, relative to the domain. */
 static double gap_between(const lattice_chain *chain, const chain_seam *seam, const seam_side *low,
                           const seam_side *high)
 {
@@ -154,12 +156,12 @@ static void place_at(tear_steps *steps, uint64_t edge, double at, size_t i)
         steps->x[3 * i + (size_t)a] = at == 1 ? to[a] : from[a] + at * (to[a] - from[a]);
 }
 
-/* Names the seam of an edge whose ends are at its two sides. */
+/* Returns the seam that an edge of this mode may cross, or NULL. */
 static const chain_seam *seam_of(const tear_steps *steps, size_t mode, uint64_t edge, size_t i)
 {
     const lattice_chain *const chain = steps->chain;
     const size_t number = mode - ffd_tear_seams(chain);
-    if (chain->blocks) /* the number is a direction */
+    if (chain->blocks) /* modes are numbered by direction */
         return steps->scratch->owners[i] == BLOCK_NONE
                    ? NULL
                    : ffd_chain_seam(chain, steps->scratch->owners[i], (int)number);
@@ -171,7 +173,7 @@ static const chain_seam *seam_of(const tear_steps *steps, size_t mode, uint64_t 
                : NULL;
 }
 
-/* Finds the sides of the ends. The end that has the mark is nearer to the last face. */
+/* Locates both ends of the edges. The marked end, where `at` is 0, is nearer to the last face. */
 static ffd_status begin_seam_edges(tear_steps *steps, size_t mode, const uint64_t *edges, size_t count,
                                    ffd_error *error)
 {
@@ -196,7 +198,7 @@ static ffd_status begin_seam_edges(tear_steps *steps, size_t mode, const uint64_
     return status;
 }
 
-/* Goes on with the half of each edge along which the parameter changes more. */
+/* Bisects each unsettled edge, and keeps the half with the larger change of the parameter. */
 static ffd_status halve_seam_edges(tear_steps *steps, int turn, const uint64_t *edges, size_t count,
                                    ffd_error *error)
 {
@@ -225,7 +227,7 @@ static ffd_status halve_seam_edges(tear_steps *steps, int turn, const uint64_t *
     return status;
 }
 
-/* The steps of edges across a seam: how far its faces part where the edge passes it. */
+/* The step of an edge across a seam is the distance between the displaced faces where the edge crosses. */
 static ffd_status find_seam_steps(tear_steps *steps, size_t mode, const uint64_t *edges, size_t count,
                                   double *lengths, ffd_error *error)
 {

@@ -10,42 +10,43 @@
 #include <math.h>
 #include <string.h>
 
-/* The two sides of a border: within, where the link moves what is there, and beyond it. */
+/* The two sides of a border: within the link's volume, and beyond it. */
 enum { WITHIN, BEYOND, WAYS };
 
-/* A place at the border of a link on its way through the chain, as it is on either side. */
+/* A place at a link's border, followed through the chain on both sides of the border. */
 typedef struct tear_walk {
-    uint32_t inner, outer; /* the ends of the edge: that which the link moves, and the other */
-    size_t start;          /* the link; the way of the outer end leads to its border */
-    bool over;             /* in this round there is none */
-    bool apart;            /* behind the border: until then both sides are one */
-    bool by_ends;          /* each side goes the way of its end: there is no border */
+    uint32_t inner, outer; /* the edge's end that link `start` moves, and the other end */
+    size_t start;          /* the link whose border is examined; the outer end is followed up to it */
+    bool over;             /* no border is left to examine */
+    bool apart;            /* past the border; before, both sides coincide at BEYOND */
+    bool by_ends;          /* no border is examined: each side follows its own end */
     double x[WAYS][3], delta[WAYS][3];
-    double across[3]; /* from the border to a place beside it, where it leads beyond */
+    double across[3]; /* vector from the border to a place just beyond it */
 } tear_walk;
 
-/* A side that a link moves; before the sides part that beyond, for both. */
+/* A side to be displaced by the current link. Before the sides part, BEYOND stands for both. */
 typedef struct walk_stop {
     uint32_t walk;
     uint8_t way;
 } walk_stop;
 
-/* Places beside a border are this part of the lattice away from it, */
+/* Places just beside a border are this part of the lattice's diagonal away from it, */
 #define BESIDE 1e-6
-/* and this part of its coordinates, which is more than a point on a face may be off. */
+/* plus this part of its coordinates, which exceeds the evaluation error of points on a face. */
 #define BESIDE_COORDINATES 1e-12
-/* Off by this part of that they are still in a lattice along whose face the edge runs. */
+/* A place that misses the lattice by at most this part of that distance is in it: the edge runs along a
+   face. */
 #define ALONG 1e-3
 
-/* So many borders of an edge are looked at one by one, and the rest together: time grows with their number
-   and that of the links. */
+/* Borders of an edge that are examined one by one; the others are handled together, as the time is the
+   product of their number and that of the links. */
 #define ROUNDS 16
 
 struct tear_walks {
     const lattice_chain *chain;
     const mesh_faces *faces;
     const uint8_t *marks;
-    uint8_t *settled; /* links whose borders were looked at: as marks are, in planes of TEAR_RUN */
+    uint8_t *settled; /* marks of examined links, in planes of TEAR_RUN bytes (chain.h) */
     tear_walk walks[TEAR_RUN];
     walk_stop stops[WAYS * TEAR_RUN];
     double stop_x[WAYS * 3 * TEAR_RUN];
@@ -88,7 +89,7 @@ static void move_on(tear_walk *walk, int way, const double delta[3])
     }
 }
 
-/* The way across the border at x: to the outer end, or, where that is not clear, as the edge leads. */
+/* Finds the vector across the border: towards the outer end or, if that is too close, along the edge. */
 static void find_across(const tear_walks *walks, const chain_link *link, const double end[3], tear_walk *walk)
 {
     const double *const from = position_of(walks, walk->inner), *const to = position_of(walks, walk->outer);
@@ -108,7 +109,7 @@ static void find_across(const tear_walks *walks, const chain_link *link, const d
         walk->across[a] *= beside / length;
 }
 
-/* The outer end has come to the link that leaves it: the sides part at the border's nearest point. */
+/* The outer end has reached link `start`, which leaves it. Splits the walk at the nearest border point. */
 static ffd_status part_at_border(tear_walks *walks, size_t edge, ffd_error *error)
 {
     tear_walk *const walk = &walks->walks[edge];
@@ -130,7 +131,7 @@ static ffd_status part_at_border(tear_walks *walks, size_t edge, ffd_error *erro
     return FFD_OK;
 }
 
-/* Whether a link has the place beside the border, on one side of it. */
+/* Whether a link holds the place just beside the border, on one side. */
 static ffd_status find_beside(const chain_link *link, const tear_walk *walk, int way, bool *holds,
                               ffd_error *error)
 {
@@ -149,9 +150,10 @@ static ffd_status find_beside(const chain_link *link, const tear_walk *walk, int
     return status;
 }
 
-/* Which sides a link takes along that treats the two ends differently. Its border may be at this place too:
-   then the sides go as the ends do. Else it has both or neither, and is looked at by itself. An edge may lead
-   from one lattice through a gap into another: that one takes along what is beyond the border. */
+/* Decides which sides move with a link that moves one end and not the other. If its border is here too, each
+   side moves if the link holds it. If the link holds both or neither side, its border is elsewhere and is
+   examined in its own round. If it holds neither but moves the outer end, the edge leads through a gap into
+   another lattice, and the sides move like their ends. */
 static ffd_status choose_sides(tear_walks *walks, size_t edge, size_t link, bool takes_way[WAYS],
                                ffd_error *error)
 {
@@ -168,7 +170,7 @@ static ffd_status choose_sides(tear_walks *walks, size_t edge, size_t link, bool
     return status;
 }
 
-/* Lists which sides of an edge a link moves. */
+/* Lists the sides of an edge that a link moves. */
 static ffd_status list_stops(tear_walks *walks, size_t link, size_t edge, size_t *stop_count,
                              ffd_error *error)
 {
@@ -191,7 +193,7 @@ static ffd_status list_stops(tear_walks *walks, size_t link, size_t edge, size_t
     return status;
 }
 
-/* Moves a side by a link, which has it or takes it along from its border. */
+/* Displaces a side by a link: by its location, or else from the nearest border point. */
 static ffd_status displace(const chain_link *link, const double x[3], const ffd_location *location, int way,
                            tear_walk *walk, ffd_error *error)
 {
@@ -231,15 +233,15 @@ static ffd_status walk_link(tear_walks *walks, size_t link, size_t count, ffd_er
     return status;
 }
 
-/* Whether the end of an edge that stays is moved by nothing: it may not move, or is outside of all. */
+/* Whether the staying end of an edge does not move at all: it may not move, or is outside of all links. */
 static bool stays_behind(const tear_walks *walks, uint64_t edge)
 {
     return !ffd_tear_takes_part(walks->marks, walks->faces->vertex_count, ffd_tear_end_stays(edge),
                                 walks->chain->count);
 }
 
-/* Begins at the first link that treats the ends differently and was not looked at. Of an end that stays
-   behind there is one round, in which it goes the way of its neighbour. */
+/* Starts a round at the first unexamined link that moves only one end. If the staying end does not move at
+   all, there is a single round, in which it follows its neighbour. */
 static void begin_walk(tear_walks *walks, size_t i, int round, uint64_t edge)
 {
     const uint32_t stays = ffd_tear_end_stays(edge), moves = ffd_tear_end_moves(edge);
@@ -261,7 +263,7 @@ static void begin_walk(tear_walks *walks, size_t i, int round, uint64_t edge)
         memcpy(walk->x[way], position_of(walks, walk->outer), sizeof walk->x[way]);
 }
 
-/* The largest steps so far. Returns whether there are more borders to be looked at. */
+/* Updates the largest steps. Returns whether borders are left to examine. */
 static bool end_round(const tear_walks *walks, size_t count, double *lengths)
 {
     bool more = false;

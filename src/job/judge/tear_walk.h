@@ -1,4 +1,5 @@
-/* tear_walk.h - how far the displacement by lattices that act one after the other jumps at their borders. */
+/* tear_walk.h - measures how far the displacement jumps at borders of lattices that act one after the
+   other. */
 #ifndef FFD_JOB_JUDGE_TEAR_WALK_H
 #define FFD_JOB_JUDGE_TEAR_WALK_H
 
@@ -7,20 +8,19 @@
 
 typedef struct tear_walks tear_walks;
 
-/* All of these must outlive it; the marks are those of the question. NULL where memory runs out. */
+/* Returns NULL if memory runs out. The walks borrow all arguments. marks: as in tear_question. */
 tear_walks *ffd_tear_walks_make(const lattice_chain *chain, const mesh_faces *faces, const uint8_t *marks);
-/* Frees it; NULL is allowed. */
+/* Accepts NULL. */
 void ffd_tear_walks_free(tear_walks *walks);
 
-/* The steps of TEAR_RUN edges at most (tear_step_function), of the modes TEAR_UNMOVABLE and TEAR_BORDER: of
-   an end that nothing moves what the links of its neighbour would do to it, outside included; of one that
-   other links move the largest jump at the border of a link that treats the two ends differently. Errors:
-   FFD_E_MEMORY, FFD_E_LIMIT. */
+/* Measures the steps of at most TEAR_RUN edges (tear_step_function) of the modes TEAR_UNMOVABLE and
+   TEAR_BORDER. If the staying end does not move at all: its displacement by the links of its neighbour,
+   extended where it is outside. Else: the largest jump at the border of a link that moves only one end.
+   Errors: FFD_E_MEMORY, FFD_E_LIMIT. */
 ffd_status ffd_tear_walks_measure(tear_walks *walks, const uint64_t *edges, size_t count, double *lengths,
                                   ffd_error *error);
 
-/* The point of a link's border nearest to x, if one is within reach (ffd_boundary_find). Errors:
-   FFD_E_MEMORY. */
+/* Finds the point of a link's border nearest to x, within reach (ffd_boundary_find). Errors: FFD_E_MEMORY. */
 ffd_status ffd_tear_border_point(const chain_link *link, const double x[3], double reach,
                                  boundary_point *nearest, ffd_error *error);
 

@@ -7,17 +7,18 @@
 #include "mesh/positions.h"
 #include <string.h>
 
-/* An edge is torn where its step is above this part of its length. */
+/* An edge is torn if its step exceeds this part of its length. */
 #define TORN 1e-3
 
-/* Bytes for an edge that leads from what moves to what stays: the sorted keys, and the places of its ends. */
+/* Memory for each edge between a moving and a staying vertex: the sorted keys, and entries for its ends in
+   the table of positions. */
 #define EDGE_BYTES (2 * sizeof(uint64_t) + 2 * POSITION_TABLE_BYTES)
 
 typedef struct tear_work {
     const tear_question *question;
     size_t planes;
     tear_count *count;
-    edge_list torn; /* where there are further marks: an edge may be torn in more than one mode */
+    edge_list torn; /* keys, if there are further marks: an edge torn in several modes must count once */
     size_t torn_capacity;
 } tear_work;
 
@@ -46,7 +47,7 @@ bool ffd_tear_takes_part(const uint8_t *marks, size_t vertex_count, uint32_t ver
     return false;
 }
 
-/* Whether the first link that moves one of the two and not the other moves the latter. */
+/* Whether the first link that moves only one of the two vertices moves `moves`. */
 static bool is_left_first(const tear_work *work, uint32_t stays, uint32_t moves)
 {
     size_t l = 0;
@@ -55,7 +56,7 @@ static bool is_left_first(const tear_work *work, uint32_t stays, uint32_t moves)
     return l < work->question->acting && is_kept(work, stays, l);
 }
 
-/* Whether the edge from a vertex that stays to one that moves is one of the mode. */
+/* Whether an edge with this staying and this moving end belongs to the mode. */
 static bool leads(const tear_work *work, size_t mode, uint32_t stays, uint32_t moves)
 {
     const tear_question *const question = work->question;
@@ -91,7 +92,7 @@ static bool is_uniform(const tear_work *work, const uint32_t *corners, size_t co
     return true;
 }
 
-/* Lists the mode's edges, the end that stays in the upper 32 bits, or, where keys is NULL, counts them. */
+/* Lists the edges of a mode, the staying end in the upper 32 bits. keys NULL: only count them. */
 static size_t list_edges(const tear_work *work, size_t mode, uint64_t *keys)
 {
     const mesh_faces *const faces = work->question->faces;
@@ -114,7 +115,7 @@ static size_t list_edges(const tear_work *work, size_t mode, uint64_t *keys)
     return count;
 }
 
-/* Makes the ends of edges at one position one vertex. */
+/* Merges ends that share a position. */
 static ffd_status join_ends(const tear_work *work, edge_list *edges, ffd_error *error)
 {
     position_table table;
@@ -145,7 +146,7 @@ static ffd_status collect(const tear_work *work, size_t mode, edge_list *edges, 
     return status ? status : ffd_edges_sort(edges, error);
 }
 
-/* Notes an edge that may be torn in several modes, once for each. */
+/* Records a torn edge for the count without duplicates. */
 static ffd_status note_torn(tear_work *work, uint64_t key, ffd_error *error)
 {
     const uint64_t a = key >> 32, b = key & UINT32_MAX;
@@ -156,7 +157,7 @@ static ffd_status note_torn(tear_work *work, uint64_t key, ffd_error *error)
     return FFD_OK;
 }
 
-/* Judges an edge, given the step of its end that stays. */
+/* Judges an edge by its step. */
 static ffd_status judge_edge(tear_work *work, size_t mode, uint64_t key, double step, ffd_error *error)
 {
     const mesh_faces *const faces = work->question->faces;
@@ -180,7 +181,7 @@ static ffd_status judge_edge(tear_work *work, size_t mode, uint64_t key, double 
     return work->question->links > work->question->acting ? note_torn(work, key, error) : FFD_OK;
 }
 
-/* Whether the links move two vertices alike. */
+/* Whether two vertices have equal marks, so that the same links move them. */
 static bool are_marked_alike(const tear_work *work, uint32_t a, uint32_t b)
 {
     for (size_t p = 0; p < work->planes; p++)
@@ -189,7 +190,7 @@ static bool are_marked_alike(const tear_work *work, uint32_t a, uint32_t b)
     return true;
 }
 
-/* Whether some link leaves the end of an edge that moves, and moves the other one. */
+/* Whether some link moves the staying end and not the moving one. */
 static bool is_left_too(const tear_work *work, uint64_t key)
 {
     const uint32_t stays = ffd_tear_end_stays(key), moves = ffd_tear_end_moves(key);
@@ -199,15 +200,14 @@ static bool is_left_too(const tear_work *work, uint64_t key)
     return false;
 }
 
-/* Whether an edge needs a step of its own, beside that of the edge before it. */
+/* Whether an edge needs a step of its own, or has the same one as the edge before it. */
 static bool is_next(const tear_work *work, size_t mode, uint64_t before, uint64_t key)
 {
     return mode >= work->question->lone || before >> 32 != key >> 32 || is_left_too(work, key) ||
            !are_marked_alike(work, (uint32_t)(before & UINT32_MAX), (uint32_t)(key & UINT32_MAX));
 }
 
-/* Judges the edges from number first on, as far as TEAR_RUN steps go; *first becomes the number after them.
- */
+/* Judges edges from *first on, until TEAR_RUN steps are used up; *first becomes the next edge. */
 static ffd_status judge_run(tear_work *work, size_t mode, const edge_list *edges, size_t *first,
                             ffd_error *error)
 {
@@ -232,7 +232,7 @@ static ffd_status judge_run(tear_work *work, size_t mode, const edge_list *edges
     return status;
 }
 
-/* Gives vertices that may not move the marks of one that may at their position. */
+/* Vertices at one position get equal marks: an unmovable one takes those of a movable one. */
 static ffd_status join_marks(const tear_work *work, ffd_error *error)
 {
     const mesh_faces *const faces = work->question->faces;
@@ -252,7 +252,8 @@ static ffd_status join_marks(const tear_work *work, ffd_error *error)
     for (size_t v = 0; v < count; v++)
         if (marks[v] & KEPT_ALWAYS && !is_hidden(work, (uint32_t)v))
             ffd_positions_add(&table, (uint32_t)v);
-    for (int turn = 0; turn < 2; turn++) /* to the first of those at a position, and from it to the others */
+    for (int turn = 0; turn < 2;
+         turn++) /* first pass: to the position's representative; second pass: to all others there */
         for (size_t v = 0; v < count; v++) {
             uint32_t other;
             if ((marks[v] & KEPT_ALWAYS) != (turn == 1) || is_hidden(work, (uint32_t)v) ||

@@ -2,7 +2,7 @@
 #include "base/memory/memory.h"
 #include <stdlib.h>
 
-/* Both ends, whichever stays. */
+/* A key of the unordered pair. */
 static uint64_t key_of(const torn_edge *edge)
 {
     const uint64_t a = edge->ends[0], b = edge->ends[1];

@@ -1,4 +1,4 @@
-/* torn_edges.h - the torn edges of a mesh that are worth a look. */
+/* torn_edges.h - the torn edges with the largest steps. */
 #ifndef FFD_JOB_JUDGE_TORN_EDGES_H
 #define FFD_JOB_JUDGE_TORN_EDGES_H
 
@@ -8,23 +8,23 @@
 
 #define TORN_EDGES_MOST ((size_t)5000)
 
-/* An edge that is torn: the end that stays first. */
+/* A torn edge, its staying end first. */
 typedef struct torn_edge {
     uint32_t ends[2];
     double step;
 } torn_edge;
 
-/* The torn edges with the largest steps, largest first, each once. */
+/* Torn edges, without duplicates, largest step first. */
 typedef struct torn_edges {
-    torn_edge *list; /* count */
+    torn_edge *list; /* count entries */
     size_t count, capacity;
 } torn_edges;
 
-/* Adds an edge, perhaps again. Those with the smallest steps go where there are too many. Errors:
+/* Adds an edge, which may be there already. When the list is full, the smallest steps are dropped. Errors:
    FFD_E_MEMORY. */
 ffd_status ffd_torn_edges_add(torn_edges *torn, uint32_t stays, uint32_t moves, double step,
                               ffd_error *error);
-/* Leaves each edge once, with its largest step, and of these TORN_EDGES_MOST, the largest step first. */
+/* Removes duplicates (keeping the largest step), sorts, and keeps at most TORN_EDGES_MOST edges. */
 void ffd_torn_edges_thin(torn_edges *torn);
 
 #endif

@@ -9,8 +9,8 @@
 #include <math.h>
 #include <string.h>
 
-/* What cannot be deformed must be out of reach. chain NULL: of a lattice round the mesh, which reaches all.
- */
+/* Refuses a lattice that reaches parts which cannot be deformed. chain NULL: a lattice round the mesh, which
+   reaches all parts. */
 static ffd_status check_reach(const lattice_chain *chain, size_t link, const mesh_document *document,
                               ffd_error *error)
 {
@@ -33,8 +33,8 @@ static bool is_empty(const ffd_bounds *box)
     return false;
 }
 
-/* The box of what is selected and shown, after the links before this one; of all that is selected, where
-   nothing of it is shown. */
+/* The box of the selected visible vertices as the first `links` links leave them; if no selected vertex is
+   visible, of all selected ones. */
 static ffd_status find_box(const lattice_chain *chain, size_t links, mesh_document *document, int threads,
                            ffd_bounds *box, ffd_error *error)
 {
@@ -58,7 +58,7 @@ static ffd_status find_box(const lattice_chain *chain, size_t links, mesh_docume
         ffd_bounds_widen(box, totals.shapes.min);
         ffd_bounds_widen(box, totals.shapes.max);
     }
-    /* Of a mesh without vertices nothing will be asked. */
+    /* Without vertices any box will do. */
     for (int a = 0; a < 3 && is_empty(box); a++) {
         box->min[a] = 0;
         box->max[a] = 1;

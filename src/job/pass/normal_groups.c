@@ -1,5 +1,6 @@
 #include "job/pass/normal_groups.h"
 #include "base/memory/memory.h"
+#include "base/memory/slots.h"
 #include "base/vector/vec.h"
 #include "io/openmesh/normals.h"
 #include "job/pass/vertex_transform.h"
@@ -14,12 +15,12 @@ typedef struct grouping {
     const mesh_faces *faces;
     const double *deformed;
     normal_groups *groups;
-    double *values; /* 3 a normal: as they show in the lattice's space, of no particular length */
-    uint8_t *sides; /* of each vertex */
+    double *values; /* 3 a normal: direction in the lattice's space, not normalized */
+    uint8_t *sides; /* one a vertex */
     vertex_transforms *transforms;
-    uint32_t *corners; /* of each corner: its normal, later its group */
-    uint32_t *firsts;  /* of each group: its first corner */
-    uint32_t *slots;   /* open addressing: groups; mask + 1, a power of two */
+    uint32_t *corners; /* one a corner: its normal, later its group */
+    uint32_t *firsts;  /* one a group: its first corner */
+    uint32_t *slots;   /* hash table of groups, open addressing; mask + 1 entries, a power of two */
     size_t mask;
 } grouping;
 
@@ -38,28 +39,22 @@ static ffd_status count_normals(grouping *g, ffd_error *error)
     return FFD_OK;
 }
 
-static ffd_status make_room(grouping *g, ffd_error *error)
+static ffd_status allocate(grouping *g, ffd_error *error)
 {
     normal_groups *groups = g->groups;
     const size_t corners = g->faces->start[g->faces->face_count], normals = groups->normal_count;
     const size_t most = normals < corners ? normals : corners;
-    size_t slots = 16;
-    while (slots / 2 < most)
-        slots *= 2;
-    g->mask = slots - 1;
     groups->group = ffd_alloc(normals, sizeof *groups->group);
     g->values = ffd_alloc(normals, 3 * sizeof *g->values);
     g->sides = ffd_alloc_zero(g->faces->vertex_count, 1);
     g->transforms = ffd_alloc(1, sizeof *g->transforms);
     g->corners = ffd_alloc(corners, sizeof *g->corners);
     g->firsts = ffd_alloc(most, sizeof *g->firsts);
-    g->slots = ffd_alloc(slots, sizeof *g->slots);
+    g->slots = ffd_slots_make(most, sizeof *g->slots, &g->mask);
     if (!groups->group || !g->values || !g->sides || !g->transforms || !g->corners || !g->firsts || !g->slots)
         return ffd_fail_memory(error);
     for (size_t i = 0; i < normals; i++)
         groups->group[i] = NORMAL_NO_GROUP;
-    for (size_t i = 0; i < slots; i++)
-        g->slots[i] = NORMAL_NO_GROUP;
     return FFD_OK;
 }
 
@@ -72,7 +67,7 @@ static ffd_status read_corners(grouping *g, ffd_error *error)
     return FFD_OK;
 }
 
-/* Transforms n as the normal of the side that is shown: M^-T n, whatever the sign of det M. */
+/* Transforms n as the normal of the visible side: M^-T n, whatever the sign of det M. */
 static void show(const vertex_transform *transform, double n[3])
 {
     if (transform->identity || transform->singular)
@@ -89,7 +84,7 @@ static uint8_t side_of(const vertex_transform *transform)
     return !transform->identity && mat_determinant(transform->linear) < 0 ? SIDE_MIRRORED : SIDE_SHOWN;
 }
 
-/* The normals and sides of a part's vertices [first, first + count). */
+/* Reads the normals and sides of a part's vertices [first, first + count). */
 static void read_block(grouping *g, size_t part, size_t first, size_t count, uint8_t *sides, double *values)
 {
     const mesh_part *p = &g->document->parts[part];
@@ -119,7 +114,7 @@ static void read_normals(grouping *g, const size_t *first_vertices)
     }
 }
 
-/* What corners of a group have in common. */
+/* What the corners of a group share. */
 typedef struct group_key {
     double numbers[9];
 } group_key;
@@ -129,14 +124,14 @@ static group_key key_of(const grouping *g, size_t corner)
     const size_t vertex = g->faces->corners[corner], normal = g->corners[corner];
     group_key key;
     for (size_t a = 0; a < 3; a++) {
-        key.numbers[a] = g->faces->positions[3 * vertex + a] + 0.0; /* -0 becomes 0 */
+        key.numbers[a] = g->faces->positions[3 * vertex + a] + 0.0; /* makes -0 equal to 0 */
         key.numbers[3 + a] = g->deformed[3 * vertex + a] + 0.0;
         key.numbers[6 + a] = g->values[3 * normal + a] + 0.0;
     }
     return key;
 }
 
-/* The finalizer of MurmurHash3 over the words of a key. */
+/* Applies the finalizer of MurmurHash3 to each word of a key. */
 static uint64_t hash_of(const group_key *key)
 {
     uint64_t words[9], hash = 0;
@@ -164,7 +159,7 @@ static uint32_t find_or_add(grouping *g, size_t corner)
     return group;
 }
 
-/* A normal has one vertex, so that all its corners are in one group. */
+/* All corners of a normal are in one group, because a normal belongs to one vertex. */
 static void join_corners(grouping *g)
 {
     const size_t corners = g->faces->start[g->faces->face_count];
@@ -183,7 +178,8 @@ static bool has_moved(const grouping *g, size_t vertex)
     return q[0] < p[0] || q[0] > p[0] || q[1] < p[1] || q[1] > p[1] || q[2] < p[2] || q[2] > p[2];
 }
 
-/* Replaces the corners' normals by their groups, and finds those with a face that changed. */
+/* Replaces the corners' normals by their groups, and marks the groups that have a face with a moved
+   vertex. */
 static void touch_groups(grouping *g)
 {
     const mesh_faces *faces = g->faces;
@@ -200,7 +196,7 @@ static void touch_groups(grouping *g)
     }
 }
 
-/* Lets only corners of changed groups take part; false if there is none. */
+/* Drops the corners of unchanged groups. Returns false if none are left. */
 static bool drop_kept(grouping *g)
 {
     const size_t corners = g->faces->start[g->faces->face_count];
@@ -234,7 +230,7 @@ static ffd_status make(grouping *g, ffd_error *error)
     size_t *first_vertices = NULL;
     ffd_status status = count_normals(g, error);
     if (status == FFD_OK)
-        status = make_room(g, error);
+        status = allocate(g, error);
     if (status == FFD_OK)
         status = ffd_parts_number(g->document, &first_vertices, error);
     if (status == FFD_OK)

@@ -5,7 +5,7 @@
 #include "base/vector/vec.h"
 #include "deform/attribute.h"
 #include "job/chain/chain_apply.h"
-#include "job/chain/recalled.h"
+#include "job/chain/point_rounding.h"
 #include "job/chain/seams.h"
 #include "job/pass/pass_shapes.h"
 #include "job/pass/pass_splats.h"
@@ -15,7 +15,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Takes the points (positions as the file has them) of a tile to the lattice's space. */
+/* Transforms a tile's positions from the file's space to the lattice's. */
 static void place_points(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
                          double *points, pass_totals *totals)
 {
@@ -49,7 +49,7 @@ static void note_determinant(const double gradient[9], bool outside, size_t numb
     }
 }
 
-/* Fills the caller's arrays from the tile's vertices, which are spread. */
+/* Fills the caller's arrays from a tile's results (after spread). */
 static void fill_arrays(const part_work *work, const tile_scratch *scratch, size_t first, size_t count,
                         pass_totals *totals)
 {
@@ -79,8 +79,8 @@ static void fill_arrays(const part_work *work, const tile_scratch *scratch, size
     }
 }
 
-/* Where the part's node or skin is moved, vertices stay where the deformation brings them: what they are
-   moved by in their own space is another displacement. Those that are not finite stay as they are. */
+/* If the part's node or skin moves too (the rig follows), adjusts the displacements so that vertices end up
+   where the deformation puts them in the scene. Vertices that are not finite stay. */
 static void carry(const part_work *work, tile_scratch *scratch, size_t count, bool gradients,
                   pass_totals *totals)
 {
@@ -96,7 +96,7 @@ static void carry(const part_work *work, tile_scratch *scratch, size_t count, bo
     }
 }
 
-/* Only the displacement goes back to the file's space: p' = p + linear^{-1} delta. */
+/* Only the displacement is transformed back to the file's space: p' = p + linear^{-1} delta. */
 static void bring_back(const part_work *work, tile_scratch *scratch, size_t count)
 {
     for (size_t i = 0; i < count && !work->part->identity; i++) {
@@ -105,7 +105,7 @@ static void bring_back(const part_work *work, tile_scratch *scratch, size_t coun
     }
 }
 
-/* Positions of a tile: handed back. */
+/* Adds the displacements to a tile's positions and writes them. */
 static void finish_positions(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
                              pass_totals *totals)
 {
@@ -122,7 +122,8 @@ static void finish_positions(const part_work *work, tile_scratch *scratch, size_
                                                 scratch->changed);
 }
 
-/* Lists the points that normals [from, to) of a tile belong to; vertex is where to go on. */
+/* Lists the points that normals [from, to) belong to. *vertex: the first one's vertex; moved on to the last
+   one's. */
 static void list_points(const part_work *work, tile_scratch *scratch, size_t first, size_t from, size_t to,
                         size_t *vertex)
 {
@@ -133,7 +134,7 @@ static void list_points(const part_work *work, tile_scratch *scratch, size_t fir
     }
 }
 
-/* Normals [from, to) of a tile: one a vertex, or those whose points are listed. */
+/* Deforms normals [from, to) of a tile: either one a vertex, or those whose points are listed. */
 static void deform_normals(const part_work *work, tile_scratch *scratch, size_t from, size_t to,
                            pass_totals *totals)
 {
@@ -158,7 +159,7 @@ static void deform_normals(const part_work *work, tile_scratch *scratch, size_t 
                                     scratch->normals_changed);
 }
 
-/* Normals that are not one for each vertex: as many at once as a tile holds. */
+/* Deforms normals that are not one a vertex, in runs of at most a tile. */
 static void deform_listed_normals(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
                                   pass_totals *totals)
 {
@@ -172,7 +173,8 @@ static void deform_listed_normals(const part_work *work, tile_scratch *scratch, 
     }
 }
 
-/* There is one tangent for each vertex, as for the normals before them, which scratch still holds. */
+/* Deforms the tangents, one a vertex. Requires the tile's deformed normals in scratch, which then are one a
+   vertex too. */
 static void deform_tangents(const part_work *work, tile_scratch *scratch, size_t first, size_t count)
 {
     mesh_document *document = work->pass->document;
@@ -212,7 +214,7 @@ static void finish_attributes(const part_work *work, tile_scratch *scratch, size
         deform_tangents(work, scratch, first, count);
 }
 
-/* Takes the location of a chosen vertex of the tile from the embedding. */
+/* Fills the location of a chosen vertex of the tile from the embedding. */
 static void recall_vertex(const part_work *work, tile_scratch *scratch, size_t i, size_t vertex,
                           const chain_rounding *rounding, pass_totals *totals)
 {
@@ -226,8 +228,8 @@ static void recall_vertex(const part_work *work, tile_scratch *scratch, size_t i
     }
 }
 
-/* Takes the first link's locations from the embedding, or from those that are there, in which a
-   position that is repeated is not listed again. Returns whether it did. */
+/* Fills the first link's locations from the embedding, or from pass->locations; both omit the positions of
+   parts that repeat others. Returns false if the locations must be searched. */
 static bool recall(const part_work *work, tile_scratch *scratch, size_t first, const chain_rounding *rounding,
                    pass_totals *totals)
 {
@@ -245,7 +247,7 @@ static bool recall(const part_work *work, tile_scratch *scratch, size_t first, c
     return true;
 }
 
-/* Copies the locations in the last link, and its u,v,w, to the caller's arrays. */
+/* Copies the last link's locations and u,v,w to the caller's arrays. */
 static void keep_locations(const part_work *work, const tile_scratch *scratch, size_t first, size_t count)
 {
     const mesh_pass *pass = work->pass;
@@ -262,7 +264,7 @@ static void keep_locations(const part_work *work, const tile_scratch *scratch, s
                3 * sizeof *pass->uvw);
 }
 
-/* A tile whose vertices' rounding is asked for. */
+/* Context of find_rounding. */
 typedef struct tile_rounding {
     const part_work *work;
     const tile_scratch *scratch;
@@ -281,7 +283,7 @@ static void find_rounding(const void *context, size_t point, bool is_first, cons
     ffd_vertex_rounding_place(&transform, half);
 }
 
-/* Moves the positions of the selected vertices to the front. */
+/* Compacts the positions of the selected vertices to the front. */
 static void choose(const part_work *work, tile_scratch *scratch, size_t first, size_t count)
 {
     size_t chosen = 0;
@@ -306,8 +308,8 @@ static void mark_always(const mesh_pass *pass, size_t vertex, pass_totals *total
     totals->kept++;
 }
 
-/* Marks the vertices of a tile that are not selected, or that cannot be brought back, and copies the marks of
-   the chain (keeps: there are some), which are cleared. */
+/* Marks the vertices of a tile that are not selected, or whose transform is singular. Copies the chain's
+   marks to the caller's (keeps: there are some), and clears them. */
 static void mark_kept(const part_work *work, tile_scratch *scratch, size_t first, size_t count, bool keeps,
                       pass_totals *totals)
 {
@@ -333,7 +335,8 @@ static void mark_kept(const part_work *work, tile_scratch *scratch, size_t first
     }
 }
 
-/* Spreads the results of the selected vertices to their slots in the tile; the others stay. */
+/* Moves the results of the selected vertices back to their slots in the tile; the others get no
+   displacement. */
 static void spread(tile_scratch *scratch, size_t count)
 {
     size_t left = scratch->chosen_count;
@@ -357,7 +360,7 @@ static void spread(tile_scratch *scratch, size_t count)
     }
 }
 
-/* Reads the tile's points, takes them to the lattice's space, and chooses those that lattices may reach. */
+/* Reads a tile's positions, transforms them to the lattice's space, and selects the ones to deform. */
 static void take_points(part_work *work, tile_scratch *scratch, size_t first, size_t count,
                         pass_totals *totals)
 {
@@ -447,16 +450,17 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
         ffd_tile_shapes(work, scratch, first, count, totals);
 }
 
-/* With fewer tiles than this, some of many threads would have none: tiles are then smaller. */
+/* Parts with fewer full tiles than this use smaller tiles, to keep many threads busy. */
 #define FEW_TILES ((size_t)16)
 
-/* Depends on the count alone: the sums of tiles are joined, and must not depend on the number of threads. */
+/* Depends on the count alone: results must not depend on the number of threads, and the sums of tiles are
+   joined. */
 static size_t tile_size(size_t count)
 {
     return count < FEW_TILES * PASS_TILE ? MESH_RANGE_STEP : PASS_TILE;
 }
 
-/* Which vertices are used is looked up only for a part that has some which are not simply inside. */
+/* Finds which vertices are used only if the part has vertices that are not simply inside. */
 static ffd_status count_others(const part_work *work, size_t tiles, size_t size, ffd_error *error)
 {
     bool any = false;
@@ -512,7 +516,7 @@ static void free_scratch(tile_scratch *scratch, int workers)
     ffd_free(scratch);
 }
 
-/* NULL if memory runs out. */
+/* Returns NULL if memory runs out. */
 static tile_scratch *make_scratch(const mesh_pass *pass)
 {
     bool shapes = false, splats = false;
@@ -520,7 +524,7 @@ static tile_scratch *make_scratch(const mesh_pass *pass)
         shapes = shapes || ffd_pass_takes_shapes(pass, &pass->document->parts[i]);
         splats = splats || ffd_pass_takes_splats(pass, &pass->document->parts[i]);
     }
-    /* Megabytes, of which a small mesh needs little: only what must be cleared is. */
+    /* Several megabytes, of which a small mesh uses little: clear only what must be. */
     tile_scratch *scratch = ffd_alloc((size_t)pass->threads, sizeof *scratch);
     for (int i = 0; scratch && i < pass->threads; i++) {
         ffd_displacement_scratch_clear(&scratch[i].chain.displacement);

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The number of what the weights of all targets show together. */
+/* In place of a target's number: the shape with the default weights of all targets. */
 #define SHOWN SIZE_MAX
 
 typedef struct shape_work {
@@ -18,7 +18,7 @@ typedef struct shape_work {
     tile_scratch *tile;
     shape_scratch *scratch;
     size_t shape, first, count;
-    bool is_shown; /* it is what the weights of all targets show */
+    bool is_shown; /* this shape is the one that the default weights show */
     pass_totals *totals;
 } shape_work;
 
@@ -37,7 +37,7 @@ static void note_first(uint64_t *first, uint64_t number)
     *first = number < *first ? number : *first;
 }
 
-/* The target's offsets to a stream; zeros where it has none. */
+/* Reads a target's offsets of a stream; zeros if it has none. */
 static void read_offsets(const shape_work *work, mesh_stream stream)
 {
     const mesh_document *document = work->part->pass->document;
@@ -55,7 +55,7 @@ static void write_offsets(const shape_work *work, mesh_stream stream)
                                     work->count, work->scratch->offsets, work->scratch->changed);
 }
 
-/* The offsets to the positions: of the target, or of all with their weights. */
+/* Reads the position offsets of the target, or, for SHOWN, their weighted sum. */
 static void read_position_offsets(const shape_work *work)
 {
     const mesh_part *const part = work->part->part;
@@ -77,7 +77,7 @@ static void read_position_offsets(const shape_work *work)
     }
 }
 
-/* Whether a vertex is looked at: one that is not selected only where what shows it is moved. */
+/* Whether a vertex is processed. An unselected one is if its node or skin moves. */
 static bool takes_part(const shape_work *work, size_t i)
 {
     return work->part->part->carried || ffd_part_selects(work->part->part, work->first + i);
@@ -104,8 +104,7 @@ static void place_moved(const shape_work *work)
     }
 }
 
-/* Adds what the offsets of moved vertex i stand for: of what is shown, those of all targets by their weights.
- */
+/* Adds the rounding cell of the offset of moved vertex i; for SHOWN, the weighted cells of all targets. */
 static void add_offset_rounding(const shape_work *work, size_t i, double half[3])
 {
     const mesh_part *const part = work->part->part;
@@ -119,7 +118,7 @@ static void add_offset_rounding(const shape_work *work, size_t i, double half[3]
     }
 }
 
-/* A vertex in the target stands for the sum of what its position and its offset stand for. */
+/* The rounding cell of a vertex in a target is the sum of those of its position and its offset. */
 static void find_rounding(const void *context, size_t point, bool is_first, const double x[3], double half[3])
 {
     const shape_work *work = context;
@@ -135,7 +134,7 @@ static void find_rounding(const void *context, size_t point, bool is_first, cons
     ffd_vertex_rounding_place(&transform, half);
 }
 
-/* A vertex that is not selected stays where the target shows it. */
+/* An unselected vertex stays where the target puts it. */
 static void hold(const shape_work *work, size_t k, bool gradients)
 {
     shape_scratch *s = work->scratch;
@@ -150,7 +149,8 @@ static void hold(const shape_work *work, size_t k, bool gradients)
     s->moved_outcomes[k] = (point_outcome){0};
 }
 
-/* As for the base: the offset is what is between two places that are carried alike. */
+/* Adjusts displacements as for the base (pass.c): an offset is the difference of two positions that are
+   carried alike. */
 static void carry(const shape_work *work, size_t k, bool gradients)
 {
     shape_scratch *s = work->scratch;
@@ -161,8 +161,8 @@ static void carry(const shape_work *work, size_t k, bool gradients)
         ffd_part_carry_gradient(work->part->part, s->moved_gradient + 9 * k);
 }
 
-/* The base's gradients are there where it has normals; they then are in the file's own
-   space, and so are these. */
+/* Sends the moved vertices through the chain. gradients: the base's are in tile->gradient, in the file's
+   space; those of moved vertices are brought to it too. */
 static ffd_status send_moved(const shape_work *work, bool gradients, ffd_error *error)
 {
     shape_scratch *s = work->scratch;
@@ -197,7 +197,7 @@ static ffd_status send_moved(const shape_work *work, bool gradients, ffd_error *
     return status;
 }
 
-/* Sets a coordinate of an offset; one that equals value already keeps its bits. */
+/* Replaces a coordinate of an offset, and marks it as changed, if it differs; an equal one keeps its bits. */
 static void take(double value, double *offset, uint8_t *changed)
 {
     if (value < *offset || value > *offset) {
@@ -206,7 +206,7 @@ static void take(double value, double *offset, uint8_t *changed)
     }
 }
 
-/* Whether the file's numbers can hold an offset. */
+/* Whether the file's number type can hold an offset. */
 static bool fits(const double m[3], double largest)
 {
     return fabs(m[0]) <= largest && fabs(m[1]) <= largest && fabs(m[2]) <= largest;
@@ -219,7 +219,7 @@ static void deform_positions(const shape_work *work)
     memset(s->changed, 0, work->count);
     for (size_t k = 0; k < s->moved_count; k++) {
         const size_t i = s->moved[k];
-        if (s->moved_outcomes[k].status == FFD_POINT_INVALID) /* as a vertex that is not finite */
+        if (s->moved_outcomes[k].status == FFD_POINT_INVALID) /* stays, like a vertex that is not finite */
             continue;
         const vertex_transform transform = ffd_vertex_transform_of(&work->tile->transforms, i);
         const double *const base = work->tile->delta + 3 * i;
@@ -234,8 +234,8 @@ static void deform_positions(const shape_work *work)
         write_offsets(work, MESH_POSITIONS);
 }
 
-/* offset: what a direction got; before and after: the base's direction, as it was and deformed; with: the
-   direction with the offset, deformed. */
+/* Sets the offset of a normal or tangent. before, after: the base's direction, original and deformed. with:
+   base plus offset, deformed. */
 static void take_direction(const double before[3], const double after[3], const double with[3],
                            double offset[3], uint8_t *changed)
 {
@@ -247,7 +247,7 @@ static void take_direction(const double before[3], const double after[3], const 
     }
 }
 
-/* Leaves the normals with the target in scratch. */
+/* Leaves the deformed normals of base plus offset in scratch->normals, for the tangents. */
 static void deform_normals(const shape_work *work)
 {
     shape_scratch *s = work->scratch;
@@ -268,7 +268,7 @@ static void deform_normals(const shape_work *work)
         write_offsets(work, MESH_NORMALS);
 }
 
-/* After the normals. */
+/* Call it after deform_normals. */
 static void deform_tangents(const shape_work *work)
 {
     shape_scratch *s = work->scratch;
@@ -290,7 +290,7 @@ static void deform_tangents(const shape_work *work)
     write_offsets(work, MESH_TANGENTS);
 }
 
-/* Those of the moved vertices that the totals' bounds are of widen the box of the shapes. */
+/* Widens the box of shapes by the moved vertices that count for bounds. */
 static void widen_shapes(const shape_work *work)
 {
     const shape_scratch *const s = work->scratch;
@@ -302,8 +302,8 @@ static void widen_shapes(const shape_work *work)
             ffd_bounds_widen(&work->totals->shapes, s->position + 3 * k);
 }
 
-/* Widens the box by the selected vertices, as the shape has them: where those that it moves are now, and the
-   others at rest or deformed. */
+/* Widens the box by the selected vertices of the shape: moved ones at their current position, others at rest
+   or deformed. */
 static void widen_shown(const shape_work *work, bool deformed, ffd_bounds *box)
 {
     const shape_scratch *const s = work->scratch;
@@ -351,7 +351,7 @@ static ffd_status deform_shape(const shape_work *work, ffd_error *error)
     const mesh_part *part = work->part->part;
     if (!work->part->pass->write || work->shape == SHOWN)
         return place_shape(work, false, error);
-    /* As for the base: what cannot be carried out and back stays. */
+    /* As for the base: if a transform is singular, normals and tangents stay. */
     const bool attributes = work->part->pass->attributes && !part->singular;
     const bool normals =
         attributes && part->normal_count > 0 && (has(work, MESH_NORMALS) || has(work, MESH_TANGENTS));
@@ -367,7 +367,7 @@ static ffd_status deform_shape(const shape_work *work, ffd_error *error)
     return FFD_OK;
 }
 
-/* What the weights show, where it is not the part itself: one target in full, or SHOWN. */
+/* Returns the target that default weights show alone and in full, or SHOWN. */
 static size_t find_shown(const mesh_part *part)
 {
     size_t shown = 0, last = 0;

@@ -23,7 +23,7 @@ void ffd_tile_splats(const part_work *work, tile_scratch *scratch, size_t first,
         const uint8_t outcome = tile->outcomes[i];
         tile->changed[i] = outcome == SPLAT_CARRIED || outcome == SPLAT_FLATTENED;
         if (!ffd_part_selects(work->part, first + i))
-            continue; /* it is only brought back from where its node turns it */
+            continue; /* not selected: it only makes up for the turn of its node */
         totals->splats_carried += tile->changed[i];
         totals->splats_flattened += outcome == SPLAT_FLATTENED;
         totals->splats_broken += outcome == SPLAT_BROKEN && scratch->changed[i];

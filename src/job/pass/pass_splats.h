@@ -4,12 +4,12 @@
 
 #include "job/pass/tile.h"
 
-/* Finds how directions turn at the tile's vertices, whose gradients are in the lattice's space: as they are
-   seen there, in the file's space. */
+/* Finds how directions turn at the tile's vertices, in the file's space. Their gradients must still be in the
+   lattice's space. */
 void ffd_tile_splat_turns(const part_work *work, tile_scratch *scratch, size_t count);
 
-/* Deforms the splats [first, first + count) of the part, whose gradients are in the file's space by now, and
-   hands them back. */
+/* Deforms the splats [first, first + count) of the part and writes them. Their gradients must be in the
+   file's space. */
 void ffd_tile_splats(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
                      pass_totals *totals);
 

@@ -78,7 +78,7 @@ void ffd_totals_join(const pass_totals *tile, pass_totals *all)
     all->weights.none += tile->weights.none;
     all->weights.farthest = fmax(all->weights.farthest, tile->weights.farthest);
     all->kept += tile->kept;
-    if (tile->det_outside < all->det_outside) { /* of equals the first */
+    if (tile->det_outside < all->det_outside) { /* the first of equal ones */
         all->det_outside = tile->det_outside;
         all->first_det_outside = tile->first_det_outside;
     }

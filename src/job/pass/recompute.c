@@ -7,7 +7,7 @@
 #include <ffd/deform.h>
 #include <string.h>
 
-/* Vertices at once, and normals of one of them or more at once. */
+/* Vertices per run, and normals per run. */
 #define BLOCK VERTEX_TRANSFORMS
 
 typedef struct recomputing {
@@ -16,13 +16,14 @@ typedef struct recomputing {
     const normal_groups *groups;
     recompute_counts *counts;
     size_t part;
-    size_t first_vertex, first_normal; /* of the part, in the document */
+    size_t first_vertex, first_normal; /* of the part in the document */
     vertex_transforms transforms;
     double normals[3 * BLOCK], tangents[4 * BLOCK];
     uint8_t changed[BLOCK];
 } recomputing;
 
-/* Takes a normal to where the part's vertices are before its node or skin is moved. */
+/* Transforms a normal to where the part was before its node or skin was moved (cofactors of the inverse
+   motion). */
 static void carry_direction(const mesh_part *part, double n[3])
 {
     double linear[9], cofactor[9];
@@ -32,7 +33,8 @@ static void carry_direction(const mesh_part *part, double n[3])
     mat_apply(cofactor, n, n);
 }
 
-/* The normal that shows as `direction` in the lattice's space: M^T of it (normal_groups.c: show). */
+/* Finds the stored normal whose direction in the lattice's space is `direction`: M^T of it, the inverse of
+   normal_groups.c's show. */
 static void bring_back(const mesh_part *part, const vertex_transform *transform, const double direction[3],
                        double n[3])
 {
@@ -49,7 +51,7 @@ static void bring_back(const mesh_part *part, const vertex_transform *transform,
         n[a] /= length;
 }
 
-/* The gradient of a vertex, in the file's space. */
+/* Reads the gradient at a vertex, in the file's space. */
 static void read_gradient(const recomputing *r, const vertex_transform *transform, size_t vertex,
                           double gradient[9])
 {
@@ -70,7 +72,7 @@ static bool carry(const recomputing *r, const vertex_transform *transform, size_
     return changed;
 }
 
-/* Normal number `normal` of the part, which is in n, at a vertex. Returns whether it changed. */
+/* Recomputes a normal of the part at a vertex. n: its value, in and out. Returns whether it changed. */
 static bool recompute(const recomputing *r, const vertex_transform *transform, size_t vertex, size_t normal,
                       double n[3])
 {
@@ -88,7 +90,7 @@ static bool recompute(const recomputing *r, const vertex_transform *transform, s
     return true;
 }
 
-/* There is one tangent for each vertex, as for the normals, which are there. */
+/* Recomputes tangents, one a vertex. Their normals have been recomputed (r->normals). */
 static void recompute_tangents(recomputing *r, size_t first, size_t count)
 {
     mesh_document *document = r->document;
@@ -104,7 +106,8 @@ static void recompute_tangents(recomputing *r, size_t first, size_t count)
     document->format->write_tangents(document, r->part, first, count, r->tangents, r->changed);
 }
 
-/* Normals [from, to) of the part, whose vertices are [first, ..); *vertex is where to go on. */
+/* Recomputes normals [from, to) of the part. first: the first vertex of r->transforms. *vertex: the first
+   normal's vertex; moved on to the last one's. */
 static void recompute_run(recomputing *r, size_t first, size_t from, size_t to, size_t *vertex)
 {
     mesh_document *document = r->document;

@@ -1,4 +1,4 @@
-/* tile.h - a tile of a pass: the vertices that one thread processes at a time. Used within pass only. */
+/* tile.h - a tile of a pass: the vertices that a thread processes at a time. Internal to job/pass. */
 #ifndef FFD_JOB_PASS_TILE_H
 #define FFD_JOB_PASS_TILE_H
 
@@ -7,12 +7,12 @@
 #include "job/pass/vertex_transform.h"
 #include <stdatomic.h>
 
-#define PASS_TILE VERTEX_TRANSFORMS /* at most */
+#define PASS_TILE VERTEX_TRANSFORMS /* the most vertices of a tile */
 
-/* What a morph target of a tile needs. Of the vertices that it moves, the ones listed in `moved`, position
-   and outcome are stored one after the other. */
+/* Scratch memory for a morph target. `moved` lists the vertices that the target moves; position, moved_delta
+   and outcomes hold their values contiguously. */
 typedef struct shape_scratch {
-    double offsets[3 * PASS_TILE]; /* as the file has them, then what becomes of them */
+    double offsets[3 * PASS_TILE]; /* from the file, then replaced by the results */
     double position[3 * PASS_TILE];
     size_t moved[PASS_TILE];
     size_t moved_count;
@@ -25,35 +25,34 @@ typedef struct shape_scratch {
     uint8_t changed[PASS_TILE];
 } shape_scratch;
 
-/* What the Gaussian splats of a tile need. */
+/* Scratch memory for Gaussian splats. */
 typedef struct splat_scratch {
     splat_ellipsoid splats[PASS_TILE];
     splat_turn turns[PASS_TILE];
     uint8_t outcomes[PASS_TILE], changed[PASS_TILE];
 } splat_scratch;
 
-/* What one worker needs for a tile. */
+/* Scratch memory of one worker. */
 typedef struct tile_scratch {
-    double raw[3 * PASS_TILE]; /* positions as the file has them */
-    bool all_chosen;           /* all vertices of the tile are selected; else those are that are listed */
+    double raw[3 * PASS_TILE]; /* positions in the file's space */
+    bool all_chosen;           /* all vertices of the tile are selected; else chosen lists those that are */
     uint32_t chosen[PASS_TILE];
     size_t chosen_count;
-    chain_scratch chain; /* its locations: of the chosen ones, then of those that a morph target moves */
-    /* Values of the chosen vertices, one after the other, until they are spread to
-       their slots in the tile. */
-    double position[3 * PASS_TILE]; /* in the lattice's space, from rest to deformed */
+    chain_scratch chain; /* its locations: of the chosen vertices, then of those that a morph target moves */
+    /* Values of the chosen vertices, contiguous until spread moves them to their slots in the tile. */
+    double position[3 * PASS_TILE]; /* in the lattice's space, at rest, then deformed */
     double delta[3 * PASS_TILE], gradient[9 * PASS_TILE];
     point_outcome point_outcomes[PASS_TILE];
     uint8_t changed[PASS_TILE];
     vertex_transforms transforms;
     double normals[3 * PASS_TILE], tangents[4 * PASS_TILE];
     uint8_t normals_changed[PASS_TILE], tangents_changed[PASS_TILE];
-    uint32_t of_points[PASS_TILE]; /* the points that normals belong to, where they are not one a vertex */
-    uint8_t outcomes[PASS_TILE];   /* what became of these */
-    uint8_t *kept;                 /* marks of the chain, all 0 between tiles; NULL where none are wanted */
-    shape_scratch *shape;          /* NULL where the document has no morph targets */
-    splat_scratch *splat;          /* NULL where no splats follow */
-    ffd_status status;             /* of the first tile of this worker that failed, and what it said */
+    uint32_t of_points[PASS_TILE]; /* points that normals belong to, if not one a vertex */
+    uint8_t outcomes[PASS_TILE];   /* ATTRIBUTE_.. of each normal or tangent */
+    uint8_t *kept;                 /* marks of the chain, all 0 between tiles; NULL if not wanted */
+    shape_scratch *shape;          /* NULL if the document has no morph targets */
+    splat_scratch *splat;          /* NULL if no splats follow */
+    ffd_status status;             /* of the first tile of this worker that failed, with its message */
     ffd_error error;
 } tile_scratch;
 
@@ -61,39 +60,39 @@ typedef struct part_work {
     const mesh_pass *pass;
     const mesh_part *part;
     size_t part_number;
-    uint64_t first_vertex; /* the part's first vertex in the document */
-    tile_scratch *scratch; /* one a worker */
-    pass_totals *tiles;    /* what each tile adds */
-    atomic_bool stopped;   /* a tile failed: the others need not be looked at */
+    uint64_t first_vertex; /* number of the part's first vertex in the document */
+    tile_scratch *scratch; /* one for each worker */
+    pass_totals *tiles;    /* figures of each tile */
+    atomic_bool stopped;   /* a tile has failed: skip the others */
 } part_work;
 
-/* Whether the pass looks at the morph targets of a part. */
+/* Whether the pass processes the morph targets of a part. */
 static inline bool ffd_pass_takes_shapes(const mesh_pass *pass, const mesh_part *part)
 {
     const bool deforms = (pass->write || pass->counts_shapes) && !pass->document->keeps_base;
     return part->shape_count > 0 && !pass->document->shown && (deforms || pass->bounds_shapes);
 }
 
-/* Whether rotations and sizes of a part's splats follow the pass. */
+/* Whether the pass deforms rotations and sizes of a part's splats. */
 static inline bool ffd_pass_takes_splats(const mesh_pass *pass, const mesh_part *part)
 {
     return pass->write && part->has_ellipsoids && !part->singular && !part->repeats_positions &&
            !pass->document->keeps_base && !pass->document->converted;
 }
 
-/* Whether the totals' bounds are of another shape of the part than its own vertices. */
+/* Whether the bounds of a part are those of its shape with default weights instead of its vertices. */
 static inline bool ffd_pass_bounds_shown(const mesh_pass *pass, const mesh_part *part)
 {
     return pass->bounds_shown && part->shows_shapes && ffd_pass_takes_shapes(pass, part);
 }
 
-/* The vertex of the tile that the chosen one with this number is. */
+/* Returns the index in the tile of chosen vertex i. */
 static inline size_t ffd_tile_chosen(const tile_scratch *scratch, size_t i)
 {
     return scratch->all_chosen ? i : scratch->chosen[i];
 }
 
-/* The largest coordinate that the numbers of the document's file can hold. */
+/* The largest coordinate that the file's number type can hold. */
 static inline double ffd_largest_coordinate(const mesh_document *document)
 {
     const double own = document->largest_coordinate;

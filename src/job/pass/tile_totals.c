@@ -9,8 +9,8 @@ static uint64_t least(uint64_t a, uint64_t b)
     return a < b ? a : b;
 }
 
-/* Finite points widen the box (positions that the chain brings beyond all numbers are refused as too large).
-   Returns whether all were. */
+/* Widens the box by the finite points. Returns whether all are finite. (Deformed positions that overflow are
+   refused elsewhere as too large.) */
 static bool widen_all(const part_work *work, const double *points, size_t count, ffd_bounds *box)
 {
     if (ffd_array_kernel(work->pass->chain->isa)->widen(points, count, box->min, box->max))
@@ -21,8 +21,8 @@ static bool widen_all(const part_work *work, const double *points, size_t count,
     return false;
 }
 
-/* Widens the box by those of the chosen vertices that the totals' bounds are of. Returns whether all of them
-   are finite. */
+/* Widens the box by the chosen vertices that count for bounds. Returns whether all chosen vertices are
+   finite. */
 static bool widen_chosen(const part_work *work, const tile_scratch *scratch, size_t first, ffd_bounds *box)
 {
     const pass_bounds of = work->pass->bounds_of;
@@ -56,7 +56,7 @@ void ffd_totals_count_rest(const part_work *work, const tile_scratch *scratch, s
             totals->first_invalid = least(totals->first_invalid, number_of(work, scratch, first, i));
 }
 
-/* What is noted of a vertex that is not simply inside: its ffd_vertex_status, and these. */
+/* Flags of a vertex that is not simply inside: its ffd_vertex_status in the low bits, and these. */
 enum {
     OTHER_STATUS = 7,
     OTHER_OUTSIDE = 8,
@@ -66,9 +66,7 @@ enum {
     OTHER_MOVED = 128
 };
 
-/* Notes a vertex of the tile that is not simply inside, and its displacement. Returns false if memory runs
- * out.
- */
+/* Stores the flags of a vertex of the tile that is not simply inside. Returns false if memory runs out. */
 static bool note_other(const point_outcome *outcome, const double delta[3], size_t vertex,
                        pass_totals *totals)
 {
@@ -110,7 +108,7 @@ static void count_unshown(unsigned other, bool hidden, uint64_t number, pass_tot
     totals->first_unshown_outside = least(totals->first_unshown_outside, number);
 }
 
-/* A vertex that is not finite is a fault of the mesh, whether anything shows it or not. */
+/* A vertex that is not finite counts even if nothing shows it: it is a fault of the mesh. */
 static bool counts(const mesh_part *part, size_t vertex, unsigned other)
 {
     return (other & OTHER_STATUS) == FFD_POINT_INVALID || ffd_part_shows(part, vertex);
@@ -140,7 +138,7 @@ static bool count_point_outcomes(const tile_scratch *scratch, pass_totals *total
     bool noted = true;
     for (size_t i = 0; i < scratch->chosen_count; i++) {
         const point_outcome *const outcome = &point_outcomes[i];
-        square_max = larger_of(square_max, outcome->residual_square); /* 0 where there is no u,v,w */
+        square_max = larger_of(square_max, outcome->residual_square); /* 0 without u,v,w */
         square_sum += outcome->residual_square;
         located += outcome->located;
         evaluations += outcome->evaluations;

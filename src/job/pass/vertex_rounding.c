@@ -45,7 +45,7 @@ void ffd_vertex_owners_free(vertex_owners *owners)
     *owners = (vertex_owners){0};
 }
 
-/* The transform of vertex i of a part; own and inverse hold that of a skinned one. */
+/* Returns the transform of vertex i of a part. own, inverse: memory for that of a skinned one. */
 static vertex_transform transform_of(const mesh_document *document, size_t part, size_t i, double own[12],
                                      double inverse[9])
 {

@@ -6,20 +6,20 @@
 #include <string.h>
 
 struct ffd_depfile {
-    file_output *output; /* begun when the depfile is created */
+    file_output *output; /* begun by ffd_depfile_create */
     byte_buffer rules;
 };
 
-/* A rule begins with a word that ends in a colon. */
+/* Whether a file looks like a depfile: its first word ends in a colon. */
 static bool is_depfile(const file_input *old)
 {
     const char *text = (const char *)old->data;
     for (size_t i = 0; i < old->size; i++) {
         if (text[i] == '#' || (text[i] == '{' && i + 1 < old->size && text[i + 1] == '"'))
-            return false; /* a comment, JSON */
+            return false; /* a comment, or JSON */
         if (text[i] == '\\')
             i++;
-        else if (strchr(" \t\r\n", text[i])) /* and a 0 */
+        else if (strchr(" \t\r\n", text[i])) /* also excludes NUL */
             return i > 1 && text[i - 1] == ':';
     }
     return false;
@@ -53,7 +53,8 @@ void ffd_depfile_destroy(ffd_depfile **depfile)
     *depfile = NULL;
 }
 
-/* Backslashes stay as they are, except before a character that a backslash quotes: there they are doubled. */
+/* Escapes a name. Backslashes stay single, except before a character that needs escaping: there they are
+   doubled. */
 static void put_name(byte_buffer *rules, const char *name)
 {
     size_t backslashes = 0;
@@ -66,19 +67,19 @@ static void put_name(byte_buffer *rules, const char *name)
         ffd_buffer_append(rules, name, 1);
         backslashes = *name == '\\' ? backslashes + 1 : 0;
     }
-    while (backslashes-- > 0) /* a blank or the line's end follows */
+    while (backslashes-- > 0) /* a blank or the end of the line follows */
         ffd_buffer_append(rules, "\\", 1);
 }
 
 bool ffd_depfile_troubles(const char *name)
 {
     for (const char *backslash = strchr(name, '\\'); backslash; backslash = strchr(backslash + 1, '\\'))
-        if (strchr("#:$", backslash[1])) /* or the name's end */
+        if (strchr("#:$", backslash[1])) /* or at the end of the name */
             return true;
     return name[strcspn(name, "\"%&'*;<=>?^`|\t")] != 0;
 }
 
-/* once: names that are equal are put once. */
+/* once: skip duplicates. */
 static ffd_status put_names(byte_buffer *rules, const path_list *names, bool once, ffd_error *error)
 {
     intern_table known = {0};

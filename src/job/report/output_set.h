@@ -9,7 +9,7 @@ struct ffd_written {
     written_files files;
 };
 
-/* The record's files for ffd_output_record; NULL for NULL. */
+/* Returns the list for ffd_output_record. Accepts and returns NULL. */
 static inline written_files *ffd_written_list(ffd_written *written)
 {
     return written ? &written->files : NULL;

@@ -162,7 +162,7 @@ static void write_behind(json_text *json, const ffd_job_result *result)
     ffd_json_end(json, ']');
 }
 
-/* Only where there are some. */
+/* Only if there are splats. */
 static void write_splats(json_text *json, const ffd_job_result *result)
 {
     if (result->splats_carried == 0 && result->splats_broken == 0)
@@ -174,7 +174,7 @@ static void write_splats(json_text *json, const ffd_job_result *result)
     ffd_json_end(json, '}');
 }
 
-/* Only where there is something to say. */
+/* Only if weights are off. */
 static void write_weights(json_text *json, const ffd_job_result *result)
 {
     if (result->weights_off == 0 && result->weights_none == 0)
@@ -186,7 +186,7 @@ static void write_weights(json_text *json, const ffd_job_result *result)
     ffd_json_end(json, '}');
 }
 
-/* Only where there are some. */
+/* Only if there are flaws. */
 static void write_flaws(json_text *json, const ffd_job_result *result)
 {
     if (result->flaw_count == 0)
@@ -206,7 +206,7 @@ static void write_flaws(json_text *json, const ffd_job_result *result)
     ffd_json_end(json, ']');
 }
 
-/* Only where there is some. */
+/* Only if something is left behind. */
 static void write_left(json_text *json, const ffd_job_result *result)
 {
     if (result->indices_left)
@@ -225,7 +225,7 @@ static void write_shared_faces(json_text *json, const ffd_job_result *result)
     ffd_json_end(json, '}');
 }
 
-/* What gates count beside the vertices' own places. */
+/* Figures of morph targets that gates count separately. */
 static void write_targets(json_text *json, const ffd_job_result *result)
 {
     ffd_json_object(json, "morph_targets", true);
@@ -235,7 +235,7 @@ static void write_targets(json_text *json, const ffd_job_result *result)
     ffd_json_end(json, '}');
 }
 
-/* Only where there are joints, pivots or sockets, or where nodes follow. */
+/* Only if there are joints, pivots or sockets, or if nodes follow. */
 static void write_rig(json_text *json, const ffd_rig_result *rig)
 {
     if (!rig->is_there)
@@ -258,7 +258,7 @@ static void write_rig(json_text *json, const ffd_rig_result *rig)
     ffd_json_end(json, '}');
 }
 
-/* What a deformation does to the vertices, from where they are to the folds of its volume. */
+/* What the deformation does to the vertices, from their positions to folds. */
 static void write_deformation(json_text *json, const ffd_job_result *result)
 {
     static const char *const names[] = {"inside", "outside", "multiple", "singular", "invalid"};
@@ -301,7 +301,7 @@ static void write_reach(json_text *json, const ffd_job_result *result)
     ffd_json_end(json, '}');
 }
 
-/* As messages name it: a lattice that is an object or a text need not have a name. */
+/* Takes the name from messages: a lattice object or text may have no name. */
 static void write_lattice_name(json_text *json, const ffd_job_result *result, size_t k)
 {
     char number[40];
@@ -310,7 +310,7 @@ static void write_lattice_name(json_text *json, const ffd_job_result *result, si
     ffd_json_string(json, "lattice", name ? name : number);
 }
 
-/* Only where the job made several morph targets: what each does by itself. */
+/* Only if the job made several morph targets: the figures of each one. */
 static void write_morphs(json_text *json, const ffd_job_result *result)
 {
     if (!result->morph_results)
@@ -352,7 +352,7 @@ static void write_seconds(json_text *json, const ffd_job_result *result)
     ffd_json_end(json, '}');
 }
 
-/* The members of write_figures that every entry has. */
+/* Writes the members that every entry has, for a job without figures. */
 static void write_unknown(json_text *json)
 {
     static const char *const names[] = {
@@ -364,7 +364,7 @@ static void write_unknown(json_text *json)
         ffd_json_null(json, names[i]);
 }
 
-/* Writes the members of a text that ffd_report_figures has made. Returns false if it is none. */
+/* Copies the members of a text that ffd_report_figures has made. Returns false if it is not one. */
 static bool copy_figures(json_text *json, const char *figures, bool stable)
 {
     const json_input input = {.text = figures, .size = strlen(figures), .name = ""};
@@ -416,7 +416,7 @@ void ffd_report_entry_text(const report_entry *entry, byte_buffer *text)
     ffd_json_begin(&json, &whole);
     ffd_json_object(&json, NULL, false);
     ffd_json_array(&json, NULL, false);
-    const size_t before = whole.size; /* it has the depth of a report's entry */
+    const size_t before = whole.size; /* indented like an entry of a report */
     write_entry(&json, entry);
     const char *const start = whole.failed ? NULL : memchr(whole.data + before, '{', whole.size - before);
     if (start)

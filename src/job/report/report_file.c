@@ -11,7 +11,7 @@
 #include "json/json_text.h"
 #include <string.h>
 
-/* Where the entry of a job is in the file; size 0: nowhere. */
+/* The position of an entry in the file; size 0: none. */
 typedef struct entry_place {
     uint64_t begin, size;
 } entry_place;
@@ -19,15 +19,15 @@ typedef struct entry_place {
 struct ffd_report {
     bool stable, lines;
     char *path;
-    file_output *stream; /* begun when the report is created; or else */
+    file_output *stream; /* begun when the report is created; else NULL: */
     growing_file *file;
-    uint64_t end;        /* of the last entry there */
-    entry_place *places; /* by the numbers of the jobs */
+    uint64_t end;        /* of the last entry in the file */
+    entry_place *places; /* by job number */
     size_t place_count, place_capacity;
     uint64_t count;       /* of entries */
-    bool is_mixed;        /* they are not in the order of the jobs */
-    byte_buffer buffer;   /* what is written next */
-    memory_files *memory; /* has the path of a report that goes to a sink */
+    bool is_mixed;        /* entries are not in the order of the jobs */
+    byte_buffer buffer;   /* next bytes to write */
+    memory_files *memory; /* owns the path of a report that goes to a sink */
 };
 
 /* The text */
@@ -76,7 +76,7 @@ static bool is_report(const file_input *old)
     return contains((const char *)old->data, old->size < 76 ? old->size : 76, "\"ffd-report\"");
 }
 
-/* By its first line. */
+/* Decided by the first line. */
 static bool is_report_of_lines(const file_input *old)
 {
     static const char *const members[] = {"\"input\":", "\"output\":", "\"status\":", "\"exit\":"};
@@ -112,7 +112,7 @@ static ffd_status open_file(ffd_report *report, ffd_written *written, ffd_error 
                                              &report->file, error);
 }
 
-/* memory: has the path, and is the report's from now on; or NULL. */
+/* memory: has the path, and becomes the report's; or NULL. */
 static ffd_status create(const char *path, bool stable, ffd_written *written, memory_files *memory,
                          ffd_report **report, ffd_error *error)
 {
@@ -188,7 +188,7 @@ bool ffd_report_is_ordered(const ffd_report *report)
     return report->stream;
 }
 
-/* Notes where the entry of a job is about to be. */
+/* Records the position of the next entry. */
 static ffd_status note_place(ffd_report *report, uint64_t number, uint64_t begin, uint64_t size,
                              ffd_error *error)
 {
@@ -205,8 +205,8 @@ static ffd_status note_place(ffd_report *report, uint64_t number, uint64_t begin
     return FFD_OK;
 }
 
-/* Writes the entry in the buffer over the end of the text, and the end behind it. What cannot be written
-   whole is taken back. */
+/* Overwrites the end of the text by the entry in the buffer and a new end. On failure the old state is
+   restored. */
 static ffd_status grow_file(ffd_report *report, ffd_error *error)
 {
     byte_buffer *const text = &report->buffer;
@@ -249,8 +249,7 @@ ffd_status ffd_report_add_text(ffd_report *report, uint64_t number, const char *
     return status;
 }
 
-/* Takes a caller's result and those of its morph targets, which are one after the other. *morphs is to be
- * freed. */
+/* Copies a caller's result, and its array of results of morph targets. *morphs is freed by the caller. */
 static ffd_status take_result(const ffd_job_result *callers, ffd_job_result *result, ffd_job_result **morphs,
                               ffd_error *error)
 {
@@ -311,7 +310,7 @@ static ffd_status copy_entries(ffd_report *report, file_output *output, ffd_erro
                        : ffd_fail_memory(error);
         if (status)
             break;
-        /* A line has its end with it. */
+        /* The line break belongs to the entry of JSON Lines. */
         ffd_report_put_entry(report->lines, is_first, bytes, (size_t)place.size - report->lines, text);
         is_first = false;
         status =
@@ -321,7 +320,7 @@ static ffd_status copy_entries(ffd_report *report, file_output *output, ffd_erro
     return status;
 }
 
-/* Replaces the file by one with the entries in their order. */
+/* Rewrites the file with the entries in order. */
 static ffd_status put_in_order(ffd_report *report, ffd_error *error)
 {
     byte_buffer *const text = &report->buffer;

@@ -7,7 +7,7 @@
 #include <ffd/job.h>
 #include <string.h>
 
-/* A report to be merged. It is read by mmap: the system drops its pages when memory is short. */
+/* A report to be merged. It is mapped, so that the system can drop its pages when memory is short. */
 typedef struct part {
     file_input file;
     report_reader reader;
@@ -22,7 +22,7 @@ static ffd_status open_part(part *p, const char *path, ffd_error *error)
                                   ffd_report_has_lines(path), p->file.data, p->file.size, error);
 }
 
-/* The report that comes out. */
+/* The merged report. */
 typedef struct merged_report {
     file_output *output;
     bool lines;
@@ -30,7 +30,7 @@ typedef struct merged_report {
     byte_buffer buffer;
 } merged_report;
 
-/* Writes what is in the buffer. */
+/* Writes the buffer. */
 static ffd_status flush(merged_report *merged, ffd_error *error)
 {
     if (merged->buffer.failed)
@@ -41,7 +41,7 @@ static ffd_status flush(merged_report *merged, ffd_error *error)
     return status;
 }
 
-/* Copies the next entry. Does nothing if there is none left. */
+/* Copies the next entry of a part, if there is one. */
 static ffd_status write_next(part *p, merged_report *merged, ffd_error *error)
 {
     report_entry_text entry;
@@ -65,8 +65,8 @@ static ffd_status write_in_order(part *parts, size_t count, merged_report *merge
     return status;
 }
 
-/* Takes one entry of each part in turn. Shards of one run end one after the other: where one has an entry
-   after an earlier one had none, the report of the earlier one was cut off. */
+/* Takes one entry of each part in turn. Shards of one run differ by at most one entry, so an entry after a
+   part without one means that that part was truncated. */
 static ffd_status write_in_turn(part *parts, size_t count, merged_report *merged, ffd_error *error)
 {
     const part *ended = NULL;
@@ -100,7 +100,7 @@ static ffd_status write_report(part *parts, size_t count, bool interleave, merge
     return status ? status : flush(merged, error);
 }
 
-/* losses: of inputs, before they were opened. */
+/* losses: of mapped inputs, before they were opened. */
 static ffd_status write_file(part *parts, size_t count, bool interleave, unsigned losses, const char *path,
                              bool force, ffd_error *error)
 {

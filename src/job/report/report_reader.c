@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The line of a position in the text. Counted only when something is wrong. */
+/* Returns the line number of a position. Counts lines, so only for messages. */
 static size_t line_of(const report_reader *reader, const char *at)
 {
     size_t line = 1;
@@ -30,7 +30,7 @@ static void skip_space(report_reader *reader)
         reader->at++;
 }
 
-/* Skips c and the white space after it. */
+/* Skips the character c and the white space after it. */
 static bool take(report_reader *reader, char c)
 {
     if (reader->at == reader->end || *reader->at != c)
@@ -40,7 +40,7 @@ static bool take(report_reader *reader, char c)
     return true;
 }
 
-/* Skips text, as it is, and the white space after it. */
+/* Skips a fixed text and the white space after it. */
 static bool take_text(report_reader *reader, const char *text)
 {
     const size_t length = strlen(text);
@@ -51,7 +51,8 @@ static bool take_text(report_reader *reader, const char *text)
     return true;
 }
 
-/* The end of the object that begins at c: brackets outside of strings are counted. NULL: it has no end. */
+/* Returns the end of the object that begins at c, by counting brackets outside of strings; NULL: it has no
+   end. */
 static const char *object_end(const char *c, const char *end)
 {
     size_t depth = 0;
@@ -69,7 +70,7 @@ static const char *object_end(const char *c, const char *end)
     return NULL;
 }
 
-/* Skips the entry that begins here. */
+/* Reads the entry that begins here, and moves behind it. */
 static ffd_status take_entry(report_reader *reader, report_entry_text *entry, ffd_error *error)
 {
     if (reader->at == reader->end || *reader->at != '{')
@@ -86,7 +87,7 @@ static ffd_status take_entry(report_reader *reader, report_entry_text *entry, ff
     return FFD_OK;
 }
 
-/* Skips the comma after an entry, to the next one; or stays at the closing bracket. */
+/* Skips the comma between entries; stays at the closing bracket. */
 static ffd_status take_comma(report_reader *reader, ffd_error *error)
 {
     const bool comma = take(reader, ',');
@@ -96,13 +97,13 @@ static ffd_status take_comma(report_reader *reader, ffd_error *error)
                   error);
 }
 
-/* Bytes of a value in a message. */
+/* The most bytes of a value in a message. */
 #define VALUE_SHOWN 200
 
-/* What every entry says. */
+/* Members that every entry has. */
 static const struct {
     const char *key, *what;
-    unsigned kinds; /* bits of json_kind */
+    unsigned kinds; /* bit set of json_kind */
 } promised[] = {
     {"input", "a text or null", 1U << JSON_STRING | 1U << JSON_NULL},
     {"output", "a text or null", 1U << JSON_STRING | 1U << JSON_NULL},
@@ -144,7 +145,7 @@ static ffd_status check_members(const json_span *tree, const char *name, ffd_err
     return FFD_OK;
 }
 
-/* Makes a pointer into an entry one into the report; of JSON Lines, its line. */
+/* Turns a pointer into an entry into one into the report or, for JSON Lines, adds the line. */
 static void extend_pointer(const report_reader *reader, const report_entry_text *entry, ffd_error *error)
 {
     if (reader->lines) {
@@ -172,7 +173,7 @@ static ffd_status check_entry(const report_reader *reader, const report_entry_te
     return status;
 }
 
-/* Checks the entries from the first one to the closing bracket. */
+/* Checks all entries, up to the closing bracket. */
 static ffd_status read_jobs(report_reader *reader, ffd_error *error)
 {
     report_entry_text entry;
@@ -190,7 +191,7 @@ static ffd_status read_jobs(report_reader *reader, ffd_error *error)
     return FFD_OK;
 }
 
-/* Reads a member of the report; each may occur once. */
+/* Reads a member of the report. Each may occur once. */
 static ffd_status read_member(report_reader *reader, unsigned *seen, const char **jobs, ffd_error *error)
 {
     static const char *const keys[] = {"\"format\"", "\"version\"", "\"jobs\""};
@@ -218,7 +219,7 @@ static ffd_status read_member(report_reader *reader, unsigned *seen, const char 
                    : refuse(reader, i == 0 ? "\"format\" must be \"ffd-report\"" : "\"version\" must be 1",
                             error);
     }
-    /* Other members would be lost in a merged report. */
+    /* Refuse unknown members: a merged report would lose them. */
     return refuse(reader, "\"format\", \"version\" or \"jobs\" is expected", error);
 }
 

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Parts of the scene's diagonal: what is worth a warning, and what is only rounding. */
+/* Lags relative to the scene's diagonal: worth a warning, and rounding. */
 #define LAG_SAID 1e-3
 #define LAG_ROUNDING 1e-12
 
@@ -42,7 +42,7 @@ static ffd_status name_worst(const mesh_document *document, size_t number, ffd_r
     return FFD_OK;
 }
 
-/* Marks the joints that lag; returns the first place with the largest lag, or SIZE_MAX. */
+/* Marks the joints that lag. Returns the first place with the largest lag; SIZE_MAX: none lags. */
 static size_t measure(const rig_places *rig, double diagonal, ffd_rig_result *figures, uint8_t *lagging)
 {
     size_t worst = SIZE_MAX;
@@ -92,7 +92,7 @@ ffd_status ffd_rig_figures_find(const mesh_document *document, const rig_places 
     return status;
 }
 
-/* "the joints of 1 skin, 2 animated pivots and 1 socket" */
+/* Writes a list, such as "the joints of 1 skin, 2 animated pivots and 1 socket". */
 static void tell_lagging(const ffd_rig_result *figures, char *text, size_t capacity)
 {
     const struct {

@@ -3,7 +3,7 @@
 #include "job/chain/chain_apply.h"
 #include <string.h>
 
-/* What the chain needs to move a run of places. */
+/* Context of a run of places through the chain. */
 typedef struct place_run {
     chain_scratch chain;
     double points[3 * CHAIN_RUN], delta[3 * CHAIN_RUN], gradient[9 * CHAIN_RUN];

@@ -1,4 +1,5 @@
-/* rig_places.h - what a document places beside vertices, and what the lattices of a job do there. */
+/* rig_places.h - the places of a document (joints, pivots, sockets and so on), and how a job's lattices move
+   them. */
 #ifndef FFD_JOB_RIG_RIG_PLACES_H
 #define FFD_JOB_RIG_RIG_PLACES_H
 
@@ -10,13 +11,13 @@ typedef struct rig_places {
     mesh_place_move *moves; /* one a place */
 } rig_places;
 
-/* Lists the places (all: as mesh_format's list_places says) and sends them through the chain, which is
-   fitted, as vertices are sent; became is where each is. None where the format has none. To be freed also
-   after a failure. Errors: FFD_E_MEMORY, and those of finding u,v,w. */
+/* Lists the places (all: as in mesh_format.list_places) and sends them through the fitted chain like
+   vertices; became: filled with the new place of each. Leaves none if the format has no places. Call
+   ffd_rig_places_free also after a failure. Errors: FFD_E_MEMORY, and those of finding u,v,w. */
 ffd_status ffd_rig_places_find(const mesh_document *document, const lattice_chain *chain, bool all,
                                rig_places *rig, ffd_error *error);
 
-/* Leaves none. */
+/* Frees the arrays; leaves none. */
 void ffd_rig_places_free(rig_places *rig);
 
 #endif

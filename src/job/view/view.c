@@ -1,5 +1,5 @@
-/* view.c - the job of `ffd view`: a scene out of one mesh and its deformation, or out of files as they are.
- */
+/* view.c - the job of `ffd view`: makes a scene of a mesh and its deformation, or of one or two files as they
+   are. */
 #include "base/file/mapping.h"
 #include "base/file/memory_files.h"
 #include "base/file/path.h"
@@ -25,18 +25,19 @@
 #include <math.h>
 #include <string.h>
 
-/* A view holds all that a mesh shows: a short file of many instances is looked at without --memory. */
+/* The memory limit is at least this without --memory: a view holds all that a mesh shows, and a short file
+   may show many instances. */
 #define LEAST_MEMORY ((uint64_t)400000000)
 
-/* What a view holds while it is made. */
+/* The state of a view. */
 typedef struct view_work {
     const ffd_view_desc *desc;
     deform_job job;
     job_details details;
     mesh_model model;
     view_scene scene;
-    uint32_t *faces;      /* the polygon of each triangle */
-    mesh_document *other; /* the deformed mesh, while its animations are needed */
+    uint32_t *faces;      /* of each triangle: its polygon */
+    mesh_document *other; /* the deformed mesh file, kept open for its animations */
 } view_work;
 
 void ffd_view_desc_init(ffd_view_desc *desc, size_t size)
@@ -50,7 +51,7 @@ static bool is_page(const char *path)
     return ffd_path_has_ending(path, ".html") || ffd_path_has_ending(path, ".htm");
 }
 
-/* Whether there is something to show after: a deformation, or another file. */
+/* Whether there is a shape after: a deformation, or a second file. */
 static bool has_after(const ffd_view_desc *desc)
 {
     return desc->deformed || desc->job->lattice_count > 0;
@@ -90,13 +91,13 @@ static ffd_status check_desc(const view_work *work, ffd_error *error)
     return status ? status : ffd_output_check(desc->output, desc->force, error);
 }
 
-/* Whether what the default weights of morph targets show is not what the file stores, and wanted. */
+/* Whether to show the shape with default weights of morph targets instead of the stored one. */
 static bool shows_shapes(const view_work *work, const mesh_document *document)
 {
     return !work->desc->as_stored && ffd_mesh_shows_shapes(document);
 }
 
-/* Reads the mesh as it is to be shown. */
+/* Reads the mesh in the shape that is shown. */
 static ffd_status read_model(view_work *work, ffd_error *error)
 {
     mesh_document *const document = work->job.document;
@@ -108,12 +109,12 @@ static ffd_status read_model(view_work *work, ffd_error *error)
     document->shown = false;
     if (status || !document->format->list_materials)
         return status;
-    /* A page has no images. */
+    /* A page shows no images. */
     const mesh_log *const log = is_page(work->desc->output) ? NULL : &work->job.log;
     return document->format->list_materials(document, log, &work->scene.materials, error);
 }
 
-/* The report of this job alone; without times, so that the same job makes the same page. */
+/* Makes the report of this job alone, without times: the same job makes the same page. */
 static ffd_status make_report(view_work *work, const ffd_job_result *result, ffd_error *error)
 {
     byte_buffer text = {0};
@@ -134,7 +135,7 @@ static ffd_status name_scene(view_work *work, ffd_error *error)
     return work->scene.name && (work->scene.output || !deformed) ? FFD_OK : ffd_fail_memory(error);
 }
 
-/* What moves the mesh before and after, which has to be there until the output is written. */
+/* Makes the rigs before and after. They must live until the output is written. */
 static ffd_status make_rigs(view_work *work, bool deformed, ffd_error *error)
 {
     const ffd_view_desc *const desc = work->desc;
@@ -152,7 +153,7 @@ static ffd_status make_rigs(view_work *work, bool deformed, ffd_error *error)
     return ffd_view_make_rigs(&rigs, &work->scene, error);
 }
 
-/* What the job found becomes marks, and a report that says so. */
+/* Takes the job's figures into the scene, as marks and a report. */
 static ffd_status take_findings(view_work *work, const ffd_job_result *result, ffd_error *error)
 {
     deform_job *const job = &work->job;
@@ -168,7 +169,7 @@ static ffd_status take_findings(view_work *work, const ffd_job_result *result, f
     return status ? status : make_report(work, result, error);
 }
 
-/* Whether a mesh that is open can be shown, and the output is none of its files. */
+/* Checks that an open mesh can be shown, and that the output is none of its files. */
 static ffd_status check_mesh(const view_work *work, const ffd_source *source, mesh_document *document,
                              ffd_error *error)
 {
@@ -176,7 +177,7 @@ static ffd_status check_mesh(const view_work *work, const ffd_source *source, me
     return status ? status : ffd_view_check_files(source, document, work->desc->output, error);
 }
 
-/* Deforms the mesh in memory. What a gate refuses is shown all the same; result then has the refusal. */
+/* Deforms the mesh in memory. A shape that a gate refuses is shown too; result then has the refusal. */
 static ffd_status run_job(view_work *work, ffd_job_result *result, ffd_error *error)
 {
     deform_job *const job = &work->job;
@@ -187,7 +188,7 @@ static ffd_status run_job(view_work *work, ffd_job_result *result, ffd_error *er
         status = read_model(work, error);
     if (status)
         return status;
-    /* What default weights of morph targets show is deformed, as for a conversion. */
+    /* Deform the shape with default weights, as for a conversion. */
     job->document->converted = shows_shapes(work, job->document);
     job->details = &work->details;
     status = ffd_deform_job_run(job, result, &result->error);
@@ -212,7 +213,7 @@ static ffd_status open_mesh(view_work *work, const ffd_source *source, mesh_docu
     return check_mesh(work, source, *document, error);
 }
 
-/* Draws the lattices where they stand round the mesh as it is at rest. */
+/* Adds the lattices, fitted to the mesh at rest. */
 static ffd_status load_cages(view_work *work, ffd_error *error)
 {
     const ffd_deform_desc *const desc = work->desc->job;
@@ -252,7 +253,7 @@ static ffd_status read_positions(const view_work *work, mesh_document *document,
     return FFD_OK;
 }
 
-/* Brings the vertices to where the file of the deformed mesh has them. */
+/* Sets the positions after to those of the deformed mesh file. */
 static ffd_status read_deformed(view_work *work, ffd_error *error)
 {
     const ffd_source *const deformed = work->desc->deformed;
@@ -316,7 +317,7 @@ static ffd_status write_view(view_work *work, ffd_error *error)
     if (!status)
         status = is_page(desc->output) ? write_page(work, output, error) : write_picture(work, output, error);
     status = ffd_mapping_judge(work->job.losses, status, error);
-    if (!status) /* an image that seems to be missing may be there */
+    if (!status) /* an image that seems to be missing may have failed to load */
         status = ffd_memory_judge_path(desc->job->input.path, status, error);
     if (!status)
         status = ffd_output_commit(output, error);
@@ -324,7 +325,7 @@ static ffd_status write_view(view_work *work, ffd_error *error)
     return status;
 }
 
-/* Frees what the scene was made of. */
+/* Frees what the scene was made from. */
 static void free_sources(view_work *work)
 {
     ffd_details_free(&work->details);
@@ -333,7 +334,7 @@ static void free_sources(view_work *work)
     work->faces = NULL;
 }
 
-/* Files as they are have displacements only. */
+/* Warns that files as they are have no statuses and no det F. */
 static void judge_color(const view_work *work)
 {
     const ffd_view_color color = work->desc->color;
@@ -358,14 +359,14 @@ static ffd_status run(view_work *work, ffd_job_result *result, ffd_error *error)
                      work->model.nodes_left, ffd_plural(work->model.nodes_left, "node", "nodes"));
     judge_color(work);
     ffd_view_measure(&work->scene);
-    free_sources(work); /* drawing has its own need of memory */
+    free_sources(work); /* drawing needs memory of its own */
     return write_view(work, error);
 }
 
 static void free_work(view_work *work)
 {
     free_sources(work);
-    ffd_view_scene_free(&work->scene); /* with skeletons of documents that are open */
+    ffd_view_scene_free(&work->scene); /* its skeletons refer to open documents */
     ffd_source_close(&work->other);
 }
 
@@ -393,7 +394,7 @@ static void allow_memory(ffd_source *source)
         source->memory = LEAST_MEMORY;
 }
 
-/* The same where some of what the description names may be in memory. */
+/* The same for descriptions that may hold data in memory. */
 static ffd_status view_in_memory(ffd_view_desc *desc, ffd_deform_desc *job, ffd_job_result *result)
 {
     const char *const output = desc->output;
@@ -428,7 +429,7 @@ ffd_status ffd_view_run(const ffd_view_desc *callers, ffd_job_result *callers_re
     ffd_deform_desc job;
     ffd_job_result result;
     ffd_view_desc_init(&desc, sizeof desc);
-    ffd_deform_desc_init(&job, sizeof job); /* there may be none: files as they are */
+    ffd_deform_desc_init(&job, sizeof job); /* stays unused for files as they are */
     ffd_result_clear(&result);
     ffd_status status = ffd_struct_check(sizeof result, callers_result, "ffd_job_result", error);
     if (status)
@@ -436,7 +437,7 @@ ffd_status ffd_view_run(const ffd_view_desc *callers, ffd_job_result *callers_re
     status = ffd_struct_take(&desc, sizeof desc, callers, "ffd_view_desc", &result.error);
     if (!status && desc.job)
         status = ffd_deform_desc_take(desc.job, &job, &result.error);
-    job.morph_results = NULL; /* of a job that writes */
+    job.morph_results = NULL; /* only jobs that write fill these */
     desc.job = &job;
     if (!status)
         status = view_in_memory(&desc, &job, &result);

@@ -20,7 +20,7 @@ ffd_status ffd_view_check_inputs(const ffd_view_desc *desc, ffd_error *error)
     return is_input ? refuse(desc->output, error) : FFD_OK;
 }
 
-/* Those that a look into the mesh's own file finds. */
+/* Adds the resources that are found through the mesh's own file. */
 static ffd_status find_resources(const ffd_source *source, const mesh_document *document, path_list *files,
                                  ffd_error *error)
 {

@@ -39,7 +39,7 @@ static ffd_status add_statuses(const job_details *details, const mesh_model *mod
     return FFD_OK;
 }
 
-/* Whether a polygon of the model is flipped; its vertices by their numbers. */
+/* Whether a polygon of the model is flipped. Its corners are looked up by vertex numbers. */
 static bool is_flipped(const job_details *details, const view_scene *scene, const mesh_model *model,
                        size_t face, uint32_t *numbers)
 {
@@ -75,7 +75,7 @@ static ffd_status add_flipped(const job_details *details, const mesh_model *mode
     return made ? FFD_OK : ffd_fail_memory(error);
 }
 
-/* The vertex of each number, VIEW_NONE where it is not shown. */
+/* Maps vertex numbers of the document to vertices of the scene; VIEW_NONE: not shown. */
 static uint32_t *make_vertices(const view_scene *scene, size_t count)
 {
     uint32_t *const vertices = ffd_alloc(count, sizeof *vertices);

@@ -1,35 +1,26 @@
 #include "job/view/view_mesh.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
-#include "mesh/polygon_cut.h"
+#include "mesh/model_triangles.h"
 #include <math.h>
 #include <string.h>
 
-/* Bytes of a triangle: its corners, their texture coordinates, its polygon and a mark. */
+/* Memory of a triangle: corners, their texture coordinates, its polygon and a mark. */
 #define TRIANGLE_BYTES (3 * sizeof(uint32_t) + 6 * sizeof(float) + sizeof(uint32_t) + 1)
 
 typedef struct mesh_taker {
     const mesh_model *model;
     view_scene *scene;
     uint32_t *faces;
-    size_t triangles; /* so far */
-    polygon_cutter cutter;
-    double *points; /* of a polygon */
-    uint32_t *cut;
-    size_t points_capacity, cut_capacity;
+    size_t triangles; /* triangles so far */
+    face_triangles scratch;
     ffd_error *error;
 } mesh_taker;
-
-static size_t count_triangles(const mesh_model *model)
-{
-    const model_list *const faces = &model->lists[MODEL_FACES];
-    return faces->corner_count - 2 * faces->count; /* polygons have at least three corners */
-}
 
 static ffd_status make_arrays(mesh_taker *t)
 {
     view_scene *const scene = t->scene;
-    const size_t count = count_triangles(t->model);
+    const size_t count = model_triangle_count(t->model);
     const size_t ends = t->model->lists[MODEL_LINES].corner_count,
                  points = t->model->lists[MODEL_POINTS].corner_count;
     if (count > UINT32_MAX / 3)
@@ -61,17 +52,11 @@ static void put_corner(mesh_taker *t, const model_corner *corner, size_t at)
 
 static ffd_status take_face(mesh_taker *t, size_t face)
 {
-    size_t count;
+    size_t count, triangles = 0;
     const model_corner *const corners = model_element(&t->model->lists[MODEL_FACES], face, &count);
-    const size_t triangles = count - 2; /* polygons have at least three corners */
-    if (!ffd_grow((void **)&t->points, &t->points_capacity, 3 * count, sizeof *t->points) ||
-        !ffd_grow((void **)&t->cut, &t->cut_capacity, 3 * triangles, sizeof *t->cut))
-        return ffd_fail_memory(t->error);
-    for (size_t c = 0; c < count; c++)
-        memcpy(t->points + 3 * c, t->model->positions + 3 * (size_t)corners[c].position, 3 * sizeof(double));
-    const ffd_status status = ffd_polygon_cut(&t->cutter, t->points, count, t->cut, t->error);
+    const ffd_status status = ffd_face_triangles(&t->scratch, t->model, face, &triangles, t->error);
     for (size_t i = 0; i < 3 * triangles && !status; i++)
-        put_corner(t, &corners[t->cut[i]], 3 * t->triangles + i);
+        put_corner(t, &corners[t->scratch.triangles[i]], 3 * t->triangles + i);
     for (size_t i = 0; i < triangles && !status; i++)
         t->faces[t->triangles++] = (uint32_t)face;
     return status;
@@ -87,7 +72,7 @@ static const char *name_of_run(const mesh_model *model, const model_run *run)
     return "";
 }
 
-/* The material of that number; else the first of that name. */
+/* Returns the material of this number, or else the first of this name. */
 static uint32_t material_of_run(const mesh_taker *t, const model_run *run)
 {
     const mesh_materials *const materials = &t->scene->materials;
@@ -135,7 +120,7 @@ static void take_lines(mesh_taker *t)
         t->scene->points[t->scene->point_count++] = points->corners[p].position;
 }
 
-/* Positions, colours and numbers change hands. */
+/* Moves positions, colours and numbers from the model to the scene. */
 static void take_vertices(mesh_model *model, view_scene *scene)
 {
     scene->vertex_count = scene->vertices_all = model->position_count;
@@ -157,11 +142,9 @@ ffd_status ffd_view_take_mesh(mesh_model *model, view_scene *scene, uint32_t **f
     if (!status) {
         take_lines(&t);
         take_vertices(model, scene);
-        ffd_polygon_cut_warn(t.cutter.hurried, log);
+        ffd_polygon_cut_warn(t.scratch.cutter.hurried, log);
     }
-    ffd_polygon_cutter_free(&t.cutter);
-    ffd_free(t.points);
-    ffd_free(t.cut);
+    ffd_face_triangles_free(&t.scratch);
     *faces = t.faces;
     return status;
 }

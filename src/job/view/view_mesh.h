@@ -1,4 +1,4 @@
-/* view_mesh.h - the geometry of what is shown, out of a model and the places its vertices go to. */
+/* view_mesh.h - makes a scene's geometry from a model and its deformed positions. */
 #ifndef FFD_JOB_VIEW_VIEW_MESH_H
 #define FFD_JOB_VIEW_VIEW_MESH_H
 
@@ -6,16 +6,15 @@
 #include "mesh/model.h"
 #include "view/view_scene.h"
 
-/* Fills the scene's vertices, triangles, lines, points and parts; what the scene keeps is taken out of the
-   model. faces: filled with the number of the polygon that each triangle was cut from,
-   scene->triangle_count of them; the caller's to free. log: gets a warning of polygons whose triangles may
-   overlap. Errors: FFD_E_LIMIT (more triangles than 32 bits can number the corners of, or the model's memory
-   budget), FFD_E_MEMORY. */
+/* Fills the scene's vertices, triangles, segments, points and parts. Arrays that the scene keeps are moved
+   out of the model. faces: filled with the polygon of each triangle, scene->triangle_count numbers; freed by
+   the caller. log: gets a warning of polygons whose triangles may overlap. Errors: FFD_E_LIMIT (more triangle
+   corners than 32 bits can number, or the model's memory budget), FFD_E_MEMORY. */
 ffd_status ffd_view_take_mesh(mesh_model *model, view_scene *scene, uint32_t **faces, const mesh_log *log,
                               ffd_error *error);
 
-/* Fills where the vertices go. deformed: 3 numbers a vertex of the document, in the order of `ffd embed`. A
-   vertex without a place there (NaN: its transform has no inverse) stays. NULL: all stay. Errors:
+/* Fills the positions after. deformed: 3 numbers for each vertex of the document, in the order of `ffd
+   embed`; NULL: no vertex moves. A vertex whose entry is NaN (its transform has no inverse) stays. Errors:
    FFD_E_LIMIT (the model's memory budget), FFD_E_MEMORY. */
 ffd_status ffd_view_place_after(const mesh_model *model, const double *deformed, view_scene *scene,
                                 ffd_error *error);

@@ -6,10 +6,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#define SHOWN 8 /* names in a message */
-#define NAME 36 /* bytes of each */
+#define SHOWN 8 /* the most names in a message */
+#define NAME 36 /* bytes of each, at most */
 
-/* The name of an animation; "animation 3" where it has none, by which it is chosen too. */
+/* Returns the name of an animation. An unnamed one is called, and chosen as, "animation 3". */
 static char *name_of(const mesh_skeleton *skeleton, size_t animation)
 {
     const char *const name = skeleton->animations[animation].name;
@@ -43,7 +43,7 @@ static ffd_status list_animations(view_scene *scene, ffd_error *error)
     return FFD_OK;
 }
 
-/* "a", "b", "c" and 4 more */
+/* Writes: "a", "b", "c" and 4 more */
 static void tell_names(const view_scene *scene, char *text, size_t capacity)
 {
     size_t length = 0;
@@ -59,27 +59,21 @@ static void tell_names(const view_scene *scene, char *text, size_t capacity)
 static ffd_status refuse_name(const view_rigs_desc *desc, const view_scene *scene, ffd_error *error)
 {
     char names[SHOWN * (NAME + 4) + 40], wanted[NAME], shown[NAME] = "";
-    const char *nearest = NULL;
-    size_t least = 0;
+    nearest_word nearest = {.word = desc->animation, .length = strlen(desc->animation)};
     if (scene->animation_count == 0)
         return ffd_fail_file(error, FFD_E_ARGUMENT, desc->before_name,
                              "--animation: there are no animations that can be shown");
-    for (size_t a = 0; a < scene->animation_count; a++) {
-        const size_t distance = ffd_word_distance(desc->animation, scene->animations[a].name);
-        if (nearest && distance >= least)
-            continue;
-        nearest = scene->animations[a].name;
-        least = distance;
-    }
+    for (size_t a = 0; a < scene->animation_count; a++)
+        ffd_nearest_offer(&nearest, scene->animations[a].name);
     ffd_name_shown(desc->animation, wanted, sizeof wanted);
-    ffd_name_shown(nearest, shown, sizeof shown);
+    ffd_name_shown(nearest.best, shown, sizeof shown);
     tell_names(scene, names, sizeof names);
     return ffd_fail_file(error, FFD_E_ARGUMENT, desc->before_name,
                          "--animation: none is called \"%s\" (nearest: \"%s\"; there %s %s)", wanted, shown,
                          ffd_plural(scene->animation_count, "is", "are"), names);
 }
 
-/* Of several of one name the first is meant. */
+/* Chooses the wanted animation: the first one of its name. */
 static ffd_status choose(const view_rigs_desc *desc, view_scene *scene, ffd_error *error)
 {
     size_t alike = 0;
@@ -98,7 +92,7 @@ static ffd_status choose(const view_rigs_desc *desc, view_scene *scene, ffd_erro
     return FFD_OK;
 }
 
-/* Numbers the names of a skeleton's animations: first has the first of each name. */
+/* Interns the names of a skeleton's animations. first: of each name the first animation. */
 static ffd_status number_names(const mesh_skeleton *skeleton, intern_table *names, size_t *first,
                                ffd_error *error)
 {
@@ -119,8 +113,8 @@ static bool has_name(const rig_animation *animation, const char *name)
     return strcmp(animation->name ? animation->name : "", name) == 0;
 }
 
-/* Finds the animations of the deformed file by their names: the one of the same number, if it has the name,
-   else the first; those without a name by their number. */
+/* Matches the animations of the deformed file by name: the one of the same number if it has the name, else
+   the first of that name. Unnamed animations match by number. */
 static ffd_status match(const view_scene *scene, ffd_error *error)
 {
     const mesh_skeleton *const own = scene->rigs[0].skeleton, *const other = scene->rigs[1].skeleton;
@@ -150,7 +144,7 @@ static bool is_wanted(const view_rigs_desc *desc, const view_scene *scene, size_
     return desc->all || animation == scene->animation;
 }
 
-/* Loads the keys of an animation on one side. On a page one that is not valid is left out. */
+/* Loads the keys of an animation on one side. An invalid one that was not asked for is left out. */
 static ffd_status load(const view_rigs_desc *desc, view_scene *scene, int side, size_t animation,
                        ffd_error *error)
 {
@@ -200,8 +194,8 @@ static ffd_status read_anchors(const view_rigs_desc *desc, mesh_document *docume
     return status;
 }
 
-/* A job that deforms what default weights show has no targets of its own: to first order, which is exact
-   where the deformation is affine, offsets go by its gradient. */
+/* A job that deforms the shape with default weights has no deformed targets. Transform their offsets by the
+   gradient: to first order, and exact where the deformation is affine. */
 static void turn_offsets(const view_rigs_desc *desc, mesh_anchors *anchors)
 {
     for (size_t t = 0; t < anchors->target_count && anchors->keeps_offsets && desc->gradients; t++)
@@ -214,7 +208,7 @@ static void turn_offsets(const view_rigs_desc *desc, mesh_anchors *anchors)
         }
 }
 
-/* Says what an animation that is shown leaves out. */
+/* Warns of parts of the shown animations that are left out. */
 static void warn(const view_rigs_desc *desc, const view_scene *scene)
 {
     size_t left = 0, unmatched = 0;
@@ -268,7 +262,7 @@ static ffd_status make_both(const view_rigs_desc *desc, view_scene *scene, ffd_e
     return FFD_OK;
 }
 
-/* Animations that nobody asked for are no reason to fail. */
+/* Animations that nobody asked for do not make the view fail at a limit. */
 ffd_status ffd_view_make_rigs(const view_rigs_desc *desc, view_scene *scene, ffd_error *error)
 {
     ffd_error own = {0};

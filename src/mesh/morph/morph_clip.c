@@ -208,15 +208,12 @@ static ffd_status refuse_target(const morph_clip *clip, const char *name, const 
                                 ffd_error *error)
 {
     char shown[SHOWN], clip_shown[SHOWN], best_shown[SHOWN];
-    const char *best = NULL;
-    for (uint32_t i = 0; i < known->count; i++) {
-        const char *const other = ffd_intern_key(known, i);
-        if (!best || ffd_word_distance(name, other) < ffd_word_distance(name, best))
-            best = other;
-    }
+    nearest_word nearest = {.word = name, .length = strlen(name)};
+    for (uint32_t i = 0; i < known->count; i++)
+        ffd_nearest_offer(&nearest, ffd_intern_key(known, i));
     ffd_name_shown(name, shown, sizeof shown);
     ffd_name_shown(clip->name, clip_shown, sizeof clip_shown);
-    ffd_name_shown(best ? best : "", best_shown, sizeof best_shown);
+    ffd_name_shown(nearest.best ? nearest.best : "", best_shown, sizeof best_shown);
     return ffd_fail(
         error, FFD_E_ARGUMENT,
         "--clip: clip \"%s\": there is no morph target \"%s\", neither in the file nor new (nearest: "

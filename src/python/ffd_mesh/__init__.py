@@ -6,7 +6,8 @@
     Q[5, 2, 2] += (0, 0, 0.3)
     moved = lattice.deform(embedding, Q)
 
-Points are arrays (N, 3) of float32 or float64; control points are (nu, nv, nw, 3). Failures are `Error`; nothing is printed.
+Points are arrays (N, 3) of float32 or float64; control points are arrays (nu, nv, nw, 3). Failures raise `Error`; nothing is
+printed.
 """
 
 from ._embedding import Embedding, Status

@@ -13,7 +13,7 @@ _NUMBERS = {np.dtype(np.float64): ENUMERATIONS["ffd_number"]["FFD_FLOAT64"],
 
 
 def vectors(value: Any, what: str, count: int | None = None) -> np.ndarray:
-    """value as an array (N, 3) of float32 or float64, whose numbers are not copied. Lists become float64."""
+    """Checks that value is an array (N, 3) of float32 or float64, with any strides. Returns it uncopied; lists become float64."""
     array = value if isinstance(value, np.ndarray) else np.asarray(value)
     if isinstance(array, np.ma.MaskedArray):
         raise TypeError(f"{what} must not be a masked array: its mask would be ignored")
@@ -29,7 +29,7 @@ def vectors(value: Any, what: str, count: int | None = None) -> np.ndarray:
 
 
 def output(value: Any, what: str, count: int) -> np.ndarray:
-    """An array that results can be written to."""
+    """Checks that value is an array (count, 3) that results can be written to."""
     if not isinstance(value, np.ndarray):
         raise TypeError(f"{what} must be an array of numpy, not {type(value).__name__}")
     array = vectors(value, what, count)
@@ -41,8 +41,8 @@ def output(value: Any, what: str, count: int) -> np.ndarray:
 
 
 def _repeats(array: np.ndarray) -> bool:
-    """Whether numbers of (N, 3) share memory by their strides: threads would write one after the other. Strides that only interleave
-    without it, which no slice has, count too."""
+    """Whether elements of an (N, 3) array share memory because of its strides, so that they must not be written in parallel.
+    Strides that merely interleave elements count too; slices do not have such strides."""
     reach = array.itemsize
     for stride, count in sorted((abs(stride), count) for stride, count in zip(array.strides, array.shape) if count > 1):
         if array.size and stride < reach:
@@ -52,7 +52,7 @@ def _repeats(array: np.ndarray) -> bool:
 
 
 def overlap(a: np.ndarray, b: np.ndarray) -> bool:
-    """Whether two arrays share memory; true where that takes long to find out."""
+    """Whether two arrays share memory; True also if that would take too long to find out."""
     if not np.may_share_memory(a, b):
         return False
     try:
@@ -62,18 +62,18 @@ def overlap(a: np.ndarray, b: np.ndarray) -> bool:
 
 
 def same_place(a: np.ndarray, b: np.ndarray) -> bool:
-    """Whether two arrays of one shape are the same numbers."""
+    """Whether two arrays of equal shape are the same memory with the same layout."""
     return (a.dtype == b.dtype and a.strides == b.strides
             and a.__array_interface__["data"][0] == b.__array_interface__["data"][0])
 
 
 def readable(array: np.ndarray) -> np.ndarray:
-    """The array, or a copy where it repeats its numbers (numpy.broadcast_to)."""
+    """Returns the array, or a copy if its elements share memory (numpy.broadcast_to)."""
     return array.copy() if _repeats(array) else array
 
 
 def span(array: np.ndarray) -> ffd_span:
-    """The library's view of (N, 3); the array must outlive it."""
+    """An ffd_span of an (N, 3) array, which must outlive it."""
     if array.size == 0:
         return ffd_span(None, 0, _NUMBERS[array.dtype], 0, 0)
     return ffd_span(address(array), len(array), _NUMBERS[array.dtype], array.strides[0], array.strides[1])
@@ -84,7 +84,7 @@ def address(array: np.ndarray) -> int:
 
 
 def doubles(value: Any, what: str, shape: tuple[int, ...]) -> np.ndarray:
-    """value as packed float64 of a shape, in C order; copied where it is not that."""
+    """Returns value as contiguous float64 of this shape, in C order; copied only if necessary."""
     array = np.asarray(value)
     if isinstance(array, np.ma.MaskedArray):
         raise TypeError(f"{what} must not be a masked array: its mask would be ignored")
@@ -96,12 +96,12 @@ def doubles(value: Any, what: str, shape: tuple[int, ...]) -> np.ndarray:
 
 
 def to_library(array: np.ndarray) -> np.ndarray:
-    """(nu, nv, nw, ...) in Python's order, w fastest, as the library and files have it, u fastest. A copy."""
+    """Copies (nu, nv, nw, ...) from Python's order, w fastest, to that of the library and of files, u fastest."""
     return np.ascontiguousarray(array.transpose(2, 1, 0, *range(3, array.ndim)))
 
 
 class _Lent:
-    """Memory of an object of the library, which lives as long as the array that is made of this."""
+    """Memory of a library object. An array made from this keeps the owner alive."""
 
     def __init__(self, owner: Any, where: int, shape: tuple[int, ...], kind: str) -> None:
         self._owner = owner
@@ -109,13 +109,13 @@ class _Lent:
 
 
 def lent(owner: Any, where: int | None, shape: tuple[int, ...], dtype: Any) -> np.ndarray:
-    """A read-only array of what owner lends."""
+    """A read-only array of memory that owner keeps alive. where: its address; None: an empty array."""
     if not where or 0 in shape:
         return np.empty(shape, dtype)
     return np.asarray(_Lent(owner, where, shape, np.dtype(dtype).str))
 
 
 def lent_controls(owner: Any, where: int | None, size: tuple[int, int, int], *more: int) -> np.ndarray:
-    """Numbers of control points, which the library has u fastest, as a view (nu, nv, nw, ...)."""
+    """A view (nu, nv, nw, ...) of control point data of the library, which has u fastest."""
     array = lent(owner, where, size[::-1] + more, np.float64)
     return array.transpose(2, 1, 0, *range(3, array.ndim))

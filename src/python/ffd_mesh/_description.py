@@ -1,4 +1,4 @@
-"""What a job is told: a mesh as a file or in memory, lattices, options."""
+"""Descriptions of jobs: a mesh in a file or in memory, lattices, options."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ Path = Union[str, "os.PathLike[str]"]
 AnyLattice = Union[Lattice, Path, bytes]
 Files = Union[Mapping[str, Any], Callable[[str], Any]]
 
-# Option -> enumeration, and whether it is the input's.
+# Option -> enumeration; for the input's also option -> member.
 _ENUMERATIONS = {"outside": "ffd_outside", "normals": "ffd_normals", "resources": "ffd_resources", "rig": "ffd_rig", "isa": "ffd_isa",
                  "output_format": "ffd_format"}
 _INPUT_ENUMERATIONS = {"input_format": ("format", "ffd_format"), "space": ("space", "ffd_space")}
-# Those of reading a mesh.
+# Options for reading a mesh.
 INPUT_OPTIONS = {*_INPUT_ENUMERATIONS, "memory", "strict", "allow_extensions"}
 _SWITCHES = ("blocks", "quality", "force", "if_changed", "dry_run")
 OPTIONS = {*_ENUMERATIONS, *INPUT_OPTIONS, *_SWITCHES, "set", "falloff", "snap", "embedding", "fail_on", "as_morph", "only",
@@ -31,8 +31,10 @@ OPTIONS = {*_ENUMERATIONS, *INPUT_OPTIONS, *_SWITCHES, "set", "falloff", "snap",
 @contextlib.contextmanager
 def described(source: Any, lattices: Any, options: dict[str, Any],
               known: Collection[str] = OPTIONS) -> Iterator[tuple[Any, list[str]]]:
-    """The description of a job, and the list of its warnings, which is filled at the end. source: a path or a `Memory`; lattices:
-    None where a job can do without; known: the options that it has."""
+    """Yields the description of a job, and a list that gets its warnings at the end.
+
+    source: a path or a `Memory`; lattices: None if the job needs none; known: the options that the job accepts
+    """
     desc = library.filled("ffd_deform_desc")
     kept = [source, None if lattices is None else _set_lattices(desc, lattices)]
     place(source, desc.input)
@@ -43,7 +45,7 @@ def described(source: Any, lattices: Any, options: dict[str, Any],
 
 
 def place(source: Any, structure: Any) -> None:
-    """Puts a path or a `Memory` into an ffd_source, which the latter must outlive."""
+    """Sets an ffd_source to a path or a `Memory`; the latter must outlive it."""
     if isinstance(source, Memory):
         source.give(structure)
     else:
@@ -52,7 +54,7 @@ def place(source: Any, structure: Any) -> None:
 
 @contextlib.contextmanager
 def resolved(*sources: Any) -> Iterator[None]:
-    """Around a call: raises what the function of a `Memory`'s files has raised, in place of the failure that this has made."""
+    """Around a call: if it fails because the function for a `Memory`'s files has raised an exception, raises that one instead."""
     try:
         yield
     except Error:
@@ -63,7 +65,7 @@ def resolved(*sources: Any) -> Iterator[None]:
 
 
 def _content(data: Any) -> Any:
-    """What has bytes as it is, even if it can be read as a file is (mmap), from wherever it stands; what a file has still."""
+    """Returns an object with a buffer as it is (also an mmap at any position), and the rest of an open file as bytes."""
     try:
         memoryview(data).release()
     except TypeError:
@@ -72,7 +74,7 @@ def _content(data: Any) -> Any:
 
 
 class Memory:
-    """A mesh in memory, and what it names."""
+    """A mesh in memory, and the files that it refers to."""
 
     def __init__(self, data: Any, name: str, files: Files | None) -> None:
         self.name, self.resolver = library.path(name), None
@@ -82,20 +84,20 @@ class Memory:
         self.find = files.get if isinstance(files, Mapping) else files
 
     def give(self, source: Any) -> None:
-        """Puts what it has into an ffd_source."""
+        """Sets an ffd_source to this mesh."""
         source.path = self.name
         source.bytes.data, source.bytes.size = self.address, self.size
         if self.find is not None:
             self.resolver = library.Resolver(source, self.find)
 
     def reraise(self) -> None:
-        """Raises what the function of the files has raised."""
+        """Raises the exception of the function for files, if there is one."""
         if self.resolver is not None:
             self.resolver.reraise()
 
 
 def _set_lattices(desc: Any, lattices: Any) -> list[Any]:
-    """Names the lattices, or gives them as objects or texts; returns what must stay alive."""
+    """Sets the lattices by path, as objects or as texts. Returns the objects that must stay alive."""
     named = isinstance(lattices, Mapping)
     several = list(lattices.values()) if named else list(lattices) if isinstance(lattices, (list, tuple)) else [lattices]
     if not several:
@@ -119,20 +121,20 @@ def _set_lattices(desc: Any, lattices: Any) -> list[Any]:
 
 
 def _texts(value: Any, what: str) -> Any:
-    """A list of texts for the library; one text is a list of one."""
+    """Converts a list of texts, or a single one, to an array of the library and its length."""
     texts = [value] if isinstance(value, str) else list(value)
     return (ctypes.c_char_p * len(texts))(*(library.encoded(text, what) for text in texts)), len(texts)
 
 
 def _set_snap(desc: Any, value: Any) -> None:
-    """A length, or a text "0.001r": a part of the rest lattice's diagonal."""
+    """Sets snap: a length, or a text such as "0.001r", relative to the rest lattice's diagonal."""
     relative = isinstance(value, str) and value.endswith("r")
     desc.snap = library.real(value[:-1] if relative else value, "snap")
     desc.snap_relative = relative
 
 
 def _set_gates(desc: Any, value: Any) -> None:
-    """["folds", "tear=0.1", ..]: the words of --fail-on."""
+    """Sets the gates from words of --fail-on, such as ["folds", "tear=0.1"]."""
     for gate in [value] if isinstance(value, str) else value:
         word, equals, most = str(gate).partition("=")
         desc.fail_on |= library.number_of("ffd_gate", word, "fail_on")
@@ -147,7 +149,7 @@ def _set_gates(desc: Any, value: Any) -> None:
 
 
 def _set_options(desc: Any, options: dict[str, Any], known: Collection[str]) -> list[Any]:
-    """Sets what is not None; returns what must stay alive."""
+    """Sets the options that are not None. Returns the objects that must stay alive."""
     unknown = sorted(set(options) - set(known))
     if unknown:
         raise TypeError(f"unknown option {unknown[0]!r} (known: {', '.join(sorted(known))})")

@@ -1,4 +1,4 @@
-"""Embeddings: u, v, w of points in a lattice at rest."""
+"""Embeddings: the parameters u, v, w of points in a lattice at rest."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Status(enum.IntEnum):
-    """What is known of a point: the numbers of `Embedding.status`."""
+    """The status of an embedded point: the values in `Embedding.status`."""
 
     INSIDE = 0
     OUTSIDE = 1
@@ -27,7 +27,7 @@ class Status(enum.IntEnum):
 
 
 class Embedding:
-    """u, v, w of N points, made by `Lattice.embed`. Never changes: any number of threads may use it. It can be pickled."""
+    """u, v, w and statuses of N points, made by `Lattice.embed`. Immutable, so threads may share it. Can be pickled."""
 
     lattice: Lattice
     points: np.ndarray
@@ -47,24 +47,24 @@ class Embedding:
 
     @property
     def uvw(self) -> np.ndarray:
-        """(N, 3) float64, in the knots' range; NaN where there is none. A read-only view."""
+        """u, v, w: (N, 3) float64, in the range of the knots; NaN for points without. A read-only view."""
         return arrays.lent(self._owned, lib.ffd_embedding_get_uvw(self._pointer), (len(self), 3), np.float64)
 
     @property
     def status(self) -> np.ndarray:
-        """(N,) uint8, of `Status`. A read-only view."""
+        """(N,) uint8, values of `Status`. A read-only view."""
         return arrays.lent(self._owned, lib.ffd_embedding_get_status(self._pointer), (len(self),), np.uint8)
 
     @property
     def counts(self) -> dict[Status, int]:
-        """How many points have each status."""
+        """The number of points of each status."""
         counts = np.bincount(self.status, minlength=len(Status))
         return {status: int(counts[status]) for status in Status}
 
     def affected(self, control_points: Any) -> np.ndarray:
-        """The numbers of the points that some control points act on, ascending, uint32: no other point follows them.
+        """The indices of the points that these control points act on: uint32, ascending. No other point depends on them.
 
-        control_points: (M, 3) integers i, j, k, or a mask (nu, nv, nw) of bool
+        control_points: (M, 3) integers i, j, k, or a bool mask (nu, nv, nw)
         """
         size = self.lattice.size
         chosen = np.asarray(control_points)
@@ -81,14 +81,14 @@ class Embedding:
         return np.frombuffer(library.take_bytes(found, 4 * count.value), np.uint32).copy()
 
     def to_bytes(self) -> bytes:
-        """u, v, w and statuses as bytes, for this version of the library on such machines: see `from_bytes`."""
+        """Serializes u, v, w and statuses for `from_bytes`, of the same version of the library on the same kind of machine."""
         data, size = ctypes.c_void_p(), ctypes.c_size_t()
         call(lib.ffd_embedding_save, self._pointer, ctypes.byref(data), ctypes.byref(size))
         return library.take_bytes(data, size.value)
 
     @classmethod
     def from_bytes(cls, data: bytes, lattice: Lattice, points: Any) -> Embedding:
-        """The embedding of these points (N, 3) that `to_bytes` made; lattice has the same volume at rest."""
+        """Restores an embedding from `to_bytes`. points: the embedded points (N, 3). lattice: must have the same rest volume."""
         owned = Owned(lib.ffd_embedding_destroy)
         data = bytes(data)
         call(lib.ffd_embedding_load, data, len(data), lattice._fitted, ctypes.byref(owned.pointer))

@@ -1,4 +1,4 @@
-"""Failures of the library as exceptions."""
+"""Exceptions for failures of the library."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ _STATUS: dict[str, int] = ENUMERATIONS["ffd_status"]
 
 
 class Error(Exception):
-    """What the library says of a failure.
+    """A failure of the library.
 
-    status: the library's number of it (ffd/error.h), below 0
+    status: the library's error code (ffd/error.h), a negative number
     message: what is wrong, with the value
-    file, line, pointer: where, in a file: its name, the line from 1, the JSON pointer; None where there is none
-    warnings: of a job: what a user of the program would have been told, a line each
+    file, line, pointer: the place in a file: its name, line from 1, JSON pointer; each may be None
+    warnings: of a job: the warnings that the program would have printed, one string each
     """
 
     status: int = -10
@@ -40,10 +40,10 @@ def _again(kind: type[Error], message: str, status: int, file: str | None, line:
 
 
 class GateError(Error):
-    """A gate is violated.
+    """A quality gate is violated.
 
-    result: the figures of the job: a `Result`; of `jacobian_file` and `jacobian_bytes` what these return
-    data: of `view_bytes` the page or picture, which is made all the same; else None
+    result: the figures of the job: a `Result`; from `jacobian_file` and `jacobian_bytes` the dict that they return
+    data: from `view_bytes` the page or picture, which is made all the same; else None
     """
 
     result: Any = None
@@ -51,7 +51,7 @@ class GateError(Error):
 
 
 class ArgumentError(Error, ValueError):
-    """The library does not take these arguments."""
+    """An argument is not valid."""
 
 
 class FileError(Error, OSError):
@@ -71,7 +71,7 @@ class EmbeddingError(Error):
 
 
 class UnsupportedError(Error):
-    """Valid, but this build cannot do it."""
+    """The input is valid, but needs something that this build lacks."""
 
 
 class OutOfMemoryError(Error, MemoryError):
@@ -79,7 +79,7 @@ class OutOfMemoryError(Error, MemoryError):
 
 
 class LimitError(Error):
-    """A documented limit is passed."""
+    """A documented limit is exceeded."""
 
 
 class Cancelled(Error):
@@ -97,9 +97,9 @@ for _name, _kind in {
 
 
 def failure(status: int, error: Any) -> Error:
-    """The exception for a status and what ffd_error has."""
+    """Makes the exception for a status and an ffd_error."""
     def text(data: bytes) -> str:
-        """A member of ffd_error."""
+        """Decodes a text of ffd_error."""
         return data.decode("utf-8", "backslashreplace")
     return _KINDS.get(status, Error)(text(error.message), status=status, file=text(error.file) or None,
                                      line=error.line or None, pointer=text(error.pointer) or None)

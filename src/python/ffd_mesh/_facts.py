@@ -1,4 +1,4 @@
-"""What files hold, and whether two hold the same."""
+"""Descriptions of mesh and lattice files, and comparisons of meshes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ._values import settings
 
 @contextlib.contextmanager
 def _text() -> Iterator[Any]:
-    """A text that the library hands over."""
+    """Holds a text that the library allocates, and frees it."""
     text = ctypes.c_void_p()
     try:
         yield text
@@ -45,24 +45,25 @@ def _info(source: Any, parts: bool, values: Mapping[str, Any] | None, **options:
 
 def info(path: Path, *, parts: bool = False, set: Mapping[str, Any] | None = None, input_format: str | None = None,
          memory: int | None = None, strict: bool = False) -> dict[str, Any]:
-    """Describes a mesh or lattice file, as `ffd info --json` does.
+    """Describes a mesh or lattice file in a dict, as `ffd info --json` does. A lattice file's name ends in .json.
 
-    parts: the names that only= can have; set: values for the placeholders of a lattice, whose name ends in .json
-    input_format="ply", memory=BYTES, strict=True: as those of `deform_file`
-    Raises `Error`: a file that is not there, or not valid. Any number of threads may call it.
+    parts: also list the names that only= accepts
+    set: values for the placeholders of a lattice
+    input_format="ply", memory=BYTES, strict=True: as in `deform_file`
+    Raises `Error` if the file is missing or not valid. Threads may call it at the same time.
     """
     return _info(path, parts, set, input_format=input_format, memory=memory, strict=strict)
 
 
 def info_bytes(data: Any, *, name: str, files: Files | None = None, parts: bool = False, set: Mapping[str, Any] | None = None,
                input_format: str | None = None, memory: int | None = None, strict: bool = False) -> dict[str, Any]:
-    """`info` of a mesh or lattice in memory: data, name and files as `deform_bytes` takes them, all else as `info`."""
+    """Like `info`, for a mesh or lattice in memory. data, name, files: as in `deform_bytes`."""
     source = Memory(data, name, files)
     return _info(source, parts, set, input_format=input_format, memory=memory, strict=strict)
 
 
 def _set_tolerances(desc: Any, tolerance: Any, normal_tolerance: Any) -> None:
-    """As the program: a text "1e-6r" is a part of the diagonal, and then that of normals, unless these have their own."""
+    """Sets both tolerances like the program: a text "1e-6r" is relative to the diagonal, and is also the default for normals."""
     desc.relative = isinstance(tolerance, str) and tolerance.endswith("r")
     desc.tolerance = library.real(tolerance[:-1] if desc.relative else tolerance, "tolerance")
     if normal_tolerance is not None:
@@ -85,12 +86,12 @@ def _compare(a: Any, b: Any, names: tuple[bytes, bytes], tolerance: Any, normal_
 
 def compare_files(a: Path, b: Path, *, tolerance: float | str = 0.0, normal_tolerance: float | None = None,
                   input_format: str | None = None, memory: int | None = None, strict: bool = False) -> dict[str, Any]:
-    """Whether two files are the same mesh, as `ffd compare --json` tells it: "equal", "differences", "first", "worst", ..
+    """Compares two mesh files, as `ffd compare --json` does. Returns a dict with "equal", "differences", "first", "worst", ..
 
-    tolerance: how far positions may differ in a coordinate, or "1e-6r": parts of a's diagonal; normal_tolerance: normals and
-      tangents in a component, None: 0, or the number of a tolerance with r
-    input_format="ply", memory=BYTES, strict=True: as those of `deform_file`, of both
-    Files that differ are no failure. Raises `Error`: one is not there, or not valid. Any number of threads may call it.
+    tolerance: largest difference of a coordinate of positions; a text such as "1e-6r" is relative to the diagonal of a
+    normal_tolerance: largest difference of a component of normals and tangents. None: 0, or the number of a relative tolerance
+    input_format="ply", memory=BYTES, strict=True: as in `deform_file`, for both files
+    Different meshes are not an error. Raises `Error` if a file is missing or not valid. Threads may call it at the same time.
     """
     return _compare(a, b, (library.path(a), library.path(b)), tolerance, normal_tolerance, input_format=input_format,
                     memory=memory, strict=strict)
@@ -99,9 +100,10 @@ def compare_files(a: Path, b: Path, *, tolerance: float | str = 0.0, normal_tole
 def compare_bytes(a: Any, b: Any, *, name: str, other_name: str | None = None, files: Files | None = None,
                   other_files: Files | None = None, tolerance: float | str = 0.0, normal_tolerance: float | None = None,
                   input_format: str | None = None, memory: int | None = None, strict: bool = False) -> dict[str, Any]:
-    """`compare_files` of two meshes in memory: a and b, each with its name and files, as `deform_bytes` takes them.
+    """Like `compare_files`, for two meshes in memory.
 
-    other_name, other_files: those of b; None: as a's. All else as `compare_files`.
+    a, b, name, files: as in `deform_bytes`
+    other_name, other_files: of b; None: the same as for a
     """
     first = Memory(a, name, files)
     second = Memory(b, name if other_name is None else other_name, files if other_files is None else other_files)

@@ -1,4 +1,4 @@
-"""How positions of meshes follow control points or placeholders, as `ffd jacobian` tells it."""
+"""Derivatives of a mesh's positions by control points or placeholders, as `ffd jacobian` computes them."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _OPTIONS = {*INPUT_OPTIONS, "set", "outside", "falloff", "snap", "only", "thread
 
 
 def _set_factor(desc: Any, name: str, lent: Any, value: Any) -> Any:
-    """An .npy as a path, or as bytes or an array in memory; returns what must stay alive."""
+    """Sets a factor of a product: the path or bytes of an .npy, or an array. Returns the object that must stay alive."""
     if value is None:
         return None
     if isinstance(value, (str, os.PathLike)):
@@ -67,15 +67,20 @@ def _jacobian(source: Any, output: Any, lattices: Any, taken: list[Any] | None, 
 def jacobian_file(source: Path, output: Path, lattices: AnyLattice | Sequence[AnyLattice], *, by: str = "points",
                   components: bool = False, of: int | None = None, times: Any = None, transposed: Any = None,
                   check: bool = False, **options: Any) -> dict[str, Any]:
-    """Writes the derivative of a file's positions, as `ffd jacobian` does: by control points, u fastest, or by="parameters", the
-    placeholders of their moves. Returns rows, columns, entries, vertices, moving, and with check worst.
+    """Writes the derivative of the deformed positions of a mesh file, as `ffd jacobian` does.
 
-    output: .npz (scipy.sparse.load_npz), .mtx or .npy. of: the lattice of several, from 0; None: the last
-    times, transposed: multiplied instead, output an .npy: a path, or the bytes of an .npy, or an array: (n, 3) or (m,) numbers,
-      of transposed (N, 3), for N vertices and n control points or m numbers of placeholders
-    check: compares with central differences; above 1e-6 a `GateError`, whose result is what is returned else, and no output
+    Returns a dict with rows, columns, entries, vertices, moving and, with check, worst.
+
+    by: "points": by the control points, u fastest; "parameters": by the numbers of the placeholders in moves
+    output: path of an .npz (scipy.sparse.load_npz), .mtx or .npy file
+    components: True: three rows for each vertex, also by points
+    of: with several lattices, the number of the one whose control points count, from 0; None: the last
+    times, transposed: write the product of the matrix, or of its transpose, with these numbers to output, an .npy. A path, the
+      bytes of an .npy, or an array. For N vertices, n control points and m numbers of placeholders: times is (n, 3) or (m,),
+      transposed is (N, 3)
+    check: compare with central differences. An error above 1e-6 raises `GateError`, whose result is the dict; there is no output
     options: those of `deform_file` that positions depend on (set, outside, falloff, snap, only, space, ..), threads, isa, force
-    Raises `Error`. Any number of threads may call it.
+    Raises `Error`. Threads may call it at the same time.
     """
     return _jacobian(source, output, lattices, None, by, components, of, times, transposed, check, options)
 
@@ -83,17 +88,19 @@ def jacobian_file(source: Path, output: Path, lattices: AnyLattice | Sequence[An
 class JacobianBytes(NamedTuple):
     """What `jacobian_bytes` returns."""
 
-    data: bytes  # the matrix, or the product: of io.BytesIO(data) scipy.sparse.load_npz or numpy.load reads it
-    files: dict[str, bytes]  # those beside it, by their names: "jacobian.columns.txt"
-    result: dict[str, Any]  # what `jacobian_file` returns
+    data: bytes  # the matrix or product: pass io.BytesIO(data) to scipy.sparse.load_npz or numpy.load
+    files: dict[str, bytes]  # further files by name, such as "jacobian.columns.txt"
+    result: dict[str, Any]  # as `jacobian_file` returns it
 
 
 def jacobian_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice], *, name: str, output: str = "jacobian.npz",
                    files: Files | None = None, by: str = "points", components: bool = False, of: int | None = None,
                    times: Any = None, transposed: Any = None, check: bool = False, **options: Any) -> JacobianBytes:
-    """`jacobian_file` of a mesh in memory: data, name and files as `deform_bytes` takes them; reads and writes no file.
+    """Like `jacobian_file`, for a mesh in memory; reads and writes no files.
 
-    output: the name of the result, whose ending says the format. All else as `jacobian_file`, but for force.
+    data, name, files: as in `deform_bytes`
+    output: name of the result; its ending determines the format
+    All other arguments are those of `jacobian_file`, except force.
     """
     taken: list[Any] = []
     result = _jacobian(Memory(data, name, files), output, lattices, taken, by, components, of, times, transposed, check, options)

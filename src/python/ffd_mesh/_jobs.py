@@ -1,4 +1,4 @@
-"""Jobs that deform meshes, as the program `ffd` does them."""
+"""Jobs that deform or check meshes, like the program `ffd`."""
 
 from __future__ import annotations
 
@@ -14,17 +14,18 @@ from ._result import Result, beside, finish, run
 
 def deform_file(source: Path, output: Path | None, lattices: AnyLattice | Sequence[AnyLattice] | Mapping[str, AnyLattice],
                 **options: Any) -> Result:
-    """Deforms a mesh file as `ffd deform` does; the output is complete or absent.
+    """Deforms a mesh file, as `ffd deform` does. The output is complete or absent.
 
-    source, output: paths; output None: in place. lattices: a `Lattice`, a path, or the text of a file as bytes; or several, in
-      their order; of a glTF also a dict of names: each makes the morph target of its name, and
-      clips=["NAME: TIME TARGET=WEIGHT, .."] animate these
-    options, as those of the program (data/reference.md):
+    source, output: paths; output None: in place
+    lattices: a `Lattice`, a path, or the text of a lattice file as bytes; or a list of these, applied in order. For a glTF also
+      a dict {name: lattice}: each makes a morph target of that name, and clips=["NAME: TIME TARGET=WEIGHT, .."] animate them
+    options, as in the program (data/reference.md):
       set={"NAME": value}, outside="keep" | "extend" | "error", falloff=, snap=LENGTH or "0.001r", blocks=True,
       normals="transform" | "keep" | "recompute", as_morph="NAME", only=["node:NAME"], embedding="uvw.npy" or its bytes,
       fail_on=["folds", "tear=0.1"], quality=True (fills the figures of `check_file`), space="scene" | "mesh",
       resources="copy" | "reference", rig="keep" | "follow", force=True (replace the output), if_changed=True, dry_run=True, threads=,
       memory=BYTES, strict=True, allow_extensions=["NAME"], input_format="ply", output_format="glb", isa="auto"
+    Raises `Error`. Threads may call it at the same time.
     """
     with described(source, lattices, options) as (desc, warnings):
         if output is None:
@@ -39,19 +40,20 @@ class DeformedBytes(NamedTuple):
     """What `deform_bytes` returns."""
 
     data: bytes  # the mesh
-    files: dict[str, bytes]  # those beside it, by their names: buffers, copies of images and material libraries
+    files: dict[str, bytes]  # further files by name: buffers, copied images and material libraries
     result: Result
 
 
 def deform_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice] | Mapping[str, AnyLattice], *, name: str,
                  output: str | None = None, files: Files | None = None, **options: Any) -> DeformedBytes:
-    """Deforms a mesh in memory as `deform_file` does a file, to the same bytes; reads and writes no file.
+    """Like `deform_file`, for a mesh in memory, with the same bytes as result; reads and writes no files.
 
-    data: bytes, or what has them (bytearray, memoryview, an array); name: that of the mesh, whose ending says the format
-    output: the name of the result, None: the same; another ending converts it
-    files: what the mesh names (.bin, images, .mtl): a dict of names, relative to the mesh, or a function of a name that returns
-      bytes, or None for a file that is not there; what it raises is raised
-    options: those of `deform_file` but for in place, force and resources
+    data: bytes, or an object with a buffer (bytearray, memoryview, array)
+    name: of the mesh; its ending determines the format
+    output: name of the result; None: the same; another ending converts it
+    files: the files that the mesh refers to (.bin, images, .mtl): a dict of bytes by name, relative to the mesh; or a function
+      that takes a name and returns bytes, or None if the file is missing. Its exceptions are passed on
+    options: those of `deform_file`, except force and resources
     """
     memory, taken = Memory(data, name, files), []
     with described(memory, lattices, options) as (desc, warnings):
@@ -65,7 +67,7 @@ def deform_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice] | Mappin
 
 def check_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice], *, name: str, files: Files | None = None,
                 **options: Any) -> Result:
-    """`check_file` of a mesh in memory, as `deform_bytes` takes it."""
+    """Like `check_file`, for a mesh in memory. data, name, files: as in `deform_bytes`."""
     memory = Memory(data, name, files)
     with described(memory, lattices, options) as (desc, warnings):
         found, raised = run(lib.ffd_check_run, desc)
@@ -74,8 +76,10 @@ def check_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice], *, name:
 
 
 def check_file(source: Path, lattices: AnyLattice | Sequence[AnyLattice], **options: Any) -> Result:
-    """Everything that `deform_file` does but the writing, with all figures: folds, flipped faces, torn edges, .. Options as
-    there; fail_on raises `GateError`, which has the result."""
+    """Does everything that `deform_file` does except writing, and computes all figures: folds, flipped faces, torn edges, ..
+
+    lattices, options: as in `deform_file`. With fail_on it may raise `GateError`, which has the result.
+    """
     with described(source, lattices, options) as (desc, warnings):
         found, raised = run(lib.ffd_check_run, desc)
     return finish(found, raised, warnings)
@@ -89,11 +93,13 @@ class Positions(NamedTuple):
 
 
 def positions_file(source: Path, lattices: AnyLattice | Sequence[AnyLattice], **options: Any) -> Positions:
-    """The deformed positions of a mesh file, which is read and not written; rows of `ffd batch --positions` are these.
+    """Computes the deformed positions of a mesh file, without writing it. They are a row of `ffd batch --positions`.
 
-    Vertices are in the order of `ffd embed`, in the space of the scene (space="mesh": of their own), not rounded to the file's
-    numbers; also those that stay. Of a glTF they are the shapes that it stores, without weights of morph targets or an animation.
-    A vertex of a node whose matrix has no inverse is NaN. lattices, options: as `deform_file` has them, but for those of outputs.
+    All vertices are returned, in the order of `ffd embed`, in the space of the scene (space="mesh": each mesh's own), not rounded
+    to the file's number type. For a glTF this is the stored shape, without morph targets and animations. Vertices of a node
+    whose matrix has no inverse are NaN.
+
+    lattices, options: as in `deform_file`, except the options for outputs
     """
     taken: list[Any] = []
     with described(source, lattices, options) as (desc, warnings):
@@ -104,7 +110,7 @@ def positions_file(source: Path, lattices: AnyLattice | Sequence[AnyLattice], **
 
 def positions_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice], *, name: str, files: Files | None = None,
                     **options: Any) -> Positions:
-    """`positions_file` of a mesh in memory, as `deform_bytes` takes it."""
+    """Like `positions_file`, for a mesh in memory. data, name, files: as in `deform_bytes`."""
     memory, taken = Memory(data, name, files), []
     with described(memory, lattices, options) as (desc, warnings):
         library.positions_into(desc, taken)
@@ -114,5 +120,5 @@ def positions_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice], *, n
 
 
 def _points(taken: list[Any]) -> np.ndarray:
-    """What the library has handed over last; a job that has failed before has none."""
+    """The positions that the library has passed last, (N, 3); empty for a job that has failed before."""
     return np.frombuffer(taken[-1], np.float64).reshape(-1, 3) if taken and len(taken[-1]) else np.empty((0, 3))

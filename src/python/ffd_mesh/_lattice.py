@@ -1,4 +1,4 @@
-"""Lattices: control points, and what they do to embedded points."""
+"""Control lattices, and the deformation of embedded points."""
 
 from __future__ import annotations
 
@@ -21,26 +21,26 @@ REST, DEFORMED = declared.ENUMERATIONS["ffd_volume"].values()
 
 
 class Lattice:
-    """A control lattice: a B-spline volume with (nu, nv, nw) control points, each at rest and deformed. Never changes.
+    """A control lattice: a B-spline volume with nu x nv x nw control points, each with a rest and a deformed position.
 
-    Arrays of control points have the shape (nu, nv, nw, 3), in Python's order: P[i, j, k], w fastest. (Lattice files and
-    the C library have u fastest.) World units are those of the points.
+    Immutable, so threads may share it. Can be pickled. Arrays of control points have the shape (nu, nv, nw, 3), in Python's
+    order: P[i, j, k], w fastest. (Lattice files and the C library have u fastest.) Lengths are in the units of the points.
     """
 
     _owned: Owned
     _parameters: tuple[Parameter, ...]
-    _bounds: np.ndarray | None  # that it was fitted to
+    _bounds: np.ndarray | None  # it was fitted to
     _size: tuple[int, int, int]
     _degree: tuple[int, int, int]
 
     def __init__(self) -> None:
         raise TypeError("use Lattice.around, .load, .parse, .box or .from_points")
 
-    # -- making one
+    # -- constructors
 
     @classmethod
     def _new(cls, make: Any, *arguments: Any, parameters: tuple[Parameter, ...] = ()) -> Lattice:
-        """What a function makes that takes an ffd_lattice ** and an ffd_error last."""
+        """Wraps the lattice that a function makes whose last arguments are an ffd_lattice ** and an ffd_error."""
         owned = Owned(lib.ffd_lattice_destroy)
         call(make, *arguments, ctypes.byref(owned.pointer))
         self = cls.__new__(cls)
@@ -54,12 +54,14 @@ class Lattice:
     @classmethod
     def around(cls, points: Any, size: Any = 4, degree: Any = None, *, knots: Any = "default", margin: Any = 0.05,
                shape: str = "box", spacing: str = "greville", axis: Any = (0, 0, 1), principal: bool = False) -> Lattice:
-        """A lattice round points (N, 3), undeformed, as `ffd lattice new` makes it. Points that are not finite do not count.
+        """Makes an undeformed lattice round points (N, 3), like `ffd lattice new`. Points that are not finite are ignored.
 
-        size: control points along u, v, w: one number, or three; degree: 1 to 9, or None: 3, or size-1 where that is less
-        knots: "clamped", "open", "uniform", "closed", one or three
-        margin: a fraction of the extent that is added on both sides, one or three
-        shape: "box" (principal: along the points' principal axes), or "cylinder" round axis
+        size, degree, knots and margin: one value, or three for u, v, w
+        size: number of control points
+        degree: 1 to 9; None: 3, or size-1 if that is less
+        knots: "clamped", "open", "uniform" or "closed"
+        margin: fraction of the extent that is added on both sides
+        shape: "box" (principal=True: along the principal axes of the points), or "cylinder" round axis
         """
         desc = library.filled("ffd_lattice_desc")
         desc.shape = library.number_of("ffd_lattice_shape", shape, "shape")
@@ -74,7 +76,7 @@ class Lattice:
 
     @classmethod
     def load(cls, path: str | os.PathLike[str], values: Mapping[str, Any] | None = None) -> Lattice:
-        """A lattice file (data/schema/lattice.md), with values for the placeholders of its moves."""
+        """Loads a lattice file (data/schema/lattice.md). values: for the placeholders of its moves, by name."""
         made, count = settings(values)
         used = (ctypes.c_bool * count)()
         self = cls._new(lib.ffd_lattice_load_set, library.path(path), made, count, used)
@@ -86,7 +88,7 @@ class Lattice:
 
     @classmethod
     def parse(cls, text: str | bytes | dict[str, Any], name: str = "lattice") -> Lattice:
-        """A lattice of the text of a file, or of what json.loads makes of it. Failures have the name as their file."""
+        """Makes a lattice from the text of a lattice file, or its content as a dict. name: the file's name in errors."""
         if not isinstance(text, (str, dict, bytes, bytearray, memoryview)):
             raise TypeError(f"text must be a text, bytes or a dict, not {type(text).__name__}")
         text = json.dumps(text) if isinstance(text, dict) else text
@@ -96,9 +98,10 @@ class Lattice:
 
     @classmethod
     def box(cls, low: Any, high: Any, size: Any = 4, degree: Any = None, *, knots: Any = "default", axes: Any = None) -> Lattice:
-        """A lattice whose control points at rest fill a box from low (3,) to high (3,), so that u, v, w are affine.
+        """Makes a lattice whose rest volume is the box from low (3,) to high (3,), so that u, v, w are affine in x, y, z.
 
-        axes: (3, 3), orthogonal unit vectors row by row, along which low and high are measured; None: x, y, z
+        size, degree, knots: as in `around`
+        axes: (3, 3), rows are orthogonal unit vectors along which low and high are measured; None: x, y, z
         """
         made, kept = described(size, degree, knots)
         made.box_min[:], made.box_max[:] = arrays.doubles(low, "low", (3,)), arrays.doubles(high, "high", (3,))
@@ -108,10 +111,11 @@ class Lattice:
 
     @classmethod
     def from_points(cls, points: Any, degree: Any = None, *, knots: Any = "default", weights: Any = None) -> Lattice:
-        """A lattice with the control points at rest points (nu, nv, nw, 3) and positive weights (nu, nv, nw).
+        """Makes a lattice with these control points at rest, (nu, nv, nw, 3), and positive weights (nu, nv, nw); None: all 1.
 
-        knots: "clamped", "open", "uniform", "closed", or a vector of size+degree+1 knots; one, or three.
-               ("closed", breakpoints): the size+1 breakpoints of one period
+        degree: as in `around`
+        knots: one value, or three for u, v, w: "clamped", "open", "uniform", "closed", a knot vector of size+degree+1 numbers,
+               or ("closed", breakpoints) with the size+1 breakpoints of one period
         """
         shape = np.shape(points)
         if len(shape) != 4 or shape[3] != 3:
@@ -124,21 +128,21 @@ class Lattice:
             made.rest_weights = arrays.address(kept[-1])
         return cls._new(lib.ffd_lattice_from_arrays, ctypes.byref(made))
 
-    # -- what it is
+    # -- properties
 
     @property
     def size(self) -> tuple[int, int, int]:
-        """(nu, nv, nw)"""
+        """The number of control points along u, v, w: (nu, nv, nw)."""
         return self._size
 
     @property
     def degree(self) -> tuple[int, int, int]:
-        """The degrees of u, v, w."""
+        """The degrees along u, v, w."""
         return self._degree  # type: ignore[return-value]
 
     @property
     def knots(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """The knot vectors of u, v, w, read-only."""
+        """The knot vectors of u, v, w: read-only views, float64."""
         found = []
         for direction in range(3):
             knots = ctypes.c_void_p()
@@ -148,62 +152,64 @@ class Lattice:
 
     @property
     def domain(self) -> np.ndarray:
-        """(2, 3): the least and the greatest u, v, w."""
+        """The domain: (2, 3), the least and the greatest u, v, w."""
         low, high = (ctypes.c_double * 3)(), (ctypes.c_double * 3)()
         lib.ffd_lattice_get_domain(self._pointer, low, high)
         return np.array([low[:], high[:]])
 
     @property
     def rest(self) -> np.ndarray:
-        """The control points at rest (nu, nv, nw, 3), a read-only view of the library's memory, where u is fastest."""
+        """The control points at rest, (nu, nv, nw, 3) float64: a read-only view of the library's memory, which has u fastest."""
         return self._controls(lib.ffd_lattice_get_points(self._fitted, REST), 3)
 
     @property
     def deformed(self) -> np.ndarray:
-        """The deformed control points, as `rest`."""
+        """The deformed control points: a view like `rest`."""
         return self._controls(lib.ffd_lattice_get_points(self._fitted, DEFORMED), 3)
 
     @property
     def offsets(self) -> np.ndarray:
-        """The displacements of the control points, as `rest`."""
+        """The displacements of the control points from rest: a view like `rest`."""
         return self._controls(lib.ffd_lattice_get_offsets(self._fitted), 3)
 
     @property
     def rest_weights(self) -> np.ndarray | None:
-        """(nu, nv, nw), a read-only view, or None where all are 1."""
+        """The weights at rest, (nu, nv, nw) float64: a read-only view; None: all are 1."""
         return self._weights(REST)
 
     @property
     def weights(self) -> np.ndarray | None:
-        """The deformed weights, as `rest_weights`."""
+        """The deformed weights: a view like `rest_weights`."""
         return self._weights(DEFORMED)
 
     @property
     def needs_points(self) -> bool:
-        """Whether its box goes round a mesh that is not known yet: see `fit`."""
+        """Whether the box goes round a mesh that is not known yet: see `fit`."""
         return not lib.ffd_lattice_get_points(self._pointer, REST)
 
     @property
     def parameters(self) -> dict[str, Parameter]:
-        """The placeholders that its file declares, by name."""
+        """The placeholders that the lattice file declares, by name."""
         return {parameter.name: parameter for parameter in self._parameters}
 
     @property
     def text(self) -> str:
-        """The text of its file. Control points that were set are offsets in it."""
+        """The text of a lattice file for this lattice. Control points set by `moved` are stored as offsets."""
         data, size = ctypes.c_void_p(), ctypes.c_size_t()
         call(lib.ffd_lattice_text, self._pointer, ctypes.byref(data), ctypes.byref(size))
         return library.take_bytes(data, size.value).decode()
 
     def save(self, path: str | os.PathLike[str], *, force: bool = False) -> None:
-        """Writes its file, complete or not at all. force: replace an existing one."""
+        """Writes a lattice file, completely or not at all. force: replace an existing file."""
         call(lib.ffd_lattice_save, self._pointer, library.path(path), bool(force))
 
-    # -- others like it
+    # -- modified copies
 
     def fit(self, points: Any) -> Lattice:
-        """This lattice round the finite ones of points (N, 3), where its file has the box "mesh"; else this one. Its text and
-        file have that box still: `deform_file` lays it round the mesh of the file."""
+        """If the lattice file's box is "mesh", returns a lattice whose box goes round the finite points of (N, 3); else self.
+
+        Its text and file still have the box "mesh": `deform_file` fits it to the mesh of the job.
+        """
         points = arrays.vectors(points, "points")
         if not lib.ffd_lattice_needs_bounds(self._pointer):
             return self
@@ -219,8 +225,8 @@ class Lattice:
         return copy
 
     def moved(self, Q: Any = None, *, offsets: Any = None, weights: Any = None) -> Lattice:
-        """This lattice with other deformed control points Q, or their offsets from rest (nu, nv, nw, 3), and weights
-        (nu, nv, nw). What is None stays. Offsets are used as they are: 0 moves nothing, to the bit."""
+        """Returns this lattice with other deformed control points Q or offsets from rest, (nu, nv, nw, 3), and deformed weights
+        (nu, nv, nw). None: unchanged. Offsets are used without rounding: a control point with offset 0 moves nothing, exactly."""
         if Q is not None and offsets is not None:
             raise ValueError("give Q or offsets, not both")
         self._fitted
@@ -235,19 +241,21 @@ class Lattice:
                 call(function, copy._pointer, None, self._count, arrays.address(numbers))
         return copy
 
-    # -- what it does
+    # -- deformation
 
     def embed(self, points: Any, *, outside: str = "keep", falloff: float = 0.0, snap: float = 0.0, threads: int = 0,
               isa: str = "auto", progress: Progress | None = None) -> Embedding:
-        """Finds u, v, w of points (N, 3), float32 or float64 with any strides, in the volume at rest: certified, with a
-        status each. Points that are not finite have the status INVALID.
+        """Finds u, v, w and the status of points (N, 3) in the rest volume, with certified results. Points are float32 or
+        float64 with any strides; one that is not finite gets the status INVALID.
 
-        The embedding keeps a reference to points, no copy: do not change them while it is used, or give `deform` points=.
+        The embedding refers to points without a copy: do not change them while it is in use, or pass points= to `deform`.
 
-        outside: points without u, v, w "keep" their place, or "extend" (they follow the nearest point of the border; with
-                 falloff, in world units, less and less), or are an "error"
-        snap: a point that misses the volume by no more than this is inside, at the border
-        threads: 0: all cores. progress: called now and then with the part that is done, 0 to 1; False cancels
+        outside: points without u, v, w: "keep" (stay), "extend" (follow the nearest point of the border), or "error"
+        falloff: with "extend": distance, in units of the points, over which the displacement fades to 0; 0: no fading
+        snap: a point that misses the volume by at most this distance is inside, at the border
+        threads: 0: all cores
+        progress: called from time to time with the fraction done, 0 to 1; returning False cancels
+        Raises `EmbeddingError` for outside="error", and other kinds of `Error`.
         """
         points = arrays.readable(arrays.vectors(points, "points"))
         self._fitted
@@ -263,17 +271,17 @@ class Lattice:
                out: np.ndarray | None = None, vertices: Any = None, normals: Any = None, tangents: Any = None,
                gradients: bool = False, threads: int = 0, isa: str = "auto",
                progress: Progress | None = None) -> Any:
-        """The embedded points (N, 3), deformed: an array of the points' type, computed in double and rounded once. With
-        normals, tangents or gradients a `Deformed`.
+        """Deforms the embedded points. Returns an array (N, 3) of the points' type, computed in double and rounded once; or a
+        `Deformed`, if normals, tangents or gradients are given.
 
-        Q, offsets, weights: as `moved` takes them; none of them: this lattice's own deformed control points
-        points: the points that were embedded, where they are not those of `embed` any more
-        out: (N, 3), float32 or float64 with any strides, to write to; may be points=
-        vertices: only these, ascending; other rows of out are left as they are, or, without out, at rest
-        normals, tangents: (N, 3), carried to the deformed surface; unit vectors of their own type
-        gradients: (N, 3, 3) too
+        Q, offsets, weights: as in `moved`; without them this lattice's own deformed control points are used
+        points: the points at rest, if the array given to `embed` has changed since
+        out: (N, 3), float32 or float64 with any strides, for the result; may be the array points=
+        vertices: indices, ascending: deform only these. Other rows of out are unchanged or, without out, at rest
+        normals, tangents: (N, 3), transformed to the deformed surface; the results are unit vectors of the same type
+        gradients: True: also return the gradients of the displacement
 
-        Points that do not move keep their bits. After a failure or an interrupt what out holds is not defined.
+        Points that do not move keep their bits. After an exception the content of out is undefined.
         """
         lattice = self.moved(Q, offsets=offsets, weights=weights)
         source, out = self._source_and_out(embedding, points, out, vertices)
@@ -297,12 +305,13 @@ class Lattice:
 
     def basis(self, embedding: Embedding, *, weights: Any = None, threads: int = 0, isa: str = "auto",
               progress: Progress | None = None) -> Any:
-        """dX/dQ, (N, nu*nv*nw): a scipy.sparse.csr_array, or without scipy a `Csr`. Row i has, for each control point, the
-        derivative of a coordinate of point i by the same coordinate of the control point: B @ D.reshape(-1, 3) are the
-        displacements for offsets D (nu, nv, nw, 3).
+        """The derivative B = dX/dQ, (N, nu*nv*nw): a scipy.sparse.csr_array, or a `Csr` without scipy.
 
-        Columns are in Python's order, as reshape makes it, w fastest. (The C library and files have u fastest.)
-        weights: deformed ones (nu, nv, nw); None: this lattice's. Rows of points that do not move are empty.
+        Row i has, for each control point, the derivative of a coordinate of point i by the same coordinate of the control
+        point. So B @ D.reshape(-1, 3) are the displacements for offsets D (nu, nv, nw, 3). Columns are in Python's order, like
+        reshape, w fastest. (The C library and files have u fastest.) Rows of points that cannot move are empty.
+
+        weights: deformed weights (nu, nv, nw); None: this lattice's
         """
         self._check_same(embedding)
         matrix = library.empty("ffd_csr")
@@ -321,7 +330,7 @@ class Lattice:
 
     def basis_times(self, embedding: Embedding, D: Any, *, weights: Any = None, threads: int = 0, isa: str = "auto",
                     progress: Progress | None = None) -> np.ndarray:
-        """`basis` @ D.reshape(-1, 3), for offsets D (nu, nv, nw, 3), without the matrix: (N, 3) float64."""
+        """Computes `basis` @ D.reshape(-1, 3) for offsets D (nu, nv, nw, 3) without storing the matrix: (N, 3) float64."""
         self._check_same(embedding)
         numbers = arrays.to_library(arrays.doubles(D, "D", self.size + (3,)))
         kept = self._weights_for_library(weights)
@@ -332,8 +341,8 @@ class Lattice:
 
     def basis_transposed(self, embedding: Embedding, dfdx: Any, *, weights: Any = None, threads: int = 0, isa: str = "auto",
                          progress: Progress | None = None) -> np.ndarray:
-        """`basis`.T @ dfdx, for the derivative of a number by the points (N, 3), without the matrix: the derivative by the
-        control points, (nu, nv, nw, 3) float64."""
+        """Computes `basis`.T @ dfdx without storing the matrix. dfdx: derivative of a scalar f by the points, (N, 3). Returns
+        the derivative of f by the control points, (nu, nv, nw, 3) float64."""
         self._check_same(embedding)
         numbers = arrays.doubles(dfdx, "dfdx", (len(embedding), 3))
         kept = self._weights_for_library(weights)
@@ -344,8 +353,8 @@ class Lattice:
 
     def evaluate(self, uvw: Any, *, volume: str = "deformed", jacobians: bool = False, threads: int = 0, isa: str = "auto",
                  progress: Progress | None = None) -> Any:
-        """The volume's points at uvw (N, 3): (N, 3) float64. volume: "rest", "deformed". With jacobians also (N, 3, 3),
-        [C_u C_v C_w] in columns."""
+        """Evaluates the volume ("rest" or "deformed") at uvw (N, 3). Returns points (N, 3) float64; with jacobians=True also
+        (N, 3, 3), whose columns are C_u, C_v, C_w."""
         self._fitted
         uvw = np.ascontiguousarray(arrays.vectors(uvw, "uvw"), dtype=np.float64)
         out = np.empty_like(uvw)
@@ -356,7 +365,7 @@ class Lattice:
         return out if found is None else (out, found)
 
     def folds(self, Q: Any = None, *, offsets: Any = None, weights: Any = None, threads: int = 0) -> Folds:
-        """Whether the deformed volume folds anywhere: a proof over the whole volume. Q, ..: as `moved` takes them."""
+        """Proves whether the deformed volume folds anywhere. Q, offsets, weights: as in `moved`. threads: 0: all cores."""
         lattice = self.moved(Q, offsets=offsets, weights=weights)
         found = library.empty("ffd_folds")
         call(lib.ffd_folds_find, lattice._pointer, library.integer(threads, "threads"), ctypes.byref(found))
@@ -374,7 +383,7 @@ class Lattice:
     def __reduce__(self) -> Any:
         return _again, (self.text, self._bounds, None if self.needs_points else self.offsets)
 
-    # -- inside
+    # -- internal
 
     @property
     def _pointer(self) -> ctypes.c_void_p:
@@ -403,7 +412,7 @@ class Lattice:
         return copy
 
     def _columns(self) -> np.ndarray:
-        """The library's number of a control point -> Python's."""
+        """An array that maps the library's index of a control point to Python's."""
         nu, nv, nw = self.size
         return np.arange(self._count).reshape(nu, nv, nw).transpose(2, 1, 0).ravel()
 
@@ -420,7 +429,7 @@ class Lattice:
             raise InvalidError("the embedding was made with another lattice")
 
     def _source_and_out(self, embedding: Embedding, points: Any, out: Any, vertices: Any) -> tuple[np.ndarray, np.ndarray]:
-        """The points at rest, and the array for the results."""
+        """Returns the points at rest, and the array for the results, after checks."""
         if not isinstance(embedding, Embedding):
             raise TypeError(f"embedding must be what embed returns, not {type(embedding).__name__}")
         count = len(embedding)
@@ -436,13 +445,13 @@ class Lattice:
 
 
 def _again(text: str, bounds: np.ndarray | None, offsets: np.ndarray | None) -> Lattice:
-    """A pickled lattice."""
+    """Restores a pickled lattice."""
     lattice = Lattice.parse(text)
     return lattice if bounds is None else lattice._fit(bounds).moved(offsets=offsets)
 
 
 def _directions(run: Run, out: np.ndarray, gradients: np.ndarray, normals: Any, tangents: Any, wanted: bool) -> Deformed:
-    """Carries normals and tangents by the gradients."""
+    """Transforms normals and tangents by the gradients of the displacement."""
     made: list[np.ndarray | None] = [None, None]
     total = 0
     packed = arrays.span(np.empty((0, 3)))

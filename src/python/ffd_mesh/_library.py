@@ -1,4 +1,4 @@
-"""The library: its functions by ctypes, which lets other threads of Python run during a call."""
+"""The library's functions through ctypes, which releases the GIL during a call."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ lib = _LIBRARY
 
 
 def _words(names: dict[str, int]) -> dict[str, int]:
-    """FFD_NORMALS_KEEP, ... -> keep, ...: without the words that all have in common."""
+    """FFD_NORMALS_KEEP, ... -> keep, ...: drops the prefix that all names share."""
     split = [name.split("_") for name in names]
     common = 0
     while all(len(words) > common + 1 and words[common] == split[0][common] for words in split):
@@ -36,13 +36,13 @@ def _words(names: dict[str, int]) -> dict[str, int]:
     return {"_".join(words[common:]).lower(): number for words, number in zip(split, names.values())}
 
 
-# Enumeration -> word -> number; and back.
+# Enumeration -> word -> number; enumeration -> number -> word.
 WORDS = {name: _words(names) for name, names in declared.ENUMERATIONS.items()}
 NAMES = {name: {number: word for word, number in words.items()} for name, words in WORDS.items()}
 
 
 def number_of(enumeration: str, word: Any, what: str) -> int:
-    """The number of a word such as "extend"; a ValueError names what there is."""
+    """The number of a word such as "extend". A ValueError lists the words that are possible."""
     words = WORDS[enumeration]
     if not isinstance(word, str) or word not in words:
         raise ValueError(f"{what} must be one of {', '.join(map(repr, words))}, not {word!r}")
@@ -50,7 +50,7 @@ def number_of(enumeration: str, word: Any, what: str) -> int:
 
 
 def integer(value: Any, what: str, least: int = 0, most: int = 2**31 - 1) -> int:
-    """An int of Python, of numpy or of what else has __index__, within bounds: ctypes would cut it."""
+    """Converts an object with __index__ to an int within bounds: ctypes would truncate it silently."""
     try:
         number = operator.index(value)
     except TypeError:
@@ -61,7 +61,7 @@ def integer(value: Any, what: str, least: int = 0, most: int = 2**31 - 1) -> int
 
 
 def real(value: Any, what: str) -> float:
-    """A float of what is one; an int that is too large for it is a ValueError, as other bad values are."""
+    """Converts to float. An int that is too large raises ValueError, like other bad values."""
     try:
         return float(value)
     except OverflowError:
@@ -69,7 +69,7 @@ def real(value: Any, what: str) -> float:
 
 
 def encoded(value: Any, what: str) -> bytes:
-    """A text for the library, which would take a null character for its end."""
+    """Encodes a text. Refuses null characters, where the library would see its end."""
     if not isinstance(value, str):
         raise TypeError(f"{what} must be a text, not {type(value).__name__}")
     if "\0" in value:
@@ -78,7 +78,7 @@ def encoded(value: Any, what: str) -> bytes:
 
 
 def path(value: Any) -> bytes:
-    """A path for the library, which would cut it at a null character."""
+    """Encodes a path. Refuses null characters, where the library would see its end."""
     data = os.fsencode(value)
     if b"\0" in data:
         raise ValueError(f"a path must not have a null character: {value!r}")
@@ -90,7 +90,7 @@ def text(data: bytes | None) -> str | None:
 
 
 def empty(name: str) -> Any:
-    """A structure for results; those that know their size have it."""
+    """A zeroed structure for results, with struct_size set if it has one."""
     structure = getattr(declared, name)()
     if hasattr(structure, "struct_size"):
         structure.struct_size = ctypes.sizeof(structure)
@@ -109,7 +109,7 @@ def filled(name: str) -> Any:
 
 
 def call(function: Any, *arguments: Any) -> None:
-    """Calls a function that takes an ffd_error last; raises what it says."""
+    """Calls a function whose last argument is an ffd_error; raises an exception if it fails."""
     error = declared.ffd_error()
     status = function(*arguments, ctypes.byref(error))
     if status != 0:
@@ -117,7 +117,7 @@ def call(function: Any, *arguments: Any) -> None:
 
 
 class Run:
-    """How a call runs: an ffd_run, and what its progress has to say."""
+    """An ffd_run, with the caller's progress function and the exception that it may raise."""
 
     def __init__(self, threads: int, isa: str, progress: Progress | None) -> None:
         if progress is not None and not callable(progress):
@@ -130,7 +130,7 @@ class Run:
         self.run.user = id(self._said)
 
     def __call__(self, function: Any, *arguments: Any, last: tuple[Any, ...] = ()) -> None:
-        """Calls a function that takes an ffd_run, what is last, and an ffd_error."""
+        """Calls a function with arguments, an ffd_run, the arguments in last, and an ffd_error."""
         try:
             call(function, *arguments, ctypes.byref(self.run), *last)
         except Cancelled:
@@ -146,7 +146,7 @@ _LEVELS = {0: logging.WARNING, 1: logging.INFO, 2: logging.DEBUG}
 
 @contextlib.contextmanager
 def logged(structure: Any) -> Iterator[list[str]]:
-    """Lets a job's structure log as "ffd_mesh"; at the end the list has its warnings."""
+    """Passes the log of a job's structure to logging, as "ffd_mesh". Yields a list that gets the warnings at the end."""
     lines: list[Any] = []
     warnings: list[str] = []
     structure.log = _native.log
@@ -161,7 +161,7 @@ def logged(structure: Any) -> Iterator[list[str]]:
 
 
 def lend_bytes(data: Any, what: str) -> tuple[Any, int, Any]:
-    """Address and size of what has bytes, and the object that keeps them."""
+    """Returns the address and size of a contiguous buffer, and an object that keeps it alive."""
     try:
         view = memoryview(data)
     except TypeError:
@@ -173,7 +173,7 @@ def lend_bytes(data: Any, what: str) -> tuple[Any, int, Any]:
 
 
 class Resolver:
-    """Gives a job's source the files that it names, by a function of their names; raises what that has raised."""
+    """Sets a source's resolve callback to a Python function of a file's name, and keeps the exception that it may raise."""
 
     def __init__(self, source: Any, function: Callable[[str], Any]) -> None:
         self._said: list[Any] = [function, []]
@@ -185,13 +185,13 @@ class Resolver:
 
 
 def sink_into(structure: Any, files: list[Any]) -> None:
-    """Lets a job's structure append (name, bytes) of what it would write to a list, which must outlive the call."""
+    """Makes a job append (name, bytes) of each output to a list, which must outlive the call, instead of writing files."""
     structure.sink = _native.sink
     structure.sink_user = id(files)
 
 
 def positions_into(structure: Any, arrays: list[Any]) -> None:
-    """Lets a job's structure append the bytes of its deformed positions to a list, which must outlive the call."""
+    """Makes a job append the bytes of its deformed positions to a list, which must outlive the call."""
     structure.positions = _native.positions
     structure.positions_user = id(arrays)
 
@@ -203,20 +203,20 @@ def list_parameters(data: bytes, name: str) -> list[Any]:
 
 
 class Owned:
-    """An object of the library, which is freed with this one."""
+    """Owns an object of the library, and destroys it."""
 
     def __init__(self, destroy: Any) -> None:
         self.pointer = ctypes.c_void_p()
         self._destroy = destroy
 
-    # At the end of the interpreter the module may be gone before its last object.
+    # ctypes is bound as a default: when the interpreter exits, the module may be gone before its last object.
     def __del__(self, byref: Any = ctypes.byref) -> None:
         if self.pointer:
             self._destroy(byref(self.pointer))
 
 
 def take_bytes(pointer: ctypes.c_void_p, size: int) -> bytes:
-    """Copies what the library hands over, and frees it."""
+    """Copies memory that the library has allocated for the caller, and frees it."""
     try:
         return ctypes.string_at(pointer, size)
     finally:

@@ -1,4 +1,4 @@
-"""Meshes of trimesh, meshio and pyvista. None of these is imported here."""
+"""Meshes of trimesh, meshio and pyvista, none of which is imported here."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ._lattice import Lattice
 
 
 def _library_of(mesh: Any) -> str:
-    """The package whose mesh this is, or one of whose meshes it is derived from."""
+    """The package that defines the mesh's class or one of its base classes; "" if it is none of the three."""
     for kind in type(mesh).__mro__:
         package = kind.__module__.partition(".")[0]
         if package in ("trimesh", "meshio", "pyvista"):
@@ -20,12 +20,13 @@ def _library_of(mesh: Any) -> str:
 
 def deform_mesh(mesh: Any, lattice: Lattice, Q: Any = None, *, offsets: Any = None, weights: Any = None, normals: bool = True,
                 **embed: Any) -> Any:
-    """A copy of a mesh with deformed points, and with the normals that it stores carried along; the mesh stays as it is.
+    """Returns a copy of a mesh with deformed points, and with its stored normals deformed too. The mesh is not changed.
 
-    mesh: trimesh.Trimesh or PointCloud, meshio.Mesh, pyvista.PolyData or another data set of pyvista with points
-    Q, offsets, weights: as `Lattice.moved` takes them; none of them: the lattice's own deformed control points
-    normals: False: stored normals are left as they are (meshio, pyvista), or made anew by trimesh
+    mesh: trimesh.Trimesh or PointCloud, meshio.Mesh, pyvista.PolyData or another pyvista data set with points
+    Q, offsets, weights: as in `Lattice.moved`; without them the lattice's own deformed control points are used
+    normals: False: keep stored normals (meshio, pyvista), or let trimesh recompute them
     embed: options of `Lattice.embed`: outside, falloff, snap, threads, isa, progress
+    Raises TypeError for other kinds of meshes, and `Error`.
     """
     lattice = lattice.moved(Q, offsets=offsets, weights=weights)
     package = _library_of(mesh)
@@ -47,7 +48,7 @@ def _deformed(lattice: Lattice, points: Any, normals: Any, embed: dict[str, Any]
 
 
 def _deform_trimesh(mesh: Any, lattice: Lattice, normals: bool, embed: dict[str, Any]) -> Any:
-    # Those that came with the mesh; trimesh makes others from the faces.
+    # Only normals that came with the mesh are cached here; trimesh computes others from the faces when asked.
     stored = normals and "vertex_normals" in getattr(mesh, "_cache", ())
     found, carried = _deformed(lattice, mesh.vertices, np.array(mesh.vertex_normals) if stored else None, embed)
     copy = mesh.copy()

@@ -1,4 +1,4 @@
-"""What a job did, or why it failed."""
+"""Results of jobs, and their failures."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from ._values import Folds, folds_of
 
 
 class Result:
-    """What a job did: the members of ffd_job_result (ffd/job.h) as attributes, and
+    """The result of a job: the members of ffd_job_result (ffd/job.h) as attributes, and
 
-    warnings: what a user of the program would be told, a line each (also by logging, as "ffd_mesh")
-    counts: vertices by status: "inside", "outside", "multiple", "singular", "invalid"
-    folds: a `Folds`, or None where the proof was not asked for
+    warnings: the warnings that the program would print, one string each (also logged as "ffd_mesh")
+    counts: number of vertices by status: "inside", "outside", "multiple", "singular", "invalid"
+    folds: a `Folds`; None if the job did not look for folds
     """
 
     warnings: list[str]
@@ -46,7 +46,7 @@ class Result:
 
 
 def plain(value: Any) -> Any:
-    """Values of ctypes as those of Python."""
+    """Converts ctypes values to Python values, recursively. Structures become dicts."""
     if isinstance(value, bytes):
         return library.text(value)
     if isinstance(value, ctypes.Array):
@@ -57,20 +57,20 @@ def plain(value: Any) -> Any:
 
 
 def beside(taken: list[Any], output: str) -> dict[str, bytes]:
-    """What a sink has taken before the output, which comes last, by names relative to it."""
+    """The files that a sink received before the output (the last entry), by path relative to the output."""
     folder = os.path.dirname(output)
     return {os.path.relpath(path, folder) if folder else path: content for path, content in taken[:-1]}
 
 
 def run(function: Any, desc: Any) -> tuple[Any, Error | None]:
-    """Runs a job: what it did (ffd_job_result), and what it failed of."""
+    """Runs a job. Returns its ffd_job_result, and the exception if it failed."""
     result, error = library.empty("ffd_job_result"), declared.ffd_error()
     status = function(ctypes.byref(desc), ctypes.byref(result), ctypes.byref(error))
     return result, (failure(status, error) if status else None)
 
 
 def finish(found: Any, raised: Error | None, warnings: list[str]) -> Result:
-    """What a job did; raises what it failed of, which has it too where a gate refuses."""
+    """Returns the result of a job, or raises its exception. A `GateError` gets the result."""
     result = Result(found, warnings)
     if raised is None:
         return result

@@ -10,8 +10,10 @@ _NAMES = ("lattice", "report")
 
 
 def schema(name: str) -> dict[str, Any]:
-    """The JSON Schema of "lattice": lattice files; or of "report": what the program's --report writes. The file is
-    ffd_mesh/schema/ffd-NAME.schema.json."""
+    """Returns a JSON Schema as a dict. name: "lattice" (lattice files) or "report" (files of the program's --report).
+
+    The file in the package is schema/ffd-NAME.schema.json.
+    """
     if name not in _NAMES:
         raise ValueError(f"schema must be one of {', '.join(map(repr, _NAMES))}, not {name!r}")
     with open(os.path.join(os.path.dirname(__file__), "schema", f"ffd-{name}.schema.json"), encoding="utf-8") as file:

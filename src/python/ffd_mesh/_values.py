@@ -1,4 +1,4 @@
-"""What lattices are made of, and what they answer with, apart from arrays of points."""
+"""Arguments and results of lattices, apart from arrays of points."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from . import _library as library
 
 
 class Parameter(NamedTuple):
-    """A placeholder of a lattice file, as the file declares it. default: None where there is none."""
+    """A placeholder, as a lattice file declares it. default: None if it has none."""
 
     name: str
     default: Any
@@ -27,10 +27,10 @@ class Parameter(NamedTuple):
 
 
 class Deformed(NamedTuple):
-    """What `Lattice.deform` returns where more than points is asked for; None for what was not.
+    """What `Lattice.deform` returns if it is asked for more than points. Members not asked for are None.
 
-    points: (N, 3); normals, tangents: (N, 3); gradients: (N, 3, 3) float64, d displacement_r / d p_c
-    collapsed: how many normals and tangents have no direction any more, and keep theirs
+    points: (N, 3); normals, tangents: (N, 3); gradients: (N, 3, 3) float64, [n, r, c] = d displacement_r / d p_c
+    collapsed: the number of normals and tangents that the deformation collapses; they keep their direction
     """
 
     points: np.ndarray
@@ -41,7 +41,7 @@ class Deformed(NamedTuple):
 
 
 class Csr(NamedTuple):
-    """A sparse matrix by rows, where scipy is not installed: the entries of row i are indptr[i] to indptr[i+1]-1."""
+    """A sparse matrix in CSR format, if scipy is not installed. The entries of row i are indptr[i] to indptr[i+1]-1."""
 
     data: np.ndarray
     indices: np.ndarray
@@ -51,11 +51,12 @@ class Csr(NamedTuple):
 
 @dataclass(frozen=True)
 class Folds:
-    """What is proven of a deformed volume (ffd/fold.h). verdict: "none", "some", or "unknown".
+    """The fold proof of a deformed volume (ffd/fold.h). verdict: "none", "some", or "unknown".
 
-    cells, folded_cells, unknown_cells: span cells
-    min_det: a lower bound of the determinant, relative to the mean at rest
-    witness_uvw, witness_xyz, witness_rest: (3,) of a place that folds, and witness_det there; None without one
+    cells, folded_cells, unknown_cells: numbers of span cells
+    min_det: a lower bound of the Jacobian determinant, relative to its mean at rest
+    witness_uvw, witness_xyz, witness_rest: (3,) parameters, deformed and rest position of a point that folds; witness_det: the
+      determinant there. None without such a point
     """
 
     verdict: str
@@ -91,7 +92,7 @@ def settings(values: Mapping[str, Any] | None) -> tuple[Any, int]:
 
 
 def three(value: Any, what: str) -> tuple[Any, Any, Any]:
-    """One value for all of u, v, w, or one for each."""
+    """Returns three values, for u, v, w. value: one for all, or three."""
     if isinstance(value, (list, tuple, np.ndarray)):
         if len(value) != 3:
             raise ValueError(f"{what} must be one value, or three, not {len(value)}")
@@ -100,14 +101,14 @@ def three(value: Any, what: str) -> tuple[Any, Any, Any]:
 
 
 def shape_of(size: Any, degree: Any) -> tuple[list[int], list[int]]:
-    """Sizes and degrees as the library takes them: 0 for a degree that is not given."""
+    """Converts sizes and degrees for the library, which takes 0 for a degree that is not given."""
     sizes = [library.integer(value, "size", 1, 2**62) for value in three(size, "size")]
     degrees = [0 if value is None else library.integer(value, "degree", 1, 9) for value in three(degree, "degree")]
     return sizes, degrees
 
 
 def described(size: Any, degree: Any, knots: Any) -> tuple[Any, list[np.ndarray]]:
-    """An ffd_lattice_arrays, and the arrays that it points to."""
+    """Makes an ffd_lattice_arrays. Returns it with the arrays that must stay alive."""
     made, kept = library.filled("ffd_lattice_arrays"), []
     made.size[:], made.degree[:] = shape_of(size, degree)
     one = isinstance(knots, str) or isinstance(knots, tuple) and len(knots) == 2 and knots[0] == "closed"
@@ -123,7 +124,7 @@ def described(size: Any, degree: Any, knots: Any) -> tuple[Any, list[np.ndarray]
 
 
 def vertices_of(value: Any, count: int) -> np.ndarray:
-    """Numbers of points as the library takes them."""
+    """Converts indices of points, 0 to count-1, to contiguous uint32."""
     array = np.asarray(value)
     if array.ndim != 1 or array.dtype.kind not in "iu" and array.size:
         raise TypeError("vertices must be a list of integers")
@@ -133,7 +134,7 @@ def vertices_of(value: Any, count: int) -> np.ndarray:
 
 
 def csr(values: np.ndarray, columns: np.ndarray, starts: np.ndarray, shape: tuple[int, int]) -> Any:
-    """The matrix with its columns ascending in each row."""
+    """Makes a scipy csr_array, or a `Csr`, with the columns of each row sorted."""
     rows = np.repeat(np.arange(shape[0]), np.diff(starts).astype(np.intp))
     order = np.lexsort((columns, rows))
     kind = np.int32 if max(len(values), *shape) < 2**31 else np.int64
@@ -146,12 +147,12 @@ def csr(values: np.ndarray, columns: np.ndarray, starts: np.ndarray, shape: tupl
 
 
 def parameters_of(data: bytes, name: str) -> dict[str, Parameter]:
-    """The placeholders that the text of a lattice file declares."""
+    """The placeholders that the text of a lattice file declares, by name. name: of the file, for messages."""
     return {row[0]: Parameter(row[0], None if row[1] is None else json.loads(row[1]), *row[2:])
             for row in library.list_parameters(data, name)}
 
 
 def parameters(path: str | os.PathLike[str]) -> dict[str, Parameter]:
-    """The placeholders that a lattice file declares, by name; they need no values."""
+    """The placeholders that a lattice file declares, by name. They need no values for this."""
     with open(path, "rb") as file:
         return parameters_of(file.read(), os.fspath(path))

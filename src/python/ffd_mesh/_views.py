@@ -13,9 +13,9 @@ from ._errors import Error, GateError
 from ._library import lib
 from ._result import Result, finish, run
 
-# What is said of outputs of other jobs.
+# Without the options for outputs of other jobs.
 _OPTIONS = OPTIONS - {"output_format", "resources", "force", "if_changed", "dry_run", "as_morph", "clips"}
-# As the program has them; "iso" is what a page opens with.
+# As in the program. "iso", all zeros, is the default view of a page.
 _CAMERAS = {"front": (0, 0, 1), "back": (0, 0, -1), "left": (-1, 0, 0), "right": (1, 0, 0), "top": (0, 1, 0), "iso": (0, 0, 0)}
 
 
@@ -30,12 +30,12 @@ def _set_camera(desc: Any, value: Any) -> None:
 
 def _set_look(desc: Any, output: Any, color: str, camera: Any, size: tuple[int, int] | None, frames: int | None, full: bool,
               animation: str | None) -> None:
-    """Refuses what would do nothing, as the program does."""
+    """Sets the options of the page or picture. Like the program, refuses options without effect."""
     is_picture = os.fsdecode(output).lower().endswith(".png")
     if full and is_picture:
-        raise ValueError("full is of a page, and the output is a picture")
+        raise ValueError("full is for pages, but the output is a picture")
     if not is_picture and (size is not None or frames is not None):
-        raise ValueError("size and frames are of a picture, and the output is a page")
+        raise ValueError("size and frames are for pictures, but the output is a page")
     desc.color, desc.full = library.number_of("ffd_view_color", color, "color"), bool(full)
     _set_camera(desc, camera)
     if size is not None:
@@ -53,7 +53,7 @@ def _view(desc: Any, source: Any, output: Any, lattices: Any, deformed: Any, loo
     with described(source, lattices, options, _OPTIONS) as (job, warnings):
         desc.job = ctypes.pointer(job)
         if deformed is not None:
-            other = declared.ffd_source.from_buffer_copy(job.input)  # read as the first one
+            other = declared.ffd_source.from_buffer_copy(job.input)  # same options for reading
             place(deformed, other)
             desc.deformed = ctypes.pointer(other)
         found, raised = run(lib.ffd_view_run, desc)
@@ -64,18 +64,21 @@ def view_file(source: Path, output: Path, lattices: AnyLattice | Sequence[AnyLat
               deformed: Path | None = None, color: str = "displacement", camera: str | Sequence[float] = "iso",
               size: tuple[int, int] | None = None, frames: int | None = None, full: bool = False, animation: str | None = None,
               force: bool = False, **options: Any) -> Result:
-    """Draws a mesh before and after, as `ffd view` does: a page (.html), which a browser opens without a network, or a
-    picture (.png). The output is complete or absent.
+    """Draws a mesh before and after its deformation, as `ffd view` does. The output is complete or absent.
 
-    lattices: what deforms it, as `deform_file` takes it; None: it is shown as it is. deformed: the deformed mesh as a file, of
-      as many vertices: lattices are drawn then, and deform nothing
-    color="displacement" | "status" | "det" | "plain"; camera="front" | "back" | "left" | "right" | "top" | "iso" | (x, y, z):
-      where one looks from, y upwards; animation="NAME": its poses, or what a page opens with
-    size=(width, height), frames=N: of a picture, in pixels (None: 1600 x 900), and how many in a row; full=True: a page shows all
-      vertices; force=True: replace the output
+    output: path of a page (.html, needs no network) or a picture (.png)
+    lattices: as in `deform_file`; None: show the mesh as it is
+    deformed: path of the deformed mesh, with as many vertices; lattices are then drawn, but deform nothing
+    color: "displacement" | "status" | "det" | "plain"
+    camera: "front" | "back" | "left" | "right" | "top" | "iso", or (x, y, z), the direction from the mesh to the camera; y is up
+    animation: name of the animation that a picture shows in poses, or that a page shows first
+    size=(width, height): of a frame of a picture, in pixels; None: 1600 x 900
+    frames: number of frames of a picture, in one row
+    full=True: a page shows all vertices
+    force=True: replace the output
     options: those of `check_file`
-    Returns what `check_file` finds, of the shapes that are shown. Raises `Error`; `GateError` where fail_on refuses what is drawn
-    all the same. Any number of threads may call it.
+    Returns the result of `check_file` for the shapes shown. Raises `Error`; `GateError` if fail_on refuses the shape, which is
+    drawn all the same. Threads may call it at the same time.
     """
     desc = library.filled("ffd_view_desc")
     desc.force = bool(force)
@@ -86,8 +89,8 @@ def view_file(source: Path, output: Path, lattices: AnyLattice | Sequence[AnyLat
 class ViewBytes(NamedTuple):
     """What `view_bytes` returns."""
 
-    data: bytes  # the page or the picture
-    result: Result  # what `view_file` returns
+    data: bytes  # the page or picture
+    result: Result  # as `view_file` returns it
 
 
 def view_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice] | None = None, *, name: str, output: str = "view.html",
@@ -95,10 +98,12 @@ def view_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice] | None = N
                deformed_files: Files | None = None, color: str = "displacement", camera: str | Sequence[float] = "iso",
                size: tuple[int, int] | None = None, frames: int | None = None, full: bool = False, animation: str | None = None,
                **options: Any) -> ViewBytes:
-    """`view_file` of a mesh in memory: data, name and files as `deform_bytes` takes them; reads and writes no file.
+    """Like `view_file`, for a mesh in memory; reads and writes no files.
 
-    output: its ending says whether it is a page or a picture. deformed: the deformed mesh, as data; deformed_name,
-      deformed_files: None: as those of data. All else as `view_file`, but for force. A `GateError` has the output as its data.
+    data, name, files: as in `deform_bytes`
+    output: its ending decides between page and picture
+    deformed, deformed_name, deformed_files: the deformed mesh, likewise; name and files None: the same as for data
+    All other arguments are those of `view_file`, except force. A `GateError` has the output in its member data.
     """
     desc, taken = library.filled("ffd_view_desc"), []
     library.sink_into(desc, taken)

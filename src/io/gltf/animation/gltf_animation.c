@@ -31,7 +31,8 @@ static size_t accessor_of(const gltf_document *d, uint32_t sampler, const char *
     return ffd_gltf_index(d, ffd_json_span_member(&d->tree, sampler, key), d->model.accessor_count);
 }
 
-/* "/nodes/3/rotation": the node and the path; of a node without a mesh, weights are none. */
+/* Takes the node and the path of a pointer like "/nodes/3/rotation". weights of a node without a mesh drive
+   nothing: the node has no morph targets. */
 static void follow_pointer(const gltf_document *d, gltf_channel *channel, uint32_t value)
 {
     const char *rest = "";
@@ -61,8 +62,8 @@ static ffd_status read_pointer(const gltf_document *d, uint32_t extension, gltf_
     return FFD_OK;
 }
 
-/* A target without a node is one of an extension; what is not known is left out, as the specification says.
- */
+/* Reads the path of a target without KHR_animation_pointer. A target without a node belongs to another
+   extension: a channel that is not understood is left out, as the specification says. */
 static ffd_status read_path(const gltf_document *d, uint32_t target, gltf_channel *channel, ffd_error *error)
 {
     const uint32_t node = ffd_json_span_member(&d->tree, target, "node");

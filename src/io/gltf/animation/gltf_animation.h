@@ -1,7 +1,7 @@
-/* gltf_animation.h - the animations of an open glTF file (glTF 2.0, 3.11). What is read says which values and
-   accessors of the file it comes from, so that these can be written anew. A list is made of any file that
-   opens; an animation is checked when its keys are loaded, so that a broken one stops only who wants it.
-   ffd_gltf_load_animation and ffd_gltf_unload_animation are in gltf_keys.c. */
+/* gltf_animation.h - the animations of an open glTF file (glTF 2.0, 3.11). Each struct keeps the JSON values
+   and accessors it was read from, so that they can be written anew. Any file that opens has a list of
+   animations; an animation is checked only when its keys are loaded, so that a broken one stops only those
+   who use it. ffd_gltf_load_animation and ffd_gltf_unload_animation are in gltf_keys.c. */
 #ifndef FFD_IO_GLTF_ANIMATION_GLTF_ANIMATION_H
 #define FFD_IO_GLTF_ANIMATION_GLTF_ANIMATION_H
 
@@ -25,23 +25,23 @@ typedef enum gltf_interpolation {
 
 typedef struct gltf_animation_sampler {
     uint32_t value;       /* in the JSON */
-    size_t input, output; /* accessors; GLTF_NONE: it names none that is there */
+    size_t input, output; /* accessors; GLTF_NONE: absent or out of range */
     gltf_interpolation interpolation;
     size_t key_count;
-    size_t width;  /* numbers of one value */
-    double *times; /* key_count, never falling; NULL: its keys are not loaded */
-    /* key_count * width; of CUBICSPLINE three times as many: of each key the tangent before it, the value and
-       the tangent behind it. */
+    size_t width;  /* numbers per value */
+    double *times; /* key_count, non-decreasing; NULL: the keys are not loaded */
+    /* key_count * width. CUBICSPLINE has three times as many: each key's in-tangent, value and
+       out-tangent. */
     double *values;
 } gltf_animation_sampler;
 
 typedef struct gltf_channel {
     uint32_t value; /* in the JSON */
-    size_t sampler; /* of its animation; GLTF_NONE: it names none that is there */
+    size_t sampler; /* an index in its animation; GLTF_NONE: absent or out of range */
     gltf_path path;
-    size_t node;   /* that the path is of; GLTF_NONE: with GLTF_NO_PATH */
-    char *pointer; /* of KHR_animation_pointer, also where path and node say the same; NULL: it has none */
-    /* The value that should name the node or the path and does not; JSON_NONE: none. */
+    size_t node;   /* whose path it is; GLTF_NONE with GLTF_NO_PATH */
+    char *pointer; /* of KHR_animation_pointer, even if path and node were taken from it; NULL: it has none */
+    /* The JSON value that names no node or path but should; JSON_NONE: no fault. */
     uint32_t fault;
 } gltf_channel;
 
@@ -52,39 +52,41 @@ typedef struct gltf_animation {
     size_t sampler_count;
     gltf_channel *channels;
     size_t channel_count;
-    double begin, end; /* seconds: of the first and the last key, once it is loaded; 0 and 0 without keys */
-    uint64_t taken;    /* of the document's memory budget, by its keys */
-    size_t pointer_count; /* channels that drive something other than a node by KHR_animation_pointer */
+    /* seconds: the times of the first and the last key, once loaded; 0 and 0 without keys. */
+    double begin, end;
+    uint64_t taken; /* bytes of the document's memory budget that its keys take */
+    /* Channels whose KHR_animation_pointer names something other than a property of a node. */
+    size_t pointer_count;
 } gltf_animation;
 
 typedef struct gltf_animations {
     gltf_animation *list;
     size_t count;
-    uint64_t taken; /* of the document's memory budget, by the list */
+    uint64_t taken; /* bytes of the document's memory budget that the list takes */
 } gltf_animations;
 
-/* Lists the animations of a file, without their keys; to be freed in any case. Errors: FFD_E_LIMIT,
-   FFD_E_MEMORY. */
+/* Lists the animations of a file, without their keys. Free the list with ffd_gltf_free_animations, after an
+   error too. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_gltf_list_animations(gltf_document *document, gltf_animations *animations, ffd_error *error);
-/* Frees them, with the keys that are loaded; nothing is left. */
+/* Frees the list with all loaded keys, and empties it. */
 void ffd_gltf_free_animations(gltf_document *document, gltf_animations *animations);
 
-/* Whether a channel drives a node. Others are left out by viewers. */
+/* Whether a channel drives a node. Viewers ignore the others. */
 static inline bool ffd_gltf_channel_drives(const gltf_channel *channel)
 {
     return channel->path != GLTF_NO_PATH;
 }
 
-/* Returns how many morph targets a node's mesh has, which is how many weights drive it. */
+/* Returns the number of morph targets of a node's mesh: one weight drives each. */
 static inline size_t ffd_gltf_node_targets(const gltf_document *document, size_t node)
 {
     const int mesh = document->model.nodes[node].mesh;
     return mesh < 0 ? 0 : document->mesh_uses[mesh].target_count;
 }
 
-/* Loads the keys of all samplers that drive a node, and checks them: the accessors and their types, how many
-   there are, times that do not fall, finite numbers. Loading again changes nothing. Errors: FFD_E_INVALID,
-   FFD_E_UNSUPPORTED (compressed by what is not known), FFD_E_LIMIT, FFD_E_MEMORY. */
+/* Loads and checks the keys of all samplers that drive a node: the types and counts of their accessors, that
+   times do not fall, that numbers are finite. Loading again changes nothing. Errors: FFD_E_INVALID,
+   FFD_E_UNSUPPORTED (an unknown compression), FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_gltf_load_animation(gltf_document *document, gltf_animation *animation, ffd_error *error);
 /* Frees the keys. */
 void ffd_gltf_unload_animation(gltf_document *document, gltf_animation *animation);

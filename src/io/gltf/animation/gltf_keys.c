@@ -7,7 +7,8 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Fails at a member of a sampler or a channel, or at the whole of it if the member is absent. */
+/* Fails at a member of a sampler or a channel, or at the sampler or channel itself if the member is
+   absent. */
 static ffd_status refuse(const gltf_document *d, uint32_t value, const char *key, ffd_error *error,
                          const char *format, ...) FFD_PRINTF(5, 6);
 static ffd_status refuse(const gltf_document *d, uint32_t value, const char *key, ffd_error *error,
@@ -45,7 +46,8 @@ static bool has_values(const gltf_accessor *accessor)
            (accessor->component == GLTF_FLOAT || (accessor->normalized && accessor->component != GLTF_U32));
 }
 
-/* Finds out how many numbers a value has: 3 and 4 of vectors; of weights what the counts say. */
+/* Finds the number of components of a value: 3 or 4 for vectors, for weights the number of elements per
+   key. */
 static ffd_status measure(const gltf_document *d, gltf_animation_sampler *sampler, ffd_error *error)
 {
     const gltf_accessor *const output = &d->model.accessors[sampler->output];
@@ -91,7 +93,7 @@ static ffd_status check_sampler(const gltf_document *d, gltf_animation_sampler *
     return measure(d, sampler, error);
 }
 
-/* Two keys at one time are what programs write for a jump, and every viewer plays them so. */
+/* Two keys may have the same time: programs write a jump so, and every viewer plays it. */
 static ffd_status check_times(const gltf_document *d, const gltf_animation_sampler *sampler, ffd_error *error)
 {
     for (size_t i = 0; i < sampler->key_count; i++) {
@@ -142,7 +144,7 @@ static ffd_status load_sampler(gltf_document *d, gltf_animation *animation, gltf
     return status ? status : check_values(d, sampler, elements * rows, error);
 }
 
-/* Whether the values of a channel's sampler have as many numbers as what it drives. */
+/* Checks that the values of a channel's sampler have as many numbers as the property it drives. */
 static ffd_status check_width(const gltf_document *d, const gltf_channel *channel,
                               const gltf_animation_sampler *sampler, ffd_error *error)
 {
@@ -174,7 +176,7 @@ static ffd_status load_channel(gltf_document *d, gltf_animation *animation, cons
     return status ? status : check_width(d, channel, sampler, error);
 }
 
-/* The time from the first key to the last. */
+/* Finds the times of the first and the last key. */
 static void find_span(gltf_animation *animation)
 {
     bool any = false;

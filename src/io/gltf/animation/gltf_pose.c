@@ -6,7 +6,7 @@
 #include "io/gltf/scene/gltf_shapes.h"
 #include <string.h>
 
-/* Lists the nodes, parents first: each row of the lists of children after the one above it. */
+/* Lists the nodes, parents before children. Each node's children are a linked list. */
 static ffd_status order_nodes(const gltf_document *d, gltf_pose *pose, ffd_error *error)
 {
     const size_t count = d->model.node_count;
@@ -34,8 +34,9 @@ static ffd_status order_nodes(const gltf_document *d, gltf_pose *pose, ffd_error
     return FFD_OK;
 }
 
-/* The rotation x,y,z,w of a matrix whose columns have length 1 (Shepperd 1978). Where these are sheared it is
-   no unit quaternion: three.js has the same one, and shows the same. ffd_mat_quaternion gives another. */
+/* The rotation x,y,z,w of a matrix whose columns have length 1 (Shepperd 1978). For a sheared matrix the
+   quaternion is not a unit quaternion: three.js computes the same one, so that it shows the same pose.
+   ffd_mat_quaternion would give another. */
 static void quaternion_of(const double m[9], double q[4])
 {
     const double trace = m[0] + m[4] + m[8];
@@ -56,7 +57,7 @@ static void quaternion_of(const double m[9], double q[4])
     q[3] = (m[3 * k + j] - m[3 * j + k]) / s;
 }
 
-/* As three.js: scales are the lengths of the columns, and the first one carries the sign. */
+/* As three.js does: the scales are the lengths of the columns, and scale x carries the sign. */
 void ffd_gltf_take_apart(gltf_node *node)
 {
     double linear[9];
@@ -128,7 +129,7 @@ void ffd_gltf_set_pose(const gltf_document *d, const gltf_animation *animation, 
     set_world(d, pose);
 }
 
-/* A short file can name a mesh of many targets at many nodes. */
+/* Checks the memory budget first: a short file can show a mesh of many targets at many nodes. */
 static ffd_status count_weights(const gltf_document *d, gltf_pose *pose, ffd_error *error)
 {
     size_t total = 0;

@@ -5,14 +5,14 @@
 #include <math.h>
 #include <string.h>
 
-#define DEGREES 57.295779513082320877 /* of a radian */
+#define DEGREES 57.295779513082320877 /* per radian */
 
 static bool is_time_up_to(const void *key, const void *time)
 {
     return *(const double *)key <= *(const double *)time;
 }
 
-/* The last key that is not behind the time; 0 if all are. */
+/* Returns the last key whose time is not after `time`; 0 if all are after it. */
 static size_t find_key(const gltf_animation_sampler *sampler, double time)
 {
     return last_up_to(&time, sampler->times, sampler->key_count, sizeof *sampler->times, is_time_up_to);
@@ -32,7 +32,7 @@ static void normalize(double q[4])
         q[i] /= length;
 }
 
-/* As three.js: where the arc is so short that its sine is lost, the chord, normalized. */
+/* As three.js does: linear interpolation, normalized, where the arc is too short for its sine. */
 void ffd_gltf_slerp(const double a[4], const double b[4], double t, double turned[4])
 {
     const double cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
@@ -50,7 +50,7 @@ void ffd_gltf_slerp(const double a[4], const double b[4], double t, double turne
         normalize(turned);
 }
 
-/* The Hermite spline between two keys; a tangent is for a second, so that it is scaled by the span. */
+/* The Hermite spline between two keys. Tangents are per second, so they are scaled by the span in seconds. */
 static void spline(const gltf_animation_sampler *sampler, size_t key, double u, double span, double *value)
 {
     const size_t width = sampler->width;

@@ -4,12 +4,14 @@
 
 #include "io/gltf/animation/gltf_animation.h"
 
-/* Evaluates a sampler whose keys are loaded: sampler->width numbers. Before the first key and behind the last
-   it is theirs; at a key, the key's own bits. is_rotation: LINEAR turns along the shorter arc, and what
-   CUBICSPLINE gives is normalized. The same bits on every processor. */
+/* Evaluates a sampler whose keys are loaded, and writes sampler->width numbers. Before the first key and
+   after the last one the value is that key's; at a key it has the bits of the key's value. is_rotation:
+   LINEAR turns along the shorter arc, and the result of CUBICSPLINE is normalized. The bits are the same on
+   every processor. */
 void ffd_gltf_sample(const gltf_animation_sampler *sampler, bool is_rotation, double time, double *value);
 
-/* The turn from a to b by the fraction t of the shorter arc between them; quaternions x,y,z,w. */
+/* Interpolates between the rotations a and b along the shorter arc, by the fraction t; quaternions
+   x,y,z,w. */
 void ffd_gltf_slerp(const double a[4], const double b[4], double t, double turned[4]);
 
 #endif

@@ -1,6 +1,6 @@
-/* draco.cpp - with draco_orientations.cpp, the only source that includes Draco. The library trusts the
-   numbers in the data's headers and allocates memory for them at once; classes derived from its decoders
-   check these numbers first. */
+/* draco.cpp - decodes Draco data. Only this source and draco_orientations.cpp include Draco. The library
+   trusts the numbers in the data's headers and allocates memory for them at once; classes derived from its
+   decoders check these numbers first. */
 #include "io/gltf/decode/draco.h"
 #include "io/gltf/decode/draco_floats.h"
 #include "io/gltf/decode/draco_orientations.h"
@@ -19,14 +19,14 @@
 
 struct draco_mesh {
     draco::Mesh mesh;
-    std::vector<double> steps; /* of quantized attributes, by their number; 0: not quantized */
+    std::vector<double> steps; /* by attribute index; 0: not quantized */
 };
 
 namespace
 {
 
-/* About the most memory that the library needs for a triangle, for a triangle of each set of attribute
-   seams, for a point, and for a number of an attribute beside the number itself. */
+/* Upper estimates, in bytes, of the memory that the library needs for a triangle, for a triangle in each set
+   of attribute seams, for a point, and for each number of an attribute besides the number itself. */
 constexpr uint64_t TRIANGLE_MEMORY = 64;
 constexpr uint64_t SEAMS_MEMORY = 24;
 constexpr uint64_t POINT_MEMORY = 8;
@@ -42,7 +42,7 @@ struct finding {
     ffd_error error = {};
 };
 
-/* The counts at the head of the connectivity. */
+/* The counts that precede the connectivity. */
 struct head {
     uint32_t triangles = 0;
     uint32_t points = 0; /* a lower bound */
@@ -54,8 +54,8 @@ bool read_u32(draco::DecoderBuffer &buffer, bool varint, uint32_t &value)
     return varint ? draco::DecodeVarint(&value, &buffer) : buffer.Decode(&value);
 }
 
-/* Before 2.0 the numbers were not varints, before 2.2 there was one more (bitstream specification,
-   "Edgebreaker connectivity header"). The byte before them is read already. */
+/* Before version 2.0 the numbers were not varints, and before 2.2 another number preceded them (bitstream
+   specification, "Edgebreaker connectivity header"). The caller has read the byte before them. */
 bool read_head(const draco::MeshEdgebreakerDecoder &, draco::DecoderBuffer buffer, head &found)
 {
     const uint16_t version = buffer.bitstream_version();
@@ -96,7 +96,7 @@ template <class Decoder> class careful : public Decoder
         return fits(counts.triangles, TRIANGLE_MEMORY + SEAMS_MEMORY * counts.seams);
     }
 
-    /* Called when the connectivity is known. */
+    /* The library calls this once the connectivity is decoded. */
     bool CreateAttributesDecoder(int32_t id) override
     {
         return check_points() && Decoder::CreateAttributesDecoder(id);
@@ -165,7 +165,8 @@ bool skip_entries(draco::DecoderBuffer &buffer)
     return true;
 }
 
-/* Skips a tree of metadata: each node follows its parent and its earlier siblings; the root has no name. */
+/* Skips a tree of metadata. A node comes after its parent and its earlier siblings, so that counting the
+   pending nodes is enough; the root has no name. */
 bool skip_tree(draco::DecoderBuffer &buffer)
 {
     uint32_t children;
@@ -188,8 +189,8 @@ bool skip_metadata(draco::DecoderBuffer &buffer)
     return skip_tree(buffer);
 }
 
-/* Returns the data without its metadata, which glTF does not use and with which the library's reader
-   could fill all memory. Empty: the metadata is broken. */
+/* Returns the data without its metadata: glTF does not use it, and the library's reader could fill all memory
+   with it. The result is empty if the metadata is broken. */
 std::vector<char> without_metadata(const unsigned char *bytes, size_t size, uint16_t version)
 {
     draco::DecoderBuffer buffer;
@@ -203,8 +204,8 @@ std::vector<char> without_metadata(const unsigned char *bytes, size_t size, uint
     return kept;
 }
 
-/* What the decoder knows of the quantization of an attribute. Dequantizing multiplies and adds floats: the
-   greatest of them is rounded to a few times its epsilon. */
+/* Returns the quantization step of an attribute plus the rounding of its dequantization, which multiplies and
+   adds floats: a few epsilons of the largest one. */
 double step_of(draco::PointCloudDecoder &decoder, int32_t attribute)
 {
     const draco::PointAttribute *portable = decoder.GetPortableAttribute(attribute);
@@ -220,14 +221,14 @@ double step_of(draco::PointCloudDecoder &decoder, int32_t attribute)
     return step >= 0 && std::isfinite(greatest) ? step + 4 * greatest * FLT_EPSILON : 0;
 }
 
-/* The integers that an attribute was decoded to, and the floats that the library made of them. */
+/* The integers that an attribute was decoded to, and the floats that the library computed from them. */
 struct two_forms {
     const int32_t *integers = nullptr;
     float *floats = nullptr;
     size_t count = 0;
 };
 
-/* count: 0 where the attribute has not as many of both as it has values. */
+/* The count is 0 if either form has fewer elements than the attribute has values. */
 two_forms forms_of(const draco::PointAttribute &portable, draco::PointAttribute &attribute)
 {
     two_forms forms;
@@ -243,7 +244,8 @@ two_forms forms_of(const draco::PointAttribute &portable, draco::PointAttribute 
     return forms;
 }
 
-/* Makes the floats of an attribute in our own code, whatever processor the library was compiled for. */
+/* Computes the floats of an attribute again with our own code, so that they do not depend on the processor
+   that the library was compiled for. */
 void make_floats(draco::PointCloudDecoder &decoder, int32_t id, draco::PointAttribute &attribute)
 {
     const draco::PointAttribute *portable = decoder.GetPortableAttribute(id);

@@ -17,7 +17,7 @@ void ffd_draco_dequantize(const draco_quantization *quantization, const int32_t 
 static void unfold(float y, float z, float normal[3])
 {
     const float x = 1.0f - fabsf(y) - fabsf(z);
-    /* The half with x < 0 is folded outward: it is mirrored at the edges of the other half. */
+    /* The half with x < 0 is folded outward: its points are mirrored at the edges of the other half. */
     const float outside = -x < 0 ? 0 : -x;
     y += y < 0 ? outside : -outside;
     z += z < 0 ? outside : -outside;

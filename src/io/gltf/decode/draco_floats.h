@@ -1,9 +1,8 @@
-/* draco_floats.h - from the integers of Draco data back to floats, with the operations of the Draco library
-   in its order (bitstream specification 2.2, "Quantization inverse transform", "Octahedral inverse
-   transform").
+/* draco_floats.h - dequantizes the integers of Draco data with the operations of the Draco library, in its
+   order (bitstream specification 2.2, "Quantization inverse transform", "Octahedral inverse transform").
 
-   The library does it too, but it is compiled elsewhere: to fused operations on some processors, which round
-   once where these round twice, so that one file would give other bytes there. */
+   The library's own code may be compiled to fused multiply-add, which rounds once where this code rounds
+   twice: the same file would then give other bytes on some processors. */
 #ifndef FFD_IO_GLTF_DECODE_DRACO_FLOATS_H
 #define FFD_IO_GLTF_DECODE_DRACO_FLOATS_H
 
@@ -14,7 +13,7 @@
 extern "C" {
 #endif
 
-/* What the numbers of an attribute were quantized by. */
+/* How the numbers of an attribute were quantized. */
 typedef struct draco_quantization {
     int components;
     const float *least; /* per component */
@@ -22,12 +21,12 @@ typedef struct draco_quantization {
     int bits;           /* 1 to 30 */
 } draco_quantization;
 
-/* Writes the floats of count values, of as many integers each as they have components. */
+/* Dequantizes count values of `components` integers each into as many floats. */
 void ffd_draco_dequantize(const draco_quantization *quantization, const int32_t *integers, size_t count,
                           float *floats);
 
-/* Writes the unit vectors of count normals, of which each is a place (2 integers) on an octahedron that is
-   unfolded to a square. bits: 2 to 30. */
+/* Decodes count normals to unit vectors. Each normal is a point (2 integers) on an octahedron unfolded to a
+   square. bits: 2 to 30. */
 void ffd_draco_unfold_normals(int bits, const int32_t *places, size_t count, float *normals);
 
 #ifdef __cplusplus

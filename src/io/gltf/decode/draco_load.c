@@ -1,9 +1,9 @@
-/* draco_load.c - decodes by the module, which is loaded when it is first needed. */
+/* draco_load.c - the functions of draco.h, by the module, which is loaded at the first decoding. */
 #include "io/gltf/decode/draco_module.h"
 
 static module draco = {DRACO_IDENTITY, "Draco", NULL};
 
-/* The functions of the module that has made a mesh. */
+/* The functions of the loaded module: a mesh exists, so it is loaded. */
 static const draco_module *loaded(void)
 {
     return (const draco_module *)atomic_load(&draco.head);

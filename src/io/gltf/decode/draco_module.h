@@ -1,5 +1,5 @@
-/* draco_module.h - what the module with Draco shows. draco_module.c is part of the module; draco_load.c, in
-   its place, of a program that loads it. */
+/* draco_module.h - the functions of the Draco module. draco_module.c is part of the module; a program that
+   loads the module has draco_load.c instead. */
 #ifndef FFD_IO_GLTF_DECODE_DRACO_MODULE_H
 #define FFD_IO_GLTF_DECODE_DRACO_MODULE_H
 

@@ -10,8 +10,8 @@
 using decoder_list = std::vector<std::unique_ptr<draco::SequentialAttributeDecoder>>;
 using controller = draco::SequentialAttributeDecodersController;
 
-/* The controller makes its decoders itself and has no accessor for them. An explicit instantiation may
-   name a private member (C++17, 17.7.2), and so reaches them. */
+/* The controller creates its decoders itself and offers no access to them. An explicit instantiation may name
+   a private member (C++17, 17.7.2), which gives access to the list. */
 decoder_list &decoders_of(controller &owner);
 template <decoder_list controller::*member> struct opened_member {
     friend decoder_list &decoders_of(controller &owner) { return owner.*member; }
@@ -30,7 +30,7 @@ bool read_count(draco::DecoderBuffer buffer, draco::PredictionSchemeMethod metho
     return varint ? draco::DecodeVarint(&count, &buffer) : buffer.Decode(&count);
 }
 
-/* A prediction scheme that checks the number first. */
+/* A prediction scheme that checks the number of orientations first. */
 class limited_scheme : public scheme_interface
 {
   public:
@@ -95,8 +95,7 @@ template <class Decoder> class limited_decoder : public Decoder
     CreateIntPredictionScheme(draco::PredictionSchemeMethod method,
                               draco::PredictionSchemeTransformType transform) override
     {
-        /* The library takes the method's byte unchecked from the file: a byte that is not a method must not
-           be read as one, and makes no scheme. */
+        /* The library does not check the method's byte of the file: an unknown method makes no scheme. */
         std::underlying_type_t<draco::PredictionSchemeMethod> number;
         static_assert(sizeof number == sizeof method, "an enumeration has the size of its type");
         std::memcpy(&number, &method, sizeof number);
@@ -114,7 +113,7 @@ template <class Decoder> class limited_decoder : public Decoder
     const uint32_t most;
 };
 
-/* Replaces a decoder of type Decoder by a limited one. False: it cannot be initialized. */
+/* Replaces a decoder of type Decoder by a limited one. Returns false if that cannot be initialized. */
 template <class Decoder>
 bool replace(draco::MeshDecoder &mesh, int attribute, uint32_t most,
              std::unique_ptr<draco::SequentialAttributeDecoder> &decoder)

@@ -7,8 +7,8 @@
 #include <math.h>
 #include <stdio.h>
 
-/* What an element without bytes counts in the memory budget: without a limit, a few characters of the file
-   could ask for any amount of zeros. */
+/* Bytes that an element without stored bytes takes from the memory budget: otherwise a few characters of the
+   file could ask for any amount of zeros. */
 #define ZERO_BYTES 4
 
 /* Returns a member of a value, or the value if it is absent. */
@@ -41,7 +41,7 @@ static ffd_status check_index(const gltf_document *d, uint32_t value, const char
     return refuse(d, value, key, error, "there is no %s %d, only %zu", what, index, count);
 }
 
-/* Takes a view's stride from the JSON: tinygltf was not shown it. 0 is written by programs that mean none. */
+/* Reads a view's stride from the JSON that tinygltf does not get. Some programs write 0 for none. */
 static ffd_status read_stride(gltf_document *d, size_t i, ffd_error *error)
 {
     const uint32_t value = ffd_json_span_member(&d->tree, d->view_values.values[i], "byteStride");
@@ -78,7 +78,7 @@ static ffd_status check_view(gltf_document *d, size_t i, ffd_error *error)
     return FFD_OK;
 }
 
-/* Columns of a matrix start at multiples of 4 bytes (glTF 2.0, 3.6.2.4). */
+/* The columns of a matrix start at multiples of 4 bytes (glTF 2.0, 3.6.2.4). */
 static void measure(const gltf_accessor *accessor, gltf_layout *layout)
 {
     const size_t column = (size_t)accessor->rows * ffd_gltf_component_size(accessor->component);
@@ -87,7 +87,7 @@ static void measure(const gltf_accessor *accessor, gltf_layout *layout)
     layout->stride = padded * (size_t)accessor->columns;
 }
 
-/* Bytes are read one by one, wherever they are. */
+/* Misaligned elements can be read all the same: bytes are read one by one. */
 static ffd_status check_alignment(gltf_document *d, uint32_t value, uint64_t offset, uint64_t view_offset,
                                   size_t size, ffd_error *error)
 {
@@ -230,8 +230,8 @@ static ffd_status check_shape(const gltf_document *d, uint32_t value, const char
     return FFD_OK;
 }
 
-/* Checks those of a primitive, whose tangents have 4 components, or of a morph target, whose offsets
-   have 3. */
+/* Checks the shapes of a primitive's attributes (tangents have 4 components) or of a morph target's (offsets
+   have 3). */
 static ffd_status check_shapes(const gltf_document *d, uint32_t value, int tangent_rows, const int *accessors,
                                ffd_error *error)
 {
@@ -264,7 +264,7 @@ static ffd_status check_attributes(const gltf_document *d, uint32_t object, cons
     return FFD_OK;
 }
 
-/* Checks where the indices of a primitive are. */
+/* Checks the accessor of a primitive's indices. */
 static ffd_status check_indices(gltf_document *d, size_t mesh, size_t p, uint32_t value, ffd_error *error)
 {
     const int number = d->model.meshes[mesh].primitives[p].indices;
@@ -306,7 +306,8 @@ static ffd_status check_primitive(gltf_document *d, size_t mesh, size_t p, uint3
     return status ? status : check_indices(d, mesh, p, value, error);
 }
 
-/* In a primitive compressed by Draco, accessors without a bufferView are in the compressed data. */
+/* In a primitive compressed by Draco, the elements of accessors without a bufferView are in the compressed
+   data. */
 static void mark_compressed(gltf_document *d, size_t mesh, size_t p, uint32_t value)
 {
     const gltf_primitive *primitive = &d->model.meshes[mesh].primitives[p];
@@ -321,7 +322,8 @@ static void mark_compressed(gltf_document *d, size_t mesh, size_t p, uint32_t va
         d->layouts[primitive->indices].readable = false;
 }
 
-/* A few bytes can state any number of elements without bytes of their own, and visiting them takes time. */
+/* Limits elements without stored bytes: a few characters can state any number of them, and visiting them
+   takes time. */
 static ffd_status limit_zeros(const gltf_document *d, ffd_error *error)
 {
     memory_budget budget = d->base.budget;

@@ -8,16 +8,16 @@
 
 #define INDICES_SOURCE UINT64_MAX
 
-/* Many views can name the same data, and decoding it takes time: limits the points and corners of all
-   decodings, per byte of the memory budget. */
+/* Limits the points and corners of all decodings together, per byte of the memory budget: many primitives can
+   name the same data, and each decoding takes time. */
 #define MOST_DECODED_A_BYTE 0.25
 
-/* A primitive whose data is in a bufferView. */
+/* A compressed primitive, and the bufferView of its data. */
 typedef struct packed_primitive {
     size_t view, mesh, primitive;
 } packed_primitive;
 
-/* A primitive while it is decoded. */
+/* What is needed while a primitive is decoded. */
 typedef struct unpacker {
     gltf_document *document;
     const draco_mesh *mesh;
@@ -48,7 +48,8 @@ static uint64_t integer(const gltf_document *d, uint32_t value)
     return (uint64_t)number;
 }
 
-/* Gives decoded elements to an accessor, or compares them with those that it has already. */
+/* Gives decoded elements to an accessor. If it has decoded elements already, compares both and frees the new
+   ones. */
 static void give_elements(gltf_document *d, size_t accessor, size_t stride, uint64_t source, size_t view,
                           unsigned char *bytes)
 {
@@ -74,8 +75,8 @@ static void give_elements(gltf_document *d, size_t accessor, size_t stride, uint
     layout->packing = GLTF_DRACO;
 }
 
-/* Decodes one attribute (source: its id) or the indices into an accessor. value: the JSON value that
-   names it. */
+/* Decodes one attribute (source: its id) or the indices (INDICES_SOURCE) into accessor a. value: the JSON
+   value that names it. */
 static ffd_status unpack_accessor(const unpacker *u, uint32_t value, size_t a, uint64_t source)
 {
     gltf_document *d = u->document;
@@ -111,7 +112,8 @@ static ffd_status unpack_accessor(const unpacker *u, uint32_t value, size_t a, u
     return FFD_OK;
 }
 
-/* Returns the accessor that a primitive's attributes have under the key of `attribute`; GLTF_NONE: none. */
+/* Returns the accessor that `attributes` has under the same key as the JSON value `attribute`; GLTF_NONE:
+   none. */
 static size_t find_accessor(const gltf_document *d, uint32_t attributes, uint32_t attribute)
 {
     for (uint32_t v = ffd_json_span_first(&d->tree, attributes); v != JSON_NONE;
@@ -142,7 +144,7 @@ static ffd_status unpack_primitive(const unpacker *u, const packed_primitive *pa
     return status;
 }
 
-/* Reads what the file states about a primitive's mesh. */
+/* Reads what the glTF file states about a primitive's mesh. */
 static ffd_status read_claim(const gltf_document *d, const packed_primitive *packed, draco_claim *claim,
                              ffd_error *error)
 {
@@ -208,7 +210,7 @@ static int compare_packed(const void *a, const void *b)
     return (x->primitive > y->primitive) - (x->primitive < y->primitive);
 }
 
-/* Lists the compressed primitives, those of one bufferView together. */
+/* Lists the compressed primitives, sorted by bufferView. */
 static size_t list_packed(const gltf_document *d, packed_primitive *list)
 {
     size_t count = 0;
@@ -231,7 +233,8 @@ static void forget(gltf_document *d, size_t accessor)
         d->layouts[accessor].readable = false;
 }
 
-/* Marks the accessors of a primitive that could not be decoded as unreadable, instead of zeros. */
+/* Marks the accessors of a primitive that could not be decoded as unreadable: their elements are not
+   zeros. */
 static void forget_primitive(gltf_document *d, const packed_primitive *packed)
 {
     const uint32_t value = ffd_gltf_primitive_value(d, packed->mesh, packed->primitive);
@@ -247,7 +250,7 @@ static void forget_primitive(gltf_document *d, const packed_primitive *packed)
         forget(d, (size_t)primitive_of(d, packed)->indices);
 }
 
-/* Unsupported data is a failure only where it is used (gltf_refuse.c): its message is kept until then. */
+/* Keeps the message of unsupported data: it is a failure only where the data is used (gltf_refuse.c). */
 static ffd_status keep_problem(gltf_document *d, const packed_primitive *packed, ffd_status status,
                                const ffd_error *problem, ffd_error *error)
 {
@@ -291,7 +294,7 @@ static bool takes_from_draco(const gltf_document *d, uint32_t draco, uint32_t at
            find_accessor(d, ffd_json_span_member(&d->tree, draco, "attributes"), attribute) != GLTF_NONE;
 }
 
-/* Whether the elements decoded from the compressed data equal the accessor's own. */
+/* Whether the decoded elements of an accessor equal its uncompressed ones. */
 static bool equals_fallback(const gltf_document *d, size_t a)
 {
     const gltf_unpacked *unpacked = &d->unpacked[a];
@@ -303,7 +306,7 @@ static bool equals_fallback(const gltf_document *d, size_t a)
     return unpacked->fallback;
 }
 
-/* Marks the accessors that a primitive does not read from compressed data. */
+/* Marks the accessors that a primitive reads uncompressed. */
 static void mark_plain_uses(gltf_document *d, size_t m, size_t p, bool *plain)
 {
     const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
@@ -319,7 +322,7 @@ static void mark_plain_uses(gltf_document *d, size_t m, size_t p, bool *plain)
         plain[primitive->indices] = true;
 }
 
-/* Marks accessors for which one primitive reads different values than another. */
+/* Marks the accessors for which primitives read different values, and makes them unreadable. */
 static ffd_status mark_clashes(gltf_document *d, ffd_error *error)
 {
     bool *plain = ffd_alloc_zero(d->model.accessor_count, sizeof *plain);

@@ -4,14 +4,15 @@
 
 #include "io/gltf/document/gltf_document.h"
 
-/* Decodes the compressed primitives of meshes that are checked; called by ffd_gltf_check. A primitive
-   whose data is not supported is left out. Errors: FFD_E_INVALID, FFD_E_LIMIT, FFD_E_MEMORY. */
+/* Decodes the compressed primitives of checked meshes; ffd_gltf_check calls it. A primitive whose data is not
+   supported is left undecoded. Errors: FFD_E_INVALID, FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_gltf_decode_draco(gltf_document *document, ffd_error *error);
 
 /* Returns the JSON value of a primitive's Draco extension; JSON_NONE if the primitive is not compressed. */
 uint32_t ffd_gltf_draco_value(const gltf_document *document, size_t mesh, size_t primitive);
 
-/* Fails with the reason why ffd_gltf_decode_draco left a primitive out; FFD_OK if it did not. */
+/* Fails with the reason why ffd_gltf_decode_draco left a primitive undecoded; returns FFD_OK if it did
+   not. */
 ffd_status ffd_gltf_refuse_draco(const gltf_document *document, size_t mesh, size_t primitive,
                                  ffd_error *error);
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 typedef struct number_range {
-    double least, largest; /* integers */
+    double least, largest; /* the integers' range */
 } number_range;
 
 static number_range range_of(int component)
@@ -37,10 +37,11 @@ float ffd_gltf_round(const gltf_accessor *accessor, double value)
     if (accessor->component == GLTF_FLOAT)
         return (float)value;
     const double scale = scale_of(accessor);
-    return (float)(rint(value * scale) / scale + 0.0); /* integers have no -0 */
+    return (float)(rint(value * scale) / scale + 0.0); /* + 0.0: integers have no -0 */
 }
 
-/* The float nearest to q/s gives q back: its error is 2^-24 of at most 65535. */
+/* Returns the integer q that a float encodes. The float nearest to q/s gives q again: its error is 2^-24
+   relative, and q is at most 65535. */
 static double integer_of(const gltf_accessor *accessor, float value)
 {
     return rint((double)value * scale_of(accessor));

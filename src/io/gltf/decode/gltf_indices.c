@@ -5,14 +5,14 @@
 #include "io/gltf/decode/gltf_drawing.h"
 #include "io/gltf/decode/gltf_read.h"
 
-/* Elements that are read at once. */
+/* Elements read at a time. */
 #define BLOCK ((size_t)256)
 
-/* The most tiles that threads share, and the fewest elements of a tile. */
+/* The maximum number of tiles that threads share, and the minimum size of a tile in elements. */
 #define TILES 64
 #define SMALLEST_TILE ((size_t)1 << 16)
 
-/* Finds the largest of contiguous indices, in loops that compilers turn into SIMD. */
+/* Finds the largest of contiguous indices, in loops that the compiler can vectorize. */
 static uint32_t largest_packed(const unsigned char *at, size_t count, int component)
 {
     uint32_t largest = 0;
@@ -36,12 +36,12 @@ static uint32_t largest_packed(const unsigned char *at, size_t count, int compon
     return largest;
 }
 
-/* Searches the largest of an accessor's values, tile by tile. */
+/* A search for the largest index of an accessor, tile by tile. */
 typedef struct index_search {
     const gltf_document *document;
     size_t accessor;
     bool is_packed;
-    uint32_t largest[TILES]; /* of each tile */
+    uint32_t largest[TILES]; /* per tile */
 } index_search;
 
 static uint32_t largest_read(const gltf_document *d, size_t a, size_t begin, size_t end)
@@ -96,7 +96,7 @@ static ffd_status check_primitive(gltf_document *d, size_t m, size_t p, uint64_t
     const int position = primitive->accessor[GLTF_POSITION], indices = primitive->indices;
     if (position < 0 || indices < 0 || !d->layouts[indices].readable)
         return FFD_OK;
-    /* Searched once: many primitives can share the indices. */
+    /* Each accessor is searched once: many primitives can share the indices. */
     if (largest[indices] == UINT64_MAX)
         largest[indices] = largest_of(d, (size_t)indices);
     const uint64_t vertices = d->model.accessors[position].count;

@@ -4,8 +4,8 @@
 
 #include "io/gltf/document/gltf_document.h"
 
-/* Refuses an index that is not below its primitive's number of vertices. Errors:
-   FFD_E_INVALID, FFD_E_MEMORY. */
+/* Refuses indices that are not less than the primitive's number of vertices. Errors: FFD_E_INVALID,
+   FFD_E_MEMORY. */
 ffd_status ffd_gltf_check_indices(gltf_document *document, ffd_error *error);
 
 #endif

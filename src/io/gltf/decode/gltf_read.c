@@ -5,8 +5,8 @@
 #include "io/gltf/decode/gltf_views.h"
 #include <string.h>
 
-#define LARGEST_ELEMENT 64     /* MAT4 of floats */
-#define INDICES ((size_t)1024) /* that are read at a time */
+#define LARGEST_ELEMENT 64     /* a MAT4 of floats */
+#define INDICES ((size_t)1024) /* read at a time */
 
 size_t ffd_gltf_component_size(int component)
 {
@@ -31,7 +31,7 @@ uint32_t ffd_gltf_read_index(const unsigned char *at, int component)
     return load_u32(at);
 }
 
-/* Normalized integers are decoded as in glTF 2.0, 3.11. */
+/* Normalized integers are decoded as glTF 2.0, 3.11 says. */
 double ffd_gltf_read_number(const unsigned char *at, int component, bool normalized)
 {
     double value, scale;
@@ -167,7 +167,7 @@ static void read_sparse(const gltf_document *d, const gltf_accessor *accessor, s
     }
 }
 
-/* The fast path: vectors of floats. */
+/* The fast path for vectors of floats. */
 static void read_vectors(const unsigned char *at, size_t stride, size_t count, double *xyz)
 {
     if (stride == 3 * sizeof(float)) {
@@ -214,7 +214,7 @@ static void read_indices(const gltf_document *d, size_t a, size_t first, size_t 
     }
 }
 
-/* Contiguous numbers of 8 or 16 bits. */
+/* Converts contiguous indices of 8 or 16 bits to 32 bits, and returns the largest. */
 static uint32_t widen_indices(const unsigned char *restrict at, size_t size, size_t count,
                               uint32_t *restrict indices)
 {

@@ -2,7 +2,7 @@
 #include "mesh/meshopt/meshopt_view.h"
 #include <math.h>
 
-/* The distance of an integer type's numbers (glTF 2.0, 3.11: c / 127 and so on). */
+/* The distance between neighbouring numbers of an integer type (glTF 2.0, 3.11: c / 127 and so on). */
 static double integer_step(const gltf_accessor *accessor)
 {
     if (!accessor->normalized)
@@ -21,7 +21,7 @@ static double integer_step(const gltf_accessor *accessor)
     }
 }
 
-/* The steps of floats that the filter EXPONENTIAL has made. */
+/* The steps of floats that meshopt's filter EXPONENTIAL has quantized. */
 static void filter_steps(const gltf_document *d, size_t a, double step[3])
 {
     const gltf_accessor *accessor = &d->model.accessors[a];

@@ -3,7 +3,7 @@
 #include "mesh/meshopt/meshopt_view.h"
 #include <string.h>
 
-/* A view may be longer than its elements by the padding before the next view. */
+/* Elements may end before their view does: the view may include the padding before the next one. */
 #define ALIGNMENT 4
 
 uint32_t ffd_gltf_meshopt_value(const gltf_document *d, size_t view)
@@ -28,7 +28,7 @@ static ffd_status refuse(const gltf_document *d, uint32_t value, ffd_error *erro
     return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_INVALID, error, "%s", what);
 }
 
-/* Returns a member that the schema checked to be an integer; 0 if it is absent. */
+/* Returns a member that the schema has checked to be an integer; 0 if it is absent. */
 static uint64_t integer(const gltf_document *d, uint32_t object, const char *key)
 {
     double number = 0;
@@ -36,7 +36,7 @@ static uint64_t integer(const gltf_document *d, uint32_t object, const char *key
     return (uint64_t)number;
 }
 
-/* Finds a string among `count` names; false: it is not one of them. */
+/* Finds a string among `count` names; returns false if it is none of them. */
 static bool find_name(const gltf_document *d, uint32_t value, const char *const *names, size_t count,
                       size_t *found)
 {
@@ -67,7 +67,7 @@ static ffd_status read_words(const gltf_document *d, uint32_t value, meshopt_vie
     return FFD_OK;
 }
 
-/* Finds the compressed bytes. */
+/* Finds the compressed bytes of a view. */
 static ffd_status find_bytes(const gltf_document *d, uint32_t value, meshopt_view *view, ffd_error *error)
 {
     const uint64_t buffer = integer(d, value, "buffer");
@@ -93,7 +93,7 @@ const unsigned char *ffd_gltf_compressed_bytes(const gltf_document *d, size_t vi
     return found.bytes;
 }
 
-/* Reads the extension of view i and checks it. */
+/* Reads and checks the extension of view i. */
 static ffd_status read_compression(const gltf_document *d, size_t i, meshopt_view *view, ffd_error *error)
 {
     const uint32_t value = ffd_gltf_meshopt_value(d, i);

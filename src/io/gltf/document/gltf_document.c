@@ -53,8 +53,9 @@ uint32_t ffd_gltf_first(const gltf_document *d, uint32_t object, const char *key
     return is_array ? ffd_json_span_first(&d->tree, array) : JSON_NONE;
 }
 
-/* Files that have fewer bytes together keep their pages: to find each again in the page cache takes a fifth
-   of the time that writing it takes, and a document that is kept for many jobs does so in each. */
+/* Documents whose files have fewer bytes together keep the pages of their mmap: finding a page again in the
+   page cache takes a fifth of the time of writing it, and a document that is kept for many jobs would do so
+   in each. */
 #define MOST_KEPT ((size_t)1 << 25)
 
 void ffd_gltf_choose_pages(gltf_document *d)

@@ -12,7 +12,7 @@
 
 #define GLTF_NONE SIZE_MAX
 
-/* The JSON values of the elements of an array at the top of the file. */
+/* The JSON values of the elements of a top-level array. */
 typedef struct gltf_values {
     uint32_t *values;
     size_t count;
@@ -21,101 +21,102 @@ typedef struct gltf_values {
 /* How the elements of an accessor are compressed. */
 typedef enum gltf_packing { GLTF_PLAIN, GLTF_MESHOPT, GLTF_DRACO } gltf_packing;
 
-/* Elements of an accessor, decoded from KHR_draco_mesh_compression. */
+/* The elements of an accessor, decoded from KHR_draco_mesh_compression. */
 typedef struct gltf_unpacked {
-    unsigned char *bytes; /* owned; NULL: the accessor is not compressed by it */
-    size_t size, view;    /* view: the compressed data */
-    uint64_t source;      /* the attribute's id, UINT64_MAX: the indices */
-    double step;          /* of floats that were quantized; 0: they were not, or it is not known */
-    /* The accessor's own elements, for readers that do not know Draco; NULL: none. */
+    unsigned char *bytes; /* owned; NULL: Draco does not compress the accessor */
+    size_t size, view;    /* view: that of the compressed data */
+    uint64_t source;      /* the attribute's unique id; UINT64_MAX: the indices */
+    double step;          /* the quantization step of floats; 0: not quantized, or unknown */
+    /* The accessor's uncompressed elements, for readers without Draco; NULL: none. */
     const unsigned char *fallback;
     size_t fallback_stride;
-    bool clash; /* primitives read different values for the accessor */
+    bool clash; /* primitives read different values through the accessor */
 } gltf_unpacked;
 
-/* The memory layout of an accessor's elements; made by ffd_gltf_check, and by ffd_gltf_decode_draco if
-   they are compressed. */
+/* The memory layout of an accessor's elements. ffd_gltf_check fills it, ffd_gltf_decode_draco that of
+   elements compressed by Draco. */
 typedef struct gltf_layout {
-    const unsigned char *data; /* its first element, decoded; NULL: no bytes, or all zeros */
+    const unsigned char *data; /* the first element, decoded; NULL: no bytes, or all zeros */
     size_t element_size, stride;
-    size_t begin;  /* of the first element in the buffer (before its compression) */
-    bool readable; /* false: its buffer has no bytes, or its compression is not supported */
+    size_t begin;  /* offset of the first element in the uncompressed buffer */
+    bool readable; /* false: the buffer has no bytes, or the compression is not supported */
     gltf_packing packing;
 } gltf_layout;
 
-/* The bounds of vectors; least is +infinity and largest -infinity if there are none. */
+/* The bounds of vectors. Without vectors least is +infinity and largest is -infinity. */
 typedef struct gltf_tile_bounds {
     float least[3], largest[3];
 } gltf_tile_bounds;
 
-/* One deformed attribute under one node. Its result has 3 components per element (a rotation has 4), as float
-   whatever the accessor's type is, rounded to what that type can represent. */
+/* A deformed attribute under one node. The result has 3 components per element (a rotation has 4),
+   contiguous: floats whatever the accessor's type, rounded to values that this type can represent. */
 typedef struct gltf_stream {
-    size_t accessor; /* GLTF_NONE: the part has none */
+    size_t accessor; /* GLTF_NONE: the part lacks the attribute */
     size_t components;
     float *result; /* components * count; NULL before begin_results, and in a part that repeats another */
-    /* One for each tile of MESH_RANGE_STEP vectors of the result; 0: the tile is not written yet. NULL: all
+    /* One flag per tile of MESH_RANGE_STEP vectors of the result; 0: the tile is not written yet. NULL: all
        tiles are written. */
     uint8_t *filled;
     gltf_tile_bounds *bounds; /* of positions, one per tile; NULL: not known */
 } gltf_stream;
 
 typedef struct gltf_skin {
-    size_t *joints; /* nodes */
+    size_t *joints; /* node numbers */
     size_t joint_count;
-    int inverse_bind; /* accessor; -1: absent */
+    int inverse_bind; /* accessor; -1: none */
     double *matrices; /* 12 per joint: world matrix * inverse bind matrix; NULL: not needed */
 } gltf_skin;
 
 typedef struct gltf_part {
     size_t node;                      /* GLTF_NONE in mesh space */
     const gltf_skin *skin;            /* NULL: no skin, or in mesh space */
-    const gltf_influence *influences; /* lent by the model; with a skin */
+    const gltf_influence *influences; /* lent by the model; only with a skin */
     size_t influence_count;
     gltf_stream streams[GLTF_DEFORMED];
-    uint8_t *selected;  /* the mesh_part's selected */
-    uint8_t *used;      /* and used */
-    bool is_all_used;   /* a primitive without indices draws all vertices */
-    size_t first_shape; /* document->shapes holds the part's morph targets from here */
-    /* document->parts holds the attributes of the part's splats from here, GLTF_DEFORMED each; GLTF_NONE
-       where there are none that change. */
+    uint8_t *selected;  /* as in mesh_part */
+    uint8_t *used;      /* as in mesh_part */
+    bool is_all_used;   /* true for a primitive without indices: it draws all vertices */
+    size_t first_shape; /* index in document->shapes of the part's first morph target */
+    /* Index in document->parts of the first attributes of the part's splats, GLTF_DEFORMED attributes in
+       each; GLTF_NONE: no splats that change. */
     size_t first_splat, splat_groups;
 } gltf_part;
 
-/* A node with EXT_mesh_gpu_instancing, and its instances. */
+/* A node with EXT_mesh_gpu_instancing. */
 typedef struct gltf_instanced_node {
     size_t node;
     size_t translation, rotation, scale; /* accessors; GLTF_NONE: absent */
     uint64_t count;
     ffd_bounds mesh_bounds; /* in the mesh's own space; min > max: no vertices */
-    bool unknown_bounds;    /* of the instances */
+    bool unknown_bounds;    /* whether the bounds of the instances are unknown */
     bool deselected;
 } gltf_instanced_node;
 
-/* A primitive under a node that uses its mesh (in mesh space, the primitive by itself). */
+/* A primitive under a node that uses its mesh. In mesh space each primitive has one instance. */
 typedef struct gltf_instance {
-    size_t part[GLTF_DEFORMED]; /* that deforms its attribute; GLTF_NONE: it has none, or cannot be read */
-    size_t first_target;        /* its morph targets in document->targets */
-    size_t first_splat;         /* its splats in document->parts; GLTF_NONE: they do not change */
-    bool selected;              /* false: it keeps its original content */
+    /* Per attribute: the part that deforms it; GLTF_NONE: absent, or it cannot be read. */
+    size_t part[GLTF_DEFORMED];
+    size_t first_target; /* index in document->targets of its first morph target */
+    size_t first_splat;  /* index in document->parts of its splats; GLTF_NONE: they do not change */
+    bool selected;       /* false: it keeps its original content */
 } gltf_instance;
 
-/* The uses of a mesh by the nodes of the scene. A use is an index into nodes. document->instances has,
-   from first_instance on, node_count instances for each primitive. */
+/* The uses of a mesh by the nodes of the scene. A use is an index into nodes. The instances of the mesh start
+   at document->instances[first_instance]: node_count for each primitive. */
 typedef struct gltf_mesh_uses {
     size_t first_instance;
     size_t *nodes;           /* lent by document->scene_nodes; ascending */
-    size_t node_count;       /* in mesh space 1, and nodes is NULL */
-    size_t target_count;     /* morph targets of the primitive that has most */
-    bool is_used;            /* some node of the file has the mesh */
-    bool used_outside_scene; /* a node outside the scene has it, or none does */
+    size_t node_count;       /* in mesh space 1 (nodes is NULL) */
+    size_t target_count;     /* the largest number of morph targets of a primitive */
+    bool is_used;            /* whether any node of the file has the mesh */
+    bool used_outside_scene; /* whether a node outside the scene has it, or no node at all */
 } gltf_mesh_uses;
 
-/* A further morph target, whose results are complete. */
+/* A further morph target with complete results. */
 typedef struct gltf_morph {
     char *name;
-    bool normals;    /* it has offsets of normals and tangents too */
-    float **results; /* GLTF_DEFORMED per part, as streams have them */
+    bool normals;    /* whether it has offsets of normals and tangents too */
+    float **results; /* GLTF_DEFORMED arrays per part, each as in gltf_stream */
     size_t result_count;
 } gltf_morph;
 
@@ -126,18 +127,18 @@ typedef struct gltf_document {
     ffd_space space;
     file_input input;
     int threads;      /* for reading and writing */
-    bool keeps_pages; /* of its files, which are small: nothing is released */
-    bool is_present;  /* it keeps them, and was saved before: all that a saving reads is in memory */
+    bool keeps_pages; /* never releases the mmap pages of its files, which are small */
+    bool is_present;  /* keeps the pages and was saved before: everything that saving reads is in memory */
     bool binary;
     glb_layout glb;
     json_span tree;
     gltf_values buffer_values, view_values, accessor_values, mesh_values, node_values, skin_values,
         material_values, image_values, texture_values, sampler_values;
-    gltf_values primitive_values; /* of all meshes */
-    size_t *first_primitive;      /* of a mesh, in them */
+    gltf_values primitive_values; /* of all meshes, in order */
+    size_t *first_primitive;      /* per mesh: index of its first primitive in primitive_values */
     gltf_model model;
     gltf_skin *skins; /* skin_values.count */
-    /* Why the skins' transforms are unknown, if they are: such a document can only be described. */
+    /* The reason if the skins' transforms are unknown: the document can then only be described. */
     ffd_status skins_status;
     ffd_error skins_error;
     gltf_buffer *buffers; /* buffer_values.count */
@@ -145,72 +146,79 @@ typedef struct gltf_document {
 
     /* Decoded data. */
     unsigned char **decoded_views; /* model.view_count; NULL: not compressed, or not supported */
-    int8_t **view_exponents;       /* likewise: of the numbers in an element (meshopt_view.h); NULL: none */
-    gltf_unpacked *unpacked;       /* model.accessor_count */
-    char **draco_problems;         /* primitive_values.count; NULL: none */
-    uint64_t draco_decoded;        /* points and corners of all decodings */
+    /* model.view_count: exponents of the numbers in an element (meshopt_view.h); NULL: none. */
+    int8_t **view_exponents;
+    gltf_unpacked *unpacked; /* model.accessor_count */
+    /* primitive_values.count: why a primitive was not decoded; NULL: no problem. */
+    char **draco_problems;
+    uint64_t draco_decoded; /* points and corners of all decodings together */
 
-    double *world;  /* world matrices, 12 per node: linear row by row, offset */
-    bool *in_scene; /* per node: it is in the scene that is displayed, or stands in for such a node */
-    /* Per node in the scene: how many come before it, parents before their children, both in the order that
-       the file lists them; those that stand in come last. */
+    double *world;  /* world matrices, 12 numbers per node: the linear part row by row, then the offset */
+    bool *in_scene; /* per node: whether it is in the displayed scene, or stands in for a node that is */
+    /* Per node in the scene: its rank in an order with parents before children, each in the order of the
+       file's lists; nodes that stand in for others come last. */
     size_t *scene_ranks;
     size_t nodes_in_scene;
-    size_t *parents; /* per node: the node that places it; GLTF_NONE: none */
-    /* Per node: it, or a node above it, is shown in place of a node of the scene at a distance (MSFT_lod). */
+    size_t *parents; /* per node: its parent; GLTF_NONE: none */
+    /* Per node: whether it or an ancestor replaces a node of the scene at a distance (MSFT_lod). */
     bool *stands_in;
-    size_t details_shared; /* uses of such a node for another node, at another place, than the first */
-    bool *selected_nodes;  /* per node: a selector of nodes names it, or one above; NULL: there is none */
-    bool *hidden;          /* per node: it or a node above it is not visible; NULL: none of them */
+    /* How often such a node also replaces a further node, at another place than its first. */
+    size_t details_shared;
+    /* Per node: whether a selector names it or an ancestor; NULL: no selectors of nodes. */
+    bool *selected_nodes;
+    bool *hidden; /* per node: whether it or an ancestor is invisible; NULL: none is */
     size_t *scene_nodes;
     size_t nodes_outside_scene; /* nodes with a mesh */
-    /* A node with two parents, which is not valid but is described as if it had the first
-       only; GLTF_NONE: none. */
+    /* A node with two parents: not valid, but the file is described as if the node had the first parent only.
+       GLTF_NONE: none. */
     size_t shared_child, shared_by[2];
-    /* In the JSON: a required extension for which the vertices cannot be deformed; JSON_NONE: none. */
+    /* The JSON value of a required extension that prevents deforming the vertices; JSON_NONE: none. */
     uint32_t refused_extension;
     gltf_mesh_uses *mesh_uses; /* model.mesh_count */
     gltf_instance *instances;
-    /* base.part_count, then one for each shape, whose streams are its offsets: the results of both are
-       handled alike. */
+    /* base.part_count, then one per shape, whose streams are offsets, so that both kinds of results are
+       handled alike; then splat_groups. */
     gltf_part *parts;
     mesh_part *mesh_parts;
-    mesh_shape *shapes; /* morph targets of all parts, those of one part consecutive */
+    mesh_shape *shapes; /* the morph targets of all parts; those of one part are consecutive */
     size_t shape_count;
-    size_t splat_groups;    /* in parts, behind those of shapes */
-    atomic_size_t unturned; /* results of splats whose harmonics are not numbers */
-    char *morph_name;   /* results are offsets of a further morph target of this name; NULL: they are not */
-    gltf_morph *morphs; /* morph_count, before it */
+    size_t splat_groups;    /* number of elements of parts that hold splats, after those of shapes */
+    atomic_size_t unturned; /* splats whose harmonics could not be turned: they are not finite numbers */
+    /* Results are offsets of a further morph target of this name; NULL: results are not offsets. */
+    char *morph_name;
+    gltf_morph *morphs; /* morph_count: the further morph targets before it, complete */
     size_t morph_count, morph_capacity;
-    const morph_clip *clips; /* clip_count, lent: animations to be added */
+    const morph_clip *clips; /* clip_count, lent: animations to add */
     size_t clip_count;
-    bool morph_normals;   /* of normals and tangents too */
-    size_t own_accessors; /* the last ones, which the file did not have: zeros without bytes */
-    gltf_instanced_node *instanced_nodes; /* by node */
+    bool morph_normals; /* whether the further morph target has offsets of normals and tangents too */
+    /* Number of accessors at the end of the model that the file did not have: zeros without bytes. */
+    size_t own_accessors;
+    gltf_instanced_node *instanced_nodes; /* in the order of nodes */
     size_t instanced_node_count;
-    /* Why their transforms are unknown, if they are: such a document can only be described. */
+    /* The reason if the transforms of instances are unknown: the document can then only be described. */
     ffd_status instancing_status;
     ffd_error instancing_error;
     struct gltf_rig *rig; /* how nodes follow the deformation (io/gltf/rig); NULL: they do not */
-    size_t *targets;      /* per morph target of an instance: the part that holds its offsets;
-                             GLTF_NONE: none is deformed */
+    /* Per morph target of an instance: the part that holds its offsets; GLTF_NONE: not deformed. */
+    size_t *targets;
 } gltf_document;
 
-/* Decides whether the document keeps the pages of its files, once they are open. */
+/* Decides whether the document keeps the mmap pages of its files. Call it once they are open. */
 void ffd_gltf_choose_pages(gltf_document *document);
 
-/* Releases the pages of the files' mmap, unless it keeps them; they are read again when they are needed. */
+/* Releases the mmap pages of the files, unless the document keeps them; later reads load them again. */
 void ffd_gltf_forget(const gltf_document *document);
 
-/* Releases only those of bytes [offset, offset + size) of one buffer, as far as it has them. */
+/* Releases only the pages of bytes [offset, offset + size) of one buffer, as far as the buffer has these
+   bytes. */
 void ffd_gltf_forget_bytes(const gltf_document *document, const gltf_buffer *buffer, size_t offset,
                            size_t size);
 
-/* Releases those of elements [first, first + count) of an accessor, where they are in the file as they are.
- */
+/* Releases only the pages of elements [first, first + count) of an accessor, if they are stored
+   uncompressed. */
 void ffd_gltf_forget_elements(const gltf_document *document, size_t accessor, size_t first, size_t count);
 
-/* Returns the document as what it is; it must be of glTF. */
+/* Converts a mesh document, which must be of glTF. */
 static inline const gltf_document *ffd_gltf_of(const mesh_document *document)
 {
     return (const gltf_document *)document;
@@ -222,7 +230,7 @@ static inline size_t ffd_gltf_shape_end(const gltf_document *document)
     return document->base.part_count + document->shape_count;
 }
 
-/* And of those that hold results of splats. */
+/* Returns the number of elements of document->parts: parts, shapes and groups of splats. */
 static inline size_t ffd_gltf_part_count(const gltf_document *document)
 {
     return ffd_gltf_shape_end(document) + document->splat_groups;
@@ -235,13 +243,13 @@ static inline gltf_instance *ffd_gltf_instances(const gltf_document *document, s
     return document->instances + uses->first_instance + primitive * uses->node_count;
 }
 
-/* Whether a viewer does not show a node (GLTF_NONE: none) of the scene. */
+/* Whether viewers hide a node (GLTF_NONE: none) of the scene. */
 static inline bool ffd_gltf_is_hidden(const gltf_document *document, size_t node)
 {
     return document->hidden && node != GLTF_NONE && document->hidden[node];
 }
 
-/* Returns the result of an attribute of a part for a further morph target; NULL: there is none. */
+/* Returns the results of a part's attribute in a further morph target; NULL: none. */
 static inline const float *ffd_gltf_morph_result(const gltf_morph *morph, size_t part, size_t semantic)
 {
     return morph->results[part * GLTF_DEFORMED + semantic];
@@ -250,11 +258,11 @@ static inline const float *ffd_gltf_morph_result(const gltf_morph *morph, size_t
 /* Returns the JSON value of a primitive of a mesh. */
 uint32_t ffd_gltf_primitive_value(const gltf_document *document, size_t mesh, size_t primitive);
 
-/* Notes what is wrong at a value but has a plain meaning, or fails with it, as the document's flaws say (see
-   mesh/flaws.h). */
+/* Handles a flaw at a JSON value: something wrong whose meaning is still clear. Notes it or fails with it, as
+   the document's flaws say (mesh/flaws.h). */
 ffd_status ffd_gltf_flaw(gltf_document *document, uint32_t value, ffd_error *error, const char *format, ...)
     FFD_PRINTF(4, 5);
-/* The same with the arguments of a caller. */
+/* The same with a va_list. */
 ffd_status ffd_gltf_note_flaw(gltf_document *document, uint32_t value, ffd_error *error, const char *format,
                               va_list arguments);
 
@@ -264,19 +272,19 @@ uint32_t ffd_gltf_extension(const gltf_document *document, uint32_t value, const
 /* Whether a value has an extension of this name. */
 bool ffd_gltf_has_extension(const gltf_document *document, uint32_t value, const char *extension);
 
-/* Returns the whole number below count that a value is; GLTF_NONE if it is none. */
+/* Returns a JSON value as a whole number below count; GLTF_NONE if it is not one. */
 size_t ffd_gltf_index(const gltf_document *document, uint32_t value, size_t count);
 
-/* Returns the node whose number a value is; GLTF_NONE if it is none. */
+/* Returns a JSON value as the number of a node; GLTF_NONE if it is not one. */
 size_t ffd_gltf_node(const gltf_document *document, uint32_t value);
 
-/* Returns the first element of an array that is a member of an object; JSON_NONE if there is none. */
+/* Returns the first element of the array that is a member of an object; JSON_NONE if absent or empty. */
 uint32_t ffd_gltf_first(const gltf_document *document, uint32_t object, const char *key);
 
-/* The attributes of splats, in the order of their slots behind those of vectors. */
+/* The attributes of splats, in the order of their slots, which follow the slots of vectors. */
 #define GLTF_SPLAT_NAME 48
 enum { GLTF_SPLAT_ROTATION, GLTF_SPLAT_SCALE, GLTF_SPLAT_HARMONICS, GLTF_SPLAT_ATTRIBUTES = 17 };
-/* Writes the name of one: "KHR_gaussian_splatting:ROTATION" and so on. */
+/* Writes the name of a splat attribute: "KHR_gaussian_splatting:ROTATION" and so on. */
 void ffd_gltf_splat_name(size_t attribute, char name[GLTF_SPLAT_NAME]);
 
 /* The names of the deformed attributes: "POSITION" and so on. */

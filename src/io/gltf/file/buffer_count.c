@@ -3,12 +3,12 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* What is within the quotes of a string. */
+/* The content of a string, without its quotes. */
 typedef struct quoted {
     const char *begin, *end;
 } quoted;
 
-/* Reads the string that begins at c; returns what follows it. */
+/* Reads the string whose opening quote is at c; returns the character after it. */
 static const char *take_string(const char *c, const char *end, quoted *string)
 {
     string->begin = ++c;
@@ -42,7 +42,7 @@ size_t ffd_gltf_count_buffer_files(const char *text, size_t size)
 {
     const char *c = text, *const end = text + size;
     size_t count = 0, depth = 0;
-    bool in_buffers = false, is_uri = false; /* is_uri: the value that follows is that of "uri" */
+    bool in_buffers = false, is_uri = false; /* is_uri: the next value is that of "uri" */
     quoted string;
     while (c < end) {
         if (*c == '"') {

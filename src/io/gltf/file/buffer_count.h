@@ -1,12 +1,12 @@
-/* buffer_count.h - how many buffers of a glTF file are files of their own, without reading the file as a
- * model. */
+/* buffer_count.h - counts the buffers of a glTF file that are files of their own, without parsing the
+   file. */
 #ifndef FFD_IO_GLTF_FILE_BUFFER_COUNT_H
 #define FFD_IO_GLTF_FILE_BUFFER_COUNT_H
 
 #include <stddef.h>
 
-/* Counts the buffers of a JSON text that have a URI which is no data URI, in no memory. Of a text that is not
-   valid JSON any number. */
+/* Counts the buffers of a JSON text that have a URI other than a data URI. Allocates nothing. The result for
+   invalid JSON is arbitrary. */
 size_t ffd_gltf_count_buffer_files(const char *text, size_t size);
 
 #endif

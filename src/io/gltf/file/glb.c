@@ -12,7 +12,7 @@ typedef struct glb_chunk {
     uint32_t type;
 } glb_chunk;
 
-/* Reads the chunk whose header is at *at and advances *at past it. */
+/* Reads the header of the chunk at *at, and advances *at past the chunk. */
 static ffd_status read_chunk(const unsigned char *data, size_t end, const char *name, size_t *at,
                              glb_chunk *chunk, ffd_error *error)
 {

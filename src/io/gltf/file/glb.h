@@ -13,19 +13,20 @@
 #define GLB_CHUNK_JSON 0x4e4f534au
 #define GLB_CHUNK_BIN 0x004e4942u
 
-/* Returns size rounded up to a multiple of 4: chunks, columns of matrices and vertex attributes are aligned
-   so (glTF 2.0, 3.6.2.4 and 4.4.3.1). */
+/* Returns size rounded up to a multiple of 4, the alignment of chunks, matrix columns and vertex attributes
+   (glTF 2.0, 3.6.2.4 and 4.4.3.1). */
 static inline size_t ffd_gltf_align(size_t size)
 {
     return (size + 3) / 4 * 4;
 }
 
-/* Offsets of the chunks; sizes are without headers, as the headers state them. */
+/* Offsets of the chunks' content in the file; sizes are those that the chunk headers state, without the
+   headers themselves. */
 typedef struct glb_layout {
     size_t json_begin, json_size;
     bool has_bin; /* the second chunk is BIN */
     size_t bin_begin, bin_size;
-    size_t rest_begin, end; /* further chunks, up to the length that the file states */
+    size_t rest_begin, end; /* further chunks, up to the length that the file's header states */
 } glb_layout;
 
 /* Whether the data starts with the magic number of a GLB. */

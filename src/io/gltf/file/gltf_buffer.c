@@ -8,8 +8,8 @@
 
 typedef struct loader {
     const json_span *tree;
-    uint32_t value, uri; /* of the JSON: the buffer, its uri */
-    const char *model;   /* its path */
+    uint32_t value, uri; /* JSON values: the buffer and its uri */
+    const char *model;   /* the path of the model */
     const char *name;    /* for messages */
     size_t *most_read;
     ffd_error *error;
@@ -25,7 +25,8 @@ static bool is_separator(char c)
     return c == ';' || c == ',' || is_blank(c);
 }
 
-/* Whether a word at uri[i] that ends before uri[end] is a whole parameter; blanks round it may be escaped. */
+/* Whether the word at uri[i], which ends before uri[end], is a whole parameter. Blanks around it may be
+   escaped. */
 static bool is_parameter(const char *uri, size_t i, size_t end)
 {
     const bool begins = i > 0 && (is_separator(uri[i - 1]) || (i >= 3 && memcmp(uri + i - 3, "%20", 3) == 0));
@@ -49,7 +50,7 @@ size_t ffd_data_uri_payload(const char *uri, size_t size, data_uri_coding *codin
     return head + 1;
 }
 
-/* Takes out blanks, which browsers skip in base64; returns the new size. */
+/* Removes blanks, which browsers skip in base64; returns the new size. */
 static size_t take_blanks(char *text, size_t size)
 {
     size_t blanks = 0, kept = 0;

@@ -1,6 +1,5 @@
-/* gltf_model.h - what we use of a glTF file, in plain C. Filled by gltf_tinygltf.cpp, or
-   tinygltf_load.c; indices are -1
-   where absent. */
+/* gltf_model.h - what the program uses of a glTF file, in plain C. gltf_tinygltf.cpp or tinygltf_load.c fills
+   it. Indices are -1 if absent. */
 #ifndef FFD_IO_GLTF_MODEL_GLTF_MODEL_H
 #define FFD_IO_GLTF_MODEL_GLTF_MODEL_H
 
@@ -18,12 +17,12 @@ typedef enum gltf_component {
     GLTF_FLOAT = 5126
 } gltf_component;
 
-/* The attributes that a deformation changes; all others are GLTF_OTHER, those of splats that can be changed
-   GLTF_SPLAT, once they are found. */
+/* The attributes that a deformation changes. All other attributes are GLTF_OTHER; once found, those of splats
+   that can be changed are GLTF_SPLAT. */
 typedef enum gltf_semantic { GLTF_POSITION, GLTF_NORMAL, GLTF_TANGENT, GLTF_OTHER, GLTF_SPLAT } gltf_semantic;
-#define GLTF_DEFORMED 3 /* of vectors */
+#define GLTF_DEFORMED 3 /* the number of vector attributes */
 
-/* What a primitive draws; MODE_UNKNOWN: its mode or its indices are not valid (then there are no indices). */
+/* What a primitive draws. MODE_UNKNOWN: its mode or its indices are not valid; it then has no indices. */
 enum {
     MODE_POINTS,
     MODE_LINES,
@@ -53,7 +52,7 @@ typedef struct gltf_accessor {
     int view;
     uint64_t offset, count;
     int component;     /* gltf_component */
-    int columns, rows; /* VEC3: 1 column of 3 rows; MAT4: 4 of 4 */
+    int columns, rows; /* VEC3: 1 column, 3 rows; MAT4: 4 columns, 4 rows */
     bool normalized;
     gltf_sparse sparse;
 } gltf_accessor;
@@ -63,29 +62,29 @@ typedef struct gltf_attribute {
     int accessor;
 } gltf_attribute;
 
-/* Accessors of JOINTS_n and WEIGHTS_n of one n; -1 where only the other is there. */
+/* The accessors of JOINTS_n and WEIGHTS_n for one n; -1 if only the other exists. */
 typedef struct gltf_influence {
     int joints, weights;
 } gltf_influence;
 
 typedef struct gltf_primitive {
     int accessor[GLTF_DEFORMED]; /* of POSITION, NORMAL, TANGENT */
-    gltf_attribute *attributes;  /* all */
+    gltf_attribute *attributes;  /* all attributes */
     size_t attribute_count;
     gltf_attribute *targets; /* the attributes of all morph targets */
     size_t target_attribute_count, target_count;
     int *target_accessors; /* GLTF_DEFORMED per target */
-    /* Of Gaussian splats: GLTF_DEFORMED per group, -1 where there is none; set after parsing, for those that
-       can be changed. */
+    /* Attributes of Gaussian splats, GLTF_DEFORMED per group, -1 where a group has fewer. Set after parsing,
+       for splats that can be changed. */
     int *splat_accessors;
     size_t splat_groups;
-    gltf_influence *influences; /* n from 0 until neither is there */
+    gltf_influence *influences; /* for n = 0, 1, .. as long as either exists */
     size_t influence_count;
     int indices, mode;
 } gltf_primitive;
 
-/* The deformed attributes of a primitive are numbered by slots: slot s is its own attribute of semantic
-   s, slot GLTF_DEFORMED * (t + 1) + s is that of its morph target t; those of splats follow. */
+/* Slots number the deformed attributes of a primitive: slot s is its own attribute of semantic s, slot
+   GLTF_DEFORMED * (t + 1) + s that of its morph target t. The slots of splats follow. */
 static inline size_t gltf_vector_slots(const gltf_primitive *primitive)
 {
     return GLTF_DEFORMED * (1 + primitive->target_count);
@@ -134,16 +133,16 @@ typedef struct gltf_model {
     size_t node_count;
     gltf_scene *scenes;
     size_t scene_count;
-    int scene; /* the default one */
+    int scene; /* the default scene */
 } gltf_model;
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* Parses JSON text (with stubs for buffers, without images) by tinygltf, which opens no file. On failure the
-   model is empty. Errors: FFD_E_INVALID with tinygltf's message, FFD_E_UNSUPPORTED (no library),
-   FFD_E_MEMORY. Throws no exception. */
+/* Parses JSON text (with stubs for buffers, without images) with tinygltf, which opens no file. Throws no
+   exception. After a failure the model is empty. Errors: FFD_E_INVALID with tinygltf's message,
+   FFD_E_UNSUPPORTED (no library), FFD_E_MEMORY. */
 ffd_status ffd_gltf_parse_model(const char *text, size_t size, const char *name, gltf_model *model,
                                 ffd_error *error);
 

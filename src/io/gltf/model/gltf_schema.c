@@ -13,11 +13,11 @@ typedef enum rule_kind {
     RULE_BOOL,
     RULE_STRING,
     RULE_STRINGS,
-    RULE_NUMBERS,   /* an array of `count` finite numbers; 0: of any number */
+    RULE_NUMBERS,   /* an array of `count` finite numbers; count 0: any number of them */
     RULE_INDICES,   /* an array of indices */
     RULE_INDEX_MAP, /* an object whose values are all indices */
     RULE_INDEX_MAPS,
-    RULE_OBJECT, /* that follows `inner` */
+    RULE_OBJECT, /* an object that follows `inner` */
     RULE_OBJECTS
 } rule_kind;
 
@@ -26,7 +26,7 @@ typedef struct rule {
     rule_kind kind;
     bool required;
     size_t count;
-    const struct rule *inner; /* ends with a rule without a key; NULL: any members are allowed */
+    const struct rule *inner; /* ends with a rule without a key; NULL: any members */
 } rule;
 
 typedef struct checker {
@@ -57,7 +57,7 @@ static const rule view_rules[] = {{"buffer", RULE_INDEX, true, 0, NULL},
                                   {"target", RULE_INDEX, false, 0, NULL},
                                   {"extensions", RULE_OBJECT, false, 0, view_extension_rules},
                                   {0}};
-/* tinygltf holds these offsets in an int. */
+/* tinygltf stores these offsets in an int. */
 static const rule sparse_indices_rules[] = {{"bufferView", RULE_INDEX, true, 0, NULL},
                                             {"byteOffset", RULE_INDEX, false, 0, NULL},
                                             {"componentType", RULE_COMPONENT, true, 0, NULL},
@@ -132,7 +132,8 @@ static bool is_kind(const checker *c, uint32_t value, json_kind kind)
     return c->tree->values[value].kind == kind;
 }
 
-/* tinygltf refuses what is not a multiple of 4. Whoever uses the stride reads it from the JSON. */
+/* Hides the value from tinygltf, which refuses any that is not a multiple of 4. Readers of strides take them
+   from the JSON. */
 static ffd_status check_stride(const checker *c, uint32_t value)
 {
     double number;
@@ -151,7 +152,7 @@ static ffd_status check_mode(const checker *c, uint32_t value)
     return FFD_OK;
 }
 
-/* Reads an integer of [0, largest]. One that is not written as plain digits is rewritten in c->plain. */
+/* Reads an integer of [0, largest]. An integer that is not written as plain digits is edited in c->plain. */
 static bool read_integer(const checker *c, uint32_t value, double largest, double *number)
 {
     if (!ffd_json_span_number(c->tree, value, number) || !(*number >= 0 && *number <= largest) ||
@@ -166,7 +167,7 @@ static bool read_integer(const checker *c, uint32_t value, double largest, doubl
     return true;
 }
 
-/* Whether the file says that it uses an extension. */
+/* Whether the file lists an extension as used. */
 static bool is_used(const json_span *tree, const char *extension)
 {
     const uint32_t used = ffd_json_span_member(tree, 0, "extensionsUsed");
@@ -176,7 +177,7 @@ static bool is_used(const json_span *tree, const char *extension)
     return false;
 }
 
-/* The component type that KHR_accessor_float64 adds. */
+/* The component type added by KHR_accessor_float64. */
 #define COMPONENT_DOUBLE 5130
 
 static ffd_status check_component(const checker *c, uint32_t value, bool known, double number)
@@ -304,7 +305,7 @@ static ffd_status check_value(const checker *c, uint32_t value, const rule *r)
     return FFD_OK;
 }
 
-/* Whether the text is two whole numbers with a point between them. */
+/* Whether the text is two whole numbers with a point between. */
 static bool is_version(const char *text)
 {
     static const char digits[] = "0123456789";

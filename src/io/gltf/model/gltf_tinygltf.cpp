@@ -1,5 +1,5 @@
-/* gltf_tinygltf.cpp - the only source that includes tinygltf. It is compiled here with our own macros: no
-   image codecs, no file access. */
+/* gltf_tinygltf.cpp - the only source that includes tinygltf, compiled with macros that leave out image
+   codecs and file access. */
 #include "base/memory/memory.h"
 #include "io/gltf/model/gltf_model.h"
 #include <cstring>
@@ -18,7 +18,7 @@
 namespace
 {
 
-/* Allocates a C array of count elements, to be freed by ffd_gltf_free_model. */
+/* Allocates a C array of count elements, which ffd_gltf_free_model frees. */
 template <typename T> T *make_array(size_t count)
 {
     T *array = static_cast<T *>(ffd_alloc_zero(count, sizeof(T)));
@@ -211,8 +211,9 @@ size_t count_values(const char *text, size_t size)
     return count;
 }
 
-/* A vector that doubles its capacity has at most twice what it needs, and all its blocks together at most
-   twice that; once for parsing and once for destruction. */
+/* Returns an upper bound of the memory of vectors. A vector that doubles its capacity takes at most twice
+   what it holds, and all its blocks together at most twice that; all this once for parsing and once for
+   destruction. */
 size_t reserve_size(const char *text, size_t size)
 {
     return 8 * sizeof(nlohmann::json) * count_values(text, size);
@@ -229,7 +230,7 @@ ffd_status parse(const char *text, size_t size, const char *name, gltf_model *mo
     if (!reader.LoadASCIIFromString(&read, &problems, &warnings, text, static_cast<unsigned int>(size), "",
                                     tinygltf::REQUIRE_VERSION)) {
         const std::string first = problems.substr(0, problems.find('\n'));
-        /* tinygltf keeps only the message of an exception. */
+        /* tinygltf keeps only the message of an exception, not its type. */
         if (first == std::bad_alloc().what())
             throw std::bad_alloc();
         return ffd_fail_file(error, FFD_E_INVALID, name, "is not valid glTF: %s",
@@ -253,7 +254,7 @@ extern "C" ffd_status ffd_gltf_parse_model(const char *text, size_t size, const 
     } catch (const std::exception &problem) {
         status = ffd_fail_file(error, FFD_E_INVALID, name, "is not valid glTF: %s", problem.what());
     } catch (...) {
-        status = ffd_fail_file(error, FFD_E_INVALID, name, "is not valid glTF: tinygltf gives up");
+        status = ffd_fail_file(error, FFD_E_INVALID, name, "is not valid glTF: tinygltf cannot read it");
     }
     if (status)
         ffd_gltf_free_model(model);

@@ -1,6 +1,6 @@
-/* json_reserve.h - nlohmann's JSON with memory that its destructor can use. The destructor moves the
-   values of an array or object to a vector, and terminates the program if memory runs out. Here such
-   vectors are allocated from a reserve when no other memory is left. C++; for gltf_tinygltf.cpp only. */
+/* json_reserve.h - nlohmann's JSON with a memory reserve for its destructor. The destructor moves the values
+   of an array or object to a vector, and would terminate the program if memory ran out. Here such vectors are
+   allocated from a reserve when no other memory is left. C++; for gltf_tinygltf.cpp only. */
 #ifndef FFD_IO_GLTF_MODEL_JSON_RESERVE_H
 #define FFD_IO_GLTF_MODEL_JSON_RESERVE_H
 
@@ -13,12 +13,12 @@
 #include <type_traits>
 #include <utility>
 
-/* Renamed: only here does the library have another std::allocator. */
+/* Renamed, because the library has another std::allocator only here. */
 #define nlohmann ffd_nlohmann
 #include <nlohmann/json_fwd.hpp>
 
-/* Memory that the calling thread's vectors of JSON values fall back on during the object's lifetime. Its
-   blocks are not reused. */
+/* A memory reserve that vectors of JSON values in the calling thread use as a fallback during the object's
+   lifetime. Its blocks are not reused. */
 class json_reserve
 {
   public:
@@ -54,8 +54,8 @@ class json_reserve
   private:
     static json_reserve *&current()
     {
-        /* Memory that a module's threads get with it: of any other the C library ends the program where
-           memory runs out. */
+        /* The static TLS model: this memory is allocated together with each thread. With the dynamic model
+           the C library allocates it at first use, and ends the program if memory runs out. */
         static thread_local json_reserve *reserve __attribute__((tls_model("initial-exec"))) = nullptr;
         return reserve;
     }
@@ -76,12 +76,12 @@ class json_reserve
     }
 
     char *const first;
-    char *block; /* what is left of it */
+    char *block; /* its unused rest */
     const size_t size;
     size_t left;
 };
 
-/* std::allocator as the standard describes it, but for the source of its memory. */
+/* std::allocator as in the standard, except for the source of its memory. */
 template <> class std::allocator<nlohmann::json>
 {
   public:

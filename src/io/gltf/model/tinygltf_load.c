@@ -1,4 +1,4 @@
-/* tinygltf_load.c - parses by the module, which is loaded when it is first needed. */
+/* tinygltf_load.c - the functions of gltf_model.h, by the module, which is loaded at the first parsing. */
 #include "io/gltf/model/tinygltf_module.h"
 
 ffd_status ffd_gltf_parse_model(const char *text, size_t size, const char *name, gltf_model *model,

@@ -1,5 +1,5 @@
-/* tinygltf_module.h - what the module with tinygltf shows. tinygltf_module.c is part of the module;
-   tinygltf_load.c, in its place, of a program that loads it. */
+/* tinygltf_module.h - the functions of the tinygltf module. tinygltf_module.c is part of the module; a
+   program that loads the module has tinygltf_load.c instead. */
 #ifndef FFD_IO_GLTF_MODEL_TINYGLTF_MODULE_H
 #define FFD_IO_GLTF_MODEL_TINYGLTF_MODULE_H
 

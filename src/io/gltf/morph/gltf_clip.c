@@ -1,6 +1,6 @@
 #include "io/gltf/morph/gltf_clip.h"
 #include "base/memory/memory.h"
-#include "base/text/buffer_float.h"
+#include "base/text/buffer_binary.h"
 #include "base/text/number.h"
 #include "base/text/words.h"
 #include "io/gltf/morph/gltf_grown.h"
@@ -16,7 +16,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A target that no clip drives; one that is driven, but not named. */
+/* KEEPS: a target that no clip drives. IS_ZERO: a further target that the clip does not name, so that its
+   weight is 0. */
 #define KEEPS UINT32_MAX
 #define IS_ZERO (UINT32_MAX - 1)
 
@@ -25,17 +26,18 @@ typedef struct clip_writer {
     memory_budget budget;
     const clip_target *targets;
     size_t target_count;
-    const morph_clip *clip; /* the one that is written */
-    size_t input;           /* the accessor of its times; GLTF_NONE: not yet */
-    size_t *samplers;       /* of each mesh with its own default weights; GLTF_NONE: not yet */
+    const morph_clip *clip; /* the clip being written */
+    size_t input;           /* accessor of its times; GLTF_NONE: not added yet */
+    /* Per mesh: the sampler of its nodes without weights of their own; GLTF_NONE: not added yet. */
+    size_t *samplers;
     size_t sampler_count, channel_count;
     byte_buffer sampler_text, channel_text;
-    byte_buffer added;   /* animations that are not there yet, with commas */
-    uint64_t bytes_left; /* of animations that are replaced */
+    byte_buffer added;   /* new animations, with commas */
+    uint64_t bytes_left; /* bytes that replaced animations leave unused */
     ffd_error *error;
 } clip_writer;
 
-/* Adds the names of all meshes' targets. */
+/* Adds the names of the targets of all meshes. */
 static bool list_names(const gltf_document *d, intern_table *all)
 {
     bool added = true;
@@ -78,7 +80,7 @@ static void put_name(const char *name, byte_buffer *text)
     ffd_json_string(&json, NULL, name);
 }
 
-/* The name that a value states, to be freed; NULL: it states none. */
+/* Returns the name that a JSON value holds, for the caller to free; NULL: none. */
 static char *target_name(clip_writer *w, uint32_t value)
 {
     const json_span *const tree = &w->file.saver.document->tree;
@@ -89,8 +91,8 @@ static char *target_name(clip_writer *w, uint32_t value)
     return name;
 }
 
-/* Adds an accessor of count floats, which are appended from now on. extra: further members. Returns its
- * number. */
+/* Adds an accessor of count floats, which the caller appends next. extra: further members. Returns its
+   number. */
 static size_t add_accessor(clip_writer *w, size_t count, const char *extra)
 {
     morph_data *const data = &w->file.data;
@@ -115,7 +117,8 @@ static void add_times(clip_writer *w)
         ffd_buffer_float(&w->file.data.bytes, (double)clip->times[k]);
 }
 
-/* Finds which of a mesh's targets the clip drives, and by which name. Returns whether there is one. */
+/* Finds the targets of a mesh that the clip drives, and their names in the clip. Returns whether there are
+   any. */
 static bool find_driven(clip_writer *w, size_t mesh, uint32_t *names, size_t count)
 {
     const gltf_document *const d = w->file.saver.document;
@@ -129,7 +132,7 @@ static bool find_driven(clip_writer *w, size_t mesh, uint32_t *names, size_t cou
         ffd_free(name);
         value = value == JSON_NONE ? JSON_NONE : ffd_json_span_after(&d->tree, value);
     }
-    /* Those to come are known by their places: extras need not have room for their names. */
+    /* Further targets are known by their places: extras may have no room for their names. */
     for (size_t k = 0; k < w->target_count; k++) {
         const size_t place = w->targets[k].places[mesh];
         const char *const name = w->targets[k].name;
@@ -142,7 +145,8 @@ static bool find_driven(clip_writer *w, size_t mesh, uint32_t *names, size_t cou
     return any;
 }
 
-/* Finds the weights of the targets that a clip does not drive. default_value: the first default weight. */
+/* Finds the weights of targets that the clip does not drive. default_value: the JSON value of the first
+   default weight. */
 static void find_defaults(const gltf_document *d, const uint32_t *names, size_t count, uint32_t default_value,
                           double *row)
 {
@@ -161,7 +165,7 @@ static bool put_weights(clip_writer *w, const uint32_t *names, size_t count, uin
 {
     const morph_clip *const clip = w->clip;
     double *const row = ffd_alloc(count, sizeof *row);
-    double *const weights = ffd_alloc_zero(clip->names.count, sizeof *weights); /* of a key, by name */
+    double *const weights = ffd_alloc_zero(clip->names.count, sizeof *weights); /* of one key, by name */
     const bool done = row && weights;
     if (done)
         find_defaults(w->file.saver.document, names, count, default_value, row);
@@ -178,7 +182,7 @@ static bool put_weights(clip_writer *w, const uint32_t *names, size_t count, uin
     return done;
 }
 
-/* Adds a sampler for a node with the mesh. */
+/* Adds a sampler for the nodes of a mesh. */
 static ffd_status add_sampler(clip_writer *w, const uint32_t *names, size_t count, uint32_t default_value)
 {
     const uint64_t numbers = (uint64_t)w->clip->key_count * count;
@@ -193,8 +197,7 @@ static ffd_status add_sampler(clip_writer *w, const uint32_t *names, size_t coun
     return put_weights(w, names, count, default_value) ? FFD_OK : ffd_fail_memory(w->error);
 }
 
-/* Adds the channel of a node, if its mesh has a target that is driven. names: memory for all of its targets.
- */
+/* Adds a channel for a node if the clip drives targets of its mesh. names: room for one per target. */
 static ffd_status add_channel(clip_writer *w, size_t node, uint32_t *names)
 {
     const gltf_document *const d = w->file.saver.document;
@@ -218,7 +221,7 @@ static ffd_status add_channel(clip_writer *w, size_t node, uint32_t *names)
     return FFD_OK;
 }
 
-/* Returns the animation with the clip's name; JSON_NONE: there is none. */
+/* Returns the animation of the clip's name; JSON_NONE: none. */
 static uint32_t find_animation(const clip_writer *w, uint32_t animations)
 {
     const json_span *const tree = &w->file.saver.document->tree;
@@ -231,7 +234,7 @@ static uint32_t find_animation(const clip_writer *w, uint32_t animations)
     return JSON_NONE;
 }
 
-/* The bytes of accessors that only one animation uses; false if memory runs out. */
+/* Counts the bytes of accessors that only this animation uses. Returns false if memory runs out. */
 static bool count_own_bytes(const gltf_document *d, uint32_t animation, uint64_t *bytes)
 {
     unsigned char *const users = ffd_gltf_count_users(d, animation);
@@ -247,7 +250,7 @@ static bool count_own_bytes(const gltf_document *d, uint32_t animation, uint64_t
     return counted;
 }
 
-/* Says how many bytes are left that nothing uses any more. */
+/* Warns that an animation is replaced, with the bytes that nothing uses any more. */
 static ffd_status warn_of_replaced(clip_writer *w, uint32_t old, const char *name)
 {
     char left[80] = "";
@@ -262,7 +265,7 @@ static ffd_status warn_of_replaced(clip_writer *w, uint32_t old, const char *nam
     return FFD_OK;
 }
 
-/* Puts the clip in place of the animation of its name, or among those that are added. */
+/* Replaces the animation of the clip's name, or adds the clip to the new animations. */
 static ffd_status place_clip(clip_writer *w, uint32_t animations)
 {
     gltf_saver *const saver = &w->file.saver;

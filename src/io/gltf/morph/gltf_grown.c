@@ -2,6 +2,7 @@
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include "base/text/base64.h"
+#include "base/text/buffer_binary.h"
 #include "io/gltf/save/gltf_json_insert.h"
 
 static bool extends_bin(const gltf_document *d)
@@ -9,7 +10,7 @@ static bool extends_bin(const gltf_document *d)
     return d->buffer_values.count > 0 && d->buffers[0].kind == BUFFER_BIN;
 }
 
-/* Returns where the BIN chunk's old bytes end and new ones begin. */
+/* Returns the offset in the BIN chunk where the old bytes end and new ones begin. */
 static size_t bin_end(const gltf_document *d)
 {
     return ffd_gltf_align(d->buffers[0].length);
@@ -30,7 +31,7 @@ static void write_buffer(gltf_grown *w, byte_buffer *text)
     ffd_free(encoded);
 }
 
-/* Adds the bufferView of the new bytes, in the BIN chunk if there is one, else in a buffer of their own. */
+/* Adds a bufferView of the new bytes: in the BIN chunk if the file has one, else in a new buffer. */
 static void add_bytes(gltf_grown *w)
 {
     gltf_saver *saver = &w->saver;
@@ -54,13 +55,6 @@ static void add_bytes(gltf_grown *w)
     ffd_buffer_free(&buffer);
 }
 
-static void put_u32(byte_buffer *out, size_t number)
-{
-    unsigned char bytes[4];
-    store_u32(bytes, (uint32_t)number);
-    ffd_buffer_append(out, bytes, sizeof bytes);
-}
-
 static void pad(byte_buffer *out, const char *with)
 {
     while (out->size % 4 && !out->failed)
@@ -73,16 +67,16 @@ static void write_glb(const gltf_grown *w, byte_buffer *json, byte_buffer *out)
     const gltf_document *d = w->saver.document;
     const bool grows = extends_bin(d) && w->data.bytes.size > 0;
     pad(json, " ");
-    put_u32(out, GLB_MAGIC);
-    put_u32(out, GLB_VERSION);
-    put_u32(out, 0);
-    put_u32(out, json->size);
-    put_u32(out, GLB_CHUNK_JSON);
+    ffd_buffer_u32(out, GLB_MAGIC);
+    ffd_buffer_u32(out, GLB_VERSION);
+    ffd_buffer_u32(out, 0);
+    ffd_buffer_u32(out, (uint32_t)json->size);
+    ffd_buffer_u32(out, GLB_CHUNK_JSON);
     ffd_buffer_append(out, json->data, json->size);
     if (d->glb.has_bin) {
         const size_t kept = grows ? d->buffers[0].length : d->glb.bin_size;
-        put_u32(out, grows ? ffd_gltf_align(bin_end(d) + w->data.bytes.size) : kept);
-        put_u32(out, GLB_CHUNK_BIN);
+        ffd_buffer_u32(out, (uint32_t)(grows ? ffd_gltf_align(bin_end(d) + w->data.bytes.size) : kept));
+        ffd_buffer_u32(out, GLB_CHUNK_BIN);
         ffd_buffer_append(out, d->input.data + d->glb.bin_begin, kept);
         if (grows) {
             pad(out, "");

@@ -6,7 +6,7 @@
 #include "io/gltf/morph/gltf_morph_reuse.h"
 #include <inttypes.h>
 
-/* Who has a part of a view. */
+/* Who uses a view: nobody, only unused accessors, or others as well. */
 enum { IS_FREE, IS_LEFT, IS_KEPT };
 
 static void mark_view(int view, bool dropped, uint8_t *views)
@@ -27,7 +27,7 @@ static void mark_views(const gltf_document *d, const bool *dropped, uint8_t *vie
     }
 }
 
-/* The bytes of elements in a view that is not compressed. */
+/* Returns the bytes of elements in a view, 0 if the view is compressed. */
 static uint64_t plain_bytes(const gltf_document *d, int view, uint64_t count, size_t size)
 {
     const bool is_plain = view >= 0 && ffd_gltf_meshopt_value(d, (size_t)view) == JSON_NONE;

@@ -36,8 +36,8 @@ unsigned char *ffd_gltf_count_users(const gltf_document *d, uint32_t but)
     return users;
 }
 
-/* Whether every selected use of the primitive has results: where one has none the old offsets stay, which is
-   right only for what is not selected. */
+/* Whether every selected use of the primitive has results. Where a use has none the old offsets stay, which
+   is right only for a use that is not selected. */
 static bool has_results(const gltf_document *d, const gltf_morph *morph, const morph_place *place)
 {
     const gltf_instance *const instances = ffd_gltf_instances(d, place->mesh, place->primitive);

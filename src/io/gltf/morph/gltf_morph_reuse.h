@@ -1,5 +1,5 @@
-/* gltf_morph_reuse.h - which accessors of a morph target that is replaced can hold the new offsets, so that a
-   file whose target is replaced again and again does not grow. */
+/* gltf_morph_reuse.h - decides which accessors of a replaced morph target can hold the new offsets, so that
+   replacing a target again and again does not enlarge the file. */
 #ifndef FFD_IO_GLTF_MORPH_GLTF_MORPH_REUSE_H
 #define FFD_IO_GLTF_MORPH_GLTF_MORPH_REUSE_H
 
@@ -11,17 +11,17 @@ typedef struct morph_place {
     gltf_semantic semantic;
 } morph_place;
 
-/* Counts the users of each accessor, where 2 stands for more too, for the caller to free; `but`: an animation
-   that is left out of account, or JSON_NONE. NULL: no memory. */
+/* Counts the users of each accessor; 2 means two or more. `but`: an animation that does not count, or
+   JSON_NONE. The caller frees the array. NULL: memory ran out. */
 unsigned char *ffd_gltf_count_users(const gltf_document *document, uint32_t but);
 
-/* Whether some node that shows a primitive is not selected: it keeps the old offsets. */
+/* Whether any node that shows the primitive is not selected: it keeps the old offsets. */
 bool ffd_gltf_is_partly_selected(const gltf_document *document, size_t mesh, size_t primitive);
 
-/* Whether an attribute's accessor has nothing but its offsets, as floats in bytes of its own, and all
-   selected ones get results, those of a target of source, whose instances are the document's; what is not
-   selected keeps the old ones then. For this others are used too, of floats: what is selected gets one of its
-   own when it is saved. users: of ffd_gltf_count_users. */
+/* Whether the new offsets of an attribute can be stored in the old accessor. It must hold floats, only these
+   offsets, in bytes of its own, and every selected use must have results in a target of source, whose
+   instances are the document's. If some uses are not selected, they keep the old offsets, and the accessor
+   may be shared: saving then gives the selected uses a new one. users: from ffd_gltf_count_users. */
 bool ffd_gltf_can_reuse(const gltf_document *document, const unsigned char *users, const morph_place *place,
                         const gltf_document *source, const gltf_morph *morph);
 

@@ -8,10 +8,10 @@
 typedef struct morph_writer {
     gltf_grown file;
     const morph_request *request;
-    bool *grow;           /* per mesh: it gets one more */
-    unsigned char *users; /* of ffd_gltf_count_users */
-    size_t *zeros[2];     /* per accessor: the new one of as many zeros; [1]: with bounds */
-    bool loses;           /* nodes of the mesh under way that are not selected lose old offsets */
+    bool *grow;           /* per mesh: whether it gets one more target */
+    unsigned char *users; /* from ffd_gltf_count_users */
+    size_t *zeros[2];     /* per accessor: the new accessor with as many zeros; [1]: with bounds */
+    bool loses;           /* whether unselected nodes of the current mesh lose old offsets */
 } morph_writer;
 
 static bool is_array(const gltf_saver *saver, uint32_t value)
@@ -37,7 +37,7 @@ size_t ffd_gltf_find_target(const gltf_document *d, size_t mesh, const char *nam
     return GLTF_NONE;
 }
 
-/* Returns the new accessor of zeros for offsets of an accessor. */
+/* Returns the new accessor of zeros for the offsets of an accessor's elements. */
 static size_t zeros_for(morph_writer *w, size_t accessor, bool bounds)
 {
     const gltf_document *d = w->file.saver.document;
@@ -52,7 +52,7 @@ static size_t zeros_for(morph_writer *w, size_t accessor, bool bounds)
     return *number;
 }
 
-/* Returns the accessor for an attribute of a target: the one of the target that is replaced, if it can be. */
+/* Returns the accessor for an attribute of a target: that of the replaced target if it can be reused. */
 static size_t accessor_for(morph_writer *w, const morph_place *place)
 {
     const gltf_document *d = w->file.saver.document;
@@ -63,7 +63,7 @@ static size_t accessor_for(morph_writer *w, const morph_place *place)
     return zeros_for(w, (size_t)primitive->accessor[place->semantic], place->semantic == GLTF_POSITION);
 }
 
-/* Whether what is not selected had offsets, which it loses where the target gets another accessor. */
+/* Whether uses that are not selected have offsets, and lose them because the target gets another accessor. */
 static bool loses_offsets(const morph_writer *w, const morph_place *place, size_t accessor)
 {
     const gltf_primitive *const primitive =
@@ -138,7 +138,8 @@ static void write_name(const char *name, byte_buffer *text)
     ffd_json_string(&json, NULL, name);
 }
 
-/* Writes names for the targets from `first` on: made up, but for the new one, which is the last. */
+/* Writes names for the targets from `first` on: the new target's name for the last one, generated names for
+   the others. */
 static void write_names(const gltf_saver *saver, const char *name, size_t mesh, size_t first,
                         byte_buffer *text)
 {
@@ -155,7 +156,8 @@ static void write_names(const gltf_saver *saver, const char *name, size_t mesh, 
                      first, count - 1);
 }
 
-/* Adds the new target's name; if the list has more names than targets, it replaces the next one. */
+/* Adds the new target's name. If the list has more names than the mesh has targets, the name replaces the
+   first surplus one. */
 static void edit_names(gltf_saver *saver, const char *name, size_t mesh, uint32_t names)
 {
     const json_span *tree = &saver->document->tree;
@@ -196,7 +198,8 @@ static void add_names(gltf_saver *saver, const char *name, size_t mesh)
     ffd_buffer_free(&text);
 }
 
-/* Adds a weight 0. make: also if there are no weights yet, as for a mesh; a node needs none of its own. */
+/* Adds a weight 0. make: creates the list if there is none, for a mesh; a node needs no weights of its
+   own. */
 static void add_weights(gltf_saver *saver, uint32_t value, size_t targets, bool make)
 {
     const uint32_t weights = ffd_json_span_member(&saver->document->tree, value, "weights");

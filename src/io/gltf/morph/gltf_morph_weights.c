@@ -1,20 +1,20 @@
 #include "io/gltf/morph/gltf_morph_weights.h"
 #include "base/memory/memory.h"
-#include "base/text/buffer_float.h"
+#include "base/text/buffer_binary.h"
 #include "io/gltf/decode/gltf_read.h"
 #include "io/gltf/refer/gltf_index_table.h"
 #include "io/gltf/save/gltf_json_insert.h"
 #include <math.h>
 #include <string.h>
 
-/* An animation whose samplers are extended. */
+/* An animation whose samplers get longer outputs. */
 typedef struct animation {
     uint32_t samplers, channels;
     size_t sampler_count;
     uint32_t *sampler_values;
-    size_t *targets; /* per sampler: 1 + the targets of a mesh whose weights it drives; 0: it drives none */
-    bool *others;    /* it drives something else too */
-    size_t *copies;  /* the number of its copy; GLTF_NONE: none */
+    size_t *targets; /* per sampler: 1 + the number of targets of the mesh whose weights it drives; 0: none */
+    bool *others;    /* per sampler: whether it also drives something else */
+    size_t *copies;  /* per sampler: the number of its copy; GLTF_NONE: none */
     size_t copy_count;
 } animation;
 
@@ -38,9 +38,8 @@ static bool read_index(const gltf_saver *saver, uint32_t object, const char *key
     return true;
 }
 
-/* Returns the mesh of which a JSON pointer leads to all weights, its own or a node's; GLTF_NONE: it leads
- * elsewhere.
- */
+/* Returns the mesh for a JSON pointer to all weights of a mesh or a node; GLTF_NONE: it points to something
+   else. */
 static size_t pointed_mesh(const gltf_document *d, const char *pointer)
 {
     const char *rest = "";
@@ -53,7 +52,7 @@ static size_t pointed_mesh(const gltf_document *d, const char *pointer)
                : GLTF_NONE;
 }
 
-/* Returns the mesh whose weights the target of a channel is; GLTF_NONE: it is something else. */
+/* Returns the mesh whose weights are the target of a channel; GLTF_NONE: the target is something else. */
 static size_t target_mesh(gltf_saver *saver, uint32_t target)
 {
     const gltf_document *d = saver->document;
@@ -75,7 +74,7 @@ static size_t target_mesh(gltf_saver *saver, uint32_t target)
                : GLTF_NONE;
 }
 
-/* Returns the marked mesh whose weights a channel drives; GLTF_NONE: it drives none. */
+/* Returns the mesh, one of the marked ones, whose weights a channel drives; GLTF_NONE: none. */
 static size_t driven_mesh(gltf_saver *saver, const bool *meshes, uint32_t channel)
 {
     const size_t mesh = target_mesh(saver, ffd_json_span_member(&saver->document->tree, channel, "target"));
@@ -127,8 +126,8 @@ static void find_drivers(gltf_saver *saver, const bool *meshes, animation *a)
     }
 }
 
-/* Makes a copy of the accessor with a 0 after every `targets` values; GLTF_NONE if it
-   does not hold whole rows. */
+/* Copies the accessor with a 0 after every `targets` values; GLTF_NONE if it does not hold whole rows of
+   them. */
 static size_t extend_output(gltf_saver *saver, size_t accessor, size_t targets, bool cubic, morph_data *data)
 {
     const gltf_document *d = saver->document;
@@ -153,7 +152,7 @@ static size_t extend_output(gltf_saver *saver, size_t accessor, size_t targets, 
     return d->model.accessor_count + data->accessor_count++;
 }
 
-/* Appends the text of a value with one number in it replaced. */
+/* Appends the text of a JSON value in which one number is replaced. */
 static void copy_with_number(const gltf_saver *saver, uint32_t value, uint32_t number, size_t with,
                              byte_buffer *text)
 {
@@ -164,7 +163,7 @@ static void copy_with_number(const gltf_saver *saver, uint32_t value, uint32_t n
     ffd_buffer_append(text, tree->text + part->end, whole->end - part->end);
 }
 
-/* Gives samplers their new outputs; one that something else uses too gets a copy. */
+/* Gives samplers their new outputs. A sampler that also drives something else gets a copy. */
 static void extend_samplers(gltf_saver *saver, animation *a, morph_data *data)
 {
     const gltf_document *d = saver->document;

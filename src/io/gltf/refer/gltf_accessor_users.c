@@ -27,7 +27,7 @@ static void mark_skins(const gltf_document *d, bool *used)
         mark_number(d, ffd_json_span_member(&d->tree, s, "inverseBindMatrices"), used);
 }
 
-/* What the accessors in extensions are marked in. */
+/* Where the accessors that extensions name are marked. */
 typedef struct marks {
     const gltf_document *document;
     bool *used;

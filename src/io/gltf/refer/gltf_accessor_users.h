@@ -1,18 +1,18 @@
-/* gltf_accessor_users.h - who uses an accessor. */
+/* gltf_accessor_users.h - finds the users of accessors. */
 #ifndef FFD_IO_GLTF_REFER_GLTF_ACCESSOR_USERS_H
 #define FFD_IO_GLTF_REFER_GLTF_ACCESSOR_USERS_H
 
 #include "io/gltf/document/gltf_document.h"
 
-/* Sets used[a] for each accessor a that something other than a deformed attribute, a skin and an animation
-   uses: other attributes, indices, extensions. An extension of a mesh that names an accessor of the mesh's
-   own attributes follows these. */
+/* Sets used[a] for each accessor a that is used by anything but a deformed attribute, a skin or an animation:
+   other attributes, indices, extensions. An accessor that an extension of a mesh names does not count if it
+   is one of the mesh's own attributes: the extension then follows the attribute. */
 void ffd_gltf_mark_other_users(const gltf_document *document, bool *used);
 
-/* Sets it for those that an animation uses. */
+/* Sets used[a] for the accessors of one animation. */
 void ffd_gltf_mark_animation(const gltf_document *document, uint32_t animation, bool *used);
 
-/* Sets it for those that skins and animations use, but for one animation (JSON_NONE: none). */
+/* Sets used[a] for the accessors of skins and animations, except one animation (JSON_NONE: none). */
 void ffd_gltf_mark_rig_users(const gltf_document *document, uint32_t but, bool *used);
 
 #endif

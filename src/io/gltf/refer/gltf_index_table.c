@@ -4,8 +4,8 @@
 
 #define KEY_SIZE 64
 
-/* A JSON pointer to the values. "*" stands for every member or element; "+" for every element of an array
-   that is repeated for each copy of the mesh that it names. */
+/* A JSON pointer to the values. "*" stands for every member or element. "+" stands for every element of an
+   array of which each copy of the named mesh needs an element of its own. */
 typedef struct row {
     gltf_index_kind kind;
     const char *pointer;
@@ -48,10 +48,10 @@ typedef struct walk {
     const gltf_document *document;
     gltf_index_visit *visit;
     void *context;
-    gltf_index_place place; /* what is known of it so far */
+    gltf_index_place place; /* what is known so far */
 } walk;
 
-/* Copies the key at the head of a pointer, "/key/..."; returns what follows it. */
+/* Copies the first key of a pointer "/key/..."; returns the text after it. */
 static const char *take_key(const char *pointer, char key[KEY_SIZE])
 {
     const size_t length = strcspn(pointer + 1, "/");
@@ -77,7 +77,7 @@ static void follow_all(const walk *w, const char *pointer, uint32_t container, b
     }
 }
 
-/* Follows a pointer from a value on. */
+/* Follows a pointer from a JSON value on. */
 static void follow(const walk *w, const char *pointer, uint32_t value)
 {
     char key[KEY_SIZE];
@@ -101,7 +101,7 @@ static walk begin(const gltf_document *d, const row *r, gltf_index_visit *visit,
     return (walk){d, visit, context, {r->kind, JSON_NONE, JSON_NONE, GLTF_NONE, NULL}};
 }
 
-/* Follows a row that begins with a list at the top, element by element, so that their numbers are known. */
+/* Follows a row that begins with a top-level list, element by element, to know their numbers. */
 static void visit_list(walk *w, const char *list, const char *rest)
 {
     const json_span *tree = &w->document->tree;

@@ -6,22 +6,22 @@
 #include "io/gltf/scene/gltf_references.h"
 #include <string.h>
 
-/* What is known of a node. */
+/* Marks of a node. */
 enum {
-    IS_SHOWN = 1, /* it is in the scene, or a skin in the scene has it as a joint */
+    IS_SHOWN = 1, /* it is in the scene, or a joint of a skin in the scene */
     IS_CHOSEN = 2,
     IS_JOINT = 4,
     IS_ANIMATED = 8,
     HAS_SHAPE = 16,
-    HAS_SELECTED = 32, /* of its mesh: primitives that are selected, */
-    HAS_OTHERS = 64    /* and some that are not */
+    HAS_SELECTED = 32, /* its mesh has selected primitives, */
+    HAS_OTHERS = 64    /* and some that are not selected */
 };
 
 typedef struct survey {
     const gltf_document *document;
-    uint8_t *nodes;  /* of each node */
-    uint8_t *holds;  /* of each node: a set of PLACE_HOLDS */
-    size_t *pending; /* a stack, of the size of all nodes */
+    uint8_t *nodes;  /* marks, per node */
+    uint8_t *holds;  /* per node: a set of PLACE_HOLDS */
+    size_t *pending; /* a stack with room for all nodes */
 } survey;
 
 static void mark_joints(const survey *s, const gltf_skin *skin, uint8_t mark)
@@ -45,7 +45,7 @@ static void mark_shown(const survey *s)
     }
 }
 
-/* Chooses a node and all below it up to the next meshes, which are selected on their own account. */
+/* Chooses a node and its descendants, down to nodes with meshes, which have a selection of their own. */
 static void choose_below(const survey *s, size_t root)
 {
     size_t waiting = 0;
@@ -125,7 +125,7 @@ static void mark_spring(const survey *s, size_t node)
     s->holds[node] |= PLACE_HOLDS_SPRING;
 }
 
-/* A node and all below it: each once, so that circles end. */
+/* Marks a node and all its descendants, each once, so that cycles end. */
 static void mark_springs_below(const survey *s, size_t root)
 {
     size_t waiting = 0;
@@ -145,7 +145,8 @@ static void mark_springs_below(const survey *s, size_t root)
     }
 }
 
-/* What springs, viewers and constraints turn is animated, though no animation of the file does it. */
+/* Nodes that springs, viewers or constraints turn count as animated, although no animation of the file does
+   it. */
 static void mark_vrm(void *context, size_t node, gltf_vrm_role role)
 {
     const survey *const s = context;
@@ -163,7 +164,7 @@ static void mark_vrm(void *context, size_t node, gltf_vrm_role role)
         s->holds[node] |= PLACE_HOLDS_AIM;
 }
 
-/* Whether a node names one of these, from first to last. */
+/* Whether a node has a reference of a kind from first to last. */
 static bool refers(const gltf_document *d, size_t node, gltf_reference first, gltf_reference last)
 {
     bool found = false;
@@ -176,7 +177,7 @@ static void mark_shapes(const survey *s)
 {
     const gltf_document *d = s->document;
     for (size_t n = 0; n < d->model.node_count; n++)
-        /* A shape that is made from a mesh of the scene goes with it, and names no other. */
+        /* A shape made from a mesh of the scene goes along with it, and refers to no other mesh. */
         if (refers(d, n, GLTF_COLLIDER, GLTF_OMI_TRIGGER) ||
             ffd_gltf_has_extension(d, d->node_values.values[n], "OMI_collider"))
             s->nodes[n] |= HAS_SHAPE;
@@ -200,7 +201,7 @@ static unsigned kinds_of(const survey *s, size_t n)
     return kinds;
 }
 
-/* Whether the node has a mesh that it places, or something that an extension places. */
+/* Whether the node places a mesh of its own, or has an extension. */
 static bool has_own(const gltf_document *d, size_t n)
 {
     const gltf_node *node = &d->model.nodes[n];
@@ -208,11 +209,11 @@ static bool has_own(const gltf_document *d, size_t n)
            ffd_json_span_member(&d->tree, d->node_values.values[n], "extensions") != JSON_NONE;
 }
 
-/* Off a scale that is the same in all directions, as a part of it. */
+/* Tolerance of is_uneven, relative. */
 #define UNEVEN 1e-6
 
-/* Whether there are nodes below one whose world matrix stretches more in some directions than in others: M^T
-   M is no multiple of the identity. */
+/* Whether a node with children has a world matrix M that does not scale evenly in all directions: M^T M is
+   not a multiple of the identity. */
 static bool is_uneven(const gltf_document *d, size_t n)
 {
     const double *const m = d->world + 12 * n;
@@ -226,7 +227,7 @@ static bool is_uneven(const gltf_document *d, size_t n)
     return false;
 }
 
-/* A node that follow moves, or keeps in its place. */
+/* Whether a node is one that --rig follow moves or holds in place. Fills place. */
 static bool is_anchor(const survey *s, size_t n, mesh_place *place)
 {
     const gltf_document *d = s->document;
@@ -265,7 +266,7 @@ ffd_status ffd_gltf_list_places(const mesh_document *document, bool all, mesh_pl
     const size_t count = d->model.node_count;
     *places = (mesh_places){0};
     if (d->space == FFD_SPACE_MESH)
-        return FFD_OK; /* nodes have no place there */
+        return FFD_OK; /* mesh space has no nodes */
     survey s = {.document = d,
                 .nodes = ffd_alloc_zero(count, sizeof *s.nodes),
                 .holds = ffd_alloc_zero(count, sizeof *s.holds),

@@ -1,5 +1,5 @@
-/* gltf_rig.h - the nodes, skins and animations of a file as they follow the deformation (src/maths.md 9.5):
-   what of them is written otherwise. Made by ffd_gltf_follow for one deformation, read by saving. */
+/* gltf_rig.h - how the nodes, skins and animations of a file change to follow the deformation (src/maths.md
+   9.5). ffd_gltf_follow makes it for one deformation, saving reads it. */
 #ifndef FFD_IO_GLTF_RIG_GLTF_RIG_H
 #define FFD_IO_GLTF_RIG_GLTF_RIG_H
 
@@ -8,71 +8,81 @@
 #include "io/gltf/document/gltf_document.h"
 #include <float.h>
 
-/* What turns that come out of several matrices are off by, and offsets, in eps of the coordinates. */
+/* Tolerances: for products of several rotation matrices, and for offsets in eps of the coordinates. */
 #define RIG_TURN_ROUNDING 1e-12
 #define RIG_PLACE_ROUNDING (64 * DBL_EPSILON)
 
-/* A node's own transform as it is written. */
+/* The new local transform of a node. */
 typedef struct gltf_moved_node {
     size_t node;
-    bool translates, rotates; /* what is written otherwise; of a matrix, both mean some of its numbers */
+    bool translates, rotates; /* what changes; for a node with a matrix both mean some of its numbers */
     double translation[3], rotation[4];
-    double matrix[16]; /* column by column; of a node that has one */
+    double matrix[16]; /* column by column; if the node has a matrix */
 } gltf_moved_node;
 
-/* How what is animated at a node is carried along. */
+/* How animated values of a node change. */
 typedef struct gltf_node_motion {
-    size_t moved;    /* in gltf_rig's nodes; GLTF_NONE: the node is not written otherwise */
-    bool turns;      /* rotations get: */
-    double turn[4];  /* before them, a unit quaternion */
-    bool carries;    /* translations, less that of the default pose, get: */
-    double carry[9]; /* before them */
+    size_t moved;    /* index in gltf_rig's nodes; GLTF_NONE: the node's transform does not change */
+    bool turns;      /* rotations q become turn q */
+    double turn[4];  /* a unit quaternion x,y,z,w */
+    bool carries;    /* translations, relative to the default pose, become carry t */
+    double carry[9]; /* a matrix, row by row */
 } gltf_node_motion;
 
 /* New elements of an accessor. */
 typedef struct gltf_rig_content {
-    size_t accessor;     /* GLTF_NONE: there is none yet, of MAT4 */
-    size_t count, width; /* elements; numbers of one */
+    size_t accessor;     /* GLTF_NONE: a new accessor of MAT4 */
+    size_t count, width; /* number of elements; numbers per element */
     float *values;
 } gltf_rig_content;
 
-/* A sampler that an animation gets beside its own, for channels that want another output. */
+/* A further sampler of an animation, for channels that need another output than those with the original
+   sampler. */
 typedef struct gltf_sampler_copy {
-    size_t sampler, content; /* the one that it is a copy of; its output, GLTF_NONE: as it was */
+    /* The original sampler; index of its output in contents, GLTF_NONE: the original output. */
+    size_t sampler, content;
 } gltf_sampler_copy;
 
-/* What becomes of an animation. */
+/* How an animation changes. */
 typedef struct gltf_rig_animation {
-    size_t *contents; /* of each sampler: its output, GLTF_NONE: as it was; NULL: the animation stays */
-    size_t *channels; /* of each channel: its sampler's number, copies behind the others */
+    /* Per sampler: index of its output in gltf_rig's contents, GLTF_NONE: unchanged; NULL: the whole
+       animation is unchanged. */
+    size_t *contents;
+    /* Per channel: the number of its sampler; the copies come after the original samplers. */
+    size_t *channels;
     gltf_sampler_copy *copies;
     size_t copy_count, copy_capacity;
 } gltf_rig_animation;
 
 typedef struct gltf_rig {
-    double *world;             /* of each node as written, as gltf_document's */
-    gltf_node_motion *motions; /* of each node */
-    gltf_moved_node *nodes;    /* those that are written otherwise, parents first */
+    double *world;             /* new world matrices, per node, as in gltf_document */
+    gltf_node_motion *motions; /* per node */
+    gltf_moved_node *nodes;    /* the nodes whose local transforms change, parents before children */
     size_t node_count;
-    gltf_rig_content *contents; /* no two are equal */
+    gltf_rig_content *contents; /* all different */
     size_t content_count, content_capacity;
-    intern_table known;          /* their hashes */
-    memory_budget *budget;       /* the document's, of which they have taken theirs */
-    gltf_animations animations;  /* of the file, without their keys */
-    gltf_rig_animation *changes; /* of each animation */
-    size_t pointers_left;        /* channels that drive a changed part of a node in a way that is not known */
-    size_t *skin_contents; /* of each skin: its inverse bind matrices in contents; GLTF_NONE: as they were */
+    intern_table known;          /* to find equal contents */
+    memory_budget *budget;       /* the document's; the contents have taken their memory from it */
+    gltf_animations animations;  /* of the file, without keys */
+    gltf_rig_animation *changes; /* per animation */
+    /* Channels whose pointers lead to changed transforms in a way that is not supported. */
+    size_t pointers_left;
+    /* Per skin: index in contents of its inverse bind matrices; GLTF_NONE: unchanged. */
+    size_t *skin_contents;
 } gltf_rig;
 
-/* Frees document->rig: nothing follows any more, and no part is carried. */
+/* Frees document->rig. Nothing follows the deformation then, and no part is carried. */
 void ffd_gltf_free_rig(gltf_document *document);
 
-/* Makes the values of new elements, out of the budget. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
+/* Allocates content->values, from the memory budget. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_gltf_make_elements(gltf_rig *rig, gltf_rig_content *content, ffd_error *error);
-/* Frees them, where they are not added. */
+/* Frees content->values, for content that is not added. */
 void ffd_gltf_free_elements(gltf_rig *rig, gltf_rig_content *content);
-/* Adds new elements, unless they are there already: the values are not the caller's any more, also when it
-   fails. Returns their number, GLTF_NONE where memory runs out. */
+/* Adds content, unless the rig has equal content. Takes ownership of the values, even if it fails. Returns
+   the index in rig->contents; GLTF_NONE if memory runs out. */
 size_t ffd_gltf_add_content(gltf_rig *rig, gltf_rig_content *content);
+
+/* Sets used[a] for each accessor a whose original content a skin or an animation has in the output. */
+void ffd_gltf_mark_rig_originals(const gltf_document *document, bool *used);
 
 #endif

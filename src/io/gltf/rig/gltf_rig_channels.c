@@ -7,23 +7,23 @@
 #include <float.h>
 #include <string.h>
 
-/* What becomes of the values of one output: all that they depend on. */
+/* How the values of an output change: everything that this depends on. */
 typedef struct change_key {
-    double turn[4];                  /* rotations: before them */
-    double carry[9], rest[3], to[3]; /* translations: to + carry (t - rest) */
+    double turn[4];                  /* rotations q become turn q */
+    double carry[9], rest[3], to[3]; /* translations t become to + carry (t - rest) */
     size_t accessor, path, cubic;
 } change_key;
 
 typedef struct channel_work {
     gltf_document *document;
     gltf_rig *rig;
-    intern_table keys; /* of outputs that were changed before, */
-    size_t *results;   /* and their contents, GLTF_NONE: nothing changes */
+    intern_table keys; /* the changes made so far */
+    size_t *results;   /* per key: index of the content; GLTF_NONE: no value changes */
     size_t capacity;
     ffd_error *error;
 } channel_work;
 
-/* Whether a channel drives what has changed at a node. */
+/* Whether a channel drives a property of its node that has changed. */
 static bool is_concerned(const gltf_rig *rig, const gltf_channel *channel)
 {
     if (!ffd_gltf_channel_drives(channel) || channel->sampler == GLTF_NONE)
@@ -64,7 +64,7 @@ static change_key describe(const channel_work *w, const gltf_channel *channel,
     return key;
 }
 
-/* is_tangent: of a cubic spline, which is a difference. */
+/* is_tangent: a tangent of a cubic spline. It is a difference, so it is turned but not moved. */
 static void change_value(const change_key *key, bool is_tangent, const double *value, double *made)
 {
     double from[3];
@@ -79,7 +79,7 @@ static void change_value(const change_key *key, bool is_tangent, const double *v
         made[a] += is_tangent ? 0 : key->to[a];
 }
 
-/* Rotations that are no tangents stay what a unit quaternion can be. */
+/* Clamps the components of rotations, except tangents, to the range of unit quaternions. */
 static float as_stored(const change_key *key, bool is_tangent, double value)
 {
     if (key->path == GLTF_ROTATION && !is_tangent)
@@ -87,7 +87,7 @@ static float as_stored(const change_key *key, bool is_tangent, double value)
     return (float)value;
 }
 
-/* Fills the new elements of an output. *changes: whether a value differs. */
+/* Fills the new elements of an output. *changes: whether any value differs. */
 static ffd_status fill_values(const channel_work *w, const change_key *key,
                               const gltf_animation_sampler *sampler, const gltf_rig_content *content,
                               bool *changes)
@@ -102,9 +102,9 @@ static ffd_status fill_values(const channel_work *w, const change_key *key,
         change_value(key, is_tangent, old, made);
         for (size_t c = 0; c < width; c++) {
             if (!(fabs(made[c]) <= FLT_MAX))
-                return ffd_json_span_fail(&w->document->tree, sampler->value, w->document->name,
-                                          FFD_E_INVALID, w->error,
-                                          "floats cannot hold element %zu of the output that follows", i);
+                return ffd_json_span_fail(
+                    &w->document->tree, sampler->value, w->document->name, FFD_E_INVALID, w->error,
+                    "with the deformation, element %zu of the sampler's output is too large for floats", i);
             values[c] = as_stored(key, is_tangent, made[c]);
             *changes = *changes || values[c] != (float)old[c];
         }
@@ -132,7 +132,7 @@ static ffd_status make_content(const channel_work *w, const change_key *key,
     return *number == GLTF_NONE ? ffd_fail_memory(w->error) : FFD_OK;
 }
 
-/* The content that a channel wants for its sampler's output; GLTF_NONE: as it is. */
+/* Finds the content that a channel needs as its sampler's output; GLTF_NONE: the original output. */
 static ffd_status find_content(channel_work *w, const gltf_channel *channel,
                                const gltf_animation_sampler *sampler, size_t *content)
 {
@@ -152,8 +152,8 @@ static ffd_status find_content(channel_work *w, const gltf_channel *channel,
     return status;
 }
 
-/* The number of a sampler that has a content: the channel's own, if no channel before wants another one of
-   it, or a copy. taken: of each sampler, whether a channel has it. */
+/* Chooses a sampler with this content as output: the channel's own if no earlier channel needs another output
+   of it, else a copy. taken: per sampler, whether a channel uses it. */
 static bool choose_sampler(const gltf_animation *animation, size_t own, size_t content, bool *taken,
                            intern_table *copies, gltf_rig_animation *change, size_t *chosen)
 {
@@ -177,7 +177,7 @@ static bool choose_sampler(const gltf_animation *animation, size_t own, size_t c
     return true;
 }
 
-/* Gives every channel a sampler with the output that it wants. */
+/* Gives every channel a sampler with the output that it needs. */
 static ffd_status follow_channels(channel_work *w, const gltf_animation *animation,
                                   gltf_rig_animation *change)
 {
@@ -218,7 +218,7 @@ static ffd_status follow_animation(channel_work *w, gltf_animation *animation, g
     return status;
 }
 
-/* Whether a pointer that is not followed leads to the transform of a node that changes. */
+/* Whether a channel has an unsupported pointer to the transform of a node that changes. */
 static bool is_left(const gltf_document *d, const gltf_rig *rig, const gltf_channel *channel)
 {
     static const char *const parts[] = {"/translation", "/rotation", "/scale", "/matrix"};

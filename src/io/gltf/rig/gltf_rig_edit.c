@@ -1,7 +1,7 @@
 #include "io/gltf/rig/gltf_rig_edit.h"
 #include "base/text/number.h"
 
-/* Inserts a text after an object's last member. */
+/* Inserts a text after the last member of an object. */
 static void insert_members(const json_span *tree, uint32_t object, const byte_buffer *text, json_edits *edits)
 {
     uint32_t last = JSON_NONE;
@@ -21,7 +21,7 @@ static void replace_number(const json_span *tree, uint32_t value, size_t number,
     ffd_edits_format(edits, tree->values[value].begin, tree->values[value].end, "%zu", number);
 }
 
-/* Replaces the numbers of an array that change. */
+/* Replaces those numbers of an array that differ. */
 static void edit_numbers(const json_span *tree, uint32_t array, const double *values, size_t count,
                          json_edits *edits)
 {
@@ -37,7 +37,7 @@ static void edit_numbers(const json_span *tree, uint32_t array, const double *va
     }
 }
 
-/* Sets a member of a node: the numbers of an array that is there, or else one in the text that is added. */
+/* Sets a member of a node: edits the numbers of an existing array, or appends the array to `added`. */
 static void set_array(const json_span *tree, uint32_t node, const char *key, const double *values,
                       size_t count, byte_buffer *added, json_edits *edits)
 {
@@ -94,13 +94,13 @@ void ffd_gltf_edit_skins(const gltf_document *d, const size_t *outputs, json_edi
     }
 }
 
-/* The accessor that holds a sampler's output. */
+/* Returns the accessor of a sampler's output. */
 static size_t output_of(const gltf_animation_sampler *sampler, size_t content, const size_t *outputs)
 {
     return content == GLTF_NONE ? sampler->output : outputs[content];
 }
 
-/* Adds the text of a sampler with another output. */
+/* Appends the JSON of a sampler with another output. */
 static void add_sampler(const json_span *tree, const gltf_animation_sampler *sampler, size_t output,
                         byte_buffer *text)
 {

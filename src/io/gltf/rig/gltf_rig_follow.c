@@ -5,7 +5,7 @@
 #include "io/gltf/rig/gltf_rig_said.h"
 #include "io/gltf/rig/gltf_rig_skins.h"
 
-/* What the arrays take beside what opening has counted for each node. */
+/* Checks the memory of the arrays, which opening the file has not counted. */
 static ffd_status check_memory(const gltf_document *d, ffd_error *error)
 {
     return ffd_budget_check(&d->base.budget, d->model.node_count,

@@ -1,4 +1,4 @@
-/* gltf_rig_follow.h - has nodes, skins and animations of a file follow the deformation. */
+/* gltf_rig_follow.h - makes the nodes, skins and animations of a file follow the deformation. */
 #ifndef FFD_IO_GLTF_RIG_GLTF_RIG_FOLLOW_H
 #define FFD_IO_GLTF_RIG_GLTF_RIG_FOLLOW_H
 

@@ -5,21 +5,21 @@
 #include "io/gltf/scene/gltf_scene.h"
 #include <string.h>
 
-/* Of g^T g from the identity: beyond it the node would be sheared. */
+/* Tolerance for an entry of g^T g against the identity: beyond it, g would shear the node. */
 #define SHEAR 1e-6
 
-/* What is known of a node while the nodes are done. */
+/* The progress of a node. */
 enum { IS_WAITING, IS_BEGUN, IS_DONE };
 
 typedef struct node_walk {
     const gltf_document *document;
     gltf_rig *rig;
     mesh_following *following;
-    const mesh_place **places; /* of each node; NULL: it keeps its own transform */
+    const mesh_place **places; /* per node; NULL: it keeps its local transform */
     mesh_place_move **moves;
     uint8_t *states;
-    bool *changed;  /* its matrix in the scene */
-    bool *singular; /* its matrix in the scene, or that of a node above, has no inverse */
+    bool *changed;  /* per node: whether its world matrix differs */
+    bool *singular; /* per node: whether its world matrix or an ancestor's has no usable inverse */
     size_t *climb;  /* a stack */
 } node_walk;
 
@@ -35,14 +35,14 @@ static const double *made_of(const node_walk *w, size_t n)
     return n == GLTF_NONE ? identity : w->rig->world + 12 * n;
 }
 
-/* Whether a matrix has an inverse that can be trusted: that of a scale of 0 has none, that of 1e-30 has. */
+/* Whether a matrix has a usable inverse: with a scale of 0 it has none, with 1e-30 it has. */
 static bool has_inverse(const double m[9])
 {
     double det, inverse[9];
     return !ffd_mat_is_singular(m, &det) && mat_invert(m, inverse);
 }
 
-/* What becomes of a place. */
+/* Where and how a place moves. */
 typedef struct target {
     double place[3], turn[9]; /* D(x), R */
     double gradient[9];       /* F */
@@ -65,7 +65,7 @@ static bool is_still(const mesh_place *place, const target *t)
            ffd_mat_is_near_identity(t->gradient, 0);
 }
 
-/* product = inverse middle outer. */
+/* product = inverse * middle * outer. */
 static void conjugate(const double inverse[9], const double middle[9], const double outer[9],
                       double product[9])
 {
@@ -87,7 +87,8 @@ static bool would_shear(const double g[9])
     return false;
 }
 
-/* The node's own offset that brings it to a place; the old one where only rounding differs. */
+/* Finds the local offset that brings a node to a place. Components that differ from the old ones only by
+   rounding keep their old values. Returns whether any component differs. */
 static bool find_offset(const double parent[12], const double inverse[9], const double place[3],
                         const double old[3], double offset[3])
 {
@@ -114,7 +115,7 @@ static double clamp(double value)
     return value < -1 ? -1 : value > 1 ? 1 : value;
 }
 
-/* Writes the node's own transform: g before its linear part, and an offset. */
+/* Sets the new local transform: g times the old linear part, and the offset. turn: g as a quaternion. */
 static void set_local(const gltf_node *node, const double g[9], const double turn[4], const double offset[3],
                       gltf_moved_node *made)
 {
@@ -138,7 +139,7 @@ static void set_local(const gltf_node *node, const double g[9], const double tur
         made->rotation[i] = clamp(made->rotation[i]);
 }
 
-/* The node's matrix in the scene, of its own transform as it is written. */
+/* Computes the node's new world matrix. made: its new local transform, NULL: the old one. */
 static void join_world(const node_walk *w, size_t n, const gltf_moved_node *made)
 {
     gltf_node node = w->document->model.nodes[n];
@@ -161,7 +162,7 @@ static void carry_along(const node_walk *w, size_t n)
         memcpy(w->rig->world + 12 * n, w->document->world + 12 * n, 12 * sizeof *w->rig->world);
 }
 
-/* Notes how translations and rotations that are animated change. */
+/* Stores how animated rotations and translations of a node change. */
 static void note_motion(const double g[9], const double turn[4], const double along[9],
                         gltf_node_motion *motion)
 {
@@ -179,8 +180,8 @@ static bool is_finite(const double *values, int count)
     return true;
 }
 
-/* Moves a node that has a place, below parents that are done. False: its transform would not be finite, and
-   it keeps its own. */
+/* Moves a node that has a place; its ancestors are done. Returns false if its transform would not be finite:
+   it then keeps its local transform. */
 static bool move_node(const node_walk *w, size_t n, const target *t)
 {
     const size_t p = w->document->parents[n];
@@ -237,7 +238,8 @@ static void do_node(const node_walk *w, size_t n)
         memcpy(w->moves[n]->became, w->rig->world + 12 * n + 9, sizeof w->moves[n]->became);
 }
 
-/* Does a node after those above it. A file of stand-ins can make a circle of parents: it ends there. */
+/* Processes a node after its ancestors. Nodes that replace others at a distance can form a cycle of parents:
+   the walk ends there. */
 static void do_chain(const node_walk *w, size_t n)
 {
     size_t count = 0;

@@ -5,11 +5,11 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The names that a line has. */
+/* The maximum number of names in a log line. */
 #define NAMES 3
 #define NAME_SIZE 80
 
-/* Places that have something in common: how many, and the first names. */
+/* Places with something in common: their number and the first names. */
 typedef struct place_group {
     size_t count;
     char names[NAMES * (NAME_SIZE + 2) + 40]; /* ": hand, foot, tail and 2 more" */
@@ -36,7 +36,7 @@ static void end_group(place_group *group)
         snprintf(group->names + used, sizeof group->names - used, " and %zu more", group->count - NAMES);
 }
 
-/* What stays as it is at nodes that move; and nodes that had no rotation and have one now. */
+/* What does not change at nodes that move; turned: nodes that had no rotation and now have one. */
 typedef struct staying {
     place_group shapes, springs, eyes, aims, turned, splats;
     size_t splat_count;
@@ -48,8 +48,8 @@ static bool is_turned(const gltf_document *d, const gltf_moved_node *node)
     return node->rotates && old[0] == 0 && old[1] == 0 && old[2] == 0;
 }
 
-/* Counts splats that should be brought back from where their nodes turn them, as they are not selected, but
-   whose rotations and scales cannot be changed. Marks their nodes. */
+/* Counts unselected splats that should be turned back after their nodes turned, but whose rotations and
+   scales cannot be changed. Marks their nodes. */
 static size_t count_turned_splats(const gltf_document *d, bool *marked)
 {
     size_t count = 0;
@@ -88,7 +88,7 @@ static ffd_status list_staying(const gltf_document *d, const mesh_places *places
                       {moves && place->holds & PLACE_HOLDS_SPRING, &found->springs},
                       {moves && place->holds & PLACE_HOLDS_EYES, &found->eyes},
                       {moves && place->holds & PLACE_HOLDS_AIM, &found->aims},
-                      /* Also of nodes that stay below one that turns. */
+                      /* Also nodes that stay below one that turns. */
                       {is_old && moved != GLTF_NONE && is_turned(d, &rig->nodes[moved]), &found->turned}};
         for (size_t g = 0; g < sizeof groups / sizeof *groups && status == FFD_OK; g++)
             if (groups[g].is_one)
@@ -139,7 +139,7 @@ static void warn_of_vrm(const staying *found, const mesh_log *log)
             found->aims.names);
 }
 
-/* What is written otherwise. */
+/* Logs what changes. */
 static void tell(const gltf_document *d, const gltf_rig *rig, const mesh_log *log)
 {
     size_t skins = 0, animations = 0;

@@ -1,12 +1,12 @@
-/* gltf_rig_said.h - what goes along, and what does not, with nodes that follow the deformation. */
+/* gltf_rig_said.h - log lines on what follows the deformation together with nodes, and what does not. */
 #ifndef FFD_IO_GLTF_RIG_GLTF_RIG_SAID_H
 #define FFD_IO_GLTF_RIG_GLTF_RIG_SAID_H
 
 #include "io/gltf/rig/gltf_rig.h"
 
-/* Says what goes along (-v), and warns of what does not, a line a kind with the first names: physics shapes,
-   spring bones and look-at offsets of VRM, rest rotations of VRM 0.x, constraints that aim, channels whose
-   pointers are not followed. Fills following's unscaled. Errors: FFD_E_MEMORY. */
+/* Logs what follows (-v), and warns of what does not, with one line per kind and the first names: physics
+   shapes, spring bones and look-at offsets of VRM, rest rotations of VRM 0.x, constraints that aim, channels
+   with unsupported pointers. Sets following->unscaled. Errors: FFD_E_MEMORY. */
 ffd_status ffd_gltf_warn_of_rig(const gltf_document *document, const mesh_places *places, const gltf_rig *rig,
                                 const mesh_log *log, mesh_following *following, ffd_error *error);
 

@@ -16,7 +16,7 @@ typedef struct affine {
 
 static const affine still = {{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0}};
 
-/* A linear part that is the identity but for rounding is the identity. Returns whether it is. */
+/* Sets a linear part that is the identity up to rounding to the identity. Returns whether it is. */
 static bool settle_turn(double linear[9])
 {
     const bool is_still = ffd_mat_is_near_identity(linear, RIG_TURN_ROUNDING);
@@ -25,7 +25,8 @@ static bool settle_turn(double linear[9])
     return is_still;
 }
 
-/* The same of a map, with offsets of coordinates of this size. Returns whether nothing is left. */
+/* The same for a map. size: of the coordinates that its offset was computed from. Returns whether the whole
+   map is the identity. */
 static bool settle(affine *map, double size)
 {
     bool is_still = settle_turn(map->linear);
@@ -42,7 +43,7 @@ static double size_of(const double a[3], const double b[3])
     return size;
 }
 
-/* The map with this linear part that takes one point to another. */
+/* Sets the offset of a map so that it takes the point `from` to `to`. */
 static void pin(const double from[3], const double to[3], affine *map)
 {
     double turned[3];
@@ -56,7 +57,7 @@ static bool is_of_node_before(const void *place, const void *node)
     return ((const mesh_place *)place)->number < *(const size_t *)node;
 }
 
-/* Looks up a node among the places, which are in the order of their numbers. */
+/* Finds a node among the places, which are sorted by node number. */
 static size_t find_place(const mesh_places *places, size_t node)
 {
     const size_t at =
@@ -64,8 +65,8 @@ static size_t find_place(const mesh_places *places, size_t node)
     return at < places->count && places->list[at].number == node ? at : SIZE_MAX;
 }
 
-/* The similarity that a skin's first joint is moved by, and its inverse: where all is moved by one, the skin
-   is carried whatever its default pose. */
+/* Finds the similarity nearest to the motion of a skin's first joint, and its inverse. If one similarity
+   moves everything, applying it to the skin's vertices is right whatever the default pose. */
 static void find_similarity(const mesh_place *place, const mesh_place_move *move, affine *similarity,
                             affine *inverse)
 {
@@ -89,7 +90,7 @@ static void find_similarity(const mesh_place *place, const mesh_place_move *move
     pin(move->to, place->at, inverse);
 }
 
-/* Marks the skins that the scene shows, and those that show something which is not selected. */
+/* Marks the skins that the scene shows, and those that also move vertices which are not selected. */
 static void mark_skins(const gltf_document *d, bool *shown, bool *partial)
 {
     for (size_t m = 0; m < d->model.mesh_count; m++) {
@@ -105,7 +106,7 @@ static void mark_skins(const gltf_document *d, bool *shown, bool *partial)
     }
 }
 
-/* W'^-1 E W of a joint; false where that is the identity, or W' has no inverse. */
+/* Computes W'^-1 E W for a joint. Returns false if it is the identity, or if W' has no inverse. */
 static bool find_change(const gltf_document *d, const gltf_rig *rig, size_t joint, const affine *similarity,
                         affine *change)
 {
@@ -132,10 +133,11 @@ static bool find_change(const gltf_document *d, const gltf_rig *rig, size_t join
 static ffd_status refuse_infinite(const gltf_document *d, size_t skin, size_t joint, ffd_error *error)
 {
     return ffd_json_span_fail(&d->tree, d->skin_values.values[skin], d->name, FFD_E_INVALID, error,
-                              "floats cannot hold inverse bind matrix %zu of the joint that follows", joint);
+                              "with the deformation, inverse bind matrix %zu is too large for floats", joint);
 }
 
-/* Puts a change before an inverse bind matrix of 16 numbers, column by column. */
+/* Multiplies an inverse bind matrix (16 numbers, column by column) by a change from the left. Returns false
+   if floats cannot hold the result. */
 static bool put_matrix(const affine *change, float *values)
 {
     double matrix[12], joined[12];
@@ -159,7 +161,7 @@ static bool put_matrix(const affine *change, float *values)
     return fits;
 }
 
-/* The inverse bind matrices as the file has them: the identity where it has none. */
+/* Reads the inverse bind matrices of the file: identities if the skin has none. */
 static void read_matrices(const gltf_document *d, const gltf_skin *skin, const gltf_rig_content *content)
 {
     for (size_t j = 0; j < content->count; j++) {
@@ -171,7 +173,7 @@ static void read_matrices(const gltf_document *d, const gltf_skin *skin, const g
     }
 }
 
-/* Makes the skin's inverse bind matrices anew, where some change. */
+/* Makes new inverse bind matrices for a skin if any of them changes. */
 static ffd_status make_matrices(const gltf_document *d, size_t s, const affine *similarity, gltf_rig *rig,
                                 gltf_rig_content *content, ffd_error *error)
 {
@@ -210,7 +212,7 @@ static ffd_status follow_skin(const gltf_document *d, size_t s, const affine *si
     return rig->skin_contents[s] == GLTF_NONE ? ffd_fail_memory(error) : FFD_OK;
 }
 
-/* Sets a part to be taken through a map. */
+/* Sets the map that a part's vertices are carried by. */
 static void set_carry(const affine *map, mesh_part *part)
 {
     part->carried = true;
@@ -219,7 +221,7 @@ static void set_carry(const affine *map, mesh_part *part)
     memcpy(part->carry + 9, map->offset, sizeof map->offset);
 }
 
-/* The map W W'^-1 of what a node shows. */
+/* Carries a part by the map W W'^-1 of the node that shows it. */
 static void carry_by_node(const gltf_document *d, const gltf_rig *rig, size_t node, mesh_part *part)
 {
     const double *const old = d->world + 12 * node, *const made = rig->world + 12 * node;

@@ -4,11 +4,12 @@
 typedef struct vrm_visit {
     const gltf_document *document;
     gltf_vrm_visitor *visit;
-    void (*fault)(void *context, uint32_t value); /* of one that should name a node and does not; or NULL */
+    /* Called for a value that names no node but should; or NULL. */
+    void (*fault)(void *context, uint32_t value);
     void *context;
 } vrm_visit;
 
-/* A number of a node. */
+/* Visits a value that is the number of a node. */
 static void visit_node(const vrm_visit *v, uint32_t number, gltf_vrm_role role)
 {
     const size_t node = number == JSON_NONE ? GLTF_NONE : ffd_gltf_node(v->document, number);
@@ -18,7 +19,7 @@ static void visit_node(const vrm_visit *v, uint32_t number, gltf_vrm_role role)
         v->fault(v->context, number);
 }
 
-/* A number of a node that an object of VRM 1.0 must have. */
+/* Visits a member of VRM 1.0 that must be the number of a node. */
 static void visit_member(const vrm_visit *v, uint32_t object, const char *key, gltf_vrm_role role)
 {
     const uint32_t number = ffd_json_span_member(&v->document->tree, object, key);
@@ -28,7 +29,7 @@ static void visit_member(const vrm_visit *v, uint32_t object, const char *key, g
         v->fault(v->context, object);
 }
 
-/* A number of a node in VRM 0.x, where -1 stands for none. */
+/* Visits a number of a node in VRM 0.x, where -1 means none. */
 static void visit_old_member(const vrm_visit *v, uint32_t object, const char *key, gltf_vrm_role role)
 {
     const uint32_t value = ffd_json_span_member(&v->document->tree, object, key);
@@ -39,7 +40,7 @@ static void visit_old_member(const vrm_visit *v, uint32_t object, const char *ke
         visit_node(v, value, role);
 }
 
-/* The member "node" of each element of a list of VRM 1.0. */
+/* Visits the member "node" of each element of a VRM 1.0 list. */
 static void visit_list(const vrm_visit *v, uint32_t object, const char *list, gltf_vrm_role role)
 {
     const json_span *const tree = &v->document->tree;
@@ -71,14 +72,15 @@ static void visit_springs(const vrm_visit *v)
     }
 }
 
-/* A bone from which the offset of the eyes is, if it is there: as a bone it is visited for itself. */
+/* Visits the bone that the offset of the eyes is relative to. A value that is not a node is not reported
+   here: it is visited as a bone too. */
 static void visit_eyes(const vrm_visit *v, uint32_t number)
 {
     if (number != JSON_NONE && ffd_gltf_node(v->document, number) != GLTF_NONE)
         visit_node(v, number, VRM_EYES);
 }
 
-/* Of VRM 1.0: {"hips": {"node": 0}, ..}. */
+/* VRM 1.0: {"hips": {"node": 0}, ..}. */
 static void visit_humanoid(const vrm_visit *v)
 {
     const json_span *const tree = &v->document->tree;
@@ -96,8 +98,7 @@ static void visit_humanoid(const vrm_visit *v)
     }
 }
 
-/* Of VRM 0.x: [{"bone": "hips", "node": 0}, ..]; the bone of the first person is the head unless it is named.
- */
+/* VRM 0.x: [{"bone": "hips", "node": 0}, ..]; the first person bone is the head unless one is named. */
 static void visit_old_humanoid(const vrm_visit *v)
 {
     const json_span *const tree = &v->document->tree;
@@ -171,7 +172,7 @@ static void note_fault(void *context, uint32_t value)
     const gltf_document *const d = check->document;
     char number[40] = "";
     double found;
-    /* One that names a node stands where an object should. */
+    /* A valid number of a node is not shown: the fault is that it stands where an object should. */
     if (ffd_json_span_number(&d->tree, value, &found) && ffd_gltf_node(d, value) == GLTF_NONE)
         snprintf(number, sizeof number, ", not %g", found);
     if (check->status == FFD_OK)

@@ -3,14 +3,14 @@
 #include "io/gltf/save/gltf_plan.h"
 #include "io/gltf/save/gltf_unpack.h"
 
-/* Logs one line with a count. The single cases are logged as FFD_LOG_INFO where they are handled. */
+/* Logs one line with a count. Single cases are logged as FFD_LOG_INFO where they are handled. */
 static void warn(const gltf_saver *saver, size_t count, const char *one, const char *many)
 {
     if (count > 0)
         ffd_log_line(saver->log, FFD_LOG_WARNING, "%zu %s", count, ffd_plural(count, one, many));
 }
 
-/* Logs what no part covers. */
+/* Logs what is not in any part. */
 static void warn_of_rest(const gltf_saver *saver)
 {
     const gltf_document *d = saver->document;

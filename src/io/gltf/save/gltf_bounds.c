@@ -7,7 +7,7 @@
 #include <float.h>
 #include <math.h>
 
-/* Bounds are stored numbers: for normalized integers, the integers (glTF 2.0, 3.6.2.5). */
+/* Bounds in stored numbers: those of normalized integers are the integers (glTF 2.0, 3.6.2.5). */
 typedef struct stored_bounds {
     double least[16], largest[16];
 } stored_bounds;
@@ -20,7 +20,7 @@ static void widen(stored_bounds *bounds, double least, double largest, size_t c)
         bounds->largest[c] = largest;
 }
 
-/* Finds the bounds of floats, which are stored as they are. tiles: the bounds of their tiles, or NULL. */
+/* Finds the bounds of floats, which are stored unchanged. tiles: the bounds of the tiles, or NULL. */
 static stored_bounds find_float_bounds(const float *xyz, size_t count, const gltf_tile_bounds *tiles)
 {
     stored_bounds bounds = {{0}, {0}};
@@ -36,7 +36,7 @@ static stored_bounds find_float_bounds(const float *xyz, size_t count, const glt
     return bounds;
 }
 
-/* Returns the bounds of the tiles of a version's values; NULL if they are not known. */
+/* Returns the bounds of the tiles of a version's values; NULL if unknown. */
 static const gltf_tile_bounds *tiles_of(const gltf_document *d, const gltf_version *version)
 {
     return d->parts[version->order / GLTF_DEFORMED].streams[version->order % GLTF_DEFORMED].bounds;
@@ -68,8 +68,8 @@ static stored_bounds find_bounds(const gltf_document *d, size_t a, const gltf_ve
     return bounds;
 }
 
-/* Whether the file's number, rounded to the accessor's type, is the wanted one; or JSON cannot
-   represent the wanted one (infinity or NaN in normals of an invalid input). */
+/* Whether the file's number, rounded to the accessor's type, equals the wanted one, or JSON cannot represent
+   the wanted one (infinity or NaN from normals of an invalid input). */
 static bool says(double number, double wanted, int component)
 {
     if (!isfinite(wanted))
@@ -78,7 +78,7 @@ static bool says(double number, double wanted, int component)
     return !(read < wanted) && !(read > wanted);
 }
 
-/* Edits a "min" or "max" where it differs from the stored values. */
+/* Edits the numbers of a "min" or "max" that differ from the stored values. */
 static void edit_bound(const gltf_saver *saver, uint32_t array, const double bound[16], int component,
                        json_edits *edits)
 {

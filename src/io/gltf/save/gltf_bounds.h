@@ -1,10 +1,10 @@
-/* gltf_bounds.h - "min" and "max" of accessors whose content changes. */
+/* gltf_bounds.h - edits "min" and "max" of accessors whose content changes. */
 #ifndef FFD_IO_GLTF_SAVE_GLTF_BOUNDS_H
 #define FFD_IO_GLTF_SAVE_GLTF_BOUNDS_H
 
 #include "io/gltf/save/gltf_saver.h"
 
-/* Edits the bounds of an accessor that gets a version, where it has them. */
+/* Edits the bounds of the accessor that a version overwrites, if it has bounds. */
 void ffd_gltf_edit_bounds(const gltf_saver *saver, const gltf_version *version, json_edits *edits);
 
 /* Edits the bounds of an accessor that keeps its content. */

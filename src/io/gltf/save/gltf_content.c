@@ -28,7 +28,7 @@ size_t ffd_gltf_append_buffer(const gltf_document *d, size_t accessor)
     return b;
 }
 
-/* Where the elements of an accessor are that is overwritten in place. */
+/* Where the elements of an accessor that is overwritten in place lie in the output. */
 typedef struct new_location {
     size_t buffer, begin;
 } new_location;
@@ -61,7 +61,7 @@ static bool needs_buffer(const gltf_saver *saver)
     return false;
 }
 
-/* Only the first buffer of a GLB can be its BIN chunk; every other one has a URI. */
+/* Only the first buffer of a GLB can be its BIN chunk; any other one has a URI. */
 static gltf_buffer_kind kind_of_added(const gltf_saver *saver)
 {
     const gltf_document *d = saver->document;
@@ -218,7 +218,7 @@ size_t ffd_gltf_content_size(const gltf_saver *saver, size_t buffer)
     return made->append_count > 0 || made->kind != made->old->kind ? made->length : made->old->size;
 }
 
-/* Copies the intersection of the `size` bytes at `at` and the range [offset, offset + length). */
+/* Copies the intersection of the `size` bytes at position `at` and the range [offset, offset + length). */
 static void copy_common(const unsigned char *from, size_t at, size_t size, size_t offset, size_t length,
                         unsigned char *bytes)
 {
@@ -234,7 +234,7 @@ static void put_vectors(const float *xyz, size_t count, unsigned char *bytes)
         store_float(bytes + 4 * c, xyz[c]);
 }
 
-/* Whether the version is its vectors of three floats, one after the other. */
+/* Whether a version's bytes are those of its values: vectors of three floats, contiguous. */
 static bool has_vectors(const gltf_document *d, const gltf_version *version)
 {
     return version->component == GLTF_FLOAT && ffd_gltf_version_numbers(d, version) == 3;
@@ -269,7 +269,7 @@ static bool all_end_by(const void *overwrite, const void *offset)
     return ((const gltf_overwrite *)overwrite)->end_so_far <= *(const size_t *)offset;
 }
 
-/* Returns the first overwrite from which on any may end past offset. */
+/* Returns the index of the first overwrite that may end after offset. */
 static size_t find_overwrite(const gltf_new_buffer *buffer, size_t offset)
 {
     return lower_bound(&offset, buffer->overwrites, buffer->overwrite_count, sizeof *buffer->overwrites,
@@ -322,7 +322,7 @@ static void apply_appends(const gltf_saver *saver, const gltf_new_buffer *buffer
         apply_append(saver, &buffer->appends[i], offset, size, bytes);
 }
 
-/* Bytes past the old byteLength are not content: a buffer grows from there. */
+/* Bytes beyond the old byteLength are not content: a buffer grows from byteLength on. */
 static size_t size_of_old(const gltf_new_buffer *made)
 {
     return made->append_count > 0 ? made->old->length : made->old->size;
@@ -337,11 +337,11 @@ void ffd_gltf_content_read(const gltf_saver *saver, size_t b, size_t offset, siz
     copy_common(made->old->data, 0, kept, offset, size, bytes);
     memset(bytes + held, 0, size - held);
     apply_appends(saver, made, offset, size, bytes);
-    /* Last, since data that was compressed is appended unchanged and then overwritten. */
+    /* Last: decompressed data is appended unchanged first, and then overwritten. */
     apply_overwrites(saver->document, made, offset, size, bytes);
 }
 
-/* Returns the values of an overwrite if they are in memory exactly as they are to be written, else NULL. */
+/* Returns the values of an overwrite if memory holds them exactly as written, else NULL. */
 static const unsigned char *values_in_place(const gltf_document *d, const gltf_overwrite *overwrite)
 {
     return LITTLE_ENDIAN_MACHINE && has_vectors(d, overwrite->version) &&

@@ -1,5 +1,5 @@
-/* gltf_content_write.c - writes the new content of a buffer: threads prepare its pieces, which are
-   written in order. */
+/* gltf_content_write.c - writes the new content of a buffer: threads prepare pieces, which are written in
+   order. */
 #include "io/gltf/save/gltf_content_write.h"
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
@@ -7,17 +7,18 @@
 #include "io/gltf/save/gltf_content.h"
 #include <stdatomic.h>
 
-/* Bytes of a piece, multiples of 3 so that pieces of base64 join. Pieces are large, since each passes
-   from thread to thread, but smaller if the pieces of all threads would take more than MOST_HELD. */
+/* Sizes of a piece in bytes: multiples of 3, so that pieces of base64 join. Pieces are large because each
+   passes from one thread to another, but smaller if the pieces of all threads would take more than
+   MOST_HELD. */
 #define MOST_PIECE ((size_t)3 << 18)
 #define LEAST_PIECE ((size_t)3 << 16)
 #define MOST_HELD ((size_t)3 << 22)
 
-/* Bytes that are written, a multiple of a piece, until the memory of all files is released: appended
-   data may be anywhere in them. */
+/* Bytes written, a multiple of the piece size, before the mmap pages of all files are released: appended data
+   may come from anywhere in them. */
 #define MOST_WRITTEN ((size_t)3 << 21)
 
-/* Stretches of a piece that lie apart in memory; one that has more is put together. */
+/* The maximum number of separate stretches of memory in a piece; a piece with more is copied together. */
 #define MOST_STRETCHES 4
 
 typedef struct content_stretch {
@@ -25,11 +26,11 @@ typedef struct content_stretch {
     size_t size;
 } content_stretch;
 
-/* A piece until it is written. */
+/* A piece from its preparation until it is written. */
 typedef struct content_piece {
-    unsigned char *block; /* bytes that had to be put together; NULL until a piece needs it */
-    char *text;           /* base64; NULL until a piece needs it */
-    content_stretch stretches[MOST_STRETCHES]; /* to be written */
+    unsigned char *block;                      /* bytes that had to be copied together; NULL until needed */
+    char *text;                                /* base64; NULL until needed */
+    content_stretch stretches[MOST_STRETCHES]; /* the bytes to write */
     size_t count;                              /* 0: memory ran out */
 } content_piece;
 
@@ -41,11 +42,10 @@ typedef struct content_writer {
     content_piece *pieces; /* one per slot */
     ffd_status status;
     ffd_error *error;
-    atomic_bool is_over; /* after a failure */
+    atomic_bool is_over; /* set after a failure */
 } content_writer;
 
-/* Lists the bytes of a piece, if they are in memory as they are to be written, in `most` stretches at most.
- */
+/* Lists the bytes of a piece if memory holds them exactly as written, in at most `most` stretches. */
 static bool list_stretches(const content_writer *w, size_t offset, size_t size, size_t most,
                            content_piece *piece)
 {
@@ -62,7 +62,7 @@ static bool list_stretches(const content_writer *w, size_t offset, size_t size, 
     return true;
 }
 
-/* Bytes that are in memory as they are to be written are not copied. */
+/* Finds the bytes of a piece. Those that memory holds exactly as written are not copied. */
 static void find_content(const content_writer *w, size_t offset, size_t size, content_piece *piece)
 {
     if (list_stretches(w, offset, size, w->base64 ? 1 : MOST_STRETCHES, piece))
@@ -89,7 +89,7 @@ static void encode(const content_writer *w, content_piece *piece)
 static void make_piece(void *context, size_t tile, size_t first, size_t last, int slot)
 {
     const content_writer *w = context;
-    content_piece piece = w->pieces[slot]; /* a copy: pieces of the array share cache lines */
+    content_piece piece = w->pieces[slot]; /* a copy, because the pieces of the array share cache lines */
     (void)tile;
     if (atomic_load(&w->is_over))
         return;

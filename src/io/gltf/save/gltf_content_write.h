@@ -4,7 +4,7 @@
 
 #include "io/gltf/save/gltf_saver.h"
 
-/* Writes a buffer's new content to the output, in base64 or as it is. Errors: FFD_E_IO, FFD_E_MEMORY. */
+/* Writes a buffer's new content to the output, as base64 or unchanged. Errors: FFD_E_IO, FFD_E_MEMORY. */
 ffd_status ffd_gltf_write_content(const gltf_saver *saver, size_t buffer, bool base64, ffd_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-/* gltf_extensions.c - the extensions that the output no longer needs. */
+/* gltf_extensions.c - finds the extensions that the output no longer needs. */
 #include "io/gltf/save/gltf_extensions.h"
 #include "base/memory/memory.h"
 #include "io/gltf/save/gltf_plan.h"
@@ -7,7 +7,7 @@
 
 #define TEXCOORD "TEXCOORD_"
 
-/* Whether glTF 2.0 itself (3.7.2.1) does not allow the attribute in this type. */
+/* Whether glTF 2.0 itself (3.7.2.1) does not allow this type for the attribute. */
 static bool needs_quantization(const char *attribute, int component, bool normalized)
 {
     if (component == GLTF_FLOAT)
@@ -19,14 +19,14 @@ static bool needs_quantization(const char *attribute, int component, bool normal
            !(normalized && (component == GLTF_U8 || component == GLTF_U16));
 }
 
-/* The attributes of a primitive for one use of its mesh, or those of one of its morph targets. */
+/* The attributes of a primitive, or of one of its morph targets, for one use of its mesh. */
 typedef struct attribute_set {
     size_t mesh, p, use;
     size_t first_slot;
-    uint32_t attributes; /* in the JSON */
+    uint32_t attributes; /* a JSON value */
 } attribute_set;
 
-/* Returns the type of an attribute in the output; accessor: its accessor in the input. */
+/* Returns the component type of an attribute in the output. accessor: its accessor in the input. */
 static int output_component(const gltf_saver *saver, const attribute_set *set, const char *attribute,
                             const gltf_accessor *accessor)
 {
@@ -81,7 +81,7 @@ static bool is_quantized_mesh(gltf_saver *saver, size_t mesh, size_t use)
     return false;
 }
 
-/* Whether some accessor became floats and no other needs the extension. */
+/* Whether some accessor became floats and no other accessor needs the extension. */
 static bool lost_quantization(gltf_saver *saver)
 {
     const gltf_document *d = saver->document;
@@ -98,8 +98,8 @@ static bool lost_quantization(gltf_saver *saver)
     return lost;
 }
 
-/* Removes the names from a list. A list that becomes empty is not valid glTF: it is added to `empty`
-   instead. Returns how many were added. */
+/* Removes the names from a list. An empty list is not valid glTF: a list that would become empty is added to
+   `empty` instead. Returns how many were added. */
 static size_t take_out(gltf_saver *saver, const char *key, const char *const *names, size_t name_count,
                        uint32_t *empty)
 {

@@ -1,10 +1,10 @@
-/* gltf_extensions.h - the extensions that the output no longer needs. */
+/* gltf_extensions.h - drops the extensions that the output no longer needs. */
 #ifndef FFD_IO_GLTF_SAVE_GLTF_EXTENSIONS_H
 #define FFD_IO_GLTF_SAVE_GLTF_EXTENSIONS_H
 
 #include "io/gltf/save/gltf_saver.h"
 
-/* Removes them from the lists of the extensions that are used and required. */
+/* Removes them from extensionsUsed and extensionsRequired. */
 void ffd_gltf_drop_extensions(gltf_saver *saver);
 
 #endif

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define NAMED 3 /* of those that cannot follow */
+#define NAMED 3 /* values that cannot follow and are named in the message */
 #define POINTER_SIZE 256
 
 static void leave(gltf_saver *saver, uint32_t value)
@@ -34,8 +34,8 @@ static bool is_deformed(const gltf_saver *saver, size_t mesh, size_t use)
     return false;
 }
 
-/* Returns the accessor that holds in the output what `accessor` held for a use of a mesh; GLTF_NONE: the mesh
-   has no such accessor, or several. */
+/* Returns the accessor of the output with the content that `accessor` has for a use of a mesh; GLTF_NONE: the
+   mesh has no such accessor, or more than one. */
 static size_t output_of(const mesh_use *u, size_t accessor)
 {
     const gltf_document *d = u->saver->document;
@@ -77,15 +77,16 @@ void ffd_gltf_follow_accessors(gltf_saver *saver, size_t mesh, size_t use, json_
     ffd_gltf_visit_mesh_indices(saver->document, mesh, follow_accessor, &u);
 }
 
-/* The copies of meshes as they are looked up. */
+/* The copies of meshes, for lookups. */
 typedef struct copies {
     gltf_saver *saver;
-    size_t *of_node;      /* per node: its copy in the plan; GLTF_NONE: none */
-    memory_budget budget; /* of repeated elements: many, each for many copies, could take any amount */
+    size_t *of_node; /* per node: its copy in the plan; GLTF_NONE: none */
+    /* Limits repeated elements: many elements, each repeated for many copies, could take any amount. */
+    memory_budget budget;
     ffd_status status;
     ffd_error *error;
-    size_t repeated; /* elements */
-    uint32_t first;  /* of those */
+    size_t repeated; /* number of elements */
+    uint32_t first;  /* the first repeated element */
 } copies;
 
 static bool is_of_mesh_before(const void *copy, const void *mesh)
@@ -93,14 +94,13 @@ static bool is_of_mesh_before(const void *copy, const void *mesh)
     return ((const gltf_mesh_copy *)copy)->mesh < *(const size_t *)mesh;
 }
 
-/* Returns the first copy of a mesh in the plan, which has them in the order of the meshes. */
+/* Returns the index of a mesh's first copy in the plan, whose copies are sorted by mesh. */
 static size_t first_copy(const gltf_plan *plan, size_t mesh)
 {
     return lower_bound(&mesh, plan->copies, plan->copy_count, sizeof *plan->copies, is_of_mesh_before);
 }
 
-/* Writes the text with which a value names a mesh: a number, or a pointer with the rest of the value's own.
- */
+/* Writes a reference to a mesh: its number, or a pointer that ends with `rest`. */
 static void write_name(const gltf_index_place *place, size_t mesh, const char *rest, byte_buffer *text)
 {
     byte_buffer pointer = {0};
@@ -118,7 +118,7 @@ static void write_name(const gltf_index_place *place, size_t mesh, const char *r
     ffd_free(characters);
 }
 
-/* Adds the element of a list once more, for a copy of the mesh that it names. */
+/* Repeats an element of a list, for a copy of the mesh that it refers to. */
 static void repeat(copies *c, const gltf_index_place *place, size_t copy, const char *rest)
 {
     const gltf_document *d = c->saver->document;
@@ -143,7 +143,7 @@ static void repeat(copies *c, const gltf_index_place *place, size_t copy, const 
     c->first = c->repeated++ ? c->first : place->repeats;
 }
 
-/* Lets a value follow that names a mesh, with the rest of its pointer. */
+/* Updates a value that refers to a mesh. rest: the rest of its pointer. */
 static void follow_name(copies *c, const gltf_index_place *place, size_t mesh, const char *rest)
 {
     gltf_saver *saver = c->saver;
@@ -197,7 +197,7 @@ static int compare_values(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Warns of what cannot follow, each once. */
+/* Warns of values that cannot follow, each once. */
 static void warn_of_left(gltf_saver *saver)
 {
     const size_t size = saver->left.size / sizeof(uint32_t);

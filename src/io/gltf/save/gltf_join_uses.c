@@ -5,14 +5,14 @@
 #include <math.h>
 #include <string.h>
 
-/* A group is compared with so many others at most, so that thousands of nodes that all see something else do
-   not take the square of their number. */
+/* The maximum number of comparisons per group: thousands of nodes that all see something else would take
+   quadratic time. */
 #define MOST_COMPARED 100
-/* What the doubles of a deformation may be off by, in eps of the world's coordinates: those of the lattice,
-   by which u,v,w are found, may be many times the mesh's. */
+/* Bound of a deformation's rounding in double, in eps of the world coordinates. It is large because the
+   lattice's coordinates, from which u,v,w are computed, may be many times the mesh's. */
 #define ROUNDINGS 1024
 
-/* The content of a slot of a primitive for one use. */
+/* The content of a primitive's slot for one use. */
 typedef struct slot_values {
     const gltf_document *document;
     size_t accessor;
@@ -28,7 +28,7 @@ static slot_values values_of(const gltf_document *d, const gltf_plan *plan, size
                          .version = version == GLTF_NONE ? NULL : &plan->versions[version]};
 }
 
-/* Reads a vector of so many components; the others are 0. */
+/* Reads a vector with this number of components; the others become 0. */
 static void read_vector(const slot_values *values, size_t i, size_t components, float vector[4])
 {
     memset(vector, 0, 4 * sizeof *vector);
@@ -43,7 +43,7 @@ static float largest_of(const float v[4])
     return fmaxf(fmaxf(fabsf(v[0]), fabsf(v[1])), fmaxf(fabsf(v[2]), fabsf(v[3])));
 }
 
-/* The step from a float to the next one away from 0. */
+/* The distance from a float to the next one away from 0. */
 static double ulp_of(float size)
 {
     size = fabsf(size);
@@ -55,7 +55,7 @@ typedef struct shared_mesh {
     const gltf_document *document;
     const gltf_plan *plan;
     size_t number;
-    double size[3]; /* its largest coordinates before the deformation */
+    double size[3]; /* the largest coordinates of its vertices before the deformation, per axis */
 } shared_mesh;
 
 static shared_mesh describe(const gltf_document *d, const gltf_plan *plan, size_t mesh)
@@ -76,19 +76,20 @@ static shared_mesh describe(const gltf_document *d, const gltf_plan *plan, size_
     return made;
 }
 
-/* What the vectors of a slot may differ by for two uses. */
+/* The allowed differences between the vectors of a slot for two uses. */
 typedef struct slack {
-    double step;                /* of integers; 0: the numbers are floats */
-    bool along;                 /* they are directions: rounded by their length */
+    double step;                /* the step of integers; 0: the numbers are floats */
+    bool along;                 /* the vectors are directions: rounding is relative to their length */
     double size[3];             /* the mesh's */
-    const mesh_part *placed[2]; /* how each use places the vectors; NULL: it does not */
+    const mesh_part *placed[2]; /* the part that transforms the vectors in each use; NULL: none */
 } slack;
 
-/* What the rounding of doubles comes to in the file's space: positions go to the world and come back. */
+/* Bounds the effect of rounding in double on file coordinates: positions are transformed to the world and
+   back. */
 static void find_rounding(const slack *allowed, const float x[4], const float y[4], double rounding[4])
 {
     double size[3];
-    rounding[3] = ROUNDINGS * DBL_EPSILON; /* of quaternions, which are directions */
+    rounding[3] = ROUNDINGS * DBL_EPSILON; /* quaternions are directions */
     for (int c = 0; c < 3; c++) {
         size[c] = larger_of(allowed->size[c], larger_of(fabs((double)x[c]), fabs((double)y[c])));
         rounding[c] = allowed->along ? 1 : size[c];
@@ -119,8 +120,8 @@ static bool are_equal(const float a[4], const float b[4])
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2] && a[3] == b[3];
 }
 
-/* The file's own rounding may part the results of two uses by a step of coordinate c, unless one of them is
-   the original: what is not moved keeps its bits, whatever moves elsewhere. */
+/* Returns how far the file's own rounding may part coordinate c of two results: one step. This does not apply
+   if one of them is the original, because a vertex that does not move keeps its bits. */
 static double file_rounding(const slack *allowed, const float x[4], const float y[4], int c)
 {
     if (allowed->step > 0)
@@ -161,7 +162,7 @@ static const mesh_part *part_of(const shared_mesh *mesh, size_t p, size_t use)
     return part == GLTF_NONE ? NULL : &mesh->document->mesh_parts[part];
 }
 
-/* Whether a slot has nearly the same content for two uses, for which it has different versions. */
+/* Whether a slot has nearly the same content for two uses that have different versions of it. */
 static bool agree_in_slot(const shared_mesh *mesh, size_t p, size_t slot, const size_t use[2])
 {
     const gltf_document *const d = mesh->document;
@@ -182,7 +183,8 @@ static bool agree_in_slot(const shared_mesh *mesh, size_t p, size_t slot, const 
     return true;
 }
 
-/* Whether two uses of a mesh see the same shape but for rounding. What is not selected keeps its bits. */
+/* Whether two uses of a mesh see the same shape up to rounding. Uses that are not selected keep their
+   bits. */
 static bool agree(const shared_mesh *mesh, const size_t use[2])
 {
     const gltf_document *const d = mesh->document;
@@ -199,8 +201,9 @@ static bool agree(const shared_mesh *mesh, const size_t use[2])
     return true;
 }
 
-/* groups[0] is the mesh itself, the others are its copies; they are put in the order of the scene. Returns
-   how many there are. The content that a mesh has for nodes outside the scene is no result, and stays. */
+/* Lists the groups in the order of the scene: groups[0] is the mesh itself, the others are its copies.
+   Returns their number. If nodes outside the scene show the mesh, its content is not a result and stays:
+   groups[0] is left out. */
 static size_t list_groups(const gltf_document *d, size_t mesh, size_t first_copy, size_t first_change,
                           const gltf_plan *plan, gltf_use_group *groups, size_t *order)
 {
@@ -229,7 +232,8 @@ static size_t list_groups(const gltf_document *d, size_t mesh, size_t first_copy
     return listed;
 }
 
-/* Gives each group the first one before it in the scene that it agrees with, if any, for its leader. */
+/* Sets the leader of each group: the first group before it in the scene that it agrees with, or itself.
+   Returns whether any group has another leader. */
 static bool find_leaders(const gltf_document *d, size_t number, const gltf_plan *plan, gltf_use_group *groups,
                          const size_t *order, size_t count)
 {
@@ -251,7 +255,7 @@ static bool find_leaders(const gltf_document *d, size_t number, const gltf_plan 
     return any;
 }
 
-/* Keeps the copies that are targets, and points the nodes to these. */
+/* Keeps only the copies that are targets, and points the nodes to them. */
 static void drop_joined(size_t mesh, size_t first_copy, size_t first_change, gltf_plan *plan,
                         gltf_use_group *groups)
 {
@@ -283,7 +287,7 @@ void ffd_gltf_join_uses(const gltf_document *d, size_t mesh, size_t first_copy, 
     const size_t count = list_groups(d, mesh, first_copy, first_change, plan, groups, order);
     if (!find_leaders(d, mesh, plan, groups, order, count))
         return;
-    /* The bits of a leader go to the mesh itself if that is one of its groups, else to their first copy. */
+    /* A leader's bits go to the mesh itself if groups[0] follows it, else to the first copy that does. */
     for (size_t g = copies + 1; g-- > 0;)
         groups[groups[g].leader].target = g ? g - 1 : GLTF_NONE;
     if (plan->base_uses[mesh] != GLTF_NONE)

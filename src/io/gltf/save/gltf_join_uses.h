@@ -1,24 +1,25 @@
-/* gltf_join_uses.h - nodes whose results differ by their rounding only keep one mesh. */
+/* gltf_join_uses.h - lets nodes share a mesh if their results differ only by rounding. */
 #ifndef FFD_IO_GLTF_SAVE_GLTF_JOIN_USES_H
 #define FFD_IO_GLTF_SAVE_GLTF_JOIN_USES_H
 
 #include "io/gltf/save/gltf_plan.h"
 
-/* Uses of a mesh that all see the same bits, with what is needed while they are joined. */
+/* Uses of a mesh that see the same bits. */
 typedef struct gltf_use_group {
-    size_t use, rank; /* the use that comes first in the scene; SIZE_MAX: there is none */
+    size_t use, rank; /* the first use in the scene and its rank; SIZE_MAX: no use */
     size_t leader;    /* the group whose bits it gets */
-    size_t
-        target; /* of a leader: the copy that gets them, from the first one on; GLTF_NONE: the mesh itself */
-    size_t number; /* of a group that is a target: its copy's new number in the plan */
+    /* If it is a leader: the copy, counted from first_copy, that gets its bits; GLTF_NONE: the mesh
+       itself. */
+    size_t target;
+    size_t number; /* if it is a target: the new number of its copy in the plan */
 } gltf_use_group;
 
-/* Joins the copies of a mesh, which are the plan's from first_copy on, and the mesh itself, where their
-   results agree: each coordinate to 1 ulp of its own in the file's type (of a direction, to 1 ulp of its
-   length) and the rounding of the doubles that it was computed with. A mirrored half need not come out to the
-   same bits as its original. A vector that one use leaves as it is agrees with what moves by that rounding
-   at most: it keeps its bits. The use that comes first in the scene gives the bits. groups and order: memory
-   for one more than there are copies. */
+/* Joins the mesh and its copies (plan->copies from first_copy on) where their results agree: each coordinate
+   within 1 ulp in the file's type (for a direction, 1 ulp of its length) plus the rounding of the double
+   computation. A mirrored half, for example, need not have the same bits as its original. A vector that stays
+   in one use agrees only with vectors that move by no more than the rounding in double, so that it keeps its
+   bits. The bits are those of the use that comes first in the scene. groups and order: room for one more than
+   the number of copies. */
 void ffd_gltf_join_uses(const gltf_document *document, size_t mesh, size_t first_copy, size_t first_change,
                         gltf_plan *plan, gltf_use_group *groups, size_t *order);
 

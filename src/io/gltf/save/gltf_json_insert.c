@@ -1,7 +1,7 @@
 #include "io/gltf/save/gltf_json_insert.h"
 
-/* Returns where the elements of a list at the top of the JSON end; if the list is missing, where the
-   top's members end. */
+/* Returns where the elements of a top-level list end; if the list is missing, where the members of the
+   top-level object end. */
 static uint32_t find_end(const gltf_document *d, const gltf_values *list, uint32_t array)
 {
     const json_span *tree = &d->tree;
@@ -15,7 +15,7 @@ static uint32_t find_end(const gltf_document *d, const gltf_values *list, uint32
     return tree->values[last].end;
 }
 
-/* A list that gets elements: what is inserted between begin_list and end_list goes to `at`. */
+/* A list that gets elements. The text inserted between begin_list and end_list goes to `at`. */
 typedef struct open_list {
     uint32_t at;
     bool is_new;

@@ -4,7 +4,6 @@
 #include "io/gltf/decode/gltf_read.h"
 #include "io/gltf/refer/gltf_accessor_users.h"
 #include "io/gltf/rig/gltf_rig.h"
-#include "io/gltf/rig/gltf_rig_users.h"
 #include "io/gltf/save/gltf_join_uses.h"
 #include "io/gltf/save/gltf_overlap.h"
 #include "io/gltf/save/gltf_plan.h"
@@ -13,12 +12,12 @@
 
 #define EMPTY_HASH 0xcbf29ce484222325u
 
-/* A part's attribute whose content changed. */
+/* An attribute of a part whose content changed. */
 typedef struct candidate {
     size_t accessor, order;
     uint64_t hash;
     const float *values;
-    size_t components, size; /* size: bytes */
+    size_t components, size; /* components per element; size of all values in bytes */
 } candidate;
 
 static bool is_changed(const gltf_document *d, size_t part, const gltf_stream *stream)
@@ -33,7 +32,7 @@ static bool is_changed(const gltf_document *d, size_t part, const gltf_stream *s
     return false;
 }
 
-/* Adds a word to a hash like FNV-1a. */
+/* Mixes a word into a hash, like FNV-1a. */
 static uint64_t mix(uint64_t hash, uint64_t word)
 {
     hash = (hash ^ word) * 0x100000001b3u;
@@ -97,7 +96,7 @@ static size_t list_candidates(const gltf_document *d, candidate *candidates)
     return count;
 }
 
-/* Gives candidates of equal content one version. */
+/* Makes one version of all candidates with equal content. */
 static void join_candidates(const candidate *candidates, size_t count, gltf_plan *plan)
 {
     for (size_t i = 0; i < count; i++) {
@@ -111,7 +110,7 @@ static void join_candidates(const candidate *candidates, size_t count, gltf_plan
                                                                    .components = c->components,
                                                                    .order = c->order,
                                                                    .output = GLTF_NONE};
-        /* The order of its version stands for the version until these are sorted. */
+        /* Until the versions are sorted, their order identifies them. */
         plan->part_versions[c->order] = plan->versions[plan->version_count - 1].order;
     }
 }
@@ -123,7 +122,7 @@ static void choose_component(const gltf_document *d, gltf_version *version)
     version->component = fits ? accessor->component : GLTF_FLOAT;
 }
 
-/* Adds a version for each content of the rig; no two of one accessor are equal. */
+/* Adds a version for each of the rig's contents, which are all different. */
 static void add_rig(const gltf_rig *rig, gltf_plan *plan)
 {
     for (size_t i = 0; i < rig->content_count; i++) {
@@ -210,7 +209,7 @@ static int compare_changes(const void *a, const void *b)
     return compare_sizes(((const gltf_node_change *)a)->node, ((const gltf_node_change *)b)->node);
 }
 
-/* Finds which nodes of a mesh need copies of it; variants can hold all its nodes. */
+/* Finds the nodes that need copies of a mesh. variants: room for all nodes of the mesh. */
 static void split_mesh(const gltf_document *d, size_t mesh, variant *variants, gltf_plan *plan)
 {
     const gltf_mesh_uses *uses = &d->mesh_uses[mesh];
@@ -238,7 +237,7 @@ static int compare_copies(const void *a, const void *b)
     return compare_sizes(((const gltf_mesh_copy *)a)->use, ((const gltf_mesh_copy *)b)->use);
 }
 
-/* Sorts a mesh's copies by their first nodes, so that hashes do not matter. */
+/* Sorts a mesh's copies by their first nodes, so that the order does not depend on hashes. */
 static void order_copies(gltf_plan *plan, size_t first_copy, size_t first_change)
 {
     if (plan->copy_count == first_copy)
@@ -283,8 +282,8 @@ static ffd_status split_meshes(const gltf_document *d, gltf_plan *plan, ffd_erro
     return status;
 }
 
-/* Marks what one use of a mesh, or of its copy, needs: versions, or in original[a] the original content
-   of accessor a. */
+/* Marks what a use of a mesh or of its copy needs: versions, or in original[a] the original content of
+   accessor a. */
 static void mark_mesh(const gltf_document *d, gltf_plan *plan, size_t mesh, size_t use, bool *original)
 {
     for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
@@ -298,8 +297,8 @@ static void mark_mesh(const gltf_document *d, gltf_plan *plan, size_t mesh, size
         }
 }
 
-/* Whether the version can overwrite the accessor's bytes, decoded if they are compressed. Sparse
-   accessors do not have bytes for all elements. */
+/* Whether the version can overwrite the accessor's bytes (decoded, if they are compressed). Sparse accessors
+   do not have bytes for all elements. */
 static bool can_overwrite(const gltf_document *d, const gltf_version *version)
 {
     const gltf_accessor *accessor = &d->model.accessors[version->accessor];
@@ -307,7 +306,8 @@ static bool can_overwrite(const gltf_document *d, const gltf_version *version)
     return has_bytes && !accessor->sparse.present && version->component == accessor->component;
 }
 
-/* Whether the accessor is one that we added, of zeros without bytes, which can get bytes for the version. */
+/* Whether the program itself added the accessor, with zeros and no bytes: the version's bytes can be bound to
+   it. */
 static bool can_rebind(const gltf_document *d, const gltf_version *version)
 {
     const gltf_accessor *accessor = &d->model.accessors[version->accessor];
@@ -341,7 +341,7 @@ static ffd_status choose_in_place(const gltf_document *d, gltf_plan *plan, ffd_e
             plan->in_place[version->accessor] = v;
         version->rebinds = can_rebind(d, version);
         original[version->accessor] =
-            original[version->accessor] || version->rebinds; /* only for one version */
+            original[version->accessor] || version->rebinds; /* only one version per accessor */
     }
     ffd_free(original);
     return FFD_OK;

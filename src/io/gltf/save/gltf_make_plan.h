@@ -1,4 +1,4 @@
-/* gltf_make_plan.h - makes the plan of a saving. */
+/* gltf_make_plan.h - makes the plan of saving. */
 #ifndef FFD_IO_GLTF_SAVE_GLTF_MAKE_PLAN_H
 #define FFD_IO_GLTF_SAVE_GLTF_MAKE_PLAN_H
 

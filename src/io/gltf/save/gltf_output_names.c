@@ -22,7 +22,7 @@ static char *make_name(const char *path, size_t number)
     return ffd_buffer_finish(&name);
 }
 
-/* The output must not replace a file of the input. */
+/* Refuses to replace a file of the input by the output. */
 static ffd_status refuse_own_file(const gltf_saver *saver, const char *target, ffd_error *error)
 {
     const gltf_document *d = saver->document;
@@ -76,7 +76,7 @@ static ffd_status give_name(gltf_saver *saver, size_t b, size_t number, ffd_erro
     return status;
 }
 
-/* Whether the file is that of buffer b and of no other buffer of the model. */
+/* Finds whether the file belongs to buffer b and to no other buffer of the model. */
 static ffd_status is_own_file(const gltf_document *d, size_t b, const char *target, bool *own,
                               ffd_error *error)
 {
@@ -98,9 +98,9 @@ static ffd_status is_own_file(const gltf_document *d, size_t b, const char *targ
     return FFD_OK;
 }
 
-/* When the output is the input, an unchanged buffer keeps its file. A changed one is named after the
-   output as usual, since other models may use the old file; the only existing file that may be replaced
-   is its own. */
+/* If the output replaces the input, an unchanged buffer keeps its file. A changed buffer gets a new name
+   after the output, because other models may use the old file; the only existing file that it may replace is
+   its own. */
 static ffd_status give_name_in_place(gltf_saver *saver, size_t b, size_t *number, ffd_error *error)
 {
     const gltf_document *d = saver->document;
@@ -143,8 +143,8 @@ ffd_status ffd_gltf_name_buffers(gltf_saver *saver, ffd_error *error)
     return status;
 }
 
-/* Of a model with its own structure, as gltf_container.c places its buffers; else of one that is written
- * anew. */
+/* Counts the buffers as gltf_container.c places them if the model keeps its format, else as a converted model
+   has them. */
 size_t ffd_gltf_count_beside(const file_input *bytes, ffd_format from, ffd_format to)
 {
     const bool is_model = from == FFD_FORMAT_GLTF || from == FFD_FORMAT_GLB, to_text = to == FFD_FORMAT_GLTF;

@@ -1,10 +1,10 @@
-/* gltf_output_names.h - names of the files that buffers are written to. */
+/* gltf_output_names.h - chooses the names of the buffers' files. */
 #ifndef FFD_IO_GLTF_SAVE_GLTF_OUTPUT_NAMES_H
 #define FFD_IO_GLTF_SAVE_GLTF_OUTPUT_NAMES_H
 
 #include "io/gltf/save/gltf_saver.h"
 
-/* Chooses these names and edits the buffers' URIs. Errors: FFD_E_EXISTS, FFD_E_ARGUMENT, FFD_E_MEMORY. */
+/* Chooses the names and edits the buffers' URIs. Errors: FFD_E_EXISTS, FFD_E_ARGUMENT, FFD_E_MEMORY. */
 ffd_status ffd_gltf_name_buffers(gltf_saver *saver, ffd_error *error);
 
 /* mesh_format's count_beside and list_beside: the files of the buffers. */

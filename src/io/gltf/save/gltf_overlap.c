@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* More pairs than real files have: beyond it, everything is taken to overlap. */
+/* More pairs than any real file has; with more, everything counts as overlapping. */
 #define MOST_PAIRS ((size_t)1 << 24)
 
-/* A reader of bytes of a buffer: elements of `size` bytes every `stride`. */
+/* A user of bytes of a buffer: elements of `size` bytes, `stride` bytes apart. */
 typedef struct byte_user {
     size_t buffer, begin, end, stride, size;
     size_t accessor; /* GLTF_NONE: an image, sparse or compressed data, or unknown */
@@ -30,7 +30,7 @@ static void add_user(user_list *list, byte_user user)
     list->users[list->count++] = user;
 }
 
-/* Adds the uncompressed elements that replace Draco data in readers that do not support it. */
+/* Adds the uncompressed elements that readers without Draco use. */
 static void add_fallback(const gltf_view *view, user_list *list)
 {
     const size_t begin = (size_t)view->offset, length = (size_t)view->length;
@@ -61,7 +61,7 @@ static size_t size_member(const gltf_document *d, uint32_t object, const char *k
     return (size_t)number;
 }
 
-/* Adds the compressed bytes of EXT_meshopt_compression and of any extension of a view that names a buffer. */
+/* Adds the compressed bytes of EXT_meshopt_compression, and of any view extension that names a buffer. */
 static void add_compressed(const gltf_document *d, uint32_t view, user_list *list)
 {
     const json_span *tree = &d->tree;
@@ -75,8 +75,8 @@ static void add_compressed(const gltf_document *d, uint32_t view, user_list *lis
     }
 }
 
-/* Whether the value is the index of a bufferView, by its key: of images, sparse and compressed data,
-   and of property tables in EXT_structural_metadata. */
+/* Whether the key of a value makes it the index of a bufferView: in images, sparse and compressed data, and
+   in property tables of EXT_structural_metadata. */
 static bool names_view(const json_span *tree, uint32_t value)
 {
     static const char *const keys[] = {"bufferView", "values", "arrayOffsets", "stringOffsets"};
@@ -86,7 +86,7 @@ static bool names_view(const json_span *tree, uint32_t value)
     return false;
 }
 
-/* Marks the views that something other than an accessor names. */
+/* Marks the views that are named by anything but an accessor. */
 static void mark_other_views(const gltf_document *d, bool *others)
 {
     const json_span *tree = &d->tree;
@@ -123,7 +123,7 @@ static int compare_users(const void *a, const void *b)
     return (x->begin > y->begin) - (x->begin < y->begin);
 }
 
-/* Whether two users whose ranges overlap share a byte, where x begins first. Interleaved ones do not. */
+/* Whether two users with overlapping ranges share a byte; x begins first. Interleaved elements do not. */
 static bool share_bytes(const byte_user *x, const byte_user *y)
 {
     if (x->stride == 0 || x->stride != y->stride)
@@ -137,7 +137,7 @@ static bool is_candidate(const gltf_plan *plan, const byte_user *user)
     return user->accessor != GLTF_NONE && plan->in_place[user->accessor] != GLTF_NONE;
 }
 
-/* Whether two accessors are the same but for their numbers, and get the same new content. */
+/* Whether two accessors are equal except for their numbers, and get the same new content. */
 static bool agree(const gltf_document *d, const gltf_plan *plan, const byte_user *x, const byte_user *y)
 {
     if (!is_candidate(plan, x) || !is_candidate(plan, y) || x->begin != y->begin || x->end != y->end ||
@@ -152,7 +152,7 @@ static bool agree(const gltf_document *d, const gltf_plan *plan, const byte_user
            a->components == b->components && memcmp(a->values, b->values, values * sizeof *a->values) == 0;
 }
 
-/* Visits all pairs that share bytes; returns whether any version was taken back. */
+/* Visits all pairs that share bytes. Returns whether any version was withdrawn. */
 static bool take_back(const gltf_document *d, const user_list *list, gltf_plan *plan, size_t *pairs)
 {
     bool changed = false;
@@ -193,7 +193,7 @@ ffd_status ffd_gltf_resolve_overlaps(const gltf_document *d, gltf_plan *plan, ff
     }
     if (list.count > 0)
         qsort(list.users, list.count, sizeof *list.users, compare_users);
-    /* A version that is taken back can end an agreement found before. */
+    /* Withdrawing a version can end an agreement found before. */
     size_t pairs = 0;
     while (take_back(d, &list, plan, &pairs) && pairs <= MOST_PAIRS)
         ;

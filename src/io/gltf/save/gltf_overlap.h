@@ -1,11 +1,11 @@
-/* gltf_overlap.h - bytes that several accessors share. */
+/* gltf_overlap.h - finds bytes that several accessors share. */
 #ifndef FFD_IO_GLTF_SAVE_GLTF_OVERLAP_H
 #define FFD_IO_GLTF_SAVE_GLTF_OVERLAP_H
 
 #include "io/gltf/save/gltf_plan.h"
 
-/* Takes back the in-place versions that would change bytes which something else needs unchanged.
-   Errors: FFD_E_MEMORY. */
+/* Withdraws the in-place versions that would change bytes which another user needs unchanged. Errors:
+   FFD_E_MEMORY. */
 ffd_status ffd_gltf_resolve_overlaps(const gltf_document *document, gltf_plan *plan, ffd_error *error);
 
 #endif

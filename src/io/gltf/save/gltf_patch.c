@@ -17,8 +17,8 @@ static const json_value *value_of(const gltf_saver *saver, uint32_t value)
     return &saver->document->tree.values[value];
 }
 
-/* Edits the members of an object, "attributes" or a morph target, to name the accessors of the slots from
-   `first` on that hold the primitive's content for a use. */
+/* Edits the members of an object ("attributes" or a morph target) to name the accessors with the primitive's
+   content for a use. first: the slot of the object's first attribute. */
 static void edit_slots(const gltf_saver *saver, size_t mesh, size_t p, uint32_t object, size_t first,
                        size_t use, json_edits *edits)
 {
@@ -53,7 +53,7 @@ static void edit_splats(const gltf_saver *saver, size_t mesh, size_t p, uint32_t
     }
 }
 
-/* Edits a mesh to name the accessors that hold its content for a use. */
+/* Edits a mesh to name the accessors with its content for a use. */
 static void edit_attributes(const gltf_saver *saver, size_t mesh, size_t use, json_edits *edits)
 {
     const gltf_document *d = saver->document;
@@ -80,7 +80,7 @@ static void replace_number(const gltf_saver *saver, uint32_t object, const char 
         ffd_edits_format(edits, value_of(saver, member)->begin, value_of(saver, member)->end, "%zu", number);
 }
 
-/* Adds a copy of an element, with edits of its own, to its list. */
+/* Adds a copy of an element, with edits of its own, to the element's list. */
 static void add_copy(gltf_saver *saver, const gltf_values *list, const char *key, size_t i, json_edits *edits)
 {
     const json_value *value = value_of(saver, list->values[i]);
@@ -93,12 +93,12 @@ static void add_copy(gltf_saver *saver, const gltf_values *list, const char *key
     ffd_edits_free(edits);
 }
 
-/* Copies the "target" of the accessor's bufferView; if it had no bufferView, it still is an attribute. */
+/* Copies "target" from the accessor's bufferView. Without a bufferView: an attribute's target. */
 static void write_target(const gltf_saver *saver, const gltf_version *version, byte_buffer *text)
 {
     const gltf_document *d = saver->document;
     if (version->width)
-        return; /* no attribute */
+        return; /* not an attribute */
     const int view = d->model.accessors[version->accessor].view;
     if (view < 0) {
         ffd_buffer_text(text, ",\"target\":34962");
@@ -145,7 +145,7 @@ static void add_views(gltf_saver *saver)
     ffd_free(next);
 }
 
-/* Edits an accessor's copy to name its own bufferView, which holds all elements, and their type. */
+/* Edits the copy of an accessor: its new bufferView, which holds all elements, and their type. */
 static void edit_storage(const gltf_saver *saver, const gltf_version *version, size_t view, json_edits *edits)
 {
     const gltf_document *d = saver->document;
@@ -170,7 +170,7 @@ static void edit_storage(const gltf_saver *saver, const gltf_version *version, s
     ffd_edits_remove(edits, tree, accessor, gone, gone_count);
 }
 
-/* Edits an accessor of zeros to have the elements that are not. */
+/* Makes an accessor of zeros sparse: only its nonzero elements are stored. */
 static void edit_sparse(const gltf_saver *saver, const gltf_version *version, const gltf_stored_part *sparse,
                         size_t view, json_edits *edits)
 {
@@ -194,7 +194,7 @@ static void announce_floats(const gltf_saver *saver, const gltf_version *version
             version->accessor, component, version->output);
 }
 
-/* An accessor that the file does not have. */
+/* Adds an accessor of matrices that the file did not have. */
 static void add_matrices(gltf_saver *saver, const gltf_version *version, size_t view)
 {
     byte_buffer text = {0};
@@ -248,7 +248,7 @@ static void add_meshes(gltf_saver *saver)
     }
 }
 
-/* Replaces the data of a data URI. Its head stays if it says base64, else it is replaced too. */
+/* Replaces the data of a data URI. Its head stays if it says base64, else it is replaced as well. */
 static void edit_data_uri(gltf_saver *saver, size_t buffer)
 {
     const gltf_document *d = saver->document;
@@ -278,7 +278,7 @@ static void edit_buffers(gltf_saver *saver)
     }
 }
 
-/* Nodes that follow the deformation, and what names the accessors of their skins and animations. */
+/* Edits nodes that follow the deformation, and the accessors of their skins and animations. */
 static void edit_rig(gltf_saver *saver)
 {
     const gltf_document *d = saver->document;

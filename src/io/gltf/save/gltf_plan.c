@@ -4,7 +4,7 @@
 #include "io/gltf/decode/gltf_encode.h"
 #include "io/gltf/decode/gltf_read.h"
 
-/* The part that holds the results of a slot; GLTF_NONE: there are none. */
+/* Returns the part with the results of a slot; GLTF_NONE: no results. */
 static size_t part_of_slot(const gltf_document *d, const gltf_primitive *primitive,
                            const gltf_instance *instance, size_t slot)
 {

@@ -1,63 +1,64 @@
-/* gltf_plan.h - where the results go: into the bytes of their accessors if all users of these bytes
-   want the same content, else into new accessors (and copies of meshes that use them) at the end. */
+/* gltf_plan.h - where the results go: into the bytes of their accessors if all users of these bytes need the
+   same content, else into new accessors at the end (and copies of the meshes that use them). */
 #ifndef FFD_IO_GLTF_SAVE_GLTF_PLAN_H
 #define FFD_IO_GLTF_SAVE_GLTF_PLAN_H
 
 #include "io/gltf/document/gltf_document.h"
 
-/* A new content of an accessor. The number GLTF_NONE means the original content. */
+/* A new content of an accessor. As the number of a version, GLTF_NONE means the original content. */
 typedef struct gltf_version {
-    size_t accessor; /* GLTF_NONE: a new one, of MAT4 */
-    /* components * count, owned by a part: the first numbers of each element. Of a rig's content: `width`
-       numbers an element, all of them, of `count` elements; they are written as floats. */
+    size_t accessor; /* GLTF_NONE: a new accessor of MAT4 */
+    /* Owned by a part: components * count floats, the first components of each element. Owned by the rig:
+       count elements of width numbers, all numbers of each element, stored as floats. */
     const float *values;
-    size_t width, count; /* width is 0 otherwise */
+    size_t width, count; /* width is 0 if a part owns the values */
     size_t components;
-    size_t order; /* of the first part and attribute that has it */
+    size_t order; /* number of the first part and attribute with this content */
     bool needed;
-    int component; /* of its numbers: the accessor's, or GLTF_FLOAT if that cannot represent them */
-    size_t output; /* the accessor that holds it in the output; GLTF_NONE: none yet */
-    bool rebinds;  /* its accessor, one that we added without bytes, gets a bufferView itself */
+    int component; /* the component type: the accessor's, or GLTF_FLOAT if that cannot represent the values */
+    size_t output; /* its accessor in the output; GLTF_NONE: none yet */
+    bool rebinds;  /* its accessor is one that the program added without bytes; it gets a bufferView */
 } gltf_version;
 
-/* A copy of a mesh for nodes that cannot use the original. */
+/* A copy of a mesh, for nodes that cannot use the original. */
 typedef struct gltf_mesh_copy {
-    size_t mesh, use; /* use: the first of those that need the copy */
+    size_t mesh, use; /* use: the first use that needs the copy */
 } gltf_mesh_copy;
 
 typedef struct gltf_node_change {
-    size_t node, copy; /* copy: in plan->copies */
+    size_t node, copy; /* copy: index in plan->copies */
 } gltf_node_change;
 
 typedef struct gltf_plan {
     gltf_version *versions;
     size_t version_count;
-    size_t *part_versions; /* GLTF_DEFORMED per part, shapes too */
-    size_t
-        *base_uses; /* per mesh: the use whose content the original mesh gets; GLTF_NONE: its old content */
+    /* GLTF_DEFORMED per part, also for shapes and splats; GLTF_NONE: original content. */
+    size_t *part_versions;
+    /* Per mesh: the use whose content the original mesh gets; GLTF_NONE: its old content. */
+    size_t *base_uses;
     gltf_mesh_copy *copies;
     size_t copy_count;
     gltf_node_change *changes;
     size_t change_count;
-    size_t *rig_versions; /* per content of the document's rig; NULL: it has none */
+    size_t *rig_versions; /* per content of the document's rig */
     size_t *in_place;     /* per accessor: the version that overwrites it, or GLTF_NONE */
-    size_t *appended;     /* versions with new bufferViews, in their order */
+    size_t *appended;     /* versions with new bufferViews, in order */
     size_t appended_count;
 } gltf_plan;
 
-/* Returns how many elements a version has. */
+/* Returns the number of elements of a version. */
 static inline size_t ffd_gltf_version_count(const gltf_document *document, const gltf_version *version)
 {
     return version->width ? version->count : (size_t)document->model.accessors[version->accessor].count;
 }
 
-/* Returns how many numbers an element of it has. */
+/* Returns the number of components of its elements. */
 static inline size_t ffd_gltf_version_numbers(const gltf_document *document, const gltf_version *version)
 {
     return version->width ? version->width : (size_t)document->model.accessors[version->accessor].rows;
 }
 
-/* Writes element i of a version as its output has it: GLTF_LARGEST_ELEMENT bytes at most. */
+/* Writes element i of a version as in the output: at most GLTF_LARGEST_ELEMENT bytes. */
 void ffd_gltf_version_encode(const gltf_document *document, const gltf_version *version, size_t i,
                              unsigned char *element);
 

@@ -9,7 +9,7 @@
 #include "json/json_parse.h"
 #include <string.h>
 
-/* The folders of input and output, and the images to be copied. */
+/* The folders of input and output, and the images to copy. */
 typedef struct resources {
     gltf_saver *saver;
     resource_copier copier;
@@ -56,7 +56,7 @@ static ffd_status image_path(const gltf_document *d, size_t image, char **path, 
     return ffd_gltf_image_path(&d->tree, d->image_values.values[image], d->path, path, error);
 }
 
-/* Adds the images of a JSON text that may be copied, by their names. */
+/* Adds the images of a JSON text that may be copied, with their names. */
 static ffd_status find_images(const json_span *tree, const char *mesh, path_list *files, ffd_error *error)
 {
     ffd_status status = FFD_OK;
@@ -160,7 +160,7 @@ static ffd_status bring_image(resources *r, size_t image, ffd_error *error)
     return status;
 }
 
-/* Refuses to overwrite one of the model's images by a file of the model itself. */
+/* Refuses to overwrite one of the model's images by a file of the output model. */
 static ffd_status refuse_image_name(const resources *r, size_t number, bool own_copy, ffd_error *error)
 {
     const gltf_saver *saver = r->saver;

@@ -1,17 +1,17 @@
-/* gltf_resources.h - the images of a file. */
+/* gltf_resources.h - copies or refers to the images of a file. */
 #ifndef FFD_IO_GLTF_SAVE_GLTF_RESOURCES_H
 #define FFD_IO_GLTF_SAVE_GLTF_RESOURCES_H
 
 #include "io/gltf/save/gltf_saver.h"
 
-/* Copies the images beside the output, or edits their URIs. What is no image, is hidden or is reached through
-   a link is not copied, with a warning. Refuses an image that has the name of a
-   file of the model itself. Begins and writes files of saver->output; to be called after
-   ffd_gltf_name_buffers. Errors: FFD_E_EXISTS, FFD_E_IO, FFD_E_MEMORY. */
+/* Copies the images beside the output, or edits their URIs. A file that is not an image, is hidden, or is
+   reached through a link is not copied, with a warning. Refuses an image with the name of a file of the model
+   itself. Begins and writes files of saver->output; call it after ffd_gltf_name_buffers. Errors:
+   FFD_E_EXISTS, FFD_E_IO, FFD_E_MEMORY. */
 ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error);
 
-/* Finds the normalized path, relative to the model, that an image's URI names; NULL with FFD_OK: not a file
-   beside the model. mesh: the model's path. Errors: FFD_E_MEMORY. */
+/* Finds the normalized path, relative to the model, of an image's URI; NULL with FFD_OK: it does not name a
+   file beside the model. mesh: the model's path. Errors: FFD_E_MEMORY. */
 ffd_status ffd_gltf_image_path(const json_span *tree, uint32_t image, const char *mesh, char **path,
                                ffd_error *error);
 

@@ -38,7 +38,7 @@ static size_t edit_size(const gltf_saver *saver, const json_edit *edit)
                : ffd_base64_length(ffd_gltf_content_size(saver, (size_t)edit->buffer));
 }
 
-/* Returns where the JSON begins: a GLB must not have a byte order mark. */
+/* Returns the offset of the JSON: a GLB must not have a byte order mark. */
 static size_t json_begin(const gltf_saver *saver)
 {
     return saver->binary == saver->document->binary ? 0 : saver->document->tree.values[0].begin;
@@ -74,8 +74,8 @@ static ffd_status put_json(const gltf_saver *saver, size_t end, ffd_error *error
     return status ? status : put(saver, text + at, end - at, error);
 }
 
-/* Returns where a GLB's JSON ends; without its padding if its size changes, since it
-   then needs another one. */
+/* Returns where a GLB's old JSON text ends. If its size changes, its padding is left out, because the new
+   text needs its own. */
 static size_t json_end(const gltf_saver *saver)
 {
     const json_span *tree = &saver->document->tree;
@@ -98,10 +98,10 @@ static ffd_status put_chunk_header(const gltf_saver *saver, size_t size, uint32_
     return put(saver, header, sizeof header, error);
 }
 
-/* The sizes of a GLB to write; chunk sizes include their padding. */
+/* The sizes of a GLB to write; sizes of chunks include their padding. */
 typedef struct glb_sizes {
-    size_t json_end, json, json_chunk; /* of the old text; of the new one; with padding */
-    bool has_bin, own_bin;             /* there is a BIN chunk; it is the first buffer's */
+    size_t json_end, json, json_chunk; /* old text; new text; new text with padding */
+    bool has_bin, own_bin;             /* whether there is a BIN chunk; whether it is the first buffer */
     size_t bin, bin_chunk, rest, total;
 } glb_sizes;
 
@@ -154,7 +154,7 @@ static ffd_status put_glb(const gltf_saver *saver, ffd_error *error)
         status = put_bin(saver, &sizes, error);
     if (status == FFD_OK && d->binary)
         status = put(saver, d->input.data + d->glb.rest_begin, sizes.rest, error);
-    /* Bytes past the stated length are kept only if nothing else changed. */
+    /* Bytes beyond the stated length are kept only if nothing else changes. */
     const bool still = saver->plan.version_count == 0 && !(d->rig && d->rig->node_count > 0);
     if (status == FFD_OK && d->binary && still)
         status = put(saver, d->input.data + d->glb.end, d->input.size - d->glb.end, error);

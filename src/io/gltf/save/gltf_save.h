@@ -4,7 +4,7 @@
 
 #include "io/gltf/document/gltf_document.h"
 
-/* Saves a document with its results in place of its deformed attributes; else as mesh_format's save. */
+/* Saves a document with its results in place of the deformed attributes; otherwise as mesh_format's save. */
 mesh_save_function ffd_gltf_save_results;
 
 #endif

@@ -6,13 +6,13 @@
 
 #define VECTOR (3 * sizeof(float))
 
-/* Most elements whose numbers have 16 bits. */
+/* The largest number of elements that 16-bit indices can number. */
 #define SHORT_INDICES ((size_t)65536)
 
 static bool is_zero(const float *xyz)
 {
     static const float zero[3] = {0, 0, 0};
-    return memcmp(xyz, zero, VECTOR) == 0; /* -0 is stored: a target has the same bits either way */
+    return memcmp(xyz, zero, VECTOR) == 0; /* -0 is stored: sparse or not, a target has the same bits */
 }
 
 static bool may_be_sparse(const gltf_document *d, const gltf_version *version)
@@ -34,7 +34,7 @@ static void put_index(gltf_stored_part *sparse, size_t k, size_t index)
     }
 }
 
-/* Stores the vectors other than 0, of which there are sparse->count. */
+/* Stores the nonzero vectors; their number is sparse->count. */
 static ffd_status store(const float *values, size_t count, memory_budget *budget, gltf_stored_part *sparse,
                         ffd_error *error)
 {

@@ -1,4 +1,4 @@
-/* gltf_unpack.c - compressed data is written decoded if something in it changed. */
+/* gltf_unpack.c - writes compressed data decompressed if any of it changed. */
 #include "io/gltf/save/gltf_unpack.h"
 #include "base/memory/memory.h"
 #include "io/gltf/decode/gltf_draco.h"
@@ -22,7 +22,7 @@ bool ffd_gltf_is_unpacked(const gltf_saver *saver, size_t mesh, size_t p, size_t
     return false;
 }
 
-/* Whether this attribute has another accessor in the output. */
+/* Whether an attribute has another accessor in the output. */
 static bool is_redirected(const gltf_saver *saver, size_t mesh, size_t p, size_t use, uint32_t attribute)
 {
     const gltf_document *d = saver->document;
@@ -42,7 +42,7 @@ static void add_unpacking(gltf_saver *saver, size_t *number, gltf_unpacking unpa
     saver->unpackings[saver->unpacking_count++] = unpacking;
 }
 
-/* Returns the buffer that holds the bytes of a view, compressed or not. */
+/* Returns the buffer with the bytes of a view, compressed or not. */
 static size_t stored_in(const gltf_document *d, size_t view)
 {
     double buffer = d->model.views[view].buffer;
@@ -64,7 +64,7 @@ static void unpack_accessor(gltf_saver *saver, size_t a, bool indices)
                                    .buffer = stored_in(d, unpacked->view)});
 }
 
-/* Unpacks all accessors that a primitive reads from its compressed data for a use. */
+/* Lists all accessors that a primitive reads from its compressed data for one use. */
 static void unpack_primitive(gltf_saver *saver, size_t mesh, size_t p, size_t use)
 {
     const gltf_document *d = saver->document;
@@ -134,7 +134,7 @@ void ffd_gltf_free_unpackings(gltf_saver *saver)
     ffd_free(saver->unpackings);
 }
 
-/* Removes extensions from an object, and "extensions" itself if none is left. */
+/* Removes extensions from an object, and the member "extensions" itself if none are left. */
 static void remove_extensions(const json_span *tree, uint32_t object, const char *const *names, size_t count,
                               json_edits *edits)
 {
@@ -193,7 +193,7 @@ static void edit_view(gltf_saver *saver, const gltf_unpacking *unpacking)
                  unpacking->view, ffd_gltf_has_extension(d, view, names[0]) ? names[0] : names[1]);
 }
 
-/* number: its new bufferView. */
+/* number: that of its new bufferView. */
 static void edit_accessor(gltf_saver *saver, const gltf_unpacking *unpacking, size_t number)
 {
     const gltf_document *d = saver->document;
@@ -201,7 +201,7 @@ static void edit_accessor(gltf_saver *saver, const gltf_unpacking *unpacking, si
     set_number(&d->tree, accessor, "bufferView", number, &saver->edits);
     if (ffd_json_span_member(&d->tree, accessor, "byteOffset") != JSON_NONE)
         set_number(&d->tree, accessor, "byteOffset", 0, &saver->edits);
-    /* The stated bounds are those before compression, which may have rounded the values. */
+    /* The stated bounds are from before the compression, which may have rounded the values. */
     if (saver->plan.in_place[unpacking->accessor] == GLTF_NONE)
         ffd_gltf_edit_original_bounds(saver, unpacking->accessor, &saver->edits);
 }
@@ -249,7 +249,7 @@ bool ffd_gltf_lost_draco(gltf_saver *saver)
     return lost;
 }
 
-/* Whether the extension is no longer used. A fallback buffer stays, and its extension with it. */
+/* Whether the extension is no longer used. A fallback buffer stays, and with it the extension. */
 static bool lost_meshopt(const gltf_saver *saver, const char *name)
 {
     const gltf_document *d = saver->document;

@@ -6,9 +6,9 @@
 
 #define MOST_TRIANGLES INT32_MAX
 
-/* What one use of a primitive draws. */
+/* What a primitive draws for one use. */
 typedef struct drawing {
-    size_t corners; /* indices, or vertices if it has no indices */
+    size_t corners; /* number of indices, or of vertices without indices */
     size_t triangles, lines, points;
 } drawing;
 
@@ -203,7 +203,7 @@ uint64_t ffd_gltf_most_corners(const gltf_document *d)
     return most;
 }
 
-/* Checks the memory for the faces together with the corners of one primitive. */
+/* Checks the memory of the faces plus the corners of one primitive. */
 static ffd_status check_budget(const gltf_document *d, const mesh_faces *faces, ffd_error *error)
 {
     memory_budget budget = d->base.budget;
@@ -243,7 +243,7 @@ ffd_status ffd_gltf_faces(const mesh_document *document, mesh_faces *faces, ffd_
     return status;
 }
 
-/* Numbers the normals of one instance's corners: vertex i of its positions has normal i of its normals. */
+/* Sets the normals of one instance's corners: vertex i of its positions has normal i of its normals. */
 static void number_corners(const gltf_instance *instance, const size_t *first_vertices,
                            const size_t *first_normals, const uint32_t *corners, size_t count,
                            uint32_t *normals)

@@ -4,23 +4,23 @@
 
 #include "io/gltf/document/gltf_document.h"
 
-/* Adds to the counts what the primitives of a mesh draw, for one use of the mesh. */
+/* Adds what a mesh's primitives draw for one use to the counts. */
 void ffd_gltf_count_drawing(const gltf_document *document, size_t mesh, size_t *triangles, size_t *lines,
                             size_t *points);
 
-/* Returns the number of triangles that one use of a primitive draws. */
+/* Returns the number of triangles that a primitive draws for one use. */
 size_t ffd_gltf_count_triangles(const gltf_document *document, size_t mesh, size_t primitive);
 
-/* Lists the vertices (0, 1, ..) that a primitive with positions draws, in order, for the caller to free;
-   corners is NULL after a failure. Errors: FFD_E_INVALID, FFD_E_UNSUPPORTED, FFD_E_MEMORY. */
+/* Lists the vertices (0, 1, ..) that a primitive with positions draws, in order. The caller frees corners,
+   which is NULL after a failure. Errors: FFD_E_INVALID, FFD_E_UNSUPPORTED, FFD_E_MEMORY. */
 ffd_status ffd_gltf_read_corners(const gltf_document *document, size_t mesh, size_t primitive,
                                  uint32_t **corners, size_t *count, ffd_error *error);
 
-/* Returns the largest count that ffd_gltf_read_corners gives for any primitive. */
+/* Returns the largest count of ffd_gltf_read_corners over all primitives. */
 uint64_t ffd_gltf_most_corners(const gltf_document *document);
 
-/* Finds the vertices of triangle t among a primitive's corners. Every second triangle of a strip has its
-   order reversed (glTF 2.0, 3.7.2.1). */
+/* Finds the vertices of triangle t among a primitive's corners. Every second triangle of a strip is reversed
+   (glTF 2.0, 3.7.2.1). */
 void ffd_gltf_triangle(int mode, size_t t, const uint32_t *corners, uint32_t triangle[3]);
 
 /* mesh_format's faces and corner_normals. */

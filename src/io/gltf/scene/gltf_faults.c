@@ -6,9 +6,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#define SHOWN 3 /* of the faults of a kind */
+#define SHOWN 3 /* faults per kind that are named */
 
-/* Faults of a kind, and what is said of the first ones. */
+/* Faults of one kind: their number and the text about the first ones. */
 typedef struct fault_list {
     const gltf_document *document;
     size_t count;
@@ -24,7 +24,7 @@ static void add_value(fault_list *list, uint32_t value)
     list->count++;
 }
 
-/* Adds an element of a list as "mesh NAME", or "mesh 3" where it has no name. */
+/* Adds an element of a list as "mesh NAME", or "mesh 3" if it has no name. */
 static ffd_status add_name(fault_list *list, uint32_t value, const char *kind, size_t number,
                            ffd_error *error)
 {
@@ -45,7 +45,7 @@ static ffd_status add_name(fault_list *list, uint32_t value, const char *kind, s
     return FFD_OK;
 }
 
-/* "a, b, c and 2 more" */
+/* Writes "a, b, c and 2 more". */
 static void tell(const fault_list *list, char *text, size_t capacity)
 {
     size_t length = 0;
@@ -66,7 +66,7 @@ static size_t target_count(const gltf_document *d, size_t mesh)
     return most;
 }
 
-/* Whether the weights that an object states are one number for each target. */
+/* Whether an object's default weights, if any, are one number per target. */
 static bool has_sound_weights(const gltf_document *d, uint32_t object, size_t targets)
 {
     const uint32_t array = ffd_json_span_member(&d->tree, object, "weights");

@@ -1,5 +1,6 @@
-/* gltf_instancing.c - nodes with EXT_mesh_gpu_instancing: one mesh under many transforms, which cannot have
-   results of their own. Their vertices stay, and their bounds tell whether the lattice reaches them. */
+/* gltf_instancing.c - nodes with EXT_mesh_gpu_instancing. They show one mesh under many transforms, so that
+   the instances cannot have results of their own: their vertices stay, and their bounds tell whether the
+   lattice reaches them. */
 #include "io/gltf/scene/gltf_instancing.h"
 #include "base/lower_bound.h"
 #include "base/memory/memory.h"
@@ -11,15 +12,15 @@
 #include <string.h>
 
 #define EXTENSION "EXT_mesh_gpu_instancing"
-/* The most instances of all nodes whose bounds are computed. */
+/* The maximum number of instances, of all nodes together, whose bounds are computed. */
 #define MOST_INSTANCES ((uint64_t)1 << 24)
-/* Relative to a box's sides: more than the rounding errors of its corners. */
+/* Relative to a box's sides; larger than the rounding errors of its corners. */
 #define SLACK 1e-9
 
-/* What is known while the nodes are surveyed. */
+/* State of the survey of the nodes. */
 typedef struct survey {
     gltf_document *document;
-    ffd_bounds *accessors; /* bounds of POSITION accessors; min > max: not known yet */
+    ffd_bounds *accessors; /* per POSITION accessor; min > max: not computed yet */
     uint64_t instances;
 } survey;
 
@@ -86,7 +87,7 @@ static ffd_status find_instances(const gltf_document *d, size_t node, gltf_insta
             find_attribute(d, attributes, "ROTATION", 4, is_rotation, &found->rotation, &found->count, error);
     if (status == FFD_OK)
         status = find_attribute(d, attributes, "SCALE", 3, is_float, &found->scale, &found->count, error);
-    /* Other attributes move nothing; without these there is one instance. */
+    /* Only these attributes move vertices; without any of them the node has one instance. */
     if (found->count == UINT64_MAX)
         found->count = 1;
     return status;
@@ -111,7 +112,7 @@ static bool is_finite(const ffd_bounds *box)
     return vec_is_finite(box->min) && vec_is_finite(box->max);
 }
 
-/* Finds the bounds of a mesh in its own space; false if it cannot be read. */
+/* Finds the bounds of a mesh in its own space; returns false if it cannot be read. */
 static bool find_mesh_bounds(survey *s, size_t mesh, ffd_bounds *box)
 {
     *box = empty_bounds;
@@ -148,7 +149,7 @@ static ffd_status describe_instanced_node(survey *s, size_t node, gltf_instanced
     return FFD_OK;
 }
 
-/* Deselects what the node uses, so that its vertices stay. */
+/* Deselects all instances of a node, so that their vertices stay. */
 static void skip_node(gltf_document *d, size_t node)
 {
     const size_t mesh = (size_t)d->model.nodes[node].mesh;
@@ -210,7 +211,7 @@ gltf_instanced_node *ffd_gltf_instanced_node(const gltf_document *d, size_t node
     return found < count && list[found].node == node ? &list[found] : NULL;
 }
 
-/* Whether the transformed box meets the reach, or may do so but for rounding. */
+/* Whether the transformed box meets the reach, or would do so but for rounding. */
 static bool meets(const ffd_bounds *box, const double world[12], const ffd_bounds *reach)
 {
     double middle[3], half[3];
@@ -227,7 +228,7 @@ static bool meets(const ffd_bounds *box, const double world[12], const ffd_bound
         if (least > reach->max[r] || largest < reach->min[r])
             return false;
     }
-    return true; /* NaN too */
+    return true; /* also for NaN */
 }
 
 static void instance_matrix(const gltf_document *d, const gltf_instanced_node *instanced, size_t i,

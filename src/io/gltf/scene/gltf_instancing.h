@@ -4,11 +4,11 @@
 
 #include "io/gltf/document/gltf_document.h"
 
-/* Finds these nodes and deselects their parts; to be called after ffd_gltf_make_parts. Errors:
-   FFD_E_INVALID, FFD_E_MEMORY. */
+/* Finds these nodes and deselects their parts; call it after ffd_gltf_make_parts. Errors: FFD_E_INVALID,
+   FFD_E_MEMORY. */
 ffd_status ffd_gltf_find_instanced_nodes(gltf_document *document, ffd_error *error);
 
-/* Returns the instances of a node; NULL if it has none. */
+/* Returns the instancing of a node; NULL if it has none. */
 gltf_instanced_node *ffd_gltf_instanced_node(const gltf_document *document, size_t node);
 
 /* mesh_format's check_reach. */

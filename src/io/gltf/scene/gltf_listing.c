@@ -1,5 +1,5 @@
-/* gltf_listing.c - nodes with all below them, meshes and materials by their names, and what they draw where
-   the scene shows it. */
+/* gltf_listing.c - lists nodes with their descendants, meshes and materials by name, and what the scene shows
+   of each. */
 #include "io/gltf/scene/gltf_listing.h"
 #include "base/memory/intern.h"
 #include "base/memory/memory.h"
@@ -11,21 +11,21 @@
 
 #define NO_NAME UINT32_MAX
 
-/* The elements of one kind: each with the number of its name. */
+/* The elements of one kind with their names. */
 typedef struct kind_names {
     selector_kind kind;
     intern_table names;
-    uint32_t *name; /* of each element, NO_NAME: none */
+    uint32_t *name; /* per element: the number of its name; NO_NAME: none */
     size_t count;
-    size_t *next; /* the next element with the same name; GLTF_NONE: none */
+    size_t *next; /* per element: the next one with the same name; GLTF_NONE: none */
 } kind_names;
 
 typedef struct surveying {
     const gltf_document *document;
     mesh_listing *listing;
-    size_t *pending;   /* a stack, of the size of all nodes */
-    size_t *seen;      /* by node: the thing that it was drawn for last */
-    size_t *materials; /* by primitive of all meshes; GLTF_NONE: none */
+    size_t *pending;   /* a stack with room for all nodes */
+    size_t *seen;      /* per node: the listed thing for which it was drawn last */
+    size_t *materials; /* per primitive of all meshes; GLTF_NONE: none */
     ffd_error *error;
 } surveying;
 
@@ -46,7 +46,7 @@ static ffd_status draw_primitive(const surveying *s, size_t m, size_t p, size_t 
     return status;
 }
 
-/* Draws a mesh in some of its uses. */
+/* Draws a mesh for some of its uses. */
 static ffd_status draw_mesh(const surveying *s, size_t m, size_t first, size_t count)
 {
     ffd_status status = FFD_OK;
@@ -63,7 +63,7 @@ static void add_pending(const surveying *s, size_t node, size_t *waiting)
     s->pending[(*waiting)++] = node;
 }
 
-/* What stands in for a node at a distance is selected with it. */
+/* Adds the nodes that replace a node at a distance: they are selected with it. */
 static void add_details(const surveying *s, size_t node, size_t *waiting)
 {
     const gltf_document *d = s->document;
@@ -74,7 +74,7 @@ static void add_details(const surveying *s, size_t node, size_t *waiting)
     }
 }
 
-/* Draws the nodes that are pending and all below them. */
+/* Draws the pending nodes and all their descendants. */
 static ffd_status draw_pending(const surveying *s, size_t waiting)
 {
     const gltf_document *d = s->document;
@@ -100,7 +100,7 @@ static ffd_status draw_node(const surveying *s, size_t node)
     return draw_pending(s, waiting);
 }
 
-/* Draws a mesh wherever it is used, and what stands in for the nodes that use it. */
+/* Draws a mesh for all its uses, and the nodes that replace its nodes at a distance. */
 static ffd_status draw_uses(const surveying *s, size_t mesh)
 {
     const gltf_mesh_uses *uses = &s->document->mesh_uses[mesh];
@@ -131,7 +131,7 @@ static ffd_status draw(const surveying *s, selector_kind kind, size_t number)
     return kind == SELECT_MESH ? draw_uses(s, number) : draw_material(s, number);
 }
 
-/* Numbers the name of one element. */
+/* Finds the number of an element's name. */
 static bool read_name(const gltf_document *d, uint32_t element, kind_names *k, uint32_t *name)
 {
     const uint32_t member = ffd_json_span_member(&d->tree, element, "name");
@@ -140,7 +140,7 @@ static bool read_name(const gltf_document *d, uint32_t element, kind_names *k, u
     if (member == JSON_NONE || d->tree.values[member].kind != JSON_STRING)
         return true;
     char *const text = ffd_json_span_string(&d->tree, member, &size);
-    /* What no argument of a program can be cannot be selected. */
+    /* A name that cannot be a program's argument cannot be selected. */
     const bool usable = text && size > 0 && strlen(text) == size;
     const bool ok = text && (!usable || ffd_intern(&k->names, text, size, name));
     ffd_free(text);
@@ -158,7 +158,7 @@ static bool read_names(const gltf_document *d, const gltf_values *values, kind_n
     return ok && k->name && k->next;
 }
 
-/* Links the elements of each name. first: room for one a name. */
+/* Links the elements of equal names. first: one per name. */
 static void link_names(const kind_names *k, size_t *first)
 {
     for (size_t n = 0; n < k->names.count; n++)

@@ -8,7 +8,7 @@
 #include "mesh/mixed_faces.h"
 #include <string.h>
 
-/* Triangles that a thread looks at at a time, and those whose indices it reads at once. */
+/* Triangles that a thread searches at a time, and triangles whose indices it reads at a time. */
 #define TILE ((size_t)1 << 14)
 #define RUN ((size_t)1024)
 
@@ -16,13 +16,13 @@
 typedef struct mixed_work {
     const gltf_document *document;
     const vertex_marks *marks;
-    size_t indices; /* the accessor; GLTF_NONE: there are none */
+    size_t indices; /* the accessor; GLTF_NONE: no indices */
     size_t first, vertices;
-    face_list *lists; /* of each tile; the numbers of vertices are those of the document */
+    face_list *lists; /* per tile; vertex numbers are those of the document */
 } mixed_work;
 
-/* Lists those of the triangles [first, last), RUN at most, that are mixed. The list fails where an index is
-   out of range. */
+/* Lists the mixed triangles in [first, last), at most RUN triangles. The list fails if an index is out of
+   range. */
 static void search_run(const mixed_work *work, size_t first, size_t last, face_list *list)
 {
     const vertex_marks own = {work->marks->bytes + work->first, work->marks->planes, work->marks->vertices};
@@ -55,7 +55,7 @@ static void search_tile(void *context, size_t tile, size_t first, size_t last, i
         ffd_gltf_forget_elements(work->document, work->indices, 3 * first, 3 * (last - first));
 }
 
-/* Whether a part's vertices are marked alike: its triangles need not be read then. */
+/* Whether all vertices of a part have equal marks: its triangles need not be read then. */
 static bool is_uniform(const mixed_work *work)
 {
     for (size_t p = 0; p < work->marks->planes; p++) {
@@ -87,8 +87,8 @@ static bool search(mixed_work *work, size_t triangles, mixed_lists *all)
     return done;
 }
 
-/* Looks through a primitive under all nodes. Returns false where something is not as plain as here: the faces
-   have to be read in full. */
+/* Searches a primitive under all nodes. Returns false for anything this simple search cannot handle: all
+   faces must then be read. */
 static bool search_primitive(mixed_work *work, const size_t *first, size_t m, size_t p, mixed_lists *all)
 {
     const gltf_document *const d = work->document;

@@ -1,4 +1,4 @@
-/* gltf_mixed.h - the triangles whose vertices are not all marked alike. */
+/* gltf_mixed.h - finds triangles whose vertices have different marks. */
 #ifndef FFD_IO_GLTF_SCENE_GLTF_MIXED_H
 #define FFD_IO_GLTF_SCENE_GLTF_MIXED_H
 

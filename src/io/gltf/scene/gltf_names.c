@@ -3,12 +3,12 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A use of a mesh that has a vertex; primitive 0 and on of it. */
+/* A use of a mesh by a node. */
 typedef struct mesh_use {
-    size_t mesh, use; /* GLTF_NONE: there is none */
+    size_t mesh, use; /* GLTF_NONE: no use */
 } mesh_use;
 
-/* Where the positions of one primitive of the use are. */
+/* Returns the part of the positions of a primitive of the use. */
 static size_t position_part(const gltf_document *d, mesh_use at, size_t primitive)
 {
     return ffd_gltf_instances(d, at.mesh, primitive)[at.use].part[GLTF_POSITION];
@@ -24,7 +24,7 @@ static mesh_use find_use(const gltf_document *d, size_t part)
     return (mesh_use){GLTF_NONE, GLTF_NONE};
 }
 
-/* Counts and clears the marks of a part, whose first vertex has the number first. */
+/* Counts and clears the marks of a part. first: the number of its first vertex. */
 static uint64_t count_part(const gltf_document *d, size_t part, size_t first, uint8_t *marks)
 {
     uint64_t count = 0;
@@ -44,7 +44,7 @@ static uint64_t count_use(const gltf_document *d, mesh_use at, const size_t *fir
     return count;
 }
 
-/* Writes "node:NAME"; false: the element has no name. */
+/* Writes "node:NAME". Returns false if the element has no name. */
 static bool write_name(const gltf_document *d, const char *array, const char *kind, size_t number, char *name,
                        size_t capacity)
 {
@@ -69,7 +69,7 @@ uint64_t ffd_gltf_name_part(const mesh_document *document, uint64_t vertex, uint
     size_t *first, part = 0;
     *name = 0;
     if (ffd_parts_number(document, &first, NULL))
-        return 0; /* a name is not worth a failure */
+        return 0; /* without memory the result has no name, which is not worth a failure */
     while (d->mesh_parts[part].repeats_positions || vertex >= first[part] + d->mesh_parts[part].vertex_count)
         part++;
     const mesh_use at = find_use(d, part);

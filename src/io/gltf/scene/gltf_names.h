@@ -1,10 +1,10 @@
-/* gltf_names.h - what shows a vertex, by its name. */
+/* gltf_names.h - names what shows a vertex. */
 #ifndef FFD_IO_GLTF_SCENE_GLTF_NAMES_H
 #define FFD_IO_GLTF_SCENE_GLTF_NAMES_H
 
 #include "io/gltf/document/gltf_document.h"
 
-/* mesh_format's name_part: the node or, where it has no name, the mesh. */
+/* mesh_format's name_part: the node, or the mesh if the node has no name. */
 mesh_name_part_function ffd_gltf_name_part;
 
 #endif

@@ -7,15 +7,15 @@
 
 #define MOST_VERTICES ((uint64_t)UINT32_MAX - 1)
 
-/* Memory that is kept for a primitive under a node, and that making the parts and saving the file need
-   for it. */
+/* Memory that a primitive under a node takes while the file is open, plus what making the parts and saving
+   need for it. */
 #define INSTANCE_BYTES                                                                                       \
     (sizeof(gltf_instance) + sizeof(gltf_part) + sizeof(mesh_part) + 4 * sizeof(size_t) + SAVED_BYTES)
 #define SAVED_BYTES 400
 
-/* A hash table of the parts by POSITION accessor, node and, with a skin, influences. */
+/* A hash table of the parts, by POSITION accessor, node and (with a skin) influences. */
 typedef struct part_table {
-    size_t *heads; /* first part of a slot's key; GLTF_NONE: free */
+    size_t *heads; /* the first part with a slot's key; GLTF_NONE: free */
     size_t mask;
     size_t *next; /* the next part with the same key */
 } part_table;
@@ -26,7 +26,7 @@ static ffd_status count_instances(gltf_document *d, size_t *total, ffd_error *er
     *total = 0;
     for (size_t m = 0; m < d->model.mesh_count && status == FFD_OK; m++) {
         const uint64_t instances =
-            (uint64_t)d->model.meshes[m].primitive_count * d->mesh_uses[m].node_count; /* below 2^31 each */
+            (uint64_t)d->model.meshes[m].primitive_count * d->mesh_uses[m].node_count; /* each below 2^31 */
         d->mesh_uses[m].first_instance = *total;
         status = ffd_budget_take(&d->base.budget, instances, INSTANCE_BYTES, error);
         *total += (size_t)instances;
@@ -34,7 +34,7 @@ static ffd_status count_instances(gltf_document *d, size_t *total, ffd_error *er
     return status;
 }
 
-/* Whether two parts of one node have the same joints and weights. */
+/* Whether two parts of one node have equal joints and weights. */
 static bool same_influences(const gltf_part *a, const gltf_part *b)
 {
     if (a->influence_count != b->influence_count)
@@ -70,7 +70,7 @@ static size_t readable_accessor(const gltf_document *d, const gltf_primitive *pr
     return accessor >= 0 && d->layouts[accessor].readable ? (size_t)accessor : GLTF_NONE;
 }
 
-/* Whether the part deforms a primitive with these attributes. A tangent depends on its normal. */
+/* Whether the part can deform a primitive with these attributes. A tangent depends on its normal. */
 static bool serves(const gltf_part *part, size_t normal, size_t tangent)
 {
     return (normal == GLTF_NONE || part->streams[GLTF_NORMAL].accessor == normal) &&
@@ -108,7 +108,7 @@ static size_t add_part(gltf_document *d, const gltf_part *part, size_t repeated)
     return index;
 }
 
-/* Returns the part that a primitive under a node needs. */
+/* Describes the part that a primitive under a node needs. */
 static gltf_part describe_part(const gltf_document *d, const gltf_primitive *primitive, size_t node)
 {
     gltf_part part = {.node = node, .first_splat = GLTF_NONE};
@@ -167,7 +167,7 @@ static ffd_status limit_vertices(const gltf_document *d, ffd_error *error)
             return ffd_fail_file(error, FFD_E_LIMIT, d->name, "its scene has more than %llu vertices",
                                  (unsigned long long)MOST_VERTICES);
     }
-    /* Any pass over all vertices keeps at least this for each. */
+    /* Any pass over all vertices takes at least this for each. */
     return ffd_budget_check(&d->base.budget, vertices, sizeof(float[3]), error);
 }
 

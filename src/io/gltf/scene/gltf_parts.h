@@ -1,4 +1,4 @@
-/* gltf_parts.h - the parts: each POSITION accessor under each node, once. */
+/* gltf_parts.h - makes the parts: one per POSITION accessor and node. */
 #ifndef FFD_IO_GLTF_SCENE_GLTF_PARTS_H
 #define FFD_IO_GLTF_SCENE_GLTF_PARTS_H
 

@@ -3,9 +3,9 @@
 #include "io/gltf/refer/gltf_index_table.h"
 #include <string.h>
 
-/* Where a node names an element, and where the list is that it is of. */
+/* Where a node refers to an element, and where the list of these elements is. */
 typedef struct place {
-    const char *extension, *inside[3]; /* of the node; NULL: nothing more */
+    const char *extension, *inside[3]; /* members inside the node; NULL: the end */
     const char *list_extension, *list; /* of the file */
 } place;
 
@@ -50,8 +50,8 @@ static bool is_transform(const char *path)
     return strcmp(path, "translation") == 0 || strcmp(path, "rotation") == 0 || strcmp(path, "scale") == 0;
 }
 
-/* The node of a pointer of KHR_animation_pointer, "/nodes/3/rotation". known: false if there is no such node.
- */
+/* Returns the node of a pointer of KHR_animation_pointer like "/nodes/3/rotation". *known is false if that
+   node does not exist. */
 static size_t pointed_node(const gltf_document *d, const char *pointer, bool *known)
 {
     static const char nodes[] = "/nodes/";

@@ -38,7 +38,7 @@ static ffd_status refuse_primitive(const gltf_document *d, size_t m, size_t p, f
     return status;
 }
 
-/* What moves the vertices of a node with a skin must be readable. */
+/* Refuses a skin whose joints or weights cannot be read: they move the vertices of the node. */
 static ffd_status refuse_skin(const gltf_document *d, size_t node, ffd_error *error)
 {
     const size_t m = (size_t)d->model.nodes[node].mesh;
@@ -66,7 +66,7 @@ static ffd_status refuse_shared_child(const gltf_document *d, ffd_error *error)
                               d->shared_by[1]);
 }
 
-/* A reader of 2.0 reads all of 2.x unless the file says that a newer one is needed (glTF 2.0, 3.2). */
+/* A reader of 2.0 can read any 2.x unless the file requires a newer version (glTF 2.0, 3.2). */
 static ffd_status refuse_newer_version(const gltf_document *d, ffd_error *error)
 {
     const uint32_t version =
@@ -112,7 +112,7 @@ ffd_status ffd_gltf_refuse_read(const gltf_document *d, ffd_error *error)
     return status;
 }
 
-/* Refuses accessors that cannot be read: their results could be written neither in place nor as a copy. */
+/* Refuses accessors that cannot be read: results could be written neither in place nor into a copy. */
 ffd_status ffd_gltf_refuse_store(const gltf_document *d, bool normals, bool tangents, ffd_error *error)
 {
     for (size_t m = 0; m < d->model.mesh_count; m++) {

@@ -2,22 +2,22 @@
 #include "base/memory/memory.h"
 #include <string.h>
 
-/* What an extension that a file requires is to the vertices. */
+/* The effect of a required extension on the vertices. */
 typedef enum extension_effect {
     EXTENSION_UNKNOWN,
-    EXTENSION_APART,  /* no vertex stands elsewhere, or is stored otherwise, because of it */
-    EXTENSION_READ,   /* it is read where it is used */
-    EXTENSION_PLACES, /* it places vertices, in a way that is not supported */
-    EXTENSION_HOLDS   /* it holds geometry, in a form that is not supported */
+    EXTENSION_APART,  /* none: no vertex is elsewhere or stored differently because of it */
+    EXTENSION_READ,   /* supported where it is used */
+    EXTENSION_PLACES, /* it places vertices, which is not supported */
+    EXTENSION_HOLDS   /* it holds geometry in an unsupported form */
 } extension_effect;
 
 typedef struct known_extension {
-    const char *name; /* a final '*' stands for any letters: of two that fit the first counts */
+    const char *name; /* a final '*' stands for any letters; the first match counts */
     extension_effect effect;
 } known_extension;
 
-/* The names of the registry (github.com/KhronosGroup/glTF, extensions, July 2026), with its archive and
-   drafts, and those that widespread programs write beside. */
+/* The extensions of the registry (github.com/KhronosGroup/glTF, extensions, July 2026) with its archive and
+   drafts, and others that widespread programs write. */
 static const known_extension known[] = {
     {"KHR_accessor_float64", EXTENSION_HOLDS},
     {"KHR_animation_pointer", EXTENSION_READ},
@@ -63,7 +63,7 @@ static const known_extension known[] = {
     {"EXT_texture*", EXTENSION_APART},
 
     {"ADOBE_materials_*", EXTENSION_APART},
-    {"AGI_articulations", EXTENSION_PLACES}, /* a stage need not begin at nothing */
+    {"AGI_articulations", EXTENSION_PLACES}, /* a stage need not start at 0 */
     {"AGI_stk_metadata", EXTENSION_APART},
     {"ASOBO_asset_optimized", EXTENSION_HOLDS},
     {"ASOBO_*", EXTENSION_APART},

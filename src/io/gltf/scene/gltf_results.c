@@ -18,7 +18,8 @@ static size_t tile_end(const gltf_document *d, size_t part, size_t tile)
     return count - tile * MESH_RANGE_STEP < MESH_RANGE_STEP ? count : (tile + 1) * MESH_RANGE_STEP;
 }
 
-/* Copies the originals to a tile that is not filled yet: those that are shown, where results are of these. */
+/* Copies the original vectors to a tile that is not filled yet: the shown ones, if results are of the shown
+   shape. */
 static void begin_tile(const gltf_document *d, size_t part, const gltf_stream *stream, size_t tile)
 {
     const size_t first = tile * MESH_RANGE_STEP, count = tile_end(d, part, tile) - first;
@@ -34,7 +35,8 @@ static void begin_tile(const gltf_document *d, size_t part, const gltf_stream *s
         result[i] = (float)shown[i];
 }
 
-/* Fills the tiles of vectors [first, last) before their results are written. whole: all of them will be. */
+/* Fills the tiles of vectors [first, last) before results are written there. whole: all these vectors will be
+   written. */
 static void begin_tiles(const gltf_document *d, size_t part, const gltf_stream *stream, size_t first,
                         size_t last, bool whole)
 {
@@ -45,7 +47,7 @@ static void begin_tiles(const gltf_document *d, size_t part, const gltf_stream *
             begin_tile(d, part, stream, t);
 }
 
-/* Vectors per step: compilers turn these loops into SIMD. */
+/* Vectors per step, so that the compiler vectorizes these loops. */
 #define GROUP 4
 
 gltf_tile_bounds ffd_gltf_find_bounds(const float *xyz, size_t count)
@@ -73,7 +75,7 @@ gltf_tile_bounds ffd_gltf_find_bounds(const float *xyz, size_t count)
     return (gltf_tile_bounds){{least[0], least[1], least[2]}, {largest[0], largest[1], largest[2]}};
 }
 
-/* Updates the bounds of a tile that is in the cache. */
+/* Updates the bounds of a tile while it is in the cache. */
 static void note_bounds(const gltf_document *d, size_t part, const gltf_stream *stream, size_t tile)
 {
     const size_t first = tile * MESH_RANGE_STEP;
@@ -109,9 +111,9 @@ void ffd_gltf_free_result(gltf_stream *stream)
     stream->bounds = NULL;
 }
 
-/* Makes the result of a stream. For a morph target it is zeros. Else it is the file's content, but a
-   tile of it is copied only when it is needed: most tiles are overwritten whole, and the rest was just
-   read and is in the cache. */
+/* Makes the result of a stream. Offsets of a further morph target start as zeros. Other results start as the
+   file's content, but a tile is copied only when needed: most tiles are overwritten as a whole, and the
+   others were just read and are in the cache. */
 static ffd_status make_result(gltf_document *d, size_t part, gltf_semantic semantic, ffd_error *error)
 {
     gltf_stream *stream = &d->parts[part].streams[semantic];
@@ -138,7 +140,7 @@ static ffd_status make_result(gltf_document *d, size_t part, gltf_semantic seman
     return stream->filled && (stream->bounds || semantic != GLTF_POSITION) ? FFD_OK : ffd_fail_memory(error);
 }
 
-/* Drops the result of an earlier deformation. */
+/* Frees the result of an earlier deformation. */
 static void drop_result(gltf_document *d, size_t part, gltf_semantic semantic)
 {
     gltf_stream *stream = &d->parts[part].streams[semantic];
@@ -168,7 +170,7 @@ ffd_status ffd_gltf_begin_results(mesh_document *document, bool normals, bool ta
     if (status == FFD_OK)
         status = ffd_gltf_refuse_store(d, normals, tangents, error);
     d->morph_normals = normals;
-    /* What is converted has no morph targets. */
+    /* Converted meshes have no morph targets. */
     const bool targets = !d->morph_name && !d->base.converted;
     for (size_t i = 0; i < (targets ? ffd_gltf_shape_end(d) : d->base.part_count); i++)
         for (int s = 0; s < GLTF_DEFORMED && status == FFD_OK; s++)
@@ -179,8 +181,8 @@ ffd_status ffd_gltf_begin_results(mesh_document *document, bool normals, bool ta
     return status;
 }
 
-/* Whether results are rounded to the accessor's type. Directions in integers that are not normalized or
-   not signed are not valid, and cannot represent unit vectors: they become floats. */
+/* Whether results are rounded to the accessor's type. Directions as integers that are not normalized or not
+   signed are not valid and cannot represent unit vectors: they become floats. */
 static bool has_steps(const gltf_accessor *accessor, gltf_semantic semantic)
 {
     if (accessor->component == GLTF_FLOAT)
@@ -198,7 +200,7 @@ static void write_offset(const gltf_document *d, const gltf_stream *stream, size
         stream->result[3 * i + c] = (float)(value[c] - original[c]);
 }
 
-/* Whether results are only rounded to float. */
+/* Whether results are rounded only to float. */
 static bool is_plain(const gltf_document *d, const gltf_stream *stream, gltf_semantic semantic)
 {
     return !d->morph_name &&
@@ -221,7 +223,7 @@ static void write_changed(const gltf_document *d, const gltf_stream *stream, boo
     }
 }
 
-/* Writes results that are only rounded: as many together as changed one after the other. */
+/* Writes results that are rounded only to float, in runs of consecutive changed vectors. */
 static void round_changed(const gltf_stream *stream, size_t first, size_t count, const double *xyz,
                           const uint8_t *changed)
 {

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-/* T R S with the quaternion x,y,z,w (glTF 2.0, 3.5.3). */
+/* T R S, with the quaternion x,y,z,w (glTF 2.0, 3.5.3). */
 void ffd_gltf_local_matrix(const gltf_node *node, double linear[9], double offset[3])
 {
     if (node->has_matrix) {
@@ -51,7 +51,7 @@ static void set_world_matrix(gltf_document *d, size_t n, const double *parent)
     memcpy(world + 9, offset, sizeof offset);
 }
 
-/* twice: a node that its parent names twice, which says the same again; GLTF_NONE: there is none. */
+/* *twice: a node that its parent lists twice, which is harmless; GLTF_NONE: none. */
 static void find_parents(gltf_document *d, size_t *twice)
 {
     size_t *const parents = d->parents;
@@ -73,8 +73,8 @@ static void find_parents(gltf_document *d, size_t *twice)
         }
 }
 
-/* Since each node has one parent, a node is in a cycle or below one exactly if it is not reached from a
-   root. order becomes all nodes, parents first. */
+/* Refuses cycles. Each node has one parent, so a node is in or below a cycle exactly if it cannot be reached
+   from a root. order becomes all nodes, parents before children. */
 static ffd_status refuse_cycles(const gltf_document *d, const size_t *parents, size_t *order,
                                 ffd_error *error)
 {
@@ -106,7 +106,7 @@ static ffd_status refuse_cycles(const gltf_document *d, const size_t *parents, s
     return status;
 }
 
-/* All nodes get a world matrix: joints may be outside the scene. */
+/* All nodes get a world matrix, because joints may be outside the scene. */
 static void set_world_matrices(gltf_document *d, const size_t *parents, const size_t *order)
 {
     for (size_t i = 0; i < d->model.node_count; i++) {
@@ -115,7 +115,7 @@ static void set_world_matrices(gltf_document *d, const size_t *parents, const si
     }
 }
 
-/* Adds a root and all nodes below it to the scene, after the nodes that are there. */
+/* Adds a root and all its descendants to the end of the scene. */
 static void add_subtree(gltf_document *d, size_t root, const size_t *parents, size_t *pending)
 {
     size_t waiting = 0;
@@ -125,7 +125,7 @@ static void add_subtree(gltf_document *d, size_t root, const size_t *parents, si
         const size_t n = pending[--waiting];
         const gltf_node *node = &d->model.nodes[n];
         d->scene_ranks[n] = d->nodes_in_scene++;
-        for (size_t i = node->child_count; i-- > 0;) { /* the first one is taken next */
+        for (size_t i = node->child_count; i-- > 0;) { /* reversed, so that the first child is taken next */
             const size_t child = (size_t)node->children[i];
             if (parents[child] != n || d->in_scene[child])
                 continue;
@@ -135,7 +135,7 @@ static void add_subtree(gltf_document *d, size_t root, const size_t *parents, si
     }
 }
 
-/* Whether the matrix of a node in the scene is that of no transform. */
+/* Whether a world matrix is the identity. */
 static bool is_identity(const double world[12])
 {
     static const double identity[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
@@ -145,8 +145,8 @@ static bool is_identity(const double world[12])
     return true;
 }
 
-/* A root that is a child too stands where its parent places it. Viewers that place it as a root show the same
-   where the parent does not move it. */
+/* Notes a root that is also a child. It is placed by its parent; viewers that place it as a root show the
+   same if the parent's world matrix is the identity. */
 static ffd_status note_child(gltf_document *d, size_t root, size_t parent, ffd_error *error)
 {
     const uint32_t value = d->node_values.values[root];
@@ -159,7 +159,7 @@ static ffd_status note_child(gltf_document *d, size_t root, size_t parent, ffd_e
                          parent);
 }
 
-/* Sets for every node whether the scene names it, or a node above it. */
+/* Sets named[n] if the scene lists node n or an ancestor. */
 static ffd_status mark_named(gltf_document *d, const gltf_scene *scene, const size_t *parents,
                              const size_t *order, bool *named, ffd_error *error)
 {
@@ -178,7 +178,7 @@ static ffd_status mark_named(gltf_document *d, const gltf_scene *scene, const si
     return status;
 }
 
-/* Adds what the scene names, but for what is below something else that it names. */
+/* Adds the nodes that the scene lists, except those below another listed node. */
 static ffd_status add_scene(gltf_document *d, const size_t *parents, size_t *pending, ffd_error *error)
 {
     const gltf_scene *scene = &d->model.scenes[d->model.scene >= 0 ? d->model.scene : 0];
@@ -196,7 +196,7 @@ static ffd_status add_scene(gltf_document *d, const size_t *parents, size_t *pen
     return status;
 }
 
-/* Without scenes all roots are shown, but those that only stand for others at a distance. */
+/* Without scenes all roots are shown, except those that only replace others at a distance. */
 static void add_roots(gltf_document *d, const size_t *parents, size_t *pending)
 {
     const size_t count = d->model.node_count;
@@ -210,7 +210,7 @@ static void add_roots(gltf_document *d, const size_t *parents, size_t *pending)
     memset(d->stands_in, 0, count * sizeof *d->stands_in);
 }
 
-/* Adds a node to the scene as one that stands in for another, at its place below its parent. */
+/* Adds a node to the scene that replaces another at a distance, placed by its parent. */
 static void add_stand_in(gltf_document *d, size_t n, const size_t *parents, size_t *queue, size_t *added)
 {
     set_world_matrix(d, n, parents[n] == GLTF_NONE ? NULL : d->world + 12 * parents[n]);
@@ -219,7 +219,7 @@ static void add_stand_in(gltf_document *d, size_t n, const size_t *parents, size
     queue[(*added)++] = n;
 }
 
-/* Whether what is below one node (GLTF_NONE: the scene itself) stands as it would below another. */
+/* Whether two parents (GLTF_NONE: the scene itself) have equal world matrices. */
 static bool stand_alike(const gltf_document *d, size_t a, size_t b)
 {
     static const double scene[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
@@ -231,9 +231,9 @@ static bool stand_alike(const gltf_document *d, size_t a, size_t b)
     return alike;
 }
 
-/* Adds the coarser levels of detail of all nodes in the scene, as if each were a child of the parent of the
-   node that it stands for, whatever its own parent. They are in no scene, since they are not shown together
-   with that node. */
+/* Adds the coarser levels of detail of all nodes in the scene. Each is placed as a child of the parent of the
+   node that it replaces, whatever its own parent. No scene lists it, since it is not shown together with that
+   node. */
 static void add_details(gltf_document *d, size_t *parents, size_t *queue)
 {
     size_t added = 0;

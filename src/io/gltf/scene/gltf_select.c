@@ -1,4 +1,4 @@
-/* gltf_select.c - which primitives under which nodes `--only` selects, and which vertices these draw. */
+/* gltf_select.c - finds the primitives and nodes that `--only` selects, and the vertices that these draw. */
 #include "io/gltf/scene/gltf_select.h"
 #include "base/memory/memory.h"
 #include "io/gltf/scene/gltf_detail.h"
@@ -10,8 +10,8 @@ typedef struct selecting {
     gltf_document *document;
     const mesh_selector *selectors;
     size_t count;
-    bool *nodes, *meshes, *materials; /* is selected */
-    size_t *pending;                  /* a stack, of the size of all nodes */
+    bool *nodes, *meshes, *materials; /* per element: whether it is selected */
+    size_t *pending;                  /* a stack with room for all nodes */
     size_t material_count;
 } selecting;
 
@@ -49,7 +49,7 @@ static void mark_node(const selecting *s, size_t node, size_t *waiting)
     s->pending[(*waiting)++] = node;
 }
 
-/* Marks the nodes that stand in for a node at a distance. */
+/* Marks the nodes that replace a node at a distance. */
 static void mark_details(const selecting *s, size_t node, size_t *waiting)
 {
     const gltf_document *d = s->document;
@@ -60,7 +60,7 @@ static void mark_details(const selecting *s, size_t node, size_t *waiting)
     }
 }
 
-/* Marks all below the nodes that wait, and what stands in for any of them. */
+/* Marks the descendants of the waiting nodes, and the nodes that replace any of them at a distance. */
 static void mark_below(const selecting *s, size_t waiting)
 {
     while (waiting > 0) {
@@ -72,7 +72,7 @@ static void mark_below(const selecting *s, size_t waiting)
     }
 }
 
-/* Marks a mesh, and what stands in at a distance for the nodes that show it. */
+/* Marks a mesh, and the nodes that replace its nodes at a distance. */
 static void mark_mesh(const selecting *s, size_t mesh)
 {
     const gltf_mesh_uses *uses = &s->document->mesh_uses[mesh];
@@ -96,7 +96,7 @@ static void mark(const selecting *s, selector_kind kind, size_t number)
     }
 }
 
-/* Marks all that have the selector's name. */
+/* Marks all elements with the selector's name. */
 static ffd_status mark_named(const selecting *s, const mesh_selector *selector, ffd_error *error)
 {
     const gltf_document *d = s->document;
@@ -114,7 +114,7 @@ static ffd_status mark_named(const selecting *s, const mesh_selector *selector, 
     return found ? FFD_OK : refuse_unknown(d, selector, error);
 }
 
-/* In mesh space, a node selects its mesh. */
+/* In mesh space, selecting a node selects its mesh. */
 static void mark_meshes_of_nodes(const selecting *s)
 {
     const gltf_model *model = &s->document->model;
@@ -133,7 +133,7 @@ static bool has_material(const selecting *s, size_t m, size_t p)
            number >= 0 && number < (double)s->material_count && s->materials[(size_t)number];
 }
 
-/* Makes a part's selection, with nothing selected yet. */
+/* Allocates a part's selection, empty. */
 static ffd_status open_part(gltf_document *d, size_t part, ffd_error *error)
 {
     if (d->parts[part].selected)
@@ -146,7 +146,7 @@ static ffd_status open_part(gltf_document *d, size_t part, ffd_error *error)
     return FFD_OK;
 }
 
-/* Marks what a primitive draws in the parts of one instance. */
+/* Marks the vertices that a primitive draws in the parts of one instance. */
 static ffd_status mark_vertices(gltf_document *d, const gltf_instance *instance, const uint32_t *corners,
                                 size_t count, ffd_error *error)
 {

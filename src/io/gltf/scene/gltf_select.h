@@ -1,4 +1,4 @@
-/* gltf_select.h - which primitives under which nodes `--only` selects. */
+/* gltf_select.h - finds the primitives and nodes that `--only` selects. */
 #ifndef FFD_IO_GLTF_SCENE_GLTF_SELECT_H
 #define FFD_IO_GLTF_SCENE_GLTF_SELECT_H
 

@@ -13,8 +13,7 @@ typedef struct target {
     size_t accessors[GLTF_DEFORMED]; /* GLTF_NONE: absent */
 } target;
 
-/* Memory that is kept for a target under a node, and that is needed meanwhile (with a
-   hash table half full). */
+/* Memory of a target under a node, with what making it needs (its hash table is half full). */
 #define TARGET_BYTES                                                                                         \
     (sizeof(gltf_part) + sizeof(mesh_part) + sizeof(mesh_shape) + sizeof(target) + 5 * sizeof(size_t))
 
@@ -63,15 +62,16 @@ static ffd_status count_targets(gltf_document *d, size_t *total, ffd_error *erro
     return FFD_OK;
 }
 
-/* The part whose shapes an instance's targets are: the one that has its normals, if it has any. */
+/* Returns the part to which an instance's targets belong: that of its normals, or of its positions without
+   normals. */
 static size_t part_of_targets(const gltf_instance *instance)
 {
     const size_t normals = instance->part[GLTF_NORMAL];
     return normals != GLTF_NONE ? normals : instance->part[GLTF_POSITION];
 }
 
-/* Returns the target's number. Offsets of attributes that the primitive lacks are ignored; GLTF_NONE if
-   no others are left. */
+/* Returns the number of a target. Offsets of attributes that the primitive lacks are ignored; GLTF_NONE if no
+   others remain. */
 static size_t add_target(const gltf_document *d, target_table *table, const gltf_primitive *primitive,
                          const gltf_instance *instance, const int *accessors)
 {
@@ -131,7 +131,7 @@ static void fill_shape(gltf_document *d, const target *from, size_t number)
         d->shapes[number].rounding = ffd_gltf_rounding(d, from->accessors[GLTF_POSITION]);
 }
 
-/* Grows the parts by count, which hold the results of targets. */
+/* Enlarges the parts by count elements, for the results of targets. */
 static bool grow_parts(gltf_document *d, size_t count)
 {
     const size_t all = d->base.part_count + count;
@@ -186,7 +186,7 @@ bool ffd_gltf_weight(const gltf_document *d, uint32_t value, double *weight)
     return ffd_json_span_number(&d->tree, value, weight) && fabs(*weight) <= FLT_MAX;
 }
 
-/* Adds a primitive's weights to the shapes of its part; two of its targets may be one shape. */
+/* Adds a primitive's weights to the shapes of its part; several of its targets may be the same shape. */
 static void add_weights(gltf_document *d, const gltf_instance *instance, size_t targets, uint32_t weight)
 {
     for (size_t t = 0; t < targets && weight != JSON_NONE;
@@ -206,7 +206,7 @@ static void note_shown(gltf_document *d)
                 d->mesh_parts[i].shows_shapes || d->mesh_parts[i].shapes[s].weight != 0;
 }
 
-/* Of primitives that share a part, which is one node's, the first one has a say. */
+/* Primitives of one node can share a part: the weights of the first one count. */
 static ffd_status set_weights(gltf_document *d, ffd_error *error)
 {
     const gltf_instance *instance = d->instances;

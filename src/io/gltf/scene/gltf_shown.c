@@ -2,7 +2,7 @@
 #include "base/vector/vec.h"
 #include "io/gltf/decode/gltf_read.h"
 
-/* Vectors that are read at once. */
+/* Vectors read at a time. */
 #define BLOCK ((size_t)64)
 
 static void add_offsets(const gltf_document *d, size_t accessor, double weight, size_t first, size_t count,

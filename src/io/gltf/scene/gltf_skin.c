@@ -10,7 +10,7 @@
 #include <string.h>
 
 #define MOST_SETS ((size_t)16) /* JOINTS_0 to JOINTS_15 */
-#define BLOCK ((size_t)32)     /* vertices that are read at once */
+#define BLOCK ((size_t)32)     /* vertices read at a time */
 
 static ffd_status list_joints(const gltf_document *d, uint32_t value, gltf_skin *skin, ffd_error *error)
 {
@@ -83,7 +83,7 @@ void ffd_gltf_free_skins(gltf_document *d)
     ffd_free(d->skins);
 }
 
-/* Reads joint j's inverse bind matrix, which the file stores column by column. */
+/* Reads joint j's inverse bind matrix, which is stored column by column. */
 static ffd_status read_inverse_bind(const gltf_document *d, const gltf_skin *skin, size_t j,
                                     double matrix[12], ffd_error *error)
 {
@@ -141,7 +141,7 @@ static ffd_status make_joint_matrices(gltf_document *d, gltf_skin *skin, ffd_err
         return ffd_fail_memory(error);
     const ffd_status status = skin->inverse_bind < 0 ? FFD_OK : check_inverse_bind(d, skin, error);
     if (status || (skin->inverse_bind >= 0 && !d->layouts[skin->inverse_bind].readable))
-        return status; /* ffd_gltf_refuse_read refuses what cannot be read */
+        return status; /* ffd_gltf_refuse_read refuses the skin where it is used */
     return ffd_gltf_joint_matrices(d, skin, d->world, skin->matrices, error);
 }
 
@@ -165,7 +165,7 @@ static bool has_shape(const gltf_accessor *accessor, bool weights)
                    : small && !accessor->normalized;
 }
 
-/* Returns one more than the largest joint index of an accessor; largest caches it (0: not known yet). */
+/* Returns the largest joint index of an accessor plus 1. largest caches it (0: not computed yet). */
 static size_t count_joints(const gltf_document *d, size_t accessor, size_t *largest)
 {
     const size_t count = (size_t)d->model.accessors[accessor].count;
@@ -248,7 +248,7 @@ ffd_status ffd_gltf_prepare_skins(gltf_document *d, ffd_error *error)
     return status;
 }
 
-/* One joint's influence on a vertex. */
+/* The influence of one joint on a vertex. */
 typedef struct joint_weight {
     size_t joint;
     double weight;
@@ -268,7 +268,7 @@ static void sort_joint_weights(joint_weight *terms, size_t count)
         }
 }
 
-/* Sums of weights that are floats miss 1 by less than this. */
+/* Sums of float weights differ from 1 by less than this. */
 #define SUM_ROUNDING 1e-6
 
 static void note_sum(double total, skin_weights *found)
@@ -282,8 +282,8 @@ static void note_sum(double total, skin_weights *found)
         found->farthest = off;
 }
 
-/* The sum of weight * matrix, divided by the sum of the weights. That should be 1, and viewers normalize it
-   if it is not; a vertex whose weights are all 0 they give to its first joint. */
+/* Computes the sum of weight * matrix, divided by the sum of the weights. That sum should be 1; if it is not,
+   viewers normalize the weights. If all weights are 0, viewers let the vertex follow its first joint. */
 static void blend(const gltf_skin *skin, joint_weight *terms, size_t count, double transform[12],
                   skin_weights *found)
 {

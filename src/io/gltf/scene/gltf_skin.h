@@ -7,12 +7,12 @@
 /* Reads document->skins, without their matrices. Errors: FFD_E_INVALID, FFD_E_MEMORY. */
 ffd_status ffd_gltf_list_skins(gltf_document *document, ffd_error *error);
 
-/* Computes the joint matrices of the skins that nodes of the scene have, and checks the joints and weights of
+/* Computes the joint matrices of the skins that nodes of the scene use, and checks the joints and weights of
    their meshes. Errors: FFD_E_INVALID, FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_gltf_prepare_skins(gltf_document *document, ffd_error *error);
 
-/* Computes the joint matrices of a skin that is prepared, 12 numbers per joint, from matrices of the nodes
-   that are laid out as document->world. Errors: FFD_E_INVALID. */
+/* Computes the joint matrices of a prepared skin, 12 numbers per joint. worlds: the nodes' world matrices,
+   laid out as document->world. Errors: FFD_E_INVALID. */
 ffd_status ffd_gltf_joint_matrices(const gltf_document *document, const gltf_skin *skin, const double *worlds,
                                    double *matrices, ffd_error *error);
 

@@ -5,7 +5,7 @@
 #include <stdatomic.h>
 #include <string.h>
 
-/* Indices that are read at a time, and those that a thread looks at, whose pages it then releases. */
+/* Indices read at a time, and indices in a thread's tile, whose mmap pages are then released. */
 #define RUN ((size_t)4096)
 #define TILE (16 * RUN)
 
@@ -15,10 +15,10 @@ typedef struct drawn_primitive {
     const gltf_instance *instances;
     size_t nodes;
     size_t indices;     /* the accessor */
-    atomic_bool failed; /* an index is out of range */
+    atomic_bool failed; /* set if an index is out of range */
 } drawn_primitive;
 
-/* The part of a node that takes marks; NULL: there is none, or all its vertices are marked. */
+/* Returns the part to mark for a node; NULL: no part, or all its vertices are marked. */
 static gltf_part *part_of(const drawn_primitive *primitive, size_t node)
 {
     const size_t part = primitive->instances[node].part[GLTF_POSITION];
@@ -31,7 +31,7 @@ static size_t vertices_of(const drawn_primitive *primitive, size_t node)
     return primitive->document->mesh_parts[primitive->instances[node].part[GLTF_POSITION]].vertex_count;
 }
 
-/* Marks all vertices: of a primitive without indices, or with some that cannot be read. */
+/* Marks all vertices, for a primitive without indices or with indices that cannot be read. */
 static void mark_all(const drawn_primitive *primitive)
 {
     for (size_t n = 0; n < primitive->nodes; n++) {
@@ -44,7 +44,7 @@ static void mark_all(const drawn_primitive *primitive)
     }
 }
 
-/* Sets the bytes of vertices, as other threads may do at the same time. */
+/* Sets the bytes of vertices. Other threads may set the same bytes at the same time. */
 static void mark(uint8_t *used, const uint32_t *vertices, size_t count)
 {
     for (size_t i = 0; i < count; i++)
@@ -91,7 +91,7 @@ static ffd_status mark_indices(drawn_primitive *primitive, ffd_error *error)
     return FFD_OK;
 }
 
-/* Marks what a primitive draws in the part of each node that shows it. */
+/* Marks the vertices that a primitive draws, in the part of each node that shows it. */
 static ffd_status mark_primitive(gltf_document *d, size_t m, size_t p, ffd_error *error)
 {
     const gltf_primitive *const primitive = &d->model.meshes[m].primitives[p];

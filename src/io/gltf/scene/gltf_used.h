@@ -1,10 +1,10 @@
-/* gltf_used.h - which vertices primitives draw. */
+/* gltf_used.h - finds the vertices that primitives draw. */
 #ifndef FFD_IO_GLTF_SCENE_GLTF_USED_H
 #define FFD_IO_GLTF_SCENE_GLTF_USED_H
 
 #include "io/gltf/document/gltf_document.h"
 
-/* The entry of the format's table. */
+/* mesh_format's mark_used. */
 mesh_mark_used_function ffd_gltf_mark_used;
 
 #endif

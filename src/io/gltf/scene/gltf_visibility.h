@@ -1,11 +1,11 @@
-/* gltf_visibility.h - which nodes KHR_node_visibility hides. */
+/* gltf_visibility.h - finds the nodes that KHR_node_visibility hides. */
 #ifndef FFD_IO_GLTF_SCENE_GLTF_VISIBILITY_H
 #define FFD_IO_GLTF_SCENE_GLTF_VISIBILITY_H
 
 #include "io/gltf/document/gltf_document.h"
 
-/* Fills document->hidden: a node that is not visible hides all nodes below it. parents, order: of all nodes,
-   order has parents first. Errors: FFD_E_MEMORY. */
+/* Fills document->hidden: an invisible node hides all its descendants. parents: per node; order: all nodes,
+   parents before children. Errors: FFD_E_MEMORY. */
 ffd_status ffd_gltf_find_hidden(gltf_document *document, const size_t *parents, const size_t *order,
                                 ffd_error *error);
 

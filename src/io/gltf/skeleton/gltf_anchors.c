@@ -1,4 +1,4 @@
-/* gltf_anchors.c - the vertices of a file, and the offsets of its morph targets, in a skeleton. */
+/* gltf_anchors.c - places the vertices of a file and the offsets of its morph targets in a skeleton. */
 #include "base/memory/memory.h"
 #include "io/gltf/decode/gltf_read.h"
 #include "io/gltf/scene/gltf_scene.h"
@@ -10,13 +10,13 @@ typedef struct anchor_work {
     const gltf_skeleton *rig;
     bool after;
     mesh_anchors *anchors;
-    size_t *first; /* of each part, the number of its first vertex */
-    bool *driven;  /* of each node: a loaded animation drives its weights */
-    bool *is_done; /* of each part: its targets are known */
+    size_t *first; /* per part: the number of its first vertex */
+    bool *driven;  /* per node: whether a loaded animation drives its weights */
+    bool *is_done; /* per part: whether its targets are done */
     ffd_error *error;
 } anchor_work;
 
-/* The matrix that takes a part's vertices to their anchors. */
+/* Returns the matrix from a part's vertices to their anchors. */
 static const double *rest_of(const anchor_work *w, size_t part)
 {
     static const double identity[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
@@ -29,8 +29,8 @@ static const double *rest_of(const anchor_work *w, size_t part)
     return mat_invert(world, inverse) ? world : identity;
 }
 
-/* Puts the results of a stream over its values where they differ; integers may be more precise than floats.
- */
+/* Overwrites values by a stream's results where they differ; stored integers may be more precise than
+   floats. */
 static void put_results(const gltf_stream *stream, size_t count, double *values)
 {
     for (size_t i = 0; i < 3 * count && stream->result; i++) {
@@ -53,7 +53,7 @@ static void place_part(const anchor_work *w, size_t part)
         ffd_point_transform(rest, rest + 9, points + 3 * i);
 }
 
-/* Returns whether the targets of some part have results. */
+/* Whether the targets of any part have results. */
 static bool has_results(const gltf_document *d)
 {
     for (size_t i = 0; i < d->shape_count; i++)
@@ -83,7 +83,8 @@ static ffd_status add_target(anchor_work *w, size_t part, size_t target, size_t 
     return FFD_OK;
 }
 
-/* The part that an instance's weights are of. Of primitives that share it the first one has a say. */
+/* Returns the part to which an instance's weights apply. If primitives share it, the weights of the first one
+   count. */
 static size_t take_part(anchor_work *w, const gltf_instance *instance, size_t node)
 {
     const size_t part = instance->part[GLTF_POSITION];
@@ -120,7 +121,7 @@ static ffd_status visit_targets(anchor_work *w, target_visit *visit)
     return status;
 }
 
-/* Counts a target, with the memory that it takes. */
+/* Counts a target and takes its memory. */
 static ffd_status count_target(anchor_work *w, size_t part, size_t target, size_t weight)
 {
     (void)target;

@@ -1,4 +1,5 @@
-/* gltf_followed.c - nodes, inverse binds and keys as they are where the rig follows the deformation. */
+/* gltf_followed.c - the nodes, inverse bind matrices and keys of a skeleton whose rig follows the
+   deformation. */
 #include "base/memory/memory.h"
 #include "io/gltf/rig/gltf_rig.h"
 #include "io/gltf/scene/gltf_scene.h"
@@ -70,7 +71,7 @@ static size_t value_count(const gltf_animation_sampler *keys)
     return keys->key_count * keys->width * (keys->interpolation == GLTF_CUBICSPLINE ? 3 : 1);
 }
 
-/* A sampler beside the others, with keys of its own. */
+/* Copies a sampler with its keys. */
 static ffd_status copy_sampler(gltf_skeleton *skeleton, const gltf_animation_sampler *from,
                                gltf_animation_sampler *to, ffd_error *error)
 {

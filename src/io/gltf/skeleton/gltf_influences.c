@@ -1,9 +1,9 @@
-/* gltf_influences.c - which bones each vertex of a file follows. */
+/* gltf_influences.c - finds the bones that each vertex of a file follows. */
 #include "base/memory/memory.h"
 #include "io/gltf/decode/gltf_read.h"
 #include "io/gltf/skeleton/gltf_skeleton.h"
 
-#define MOST 64 /* influences of a vertex: of 16 sets */
+#define MOST 64 /* influences of a vertex in 16 sets */
 
 typedef struct filler {
     const gltf_skeleton *rig;
@@ -11,14 +11,14 @@ typedef struct filler {
     size_t count; /* so far */
 } filler;
 
-/* The most that the vertices of a part can have together. */
+/* Returns the maximum number of influences of all vertices of a part together. */
 static size_t most_of(const gltf_part *part, size_t vertices)
 {
     return vertices * (part->skin ? 4 * part->influence_count : 1);
 }
 
-/* As the default pose has it: weights are divided by their sum, and a vertex whose weights are all 0 follows
-   its first joint. */
+/* As in the default pose: weights are divided by their sum, and a vertex whose weights are all 0 follows its
+   first joint. */
 static void add_vertex(filler *f, size_t first_bone, const double *joints, const double *weights,
                        size_t count)
 {

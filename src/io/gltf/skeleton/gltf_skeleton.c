@@ -7,13 +7,13 @@
 
 static const double identity[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
 
-/* Whether the vertices of a part are among those that a job counts. */
+/* Whether a job counts the vertices of a part. */
 static bool has_vertices(const gltf_document *d, size_t part)
 {
     return !d->mesh_parts[part].repeats_positions && d->parts[part].node != GLTF_NONE;
 }
 
-/* Marks the nodes of the bones, with those above them: their place is no longer GLTF_NONE. */
+/* Marks the nodes of the bones and their ancestors: their places become 0 instead of GLTF_NONE. */
 static void mark_needed(gltf_skeleton *rig)
 {
     const gltf_document *const d = rig->document;
@@ -41,7 +41,7 @@ static void fill_node(const gltf_skeleton *rig, const gltf_node *from, size_t pa
     memcpy(to->scale, from->scale, sizeof to->scale);
 }
 
-/* A node that an animation drives has no matrix. */
+/* Marks animated nodes: they must not have a matrix. */
 static void mark_animated(const gltf_skeleton *rig, bool *animated)
 {
     for (size_t a = 0; a < rig->animations.count; a++)
@@ -84,7 +84,7 @@ static ffd_status make_nodes(gltf_skeleton *rig, ffd_error *error)
     return FFD_OK;
 }
 
-/* The inverse of a matrix; the identity, and false, where it has none. */
+/* Inverts a matrix. Returns false, with the identity, if it has no inverse. */
 static bool invert(const double matrix[12], double inverse[12])
 {
     if (!mat_invert(matrix, inverse)) {
@@ -110,8 +110,8 @@ static void count_bones(gltf_skeleton *rig)
     }
 }
 
-/* A skin's vertices are kept where its first joint has them at rest: most are there then, and all are as
-   large as the scene. unmoved: the identity for each node. */
+/* A skin's vertices are stored where its first joint places them at rest: most are at rest there, and all
+   have the scale of the scene. unmoved: the identity for each node. */
 static ffd_status fill_skin(gltf_skeleton *rig, size_t s, const double *unmoved, ffd_error *error)
 {
     const gltf_skin *const skin = &rig->document->skins[s];
@@ -182,7 +182,7 @@ static ffd_status list_animations(gltf_skeleton *rig, ffd_error *error)
     return FFD_OK;
 }
 
-/* Whether a channel drives what is seen. */
+/* Whether a channel drives anything visible. */
 static bool is_seen(const gltf_skeleton *rig, const gltf_channel *channel)
 {
     return ffd_gltf_channel_drives(channel) &&
@@ -287,7 +287,7 @@ static ffd_status keep_weights(gltf_skeleton *rig, ffd_error *error)
     return FFD_OK;
 }
 
-/* What a node takes: its pose, its place in three lists, and itself. */
+/* Memory per node: its pose, its entries in three lists, and the node itself. */
 #define NODE_BYTES (sizeof(gltf_node) + 12 * sizeof(double) + 6 * sizeof(size_t) + sizeof(rig_node) + 1)
 
 static ffd_status make_rig(gltf_skeleton *rig, ffd_error *error)

@@ -1,4 +1,5 @@
-/* gltf_splat_results.c - reads and takes the rotations, scales and harmonics of splats. */
+/* gltf_splat_results.c - reads the rotations and scales of splats, and stores the results of these and of the
+   harmonics. */
 #include "base/memory/memory.h"
 #include "io/gltf/decode/gltf_encode.h"
 #include "io/gltf/decode/gltf_read.h"
@@ -8,10 +9,10 @@
 #include <math.h>
 #include <string.h>
 
-/* Splats that are read at a time. */
+/* Splats read at a time. */
 #define STEP ((size_t)64)
 
-/* The stream of an attribute of a part's splats. */
+/* Returns the stream of an attribute of a part's splats. */
 static gltf_stream *stream_of(const gltf_document *d, size_t part, size_t attribute)
 {
     return &d->parts[d->parts[part].first_splat + attribute / GLTF_DEFORMED]
@@ -23,7 +24,7 @@ static size_t attribute_count(const gltf_document *d, size_t part)
     return GLTF_SPLAT_HARMONICS + (size_t)harmonics_count(d->mesh_parts[part].form.degree);
 }
 
-/* Makes the result of a stream, in the array that it has already, if any. */
+/* Allocates the result of a stream, unless it has one. */
 static ffd_status make_result(gltf_document *d, size_t count, gltf_stream *stream, ffd_error *error)
 {
     if (stream->result)
@@ -71,7 +72,7 @@ void ffd_gltf_warn_of_splats(const gltf_document *d, const mesh_log *log)
                      unturned, unturned == 1 ? " has" : "s have");
 }
 
-/* A quaternion of glTF is x, y, z, w. */
+/* glTF stores quaternions as x, y, z, w. */
 void ffd_gltf_read_splats(const mesh_document *document, size_t part, size_t first, size_t count,
                           splat_ellipsoid *splats)
 {
@@ -91,7 +92,8 @@ void ffd_gltf_read_splats(const mesh_document *document, size_t part, size_t fir
     }
 }
 
-/* Writes a changed element, rounded to the accessor's type, or the file's. */
+/* Writes an element of a result: values rounded to the accessor's type, or the file's element if values is
+   NULL. */
 static void write_element(const gltf_document *d, const gltf_stream *stream, size_t i, const double *values)
 {
     float *const result = stream->result + stream->components * i;
@@ -103,7 +105,7 @@ static void write_element(const gltf_document *d, const gltf_stream *stream, siz
         result[c] = ffd_gltf_round(&d->model.accessors[stream->accessor], values[c]);
 }
 
-/* Whether a channel's turned coefficients can be held. */
+/* Whether floats can hold a channel's turned coefficients. */
 static bool fit(const double c[HARMONICS_MOST], int count)
 {
     for (int m = 0; m < count; m++)
@@ -112,7 +114,8 @@ static bool fit(const double c[HARMONICS_MOST], int count)
     return true;
 }
 
-/* Takes over turned coefficients. Returns false where those of a channel cannot be held, and stay. */
+/* Takes over turned coefficients. Returns false if floats cannot hold those of some channel, which then
+   stay. */
 static bool take_turned(const harmonics_block turned, int count, harmonics_block c)
 {
     bool all = true;
@@ -125,7 +128,8 @@ static bool take_turned(const harmonics_block turned, int count, harmonics_block
     return all;
 }
 
-/* Turns the coefficients of those of STEP splats at most that are listed. Returns how many keep some. */
+/* Turns the coefficients of the listed splats, at most STEP. Returns the number of splats with a channel that
+   stays. */
 static size_t turn_listed(const splat_turn *turns, int degree, const size_t *listed, size_t count,
                           harmonics_block *c)
 {

@@ -5,13 +5,13 @@
 
 #define SPLATTING "KHR_gaussian_splatting"
 
-/* Memory that is kept for a group of attributes of a part. */
+/* Memory of a group of attributes of a part. */
 #define GROUP_BYTES (sizeof(gltf_part) + sizeof(mesh_part) + GLTF_DEFORMED * sizeof(int))
 
-/* What a primitive has of splats. */
+/* The splat attributes of a primitive. */
 typedef struct splat_attributes {
     size_t accessors[GLTF_SPLAT_ATTRIBUTES]; /* GLTF_NONE: absent */
-    bool all_usable;                         /* those that are there can be changed */
+    bool all_usable;                         /* whether all that are present can be changed */
     splat_form form;
 } splat_attributes;
 
@@ -21,7 +21,7 @@ static size_t groups_of(const splat_form *form)
     return count / GLTF_DEFORMED + (count % GLTF_DEFORMED != 0);
 }
 
-/* Whether the type is one that the attribute may have; signed scales are those of drafts. */
+/* Whether the accessor's type is allowed for the attribute; signed scales are those of drafts. */
 static bool has_type(const gltf_accessor *accessor, size_t attribute)
 {
     const bool is_float = accessor->component == GLTF_FLOAT;
@@ -33,7 +33,7 @@ static bool has_type(const gltf_accessor *accessor, size_t attribute)
     return is_float || (attribute == GLTF_SPLAT_SCALE && accessor->component != GLTF_U32);
 }
 
-/* Whether the accessor has bytes that results can take the place of. */
+/* Whether results can replace the accessor's elements. */
 static bool is_usable(const gltf_document *d, size_t a, size_t attribute)
 {
     const gltf_accessor *const accessor = &d->model.accessors[a];
@@ -41,7 +41,7 @@ static bool is_usable(const gltf_document *d, size_t a, size_t attribute)
            (accessor->view >= 0 || accessor->sparse.present);
 }
 
-/* The number of degrees whose coefficients are all there. */
+/* Returns the largest degree up to which all coefficients are present. */
 static int find_degree(const size_t *accessors)
 {
     int degree = 0;
@@ -89,8 +89,8 @@ static bool has_negative(const gltf_document *d, size_t a)
     return false;
 }
 
-/* Scales must not be negative: drafts of the extension had logarithms. Harmonics of a degree are all there,
- * or none. */
+/* Notes negative scales, which are logarithms as in drafts of the extension, and degrees of harmonics that
+   are not complete. */
 static ffd_status find_flaws(gltf_document *d, size_t m, size_t p, splat_attributes *found, ffd_error *error)
 {
     const uint32_t attributes =
@@ -112,7 +112,7 @@ static ffd_status find_flaws(gltf_document *d, size_t m, size_t p, splat_attribu
     return status;
 }
 
-/* Keeps the accessors in the primitive, whose attributes then are no others. */
+/* Stores the accessors in the primitive, and marks their attributes as GLTF_SPLAT. */
 static ffd_status keep_accessors(gltf_document *d, gltf_primitive *primitive, const splat_attributes *found,
                                  ffd_error *error)
 {
@@ -148,7 +148,7 @@ static bool are_same(const gltf_primitive *a, const gltf_primitive *b)
     return true;
 }
 
-/* The first primitive of each part, and whether all of a part have the same splats. */
+/* The last visited primitive of a part, and whether primitives of the part have different splats. */
 typedef struct part_owner {
     const gltf_primitive *primitive; /* NULL: none yet */
     bool is_split;
@@ -166,7 +166,7 @@ static void mark_part(gltf_document *d, const gltf_primitive *primitive, const s
     made->form = found->form;
 }
 
-/* Visits the primitives with splats. */
+/* Marks the parts of the primitives with splats. */
 static ffd_status mark_primitives(gltf_document *d, part_owner *owners, ffd_error *error)
 {
     ffd_status status = FFD_OK;
@@ -191,7 +191,7 @@ static ffd_status mark_primitives(gltf_document *d, part_owner *owners, ffd_erro
     return FFD_OK;
 }
 
-/* Adds the parts that hold results. */
+/* Appends the parts that hold results. */
 static ffd_status add_groups(gltf_document *d, const part_owner *owners, ffd_error *error)
 {
     size_t groups = 0, next = ffd_gltf_shape_end(d);
@@ -231,7 +231,7 @@ static ffd_status add_groups(gltf_document *d, const part_owner *owners, ffd_err
     return FFD_OK;
 }
 
-/* Tells the instances where their results are. */
+/* Sets the instances' first_splat. */
 static void find_results(gltf_document *d)
 {
     for (size_t m = 0; m < d->model.mesh_count; m++)

@@ -1,4 +1,4 @@
-#include "io/write/triangles.h"
+#include "mesh/model_triangles.h"
 #include "base/memory/memory.h"
 
 ffd_status ffd_face_triangles(face_triangles *scratch, const mesh_model *model, size_t face, size_t *count,

@@ -1,11 +1,11 @@
-/* triangles.h - the triangles of a model's faces, a face at a time. */
-#ifndef FFD_IO_WRITE_TRIANGLES_H
-#define FFD_IO_WRITE_TRIANGLES_H
+/* model_triangles.h - cuts a model's faces into triangles, one face at a time. */
+#ifndef FFD_MESH_MODEL_TRIANGLES_H
+#define FFD_MESH_MODEL_TRIANGLES_H
 
 #include "mesh/model.h"
 #include "mesh/polygon_cut.h"
 
-/* Scratch memory that grows with the largest face. Zeroed at the start. */
+/* Scratch memory, which grows with the largest face. Initialize it with zeros. */
 typedef struct face_triangles {
     polygon_cutter cutter;
     double *points;
@@ -13,14 +13,14 @@ typedef struct face_triangles {
     size_t points_capacity, triangles_capacity;
 } face_triangles;
 
-/* Triangles of all faces together. */
+/* Returns the number of triangles of all faces together. */
 static inline size_t model_triangle_count(const mesh_model *model)
 {
     const model_list *faces = &model->lists[MODEL_FACES];
-    return faces->corner_count - 2 * faces->count;
+    return faces->corner_count - 2 * faces->count; /* polygons have at least three corners */
 }
 
-/* Cuts a face: `count` triangles, each as 3 numbers of its corners, are in scratch->triangles. */
+/* Cuts a face into `count` triangles: scratch->triangles has 3 of the face's corner numbers for each. */
 ffd_status ffd_face_triangles(face_triangles *scratch, const mesh_model *model, size_t face, size_t *count,
                               ffd_error *error);
 /* Frees the scratch memory. */
