@@ -892,12 +892,15 @@ m("clip-default-weights", "condition", "cli_morphs", "if (names[t] == KEEPS && !
   "if (names[t] == IS_ZERO && !ffd_gltf_weight(d, default_value, &row[t]))")
 m("clip-weights-of-a-node", "condition", "cli_morphs", "size_t sampler = own ? GLTF_NONE : w->samplers[mesh];",
   "size_t sampler = w->samplers[mesh];")
-m("clip-own-bytes", "condition", "cli_morphs", "own[a] = own[a] && users[a] == 0;", "own[a] = own[a] && users[a] <= 2;")
+m("clip-own-bytes", "condition", "cli_morphs", "w->replaced.values[w->replaced.count++] = old;",
+  "w->replaced.values[0] = old;\n    w->replaced.count = 1;")
 m("target-of-others-lost", "condition", "cli_as_morph", "(is_own || ffd_gltf_is_partly_selected(", "(is_own && ffd_gltf_is_partly_selected(")
 m("target-of-others-lost-unsaid", "condition", "cli_as_morph", "old >= 0 && (size_t)old != accessor &&", "old >= 0 && (size_t)old == accessor &&")
-m("target-bytes-in-use", "condition", "cli_morphs", "before[a] > 0 && users[a] == 0", "before[a] > 0")
-m("target-bytes-compressed", "condition", "cli_morphs", "views[v] == IS_LEFT ?", "views[v] == IS_KEPT ?")
-m("target-bytes-sparse", "left out", "cli_morphs", "bytes += plain_bytes(d, sparse->values_view, sparse->count, size) +", "bytes +=")
+m("target-bytes-in-use", "condition", "cli_morphs", "if (users[a] > 0) ffd_gltf_add_accessor_bytes(", "if (users[a] > 2)\n            ffd_gltf_add_accessor_bytes(")
+m("target-bytes-of-others", "condition", "cli_morphs", "count += marks[i] == IS_OURS;", "count += marks[i] != IS_FREE;")
+m("target-bytes-of-an-image", "condition", "cli_morphs", "if (views[v]) ffd_gltf_add_view_bytes(d, v, kept);", "if (!views[v])\n            ffd_gltf_add_view_bytes(d, v, kept);")
+m("target-bytes-compressed", "condition", "cli_morphs", "if (buffer != GLTF_NONE && size != GLTF_NONE) add_bytes(", "if (buffer == GLTF_NONE && size != GLTF_NONE)\n            add_bytes(")
+m("target-bytes-sparse", "left out", "cli_morphs", "add_packed(d, sparse->values_view, sparse->values_offset, sparse->count, layout->element_size, list);", "")
 m("clip-replaced", "left out", "cli_morphs", "ffd_json_span_string_is(tree, name, w->clip->name)", "ffd_json_span_string_is(tree, name, \"\")")
 m("clip-of-a-conversion", "stride", "cli_morphs", "clip->key_count * target_count(plan, m), NULL", "clip->key_count * 1, NULL")
 m("morph-in-its-place", "operand", "cli_morphs, cli_as_morph", "ffd_gltf_target_place(&file->model.meshes[m].primitives[p], marks->named[m]);",
