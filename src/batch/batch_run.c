@@ -31,7 +31,14 @@ static void fail_task(pool_task *task, const ffd_error *error)
 static void find_record(batch_run *run, pool_task *task)
 {
     byte_buffer *const figures = run->report || run->view || run->rows.report ? &task->figures : NULL;
+    job_record drawn;
     task->has_record = ffd_journal_find(run->journal, &task->target, &task->record, figures);
+    /* A run without pictures may have made the row anew since it was drawn. */
+    task->has_drawn = task->has_record && task->picture && !task->job.output &&
+                      ffd_journal_find(run->journal, &task->picture_target, &drawn, NULL) &&
+                      ffd_hash_equal(&drawn.inputs, &task->record.inputs);
+    if (task->has_drawn)
+        task->drawn = drawn.outputs;
 }
 
 /* A job that was added after the jobs were counted has no row. */
@@ -86,6 +93,9 @@ static ffd_status claim_picture(batch_run *run, pool_task *task, ffd_error *erro
 {
     hash128 file;
     const ffd_status status = ffd_run_view_name(run->view, task, &file, error);
+    const hash_block blocks[] = {{file.bytes, sizeof file.bytes}, {task->target.bytes, sizeof file.bytes}};
+    if (!status)
+        task->picture_target = ffd_hash_blocks(blocks, 2);
     return status ? status
                   : ffd_outputs_claim_picture(&run->written, ffd_run_manifest(run), &task->job, &file,
                                               task->picture, error);

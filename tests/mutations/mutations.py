@@ -1114,6 +1114,11 @@ m("shown-positions", "state", "cli_batch_positions", "counting.deformed = job->p
 m("picture-not-checked-before", "check left out", "cli_batch_view", "return picture ? ffd_job_picture_check(picture, desc->force || desc->if_changed, error) : FFD_OK;",
   "return picture ? ffd_job_picture_check(picture, true, error) : FFD_OK;")
 m("missing-picture-is-skipped", "condition", "cli_batch_view", "if (has_output && (!picture || answer->has_picture))", "if (has_output)")
+m("picture-of-an-older-row", "check left out", "cli_batch_positions", "ffd_journal_find(run->journal, &task->picture_target, &drawn, NULL) && ffd_hash_equal(&drawn.inputs, &task->record.inputs);",
+  "ffd_journal_find(run->journal, &task->picture_target, &drawn, NULL);")
+m("picture-of-a-row-with-other-bytes", "check left out", "cli_batch_positions", "!ffd_cache_hash(NULL, picture, &bytes, NULL) && ffd_hash_equal(&bytes, &task->drawn);",
+  "!ffd_cache_hash(NULL, picture, &bytes, NULL);")
+m("picture-of-a-row-forgotten", "left out", "cli_batch_positions", "ffd_journal_put(run->journal, &task->picture_target, &drawn, \"\", 0);", "(void)drawn;")
 m("output-made-for-its-picture", "condition", "cli_batch_view", "if (!has_output) status = judge_row(", "if (!picture || !has_output || picture)\n        status = judge_row(")
 m("no-picture-behind-a-gate", "condition", "cli_batch_view", "if (picture && (status == FFD_OK || status == FFD_E_GATE))", "if (picture && status == FFD_OK)")
 m("picture-failure-forgotten", "error left out", "cli_batch_view", "answer->has_picture = status == FFD_OK || status == FFD_E_GATE;", "answer->has_picture = status < FFD_E_GATE || status >= FFD_OK;")
