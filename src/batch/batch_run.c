@@ -5,6 +5,7 @@
 #include "base/system/interrupt.h"
 #include "base/text/words.h"
 #include "batch/measure.h"
+#include "batch/run_reads.h"
 #include "job/report/report_file.h"
 #include <inttypes.h>
 #include <stdio.h>
@@ -114,6 +115,7 @@ static ffd_status claim_output(batch_run *run, pool_task *task, ffd_error *error
     task->state = states[ffd_outputs_others(job)];
     if (run->view && !job->error.status && claim_picture(run, task, error))
         return FFD_E_MEMORY;
+    ffd_outputs_check_embedding(&run->written, ffd_run_manifest(run), job);
     if (job->error.status)
         fail_task(task, &job->error);
     else if (run->journal)
@@ -269,6 +271,15 @@ static ffd_status claim_own(batch_run *run, ffd_error *error)
     return status;
 }
 
+/* Whether there is a file of its own that the run may replace whatever it holds: the array, before the first
+   job, or the index. */
+static bool replaces_files(const batch_run *run)
+{
+    const batch_desc *const desc = run->desc;
+    return (desc->force && desc->positions && ffd_file_exists(desc->positions)) ||
+           (run->view && ffd_file_exists(ffd_run_view_page(run->view)));
+}
+
 static ffd_status open_view(batch_run *run, ffd_error *error)
 {
     const batch_desc *const desc = run->desc;
@@ -318,12 +329,14 @@ static ffd_status open_all(batch_run *run, ffd_error *error)
         status = ffd_depfile_create(desc->depfile, &run->depfile, error);
     if (!status && desc->view)
         status = open_view(run, error);
+    if (!status)
+        status = claim_own(run, error);
+    if (!status && replaces_files(run))
+        status = ffd_run_check_reads(&desc->jobs, &run->written, error);
     if (!status && desc->report)
         status = ffd_report_create(desc->report, pool.stable, NULL, &run->report, error);
     if (!status && desc->positions)
         status = ffd_run_rows_place(&run->rows, desc, error);
-    if (!status)
-        status = claim_own(run, error);
     pool.report = run->report || run->view || run->rows.report;
     pool.quality = run->report || run->view;
     pool.rows = desc->positions ? &run->rows.array : NULL;

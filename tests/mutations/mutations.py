@@ -1108,7 +1108,7 @@ m("row-replaced", "check left out", "cli_batch_positions",
 m("row-too-large", "check left out", "row_array, cli_batch_positions", "if (isinf((float)positions[i]) && isfinite(positions[i]))", "if (isinf((float)positions[i]) && isnan(positions[i]))")
 m("row-of-its-shard", "count", "cli_batch_positions", "job->row = source->count - 1;", "job->row = (source->count - 1) / source->desc.shards;")
 m("row-hash-left-out", "check left out", "cli_batch_positions", "if (row && ffd_row_hash(&row->array, row->number, &parts[count++], NULL))", "if (row && count > 0 && ffd_row_hash(&row->array, row->number, &parts[count++], NULL))")
-m("array-of-a-pipe", "check left out", "cli_batch_positions", "if (origin && ffd_file_reads_once(origin))", "if (origin && ffd_file_is_stream(origin))")
+m("array-of-a-pipe", "check left out", "cli_batch_positions", "return text && ffd_file_reads_once(text);", "return text && ffd_file_is_stream(text);")
 m("size-of-an-array", "overflow", "row_array", "(row_size(array) == 0 || array->rows <= most / row_size(array)))", "(row_size(array) == 0 || array->rows * row_size(array) <= most))")
 m("shown-positions", "state", "cli_batch_positions", "counting.deformed = job->positions;", "counting.deformed = NULL;")
 m("picture-not-checked-before", "check left out", "cli_batch_view", "return picture ? ffd_job_picture_check(picture, desc->force || desc->if_changed, error) : FFD_OK;",
@@ -1126,8 +1126,10 @@ m("figures-of-no-job", "figure", "cli_batch_view", "if (is_all || !answer->has_p
 m("warnings-said-twice", "check left out", "cli_batch_view", "if (has_line(lines->data, before, line, length))", "if (has_line(lines->data, 0, line, length))")
 m("no-room-for-a-picture", "limit", "cli_batch_view", "|| stamp.size < LARGE)", "|| stamp.size < 100 * LARGE)")
 m("no-mesh-beside-a-picture", "limit", "cli_batch_view", "|| stamp.size < LARGE)", "|| stamp.size == 0)")
-m("picture-of-two-jobs", "check left out", "cli_batch_view", "if (!is_taken(outputs, file, &line))\n        return ffd_files_put(&outputs->lines, file, job->line, error); refuse(manifest, job, path, line);",
-  "if (!is_taken(outputs, file, &line) || line > 0)\n        return ffd_files_put(&outputs->lines, file, job->line, error);\n    refuse(manifest, job, path, line);")
+m("picture-of-two-jobs", "check left out", "cli_batch_view", "if (!is_taken(outputs, file, &line))\n        return ffd_files_put(&outputs->lines, file, job->line, error); refuse(manifest, job, \"\", path, line);",
+  "if (!is_taken(outputs, file, &line) || line > 0)\n        return ffd_files_put(&outputs->lines, file, job->line, error);\n    refuse(manifest, job, \"\", path, line);")
+m("embedding-of-the-run", "left out", "cli_batch_positions", "ffd_outputs_check_embedding(&run->written, ffd_run_manifest(run), job);", "")
+m("array-in-place-of-an-embedding", "condition", "cli_batch_positions", "(desc->force && desc->positions && ffd_file_exists(desc->positions))", "(desc->force && desc->positions && !ffd_file_exists(desc->positions))")
 m("index-as-an-output", "check left out", "cli_batch_view", "run->view ? ffd_run_view_page(run->view) : NULL};", "NULL};")
 m("index-out-of-order", "operation", "cli_batch_view", "|| run->depfile || run->view ||", "|| run->depfile ||")
 m("index-replaced", "check left out", "cli_batch_view", ".force = desc->force || desc->jobs.resume,", ".force = true,")
