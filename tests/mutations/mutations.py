@@ -994,11 +994,13 @@ m("across-not-turned", "left out", "cli_tears", "walk->across[a] += turned[a];",
 
 # job: areas and volumes
 
-m("volume-sum-not-exact", "rounding", "quality", "const double value = s->sum + s->lost;", "const double value = s->sum;")
+m("volume-sum-not-exact", "rounding", "quality", "return s->sum + s->lost;", "return s->sum;")
 m("zeros-of-two-signs-are-two-vertices", "equality", "quality", "number += 0.0;", "number *= 1.0;")
 m("edges-of-both-ways-alike", "sign", "quality", "return from < to ? hash : 0 - hash;", "return from < to ? hash : hash;")
-m("area-of-what-hides", "condition", "quality", "if (count > 0 && !is_hidden(&work, corners[0]))", "if (count > 0)")
-m("volume-not-known-as-not-closed", "condition", "cli_check", 'isnan(result->area_before) ? "not known" : result->faces == 0', 'result->faces == 0')
+m("area-of-what-hides", "condition", "quality", "if (count > 0 && !is_hidden(work, corners[0]))", "if (count > 0 && (count < 3 || !is_hidden(work, corners[0]) || count > 2))")
+m("volume-not-known-as-not-closed", "condition", "cli_check", 'if (isnan(area)) return "not known";', "")
+m("volume-too-large-as-not-closed", "condition", "quality, cli_check", "return isfinite(value) ? ldexp(value, exponent) : NAN;", "const double large = ldexp(value, exponent);\n    return isfinite(large) ? large : NAN;")
+m("volume-of-large-numbers-unscaled", "overflow", "quality", "work->scale = ldexp(1, -exponent);", "work->scale = ldexp(1, 0 * exponent);")
 m("volume-of-the-selection", "order", "cli_check", "measure_extent(job, arrays, result);\n    if (!ffd_selection_is_all(job->document))\n        status = ffd_selection_reduce(job->document, &arrays->faces, error);",
   "if (!ffd_selection_is_all(job->document))\n        status = ffd_selection_reduce(job->document, &arrays->faces, error);\n    measure_extent(job, arrays, result);")
 m("area-after-of-many-targets", "condition", "cli_morphs", "all->area_after = is_only ? target->area_after : NAN;", "all->area_after = target->area_after;")
