@@ -484,7 +484,8 @@ typedef struct ffd_job_result {
     /* Wall clock time of each step. */
     double seconds_read, seconds_embed, seconds_deform, seconds_judge, seconds_write;
     /* With ffd_check_run and quality: the area of all visible faces, selected or not, in world space, without
-       morph targets. NaN: unknown. With several morphs area_after and volume_after are NaN. */
+       morph targets. NaN: unknown. Infinite: too large for a double. With several morphs area_after and
+       volume_after are NaN. */
     double area_before, area_after;
     /* The volume that these faces enclose; negative if their back sides are outside. NaN if there are no
        faces or the surface is not closed: at some edge the numbers of faces in its two directions differ

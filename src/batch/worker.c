@@ -273,13 +273,23 @@ static ffd_status judge_row(const job_row *row, ffd_status status, ffd_error *er
     return error->status;
 }
 
+/* Whether the picture of a job that is up to date is there. The time of an array does not say when a row was
+   made: without an output the picture is known by its bytes. */
+static bool has_picture(const wire_task *task, const char *picture, const ffd_deform_desc *desc)
+{
+    hash128 bytes;
+    if (desc->output)
+        return ffd_job_picture_is_current(picture, desc->output);
+    return task->has_drawn && !ffd_cache_hash(NULL, picture, &bytes, NULL) &&
+           ffd_hash_equal(&bytes, &task->drawn);
+}
+
 /* Deforms, unless the results are up to date, and draws the picture (NULL: none is wanted). */
 static ffd_status do_job(batch_worker *worker, const wire_task *task, const char *picture, job_row *row,
                          ffd_deform_desc *desc, wire_answer *answer, ffd_job_result *result)
 {
     const bool has_output = is_up_to_date(task, desc, row, answer);
-    answer->has_picture =
-        has_output && picture && desc->output && ffd_job_picture_is_current(picture, desc->output);
+    answer->has_picture = has_output && picture && has_picture(task, picture, desc);
     if (has_output && (!picture || answer->has_picture)) {
         answer->outcome = OUTCOME_SKIPPED;
         return FFD_OK;
@@ -299,6 +309,8 @@ static ffd_status do_job(batch_worker *worker, const wire_task *task, const char
     ffd_process_defer_stop(true);
     if (!status && task->records)
         answer->has_record = has_output || know_results(worker, task, desc, row, &answer->record.outputs);
+    answer->has_drawn = answer->has_record && answer->has_picture && !desc->output &&
+                        !ffd_cache_hash(NULL, picture, &answer->drawn, NULL);
     return status;
 }
 

@@ -246,7 +246,7 @@ ffd_status ffd_gltf_add_target(const gltf_document *d, const morph_request *requ
     const size_t count = d->model.accessor_count;
     morph_writer w = {.file.saver = {.document = d, .log = request->log}, .request = request};
     ffd_status status = FFD_OK;
-    w.users = ffd_gltf_count_users(d, JSON_NONE);
+    w.users = ffd_gltf_count_users(d, NULL);
     w.grow = ffd_alloc(d->model.mesh_count, sizeof *w.grow);
     for (size_t m = 0; m < d->model.mesh_count && w.grow; m++)
         w.grow[m] = request->meshes[m] && request->named[m] == GLTF_NONE;
