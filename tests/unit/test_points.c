@@ -12,6 +12,7 @@
 #include "../support/lattice_text.h"
 #include "../support/repetitions.h"
 #include "../support/test_folder.h"
+#include "base/memory/hash.h"
 #include "base/memory/memory.h"
 #include <ffd/ffd.h>
 #include <math.h>
@@ -355,6 +356,34 @@ static void bytes_bring_an_embedding_back(void **state)
     (void)state;
 }
 
+/* Bytes that somebody has made may have a hash that fits: a point that follows the border has no u,v,w. */
+static void points_of_forged_bytes_are_placed_once(void **state)
+{
+    static double xyz[3 * POINTS];
+    enum { HEAD = 80, POINT = 24 }; /* bytes before u,v,w of the first point; of one u,v,w */
+    draw d = {draw_seed()};
+    fill_points(xyz, &d);
+    ffd_lattice *rest = lattice_of(0, "");
+    ffd_embedding *embedding = embed(rest, span_of(xyz, FFD_FLOAT64), FFD_OUTSIDE_EXTEND, 0), *back;
+    unsigned char *bytes;
+    size_t size;
+    assert_int_equal(ffd_embedding_save(embedding, (void **)&bytes, &size, NULL), FFD_OK);
+    const size_t content = size - sizeof(hash128);
+    for (size_t i = 0; i < POINTS; i++) {
+        const double place[3] = {0.5, 0.5, 0.5};
+        assert_memory_equal(bytes + HEAD + POINT * i, ffd_embedding_get_uvw(embedding) + 3 * i, POINT);
+        memcpy(bytes + HEAD + POINT * i, place, POINT);
+    }
+    const hash128 hash = ffd_hash(bytes, content);
+    memcpy(bytes + content, &hash, sizeof hash);
+    assert_int_equal(ffd_embedding_load(bytes, size, rest, &back, NULL), FFD_E_INVALID);
+    assert_null(back);
+    ffd_free(bytes);
+    ffd_embedding_destroy(&embedding);
+    ffd_lattice_destroy(&rest);
+    (void)state;
+}
+
 static bool stop(void *user, double done)
 {
     ++*(int *)user;
@@ -508,6 +537,7 @@ int main(void)
         cmocka_unit_test(the_affected_points_are_all_that_move),
         cmocka_unit_test(the_basis_is_the_derivative),
         cmocka_unit_test(bytes_bring_an_embedding_back),
+        cmocka_unit_test(points_of_forged_bytes_are_placed_once),
         cmocka_unit_test(progress_can_cancel),
         cmocka_unit_test(what_cannot_be_is_refused),
         cmocka_unit_test(shorter_structs_of_older_callers_do),
