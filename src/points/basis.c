@@ -112,6 +112,7 @@ ffd_status ffd_embedding_basis(const ffd_embedding *embedding, const double *wei
     *matrix = (ffd_csr){.rows = embedding->count, .columns = embedding->rest->count};
     ffd_status status = begin(embedding, weights, callers, &run, &work, error);
     work.matrix = matrix;
+    run.passes = 2;
     if (!status) {
         matrix->starts = ffd_alloc_zero(matrix->rows + 1, sizeof *matrix->starts);
         status =

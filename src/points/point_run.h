@@ -13,6 +13,7 @@
 typedef struct point_run {
     ffd_run run; /* threads are at least 1 */
     size_t total;
+    size_t passes; /* over all points; default 1 */
     atomic_size_t done;
     atomic_bool stopped;  /* by a failure or by the caller: what is left need not be done */
     bool told;            /* the caller, how far it is: once at least */

@@ -426,6 +426,40 @@ static void progress_can_cancel(void **state)
     (void)state;
 }
 
+static bool rises(void *user, double done)
+{
+    double *const last = user;
+    assert_true(done > *last && done <= 1);
+    *last = done;
+    return true;
+}
+
+static void progress_of_a_basis_ends_at_1(void **state)
+{
+    enum { MANY = 3 * 4096 };
+    static double xyz[3 * POINTS], many[3 * MANY];
+    double last = 0;
+    draw d = {draw_seed()};
+    fill_points(xyz, &d);
+    for (size_t i = 0; i < 3 * MANY; i++)
+        many[i] = xyz[i % (3 * POINTS)];
+    ffd_lattice *rest = lattice_of(0, "");
+    ffd_embedding *embedding =
+        embed(rest, (ffd_span){.data = many, .count = MANY, .type = FFD_FLOAT64}, FFD_OUTSIDE_KEEP, 0);
+    ffd_csr matrix;
+    ffd_run run;
+    ffd_run_init(&run, sizeof run);
+    run.threads = 1;
+    run.progress = rises;
+    run.user = &last;
+    assert_int_equal(ffd_embedding_basis(embedding, NULL, &matrix, &run, NULL), FFD_OK);
+    assert_true(last == 1);
+    ffd_csr_free(&matrix);
+    ffd_embedding_destroy(&embedding);
+    ffd_lattice_destroy(&rest);
+    (void)state;
+}
+
 static void what_cannot_be_is_refused(void **state)
 {
     static double xyz[3 * POINTS];
@@ -539,6 +573,7 @@ int main(void)
         cmocka_unit_test(bytes_bring_an_embedding_back),
         cmocka_unit_test(points_of_forged_bytes_are_placed_once),
         cmocka_unit_test(progress_can_cancel),
+        cmocka_unit_test(progress_of_a_basis_ends_at_1),
         cmocka_unit_test(what_cannot_be_is_refused),
         cmocka_unit_test(shorter_structs_of_older_callers_do),
         cmocka_unit_test(normals_follow_as_one_by_one),
