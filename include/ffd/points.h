@@ -131,8 +131,8 @@ typedef struct ffd_csr {
    are empty; those of points outside that are extended are the border point's, times what the falloff leaves.
    Values of 0 are left out. matrix is filled; free it with ffd_csr_free. weights: of the deformed volume, as
    many as control points; NULL: those at rest. Where a lattice has moved weights, give them:
-   ffd_lattice_get_weights(moved, FFD_VOLUME_DEFORMED). Errors: FFD_E_ARGUMENT, FFD_E_CANCELLED, FFD_E_MEMORY,
-   FFD_E_LIMIT. */
+   ffd_lattice_get_weights(moved, FFD_VOLUME_DEFORMED). Errors: FFD_E_ARGUMENT, FFD_E_INVALID (weights that
+   are not positive and finite), FFD_E_CANCELLED, FFD_E_MEMORY, FFD_E_LIMIT. */
 FFD_API ffd_status ffd_embedding_basis(const ffd_embedding *embedding, const double *weights, ffd_csr *matrix,
                                        const ffd_run *run, ffd_error *error);
 

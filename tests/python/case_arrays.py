@@ -136,7 +136,16 @@ class Refusals(unittest.TestCase):
         self.refused(ffd.InvalidError, "weight", LATTICE.deform, embedding, weights=-np.ones(LATTICE.size))
         self.refused(ValueError, "another lattice", support.curved(RANDOM).basis, embedding)
         self.refused(ffd.InvalidError, "", support.curved(RANDOM).deform, embedding)
+        for other in (ffd.Lattice.from_points(LATTICE.rest, LATTICE.degree, knots="open"), ffd.Lattice.from_points(LATTICE.rest, 1),
+                      ffd.Lattice.from_points(LATTICE.rest, LATTICE.degree, weights=1 + Q[..., 0] ** 2)):
+            for function in (other.basis, other.deform):
+                self.refused(ffd.InvalidError, "another lattice", function, embedding)
+        self.assertEqual(LATTICE.moved(Q, weights=np.ones(LATTICE.size)).basis(embedding).shape, (5, Q[..., 0].size))
         self.refused(ValueError, "control_points", embedding.affected, [[9, 0, 0]])
+        for bad in (0 * Q[..., 0], -Q[..., 0], Q[..., 0] * np.nan):
+            self.refused(ffd.InvalidError, "weight", LATTICE.basis, embedding, weights=bad)
+            self.refused(ffd.InvalidError, "weight", LATTICE.basis_times, embedding, Q, weights=bad)
+            self.refused(ffd.InvalidError, "weight", LATTICE.basis_transposed, embedding, embedding.points, weights=bad)
         self.refused(ValueError, "vertices", LATTICE.deform, embedding, Q, vertices=[-1])
         self.refused(ffd.ArgumentError, "", LATTICE.deform, embedding, Q, vertices=[2, 1])
 

@@ -503,6 +503,32 @@ static void what_cannot_be_is_refused(void **state)
     (void)state;
 }
 
+static void weights_of_a_basis_are_positive(void **state)
+{
+    static double xyz[3 * POINTS], product[3 * POINTS];
+    ffd_lattice *rest = lattice_of(0, "");
+    ffd_embedding *embedding = embed(rest, span_of(xyz, FFD_FLOAT64), FFD_OUTSIDE_KEEP, 0);
+    const double wrong[] = {0, -1, (double)NAN, (double)INFINITY};
+    double weights[5 * 4 * 6], dq[3 * 5 * 4 * 6] = {0};
+    for (size_t i = 0; i < sizeof weights / sizeof *weights; i++)
+        weights[i] = 1;
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        ffd_csr matrix;
+        ffd_error error;
+        weights[7] = wrong[i];
+        assert_int_equal(ffd_embedding_basis(embedding, weights, &matrix, NULL, &error), FFD_E_INVALID);
+        assert_non_null(strstr(error.message, "control point 7 "));
+        assert_null(matrix.values);
+        assert_int_equal(ffd_embedding_basis_times(embedding, weights, dq, product, NULL, &error),
+                         FFD_E_INVALID);
+        assert_int_equal(ffd_embedding_basis_transposed(embedding, weights, xyz, dq, NULL, &error),
+                         FFD_E_INVALID);
+    }
+    ffd_embedding_destroy(&embedding);
+    ffd_lattice_destroy(&rest);
+    (void)state;
+}
+
 /* A caller with an older header: nothing is written beyond its struct, and missing members have defaults. */
 static void shorter_structs_of_older_callers_do(void **state)
 {
@@ -575,6 +601,7 @@ int main(void)
         cmocka_unit_test(progress_can_cancel),
         cmocka_unit_test(progress_of_a_basis_ends_at_1),
         cmocka_unit_test(what_cannot_be_is_refused),
+        cmocka_unit_test(weights_of_a_basis_are_positive),
         cmocka_unit_test(shorter_structs_of_older_callers_do),
         cmocka_unit_test(normals_follow_as_one_by_one),
     };
