@@ -130,6 +130,7 @@ class Refusals(unittest.TestCase):
         for bad in (Q[:-1], Q.reshape(-1, 3), Q[..., :2]):
             self.refused(ValueError, "Q must have the shape", LATTICE.deform, embedding, bad)
         self.refused(TypeError, "Q must hold real numbers", LATTICE.deform, embedding, Q.astype(complex))
+        self.refused(TypeError, "Q must not be a masked array", LATTICE.deform, embedding, np.ma.masked_less(Q, 0.5))
         self.refused(ffd.InvalidError, "finite", LATTICE.deform, embedding, Q * np.nan)
         self.refused(ValueError, "not both", LATTICE.deform, embedding, Q, offsets=Q)
         self.refused(ValueError, "weights must have the shape", LATTICE.deform, embedding, weights=np.ones(3))
@@ -148,6 +149,11 @@ class Refusals(unittest.TestCase):
             self.refused(ffd.InvalidError, "weight", LATTICE.basis_transposed, embedding, embedding.points, weights=bad)
         self.refused(ValueError, "vertices", LATTICE.deform, embedding, Q, vertices=[-1])
         self.refused(ffd.ArgumentError, "", LATTICE.deform, embedding, Q, vertices=[2, 1])
+
+    def test_knots(self):
+        for bad in (((), (), ()), ("closed",), [[]] * 3, ("open", "open", ("closed", [0, 1]))):
+            with self.assertRaises((ValueError, TypeError)):
+                ffd.Lattice.from_points(LATTICE.rest, knots=bad)
 
     def test_options(self):
         points = RANDOM.uniform(0, 1, (5, 3))
