@@ -179,7 +179,7 @@ FFD_API bool ffd_lattice_needs_bounds(const ffd_lattice *lattice);
 FFD_API size_t ffd_lattice_get_mesh_count(const ffd_lattice *lattice);
 
 /* The path of one of them, which the file gives relative to itself. *path is the caller's, freed with
-   ffd_free. Errors: FFD_E_MEMORY. */
+   ffd_free. Errors: FFD_E_ARGUMENT (a number that it has not), FFD_E_MEMORY. */
 FFD_API ffd_status ffd_lattice_get_mesh(const ffd_lattice *lattice, size_t i, char **path, ffd_error *error);
 
 /* Fits a "mesh" lattice around the bounds min, max (3 doubles each, world units) and applies its moves. May

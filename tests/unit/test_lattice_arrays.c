@@ -277,6 +277,23 @@ static void values_may_be_lent_by_the_lattice(void **state)
     (void)state;
 }
 
+static void a_mesh_that_no_box_names_is_refused(void **state)
+{
+    ffd_lattice_arrays arrays;
+    char *path;
+    ffd_error error;
+    ffd_lattice_arrays_init(&arrays, sizeof arrays);
+    for (int a = 0; a < 3; a++) {
+        arrays.size[a] = 2;
+        arrays.box_max[a] = 1;
+    }
+    ffd_lattice *lattice = from_arrays(&arrays);
+    assert_int_equal(ffd_lattice_get_mesh(lattice, 0, &path, &error), FFD_E_ARGUMENT);
+    assert_null(path);
+    ffd_lattice_destroy(&lattice);
+    (void)state;
+}
+
 static void a_copy_is_equal_and_independent(void **state)
 {
     const double xyz[] = {5, 5, 5};
@@ -371,6 +388,7 @@ int main(void)
         cmocka_unit_test(weights_that_are_refused_leave_none),
         cmocka_unit_test(setting_nothing_changes_nothing),
         cmocka_unit_test(values_may_be_lent_by_the_lattice),
+        cmocka_unit_test(a_mesh_that_no_box_names_is_refused),
         cmocka_unit_test(a_copy_is_equal_and_independent),
         cmocka_unit_test(a_box_that_is_fitted_anew_keeps_what_was_set),
         cmocka_unit_test(parameters_are_listed),
