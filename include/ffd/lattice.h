@@ -200,7 +200,8 @@ FFD_API bool ffd_lattice_needs_bounds(const ffd_lattice *lattice);
 FFD_API size_t ffd_lattice_get_mesh_count(const ffd_lattice *lattice);
 
 /* Returns the path of mesh i that the rest box names, resolved relative to the lattice file. The caller frees
- *path with ffd_free. Thread-safe. Errors: FFD_E_MEMORY. */
+ *path with ffd_free. Thread-safe. Errors: FFD_E_ARGUMENT (i is not below ffd_lattice_get_mesh_count),
+   FFD_E_MEMORY. */
 FFD_API ffd_status ffd_lattice_get_mesh(const ffd_lattice *lattice, size_t i, char **path, ffd_error *error);
 
 /* Lays the rest box round the bounds min, max (world units), widened by the margin of the file, and applies

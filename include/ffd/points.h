@@ -141,7 +141,8 @@ typedef struct ffd_csr {
    - matrix: filled; the caller frees it with ffd_csr_free. It is empty after a failure.
    - run: may be NULL.
 
-   Thread-safe. Errors: FFD_E_ARGUMENT, FFD_E_CANCELLED, FFD_E_MEMORY, FFD_E_LIMIT. */
+   Thread-safe. Errors: FFD_E_ARGUMENT, FFD_E_INVALID (weights that are not positive and finite),
+   FFD_E_CANCELLED, FFD_E_MEMORY, FFD_E_LIMIT. */
 FFD_API ffd_status ffd_embedding_basis(const ffd_embedding *embedding, const double *weights, ffd_csr *matrix,
                                        const ffd_run *run, ffd_error *error);
 

@@ -62,17 +62,13 @@ static ffd_status multiply_tile(void *context, size_t first, size_t count, int w
     return FFD_OK;
 }
 
-/* Returns the weights to be used: those of the caller, or those at rest. */
-static const double *weights_of(const ffd_embedding *embedding, const double *weights)
-{
-    return weights ? weights : embedding->rest->rest_weights;
-}
-
 static ffd_status begin(const ffd_embedding *embedding, const double *weights, const ffd_run *callers,
                         point_run *run, basis_work *work, ffd_error *error)
 {
-    *work = (basis_work){.embedding = embedding, .weights = weights_of(embedding, weights)};
-    const ffd_status status = ffd_point_run_begin(callers, embedding->count, run, error);
+    *work = (basis_work){.embedding = embedding, .weights = weights};
+    ffd_status status = ffd_basis_weights(embedding, &work->weights, error);
+    if (!status)
+        status = ffd_point_run_begin(callers, embedding->count, run, error);
     if (status)
         return status;
     work->rows = ffd_alloc((size_t)run->run.threads, sizeof *work->rows);
@@ -112,6 +108,7 @@ ffd_status ffd_embedding_basis(const ffd_embedding *embedding, const double *wei
     *matrix = (ffd_csr){.rows = embedding->count, .columns = embedding->rest->count};
     ffd_status status = begin(embedding, weights, callers, &run, &work, error);
     work.matrix = matrix;
+    run.passes = 2;
     if (!status) {
         matrix->starts = ffd_alloc_zero(matrix->rows + 1, sizeof *matrix->starts);
         status =

@@ -1,6 +1,19 @@
 #include "points/basis_row.h"
+#include "base/text/number.h"
 #include "deform/extension.h"
 #include "spline/knots.h"
+#include <math.h>
+
+ffd_status ffd_basis_weights(const ffd_embedding *embedding, const double **weights, ffd_error *error)
+{
+    for (size_t i = 0; *weights && i < embedding->rest->count; i++)
+        if (!((*weights)[i] > 0 && isfinite((*weights)[i])))
+            return ffd_fail(error, FFD_E_INVALID,
+                            "the weight %s of control point %zu is not positive and finite",
+                            ffd_number_text((*weights)[i]).text, i);
+    *weights = *weights ? *weights : embedding->rest->rest_weights;
+    return FFD_OK;
+}
 
 /* The control points of a direction whose basis functions are not 0 at u, with these functions. */
 typedef struct factor {

@@ -13,6 +13,10 @@ typedef struct basis_row {
     double values[BASIS_ENTRIES];    /* R_j(u), none 0 */
 } basis_row;
 
+/* Replaces *weights = NULL by the weights at rest, and checks the caller's. Errors: FFD_E_INVALID for one
+   that is not positive and finite. */
+ffd_status ffd_basis_weights(const ffd_embedding *embedding, const double **weights, ffd_error *error);
+
 /* Computes the row of a point. next: index of the first extended point not before this point; advanced for
    the next point. weights: those of the deformed volume; NULL: all 1. */
 void ffd_basis_row(const ffd_embedding *embedding, const double *weights, size_t point, size_t *next,

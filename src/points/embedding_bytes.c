@@ -149,6 +149,7 @@ static ffd_status fill(const unsigned char *bytes, const bytes_head *head, ffd_e
         double numbers[EXTENDED_NUMBERS];
         memcpy(numbers, bytes, sizeof numbers);
         if (!unpack(numbers, count, &embedding->extended[i]) ||
+            ffd_embedding_has(embedding, embedding->extended[i].point) ||
             (i > 0 && embedding->extended[i].point <= embedding->extended[i - 1].point))
             return ffd_fail(error, FFD_E_INVALID, "extended point %zu of the embedding is not valid", i);
     }

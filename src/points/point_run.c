@@ -18,7 +18,7 @@ static int threads_for(int wanted, size_t total)
 
 ffd_status ffd_point_run_begin(const ffd_run *callers, size_t total, point_run *run, ffd_error *error)
 {
-    *run = (point_run){.total = total};
+    *run = (point_run){.total = total, .passes = 1};
     ffd_run_init(&run->run, sizeof run->run);
     const ffd_status status =
         callers ? ffd_struct_take(&run->run, sizeof run->run, callers, "ffd_run", error) : FFD_OK;
@@ -58,7 +58,7 @@ static void tell(point_run *run, size_t done, int worker)
     if (worker != 0 || !run->run.progress)
         return;
     run->told = true;
-    if (!run->run.progress(run->run.user, (double)done / (double)run->total)) {
+    if (!run->run.progress(run->run.user, (double)done / ((double)run->passes * (double)run->total))) {
         run->statuses[0] = run->statuses[0] ? run->statuses[0] : FFD_E_CANCELLED;
         atomic_store(&run->stopped, true);
     }

@@ -13,6 +13,7 @@
 typedef struct point_run {
     ffd_run run; /* threads is at least 1 */
     size_t total;
+    size_t passes; /* over all points; default 1 */
     atomic_size_t done;
     atomic_bool stopped;  /* a failure, or the caller cancelled: skip the remaining tiles */
     bool told;            /* progress was reported at least once */

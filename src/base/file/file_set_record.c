@@ -26,6 +26,7 @@ static const char first_line[] = "ffd-set 1\n", last_line[] = "end\n";
 #define MOST_LOOKS 1000
 
 static const char strange[] = "is not the record of a run, though it has the name of one: remove it";
+static const char busy[] = "the files beside this are being written by another run";
 
 static char *path_for(const char *head)
 {
@@ -106,17 +107,35 @@ static ffd_status write_text(const set_record *record, const byte_buffer *text, 
     return FFD_OK;
 }
 
-/* Creates the file and locks it. */
+static ffd_status refuse(const set_record *record, const char *why, ffd_error *error)
+{
+    return ffd_fail_file(error, FFD_E_IO, record->path, "%s", why);
+}
+
+/* Creates the file and locks it. Between the two another run may lock it, and remove it as a record without
+   entries. The file is then created again. */
 static ffd_status make_file(set_record *record, ffd_error *error)
 {
-    record->fd = open(record->path, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
-    if (record->fd < 0)
-        return ffd_fail_errno(error, record->path, "cannot be written");
-    if (ffd_lock_named(record->fd, record->path) > 0)
-        return FFD_OK;
-    const ffd_status status = ffd_fail_errno(error, record->path, "cannot be locked");
-    ffd_record_remove(record);
-    return status;
+    for (int look = 0;; look++) {
+        record->fd = open(record->path, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+        const bool is_there = record->fd < 0 && errno == EEXIST && look > 0;
+        if (record->fd < 0 && !is_there)
+            return ffd_fail_errno(error, record->path, "cannot be written");
+        const int locked = is_there ? 0 : ffd_lock_named(record->fd, record->path);
+        if (locked > 0)
+            return FFD_OK;
+        if (locked < 0 && errno != EBUSY) {
+            const ffd_status status = ffd_fail_errno(error, record->path, "cannot be locked");
+            ffd_record_remove(record);
+            return status;
+        }
+        if (record->fd >= 0)
+            close(record->fd);
+        record->fd = -1;
+        if (look == MOST_LOOKS)
+            return refuse(record, busy, error);
+        ffd_clock_sleep(0.001);
+    }
 }
 
 ffd_status ffd_record_write(set_record *record, ffd_error *error)
@@ -132,11 +151,6 @@ ffd_status ffd_record_write(set_record *record, ffd_error *error)
     }
     ffd_buffer_free(&text);
     return status;
-}
-
-static ffd_status refuse(const set_record *record, const char *why, ffd_error *error)
-{
-    return ffd_fail_file(error, FFD_E_IO, record->path, "%s", why);
 }
 
 /* Refuses the record of another user, which could name any file. */
@@ -289,9 +303,8 @@ static ffd_status open_locked(set_record *record, ffd_error *error)
         record->fd = -1;
         errno = reason;
         if (locked < 0 && (errno != EBUSY || look >= MOST_LOOKS))
-            return errno == EBUSY
-                       ? refuse(record, "the files beside this are being written by another run", error)
-                       : ffd_fail_errno(error, record->path, "cannot be locked");
+            return errno == EBUSY ? refuse(record, busy, error)
+                                  : ffd_fail_errno(error, record->path, "cannot be locked");
         if (locked < 0)
             ffd_clock_sleep(0.001);
     }

@@ -180,7 +180,11 @@ ffd_status ffd_spec_mesh(const lattice_spec *spec, size_t i, char **path, ffd_er
 
 ffd_status ffd_lattice_get_mesh(const ffd_lattice *lattice, size_t i, char **path, ffd_error *error)
 {
-    return ffd_spec_mesh(lattice->spec, i, path, error);
+    const size_t count = ffd_lattice_get_mesh_count(lattice);
+    *path = NULL;
+    return i < count
+               ? ffd_spec_mesh(lattice->spec, i, path, error)
+               : ffd_fail(error, FFD_E_ARGUMENT, "there is no mesh %zu: the rest box names %zu", i, count);
 }
 
 ffd_status ffd_lattice_fit(ffd_lattice *lattice, const double min[3], const double max[3], ffd_error *error)
