@@ -1229,8 +1229,8 @@ m("rig-not-selected", "check left out", "cli_rig", "place->stays = !chosen || in
   "place->stays = instanced || place->partial;")
 m("rig-similarity-without-scale", "operation", "cli_rig",
   "ffd_mat_rotation(f, rotation) ? ffd_cube_root(mat_determinant(f)) : 1", "ffd_mat_rotation(f, rotation) ? 1 : 1")
-m("rig-similarity-left-out", "call left out", "cli_rig", "if (shown[s] && !partial[s] && first != SIZE_MAX)",
-  "if (shown[s] && partial[s] && first != SIZE_MAX)")
+m("rig-similarity-left-out", "call left out", "cli_rig", "if (shown[s] && !staying[s] && first != SIZE_MAX)",
+  "if (shown[s] && staying[s] && first != SIZE_MAX)")
 m("rig-binds-of-all-skins-in-place", "share", "cli_rig", "if (known && number < rig->content_count)", "if (known && rig->content_count)")
 m("rig-normals-not-carried", "left out", "cli_rig", "if (gradients) ffd_part_carry_gradient(work->part, scratch->gradient + 9 * i);", "(void)gradients;")
 m("rig-targets-not-carried", "left out", "cli_rig", "if (work->part->part->carried) carry(work, k, gradients);",
