@@ -233,6 +233,19 @@ def other_targets_and_their_names_stay(run):
 
 
 @case
+def a_weight_that_no_target_had_is_not_that_of_the_new_one(run):
+    """Of a mesh or a node that has more weights than targets: the new target is not shown."""
+    for holder in ("mesh", "node"):
+        for weights, expected in (([0.25, 1], [0.25, 0]), ([0.25, 1, 1], [0.25, 0, 1]), ([0.25], [0.25, 0])):
+            scene = plain()
+            scene.asset["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": scene.add(POINTS, bounds=True)}]
+            scene.asset["meshes" if holder == "mesh" else "nodes"][0]["weights"] = weights
+            morphed(run, scene, lines=1 if len(weights) > 1 else 0)
+            asset, _ = glb_split(run.read("out.glb"))
+            equal(asset["meshes" if holder == "mesh" else "nodes"][0]["weights"], expected, f"{holder} {weights}")
+
+
+@case
 def every_primitive_of_a_mesh_and_only_meshes_that_move(run):
     scene = plain()
     far = scene.add([[90.0, 0.0, 0.0]], bounds=True)
