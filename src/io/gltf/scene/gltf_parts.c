@@ -167,6 +167,7 @@ static size_t add_part(gltf_document *d, const gltf_part *part, size_t repeated)
     made->repeats_positions = repeated != GLTF_NONE;
     made->repeats = repeated;
     made->hidden = ffd_gltf_is_hidden(d, part->node);
+    made->owner = part->node;
     set_part_transform(d, part, made);
     return index;
 }
