@@ -95,8 +95,13 @@ m("set-torn-by-a-signal", "lock left out", "cleanup, file, cli_output, cli_batch
   "status = settle_all(output, stays, error);")
 m("exit-of-unsupported", "error code", "base", "case FFD_E_UNSUPPORTED: return 6;", "case FFD_E_UNSUPPORTED: return 4;")
 m("control-characters-shown", "message", "base, cli_errors",
-  "if (*c < 0x20 || *c == 0x7f) *c = '?'; } static void fill",
-  "if (*c < 0x20 && *c == 0x7f) *c = '?'; } static void fill")
+  "if (text[0] < 0x20 || text[0] == 0x7f)", "if (text[0] < 0x20 && text[0] == 0x7f)")
+m("c1-characters-shown", "message", "cli_stays_behind, cli_tears", "text[1] >= 0x80 && text[1] <= 0x9f", "text[1] >= 0x80 && text[1] <= 0x80")
+m("cut-parts-in-a-character", "cut", "cli_tears", "ffd_name_shown(text, name + begun, capacity - begun);", "snprintf(name + begun, capacity - begun, \"%s\", text);")
+m("new-weight-behind-others", "place", "cli_as_morph", "tree->values[weights].count > targets)", "tree->values[weights].count > targets + 9)")
+m("skins-elsewhere-left", "call left out", "cli_rig", "if (shown[s] || (staying[s] && ffd_gltf_has_joint_matrices(d, skin)))", "if (shown[s])")
+m("shown-by-other-weights", "check left out", "cli_morph_weights", "same_influences(part, wanted) && shown_alike(d, part, wanted, GLTF_POSITION))", "same_influences(part, wanted))")
+m("parts-in-the-order-of-files", "order", "cli_view", "return a->owner < b->owner ? -1 : 1;", "return 0;")
 m("long-names-alike", "limit", "cli_aliases",
   "1 + length + strlen(ending) <= LONGEST_NAME", "1 + length + strlen(ending) <= 2 * LONGEST_NAME")
 m("hash-of-doubles", "stride", "embedding_file, base", "store_double(bytes + 8 * i, values[done + i]);",
