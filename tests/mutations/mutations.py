@@ -98,6 +98,7 @@ m("control-characters-shown", "message", "base, cli_errors",
   "if (text[0] < 0x20 || text[0] == 0x7f)", "if (text[0] < 0x20 && text[0] == 0x7f)")
 m("c1-characters-shown", "message", "cli_stays_behind, cli_tears", "text[1] >= 0x80 && text[1] <= 0x9f", "text[1] >= 0x80 && text[1] <= 0x80")
 m("cut-parts-in-a-character", "cut", "cli_tears", "ffd_name_shown(text, name + begun, capacity - begun);", "snprintf(name + begun, capacity - begun, \"%s\", text);")
+m("check-counts-other-targets", "call left out", "cli_as_morph", "job.document->keeps_base = true;", "job.document->keeps_base = false;")
 m("new-weight-behind-others", "place", "cli_as_morph", "tree->values[weights].count > targets)", "tree->values[weights].count > targets + 9)")
 m("skins-elsewhere-left", "call left out", "cli_rig", "if (shown[s] || (staying[s] && ffd_gltf_has_joint_matrices(d, skin)))", "if (shown[s])")
 m("shown-by-other-weights", "check left out", "cli_morph_weights", "same_influences(part, wanted) && shown_alike(d, part, wanted, GLTF_POSITION))", "same_influences(part, wanted))")
