@@ -3,6 +3,7 @@
 #include "base/file/mapping.h"
 #include "base/file/output.h"
 #include "base/memory/memory.h"
+#include "base/one_line.h"
 #include "base/system/interrupt.h"
 #include "batch/fingerprint.h"
 #include "batch/job_picture.h"
@@ -64,9 +65,7 @@ static void add_line(byte_buffer *lines, const char *subject, const char *line)
 {
     const size_t before = lines->size;
     ffd_buffer_format(lines, "%s%s%s", subject, *subject ? ": " : "", line);
-    for (size_t i = before; i < lines->size; i++)
-        if ((unsigned char)lines->data[i] < 0x20 || lines->data[i] == 0x7f)
-            lines->data[i] = '?';
+    ffd_make_one_line(lines->data + before, lines->size - before);
     ffd_buffer_text(lines, "\n");
 }
 

@@ -87,7 +87,8 @@ typedef struct mesh_part {
     /* A vertex with a byte of 0 is in no face, line or point. NULL: all are in one, or there are no elements,
        or ffd_mesh_mark_used was not called. Belongs to the document. */
     const uint8_t *used;
-    bool hidden; /* viewers do not show the part */
+    bool hidden;  /* viewers do not show the part */
+    size_t owner; /* identifies what shows the part, also in a file that is written of this one */
 } mesh_part;
 
 #define MESH_NO_PLACE SIZE_MAX

@@ -95,8 +95,14 @@ m("set-torn-by-a-signal", "lock left out", "cleanup, file, cli_output, cli_batch
   "status = settle_all(output, stays, error);")
 m("exit-of-unsupported", "error code", "base", "case FFD_E_UNSUPPORTED: return 6;", "case FFD_E_UNSUPPORTED: return 4;")
 m("control-characters-shown", "message", "base, cli_errors",
-  "if (*c < 0x20 || *c == 0x7f) *c = '?'; } static void fill",
-  "if (*c < 0x20 && *c == 0x7f) *c = '?'; } static void fill")
+  "if (text[0] < 0x20 || text[0] == 0x7f)", "if (text[0] < 0x20 && text[0] == 0x7f)")
+m("c1-characters-shown", "message", "cli_stays_behind, cli_tears", "text[1] >= 0x80 && text[1] <= 0x9f", "text[1] >= 0x80 && text[1] <= 0x80")
+m("cut-parts-in-a-character", "cut", "cli_tears", "ffd_name_shown(text, name + begun, capacity - begun);", "snprintf(name + begun, capacity - begun, \"%s\", text);")
+m("check-counts-other-targets", "call left out", "cli_as_morph", "job.document->keeps_base = true;", "job.document->keeps_base = false;")
+m("new-weight-behind-others", "place", "cli_as_morph", "tree->values[weights].count > targets)", "tree->values[weights].count > targets + 9)")
+m("skins-elsewhere-left", "call left out", "cli_rig", "if (shown[s] || (staying[s] && ffd_gltf_has_joint_matrices(d, skin)))", "if (shown[s])")
+m("shown-by-other-weights", "check left out", "cli_morph_weights", "same_influences(part, wanted) && shown_alike(d, part, wanted, GLTF_POSITION))", "same_influences(part, wanted))")
+m("parts-in-the-order-of-files", "order", "cli_view", "return a->owner < b->owner ? -1 : 1;", "return 0;")
 m("long-names-alike", "limit", "cli_aliases",
   "1 + length + strlen(ending) <= LONGEST_NAME", "1 + length + strlen(ending) <= 2 * LONGEST_NAME")
 m("hash-of-doubles", "stride", "embedding_file, base", "store_double(bytes + 8 * i, values[done + i]);",
@@ -1241,8 +1247,8 @@ m("rig-not-selected", "check left out", "cli_rig", "place->stays = !chosen || in
   "place->stays = instanced || place->partial;")
 m("rig-similarity-without-scale", "operation", "cli_rig",
   "ffd_mat_rotation(f, rotation) ? ffd_cube_root(mat_determinant(f)) : 1", "ffd_mat_rotation(f, rotation) ? 1 : 1")
-m("rig-similarity-left-out", "call left out", "cli_rig", "if (shown[s] && !partial[s] && first != SIZE_MAX)",
-  "if (shown[s] && partial[s] && first != SIZE_MAX)")
+m("rig-similarity-left-out", "call left out", "cli_rig", "if (shown[s] && !staying[s] && first != SIZE_MAX)",
+  "if (shown[s] && staying[s] && first != SIZE_MAX)")
 m("rig-binds-of-all-skins-in-place", "share", "cli_rig", "if (known && number < rig->content_count)", "if (known && rig->content_count)")
 m("rig-normals-not-carried", "left out", "cli_rig", "if (gradients) ffd_part_carry_gradient(work->part, scratch->gradient + 9 * i);", "(void)gradients;")
 m("rig-targets-not-carried", "left out", "cli_rig", "if (work->part->part->carried) carry(work, k, gradients);",
@@ -1300,7 +1306,7 @@ m("times-of-each-channel", "condition", "cli_view_animation", "if (*place == SIZ
 m("broken-animation-stops-all", "condition", "cli_view_animation", "if (is_broken && animation != scene->animation)", "if (!is_broken && animation != scene->animation)")
 m("first-of-two-names", "condition", "cli_view_animation", "scene->animation = alike ? scene->animation : a;", "scene->animation = a;")
 m("smallest-of-many-bones", "condition", "view_page", "chosen[at - 1].weight < s->influences[i].weight", "chosen[at - 1].weight > s->influences[i].weight")
-m("follows-of-other-vertices", "index", "view_page", "if (follows) put_follow(rig, side, number_of(mesh, v));", "if (follows) put_follow(rig, side, v);")
+m("follows-of-other-vertices", "index", "view_page", "if (follows) put_follow(rig, side, number_of(mesh, side, v));", "if (follows) put_follow(rig, side, v);")
 
 # python
 

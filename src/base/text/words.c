@@ -1,4 +1,5 @@
 #include "base/text/words.h"
+#include "base/one_line.h"
 #include <string.h>
 
 /* Longer words are compared by their first LONGEST letters. */
@@ -66,7 +67,7 @@ void ffd_name_shown(const char *name, char *shown, size_t capacity)
         while (length > 0 && ((unsigned char)name[length] & 0xc0) == 0x80)
             length--;
     }
-    for (size_t i = 0; i < length; i++)
-        shown[i] = (unsigned char)name[i] < 0x20 || name[i] == 0x7f ? '?' : name[i];
+    memcpy(shown, name, length);
     shown[length] = 0;
+    ffd_make_one_line(shown, length);
 }

@@ -2,10 +2,13 @@
    what follows into each group that it names, one without names, and the file's beginning, into "default"; an
    `o` or `usemtl` has one name, which may hold blanks. */
 #include "base/memory/memory.h"
+#include "base/text/words.h"
 #include "io/obj/obj_faces.h"
 #include "io/obj/obj_names.h"
 #include <stdio.h>
 #include <string.h>
+
+#define LONGEST_NAME 200 /* bytes of a part's name in messages */
 
 typedef struct selecting {
     obj_document *document;
@@ -239,7 +242,13 @@ uint64_t ffd_obj_name_part(const mesh_document *document, uint64_t vertex, uint8
     *name = 0;
     if (!found.first)
         return 0;
-    snprintf(name, capacity, "%s%.*s", kind,
-             (int)(found.last - found.first < 200 ? found.last - found.first : 200), found.first);
+    /* One byte more than is kept tells whether a character would be cut. */
+    char word[LONGEST_NAME + 2], shown[LONGEST_NAME + 1];
+    const size_t length = (size_t)(found.last - found.first);
+    const size_t size = length < sizeof word ? length : sizeof word - 1;
+    memcpy(word, found.first, size);
+    word[size] = 0;
+    ffd_name_shown(word, shown, sizeof shown);
+    snprintf(name, capacity, "%s%s", kind, shown);
     return count_marked(d, kind, found, marks);
 }

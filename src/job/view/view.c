@@ -19,6 +19,7 @@
 #include "job/view/view_inputs.h"
 #include "job/view/view_marks.h"
 #include "job/view/view_mesh.h"
+#include "job/view/view_order.h"
 #include "job/view/view_rigs.h"
 #include "view/page.h"
 #include "view/view_picture.h"
@@ -269,6 +270,8 @@ static ffd_status read_deformed(view_work *work, ffd_error *error)
                                ffd_source_name(&work->desc->job->input), (unsigned long long)count);
     if (!status)
         status = read_positions(work, work->other, &positions, error);
+    if (!status)
+        status = ffd_view_match_parts(work->job.document, work->other, &work->scene.rigs[1].order, error);
     if (!status)
         status = ffd_view_place_after(&work->model, positions, &work->scene, error);
     ffd_free(positions);

@@ -72,6 +72,8 @@ typedef struct gltf_part {
     const gltf_skin *skin;            /* NULL: no skin, or in mesh space */
     const gltf_influence *influences; /* lent by the model; only with a skin */
     size_t influence_count;
+    const gltf_primitive *primitive; /* lent by the model: the first one that it deforms, which shows its */
+    uint32_t first_weight;           /* morph targets by default weights from this JSON value on */
     gltf_stream streams[GLTF_DEFORMED];
     uint8_t *selected;  /* as in mesh_part */
     uint8_t *used;      /* as in mesh_part */

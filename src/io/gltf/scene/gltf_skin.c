@@ -108,26 +108,44 @@ static ffd_status read_inverse_bind(const gltf_document *d, const gltf_skin *ski
     return FFD_OK;
 }
 
+/* The matrix of joint j: that of its node after its inverse bind matrix. */
+static ffd_status make_joint_matrix(const gltf_document *d, const gltf_skin *skin, size_t j,
+                                    const double *worlds, double matrix[12], ffd_error *error)
+{
+    const double *const world = worlds + 12 * skin->joints[j];
+    double bind[12];
+    if (skin->inverse_bind < 0) {
+        memcpy(matrix, world, 12 * sizeof *matrix);
+    } else {
+        const ffd_status failed = read_inverse_bind(d, skin, j, bind, error);
+        if (failed)
+            return failed;
+        ffd_gltf_join_matrix(world, bind, bind + 9, matrix);
+    }
+    for (int i = 0; i < 12; i++)
+        if (!isfinite(matrix[i]))
+            return ffd_json_span_fail(&d->tree, d->node_values.values[skin->joints[j]], d->name,
+                                      FFD_E_INVALID, error, "the joint's matrix is not finite");
+    return FFD_OK;
+}
+
 ffd_status ffd_gltf_joint_matrices(const gltf_document *d, const gltf_skin *skin, const double *worlds,
                                    double *matrices, ffd_error *error)
 {
-    for (size_t j = 0; j < skin->joint_count; j++) {
-        const double *world = worlds + 12 * skin->joints[j];
-        double *matrix = matrices + 12 * j, bind[12];
-        if (skin->inverse_bind < 0) {
-            memcpy(matrix, world, 12 * sizeof *matrix);
-        } else {
-            const ffd_status failed = read_inverse_bind(d, skin, j, bind, error);
-            if (failed)
-                return failed;
-            ffd_gltf_join_matrix(world, bind, bind + 9, matrix);
-        }
-        for (int i = 0; i < 12; i++)
-            if (!isfinite(matrix[i]))
-                return ffd_json_span_fail(&d->tree, d->node_values.values[skin->joints[j]], d->name,
-                                          FFD_E_INVALID, error, "the joint's matrix is not finite");
-    }
-    return FFD_OK;
+    ffd_status status = FFD_OK;
+    for (size_t j = 0; j < skin->joint_count && status == FFD_OK; j++)
+        status = make_joint_matrix(d, skin, j, worlds, matrices + 12 * j, error);
+    return status;
+}
+
+bool ffd_gltf_has_joint_matrices(const gltf_document *d, const gltf_skin *skin)
+{
+    double matrix[12];
+    bool has = skin->inverse_bind < 0 ||
+               (check_inverse_bind(d, skin, NULL) == FFD_OK && d->layouts[skin->inverse_bind].readable);
+    for (size_t j = 0; j < skin->joint_count && has; j++)
+        has = make_joint_matrix(d, skin, j, d->world, matrix, NULL) == FFD_OK;
+    return has;
 }
 
 static ffd_status make_joint_matrices(gltf_document *d, gltf_skin *skin, ffd_error *error)
