@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include "../support/test_folder.h"
+#include "base/file/memory_files.h"
 #include "base/memory/memory.h"
 #include <ffd/ffd.h>
 #include <ffd/jacobian.h>
@@ -939,6 +940,19 @@ static void descriptions_that_contradict_themselves_are_refused(void **state)
     (void)state;
 }
 
+static void no_name_in_a_file_leads_to_the_memory_of_a_job(void **state)
+{
+    memory_files *files;
+    assert_int_equal(ffd_memory_create(&files, NULL), FFD_OK);
+    for (int i = 0; i < 10000; i++) {
+        char path[40];
+        snprintf(path, sizeof path, "ffd-memory:%d/0/head.obj", i);
+        assert_false(ffd_memory_has(path));
+    }
+    ffd_memory_destroy(&files);
+    (void)state;
+}
+
 static void arrays_of_descriptions_are_complete(void **state)
 {
     static const char *const none[] = {NULL};
@@ -1159,6 +1173,7 @@ int main(void)
         cmocka_unit_test(jobs_run_in_threads_and_in_callbacks),
         cmocka_unit_test(memory_may_run_out_anywhere),
         cmocka_unit_test(descriptions_that_contradict_themselves_are_refused),
+        cmocka_unit_test(no_name_in_a_file_leads_to_the_memory_of_a_job),
         cmocka_unit_test(arrays_of_descriptions_are_complete),
         cmocka_unit_test(choices_that_are_none_are_refused),
     };

@@ -1,3 +1,4 @@
+#define _DEFAULT_SOURCE /* getentropy */
 #include "base/file/memory_files.h"
 #include "base/file/path.h"
 #include "base/memory/intern.h"
@@ -7,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* Paths are "ffd-memory:FILES/FOLDER/NAME"; FILES and FOLDER are the numbers of a memory_files and of one of
    its folders. Names from the caller may be absolute or contain "..": a path has only their last
@@ -44,7 +46,8 @@ struct memory_files {
     ffd_error failure; /* the first failure of a resolve function, or FFD_E_MEMORY */
 };
 
-/* All existing objects, in any thread. */
+/* All existing objects, in any thread. Numbers start at a random one, so that a path in a file does not lead
+   to another job's memory. */
 static pthread_mutex_t all_lock = PTHREAD_MUTEX_INITIALIZER;
 static memory_files *all;
 static uint64_t last_number;
@@ -57,6 +60,8 @@ ffd_status ffd_memory_create(memory_files **files, ffd_error *error)
         return ffd_fail_memory(error);
     pthread_mutex_init(&made->lock, NULL);
     pthread_mutex_lock(&all_lock);
+    if (!last_number && getentropy(&last_number, sizeof last_number) != 0)
+        last_number = (uint64_t)(uintptr_t)made;
     made->number = ++last_number;
     made->next = all;
     all = made;
