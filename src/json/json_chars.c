@@ -105,6 +105,15 @@ const char *ffd_json_char(const char *c, const char *last, uint32_t *code)
     return *c == '\\' ? read_escape(c + 1, last, code) : ffd_utf8_read(c, last, code);
 }
 
+const char *ffd_json_parsed_char(const char *c, const char *last, uint32_t *code)
+{
+    const char *const next = ffd_json_char(c, last, code);
+    if (next)
+        return next;
+    *code = '?';
+    return c + 1;
+}
+
 const char *ffd_json_pass_plain(const char *c, const char *last)
 {
     for (; last - c >= 8; c += 8) {
@@ -158,7 +167,7 @@ size_t ffd_json_decode(const char *c, const char *last, char *text, size_t capac
             break;
         uint32_t code = 0;
         char bytes[4];
-        c = ffd_json_char(plain, last, &code);
+        c = ffd_json_parsed_char(plain, last, &code);
         const size_t size = ffd_utf8_write(code, bytes);
         if (length + size >= capacity)
             break;

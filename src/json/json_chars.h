@@ -17,6 +17,9 @@ size_t ffd_utf8_write(uint32_t code, char bytes[4]);
    character). Returns the position after it; NULL for a control character, invalid UTF-8 or an invalid
    escape. */
 const char *ffd_json_char(const char *c, const char *last, uint32_t *code);
+/* The same (c < last) in a string that was valid when it was parsed. Never returns NULL: if another program
+   has changed the text since (mmap), an invalid byte counts as a question mark. */
+const char *ffd_json_parsed_char(const char *c, const char *last, uint32_t *code);
 
 /* Skips ASCII characters that need no escape, several at a time. May stop before the last of them. */
 const char *ffd_json_pass_plain(const char *c, const char *last);

@@ -107,7 +107,7 @@ static bool spells(const json_span *tree, uint32_t begin, uint32_t end, const ch
                 return false;
             continue;
         }
-        c = ffd_json_char(c, last, &code);
+        c = ffd_json_parsed_char(c, last, &code);
         const size_t length = ffd_utf8_write(code, bytes);
         if ((size_t)(text_last - t) < length || memcmp(t, bytes, length) != 0)
             return false;
@@ -133,8 +133,8 @@ static int compare_text(const char *x, const char *x_last, const char *y, const 
 {
     while (x < x_last && y < y_last) {
         uint32_t a = 0, b = 0;
-        x = ffd_json_char(x, x_last, &a);
-        y = ffd_json_char(y, y_last, &b);
+        x = ffd_json_parsed_char(x, x_last, &a);
+        y = ffd_json_parsed_char(y, y_last, &b);
         if (a != b)
             return a < b ? -1 : 1;
     }
@@ -172,7 +172,7 @@ static size_t pointer_step(const json_span *tree, uint32_t value, char *text, si
     while (c < last) {
         uint32_t code = 0;
         char bytes[4] = "~0";
-        c = ffd_json_char(c, last, &code);
+        c = ffd_json_parsed_char(c, last, &code);
         size_t size = 2;
         if (code == '/')
             bytes[1] = '1';

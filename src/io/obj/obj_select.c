@@ -54,14 +54,14 @@ static void mark_corners(selecting *s, obj_walk *walk, bool selected)
 {
     obj_document *d = s->document;
     obj_face_corner corner;
-    const bool face = walk->scan.keyword == OBJ_FACE && d->pair_start;
+    size_t pair;
     while (ffd_obj_walk_corner(walk, &corner)) {
         if (selected)
             d->selected_vertices[corner.vertex] = 1;
-        if (!face || !corner.has_normal)
+        if (walk->scan.keyword != OBJ_FACE || !ffd_obj_find_pair(d, &corner, &pair))
             continue;
         if (selected)
-            d->selected_pairs[ffd_obj_find_pair(d, &corner)] = 1;
+            d->selected_pairs[pair] = 1;
         else
             d->held_normals[corner.normal] = 1;
     }
@@ -70,7 +70,6 @@ static void mark_corners(selecting *s, obj_walk *walk, bool selected)
 static void mark_elements(selecting *s)
 {
     obj_walk walk;
-    size_t face = 0;
     ffd_obj_document_walk(s->document, &walk);
     while (ffd_obj_walk_next(&walk)) {
         switch (walk.scan.keyword) {
@@ -84,9 +83,8 @@ static void mark_elements(selecting *s)
             s->material = names(s, SELECT_MATERIAL, ffd_obj_names_line(&walk.scan));
             break;
         case OBJ_FACE:
-            s->document->selected_faces[face] = is_selected(s);
-            mark_corners(s, &walk, s->document->selected_faces[face]);
-            face++;
+            s->document->selected_faces[walk.faces.seen - 1] = is_selected(s);
+            mark_corners(s, &walk, is_selected(s));
             break;
         case OBJ_LINE:
         case OBJ_POINT:

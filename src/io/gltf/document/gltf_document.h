@@ -134,6 +134,7 @@ typedef struct gltf_document {
     bool binary;
     glb_layout glb;
     json_span tree;
+    char *json; /* the text of tree, if the file is mapped; else NULL: tree.text is in input */
     gltf_values buffer_values, view_values, accessor_values, mesh_values, node_values, skin_values,
         material_values, image_values, texture_values, sampler_values;
     gltf_values primitive_values; /* of all meshes, in order */

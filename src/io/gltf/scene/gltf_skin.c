@@ -322,6 +322,12 @@ static void blend(const gltf_skin *skin, joint_weight *terms, size_t count, doub
             transform[k] += terms[i].weight / total * skin->matrices[12 * terms[i].joint + k];
 }
 
+/* The joint of a checked index; the first one if another program has changed the file since (mmap). */
+static size_t known_joint(const gltf_skin *skin, double index)
+{
+    return index < (double)skin->joint_count ? (size_t)index : 0;
+}
+
 void ffd_gltf_read_transforms(const mesh_document *document, size_t p, size_t first, size_t count,
                               double *transforms, skin_weights *found)
 {
@@ -339,7 +345,7 @@ void ffd_gltf_read_transforms(const mesh_document *document, size_t p, size_t fi
             ffd_gltf_read(d, (size_t)part->influences[s].joints, first + at, size, 4, joints);
             ffd_gltf_read(d, (size_t)part->influences[s].weights, first + at, size, 4, weights);
             for (size_t i = 0; i < 4 * size; i++)
-                terms[i / 4][4 * s + i % 4] = (joint_weight){(size_t)joints[i], weights[i]};
+                terms[i / 4][4 * s + i % 4] = (joint_weight){known_joint(part->skin, joints[i]), weights[i]};
         }
         for (size_t i = 0; i < size; i++)
             blend(part->skin, terms[i], 4 * part->influence_count, transforms + 12 * (at + i), found);
