@@ -1,4 +1,4 @@
-/* export.h - marks what the library offers to its users. */
+/* export.h - the macro that exports a public function from the library. */
 #ifndef FFD_EXPORT_H
 #define FFD_EXPORT_H
 

@@ -1,11 +1,25 @@
-/* ffd.h - free-form deformation of meshes with B-spline lattices: the whole public interface.
+/* ffd.h - free-form deformation of meshes with B-spline lattices: includes all public headers.
 
-   Structs that may grow begin with struct_size, the size that the caller's header has: descriptions get it
-   from their _init(&desc, sizeof desc), results from their caller (result.struct_size = sizeof result). A
-   smaller size than the library's is taken: members that the caller does not have keep their defaults, and
-   nothing is written behind the others. A larger one is refused (FFD_E_ARGUMENT): the library is older than
-   the header. Structs that callers have arrays of, and those within others, keep their size, or grow into the
-   room that follows them. data/promises.md says what is promised of versions. */
+   Conventions, unless a comment says otherwise:
+   - Growing structs. A struct that later versions may extend begins with struct_size, the size of the struct
+     in the caller's header. X_init(&desc, sizeof desc) sets it in a description; the caller sets it in a
+     result (result.struct_size = sizeof result). The library accepts a smaller struct than its own: missing
+     members have their defaults, and nothing is written beyond struct_size. It refuses a larger struct with
+     FFD_E_ARGUMENT, because the library is then older than the header. Structs that are elements of arrays or
+     members of other structs keep their size, or grow into reserved members ("room") behind them.
+   - Arrays. Control points are in the order index = i + size[0]*(j + size[1]*k), u fastest. Points and
+     vectors are three consecutive doubles; matrices are row-major.
+   - Units. Positions and lengths are in world units (those of the mesh, in the space where the lattice is);
+     u,v,w are in the range of the knots; angles are in degrees.
+   - Pointers are not NULL. Every ffd_error pointer may be NULL.
+   - Ownership. An object returned through a pointer to a pointer belongs to the caller, who destroys it;
+     after a failure it is NULL. Pointers that a get function returns belong to the object.
+   - Threads. Any number of threads may use an object through const pointers at the same time. A function that
+     takes a pointer without const needs the object for itself. "Thread-safe" means that a function shares no
+     other state.
+   - Errors. A function that can fail returns an ffd_status; "Errors" lists the values other than FFD_OK.
+
+   data/promises.md says which versions are compatible. */
 #ifndef FFD_FFD_H
 #define FFD_FFD_H
 

@@ -9,16 +9,17 @@
 extern "C" {
 #endif
 
-/* Which instructions the kernels use. It changes the speed and never a byte of a result. */
+/* The instruction set of the kernels. It affects the speed only: results are equal to the bit. */
 typedef enum ffd_isa {
-    FFD_ISA_AUTO,   /* the best that this processor has */
-    FFD_ISA_SCALAR, /* one number at a time; every processor */
+    FFD_ISA_AUTO,   /* the widest that is available */
+    FFD_ISA_SCALAR, /* portable C without SIMD; always available */
     FFD_ISA_SSE2,
     FFD_ISA_AVX2,
-    FFD_ISA_AVX512 /* with its parts F, DQ and VL */
+    FFD_ISA_AVX512 /* needs AVX-512 F, DQ and VL */
 } ffd_isa;
 
-/* Whether this build and this processor can run it. Thread-safe. */
+/* Returns whether this build has kernels for an instruction set and this processor supports it; false for an
+   unknown value. Thread-safe. */
 FFD_API bool ffd_isa_available(ffd_isa isa);
 
 #ifdef __cplusplus

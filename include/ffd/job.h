@@ -1,5 +1,10 @@
-/* job.h - whole jobs, as the program `ffd` runs them: read, embed, deform, judge, write, report. Meshes and
-   lattices are files, or bytes and objects in memory; results are files, or go to a callback. */
+/* job.h - whole jobs, as the program `ffd` runs them: read a mesh, embed it, deform it, judge the result,
+   write it, report it. Meshes and lattices come from files or from memory; results go to files or to
+   callbacks.
+
+   Strings, arrays and objects that a description points to belong to the caller and are used during the call
+   only. Jobs may run in several threads at once if they share no ffd_written, ffd_share, ffd_shared_box,
+   ffd_depfile or ffd_report, and write different outputs. */
 #ifndef FFD_JOB_H
 #define FFD_JOB_H
 
@@ -17,8 +22,9 @@
 extern "C" {
 #endif
 
+/* Mesh formats. */
 typedef enum ffd_format {
-    FFD_FORMAT_AUTO = 0, /* by the name's ending */
+    FFD_FORMAT_AUTO = 0, /* by the ending of the file name */
     FFD_FORMAT_OBJ,
     FFD_FORMAT_GLTF,
     FFD_FORMAT_GLB, /* .glb and .vrm */
@@ -27,282 +33,315 @@ typedef enum ffd_format {
     FFD_FORMAT_STL
 } ffd_format;
 
-/* The format that a file name's ending (or a bare ending, "obj") stands for, any case;
-   FFD_FORMAT_AUTO if none. */
+/* Returns the format of a file name by its ending (or of a bare ending, "obj"), in upper or lower case;
+   FFD_FORMAT_AUTO if the ending is unknown. Thread-safe. */
 FFD_API ffd_format ffd_format_from_name(const char *name);
 
-/* Normals and tangents follow the deformation; stay; are those of the deformed faces: corners that had
-   one position and one normal get one again, from all faces around them, by area and angle. */
+/* Normals and tangents: TRANSFORM multiplies normals by the cofactor matrix of the deformation gradient and
+   tangents by the gradient (src/maths.md 9.1); KEEP leaves them as they are; RECOMPUTE computes them from the
+   deformed faces (src/maths.md 9.2): corners that had the same position and the same normal share one normal
+   again, the mean of the faces around them weighted by area and angle. */
 typedef enum ffd_normals { FFD_NORMALS_TRANSFORM = 0, FFD_NORMALS_KEEP, FFD_NORMALS_RECOMPUTE } ffd_normals;
+/* The space of the lattice for a glTF: SCENE is world space, in which nodes and skins of the default pose
+   place the meshes; MESH is the local space of each mesh. */
 typedef enum ffd_space { FFD_SPACE_SCENE = 0, FFD_SPACE_MESH } ffd_space;
-/* Joints, pivots, sockets, cameras, lights and animations of a glTF stay where they are; or go along with the
-   deformation, so that characters keep moving (src/maths.md 9.5). */
+/* The joints, pivots, sockets, cameras, lights and animations of a glTF: KEEP leaves them where they are,
+   FOLLOW moves them with the deformation, so that characters can still be animated (src/maths.md 9.5). */
 typedef enum ffd_rig { FFD_RIG_KEEP = 0, FFD_RIG_FOLLOW } ffd_rig;
-/* Images of a glTF, material libraries and maps of an OBJ, whose output is in another folder: they are copied
-   beside it; or the URIs of a glTF lead back to them. */
+/* What happens to the images of a glTF, and to the material libraries and maps of an OBJ, if the output is in
+   another folder than the input: COPY copies them next to the output; REFERENCE (glTF only) rewrites the URIs
+   so that they lead to the original files. */
 typedef enum ffd_resources { FFD_RESOURCES_COPY = 0, FFD_RESOURCES_REFERENCE } ffd_resources;
 
-/* Quality gates, to be joined by |. A violated one fails the job with FFD_E_GATE before anything is written.
- */
+/* Quality gates, combined with |. If one is violated, the job fails with FFD_E_GATE before it writes
+   anything. */
 typedef enum ffd_gate {
-    /* A deformed volume folds, or is not proven not to; or, with EXTEND, det F <= 0 at a vertex outside. */
+    /* A deformed volume folds, or is not proven to be without folds; or, with FFD_OUTSIDE_EXTEND, det F <= 0
+       at a vertex outside. */
     FFD_GATE_FOLDS = 1,
-    FFD_GATE_OUTSIDE = 2,  /* a vertex is outside of every lattice, or there is none */
+    FFD_GATE_OUTSIDE = 2,  /* a vertex is outside of every lattice, or the mesh has no vertices */
     FFD_GATE_MULTIPLE = 4, /* a vertex has several u,v,w */
-    FFD_GATE_SINGULAR = 8, /* a vertex is where the rest volume has no inverse */
-    FFD_GATE_INVALID = 16, /* a vertex has a coordinate that is not finite */
-    FFD_GATE_TEAR = 32, /* the largest step of a torn edge is more than tear_most; or, where that is negative,
-                           any edge is torn */
-    FFD_GATE_FLIPPED = 64, /* more faces are flipped than flipped_most */
-    FFD_GATE_EDGES = 128   /* a straight edge lies farther than edges_most from the deformed surface */
+    FFD_GATE_SINGULAR = 8, /* a vertex is where the rest volume is not invertible */
+    FFD_GATE_INVALID = 16, /* a coordinate of a vertex is not finite */
+    FFD_GATE_TEAR = 32,    /* the largest step of a torn edge exceeds tear_most; if tear_most is negative: an
+                              edge is torn */
+    FFD_GATE_FLIPPED = 64, /* more than flipped_most faces are flipped */
+    FFD_GATE_EDGES = 128   /* a straight edge is farther than edges_most from the deformed surface */
 } ffd_gate;
 
+/* The importance of a log line. The program `ffd` shows warnings, and with `-v` all lines. */
 typedef enum ffd_log_level { FFD_LOG_WARNING = 0, FFD_LOG_INFO, FFD_LOG_DETAIL } ffd_log_level;
 
-/* Takes one line without line break, in the calling thread. */
+/* Receives one line without a line break, during the call only, in the thread that called the library. */
 typedef void (*ffd_log_function)(void *user, ffd_log_level level, const char *line);
 
-/* From now on SIGHUP, SIGINT, SIGPIPE, SIGQUIT and SIGTERM, where they would end the program, do so after the
-   temporary files of what is being written are gone. For programs, at their start: the library by itself does
-   nothing about signals. */
+/* Installs handlers for those of SIGHUP, SIGINT, SIGPIPE, SIGQUIT and SIGTERM that would end the program:
+   they remove the temporary files of unfinished outputs before it ends. For programs, to be called once when
+   they start; the library never installs these handlers by itself. */
 FFD_API void ffd_cleanup_on_signals(void);
 
-/* Input files are mapped into memory where they are large. From now on one that becomes shorter while it is
-   read makes the function that reads it fail with FFD_E_IO; without this the system ends the program by
-   SIGBUS. For programs, at their start, since it installs a handler for SIGBUS: what that does not know as an
-   input's it hands on to the handler that was there before. */
+/* Installs a SIGBUS handler. Large input files are mapped into memory; if another program truncates one while
+   it is read, the system raises SIGBUS. With the handler the function that reads the file fails with FFD_E_IO
+   instead. A SIGBUS with another cause is passed to the previous handler. For programs, to be called once
+   when they start. */
 FFD_API void ffd_guard_inputs(void);
 
-/* Brings back what a run had set aside to replace it (a .gltf and its buffers), and had not replaced when it
-   was killed; or removes it, if the new files were in place. ffd_deform_run and ffd_embed_run do this for
-   their outputs. path: the .gltf, or another output that several files belong to; no stream. Does nothing
-   where there is nothing to do. Errors: FFD_E_IO, FFD_E_MEMORY. */
+/* Recovers the files of an output of several files (a .gltf and its buffers) after a run that replaced them
+   was killed: either restores the old files, which the run had set aside, or removes them if all new files
+   are in place. ffd_deform_run and ffd_embed_run do this for their outputs. path: the .gltf, or the main file
+   of another such output; not "-". Does nothing if there is nothing to recover. Errors: FFD_E_IO,
+   FFD_E_MEMORY. */
 FFD_API ffd_status ffd_restore_output(const char *path, ffd_error *error);
 
-/* Bytes that the caller lends until the job has ended. NULL: none; a size other than 0 is then refused. They
-   are not changed, and not copied where they begin at a multiple of 8. */
+/* Bytes that the caller owns and must not change or free before the job ends. data NULL: none; size must then
+   be 0. The library does not change them; it copies them only if their address is not a multiple of 8. */
 typedef struct ffd_bytes {
     const void *data;
     size_t size;
 } ffd_bytes;
 
-/* Finds a file that a mesh in memory names: a buffer, an image, a material library and its maps. name is
-   relative to the mesh, with "/", as the mesh has it but for "." and ".."; none leads out of its folder.
-   *bytes is zeroed: what stays so is a file that is not there; a size without data ends the job with
-   FFD_E_ARGUMENT. Bytes are lent until the job has ended. Called once for a name, by one thread at a time,
-   mostly but not always the caller's. Any status but FFD_OK ends the job with it (with FFD_E_IO, if it is
-   none of ffd_status), before anything is written. It is not called again then. */
+/* Provides a file that a mesh in memory refers to: a buffer, an image, a material library or a map.
+   - name: relative to the mesh, with "/", as in the mesh except that "." and ".." are resolved; it never
+     leads out of the mesh's folder.
+   - bytes: zeroed before the call; leave it so if the file does not exist. A size without data ends the job
+     with FFD_E_ARGUMENT. The bytes must stay valid until the job ends.
+
+   Called once for each name, by one thread at a time, which is not always the thread that called the library.
+   A result other than FFD_OK ends the job with this status before it writes anything (FFD_E_IO if it is not
+   an ffd_status); there are no further calls. */
 typedef ffd_status (*ffd_resolve_function)(void *user, const char *name, ffd_bytes *bytes);
 
-/* Takes a file that a job has made: name is the output's, or that of a file beside it in the output's folder
-   ("out/head.gltf": "out/head.bin", "out/skin.png"). The bytes are lent during the call. Called by the
-   caller's thread, when all that can be refused was refused and all files are complete: once for each, the
-   output itself last. Nothing reaches it where the job fails before. Any status but FFD_OK ends the job with
-   it, as above: those that it has taken by then it keeps, without the output. */
+/* Receives a file that a job has made. name is that of the output or, for a further file, a name in the
+   folder of the output ("out/head.gltf": "out/head.bin", "out/skin.png"). bytes are valid during the call
+   only. Called in the thread that called the library, once for each file and for the output itself last,
+   after all checks have passed and all files are complete; a job that fails before that makes no call. A
+   result other than FFD_OK ends the job as for ffd_resolve_function: the callee has then received some files
+   without the output. */
 typedef ffd_status (*ffd_sink_function)(void *user, const char *name, const void *bytes, size_t size);
 
-/* Takes the deformed vertices of a job's mesh: x, y, z of each, count of them, in the order of `ffd embed`
-   and in the lattice's space (that of the scene; with FFD_SPACE_MESH that of each mesh), as doubles that are
-   not rounded to the file's numbers. Vertices that are not selected, or that stay, are there as well; those
-   of a node whose matrix has no inverse are NaN. Of a glTF they are the stored shapes, without weights of
-   morph targets or an animation. Lent during the call, which the caller's thread makes once, with dry_run
-   too: after all gates, and before the output. Any status but FFD_OK ends the job with it, as above. */
+/* Receives the deformed vertices of the mesh of a job: x,y,z of count vertices, in the order of `ffd embed`,
+   in the space of the lattice (ffd_space), before rounding to the number type of the file. It includes
+   vertices that are not selected or do not move; vertices of a node whose matrix is not invertible are NaN.
+   For a glTF these are the stored shapes, without morph targets and animations. positions is valid during the
+   call only. Called once, in the thread that called the library, after all gates and before the output is
+   written; also with dry_run. A result other than FFD_OK ends the job as for ffd_resolve_function. */
 typedef ffd_status (*ffd_positions_function)(void *user, const double *positions, size_t count);
 
 /* A mesh to read. */
 typedef struct ffd_source {
-    /* "-": standard input. With bytes only a name, which messages have and whose ending says the format where
-       nothing else does; or NULL: "mesh". FFD_E_ARGUMENT for a name, or one of an output in memory, whose
-       last part is empty, "." or "..". */
+    /* "-": standard input. With bytes it is only a name for messages, and its ending says the format if
+       format is FFD_FORMAT_AUTO; NULL then stands for "mesh". FFD_E_ARGUMENT if the last component of such a
+       name, or of that of an output in memory, is empty, "." or "..". */
     const char *path;
-    ffd_format format; /* AUTO is not possible for "-" */
-    ffd_space space;   /* glTF: the space of the lattice */
-    /* Bytes of memory that the mesh and the lattices of its job may take; 0, or less than that: 100 MB and 20
-       times the size of their files. What asks for more (a short file can show or unpack any number of
-       vertices, or ask for any number of control points) is refused with FFD_E_LIMIT. Estimated. */
+    ffd_format format; /* FFD_FORMAT_AUTO is not allowed for "-" */
+    ffd_space space;   /* of the lattice; for glTF only */
+    /* Memory budget in bytes for the mesh and the lattices of its job. The least budget, and the default (0),
+       is 100 MB plus 20 times the size of their files. Input that needs more by estimate is refused with
+       FFD_E_LIMIT: a short file can unpack to any number of vertices or ask for any number of control
+       points. */
     uint64_t memory;
-    int threads; /* for reading and writing it: 0: those of the job, or all cores */
-    /* Normals will not be asked for: a format may leave them out, and does not describe them then.
-       ffd_deform_run decides on this itself. */
+    int threads; /* for reading and writing the mesh; 0: those of the job, or all cores */
+    /* Normals are not needed: a reader may skip them, and then does not describe them. ffd_deform_run sets
+       this itself. */
     bool only_positions;
-    /* What the format's specification calls an error is FFD_E_INVALID even where its meaning is plain. Else
-       the log is warned of it. */
+    /* true: violations of the format's specification are FFD_E_INVALID. false: those whose meaning is clear
+       are only logged as warnings (ffd_flaw). */
     bool strict;
-    /* allow_extension_count names of glTF extensions, or NULL: a file that requires them is deformed although
-       they are not known, or not supported: FFD_E_UNSUPPORTED else. */
+    /* allow_extension_count names of glTF extensions, or NULL. A file that requires an extension which is
+       unknown or not supported is FFD_E_UNSUPPORTED, unless the extension is listed here. */
     const char *const *allow_extensions;
     size_t allow_extension_count;
-    ffd_bytes bytes;              /* the mesh itself; no file is read then, not even one that it names: */
-    ffd_resolve_function resolve; /* finds these; NULL: there are none. Only with bytes. */
-    void *resolve_user;
-    uint64_t source_room[4]; /* 0; for later versions */
+    /* The content of the mesh file. No files are then read, not even those that the mesh refers to; resolve
+       provides them. */
+    ffd_bytes bytes;
+    ffd_resolve_function resolve; /* with bytes only; NULL: no such files exist */
+    void *resolve_user;           /* passed to resolve */
+    uint64_t source_room[4];      /* reserved, 0 */
 } ffd_source;
 
-/* What a mesh file has against the specification of its format, where its meaning is plain: viewers open the
-   file, and no vertex could stand elsewhere. */
+/* One kind of violation of the format's specification in a mesh file, where the meaning is clear all the
+   same: viewers open the file, and every position is certain. */
 typedef struct ffd_flaw {
-    char message[256]; /* the first one of its kind, as ffd_error has it */
-    char pointer[128]; /* JSON pointer to it, "": none */
-    uint64_t line;     /* its line from 1, 0: none */
-    uint64_t count;    /* of the kind */
+    char message[256]; /* of the first one of its kind, as in ffd_error */
+    char pointer[128]; /* JSON pointer to it; "": none */
+    uint64_t line;     /* its line, from 1; 0: none */
+    uint64_t count;    /* number of violations of this kind */
 } ffd_flaw;
-/* The kinds of one file; what is left over shares the last. */
+/* The most kinds that are reported for a file; all further ones are counted with the last. */
 #define FFD_FLAWS 8
 
-/* Whether text is a selector as ffd_deform_desc's only takes it. Errors: FFD_E_ARGUMENT,
-   with the nearest kind. */
+/* Checks the syntax of a selector, as in ffd_deform_desc.only. Thread-safe. Errors: FFD_E_ARGUMENT; the
+   message names the most similar kind. */
 FFD_API ffd_status ffd_selector_check(const char *text, ffd_error *error);
 
-/* Whether text is an animation of weights as ffd_deform_desc's clips take it. Errors: FFD_E_ARGUMENT, with
-   what stands where something else should, FFD_E_MEMORY. */
+/* Checks the syntax of an animation of weights, as in ffd_deform_desc.clips. Thread-safe. Errors:
+   FFD_E_ARGUMENT (the message quotes what is wrong), FFD_E_MEMORY. */
 FFD_API ffd_status ffd_clip_check(const char *text, ffd_error *error);
 
-/* The files that one run has written so far. Jobs that share the record neither replace nor read what an
-   earlier one of them wrote: two names can lead to one file. One thread at a time. */
+/* The set of files that a run has written. Jobs that share it neither overwrite nor read what an earlier one
+   of them wrote; files are compared by identity, because several names can lead to one file. One thread at a
+   time. */
 typedef struct ffd_written ffd_written;
 
+/* Creates an empty set. The caller destroys *written. Errors: FFD_E_MEMORY. */
 FFD_API ffd_status ffd_written_create(ffd_written **written, ffd_error *error);
-/* Frees the record and clears the pointer. NULL and pointers to NULL are allowed. */
+/* Destroys the set and sets *written to NULL. written and *written may be NULL. */
 FFD_API void ffd_written_destroy(ffd_written **written);
 
-/* What a job leaves for the next one: its mesh, where that stays as it is, its lattices, whether they fold,
-   what the rest volumes are searched with, and the mesh's u,v,w in the rest lattice where there is only one.
-   A job that needs the same again does not read or make it anew; its output and its figures but for the
-   seconds are the same either way. One job at a time. */
+/* A cache that a job leaves for the next one: the mesh (if it is unchanged), the lattices, their fold proofs
+   and search structures, and, for a single lattice, the u,v,w of the mesh. The output and all figures except
+   the seconds are the same with and without a cache. One job at a time. */
 typedef struct ffd_share ffd_share;
 
+/* Creates an empty cache. The caller destroys *share. Errors: FFD_E_MEMORY. */
 FFD_API ffd_status ffd_share_create(ffd_share **share, ffd_error *error);
-/* For jobs of which each has another mesh: only lattices, and what their rest volumes are searched with. */
+/* As ffd_share_create, for jobs that all have different meshes: keeps only lattices and their search
+   structures. */
 FFD_API ffd_status ffd_share_create_for_lattices(ffd_share **share, ffd_error *error);
-/* Frees what is kept and clears the pointer. NULL and pointers to NULL are allowed. */
+/* Destroys the cache and sets *share to NULL. share and *share may be NULL. */
 FFD_API void ffd_share_destroy(ffd_share **share);
 
-/* One box round the meshes of several jobs, for lattices whose box is "mesh" (`--shared-box`). */
+/* One box round the meshes of several jobs, for lattices whose box is "mesh" (`--shared-box`). One thread at
+   a time; jobs only read it. */
 typedef struct ffd_shared_box ffd_shared_box;
 
-/* A box round nothing. */
+/* Creates an empty box. The caller destroys *box. Errors: FFD_E_MEMORY. */
 FFD_API ffd_status ffd_shared_box_create(ffd_shared_box **box, ffd_error *error);
-/* Frees the box and clears the pointer. NULL and pointers to NULL are allowed. */
+/* Destroys the box and sets *box to NULL. box and *box may be NULL. */
 FFD_API void ffd_shared_box_destroy(ffd_shared_box **box);
 
-/* The files that outputs were made from, as make and ninja read them: a rule "OUT: MESH BUFFERS IMAGES
-   LATTICES EMBEDDING" for each job that succeeds. Streams are left out, and images and material libraries but
-   those that are copied with the output. One thread at a time. */
+/* A dependency file for make and ninja: a rule "OUT: MESH BUFFERS IMAGES LATTICES EMBEDDING" for each job
+   that succeeds. Standard streams are left out; images and material libraries are listed only if they are
+   copied with the output. One thread at a time. */
 typedef struct ffd_depfile ffd_depfile;
 
-/* Starts a depfile that will be written to path ("-": standard output), under a temporary name until it is
-   complete: what cannot be written is known before the first job. Of existing files it replaces depfiles only
-   (FFD_E_EXISTS). Errors: FFD_E_IO, FFD_E_EXISTS, FFD_E_MEMORY. */
+/* Starts a dependency file at path ("-": standard output). It is written under a temporary name until it is
+   complete, so an unwritable path fails before the first job. An existing file is replaced only if it is a
+   dependency file. The caller destroys *depfile. Errors: FFD_E_IO, FFD_E_EXISTS, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_depfile_create(const char *path, ffd_depfile **depfile, ffd_error *error);
-/* Frees a depfile; one that was not written leaves an old one, and nothing else behind. NULL and pointers to
-   NULL are allowed. */
+/* Destroys the object and sets *depfile to NULL. Without ffd_depfile_write an old file stays as it was, and
+   no temporary file remains. depfile and *depfile may be NULL. */
 FFD_API void ffd_depfile_destroy(ffd_depfile **depfile);
-/* Writes the depfile. At most once, after the jobs. */
+/* Writes the file under its own name. To be called at most once, after the jobs. Errors: FFD_E_IO,
+   FFD_E_MEMORY. */
 FFD_API ffd_status ffd_depfile_write(ffd_depfile *depfile, ffd_error *error);
 
+/* A job of `ffd deform` or `ffd check`. Fill with ffd_deform_desc_init, then set input, output and
+   lattices. */
 typedef struct ffd_deform_desc {
-    size_t struct_size; /* sizeof(ffd_deform_desc) of the caller */
-    ffd_source input;
-    const char *output; /* path, "-" for standard output */
-    /* May be another than the input's: the deformed mesh is then converted, in scene space, and the log is
-       warned of what the output's format cannot hold. .gltf and .glb are one format in two containers. */
+    size_t struct_size; /* sizeof(ffd_deform_desc) in the caller's header */
+    ffd_source input;   /* the mesh */
+    const char *output; /* path; "-": standard output */
+    /* If it differs from the format of the input, the deformed mesh is converted, in scene space; the log is
+       warned of what the format cannot hold. .gltf and .glb are the same format in two containers. */
     ffd_format output_format;
-    const char *const *lattices; /* lattice_count paths, applied in that order; at least one */
+    const char *const *lattices; /* lattice_count paths (>= 1), applied in this order */
     size_t lattice_count;
-    /* All lattices act on the mesh at rest, and each vertex is in one of them: the first that holds it. Else
-       each acts on what the ones before have made. */
+    /* false: each lattice acts on the result of those before it. true: all lattices act on the mesh at rest,
+       and each vertex belongs to the first lattice that holds it. */
     bool blocks;
-    /* set_count values for placeholders of the lattices' moves, or NULL. FFD_E_INVALID for one that no
-       lattice has. */
+    /* set_count values for placeholders in the moves of the lattices, or NULL. FFD_E_INVALID for a
+       placeholder that no lattice has. */
     const ffd_setting *set;
     size_t set_count;
-    ffd_outside outside;
-    double falloff; /* EXTEND: the displacement fades to nothing over this distance, world units; 0: it
-                       does not */
-    /* A vertex that misses a lattice's volume by no more than this is inside, at the nearest point of its
-       border: world units or, relative, parts of the rest lattice's diagonal. Whatever it is, a vertex is
-       inside where its rounding reaches: half an ulp of the number in the file, half a step of quantized
-       ones. */
+    ffd_outside outside; /* for vertices without u,v,w in a lattice */
+    /* With FFD_OUTSIDE_EXTEND: the distance in world units over which the displacement fades to 0; 0: it does
+       not fade. */
+    double falloff;
+    /* A vertex that is outside of a lattice's volume by at most this distance is inside, at the nearest point
+       of the border. World units, or with snap_relative a fraction of the diagonal of the rest lattice; >= 0.
+       A vertex is inside also if the rounding of its stored coordinates (half an ulp, or half a quantization
+       step) reaches the volume. */
     double snap;
     bool snap_relative;
-    const char *embedding; /* the file that `ffd embed` made of this mesh and the only lattice, with this
-                              snap, or NULL; not with blocks */
-    unsigned fail_on;      /* of ffd_gate, with the values of some: */
-    double tear_most;      /* negative: no edge may be torn */
-    uint64_t flipped_most;
-    double edges_most;
-    bool quality; /* fill the result's folds, flipped faces and det F too: they cost time and memory */
-    ffd_normals normals;
-    /* FOLLOW: FFD_E_ARGUMENT with as_morph, in mesh space, and where input or output is no glTF. */
+    /* A file that `ffd embed` made of this mesh and the only lattice with the same snap, to be reused; or
+       NULL. Not with blocks. */
+    const char *embedding;
+    unsigned fail_on;      /* ffd_gate flags; the next three are the limits of some gates */
+    double tear_most;      /* FFD_GATE_TEAR: world units; negative: no edge may be torn */
+    uint64_t flipped_most; /* FFD_GATE_FLIPPED: number of faces */
+    double edges_most;     /* FFD_GATE_EDGES: world units */
+    bool quality; /* also compute the folds, flipped faces and det F of the result, which takes time and
+                     memory */
+    ffd_normals normals; /* normals and tangents of the output */
+    /* FOLLOW is FFD_E_ARGUMENT with as_morph, in mesh space, and if the input or the output is not a glTF. */
     ffd_rig rig;
-    const char *as_morph; /* to glTF: leave the base shape and add the deformation as a morph target of this
-                             name, weight 0, or replace the one of this name, whose weight stays; NULL: deform
-                             it. ffd_check_run does not look at it. */
-    /* To glTF: lattice_count names, each another, or NULL. The base shape is left, and each lattice by itself
-       makes the morph target of its name, as as_morph makes one, in one pass over the mesh. Not with
-       as_morph, blocks or, of several, embedding, and not for ffd_check_run and ffd_view_run. */
+    /* glTF output: keep the base shape, and store the deformation as a morph target of this name with weight
+       0. An existing target of this name is replaced and keeps its weight. NULL: deform the base shape.
+       ffd_check_run ignores it. */
+    const char *as_morph;
+    /* glTF output: lattice_count different names, or NULL. The base shape is kept, and each lattice by itself
+       makes the morph target of its name, as with as_morph, in one pass over the mesh. Not with as_morph or
+       blocks, nor with embedding if there are several lattices, and not for ffd_check_run and
+       ffd_view_run. */
     const char *const *morphs;
-    /* clip_count animations of the weights of morph targets, or NULL: texts "NAME: TIME TARGET=WEIGHT ...,
-       TIME ..." (ffd_clip_check), seconds that ascend, between which weights are linear; a target that a time
-       does not name has the weight 0 there. They name targets of morphs and of the file (FFD_E_ARGUMENT for
-       others); targets that are neither keep their default weights. One of a clip's name is replaced. Only
-       with morphs. */
+    /* clip_count animations of morph target weights, or NULL; only with morphs. Each is a text "NAME: TIME
+       TARGET=WEIGHT ..., TIME ..." (ffd_clip_check) with ascending times in seconds. Weights are interpolated
+       linearly; a target that is not named at a time has the weight 0 there. Targets are those of morphs and
+       of the file (others are FFD_E_ARGUMENT); targets that no time names keep their default weights. An
+       existing animation of the same name is replaced. */
     const char *const *clips;
     size_t clip_count;
-    struct ffd_job_result *morph_results; /* filled: lattice_count, of each of morphs; or NULL */
-    /* only_count selectors "KIND:NAME", or NULL: only what at least one of them names is moved, counted in
-       the result and the gates, and inside of a lattice whose box is "mesh"; all else keeps every byte. glTF
-       has the kinds node (with all below it), mesh, material; OBJ group, object, material; other formats have
-       none. FFD_E_ARGUMENT for a kind or name that the file does not have. */
+    struct ffd_job_result *morph_results; /* lattice_count results, filled with those of each morph target; or
+                                             NULL */
+    /* only_count selectors "KIND:NAME", or NULL for all of the mesh. Only the parts that match at least one
+       of them are moved, are counted in the result and by the gates, and determine a box "mesh"; everything
+       else keeps its bytes. The kinds are node (with its descendants), mesh and material for glTF; group,
+       object and material for OBJ; other formats have none. FFD_E_ARGUMENT for a kind or name that the file
+       does not have. */
     const char *const *only;
     size_t only_count;
-    ffd_resources resources;
-    int threads; /* 0: all cores. Never changes a byte of the output. */
-    ffd_isa isa; /* nor does this. FFD_E_ARGUMENT for one that is not available. */
-    bool force;  /* overwrite an existing output */
-    /* Overwrite an existing output only if it, or a file that belongs to it, would get other bytes: else all
-       of them stay untouched. */
+    ffd_resources resources; /* images and material libraries, if the output is in another folder */
+    int threads;             /* >= 1, or 0 for all cores; does not affect the output */
+    ffd_isa isa;             /* does not affect the output; FFD_E_ARGUMENT if not available */
+    bool force;              /* overwrite an existing output */
+    /* Overwrite an existing output only if its bytes, or those of a file that belongs to it, would change;
+       otherwise all of them stay untouched. */
     bool if_changed;
-    bool in_place; /* output is the input (output is NULL then) */
-    /* Everything but the writing, unlike ffd_check_run with the refusals that concern the output and the
-       files beside it; what only the writing finds out is not refused. */
+    bool in_place; /* overwrite the input; output must be NULL */
+    /* Do everything except writing. Unlike ffd_check_run, this includes the checks of the output path and of
+       the files next to it; only errors of the writing itself are not found. */
     bool dry_run;
-    ffd_written *written; /* of the run, or NULL */
-    ffd_share *share;     /* with the jobs before and after, or NULL */
-    /* What a lattice whose box is "mesh" goes round, in place of the job's own mesh; or NULL. */
+    ffd_written *written; /* the files of this run; may be NULL */
+    ffd_share *share;     /* the cache of this run; may be NULL */
+    /* The box for lattices whose box is "mesh", instead of the bounds of this mesh; may be NULL. */
     const ffd_shared_box *shared_box;
-    ffd_depfile *depfile; /* gets the rule of the output, which is neither "-" nor in place; or NULL */
-    ffd_log_function log; /* may be NULL */
-    void *log_user;
-    /* lattice_count objects, or NULL: one that is not NULL is taken in place of the file of its number, whose
-       path is then a name for messages, or NULL. It is copied. Placeholders are of files only. */
+    ffd_depfile *depfile; /* receives the rule of the output; not with "-" and in_place; may be NULL */
+    ffd_log_function log; /* receives warnings and, by level, more; may be NULL */
+    void *log_user;       /* passed to log, as the other _user members to their functions */
+    /* lattice_count lattices, or NULL. An element that is not NULL replaces the file of that index, whose
+       path is then only a name for messages, or NULL. The job works on a copy. Placeholders (set) are for
+       files and texts only. */
     const ffd_lattice *const *lattice_objects;
-    /* The same with the text of a file; not with an object of that number. FFD_E_ARGUMENT for a box round
-       meshes, which a file names relative to itself. */
+    /* The same with the content of lattice files; each index has an object or a text, not both.
+       FFD_E_ARGUMENT for a box round named meshes, whose paths are relative to the file. */
     const ffd_bytes *lattice_texts;
-    ffd_bytes embedding_bytes; /* those of the file; embedding is then a name, or NULL */
-    /* Takes what would be written, and nothing is: output is then a name, written is not looked at, and no
-       file is in the way. FFD_E_ARGUMENT with in_place, depfile and FFD_RESOURCES_REFERENCE. */
+    ffd_bytes embedding_bytes; /* the content of the embedding file; embedding is then only a name, or NULL */
+    /* Receives what would be written; no file is written then. output is only a name, written is ignored, and
+       existing files do not matter. FFD_E_ARGUMENT with in_place, depfile and FFD_RESOURCES_REFERENCE. */
     ffd_sink_function sink;
     void *sink_user;
-    /* Takes the deformed positions, of ffd_deform_run and ffd_check_run; or NULL. With it output may be NULL:
-       then no mesh is written, and as_morph, depfile and output_format are FFD_E_ARGUMENT. So are morphs. */
+    /* Receives the deformed positions, in ffd_deform_run and ffd_check_run; may be NULL. With it output may
+       be NULL, to write no mesh; as_morph, morphs, depfile and output_format are FFD_E_ARGUMENT then. */
     ffd_positions_function positions;
     void *positions_user;
 } ffd_deform_desc;
 
+/* Sets desc to defaults: all members 0, NULL or false. size: sizeof(ffd_deform_desc) in the caller's
+   header. */
 FFD_API void ffd_deform_desc_init(ffd_deform_desc *desc, size_t size);
 
-/* Widens the box by the mesh of a job, or what its selectors leave, as the file has it. To be done for all
-   jobs before the first of them runs. Errors: those of reading the mesh, and FFD_E_ARGUMENT for a stream,
-   which could not be read again. */
+/* Extends the box by the mesh of a job, or by what its selectors match, at rest. To be called for all jobs
+   before the first of them runs. Errors: those of reading the mesh; FFD_E_ARGUMENT for standard input, which
+   cannot be read twice. */
 FFD_API ffd_status ffd_shared_box_add(ffd_shared_box *box, const ffd_deform_desc *desc, ffd_error *error);
 
+/* An axis-aligned box, in world units. */
 typedef struct ffd_bounds {
-    double min[3], max[3]; /* min > max where there is no finite vertex */
+    double min[3], max[3]; /* min > max if no vertex is finite */
 } ffd_bounds;
 
-/* What stays as it is where the mesh is moved. */
+/* What a deformation can leave behind: things that keep their place while the mesh moves. */
 typedef enum ffd_behind_kind {
     FFD_BEHIND_SOCKET = 0, /* an empty node without children */
     FFD_BEHIND_CAMERA,
@@ -310,220 +349,243 @@ typedef enum ffd_behind_kind {
     FFD_BEHIND_JOINT,
     FFD_BEHIND_PIVOT, /* a node whose translation, rotation or scale is animated */
     FFD_BEHIND_PHYSICS_SHAPE,
-    FFD_BEHIND_SPLAT, /* a Gaussian splat that is moved, by more than a translation of all, and whose rotation
-                         and scale cannot follow: see splats_carried */
+    FFD_BEHIND_SPLAT, /* a Gaussian splat that moves, in a lattice that does more than translate, but whose
+                         rotation and scale cannot follow (compare splats_carried) */
     FFD_BEHIND_KIND_COUNT
 } ffd_behind_kind;
 
+/* The most names that are listed for a kind. */
 #define FFD_BEHIND_NAMES 3
+/* The things of one kind that are left behind. */
 typedef struct ffd_behind {
-    uint64_t count;
-    /* The first ones in the order of the file (of splats: what shows them), cut to the size, control
-       characters as '?'; "": there is none. */
+    uint64_t count; /* number of things of this kind that are left behind */
+    /* The first names in the order of the file (for splats: of the nodes that show them), cut to fit, with
+       control characters replaced by '?'; "": no further name. */
     char names[FFD_BEHIND_NAMES][80];
 } ffd_behind;
 
-/* Joints, pivots and sockets of a glTF: whether there are any, and how far they are from where the lattice
-   moves the mesh. */
+/* The joints, pivots and sockets of a glTF, and their lag: the distance from where a joint is in the output
+   to where the lattice moves its place in the mesh. */
 typedef struct ffd_rig_result {
-    bool is_there; /* there are some, or other nodes follow; else all is 0 */
+    bool is_there; /* there are joints, pivots or sockets, or other nodes follow; if false, all other members
+                      are 0 */
     uint64_t joints;
-    uint64_t moved;     /* nodes that are written otherwise */
-    uint64_t sheared;   /* of these: nodes that turn as their parents do, since they would be sheared else */
-    uint64_t singular;  /* nodes that stay, as do those below them: their matrices have no inverse */
-    uint64_t partial;   /* nodes that stay because their meshes are selected in part */
-    uint64_t unscaled;  /* nodes with sizes that stay: of physics shapes, spring bones, eyes (VRM), splats */
+    uint64_t moved;     /* nodes whose transforms are changed in the output */
+    uint64_t sheared;   /* of these: nodes that rotate with their parents, because another rotation would
+                           shear them */
+    uint64_t singular;  /* nodes that stay, with their descendants, because their matrices are not
+                           invertible */
+    uint64_t partial;   /* nodes that stay because their meshes are selected only in part */
+    uint64_t unscaled;  /* nodes that follow but have sizes which do not: physics shapes, spring bones, eyes
+                           (VRM), splats */
     double largest_lag; /* |D(x) - x'| over joints, pivots and sockets */
-    char worst[80]; /* the name of the first one with this lag, as ffd_behind has names; "": there is none */
-    uint64_t lagging_skins, lagging_pivots, lagging_sockets; /* with some lag; skins: of some joint */
+    char worst[80];     /* name of the first node with this lag, in the form of ffd_behind.names; "": none */
+    uint64_t lagging_skins, lagging_pivots, lagging_sockets; /* with a lag above 0; skins: with such a
+                                                                joint */
 } ffd_rig_result;
 
-/* What a job did: the figures of the report (data/schema/formats.md 2). Lengths in world units
-   unless said otherwise. */
+/* The result of a job: the figures of the report (data/schema/formats.md 2; src/maths.md 11). Lengths are in
+   world units unless stated otherwise. */
 typedef struct ffd_job_result {
-    size_t struct_size; /* sizeof(ffd_job_result) of the caller, set before the call */
-    ffd_status status;
-    ffd_error error;
-    uint64_t vertices;
-    uint64_t counts[FFD_VERTEX_STATUS_COUNT]; /* by ffd_vertex_status; of several lattices: outside is what is
-                                                 outside of all, else the highest one */
-    /* Vertices that are not inside and that nothing shows, which counts leaves out and no gate looks at: in
-       no face, line or point; of hidden nodes (KHR_node_visibility). Those that are not finite are counted.
-     */
+    size_t struct_size; /* sizeof(ffd_job_result) in the caller's header, set before the call */
+    ffd_status status;  /* what the function returned */
+    ffd_error error;    /* details of a failure */
+    uint64_t vertices;  /* selected vertices that are counted */
+    /* Vertices by ffd_vertex_status. With several lattices a vertex is outside if it is outside of all of
+       them; otherwise its status is the highest of those it has in the lattices. */
+    uint64_t counts[FFD_VERTEX_STATUS_COUNT];
+    /* Vertices that are not inside and not visible: in no face, line or point; of hidden nodes
+       (KHR_node_visibility). counts and gates leave them out, unless they are not finite. */
     uint64_t unused, hidden;
-    /* glTF: vertices that morph targets move outside of every lattice, or to coordinates that are not finite,
-       once for each target; and those that the default weights of all targets move outside. The gates count
-       these too. */
+    /* glTF: vertices that a morph target moves outside of every lattice, or to coordinates that are not
+       finite, counted for each target; vertices that the default weights of all targets move outside. The
+       gates include them. */
     uint64_t targets_outside, targets_invalid, shown_outside;
-    bool own_box; /* a lattice's box was laid round the mesh of this job */
-    uint64_t moved;
+    bool own_box;                      /* a box "mesh" was laid round the mesh of this job */
+    uint64_t moved;                    /* vertices whose position changes */
     double residual_max, residual_rms; /* relative to the diagonal of the rest lattice */
-    double evaluations_mean;
+    double evaluations_mean;           /* evaluations of C for a vertex */
     uint32_t evaluations_max;
-    /* Of vertices that are not hidden, as default weights of morph targets show them; where the deformation
-       becomes a morph target itself (as_morph), of the base. */
+    /* Of vertices that are not hidden, in the shape that the default weights of morph targets show; if the
+       deformation becomes a morph target itself (as_morph), of the base shape. */
     ffd_bounds before, after;
     double displacement_max, displacement_rms;
-    uint64_t
-        moved_twice; /* vertices on a face that two lattices share, which both move, one after the other */
-    uint64_t disagreeing; /* blocks: vertices on a face of theirs that another block moves otherwise */
-    double disagreement;  /* the largest difference from the block that has the vertex */
-    uint64_t normals_collapsed;
-    uint64_t splats_carried;      /* Gaussian splats whose rotations, scales and harmonics follow; */
-    uint64_t splats_flattened;    /* of these, those that lose a size, since F has no inverse there */
-    uint64_t splats_broken;       /* that move without, since their rotation or scales are not numbers */
-    uint64_t normals_carried;     /* RECOMPUTE: those without a face to be computed from, which
-                                     follow the deformation */
-    uint64_t transforms_singular; /* vertices kept because their node's or skin's matrix has no inverse */
-    uint64_t weights_off;         /* vertices whose skin weights do not sum to 1: divided by their sum */
-    double weights_farthest;      /* that such a sum is from 1 */
+    /* Vertices on a face that two lattices share, and that both lattices move, one after the other. */
+    uint64_t moved_twice;
+    uint64_t disagreeing;         /* blocks: vertices on a common face that another block moves differently */
+    double disagreement;          /* the largest such difference */
+    uint64_t normals_collapsed;   /* normals that keep their direction, because the deformed surface has none
+                                     there */
+    uint64_t splats_carried;      /* Gaussian splats whose rotation, scale and harmonics follow */
+    uint64_t splats_flattened;    /* of these: splats that lose an extent, because F is not invertible
+                                     there */
+    uint64_t splats_broken;       /* splats that only move, because their rotation or scale is not finite */
+    uint64_t normals_carried;     /* RECOMPUTE: normals without a face, which are transformed instead */
+    uint64_t transforms_singular; /* vertices that stay because the matrix of their node or skin is not
+                                     invertible */
+    uint64_t weights_off;         /* vertices whose skin weights do not sum to 1 and are divided by their
+                                     sum */
+    double weights_farthest;      /* the largest difference of such a sum from 1 */
     uint64_t weights_none;        /* vertices without skin weights, which follow their first joint */
-    bool has_folds;               /* the proof ran: for check, quality and FFD_GATE_FOLDS */
-    ffd_folds folds;        /* of all lattices: the worst verdict (some, unknown, none), sums of cells, the
-                               least min_det, the witness of the first lattice that has one */
-    uint64_t folds_room[8]; /* for what ffd_folds gets in later versions, as all that is called room here */
-    size_t folds_lattice;   /* number of the witness' lattice, from 0 */
-    bool has_flipped;       /* for check and quality */
+    bool has_folds;               /* the proof ran: with ffd_check_run, quality and FFD_GATE_FOLDS */
+    /* Of all lattices: the worst verdict (some, then unknown, then none), the sums of cells, the least
+       min_det, and the witness of the first lattice that has one. */
+    ffd_folds folds;
+    uint64_t folds_room[8]; /* reserved for members of ffd_folds in later versions, as are all members named
+                               room */
+    size_t folds_lattice;   /* index of the lattice of the witness, from 0 */
+    bool has_flipped;       /* with ffd_check_run and quality */
     uint64_t faces, flipped_faces;
-    /* Torn edges: one end moves, and the other stays where the displacement does not fade, or moves otherwise
-       although both are at one border or seam (src/maths.md 7.4). Edges that are not shown do not count.
-       Counted for check, quality, FFD_GATE_TEAR, and where vertices stay in a mesh of at most 5.5 million. */
+    /* Torn edges: one end moves and the other stays, where the displacement does not fade; or the ends move
+       differently although both are at a common border or seam (src/maths.md 7.4). Invisible edges do not
+       count. Counted with ffd_check_run, quality and FFD_GATE_TEAR, and if vertices stay in a mesh of at most
+       5.5 million. */
     bool has_tear;
-    uint64_t tear_edges;
-    double tear_largest; /* the largest step of one of them */
-    uint64_t
-        tear_vertex; /* an end of it, the one that stays if one does, from 0, in the order of `ffd embed` */
-    char tear_part[256]; /* that has it: "node:NAME", "mesh:NAME", "group:NAME", "object:NAME"; "": no name */
-    uint64_t tear_stays; /* vertices of that part, or else of the mesh, that stay */
-    bool
-        tear_unselected; /* it stays because it is not selected, or cannot be brought back to its own space */
-    bool tear_between;   /* it moves too: other lattices of a chain than its neighbour's, or more or fewer */
-    bool tear_seam; /* the edge crosses two rest faces of a lattice that coincide, and that are moved apart */
-    bool tear_disagrees; /* blocks: it is on a common face, which another block moves otherwise */
-    double det_outside;  /* with EXTEND: the least det F of vertices outside, where it is looked at (check,
-                            quality, FFD_GATE_FOLDS); else infinite */
+    uint64_t tear_edges; /* number of torn edges */
+    double tear_largest; /* the largest step of a torn edge */
+    /* An end of that edge: the one that stays, if one does. An index from 0 in the order of `ffd
+       embed`. */
+    uint64_t tear_vertex;
+    char tear_part[256]; /* the part of that vertex: "node:NAME", "mesh:NAME", "group:NAME" or "object:NAME";
+                            "": no name */
+    uint64_t tear_stays; /* vertices that stay in that part, or in the mesh if there is no part */
+    /* That vertex stays because it is not selected, or because its matrix is not invertible. */
+    bool tear_unselected;
+    bool tear_between;   /* it moves, but with other lattices of the chain than the other end, or with more or
+                            fewer */
+    bool tear_seam;      /* the edge crosses two coinciding rest faces of a lattice that are moved apart */
+    bool tear_disagrees; /* blocks: it is on a common face that another block moves differently */
+    /* With FFD_OUTSIDE_EXTEND: the least det F at vertices outside, if it is computed (ffd_check_run,
+       quality, FFD_GATE_FOLDS), and the vertex; else infinite. */
+    double det_outside;
     uint64_t det_outside_vertex;
-    double det_min, det_max; /* of F at the vertices, for check and quality; min > max where there is none */
-    bool has_edges;          /* for check and FFD_GATE_EDGES */
+    double det_min, det_max; /* of F at the vertices, with ffd_check_run and quality; min > max: none */
+    bool has_edges;          /* with ffd_check_run and FFD_GATE_EDGES */
     uint64_t edges;          /* each counted once */
-    double deviation_max, deviation_mean;     /* of straight edges from the deformed surface */
-    ffd_behind behind[FFD_BEHIND_KIND_COUNT]; /* by ffd_behind_kind */
+    double deviation_max, deviation_mean;     /* distance of straight edges from the deformed surface */
+    ffd_behind behind[FFD_BEHIND_KIND_COUNT]; /* indexed by ffd_behind_kind */
     ffd_behind behind_room[5];
     ffd_rig_result rig;
     uint64_t rig_room[8];
-    ffd_flaw flaws[FFD_FLAWS]; /* flaw_count, of the input */
+    ffd_flaw flaws[FFD_FLAWS]; /* flaw_count entries, of the input */
     size_t flaw_count;
-    uint64_t indices_left; /* indices in extensions of a glTF that do not follow its deformed meshes */
-    const char *picture;   /* what ffd_view_run has written, lent by its description; else NULL */
-    /* With morphs: their names, lattices and, where the description has room for them, figures: morph_count
-       each (up to the one that a gate refuses), lent by the description: morph_lattices are its lattices,
-       NULL where these are, or have no name. The figures above are then the worst ones of a target: counts of
-       the one with the fewest vertices inside, what tears of the one with the largest step, folds of all,
-       after round all. */
+    uint64_t indices_left; /* indices in glTF extensions that still refer to meshes and accessors before the
+                              deformation */
+    const char *picture;   /* the output of ffd_view_run, belongs to its description; else NULL */
+    /* With morphs: their names, their lattices (NULL if the description has none, or an element without a
+       name), and their figures if the description has room for them: morph_count elements each (up to the one
+       that a gate refuses). The arrays belong to the description. The figures of the job are then the worst
+       of any target: the counts of the target with the fewest vertices inside, the tear of the one with the
+       largest step, the folds of all lattices, and "after" round all. */
     size_t morph_count;
     const char *const *morphs;
     const char *const *morph_lattices;
     const struct ffd_job_result *morph_results;
+    /* Wall clock time of each step. */
     double seconds_read, seconds_embed, seconds_deform, seconds_judge, seconds_write;
-    /* For check and quality: of all faces that are not hidden, selected or not, as the file places them,
-       without what morph targets add. NaN: not known; area_after and volume_after where several morph targets
-       are made, too. */
+    /* With ffd_check_run and quality: the area of all visible faces, selected or not, in world space, without
+       morph targets. NaN: unknown. Infinite: too large for a double. With several morphs area_after and
+       volume_after are NaN. */
     double area_before, area_after;
-    /* Enclosed by these faces; NaN where there are none, or they are not closed: where an edge has not as
-       many faces that run along it one way as the other (vertices at one position are one). Negative where
-       the faces show their backs outside. */
+    /* The volume that these faces enclose; negative if their back sides are outside. NaN if there are no
+       faces or the surface is not closed: at some edge the numbers of faces in its two directions differ
+       (vertices at the same position count as one). */
     double volume_before, volume_after;
-    /* Of morph targets and animations of a glTF that were replaced: those that stay in the file, though
-       nothing uses them any more. */
+    /* Bytes of replaced morph targets and animations that remain in the glTF although nothing uses them. */
     uint64_t bytes_left;
 } ffd_job_result;
 
-/* Runs one job. Everything that can be refused is refused before anything is written; the output is complete
-   or absent. result is filled in every case (not NULL). Returns result->status. Errors: all; FFD_E_GATE with
-   all figures that were asked for. */
+/* Runs a job. It makes all checks before it writes anything; the output is complete or absent. result is
+   filled in every case, also after a failure. Returns result->status. Errors: any; with FFD_E_GATE the
+   requested figures are complete. */
 FFD_API ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);
 
-/* `ffd check`: everything that ffd_deform_run does but the writing, with all figures of the result. What desc
-   says of outputs is not looked at. Vertices that are not finite are counted, no failure. result is filled in
-   every case (not NULL). Returns result->status. Errors: all. */
+/* Runs a job of `ffd check`: as ffd_deform_run without an output, with all figures of the result. Members of
+   desc that concern outputs are ignored. Vertices that are not finite are counted and do not fail the job.
+   result is filled in every case. Returns result->status. Errors: any. */
 FFD_API ffd_status ffd_check_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);
 
-/* What vertices and faces are coloured by at first. */
+/* The initial colouring of vertices and faces. */
 typedef enum ffd_view_color {
-    FFD_VIEW_DISPLACEMENT = 0, /* how far each vertex moves */
-    FFD_VIEW_STATUS,           /* its ffd_vertex_status */
-    FFD_VIEW_DET,              /* det F there: how many times larger a volume becomes */
-    FFD_VIEW_PLAIN             /* base colours, colours of vertices */
+    FFD_VIEW_DISPLACEMENT = 0, /* the distance by which a vertex moves */
+    FFD_VIEW_STATUS,           /* the ffd_vertex_status of a vertex */
+    FFD_VIEW_DET,              /* det F at a vertex, the factor by which volumes grow */
+    FFD_VIEW_PLAIN             /* base colours and vertex colours of the mesh */
 } ffd_view_color;
 
-/* `ffd view`: a page or a picture that shows a mesh before and after. */
+/* A job of `ffd view`: a web page or a picture that shows a mesh before and after. */
 typedef struct ffd_view_desc {
-    size_t struct_size; /* sizeof(ffd_view_desc) of the caller */
-    /* The mesh and what deforms it, as ffd_check_run takes it; lattice_count may be 0: the mesh is shown as
-       it is. Its log gets the warnings. Its written has the output afterwards. */
+    size_t struct_size; /* sizeof(ffd_view_desc) in the caller's header */
+    /* The mesh and its deformation, as for ffd_check_run, except that lattice_count may be 0, to show the
+       mesh as it is. job->log receives the warnings; the output is added to job->written. */
     const ffd_deform_desc *job;
-    /* The deformed mesh as a file, of as many vertices; NULL: it is deformed in memory. With it the lattices
-       are drawn, and deform nothing. */
+    /* The deformed mesh as a file with the same number of vertices; the lattices are then drawn, but do not
+       deform anything. NULL: the lattices deform the mesh in memory. */
     const ffd_source *deformed;
-    const char *output; /* a page: ends in .html or .htm; a picture: in .png */
+    const char *output; /* .html or .htm: a page; .png: a picture */
     bool force;         /* overwrite an existing output */
-    double camera[3]; /* the direction in which the camera is, seen from the mesh, y upwards; zeros: from the
-                         right, above and in front */
-    ffd_view_color color;
-    bool full; /* a page shows all vertices; else at most 200,000: the mesh is simplified, and the page says
+    /* Direction from the mesh to the camera, y upwards; zeros: from the right, above and in front. */
+    double camera[3];
+    ffd_view_color color; /* default FFD_VIEW_DISPLACEMENT */
+    bool full; /* page: show all vertices; else a mesh of more than 200,000 is simplified, and the page says
                   so */
-    /* Of a picture, or of each in a row, in pixels; 0: 1600 and 900. A page is as large as its window. */
+    /* Of a picture, or of each picture in a row, in pixels; 0: 1600 and 900. A page fills its window. */
     uint32_t width, height;
-    uint32_t frames; /* pictures in a row, from rest to deformed: 2 to 64; 0: before and after share one */
-    /* Of the input, by its name; one without a name is "animation N", N from 0. A picture shows frames poses
-       (0: 5) over its time in a row, and those of the deformed mesh in a row below; the lattices are not
-       drawn. A page, which has all animations, opens with this one. NULL: none. The deformed mesh moves as
-       its own file says, or where it is in memory as the input does. */
+    uint32_t frames; /* number of pictures in a row, from rest to deformed, 2 to 64; 0: before and after in
+                        one picture */
+    /* Name of an animation of the input; one without a name is called "animation N", N from 0. NULL: none. A
+       picture has a row of poses (frames, or 5) over the duration, and a second row for the deformed mesh;
+       lattices are not drawn. A page has all animations and opens with this one. The deformed mesh is
+       animated as its own file says or, if it was deformed in memory, as the input. */
     const char *animation;
-    bool as_stored; /* shapes are those that the file stores, as ffd_check_run judges them; else those that
-                       default weights of morph targets show */
-    ffd_sink_function sink; /* as ffd_deform_desc's, whose own is not looked at */
+    /* true: show the shapes stored in the file, which ffd_check_run judges. false: show the shapes with the
+       default weights of morph targets. */
+    bool as_stored;
+    ffd_sink_function sink; /* as ffd_deform_desc.sink; job->sink is ignored */
     void *sink_user;
 } ffd_view_desc;
 
-/* Shows before and after, colours by displacement, is not full. */
+/* Sets desc to defaults. size: sizeof(ffd_view_desc) in the caller's header. */
 FFD_API void ffd_view_desc_init(ffd_view_desc *desc, size_t size);
-/* Writes the output; it is complete or absent. A violated gate of the job ends in FFD_E_GATE after it was
-   written. An image of the mesh that is missing or broken is grey in a picture, and warned of. result is
-   filled in every case (not NULL): where lattices deform, as by ffd_check_run, of the shapes that are
-   shown, and with picture. The mesh may take 400 MB where its source's memory allows less. Returns
-   result->status. Errors: all. */
+/* Runs the job. The output is complete or absent. If a gate of the job is violated, the output is written all
+   the same, and the result is FFD_E_GATE. A missing or broken image of the mesh is drawn grey in a picture,
+   with a warning. The memory budget of the mesh is at least 400 MB. result is filled in every case: if
+   lattices deform the mesh, as by ffd_check_run, for the shapes that are shown; and with picture. Returns
+   result->status. Errors: any. */
 FFD_API ffd_status ffd_view_run(const ffd_view_desc *desc, ffd_job_result *result, ffd_error *error);
 
-/* `ffd embed`: writes u,v,w (float64, N x 3, C order, NaN where outside; .npy version 1.0) to output and,
-   where status_output is not NULL, the statuses (uint8, N). Both files or none. The lattice's "mesh" box is
-   fitted to the mesh. counts may be NULL. */
+/* A job of `ffd embed`: writes the u,v,w of all vertices to output (.npy version 1.0, float64, N x 3, C
+   order, NaN without u,v,w), and their statuses to status_output (.npy, uint8, N). A lattice whose box is
+   "mesh" is fitted to the mesh. */
 typedef struct ffd_embed_desc {
-    size_t struct_size;
-    ffd_source input;
-    /* May be without moves, and placeholders in its moves without values: only its rest matters. */
+    size_t struct_size; /* sizeof(ffd_embed_desc) in the caller's header */
+    ffd_source input;   /* the mesh */
+    /* Path. Only the rest volume is used: placeholders in moves need no values. */
     const char *lattice;
-    const char *output;
-    const char *status_output;
-    double snap; /* as ffd_deform_desc's */
+    const char *output;        /* path; "-": standard output */
+    const char *status_output; /* NULL: none */
+    double snap;               /* as in ffd_deform_desc */
     bool snap_relative;
-    int threads;
-    bool force;
-    ffd_log_function log;
+    int threads;          /* >= 1, or 0 for all cores; does not affect the output */
+    bool force;           /* overwrite existing outputs */
+    ffd_log_function log; /* receives warnings; may be NULL */
     void *log_user;
     const ffd_setting *set; /* set_count values for placeholders, as in ffd_deform_desc; or NULL */
     size_t set_count;
-    const ffd_lattice *lattice_object; /* in place of the file, as in ffd_deform_desc; or NULL */
-    ffd_bytes lattice_text;            /* the same */
-    ffd_sink_function sink;            /* as ffd_deform_desc's, of both outputs */
+    const ffd_lattice *lattice_object; /* instead of the file, as in ffd_deform_desc; or NULL */
+    ffd_bytes lattice_text;            /* content of the file, as in ffd_deform_desc */
+    ffd_sink_function sink;            /* receives both outputs, as in ffd_deform_desc */
     void *sink_user;
 } ffd_embed_desc;
 
+/* Sets desc to defaults. size: sizeof(ffd_embed_desc) in the caller's header. */
 FFD_API void ffd_embed_desc_init(ffd_embed_desc *desc, size_t size);
+/* Runs the job. Both outputs are complete, or neither is there. result is filled in every case. Returns
+   result->status. Errors: any but FFD_E_GATE. */
 FFD_API ffd_status ffd_embed_run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_error *error);
 
-/* What it is that differs between two files. A position, normal, tangent or texture coordinate is one
-   difference however many of its numbers differ, and so is a face, line or point. */
+/* The kinds of differences between two files. Each position, normal, tangent, texture coordinate, face, line
+   or point that differs is one difference, however many of its numbers differ. */
 typedef enum ffd_difference_kind {
     FFD_DIFFERENCE_POSITION = 0,
     FFD_DIFFERENCE_NORMAL,
@@ -534,139 +596,155 @@ typedef enum ffd_difference_kind {
     FFD_DIFFERENCE_KIND_COUNT
 } ffd_difference_kind;
 
-/* "position", "normal", "tangent", "texcoord", "topology", "other"; NULL for no kind. Not to be freed. */
+/* Returns "position", "normal", "tangent", "texcoord", "topology" or "other"; NULL for another value. The
+   string is static. Thread-safe. */
 FFD_API const char *ffd_difference_kind_name(ffd_difference_kind kind);
 
+/* One difference between two files a and b. */
 typedef struct ffd_difference {
     ffd_difference_kind kind;
-    bool measured;  /* a position, normal or tangent of both files: the next three are set */
-    double a, b;    /* its coordinate that differs most, in each file */
-    double amount;  /* |a - b|: world units for positions; infinite where only one of them is finite */
-    char text[512]; /* one line: where and what; "": there is no such difference */
+    bool measured;  /* a position, normal or tangent in both files; otherwise the next three are not set */
+    double a, b;    /* the coordinate that differs most, in each file */
+    double amount;  /* |a - b|, for positions in world units; infinite if only one of them is finite */
+    char text[512]; /* one line: where and what; "": no difference */
 } ffd_difference;
 
+/* The result of a comparison. */
 typedef struct ffd_comparison {
-    size_t struct_size; /* sizeof(ffd_comparison) of the caller, set before the call */
-    bool equal;         /* no differences */
-    /* false: the differences keep what follows from being matched (other formats, other numbers of vertices,
-       another kind of statement): there may be more of them than were counted. */
+    size_t struct_size; /* sizeof(ffd_comparison) in the caller's header, set before the call */
+    bool equal;         /* there are no differences */
+    /* false: what follows a difference could not be matched (different formats, numbers of vertices or kinds
+       of statements), so more differences are possible than were counted. */
     bool complete;
-    uint64_t differences;                       /* all of them */
-    uint64_t counts[FFD_DIFFERENCE_KIND_COUNT]; /* of each kind */
-    ffd_difference first;                       /* in the order in which the files are compared */
-    /* That of the largest amount: of the positions; where none differs of the normals, else of the tangents.
-       text is "" where nothing measured differs. */
+    uint64_t differences;                       /* number of differences */
+    uint64_t counts[FFD_DIFFERENCE_KIND_COUNT]; /* by ffd_difference_kind */
+    ffd_difference first;                       /* in the order of comparison */
+    /* The difference of the largest amount: of positions, or if none differs, of normals, or else of
+       tangents. text is "" if none of them differs. */
     ffd_difference worst;
-    uint64_t positions_compared;     /* glTF: once for each node that shows them */
+    uint64_t positions_compared;     /* glTF: counted for each node that shows them */
     double position_difference_max;  /* largest |a - b| of a coordinate, within the tolerance or not */
-    double direction_difference_max; /* the same of normals and tangents */
-    double tolerance;                /* in world units: a relative one as it came out */
+    double direction_difference_max; /* the same for normals and tangents */
+    double tolerance;                /* of positions, in world units, also if it was given as relative */
     double direction_tolerance;
-    double
-        diagonal; /* of a's bounding box, in world units; 0 without vertices; only for a relative tolerance */
+    /* Of the bounding box of a, in world units; 0: no vertices, or the tolerance is not relative. */
+    double diagonal;
 } ffd_comparison;
 
+/* A job of `ffd compare`. */
 typedef struct ffd_compare_desc {
-    size_t struct_size; /* sizeof(ffd_compare_desc) of the caller */
-    ffd_source a, b;    /* only one of them may be "-" */
-    /* Positions may differ by this much in each coordinate: world units, or, relative, parts of the diagonal
-       of a's bounding box (of its finite vertices, as the default pose shows them). Not negative, not NaN. */
+    size_t struct_size; /* sizeof(ffd_compare_desc) in the caller's header */
+    ffd_source a, b;    /* at most one of them is "-" */
+    /* Allowed difference of each coordinate of a position: world units, or if relative is true a fraction of
+       the diagonal of a's bounding box (of its finite vertices, in the default pose). >= 0. */
     double tolerance;
-    bool relative;
-    /* Normals and tangents may differ by this much in each component, which has no unit. */
+    bool relative; /* whether tolerance is relative */
+    /* Allowed difference of each component of normals and tangents, without unit. >= 0. */
     double direction_tolerance;
-    ffd_log_function log; /* gets warnings that begin with the file's name; may be NULL */
+    ffd_log_function log; /* receives warnings, which begin with the file name; may be NULL */
     void *log_user;
 } ffd_compare_desc;
 
-/* No tolerances: both must be equal as numbers (0 and -0 are, two NaN are). */
+/* Sets desc to defaults: tolerances of 0, with which numbers must be equal (0 equals -0, NaN equals NaN).
+   size: sizeof(ffd_compare_desc) in the caller's header. */
 FFD_API void ffd_compare_desc_init(ffd_compare_desc *desc, size_t size);
 
-/* `ffd compare`: are a and b the same mesh, positions and directions within their tolerances and all else
-   equal? What is not part of a mesh is not compared: blanks, comments, the way a number is written, the
-   encoding of PLY and STL, where the buffers of a glTF lie. A NaN equals a NaN only, an infinity itself.
-   Morph targets are positions, normals and tangents like others. Fills *comparison (not NULL) unless it
-   fails. Errors: FFD_E_ARGUMENT for tolerances, and those of reading a mesh. */
+/* Compares two meshes: positions and directions within their tolerances, everything else exactly. Ignored is
+   what does not belong to the mesh: white space, comments, the notation of numbers, the encoding of PLY and
+   STL, the place of data in the buffers of a glTF. NaN equals NaN only, infinity equals itself. Morph targets
+   count as positions, normals and tangents. Fills *comparison unless it fails. Thread-safe. Errors:
+   FFD_E_ARGUMENT (tolerances), and those of reading a mesh. */
 FFD_API ffd_status ffd_compare_run(const ffd_compare_desc *desc, ffd_comparison *comparison,
                                    ffd_error *error);
 
-/* The comparison of the files a and b (names as they are to be shown) as JSON ("ffd-comparison", version 1).
- *text is the caller's, freed with ffd_text_free, ends in a line break and 0. Errors: FFD_E_MEMORY. */
+/* Writes a comparison as JSON ("ffd-comparison", version 1). a and b: names of the files in the text. *text
+   ends with a line break and a 0 byte; the caller frees it with ffd_text_free. Thread-safe. Errors:
+   FFD_E_MEMORY. */
 FFD_API ffd_status ffd_comparison_json(const ffd_comparison *comparison, const char *a, const char *b,
                                        char **text, ffd_error *error);
 
+/* A job of `ffd info`. */
 typedef struct ffd_info_desc {
-    size_t struct_size; /* sizeof(ffd_info_desc) of the caller */
-    ffd_source file;    /* a mesh, or with the ending .json and no format of its own a lattice */
-    bool json;          /* else text for people */
-    /* Of a mesh: every name that a selector of ffd_deform_desc's only can have, and what has none, with
-       bounds and numbers of vertices and faces. FFD_E_ARGUMENT for a lattice. */
+    size_t struct_size; /* sizeof(ffd_info_desc) in the caller's header */
+    ffd_source file;    /* a mesh; or a lattice, if the ending is .json and file.format is FFD_FORMAT_AUTO */
+    bool json;          /* JSON instead of text for people */
+    /* Mesh: list all names that selectors (ffd_deform_desc.only) accept, and the parts without a name, with
+       bounds and the numbers of vertices and faces. FFD_E_ARGUMENT for a lattice. */
     bool parts;
-    /* Of a lattice: set_count values for placeholders of its moves, or NULL; those without a value are told
-       by their names. FFD_E_INVALID for one that it does not have, FFD_E_ARGUMENT for a mesh. */
+    /* Lattice: set_count values for placeholders in its moves, or NULL; placeholders without a value are
+       listed by name. FFD_E_INVALID for a placeholder that it does not have, FFD_E_ARGUMENT for a mesh. */
     const ffd_setting *set;
     size_t set_count;
-    ffd_log_function log; /* gets warnings that begin with the file's name; may be NULL */
+    ffd_log_function log; /* receives warnings, which begin with the file name; may be NULL */
     void *log_user;
 } ffd_info_desc;
 
+/* Sets desc to defaults. size: sizeof(ffd_info_desc) in the caller's header. */
 FFD_API void ffd_info_desc_init(ffd_info_desc *desc, size_t size);
 
-/* `ffd info`: describes a mesh or lattice file. *text is the caller's, freed with ffd_text_free, ends in a
-   line break and 0; NULL after a failure. */
+/* Describes a mesh or a lattice file. *text ends with a line break and a 0 byte; the caller frees it with
+   ffd_text_free. It is NULL after a failure. Thread-safe. Errors: FFD_E_ARGUMENT, and those of reading the
+   file. */
 FFD_API ffd_status ffd_info_run(const ffd_info_desc *desc, char **text, ffd_error *error);
 
-/* `ffd lattice new`: makes one lattice round all that the meshes show (in scene space), or, where they show
-   nothing, round all their vertices, and writes it. */
+/* A job of `ffd lattice new`: makes one lattice round everything that the meshes show (in scene space), or
+   round all their vertices if they show nothing, and writes it. */
 typedef struct ffd_lattice_new_desc {
-    size_t struct_size;       /* sizeof(ffd_lattice_new_desc) of the caller */
-    const ffd_source *meshes; /* mesh_count, at least one */
+    size_t struct_size;       /* sizeof(ffd_lattice_new_desc) in the caller's header */
+    const ffd_source *meshes; /* mesh_count meshes, at least one */
     size_t mesh_count;
-    /* only_count selectors "KIND:NAME", or NULL: the lattice goes round what at least one of them names. Each
-       mesh must have every name. */
+    /* only_count selectors "KIND:NAME", or NULL: the lattice goes round the parts that match one of them.
+       Each mesh must have every name. */
     const char *const *only;
     size_t only_count;
-    const ffd_lattice_desc *lattice;
-    const char *output;   /* path, "-" for standard output */
-    bool force;           /* overwrite an existing output */
-    ffd_log_function log; /* gets warnings that begin with a mesh's name; may be NULL */
+    const ffd_lattice_desc *lattice; /* shape, size, margin and so on of the lattice */
+    const char *output;              /* path; "-": standard output */
+    bool force;                      /* overwrite an existing output */
+    ffd_log_function log;            /* receives warnings, which begin with the name of a mesh; may be NULL */
     void *log_user;
-    ffd_sink_function sink; /* as ffd_deform_desc's */
+    ffd_sink_function sink; /* as in ffd_deform_desc */
     void *sink_user;
 } ffd_lattice_new_desc;
 
+/* Sets desc to defaults. size: sizeof(ffd_lattice_new_desc) in the caller's header. */
 FFD_API void ffd_lattice_new_desc_init(ffd_lattice_new_desc *desc, size_t size);
+/* Runs the job. The output is complete or absent. Errors: those of reading a mesh, of ffd_lattice_create and
+   of ffd_lattice_save. */
 FFD_API ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *desc, ffd_error *error);
 
-/* The report (data/schema/formats.md 2). Entries are added in the order of the jobs, and
-   go to its file at once. */
+/* A report (data/schema/formats.md 2). Entries are added in the order of the jobs, and written to the file at
+   once. One thread at a time. */
 typedef struct ffd_report ffd_report;
 
-/* Starts a report at path ("-": standard output): JSON, or of a name that ends in .jsonl JSON Lines, an entry
-   a line. A file stands under its own name from now on, so that what cannot be written is known before the
-   first job; it is whole JSON after each entry, and what was added stays where the program is killed. Of
-   existing files it replaces its own kind only (FFD_E_EXISTS). stable: without times. written may be NULL.
-   Errors: FFD_E_IO, FFD_E_EXISTS, FFD_E_MEMORY. */
+/* Starts a report at path ("-": standard output): JSON or, if the name ends in .jsonl, JSON Lines with an
+   entry on each line. The file is under its own name from now on, so an unwritable path fails before the
+   first job. It is valid JSON after each entry, and keeps its entries if the program is killed. An existing
+   file is replaced only if it is a report of the same kind. stable: leave out times. written may be NULL. The
+   caller destroys *report. Errors: FFD_E_IO, FFD_E_EXISTS, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_report_create(const char *path, bool stable, ffd_written *written, ffd_report **report,
                                      ffd_error *error);
-/* The same in memory: ffd_report_write hands the whole report to sink. name says JSON or JSON Lines. Errors:
-   FFD_E_ARGUMENT (no name or sink), FFD_E_MEMORY. */
+/* As ffd_report_create, in memory: ffd_report_write passes the whole report to sink. The ending of name
+   selects JSON or JSON Lines. Errors: FFD_E_ARGUMENT (no name or no sink), FFD_E_MEMORY. */
 FFD_API ffd_status ffd_report_create_sink(const char *name, bool stable, ffd_sink_function sink, void *user,
                                           ffd_report **report, ffd_error *error);
-/* Frees a report; a file keeps the entries that were added. NULL and pointers to NULL are allowed. */
+/* Destroys the object and sets *report to NULL; a file keeps the entries that it has. report and *report may
+   be NULL. */
 FFD_API void ffd_report_destroy(ffd_report **report);
+/* Adds the entry of a job. input and output: the paths that the entry gives; output may be NULL. Errors:
+   FFD_E_IO, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_report_add(ffd_report *report, const char *input, const char *output,
                                   const ffd_job_result *result, ffd_error *error);
-/* Completes the report. At most once, after the jobs. */
+/* Completes the report. To be called at most once, after the jobs. Errors: FFD_E_IO, FFD_E_MEMORY, and those
+   of the sink. */
 FFD_API ffd_status ffd_report_write(ffd_report *report, ffd_error *error);
 
-/* `ffd report merge`: joins count reports (at least one; "-": standard input) to one and writes it to
-   output ("-": standard output). Names that end in .jsonl are of JSON Lines. Every entry keeps its bytes. The
-   entries of one report follow those of the one before; interleave: one of each report in turn, which for
-   those of the shards 0 to count-1 is the order of the manifest (FFD_E_INVALID where one has too few entries
-   for that). All are checked before anything is written,
-   and held in memory only where they are no files. Errors: FFD_E_ARGUMENT, FFD_E_IO, FFD_E_EXISTS,
-   FFD_E_INVALID, FFD_E_UNSUPPORTED, FFD_E_LIMIT, FFD_E_MEMORY. */
+/* `ffd report merge`: joins count reports (at least one; "-": standard input) and writes the result to output
+   ("-": standard output). Names that end in .jsonl are JSON Lines. Entries keep their bytes. Without
+   interleave the entries of each report follow those of the one before. With interleave one entry of each
+   report is taken in turn, which restores the order of the manifest for the reports of shards 0 to count-1
+   (FFD_E_INVALID if a report has too few entries). All reports are checked before anything is written; those
+   that are not files are held in memory. Errors: FFD_E_ARGUMENT, FFD_E_IO, FFD_E_EXISTS, FFD_E_INVALID,
+   FFD_E_UNSUPPORTED, FFD_E_LIMIT, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_report_merge_run(const char *const *reports, size_t count, bool interleave,
                                         const char *output, bool force, ffd_error *error);
 

@@ -13,8 +13,8 @@
 extern "C" {
 #endif
 
-/* The version of the library that runs, "MAJOR.MINOR.PATCH"; compare with FFD_VERSION, that of the headers.
-   Returns a constant string. Thread-safe. */
+/* Returns the version of the loaded library, "MAJOR.MINOR.PATCH"; FFD_VERSION is the version of the headers.
+   The string is static. Thread-safe. */
 FFD_API const char *ffd_version(void);
 
 #ifdef __cplusplus

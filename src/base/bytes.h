@@ -1,4 +1,5 @@
-/* bytes.h - which of many bytes are of a kind, and the number that digits make, at once. */
+/* bytes.h - classifies many bytes at once (white space, digits), and converts digits to a number, without
+   loops (SWAR and SIMD). Characters are in little-endian order: the first one is the lowest byte. */
 #ifndef FFD_BASE_BYTES_H
 #define FFD_BASE_BYTES_H
 
@@ -13,27 +14,27 @@
 #define BYTES_ONES UINT64_C(0x0101010101010101)
 #define BYTES_TOPS UINT64_C(0x8080808080808080)
 
-/* Marks those of eight bytes, the first lowest, that are below '!', as blanks and line ends are: sets their
-   highest bits, and no others. */
+/* Marks the bytes below '!' (blanks and line ends): sets the highest bit of each of them, and clears all
+   other bits. */
 static ALWAYS_INLINE uint64_t bytes_low(uint64_t eight)
 {
     return ~((eight | BYTES_TOPS) - '!' * BYTES_ONES) & ~eight & BYTES_TOPS;
 }
 
-/* Marks those that are not digits in the same way. */
+/* Marks the bytes that are not digits in the same way. */
 static ALWAYS_INLINE uint64_t bytes_not_digits(uint64_t eight)
 {
     const uint64_t values = eight ^ '0' * BYTES_ONES;
     return (values | ((values & ~BYTES_TOPS) + 0x76 * BYTES_ONES)) & BYTES_TOPS;
 }
 
-/* A bit for each of eight bytes instead of its highest. */
+/* Packs the highest bits of eight bytes into the lowest eight bits. */
 static ALWAYS_INLINE uint64_t bytes_gather(uint64_t tops)
 {
     return (tops >> 7) * UINT64_C(0x0102040810204080) >> 56;
 }
 
-/* Returns a bit for each of 64 bytes that is below '!'. */
+/* Returns a bit mask of 64 bytes: 1 where the byte is below '!'. */
 static ALWAYS_INLINE uint64_t bytes_low_of_64_by_words(const char *at)
 {
     uint64_t found = 0;
@@ -42,7 +43,7 @@ static ALWAYS_INLINE uint64_t bytes_low_of_64_by_words(const char *at)
     return found;
 }
 
-/* Returns a bit for each of 32 bytes that is not a digit. */
+/* Returns a bit mask of 32 bytes: 1 where the byte is not a digit. */
 static ALWAYS_INLINE uint32_t bytes_not_digits_of_32_by_words(const char *at)
 {
     uint64_t found = 0;
@@ -51,8 +52,8 @@ static ALWAYS_INLINE uint32_t bytes_not_digits_of_32_by_words(const char *at)
     return (uint32_t)found;
 }
 
-/* The number that eight digits make, 0 to 9, one a byte, the foremost lowest: neighbours join to pairs, pairs
-   to fours. */
+/* Returns the number of eight decimal digits (values 0 to 9, one in each byte, the most significant in the
+   lowest byte): adjacent digits are combined to pairs, then pairs to groups of four. */
 static ALWAYS_INLINE uint64_t bytes_number(uint64_t digits)
 {
     const uint64_t pairs = (10 * digits + (digits >> 8)) & UINT64_C(0x00ff00ff00ff00ff);
@@ -60,7 +61,7 @@ static ALWAYS_INLINE uint64_t bytes_number(uint64_t digits)
     return (10000 * fours + (fours >> 32)) & UINT64_C(0xffffffff);
 }
 
-/* Returns the number that sixteen digits make. */
+/* The numbers of two groups of eight digits. */
 typedef struct byte_numbers {
     uint32_t first, second;
 } byte_numbers;
@@ -70,15 +71,15 @@ static ALWAYS_INLINE byte_numbers bytes_two_numbers_by_words(uint64_t first, uin
     return (byte_numbers){(uint32_t)bytes_number(first), (uint32_t)bytes_number(second)};
 }
 
-/* So many first ones of eight bytes, 0 or less for none. */
+/* Returns a mask of the first count of eight bytes; 0 if count is 0 or negative. */
 static ALWAYS_INLINE uint64_t bytes_first(int count)
 {
     return count <= 0 ? 0 : count >= 8 ? UINT64_MAX : ((uint64_t)1 << (8 * count)) - 1;
 }
 
-/* The number of 16 digits that begins with `count` digits of a text, 16 at most, and goes on with zeros. The
-   first `before` of them are at its start; one character is skipped, then the others follow. 17 characters of
-   the text are read. */
+/* Returns the number of 16 digits whose first `count` (at most 16) are those of a text, followed by zeros.
+   The text has `before` digits, one character that is skipped (the decimal point), then the other digits. 17
+   characters of the text are read. */
 static ALWAYS_INLINE uint64_t bytes_digits_around_by_words(const char *text, int before, int count)
 {
     uint64_t number = 0;
@@ -93,7 +94,7 @@ static ALWAYS_INLINE uint64_t bytes_digits_around_by_words(const char *text, int
 }
 
 #ifdef __SSE2__
-/* The same, with instructions that every x86-64 has. */
+/* The same with SSE2, which every x86-64 has. */
 static ALWAYS_INLINE __m128i bytes_sixteen(const char *at)
 {
     return _mm_loadu_si128((const __m128i *)(const void *)at);
@@ -137,7 +138,7 @@ static ALWAYS_INLINE byte_numbers bytes_two_numbers_sse2(uint64_t first, uint64_
     return bytes_join_sse2(_mm_set_epi64x((int64_t)second, (int64_t)first));
 }
 
-/* So many first ones of 16 bytes. */
+/* Returns a mask of the first count of 16 bytes. */
 static ALWAYS_INLINE __m128i bytes_first_sse2(int count)
 {
     static const signed char bytes[32] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
@@ -165,7 +166,7 @@ static ALWAYS_INLINE uint64_t bytes_digits_around_sse2(const char *text, int bef
 #define bytes_digits_around bytes_digits_around_by_words
 #endif
 
-/* Returns a bit for each of 64 bytes that is not a digit. */
+/* Returns a bit mask of 64 bytes: 1 where the byte is not a digit. */
 static ALWAYS_INLINE uint64_t bytes_not_digits_of_64(const char *at)
 {
     return bytes_not_digits_of_32(at) | (uint64_t)bytes_not_digits_of_32(at + 32) << 32;

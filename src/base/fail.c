@@ -1,4 +1,5 @@
 #include "base/fail.h"
+#include "base/one_line.h"
 #include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -13,26 +14,18 @@ static void copy_text(char *to, size_t capacity, const char *from)
     to[length] = 0;
 }
 
-/* A message is one line on a terminal: whatever a file or name put into it must not break that. */
-static void make_one_line(char *text)
-{
-    for (unsigned char *c = (unsigned char *)text; *c; c++)
-        if (*c < 0x20 || *c == 0x7f)
-            *c = '?';
-}
-
 static void fill(ffd_error *error, ffd_status status, const char *file, size_t line, const char *pointer,
                  const char *format, va_list arguments)
 {
-    /* The arguments may point into the record itself (a message that wraps another). */
+    /* The arguments may point into the record itself (a message that quotes an earlier one). */
     char message[sizeof error->message];
     vsnprintf(message, sizeof message, format, arguments);
     char file_copy[sizeof error->file], pointer_copy[sizeof error->pointer];
     copy_text(file_copy, sizeof file_copy, file);
     copy_text(pointer_copy, sizeof pointer_copy, pointer);
-    make_one_line(message);
-    make_one_line(file_copy);
-    make_one_line(pointer_copy);
+    ffd_make_one_line(message, strlen(message));
+    ffd_make_one_line(file_copy, strlen(file_copy));
+    ffd_make_one_line(pointer_copy, strlen(pointer_copy));
     error->status = status;
     error->line = line;
     copy_text(error->file, sizeof error->file, file_copy);
@@ -103,7 +96,7 @@ void ffd_fail_name_file(ffd_error *error, const char *file)
     if (!error || error->file[0])
         return;
     copy_text(error->file, sizeof error->file, file);
-    make_one_line(error->file);
+    ffd_make_one_line(error->file, strlen(error->file));
 }
 
 size_t ffd_error_format(const ffd_error *error, char *text, size_t capacity)

@@ -1,5 +1,5 @@
-/* fail.h - filling the caller's error record. Each function returns the status, so that one can `return` it.
- */
+/* fail.h - fills the caller's error record (error may be NULL). Each function returns the status, so that
+   callers can write `return ffd_fail(...)`. */
 #ifndef FFD_BASE_FAIL_H
 #define FFD_BASE_FAIL_H
 
@@ -15,12 +15,13 @@ extern "C" {
 #define FFD_PRINTF(text, first)
 #endif
 
-/* A failure with no file. Line breaks and control characters in the text become '?'; error may be NULL. */
+/* A failure without a file. Line breaks and control characters in the text are replaced by '?'. */
 ffd_status ffd_fail(ffd_error *error, ffd_status status, const char *format, ...) FFD_PRINTF(3, 4);
-/* A failure of a file. */
+/* A failure that concerns a file. */
 ffd_status ffd_fail_file(ffd_error *error, ffd_status status, const char *file, const char *format, ...)
     FFD_PRINTF(4, 5);
-/* "WHAT: REASON", the reason by errno: FFD_E_IO, or FFD_E_MEMORY. */
+/* The message is "WHAT: REASON", with the reason from errno. The status is FFD_E_MEMORY for ENOMEM, else
+   FFD_E_IO. */
 ffd_status ffd_fail_errno(ffd_error *error, const char *file, const char *what);
 /* A failure at a line (from 1) of a file. */
 ffd_status ffd_fail_line(ffd_error *error, ffd_status status, const char *file, size_t line,
@@ -30,9 +31,9 @@ ffd_status ffd_fail_at(ffd_error *error, ffd_status status, const char *file, co
                        const char *format, ...) FFD_PRINTF(5, 6);
 /* "out of memory", FFD_E_MEMORY. */
 ffd_status ffd_fail_memory(ffd_error *error);
-/* The status that a callback has returned; FFD_E_IO for a number that is none. */
+/* Returns the status that a callback of the user's has returned, or FFD_E_IO if it is not an ffd_status. */
 ffd_status ffd_status_known(ffd_status status);
-/* Names the file in an error that has none yet. */
+/* Sets the file of an error that does not have one. */
 void ffd_fail_name_file(ffd_error *error, const char *file);
 
 #ifdef __cplusplus

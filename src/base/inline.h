@@ -1,5 +1,5 @@
-/* inline.h - functions that must be inlined: a compiler can keep a kernel's sums in registers only where it
-   knows the degrees and what is asked for. */
+/* inline.h - forces inlining. A compiler can keep the sums of a kernel in registers only if degrees and
+   options are compile-time constants, so kernels are inlined into callers that pass constants. */
 #ifndef FFD_BASE_INLINE_H
 #define FFD_BASE_INLINE_H
 

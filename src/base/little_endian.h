@@ -1,11 +1,12 @@
-/* little_endian.h - numbers as bytes, the lowest first, whatever the machine. */
+/* little_endian.h - reads and writes numbers as little-endian bytes on any machine. */
 #ifndef FFD_BASE_LITTLE_ENDIAN_H
 #define FFD_BASE_LITTLE_ENDIAN_H
 
 #include <stdint.h>
 #include <string.h>
 
-/* On a little-endian machine compilers turn loops of plain copies into SIMD, and only these. */
+/* On a little-endian machine the functions are plain copies, because compilers vectorise loops of copies, but
+   not of shifts. */
 #if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
 #define LITTLE_ENDIAN_MACHINE 1
 #else

@@ -1,15 +1,15 @@
-/* lower_bound.h - where a key is among sorted elements: the first from it on, the last up to it. */
+/* lower_bound.h - binary search in a sorted array. */
 #ifndef FFD_BASE_LOWER_BOUND_H
 #define FFD_BASE_LOWER_BOUND_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Whether an element comes before all that have the key. */
+/* Returns whether an element is less than the key. */
 typedef bool is_before(const void *element, const void *key);
 
-/* The first of count elements, of so many bytes each, that does not come before the key; count where all do.
- */
+/* Returns the index of the first element that is not less than the key; count if all are less. size: bytes of
+   an element. */
 static inline size_t lower_bound(const void *key, const void *elements, size_t count, size_t size,
                                  is_before *before)
 {
@@ -24,10 +24,11 @@ static inline size_t lower_bound(const void *key, const void *elements, size_t c
     return low;
 }
 
-/* Whether an element comes before the key or is at it. */
+/* Returns whether an element is less than or equal to the key. */
 typedef bool is_up_to(const void *element, const void *key);
 
-/* The last of count elements, of so many bytes each, that is up to the key; 0 where none is. */
+/* Returns the index of the last element that is less than or equal to the key; 0 if there is none. size:
+   bytes of an element. */
 static inline size_t last_up_to(const void *key, const void *elements, size_t count, size_t size,
                                 is_up_to *up_to)
 {

@@ -6,7 +6,7 @@ ffd_status ffd_struct_check(size_t own_size, const void *callers, const char *na
     size_t size;
     memcpy(&size, callers, sizeof size);
     if (size < sizeof size)
-        return ffd_fail(error, FFD_E_ARGUMENT, "%s has no struct_size: %s_init, or else its caller, sets it",
+        return ffd_fail(error, FFD_E_ARGUMENT, "%s has no struct_size: %s_init or the caller must set it",
                         name, name);
     if (size > own_size)
         return ffd_fail(error, FFD_E_ARGUMENT,

@@ -81,6 +81,15 @@ static void clear_row(const batch_run *run, const pool_task *task)
         ffd_row_clear(&run->rows.array, task->job.row);
 }
 
+/* Records what the job has made: its results, and its picture if it has no output. */
+static void put_records(const batch_run *run, const pool_task *task)
+{
+    const job_record drawn = {task->record.inputs, task->drawn};
+    ffd_journal_put(run->journal, &task->target, &task->record, task->figures.data, task->figures.size);
+    if (task->has_drawn)
+        ffd_journal_put(run->journal, &task->picture_target, &drawn, "", 0);
+}
+
 /* Does what must happen as soon as a job ends, even if earlier jobs still run. */
 static ffd_status note_end(batch_run *run, pool_task *task, ffd_error *error)
 {
@@ -95,7 +104,7 @@ static ffd_status note_end(batch_run *run, pool_task *task, ffd_error *error)
     if (task->outcome == OUTCOME_FAILED && run->desc->stop)
         run->ending = true;
     if (run->journal && task->outcome == OUTCOME_DONE && task->has_record)
-        ffd_journal_put(run->journal, &task->target, &task->record, task->figures.data, task->figures.size);
+        put_records(run, task);
     if (!status && run->report && !ffd_report_is_ordered(run->report))
         status = report_task(run, run->report, task, error);
     if (!status && run->rows.report)

@@ -5,6 +5,7 @@
 #include "base/system/interrupt.h"
 #include "base/text/words.h"
 #include "batch/measure.h"
+#include "batch/run_reads.h"
 #include "job/report/report_file.h"
 #include <inttypes.h>
 #include <stdio.h>
@@ -31,7 +32,14 @@ static void fail_task(pool_task *task, const ffd_error *error)
 static void find_record(batch_run *run, pool_task *task)
 {
     byte_buffer *const figures = run->report || run->view || run->rows.report ? &task->figures : NULL;
+    job_record drawn;
     task->has_record = ffd_journal_find(run->journal, &task->target, &task->record, figures);
+    /* A run without pictures may have made the row anew since it was drawn. */
+    task->has_drawn = task->has_record && task->picture && !task->job.output &&
+                      ffd_journal_find(run->journal, &task->picture_target, &drawn, NULL) &&
+                      ffd_hash_equal(&drawn.inputs, &task->record.inputs);
+    if (task->has_drawn)
+        task->drawn = drawn.outputs;
 }
 
 /* A job that was added after the jobs were counted has no row. */
@@ -86,6 +94,9 @@ static ffd_status claim_picture(batch_run *run, pool_task *task, ffd_error *erro
 {
     hash128 file;
     const ffd_status status = ffd_run_view_name(run->view, task, &file, error);
+    const hash_block blocks[] = {{file.bytes, sizeof file.bytes}, {task->target.bytes, sizeof file.bytes}};
+    if (!status)
+        task->picture_target = ffd_hash_blocks(blocks, 2);
     return status ? status
                   : ffd_outputs_claim_picture(&run->written, ffd_run_manifest(run), &task->job, &file,
                                               task->picture, error);
@@ -104,6 +115,7 @@ static ffd_status claim_output(batch_run *run, pool_task *task, ffd_error *error
     task->state = states[ffd_outputs_others(job)];
     if (run->view && !job->error.status && claim_picture(run, task, error))
         return FFD_E_MEMORY;
+    ffd_outputs_check_embedding(&run->written, ffd_run_manifest(run), job);
     if (job->error.status)
         fail_task(task, &job->error);
     else if (run->journal)
@@ -259,6 +271,15 @@ static ffd_status claim_own(batch_run *run, ffd_error *error)
     return status;
 }
 
+/* Whether there is a file of its own that the run may replace whatever it holds: the array, before the first
+   job, or the index. */
+static bool replaces_files(const batch_run *run)
+{
+    const batch_desc *const desc = run->desc;
+    return (desc->force && desc->positions && ffd_file_exists(desc->positions)) ||
+           (run->view && ffd_file_exists(ffd_run_view_page(run->view)));
+}
+
 static ffd_status open_view(batch_run *run, ffd_error *error)
 {
     const batch_desc *const desc = run->desc;
@@ -308,12 +329,14 @@ static ffd_status open_all(batch_run *run, ffd_error *error)
         status = ffd_depfile_create(desc->depfile, &run->depfile, error);
     if (!status && desc->view)
         status = open_view(run, error);
+    if (!status)
+        status = claim_own(run, error);
+    if (!status && replaces_files(run))
+        status = ffd_run_check_reads(&desc->jobs, &run->written, error);
     if (!status && desc->report)
         status = ffd_report_create(desc->report, pool.stable, NULL, &run->report, error);
     if (!status && desc->positions)
         status = ffd_run_rows_place(&run->rows, desc, error);
-    if (!status)
-        status = claim_own(run, error);
     pool.report = run->report || run->view || run->rows.report;
     pool.quality = run->report || run->view;
     pool.rows = desc->positions ? &run->rows.array : NULL;

@@ -1,5 +1,4 @@
 #include "batch/measure.h"
-#include "base/file/input.h"
 #include "base/memory/memory.h"
 #include "base/system/interrupt.h"
 #include <string.h>
@@ -129,8 +128,7 @@ static ffd_status measure(measuring *m, const job_source_desc *jobs, pool_desc *
                           ffd_error *error)
 {
     job_source_desc all = *jobs;
-    const char *const origin = jobs->manifest ? jobs->manifest : jobs->table;
-    if (origin && ffd_file_reads_once(origin))
+    if (ffd_jobs_come_once(jobs))
         return ffd_fail(error, FFD_E_ARGUMENT,
                         "%s reads the jobs twice, but standard input and pipes can be read only once",
                         option);

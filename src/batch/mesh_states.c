@@ -1,5 +1,6 @@
 #include "batch/mesh_states.h"
 #include "base/little_endian.h"
+#include "base/one_line.h"
 
 /* Bits of a state that fit into the table: its numbers have 39 bits, and one says whether a warning was
    given. */
@@ -20,9 +21,7 @@ ffd_status ffd_states_note(mesh_states *states, pool_task *task, ffd_error *erro
     ffd_buffer_format(&task->log,
                       "%s: has changed while the run reads it: jobs before this one have read another state",
                       task->job.input);
-    for (size_t i = before; i < task->log.size; i++)
-        if ((unsigned char)task->log.data[i] < 0x20 || task->log.data[i] == 0x7f)
-            task->log.data[i] = '?';
+    ffd_make_one_line(task->log.data + before, task->log.size - before);
     ffd_buffer_text(&task->log, "\n");
     return task->log.failed ? ffd_fail_memory(error)
                             : ffd_files_put(&states->first, &task->mesh, known | TOLD, error);

@@ -102,15 +102,17 @@ static ffd_status list_beside(const run_outputs *outputs, const batch_job *job, 
     return format->list_beside(job->target, beside, files, error);
 }
 
-static void refuse(const char *manifest, batch_job *job, const char *file, uint64_t line)
+/* role: what the file is for the job, with a blank; or "". */
+static void refuse(const char *manifest, batch_job *job, const char *role, const char *file, uint64_t line)
 {
     char what[600];
     if (line)
-        snprintf(what, sizeof what, "\"%.400s\" is written by the job of line %" PRIu64 " too", file, line);
+        snprintf(what, sizeof what, "%s\"%.400s\" is written by the job of line %" PRIu64 " too", role, file,
+                 line);
     else
         snprintf(what, sizeof what,
-                 "\"%.400s\" is the report, the depfile, the journal, the index or the array of this run",
-                 file);
+                 "%s\"%.400s\" is the report, the depfile, the journal, the index or the array of this run",
+                 role, file);
     if (manifest)
         ffd_fail_line(&job->error, FFD_E_INVALID, manifest, (size_t)job->line, "%s", what);
     else
@@ -171,9 +173,9 @@ static ffd_status claim_copy(run_outputs *outputs, const char *manifest, batch_j
     const hash128 file = ffd_file_identity(target);
     const bool is_copy = ffd_files_find(&outputs->copies, &file, &number);
     if (is_copy && !is_same_copy(outputs->copied[number].source, source))
-        refuse(manifest, job, target, outputs->copied[number].line);
+        refuse(manifest, job, "", target, outputs->copied[number].line);
     else if (ffd_files_find(&outputs->lines, &file, &line))
-        refuse(manifest, job, target, line);
+        refuse(manifest, job, "", target, line);
     else if (!is_copy)
         status = add_copy(outputs, &file, source, job->line, error);
     ffd_free(target);
@@ -190,7 +192,7 @@ static ffd_status claim_files(run_outputs *outputs, const char *manifest, batch_
     for (size_t i = 0; i < files->count && !status && !job->error.status; i++) {
         identities[i] = ffd_file_identity(files->paths[i]);
         if (is_taken(outputs, &identities[i], &line))
-            refuse(manifest, job, files->paths[i], line);
+            refuse(manifest, job, "", files->paths[i], line);
     }
     for (size_t i = 0; i < files->count && !status && !job->error.status; i++)
         status = ffd_files_put(&outputs->lines, &identities[i], job->line, error);
@@ -205,7 +207,7 @@ ffd_status ffd_outputs_claim(run_outputs *outputs, const char *manifest, batch_j
     *target = ffd_file_identity(job->target);
     if (!is_taken(outputs, target, &line))
         return ffd_files_put(&outputs->lines, target, job->line, error);
-    refuse(manifest, job, ffd_job_output_name(job), line);
+    refuse(manifest, job, "", ffd_job_output_name(job), line);
     return FFD_OK;
 }
 
@@ -215,7 +217,7 @@ ffd_status ffd_outputs_claim_picture(run_outputs *outputs, const char *manifest,
     uint64_t line;
     if (!is_taken(outputs, file, &line))
         return ffd_files_put(&outputs->lines, file, job->line, error);
-    refuse(manifest, job, path, line);
+    refuse(manifest, job, "", path, line);
     return FFD_OK;
 }
 
@@ -232,6 +234,17 @@ ffd_status ffd_outputs_claim_others(run_outputs *outputs, const char *manifest, 
         status = claim_copy(outputs, manifest, job, outputs->resources.paths[i], error);
     ffd_paths_free(&files);
     return status;
+}
+
+void ffd_outputs_check_embedding(const run_outputs *outputs, const char *manifest, batch_job *job)
+{
+    const char *const embedding = ffd_job_option(job, "embedding");
+    uint64_t line;
+    if (!embedding || job->error.status)
+        return;
+    const hash128 file = ffd_file_identity(embedding);
+    if (is_taken(outputs, &file, &line))
+        refuse(manifest, job, "the embedding ", embedding, line);
 }
 
 ffd_status ffd_outputs_reserve(run_outputs *outputs, const char *path, ffd_error *error)

@@ -55,6 +55,9 @@ ffd_status ffd_outputs_claim_others(run_outputs *outputs, const char *manifest, 
 /* Likewise claims the picture of a job, whose identity is `file`. */
 ffd_status ffd_outputs_claim_picture(run_outputs *outputs, const char *manifest, batch_job *job,
                                      const hash128 *file, const char *path, ffd_error *error);
+/* Stores an error in a job whose embedding is a file of the run, or one that this job or an earlier one
+   writes. */
+void ffd_outputs_check_embedding(const run_outputs *outputs, const char *manifest, batch_job *job);
 /* Reserves a file of the run itself. Errors: FFD_E_MEMORY. */
 ffd_status ffd_outputs_reserve(run_outputs *outputs, const char *path, ffd_error *error);
 /* Frees the tables; leaves all zeros. */

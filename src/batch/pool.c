@@ -87,6 +87,8 @@ static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_t
     head.threads = threads;
     head.record = task->record;
     head.has_record = task->has_record;
+    head.drawn = task->drawn;
+    head.has_drawn = task->has_drawn;
     head.records = desc->records;
     head.resume = desc->resume;
     head.dry = desc->dry;
@@ -273,6 +275,8 @@ static bool take_answer(worker_pool *pool, pool_worker *worker)
     pool->counts.jobs.reads += head.counts.reads;
     pool->counts.jobs.searches += head.counts.searches;
     task->has_record = head.has_record;
+    task->drawn = head.drawn;
+    task->has_drawn = head.has_drawn;
     task->has_picture = head.has_picture;
     task->took_row = head.took_row;
     worker->retires = head.retires;

@@ -31,13 +31,16 @@ typedef enum task_state {
 /* A job of the batch, from reading to its end. */
 typedef struct pool_task {
     batch_job job;
-    uint64_t number;    /* in the run, from 0 */
-    hash128 target;     /* identity of the output */
-    hash128 mesh;       /* hash of the input's name: a worker prefers the mesh that it has */
-    bool is_large;      /* the input is large: only one worker may read it */
-    bool has_mesh_name; /* the output has the ending of a mesh format */
-    job_record record;  /* if has_record: before the job, of the last time; after it, of this time */
+    uint64_t number;        /* in the run, from 0 */
+    hash128 target;         /* identity of the output */
+    hash128 picture_target; /* the journal's key for the picture of a job without an output */
+    hash128 mesh;           /* hash of the input's name: a worker prefers the mesh that it has */
+    bool is_large;          /* the input is large: only one worker may read it */
+    bool has_mesh_name;     /* the output has the ending of a mesh format */
+    job_record record;      /* if has_record: before the job, of the last time; after it, of this time */
     bool has_record;
+    hash128 drawn; /* likewise: the bytes of that picture, if has_drawn */
+    bool has_drawn;
     byte_buffer
         figures; /* likewise: figures of the run that made the output, as JSON terminated by 0; or empty */
     task_state state;

@@ -1,4 +1,5 @@
 #include "batch/task_text.h"
+#include "base/one_line.h"
 #include "batch/manifest/settings.h"
 #include "job/judge/result.h"
 #include "job/report/report.h"
@@ -30,9 +31,7 @@ static void append_settings(const batch_job *job, byte_buffer *text)
     ffd_settings_show(job->words.data, job->word_count, text);
     if (text->size == before)
         return;
-    for (size_t i = before; i < text->size; i++)
-        if ((unsigned char)text->data[i] < 0x20 || text->data[i] == 0x7f)
-            text->data[i] = '?';
+    ffd_make_one_line(text->data + before, text->size - before);
     ffd_buffer_text(text, ": ");
 }
 

@@ -23,11 +23,12 @@ typedef struct job_record {
 typedef struct wire_task {
     uint64_t line;     /* of the job in its manifest */
     job_record record; /* of the last time, if has_record */
+    hash128 drawn;     /* bytes of the picture that was drawn then, if has_drawn */
     uint64_t text_size;
     uint64_t row, rows, vertices; /* of the array of positions, if has_row */
     uint32_t word_count, content_words;
     int32_t threads;
-    bool has_record;
+    bool has_record, has_drawn;
     bool records;  /* fill the answer's record */
     bool resume;   /* keep outputs that are up to date, replace others */
     bool dry;      /* dry run: write nothing */
@@ -56,13 +57,14 @@ typedef struct wire_answer {
                            (each terminated by 0) */
     uint64_t figures_size; /* of the job, as JSON terminated by 0 */
     job_record record;
+    hash128 drawn;       /* bytes of the picture of a job without an output, if has_drawn */
     hash128 state;       /* of the mesh's files, if has_state (job_cache.h) */
     share_counts counts; /* of this job */
     shown_box box;       /* of a measured mesh */
     uint64_t vertices;   /* if only vertices were counted */
     uint64_t beside;     /* after a look: number of files beside the output */
     uint8_t outcome;
-    bool has_record, has_state;
+    bool has_record, has_drawn, has_state;
     bool rehearsed;     /* dry run: everything except writing was done */
     bool has_picture;   /* it exists, made now or before */
     bool took_row;      /* the row may be written to */

@@ -3,6 +3,7 @@
 #include "base/file/mapping.h"
 #include "base/file/output.h"
 #include "base/memory/memory.h"
+#include "base/one_line.h"
 #include "base/system/interrupt.h"
 #include "batch/fingerprint.h"
 #include "batch/job_picture.h"
@@ -64,9 +65,7 @@ static void add_line(byte_buffer *lines, const char *subject, const char *line)
 {
     const size_t before = lines->size;
     ffd_buffer_format(lines, "%s%s%s", subject, *subject ? ": " : "", line);
-    for (size_t i = before; i < lines->size; i++)
-        if ((unsigned char)lines->data[i] < 0x20 || lines->data[i] == 0x7f)
-            lines->data[i] = '?';
+    ffd_make_one_line(lines->data + before, lines->size - before);
     ffd_buffer_text(lines, "\n");
 }
 
@@ -273,13 +272,23 @@ static ffd_status judge_row(const job_row *row, ffd_status status, ffd_error *er
     return error->status;
 }
 
+/* Whether the picture of a job that is up to date is there. The time of an array does not say when a row was
+   made: without an output the picture is known by its bytes. */
+static bool has_picture(const wire_task *task, const char *picture, const ffd_deform_desc *desc)
+{
+    hash128 bytes;
+    if (desc->output)
+        return ffd_job_picture_is_current(picture, desc->output);
+    return task->has_drawn && !ffd_cache_hash(NULL, picture, &bytes, NULL) &&
+           ffd_hash_equal(&bytes, &task->drawn);
+}
+
 /* Deforms, unless the results are up to date, and draws the picture (NULL: none is wanted). */
 static ffd_status do_job(batch_worker *worker, const wire_task *task, const char *picture, job_row *row,
                          ffd_deform_desc *desc, wire_answer *answer, ffd_job_result *result)
 {
     const bool has_output = is_up_to_date(task, desc, row, answer);
-    answer->has_picture =
-        has_output && picture && desc->output && ffd_job_picture_is_current(picture, desc->output);
+    answer->has_picture = has_output && picture && has_picture(task, picture, desc);
     if (has_output && (!picture || answer->has_picture)) {
         answer->outcome = OUTCOME_SKIPPED;
         return FFD_OK;
@@ -299,6 +308,8 @@ static ffd_status do_job(batch_worker *worker, const wire_task *task, const char
     ffd_process_defer_stop(true);
     if (!status && task->records)
         answer->has_record = has_output || know_results(worker, task, desc, row, &answer->record.outputs);
+    answer->has_drawn = answer->has_record && answer->has_picture && !desc->output &&
+                        !ffd_cache_hash(NULL, picture, &answer->drawn, NULL);
     return status;
 }
 

@@ -96,15 +96,45 @@ static void print_tear(const ffd_job_result *result)
     printf("\n");
 }
 
-static void print_extent(const char *name, double before, double after, const char *unknown)
+static void print_size(double value, const char *unknown)
 {
-    printf("  %-15s", name);
-    if (isnan(before))
-        printf("%s\n", unknown);
-    else if (isnan(after))
-        printf("%g, deformed %s\n", before, unknown);
+    if (isnan(value))
+        printf("%s", unknown);
+    else if (isinf(value))
+        printf("too large for a double");
     else
-        printf("%g, deformed %g\n", before, after);
+        printf("%g", value);
+}
+
+static void print_area(const ffd_job_result *result)
+{
+    printf("  area           ");
+    print_size(result->area_before, "not known");
+    if (!isnan(result->area_before)) {
+        printf(", deformed ");
+        print_size(result->area_after, "not known");
+    }
+    printf("\n");
+}
+
+/* Why there is no volume, by the area of the same faces. */
+static const char *reason_of(const ffd_job_result *result, double area)
+{
+    if (isnan(area))
+        return "not known";
+    return result->faces == 0 && fpclassify(area) == FP_ZERO ? "none: the mesh has no faces"
+                                                             : "none: the mesh is not closed";
+}
+
+static void print_volume(const ffd_job_result *result)
+{
+    printf("  volume         ");
+    print_size(result->volume_before, reason_of(result, result->area_before));
+    if (!isnan(result->volume_before)) {
+        printf(", deformed ");
+        print_size(result->volume_after, reason_of(result, result->area_after));
+    }
+    printf("\n");
 }
 
 static void print_rig(const ffd_rig_result *rig)
@@ -127,12 +157,8 @@ static void print_summary(const cli_job *job, const char *input, const ffd_job_r
     print_folds(result, cli_display_name(job->lattices[result->folds_lattice]));
     printf("  flipped faces  %" PRIu64 " of %" PRIu64 "\n", result->flipped_faces, result->faces);
     print_tear(result);
-    print_extent("area", result->area_before, result->area_after, "not known");
-    print_extent("volume", result->volume_before, result->volume_after,
-                 isnan(result->area_before) ? "not known"
-                 : result->faces == 0 && fpclassify(result->area_before) == FP_ZERO
-                     ? "none: the mesh has no faces"
-                     : "none: the mesh is not closed");
+    print_area(result);
+    print_volume(result);
     if (result->det_min <= result->det_max)
         printf("  det F          %g to %g at the vertices\n", result->det_min, result->det_max);
     printf("  edges          %" PRIu64 ", %g at most from the deformed surface, %g on average\n",

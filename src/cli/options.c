@@ -1,4 +1,5 @@
 #include "cli/options.h"
+#include "base/one_line.h"
 #include "base/text/words.h"
 #include <errno.h>
 #include <ffd/ffd.h>
@@ -26,9 +27,7 @@ void cli_complain(const char *format, ...)
     vsnprintf(line, sizeof line, format, arguments);
     va_end(arguments);
     /* Control characters from the command line are replaced, so that it stays one line. */
-    for (char *c = line; *c; c++)
-        if ((unsigned char)*c < 0x20 || *c == 0x7f)
-            *c = '?';
+    ffd_make_one_line(line, strlen(line));
     if (captured)
         snprintf(captured, captured_capacity, "%s", line);
     else

@@ -12,7 +12,7 @@ static bool is_zero(const double gradient[9])
     return true;
 }
 
-/* Files have zero normals, and broken ones: they stay as they are, and no deformation is to blame. */
+/* Files contain normals that are 0 or not finite. They stay as they are, and do not count as collapsed. */
 static bool has_direction(const double v[3])
 {
     return vec_is_finite(v) && (v[0] != 0 || v[1] != 0 || v[2] != 0);
@@ -24,7 +24,7 @@ static void add_identity(const double gradient[9], double f[9])
         f[i] = gradient[i] + (i % 4 == 0 ? 1 : 0);
 }
 
-/* Copies v to result and returns why. */
+/* Copies v to result, sets *collapsed to `why`, and returns 0. */
 static int keep(const double v[3], double result[3], int *collapsed, int why)
 {
     memmove(result, v, 3 * sizeof *result);
@@ -33,8 +33,8 @@ static int keep(const double v[3], double result[3], int *collapsed, int why)
     return 0;
 }
 
-/* Divides carried by its length into result; keeps `before` where nothing is left of it beyond rounding:
-   `scale` is the size of the terms that were added up. */
+/* Normalises `carried` into result. Keeps `before` if the length is not more than the rounding of the summed
+   terms, whose magnitude is `scale`. */
 static int normalise(const double carried[3], double scale, const double before[3], double result[3],
                      int *collapsed)
 {
@@ -60,7 +60,7 @@ int ffd_deform_normal(const double gradient[9], const double normal[3], double r
     return normalise(carried, largest * largest * vec_length(normal), normal, result, collapsed);
 }
 
-/* F t made perpendicular to the normal, if there is one. */
+/* Transforms a tangent: F t, made perpendicular to normal unless that is NULL. */
 static int carry_tangent(const double gradient[9], const double tangent[3], const double *normal,
                          double result[3], int *collapsed)
 {
@@ -89,7 +89,7 @@ int ffd_tangent_of_normal(const double gradient[9], const double tangent[3], con
     return carry_tangent(gradient, tangent, normal, result, NULL);
 }
 
-/* A kernel for all, or NULL, and the function for one. */
+/* The kernels of an instruction set; NULL: use the functions for single directions. */
 typedef struct attribute_way {
     attribute_kernel *normals, *tangents;
 } attribute_way;

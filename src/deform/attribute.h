@@ -1,5 +1,5 @@
-/* attribute.h - many normals and tangents at once, and tangents for normals that come from elsewhere
-   (public: ffd/deform.h). */
+/* attribute.h - transforms many normals and tangents at once, and tangents for given deformed normals (public
+   functions: ffd/deform.h). */
 #ifndef FFD_DEFORM_ATTRIBUTE_H
 #define FFD_DEFORM_ATTRIBUTE_H
 
@@ -7,14 +7,14 @@
 #include "deform/attribute_kernel.h"
 #include <ffd/deform.h>
 
-/* ffd_deform_normal, or ffd_deform_tangent, for every direction of the batch, with the same bits whatever the
-   instruction set. No outcome is left open. */
+/* Applies ffd_deform_normal to every direction of the batch, with the same bits for all instruction sets. No
+   outcome is ATTRIBUTE_OPEN afterwards. */
 void ffd_deform_normals(ffd_isa isa, const attribute_batch *batch);
-/* The same for tangents. */
+/* The same for tangents, as ffd_deform_tangent. */
 void ffd_deform_tangents(ffd_isa isa, const attribute_batch *batch);
 
-/* ffd_deform_tangent for a normal that changed, perhaps though the gradient is 0. Returns 1 and writes
-   result; 0 and copies t where nothing is left of it. */
+/* As ffd_deform_tangent, for a normal that changed although the gradient may be 0. Returns 1 and writes
+   result; returns 0 and copies the tangent if it collapses. */
 int ffd_tangent_of_normal(const double gradient[9], const double tangent[3], const double normal[3],
                           double result[3]);
 

@@ -1,11 +1,11 @@
-/* attribute_kernel.c - compiled once for each instruction set with lanes: FFD_NORMAL_KERNEL and
-   FFD_TANGENT_KERNEL are the functions' names, FFD_LANES the number of SIMD lanes, each with one direction.
-   Operation by operation it is attribute.c. */
+/* attribute_kernel.c - compiled once for each SIMD instruction set: FFD_NORMAL_KERNEL and FFD_TANGENT_KERNEL
+   are the names of the functions, FFD_LANES the number of lanes, each with one direction. The operations are
+   those of attribute.c, in the same order. */
 #include "deform/attribute_kernel.h"
 #include "base/vector/lanes.h"
 #include <float.h>
 
-/* F of the directions' points, and which of these do not move at all. */
+/* F at the points of the directions, and a mask of those with a gradient of 0. */
 typedef struct gradient_lanes {
     lanes f[9];
     mask still;
@@ -25,7 +25,7 @@ static ALWAYS_INLINE void load_gradients(const attribute_batch *batch, size_t fi
     }
 }
 
-/* A mask of the lanes whose square root is that of vec_length. */
+/* Returns a mask of the lanes in which the square root gives the same bits as vec_length. */
 static ALWAYS_INLINE mask is_ordinary(lanes square)
 {
     return (square > 1e-280) & (square < 1e300);
@@ -43,13 +43,14 @@ static ALWAYS_INLINE void load_directions(const double *from, size_t step, lanes
     lanes_load_triples(triples, v);
 }
 
-/* Divides by the length and replaces what is carried. size: of the terms that were added up. */
+/* Normalises and stores the transformed directions. size: magnitude of the summed terms. */
 static ALWAYS_INLINE void finish(const attribute_batch *batch, size_t first, mask still,
                                  const lanes before[3], lanes size, const lanes carried[3])
 {
     const lanes old_square = lanes_dot(before, before), square = lanes_dot(carried, carried);
     const lanes length = lanes_root(square);
-    /* The square and 1 are more than the length before: what is close to collapse is left open. */
+    /* The old square plus 1 is an upper bound of the old length, so directions close to collapse are left
+       open. */
     const mask is_carried = is_ordinary(old_square) & is_ordinary(square) &
                             (length > 16 * DBL_EPSILON * (size * (old_square + 1.0)));
     lanes result[3];

@@ -1,39 +1,39 @@
-/* attribute_kernel.h - normals and tangents under deformation gradients, several at a time. */
+/* attribute_kernel.h - transforms several normals or tangents at a time. */
 #ifndef FFD_DEFORM_ATTRIBUTE_KERNEL_H
 #define FFD_DEFORM_ATTRIBUTE_KERNEL_H
 
 #include <stddef.h>
 #include <stdint.h>
 
-/* What has become of a direction. */
+/* The outcome for a direction. */
 enum {
-    ATTRIBUTE_KEPT,      /* it has its bits */
-    ATTRIBUTE_CARRIED,   /* to another, which replaces it */
-    ATTRIBUTE_COLLAPSED, /* nothing is left of it: it has its bits */
-    ATTRIBUTE_OPEN       /* the kernel leaves it to the function for one */
+    ATTRIBUTE_KEPT,      /* unchanged, to the bit */
+    ATTRIBUTE_CARRIED,   /* replaced by the transformed direction */
+    ATTRIBUTE_COLLAPSED, /* the result has no direction: unchanged */
+    ATTRIBUTE_OPEN       /* not decided by the kernel: use the function for a single direction */
 };
 
-/* Directions, and the points that they belong to. */
+/* Directions, and the deformation gradients at their points. */
 typedef struct attribute_batch {
-    const double *gradients; /* F - I of point n from gradients[9 * n] on */
-    const uint32_t *points;  /* of each direction; NULL: direction i belongs to point i */
+    const double *gradients; /* F - I of point n begins at gradients[9 * n] */
+    const uint32_t *points;  /* point of each direction; NULL: direction i belongs to point i */
     size_t count;
-    double *directions; /* of direction i from directions[i * step] on: 3 numbers, changed in place */
+    double *directions; /* direction i begins at directions[i * step]: 3 numbers, modified in place */
     size_t step;
-    const double *normals; /* tangents: the deformed unit normals, 3 each, that they are to be perpendicular
-                              to, or NULL; normals: NULL */
-    uint8_t *outcomes;     /* of each */
+    const double *normals; /* for tangents: deformed unit normals, 3 numbers each, or NULL; for normals:
+                              NULL */
+    uint8_t *outcomes;     /* one for each direction */
 } attribute_batch;
 
-/* F - I at the point of direction i. */
+/* Returns F - I at the point of direction i. */
 static inline const double *attribute_gradient(const attribute_batch *batch, size_t i)
 {
     return batch->gradients + 9 * (batch->points ? batch->points[i] : i);
 }
 
-/* Does what ffd_deform_normal, or ffd_deform_tangent, does, with the same bits, for all whose sizes are far
-   from the ends of the doubles' range; the others are left open. One function for each instruction set that
-   has lanes. */
+/* Does what ffd_deform_normal or ffd_deform_tangent does, with the same bits, for directions whose magnitudes
+   are far from overflow and underflow; the others are left open. One function for each SIMD instruction
+   set. */
 typedef void attribute_kernel(const attribute_batch *batch);
 
 #ifdef FFD_X86

@@ -1,8 +1,8 @@
 #include "deform/displacement.h"
 #include <string.h>
 
-/* Delta form (src/maths.md 7.1): sum (Q - P) R, so that an inversion's residual enters only through the
-   displacement's gradient and a translation is exact to rounding. by_uvw may be NULL. */
+/* The delta form (src/maths.md 7.1): sum (Q - P) R. The residual of the inversion enters only multiplied by
+   the gradient of the displacement, and a translation is exact to rounding. by_uvw may be NULL. */
 static void sum_differences(const ffd_lattice *lattice, const lattice_basis *basis, double delta[3],
                             double *by_uvw)
 {
@@ -20,9 +20,9 @@ static void sum_differences(const ffd_lattice *lattice, const lattice_basis *bas
         by_uvw[i] -= rest_by[i];
 }
 
-/* The displacement of one point; by_uvw and jacobian are both there or both NULL. Returns whether a moved
-   control point acts on it; else nothing is written. Where all that act move alike, rounding would make the
-   sum miss what they have in common. */
+/* Computes the displacement of a point; by_uvw and jacobian are both given or both NULL. Returns false, and
+   writes nothing, if no moved control point acts on it. If all control points that act have the same
+   displacement, the result is exactly that, which the sum would miss by rounding. */
 static bool displace_rational(const ffd_lattice *lattice, const double uvw[3], double delta[3],
                               double *by_uvw, double *jacobian)
 {
@@ -49,11 +49,12 @@ static void shift(const double shared[3], double delta[3], double *by_uvw, doubl
     memcpy(delta, shared, 3 * sizeof *delta);
     if (by_uvw)
         memset(by_uvw, 0, 9 * sizeof *by_uvw);
-    if (jacobian) /* any that has an inverse: by_uvw is 0 */
+    if (jacobian) /* any invertible matrix will do: by_uvw is 0 */
         memcpy(jacobian, unit, sizeof unit);
 }
 
-/* As displace_rational. Where the lattice knows d uvw / d p, by_uvw is the gradient and jacobian NULL. */
+/* As displace_rational. If the lattice has a constant d uvw / d p and inverse is true, by_uvw is the gradient
+   and jacobian NULL. */
 static bool displace(const ffd_lattice *lattice, const double uvw[3], bool inverse, double delta[3],
                      double *by_uvw, double *jacobian)
 {

@@ -1,4 +1,4 @@
-/* displacement.h - the displacement of many points at once, and by the lattice's own parameters (public:
+/* displacement.h - the displacement of many points at once, and its derivatives by u,v,w (public functions:
    ffd/deform.h). Declares displacement.c and displacement_batch.c. */
 #ifndef FFD_DEFORM_DISPLACEMENT_H
 #define FFD_DEFORM_DISPLACEMENT_H
@@ -9,79 +9,80 @@
 #include <ffd/deform.h>
 #include <stdint.h>
 
-/* The displacement at u,v,w as ffd_displacement gives it, and by_uvw[3*r+c] = d delta_r / d uvw_c: right-hand
-   at an inner knot, left-hand at the end of the domain. Returns as ffd_displacement. */
+/* As ffd_displacement, with by_uvw[3*r+c] = d delta_r / d uvw_c instead of the gradient: from the right at an
+   inner knot, from the left at the end of the domain. */
 int ffd_displacement_by_uvw(const ffd_lattice *lattice, const double uvw[3], double delta[3],
                             double by_uvw[9]);
 
-/* Most points of a batch. So many that where a lattice is fine the rows of a mesh that cross the same cells
-   meet, and yet fit the cache nearest but one with all that is known of them. */
+/* The most points of a batch: enough that, in a fine lattice, neighbouring rows of a mesh that cross the same
+   cells are in one batch, and few enough that all data fit in the L2 cache. */
 #define DISPLACEMENT_BATCH ((size_t)4096)
 
-/* A cell of a batch, and which of its points lie in it. */
+/* A cell of a batch, and its points. */
 typedef struct batch_cell {
-    size_t span[3]; /* numbers of its non-empty spans */
-    size_t key;     /* its number in the lattice */
+    size_t span[3]; /* its indices among the non-empty spans */
+    size_t key;     /* its index in the lattice */
     uint32_t first, count;
 } batch_cell;
 
-/* Wanted points one after the other that lie in the same cell. */
+/* Consecutive points of a batch that are in the same cell. */
 typedef struct batch_stretch {
-    uint32_t first; /* of the wanted points */
-    uint32_t cell;  /* of the batch */
+    uint32_t first; /* index among the points of the batch */
+    uint32_t cell;  /* index among the cells of the batch */
 } batch_stretch;
 
-/* Numbers of cells (displacement_cell.h) that batches had before: neighbours in a mesh
-   often come back to them. */
+/* A cache of the kernel's numbers (displacement_cell.h) for cells of earlier batches, because later points of
+   a mesh often are in the same cells. */
 #define KEPT_CELLS ((size_t)1024)
 #define KEPT_NUMBERS (KEPT_CELLS * (3 * 4 * 4 * 4 + 1))
 
-/* What the threads of a pass may keep in all, 3 MB: a machine can have many. */
+/* The size of the caches of all threads together, 3 MB, because a machine can have many threads. */
 #define KEPT_IN_ALL (2 * KEPT_NUMBERS)
 
 typedef struct kept_cells {
-    int threads;                 /* that share the memory; set by whoever made the scratch, 0 as 1 */
-    const ffd_lattice *lattice;  /* whose cells they are; NULL: there are none */
-    cell_use use;                /* of them */
-    size_t count, numbers;       /* capacity in cells, and the numbers that each has */
-    size_t keys[KEPT_CELLS];     /* 1 + key of a batch_cell; 0: none */
-    uint16_t places[KEPT_CELLS]; /* of its numbers: one after the other as they come, so that few pages are
+    int threads;                 /* number of threads that share this size; set by the owner of the scratch
+                                    memory, 0 is 1 */
+    const ffd_lattice *lattice;  /* the lattice of the cells; NULL: empty */
+    cell_use use;                /* what the numbers are for */
+    size_t count, numbers;       /* capacity in cells, and numbers for each cell */
+    size_t keys[KEPT_CELLS];     /* 1 + the key of a batch_cell; 0: none */
+    uint16_t places[KEPT_CELLS]; /* index of its numbers; assigned in ascending order, so that few pages are
                                     touched */
-    uint16_t used;               /* places that are taken */
+    uint16_t used;               /* number of used places */
     cell_motion motions[KEPT_CELLS];
     double all_numbers[KEPT_NUMBERS];
 } kept_cells;
 
-/* What a batch needs beside its results; of one thread. */
+/* Scratch memory of a thread for a batch. */
 typedef struct displacement_scratch {
     kept_cells kept;
     double jacobian[9 * DISPLACEMENT_BATCH];
     batch_cell cells[DISPLACEMENT_BATCH];
     size_t cell_count;
-    batch_stretch stretches[DISPLACEMENT_BATCH + 1]; /* the last one only ends the one before */
+    batch_stretch stretches[DISPLACEMENT_BATCH + 1]; /* the last one only marks the end */
     size_t stretch_count;
-    uint16_t buckets[2 * DISPLACEMENT_BATCH]; /* cells by their keys */
-    uint32_t sorted[DISPLACEMENT_BATCH];      /* the wanted points' numbers, cell by cell */
-    double uvw[3 * DISPLACEMENT_BATCH];       /* and their u,v,w */
+    uint16_t buckets[2 * DISPLACEMENT_BATCH]; /* hash table of the cells by key */
+    uint32_t sorted[DISPLACEMENT_BATCH];      /* indices of the points, cell by cell */
+    double uvw[3 * DISPLACEMENT_BATCH];       /* their u,v,w */
 } displacement_scratch;
 
 typedef struct displacement_batch {
-    const double *uvw; /* of point n from uvw[n * stride] on, in the domain */
+    const double *uvw; /* u,v,w of point n begins at uvw[n * stride]; in the domain */
     size_t stride;
-    const uint32_t *which; /* the numbers n, below DISPLACEMENT_BATCH, of the points that are wanted, each
-                              greater than the one before */
+    const uint32_t *which; /* the indices n of the points to compute, below DISPLACEMENT_BATCH, in strictly
+                              ascending order */
     size_t count;
-    double *delta;    /* of point n from delta[3 * n] on */
-    double *gradient; /* of point n from gradient[9 * n] on; or NULL */
+    double *delta;    /* of point n: begins at delta[3 * n] */
+    double *gradient; /* of point n: begins at gradient[9 * n]; may be NULL */
     uint8_t *moves;   /* moves[n]: what ffd_displacement returns */
 } displacement_batch;
 
-/* Must be called before the first batch, unless the scratch is zeroed, and before a batch of a lattice that
-   may have the address of an earlier one. */
+/* Clears the caches. To be called before the first batch, unless the scratch memory is zeroed, and before a
+   batch of a new lattice, which could have the address of a destroyed one. */
 void ffd_displacement_scratch_clear(displacement_scratch *scratch);
 
-/* ffd_displacement for every point of the batch, with the same bits, whatever the instruction set and the
-   order and company of the points. */
+/* Computes ffd_displacement for every point of the batch, with the same bits, independently of the
+   instruction set and of the other points. */
 void ffd_displacements(const ffd_lattice *lattice, ffd_isa isa, const displacement_batch *batch,
                        displacement_scratch *scratch);
 

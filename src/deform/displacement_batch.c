@@ -1,4 +1,4 @@
-/* displacement_batch.c - many points at once: those of each cell together. */
+/* displacement_batch.c - the displacements of many points: groups them by cell. */
 #include "deform/displacement.h"
 #include <string.h>
 
@@ -18,7 +18,7 @@ static const kernel_pair kernels[] = {
 #endif
 };
 
-/* The batch's cell with these spans, made where it is new. */
+/* Returns the cell of the batch with these spans, and adds it if it is new. */
 static size_t take_cell(const size_t span[3], size_t key, displacement_scratch *scratch)
 {
     size_t bucket = (key * 0x9e3779b97f4a7c15u >> 20) % (2 * DISPLACEMENT_BATCH);
@@ -34,7 +34,7 @@ static size_t take_cell(const size_t span[3], size_t key, displacement_scratch *
     return made;
 }
 
-/* A non-empty span, and where it begins and ends. */
+/* A non-empty span, with its two knots. */
 typedef struct span_range {
     size_t number;
     double first, last;
@@ -50,7 +50,8 @@ static bool cell_holds(const span_range cell[3], const double uvw[3])
     return span_holds(&cell[0], uvw[0]) && span_holds(&cell[1], uvw[1]) && span_holds(&cell[2], uvw[2]);
 }
 
-/* The cell of a point, from that of the point before: most often it is another span in one direction. */
+/* Finds the cell of a point, starting with that of the point before, from which it mostly differs in one
+   direction at most. */
 static size_t find_cell(const ffd_lattice *lattice, const double uvw[3], displacement_scratch *scratch,
                         span_range cell[3])
 {
@@ -66,17 +67,17 @@ static size_t find_cell(const ffd_lattice *lattice, const double uvw[3], displac
                      scratch);
 }
 
-/* Of the wanted point k. */
+/* Returns u,v,w of the k-th point to compute. */
 static const double *uvw_of(const displacement_batch *batch, size_t k)
 {
     return batch->uvw + batch->which[k] * batch->stride;
 }
 
-/* The wanted points in stretches, of which only the first point may have to be wrapped. */
+/* Divides the points into stretches of which only the first point may need to be wrapped. */
 static void find_cells(const ffd_lattice *lattice, const displacement_batch *batch,
                        displacement_scratch *scratch)
 {
-    span_range cell[3] = {{0}}; /* of nothing */
+    span_range cell[3] = {{0}}; /* an empty range: no cell yet */
     size_t stretches = 0;
     scratch->cell_count = 0;
     memset(scratch->buckets, 0xff, sizeof scratch->buckets);
@@ -90,7 +91,7 @@ static void find_cells(const ffd_lattice *lattice, const displacement_batch *bat
     scratch->stretch_count = stretches;
 }
 
-/* Puts the wanted points [first, end), a stretch, after those that their cell has. */
+/* Appends the points [first, end) of a stretch to those of their cell. */
 static void add_stretch(const ffd_lattice *lattice, const displacement_batch *batch, size_t first, size_t end,
                         batch_cell *cell, displacement_scratch *scratch)
 {
@@ -103,7 +104,7 @@ static void add_stretch(const ffd_lattice *lattice, const displacement_batch *ba
     cell->count += (uint32_t)(end - first);
 }
 
-/* Brings the points of each cell together, in their order. */
+/* Groups the points by cell, stably (a counting sort). */
 static void sort_points(const ffd_lattice *lattice, const displacement_batch *batch,
                         displacement_scratch *scratch)
 {
@@ -134,7 +135,7 @@ void ffd_displacement_scratch_clear(displacement_scratch *scratch)
     scratch->kept.lattice = NULL;
 }
 
-/* Makes the kept cells those of the lattice. */
+/* Prepares the cache for a lattice. */
 static void begin_cells(const ffd_lattice *lattice, cell_use use, kept_cells *kept)
 {
     if (kept->lattice == lattice && kept->use == use)
@@ -151,7 +152,8 @@ static void begin_cells(const ffd_lattice *lattice, cell_use use, kept_cells *ke
     memset(kept->keys, 0, sizeof kept->keys);
 }
 
-/* How a cell moves, and the numbers of one that bends; found where they are not kept. */
+/* Returns how a cell moves and, if it is not a common displacement, its numbers; computes them if they are
+   not in the cache. */
 static cell_motion find_numbers(const ffd_lattice *lattice, extraction_kernel *extract,
                                 const batch_cell *cell, kept_cells *kept, const double **numbers)
 {
@@ -168,7 +170,7 @@ static cell_motion find_numbers(const ffd_lattice *lattice, extraction_kernel *e
     return kept->motions[slot];
 }
 
-/* All points of a cell by the same displacement. */
+/* Stores the same displacement for all points of a cell. */
 static void shift_cell(const double shared[3], const displacement_batch *batch, const uint32_t *which,
                        size_t count)
 {
@@ -179,7 +181,7 @@ static void shift_cell(const double shared[3], const displacement_batch *batch, 
     }
 }
 
-/* A parameter at which points are on a knot. */
+/* A parameter value that is a knot. */
 typedef struct knot_place {
     int direction;
     double u;
@@ -194,7 +196,8 @@ static int list_knots(const ffd_lattice *lattice, const int span[3], uint8_t kno
     return count;
 }
 
-/* The points on knots of a cell, where fewer control points act than between: those may move alike. */
+/* Handles points on the knots of a cell. Fewer control points act there than between knots, and these may
+   have a common displacement. */
 static void shift_on_knots(const ffd_lattice *lattice, const int span[3], uint8_t knots, const double *uvw,
                            const displacement_batch *batch, const uint32_t *which, size_t count)
 {

@@ -20,17 +20,17 @@ bool ffd_displacement_reaches(const ffd_lattice *lattice, const int span[3])
     return false;
 }
 
-/* Where a parameter is in a span: on its first knot, between, or on the last one, which is the domain's end.
- */
+/* The position of a parameter in a span: on its first knot, between the knots, or on the last knot, which is
+   then the end of the domain. */
 typedef enum span_place { ON_FIRST_KNOT, BETWEEN_KNOTS, ON_LAST_KNOT, SPAN_PLACES } span_place;
 
-/* Functions of a span, of its degree + 1: first to first + count - 1. */
+/* A range of the degree + 1 functions of a span: first to first + count - 1. */
 typedef struct function_range {
     int first, count;
 } function_range;
 
-/* Those that are not 0 at a place. At a knot of multiplicity m there are m fewer than between knots, and one
-   at the end of a clamped direction. */
+/* Returns the functions that are not 0 at a place. At a knot of multiplicity m there are m fewer than between
+   knots; at the end of a clamped direction there is one. */
 static function_range acting_at(const knot_vector *knots, int span, span_place place)
 {
     const int degree = knots->degree;
@@ -51,13 +51,13 @@ static span_place place_of(const knot_vector *knots, int span, double u)
     return u <= t[0] ? ON_FIRST_KNOT : u < t[1] ? BETWEEN_KNOTS : ON_LAST_KNOT;
 }
 
-/* The index of function i of a span's among the control points of its direction. */
+/* Returns the index of the control point of function i of a span. */
 static size_t index_of(const knot_vector *knots, int span, int i)
 {
     return ffd_knots_point(knots, (size_t)(span - knots->degree + i));
 }
 
-/* The first control point of a block of a cell's. */
+/* Returns the index of the first control point of a block of a cell. */
 static size_t first_of(const ffd_lattice *lattice, const int span[3], const function_range block[3])
 {
     size_t index[3];
@@ -66,7 +66,7 @@ static size_t first_of(const ffd_lattice *lattice, const int span[3], const func
     return index[0] + lattice->size[0] * (index[1] + lattice->size[1] * index[2]);
 }
 
-/* Whether each control point of the block moves like its neighbours in it. */
+/* Returns whether all control points of a block have the same displacement. */
 static bool moves_alike(const ffd_lattice *lattice, const int span[3], const function_range block[3])
 {
     for (int k = 0; k < block[2].count; k++) {
@@ -88,7 +88,7 @@ static bool moves_alike(const ffd_lattice *lattice, const int span[3], const fun
     return true;
 }
 
-/* The displacement that the control points of the block have, or NULL, as of ffd_displacement_shared. */
+/* Returns the common displacement of the control points of a block, or NULL, as ffd_displacement_shared. */
 static const double *shared_in(const ffd_lattice *lattice, const int span[3], const function_range block[3])
 {
     const size_t first = first_of(lattice, span, block);
@@ -112,8 +112,8 @@ const double *ffd_displacement_shared(const ffd_lattice *lattice, const int span
     return lattice->moved[first] & POINT_BEGINS_CELL ? lattice->difference + 3 * first : NULL;
 }
 
-/* The bit of cell_motion's knots for the last direction along which a place is on a knot; 0: it is on none.
- */
+/* Returns the bit of cell_motion.knots for the last direction in which a place is on a knot; 0 if there is
+   none. */
 static uint8_t knot_bit(const span_place place[3])
 {
     for (int a = 3; a-- > 0;)
@@ -122,14 +122,14 @@ static uint8_t knot_bit(const span_place place[3])
     return 0;
 }
 
-/* The functions that act at each place of a cell. */
+/* The functions that are not 0 at each place of a cell. */
 typedef struct cell_blocks {
     function_range block[3][SPAN_PLACES];
     span_place last[3];
 } cell_blocks;
 
-/* Whether the place, which is on a knot, has a displacement of its own. That of a single control point need
-   not be looked for: the sum over it alone is exact. */
+/* Returns whether the control points at a place on a knot have a common displacement. A single control point
+   need not be checked, because the sum is exact then. */
 static bool shares_at(const ffd_lattice *lattice, const int span[3], const cell_blocks *blocks,
                       const span_place place[3])
 {
@@ -138,7 +138,7 @@ static bool shares_at(const ffd_lattice *lattice, const int span[3], const cell_
     return block[0].count * block[1].count * block[2].count > 1 && shared_in(lattice, span, block);
 }
 
-/* The knots of a cell on which some place has a displacement of its own: those of cell_motion. */
+/* Returns the bits of cell_motion.knots: the knots with a place that has a common displacement. */
 static uint8_t find_knots(const ffd_lattice *lattice, const int span[3], const cell_blocks *blocks)
 {
     uint8_t knots = 0;
@@ -153,8 +153,8 @@ static uint8_t find_knots(const ffd_lattice *lattice, const int span[3], const c
     return knots;
 }
 
-/* Those of a cell that is bent. But for the domain's end all places that may share something have the cell's
-   first control point in common. */
+/* The same with an early exit: except at the end of the domain, all places that can have a common
+   displacement include the first control point of the cell. */
 static uint8_t knots_that_share(const ffd_lattice *lattice, const int span[3])
 {
     cell_blocks blocks;
@@ -213,7 +213,7 @@ static bool needs_rest(const ffd_lattice *lattice, cell_use use)
     return use == CELL_GRADIENTS && !lattice->has_uvw_by_p;
 }
 
-/* Numbers of the points, and those of the slopes, of a field in a cell. */
+/* Return the number of doubles for the points and for the slopes of a field in a cell. */
 static size_t point_numbers(const ffd_lattice *lattice)
 {
     size_t count = 3;

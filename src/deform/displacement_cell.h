@@ -1,55 +1,56 @@
-/* displacement_cell.h - what of a lattice displaces the points of one cell. */
+/* displacement_cell.h - how the control points of a cell displace its points. */
 #ifndef FFD_DEFORM_DISPLACEMENT_CELL_H
 #define FFD_DEFORM_DISPLACEMENT_CELL_H
 
 #include "deform/kernel.h"
 #include "lattice/lattice.h"
 
-/* Whether a moved control point acts in the cell whose last knot intervals are span. */
+/* Returns whether a moved control point acts in the cell with these spans. */
 bool ffd_displacement_reaches(const ffd_lattice *lattice, const int span[3]);
 
-/* The displacement that all control points which act at u,v,w have, where it is one and the same and no
-   weight of theirs moved; else NULL, as for 0. Where u,v,w is on a knot fewer of them act than elsewhere in
-   the cell. uvw NULL: what those have that act anywhere in it. Lent by the lattice. */
+/* Returns the common displacement of all control points that act at u,v,w, if they have the same one, other
+   than 0, and no moved weights; else NULL. On a knot fewer control points act than elsewhere in the cell. uvw
+   NULL: for all control points of the cell. The result belongs to the lattice. */
 const double *ffd_displacement_shared(const ffd_lattice *lattice, const int span[3], const double *uvw);
 
 typedef enum motion_kind {
-    CELL_STILL,   /* no moved control point acts in it */
-    CELL_SHIFTED, /* all by the same displacement, which ffd_displacement_shared tells */
+    CELL_STILL,   /* no moved control point acts in the cell */
+    CELL_SHIFTED, /* all points have the same displacement, that of ffd_displacement_shared */
     CELL_BENT
 } motion_kind;
 
 /* How the points of a cell move. */
 typedef struct cell_motion {
     uint8_t kind;  /* motion_kind */
-    uint8_t knots; /* of a bent one: for points on these of its knots ffd_displacement_shared has to be asked.
-                      Bit 2 a: on the first one along direction a, 2 a + 1: on the last */
+    uint8_t knots; /* for other cells: the knots on which ffd_displacement_shared must be called for points.
+                      Bit 2 a: first knot in direction a; bit 2 a + 1: last knot */
 } cell_motion;
 
-/* What is wanted of a cell's points. */
+/* What is to be computed for the points of a cell. */
 typedef enum cell_use {
     CELL_VALUES,   /* displacements */
-    CELL_BY_UVW,   /* and their derivatives by u,v,w */
-    CELL_GRADIENTS /* and those by the point, for which the rest points are needed where there is no inverse
-                      for all */
+    CELL_BY_UVW,   /* also derivatives by u,v,w */
+    CELL_GRADIENTS /* also derivatives by position, for which the rest points are needed if there is no
+                      constant inverse */
 } cell_use;
 
-/* Numbers that the kernel's fields take in a cell of the lattice. */
+/* Returns the number of doubles that the kernel's fields need for a cell of the lattice. */
 size_t ffd_displacement_cell_numbers(const ffd_lattice *lattice, cell_use use);
-/* Tells how the cell with these non-empty spans moves. Where it bends, finds the numbers, and one more for
-   the kernel's use; else nothing is written. */
+/* Returns how the cell with these indices of non-empty spans moves. If its points have different
+   displacements, also fills numbers, with room for one more that the kernel may write. */
 cell_motion ffd_displacement_cell_points(const ffd_lattice *lattice, extraction_kernel *extract,
                                          const size_t number[3], cell_use use, double *numbers);
-/* The spans that these numbers are of. */
+/* Converts indices of non-empty spans to spans. */
 void ffd_displacement_spans(const ffd_lattice *lattice, const size_t number[3], int span[3]);
-/* The cell itself, with these numbers. */
+/* Sets up a cell for the kernel, with these numbers. */
 void ffd_displacement_cell_begin(const ffd_lattice *lattice, const size_t number[3], cell_use use,
                                  const double *numbers, kernel_cell *cell);
 
-/* u,v,w within the periods of closed directions. */
+/* Wraps u,v,w into the domain: closed directions modulo their period. */
 void ffd_displacement_wrap(const ffd_lattice *lattice, const double uvw[3], double inside[3]);
 
-/* From derivatives by u,v,w to those by the point: times the Jacobian's inverse; 0 where it has none. */
+/* Converts derivatives by u,v,w to derivatives by position, in place: multiplies by the inverse of the
+   Jacobian; 0 if it is not invertible. */
 void ffd_displacement_to_space(const double jacobian[9], double gradient[9]);
 
 #endif

@@ -3,13 +3,13 @@
 #include "deform/displacement.h"
 #include <string.h>
 
-/* s^3 (10 - 15 s + 6 s^2): from 0 to 1. */
+/* The smoothstep polynomial s^3 (10 - 15 s + 6 s^2), which rises from 0 to 1. */
 static double rise(double s)
 {
     return s * s * s * (10 - s * (15 - 6 * s));
 }
 
-/* Each half is taken from its own end, where it is then exact to its own size. */
+/* Each half is computed from its own end, so that its relative error is small there. */
 double ffd_extension_fade(double distance, double falloff, double *slope)
 {
     double ignored;

@@ -1,12 +1,13 @@
-/* extraction_kernel.c - compiled once for each instruction set: FFD_EXTRACTION_KERNEL is the function's name.
-   From a cell's control points to its weighted Bezier points (NURBS Book 5.3): N_j = sum_r E_rj B_r, so that
-   those along a direction are sum_j E_rj P_j, in ascending j; the rows of E are weighted. */
+/* extraction_kernel.c - compiled once for each instruction set; FFD_EXTRACTION_KERNEL is the name of the
+   function. It converts the control points of a cell to weighted Bezier points (NURBS Book 5.3): N_j = sum_r
+   E_rj B_r, so Bezier point r in a direction is sum_j E_rj P_j, in ascending j. The rows of E are weighted
+   (bezier.h). */
 #include "base/vector/quad.h"
 #include "deform/kernel.h"
 #include <stdbool.h>
 #include <string.h>
 
-/* Rows of `inner` numbers: row r of `to` becomes sum_j E_rj row j of `from`. */
+/* Sets row r of `to` to sum_j E_rj (row j of `from`); rows have `inner` numbers. */
 static ALWAYS_INLINE void combine_rows(const double *extraction, size_t order, size_t inner,
                                        const double *restrict from, double *restrict to)
 {
@@ -19,7 +20,7 @@ static ALWAYS_INLINE void combine_rows(const double *extraction, size_t order, s
         }
 }
 
-/* As quads: a vector of three and the number after it, which the next vector then replaces. */
+/* The same for single points, as quads: a point and one number after it, which the next point overwrites. */
 static ALWAYS_INLINE void combine_points(const double *extraction, const double *from, double *to)
 {
     quad point[4];
@@ -40,7 +41,7 @@ static ALWAYS_INLINE void combine_slabs(const double *extraction, size_t order, 
         combine_rows(extraction, order, inner, from + first, to + first);
 }
 
-/* The slopes of rows of d+1 points, likewise. */
+/* Computes the slopes of rows of d+1 points in the same way. */
 static ALWAYS_INLINE void find_point_slopes(size_t degree, size_t rows, const double *points, double *slopes)
 {
     for (size_t r = 0; r < rows; r++, points += 3 * (degree + 1), slopes += 3 * degree)

@@ -1,14 +1,14 @@
-/* kernel.c - compiled once for each instruction set: FFD_KERNEL is the function's name, FFD_LANES the number
-   of SIMD lanes, each with one point.
+/* kernel.c - compiled once for each instruction set; FFD_KERNEL is the name of the function, FFD_LANES the
+   number of SIMD lanes, each with one point.
 
-   The functions t^i (1-t)^(d-i) are all >= 0, and exact at both ends of the span; the binomial coefficients
-   that make them Bernstein polynomials are part of the points (NURBS Book 1.3). The tensor product is summed
-   u first, then v, then w, each in ascending index (NURBS Book A4.3's order by separation). Derivatives by u
-   are sums of the functions of degree d-1 over the points' differences (NURBS Book 1.10), which are stored
-   beside them; those by v and w are sums over what is found on the way, with the functions' derivatives.
+   The functions t^i (1-t)^(d-i) are >= 0, and exact at both ends of the span. The binomial coefficients that
+   turn them into Bernstein polynomials are part of the points (NURBS Book 1.3). The tensor product is summed
+   over u first, then v, then w, each in ascending index (as in NURBS Book A4.3). Derivatives by u are sums of
+   the functions of degree d-1 times the differences of points (NURBS Book 1.10), which are precomputed as
+   slopes. Derivatives by v and w use the partial sums, with the derivatives of the functions.
 
-   gcc unrolls the functions' loops only where it is asked to, for each direction's degree comes from an
-   array; their numbers would go through the stack, which takes longer than all else. */
+   gcc unrolls the loops over functions only with a pragma, because the degrees come from an array. Without
+   unrolling the values would be stored on the stack, which takes longer than everything else. */
 #include "deform/kernel.h"
 #include <string.h>
 #if FFD_LANES == 1
@@ -19,19 +19,19 @@ typedef double lanes;
 #include "base/vector/lanes.h"
 #endif
 
-/* The d+1 functions of a span and their derivatives by the knots' parameter; in u's span, in place of these,
-   the d functions of one degree less by that parameter. */
+/* The d+1 functions of a span and their derivatives by the knot parameter. For u, instead of the derivatives,
+   the d functions of degree d-1, scaled to that parameter. */
 typedef struct span_basis {
     lanes value[MAX_ORDER], derivative[MAX_ORDER];
 } span_basis;
 
-/* A sum over control points (part 0) and its derivatives by u, v, w (parts 1 to 3) as far as they are there.
- */
+/* A sum over control points (part 0) and its derivatives by u, v, w (parts 1 to 3), as far as they are
+   used. */
 typedef struct field_sum {
     lanes part[4][3];
 } field_sum;
 
-/* From t^i (1-t)^(d-1-i) to t^i (1-t)^(d-i), in place. */
+/* Raises t^i (1-t)^(d-1-i) to t^i (1-t)^(d-i), in place. */
 static ALWAYS_INLINE void raise_powers(int degree, lanes t, lanes rest, lanes *power)
 {
     power[degree] = power[degree - 1] * t;
@@ -40,7 +40,7 @@ static ALWAYS_INLINE void raise_powers(int degree, lanes t, lanes rest, lanes *p
         power[i] = power[i] * rest;
 }
 
-/* Their derivatives are i t^(i-1) (1-t)^(d-i) - (d-i) t^i (1-t)^(d-i-1). */
+/* Computes the derivatives i t^(i-1) (1-t)^(d-i) - (d-i) t^i (1-t)^(d-i-1). */
 static ALWAYS_INLINE void find_slopes(int degree, double width, const lanes *lower, lanes *slope)
 {
     const double factor = 1 / width;
@@ -74,7 +74,7 @@ static ALWAYS_INLINE void find_basis(const kernel_cell *cell, int a, int degree,
         raise_powers(degree, t, rest, power);
 }
 
-/* The basis function's share in a sum of the next direction; parts are those that term has. */
+/* Returns the term of a basis function in the sum over the next direction. parts: the parts that term has. */
 static ALWAYS_INLINE field_sum share(const span_basis *basis, int function, const field_sum *term, int parts)
 {
     field_sum result = {0};
@@ -93,7 +93,7 @@ static ALWAYS_INLINE void add(field_sum *sum, const field_sum *term, int parts)
             sum->part[p][c] += term->part[p][c];
 }
 
-/* sum_i factor_i vectors[i], of three numbers each. */
+/* sum = sum_i factor[i] vectors[i], vectors of three numbers. */
 static ALWAYS_INLINE void sum_vectors(const lanes *factor, int count, const double *vectors, lanes sum[3])
 {
     for (int i = 0; i < count; i++)
@@ -137,15 +137,15 @@ static ALWAYS_INLINE field_sum sum_cell(const int degree[3], const span_basis ba
     return sum;
 }
 
-/* *sum (+)= factor term; the first term is the sum so far. */
+/* sum += factor * term; the first term initialises the sum. */
 static ALWAYS_INLINE void add_term(lanes sum[3], bool is_first, lanes factor, const lanes term[3])
 {
     for (int c = 0; c < 3; c++)
         sum[c] = is_first ? factor * term[c] : sum[c] + factor * term[c];
 }
 
-/* sum_cell without derivatives: the same operations in the same order, with fewer numbers at a time, so that
-   compilers can unroll them. */
+/* sum_cell without derivatives: the same operations in the same order, with fewer live values, so that
+   compilers can unroll the loops. */
 static ALWAYS_INLINE void sum_values(const int degree[3], const span_basis basis[3], const double *points,
                                      lanes sum[3])
 {
@@ -162,8 +162,8 @@ static ALWAYS_INLINE void sum_values(const int degree[3], const span_basis basis
 }
 
 #if FFD_LANES > 1
-/* Whether the points' numbers are one after the other. They ascend; a block that is not full ends with the
-   number that it begins with. */
+/* Returns whether the indices of the points are consecutive. They ascend, except that a block that is not
+   full is padded with its first index. */
 static ALWAYS_INLINE bool in_a_row(const uint32_t *which)
 {
     return which[FFD_LANES - 1] - which[0] == FFD_LANES - 1;
@@ -210,7 +210,7 @@ static ALWAYS_INLINE void put_matrix(const lanes m[9], double *to, const uint32_
 #endif
 }
 
-/* The derivatives are the columns. */
+/* Stores the derivatives as the columns of a matrix. */
 static ALWAYS_INLINE void put_derivatives(const field_sum *sum, double *to, const uint32_t *which)
 {
     lanes m[9];
@@ -220,7 +220,7 @@ static ALWAYS_INLINE void put_derivatives(const field_sum *sum, double *to, cons
     put_matrix(m, to, which);
 }
 
-/* That matrix times m. */
+/* Stores the product of that matrix and m. */
 static ALWAYS_INLINE void put_product(const field_sum *sum, const double m[9], double *to,
                                       const uint32_t *which)
 {
@@ -232,7 +232,7 @@ static ALWAYS_INLINE void put_product(const field_sum *sum, const double m[9], d
     put_matrix(product, to, which);
 }
 
-/* FFD_LANES points with these numbers. */
+/* Computes FFD_LANES points with these indices. */
 static ALWAYS_INLINE void displace(const kernel_cell *cell, const int degree[3], const kernel_points *points,
                                    const double *parameters, const uint32_t *which, bool derivatives,
                                    bool jacobian)
@@ -282,7 +282,7 @@ static ALWAYS_INLINE void displace_all(const kernel_cell *cell, const int degree
 void FFD_KERNEL(const kernel_cell *cell, const kernel_points *points)
 {
     static const int cubic[3] = {3, 3, 3};
-    /* The compiler unrolls loops whose bounds it knows. */
+    /* Constant degrees let the compiler unroll the loops. */
     if (cell->degree[0] != 3 || cell->degree[1] != 3 || cell->degree[2] != 3)
         displace_all(cell, cell->degree, points, points->gradient, points->jacobian);
     else if (points->jacobian)

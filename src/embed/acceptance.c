@@ -1,14 +1,14 @@
 #include "embed/acceptance.h"
 #include "base/vector/vec.h"
 
-/* The search computes C from other numbers (Bezier forms, about its own origin) than an evaluation of the
-   lattice does: each knows it to a few eps. */
+/* The search computes C from Bezier forms about its own origin, other code from the lattice. Each is accurate
+   to a few eps, so the tolerance is multiplied by this. */
 #define EVALUATIONS 4
-/* What the search for the nearest point of the border may miss it by, as a part of the lattice. */
+/* The error of the search for the nearest border point, relative to the size of the lattice. */
 #define BORDER_GAP 1e-11
 
-/* The greatest of the weights that act at u,v,w, relative to the least: what the tolerance of a rational
-   volume is multiplied by. */
+/* Returns the ratio of the greatest and the least weight that act at u,v,w, by which the tolerance of a
+   rational volume is multiplied. */
 static double weight_ratio(const ffd_lattice *lattice, const double uvw[3])
 {
     double weights[MAX_ORDER * MAX_ORDER * MAX_ORDER], least = HUGE_VAL, most = 0;
@@ -28,7 +28,7 @@ static double weight_ratio(const ffd_lattice *lattice, const double uvw[3])
     return most / least;
 }
 
-/* What C may miss the point by in each coordinate, and by how much it does. */
+/* Computes the allowed and the actual residual in each coordinate. */
 static void find_allowance(const ffd_locator *locator, const double xyz[3], const double uvw[3],
                            double allowance[3], double residual[3])
 {
@@ -38,8 +38,8 @@ static void find_allowance(const ffd_locator *locator, const double xyz[3], cons
     ffd_lattice_evaluate(lattice, FFD_VOLUME_REST, uvw, point, jacobian);
     ffd_world_tolerance(locator, xyz, tolerance);
     for (int r = 0; r < 3; r++) {
-        double jump =
-            0; /* by the rounding of u,v,w in the knots' range, and of its distance from their first */
+        double jump = 0; /* from the rounding of u,v,w in the range of the knots, and of its distance to the
+                            first knot */
         for (int a = 0; a < 3; a++) {
             const double first = fabs(ffd_knots_first(&lattice->knots[a]));
             jump += fabs(jacobian[3 * r + a]) * DBL_EPSILON * (fabs(uvw[a]) + first);

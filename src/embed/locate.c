@@ -1,9 +1,9 @@
-/* locate.c - ffd_locator_locate (ffd/embedding.h): locations of the size that the caller's header has. */
+/* locate.c - ffd_locator_locate (ffd/embedding.h), which supports callers with a smaller ffd_location. */
 #include "base/struct_size.h"
 #include "embed/locator.h"
 #include <string.h>
 
-/* Locations that are found at once where the caller's are shorter. */
+/* The number of locations that are computed at a time if those of the caller are smaller. */
 #define AT_ONCE 256
 
 static ffd_status find_shorter(const ffd_locator *locator, const double *xyz, size_t count,
@@ -37,8 +37,8 @@ ffd_status ffd_locator_locate(const ffd_locator *locator, const double *xyz, siz
     if (!location_size || location_size % _Alignof(ffd_location) || location_size > sizeof *locations)
         return ffd_fail(
             error, FFD_E_ARGUMENT,
-            "locations of %zu bytes: this library knows %zu, and is older than the caller's header "
-            "where that has more",
+            "ffd_location has %zu bytes, and this library knows %zu: if the caller's has more, it is "
+            "from a newer header",
             location_size, sizeof *locations);
     if (callers_allowance)
         status =

@@ -10,7 +10,7 @@
 #include "embed/near_border.h"
 #include <math.h>
 
-/* The middle of the control points' bounds, and how far they reach from it. */
+/* Finds the middle of the bounds of the control points, and their extent from it. */
 static void find_origin(ffd_locator *locator)
 {
     const ffd_lattice *lattice = locator->lattice;
@@ -25,7 +25,8 @@ static void find_origin(ffd_locator *locator)
     locator->hull = box;
 }
 
-/* Copies of the lattice's knot vectors that start at 0 and end near 1; the spans are the lattice's own. */
+/* Copies the knot vectors of the lattice, shifted to start at 0 and scaled to end near 1. The spans are
+   shared with the lattice. */
 static bool shift_knots(ffd_locator *locator)
 {
     for (int a = 0; a < 3; a++) {
@@ -106,7 +107,7 @@ const char *ffd_locator_get_method(const ffd_locator *locator)
 
 static const ffd_location nowhere = {.uvw = {NAN, NAN, NAN}, .status = FFD_OUTSIDE};
 
-/* p = xyz with the origin subtracted. Returns false if the verdict on the point is known already. */
+/* Sets p = xyz - origin. Returns false if the verdict on the point is known already. */
 static bool begin(const ffd_locator *locator, const double xyz[3], double p[3], ffd_location *location)
 {
     *location = nowhere;
@@ -114,7 +115,7 @@ static bool begin(const ffd_locator *locator, const double xyz[3], double p[3], 
         p[a] = xyz[a] - locator->origin[a];
     if (!vec_is_finite(xyz))
         location->status = FFD_POINT_INVALID;
-    return vec_is_finite(p); /* else xyz is not finite, or too far away for doubles */
+    return vec_is_finite(p); /* false: xyz is not finite, or the difference overflows */
 }
 
 static affine_kernel *const affine_kernels[] = {

@@ -36,7 +36,7 @@ ffd_status ffd_locator_border(const ffd_locator *locator, const boundary **borde
         *border = mine;
         return FFD_OK;
     }
-    ffd_boundary_destroy(&mine); /* another thread was faster; its border is the same */
+    ffd_boundary_destroy(&mine); /* another thread has published the same border first */
     *border = there;
     return FFD_OK;
 }

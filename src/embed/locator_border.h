@@ -1,20 +1,19 @@
-/* locator_border.h - the border of a locator's rest volume: one for all who need it, made when it is first
-   asked for. */
+/* locator_border.h - the border of a locator's rest volume, made on first use and shared. */
 #ifndef FFD_EMBED_LOCATOR_BORDER_H
 #define FFD_EMBED_LOCATOR_BORDER_H
 
 #include "embed/boundary/boundary.h"
 #include "embed/frame/frame.h"
 
-/* Where a locator keeps its border. */
+/* The holder of a locator's border. */
 typedef struct locator_border locator_border;
 
-/* Makes an empty place for the border; NULL if memory runs out. */
+/* Creates an empty holder. Returns NULL if memory runs out. */
 locator_border *ffd_locator_border_create(void);
-/* Frees it with the border; NULL is allowed. */
+/* Destroys the holder and its border; NULL is allowed. */
 void ffd_locator_border_destroy(locator_border *kept);
 
-/* The border of the locator's rest volume, made when it is first asked for; the locator keeps it.
+/* Gets the border of the locator's rest volume, and makes it on first use. It belongs to the locator.
    Thread-safe. Errors: FFD_E_MEMORY. */
 ffd_status ffd_locator_border(const ffd_locator *locator, const boundary **border, ffd_error *error);
 

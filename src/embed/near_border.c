@@ -3,24 +3,24 @@
 #include "embed/locator_border.h"
 #include <string.h>
 
-/* The border's search may leave a point of the border that is nearer by this part of the lattice. */
+/* The search of the border may miss a border point that is nearer by this fraction of the lattice size. */
 #define BORDER_GAP 4e-12
-/* Rounding below this part of the tolerance is part of it: doubles as they stand in a file have 1/32. */
+/* A rounding below this fraction of the tolerance is ignored; that of doubles in a file is 1/32 of it. */
 #define NEGLIGIBLE (1.0 / 16)
-/* The search of the border knows C to less than this part of the tolerance, and shows what it shows with a
-   gap of this part of the reach. */
+/* NOISE: the search of the border computes C with an error below this fraction of the tolerance. GRAZING: the
+   relative gap of its proofs. */
 #define NOISE (1.0 / 4)
 #define GRAZING 1e-6
 
-/* What one point may miss the border by. */
+/* The allowed distance of a point to the border. */
 typedef struct border_reach {
-    double each[3]; /* in each coordinate: tolerance and rounding; 0 without rounding */
-    double cell[3]; /* the same, with what the search of the border does not know; 0 without rounding */
+    double each[3]; /* in each coordinate: tolerance plus rounding; 0 without rounding */
+    double cell[3]; /* the same plus the error of the search of the border; 0 without rounding */
     double snap;
-    double distance; /* no point of the border that counts is farther */
+    double distance; /* upper bound of the distance of border points that are within the reach */
 } border_reach;
 
-/* Returns false if the point has no allowance beyond its tolerance. */
+/* Computes the reach. Returns false if the point has no allowance beyond its tolerance. */
 static bool find_reach(const ffd_locator *locator, const double p[3], const double *rounding, double snap,
                        border_reach *reach)
 {
@@ -51,9 +51,9 @@ static double length_of_domain(const ffd_locator *locator, int a)
     return ffd_knots_last(knots) - ffd_knots_first(knots);
 }
 
-/* A point of the border as one of the lattice. */
+/* A border point as a point of the volume. */
 typedef struct border_place {
-    double uvw[3], residual[3], jacobian[9]; /* C - p and J by parts of the domain */
+    double uvw[3], residual[3], jacobian[9]; /* C - p, and J by fractions of the domain */
 } border_place;
 
 static void evaluate(const ffd_locator *locator, const double p[3], const double uvw[3], border_place *place)
@@ -76,9 +76,9 @@ static void take(const border_place *place, ffd_location *location)
     memcpy(location->uvw, place->uvw, sizeof place->uvw);
 }
 
-/* Whether the border is within the reach of p, where place is the point of it that is nearest, if any. The
-   nearest one decides if it is within the reach itself. Where coordinates are not known alike another one may
-   be, however far along the border. */
+/* Decides whether the border is within the reach of p. place: the nearest border point, if any. If it is
+   within the reach, that decides. Otherwise, if the reach differs among coordinates, another border point may
+   be within it, even if it is far away along the border. */
 static ffd_status find_verdict(const boundary *border, const double p[3], const border_reach *reach,
                                const boundary_point *nearest, const border_place *place,
                                boundary_verdict *verdict, ffd_error *error)
@@ -143,8 +143,8 @@ ffd_status ffd_near_border_find(const ffd_locator *locator, const double *xyz, s
     return status;
 }
 
-/* Whether a point may be inside with what it stands for: with twice of that, for the rounding of this test.
- */
+/* A cheap test: returns whether a point may be inside with its rounding cell and snap, both doubled to allow
+   for the rounding of this test. */
 static bool is_near(const bounds *hull, const double x[3], const double half[3], double snap)
 {
     double slack[3];

@@ -7,7 +7,7 @@ size_t ffd_bernstein_count(const int order[3])
     return (size_t)order[0] * (size_t)order[1] * (size_t)order[2];
 }
 
-/* C(n,i), i = 0..n, exact: no product below passes 2^53. */
+/* Fills row with C(n,i), i = 0..n. Exact, because all products are below 2^53. */
 static void binomials(int n, double row[BERNSTEIN_MAX_ORDER])
 {
     row[0] = 1;
@@ -45,7 +45,7 @@ void ffd_bernstein_unweight(double *coefficients, const int order[3], double fac
         }
 }
 
-/* product += factor times the convolution of two rows. */
+/* product += factor * the convolution of two rows. */
 static inline void multiply_rows(const double *restrict a, int count_a, const double *restrict b, int count_b,
                                  double factor, double *restrict product)
 {
@@ -79,8 +79,8 @@ double ffd_bernstein_terms(const int order_a[3], const int order_b[3])
     return terms;
 }
 
-/* De Casteljau's scheme at 1/2 for `width` neighbouring lines: after step k the points 0..n-1-k hold level k,
-   and the first of them is the lower half's point k. */
+/* De Casteljau's algorithm at 1/2 for `width` adjacent rows: after step k the points 0..n-1-k hold level k,
+   and the first of them is point k of the lower half. */
 static void halve_lines(double *restrict line, int points, size_t width, double *restrict lower)
 {
     for (int k = 0; k < points; k++) {
@@ -117,7 +117,7 @@ void ffd_bernstein_restrict(double *coefficients, const int order[3], const doub
     }
 }
 
-/* The Bernstein polynomials of degree order - 1 at t: sums of positive terms only. */
+/* Evaluates the Bernstein polynomials of degree order - 1 at t, without cancellation. */
 static void basis_values(int order, double t, double value[BERNSTEIN_MAX_ORDER])
 {
     value[0] = 1;
@@ -147,7 +147,7 @@ double ffd_bernstein_value(const double *coefficients, const int order[3], const
     return sum;
 }
 
-/* The greatest second difference along lines of which `width` are neighbours. */
+/* Returns the greatest second difference along the rows, `width` of which are adjacent. */
 static double greatest_bend(const double *c, int points, size_t width, size_t blocks)
 {
     double greatest = 0;

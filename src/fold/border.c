@@ -1,4 +1,4 @@
-/* border.c - zeros of the determinant that the rest volume has too. */
+/* border.c - excuses zeros of the determinant that the rest volume has too. */
 #include "fold/bernstein.h"
 #include "fold/search.h"
 #include "fold/zeros.h"
@@ -6,26 +6,27 @@
 
 #define UNIT (0.5 * DBL_EPSILON)
 
-/* Zeros that the rest volume has on the border of the domain.
+/* Why zeros of the rest volume on the border of the domain can be excused:
 
-   On a face, edge or vertex of a box the polynomial depends on the coefficients of that face only, and inside
-   of the face each of their Bernstein polynomials is positive. So if some coefficients are 0 and all others
-   positive, det J > 0 on every (relatively open) face that has one of the others; and if each face off the
-   domain's border has one, det J > 0 everywhere but on that border. It does not matter how near to the border
-   the zero coefficients lie: two layers of them at a point to which a whole face has shrunk.
+   On a face, edge or vertex of a box the polynomial depends only on the coefficients of that face, and inside
+   the face each of their Bernstein polynomials is positive. So if some coefficients are 0 and all others
+   positive, det J > 0 on every (relatively open) face that has a positive coefficient. If every face that is
+   not on the border of the domain has one, det J > 0 everywhere except on that border. The number of layers
+   of zero coefficients does not matter: there are two where a whole face has collapsed to a point.
 
-   Which coefficients are 0 is known in one of two ways.
-   - exactly: control points are equal along lines (zeros.h), in both volumes. The above is the proof.
-   - to rounding: where the rest volume has no such lines, but coefficients within its rounding of 0, those of
-     volumes whose axis is not a line of equal control points (unclamped knots, weights that differ round the
-     axis, points that were rounded). Excused are then coefficients of the first two layers that are 0 within
-     rounding, that of the control points themselves included, in both volumes: nothing finer can be said of
-     such a border, also not at rest. They may be less than 0 by 2 such bounds; the others are demanded to be
-     MARGIN times greater, so that det J > 0 wherever these have 2 / MARGIN of the Bernstein polynomials' sum:
-     everywhere but in a film on that border, the thinner the greater they are (usually some 1e-12 of the
-   box).
+   Coefficients count as 0 in one of two cases:
+   - exactly: control points are equal along rows (zeros.h) in both volumes. The argument above is then a
+     proof.
+   - to rounding: the rest volume has no such rows, but has coefficients that are 0 within rounding. Its axis
+     is then not a row of equal control points (unclamped knots, weights that differ round the axis, rounded
+     points). Excused are coefficients of the first two layers that are 0 in both volumes within rounding,
+     including that of the control points: nothing more precise can be said about such a border, even at rest.
+     They may be below 0 by 2 rounding bounds. The others must exceed MARGIN bounds, so that det J > 0
+     wherever these have 2 / MARGIN of the sum of the Bernstein polynomials: everywhere except in a film on
+     that border, which is thinner the greater they are (usually about 1e-12 of the box).
 
-   A coefficient that is exactly 0 at rest and no longer so is not excused: the axis has been torn open. */
+   A coefficient that is exactly 0 at rest but not in the deformed volume is not excused: the axis is torn
+   open. */
 #define MARGIN 1024
 
 static void make_rest(cell_search *search)
@@ -62,7 +63,7 @@ static void restrict_rest(cell_search *search, const box *part)
         restrict_to(search, part, scratch->other[volume], scratch->other_part[volume]);
 }
 
-/* Whether a coefficient's index is one of the first two from an end of the domain. */
+/* Returns whether the index of a coefficient is in the first two layers at an end of the domain. */
 static bool is_at_border(const bool touches[3][2], const int order[3], const int at[3])
 {
     for (int a = 0; a < 3; a++)
@@ -83,7 +84,8 @@ static int corner_of(const int order[3], const int at[3])
     return corner;
 }
 
-/* Faces of a box by a digit a direction: 0 and 2 its ends, 1 between them. */
+/* The faces, edges, vertices and the interior of a box, numbered by a base-3 digit for each direction: 0 and
+   2 for its ends, 1 for between. */
 #define FACES 27
 
 /* Marks the faces on which the Bernstein polynomial of this index is positive. */
@@ -98,7 +100,7 @@ static void cover(const int order[3], const int at[3], bool covered[FACES])
     }
 }
 
-/* Whether each face off the domain's border is covered. */
+/* Returns whether every face that is not on the border of the domain is covered. */
 static bool is_covered(const bool touches[3][2], const bool covered[FACES])
 {
     for (int face = 0; face < FACES; face++) {
@@ -112,7 +114,7 @@ static bool is_covered(const bool touches[3][2], const bool covered[FACES])
     return true;
 }
 
-/* Greatest sizes that pass for 0, of the deformed and of the rest volume's coefficients. */
+/* The greatest magnitudes that count as 0, for coefficients of the deformed and of the rest volume. */
 typedef struct zero_bounds {
     double deformed, rest;
 } zero_bounds;
@@ -126,7 +128,7 @@ static zero_bounds bounds_of(const cell_search *search, const box *part)
 
 typedef enum coefficient_zero { ZERO_NOT, ZERO_EXACT, ZERO_ROUNDED } coefficient_zero;
 
-/* How coefficient i, whose index is at, is excused. */
+/* Returns how the coefficient i, with the index `at`, is excused. */
 static coefficient_zero zero_of(const cell_search *search, const box *part, const bool touches[3][2],
                                 const zero_bounds *bounds, const int at[3], size_t i)
 {
@@ -169,6 +171,6 @@ void ffd_border_view(cell_search *search, const box *part, const bool touches[3]
                     memcpy(view->at, at, sizeof at);
                 }
             }
-    /* Without zeros, or with a coefficient that is not positive, this is what was found before. */
+    /* Without zeros, or with a coefficient that is not positive, this equals the previous result. */
     view->is_positive = view->least > demanded && is_covered(touches, covered);
 }

@@ -1,4 +1,4 @@
-/* box.c - the parts that a cell is halved into, and what their coefficients say. */
+/* box.c - the boxes into which a cell is subdivided, and bounds from their coefficients. */
 #include "fold/bernstein.h"
 #include "fold/search.h"
 #include <string.h>
@@ -68,7 +68,7 @@ static void view_weights(const cell_search *search, const box *part, box_view *v
         least = part->weights[i] < least ? part->weights[i] : least;
         greatest = part->weights[i] > greatest ? part->weights[i] : greatest;
     }
-    /* All positive: the relative rounding of what led to them is far less. */
+    /* Valid because all terms are positive: their relative rounding error is far below 1e-12. */
     view->least_weight = least * (1 - 1e-12);
     view->greatest_weight = greatest * (1 + 1e-12);
 }

@@ -4,7 +4,7 @@
 #include "fold/search.h"
 #include <string.h>
 
-#define LEAST_BOXES 256 /* however large the boxes are */
+#define LEAST_BOXES 256 /* for boxes of any size */
 
 long ffd_cell_boxes(const fold_plan *plan, long boxes)
 {
@@ -41,8 +41,8 @@ static void begin(const fold_plan *plan, size_t cell, fold_scratch *scratch, cel
     search->result.lower = DBL_MAX;
 }
 
-/* Values at the corners of the whole cell, before there are coefficients. A value that is negative even if
-   control points are known roughly only is not a zero of the rest volume's. */
+/* Tests the values at the corners of the cell, before coefficients are computed. A value that is negative
+   even if control points are known only roughly is not an excused zero. */
 static void look_at_cell_corners(cell_search *search)
 {
     for (int corner = 0; corner < 8; corner++) {
@@ -60,7 +60,7 @@ static void look_at_cell_corners(cell_search *search)
     }
 }
 
-/* No determinant is less, whatever the signs of its products. */
+/* Returns a lower bound that holds for any signs of the products of the determinant. */
 static double crude_lower(const cell_search *search)
 {
     const double weight = search->form.least_weight * (1 - 1e-12);
@@ -95,7 +95,7 @@ void ffd_cell_decide(const fold_plan *plan, size_t cell, long boxes, fold_scratc
         search.boxes = boxes;
         ffd_box_make(&search, &whole);
         ffd_search_box(&search, &whole, 0);
-        if (search.result.verdict == FFD_FOLDS_SOME) /* not all of it has been looked at */
+        if (search.result.verdict == FFD_FOLDS_SOME) /* the cell was not examined completely */
             ffd_search_lower_to(&search, search.whole_lower);
     }
     *verdict = search.result;

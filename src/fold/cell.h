@@ -1,4 +1,4 @@
-/* cell.h - the verdict on one cell, and a closer look at its least determinant. */
+/* cell.h - the verdict on a cell, and the refinement of its least determinant. */
 #ifndef FFD_FOLD_CELL_H
 #define FFD_FOLD_CELL_H
 
@@ -6,17 +6,17 @@
 #include "fold/scratch.h"
 #include "fold/verdict.h"
 
-/* Looks at no more boxes than this. */
+/* Decides whether a cell folds, with at most `boxes` boxes. */
 void ffd_cell_decide(const fold_plan *plan, size_t cell, long boxes, fold_scratch *scratch,
                      cell_verdict *verdict);
 
-/* A lower bound of the determinant in the cell that is within 1 % of the least value seen, in this cell
-   (*least_seen is lowered) or elsewhere, unless *boxes (lowered by those looked at) end first. */
+/* Returns a lower bound of the determinant in a cell that is within 1 % of *least_seen, the least value found
+   in any cell, which it updates; unless the budget *boxes, which it reduces, ends first. */
 double ffd_cell_refine(const fold_plan *plan, size_t cell, fold_scratch *scratch, double *least_seen,
                        long *boxes);
 
-/* Returns how many boxes of this plan's size are as much work as `boxes` of a cubic
-   lattice without weights. */
+/* Converts a number of boxes of a cubic lattice without weights to the number of boxes of this plan that take
+   as much work. */
 long ffd_cell_boxes(const fold_plan *plan, long boxes);
 
 #endif

@@ -5,7 +5,7 @@
 
 enum { N = BEZIER_COMPONENTS };
 
-#define UNIT (0.5 * DBL_EPSILON) /* one rounding, relative */
+#define UNIT (0.5 * DBL_EPSILON) /* relative rounding error of one operation */
 
 size_t ffd_cell_form_size(const int order[3], bool rational)
 {
@@ -32,7 +32,7 @@ bool ffd_cell_is_rational(const fold_plan *plan, const int span[3], double *scra
     return false;
 }
 
-/* The power of two that brings values of this size to [1/2, 1); 0 stays as it is. */
+/* Returns the exponent of the power of two that scales size to [1/2, 1); 0 for 0. */
 static int exponent_of(double size)
 {
     int exponent = 0;
@@ -41,15 +41,15 @@ static int exponent_of(double size)
     return exponent < -1000 ? -1000 : exponent;
 }
 
-/* Moves one coordinate of the cell's points to the origin and scales it. Returns the exponent; *known is how
-   well the scaled coordinate is known if its figures are all that there is. */
+/* Shifts a coordinate of the control points of a cell to the origin, and scales it. Returns the exponent.
+ *known is the accuracy of the scaled coordinate if the control points are known only to their rounding. */
 static int localise(double *points, size_t count, int r, double *known)
 {
     const double origin = points[3 * (count / 2) + (size_t)r];
     double far = 0, extent = 0;
     for (size_t i = 0; i < count; i++)
         far = fmax(far, fabs(points[3 * i + (size_t)r]));
-    const int first = far > 0x1p1000 ? 8 : 0; /* differences must not overflow */
+    const int first = far > 0x1p1000 ? 8 : 0; /* so that differences do not overflow */
     const double shrink = ldexp(1, -first);
     for (size_t i = 0; i < count; i++) {
         double *x = points + 3 * i + r;
@@ -74,9 +74,9 @@ static void localise_weights(double *weights, size_t count)
         weights[i] *= scale;
 }
 
-/* h P, h, one after the other, and the bounds of their rounding once they are in Bezier form: of shift and
-   weight, and in each direction of the extraction matrix's entries (5 roundings a step of the triangular
-   scheme) and of the sum over a line. */
+/* Fills the box with h P, h, and bounds their rounding error in Bezier form: from the shift and the weight,
+   and in each direction from the entries of the extraction matrix (5 roundings in each step of the triangular
+   scheme) and from the sum over a row. */
 static void fill_box(const fold_plan *plan, const double *points, const double *weights,
                      const double known[3], bezier_box *box, double rounding[N], double coarse[N])
 {
@@ -100,7 +100,7 @@ static void fill_box(const fold_plan *plan, const double *points, const double *
     }
 }
 
-/* Row b: the derivative by direction b. */
+/* Computes row b: the derivative in direction b. */
 static void derive(const bezier_box *box, int b, int components, const double rounding[N],
                    const double coarse[N], cell_form *form)
 {
@@ -128,7 +128,7 @@ static void derive(const bezier_box *box, int b, int components, const double ro
     }
 }
 
-/* Row 3: A and W themselves. */
+/* Computes row 3: A and W. */
 static void copy_values(const bezier_box *box, const double rounding[N], const double coarse[N],
                         cell_form *form)
 {

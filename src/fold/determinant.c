@@ -3,7 +3,7 @@
 #include <string.h>
 
 #define UNIT (0.5 * DBL_EPSILON)
-#define LEAST_ROUNDING 0x1p-960 /* far above what underflow can do to a sum of products */
+#define LEAST_ROUNDING 0x1p-960 /* far above the effect of underflow on a sum of products */
 
 void ffd_determinant_order(const int order[3], bool rational, int result[3])
 {
@@ -11,12 +11,13 @@ void ffd_determinant_order(const int order[3], bool rational, int result[3])
         result[a] = (rational ? 4 : 3) * (order[a] - 1);
 }
 
-/* Pairs of four components, and the sign of the pair and its complement in Laplace's expansion by two rows.
- */
+/* The pairs of four components, and the sign of a pair and its complement in the Laplace expansion by two
+   rows. */
 static const int pair[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 static const double pair_sign[6] = {1, -1, 1, 1, -1, 1};
 
-/* The sum over all permutations of the products of entries: sign = 1 the permanent, -1 the determinant. */
+/* Returns the sum over all permutations of the products of entries: with sign = 1 the permanent, with -1 the
+   determinant. */
 static double expand3(const form_matrix *m, double sign)
 {
     const double *a = m->at[0], *b = m->at[1], *c = m->at[2];
@@ -55,8 +56,8 @@ static void row_product_order(const cell_form *form, int a, int b, int order[3])
         order[c] = form->order[a][c] + form->order[b][c] - 1;
 }
 
-/* Roundings in a coefficient's computation, relative to the permanent: of the sums of both expansions, of the
-   binomials' products, and of this bound itself. */
+/* Returns the rounding error of a coefficient relative to the permanent: from the sums of both expansions,
+   the products with binomials, and this bound itself. */
 static double roundings(const cell_form *form)
 {
     int order[3], other[3];
@@ -81,7 +82,7 @@ void ffd_determinant_bounds(const cell_form *form, determinant_bounds *bounds)
     bounds->rounding = bounds->greatest - exact;
     add_bounds(form->rows, &form->greatest, &form->coarse, &sum);
     bounds->coarse = permanent(form->rows, &sum) * (1 + relative) - exact;
-    if (bounds->greatest > 0) { /* products may underflow */
+    if (bounds->greatest > 0) { /* because products may underflow */
         bounds->rounding += LEAST_ROUNDING;
         bounds->coarse += LEAST_ROUNDING;
     }
@@ -101,11 +102,11 @@ double ffd_determinant_corner(const cell_form *form, int corner)
     return form->rows == 3 ? expand3(&m, -1) : expand4(&m, -1);
 }
 
-/* Memory: the weighted rows, then minors of two rows each. */
+/* Memory layout: the weighted rows, then minors of two rows each. */
 
 static size_t minor_size(const int order[3])
 {
-    size_t size = 1; /* rows' products have no more than 2 order - 1 */
+    size_t size = 1; /* products of two rows have order 2 order - 1 at most */
     for (int a = 0; a < 3; a++)
         size *= (size_t)(2 * order[a] - 1);
     return size;
@@ -116,7 +117,7 @@ size_t ffd_determinant_scratch(const int order[3], bool rational)
     return (rational ? 16 : 9) * ffd_bernstein_count(order) + (rational ? 2 : 1) * minor_size(order);
 }
 
-/* minor = row a, component i times row b, component j, less the same with i and j exchanged. */
+/* minor = (row a, component i) * (row b, component j) - (row a, component j) * (row b, component i). */
 static void multiply_minor(const cell_form *form, double *weighted[FORM_ROWS][FORM_ROWS], int a, int b, int i,
                            int j, double *minor)
 {

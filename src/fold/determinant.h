@@ -1,27 +1,28 @@
-/* determinant.h - the Bernstein coefficients of a cell's Jacobian determinant, and bounds of their rounding.
- */
+/* determinant.h - the Bernstein coefficients of the Jacobian determinant of a cell, and bounds of their
+   rounding errors. */
 #ifndef FFD_FOLD_DETERMINANT_H
 #define FFD_FOLD_DETERMINANT_H
 
 #include "fold/cell_form.h"
 
 typedef struct determinant_bounds {
-    double rounding; /* of every coefficient, exact 0 where rows of zeros make it exactly 0 */
-    double coarse;   /* the same if control points are only known to 2 eps of their size */
-    double greatest; /* no coefficient is greater in size */
+    double rounding; /* of every coefficient; exactly 0 if rows of zeros make it so */
+    double coarse;   /* the same if control points are known only to 2 eps of their magnitude */
+    double greatest; /* upper bound of the magnitude of coefficients */
 } determinant_bounds;
 
-/* Bounds the determinant's coefficients and their rounding by the rows of the form. */
+/* Bounds the coefficients of the determinant and their rounding errors from the rows of the form. */
 void ffd_determinant_bounds(const cell_form *form, determinant_bounds *bounds);
 
-/* The order of the determinant: 3 degrees (with weights 4), in each direction. */
+/* Computes the order of the determinant in each direction: 3 times the degree; with weights 4 times. */
 void ffd_determinant_order(const int order[3], bool rational, int result[3]);
 
-/* The value at a corner, whose bits say which end of each direction. */
+/* Returns the value at a corner; bit a of corner selects the end of direction a. */
 double ffd_determinant_corner(const cell_form *form, int corner);
 
-/* factor (-1 or 1) times the determinant's coefficients. */
-size_t ffd_determinant_scratch(const int order[3], bool rational); /* doubles */
+/* Returns the number of doubles of scratch memory for ffd_determinant_coefficients. */
+size_t ffd_determinant_scratch(const int order[3], bool rational);
+/* Computes factor (-1 or 1) times the Bernstein coefficients of the determinant. */
 void ffd_determinant_coefficients(const cell_form *form, double factor, double *scratch,
                                   double *coefficients);
 

@@ -1,13 +1,13 @@
-/* figures.c - relative values of the determinant, and what a search has found so far. */
+/* figures.c - relative values of the determinant, and the intermediate result of a search. */
 #include "fold/search.h"
 
 #define UNIT (0.5 * DBL_EPSILON)
 
 double ffd_search_relative(const cell_search *search, double value, double weight)
 {
-    /* One by one: the fourth power of a small weight could be 0. */
+    /* Divided one by one, because the fourth power of a small weight could underflow to 0. */
     const double result = scaled_apply(value / weight / weight / weight / weight, search->unit);
-    return isnan(result) ? -DBL_MAX : result; /* a weight of 0, by underflow */
+    return isnan(result) ? -DBL_MAX : result; /* a weight underflowed to 0 */
 }
 
 double ffd_search_lower(const cell_search *search, double value, double least_weight, double greatest_weight)

@@ -1,4 +1,4 @@
-/* fold.c - the proof that a deformed lattice does not fold, cell by cell. */
+/* fold.c - ffd_folds_find: the proof that a deformed lattice does not fold, cell by cell. */
 #include <ffd/fold.h>
 
 #include "base/memory/memory.h"
@@ -9,8 +9,8 @@
 
 #define TILE_CELLS 64
 
-/* Boxes looked at in a cell at first; in an undecided cell at most; in all of these, shared evenly; and for
-   min_det. The last three are of a cubic lattice's size. */
+/* Budgets in boxes: for a cell in the first round; for an undecided cell in the second round; for all
+   undecided cells together; for min_det. The last three are for cubic lattices (ffd_cell_boxes). */
 #define FIRST_BOXES 64
 #define CELL_BOXES 2048
 #define ALL_BOXES (1L << 22)
@@ -19,19 +19,19 @@
 typedef struct tile_verdict {
     size_t folded, unknown;
     double lower, least_seen;
-    size_t first; /* the first folded cell; only with folded */
+    size_t first; /* the first folded cell; only if folded */
     cell_verdict witness;
 } tile_verdict;
 
 typedef struct fold_work {
     fold_plan plan;
-    fold_scratch **scratch; /* one a worker */
+    fold_scratch **scratch; /* one for each worker */
     int workers;
-    double *lower;           /* one a cell */
-    unsigned char *verdicts; /* likewise */
+    double *lower;           /* one for each cell */
+    unsigned char *verdicts; /* one for each cell */
     tile_verdict *tiles;
     size_t tile_count;
-    long boxes; /* for each undecided cell, in the second round */
+    long boxes; /* budget of an undecided cell in the second round */
 } fold_work;
 
 static void decide(fold_work *work, size_t cell, long boxes, int worker, tile_verdict *result)
@@ -48,7 +48,7 @@ static void decide(fold_work *work, size_t cell, long boxes, int worker, tile_ve
     }
 }
 
-/* The least lower bound of a tile's cells. */
+/* Finds the least lower bound of the cells of a tile. */
 static void find_lower(fold_work *work, size_t tile)
 {
     const size_t begin = tile * TILE_CELLS, left = work->plan.cell_count - begin,
@@ -67,7 +67,7 @@ static void decide_tile(void *context, size_t tile, size_t begin, size_t end, in
     find_lower(work, tile);
 }
 
-/* The second round. */
+/* The second round, for undecided cells. */
 static void decide_rest_of_tile(void *context, size_t tile, size_t begin, size_t end, int worker)
 {
     fold_work *work = context;
@@ -80,8 +80,8 @@ static void decide_rest_of_tile(void *context, size_t tile, size_t begin, size_t
     find_lower(work, tile);
 }
 
-/* What is undecided shares a fixed number of boxes, so that the time is bounded for any lattice; the share
-   depends on the lattice only. */
+/* All undecided cells share a fixed number of boxes, so that the time is bounded for any lattice. The share
+   depends only on the lattice. */
 static void decide_all(fold_work *work)
 {
     const size_t cells = work->plan.cell_count;
@@ -98,8 +98,8 @@ static void decide_all(fold_work *work)
         ffd_parallel_tiles(cells, TILE_CELLS, work->workers, decide_rest_of_tile, work);
 }
 
-/* u of a point in the cell; at the cell's end the last double before the next cell, where that belongs to
-   another one. */
+/* Returns the parameter of a point in a cell; at the end of a cell that is not the last one, the last double
+   before the knot, which belongs to the next cell. */
 static double parameter_at(const knot_vector *knots, size_t span, double t)
 {
     const double *knot = knots->t + knots->spans[span];
@@ -122,7 +122,7 @@ static void report_witness(const fold_plan *plan, const tile_verdict *tile, ffd_
     folds->has_witness = true;
 }
 
-/* Joins the tiles in their order. Returns the least value seen. */
+/* Combines the results of the tiles in order. Returns the least value found. */
 static double join_tiles(const fold_work *work, ffd_folds *folds)
 {
     double least_seen = DBL_MAX;
@@ -141,7 +141,7 @@ static double join_tiles(const fold_work *work, ffd_folds *folds)
     return least_seen;
 }
 
-/* The cell with the least lower bound. */
+/* Returns the cell with the least lower bound. */
 static size_t least_cell(const fold_work *work, size_t *least_tile)
 {
     size_t tile = 0;
@@ -155,7 +155,8 @@ static size_t least_cell(const fold_work *work, size_t *least_tile)
     return cell;
 }
 
-/* Looks into the least cells until their bound is near the least value seen. Returns the least bound. */
+/* Refines the cells with the least bounds until the bound is near the least value found. Returns the least
+   bound. */
 static double refine(fold_work *work, double least_seen)
 {
     long boxes = ffd_cell_boxes(&work->plan, REFINE_BOXES);
@@ -166,7 +167,7 @@ static double refine(fold_work *work, double least_seen)
         if (before >= ffd_fold_target(least_seen) || boxes <= 0)
             return before;
         const double lower = ffd_cell_refine(&work->plan, cell, work->scratch[0], &least_seen, &boxes);
-        if (!(lower > before)) /* no better bound can be found */
+        if (!(lower > before)) /* the bound cannot be improved */
             return before;
         work->lower[cell] = lower;
         find_lower(work, tile);
@@ -210,7 +211,7 @@ static ffd_status find(const ffd_lattice *lattice, int threads, ffd_folds *folds
         goto out;
     decide_all(&work);
     folds->min_det = refine(&work, join_tiles(&work, folds));
-    if (folds->has_witness) /* a bound and a computed value: their roundings differ */
+    if (folds->has_witness) /* the witness' value can be below the bound by rounding */
         folds->min_det = fmin(folds->min_det, folds->witness_det);
 out:
     for (int i = 0; i < work.workers; i++)

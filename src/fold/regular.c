@@ -4,14 +4,14 @@
 
 #define UNIT (0.5 * DBL_EPSILON)
 
-/* One component of a row at the centre. */
+/* Evaluates a component of a row at the centre. */
 static double middle_of(const cell_form *form, int b, int r)
 {
     static const double centre[3] = {0.5, 0.5, 0.5};
     return ffd_bernstein_value(form->row[b][r], form->order[b], centre);
 }
 
-/* Off[r] = max |delta_rb - (Y J)_rb| over the cell for column b, rounding included. */
+/* off[r] = max |delta_rb - (Y J)_rb| over the cell for column b, including rounding. */
 static void column_distance(const cell_form *form, int b, const double inverse[9], double off[3])
 {
     const size_t count = ffd_bernstein_count(form->order[b]);
@@ -44,7 +44,8 @@ static void column_distance(const cell_form *form, int b, const double inverse[9
     }
 }
 
-/* det of the matrix with 1 - off_ii and -off_ij, if its leading minors are positive; else 0. */
+/* Returns the determinant of the matrix with 1 - off_ii on the diagonal and -off_ij elsewhere, if its leading
+   minors are positive; else 0. */
 static double comparison_determinant(const double off[3][3])
 {
     const double a = 1 - off[0][0], b = 1 - off[1][1], c = 1 - off[2][2];
@@ -56,7 +57,7 @@ static double comparison_determinant(const double off[3][3])
     return det > 32 * UNIT ? det - 32 * UNIT : 0;
 }
 
-/* det Y and a bound of its rounding. */
+/* Returns det Y, and a bound of its rounding error. */
 static double inverse_determinant(const double y[9], double *rounding)
 {
     double sum = 0;
@@ -81,7 +82,7 @@ void ffd_cell_regularity(const cell_form *form, regularity *result)
     if (!mat_invert(jacobian, inverse))
         return;
     for (int i = 0; i < 9; i++)
-        if (!(fabs(inverse[i]) < 1e150)) /* products below must not overflow */
+        if (!(fabs(inverse[i]) < 1e150)) /* so that products do not overflow */
             return;
     for (int b = 0; b < 3; b++) {
         double column[3];
@@ -97,6 +98,6 @@ void ffd_cell_regularity(const cell_form *form, regularity *result)
     const double weight = form->greatest_weight;
     result->proven = true;
     result->negative = det < 0;
-    /* 1e-12: the weights' own rounding, and that of the product. */
+    /* 1e-12 covers the rounding of the weights and of the product. */
     result->least = least / (fabs(det) + rounding) / weight / weight / weight * (1 - 1e-12);
 }

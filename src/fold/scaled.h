@@ -1,4 +1,4 @@
-/* scaled.h - positive numbers whose products would leave the range of doubles. */
+/* scaled.h - positive numbers with a separate exponent, whose products do not overflow or underflow. */
 #ifndef FFD_FOLD_SCALED_H
 #define FFD_FOLD_SCALED_H
 
@@ -28,7 +28,7 @@ static inline scaled scaled_divide(scaled a, scaled b)
     return scaled_make(a.mantissa / b.mantissa, a.exponent - b.exponent);
 }
 
-/* value times factor, at most DBL_MAX in size. */
+/* Returns value times factor, limited to magnitudes up to DBL_MAX. */
 static inline double scaled_apply(double value, scaled factor)
 {
     const double result = ldexp(value * factor.mantissa, factor.exponent);

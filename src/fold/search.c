@@ -9,8 +9,8 @@ static void local_of(const box *part, const double t[3], double local[3])
         local[a] = part->lo[a] + t[a] * (part->hi[a] - part->lo[a]);
 }
 
-/* Looks at the corners, whose coefficients are values. Returns whether one of them is so near to zero that
-   its sign is not known; search->result says whether one is negative. */
+/* Tests the corners, whose coefficients are values. Returns whether one of them is so near to 0 that its sign
+   is unknown; search->result records a negative one. */
 static bool look_at_corners(cell_search *search, const box *part, const box_view *view)
 {
     const int *order = search->order;
@@ -37,7 +37,7 @@ static bool look_at_corners(cell_search *search, const box *part, const box_view
     return doubtful;
 }
 
-/* Looks where the least coefficient has its greatest influence. */
+/* Tests the value at the parameter where the least coefficient has its greatest influence. */
 static void look_at_least(cell_search *search, const box *part, const box_view *view)
 {
     double t[3], local[3];
@@ -56,15 +56,15 @@ static void look_at_least(cell_search *search, const box *part, const box_view *
     }
 }
 
-/* Whether all coefficients are 0 within their rounding: no smaller box can show the sign. */
+/* Returns whether all coefficients are 0 within rounding: smaller boxes cannot decide the sign. */
 static bool is_lost(const cell_search *search, const box *part)
 {
     return ffd_bernstein_greatest_size(part->coefficients, ffd_bernstein_count(search->order)) <=
            part->rounding;
 }
 
-/* Nothing is surely negative, and no smaller box can show more. A whole cell that is lost is flat as far as
-   numbers can show, unless its computed determinant has the right sign all over. */
+/* Nothing is proven negative, and smaller boxes cannot prove more. A whole cell of this kind is flat to
+   rounding, unless its computed determinant has the right sign everywhere. */
 static void give_up(cell_search *search, const box *part, int depth)
 {
     static const double centre[3] = {0.5, 0.5, 0.5};
@@ -74,7 +74,7 @@ static void give_up(cell_search *search, const box *part, int depth)
         search->result.verdict = FFD_FOLDS_UNKNOWN;
 }
 
-/* The verdict: whether nothing remains to be done for the box. */
+/* For the verdict: returns whether the box is decided. */
 static bool is_decided(cell_search *search, const box *part, const box_view *view, int depth)
 {
     if (view->is_positive)
@@ -94,7 +94,7 @@ static bool is_decided(cell_search *search, const box *part, const box_view *vie
     return search->result.verdict == FFD_FOLDS_SOME;
 }
 
-/* The closer look: whether the box's bound is good enough. */
+/* For the refinement of min_det: returns whether the bound of the box is good enough. */
 static bool is_near(cell_search *search, const box *part, const box_view *view)
 {
     look_at_corners(search, part, view);
@@ -128,8 +128,8 @@ void ffd_search_box(cell_search *search, box *part, int depth)
     }
     box lower;
     ffd_box_halve(search, part, ffd_bernstein_direction(part->coefficients, search->order), depth, &lower);
-    /* The half with the least coefficient first: it may settle the matter. The other one keeps its slot: what
-       follows is written to deeper ones. */
+    /* The half with the least coefficient first, because it may decide the cell. The other half keeps its
+       slot: subdivision writes to deeper ones. */
     const bool lower_first = ffd_box_least(search, &lower) <= ffd_box_least(search, part);
     ffd_search_box(search, lower_first ? &lower : part, depth + 1);
     if (!must_stop(search))

@@ -1,4 +1,4 @@
-/* verdict.h - what is known of the determinant in one cell, and when that is known well enough. */
+/* verdict.h - the result for a cell, and the accuracy that is needed. */
 #ifndef FFD_FOLD_VERDICT_H
 #define FFD_FOLD_VERDICT_H
 
@@ -7,13 +7,13 @@
 
 typedef struct cell_verdict {
     ffd_fold_verdict verdict;
-    double lower;      /* a lower bound of the determinant in the cell; relative, as everything here */
-    double least_seen; /* the least value that was computed at a point of it */
-    double local[3];   /* some: of the witness, in the cell's [0,1]^3 */
-    double value;      /* some: there, <= 0 */
+    double lower;      /* a lower bound of the determinant in the cell; relative, as all values here */
+    double least_seen; /* the least value computed at a point of the cell */
+    double local[3];   /* FFD_FOLDS_SOME: position of the witness in [0,1]^3 of the cell */
+    double value;      /* FFD_FOLDS_SOME: value at the witness, <= 0 */
 } cell_verdict;
 
-/* The lower bound that is near enough to the least value seen: within 1 % of it. */
+/* Returns the lower bound that is accurate enough: within 1 % of the least value found. */
 static inline double ffd_fold_target(double least_seen)
 {
     return least_seen - 0.01 * fabs(least_seen);

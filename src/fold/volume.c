@@ -5,15 +5,16 @@
 #include "fold/determinant.h"
 #include "lattice/border.h"
 
-/* The integral of det [C_u C_v C_w] over the domain is that of det [C, C_b, C_c] / 3 over its border (Gauss),
-   (a,b,c) cyclic, last face less first; closed directions have none. With C = A/W that is det [A, A_b, A_c] /
-   W^3: a polynomial without weights, whose integral over a cell is the mean of its Bernstein coefficients. */
+/* By Gauss's theorem the integral of det [C_u C_v C_w] over the domain equals that of det [C, C_b, C_c] / 3
+   over its border, (a,b,c) cyclic, last face minus first face; closed directions have no faces. With C = A/W
+   the integrand is det [A, A_b, A_c] / W^3; without weights it is a polynomial, whose integral over a cell is
+   the mean of its Bernstein coefficients. */
 
 enum { N = BEZIER_COMPONENTS };
 
 #define UNIT (0.5 * DBL_EPSILON)
 
-/* Nodes and weights of Gauss-Legendre rules on [0,1]: the first half, the rest is symmetric. */
+/* Nodes and weights of Gauss-Legendre rules on [0,1]: the first half; the other half is symmetric. */
 static const double rule_8[4][2] = {{0.019855071751231884, 0.05061426814518813},
                                     {0.10166676129318664, 0.11119051722668724},
                                     {0.2372337950418355, 0.15685332293894363},
@@ -23,14 +24,14 @@ static const double rule_12[6][2] = {
     {0.11504866290284765, 0.08003916427167311},   {0.2063410228566913, 0.10158371336153296},
     {0.3160842505009099, 0.1167462682691774},     {0.43738329574426554, 0.12457352290670139}};
 
-/* One face of the domain. */
+/* A face of the domain. */
 typedef struct face_net {
     const fold_plan *plan;
     int a, b, c;
-    size_t count_b, count_c; /* basis functions */
-    double *points;          /* of the face, scaled: N a control point, b fastest */
+    size_t count_b, count_c; /* numbers of basis functions */
+    double *points;          /* control points of the face, scaled: N numbers each, b fastest */
     double extent[N];        /* max |component| */
-    /* For one cell. */
+    /* For a single cell. */
     double *coefficients, *rows, *scratch, *product;
 } face_net;
 
@@ -40,7 +41,7 @@ typedef struct volume_scale {
 } volume_scale;
 
 typedef struct volume_sum {
-    double volume, size, error; /* the sum, that of the sizes, and that of the bounds of rounding */
+    double volume, size, error; /* the sum, the sum of magnitudes, and the sum of rounding bounds */
 } volume_sum;
 
 static int exponent_of(double size)
@@ -83,7 +84,7 @@ static void fill_net(face_net *net, const volume_scale *scale, int end)
             index[net->c] = ffd_knots_point(&lattice->knots[net->c], k);
             ffd_border_point(&face, index, scale->origin, point);
             for (int r = 0; r < N; r++) {
-                /* In two steps: neither power of two need be a double. */
+                /* In two steps, because the power of two may be out of range. */
                 point[r] = ldexp(point[r], -scale->exponent[r]);
                 if (r < 3)
                     point[r] = ldexp(point[r], net->plan->rational ? -scale->exponent[3] : 0);
@@ -92,7 +93,7 @@ static void fill_net(face_net *net, const volume_scale *scale, int end)
         }
 }
 
-/* The rows A_b, A_c, A of one cell of the face. */
+/* Makes the rows A_b, A_c, A of a cell of the face. */
 static void make_form(const face_net *net, size_t cell_b, size_t cell_c, bezier_box *box, cell_form *form)
 {
     static const double one = 1;
@@ -101,7 +102,7 @@ static void make_form(const face_net *net, size_t cell_b, size_t cell_c, bezier_
     const int order_b = plan->order[net->b], order_c = plan->order[net->c];
     const size_t first_b = (size_t)(knots[net->b].spans[cell_b] - order_b + 1);
     const size_t first_c = (size_t)(knots[net->c].spans[cell_c] - order_c + 1);
-    /* u of the box is b, v is c. */
+    /* The directions u, v of the box are b, c. */
     const double *matrix[3] = {plan->extraction[net->b] + cell_b * (size_t)order_b * (size_t)order_b,
                                plan->extraction[net->c] + cell_c * (size_t)order_c * (size_t)order_c, &one};
     double *to = box->coefficients = net->coefficients;
@@ -141,7 +142,7 @@ static void make_form(const face_net *net, size_t cell_b, size_t cell_c, bezier_
     }
 }
 
-/* The integral of numerator / W^3 by a rule of 2 half points in each direction. */
+/* Integrates numerator / W^3 with a rule of 2 * half nodes in each direction. */
 static double integrate(const double *numerator, const int order[3], const double *weights,
                         const int weight_order[3], const double rule[][2], int half)
 {
@@ -174,7 +175,7 @@ static void add_cell(const face_net *net, size_t cell_b, size_t cell_c, volume_s
     const size_t count = ffd_bernstein_count(order), weight_count = ffd_bernstein_count(box.order);
     double integral = 0, error = limits.rounding;
     if (net->plan->rational) {
-        double *weights = net->rows; /* the rows have been used */
+        double *weights = net->rows; /* the rows are not needed any more */
         double least = DBL_MAX;
         for (size_t i = 0; i < weight_count; i++) {
             weights[i] = box.coefficients[N * i + 3];
@@ -194,7 +195,7 @@ static void add_cell(const face_net *net, size_t cell_b, size_t cell_c, volume_s
     sum->error += error;
 }
 
-/* Row by row, so that roundings do not add up over all cells. */
+/* Summed row by row, so that rounding errors do not accumulate over all cells. */
 static void add_face(face_net *net, const volume_scale *scale, int end, volume_sum *total)
 {
     const size_t *cells = net->plan->cells;
@@ -217,7 +218,7 @@ static ffd_status add_direction(const fold_plan *plan, int a, const volume_scale
     ffd_status status = FFD_OK;
     net.count_b = plan->lattice->knots[net.b].functions;
     net.count_c = plan->lattice->knots[net.c].functions;
-    /* Functions along two directions are no more than control points and 2 degrees. */
+    /* The number of functions in two directions is at most (points + degree) each. */
     const int order[3] = {plan->order[net.b], plan->order[net.c], 1};
     const size_t count = ffd_bernstein_count(order), scratch = ffd_determinant_scratch(order, false);
     net.points = ffd_alloc(net.count_b * net.count_c, N * sizeof(double));

@@ -4,17 +4,17 @@
 #include "fold/determinant.h"
 #include <string.h>
 
-/* A derivative's coefficient is 0 if all control points on the lines along its direction that it depends on
-   are equal, line by line. Products of such marks (0: the coefficient is 0, 1: it may be anything) convolve
-   as the determinant's rows do: its coefficient is a sum of products of three rows' coefficients, each of
-   them 0 if one factor is. With weights equal control points have equal weights too; the determinant's fourth
-   row is never 0. */
+/* A coefficient of a derivative is 0 if all control points on each row in its direction that it depends on
+   are equal. Marks (0: the coefficient is 0; 1: it may have any value) are convolved like the rows of the
+   determinant: a coefficient of the determinant is a sum of products of coefficients of three rows, and a
+   product is 0 if a factor is. With weights, equal control points have equal weights too; the fourth row of
+   the determinant is never 0. */
 
 enum { N = BEZIER_COMPONENTS };
 
 static size_t pair_count(const int order[3])
 {
-    size_t count = 1; /* of two derivatives' product */
+    size_t count = 1; /* of the product of two derivatives */
     for (int a = 0; a < 3; a++)
         count *= (size_t)(2 * order[a] - 1);
     return count;
@@ -49,7 +49,7 @@ static bool is_equal(const double *points, const double *weights, size_t i, size
     return !weights || weights[i] == weights[j];
 }
 
-/* Component b of every point: 1 where the line along b through it has unequal points, else 0. */
+/* Sets component b of every point to 1 if the row in direction b through it has unequal points, else to 0. */
 static void mark_lines(const double *points, const double *weights, bezier_box *box)
 {
     const int *order = box->order;
@@ -69,7 +69,7 @@ static void mark_lines(const double *points, const double *weights, bezier_box *
                 }
 }
 
-/* Row b of the Bezier form, one point shorter along b. */
+/* Copies row b of the Bezier form, which has one point less in direction b. */
 static void copy_row(const bezier_box *box, int b, int order[3], double *row)
 {
     for (int a = 0; a < 3; a++)
@@ -92,7 +92,8 @@ static void multiply(const double *a, const int order_a[3], const double *b, con
     ffd_bernstein_multiply(a, order_a, b, order_b, 1, product);
 }
 
-/* The marks of one volume's determinant; returns where they are. memory holds the box and the points. */
+/* Computes the marks of the determinant of a volume. Returns a pointer to them in memory, which also holds
+   the box and the points. */
 static const double *mark_determinant(const fold_plan *plan, ffd_volume volume, const size_t index[3],
                                       bool rational, double *memory)
 {
@@ -104,7 +105,7 @@ static const double *mark_determinant(const fold_plan *plan, ffd_volume volume, 
     ffd_fold_cell_read(plan, volume, index, points, rational ? weights : NULL, matrix);
     memset(memory, 0, ffd_bezier_size(plan->order) * sizeof(double));
     mark_lines(points, rational ? weights : NULL, &box);
-    ffd_bezier_extract(&box, matrix); /* by matrices without negative entries */
+    ffd_bezier_extract(&box, matrix); /* the matrices have no negative entries */
 
     double *row = points, *pair = row + 4 * count, *triple = pair + pair_count(plan->order);
     int order[3], order_pair[3], order_triple[3];

@@ -45,11 +45,56 @@ static ffd_status check_embedding(const ffd_deform_desc *desc, ffd_error *error)
     return FFD_OK;
 }
 
+static bool is_complete(const ffd_deform_desc *desc)
+{
+    const ffd_source *const input = &desc->input;
+    return input->path && ffd_desc_has_texts(desc->lattices, desc->lattice_count) &&
+           ffd_desc_has_texts(desc->only, desc->only_count) &&
+           ffd_desc_has_texts(desc->clips, desc->clip_count) &&
+           ffd_desc_has_texts(input->allow_extensions, input->allow_extension_count) &&
+           (!desc->morphs || ffd_desc_has_texts(desc->morphs, desc->lattice_count)) &&
+           ffd_desc_has_settings(desc->set, desc->set_count);
+}
+
+/* Numbers of enumerations that have no meaning would be taken for others. */
+static ffd_status check_choices(const ffd_deform_desc *desc, ffd_error *error)
+{
+    const struct {
+        const char *name;
+        int number, last;
+    } choices[] = {
+        {"outside", (int)desc->outside, FFD_OUTSIDE_ERROR},
+        {"normals", (int)desc->normals, FFD_NORMALS_RECOMPUTE},
+        {"rig", (int)desc->rig, FFD_RIG_FOLLOW},
+        {"resources", (int)desc->resources, FFD_RESOURCES_REFERENCE},
+        {"space", (int)desc->input.space, FFD_SPACE_MESH},
+    };
+    for (size_t i = 0; i < sizeof choices / sizeof *choices; i++)
+        if (choices[i].number < 0 || choices[i].number > choices[i].last)
+            return ffd_fail(error, FFD_E_ARGUMENT, "%d is no value of %s", choices[i].number,
+                            choices[i].name);
+    return FFD_OK;
+}
+
+/* A gate that is never violated would be none. */
+static ffd_status check_gates(const ffd_deform_desc *desc, ffd_error *error)
+{
+    if (desc->fail_on & FFD_GATE_TEAR && isnan(desc->tear_most))
+        return ffd_fail(error, FFD_E_ARGUMENT, "the largest step of the gate tear is not a number");
+    if (desc->fail_on & FFD_GATE_EDGES && !(desc->edges_most >= 0))
+        return ffd_fail(error, FFD_E_ARGUMENT, "the gate edges has no length, but %g", desc->edges_most);
+    return FFD_OK;
+}
+
 static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
 {
-    if (!desc->input.path || (desc->lattice_count && !desc->lattices) || (desc->only_count && !desc->only) ||
-        (desc->clip_count && !desc->clips))
+    if (!is_complete(desc))
         return ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete");
+    ffd_status status = check_choices(desc, error);
+    if (!status)
+        status = check_gates(desc, error);
+    if (status)
+        return status;
     if (!(desc->falloff >= 0 && isfinite(desc->falloff)))
         return ffd_fail(error, FFD_E_ARGUMENT, "the falloff %g is not a length", desc->falloff);
     if (!(desc->snap >= 0 && isfinite(desc->snap)))

@@ -9,6 +9,7 @@
 #include "io/npy/npy.h"
 #include "job/chain/chain_load.h"
 #include "job/chain/lattice_memory.h"
+#include "job/input/deform_desc.h"
 #include "job/input/embedding_file.h"
 #include "job/input/in_memory.h"
 #include "job/input/source.h"
@@ -94,9 +95,15 @@ static bool is_one_file(const char *a, const char *b)
     return one;
 }
 
+static ffd_status fail_one_file(const char *output, ffd_error *error)
+{
+    return ffd_fail_file(error, FFD_E_ARGUMENT, output, "is named for both u,v,w and the statuses");
+}
+
 static ffd_status check_outputs(const ffd_embed_desc *desc, ffd_error *error)
 {
-    if (!desc->input.path || !desc->lattice || !desc->output)
+    if (!desc->input.path || !desc->lattice || !desc->output ||
+        !ffd_desc_has_settings(desc->set, desc->set_count))
         return ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete");
     if (!(desc->snap >= 0 && isfinite(desc->snap)))
         return ffd_fail(error, FFD_E_ARGUMENT, "the snap %g is not a length", desc->snap);
@@ -107,8 +114,7 @@ static ffd_status check_outputs(const ffd_embed_desc *desc, ffd_error *error)
     if (!status && desc->status_output)
         status = check_output(desc, desc->status_output, error);
     if (!status && desc->status_output && is_one_file(desc->output, desc->status_output))
-        status =
-            ffd_fail_file(error, FFD_E_ARGUMENT, desc->output, "is named for both u,v,w and the statuses");
+        status = fail_one_file(desc->output, error);
     return status;
 }
 
@@ -224,6 +230,8 @@ static ffd_status take_memory(job_memory *memory, ffd_embed_desc *desc, ffd_erro
     ffd_status status = FFD_OK;
     if (desc->lattice_object && desc->lattice_text.data)
         status = ffd_fail(error, FFD_E_ARGUMENT, "the lattice is given as an object and as a text");
+    if (desc->sink && desc->output && desc->status_output && strcmp(desc->output, desc->status_output) == 0)
+        status = fail_one_file(desc->output, error);
     if (!status)
         status = ffd_in_memory_source(memory, &desc->input, error);
     if (!status)

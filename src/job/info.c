@@ -6,6 +6,7 @@
 #include "job/info_lattice.h"
 #include "job/info_mesh.h"
 #include "job/info_text.h"
+#include "job/input/deform_desc.h"
 #include "job/input/in_memory.h"
 #include "job/input/source.h"
 #include <string.h>
@@ -21,6 +22,8 @@ static ffd_status check_desc(const ffd_info_desc *desc, bool lattice, ffd_error 
 {
     if (!desc->file.path)
         return ffd_fail(error, FFD_E_ARGUMENT, "the description is not complete: it names no file");
+    if (!ffd_desc_has_settings(desc->set, desc->set_count))
+        return ffd_fail(error, FFD_E_ARGUMENT, "the description is not complete: a setting is NULL");
     if (lattice && desc->parts)
         return ffd_fail_file(error, FFD_E_ARGUMENT, ffd_source_name(&desc->file),
                              "a lattice has no parts (--parts is for meshes)");

@@ -1,5 +1,6 @@
 #include "job/info_text.h"
 #include "base/memory/memory.h"
+#include "base/one_line.h"
 #include "base/text/buffer.h"
 #include "base/text/words.h"
 #include "json/json_parse.h"
@@ -20,8 +21,10 @@ typedef struct renderer {
 /* Escapes control characters, which would reach the terminal. The rest is UTF-8. */
 static void write_string(byte_buffer *out, const char *text)
 {
-    for (const char *c = text; *c; c++)
-        ffd_buffer_append(out, (unsigned char)*c < 0x20 || *c == 0x7f ? "?" : c, 1);
+    const size_t before = out->size;
+    ffd_buffer_text(out, text);
+    if (!out->failed)
+        ffd_make_one_line(out->data + before, out->size - before);
 }
 
 /* Returns the number of characters. */

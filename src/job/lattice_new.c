@@ -3,6 +3,7 @@
 #include "base/memory/memory.h"
 #include "base/struct_size.h"
 #include "job/chain/lattice_memory.h"
+#include "job/input/deform_desc.h"
 #include "job/input/in_memory.h"
 #include "job/input/selection.h"
 #include "job/input/source.h"
@@ -118,8 +119,11 @@ static ffd_status create_round(const ffd_lattice_new_desc *desc, ffd_lattice **l
 
 static ffd_status check_desc(const ffd_lattice_new_desc *desc, ffd_error *error)
 {
-    if (!desc->meshes || desc->mesh_count == 0 || !desc->lattice || !desc->output ||
-        (desc->only_count && !desc->only))
+    bool complete = desc->meshes && desc->mesh_count > 0 && desc->lattice && desc->output &&
+                    ffd_desc_has_texts(desc->only, desc->only_count);
+    for (size_t i = 0; i < desc->mesh_count && complete; i++)
+        complete = desc->meshes[i].path;
+    if (!complete)
         return ffd_fail(error, FFD_E_ARGUMENT, "the description of the new lattice is not complete");
     for (size_t i = 0; i < desc->mesh_count && !ffd_output_is_stream(desc->output); i++)
         if (ffd_file_same(desc->meshes[i].path, desc->output))

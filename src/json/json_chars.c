@@ -13,7 +13,7 @@ static int hex_value(char c)
     return -1;
 }
 
-/* The four digits after \u. */
+/* Reads the four hexadecimal digits after \u. */
 static const char *read_hex(const char *c, const char *last, uint32_t *code)
 {
     if (last - c < 4)
@@ -105,12 +105,22 @@ const char *ffd_json_char(const char *c, const char *last, uint32_t *code)
     return *c == '\\' ? read_escape(c + 1, last, code) : ffd_utf8_read(c, last, code);
 }
 
+const char *ffd_json_parsed_char(const char *c, const char *last, uint32_t *code)
+{
+    const char *const next = ffd_json_char(c, last, code);
+    if (next)
+        return next;
+    *code = '?';
+    return c + 1;
+}
+
 const char *ffd_json_pass_plain(const char *c, const char *last)
 {
     for (; last - c >= 8; c += 8) {
         const uint64_t bytes = load_u64((const unsigned char *)c);
         const uint64_t quotes = bytes ^ '"' * BYTES_ONES, escapes = bytes ^ '\\' * BYTES_ONES;
-        /* Subtracting sets the highest bit of a byte that is smaller, and of none before the first such. */
+        /* The subtractions set the highest bit of each smaller byte. A borrow can set it wrongly in later
+           bytes, but not before the first smaller one. */
         const uint64_t others =
             bytes | ((bytes - ' ' * BYTES_ONES) | (quotes - BYTES_ONES) | (escapes - BYTES_ONES));
         if (others & BYTES_TOPS)
@@ -157,7 +167,7 @@ size_t ffd_json_decode(const char *c, const char *last, char *text, size_t capac
             break;
         uint32_t code = 0;
         char bytes[4];
-        c = ffd_json_char(plain, last, &code);
+        c = ffd_json_parsed_char(plain, last, &code);
         const size_t size = ffd_utf8_write(code, bytes);
         if (length + size >= capacity)
             break;

@@ -57,13 +57,14 @@ static bool is_among(uint32_t value, const uint32_t *values, size_t count)
     return false;
 }
 
-/* Where a member with its key, or an element, begins. */
+/* Returns where an element, or a member with its key, begins. */
 static uint32_t start_of(const json_value *value)
 {
     return value->key_end > value->key_begin ? value->key_begin : value->begin;
 }
 
-/* A removed member takes the comma before it along; if no member before it is kept, the one after it. */
+/* Removes each member together with the comma before it; or with the comma after it, if no earlier member is
+   kept. */
 void ffd_edits_remove(json_edits *edits, const json_span *tree, uint32_t container, const uint32_t *gone,
                       size_t gone_count)
 {
@@ -109,7 +110,7 @@ void ffd_edits_apply(const json_edits *edits, const char *text, uint32_t begin, 
                      byte_buffer *out)
 {
     uint32_t at = begin;
-    if (ffd_edits_failed(edits)) { /* the texts are not there */
+    if (ffd_edits_failed(edits)) { /* the texts are incomplete */
         out->failed = true;
         return;
     }

@@ -1,4 +1,4 @@
-/* json_edit.h - replacements of spans of a JSON text; everything between them stays as it is. */
+/* json_edit.h - a list of edits that replace ranges of a JSON text; all other bytes stay. */
 #ifndef FFD_JSON_JSON_EDIT_H
 #define FFD_JSON_JSON_EDIT_H
 
@@ -9,10 +9,11 @@
 #define EDIT_NO_BUFFER (-1)
 
 typedef struct json_edit {
-    uint32_t begin, end;    /* replaced; equal: inserted */
-    size_t order;           /* of the call */
-    size_t text, text_size; /* the new text, in the list's pool */
-    int buffer;             /* instead of text: the base64 of this buffer's new content; or EDIT_NO_BUFFER */
+    uint32_t begin, end;    /* the range that is replaced; if empty, the text is inserted */
+    size_t order;           /* number of the call, to keep the order of insertions at one offset */
+    size_t text, text_size; /* range of the new text in the pool */
+    int buffer;             /* a glTF buffer whose new content, as base64, is the new text; or
+                               EDIT_NO_BUFFER */
 } json_edit;
 
 typedef struct json_edits {
@@ -22,27 +23,29 @@ typedef struct json_edits {
     bool failed; /* memory ran out: some edits are lost */
 } json_edits;
 
-/* The spans of one list must not overlap; at one offset, texts are inserted in the order of the calls. */
+/* Replaces a range by a text, which is copied. The ranges of a list must not overlap. Texts at the same
+   offset are inserted in the order of the calls. */
 void ffd_edits_replace(json_edits *edits, uint32_t begin, uint32_t end, const char *text, size_t size);
-/* Replaces a span by formatted text, of less than 256 bytes. */
+/* Replaces a range by formatted text of less than 256 bytes. */
 void ffd_edits_format(json_edits *edits, uint32_t begin, uint32_t end, const char *format, ...)
     FFD_PRINTF(4, 5);
-/* Replaces a span by the base64 of a buffer's new content. */
+/* Replaces a range by the new content of a glTF buffer, as base64. */
 void ffd_edits_buffer(json_edits *edits, uint32_t begin, uint32_t end, int buffer);
 
-/* Takes members of an object (or elements of an array) out, with the commas that go; once a container. */
+/* Removes members of an object, or elements of an array, with their commas. At most once for each
+   container. */
 void ffd_edits_remove(json_edits *edits, const json_span *tree, uint32_t container, const uint32_t *gone,
                       size_t gone_count);
 
-/* Must come before what follows. */
+/* Sorts the edits by offset. To be called before they are applied. */
 void ffd_edits_sort(json_edits *edits);
-/* Appends text[begin, end) with the edits that lie in it (none may be of a buffer). */
+/* Appends text[begin, end) to out with the edits in that range applied; none of them may be of a buffer. */
 void ffd_edits_apply(const json_edits *edits, const char *text, uint32_t begin, uint32_t end,
                      byte_buffer *out);
 
-/* Whether memory ran out. */
+/* Returns whether memory ran out. */
 bool ffd_edits_failed(const json_edits *edits);
-/* Leaves an empty list. */
+/* Frees the list and empties it. */
 void ffd_edits_free(json_edits *edits);
 
 #endif

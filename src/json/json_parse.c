@@ -9,11 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Offsets have 32 bits. */
+/* Offsets have 32 bits, which limits the size of a text. */
 #define LARGEST_TEXT ((size_t)UINT32_MAX - 1)
 
-/* A number of up to this many characters without an exponent is in the range of a double, a whole one in that
-   of 64 bits, whose longest has 20. */
+/* A number without exponent of at most SAFE_FOR_DOUBLE characters cannot overflow a double; an integer of at
+   most SAFE_FOR_INTEGER characters fits in 64 bits. The longest integer of 64 bits has 20 characters. */
 #define SAFE_FOR_DOUBLE 300
 #define SAFE_FOR_INTEGER 18
 #define INTEGER_CAPACITY 24
@@ -31,7 +31,7 @@ static const char *skip_mark(const char *text, const char *last)
     return last - text >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? text + 3 : text;
 }
 
-/* What is wrong at a position: with the line, and the column in characters. */
+/* Reports an error at a position, with its line and its column in characters. */
 static ffd_status refuse(const scanner *s, const char *at, const char *format, ...) FFD_PRINTF(3, 4);
 
 static ffd_status refuse(const scanner *s, const char *at, const char *format, ...)
@@ -50,7 +50,7 @@ static ffd_status refuse(const scanner *s, const char *at, const char *format, .
                          what, column);
 }
 
-/* The same with what is there instead. */
+/* Reports that something was expected, and what was found instead. */
 static ffd_status expect(const scanner *s, const char *at, const char *what)
 {
     char found[32] = "the end of the text";
@@ -81,7 +81,7 @@ static ffd_status refuse_character(const scanner *s, const char *c)
     return expect(s, c, "a string is not valid UTF-8");
 }
 
-/* what: is expected here. */
+/* what: name of what is expected, for messages. */
 static ffd_status scan_string(scanner *s, const char *what)
 {
     if (s->at == s->last || *s->at != '"')
@@ -103,7 +103,7 @@ static ffd_status scan_string(scanner *s, const char *what)
     return FFD_OK;
 }
 
-/* The valid number from `first` to here, against the reader's rules. */
+/* Checks a number that is valid JSON, from `first` to the current position, against the reader's rules. */
 static ffd_status check_range(const scanner *s, const char *first, bool fraction, bool exponent)
 {
     const size_t length = (size_t)(s->at - first);
@@ -196,7 +196,7 @@ static uint32_t offset(const scanner *s)
     return (uint32_t)(s->at - s->tree->text);
 }
 
-/* Adds a value: the last member so far of parent. */
+/* Appends a value to the tree, as a member of parent. */
 static json_value *add_value(scanner *s, uint32_t parent)
 {
     json_span *tree = s->tree;
@@ -227,10 +227,10 @@ static ffd_status scan_key(scanner *s, json_value *value)
 }
 
 #define FEW_MEMBERS 64
-/* Bytes of a key in a message. */
+/* The most bytes of a key that a message shows. */
 #define KEY_SHOWN 80
 
-/* The later of two equal keys. */
+/* Reports two equal keys, at the later one. */
 static ffd_status refuse_key(const scanner *s, uint32_t a, uint32_t b)
 {
     const json_value *const value = &s->tree->values[a > b ? a : b];
@@ -243,7 +243,8 @@ static ffd_status refuse_key(const scanner *s, uint32_t a, uint32_t b)
     return status;
 }
 
-/* Two readers may take different ones of two equal keys: what is checked must be what is used. */
+/* Equal keys are refused, because readers differ in which one they use: the value that is checked here must
+   be the value that others use. */
 static ffd_status refuse_equal_keys(const scanner *s, uint32_t object)
 {
     const json_span *tree = s->tree;
@@ -275,7 +276,7 @@ static ffd_status close_container(scanner *s, uint32_t *container)
     return tree->values[closed].kind == JSON_OBJECT ? refuse_equal_keys(s, closed) : FFD_OK;
 }
 
-/* Reads a value of container; a container becomes the current one. */
+/* Reads a value in *container; if it is an object or array, it becomes *container. */
 static ffd_status scan_value(scanner *s, uint32_t *container, int *depth)
 {
     json_span *tree = s->tree;
@@ -298,7 +299,7 @@ static ffd_status scan_value(scanner *s, uint32_t *container, int *depth)
     return FFD_OK;
 }
 
-/* One step inside a container: its end, or the next member with the comma before it. */
+/* Reads the end of a container, or its next member with the comma before it. */
 static ffd_status scan_member(scanner *s, uint32_t *container, int *depth)
 {
     const json_value *in = &s->tree->values[*container];

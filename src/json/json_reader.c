@@ -19,7 +19,7 @@ static bool is_of_value_before(const void *substitute, const void *value)
     return ((const json_substitute *)substitute)->value < *(const uint32_t *)value;
 }
 
-/* Goes to the substitute of a value, where it has one. */
+/* Returns the substitute of a value if it has one, else the value. */
 static json_cursor resolve(json_cursor cursor)
 {
     const json_file *const file = cursor.file;
@@ -55,7 +55,7 @@ json_cursor ffd_cursor_first(json_cursor container)
 
 json_cursor ffd_cursor_next(json_cursor element)
 {
-    /* What comes after a substitute's top comes after the value that it replaces. */
+    /* The root of a substitute is followed by what follows the replaced value. */
     if (is_substitute(element) && element.value == 0)
         element = (json_cursor){element.file, element.file->tree, element.replaced, JSON_NONE};
     return move_to(element, ffd_json_span_after(element.tree, element.value));
@@ -101,14 +101,14 @@ ffd_status ffd_cursor_fail_as(json_cursor cursor, ffd_status status, const char 
     return status;
 }
 
-/* The text of a string value as far as it fits. */
+/* Reads the text of a string value, truncated to capacity. */
 static void read_text(json_cursor cursor, char *text, size_t capacity)
 {
     const json_value *const v = &cursor.tree->values[cursor.value];
     ffd_json_decode(cursor.tree->text + v->begin + 1, cursor.tree->text + v->end - 1, text, capacity);
 }
 
-/* The same of its key. */
+/* Reads the key of a value, truncated to capacity. */
 static void read_key(json_cursor cursor, char *text, size_t capacity)
 {
     const json_value *const v = &cursor.tree->values[cursor.value];
@@ -156,7 +156,7 @@ static bool is_known(json_cursor member, const char *const *known, size_t count)
     return false;
 }
 
-/* The members as they are in the text: a key is the same whatever its value is replaced by. */
+/* Reads the members without resolving substitutes, because only the keys matter here. */
 ffd_status ffd_json_read_object(json_cursor cursor, const char *const *known, size_t count)
 {
     if (!ffd_cursor_is(cursor, JSON_OBJECT))

@@ -1,5 +1,4 @@
-/* json_setting.h - a value as people write it in an argument or a cell: JSON, or else a text without quotes.
- */
+/* json_setting.h - a value as users write it in an argument or a table cell: JSON, or text without quotes. */
 #ifndef FFD_JSON_JSON_SETTING_H
 #define FFD_JSON_JSON_SETTING_H
 
@@ -7,14 +6,14 @@
 
 /* All zeros: empty. */
 typedef struct json_setting {
-    json_span tree; /* the value is its top */
-    char *quoted;   /* the text as a JSON string, where it is not JSON itself; or NULL */
+    json_span tree; /* its root is the value */
+    char *quoted;   /* if the text is not JSON: the text as a JSON string; else NULL */
 } json_setting;
 
-/* Parses a text, which must outlive the setting, by rules of json_parse.h. What breaks them is a text too.
-   Errors: FFD_E_INVALID where it is neither JSON nor UTF-8, FFD_E_MEMORY. */
+/* Parses a text, which must outlive the setting, with rules of json_parse.h. A text that violates them stands
+   for itself as a string. Errors: FFD_E_INVALID (neither JSON nor UTF-8), FFD_E_MEMORY. */
 ffd_status ffd_json_setting_parse(const char *text, unsigned rules, json_setting *setting);
-/* Leaves an empty setting. */
+/* Frees the setting and empties it. */
 void ffd_json_setting_free(json_setting *setting);
 
 #endif

@@ -72,10 +72,10 @@ bool ffd_json_span_number(const json_span *tree, uint32_t value, double *number)
                             number) != NULL;
 }
 
-/* The characters between the quotes at begin and end. */
+/* Decodes the string whose quotes are at begin and end - 1. */
 static char *decode(const json_span *tree, uint32_t begin, uint32_t end, size_t *size)
 {
-    const size_t capacity = end - begin; /* an escape is never shorter than its character */
+    const size_t capacity = end - begin; /* an escape is never shorter than the UTF-8 it stands for */
     char *const text = ffd_alloc(capacity, 1);
     if (!text)
         return NULL;
@@ -102,12 +102,12 @@ static bool spells(const json_span *tree, uint32_t begin, uint32_t end, const ch
     while (c < last && t < text_last) {
         uint32_t code = 0;
         char bytes[4];
-        if (*c != '\\') { /* both are UTF-8 */
+        if (*c != '\\') { /* both are plain UTF-8 */
             if (*c++ != *t++)
                 return false;
             continue;
         }
-        c = ffd_json_char(c, last, &code);
+        c = ffd_json_parsed_char(c, last, &code);
         const size_t length = ffd_utf8_write(code, bytes);
         if ((size_t)(text_last - t) < length || memcmp(t, bytes, length) != 0)
             return false;
@@ -128,13 +128,13 @@ bool ffd_json_span_string_is(const json_span *tree, uint32_t value, const char *
     return v->kind == JSON_STRING && spells(tree, v->begin, v->end, text);
 }
 
-/* By character, which is the order of their UTF-8 bytes too. */
+/* Compares by code points, which is also the order of the UTF-8 bytes. */
 static int compare_text(const char *x, const char *x_last, const char *y, const char *y_last)
 {
     while (x < x_last && y < y_last) {
         uint32_t a = 0, b = 0;
-        x = ffd_json_char(x, x_last, &a);
-        y = ffd_json_char(y, y_last, &b);
+        x = ffd_json_parsed_char(x, x_last, &a);
+        y = ffd_json_parsed_char(y, y_last, &b);
         if (a != b)
             return a < b ? -1 : 1;
     }
@@ -155,8 +155,8 @@ bool ffd_json_span_equal_strings(const json_span *a, uint32_t x, const json_span
                         b->text + w->end - 1) == 0;
 }
 
-/* Appends one step of a pointer, "/nodes" or "/3"; '~' and '/' are written ~0 and ~1. Returns the new length:
-   what does not fit is left out. */
+/* Appends one step of a JSON pointer, "/nodes" or "/3", with '~' and '/' escaped as ~0 and ~1. What does not
+   fit is omitted. Returns the new length. */
 static size_t pointer_step(const json_span *tree, uint32_t value, char *text, size_t length, size_t capacity)
 {
     const json_value *v = &tree->values[value];
@@ -172,7 +172,7 @@ static size_t pointer_step(const json_span *tree, uint32_t value, char *text, si
     while (c < last) {
         uint32_t code = 0;
         char bytes[4] = "~0";
-        c = ffd_json_char(c, last, &code);
+        c = ffd_json_parsed_char(c, last, &code);
         size_t size = 2;
         if (code == '/')
             bytes[1] = '1';

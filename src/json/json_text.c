@@ -18,7 +18,7 @@ static void line_break(json_text *json)
         ffd_buffer_append(json->out, "  ", 2);
 }
 
-/* Where the characters end that stand in a string as they are. */
+/* Returns the end of the characters that need no escape. */
 static const char *pass_plain(const char *c)
 {
     while (*c >= ' ' && *c < 0x7f && *c != '"' && *c != '\\')
@@ -26,8 +26,8 @@ static const char *pass_plain(const char *c)
     return c;
 }
 
-/* File names are bytes: those that are not UTF-8 become the replacement character, so that
-   what comes out is JSON. */
+/* File names are arbitrary bytes: invalid UTF-8 becomes the replacement character, so that the output is
+   valid JSON. */
 static void quoted(byte_buffer *out, const char *text)
 {
     const char *c = pass_plain(text), *const last = c + strlen(c);
@@ -55,7 +55,7 @@ static void quoted(byte_buffer *out, const char *text)
     ffd_buffer_append(out, "\"", 1);
 }
 
-/* What comes before a value: the comma, the line break, the key. */
+/* Writes what precedes a value: comma, line break, indentation, key. */
 static void lead_in(json_text *json, const char *key)
 {
     const bool first = json->empty[json->depth];
@@ -165,7 +165,7 @@ void ffd_json_vector(json_text *json, const char *key, const double *values, siz
     ffd_json_end(json, ']');
 }
 
-/* Strings have no line breaks: each is followed by indentation. */
+/* JSON strings contain no line breaks, so each line break is followed by indentation. */
 void ffd_json_join_lines(const char *text, size_t size, byte_buffer *out)
 {
     const char *const end = text + size;

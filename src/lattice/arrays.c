@@ -1,4 +1,4 @@
-/* arrays.c - a lattice from arrays of the library's caller. */
+/* arrays.c - ffd_lattice_from_arrays: makes a lattice from the caller's arrays. */
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/struct_size.h"
@@ -16,7 +16,7 @@ void ffd_lattice_arrays_init(ffd_lattice_arrays *arrays, size_t size)
     ffd_struct_give(&defaults, sizeof defaults, arrays, size);
 }
 
-/* Copies count numbers, or none where there are none; false if memory runs out. */
+/* Copies count numbers; *to is NULL if from is NULL. Returns false if memory runs out. */
 static bool copy_numbers(const double *from, size_t count, double **to)
 {
     *to = from ? ffd_alloc(count, sizeof **to) : NULL;
@@ -72,7 +72,7 @@ static ffd_status fill_knots(const ffd_lattice_arrays *arrays, lattice_spec *spe
     return FFD_OK;
 }
 
-/* How far axes may be from orthonormal, as in a lattice file. */
+/* How far the dot products of axes may be from 0 or 1, as in a lattice file. */
 #define AXES_TOLERANCE 1e-6
 
 static ffd_status fill_axes(const double axes[9], lattice_spec *spec, ffd_error *error)

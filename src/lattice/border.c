@@ -42,7 +42,8 @@ static bool are_equal(const double a[4], const double b[4], const double toleran
     return true;
 }
 
-/* Whether the weights of a pair are in the ratio of those before, which the first pair sets. */
+/* Returns whether the weights of a pair of points have the same ratio as those of earlier pairs; the first
+   pair sets it. */
 static bool is_in_ratio(const double a[4], const double b[4], double *ratio)
 {
     if (*ratio == 0)
@@ -50,7 +51,7 @@ static bool is_in_ratio(const double a[4], const double b[4], double *ratio)
     return fabs(*ratio * a[3] - b[3]) <= 16 * DBL_EPSILON * b[3];
 }
 
-/* So many eps of the control points' sizes, as in the file. */
+/* Sets the tolerance to eps times the magnitude of the control points, in the coordinates of the file. */
 static void size_up(const ffd_lattice *lattice, const double *points, double eps, double tolerance[3])
 {
     for (int a = 0; a < 3; a++) {
@@ -61,8 +62,8 @@ static void size_up(const ffd_lattice *lattice, const double *points, double eps
     }
 }
 
-/* Whether the first and the last face have the same control points to so many eps and, if these are asked
-   for, weights in one ratio. */
+/* Returns whether the first and the last face have the same control points within a tolerance of eps and, if
+   weights is true, weights with a constant ratio. */
 static bool faces_meet(const ffd_lattice *lattice, ffd_volume volume, int direction, double eps, bool weights)
 {
     border_face first, last;

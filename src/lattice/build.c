@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Adds to an error the JSON pointer of its cause. */
+/* Adds the JSON pointer of its cause to an error. */
 static ffd_status locate(const lattice_spec *spec, const char *pointer, ffd_status status, ffd_error *error)
 {
     if (status == FFD_E_INVALID && error && !error->pointer[0])
@@ -67,8 +67,8 @@ static ffd_status make_weights(const lattice_spec *spec, ffd_lattice *lattice, f
     return FFD_OK;
 }
 
-/* With equal weights and control points at the Greville abscissae the map is affine, and then known without
-   looking at the points: the region of the box. */
+/* With equal weights and control points at the Greville abscissae the map is affine, and given by the region
+   of the box without looking at the points. */
 static ffd_status place_box(const lattice_spec *spec, ffd_lattice *lattice, const double min[3],
                             const double max[3], rest_region *region, ffd_error *error)
 {
@@ -124,8 +124,8 @@ static ffd_status place_rest(const lattice_spec *spec, const double *min, const 
     return FFD_OK;
 }
 
-/* The deformed control points before the moves. Offsets are the displacements as they are: (P + D) - P would
-   lose their last digits, and move what has the offset 0. */
+/* Sets the deformed control points before the moves. Offsets are stored as displacements directly: (P + D) -
+   P would lose their last digits, and give points with offset 0 a displacement. */
 static ffd_status set_deformed(const lattice_spec *spec, ffd_lattice *lattice, ffd_error *error)
 {
     const size_t size = spec->count * 3 * sizeof *lattice->deformed;
@@ -192,7 +192,7 @@ ffd_status ffd_lattice_replay(const ffd_lattice *lattice, const move_observer *o
                                     fitted ? lattice->fitted_max : NULL, true, observer, &again, error);
     if (status)
         return status;
-    again->spec = NULL; /* is the lattice's */
+    again->spec = NULL; /* it belongs to the lattice */
     ffd_lattice_destroy(&again);
     return FFD_OK;
 }
@@ -204,7 +204,7 @@ ffd_status ffd_spec_build_knots(lattice_spec *spec, ffd_lattice **lattice, ffd_e
 
 uint64_t ffd_spec_knot_bytes(const lattice_spec *spec)
 {
-    /* Twice the knots, the lattice's and the locator's, and the numbers of the spans. */
+    /* Knots of the lattice and of the locator, and the indices of the spans. */
     const uint64_t each = 2 * sizeof(double) + sizeof(int);
     uint64_t bytes = 0;
     for (int a = 0; a < 3; a++)
@@ -217,7 +217,7 @@ uint64_t ffd_spec_point_bytes(const lattice_spec *spec)
 {
     uint64_t each = 3 * 3 * sizeof(double) + 1; /* rest, deformed, difference, moved */
     each += spec->weights || spec->deformed_weights || ffd_spec_has_exact(spec) ? 2 * sizeof(double) : 0;
-    /* Two trees, while the moves are made. */
+    /* Two trees while the moves are applied. */
     each += ffd_spec_has_mirror(spec) ? 2 * (sizeof(uint32_t) + 1) : 0;
     each += spec->points ? 3 * sizeof(double) : 0;
     each += spec->deformed_points || spec->deformed_offsets ? 3 * sizeof(double) : 0;

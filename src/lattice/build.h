@@ -6,23 +6,22 @@
 #include "lattice/spec.h"
 #include <stdint.h>
 
-/* Bytes that the lattice of a spec takes, with what is searched in it where that is in closed form: for its
-   knots, and for its control points. No more than 2^34; known before they are taken. */
+/* Returns the bytes that the knots of a lattice will need, including those of a locator in closed form. Known
+   before anything is allocated; at most 2^34. */
 uint64_t ffd_spec_knot_bytes(const lattice_spec *spec);
-/* The same for the control points, those that the spec itself holds included. */
+/* The same for the control points, including those in the spec itself. */
 uint64_t ffd_spec_point_bytes(const lattice_spec *spec);
 
-/* Makes the lattice: knots, control points, moves. min, max are the bounds of the mesh for SPEC_BOX_MESH;
-   without them (NULL) such a lattice gets only its knots, as any does from ffd_spec_build_knots. Errors name
-   the file and the position in it. On success the lattice owns the spec; on failure the spec is still the
-   caller's. */
+/* Makes a lattice: knots, control points, moves. min, max: the bounds of the mesh for SPEC_BOX_MESH; if NULL,
+   such a lattice gets only its knots, as with ffd_spec_build_knots. Errors contain the file and the position
+   in it. After success the lattice owns the spec; after a failure the caller still does. */
 ffd_status ffd_spec_build(lattice_spec *spec, const double *min, const double *max, ffd_lattice **lattice,
                           ffd_error *error);
 
-/* Applies the moves of a lattice that has its control points once more, for somebody who sees them. */
+/* Applies the moves of a lattice again, for an observer. The lattice must have control points. */
 ffd_status ffd_lattice_replay(const ffd_lattice *lattice, const move_observer *observer, ffd_error *error);
 
-/* Makes a lattice that has only its knots. */
+/* Makes a lattice with knots but without control points. */
 ffd_status ffd_spec_build_knots(lattice_spec *spec, ffd_lattice **lattice, ffd_error *error);
 
 #endif

@@ -5,8 +5,8 @@
 #include "lattice/lattice.h"
 #include <string.h>
 
-/* Copies the block that *pointer is at, if there is one, and makes it point to the copy; NULL and false if
-   memory runs out. */
+/* Replaces *pointer, unless it is NULL, by a copy of its block. If memory runs out, sets it to NULL and
+   returns false. */
 static bool copy_block(void *pointer, size_t count, size_t size)
 {
     void *from, *to = NULL;

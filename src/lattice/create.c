@@ -1,4 +1,4 @@
-/* create.c - a lattice from a description of the library's caller. */
+/* create.c - ffd_lattice_create: makes a lattice round points from the caller's description. */
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/struct_size.h"
@@ -85,7 +85,8 @@ static ffd_status check_desc(const ffd_lattice_desc *desc, ffd_error *error)
     return status ? status : check_knots(desc, error);
 }
 
-/* The bounds of the finite points along three directions (rows of axes). False if no point is finite. */
+/* Finds the bounds of the finite points along three directions (rows of axes). Returns false if no point is
+   finite. */
 static bool find_bounds(const double *xyz, size_t count, const double axes[9], double min[3], double max[3])
 {
     bool any = false;
@@ -150,9 +151,9 @@ static ffd_status use_principal_axes(const double *xyz, size_t count, double axe
     return FFD_OK;
 }
 
-/* Coordinates along other axes than the world's, and places made of them, are rounded to the size of the
-   world's coordinates: far from the origin by more than a search's tolerance along the axis that is short
-   there. Widens what has no margin by that, so that it holds every point. */
+/* The rounding error of coordinates along other axes than x, y, z, relative to the magnitude of the
+   coordinates. Far from the origin it exceeds the tolerance of the search along a short axis of the lattice.
+   So a box without margin is widened by it, to hold all points. */
 #define AXES_ROUNDING (16 * DBL_EPSILON)
 
 static double rounding_of_axes(const double *xyz, size_t count)
@@ -188,7 +189,7 @@ static ffd_status fill_box(const ffd_lattice_desc *desc, const double *xyz, size
     return status;
 }
 
-/* The greatest distance of a point from the axis through the middle (coordinates along zero and side). */
+/* Returns the greatest distance of a point from the axis through the middle, measured along zero and side. */
 static double greatest_radius(const double *xyz, size_t count, const double frame[9], const double middle[3])
 {
     double greatest = 0;
@@ -202,8 +203,7 @@ static double greatest_radius(const double *xyz, size_t count, const double fram
     return sqrt(greatest);
 }
 
-/* The extents that the margin, which is one number, is a fraction of are the cylinder's diameter and height.
- */
+/* The margin is a fraction of the cylinder's diameter and of its height. */
 static ffd_status fill_cylinder(const ffd_lattice_desc *desc, const double *xyz, size_t count,
                                 lattice_spec *spec, ffd_error *error)
 {
@@ -216,7 +216,7 @@ static ffd_status fill_cylinder(const ffd_lattice_desc *desc, const double *xyz,
     ffd_direction_default_zero(axis, zero);
     vec_cross(axis, zero, side);
     ffd_status status = find_bounds_or_fail(xyz, count, frame, min, max, error);
-    /* Without margin: it widens what is flat, and refuses what is too large. */
+    /* Without margin: only to widen flat sides and to refuse bounds that are too large. */
     if (!status)
         status = ffd_shape_grow_box(min, max, none, grown_min, grown_max, error);
     if (status)

@@ -6,19 +6,20 @@
 #include "lattice/shapes.h"
 #include "lattice/spec.h"
 
-/* The volume is C(u,v,w) = center + rho(u) c(v) + z(w) axis: c is a curve round the origin with control
-   points on the unit circle, rho and z are linear (control values at Greville abscissae). With least <=
-   |c(v)| <= greatest over all v (ring.h) the control rings' radii r0/greatest and r1/least at the ends of u
-   make the volume reach from within r0 to beyond r1 at every v, and c runs through every angle of the turn.
-   Weights that are a product f(u,w) g(v) keep that (g enters c; clamped u and w keep their ends whatever f
-   is); for other weights the rings are placed as without weights, and what they cover is up to the author. */
+/* The volume is C(u,v,w) = center + rho(u) c(v) + z(w) axis. c is a curve round the origin with control
+   points on the unit circle; rho and z are linear (control values at the Greville abscissae). With least <=
+   |c(v)| <= greatest for all v (ring.h), control rings of radius r0/greatest and r1/least at the ends of u
+   make the volume cover the radii r0 to r1 at every v, and c passes every angle of the turn. This also holds
+   for weights that are a product f(u,w) g(v): g enters c, and clamped u and w keep their ends for any f. For
+   other weights the rings are placed as without weights, and the author of the file is responsible for what
+   they cover. */
 
-/* A ring that comes nearer to the axis than this fraction of its control points' radius is refused: such a
-   volume would have to be that many times larger. */
+/* A ring that comes nearer to the axis than this fraction of the radius of its control points is refused,
+   because its volume would have to be larger by the reciprocal. */
 #define LEAST_RADIUS (1.0 / 32)
 #define WEIGHT_TOLERANCE 1e-9
 
-/* The factor g(v) of the weights; false if they are not such a product. */
+/* Finds the factor g(v) of the weights. Returns false if they are not a product f(u,w) g(v). */
 static bool weights_along_v(const lattice_spec *spec, ring_point *points)
 {
     const size_t *const size = spec->size;
@@ -50,7 +51,7 @@ static ffd_status place_ring(const ffd_lattice *lattice, const lattice_spec *spe
         return ffd_fail(error, FFD_E_INVALID,
                         "%zu control points of degree %d along v are too few for this angle of the cylinder",
                         knots->points, knots->degree);
-    /* Control points on the circle cannot lead the curve out of it; beyond 1 is rounding. */
+    /* A curve with control points on the circle stays within it; a value above 1 is rounding. */
     radius[0] = spec->radius[0] / fmin(greatest, 1);
     radius[1] = spec->radius[1] / least;
     return FFD_OK;

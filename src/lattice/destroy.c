@@ -1,4 +1,4 @@
-/* destroy.c - the end of lattices and of their specs. */
+/* destroy.c - destroys lattices and their specs. */
 #include "base/memory/memory.h"
 #include "lattice/lattice.h"
 #include "lattice/spec.h"

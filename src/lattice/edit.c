@@ -1,18 +1,24 @@
-/* edit.c - control points and weights that the library's caller sets. */
+/* edit.c - lets the caller set deformed control points and weights. */
 #include "base/memory/memory.h"
 #include "lattice/lattice.h"
 #include <string.h>
 
 typedef enum edit_kind { EDIT_POINTS, EDIT_OFFSETS, EDIT_WEIGHTS } edit_kind;
 
-/* Control points that are set, and what was there before. */
+/* Control points to be set, and their previous values. */
 typedef struct point_edit {
     edit_kind kind;
-    const size_t *index; /* NULL: the first ones */
+    const size_t *index; /* NULL: points 0 to count - 1 */
     size_t count;
     const double *values;
-    double *before; /* EDIT_WEIGHTS: one for each; else deformed and difference, 6 for each */
+    double *before; /* previous values. EDIT_WEIGHTS: 1 number for each point; else 6, deformed and
+                       difference */
 } point_edit;
+
+static size_t numbers_of(const point_edit *edit)
+{
+    return edit->kind == EDIT_WEIGHTS ? 1 : 3;
+}
 
 static size_t point_of(const point_edit *edit, size_t i)
 {
@@ -34,7 +40,7 @@ static ffd_status check(const ffd_lattice *lattice, const point_edit *edit, ffd_
     return FFD_OK;
 }
 
-/* Gives a lattice weights of 1, where it has none. */
+/* Adds weights of 1 to a lattice that has none. */
 static ffd_status make_weights(ffd_lattice *lattice, ffd_error *error)
 {
     if (lattice->rest_weights)
@@ -53,13 +59,13 @@ static ffd_status make_weights(ffd_lattice *lattice, ffd_error *error)
     return FFD_OK;
 }
 
-/* Sets the values, and keeps what was there. */
+/* Sets the values, and saves the previous ones. */
 static void set_values(ffd_lattice *lattice, const point_edit *edit)
 {
     for (size_t i = 0; i < edit->count; i++) {
         const size_t point = point_of(edit, i);
         double *const p = lattice->deformed + 3 * point, *const d = lattice->difference + 3 * point;
-        const double *const value = edit->values + (edit->kind == EDIT_WEIGHTS ? i : 3 * i);
+        const double *const value = edit->values + numbers_of(edit) * i;
         if (edit->kind == EDIT_WEIGHTS) {
             edit->before[i] = lattice->deformed_weights[point];
             lattice->deformed_weights[point] = *value;
@@ -75,7 +81,7 @@ static void set_values(ffd_lattice *lattice, const point_edit *edit)
     }
 }
 
-/* Backwards, for what was set twice. */
+/* Restores the previous values, backwards because a point may have been set twice. */
 static void restore(ffd_lattice *lattice, const point_edit *edit)
 {
     for (size_t i = edit->count; i-- > 0;) {
@@ -89,24 +95,49 @@ static void restore(ffd_lattice *lattice, const point_edit *edit)
     }
 }
 
+/* Takes weights away that make_weights has given. */
+static void drop_weights(ffd_lattice *lattice)
+{
+    ffd_free(lattice->rest_weights);
+    ffd_free(lattice->deformed_weights);
+    lattice->rest_weights = lattice->deformed_weights = NULL;
+}
+
+/* Sets the values, which may be lent by the lattice; a failure changes nothing. */
+static ffd_status set_or_restore(ffd_lattice *lattice, point_edit *edit, ffd_error *error)
+{
+    const size_t numbers = numbers_of(edit), kept = numbers == 1 ? 1 : 6;
+    edit->before = ffd_alloc(edit->count, (kept + numbers) * sizeof(double));
+    if (!edit->before)
+        return ffd_fail_memory(error);
+    double *const values = edit->before + kept * edit->count;
+    memcpy(values, edit->values, numbers * edit->count * sizeof *values);
+    edit->values = values;
+    set_values(lattice, edit);
+    const ffd_status status = ffd_lattice_finish_moved(lattice, error);
+    if (status)
+        restore(lattice, edit);
+    ffd_free(edit->before);
+    return status;
+}
+
 static ffd_status apply(ffd_lattice *lattice, point_edit *edit, ffd_error *error)
 {
+    const bool had_weights = lattice->rest_weights;
     ffd_status status = check(lattice, edit, error);
-    if (!status && edit->kind == EDIT_WEIGHTS)
+    if (status || edit->count == 0)
+        return status;
+    if (edit->kind == EDIT_WEIGHTS)
         status = make_weights(lattice, error);
     if (status)
         return status;
-    edit->before = ffd_alloc(edit->count, (edit->kind == EDIT_WEIGHTS ? 1 : 6) * sizeof(double));
-    if (!edit->before)
-        return ffd_fail_memory(error);
-    set_values(lattice, edit);
-    status = ffd_lattice_finish_moved(lattice, error);
+    status = set_or_restore(lattice, edit, error);
     if (status) {
-        restore(lattice, edit);
+        if (!had_weights)
+            drop_weights(lattice);
         ffd_lattice_finish_moved(lattice, NULL);
     }
     lattice->edited = lattice->edited || !status;
-    ffd_free(edit->before);
     return status;
 }
 

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The indices of a cell's control points along each direction (closed ones wrap around). */
+/* The indices of the control points of a cell in each direction (wrapped round in closed directions). */
 typedef struct cell_index {
     int count[3];
     size_t at[3][MAX_ORDER];
@@ -24,19 +24,20 @@ static cell_index index_of_cell(const ffd_lattice *lattice, const int span[3])
     return index;
 }
 
-/* The first control point of the row along u at position j of v and k of w. */
+/* Returns the index of the first control point of the row along u at position j of v and k of w. */
 static size_t row_start(const ffd_lattice *lattice, const cell_index *index, int j, int k)
 {
     return lattice->size[0] * (index->at[1][j] + lattice->size[1] * index->at[2][k]);
 }
 
-/* What is summed up: field alone, or (h field, h), the homogeneous coordinates of a rational volume. */
+/* The terms of the sum: field alone, or (h field, h), the homogeneous coordinates of a rational volume. */
 typedef struct summand {
     const double *field;
-    const double *weights; /* or NULL */
+    const double *weights; /* may be NULL */
 } summand;
 
-/* Sums over one row, one plane, the whole cell; by_x is not used if there is no derivative by x yet. */
+/* A sum over a row, a plane or the whole cell, and its partial derivatives; by_u, by_v, by_w are used as far
+   as they exist at that level. */
 typedef struct partial_sum {
     double value[4], by_u[4], by_v[4], by_w[4];
 } partial_sum;
@@ -80,7 +81,7 @@ static inline partial_sum sum_plane(const ffd_lattice *lattice, const lattice_ba
     return plane;
 }
 
-/* The order of the additions is part of the result's bits: u, then v, then w, each in ascending index. */
+/* The order of additions determines the bits of the result: u, then v, then w, each in ascending index. */
 static inline partial_sum sum_cell(const ffd_lattice *lattice, const lattice_basis *basis, summand terms,
                                    bool with_derivative)
 {
@@ -111,7 +112,7 @@ void ffd_lattice_basis(const ffd_lattice *lattice, const double uvw[3], lattice_
     }
 }
 
-/* Without weights. */
+/* The sum of a volume without weights. */
 static void sum_plain(const ffd_lattice *lattice, const lattice_basis *basis, const double *field,
                       double value[3], double derivative[9])
 {

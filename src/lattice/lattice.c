@@ -10,7 +10,7 @@ typedef struct point_name {
     char text[96];
 } point_name;
 
-/* "rest point 1,0,2" */
+/* Names a control point for messages: "rest point 1,0,2". */
 static point_name name_of(const ffd_lattice *lattice, ffd_volume volume, size_t point)
 {
     const size_t row = point / lattice->size[0];
@@ -41,7 +41,7 @@ static ffd_status check_point(const ffd_lattice *lattice, ffd_volume volume, siz
     return FFD_OK;
 }
 
-/* A number less itself is 0 where it is finite. The loop is one that compilers turn into SIMD code. */
+/* x - x is 0 for finite x, else NaN. Compilers vectorise this loop. */
 static bool all_finite(const double *numbers, size_t count)
 {
     enum { AT_ONCE = 8 };
@@ -91,7 +91,7 @@ static ffd_status make_diagonal(ffd_lattice *lattice, ffd_error *error)
     for (int c = 1; c < 3; c++)
         if (max[c] - min[c] > max[longest] - min[longest])
             longest = c;
-    /* Squares of the sides as they are could overflow or vanish. */
+    /* Scaled by the longest side, because squares of the sides could overflow or underflow. */
     const double length = max[longest] - min[longest];
     double sum = 0;
     for (int c = 0; c < 3 && length > 0; c++) {
@@ -113,13 +113,14 @@ static ffd_status fail_difference(const ffd_lattice *lattice, size_t c, ffd_erro
                     ffd_number_text(lattice->deformed[c]).text);
 }
 
-/* The largest that a number of a control point may be: times its binomial coefficients it is still one. */
+/* Returns the largest magnitude that a coordinate may have so that its products with binomial coefficients do
+   not overflow. */
 static double largest_number(const ffd_lattice *lattice)
 {
     double largest = DBL_MAX;
     for (int a = 0; a < 3; a++) {
         const int degree = lattice->knots[a].degree;
-        double binomial = 1; /* the one in the middle */
+        double binomial = 1; /* the central binomial coefficient */
         for (int i = 0; i < degree / 2; i++)
             binomial = binomial * (degree - i) / (i + 1);
         largest /= binomial;
@@ -142,7 +143,7 @@ static ffd_status check_difference(const ffd_lattice *lattice, ffd_error *error)
     return FFD_OK;
 }
 
-/* Marks the control points that move. */
+/* Marks the control points that are moved. */
 static void mark_moved(ffd_lattice *lattice)
 {
     const double *const difference = lattice->difference;
@@ -162,7 +163,7 @@ static bool weight_moved(const ffd_lattice *lattice, size_t point)
     return lattice->weights_moved && lattice->rest_weights[point] != lattice->deformed_weights[point];
 }
 
-/* Whether two control points move by the same displacement, other than 0, and nothing else. */
+/* Returns whether two control points have the same displacement, other than 0, and unmoved weights. */
 static bool moves_like(const ffd_lattice *lattice, size_t a, size_t b)
 {
     const double *const x = lattice->difference + 3 * a, *const y = lattice->difference + 3 * b;
@@ -170,8 +171,8 @@ static bool moves_like(const ffd_lattice *lattice, size_t a, size_t b)
            !weight_moved(lattice, b);
 }
 
-/* Marks those that move like the next one along a direction; the last ones of a closed direction go on with
-   the first. */
+/* Marks the control points that have the same displacement as the next one in a direction; in a closed
+   direction the first one follows the last. */
 static void mark_like_next(ffd_lattice *lattice)
 {
     const size_t *const size = lattice->size, step[3] = {1, size[0], size[0] * size[1]};
@@ -186,7 +187,7 @@ static void mark_like_next(ffd_lattice *lattice)
         }
 }
 
-/* d uvw / d t times the inverse of d p / d t. */
+/* Computes d uvw / d p = (d uvw / d t) (d p / d t)^-1. */
 static void make_inverse(ffd_lattice *lattice)
 {
     lattice->has_uvw_by_p = lattice->form == REST_BOX_AFFINE && !lattice->rest_weights &&
@@ -198,8 +199,8 @@ static void make_inverse(ffd_lattice *lattice)
     }
 }
 
-/* Whether d+1 points from one on along a direction are each like the next one, and, unless these are single
-   points, each begin a row or plane that is alike. */
+/* Returns whether d+1 consecutive points in a direction, starting with this one, have equal displacements
+   and, for the flags of rows and planes, each begin a row or plane with equal displacements. */
 static bool begins_alike(const ffd_lattice *lattice, size_t point, int a, unsigned char begins)
 {
     const size_t steps[3] = {1, lattice->size[0], lattice->size[0] * lattice->size[1]};

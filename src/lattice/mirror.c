@@ -3,14 +3,14 @@
 #include "base/vector/vec.h"
 #include <float.h>
 
-/* Places no farther apart than this fraction of the diagonal are one; beside it the rounding of coordinates
-   far from the origin is allowed for. */
+/* Positions whose distance is at most this fraction of the diagonal are equal. The rounding of coordinates
+   far from the origin is added. */
 #define SAME_PLACE 1e-9
 
-/* A range of at most so many points is looked through. */
+/* A range of at most this many points is searched linearly. */
 #define LEAF 8
 
-/* Instead of a coordinate: all points of the range are one. */
+/* A value of `split` that is not a coordinate: all points of the range are at the same position. */
 #define ONE_PLACE 3
 
 static void find_bounds(const double *points, const uint32_t *order, size_t count, double min[3],
@@ -48,8 +48,8 @@ static void swap(uint32_t *a, uint32_t *b)
     *b = kept;
 }
 
-/* Hoare's selection: nothing before the middle is greater along c than it, nothing after it less. The pivots
-   are drawn, so that no order of points in a file makes it slow. */
+/* Hoare's selection: afterwards no point before the middle is greater along c than the middle one, and none
+   after it is less. Pivots are pseudo-random, so that no order of points in a file makes it slow. */
 static void put_middle(mirror_tree *tree, size_t begin, size_t end, size_t middle, int c)
 {
     uint32_t *const order = tree->order;
@@ -96,7 +96,7 @@ static void split_range(mirror_tree *tree, size_t begin, size_t end)
     split_range(tree, middle + 1, end);
 }
 
-/* Of all points, or of those selected. */
+/* Builds the tree of all points, or of the selected ones. */
 static ffd_status make_tree(const ffd_lattice *lattice, const unsigned char *selected, mirror_tree *tree,
                             ffd_error *error)
 {
@@ -114,13 +114,13 @@ static ffd_status make_tree(const ffd_lattice *lattice, const unsigned char *sel
     return FFD_OK;
 }
 
-/* One look-up: whether a point lies within the tolerance of a place. Lengths are in tolerances, whose squares
-   neither overflow nor vanish. */
+/* A lookup of a point within the tolerance of a position. Lengths are in units of the tolerance, so that
+   squares neither overflow nor underflow. */
 typedef struct look_up {
     const mirror_tree *tree;
     const double *place;
     double tolerance;
-    double offset[3]; /* how far the range at hand is at least, along each coordinate */
+    double offset[3]; /* lower bound of the distance to the current range in each coordinate */
 } look_up;
 
 static bool is_near(const double offset[3])

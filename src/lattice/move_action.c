@@ -19,7 +19,7 @@ double ffd_move_along(const lattice_move *move, const double p[3])
     return vec_dot(move->axis, from);
 }
 
-/* f = (s - s0)/(s1 - s0); 0 where the points have no extent. */
+/* Returns f = (s - s0)/(s1 - s0); 0 if the points have no extent. */
 static double fraction_of(const ready_move *ready, const double p[3])
 {
     return ready->length > 0 ? (ffd_move_along(&ready->move, p) - ready->first) / ready->length : 0;
@@ -32,7 +32,8 @@ static void scale(const lattice_move *move, double p[3])
             p[c] = move->about[c] + move->vector[c] * (p[c] - move->about[c]);
 }
 
-/* Across the axis: e = d - k (k.d) = -k x (k x d), and f = k x d, with d = p - about. */
+/* Computes the components perpendicular to the axis k: e = d - k (k.d) = -k x (k x d) and f = k x d, with d =
+   p - about. */
 static void across_axis(const lattice_move *move, const double p[3], double e[3], double f[3])
 {
     const double d[3] = {p[0] - move->about[0], p[1] - move->about[1], p[2] - move->about[2]};
@@ -40,8 +41,9 @@ static void across_axis(const lattice_move *move, const double p[3], double e[3]
     vec_cross(f, move->axis, e);
 }
 
-/* Rodrigues' rotation, p + (cos - 1) e + sin f: what the rotation leaves alone keeps its bits (the coordinate
-   along an axis x, y or z; all at whole turns), and 90 degrees about the origin are exact. */
+/* Rodrigues' rotation, p + (cos - 1) e + sin f. In this form coordinates that do not change keep their bits
+   (the one along the axis x, y or z; all of them for full turns), and a rotation by 90 degrees about the
+   origin is exact. */
 static void rotate(ready_move *ready, double degrees, double p[3])
 {
     double e[3], f[3];
@@ -71,9 +73,9 @@ static void taper(const ready_move *ready, double p[3])
         p[c] += more * e[c];
 }
 
-/* s' = s0 + (R-t)(1+m) sin a, t' = R - (R-t)(1+m) cos a, m = more, written as the changes of s and t, which
-   are 0 at the low end and keep their digits where the angle is small and R is long: t' - t =
-   (R-t)((1 - cos a) - m cos a). */
+/* s' = s0 + (R-t)(1+m) sin a, t' = R - (R-t)(1+m) cos a, m = more. Computed as changes of s and t, which are
+   0 at the low end and do not lose digits if the angle is small and R large: t' - t = (R-t)((1 - cos a) - m
+   cos a). */
 void ffd_move_bend(const ready_move *ready, double degrees, double more, double p[3])
 {
     static const double pi = 3.14159265358979323846;

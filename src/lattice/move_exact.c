@@ -5,17 +5,16 @@
 #include "base/vector/vec.h"
 #include <stdio.h>
 
-/* Rows count as straight, and layers as flat, to this fraction of the coordinates: what moves before leave by
-   their rounding. */
+/* Tolerance for straight rows and flat layers, relative to the coordinates: the rounding of earlier moves. */
 #define STRAIGHT 1e-13
 
 /* The selected layers along one direction. */
 typedef struct arcs {
     const exact_bend *bend;
     int direction;
-    size_t step;        /* from a point to the next along the direction */
-    size_t first, last; /* layers, both joints of arcs */
-    double *along;      /* s of each layer of the direction */
+    size_t step;        /* index difference of consecutive points in the direction */
+    size_t first, last; /* layers; both are joints between arcs */
+    double *along;      /* the coordinate s of each layer */
     double slack;
     ffd_error *error;
 } arcs;
@@ -26,7 +25,7 @@ static ffd_status refuse(const arcs *a, const char *reason)
                        "the bend cannot be exact: %s", reason);
 }
 
-/* The control point as the action sees it. */
+/* Returns a control point, reflected if the step is a mirror image. */
 static void point_of(const exact_bend *bend, size_t point, double p[3])
 {
     const double *const q = bend->lattice->deformed + 3 * point;
@@ -43,7 +42,7 @@ static double along_of(const exact_bend *bend, size_t point)
     return ffd_move_along(&bend->ready->move, p);
 }
 
-/* The indices of the selected points; whether all between them are selected. */
+/* Finds the range of the selected points in each direction. Returns whether all points in it are selected. */
 static bool find_block(const exact_bend *bend, size_t first[3], size_t last[3])
 {
     const size_t *const size = bend->lattice->size;
@@ -63,7 +62,7 @@ static bool find_block(const exact_bend *bend, size_t first[3], size_t last[3])
     return count == (last[0] - first[0] + 1) * (last[1] - first[1] + 1) * (last[2] - first[2] + 1);
 }
 
-/* The direction that goes farthest along the axis, seen from the first point. */
+/* Finds the lattice direction that extends farthest along the axis, from the first point. */
 static void find_direction(arcs *a, const size_t first[3], const size_t last[3])
 {
     const size_t *const size = a->bend->lattice->size, steps[3] = {1, size[0], size[0] * size[1]};
@@ -82,7 +81,7 @@ static void find_direction(arcs *a, const size_t first[3], const size_t last[3])
     a->last = last[a->direction];
 }
 
-/* Degree 2, and each knot of the domain twice: each arc is the Bezier form of its own three layers. */
+/* Requires degree 2 and double knots, so that each arc is the Bezier form of its three layers. */
 static ffd_status check_knots(const arcs *a)
 {
     const knot_vector *const knots = &a->bend->lattice->knots[a->direction];
@@ -119,7 +118,7 @@ static size_t layer_of(const arcs *a, size_t point)
     return point / a->step % a->bend->lattice->size[a->direction];
 }
 
-/* Notes s of the layers, at the row of the first point, and what may be rounding. */
+/* Records s of the layers in the row of the first point, and the rounding tolerance. */
 static void find_layers(arcs *a)
 {
     double size = a->bend->ready->length;
@@ -131,7 +130,8 @@ static void find_layers(arcs *a)
         a->along[layer] = along_of(a->bend, layer * a->step);
 }
 
-/* A point stands in its layer, and in its row, which runs along the axis with one weight. */
+/* Checks that a point is in the plane of its layer, and that its row is parallel to the axis and has equal
+   weights. */
 static ffd_status check_place(const arcs *a, size_t point)
 {
     const exact_bend *const bend = a->bend;
@@ -161,7 +161,7 @@ static double degrees_to(const arcs *a, double along)
     return ready->move.amount * ((along - ready->first) / ready->length);
 }
 
-/* Of a middle layer: half the angle of its arc. */
+/* Returns half the angle of the arc of a middle layer. */
 static double half_of(const arcs *a, size_t layer)
 {
     return 0.5 * degrees_to(a, a->along[layer + 1]) - 0.5 * degrees_to(a, a->along[layer - 1]);
@@ -204,8 +204,9 @@ static ffd_status make_weights(ffd_lattice *lattice, ffd_error *error)
     return FFD_OK;
 }
 
-/* Where the arcs meet a point is where the bend has it. Between them it stands where the tangents of its arc
-   cross: at the middle of the angle 2h, at the radius over cos h, with the weight cos h. */
+/* Moves a point. A joint goes to its place on the circle. A middle point goes to the intersection of the
+   tangents of its arc of angle 2h: at the middle angle, at radius / cos h, with its weight multiplied by cos
+   h. */
 static void bend_point(const arcs *a, size_t point)
 {
     ffd_lattice *const lattice = a->bend->lattice;

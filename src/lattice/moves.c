@@ -12,23 +12,23 @@
 #include <math.h>
 #include <string.h>
 
-/* With "units": "box" what is a length or a position (by, to, about, within, what a matrix acts on, the
-   places of a pull and of a falloff) is in fractions of the rest region's sides, along them; directions,
+/* With "units": "box", lengths and positions (by, to, about, within, the argument of a matrix, the positions
+   in a pull and in a falloff) are fractions of the sides of the rest region, along these sides. Directions,
    angles and factors are the same in both units. */
 
-/* The moves of one lattice while they are applied. */
+/* The state while the moves of a lattice are applied. */
 typedef struct move_work {
     ffd_lattice *lattice;
-    double *points;          /* those that move */
+    double *points;          /* the deformed control points */
     double *difference;      /* their displacements from rest */
-    unsigned char *selected; /* of the current move, one byte a control point */
+    unsigned char *selected; /* by the current move; one byte for each control point */
     bool box_units;
     rest_region region;
-    double inverse[9]; /* of the region's frame; only in box units */
-    double slack[3];   /* rounding of the coordinates that `within` compares */
-    mirror_tree rest;  /* where mirror images are looked up; made for the first mirrored move */
+    double inverse[9]; /* inverse of the region's frame; box units only */
+    double slack[3];   /* tolerance of the coordinates that `within` compares */
+    mirror_tree rest;  /* for lookups of mirror images; built for the first mirrored move */
     const char *file;
-    const move_observer *observer; /* or NULL */
+    const move_observer *observer; /* may be NULL */
     ffd_error *error;
 } move_work;
 
@@ -39,7 +39,8 @@ static void to_world(const move_work *work, double position[3])
         position[c] += work->region.origin[c];
 }
 
-/* Where `within` looks for a rest point: in world units or in fractions of the region. */
+/* Returns the coordinates of a rest point as `within` compares them: in world units, or in fractions of the
+   region. */
 static void coordinates_of(const move_work *work, const double point[3], double coordinates[3])
 {
     for (int c = 0; c < 3; c++)
@@ -48,7 +49,8 @@ static void coordinates_of(const move_work *work, const double point[3], double 
         mat_apply(work->inverse, coordinates, coordinates);
 }
 
-/* The matrix maps positions: in box units B M B^-1 with B the map from fractions to the world. */
+/* Converts a matrix that acts on positions in box units: B M B^-1, with B the map from fractions to world
+   units. */
 static void matrix_to_world(const move_work *work, double matrix[16])
 {
     double linear[9], offset[3], product[9], world[9], origin[3];
@@ -68,7 +70,7 @@ static void matrix_to_world(const move_work *work, double matrix[16])
     }
 }
 
-/* The vector is added to the point and to its displacement as it is. */
+/* Returns whether the action adds a vector to the point and to its displacement. */
 static bool adds_vector(const lattice_move *move)
 {
     return move->action == MOVE_BY || move->action == MOVE_PULL;
@@ -88,8 +90,8 @@ static void move_to_world(const move_work *work, lattice_move *move)
         matrix_to_world(work, move->matrix);
 }
 
-/* Control points on a face of the box that `within` names belong to it, whatever their last bit: a
-   coordinate's rounding is allowed for, as in the embedding's tolerance. */
+/* Control points on the border of a `within` box are inside even if their last bits differ, so the tolerance
+   is the rounding of a coordinate, as for the embedding. */
 static void find_slack(move_work *work)
 {
     double size[3] = {0, 0, 0};
@@ -134,7 +136,8 @@ static size_t select_points(move_work *work, const lattice_move *move)
     return count;
 }
 
-/* The centroid, summed up as distances from the first point: an offset of all points costs no digits. */
+/* Computes the centroid from distances to the first point, so that a common offset of all points costs no
+   digits. */
 static void find_centroid(const move_work *work, size_t count, double centroid[3])
 {
     const double *origin = NULL;
@@ -165,15 +168,15 @@ static void find_extent(const move_work *work, ready_move *ready)
     ready->length = last - first;
 }
 
-/* How far a rest position is from a place of the file, in radii. */
+/* Returns the distance of a rest position from a position of the file, divided by the radius. */
 static double radii_from(const double x[3], const double center[3], double radius)
 {
     const double away[3] = {x[0] - center[0], x[1] - center[1], x[2] - center[2]};
     return vec_length(away) / radius;
 }
 
-/* How far a rest position is on the way from `from` to `to`. In box units along the whole region, from its
-   lower corner. Halves, as a difference could overflow. */
+/* Returns the position between `from` (0) and `to` (1) of a rest point along the axis; in box units along the
+   whole region, from its lower corner. Terms are halved, because a difference could overflow. */
 static double way_along(const move_work *work, const move_falloff *falloff, const double rest[3])
 {
     double from_origin[3], extent = 0;
@@ -187,7 +190,7 @@ static double way_along(const move_work *work, const move_falloff *falloff, cons
     return (0.5 * s - 0.5 * falloff->from) / (0.5 * falloff->to - 0.5 * falloff->from);
 }
 
-/* What is left of the weight at a rest position: 1 - (3x^2 - 2x^3). */
+/* Returns the factor of the falloff at a rest position: 1 - (3x^2 - 2x^3). */
 static double falloff_at(const move_work *work, const move_falloff *falloff, const double rest[3])
 {
     double place[3];
@@ -199,7 +202,7 @@ static double falloff_at(const move_work *work, const move_falloff *falloff, con
     return x < 1 ? 1 - x * x * (3 - 2 * x) : 0;
 }
 
-/* (1 - x^2)^2 within the radius. */
+/* Returns the factor of a pull: (1 - x^2)^2 within the radius, else 0. */
 static double pull_at(const move_work *work, const lattice_move *move, const double rest[3])
 {
     double place[3];
@@ -228,7 +231,8 @@ static ffd_status check_finite(const move_work *work, const lattice_move *move, 
                        point / size[0] % size[1], point / size[0] / size[1]);
 }
 
-/* A mirrored move takes the image of a point, and puts the point where the image of the result is. */
+/* Moves a point. For a mirrored move (plane), the action is applied to the image of the point, and the result
+   is reflected back. */
 static ffd_status move_point(const move_work *work, ready_move *ready, const mirror_plane *plane,
                              size_t point)
 {
@@ -273,7 +277,7 @@ static ffd_status observe(const move_work *work, size_t number, const lattice_mo
     return work->observer ? work->observer->see(work->observer->context, &step, work->error) : FFD_OK;
 }
 
-/* The selected points; plane: of the images of a mirrored move. */
+/* Moves the selected points. plane: for the mirror images of a mirrored move; else NULL. */
 static ffd_status move_points(const move_work *work, size_t number, const lattice_move *move,
                               ready_move *ready, const mirror_plane *plane)
 {
@@ -289,7 +293,7 @@ static ffd_status move_points(const move_work *work, size_t number, const lattic
     return status;
 }
 
-/* The action again, reflected, on the mirror images of the points. */
+/* Applies the action again, reflected, to the mirror images of the points. */
 static ffd_status move_images(move_work *work, size_t number, const lattice_move *move, ready_move *ready)
 {
     const size_t *const size = work->lattice->size, count = work->lattice->count;

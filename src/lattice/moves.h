@@ -1,4 +1,4 @@
-/* moves.h - moves of control points. */
+/* moves.h - applies the moves of a lattice file to its control points. */
 #ifndef FFD_LATTICE_MOVES_H
 #define FFD_LATTICE_MOVES_H
 
@@ -9,24 +9,25 @@
 
 /* One move, or its mirror image, before it is applied. */
 typedef struct move_step {
-    const lattice_move *move;      /* as the file has it */
-    size_t number;                 /* of the move */
+    const lattice_move *move;      /* as in the file */
+    size_t number;                 /* index of the move */
     const ready_move *ready;       /* in world units */
-    const mirror_plane *plane;     /* NULL: not the image */
-    const unsigned char *selected; /* a byte a control point */
-    ffd_lattice *lattice;          /* as it is before the move */
+    const mirror_plane *plane;     /* NULL: not a mirror image */
+    const unsigned char *selected; /* one byte for each control point */
+    ffd_lattice *lattice;          /* in its state before the move */
     const rest_region *region;
-    const double *inverse; /* of the region's frame; NULL: units are those of the world */
+    const double *inverse; /* inverse of the region's frame; NULL: world units */
 } move_step;
 
-/* Sees each step. */
+/* A callback for each step. */
 typedef struct move_observer {
     ffd_status (*see)(void *context, const move_step *step, ffd_error *error);
     void *context;
 } move_observer;
 
-/* Applies the spec's moves to lattice->deformed and its difference; units of the box are those of region.
-   observer: NULL, or what sees them. Errors: FFD_E_INVALID at the move, and those of the observer. */
+/* Applies the moves of the spec to lattice->deformed and lattice->difference. region: for box units.
+   observer: called before each step; may be NULL. Errors: FFD_E_INVALID at the move, FFD_E_MEMORY, and those
+   of the observer. */
 ffd_status ffd_moves_apply(const lattice_spec *spec, const rest_region *region, ffd_lattice *lattice,
                            const move_observer *observer, ffd_error *error);
 

@@ -2,7 +2,8 @@
 #include "base/little_endian.h"
 #include "lattice/border.h"
 
-/* A lattice whose weights are moved has rest weights of its own, all 1, where it would have none else. */
+/* Returns whether a rest weight differs from 1. A lattice with moved weights has an array of rest weights
+   even if all are 1. */
 static bool has_weights(const ffd_lattice *lattice)
 {
     for (size_t i = 0; lattice->rest_weights && i < lattice->count; i++)

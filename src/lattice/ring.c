@@ -14,14 +14,15 @@ static bool is_rational(const knot_vector *knots, const ring_point *points)
     return false;
 }
 
-/* Equal steps of angle and of knots: every span of the curve is the one before turned on. */
+/* Returns whether angles and knots have equal steps: each span of the curve is then the one before,
+   rotated. */
 static bool is_regular(const knot_vector *knots)
 {
     return knots->kind == KNOTS_OPEN || knots->kind == KNOTS_UNIFORM || knots->kind == KNOTS_CLOSED;
 }
 
-/* The position of control point j between the start (0) and the end (1) of the turn: its Greville abscissa.
-   The presets' are written as one division, which keeps 90 degrees 90. */
+/* Returns the position of control point j between the start (0) and the end (1) of the turn: its Greville
+   abscissa. For preset knots it is a single division, so that 90 degrees stay exact. */
 static double fraction_of(const knot_vector *knots, size_t j)
 {
     if (!is_regular(knots))
@@ -37,7 +38,8 @@ static void set_angles(const knot_vector *knots, double first, double last, ring
         ffd_sincos_degrees(ffd_shape_between(first, last, fraction_of(knots, j)), &points[j].y, &points[j].x);
 }
 
-/* The direction of C at a parameter (the weight's division does not change it). Returns false if C is 0. */
+/* Computes the direction of C at a parameter; dividing by the weight would not change it. Returns false if C
+   is 0. */
 static bool direction_at(const knot_vector *knots, const ring_point *points, double v, double direction[2])
 {
     double value[MAX_ORDER], sum[2] = {0, 0};
@@ -54,7 +56,7 @@ static bool direction_at(const knot_vector *knots, const ring_point *points, dou
     return length > 0;
 }
 
-/* Turns all control points so that the curve starts at the angle first. */
+/* Rotates all control points so that the curve starts at the angle `first`. */
 static bool turn_start_to(const knot_vector *knots, double first, ring_point *points)
 {
     double is[2], sine, cosine;
@@ -70,8 +72,8 @@ static bool turn_start_to(const knot_vector *knots, double first, ring_point *po
     return true;
 }
 
-/* The sine of the angle by which the curve's end lies past `turn` degrees from its start, when the control
-   points' angles are stretched by a factor. */
+/* Returns the sine of the angle by which the end of the curve is beyond `turn` degrees from its start, if the
+   angles of the control points are stretched by a factor. */
 static double end_error(const knot_vector *knots, double turn, double stretch, ring_point *points)
 {
     double start[2] = {1, 0}, end[2] = {1, 0}, sine, cosine;
@@ -83,9 +85,10 @@ static double end_error(const knot_vector *knots, double turn, double stretch, r
     return x * end[1] - y * end[0];
 }
 
-/* Where neither repeated end knots nor symmetry put the curve's ends at the right angles (lists of other
-   knots, weights on unclamped knots), one factor on the control points' angles does. It is found by halving;
-   within the bracket the end's error stays below half a turn, so that its sine has its sign. */
+/* Repeated end knots or symmetry usually put the ends of the curve at the right angles. Otherwise (lists of
+   knots, weights on unclamped knots) the angles of the control points are multiplied by a factor, found by
+   bisection. Within the bracket the error of the end stays below half a turn, so its sine has the same
+   sign. */
 static bool stretch_to(const knot_vector *knots, double first, double last, ring_point *points)
 {
     double low = 0.75, high = 4.0 / 3;
@@ -105,7 +108,7 @@ static bool stretch_to(const knot_vector *knots, double first, double last, ring
     return turn_start_to(knots, first, points);
 }
 
-/* Bounds so far: met somewhere, and proven. Squares of the distance. */
+/* Current bounds of the squared distance: the values attained at some point, and the proven bounds. */
 typedef struct radius_bounds {
     double least_met, greatest_met, least, greatest;
 } radius_bounds;
@@ -118,11 +121,12 @@ typedef struct bezier_arc {
 
 #define MAX_SQUARE_ORDER (2 * MAX_DEGREE + 1)
 #define RADIUS_TOLERANCE 1e-10
-#define RADIUS_DEPTH 24 /* the gap shrinks by 4 in each; the tolerance needs about 17 */
+#define RADIUS_DEPTH 24 /* each level divides the gap by 4; the tolerance needs about 17 */
 
-/* Bernstein coefficients of x^2 + y^2 over those of w^2: products of Bernstein forms, coefficient k is
-   sum_{i+j=k} C(d,i) C(d,j) / C(2d,k) b_i b_j (Farouki & Rajan 1988). Because the w^2 are positive, |C|^2
-   lies between the least and the greatest quotient; the first and the last are met at the arc's ends. */
+/* Computes the Bernstein coefficients of x^2 + y^2 divided by those of w^2. In a product of Bernstein forms
+   coefficient k is sum_{i+j=k} C(d,i) C(d,j) / C(2d,k) b_i b_j (Farouki & Rajan 1988). Because the
+   coefficients of w^2 are positive, |C|^2 lies between the least and the greatest quotient; the first and the
+   last quotient are attained at the ends of the arc. */
 static void square_quotients(const bezier_arc *arc, double quotient[MAX_SQUARE_ORDER])
 {
     double binomial[MAX_ORDER] = {1};
@@ -141,7 +145,7 @@ static void square_quotients(const bezier_arc *arc, double quotient[MAX_SQUARE_O
     }
 }
 
-/* De Casteljau at the middle. */
+/* Splits an arc in the middle with de Casteljau's algorithm. */
 static void halve(const bezier_arc *arc, bezier_arc *left, bezier_arc *right)
 {
     *right = *arc;
@@ -200,9 +204,9 @@ static void arc_of_span(const knot_vector *knots, const ring_point *points, int 
 
 #define TURN_DEPTH 60
 
-/* The degrees by which the arc turns round the origin. Where its control points lie on one side of a line
-   through the origin, so does the arc, and its ends show the turn; else it is halved. Returns false if it
-   comes too near to the origin. */
+/* Computes the angle in degrees by which an arc turns round the origin. If its control points are on one side
+   of a line through the origin, so is the arc, and its ends give the angle; otherwise it is halved. Returns
+   false if the arc comes too near to the origin. */
 static bool turn_of_arc(const bezier_arc *arc, int depth, double *turn)
 {
     const double *const first = arc->point[0], *const last = arc->point[arc->degree];
@@ -225,9 +229,9 @@ static bool turn_of_arc(const bezier_arc *arc, int depth, double *turn)
     return turn_of_arc(&left, depth + 1, turn) && turn_of_arc(&right, depth + 1, turn);
 }
 
-/* Whether the curve goes from its start to its end the way that is meant, and not the short way round: then
-   it passes every angle between. What is wrong is wrong by whole turns, so that the rounding of atan2 does
-   not matter. */
+/* Returns whether the curve turns by the requested angle, and not by another one with the same end, such as
+   the shorter way round; then it passes every angle between. A wrong angle differs by whole turns, so the
+   rounding of atan2 does not matter. */
 static bool turns_by(const knot_vector *knots, const ring_point *points, double degrees)
 {
     double turn = 0;
@@ -257,8 +261,9 @@ ffd_status ffd_ring_rotate(const knot_vector *knots, double first, double last, 
                     knots->points, knots->degree);
 }
 
-/* Whether span number i is a turned copy of another that is looked at: all but the first of a regular curve,
-   and of long clamped ones those that no end knot reaches. (Rational ones have no copies.) */
+/* Returns whether span i is a rotated copy of another span that is examined: all but the first one of a
+   regular curve, and those of a long clamped curve that end knots do not affect. Rational curves have no
+   copies. */
 static bool is_copy(const knot_vector *knots, size_t i)
 {
     const size_t reach = 2 * (size_t)knots->degree;

@@ -1,5 +1,5 @@
-/* ring.h - a closed or partial turn: a planar B-spline curve round the origin from control points on the unit
-   circle, and how far it stays from the origin. */
+/* ring.h - a full or partial turn: a planar B-spline curve round the origin with control points on the unit
+   circle, and bounds of its distance from the origin. */
 #ifndef FFD_LATTICE_RING_H
 #define FFD_LATTICE_RING_H
 
@@ -11,14 +11,14 @@ typedef struct ring_point {
     double weight;
 } ring_point;
 
-/* Turns control points (knots->points of them; weights are given) so that the curve starts at angle first and
-   ends at angle last (degrees; a closed curve goes round once from first). FFD_E_INVALID where there are too
-   few of them. */
+/* Places knots->points control points, whose weights are given, so that the curve starts at angle first and
+   ends at angle last, in degrees; a closed curve makes one turn from first. Errors: FFD_E_INVALID (too few
+   control points). */
 ffd_status ffd_ring_rotate(const knot_vector *knots, double first, double last, bool full_turn,
                            ring_point *points, ffd_error *error);
 
-/* Bounds of the curve's distance from the origin over the whole domain: least <= |C(v)| <= greatest, up to
-   rounding, each within 1e-10 of being met. */
+/* Computes bounds of the distance of the curve from the origin over the domain: least <= |C(v)| <= greatest,
+   up to rounding. Both are sharp within 1e-10. */
 void ffd_ring_radius(const knot_vector *knots, const ring_point *points, double *least, double *greatest);
 
 #endif

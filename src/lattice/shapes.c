@@ -4,14 +4,14 @@
 #include "base/vector/vec.h"
 #include "lattice/lattice.h"
 
-/* A side shorter than this fraction of the diagonal counts as flat: it is the rounding of coordinates that
-   were meant to be equal, or a volume too thin to be inverted well. It is widened, round its middle, to
-   FLAT_WIDTH of the diagonal: enough to give moves something to act on, little against the mesh. */
+/* A side below this fraction of the diagonal counts as flat: it is the rounding of equal coordinates, or the
+   volume would be too thin for a stable inversion. It is widened about its middle to FLAT_WIDTH of the
+   diagonal, which is enough for moves to act on, and small compared with the mesh. */
 #define FLAT_SIDE 1e-9
 #define FLAT_WIDTH 0.01
 
-/* The diagonal; for bounds that are one point, to rounding, a length to go by: the size of its coordinates,
- * or 1. */
+/* Returns the diagonal. If the bounds are a single point to rounding, returns the magnitude of its
+   coordinates, or 1 if they are 0. */
 static double diagonal_of(const double min[3], const double max[3])
 {
     double side[3], size = 0;
@@ -50,7 +50,7 @@ double ffd_shape_fraction(const knot_vector *knots, size_t point, ffd_spacing sp
 {
     if (spacing == FFD_SPACING_UNIFORM)
         return (double)point / (double)(knots->points - 1);
-    /* Sums of differences: what the knots' offset is does not cost digits. */
+    /* Sums differences of knots, so that a common offset of the knots costs no digits. */
     const double first = ffd_knots_first(knots), length = ffd_knots_last(knots) - first;
     double sum = 0;
     for (int k = 1; k <= knots->degree; k++)

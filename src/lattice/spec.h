@@ -1,4 +1,4 @@
-/* spec.h - a lattice as its file describes it, before there are control points (freed by destroy.c). */
+/* spec.h - the content of a lattice file, from which a lattice is built (freed by destroy.c). */
 #ifndef FFD_LATTICE_SPEC_H
 #define FFD_LATTICE_SPEC_H
 
@@ -22,76 +22,76 @@ typedef enum move_action {
 
 typedef enum falloff_kind { FALLOFF_NONE, FALLOFF_AXIS, FALLOFF_BALL } falloff_kind;
 
-/* How the weight of a move falls off with the place at rest, in the file's units. */
+/* How the weight of a move depends on the rest position, in the units of the file. */
 typedef struct move_falloff {
     falloff_kind kind;
-    double axis[3], from, to; /* FALLOFF_AXIS; unit length; from and to differ */
+    double axis[3], from, to; /* FALLOFF_AXIS; axis has unit length, from != to */
     double raw_axis[3];       /* as the file has it */
-    double center[3], radius; /* FALLOFF_BALL; the radius is positive */
+    double center[3], radius; /* FALLOFF_BALL; radius > 0 */
 } move_falloff;
 
 typedef struct lattice_move {
     move_action action;
     double weight; /* 0..1 */
     bool has_at, has_within;
-    size_t at_first[3], at_last[3]; /* inclusive, resolved against the size */
+    size_t at_first[3], at_last[3]; /* inclusive ranges of indices, not negative */
     double within_min[3], within_max[3];
     bool has_about;
     double about[3];
-    double vector[3]; /* by (also of a pull), to, scale factors, toward (of unit length, perpendicular to
+    double vector[3]; /* by (also of a pull), to, scale factors, or toward (unit length, perpendicular to
                          axis) */
     double axis[3];   /* unit length */
     double raw_axis[3], raw_toward[3]; /* as the file has them */
     double amount;                     /* degrees, taper factor */
     double matrix[16];
-    double point[3], radius; /* of a pull, in the file's units */
-    bool exact;              /* of a bend: as a rational quadratic */
+    double point[3], radius; /* of a pull, in the units of the file */
+    bool exact;              /* of a bend: with rational quadratic arcs */
     bool has_mirror;
     int mirror; /* the coordinate that is reflected */
     move_falloff falloff;
-    char pointer[32]; /* "/moves/3", for messages that need the built points */
+    char pointer[32]; /* "/moves/3", for messages when the moves are applied */
 } lattice_move;
 
-/* What the file says of a placeholder's values. */
+/* The declaration of a placeholder. */
 typedef struct spec_parameter {
     char *name;
-    char *value;          /* the default, as JSON; NULL: none */
+    char *value;          /* default as JSON; NULL: none */
     char *unit, *comment; /* or NULL */
-    double min, max;      /* of each number; infinite where the file has none */
+    double min, max;      /* bounds of each number; infinite: none */
 } spec_parameter;
 
-/* A number, or an array of numbers, that moves depend on: a placeholder's value. */
+/* The value of a placeholder, a number or an array of numbers, as an independent variable of derivatives. */
 typedef struct spec_variable {
     char *name;
     bool is_array;
-    size_t size; /* its numbers; 0: it is something else */
+    size_t size; /* number of its numbers; 0: not numeric */
     double *numbers;
 } spec_variable;
 
-/* A number of a move that is a factor times a number of a variable. */
+/* A number of a move that equals a factor times a number of a variable. */
 typedef struct spec_seed {
-    size_t move, offset; /* of the number in the lattice_move, in bytes */
+    size_t move, offset; /* offset of the number in the lattice_move, in bytes */
     size_t variable, component;
     double factor;
 } spec_seed;
 
 typedef struct lattice_spec {
-    char *name; /* of the file, for messages */
+    char *name; /* path of the file, for messages */
     size_t size[3];
     size_t count; /* size[0]*size[1]*size[2], at most FFD_MAX_CONTROL_POINTS */
     int degree[3];
     knot_kind kind[3];
-    double *list[3]; /* of the list kinds */
+    double *list[3]; /* for the list kinds */
     size_t list_count[3];
 
     rest_kind rest;
     double box_min[3], box_max[3];
-    double box_axes[9]; /* rows are the box's directions; identity where not given */
+    double box_axes[9]; /* directions of the box in rows; default: identity */
     bool has_axes;
     ffd_spacing spacing;
-    double margin[3]; /* of SPEC_BOX_MESH, in each direction */
-    char **meshes;    /* mesh_count files that it goes round, as the lattice file names them; none: the mesh
-                         that the lattice is used on */
+    double margin[3]; /* of SPEC_BOX_MESH, for each direction */
+    char **meshes;    /* mesh_count paths of the meshes that the box goes round, as in the lattice file; none:
+                         the mesh that the lattice is used on */
     size_t mesh_count;
     double center[3], radius[2], height, angle[2]; /* degrees */
     double axis[3], zero[3];                       /* unit vectors, perpendicular */
@@ -99,10 +99,11 @@ typedef struct lattice_spec {
 
     double *weights;                            /* or NULL */
     double *deformed_points, *deformed_weights; /* or NULL */
-    double *deformed_offsets;                   /* or NULL; never beside deformed_points */
-    spec_parameter *parameters;                 /* parameter_count, in the file's order */
+    double *deformed_offsets;                   /* may be NULL; never together with deformed_points */
+    spec_parameter *parameters;                 /* parameter_count, in the order of the file */
     size_t parameter_count;
-    /* Only where the settings ask for them: in the order of their first use, and what comes from them. */
+    /* Only if the settings request derivatives: the variables in the order of their first use, and the
+       numbers of the moves that come from them. */
     spec_variable *variables;
     size_t variable_count;
     spec_seed *seeds;
@@ -110,18 +111,18 @@ typedef struct lattice_spec {
     bool box_units;
     lattice_move *moves;
     size_t move_count;
-    intern_table open; /* names of placeholders without a value; where there are some, there are no moves */
+    intern_table open; /* names of placeholders without a value; if there are any, there are no moves */
 } lattice_spec;
 
-/* Whether a cylinder goes round once: a span of angles that was written in decimals may
-   miss 360 by its rounding. */
+/* Returns whether a cylinder makes a full turn. An angle written in decimals may differ from 360 by
+   rounding. */
 #define SPEC_TURN_TOLERANCE 1e-9
 static inline bool ffd_spec_full_turn(const lattice_spec *spec)
 {
     return spec->angle[1] - spec->angle[0] >= 360 - SPEC_TURN_TOLERANCE;
 }
 
-/* Whether a move makes weights, and whether one is mirrored. */
+/* Return whether a move adds weights (an exact bend), and whether a move is mirrored. */
 static inline bool ffd_spec_has_exact(const lattice_spec *spec)
 {
     for (size_t i = 0; i < spec->move_count; i++)
@@ -138,20 +139,20 @@ static inline bool ffd_spec_has_mirror(const lattice_spec *spec)
     return false;
 }
 
-/* Values of placeholders, and which of them a file had a placeholder for. */
+/* Values for placeholders, and whether the file has these placeholders. */
 typedef struct spec_settings {
     const ffd_setting *values; /* count */
-    bool *used;                /* likewise; marked, never cleared */
+    bool *used;                /* count flags; set to true, never to false */
     size_t count;
-    bool may_be_open; /* where a placeholder has no value, the moves are left out instead of refused */
-    bool derives; /* the spec is to say what comes from placeholders: FFD_E_INVALID for one that is no number
-                   */
+    bool may_be_open; /* if a placeholder has no value, leave out the moves instead of failing */
+    bool derives; /* record what derivatives by placeholders need; FFD_E_INVALID for a placeholder that is not
+                     numeric */
 } spec_settings;
 
 #define SPEC_FORMAT "ffd-lattice"
 #define SPEC_VERSION 1
 
-/* NULL is allowed. */
+/* Frees a spec; NULL is allowed. */
 void ffd_spec_free(lattice_spec *spec);
 
 #endif

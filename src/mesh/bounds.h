@@ -1,17 +1,17 @@
-/* bounds.h - boxes round points. */
+/* bounds.h - axis-aligned bounding boxes. */
 #ifndef FFD_MESH_BOUNDS_H
 #define FFD_MESH_BOUNDS_H
 
 #include "base/vector/vec.h"
 #include <ffd/job.h>
 
-/* The bounds of no points: min is greater than max. */
+/* Returns empty bounds, with min greater than max. */
 static inline ffd_bounds ffd_bounds_empty(void)
 {
     return (ffd_bounds){.min = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, .max = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
 }
 
-/* Widens the bounds to hold a point. A coordinate that is NaN is passed over. */
+/* Extends the bounds by a point. Coordinates that are NaN are ignored. */
 static inline void ffd_bounds_widen(ffd_bounds *box, const double point[3])
 {
     for (int a = 0; a < 3; a++) {

@@ -1,8 +1,10 @@
 #include "mesh/difference.h"
+#include "base/one_line.h"
 #include "base/text/number.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 const char *ffd_difference_kind_name(ffd_difference_kind kind)
 {
@@ -17,14 +19,7 @@ void ffd_difference_begin(ffd_comparison *comparison, double tolerance, double d
         .equal = true, .complete = true, .tolerance = tolerance, .direction_tolerance = direction_tolerance};
 }
 
-static void without_control_characters(char *text)
-{
-    for (; *text; text++)
-        if ((unsigned char)*text < 0x20 || *text == 0x7f)
-            *text = '?';
-}
-
-/* True: it is the first one, and its words are wanted. */
+/* Counts a difference. Returns whether it is the first one, whose text is needed. */
 static bool count(ffd_comparison *comparison, ffd_difference_kind kind)
 {
     comparison->equal = false;
@@ -42,7 +37,7 @@ void ffd_difference_say(ffd_comparison *comparison, ffd_difference_kind kind, co
     va_start(arguments, format);
     vsnprintf(first->text, sizeof first->text, format, arguments);
     va_end(arguments);
-    without_control_characters(first->text);
+    ffd_make_one_line(first->text, strlen(first->text));
 }
 
 double ffd_difference_of(double a, double b)
@@ -64,7 +59,7 @@ static void describe(ffd_difference *difference, int axis, difference_label *lab
     else
         snprintf(difference->text, sizeof difference->text, "%s: %c%s: %s and %s", where, "xyzw"[axis],
                  subject, ffd_number_text(difference->a).text, ffd_number_text(difference->b).text);
-    without_control_characters(difference->text);
+    ffd_make_one_line(difference->text, strlen(difference->text));
 }
 
 static bool is_worse(const ffd_difference *worst, ffd_difference_kind kind, double amount)

@@ -1,11 +1,11 @@
-/* face_sizes.h - how many faces a file has of each number of corners, for its description. */
+/* face_sizes.h - counts faces by their number of corners, for descriptions. */
 #ifndef FFD_MESH_FACE_SIZES_H
 #define FFD_MESH_FACE_SIZES_H
 
 #include <stddef.h>
 
 typedef struct face_sizes {
-    size_t triangles, quads, ngons; /* faces with 3, 4, more corners */
+    size_t triangles, quads, ngons; /* faces with 3, 4 and more corners */
 } face_sizes;
 
 static inline void face_sizes_count(face_sizes *sizes, size_t corners)

@@ -1,4 +1,4 @@
-/* faces.c - the arrays of mesh_faces. */
+/* faces.c - allocates and frees the arrays of mesh_faces. */
 #include "base/memory/memory.h"
 #include "mesh/mesh.h"
 #include <string.h>

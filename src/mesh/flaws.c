@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What is left over shares the last place. */
+/* All further kinds share the last entry. */
 bool ffd_flaw_repeats(mesh_flaws *flaws, const char *format)
 {
     for (size_t i = 0; i < flaws->count; i++)

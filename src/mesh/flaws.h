@@ -1,35 +1,36 @@
-/* flaws.h - what a file has against the specification of its format, but whose meaning is plain: viewers open
-   it, and no vertex could stand elsewhere. It is noted, for a warning; or refused, with --strict. */
+/* flaws.h - violations of a format's specification whose meaning is clear: viewers open the file, and every
+   position is certain. They are recorded for a warning, or refused with --strict. */
 #ifndef FFD_MESH_FLAWS_H
 #define FFD_MESH_FLAWS_H
 
 #include "mesh/mesh_log.h"
 #include <stdarg.h>
 
-/* Those of one file. All zeros: none, and none is refused. */
+/* The flaws of a file. All zeros: none, not strict. */
 typedef struct mesh_flaws {
-    bool strict;                    /* the first one is refused */
+    bool strict;                    /* refuse the first flaw */
     size_t count;                   /* kinds */
-    ffd_flaw list[FFD_FLAWS];       /* what they have in common, and the first of each */
-    const char *formats[FFD_FLAWS]; /* of their messages: by these, kinds are told apart */
+    ffd_flaw list[FFD_FLAWS];       /* the first flaw of each kind, and their number */
+    const char *formats[FFD_FLAWS]; /* format strings of their messages, which identify the kinds */
 } mesh_flaws;
 
-/* Notes a flaw at a line (from 1; 0: the whole file), or, if they are refused, fails with FFD_E_INVALID
-   there. format: a literal, the same for all flaws of a kind. One thread at a time. */
+/* Records a flaw at a line (from 1; 0: the whole file); if strict, fails with FFD_E_INVALID there. format: a
+   literal, the same one for all flaws of a kind. One thread at a time. */
 ffd_status ffd_flaw_line(mesh_flaws *flaws, const char *file, size_t line, ffd_error *error,
                          const char *format, ...) FFD_PRINTF(5, 6);
 /* The same at a JSON pointer. */
 ffd_status ffd_flaw_at(mesh_flaws *flaws, const char *file, const char *pointer, ffd_error *error,
                        const char *format, ...) FFD_PRINTF(5, 6);
 
-/* What the two do, for functions that find out the place for themselves (line 0, pointer "": the whole file).
- */
+/* The common part of these two, for functions that determine the position themselves (line 0 and pointer "":
+   the whole file). */
 ffd_status ffd_flaw_note(mesh_flaws *flaws, const char *file, size_t line, const char *pointer,
                          ffd_error *error, const char *format, va_list arguments);
-/* Counts a flaw if its kind is known, so that its place need not be found out. Returns whether it is. */
+/* Counts a flaw if its kind is known already, so that its position need not be determined. Returns whether it
+   is. */
 bool ffd_flaw_repeats(mesh_flaws *flaws, const char *format);
 
-/* Warns of each kind. file: in front of the lines; NULL: the log knows it. */
+/* Logs a warning for each kind. file: prefix of the lines; NULL: the log adds it. */
 void ffd_flaws_warn(const mesh_flaws *flaws, const char *file, const mesh_log *log);
 
 #endif

@@ -4,10 +4,11 @@
 #define LEAST (100 * MEGABYTE)
 #define BYTES_PER_BYTE 20
 
-/* Bytes of the program itself, before it has read anything. */
+/* Bytes of the program itself before it reads a file. */
 #define PROGRAM (16 * MEGABYTE)
 
-/* Of a file's byte: itself, and of vectors in six characters each (0 0 0), or 12 bytes, twice 24. */
+/* Bytes that are kept for each byte of a file: the byte itself, plus twice 24 bytes for each vector, which
+   takes at least six characters ("0 0 0") or 12 bytes. */
 #define KEPT_OF_TEXT 9
 #define KEPT_OF_FLOATS 5
 
@@ -59,7 +60,7 @@ ffd_status ffd_budget_take(memory_budget *budget, uint64_t count, uint64_t size,
 {
     const ffd_status status = ffd_budget_check(budget, count, size, error);
     if (status == FFD_OK)
-        budget->taken += count * size; /* no more than what was left */
+        budget->taken += count * size; /* at most what was left */
     return status;
 }
 

@@ -1,4 +1,4 @@
-/* memory_budget.h - the memory that a document may take: a short file must not be able to take any amount. */
+/* memory_budget.h - limits the memory of a document, because a short file can ask for any amount. */
 #ifndef FFD_MESH_MEMORY_BUDGET_H
 #define FFD_MESH_MEMORY_BUDGET_H
 
@@ -10,32 +10,34 @@
 extern "C" {
 #endif
 
-/* What a document may take, in bytes. */
+/* The memory that a document may use, in bytes. */
 typedef struct memory_budget {
     uint64_t most;
-    uint64_t taken; /* may be more: what is taken for the bytes of files is not refused */
-    uint64_t asked; /* by the user */
-    bool is_shared; /* with another document of the same files: they are allowed for already */
+    uint64_t taken; /* may exceed the limit, because the bytes of files themselves are never refused */
+    uint64_t asked; /* limit that the user has set */
+    bool is_shared; /* shared with another document of the same files, which are counted already */
 } memory_budget;
 
-/* The budget of a document without files: 100 MB, or `asked` if that is more, the program itself included. */
+/* Makes the budget of a document without files: 100 MB, or `asked` if that is more, including the program
+   itself. */
 memory_budget ffd_budget_make(uint64_t asked);
-/* Adds a file: 20 times its size is allowed, and of that kept_per_byte times its size is taken. */
+/* Adds a file: raises the limit by 20 times its size, and takes kept_per_byte times its size. */
 void ffd_budget_add_file(memory_budget *budget, uint64_t size, uint64_t kept_per_byte);
-/* The budget of a document of one file, beside whose bytes its numbers are kept, and again when they have
-   moved. text: the numbers are text, which may be shorter than they are. */
+/* Makes the budget of a document of one file, which keeps the bytes of the file, its numbers, and the moved
+   numbers. text: the numbers are text, which may be shorter than binary numbers. */
 memory_budget ffd_budget_for_file(uint64_t size, bool text, uint64_t asked);
-/* Bytes that are allowed in all. */
+/* Returns the limit in bytes. */
 uint64_t ffd_budget_most(const memory_budget *budget);
-/* Bytes that are left. */
+/* Returns the remaining bytes. */
 uint64_t ffd_budget_left(const memory_budget *budget);
-/* Whether count * size bytes fit in. Errors: FFD_E_LIMIT. */
+/* Checks that count * size bytes are available. Errors: FFD_E_LIMIT. */
 ffd_status ffd_budget_check(const memory_budget *budget, uint64_t count, uint64_t size, ffd_error *error);
-/* Takes them, for as long as the document is open. Errors: FFD_E_LIMIT; nothing is taken then. */
+/* Takes count * size bytes for as long as the document is open. Errors: FFD_E_LIMIT; nothing is taken
+   then. */
 ffd_status ffd_budget_take(memory_budget *budget, uint64_t count, uint64_t size, ffd_error *error);
-/* Returns to the budget what was taken so. */
+/* Gives back bytes that were taken. */
 void ffd_budget_return(memory_budget *budget, uint64_t count, uint64_t size);
-/* Returns how many of the threads (at least 1) the budget allows if each takes size bytes. */
+/* Returns how many of the threads the budget allows if each needs size bytes; at least 1. */
 int ffd_budget_threads(const memory_budget *budget, int threads, uint64_t size);
 
 #ifdef __cplusplus

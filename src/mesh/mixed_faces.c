@@ -2,7 +2,7 @@
 #include "base/memory/memory.h"
 #include <string.h>
 
-/* Makes room for so many words. Returns false if the list has failed. */
+/* Makes room for this many words. Returns false if the list has failed. */
 static bool grow(face_list *list, size_t words)
 {
     list->failed =
@@ -12,7 +12,7 @@ static bool grow(face_list *list, size_t words)
 
 void ffd_face_list_corner(face_list *list, uint32_t vertex)
 {
-    const size_t at = list->count + 1 + list->pending; /* a word is left for their number */
+    const size_t at = list->count + 1 + list->pending; /* one word is reserved for their number */
     if (at >= list->capacity && !grow(list, at + 1))
         return;
     list->words[at] = vertex;
@@ -49,14 +49,15 @@ size_t ffd_marks_next(const vertex_marks *marks, size_t vertex)
     return vertex;
 }
 
-/* Vertices, a bit for each of the document, and how many come before those of each word. */
+/* A set of vertices: a bit for each vertex of the document, and for each word the number of bits before
+   it. */
 typedef struct vertex_set {
     uint64_t *words;
     uint32_t *before;
     size_t word_count;
 } vertex_set;
 
-/* Numbers in a set of 64 bits below this one. */
+/* Returns how many of the bits below `bit` are set. */
 static uint32_t count_below(uint64_t bits, unsigned bit)
 {
     bits &= ((uint64_t)1 << bit) - 1;
@@ -77,7 +78,7 @@ static void free_set(vertex_set *set)
     ffd_free(set->before);
 }
 
-/* Makes the set of the lists' vertices, of which there are *count. */
+/* Makes the set of the vertices in the lists; *count is their number. */
 static ffd_status make_set(const mesh_document *document, const face_list *lists, size_t list_count,
                            size_t vertices, vertex_set *set, size_t *count, ffd_error *error)
 {
@@ -103,7 +104,7 @@ static ffd_status make_set(const mesh_document *document, const face_list *lists
     return FFD_OK;
 }
 
-/* Lets corners count the vertices of the set, and lists these. */
+/* Renumbers the corners by the set, and lists the vertices of the set. */
 static void number_corners(const vertex_set *set, mesh_faces *faces)
 {
     size_t count = 0;

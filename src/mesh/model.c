@@ -24,7 +24,7 @@ void ffd_model_free(mesh_model *model)
     *model = (mesh_model){0};
 }
 
-/* Bytes that are allocated for a corner, with its share of a face, and for a run with its names. */
+/* Estimated bytes for a corner, with its share of a face, and for a run with its names. */
 #define CORNER_BYTES (sizeof(model_corner) + sizeof(size_t) / 3 + 1)
 #define RUN_BYTES 96
 
@@ -82,7 +82,7 @@ static bool find_name(mesh_model *model, const char *text, uint32_t *name)
     return !text || !*text || ffd_intern(&model->names, text, strlen(text), name);
 }
 
-/* Begins a run whose names are set, in place of the last one if nothing was added to it. */
+/* Begins a run whose names are set; replaces the last run if that is empty. */
 static ffd_status add_run(mesh_model *model, model_run run, ffd_error *error)
 {
     const model_run *const last = model->run_count ? &model->runs[model->run_count - 1] : NULL;
@@ -90,7 +90,7 @@ static ffd_status add_run(mesh_model *model, model_run run, ffd_error *error)
     for (int k = 0; k < MODEL_KINDS; k++)
         run.first[k] = model->lists[k].count;
     if (last && memcmp(last->first, run.first, sizeof run.first) == 0)
-        model->run_count--; /* nothing was added to it */
+        model->run_count--; /* the last run is empty */
     else
         status = ffd_model_take(model, 1, RUN_BYTES, error);
     if (status)
@@ -160,7 +160,7 @@ ffd_status ffd_model_check_memory(const mesh_model *model, size_t corner_bytes, 
     ffd_status status = ffd_budget_take(&budget, model->run_count, run_bytes, error);
     for (int k = 0; k < MODEL_KINDS && status == FFD_OK; k++) {
         const model_list *list = &model->lists[k];
-        const size_t corners = list->corner_count; /* of faces at least 3 each */
+        const size_t corners = list->corner_count; /* at least 3 for each face */
         status = ffd_budget_take(&budget, k == MODEL_FACES ? 3 * (corners - 2 * list->count) : corners,
                                  corner_bytes, error);
     }

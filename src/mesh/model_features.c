@@ -1,4 +1,4 @@
-/* model_features.c - what a model has, and what a format cannot hold of it. */
+/* model_features.c - determines the features of a model, and describes those that a format loses. */
 #include "base/memory/memory.h"
 #include "mesh/model.h"
 #include <float.h>
@@ -6,11 +6,10 @@
 #include <stdio.h>
 #include <string.h>
 
-/* How far 255 times a colour may be from a whole number: half of the sixth digit that texts have, and some.
- */
+/* Tolerance of 255 * colour as an integer: half a unit of the sixth decimal digit, with a margin. */
 #define BYTE_TOLERANCE 2e-4
-/* What a float may be off, as a part of the model's largest side: half a step of 16-bit quantization, which
-   is commonly taken as good enough. */
+/* The acceptable rounding error of float32 relative to the largest side of the model: half a step of 16-bit
+   quantization, which is commonly good enough. */
 #define FLOAT_TOLERANCE 0x1p-17
 
 static bool same(const double *values, size_t numbers, uint32_t a, uint32_t b)
@@ -22,7 +21,7 @@ static bool same(const double *values, size_t numbers, uint32_t a, uint32_t b)
     return true;
 }
 
-/* Notes the value of a corner for its position. Returns whether it differs from one noted before. */
+/* Records the value of a corner for its position. Returns whether it differs from an earlier one. */
 static bool note(uint32_t *number, uint32_t value, const double *values, size_t numbers)
 {
     if (value == MODEL_NONE)
@@ -38,7 +37,8 @@ static void clear(const mesh_model *model, uint32_t *numbers)
         numbers[i] = MODEL_NONE;
 }
 
-/* Of each position, with normals or else with texture coordinates. */
+/* Records the normals or texture coordinates of all corners by position. Returns whether there are different
+   ones. */
 static bool note_corners(const mesh_model *model, bool normals, uint32_t *numbers)
 {
     const double *values = normals ? model->normals : model->texcoords;
@@ -73,7 +73,8 @@ bool ffd_model_colours_fit_bytes(const mesh_model *model)
     return true;
 }
 
-/* Some files have colours from 0 to 255 without a word about it: all are whole, and not all are 0 or 1. */
+/* Returns whether colours are from 0 to 255, which some files do not declare: all are integers, and not all
+   are 0 or 1. */
 static bool are_bytes(const mesh_model *model)
 {
     bool large = false;
@@ -96,8 +97,8 @@ static void scale_colours(mesh_model *model)
             model->colours[4 * i + c] /= c < 3 || model->colours[4 * i + 3] > 1 ? 255 : 1;
 }
 
-/* Vertices without anything that uses them are a cloud of points, unless they are control points; normals, if
-   any, are in their order. */
+/* If nothing uses the vertices, and they are not control points, they are a point cloud. Normals are in the
+   order of the vertices. */
 static ffd_status make_cloud(mesh_model *model, ffd_error *error)
 {
     const bool normals = model->normal_count == model->position_count,
@@ -169,7 +170,7 @@ static uint32_t features_of_colours(const mesh_model *model)
     return MODEL_HAS_COLOURS;
 }
 
-/* Of finite coordinates. */
+/* Returns the largest side of the bounds of finite coordinates. */
 static double largest_side(const mesh_model *model)
 {
     double largest = 0;
@@ -185,7 +186,7 @@ static double largest_side(const mesh_model *model)
     return largest;
 }
 
-/* Larger coordinates than floats hold are refused elsewhere. */
+/* Coordinates beyond the range of float32 are refused elsewhere. */
 static uint32_t features_of_positions(const mesh_model *model)
 {
     const double tolerance = FLOAT_TOLERANCE * largest_side(model);
@@ -218,7 +219,7 @@ ffd_status ffd_model_finish(mesh_model *model, ffd_error *error)
     return FFD_OK;
 }
 
-/* A feature that makes no sense without another is not named beside it. */
+/* Features that are not named if another one is lost too, because they depend on it. */
 static const struct {
     uint32_t feature, implied_by;
     const char *words;

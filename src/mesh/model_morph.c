@@ -1,4 +1,4 @@
-/* model_morph.c - deformations of a model as morph targets. */
+/* model_morph.c - converts the deformation of a model to a morph target. */
 #include "base/memory/memory.h"
 #include "mesh/model.h"
 #include <string.h>
@@ -16,9 +16,9 @@ static double *copy_vectors(const double *vectors, size_t count)
     return copy;
 }
 
-/* Both models have the same corners and the same positions at them, but a normal that several corners shared
-   can have become several in the second: normals get the numbers of that one. A document splits them alike
-   for each target of a job. */
+/* Both models have the same corners with the same positions, but a normal that several corners shared can be
+   split in the second model. Normals get the indices of the second model. A document splits them in the same
+   way for each target of a job. */
 static void join_corners(mesh_model *before, const mesh_model *after, double *positions, double *normals)
 {
     for (int k = 0; k < MODEL_KINDS; k++)
@@ -37,7 +37,7 @@ ffd_status ffd_model_add_morph(mesh_model *before, mesh_model *after, const char
     if (!ffd_grow((void **)&before->morphs, &before->morph_capacity, before->morph_count + 1,
                   sizeof *before->morphs))
         return ffd_fail_memory(error);
-    /* What no corner names does not move. */
+    /* Values that no corner refers to do not move. */
     double *normals = copy_vectors(after->normals, after->normal_count);
     double *positions = copy_vectors(before->positions, before->position_count);
     if (!normals || !positions) {

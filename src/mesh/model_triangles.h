@@ -1,11 +1,11 @@
-/* model_triangles.h - cuts a model's faces into triangles, one face at a time. */
+/* model_triangles.h - triangulates the faces of a model, one at a time. */
 #ifndef FFD_MESH_MODEL_TRIANGLES_H
 #define FFD_MESH_MODEL_TRIANGLES_H
 
 #include "mesh/model.h"
 #include "mesh/polygon_cut.h"
 
-/* Scratch memory, which grows with the largest face. Initialize it with zeros. */
+/* Scratch memory, which grows with the largest face. All zeros: empty. */
 typedef struct face_triangles {
     polygon_cutter cutter;
     double *points;
@@ -20,7 +20,7 @@ static inline size_t model_triangle_count(const mesh_model *model)
     return faces->corner_count - 2 * faces->count; /* polygons have at least three corners */
 }
 
-/* Cuts a face into `count` triangles: scratch->triangles has 3 of the face's corner numbers for each. */
+/* Triangulates a face into *count triangles: scratch->triangles has 3 corner indices of the face for each. */
 ffd_status ffd_face_triangles(face_triangles *scratch, const mesh_model *model, size_t face, size_t *count,
                               ffd_error *error);
 /* Frees the scratch memory. */

@@ -34,8 +34,8 @@ bool ffd_polygon_normal(const double *xyz, const uint32_t *corners, size_t count
     }
     if (extent)
         *extent = largest;
-    /* Coordinates that are off by eps reach move a product of two differences by twice that times the other
-       difference's length; twice again for good measure. */
+    /* Coordinates with errors of eps * reach change a product of two differences by twice that, times the
+       length of the other difference; doubled as a margin. */
     return vec_length(normal) > 4 * DBL_EPSILON * (reach / largest) * lengths;
 }
 
@@ -49,8 +49,8 @@ static bool same_position(const double a[3], const double b[3])
     return !(a[0] < b[0] || a[0] > b[0] || a[1] < b[1] || a[1] > b[1] || a[2] < b[2] || a[2] > b[2]);
 }
 
-/* From the edge to the next corner round the normal to the edge to the one before. Lengths up to 1 by the
-   division: nothing overflows. */
+/* Returns the angle from the edge to the next corner, round the normal, to the edge to the previous corner.
+   Lengths are scaled to at most 1, so nothing overflows. */
 static double interior_angle(const double before[3], const double p[3], const double next[3],
                              const double normal[3])
 {
@@ -69,7 +69,8 @@ static double interior_angle(const double before[3], const double p[3], const do
     return vec_dot(cross, normal) < 0 ? ffd_arc_tangent(0, -1) * 2 - angle : angle;
 }
 
-/* The first corners of the runs of corners at one position, in the polygon's circle; how many there are. */
+/* Finds the first corner of each run of consecutive corners at the same position, cyclically. Returns the
+   number of runs. */
 static size_t find_runs(const double *xyz, const uint32_t *corners, size_t count, size_t *runs)
 {
     size_t found = 0;

@@ -5,19 +5,20 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Corners of a leaf of the tree. */
+/* Corners in a leaf of the tree. */
 #define LEAF 16
-/* Steps of the grid, a side, whose cells the corners are ordered by. */
+/* Resolution of the grid by whose cells the corners are sorted. */
 #define GRID 65535
-/* Products of coordinates below it are finite. */
+/* Products of coordinates below this do not overflow. */
 #define LARGEST 1e150
 
-/* Looks at corners and at nodes that finding ears may take: more than any polygon of reason needs. */
+/* The budget of visited corners and nodes for finding ears, more than any reasonable polygon needs. */
 #define LOOKS_FIRST ((uint64_t)1 << 20)
 #define LOOKS_PER_CORNER 4096
 #define MOST_LOOKS ((uint64_t)1 << 29)
 
-/* How much is asked of an ear. Each step is taken when a whole round has found none. */
+/* The requirements for an ear, from strict to none. They are relaxed by one step when a whole round has found
+   no ear. */
 enum { EAR_CLEAR, EAR_TOUCHED, EAR_FLAT, EAR_ANY };
 
 static size_t count_leaves(size_t count)
@@ -42,8 +43,8 @@ static ffd_status reserve(polygon_cutter *cutter, size_t count, ffd_error *error
     return ffd_fail_memory(error);
 }
 
-/* Newell's sum over the edges: twice the area seen along each axis. Taken from the first corner, so that what
-   is far from the origin loses nothing. */
+/* Newell's sum over the edges: twice the area projected along each axis. Relative to the first corner, so
+   that no digits are lost far from the origin. */
 static void add_normal(const double *points, size_t count, double normal[3])
 {
     normal[0] = normal[1] = normal[2] = 0;
@@ -55,7 +56,7 @@ static void add_normal(const double *points, size_t count, double normal[3])
         }
 }
 
-/* Leaves out the axis along which the polygon shows most of its area; it then goes round to the left. */
+/* Projects along the axis with the greatest projected area, with counter-clockwise orientation. */
 static void project(polygon_cutter *cutter, const double *points, size_t count)
 {
     double normal[3];
@@ -69,7 +70,7 @@ static void project(polygon_cutter *cutter, const double *points, size_t count)
     }
 }
 
-/* Twice the area of the triangle a b c: positive where it goes round to the left. */
+/* Returns twice the signed area of the triangle a b c; positive if counter-clockwise. */
 static double area(const polygon_cutter *cutter, uint32_t a, uint32_t b, uint32_t c)
 {
     const double *p = cutter->plane + 2 * (size_t)a, *q = cutter->plane + 2 * (size_t)b,
@@ -83,7 +84,8 @@ static bool same_position(const polygon_cutter *cutter, uint32_t a, uint32_t b)
     return !(p[0] < q[0] || p[0] > q[0] || p[1] < q[1] || p[1] > q[1]);
 }
 
-/* All corners turn left, and the edges turn from right to left and back once only: a star's turn left too. */
+/* Returns whether all corners turn left and the edges change direction between left and right only twice; the
+   corners of a star polygon turn left too. */
 static bool is_convex(const polygon_cutter *cutter, uint32_t count)
 {
     int turns = 0;
@@ -100,7 +102,7 @@ static bool is_convex(const polygon_cutter *cutter, uint32_t count)
     return turns <= 2;
 }
 
-/* Every second bit. */
+/* Spreads bits to every second position. */
 static uint64_t spread(uint32_t bits)
 {
     uint64_t all = bits;
@@ -116,8 +118,8 @@ static int compare_keys(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Orders the corners along a curve through all cells (G. M. Morton, 1966), so that those of a node are near
-   each other. Any order gives the same triangles. */
+/* Sorts the corners along a Z-order curve (G. M. Morton, 1966), so that the corners of a node are near each
+   other. The order does not affect the triangles. */
 static ffd_status order_corners(polygon_cutter *cutter, uint32_t count, ffd_error *error)
 {
     double low[2] = {DBL_MAX, DBL_MAX}, extent = 0;
@@ -141,7 +143,8 @@ static ffd_status order_corners(polygon_cutter *cutter, uint32_t count, ffd_erro
     return FFD_OK;
 }
 
-/* Leaves are nodes[leaves] and on, each LEAF corners of the order; the nodes 2 n and 2 n + 1 are below n. */
+/* Leaves begin at nodes[leaves], with LEAF corners each, in order; the children of node n are 2 n and 2 n +
+   1. */
 static void fill_nodes(polygon_cutter *cutter, uint32_t count)
 {
     for (size_t n = 1; n < 2 * cutter->leaves; n++)
@@ -169,7 +172,7 @@ static void mark(polygon_cutter *cutter, uint32_t i, bool is_reflex)
         return;
     corner->is_reflex = is_reflex;
     for (size_t n = cutter->leaves + corner->place / LEAF; n > 0; n /= 2)
-        cutter->nodes[n].reflex_count += is_reflex ? 1 : UINT32_MAX; /* less one */
+        cutter->nodes[n].reflex_count += is_reflex ? 1 : UINT32_MAX; /* subtracts 1 */
 }
 
 static void set_reflex(polygon_cutter *cutter, uint32_t i)
@@ -196,8 +199,8 @@ static ffd_status link_corners(polygon_cutter *cutter, uint32_t count, ffd_error
     return FFD_OK;
 }
 
-/* Whether corner p keeps the triangle a b c from being an ear. Corners at the same position as a, b or c do
-   not: a hole that is joined to the outline by a double edge has such. */
+/* Returns whether corner p prevents the triangle a b c from being an ear. Corners at the position of a, b or
+   c do not: they exist if a hole is joined to the outline by a double edge. */
 static bool obstructs(const polygon_cutter *cutter, uint32_t p, const uint32_t abc[3], int demand)
 {
     if (p == abc[0] || p == abc[1] || p == abc[2])
@@ -210,8 +213,8 @@ static bool obstructs(const polygon_cutter *cutter, uint32_t p, const uint32_t a
            !same_position(cutter, p, abc[2]);
 }
 
-/* Whether no corner in a box can obstruct the triangle. The bound of area() has its operations in their
-   order, each of which rounds larger numbers to larger ones: no corner's own area is more. */
+/* Returns whether no corner in a box can obstruct the triangle. The bound uses the operations of area() in
+   the same order; because rounding is monotone, no corner has a greater area. */
 static bool is_clear_of(const polygon_cutter *cutter, const cut_node *node, const uint32_t abc[3])
 {
     const bool is_point = !(node->low[0] < node->high[0] || node->low[1] < node->high[1]);
@@ -298,7 +301,7 @@ static void cut_ears(polygon_cutter *cutter, uint32_t count, uint32_t *triangles
             tried = 0;
             demand++;
         }
-        i = cutter->corners[i].next; /* that of a corner just cut off is still there */
+        i = cutter->corners[i].next; /* `next` of a corner that was just cut off is still valid */
     }
     if (looks > most_looks)
         cutter->hurried++;

@@ -11,7 +11,7 @@ ffd_status ffd_positions_begin(position_table *table, const double *positions, s
     return table->slots ? FFD_OK : ffd_fail_memory(error);
 }
 
-/* -0 becomes 0. */
+/* Makes the key of a position, with -0 as 0. */
 static void make_key(const double position[3], double key[3])
 {
     for (size_t a = 0; a < 3; a++)

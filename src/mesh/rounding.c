@@ -3,14 +3,14 @@
 #include <stdint.h>
 #include <string.h>
 
-/* Half the distance from a float32 to the next one away from 0. */
+/* Returns half the distance from a float32 to the next one away from 0. */
 static double half_float(double x)
 {
     static const double least = 0x1p-150, half_epsilon = 0x1p-24;
     uint64_t bits;
     memcpy(&bits, &x, sizeof bits);
     bits &= (uint64_t)0x7ff << 52;
-    memcpy(&x, &bits, sizeof x); /* the power of two below, or 0 */
+    memcpy(&x, &bits, sizeof x); /* the greatest power of two not above |x|, or 0 */
     return x * half_epsilon > least ? x * half_epsilon : least;
 }
 

@@ -1,5 +1,5 @@
-/* rounding.h - what a stored coordinate stands for: every number that the file would have stored likewise,
-   its rounding cell. Positions that a file holds as text or as doubles stand for themselves. */
+/* rounding.h - the rounding cell of a stored coordinate: all numbers that would be stored as the same value.
+   Positions that a file stores as text or doubles have no rounding cell. */
 #ifndef FFD_MESH_ROUNDING_H
 #define FFD_MESH_ROUNDING_H
 
@@ -8,11 +8,10 @@
 /* How x, y, z are stored. All zeros: as doubles. */
 typedef struct mesh_rounding {
     bool is_float[3]; /* as float32 */
-    double
-        step[3]; /* as multiples of this length from some start (integers, quantization); 0: they are not */
+    double step[3]; /* stored as multiples of this length from some origin (integers, quantization); 0: not */
 } mesh_rounding;
 
-/* Whether every coordinate stands for itself. */
+/* Returns whether no coordinate has a rounding cell. */
 static inline bool ffd_rounding_is_none(const mesh_rounding *rounding)
 {
     bool none = true;
@@ -21,12 +20,12 @@ static inline bool ffd_rounding_is_none(const mesh_rounding *rounding)
     return none;
 }
 
-/* Finds how far the cell of a stored position reaches along x, y, z: half an ulp of a float, half a step, the
-   greater of both. */
+/* Computes the half sides of the rounding cell of a stored position along x, y, z: half an ulp of a float or
+   half a step, whichever is greater. */
 void ffd_rounding_cell(const mesh_rounding *rounding, const double position[3], double half[3]);
 
-/* Takes half a cell from the file's space to that of the lattice, where the cell's bounds are wanted:
-   |linear| half. In place. */
+/* Transforms the half sides of a cell from the file's space to the bounds of the cell in the space of the
+   lattice, in place: |linear| half. */
 void ffd_rounding_transform(const double linear[9], double half[3]);
 
 #endif

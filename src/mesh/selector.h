@@ -1,4 +1,4 @@
-/* selector.h - what `--only` names: a kind of thing and its name. */
+/* selector.h - selectors of `--only`: a kind of thing and a name. */
 #ifndef FFD_MESH_SELECTOR_H
 #define FFD_MESH_SELECTOR_H
 
@@ -15,39 +15,40 @@ typedef enum selector_kind {
 } selector_kind;
 #define SELECTOR_KINDS 5
 
-/* The bit of a kind in a set of kinds. */
+/* The bit of a kind in a set. */
 #define SELECTOR_BIT(kind) (1u << (kind))
 
 typedef struct mesh_selector {
     selector_kind kind;
-    const char *name; /* after the colon; lent by the text */
+    const char *name; /* points into the text, after the colon */
     size_t size;
 } mesh_selector;
 
-/* "node", "mesh", ... */
+/* Returns the name of a kind: "node", "mesh", ... */
 const char *ffd_selector_kind_name(selector_kind kind);
 
-/* Reads "KIND:NAME". Errors: FFD_E_ARGUMENT, with the nearest kind. */
+/* Parses "KIND:NAME". Errors: FFD_E_ARGUMENT, with the most similar kind. */
 ffd_status ffd_selector_parse(const char *text, mesh_selector *selector, ffd_error *error);
 
-/* Whether this is the name that is looked for. */
+/* Returns whether this is the name of the selector. */
 bool ffd_selector_is(const mesh_selector *selector, const char *name, size_t size);
 
-/* Refuses a kind that a format, called format_name, does not have. kinds: the set that it has. */
+/* Checks that a format has the kind of a selector. kinds: the set of kinds of the format. Errors:
+   FFD_E_ARGUMENT. */
 ffd_status ffd_selector_check_kind(const mesh_selector *selector, unsigned kinds, const char *format_name,
                                    const char *file, ffd_error *error);
 
-/* For a name that a file does not have: the nearest of those that it has, offered one by one. */
+/* Finds the name in a file that is most similar to a missing name; names are offered one by one. */
 typedef struct selector_nearest {
-    const mesh_selector *selector; /* set by the caller, the rest zeroed */
+    const mesh_selector *selector; /* set by the caller; all other members 0 */
     bool offered;
     size_t distance;
-    char name[120]; /* the first of equals, cut */
+    char name[120]; /* most similar name so far, the first if several; truncated */
 } selector_nearest;
 
-/* Offers a name that the file has: it is kept if it is nearer than those before. */
+/* Offers a name; keeps it if it is more similar than those before. */
 void ffd_selector_offer(selector_nearest *nearest, const char *name, size_t size);
-/* Says so: FFD_E_ARGUMENT. */
+/* Fails with FFD_E_ARGUMENT and a message that suggests the most similar name. */
 ffd_status ffd_selector_unknown(const selector_nearest *nearest, const char *file, ffd_error *error);
 
 #endif

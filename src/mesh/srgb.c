@@ -3,14 +3,14 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* The n-th root of x > 0 by Newton's method: from above, so that it ends where rounding stops the descent. */
+/* Returns the n-th root of x > 0 by Newton's method, from above: it stops when rounding ends the descent. */
 static double root(double x, int n)
 {
     int exponent;
     const double fraction = frexp(x, &exponent);
     const int share = (int)floor((double)exponent / n + 0.5);
     const double scaled = ldexp(fraction, exponent - n * share);
-    double nearest = 1 + (scaled - 1) / n; /* not below the root (Bernoulli's inequality) */
+    double nearest = 1 + (scaled - 1) / n; /* an upper bound of the root (Bernoulli's inequality) */
     for (;;) {
         double power = nearest;
         for (int i = 2; i < n; i++)
@@ -39,7 +39,7 @@ static double encode(double linear)
     return power + 0.055 * (power - 1);
 }
 
-/* 65535 times a linear value from 0 to 1, rounded. */
+/* Returns a linear value from 0 to 1 times 65535, rounded. */
 static double in_16_bits(double linear)
 {
     return floor(65535 * linear + 0.5);

@@ -2,11 +2,11 @@
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
 
-/* Items that one thread looks at in a row: each such share has its own counts. */
+/* Consecutive items that one thread processes: a share, which has its own counts. */
 #define LEAST_SHARE ((size_t)1 << 16)
 #define MOST_SHARES 64
 
-/* The first and the last band of an item, 16 bits each. */
+/* A range of bands is packed as the first and the last band, 16 bits each; NO_BAND: none. */
 #define NO_BAND UINT32_MAX
 
 typedef struct band_work {
@@ -14,8 +14,8 @@ typedef struct band_work {
     band_rows rows;
     const void *context;
     bands *result;
-    size_t *next;     /* of each share and band: how many, then where */
-    uint32_t *ranges; /* of each item: it is looked at once */
+    size_t *next;     /* for each share and band: the number of items, then the position of the next one */
+    uint32_t *ranges; /* band range of each item, so that it is computed once */
 } band_work;
 
 static uint32_t range_of(const band_work *work, size_t item)
@@ -52,7 +52,7 @@ static void list_items(void *context, size_t share, size_t begin, size_t end, in
     }
 }
 
-/* Counts become places: by band, in a band by share. */
+/* Converts counts to positions: sorted by band, within a band by share. */
 static size_t place(const band_work *work, size_t shares)
 {
     size_t sum = 0;

@@ -6,7 +6,7 @@
 #include <float.h>
 #include <string.h>
 
-/* Degrees: turned from +z to +x, and upwards. */
+/* Angles in degrees: yaw from +z towards +x, pitch upwards. */
 typedef struct named_view {
     const char *name;
     double yaw, pitch;
@@ -15,7 +15,7 @@ typedef struct named_view {
 static const named_view views[] = {{"front", 0, 0},  {"back", 180, 0}, {"left", -90, 0},
                                    {"right", 90, 0}, {"top", 0, 90},   {"iso", 36, 26}};
 
-/* A scene of one point, or of none, is drawn as one of this size is. */
+/* A scene of a single point, or of none, is drawn with this extent. */
 #define LEAST_EXTENT 1e-300
 
 static camera turned(double yaw, double pitch)
@@ -36,7 +36,7 @@ bool ffd_camera_from(const double direction[3], camera *result)
     for (int a = 0; a < 3; a++)
         d[a] = direction[a] / largest;
     const double length = vec_length(d), level = sqrt(d[0] * d[0] + d[2] * d[2]);
-    /* Straight from above or below, z points down the picture or up. */
+    /* Straight from above, +z points down in the picture; from below, up. */
     const double sy = level > 0 ? d[0] / level : 0, cy = level > 0 ? d[2] / level : 1;
     const double sp = d[1] / length, cp = level / length;
     *result = (camera){.right = {cy, 0, -sy}, .up = {-sy * sp, cp, -cy * sp}, .back = {sy * cp, sp, cy * cp}};

@@ -1,4 +1,4 @@
-/* camera.h - from where a picture is seen: a parallel projection, y upwards. */
+/* camera.h - the camera of a picture: a parallel projection, with y upwards. */
 #ifndef FFD_PICTURE_CAMERA_H
 #define FFD_PICTURE_CAMERA_H
 
@@ -6,35 +6,35 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Axes of length 1 in the world. */
+/* Unit vectors in world space. */
 typedef struct camera {
     double right[3], up[3];
-    double back[3]; /* from what is seen to the eye */
+    double back[3]; /* from the scene to the eye */
 } camera;
 
-/* Where the world comes to lie in a panel: x to the right, y downwards, z away from the eye, in pixels. */
+/* The map from world space to a panel, in pixels: x to the right, y downwards, z away from the eye. */
 typedef struct projection {
     camera camera;
-    double scale;     /* pixels for a unit of the world */
-    double offset[3]; /* of x, y, z in pixels */
+    double scale;     /* pixels for a world unit */
+    double offset[3]; /* offset of x, y, z in pixels */
 } projection;
 
-/* Looks from a direction: front (from +z), back, left (from -x), right, top, iso, or "x,y,z", any finite
-   numbers that are not all 0. Returns false where text is none of these. */
+/* Parses the direction of the camera: front (from +z), back, left (from -x), right, top, iso, or "x,y,z" with
+   finite numbers that are not all 0. Returns false for another text. */
 bool ffd_camera_parse(const char *text, camera *result);
-/* The camera that looks from there. Returns false where it is no direction. */
+/* Makes the camera for a direction from the scene to the eye. Returns false if it is not a direction. */
 bool ffd_camera_from(const double direction[3], camera *result);
 
-/* Widens bounds along right, up and back to hold points of the world; those that are not finite are passed
- * over. */
+/* Extends bounds along right, up and back by points in world space; points that are not finite are
+   ignored. */
 void ffd_camera_widen(const camera *from, const double *points, size_t count, ffd_bounds *seen);
 
-/* The projection by which what the bounds along right, up and back hold just fills a panel, whose middle is
- * at (x, y). */
+/* Returns the projection that fits bounds along right, up and back into a panel of this size with its middle
+   at (x, y). */
 projection ffd_camera_fit(const camera *from, const ffd_bounds *seen, double x, double y, double width,
                           double height);
 
-/* A point in pixels. It may be not finite. */
+/* Projects a point to pixels. The result may be not finite. */
 static inline void projection_apply(const projection *by, const double point[3], double seen[3])
 {
     const double *const r = by->camera.right, *const u = by->camera.up, *const b = by->camera.back;

@@ -6,7 +6,7 @@
 static const uint8_t background_top[3] = {251, 252, 253}, background_bottom[3] = {229, 233, 238};
 static const uint8_t ink[3] = {52, 58, 66}, divider[3] = {203, 209, 216};
 
-/* In dots: heights of the parts of a scale, and gaps. */
+/* Heights of the parts of a scale, and gaps, in dots. */
 #define BAR_HEIGHT 6
 #define GAP 4
 #define TITLE_GAP 5
@@ -28,8 +28,7 @@ layout ffd_layout_make(const picture *of)
     layout by = {.of = of, .rows = of->rows ? of->rows : 1};
     by.columns = of->panel_count > by.rows ? of->panel_count / by.rows : 1;
     const double panel = (double)of->width / (double)by.columns, row = of->height / (double)by.rows;
-    /* Letters of a size that a tenth of the height holds well, in halves of a pixel, so that they are sharp.
-     */
+    /* The dot size follows the height, in steps of half a pixel, so that letters are sharp. */
     by.dot = larger_of(1, lesser_of(4, floor(lesser_of(row / 360.0, panel / 240) * 2) / 2));
     by.line = larger_of(0.6, lesser_of(3, lesser_of(row, panel) / 500));
     by.margin = MARGIN * by.dot;
@@ -91,7 +90,7 @@ static void draw_bar(const layout *by, const linear_tables *tables, const stroke
         fill(into, left + width * number / count, top, left + width * (number + 1) / count, bottom,
              from_bytes(tables, scale->colors[i]));
     }
-    /* Labels that would touch each other are left out but for both ends. */
+    /* Labels that would overlap are omitted, except those at both ends. */
     double room = 0;
     for (size_t i = 0; i < scale->label_count; i++)
         room = larger_of(room, by->dot * (ffd_letters_width(scale->labels[i]) + LETTER_STEP));

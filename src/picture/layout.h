@@ -1,4 +1,5 @@
-/* layout.h - where in a picture its panels, captions and colour scale are, and drawing all but the panels. */
+/* layout.h - the positions of panels, captions and the colour scale in a picture; draws everything except the
+   panels' content. */
 #ifndef FFD_PICTURE_LAYOUT_H
 #define FFD_PICTURE_LAYOUT_H
 
@@ -8,23 +9,23 @@
 
 typedef struct layout {
     const picture *of;
-    double dot;  /* of letters, in pixels */
-    double line; /* width of a cage's lines */
+    double dot;  /* size of a dot of letters, in pixels */
+    double line; /* width of the lines of a cage, in pixels */
     size_t rows, columns;
     double row_height;
-    double top, bottom; /* of the part of each panel of the first row that meshes are drawn in */
-    double margin;      /* beside it */
+    double top, bottom; /* rows of the part of each panel of the first row in which meshes are drawn */
+    double margin;      /* margin left and right of it */
 } layout;
 
-/* Finds the places. */
+/* Computes the layout. */
 layout ffd_layout_make(const picture *of);
-/* The first pixel of a column of panels; of their number: the end of the last. */
+/* Returns the first pixel of a column of panels; for column = number of columns: the end of the last. */
 int32_t ffd_layout_column(const layout *by, size_t column);
-/* The same of a row of them. */
+/* The same for a row of panels. */
 int32_t ffd_layout_row(const layout *by, size_t row);
-/* The background of a row. */
+/* Returns the background colour of a row of pixels. */
 uint64_t ffd_layout_background(const layout *by, const linear_tables *tables, int32_t row);
-/* Draws captions, lines between panels and the scale, as far as they are in the target's rows. */
+/* Draws captions, lines between panels and the scale, clipped to the rows of the target. */
 void ffd_layout_draw(const layout *by, const linear_tables *tables, const stroke_target *into);
 
 #endif

@@ -5,7 +5,7 @@
 #define FIRST ' '
 #define LAST '~'
 
-/* Five columns a letter, from the left; bit 0 is the upper dot. */
+/* Five columns for each letter, from the left; bit 0 is the uppermost dot. */
 static const uint8_t dots[LAST - FIRST + 1][COLUMNS] = {
     {0x00, 0x00, 0x00, 0x00, 0x00}, /* blank */
     {0x00, 0x00, 0x5f, 0x00, 0x00}, /* ! */
@@ -104,12 +104,12 @@ static const uint8_t dots[LAST - FIRST + 1][COLUMNS] = {
     {0x08, 0x04, 0x08, 0x10, 0x08}, /* ~ */
 };
 
-/* Rows of a letter, with that below the line. */
+/* Rows of a letter, including the row below the baseline. */
 #define ROWS 8
 /* Half the width of a stroke, in dots. */
 #define HALF_WIDTH 0.5
 
-/* The next letter of a text, or 0; bytes that continue one of UTF-8 are passed over. */
+/* Returns the next letter of a text, or 0; skips continuation bytes of UTF-8. */
 static char next_letter(const char **text)
 {
     const unsigned char c = (unsigned char)*(*text)++;
@@ -146,7 +146,7 @@ static void join(const pen *p, int column, int row, int other_column, int other_
     ffd_stroke_draw(p->into, &p->with, from, to);
 }
 
-/* A dot is joined to its right and its lower neighbour, and aslant where these are not there. */
+/* Connects a dot with its right and lower neighbours, and with the diagonal ones if these are not set. */
 static void draw_dot(const pen *p, const uint8_t *letter, int column, int row)
 {
     const bool right = is_set(letter, column + 1, row), below = is_set(letter, column, row + 1);

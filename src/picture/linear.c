@@ -7,7 +7,7 @@ void ffd_linear_fill(linear_tables *tables)
     uint32_t next = 0;
     for (unsigned byte = 0; byte < 256; byte++) {
         tables->light[byte] = ffd_srgb_byte_to_linear(byte);
-        /* Light from here on is nearer to the next byte. */
+        /* From this light on, the next byte is nearer. */
         const double end = byte < 255 ? ffd_srgb_to_linear((byte + 0.5) / 255) * count : count;
         while (next < count && next + 0.5 < end)
             tables->bytes[next++] = (uint8_t)byte;

@@ -1,13 +1,14 @@
-/* linear.h - colours as sums of light: tables from sRGB bytes to 16 bits and back. */
+/* linear.h - linear colours, which can be added and averaged: tables to convert sRGB bytes to 16-bit linear
+   light and back. */
 #ifndef FFD_PICTURE_LINEAR_H
 #define FFD_PICTURE_LINEAR_H
 
 #include "base/inline.h"
 #include <stdint.h>
 
-/* Light of this much is 1. */
+/* The value of light 1. */
 #define LINEAR_ONE 65535
-/* The way back looks at so many bits: steps of a byte's half at the dark end. */
+/* Bits of light for the conversion back to bytes: enough for half a byte step at the dark end. */
 #define LINEAR_BITS 14
 
 typedef struct linear_tables {
@@ -15,7 +16,7 @@ typedef struct linear_tables {
     uint8_t bytes[1 << LINEAR_BITS];
 } linear_tables;
 
-/* Fills the tables: each of the drawing's own, so that nothing is shared. */
+/* Fills the tables. Each drawing has its own, so threads share no state. */
 void ffd_linear_fill(linear_tables *tables);
 
 static ALWAYS_INLINE uint8_t linear_to_byte(const linear_tables *tables, uint16_t light)
@@ -23,7 +24,7 @@ static ALWAYS_INLINE uint8_t linear_to_byte(const linear_tables *tables, uint16_
     return tables->bytes[light >> (16 - LINEAR_BITS)];
 }
 
-/* Red, green, blue in 48 bits of one number. */
+/* Packs red, green and blue into 48 bits of a number. */
 static ALWAYS_INLINE uint64_t linear_pack(uint32_t red, uint32_t green, uint32_t blue)
 {
     return (uint64_t)red | (uint64_t)green << 16 | (uint64_t)blue << 32;
@@ -34,7 +35,7 @@ static ALWAYS_INLINE uint16_t linear_part(uint64_t color, int which)
     return (uint16_t)(color >> (16 * which));
 }
 
-/* A number from 0 to 1 in 16 bits; what is outside, or no number, at an end. */
+/* Converts light from 0 to 1 to 16 bits; clamps other values, and NaN to an end. */
 static ALWAYS_INLINE uint32_t linear_from(double light)
 {
     return light >= 1 ? LINEAR_ONE : light > 0 ? (uint32_t)(light * LINEAR_ONE + 0.5) : 0;

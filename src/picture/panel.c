@@ -2,14 +2,14 @@
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 
-/* Of a cage's points, in widths of its lines. */
+/* Radius of the points of a cage, in widths of its lines. */
 #define POINT_RADIUS 2.1
-/* How much of a cage shows through the mesh. */
+/* Opacity of the parts of a cage that the mesh hides. */
 #define HIDDEN_SHARE 0.22
 
 static bool rows_between(double low, double high, int64_t *first, int64_t *last)
 {
-    /* Strokes farther away than this are not drawn. */
+    /* Strokes that are farther away are not drawn. */
     if (!(low > -1e9 && high < 1e9))
         return false;
     *first = (int64_t)floor(low);
@@ -76,7 +76,7 @@ ffd_status ffd_panel_make(const layout *by, size_t number, const ffd_bounds *see
                       .bottom = ffd_layout_row(by, number / by->columns + 1),
                       .meshes = ffd_alloc_zero(of->mesh_count, sizeof *result->meshes),
                       .cages = ffd_alloc_zero(of->cage_count, sizeof *result->cages)};
-    /* Panels whose widths differ by a pixel have one scale still. */
+    /* The same width for all panels, so that panels whose widths differ by a pixel have the same scale. */
     const double width = floor((double)by->of->width / (double)by->columns) - 2 * by->margin;
     const projection to =
         ffd_camera_fit(&by->of->camera, seen, floor((result->left + result->right) / 2.0),

@@ -1,4 +1,4 @@
-/* panel.h - the meshes and cages of one panel, made ready, and drawing them row by row. */
+/* panel.h - prepares the meshes and cages of a panel, and draws them band by band. */
 #ifndef FFD_PICTURE_PANEL_H
 #define FFD_PICTURE_PANEL_H
 
@@ -26,13 +26,12 @@ typedef struct panel {
     panel_cage *cages;
 } panel;
 
-/* Makes panel `number` of a picture ready. Errors: FFD_E_MEMORY, FFD_E_LIMIT; nothing is left to free then.
- */
+/* Prepares panel `number` of a picture. Errors: FFD_E_MEMORY, FFD_E_LIMIT; there is nothing to free then. */
 ffd_status ffd_panel_make(const layout *by, size_t number, const ffd_bounds *seen, const band_means *means,
                           panel *result, ffd_error *error);
-/* Frees what it holds; leaves an empty one. */
+/* Frees the panel and empties it. */
 void ffd_panel_free(panel *of);
-/* Draws the surfaces in a band of rows into samples of the panel's columns. */
+/* Draws the surfaces in a band of rows into the samples of the panel's columns. */
 void ffd_panel_draw_meshes(const panel *of, const linear_tables *tables, size_t band, samples *into);
 /* Draws the cages in a band of rows. */
 void ffd_panel_draw_cages(const panel *of, const linear_tables *tables, size_t band,

@@ -4,25 +4,26 @@
 #include "mesh/bounds.h"
 #include "picture/panel.h"
 
-/* What a thread needs: the samples of a band of the widest panel. Their colours become its pixels. */
+/* Scratch memory of a thread: the samples of a band of the widest panel, whose colours are resolved to pixels
+   in place. */
 typedef struct scratch {
     float *depth, *blocks;
     uint64_t *color;
 } scratch;
 
-/* Panels are made and drawn one after the other, so that a row of many takes the memory of one. */
+/* Panels are prepared and drawn one after the other, so that many panels need the memory of one. */
 typedef struct drawing {
     const picture *of;
     layout layout;
     linear_tables tables;
     ffd_bounds seen;
-    panel drawn; /* the panel of the moment */
+    panel drawn; /* the current panel */
     scratch *scratch;
     band_means means;
     uint8_t *pixels;
 } drawing;
 
-/* Bytes that are taken for each vertex, triangle and point of a cage: places, light and lists. */
+/* Estimated bytes for each vertex, triangle and point of a cage: positions, light and lists. */
 #define VERTEX_BYTES 48
 #define TRIANGLE_BYTES 40
 #define POINT_BYTES 64
@@ -40,7 +41,7 @@ static ffd_status check_size(const picture *of, const memory_budget *budget, ffd
     return budget ? ffd_budget_check(budget, pixels, 3, error) : FFD_OK;
 }
 
-/* What a panel takes, beside the pixels of all. */
+/* Checks the memory of a panel, in addition to all pixels, against the budget. */
 static ffd_status check_panel(const picture *of, const picture_panel *filled, const memory_budget *budget,
                               ffd_error *error)
 {
@@ -58,7 +59,7 @@ static ffd_status check_panel(const picture *of, const picture_panel *filled, co
     return budget ? ffd_budget_check(budget, bytes, 1, error) : FFD_OK;
 }
 
-/* What is seen, along the camera's axes. */
+/* Returns the bounds of the scene along the axes of the camera. */
 static ffd_bounds find_bounds(const picture *of)
 {
     ffd_bounds seen = ffd_bounds_empty();
@@ -75,7 +76,7 @@ static ffd_bounds find_bounds(const picture *of)
     return seen;
 }
 
-/* Columns of the widest panel at most. */
+/* Returns an upper bound of the width of a panel in pixels. */
 static size_t widest_of(const picture *of)
 {
     return of->width / (of->panel_count / (of->rows ? of->rows : 1)) + 1;
@@ -113,7 +114,8 @@ static void clear(const drawing *d, samples *into)
     }
 }
 
-/* The mean of a pixel's samples; each channel's two lowest bits are below what a byte shows. */
+/* Returns the mean of the samples of a pixel. The two lowest bits of each channel are dropped; they are below
+   the resolution of a byte. */
 static uint64_t mean(const uint64_t *color)
 {
     const uint64_t bits = UINT64_C(0x3fff3fff3fff3fff);
@@ -123,7 +125,7 @@ static uint64_t mean(const uint64_t *color)
     return sum;
 }
 
-/* The first samples' colours become those of the pixels, in place. */
+/* Resolves samples to pixels, in place, in the first samples' colours. */
 static void resolve(const samples *from)
 {
     const size_t count = (size_t)from->rows * (size_t)from->width;
@@ -142,7 +144,7 @@ static void put_bytes(const drawing *d, const stroke_target *from)
     }
 }
 
-/* Draws what of a band is the panel's. */
+/* Draws the part of a band that belongs to the panel. */
 static void draw_band(void *context, size_t band, size_t begin, size_t end, int worker)
 {
     const drawing *const d = context;
@@ -188,7 +190,7 @@ static void free_scratch(drawing *d)
     ffd_free(d->scratch);
 }
 
-/* As many as are asked for, and as the budget has scratch for. */
+/* Returns the number of threads: as many as requested, limited by the memory budget for scratch memory. */
 static int thread_count(const picture *of, const memory_budget *budget)
 {
     const uint64_t pixel = SAMPLES * (sizeof(float) + sizeof(uint64_t));

@@ -3,32 +3,32 @@
 #include <math.h>
 #include <string.h>
 
-/* The four samples of a pixel at once. */
+/* The four samples of a pixel in a SIMD vector. */
 typedef int32_t numbers __attribute__((vector_size(16)));
 typedef float depths __attribute__((vector_size(16)));
 
-/* A triangle of less than this many parts of a pixel a side has edges that fit in 32 bits. */
+/* If the sides of a triangle's bounds are less than this, in subpixels, its edge functions fit in 32 bits. */
 #define SMALL (1 << 14)
-/* One of less than four pixels a side has one colour. */
+/* If they are less than this, four pixels, the triangle has a single colour. */
 #define FLAT (4 * SUBPIXELS)
-/* Triangles that are looked at for the same one before. */
+/* How many preceding triangles are compared to find duplicates. */
 #define MOST_BEFORE 4
 
 static const int32_t sample_x[SAMPLES] = SAMPLE_X, sample_y[SAMPLES] = SAMPLE_Y;
 
 typedef struct edge {
-    int32_t x, y;   /* where it begins */
-    int32_t dx, dy; /* to where it ends */
-    int32_t bias;   /* -1: samples on it belong to the neighbour */
+    int32_t x, y;   /* start */
+    int32_t dx, dy; /* vector to the end */
+    int32_t bias;   /* -1: samples exactly on the edge belong to the neighbour */
 } edge;
 
 typedef struct setup {
-    raster_corner corners[3]; /* clockwise as it is seen */
-    int order[3];             /* which corner of the triangle each is */
-    edge edges[3];            /* each opposite to the corner of its number */
-    int64_t area;             /* twice that of the triangle */
-    double inverse;           /* of it */
-    double z_across, z_down;  /* for a part of a pixel */
+    raster_corner corners[3]; /* clockwise as seen */
+    int order[3];             /* index of each corner in the triangle */
+    edge edges[3];            /* edge i is opposite to corner i */
+    int64_t area;             /* twice the area of the triangle */
+    double inverse;           /* 1 / area */
+    double z_across, z_down;  /* change of depth for a subpixel to the right and down */
     depths z_steps, nearest, farthest;
     int64_t left, right, top, bottom; /* pixels */
     bool is_small, is_flat, has_depths;
@@ -54,8 +54,8 @@ static bool is_sliver(const uint32_t *t)
     return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
 
-/* By how many corners the second triangle is turned against the first: both go round the same way. 3: they
-   are not the same. */
+/* Returns by how many corners the second triangle is rotated against the first, with the same winding; 3 if
+   they are different triangles. */
 static size_t turn_between(const uint32_t *t, const uint32_t *other)
 {
     size_t turn = 0;
@@ -65,7 +65,7 @@ static size_t turn_between(const uint32_t *t, const uint32_t *other)
     return turn;
 }
 
-/* Whether the texture has its holes at the same places of both. */
+/* Returns whether both triangles have the same alpha-tested holes in their texture. */
 static bool has_same_holes(const surface *of, size_t triangle, size_t other, size_t turn)
 {
     const float *const uv = of->mesh->texcoords + 6 * triangle, *const there =
@@ -76,9 +76,9 @@ static bool has_same_holes(const surface *of, size_t triangle, size_t other, siz
     return true;
 }
 
-/* Whether the triangle is one of those shortly before it again, from any corner: no sample of it is nearer.
-   Files that repeat a face many thousand times would take minutes, and so would a polygon that goes round
-   three corners as often: its triangles begin with each in turn. */
+/* Returns whether the triangle repeats one of the preceding triangles, starting at any corner; then none of
+   its samples is nearer. Without this, files that repeat a face many thousand times would take minutes, as
+   would a polygon that goes round three corners that often, whose triangles start at each corner in turn. */
 static bool repeats(const surface *of, size_t triangle)
 {
     const picture_material *const material = ffd_shade_material(of->mesh, triangle);
@@ -119,12 +119,13 @@ bool ffd_raster_rows(const void *surface_pointer, size_t triangle, int64_t *firs
 static edge edge_between(const raster_corner *from, const raster_corner *to)
 {
     const int32_t dx = to->x - from->x, dy = to->y - from->y;
-    /* The triangle is to the right of an edge that rises, and below a level one that goes to the right. */
+    /* The top-left rule: a left edge rises, with the triangle to its right; a top edge goes to the right,
+       with the triangle below. */
     const bool is_own = dy < 0 || (dy == 0 && dx > 0);
     return (edge){from->x, from->y, dx, dy, is_own ? 0 : -1};
 }
 
-/* For the first pixel that has a sample in the triangle: many a small one has none. */
+/* Computed at the first pixel with a sample in the triangle, because many small triangles have none. */
 static void set_depths(setup *s)
 {
     s->has_depths = true;
@@ -143,14 +144,14 @@ static void set_depths(setup *s)
     s->farthest = high - (depths){0};
 }
 
-/* Returns false where no sample can be in it; *side: 0, or 1 where its back is seen. */
+/* Returns false if no sample can be in the triangle. *side: 0, or 1 if it is seen from behind. */
 static bool set_up(const raster_corner corners[3], const samples *into, setup *s, int *side)
 {
     int64_t area = cross(corners[1].x - corners[0].x, corners[1].y - corners[0].y,
                          corners[2].x - corners[0].x, corners[2].y - corners[0].y);
     if (area == 0)
         return false;
-    /* Rows run downwards, so that counter-clockwise corners have a negative area. */
+    /* y points down, so counter-clockwise corners have a negative area. */
     *side = area > 0;
     for (int k = 0; k < 3; k++) {
         s->order[k] = area > 0 ? k : 2 - k;
@@ -179,7 +180,7 @@ static bool set_up(const raster_corner corners[3], const samples *into, setup *s
     return true;
 }
 
-/* -1 for the samples of a pixel, whose corner is at (x, y), that are in the triangle. */
+/* Returns a mask (-1) of the samples in the triangle, for the pixel with its corner at (x, y). */
 static numbers inside_by_64(const setup *s, int64_t x, int64_t y)
 {
     numbers inside = {-1, -1, -1, -1};
@@ -193,7 +194,7 @@ static numbers inside_by_64(const setup *s, int64_t x, int64_t y)
     return inside;
 }
 
-/* The same for small ones: the edges at the samples of a pixel, and how they change. */
+/* The same for small triangles: the edge functions at the samples of a pixel, and their increments. */
 typedef struct walk {
     numbers at[3];
     int32_t across[3], down[3];
@@ -219,7 +220,7 @@ static ALWAYS_INLINE bool any(numbers which)
     return halves[0] | halves[1];
 }
 
-/* Weights of the triangle's corners in the middle of those samples of a pixel that are drawn. */
+/* Computes the barycentric weights at the mean position of the samples that are drawn. */
 static void weigh(const setup *s, int64_t x, int64_t y, numbers drawn, double weights[3])
 {
     double px = 0, py = 0, count = 0;
@@ -243,7 +244,7 @@ static void weigh(const setup *s, int64_t x, int64_t y, numbers drawn, double we
 
 typedef struct brush {
     shade shade;
-    bool is_begun, is_drawn; /* it has a colour, where that is the same all over */
+    bool is_begun, is_drawn; /* the colour is known, if the triangle has a single one */
     uint64_t color;
 } brush;
 
@@ -261,7 +262,7 @@ static bool pick_color(brush *b, const setup *s, int64_t x, int64_t y, numbers d
     return ffd_shade_color(&b->shade, weights, &b->color);
 }
 
-/* Draws those of a pixel's samples that are in the triangle and nearer than what is there. */
+/* Draws the samples of a pixel that are in the triangle and nearer than the stored depth. */
 static ALWAYS_INLINE void draw_pixel(setup *s, brush *b, int64_t px, int64_t py, numbers inside,
                                      samples *into)
 {
@@ -274,7 +275,7 @@ static ALWAYS_INLINE void draw_pixel(setup *s, brush *b, int64_t px, int64_t py,
     const float z = (float)(a->z + s->z_across * (double)(x - a->x) + s->z_down * (double)(y - a->y));
     depths there, at = z + s->z_steps;
     memcpy(&there, into->depth + first, sizeof there);
-    /* No farther than the corners: a sliver's plane is steep. */
+    /* Clamped to the depths of the corners, because the plane of a sliver is steep. */
     const numbers low = at<s->nearest, high = at> s->farthest;
     at = (depths)(((numbers)s->nearest & low) | ((numbers)s->farthest & high) | ((numbers)at & ~low & ~high));
     const numbers drawn = inside & (at < there);
@@ -282,7 +283,7 @@ static ALWAYS_INLINE void draw_pixel(setup *s, brush *b, int64_t px, int64_t py,
         return;
     at = (depths)(((numbers)at & drawn) | ((numbers)there & ~drawn));
     memcpy(into->depth + first, &at, sizeof at);
-    /* Without branches, which nothing could foresee. */
+    /* Without branches, which would be unpredictable. */
     uint64_t *const colors = into->color + first;
     for (int i = 0; i < SAMPLES; i++) {
         const uint64_t which = (uint64_t)(int64_t)drawn[i];
@@ -308,12 +309,12 @@ static void draw_small(setup *s, brush *b, samples *into)
     }
 }
 
-/* The pixels [left, right] of the rows of a triangle. */
+/* The pixels [left, right] of some rows of a triangle. */
 typedef struct block {
     int64_t left, right;
 } block;
 
-/* Whether all samples of the block are beyond one of the edges. */
+/* Returns whether all samples of the block are outside of an edge. */
 static bool is_outside(const setup *s, block of)
 {
     const int64_t left = of.left * SUBPIXELS + SAMPLE_MARGIN,
@@ -329,8 +330,8 @@ static bool is_outside(const setup *s, block of)
     return false;
 }
 
-/* A depth that no sample of the triangle in the block is nearer than: less than the plane's by more than what
-   floats round off. */
+/* Returns a lower bound of the depth of the triangle in the block: the depth of its plane, reduced by more
+   than the rounding of a float. */
 static float nearest_in(const setup *s, block of)
 {
     const raster_corner *const a = &s->corners[0];
@@ -369,7 +370,7 @@ static void draw_block(setup *s, brush *b, block of, samples *into)
         }
 }
 
-/* By blocks, most of which are not in a triangle, or are behind what is there, as a whole. */
+/* Draws by blocks: most are completely outside of the triangle, or completely hidden. */
 static void draw_large(setup *s, brush *b, samples *into)
 {
     set_depths(s);

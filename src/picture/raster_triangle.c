@@ -1,8 +1,10 @@
-/* raster_triangle.c - triangles of a surface, and those that reach far beyond the picture. */
+/* raster_triangle.c - ffd_raster_triangle: draws a triangle of a surface, and clips it if it extends far
+   beyond the picture. */
 #include "base/vector/vec.h"
 #include "picture/raster.h"
 
-/* A triangle that six planes have cut has 9; rounding may bend it, and so add some. */
+/* A triangle clipped by six planes has at most 9 corners; rounding may make it slightly non-convex and add
+   some. */
 #define MOST_CORNERS 24
 
 typedef struct cut {
@@ -10,7 +12,7 @@ typedef struct cut {
     int count;
 } cut;
 
-/* Keeps what is on the inner side of the plane where the coordinate `axis`, times sign, is GUARD. */
+/* Clips a polygon to sign * (coordinate `axis`) <= GUARD. */
 static void cut_by(const cut *from, int axis, double sign, cut *to)
 {
     to->count = 0;
@@ -23,7 +25,7 @@ static void cut_by(const cut *from, int axis, double sign, cut *to)
             to->count++;
         }
         if ((p_in < 0) != (q_in < 0)) {
-            /* From the inner end, so that both triangles at an edge find the same point. */
+            /* Computed from the inner end, so that both triangles at an edge get the same point. */
             const double *const in = p_in < 0 ? q : p, *const out = p_in < 0 ? p : q;
             const double in_step = p_in < 0 ? q_in : p_in, out_step = p_in < 0 ? p_in : q_in;
             const double share = in_step / (in_step - out_step);
@@ -41,7 +43,7 @@ static raster_corner corner_at(const double point[3])
                            (int32_t)floor(point[1] * SUBPIXELS + 0.5), (float)point[2]};
 }
 
-/* Draws the part of a triangle that is within the guard, where a corner is not. */
+/* Draws the part of a triangle within the guard band, if a corner is outside. */
 static void draw_clipped(const surface *of, const linear_tables *tables, size_t triangle, samples *into)
 {
     cut polygons[2] = {{.count = 3}};
@@ -55,7 +57,7 @@ static void draw_clipped(const surface *of, const linear_tables *tables, size_t 
     int now = 0;
     for (int plane = 0; plane < 6; plane++, now = 1 - now)
         cut_by(&polygons[now], plane / 2, plane % 2 ? 1 : -1, &polygons[1 - now]);
-    /* Of one colour: it has no place in the picture where its shape could be seen. */
+    /* With a single colour: at this size its shading is not visible. */
     for (int i = 2; i < polygons[now].count; i++) {
         const raster_corner corners[3] = {corner_at(polygons[now].points[0]),
                                           corner_at(polygons[now].points[i - 1]),

@@ -1,5 +1,4 @@
-/* samples.h - the samples of some rows of a picture: four a pixel, each with how far away it is and its
- * colour. */
+/* samples.h - the samples of some rows of a picture: four for each pixel, each with a depth and a colour. */
 #ifndef FFD_PICTURE_SAMPLES_H
 #define FFD_PICTURE_SAMPLES_H
 
@@ -7,7 +6,8 @@
 #include <math.h>
 
 #define SAMPLES 4
-/* Where they are in a pixel: no two in a row or a column, so that edges near either are smooth too. */
+/* Positions of the samples in a pixel, in subpixels (rotated grid): no two share a row or a column, so nearly
+   horizontal and vertical edges are smooth too. */
 #define SAMPLE_X                                                                                             \
     {                                                                                                        \
         96, 224, 32, 160                                                                                     \
@@ -16,24 +16,23 @@
     {                                                                                                        \
         32, 96, 160, 224                                                                                     \
     }
-/* No sample is nearer to the border of its pixel. */
+/* The least distance of a sample from the border of its pixel. */
 #define SAMPLE_MARGIN 32
-/* Columns of a block: as many as a band has rows. */
+/* Columns of a block; it is as high as a band. */
 #define BLOCK 8
-/* How far away the background is. */
+/* Depth of the background. */
 #define SAMPLE_EMPTY HUGE_VALF
 
 typedef struct samples {
-    int32_t left, top; /* the first pixel */
+    int32_t left, top; /* position of the first pixel */
     int32_t width, rows;
-    float *depth;    /* SAMPLES a pixel */
-    uint64_t *color; /* likewise: linear_pack */
-    /* For each BLOCK columns of a band a depth that no sample of theirs is farther than; NULL: not known. */
+    float *depth;    /* SAMPLES for each pixel */
+    uint64_t *color; /* SAMPLES for each pixel, as linear_pack */
+    /* For each block of a band an upper bound of the depth of its samples; NULL: unknown. */
     float *blocks;
 } samples;
 
-/* The pixels that have samples within [low, high], in parts of a pixel: none where *last is less than *first.
- */
+/* Finds the pixels with samples in [low, high], in subpixels; none if *last < *first. */
 static inline void samples_span(int64_t low, int64_t high, int64_t *first, int64_t *last)
 {
     *first = (low + SAMPLE_MARGIN - 1) >> 8;

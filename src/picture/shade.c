@@ -1,7 +1,8 @@
 #include "picture/shade.h"
 #include <math.h>
 
-/* Of what has no material; where it has colours, they are as a scale shows them. */
+/* The material of faces without one; with vertex colours it is white, so that these match the colour
+   scale. */
 static const picture_material grey = {.color = {0.47, 0.49, 0.52, 1}, .is_double_sided = true};
 static const picture_material white = {.color = {1, 1, 1, 1}, .is_double_sided = true};
 
@@ -17,8 +18,8 @@ static bool has_texture(const shade *of)
     return of->material->texture && of->surface->mesh->texcoords;
 }
 
-/* Texels of a pixel, the same all over the triangle, for the projection is parallel: the mean of its two
- * sides. */
+/* Returns the number of texels for a pixel: the root mean square of its two sides. It is constant in a
+   triangle, because the projection is parallel. */
 static double texel_size(const shade *of)
 {
     const texture *const base = of->material->texture;
@@ -74,8 +75,8 @@ static void multiply_vertices(const shade *of, const uint32_t *triangle, const d
     color[3] *= sum[3] * (1.0 / 255);
 }
 
-/* ffd_shade_color in the middle of a triangle that is neither textured nor cut away, by integers: most
-   triangles of a large mesh are smaller than a pixel, and are drawn so. */
+/* The colour in the middle of a triangle without texture and holes, with integers: most triangles of a large
+   mesh are smaller than a pixel, and use this. */
 static uint64_t middle_color(const shade *of)
 {
     const surface *const from = of->surface;

@@ -1,4 +1,4 @@
-/* shade.h - the colour of a place on a triangle. */
+/* shade.h - the colour at a position on a triangle. */
 #ifndef FFD_PICTURE_SHADE_H
 #define FFD_PICTURE_SHADE_H
 
@@ -11,16 +11,16 @@ typedef struct shade {
     const linear_tables *tables;
     size_t triangle;
     const picture_material *material;
-    int side;          /* 0: its front is seen */
-    double texel_size; /* how many texels of its texture a pixel spans */
+    int side;          /* 0: seen from the front */
+    double texel_size; /* texels of the texture for a pixel */
 } shade;
 
-/* The material of a triangle: never NULL. */
+/* Returns the material of a triangle; never NULL. */
 const picture_material *ffd_shade_material(const picture_mesh *mesh, size_t triangle);
-/* Finds the material of a triangle, whose number and side are given, and how large its texels are. */
+/* Sets the material and the texel size of a triangle, whose index and side are set. */
 void ffd_shade_begin(shade *of);
-/* The colour where the corners have these weights, whose sum is 1, as linear_pack. Returns false where the
-   material is cut away. */
+/* Computes the colour, as linear_pack, at barycentric weights whose sum is 1. Returns false at a hole (alpha
+   test). */
 bool ffd_shade_color(const shade *of, const double weights[3], uint64_t *color);
 
 /* The same in the middle of the triangle. */

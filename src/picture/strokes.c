@@ -2,10 +2,10 @@
 #include "base/vector/vec.h"
 #include "picture/linear.h"
 
-/* A line on a surface is seen: it is taken to be so many pixels nearer. */
+/* Strokes are moved towards the eye by this many pixels, so that lines on a surface are visible. */
 #define NEARER 1.5
 
-/* The part of the segment that is nearest to (x, y), as a share of its length. */
+/* Returns the position of the point of the segment that is nearest to (x, y), as a fraction of its length. */
 static double share_at(const double from[3], const double step[3], double square, double x, double y)
 {
     const double share = square > 0 ? ((x - from[0]) * step[0] + (y - from[1]) * step[1]) / square : 0;
@@ -22,7 +22,7 @@ static uint64_t mix(uint64_t under, uint64_t over, double share)
     return linear_pack(parts[0], parts[1], parts[2]);
 }
 
-/* How much of a pixel's samples the depth is in front of. */
+/* Returns the fraction of the samples of a pixel that are behind this depth. */
 static double seen_share(const stroke_target *into, size_t pixel, double depth)
 {
     int seen = 0;
@@ -46,14 +46,14 @@ static void draw_at(const stroke_target *into, const stroke *with, const double 
         mix(into->pixels[pixel], with->color, strength * (seen + (1 - seen) * with->hidden));
 }
 
-/* The whole numbers from low to high that are in [begin, end). */
+/* Finds the integers from low to high that are in [begin, end). */
 static void clamp(double low, double high, int32_t begin, int32_t end, int32_t *first, int32_t *last)
 {
     *first = low > begin ? (low < end ? (int32_t)floor(low) : end) : begin;
     *last = high < end ? (high >= begin ? (int32_t)floor(high) : begin - 1) : end - 1;
 }
 
-/* The columns in which a row may be covered: round where the line crosses it, as far as it is slanted. */
+/* Draws a row of pixels: the columns near the intersection of the line with the row. */
 static void draw_row(const stroke_target *into, const stroke *with, const double from[3],
                      const double step[3], double square, int32_t py)
 {
@@ -78,7 +78,7 @@ void ffd_stroke_draw(const stroke_target *into, const stroke *with, const double
 {
     double step[3];
     for (int a = 0; a < 3; a++) {
-        /* Nothing that is so far away is worth the care that its rounding would need. */
+        /* Strokes that far away are skipped, because their rounding would need special care. */
         if (!(fabs(from[a]) < 1e9 && fabs(to[a]) < 1e9))
             return;
         step[a] = to[a] - from[a];

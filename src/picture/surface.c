@@ -5,25 +5,25 @@
 
 #define TILE 4096
 
-/* Lamps that stand by the camera, so that every view is lit alike: to the right, up, to the eye; and their
-   light. The last one is the sky. */
+/* Lamps fixed to the camera, so that every view has the same lighting. Directions: to the right, up, towards
+   the eye. The last lamp is the sky. */
 typedef struct lamp {
-    double direction[3]; /* of length 1 */
+    double direction[3]; /* unit length */
     double light;
 } lamp;
 
 static const lamp lamps[] = {{{-0.48, 0.64, 0.6}, 0.80}, {{0.8, 0, 0.6}, 0.26}, {{0, 1, 0}, 0.12}};
 #define LAMPS (sizeof lamps / sizeof *lamps)
 #define AMBIENT 0.22
-/* Light reaches round the edge by this cosine: no part of a shape is black. */
+/* Wrapped diffuse lighting: light reaches this cosine beyond the terminator, so that no part is black. */
 #define WRAP 0.35
-/* The back of a surface is a little darker. */
+/* Factor of the light on the back of a surface. */
 #define BACK_SHARE 0.75
 
 typedef struct vertex_work {
     surface *surface;
     const float *normals;
-    double lamps[LAMPS][3]; /* in the world's axes */
+    double lamps[LAMPS][3]; /* in world space */
 } vertex_work;
 
 static void turn_lamps(const camera *from, vertex_work *work)
@@ -49,7 +49,7 @@ static void light_vertex(const vertex_work *work, const float normal[3], uint16_
 {
     const double n[3] = {normal[0], normal[1], normal[2]}, square = vec_dot(n, n);
     double front = AMBIENT, back = AMBIENT;
-    /* Without a normal, as where all faces are slivers, it is lit from nowhere in particular. */
+    /* Without a normal, for instance if all faces are slivers, no lamp lights the vertex. */
     const double inverse = square > 0 && square < HUGE_VAL ? 1 / sqrt(square) : 0;
     for (size_t l = 0; l < LAMPS; l++) {
         const double cosine = inverse * vec_dot(n, work->lamps[l]);

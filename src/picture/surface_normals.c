@@ -1,19 +1,19 @@
-/* surface_normals.c - normals of vertices from faces, and creases, where a vertex has several. */
+/* surface_normals.c - vertex normals from faces, with several normals at creases. */
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "picture/surface.h"
 #include <string.h>
 
-/* Faces that meet at more than 60 degrees make a crease: the square of its cosine. */
+/* Squared cosine of 60 degrees: faces that meet at a greater angle make a crease. */
 #define CREASE_SQUARE 0.25
-/* No two faces at a vertex can do so where all are within 30 degrees of their mean. */
+/* Squared cosine of 30 degrees: if all faces at a vertex are within this angle of their mean, there is no
+   crease. */
 #define MEAN_SQUARE 0.75
-/* Faces at one vertex that are compared with each other; with more of them it is the tip of a cone, or a
- * mistake. */
+/* The most faces at a vertex that are compared with each other; more are at the tip of a cone, or a flaw. */
 #define MOST_FACES 64
 
-/* What each corner at a crease may take: its place in the list, its own triangle's vertex, a vertex of its
- * own. */
+/* Estimated bytes for a corner at a crease: its list entry, its index in the triangles, and a vertex of its
+   own. */
 #define SPLIT_BYTES 64
 
 typedef struct crease_work {
@@ -21,29 +21,29 @@ typedef struct crease_work {
     double scale;
     surface_normals *result;
     size_t normal_capacity, origin_capacity;
-    float *faces;        /* 3 a triangle; 0: it has no normal */
-    uint8_t *has_crease; /* by place */
-    size_t *first;       /* by place: behind the last of its corners, where it has a crease */
-    size_t *corners;     /* 3 times the triangle, and which corner of it */
+    float *faces;        /* normals, 3 numbers for each triangle; 0: no normal */
+    uint8_t *has_crease; /* for each position */
+    size_t *first;       /* for each position with a crease: index after its last corner */
+    size_t *corners;     /* 3 * triangle + corner */
 } crease_work;
 
-/* The corners of one place. */
+/* The corners at one position. */
 typedef struct fan {
     size_t count;
     double faces[MOST_FACES][3];
-    double sums[MOST_FACES][3]; /* normals of the corners */
+    double sums[MOST_FACES][3]; /* normals for the corners */
     uint32_t vertices[MOST_FACES];
-    uint32_t given[MOST_FACES]; /* vertices of the surface */
+    uint32_t given[MOST_FACES]; /* their vertices in the surface */
 } fan;
 
-/* Vertices at the same place have the same normal. */
+/* Returns the representative of the vertices at the same position, which share normals. */
 static uint32_t place_of(const picture_mesh *mesh, uint32_t vertex)
 {
     return mesh->twins ? mesh->twins[vertex] : vertex;
 }
 
-/* The face's normal, as long as twice its area in pixels. Returns false where it has none, or is not drawn.
- */
+/* Computes the normal of a face; its length is twice the area in pixels. Returns false if it has none, or is
+   not drawn. */
 static bool face_normal(const picture_mesh *mesh, double scale, size_t triangle, double normal[3])
 {
     const uint32_t *const t = mesh->triangles + 3 * triangle;
@@ -61,7 +61,7 @@ static bool face_normal(const picture_mesh *mesh, double scale, size_t triangle,
     return square > 0 && square < 1e30;
 }
 
-/* Sums up the faces at each place; keeps them, for they are looked at again. */
+/* Sums the face normals at each position, and stores them for later. */
 static void add_faces(const crease_work *work)
 {
     const picture_mesh *const mesh = work->mesh;
@@ -86,7 +86,7 @@ static bool is_within(const double a[3], const double b[3], double cosine_square
     return dot > 0 && dot * dot >= cosine_square * vec_dot(a, a) * vec_dot(b, b);
 }
 
-/* Marks the places that have a face far from their mean. Returns whether there is one. */
+/* Marks the positions with a face far from their mean. Returns whether there are any. */
 static bool find_creases(const crease_work *work)
 {
     const picture_mesh *const mesh = work->mesh;
@@ -107,7 +107,7 @@ static bool find_creases(const crease_work *work)
     return any;
 }
 
-/* Calls for every corner at a crease: counts them, or lists them. */
+/* Counts or lists all corners at creases. */
 static void visit_corners(const crease_work *work, bool lists)
 {
     const picture_mesh *const mesh = work->mesh;
@@ -123,8 +123,8 @@ static void visit_corners(const crease_work *work, bool lists)
     }
 }
 
-/* Returns where a vertex with this normal is, which is one more where no corner before has the same. Returns
-   UINT32_MAX if memory runs out. */
+/* Returns the vertex with this normal; a new one if no earlier corner has the same normal. Returns UINT32_MAX
+   if memory runs out. */
 static uint32_t give_vertex(crease_work *work, const fan *f, size_t corner)
 {
     surface_normals *const result = work->result;
@@ -152,7 +152,7 @@ static uint32_t give_vertex(crease_work *work, const fan *f, size_t corner)
     return given;
 }
 
-/* The sum of the faces that a corner's own face meets without a crease, always in the same order. */
+/* Sums the faces that meet the face of a corner without a crease, in a fixed order. */
 static void add_neighbours(fan *f, size_t corner)
 {
     double *const sum = f->sums[corner];
@@ -211,7 +211,7 @@ static ffd_status split_places(crease_work *work, const memory_budget *budget, f
     return FFD_OK;
 }
 
-/* Every vertex has the normal of its place. */
+/* Copies to every vertex the normal of its position. */
 static void spread(const picture_mesh *mesh, float *normals)
 {
     for (size_t v = 0; mesh->twins && v < mesh->vertex_count; v++)

@@ -8,7 +8,7 @@ static uint32_t half(uint32_t side)
     return side > 1 ? side / 2 : 1;
 }
 
-/* Pixels of all levels below the first. */
+/* Returns the number of pixels of all mipmap levels below the first. */
 static uint64_t smaller_pixels(uint32_t width, uint32_t height)
 {
     uint64_t sum = 0;
@@ -25,8 +25,8 @@ uint64_t ffd_texture_size(uint32_t width, uint32_t height)
     return 4 * ((uint64_t)width * height + smaller_pixels(width, height));
 }
 
-/* The mean of the pixels of one box, each as much as it is opaque, so that what is cut away lends no colour.
- */
+/* Computes the mean of the pixels of a box, weighted by alpha, so that transparent pixels do not contribute
+   colour. */
 static void average(const linear_tables *tables, const texture_level *from, const uint32_t x[2],
                     const uint32_t y[2], uint8_t to[4])
 {
@@ -45,7 +45,7 @@ static void average(const linear_tables *tables, const texture_level *from, cons
     to[3] = (uint8_t)((alpha + count / 2) / count);
 }
 
-/* An odd side is halved with three pixels for the last one. */
+/* If a side is odd, the last pixel is the mean of three. */
 static void shrink(const linear_tables *tables, const texture_level *from, uint32_t width, uint32_t height,
                    uint8_t *pixels)
 {
@@ -89,7 +89,7 @@ void ffd_texture_free(texture *of)
     *of = (texture){.level_count = 0};
 }
 
-/* The coordinate within 0 to 1 that has the same texels. */
+/* Returns the equivalent coordinate in 0 to 1. */
 static double fold(texture_wrap wrap, double x)
 {
     if (!isfinite(x))
@@ -103,7 +103,7 @@ static double fold(texture_wrap wrap, double x)
     return x - floor(x);
 }
 
-/* The two texels beside a coordinate, and the share of the second. */
+/* Finds the two texels next to a coordinate. Returns the weight of the second. */
 static double neighbours(texture_wrap wrap, double x, uint32_t side, uint32_t texels[2])
 {
     const double at = fold(wrap, x) * side - 0.5, low = floor(at);
@@ -138,7 +138,8 @@ void ffd_texture_sample(const texture *of, const linear_tables *tables, const te
         level++;
         step *= 2;
     }
-    /* Between levels their mean, by the size itself: no logarithm. */
+    /* Interpolates linearly between levels by size instead of its logarithm, which would not be
+       reproducible. */
     double share = size / step - 1;
     share = level + 1 < of->level_count && share > 0 ? (share < 1 ? share : 1) : 0;
     color[0] = color[1] = color[2] = color[3] = 0;

@@ -1,4 +1,4 @@
-/* texture.h - an image on a surface, with smaller versions of itself for where it is seen from far. */
+/* texture.h - a texture: an image with mipmaps. */
 #ifndef FFD_PICTURE_TEXTURE_H
 #define FFD_PICTURE_TEXTURE_H
 
@@ -12,7 +12,7 @@
 
 typedef struct texture_level {
     uint32_t width, height;
-    const uint8_t *pixels; /* red, green, blue, alpha, sRGB */
+    const uint8_t *pixels; /* sRGB red, green, blue, alpha */
 } texture_level;
 
 typedef struct texture {
@@ -22,16 +22,16 @@ typedef struct texture {
     int level_count;
 } texture;
 
-/* Bytes that a texture of an image takes in all. */
+/* Returns the bytes of a texture with all levels. */
 uint64_t ffd_texture_size(uint32_t width, uint32_t height);
-/* Makes a texture of an image, which it then owns. Each level is half of the one before, the mean of its
-   pixels in linear light. Errors: FFD_E_MEMORY; the image is the caller's still then. */
+/* Makes a texture from an image, and takes ownership of it. Each level has half the size of the one before,
+   averaged in linear light. Errors: FFD_E_MEMORY; the caller then still owns the image. */
 ffd_status ffd_texture_make(image *of, texture *result, ffd_error *error);
-/* Frees what it holds; leaves an empty one. */
+/* Frees the texture and empties it. */
 void ffd_texture_free(texture *of);
 
-/* Red, green, blue and alpha, linear, 0 to 1, at (u, v), v downwards. size: how many texels of level 0 a
-   pixel of the picture spans. Not finite coordinates are taken for 0. */
+/* Samples the texture at (u, v), v downwards. color: linear red, green, blue, alpha, 0 to 1. size: texels of
+   level 0 for a pixel of the picture. Coordinates that are not finite count as 0. */
 void ffd_texture_sample(const texture *of, const linear_tables *tables, const texture_wrap wrap[2], double u,
                         double v, double size, double color[4]);
 

@@ -1,4 +1,4 @@
-/* affected.c - the points that control points act on, by the span cells that the points are in. */
+/* affected.c - finds the points that control points affect, by the span cells of the points. */
 #include "base/memory/memory.h"
 #include "points/embedding.h"
 #include "spline/knots.h"
@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The points of the cell c are points[starts[c]] .. points[starts[c+1] - 1]. */
+/* The points of cell c are points[starts[c]] .. points[starts[c+1] - 1]. */
 typedef struct cell_lists {
     size_t cells;
     size_t *starts; /* cells + 1 */
@@ -51,7 +51,8 @@ static size_t cell_of(const ffd_lattice *lattice, const double uvw[3])
     return (span[2] * lattice->knots[1].span_count + span[1]) * lattice->knots[0].span_count + span[0];
 }
 
-/* Calls put for each point that has a cell, in ascending order of those with u,v,w and then of the others. */
+/* Calls put for each point that has a cell: first the points with u,v,w, then the extended ones, each in
+   ascending order. */
 static void for_points(const ffd_embedding *embedding,
                        void (*put)(cell_lists *lists, size_t cell, size_t point), cell_lists *lists)
 {
@@ -69,7 +70,7 @@ static void count_point(cell_lists *lists, size_t cell, size_t point)
     lists->starts[cell + 1]++;
 }
 
-/* starts[cell] is where the next point of the cell goes; in the end that is where the next cell starts. */
+/* starts[cell] is the index of the next point of the cell; at the end it is the start of the next cell. */
 static void add_point(cell_lists *lists, size_t cell, size_t point)
 {
     lists->points[lists->starts[cell]++] = (uint32_t)point;
@@ -97,7 +98,7 @@ static cell_lists *make_lists(const ffd_embedding *embedding)
     return lists;
 }
 
-/* NULL if memory runs out. */
+/* Returns the lists, and makes them on first use. NULL if memory runs out. */
 static const cell_lists *lists_of(const ffd_embedding *embedding)
 {
     cell_lists *there = atomic_load_explicit(&embedding->index->made, memory_order_acquire);
@@ -106,12 +107,11 @@ static const cell_lists *lists_of(const ffd_embedding *embedding)
     cell_lists *const mine = make_lists(embedding);
     if (!mine || atomic_compare_exchange_strong(&embedding->index->made, &there, mine))
         return mine;
-    free_lists(mine); /* another thread was faster; its lists are the same */
+    free_lists(mine); /* another thread has published the same lists first */
     return there;
 }
 
-/* Marks in a row of bytes, one a non-empty span, those in whose cells the control point of this index acts.
- */
+/* Marks the non-empty spans (one byte each) that are in the support of the control point with this index. */
 static void mark_spans(const knot_vector *knots, size_t index, uint8_t *marks)
 {
     for (size_t s = 0; s < knots->span_count; s++) {
@@ -123,7 +123,8 @@ static void mark_spans(const knot_vector *knots, size_t index, uint8_t *marks)
     }
 }
 
-/* Marks the cells in which the control point acts. spans: room for the spans of all directions. */
+/* Marks the cells in the support of a control point. spans: scratch memory, a byte for each span of all
+   directions. */
 static void mark_cells(const ffd_lattice *lattice, size_t point, uint8_t *spans, uint8_t *cells)
 {
     const knot_vector *const knots = lattice->knots;
@@ -144,7 +145,7 @@ static int compare_numbers(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Joins the lists of the marked cells. */
+/* Merges the lists of the marked cells. */
 static ffd_status join(const cell_lists *lists, const uint8_t *cells, uint32_t **vertices,
                        size_t *vertex_count, ffd_error *error)
 {

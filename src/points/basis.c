@@ -1,4 +1,4 @@
-/* basis.c - dX/dQ, stored or multiplied. */
+/* basis.c - computes dX/dQ as a matrix, or its product with a vector. */
 #include "base/memory/memory.h"
 #include "points/basis_row.h"
 #include "points/point_run.h"
@@ -7,9 +7,9 @@
 typedef struct basis_work {
     const ffd_embedding *embedding;
     const double *weights;
-    basis_row *rows;  /* one a thread */
-    ffd_csr *matrix;  /* filled, or, where it has no values yet, its rows' lengths */
-    const double *dq; /* a product: */
+    basis_row *rows;  /* one for each thread */
+    ffd_csr *matrix;  /* to be filled; in the first pass the lengths of its rows */
+    const double *dq; /* for a product: */
     double *dx;
 } basis_work;
 
@@ -62,17 +62,13 @@ static ffd_status multiply_tile(void *context, size_t first, size_t count, int w
     return FFD_OK;
 }
 
-/* The weights that count: the caller's, or those at rest. */
-static const double *weights_of(const ffd_embedding *embedding, const double *weights)
-{
-    return weights ? weights : embedding->rest->rest_weights;
-}
-
 static ffd_status begin(const ffd_embedding *embedding, const double *weights, const ffd_run *callers,
                         point_run *run, basis_work *work, ffd_error *error)
 {
-    *work = (basis_work){.embedding = embedding, .weights = weights_of(embedding, weights)};
-    const ffd_status status = ffd_point_run_begin(callers, embedding->count, run, error);
+    *work = (basis_work){.embedding = embedding, .weights = weights};
+    ffd_status status = ffd_basis_weights(embedding, &work->weights, error);
+    if (!status)
+        status = ffd_point_run_begin(callers, embedding->count, run, error);
     if (status)
         return status;
     work->rows = ffd_alloc((size_t)run->run.threads, sizeof *work->rows);
@@ -93,7 +89,7 @@ void ffd_csr_free(ffd_csr *matrix)
     *matrix = (ffd_csr){0};
 }
 
-/* Room for the entries that the rows' lengths ask for. */
+/* Allocates the entries from the lengths of the rows. */
 static ffd_status make_entries(ffd_csr *matrix, ffd_error *error)
 {
     for (size_t i = 0; i < matrix->rows; i++)
@@ -112,6 +108,7 @@ ffd_status ffd_embedding_basis(const ffd_embedding *embedding, const double *wei
     *matrix = (ffd_csr){.rows = embedding->count, .columns = embedding->rest->count};
     ffd_status status = begin(embedding, weights, callers, &run, &work, error);
     work.matrix = matrix;
+    run.passes = 2;
     if (!status) {
         matrix->starts = ffd_alloc_zero(matrix->rows + 1, sizeof *matrix->starts);
         status =

@@ -1,18 +1,31 @@
 #include "points/basis_row.h"
+#include "base/text/number.h"
 #include "deform/extension.h"
 #include "spline/knots.h"
+#include <math.h>
 
-/* The control points of one direction that act at u, and their basis functions. */
+ffd_status ffd_basis_weights(const ffd_embedding *embedding, const double **weights, ffd_error *error)
+{
+    for (size_t i = 0; *weights && i < embedding->rest->count; i++)
+        if (!((*weights)[i] > 0 && isfinite((*weights)[i])))
+            return ffd_fail(error, FFD_E_INVALID,
+                            "the weight %s of control point %zu is not positive and finite",
+                            ffd_number_text((*weights)[i]).text, i);
+    *weights = *weights ? *weights : embedding->rest->rest_weights;
+    return FFD_OK;
+}
+
+/* The control points of a direction whose basis functions are not 0 at u, with these functions. */
 typedef struct factor {
     size_t count, index[MAX_ORDER];
     double value[MAX_ORDER];
 } factor;
 
-/* In ascending order of the control points: those of a closed direction go round. */
+/* Sorts by control point, because the indices wrap round in a closed direction. */
 static void make_factor(const knot_vector *knots, int span, const double value[MAX_ORDER], factor *made)
 {
     const size_t order = (size_t)knots->degree + 1, first = (size_t)span - (size_t)knots->degree;
-    size_t wrapped = 0; /* how many come before the seam */
+    size_t wrapped = 0; /* number of functions before the seam */
     while (wrapped < order && ffd_knots_point(knots, first + wrapped) >= ffd_knots_point(knots, first))
         wrapped++;
     made->count = order;

@@ -1,10 +1,10 @@
-/* basis_row.h - a row of dX/dQ: how one embedded point follows the control points. */
+/* basis_row.h - a row of dX/dQ: the derivative of an embedded point by the control points. */
 #ifndef FFD_POINTS_BASIS_ROW_H
 #define FFD_POINTS_BASIS_ROW_H
 
 #include "points/embedding.h"
 
-/* Control points that act at one u,v,w, at most. */
+/* The most control points that affect a point. */
 #define BASIS_ENTRIES ((size_t)MAX_ORDER * MAX_ORDER * MAX_ORDER)
 
 typedef struct basis_row {
@@ -13,8 +13,12 @@ typedef struct basis_row {
     double values[BASIS_ENTRIES];    /* R_j(u), none 0 */
 } basis_row;
 
-/* Fills the row of a point. next: the first extended point from this one on, moved to where the next point
-   looks. weights: of the deformed volume; NULL: all are 1. */
+/* Replaces *weights = NULL by the weights at rest, and checks the caller's. Errors: FFD_E_INVALID for one
+   that is not positive and finite. */
+ffd_status ffd_basis_weights(const ffd_embedding *embedding, const double **weights, ffd_error *error);
+
+/* Computes the row of a point. next: index of the first extended point not before this point; advanced for
+   the next point. weights: those of the deformed volume; NULL: all 1. */
 void ffd_basis_row(const ffd_embedding *embedding, const double *weights, size_t point, size_t *next,
                    basis_row *row);
 

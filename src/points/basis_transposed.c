@@ -1,10 +1,11 @@
-/* basis_transposed.c - products with the transposed dX/dQ. */
+/* basis_transposed.c - computes products with the transposed dX/dQ. */
 #include "base/memory/memory.h"
 #include "points/basis_row.h"
 #include "points/point_run.h"
 #include <string.h>
 
-/* Most bytes of the sums of blocks, which are joined in their order so that threads change no bit. */
+/* The most bytes for sums of blocks. The sums are added in the order of the blocks, so that the result does
+   not depend on threads. */
 #define SUM_BYTES ((size_t)64 << 20)
 #define BLOCKS_A_THREAD 4
 
@@ -12,9 +13,9 @@ typedef struct transposed_work {
     const ffd_embedding *embedding;
     const double *weights, *dfdx;
     size_t first_block;
-    size_t numbers;  /* 3 a control point */
+    size_t numbers;  /* 3 for each control point */
     double *sums;    /* `numbers` for each block of a group */
-    basis_row *rows; /* one a thread */
+    basis_row *rows; /* one for each thread */
 } transposed_work;
 
 static void add_block(void *context, size_t block, size_t first, size_t last, int worker)
@@ -33,7 +34,7 @@ static void add_block(void *context, size_t block, size_t first, size_t last, in
     }
 }
 
-/* Blocks that are summed up at a time. */
+/* Returns the number of blocks that are summed at a time. */
 static size_t group_size(const transposed_work *work, int threads)
 {
     const size_t most = SUM_BYTES / (work->numbers * sizeof(double)),
@@ -73,11 +74,11 @@ ffd_status ffd_embedding_basis_transposed(const ffd_embedding *embedding, const 
                                           ffd_error *error)
 {
     point_run run = {.total = 0};
-    transposed_work work = {.embedding = embedding,
-                            .weights = weights ? weights : embedding->rest->rest_weights,
-                            .dfdx = dfdx,
-                            .numbers = 3 * embedding->rest->count};
-    ffd_status status = ffd_point_run_begin(callers, embedding->count, &run, error);
+    transposed_work work = {
+        .embedding = embedding, .weights = weights, .dfdx = dfdx, .numbers = 3 * embedding->rest->count};
+    ffd_status status = ffd_basis_weights(embedding, &work.weights, error);
+    if (!status)
+        status = ffd_point_run_begin(callers, embedding->count, &run, error);
     if (!status)
         status = add_all(&work, &run.run, dfdq, error);
     ffd_free(work.sums);

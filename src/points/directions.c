@@ -1,4 +1,4 @@
-/* directions.c - normals and tangents of arrays. */
+/* directions.c - transforms arrays of normals and tangents. */
 #include "base/memory/memory.h"
 #include "deform/attribute.h"
 #include "points/point_run.h"
@@ -14,7 +14,7 @@ typedef struct direction_work {
     ffd_span in, out, normals;
     bool tangents;
     ffd_isa isa;
-    direction_scratch *scratch; /* one a thread */
+    direction_scratch *scratch; /* one for each thread */
     atomic_size_t collapsed;
 } direction_work;
 

@@ -20,21 +20,21 @@ void ffd_embedding_desc_init(ffd_embedding_desc *desc, size_t size)
     ffd_struct_give(&defaults, sizeof defaults, desc, size);
 }
 
-/* Points outside that a tile has found, until all are joined. */
+/* The extended points of a tile, until the lists are joined. */
 typedef struct extended_list {
     extended_point *points;
     size_t count, capacity;
 } extended_list;
 
-/* One call of ffd_embedding_create. */
+/* The state of a call of ffd_embedding_create. */
 typedef struct embed_work {
     const ffd_embedding_desc *desc;
     ffd_embedding *embedding;
     ffd_locator *locator;
-    const boundary *border;  /* NULL: points outside stay */
-    ffd_location *locations; /* POINT_TILE a thread */
-    double *positions;       /* 3 * POINT_TILE a thread */
-    extended_list *outside;  /* one a tile */
+    const boundary *border;  /* NULL: points outside are not extended */
+    ffd_location *locations; /* POINT_TILE for each thread */
+    double *positions;       /* 3 * POINT_TILE for each thread */
+    extended_list *outside;  /* one for each tile */
 } embed_work;
 
 static bool is_placed(const ffd_location *location)
@@ -43,7 +43,7 @@ static bool is_placed(const ffd_location *location)
            vec_is_finite(location->uvw);
 }
 
-/* The nearest point of the border, if it is within the falloff. */
+/* Finds the nearest border point of a point outside, and lists the point if it is within the falloff. */
 static ffd_status extend(const embed_work *work, size_t point, const double x[3], extended_list *list,
                          ffd_error *error)
 {
@@ -94,7 +94,7 @@ static ffd_status embed_tile(void *context, size_t first, size_t count, int work
     return status;
 }
 
-/* Joins what the tiles have found. */
+/* Joins the lists of the tiles. */
 static ffd_status join_extended(const embed_work *work, size_t tiles, ffd_error *error)
 {
     ffd_embedding *const embedding = work->embedding;
@@ -122,8 +122,7 @@ static ffd_status check(ffd_embedding_desc *desc, ffd_error *error)
         return ffd_fail(error, FFD_E_ARGUMENT,
                         "the lattice has no control points yet: its box is that of a mesh");
     if ((int)desc->outside < FFD_OUTSIDE_KEEP || desc->outside > FFD_OUTSIDE_ERROR)
-        return ffd_fail(error, FFD_E_ARGUMENT, "%d is not what can be done with points outside",
-                        (int)desc->outside);
+        return ffd_fail(error, FFD_E_ARGUMENT, "%d is not a value of ffd_outside", (int)desc->outside);
     if (!(desc->falloff >= 0 && isfinite(desc->falloff)))
         return ffd_fail(error, FFD_E_ARGUMENT, "falloff %g is not 0 or more", desc->falloff);
     if (!(desc->snap >= 0 && isfinite(desc->snap)))

@@ -1,4 +1,5 @@
-/* embedding.h - u,v,w of an array of points (public: ffd/points.h). Declares functions of affected.c too. */
+/* embedding.h - the struct behind ffd_embedding (public functions: ffd/points.h). Declares functions of
+   affected.c too. */
 #ifndef FFD_POINTS_EMBEDDING_H
 #define FFD_POINTS_EMBEDDING_H
 
@@ -7,7 +8,7 @@
 #include "lattice/lattice.h"
 #include <ffd/points.h>
 
-/* A point without u,v,w that follows the border. */
+/* A point without u,v,w that gets the displacement of its nearest border point. */
 typedef struct extended_point {
     size_t point;
     boundary_point nearest;
@@ -17,34 +18,36 @@ struct ffd_embedding {
     ffd_lattice *rest; /* a copy */
     hash128 rest_hash;
     size_t count;
-    double *uvw;     /* 3 a point */
-    uint8_t *status; /* one a point */
+    double *uvw;     /* 3 for each point */
+    uint8_t *status; /* one for each point */
     double falloff;
-    extended_point *extended; /* extended_count, by point */
+    extended_point *extended; /* extended_count entries, sorted by point */
     size_t extended_count;
-    struct cell_index *index; /* the points of each span cell, made when first asked for (affected.c) */
+    struct cell_index *index; /* the points of each span cell, made on first use (affected.c) */
 };
 
-/* Makes an embedding that has the lattice, and arrays of count points that are not filled. */
+/* Makes an embedding with a copy of the lattice and with uninitialised arrays for count points. Errors:
+   FFD_E_MEMORY. */
 ffd_status ffd_embedding_make(const ffd_lattice *lattice, size_t count, ffd_embedding **embedding,
                               ffd_error *error);
 
-/* Whether a point has u,v,w. */
+/* Returns whether a point has u,v,w. */
 static inline bool ffd_embedding_has(const ffd_embedding *embedding, size_t point)
 {
     const double u = embedding->uvw[3 * point];
     return u == u;
 }
 
-/* The first extended point from `point` on. */
+/* Returns the index of the first extended point that is not before `point`. */
 size_t ffd_embedding_first_extended(const ffd_embedding *embedding, size_t point);
 
-/* Makes an empty place for the index; NULL if memory runs out. */
+/* Creates an empty index. Returns NULL if memory runs out. */
 struct cell_index *ffd_cell_index_create(void);
-/* Frees the index. NULL is allowed. */
+/* Destroys the index; NULL is allowed. */
 void ffd_cell_index_destroy(struct cell_index *index);
 
-/* Fails where a lattice has another rest volume. */
+/* Checks that a lattice has the rest volume of the embedding. Errors: FFD_E_INVALID, FFD_E_ARGUMENT (no
+   control points). */
 ffd_status ffd_embedding_check_lattice(const ffd_embedding *embedding, const ffd_lattice *lattice,
                                        ffd_error *error);
 

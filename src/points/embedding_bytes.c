@@ -1,7 +1,7 @@
-/* embedding_bytes.c - an embedding as bytes of this machine's byte order and this version.
+/* embedding_bytes.c - serialises an embedding, in the byte order of the machine and for this version only.
 
-   The head, then 3 doubles for each point, 17 for each extended point (its number, u,v,w, distance,
-   direction, uvw_by_p), a status for each point, then the hash of all before it. */
+   Layout: the head; 3 doubles for each point; 17 doubles for each extended point (its index, u,v,w, distance,
+   direction, uvw_by_p); a status byte for each point; the hash of everything before. */
 #include "base/memory/hash.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
@@ -14,7 +14,7 @@
 typedef struct bytes_head {
     char magic[8];
     char version[24];
-    uint64_t order; /* 1, as this machine has it */
+    uint64_t order; /* 1, to detect another byte order */
     uint64_t count, extended_count;
     double falloff;
     hash128 rest;
@@ -36,7 +36,7 @@ static bytes_head head_of(const ffd_embedding *embedding)
     return head;
 }
 
-/* The size of all but the hash; false where it is too large. */
+/* Computes the size without the hash. Returns false on overflow. */
 static bool size_of(size_t count, size_t extended_count, size_t *size)
 {
     size_t points, extended;
@@ -62,7 +62,7 @@ static void pack(const extended_point *extended, double numbers[EXTENDED_NUMBERS
     memcpy(numbers + 8, nearest->uvw_by_p, sizeof nearest->uvw_by_p);
 }
 
-/* false where there can be no such point. */
+/* Returns false if the numbers are not a valid extended point. */
 static bool unpack(const double numbers[EXTENDED_NUMBERS], size_t count, extended_point *extended)
 {
     boundary_point *const nearest = &extended->nearest;
@@ -106,28 +106,28 @@ static ffd_status read_head(const unsigned char *bytes, size_t size, bytes_head 
     size_t content;
     hash128 hash;
     if (size < sizeof *head + sizeof hash || memcmp(bytes, magic, sizeof magic) != 0)
-        return ffd_fail(error, FFD_E_INVALID, "these bytes are no embedding");
+        return ffd_fail(error, FFD_E_INVALID, "these bytes are not an embedding");
     memcpy(head, bytes, sizeof *head);
     if (strncmp(head->version, FFD_VERSION, sizeof head->version) != 0 || head->order != 1)
-        return ffd_fail(error, FFD_E_INVALID,
-                        "the embedding is of another version or another kind of machine");
+        return ffd_fail(error, FFD_E_INVALID, "the embedding is of another version or another byte order");
     if (head->count > UINT32_MAX || head->extended_count > head->count ||
         !size_of((size_t)head->count, (size_t)head->extended_count, &content) ||
         content + sizeof hash != size)
-        return ffd_fail(error, FFD_E_INVALID, "the embedding has %zu bytes, which is not its size", size);
+        return ffd_fail(error, FFD_E_INVALID,
+                        "the embedding has %zu bytes, which is not the size of its content", size);
     hash = ffd_hash(bytes, content);
     if (memcmp(&hash, bytes + content, sizeof hash) != 0)
-        return ffd_fail(error, FFD_E_INVALID, "the embedding was changed: its hash is another");
+        return ffd_fail(error, FFD_E_INVALID, "the embedding is damaged: its hash does not match");
     return FFD_OK;
 }
 
-/* Forged bytes may have a hash that fits. */
+/* Needed although the hash is correct, because bytes can be forged. */
 static ffd_status check_points(const ffd_embedding *embedding, ffd_error *error)
 {
     for (size_t i = 0; i < embedding->count; i++) {
         const bool finite = vec_is_finite(embedding->uvw + 3 * i);
         if (embedding->status[i] >= FFD_VERTEX_STATUS_COUNT || (ffd_embedding_has(embedding, i) && !finite))
-            return ffd_fail(error, FFD_E_INVALID, "the embedding's point %zu cannot be", i);
+            return ffd_fail(error, FFD_E_INVALID, "point %zu of the embedding is not valid", i);
     }
     return FFD_OK;
 }
@@ -149,8 +149,9 @@ static ffd_status fill(const unsigned char *bytes, const bytes_head *head, ffd_e
         double numbers[EXTENDED_NUMBERS];
         memcpy(numbers, bytes, sizeof numbers);
         if (!unpack(numbers, count, &embedding->extended[i]) ||
+            ffd_embedding_has(embedding, embedding->extended[i].point) ||
             (i > 0 && embedding->extended[i].point <= embedding->extended[i - 1].point))
-            return ffd_fail(error, FFD_E_INVALID, "the embedding's point %zu outside cannot be", i);
+            return ffd_fail(error, FFD_E_INVALID, "extended point %zu of the embedding is not valid", i);
     }
     if (count > 0)
         memcpy(embedding->status, bytes, count);

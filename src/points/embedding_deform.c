@@ -1,4 +1,4 @@
-/* embedding_deform.c - moves embedded points by a lattice. */
+/* embedding_deform.c - deforms embedded points. */
 #include "base/memory/memory.h"
 #include "base/vector/array_kernel.h"
 #include "deform/displacement.h"
@@ -11,16 +11,16 @@
 
 _Static_assert(POINT_TILE <= DISPLACEMENT_BATCH, "a tile is one batch");
 
-/* So few points are displaced one by one: what a batch needs would take longer to make. The bits are the
- * same. */
+/* At most this many points are displaced one by one, because the setup of a batch would take longer. The bits
+   are the same. */
 #define FEW_POINTS ((size_t)32)
 
-/* What one thread needs for a tile, in one block. */
+/* Scratch memory of a thread for a tile, in one block. */
 typedef struct deform_scratch {
-    double *x, *delta, *gradient, *uvw; /* 3, 3, 9, 3 a point; u,v,w of listed vertices */
+    double *x, *delta, *gradient, *uvw; /* 3, 3, 9, 3 numbers for each point; uvw: of the listed vertices */
     uint32_t *which;
     uint8_t *moves, *changed;
-    displacement_scratch *displacement; /* NULL: points are displaced one by one */
+    displacement_scratch *displacement; /* NULL: displace points one by one */
 } deform_scratch;
 
 typedef struct deform_work {
@@ -31,16 +31,17 @@ typedef struct deform_work {
     double *gradients;
     ffd_isa isa;
     const array_kernel *arrays;
-    deform_scratch *scratch; /* one a thread */
+    deform_scratch *scratch; /* one for each thread */
 } deform_work;
 
-/* The point that has the number i of those that are deformed. */
+/* Returns the index of the i-th point to be deformed. */
 static size_t point_of(const deform_work *work, size_t i)
 {
     return work->vertices ? work->vertices[i] : i;
 }
 
-/* Lists the points of a tile that have u,v,w; the others get displacements of 0. Returns their count. */
+/* Lists the points of a tile that have u,v,w, and sets the displacements of the others to 0. Returns the
+   number of listed points. */
 static size_t choose(const deform_work *work, size_t first, size_t count, deform_scratch *s)
 {
     size_t chosen = 0;
@@ -59,7 +60,7 @@ static size_t choose(const deform_work *work, size_t first, size_t count, deform
     return chosen;
 }
 
-/* Displaces the points of a tile that follow the border. */
+/* Computes the displacements of the extended points of a tile. */
 static void extend(const deform_work *work, size_t first, size_t count, deform_scratch *s)
 {
     const ffd_embedding *const embedding = work->embedding;
@@ -83,7 +84,8 @@ static void read_tile(const deform_work *work, size_t first, size_t count, defor
         ffd_span_read(&work->in, work->vertices[first + i], 1, s->x + 3 * i);
 }
 
-/* What is not finite keeps its bytes, where the types are one: a conversion may change those of a NaN. */
+/* A point that is not finite is copied bytewise if the types are equal, because a conversion may change the
+   bits of a NaN. */
 static void write_point(const deform_work *work, size_t point, const double x[3])
 {
     const bool invalid = work->embedding->status[point] == FFD_POINT_INVALID;
@@ -167,7 +169,7 @@ static ffd_status check(deform_work *work, size_t count, ffd_error *error)
     return status ? status : check_vertices(work, count, error);
 }
 
-/* Makes what one thread needs for tiles of so many points. */
+/* Allocates the scratch memory of a thread for tiles of this many points. */
 static bool make_thread_scratch(const point_run *run, size_t tile, deform_scratch *s)
 {
     double *const block = ffd_alloc(tile, 18 * sizeof(double) + sizeof(uint32_t) + 2);
@@ -182,7 +184,7 @@ static bool make_thread_scratch(const point_run *run, size_t tile, deform_scratc
     s->changed = s->moves + tile;
     if (run->total <= FEW_POINTS)
         return true;
-    /* Megabytes, which are not cleared: what is not touched costs nothing. */
+    /* Several megabytes, not cleared, so that unused pages cost nothing. */
     s->displacement = ffd_alloc(1, sizeof *s->displacement);
     if (!s->displacement)
         return false;

@@ -1,4 +1,4 @@
-/* evaluate_many.c - the volume at many u,v,w. */
+/* evaluate_many.c - ffd_lattice_evaluate_many: evaluates the volume at many u,v,w. */
 #include "lattice/lattice.h"
 #include "points/point_run.h"
 

@@ -18,7 +18,7 @@ static int threads_for(int wanted, size_t total)
 
 ffd_status ffd_point_run_begin(const ffd_run *callers, size_t total, point_run *run, ffd_error *error)
 {
-    *run = (point_run){.total = total};
+    *run = (point_run){.total = total, .passes = 1};
     ffd_run_init(&run->run, sizeof run->run);
     const ffd_status status =
         callers ? ffd_struct_take(&run->run, sizeof run->run, callers, "ffd_run", error) : FFD_OK;
@@ -52,13 +52,13 @@ typedef struct tile_context {
     void *context;
 } tile_context;
 
-/* Tells the caller, in its own thread, how far all threads are. */
+/* Reports the progress of all threads to the caller, in the caller's thread. */
 static void tell(point_run *run, size_t done, int worker)
 {
     if (worker != 0 || !run->run.progress)
         return;
     run->told = true;
-    if (!run->run.progress(run->run.user, (double)done / (double)run->total)) {
+    if (!run->run.progress(run->run.user, (double)done / ((double)run->passes * (double)run->total))) {
         run->statuses[0] = run->statuses[0] ? run->statuses[0] : FFD_E_CANCELLED;
         atomic_store(&run->stopped, true);
     }
@@ -86,7 +86,7 @@ ffd_status ffd_point_run_tiles(point_run *run, point_function function, void *co
     tile_context work = {run, function, context};
     int first = -1;
     ffd_parallel_tiles(run->total, POINT_TILE, run->run.threads, run_tile, &work);
-    /* The other threads may have done all of it: who wants to cancel is asked all the same. */
+    /* Other threads may have done all tiles; the caller gets a chance to cancel all the same. */
     if (run->total > 0 && !run->told && !atomic_load(&run->stopped))
         tell(run, run->total, 0);
     for (int i = 0; i < run->run.threads; i++)

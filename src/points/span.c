@@ -32,7 +32,7 @@ static bool is_packed(const ffd_span *span)
     return span->step == size && span->stride == 3 * size;
 }
 
-/* Numbers may be at any address. */
+/* Numbers may be unaligned. */
 static double read_number(const char *from, ffd_number type)
 {
     double wide;

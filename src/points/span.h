@@ -5,14 +5,14 @@
 #include "base/fail.h"
 #include <ffd/points.h>
 
-/* Fails for a span that is no array of count points. what: its name in messages. Makes the strides of packed
-   ones explicit. */
+/* Checks that a span is an array of count points, and replaces strides of 0 by the actual ones. what: its
+   name in messages. Errors: FFD_E_ARGUMENT. */
 ffd_status ffd_span_check(ffd_span *span, size_t count, const char *what, ffd_error *error);
-/* Reads count points from the first on as doubles, 3 each. The span was checked. */
+/* Reads count points beginning with `first` as doubles, 3 each. The span must be checked. */
 void ffd_span_read(const ffd_span *span, size_t first, size_t count, double *xyz);
-/* Writes them, rounded to the span's type. */
+/* Writes points, rounded to the type of the span. */
 void ffd_span_write(const ffd_span *span, size_t first, size_t count, const double *xyz);
-/* Copies a point's bytes between spans of one type. */
+/* Copies the bytes of a point between spans of the same type. */
 void ffd_span_copy(const ffd_span *from, const ffd_span *to, size_t point);
 
 #endif

@@ -1,6 +1,6 @@
-/* ellipsoid_kernel.c - compiled once for each instruction set with lanes: FFD_ELLIPSOID_KERNEL is the
-   function's name, FFD_LANES the number of SIMD lanes, each with one splat. Operation by operation it is
-   splat.c; what is not ordinary is left to it. */
+/* ellipsoid_kernel.c - compiled once for each SIMD instruction set; FFD_ELLIPSOID_KERNEL is the name of the
+   function, FFD_LANES the number of lanes, each with one splat. The operations are those of splat.c in the
+   same order; special cases are left to splat.c. */
 #include "base/vector/exponential_lanes.h"
 #include "splat/splat_lanes.h"
 #include <float.h>
@@ -8,12 +8,13 @@
 typedef lanes number;
 #include "splat/quaternion_matrix.h"
 
-/* Several splats. */
+/* The splats of the lanes. */
 typedef struct splat_lanes {
     lanes rotation[4], scale[3];
-    lanes unit[4], old[9], parts[3], turn[4]; /* the quaternion, its matrix, the sizes, Q */
+    lanes unit[4], old[9], parts[3], turn[4]; /* the unit quaternion, its matrix, the scales, and the rotation
+                                                 of F */
     lanes columns[9], lengths[3];
-    mask is_open; /* left to the functions for one */
+    mask is_open; /* left to splat.c */
 } splat_lanes;
 
 static ALWAYS_INLINE void load(const splat_ellipsoid *splats, const splat_turn *turns, splat_lanes *s)
@@ -79,7 +80,7 @@ static ALWAYS_INLINE void find_parts(splat_lanes *s, bool is_logarithmic, int co
                                      : larger_of(s->scale[k] / largest, lanes_all(LEAST_PART));
 }
 
-/* The columns of F R S. */
+/* Computes the columns of F R S. */
 static ALWAYS_INLINE void find_columns(const gradient_lanes *at, splat_lanes *s)
 {
     lanes product[9];
@@ -90,7 +91,7 @@ static ALWAYS_INLINE void find_columns(const gradient_lanes *at, splat_lanes *s)
             s->columns[3 * j + k] = product[3 * k + j] * s->parts[j];
 }
 
-/* Makes columns of length 1. */
+/* Normalises the columns. */
 static ALWAYS_INLINE void find_lengths(const gradient_lanes *at, splat_lanes *s)
 {
     const lanes largest = larger_of(lanes_largest_entry(at->f), lanes_all(LEAST_F));
@@ -104,12 +105,12 @@ static ALWAYS_INLINE void find_lengths(const gradient_lanes *at, splat_lanes *s)
     }
 }
 
-/* Which columns are axes, and with which signs. */
+/* The assignment of columns to axes, and their signs. */
 typedef struct axes_choice {
     lanes order[3], signs[3], sum;
 } axes_choice;
 
-/* Takes an order of the columns where it fits better. */
+/* Takes an order of the columns in the lanes in which it fits better. */
 static ALWAYS_INLINE void try_order(const lanes cosines[3][3], const int order[3], mask is_right,
                                     axes_choice *best)
 {
@@ -156,7 +157,7 @@ static ALWAYS_INLINE void choose_axes(const splat_lanes *s, bool is_flat, axes_c
         try_order((const lanes(*)[3])cosines, splat_orders[o], o % 2 == 0 ? is_right : ~is_right, best);
 }
 
-/* That of three values, a step apart, which is the ordered one. */
+/* Selects one of three values, `step` apart, by index. */
 static ALWAYS_INLINE lanes pick(lanes order, const lanes *values, int step)
 {
     return lanes_choose(order == 0.0, values[0], lanes_choose(order == 1.0, values[step], values[2 * step]));
@@ -210,7 +211,7 @@ static ALWAYS_INLINE void store(const splat_lanes *s, mask is_still, splat_ellip
     }
 }
 
-/* All that comes before the iteration. */
+/* The part before the iteration. */
 static ALWAYS_INLINE void begin(const double *gradients, const splat_turn *turns, const splat_form *form,
                                 const splat_ellipsoid *splats, gradient_lanes *at, splat_lanes *s)
 {
@@ -221,7 +222,7 @@ static ALWAYS_INLINE void begin(const double *gradients, const splat_turn *turns
     s->is_open |= ~at->is_usable | (at->is_flattening & ~at->is_still);
 }
 
-/* All that comes after it. */
+/* The part after the iteration. */
 static ALWAYS_INLINE void finish(const gradient_lanes *at, const splat_form *form, splat_lanes *s)
 {
     const mask was_open = s->is_open;
@@ -233,7 +234,7 @@ static ALWAYS_INLINE void finish(const gradient_lanes *at, const splat_form *for
     replace_scale(&choice, form->is_logarithmic, form->is_flat ? 2 : 3, s);
 }
 
-/* Splats of two registers. */
+/* Number of splats in two registers. */
 #define PAIR (2 * (size_t)FFD_LANES)
 
 static ALWAYS_INLINE void deform_pair(const double *gradients, const splat_turn *turns,

@@ -8,7 +8,7 @@ void ffd_harmonics_values(int degree, const double direction[3], double values[7
     find_values(degree, direction, values);
 }
 
-/* A reversed direction changes the sign of odd degrees. */
+/* Reverses directions, which changes the sign of odd degrees. */
 static void reverse(int first, int count, harmonics_block c)
 {
     for (int k = 0; k < HARMONICS_CHANNELS; k++)
@@ -33,7 +33,7 @@ static harmonics_kernel *const kernels[] = {
 #endif
 };
 
-/* Splats that are looked at together. */
+/* Number of splats in a run. */
 #define RUN ((size_t)16)
 
 void ffd_harmonics_turn(ffd_isa isa, const splat_turn *turns, int degree, size_t count, harmonics_block *c)

@@ -1,12 +1,13 @@
-/* harmonics_kernel.c - compiled once for each instruction set with lanes: FFD_HARMONICS_KERNEL is the
-   function's name, FFD_LANES the number of SIMD lanes, each with one splat. */
+/* harmonics_kernel.c - compiled once for each SIMD instruction set; FFD_HARMONICS_KERNEL is the name of the
+   function, FFD_LANES the number of lanes, each with one splat. */
 #include "base/vector/lanes.h"
 #include "splat/harmonics.h"
 
 typedef lanes number;
 #include "splat/harmonics_turn.h"
 
-/* The first of FFD_LANES coefficients of a channel, among which are those from m on. */
+/* Returns the index of a block of FFD_LANES coefficients of a channel that begins at m if it fits, else
+   before. */
 static ALWAYS_INLINE int block_of(int m)
 {
     return m < HARMONICS_MOST - FFD_LANES ? m : HARMONICS_MOST - FFD_LANES;

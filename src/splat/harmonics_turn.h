@@ -1,13 +1,13 @@
-/* harmonics_turn.h - what turns harmonics, for one splat and for several side by side: `number` is a double,
-   or lanes of them. Included by harmonics.c and harmonics_kernel.c only. */
+/* harmonics_turn.h - rotates harmonics, for scalar and SIMD code: `number` is a double or a register of
+   lanes. Included by harmonics.c and harmonics_kernel.c only. */
 #ifndef FFD_SPLAT_HARMONICS_TURN_H
 #define FFD_SPLAT_HARMONICS_TURN_H
 
 #include "base/inline.h"
 #include <string.h>
 
-/* Normalising factors: sqrt(3/4pi), sqrt(15/4pi), sqrt(5/16pi), sqrt(15/16pi), sqrt(35/32pi), sqrt(105/4pi),
-   sqrt(21/32pi), sqrt(7/16pi), sqrt(105/16pi). */
+/* Normalisation factors: sqrt(3/4pi), sqrt(15/4pi), sqrt(5/16pi), sqrt(15/16pi), sqrt(35/32pi),
+   sqrt(105/4pi), sqrt(21/32pi), sqrt(7/16pi), sqrt(105/16pi). */
 #define N1 0.48860251190291992159
 #define N2 1.0925484305920790705
 #define N20 0.31539156525252000603
@@ -43,20 +43,21 @@ static ALWAYS_INLINE void find_values(int degree, const number direction[3], num
     }
 }
 
-/* A function of a degree is a sum of lobes round as many directions as it has coefficients (Nowrouzezahrai,
-   Simari and Fiume, Sparse Zonal Harmonic Factorization, 2012); turned, it is the same sum round the turned
-   directions. */
+/* A function of a degree is a sum of zonal lobes round as many directions as there are coefficients; rotated,
+   it is the same sum round the rotated directions (Nowrouzezahrai, Simari and Fiume, Sparse Zonal Harmonic
+   Factorization, 2012). */
 #define LOBES 7
 
-/* Along z, y, y + z, x + y, x + y + z, x, x - y: degree 2 takes the first five, degree 3 all. */
+/* The directions z, y, y + z, x + y, x + y + z, x, x - y: degree 2 uses the first five, degree 3 all. */
 static const double axes[LOBES][3] = {{0, 0, 1}, {0, 1, 0}, {0, 1, 1}, {1, 1, 0},
                                       {1, 1, 1}, {1, 0, 0}, {1, -1, 0}};
-/* One by their lengths. */
+/* The reciprocals of their lengths. */
 #define ROOT_HALF 0.70710678118654752440
 #define ROOT_THIRD 0.57735026918962576451
 static const double shares[LOBES] = {1, 1, ROOT_HALF, ROOT_HALF, ROOT_THIRD, 1, ROOT_HALF};
 
-/* What a coefficient adds to a lobe: an entry of the inverse of the matrix of values at the axes. */
+/* The contribution of a coefficient to a lobe: an entry of the inverse of the matrix of values at the
+   axes. */
 typedef struct lobe_term {
     unsigned char lobe, order;
     double weight;
@@ -98,15 +99,15 @@ static ALWAYS_INLINE void turn_first(const number rotation[9], number c[HARMONIC
     }
 }
 
-/* Turns the coefficients of a degree, which begin at `first`. */
+/* Rotates the coefficients of a degree, which begin at `first`. */
 static ALWAYS_INLINE void turn_lobes(const number turned[LOBES][3], int degree, const lobe_term *terms,
                                      int term_count, int first, number c[HARMONICS_CHANNELS][HARMONICS_MOST])
 {
     const int count = 2 * degree + 1;
     number lobes[LOBES][HARMONICS_CHANNELS];
     memset(lobes, 0, sizeof lobes);
-    /* As often as the longest table has terms: then the compiler knows these, and the lobes stay in
-     * registers. */
+    /* The number of terms of the longest table. Unrolled, the terms are constants, and the lobes stay in
+       registers. */
 #pragma GCC unroll 22
     for (int t = 0; t < term_count; t++)
         for (int k = 0; k < HARMONICS_CHANNELS; k++)
@@ -122,7 +123,7 @@ static ALWAYS_INLINE void turn_lobes(const number turned[LOBES][3], int degree, 
     }
 }
 
-/* Turns the coefficients of degrees 1 to `degree`. */
+/* Rotates the coefficients of degrees 1 to `degree`. */
 static ALWAYS_INLINE void turn_degrees(const number rotation[9], int degree,
                                        number c[HARMONICS_CHANNELS][HARMONICS_MOST])
 {

@@ -1,5 +1,5 @@
-/* quaternion_matrix.h - the matrix of a quaternion of length 1, for one splat and for several side by side:
-   `number` is a double, or lanes of them. Included by splat.c and ellipsoid_kernel.c only. */
+/* quaternion_matrix.h - the matrix of a unit quaternion, for scalar and SIMD code: `number` is a double or a
+   register of lanes. Included by splat.c and ellipsoid_kernel.c only. */
 #ifndef FFD_SPLAT_QUATERNION_MATRIX_H
 #define FFD_SPLAT_QUATERNION_MATRIX_H
 

@@ -24,8 +24,8 @@ static void add_identity(const double gradient[9], double f[9])
         f[i] = gradient[i] + (i % 4 == 0 ? 1 : 0);
 }
 
-/* Whether the least singular value, which is the determinant by the product of the others, is nothing beside
-   the largest. */
+/* Returns whether the least singular value (the determinant divided by the product of the others) is
+   negligible compared with the largest. */
 static bool is_flattening(const double f[9], const double cofactor[9])
 {
     return !(fabs(vec_dot(f, cofactor)) > NOTHING * mat_largest_entry(f) * sqrt(mat_square_sum(cofactor)));
@@ -36,13 +36,13 @@ void ffd_splat_matrix(const double q[4], double m[9])
     find_matrix(q, m);
 }
 
-/* The quaternion of a rotation, of length 1, by its largest component (Shepperd, Quaternion from rotation
-   matrix, 1978). */
+/* Computes the unit quaternion of a rotation, starting with its largest component (Shepperd, Quaternion from
+   rotation matrix, 1978). */
 static void find_quaternion(const double m[9], double q[4])
 {
     const double trace = m[0] + m[4] + m[8];
     const double size[4] = {trace, m[0], m[4],
-                            m[8]}; /* of component i the square is (1 + 2 size - trace)/4 */
+                            m[8]}; /* the square of component i is (1 + 2 size[i] - trace)/4 */
     int largest = 0;
     for (int i = 1; i < 4; i++)
         largest = size[i] > size[largest] ? i : largest;
@@ -65,7 +65,7 @@ static void find_quaternion(const double m[9], double q[4])
         q[i] /= length;
 }
 
-/* Makes w not negative. */
+/* Computes the quaternion with w >= 0. */
 static void find_turn_quaternion(const double rotation[9], double q[4])
 {
     find_quaternion(rotation, q);
@@ -74,8 +74,8 @@ static void find_turn_quaternion(const double rotation[9], double q[4])
     q[0] = fabs(q[0]);
 }
 
-/* Finds a matrix with an inverse that has the same turn as F. Returns false where there is none to look for.
- */
+/* Finds an invertible matrix with the same rotation as F. Returns false if there is no rotation to be
+   found. */
 static bool prepare_turn(const double gradient[9], splat_turn *turn, double f[9])
 {
     double cofactor[9];
@@ -87,13 +87,14 @@ static bool prepare_turn(const double gradient[9], splat_turn *turn, double f[9]
         return false;
     mat_cofactor(f, cofactor);
     if (is_flattening(f, cofactor)) {
-        /* Cofactors have the directions of F, with a size across the plane that it leaves. */
+        /* The cofactor matrix has the same directions as F, and is not 0 perpendicular to the image plane of
+           F. */
         const double size = sqrt(mat_square_sum(f));
         for (int i = 0; i < 9; i++)
             f[i] += cofactor[i] / size;
         mat_cofactor(f, cofactor);
         if (is_flattening(f, cofactor))
-            return false; /* a line or a point is left */
+            return false; /* the image of F is a line or a point */
     }
     turn->is_mirrored = vec_dot(f, cofactor) < 0;
     return true;
@@ -122,7 +123,7 @@ static void find_turn(const double gradient[9], splat_turn *turn)
 
 typedef struct splat_way {
     turn_kernel *turn;
-    ellipsoid_kernel *ellipsoid; /* NULL: the functions for one */
+    ellipsoid_kernel *ellipsoid; /* NULL: the scalar functions */
 } splat_way;
 
 static const splat_way ways[] = {
@@ -134,7 +135,7 @@ static const splat_way ways[] = {
 #endif
 };
 
-/* Splats that a kernel is called for. */
+/* Number of splats in a call of a kernel. */
 #define RUN ((size_t)256)
 
 void ffd_splats_find_turns(ffd_isa isa, const double *gradients, size_t count, splat_turn *turns)
@@ -157,7 +158,7 @@ void ffd_splat_turn_to_file(const double frame[9], splat_turn *turn)
     double axes[9], rotation[9], product[9], turned[9];
     if (!turn->is_turn)
         return;
-    /* A mirror in the frame cancels: it is there twice. */
+    /* A reflection in the frame cancels, because the frame is applied twice. */
     const double largest = mat_largest_entry(frame);
     for (int i = 0; i < 9; i++)
         axes[i] = frame[i] / largest;
@@ -171,7 +172,7 @@ void ffd_splat_turn_to_file(const double frame[9], splat_turn *turn)
     find_turn_quaternion(turned, turn->quaternion);
 }
 
-/* Sets the parts. Returns false where sizes are not numbers. */
+/* Computes the scales relative to the largest. Returns false if a scale is not finite. */
 static bool find_parts(const splat_form *form, const double scale[3], double parts[3])
 {
     const int count = form->is_flat ? 2 : 3;
@@ -190,7 +191,7 @@ static bool find_parts(const splat_form *form, const double scale[3], double par
     return true;
 }
 
-/* A unit quaternion; false where it has no direction. */
+/* Normalises a quaternion. Returns false if it is 0 or not finite. */
 static bool find_unit(const double q[4], double unit[4])
 {
     double largest = 0, sum = 0;
@@ -210,8 +211,8 @@ static bool find_unit(const double q[4], double unit[4])
     return true;
 }
 
-/* Makes the columns unit vectors, and their lengths at least `least` each. Directions of those that are
-   shorter are chosen perpendicular to the others. */
+/* Normalises the columns, with lengths of at least `least`. Columns that are shorter get a direction
+   perpendicular to the others. */
 static void unit_columns(double columns[3][3], const double least[3], double lengths[3])
 {
     bool is_there[3];
@@ -237,9 +238,8 @@ static void unit_columns(double columns[3][3], const double least[3], double len
             vec_cross(columns[(j + 1) % 3], columns[(j + 2) % 3], columns[j]);
 }
 
-/* How well columns, in an order, fit three axes as a right-handed frame: the sum of cosines. signs: of the
- * columns.
- */
+/* Returns how well columns, in an order, match three axes as a right-handed frame: the sum of cosines. signs:
+   those of the columns. */
 static double fit(const double axes[9], const double columns[3][3], const int order[3], bool is_right,
                   double signs[3])
 {
@@ -262,7 +262,7 @@ static double fit(const double axes[9], const double columns[3][3], const int or
     return sum - 2 * least;
 }
 
-/* Takes the columns as axes, in the order and with the signs that are nearest to the old ones. */
+/* Assigns the columns to axes, in the order and with the signs nearest to the old axes. */
 static void choose_axes(const double axes[9], const double columns[3][3], bool is_flat, int order[3],
                         double rotation[9])
 {
@@ -285,8 +285,7 @@ static void choose_axes(const double axes[9], const double columns[3][3], bool i
             rotation[3 * k + i] = best_signs[i] * columns[order[i]][k];
 }
 
-/* Gives the quaternion of a rotation the length of another one, and the sign nearer to the turned other one.
- */
+/* Replaces q by the quaternion of a rotation, with the length of q, and the sign nearer to the rotated q. */
 static void replace_rotation(const double rotation[9], const double turn[4], const double unit[4],
                              double q[4])
 {
@@ -298,20 +297,20 @@ static void replace_rotation(const double rotation[9], const double turn[4], con
     find_quaternion(rotation, made);
     for (int i = 0; i < 4; i++) {
         along += made[i] * turned[i];
-        length += q[i] * unit[i]; /* unit is q divided by its length */
+        length += q[i] * unit[i]; /* unit is q / |q| */
     }
     for (int i = 0; i < 4; i++)
         q[i] = (along < 0 ? -length : length) * made[i];
 }
 
-/* A splat between the two iterations. */
+/* A splat before its iteration. */
 typedef struct ellipsoid_work {
-    double unit[4], old[9], parts[3]; /* the quaternion, its matrix, the sizes */
-    double largest;                   /* entry of F */
+    double unit[4], old[9], parts[3]; /* the unit quaternion, its matrix, the relative scales */
+    double largest;                   /* largest entry of F */
     bool is_flattened;
 } ellipsoid_work;
 
-/* Finds the columns of F R S. Returns false, with the outcome, where there is nothing to do. */
+/* Computes the columns of F R S. Returns false, with the outcome, if there is nothing to do. */
 static bool prepare_ellipsoid(const double gradient[9], const splat_form *form, const splat_ellipsoid *splat,
                               ellipsoid_work *work, double columns[9], uint8_t *outcome)
 {

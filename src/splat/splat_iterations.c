@@ -22,7 +22,7 @@ void ffd_splat_orthogonalise(double x[9])
     }
 }
 
-/* One rotation of two columns that makes them perpendicular. Returns false where they are. */
+/* Makes two columns perpendicular by a rotation. Returns false if they are perpendicular already. */
 static bool rotate(double p[3], double q[3])
 {
     const double a = vec_dot(p, p), b = vec_dot(q, q), off = vec_dot(p, q);
@@ -39,8 +39,8 @@ static bool rotate(double p[3], double q[3])
     return true;
 }
 
-/* Jacobi's method from one side (Golub & Van Loan, Matrix Computations, 8.6.3) finds small sizes beside large
-   ones to all digits. */
+/* The one-sided Jacobi method (Golub & Van Loan, Matrix Computations, 8.6.3) has a high relative accuracy for
+   small singular values next to large ones. */
 void ffd_splat_part_columns(double columns[9])
 {
     bool any = true;

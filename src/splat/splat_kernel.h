@@ -1,5 +1,5 @@
-/* splat_kernel.h - several splats at a time: what the functions of splat.h do for one, with the same bits.
-   Used within splat only. */
+/* splat_kernel.h - kernels that process several splats at a time, with the same bits as the scalar functions.
+   Used in src/splat only. */
 #ifndef FFD_SPLAT_SPLAT_KERNEL_H
 #define FFD_SPLAT_SPLAT_KERNEL_H
 
@@ -7,13 +7,14 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* What a kernel leaves to the functions for one: the last few, and those that are not ordinary. */
+/* The outcome of splats that a kernel leaves to the scalar functions: the last few, and special cases. */
 #define SPLAT_OPEN UINT8_MAX
 
-/* Finds turns; open: 1 for all, and then for those that are left. One function for each instruction set that
-   has lanes. */
+/* Computes rotations. open: all 1 before the call; afterwards 1 for those that are not computed. One function
+   for each SIMD instruction set. */
 typedef void turn_kernel(const double *gradients, size_t count, splat_turn *turns, uint8_t *open);
-/* Deforms splats, as ffd_splats_deform; outcomes: SPLAT_OPEN of all, and then of those that are left. */
+/* Deforms splats as ffd_splats_deform. outcomes: all SPLAT_OPEN before the call; afterwards only those that
+   are not computed. */
 typedef void ellipsoid_kernel(const double *gradients, const splat_turn *turns, const splat_form *form,
                               size_t count, splat_ellipsoid *splats, uint8_t *outcomes);
 
@@ -22,22 +23,23 @@ turn_kernel ffd_turn_kernel_sse2, ffd_turn_kernel_avx2, ffd_turn_kernel_avx512;
 ellipsoid_kernel ffd_ellipsoid_kernel_sse2, ffd_ellipsoid_kernel_avx2, ffd_ellipsoid_kernel_avx512;
 #endif
 
-/* What the gradient of a lattice that does not turn or stretch may be by rounding. */
+/* Upper bound of the rounding errors in the gradient of a lattice that neither rotates nor stretches. */
 #define STILL 0x1p-48
-/* Directions that turn by less than this are not turned: coefficients of 0 stay 0. */
+/* Smaller rotations are ignored, so that coefficients of 0 stay 0. */
 #define NO_TURN 0x1p-46
-/* Part of a size that is left of one that F takes away: above the rounding of F, whose entries are sums over
-   control points. */
+/* Relative size that remains of an extent that F collapses: above the rounding of F, whose entries are sums
+   over control points. */
 #define NOTHING 1e-12
-/* Entries of F that can be squared and multiplied freely. */
+/* Range of the entries of F in which squares and products neither overflow nor underflow. */
 #define LEAST_F 1e-30
 #define LARGEST_F 1e30
 
-/* Sizes as they are computed with: parts of the largest, none of which is 0. */
+/* Lower limits of scales relative to the largest, so that none of them is 0. */
 #define LEAST_LOG (-150.0)
 #define LEAST_PART 7e-66
 
-/* Orders of three columns; the first two leave the last one where it is. Even ones keep the handedness. */
+/* The permutations of three columns; the first two keep the last column. Those with an even index keep the
+   handedness. */
 static const int splat_orders[6][3] = {{0, 1, 2}, {1, 0, 2}, {1, 2, 0}, {0, 2, 1}, {2, 0, 1}, {2, 1, 0}};
 
 #endif

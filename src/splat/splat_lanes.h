@@ -1,5 +1,5 @@
-/* splat_lanes.h - the iterations of splats and what else their kernels have in common, for lanes with one
-   splat each. Operation by operation it is splat_iterations.c and splat.c. Included by the kernels only. */
+/* splat_lanes.h - the iterations and helpers of the splat kernels, with one splat in each lane. The
+   operations are those of splat_iterations.c and splat.c in the same order. Included by the kernels only. */
 #ifndef FFD_SPLAT_SPLAT_LANES_H
 #define FFD_SPLAT_SPLAT_LANES_H
 
@@ -26,7 +26,7 @@ static ALWAYS_INLINE lanes lanes_square_sum(const lanes m[9])
     return lanes_dot(m, m) + lanes_dot(m + 3, m + 3) + lanes_dot(m + 6, m + 6);
 }
 
-/* What brings a matrix near to its orthogonal factor. */
+/* Returns the scale that moves a matrix towards its orthogonal factor. */
 static ALWAYS_INLINE lanes find_scale(const lanes x[9], const lanes cofactor[9], lanes determinant)
 {
     const lanes inverse_sum = lanes_square_sum(cofactor) / (determinant * determinant);
@@ -54,7 +54,7 @@ static ALWAYS_INLINE void orthogonalise(lanes x[9])
     }
 }
 
-/* Returns the lanes whose columns are not perpendicular yet. */
+/* Returns a mask of the lanes whose columns were not perpendicular. */
 static ALWAYS_INLINE mask rotate(lanes p[3], lanes q[3])
 {
     const lanes a = lanes_dot(p, p), b = lanes_dot(q, q), off = lanes_dot(p, q);
@@ -73,8 +73,8 @@ static ALWAYS_INLINE mask rotate(lanes p[3], lanes q[3])
     return turns;
 }
 
-/* The columns of two matrices in turns: a rotation is a chain of roots and quotients, and while the processor
-   waits for one of these it goes on with the other matrix. */
+/* Processes two matrices alternately: a rotation is a chain of square roots and divisions, and their latency
+   is hidden by work on the other matrix. */
 static ALWAYS_INLINE void part_columns(lanes a[9], lanes b[9])
 {
     bool any = true;
@@ -89,10 +89,10 @@ static ALWAYS_INLINE void part_columns(lanes a[9], lanes b[9])
     }
 }
 
-/* F of several splats. */
+/* F of the splats in the lanes. */
 typedef struct gradient_lanes {
     lanes f[9], cofactor[9];
-    mask is_usable, is_still; /* the gradient is of numbers that can be squared; it is nothing but rounding */
+    mask is_usable, is_still; /* masks: entries of F can be squared; the gradient is 0 to rounding */
     mask is_flattening;
 } gradient_lanes;
 
@@ -115,7 +115,7 @@ static ALWAYS_INLINE void load_gradients(const double *gradients, gradient_lanes
                           NOTHING * lanes_largest_entry(at->f) * lanes_root(lanes_square_sum(at->cofactor)));
 }
 
-/* The quaternion of a rotation, as find_quaternion of splat.c. */
+/* As find_quaternion in splat.c. */
 static ALWAYS_INLINE void find_quaternion(const lanes m[9], lanes q[4])
 {
     const lanes trace = m[0] + m[4] + m[8], w = m[7] - m[5], x = m[2] - m[6], y = m[3] - m[1];

@@ -1,34 +1,35 @@
-/* splat_types.h - what a Gaussian splat is, and how it turns. */
+/* splat_types.h - Gaussian splats and rotations. */
 #ifndef FFD_SPLAT_SPLAT_TYPES_H
 #define FFD_SPLAT_SPLAT_TYPES_H
 
 #include <stdbool.h>
 
-/* How a file holds the sizes of its splats. */
+/* How a file stores the scales of splats. */
 typedef struct splat_form {
-    bool is_logarithmic; /* natural logarithms of the standard deviations; else these themselves */
-    bool is_flat;        /* a disk: there is no third size */
-    int degree;          /* of the spherical harmonics that turn; 0: there are none */
+    bool is_logarithmic; /* scales are natural logarithms of standard deviations; false: standard
+                            deviations */
+    bool is_flat;        /* disks, without a third scale */
+    int degree;          /* degree of the spherical harmonics to be rotated; 0: none */
 } splat_form;
 
-/* The covariance is R S S R^T: R of the rotation, S of the sizes along its axes. */
+/* An ellipsoid with the covariance R S S R^T: R the rotation matrix, S the diagonal matrix of scales. */
 typedef struct splat_ellipsoid {
     double rotation[4]; /* a quaternion w, x, y, z of any length */
     double scale[3];
 } splat_ellipsoid;
 
-/* How directions turn. */
+/* A rotation of directions. */
 typedef struct splat_turn {
-    double quaternion[4]; /* of length 1, w not negative */
-    bool is_turn;         /* false: it is the identity, and mirrors nothing */
-    bool is_mirrored;     /* directions are turned, and then reversed */
+    double quaternion[4]; /* unit length, w >= 0 */
+    bool is_turn;         /* false: the identity, without reflection */
+    bool is_mirrored;     /* directions are rotated and then reversed */
 } splat_turn;
 
 typedef enum splat_outcome {
     SPLAT_KEPT,      /* F is the identity */
-    SPLAT_CARRIED,   /* it follows F */
-    SPLAT_FLATTENED, /* it follows F, which has no inverse: a size is only that of a rounding */
-    SPLAT_BROKEN     /* it has no rotation or sizes that are numbers, or F is not a number: it stays */
+    SPLAT_CARRIED,   /* transformed by F */
+    SPLAT_FLATTENED, /* transformed by F, which is not invertible: a scale has the size of rounding */
+    SPLAT_BROKEN     /* its rotation or scale, or F, is not finite: unchanged */
 } splat_outcome;
 
 #endif

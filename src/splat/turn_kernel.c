@@ -1,5 +1,6 @@
-/* turn_kernel.c - compiled once for each instruction set with lanes: FFD_TURN_KERNEL is the function's name,
-   FFD_LANES the number of SIMD lanes, each with one splat. Operation by operation it is splat.c. */
+/* turn_kernel.c - compiled once for each SIMD instruction set; FFD_TURN_KERNEL is the name of the function,
+   FFD_LANES the number of lanes, each with one splat. The operations are those of splat.c in the same
+   order. */
 #include "splat/splat_lanes.h"
 
 static ALWAYS_INLINE void store_turn(const lanes q[4], int l, bool is_turn, bool is_mirrored,

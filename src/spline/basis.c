@@ -9,7 +9,7 @@ void ffd_basis_values(const knot_vector *knots, int span, double u, double value
         triangle_raise(knots->t, span, degree, u, value);
 }
 
-/* t points to the knots from which span counts. */
+/* t: the array that span is an index of. */
 static void derivatives(const double *t, int span, int d, double u, double value[MAX_ORDER],
                         double derivative[MAX_ORDER])
 {
@@ -17,8 +17,8 @@ static void derivatives(const double *t, int span, int d, double u, double value
     for (int degree = 1; degree < d; degree++)
         triangle_raise(t, span, degree, u, value);
 
-    /* N'_i = d/(t_{i+d} - t_i) N_{i,d-1} - d/(t_{i+d+1} - t_{i+1}) N_{i+1,d-1}: each quotient enters twice.
-     */
+    /* N'_i = d/(t_{i+d} - t_i) N_{i,d-1} - d/(t_{i+d+1} - t_{i+1}) N_{i+1,d-1}: each quotient is used by two
+       functions. */
     const double *const left = t + span + 1 - d, *const right = t + span + 1;
     double before = 0;
     for (int r = 0; r < d; r++) {
@@ -36,7 +36,7 @@ void ffd_basis_derivatives(const knot_vector *knots, int span, double u, double 
     derivatives(knots->t, span, knots->degree, u, value, derivative);
 }
 
-/* The 2 d knots round the span, from t_span. */
+/* Copies the 2 d knots round the span, relative to t_span. */
 static void local_knots(const knot_vector *knots, int span, double local[2 * MAX_DEGREE])
 {
     for (int i = 0; i < 2 * knots->degree; i++)
@@ -52,8 +52,8 @@ void ffd_basis_derivatives_in(const knot_vector *knots, int span, double offset,
     derivatives(local, d - 1, d, offset, value, derivative);
 }
 
-/* Of knots, in lengths of a span: what is farther away makes no difference, and its
-   products would not be finite. */
+/* The greatest distance of a knot, in span lengths: a knot that is farther away has no effect, and products
+   with it would overflow. */
 #define FARTHEST 1e300
 
 void ffd_basis_scheme(const knot_vector *knots, int span, span_scheme *scheme)
@@ -72,7 +72,7 @@ void ffd_basis_scheme(const knot_vector *knots, int span, span_scheme *scheme)
             *reciprocal++ = 1 / (t[d + r] - t[d - degree + r]);
 }
 
-/* triangle_raise by reciprocals; returns those of the next degree. */
+/* As triangle_raise, with reciprocals. Returns the reciprocals of the next degree. */
 static const double *raise_by(const span_scheme *scheme, int degree, const double *reciprocal, double u,
                               double *value)
 {

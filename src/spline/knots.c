@@ -8,8 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-/* What every refusal needs to know. `given` are the caller's knots or breakpoints, not the extended vector.
- */
+/* What the checks need. `given` are the caller's knots or breakpoints, not the extended vector. */
 typedef struct knot_list {
     const double *given;
     size_t count;
@@ -33,7 +32,7 @@ static ffd_status check_shape(int degree, size_t points, char direction, ffd_err
         return ffd_fail(error, FFD_E_INVALID,
                         "direction %c: %zu control points, but degree %d needs at least %d", direction,
                         points, degree, degree + 1);
-    /* Spans are int, and a closed vector has points + 2 degree + 1 knots. */
+    /* Indices of spans are int, and a closed vector has points + 2 degree + 1 knots. */
     if (points > (size_t)INT_MAX - 2 * MAX_ORDER)
         return ffd_fail(error, FFD_E_LIMIT, "direction %c: %zu control points are too many", direction,
                         points);
@@ -81,7 +80,7 @@ static ffd_status check_domain(const knot_list *list)
                     word_of(list), first, word_of(list), last, ffd_number_text(list->given[first]).text);
 }
 
-/* One past the last entry that equals entry first. */
+/* Returns the index after the last entry that equals entry first. */
 static size_t run_end(const knot_list *list, size_t first)
 {
     size_t end = first + 1;
@@ -90,7 +89,8 @@ static size_t run_end(const knot_list *list, size_t first)
     return end;
 }
 
-/* Both ends of a period are the same point: their breakpoints count together, the common one once. */
+/* Both ends of a period are the same point of the curve, so their multiplicities add up, less the breakpoint
+   that they share. */
 static ffd_status check_seam(const knot_list *list, size_t at_start, size_t at_end)
 {
     const size_t multiplicity = at_start + at_end - 1;
@@ -104,8 +104,8 @@ static ffd_status check_seam(const knot_list *list, size_t at_start, size_t at_e
         ffd_number_text(list->given[list->count - 1]).text, multiplicity, list->degree, list->degree);
 }
 
-/* A knot inside the domain more than d times tears the volume; one at an end more than d + 1 times leaves a
-   control point without effect. */
+/* A multiplicity above d tears the volume at an inner knot; above d + 1 at an end it leaves a control point
+   without effect. */
 static ffd_status check_run(const knot_list *list, size_t first, size_t end)
 {
     const double *const t = list->given;
@@ -148,7 +148,7 @@ static ffd_status check_list(const knot_list *list, size_t points)
     return status;
 }
 
-/* Knots that are usable as numbers: neither d times their range nor d over the width of a span overflows. */
+/* Refuses knots for which d times the range, or d divided by the width of a span, overflows. */
 static ffd_status check_widths(const knot_vector *knots, char direction, ffd_error *error)
 {
     const double *const t = knots->t;
@@ -171,8 +171,8 @@ static ffd_status check_widths(const knot_vector *knots, char direction, ffd_err
     return FFD_OK;
 }
 
-/* Every preset knot is one division of two exact numbers: 0 and 1 are exact, equal fractions have equal bits,
-   and the ends of the domain are the knots themselves. */
+/* Every preset knot is a single division of two exact numbers. So 0 and 1 are exact, equal fractions have
+   equal bits, and the ends of the domain are knots exactly. */
 static void fill_preset(const knot_vector *knots)
 {
     const int d = knots->degree, n = (int)knots->points;
@@ -187,8 +187,8 @@ static void fill_preset(const knot_vector *knots)
     }
 }
 
-/* t_{i+n} = t_i + T, written with distances to the period's own ends: the result is non-decreasing whatever
-   is rounded, and breakpoints repeated at one end are repeated at the other. */
+/* t_{i+n} = t_i + T, computed with distances to the ends of the period: so rounding cannot make the knots
+   decrease, and repeated breakpoints at one end are repeated at the other. */
 static void extend_period(const knot_vector *knots)
 {
     const size_t d = (size_t)knots->degree, n = knots->points;
@@ -326,7 +326,7 @@ size_t ffd_knots_span_number(const knot_vector *knots, double u)
 {
     const size_t count = knots->span_count;
     const knot_place place = {knots->t, u};
-    /* Where equal spans would have it; most are. */
+    /* First guess, as if all spans had the same length; most do. */
     const double first = span_first(knots, 0), last = ffd_knots_last(knots);
     const double guess = (u - first) / (last - first) * (double)count;
     if (guess >= 0 && guess < (double)count) {
@@ -344,7 +344,7 @@ int ffd_knots_span(const knot_vector *knots, double u)
 
 double ffd_knots_greville(const knot_vector *knots, size_t function)
 {
-    /* As an offset from its first knot: equal knots give themselves, to the bit. */
+    /* Computed relative to the first knot, so that equal knots give exactly that knot. */
     const double *const t = knots->t + function + 1;
     double sum = 0;
     for (int j = 1; j < knots->degree; j++)

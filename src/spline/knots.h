@@ -1,41 +1,39 @@
-/* knots.h - makes and asks the knot vector of one direction: validation, domain, spans, Greville abscissae.
- */
+/* knots.h - the knot vector of one direction: construction, validation, domain, spans, Greville abscissae. */
 #ifndef FFD_SPLINE_KNOTS_H
 #define FFD_SPLINE_KNOTS_H
 
 #include "base/fail.h"
 #include "spline/knot_vector.h"
 
-/* Makes the knots of a kind; list holds the knots or breakpoints of the two list kinds (list_count of them),
-   else NULL. Refuses what src/maths.md 3 refuses; the message names direction ('u','v','w'), index and value.
-   On failure *knots is empty. */
+/* Makes a knot vector. list: for the two list kinds the list_count knots or breakpoints, which are copied;
+   else NULL. direction: 'u', 'v' or 'w', for messages. *knots is empty after a failure. Errors: FFD_E_INVALID
+   for what src/maths.md 3 refuses, with direction, index and value; FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_knots_make(knot_kind kind, int degree, size_t points, const double *list, size_t list_count,
                           char direction, knot_vector *knots, ffd_error *error);
-/* Leaves an empty one, which can be freed again. */
+/* Frees the knot vector and empties it; it can be freed again. */
 void ffd_knots_free(knot_vector *knots);
 
-/* The start of the domain. */
+/* Returns the start of the domain. */
 double ffd_knots_first(const knot_vector *knots);
-/* The end of the domain. */
+/* Returns the end of the domain. */
 double ffd_knots_last(const knot_vector *knots);
 
-/* The following for what is not in the domain, or is its end. */
+/* The part of ffd_knots_wrap for u that is not inside the domain, or at its end. */
 double ffd_knots_wrap_outside(const knot_vector *knots, double u);
-/* u in the domain's nearest point; closed: modulo the period into [b_0, b_n). */
+/* Returns u clamped to the domain; closed: modulo the period, in [b_0, b_n). */
 static inline double ffd_knots_wrap(const knot_vector *knots, double u)
 {
     const bool inside = knots->t[knots->degree] <= u && u < knots->t[knots->functions];
     return inside ? u : ffd_knots_wrap_outside(knots, u);
 }
 
-/* The span s of the domain with t_s <= u < t_{s+1}, clipped to the first and last non-empty one (NURBS Book
- * A2.1).
- */
+/* Returns the span s of the domain with t_s <= u < t_{s+1}, clamped to the first and last non-empty span
+   (NURBS Book A2.1). */
 int ffd_knots_span(const knot_vector *knots, double u);
-/* Its index among the non-empty spans. */
+/* Returns the index of that span among the non-empty ones. */
 size_t ffd_knots_span_number(const knot_vector *knots, double u);
 
-/* g_i = (t_{i+1} + ... + t_{i+d})/d of function i. */
+/* Returns the Greville abscissa g_i = (t_{i+1} + ... + t_{i+d})/d of function i. */
 double ffd_knots_greville(const knot_vector *knots, size_t function);
 
 #endif

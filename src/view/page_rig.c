@@ -49,11 +49,10 @@ static void put_skeleton(page_rig_side *side)
     ffd_page_floats_put(&side->blocks[PAGE_WEIGHTS], s->weights, s->weight_count);
 }
 
-/* Returns the index in the document of a vertex of the page. */
-static size_t number_of(const page_mesh *mesh, size_t vertex)
+/* Returns the index in a side's document of a vertex of the page. */
+static size_t number_of(const page_mesh *mesh, const page_rig_side *side, size_t vertex)
 {
-    const uint32_t of = mesh->vertices[vertex];
-    return mesh->scene->numbers ? (size_t)mesh->scene->numbers[of] : of;
+    return ffd_view_vertex_of(mesh->scene, side->from == &mesh->scene->rigs[1], mesh->vertices[vertex]);
 }
 
 /* Chooses the bones of a vertex with the largest weights, in descending order. Returns their number. */
@@ -111,7 +110,7 @@ static ffd_status put_targets(const page_mesh *mesh, page_rig_side *side, ffd_er
     for (size_t i = 0; i < count; i++)
         places[i] = VIEW_NONE;
     for (size_t v = 0; v < mesh->vertex_count; v++)
-        places[number_of(mesh, v)] = (uint32_t)v;
+        places[number_of(mesh, side, v)] = (uint32_t)v;
     for (size_t t = 0; t < anchors->target_count; t++)
         for (size_t i = 0; i < anchors->targets[t].count; i++) {
             const double *const offset = anchors->targets[t].offsets + 3 * i;
@@ -135,9 +134,9 @@ static ffd_status put_vertices(page_rig *rig, page_rig_side *side, bool follows,
         return FFD_OK;
     for (size_t v = 0; v < mesh->vertex_count; v++) {
         if (follows)
-            put_follow(rig, side, number_of(mesh, v));
-        ffd_page_floats_put(&side->blocks[PAGE_ANCHORS], side->from->anchors.points + 3 * number_of(mesh, v),
-                            3);
+            put_follow(rig, side, number_of(mesh, side, v));
+        ffd_page_floats_put(&side->blocks[PAGE_ANCHORS],
+                            side->from->anchors.points + 3 * number_of(mesh, side, v), 3);
     }
     return put_targets(mesh, side, error);
 }

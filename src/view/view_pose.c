@@ -89,7 +89,7 @@ ffd_status ffd_view_pose(const view_scene *scene, int side, size_t animation, do
         join_bones(&w);
         add_targets(rig, &w);
         for (size_t v = 0; v < scene->vertex_count; v++)
-            place(&w, scene->numbers ? (size_t)scene->numbers[v] : v, points + 3 * v);
+            place(&w, ffd_view_vertex_of(scene, side, v), points + 3 * v);
     }
     free_work(&w);
     return status;

@@ -24,8 +24,11 @@ static void free_anchors(mesh_anchors *anchors)
 void ffd_view_scene_free_rigs(view_scene *scene)
 {
     mesh_skeleton *const before = scene->rigs[0].skeleton, *const after = scene->rigs[1].skeleton;
-    for (int side = 0; side < 2; side++)
+    for (int side = 0; side < 2; side++) {
         free_anchors(&scene->rigs[side].anchors);
+        ffd_free(scene->rigs[side].order);
+        scene->rigs[side].order = NULL;
+    }
     if (before)
         before->free(before);
     if (after && after != before)

@@ -41,6 +41,7 @@ typedef struct view_rig {
     mesh_skeleton
         *skeleton; /* NULL: no animation. The side after may share the skeleton of the side before. */
     mesh_anchors anchors;
+    size_t *order; /* index in its document of each vertex that the scene numbers; NULL: the number itself */
 } view_rig;
 
 /* An animation of the mesh before, and the one of the same name of the mesh after. */
@@ -86,6 +87,13 @@ typedef struct view_scene {
     uint64_t vertices_all; /* vertices of the mesh in the file, if vertex_count is what a reduction left; else
                               equal to it */
 } view_scene;
+
+/* Returns the index of a vertex of the scene in the document before (side 0) or after (side 1). */
+static inline size_t ffd_view_vertex_of(const view_scene *scene, int side, size_t vertex)
+{
+    const size_t number = scene->numbers ? (size_t)scene->numbers[vertex] : vertex;
+    return scene->rigs[side].order ? scene->rigs[side].order[number] : number;
+}
 
 /* Frees the rigs and animations. Must be called while their documents are still open. */
 void ffd_view_scene_free_rigs(view_scene *scene);

@@ -285,9 +285,14 @@ def obj_vertices(text):
     return [[float(x) for x in line.split()[1:4]] for line in text.splitlines() if line.startswith("v ")]
 
 
+def obj_of(points):
+    """An OBJ file of vertices alone, in double precision."""
+    return "".join("v %r %r %r\n" % tuple(p) for p in points)
+
+
 def carried(run, points, lattice_name, **options):
     """The points deformed by a lattice file, in double precision (through an OBJ file)."""
-    run.write("carried-in.obj", "".join("v %r %r %r\n" % tuple(p) for p in points))
+    run.write("carried-in.obj", obj_of(points))
     run.ffd("deform", "carried-in.obj", "carried-out.obj", "-l", lattice_name, "--force", **options)
     return obj_vertices(run.text("carried-out.obj"))
 

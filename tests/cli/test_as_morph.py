@@ -6,7 +6,7 @@ import re
 import struct
 
 from gltf_build import SHEAR, SHIFT, Scene, vectors
-from harness import (CUBE, INVALID, USAGE, case, check, equal, glb_split, gltf_vectors, lattice, main, near)
+from harness import (CUBE, INVALID, NO, USAGE, case, check, equal, glb_split, gltf_vectors, lattice, main, near)
 
 POINTS = [[1.0, 2.0, 0.0], [2.0, -4.0, 1.0]]
 NORMALS = [[0.6000000238418579, 0.800000011920929, 0.0]] * 2
@@ -230,6 +230,35 @@ def other_targets_and_their_names_stay(run):
     equal(found["extras"], {"targetNames": ["a", "bent"]})
     found = json.loads(json.dumps(glb_split(morphed(run, plain(), name='b"\\\u00e4'))[0]))["meshes"][0]
     equal(found["extras"]["targetNames"], ['b"\\\u00e4'])
+
+
+@case
+def a_weight_that_no_target_had_is_not_that_of_the_new_one(run):
+    """Of a mesh or a node that has more weights than targets: the new target is not shown."""
+    for holder in ("mesh", "node"):
+        for weights, expected in (([0.25, 1], [0.25, 0]), ([0.25, 1, 1], [0.25, 0, 1]), ([0.25], [0.25, 0])):
+            scene = plain()
+            scene.asset["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": scene.add(POINTS, bounds=True)}]
+            scene.asset["meshes" if holder == "mesh" else "nodes"][0]["weights"] = weights
+            morphed(run, scene, lines=1 if len(weights) > 1 else 0)
+            asset, _ = glb_split(run.read("out.glb"))
+            equal(asset["meshes" if holder == "mesh" else "nodes"][0]["weights"], expected, f"{holder} {weights}")
+
+
+@case
+def check_judges_what_deform_does(run):
+    """Other targets stay: one that leaves the lattice fails no gate, and bounds are those of the base."""
+    scene = plain()
+    mesh = scene.asset["meshes"][0]
+    mesh["primitives"][0]["targets"] = [{"POSITION": scene.add([[50.0, 0.0, 0.0]] * 2, bounds=True)}]
+    mesh["weights"] = [1]
+    morphed(run, scene, "--fail-on", "outside", "--report", "d.json", "--report-stable")
+    run.ffd("check", "in.glb", "-l", "l.json", "--as-morph", "bent", "--fail-on", "outside", "--report", "c.json", "--report-stable")
+    found = [json.loads(run.text(name))["jobs"][0] for name in ("d.json", "c.json")]
+    for member in ("morph_targets", "bounds", "outside", "displacement"):
+        equal(found[1][member], found[0][member], member)
+    equal(found[0]["morph_targets"], {"outside": 0, "shown_outside": 0, "invalid": 0})
+    run.ffd("check", "in.glb", "-l", "l.json", "--fail-on", "outside", code=NO, err=re.compile("morph targets move"))
 
 
 @case

@@ -90,6 +90,17 @@ def a_worker_that_crashes_leaves_no_row(run):
 
 
 @case
+def a_mesh_that_takes_too_long_is_passed_over(run):
+    """Where the vertices of a row are counted, before the first job: the next mesh says how many there are."""
+    start(run, [{"in": "sleep.obj", "lattice": "l.json"}, {"in": "a.obj", "lattice": "l.json"}])
+    run.write("sleep.obj", CUBE + "v 0 0 0\n")
+    trapped(run, "m.jsonl", "--positions", "all.npy", "--timeout", TIMEOUT, "-j2", done=1, failed=[rf"^sleep\.obj: .*{TRAPS['sleep']}"])
+    _, shape, values = npy(run.read("all.npy"))
+    equal(shape, (2, 8, 3))
+    equal([math.isnan(value) for value in values], [True] * 24 + [False] * 24)
+
+
+@case
 def nothing_of_a_worker_that_was_ended_stays(run):
     """The time is up while the worker reads or writes: the system ends it in the middle of a large file."""
     start(run, [job(0, **{"in": "large.obj"})])

@@ -420,6 +420,73 @@ def rows_have_pictures(run):
 
 
 @case
+def pictures_of_rows_that_are_there_stay(run):
+    """With --resume a picture is drawn where it, or its row, is missing or another one."""
+    rows = {i: f"v/row-{i}.png" for i in range(3)}
+    view = ("m.jsonl", "--positions", "all.npy", "--view", "v", "--resume")
+    start(run, [{"in": "a.obj", "lattice": "l.json"}, {"in": "a.obj", "lattice": "m.json"}, {"in": "a.obj", "lattice": "l.json"}])
+    run.write("m.json", lattice(moves=[{"by": [0, 0, 0.25]}]))
+
+    def drawn(**expected):
+        before = {i: os.stat(run.path(name)).st_ino for i, name in rows.items() if run.exists(name)}
+        batch(run, *view, **expected)
+        return [i for i, name in rows.items() if os.stat(run.path(name)).st_ino != before.get(i)]
+
+    equal(drawn(done=3), [0, 1, 2])
+    equal(drawn(kept=3), [], "pictures that are there")
+    equal([(e["status"], e.get("picture")) for e in entries(run)], [("skipped", name) for name in rows.values()])
+    equal(run.text("v/index.html").count('src="row-'), 3)
+    run.remove(rows[1])
+    run.write(rows[2], run.read(rows[0])[:-1])
+    batch(run, *view, "--dry-run", done=2, kept=1,
+          out="up to date: a.obj -> all.npy row 0\nto do: a.obj -> all.npy row 1\nto do: a.obj -> all.npy row 2\n")
+    array_before = run.read("all.npy")
+    equal(drawn(done=2, kept=1), [1, 2], "one that is gone, one that was changed")
+    equal((run.read("all.npy"), run.read(rows[2])), (array_before, run.read(rows[0])), "rows that were there, and what is drawn")
+    # Without pictures a row is made of another lattice: its picture is an old one then.
+    old = run.read(rows[1])
+    run.write("m.json", lattice(moves=[{"by": [0, 0, 1.5]}]))
+    batch(run, "m.jsonl", "--positions", "all.npy", "--resume", done=1, kept=2)
+    equal(drawn(done=1, kept=2), [1], "a picture of what the row was before")
+    check(run.read(rows[1]) != old, "the picture is the old one")
+    equal(drawn(kept=3), [])
+
+
+@case
+def an_embedding_is_no_file_of_the_run(run):
+    """Neither of one job, which fails then, nor one that the run would replace, which is refused."""
+    what = "is the report, the depfile, the journal, the index or the array of this run$"
+    start(run)
+    run.folder_of("v")
+    job_of = {"in": "a.obj", "lattice": "l.json"}
+    paths = ["r.json", "./new.json", "j", "v/../new.npy", "v/index.html"]
+    run.write("m.jsonl", lines_of([job_of] + [{**job_of, "options": {"embedding": path}} for path in (*paths, "v/row-6.png", "v/row-0.png")]))
+    batch(run, "m.jsonl", "--positions", "new.npy", "--report", "r.json", "--journal", "j", "--view", "v", done=1,
+          failed=[rf'^m\.jsonl:{i}: the embedding "{re.escape(path)}" {what}' for i, path in enumerate(paths, 2)]
+          + [r'^m\.jsonl:7: the embedding "v/row-6\.png" is written by the job of line 7 too$',
+             r'^m\.jsonl:8: the embedding "v/row-0\.png" is written by the job of line 1 too$'])
+    equal([row == NAN for row in array(run, "new.npy")[1]], [False] + [True] * 7)
+    equal([e["exit"] for e in report(run)], [0] + [INVALID] * 7)
+    # What is there is kept: the array is replaced before the first job, the index after the last one.
+    run.ffd("embed", "a.obj", "-l", "l.json", "-o", "all.npy")
+    os.symlink("all.npy", run.path("e.npy"))
+    run.write("v/index.html", run.read("all.npy"))
+    before = {name: run.read(name) for name in ("all.npy", "v/index.html", "r.json")}
+    for path in ("all.npy", "e.npy", "v/index.html"):
+        run.write("m.jsonl", lines_of([job(0), {**job_of, "options": {"embedding": path}}]))
+        view = ("--view", "v") if path.startswith("v/") else ()
+        for more in (view, (*view, "--dry-run"), (*view, "--resume")):
+            run.ffd("batch", "m.jsonl", "--positions", "all.npy", "--report", "r.json", "--force", *more, code=INVALID,
+                    err=re.compile(f'^m.jsonl:2: the embedding "{path}" {what}'))
+            equal({name: run.read(name) for name in before}, before, f"{path} {more}")
+    check(not run.exists("o0.obj"), "a job was done")
+    # Another one serves as ever.
+    run.write("m.jsonl", lines_of([{**job_of, "options": {"embedding": "e.npy"}}]))
+    run.remove("v/index.html")
+    batch(run, "m.jsonl", "--positions", "p.npy", "--view", "v", "--force", done=1)
+
+
+@case
 def what_has_no_row_is_refused(run):
     start(run, [job(0)])
     equal([e for e in ("--dtype", "--positions") if e not in run.ffd("batch", "--help").text], [], "the help")

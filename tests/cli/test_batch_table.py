@@ -171,7 +171,7 @@ def bad_rows_fail_alone(run):
             (b'a.obj,p.json,"x3.obj"x,1', r"^t\.csv:5: "), (b'a.obj,p.json,x".obj,1', r"^t\.csv:6: "), (b",p.json,x4.obj,1", r'^t\.csv:7: .*"in"'),
             (b"a.obj,,x5.obj,1", r'^t\.csv:8: .*"lattice"'), (b"a.obj,p.json,,1", r'^t\.csv:9: .*"out"'), (b"a.obj,p.json,x6.obj,abc", "abc"),
             (b"a.obj,p.json,x7.obj,", r"p\.json:/moves/0/by/1"), (b"a.obj,p.json,x8.obj,nan", "nan"), (b"none.obj,p.json,x9.obj,1", r"^none\.obj: "),
-            (b"a.obj,p.json,good2.obj,0.5", None), (b"a\xff.obj,p.json,x10.obj,1", r"UTF-8|a.*\.obj: "), (b'a.obj,p.json,"x11.obj,1', r"^t\.csv:16: ")]
+            (b"a.obj,p.json,good2.obj,0.5", None), (b"a.obj,p.json,x12.obj,1\x002", r"^t\.csv:15: .*UTF-8"), (b"a\xff.obj,p.json,x10.obj,1", r"UTF-8|a.*\.obj: "), (b'a.obj,p.json,"x11.obj,1', r"^t\.csv:17: ")]
     run.write("t.csv", b"in,lattice,out,H\n" + b"\n".join(row for row, _ in rows) + b"\n")
     batch(run, "--csv", "t.csv", "--report", "r.json", done=2, failed=[told for _, told in rows if told])
     equal([(e["line"], e["status"]) for e in report(run)], [(i, "failed" if told else "ok") for i, (_, told) in enumerate(rows, 2)])
@@ -184,7 +184,7 @@ def bad_rows_fail_alone(run):
 def bad_tables_are_refused(run):
     begin(run)
     for header in ("", "\n", "in,lattice,out,H,H\na.obj,p.json,x.obj,1,2\n", "in,in,lattice,out,H\na.obj,a.obj,p.json,x.obj,1\n",
-                   "in,lattice,out,H,\na.obj,p.json,x.obj,1,2\n", '"in,lattice,out,H\n'):
+                   "in,lattice,out,H,\na.obj,p.json,x.obj,1,2\n", "in,lattice,out,H\0\na.obj,p.json,x.obj,1\n", '"in,lattice,out,H\n'):
         run.write("t.csv", header)
         said = run.ffd("batch", "--csv", "t.csv", code=INVALID).err[0]
         check(said.startswith("t.csv:1: "), repr(header), "said", said)

@@ -8,7 +8,7 @@ import re
 
 from batches import batch, lines_of
 from bspline import BoxVolume
-from harness import NO, USAGE, case, check, equal, lattice, main, near, obj_vertices
+from harness import NO, USAGE, case, check, equal, lattice, main, near, obj_of, obj_vertices
 from said import anything, counts, entry, not_told, told
 
 
@@ -17,7 +17,7 @@ def both(*names):
 
 
 def obj(points, faces=()):
-    return "".join("v %r %r %r\n" % tuple(p) for p in points) + "".join("f %d %d %d\n" % tuple(f) for f in faces)
+    return obj_of(points) + "".join("f %d %d %d\n" % tuple(f) for f in faces)
 
 
 def wave(p):

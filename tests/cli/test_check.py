@@ -4,8 +4,8 @@ import json
 import math
 import struct
 
-from harness import (CUBE, CUBE_CORNERS, CUBE_FACES, EMBEDDING, INVALID, NO, IO, UNSUPPORTED, case, check, equal, glb,
-                     gltf_json, lattice, main, near)
+from harness import (CUBE, CUBE_CORNERS, CUBE_FACES, EMBEDDING, INVALID, IO, NO, UNSUPPORTED, case, check, equal, glb,
+                     gltf_json, lattice, main, near, obj_of)
 from said import anything
 
 SHIFT = [{"by": [1, 0, 0]}]
@@ -92,7 +92,7 @@ TRIANGLES = [t for a, b, c, d in CUBE_FACES for t in ([a, b, c], [a, c, d])]
 
 
 def obj(points, faces):
-    return "".join("v %r %r %r\n" % tuple(p) for p in points) + "".join("f %s\n" % " ".join(map(str, f)) for f in faces)
+    return obj_of(points) + "".join("f %s\n" % " ".join(map(str, f)) for f in faces)
 
 
 def edges_of(faces):
@@ -284,6 +284,15 @@ def area_and_volume_are_right(run):
     run.write("m.glb", glb(asset, data))
     text = run.ffd("check", "m.glb", "-l", "l.json", err=anything).text
     check("  area           not known\n  volume         not known\n" in text, text)
+    # Large and far from the lattice: closed all the same.
+    for side, told in (("1e100", "area           6e+200, deformed 6e+200\n  volume         1e+300, deformed 1e+300"),
+                       ("1e110", "area           6e+220, deformed 6e+220\n  volume         too large for a double, deformed too large for a double"),
+                       ("1e160", "area           too large for a double, deformed too large for a double\n"
+                                 "  volume         too large for a double, deformed too large for a double")):
+        run.write("large.obj", obj([[float(side) if x else 9.0 for x in p] for p in CORNERS], CUBE_FACES))
+        check(f"  {told}\n" in run.ffd("check", "large.obj", "-l", "l.json", err=anything).text, side)
+    entry = checked(run, "large.obj", "-l", "l.json", err=anything)
+    equal([entry["volume"], entry["area"]], [None, None])
     # The quad at z = 1 has vertices of its own and moves away.
     lid = [n + 1 for n in range(4, 8)]
     top = next(f for f in CUBE_FACES if sorted(f) == lid)

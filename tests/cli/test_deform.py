@@ -5,7 +5,7 @@ import math
 import os
 
 from harness import (CUBE, CUBE_CORNERS, EMBEDDING, INVALID, IO, NO, OK, PNG, USAGE, case, check, equal, glb,
-                     glb_positions, glb_split, gltf_json, gltf_vectors, lattice, main, near, obj_vertices)
+                     glb_positions, glb_split, gltf_json, gltf_vectors, lattice, main, near, obj_of, obj_vertices)
 
 MOVE = [{"by": [1, 0, 0]}]
 # Displaces the middle of the box only, in x, by an amount that depends on the place.
@@ -31,7 +31,7 @@ def start(run, moves=MOVE, **members):
 def the_documented_displacement(run):
     start(run, BUMP)
     points = CUBE_CORNERS + [[0.0, 0.0, 0.0], [0.25, -0.5, 1.75], [2.0, 0.0, 0.0], [-2.0, -2.0, -2.0]]
-    run.write("p.obj", "".join("v %r %r %r\n" % tuple(p) for p in points))
+    run.write("p.obj", obj_of(points))
     run.ffd("deform", "p.obj", "q.obj", "-l", "l.json")
     near(obj_vertices(run.text("q.obj")), [[p[0] + bump(p), p[1], p[2]] for p in points], 1e-15, "positions")
 

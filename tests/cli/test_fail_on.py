@@ -3,8 +3,8 @@
 import json
 import re
 
-from harness import (CUBE, CUBE_CORNERS, EMBEDDING, IO, NO, OK, case, check, equal, glb, gltf_json, lattice,
-                     main)
+from harness import (CUBE, CUBE_CORNERS, EMBEDDING, IO, NO, OK, case, check, equal, glb, gltf_json, lattice, main,
+                     obj_of)
 
 SHIFT = [{"by": [1, 0, 0]}]
 MIRROR = [{"scale": {"factor": [-1, 1, 1], "about": [0, 0, 0]}}]
@@ -24,7 +24,7 @@ def along_x(xs, degree, deformed=None, **members):
 
 
 def vertices(*points):
-    return "".join("v %r %r %r\n" % tuple(p) for p in points)
+    return obj_of(points)
 
 
 # For each gate a mesh, a lattice that violates it and no other, and what is said.

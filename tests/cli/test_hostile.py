@@ -8,7 +8,7 @@ import random
 import resource
 import struct
 
-from harness import CUBE, INVALID, LIMIT, OK, SANITIZED, case, check, equal, lattice, main, npy
+from harness import CUBE, INVALID, LIMIT, OK, SANITIZED, case, check, equal, lattice, main, npy, obj_of
 from vectors import cross, dot
 
 INSIDE, OUTSIDE, MULTIPLE, SINGULAR, POINT_INVALID = range(5)
@@ -122,7 +122,7 @@ def embed(run, mesh, lattice_file, code=OK, again=True, addresses=2 * GIGA):
 
 
 def write_points(run, points):
-    run.write("m.obj", "".join("v %r %r %r\n" % tuple(p) for p in points))
+    run.write("m.obj", obj_of(points))
 
 
 def write_lattice(run, size, degree, points):

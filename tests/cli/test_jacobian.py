@@ -267,6 +267,14 @@ def what_cannot_be_is_refused(run):
     run.write("j.npz", "mine")
     run.ffd(*base, "-o", "j.npz", code=IO, err=anything)
     equal(run.read("j.npz"), b"mine", "what was there")
+    # What is read is not replaced, whatever may be.
+    before = run.read("short.npy")
+    for option in ("--times", "--transposed"):
+        done = run.ffd(*base, "-o", "./short.npy", option, "short.npy", "--force", code=IO, err=anything)
+        check("./short.npy: is an input of this command" in done.err[-1], done.err)
+    run.write("p.npz", ply(POINTS))
+    run.ffd("jacobian", "p.npz", "--input-format", "ply", "-l", "l.json", *SET, "-o", "p.npz", "--force", code=IO, err=anything)
+    equal((run.read("short.npy"), run.read("p.npz")), (before, ply(POINTS)))
     check(not any(name.startswith(".") for name in run.names()), run.names())
 
 

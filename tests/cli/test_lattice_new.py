@@ -3,8 +3,8 @@
 import json
 import math
 
-from harness import (CUBE, CUBE_CORNERS, INVALID, IO, LIMIT, USAGE, case, check, equal, glb, gltf_json, main, near, npy,
-                     obj_vertices)
+from harness import (CUBE, CUBE_CORNERS, INVALID, IO, LIMIT, USAGE, case, check, equal, glb, gltf_json, main, near,
+                     npy, obj_of, obj_vertices)
 
 
 def new(run, *arguments, mesh="a.obj", **options):
@@ -76,7 +76,7 @@ def cylinders_go_round_the_mesh(run):
 def principal_axes_are_those_of_the_points(run):
     c, s = math.cos(0.5), math.sin(0.5)
     points = [[c * x - s * y, s * x + c * y, z] for x in (-5, -2, 2, 5) for y in (-1, 1) for z in (-0.25, 0.25)]
-    run.write("a.obj", "".join("v %r %r %r\n" % tuple(p) for p in points))
+    run.write("a.obj", obj_of(points))
     content = new(run, "--axes", "principal", "--margin", "0")
     sides = sorted(b - a for a, b in zip(box(content)["min"], box(content)["max"]))
     near(sides, [0.5, 2, 10], 1e-9)

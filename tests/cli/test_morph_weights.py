@@ -105,6 +105,49 @@ def a_conversion_writes_what_is_shown(run):
     near(shown(run, scene(TWO, [0.5, -1])), moved([1, -4, -1.5]), 1e-6)
 
 
+def two_primitives(targets, weights, directions=None, meshes=1):
+    """Primitives of the same triangle, in one mesh or in two, each with morph targets of its own; directions: the normals that
+    the targets add to that of both."""
+    made = scene([], nodes=[{"mesh": m} for m in range(meshes)])
+    attributes = made.asset["meshes"][0]["primitives"][0]["attributes"]
+    if directions:
+        attributes["NORMAL"] = made.add([[0.0, 0.0, 1.0]] * 3)
+    primitives = [{"attributes": attributes, "targets": [
+        {"POSITION": made.add([offset] * 3, bounds=True), **({"NORMAL": made.add([directions[p]] * 3)} if directions else {})}
+        for offset in offsets]} for p, offsets in enumerate(targets)]
+    made.asset["meshes"] = [{"primitives": part, "weights": weights} for part in
+                            ([primitives] if meshes == 1 else [[primitive] for primitive in primitives])]
+    return made
+
+
+@case
+def primitives_that_share_positions_are_shown_by_their_own_targets(run):
+    """Each is where its own targets show it, and counts as vertices of its own; with weights of 0 they are one."""
+    for weights, first, second in (([1, 0], [2, 0, 1], [0, 4, 2]), ([0.5, 1], [1, 0, 0.5], [0, 2, 1])):
+        made = two_primitives([TWO[:1] + [[0, 0, 0]], TWO[1:] + [[0, 0, 0]]], weights)
+        near(shown(run, made), moved(first) + moved(second), 1e-6, str(weights))
+        places = [[x - (a == 0) for a, x in enumerate(p)] for p in moved(first) + moved(second)]
+        near(bounds(run, made), [list(map(edge, *places)) for edge in (min, max)], 1e-6, f"bounds, {weights}")
+        equal(entry(run, "check", "a.glb", "-l", "l.json")["vertices"], 6)
+    made = two_primitives([TWO[:1], TWO[1:]], [0])
+    equal(len(shown(run, made)), 3)
+    high = lattice(low=(-10, -10, 1.5), high=(10, 10, 10), moves=[{"by": [1, 0, 0]}])
+    run.write("a.glb", two_primitives([TWO[:1], TWO[1:]], [1]).glb())
+    run.write("h.json", high)
+    equal(entry(run, "check", "a.glb", "-l", "h.json")["morph_targets"], {"outside": 3, "shown_outside": 3, "invalid": 0})
+
+
+@case
+def primitives_that_share_positions_in_other_meshes_and_their_normals(run):
+    made = two_primitives([TWO[:1], TWO[1:]], [1], meshes=2)
+    near(shown(run, made), moved(TWO[0]) + moved(TWO[1]), 1e-6)
+    run.ffd("deform", "a.glb", "b.obj", "-l", "l.json", "--space", "mesh", err=anything)
+    near(obj_vertices(run.text("b.obj")), moved(TWO[0]) + moved(TWO[1]), 1e-6)
+    shown(run, two_primitives([TWO[:1], TWO[:1]], [1], directions=[[1.0, 0.0, -1.0], [0.0, 1.0, -1.0]]))
+    normals = [[float(x) for x in line.split()[1:]] for line in run.text("a.obj").splitlines() if line.startswith("vn ")]
+    near(sorted(map(list, {tuple(n) for n in normals})), [[0, 1, 0], [1, 0, 0]], 1e-6)
+
+
 @case
 def a_conversion_of_a_bent_shape(run):
     """The target is shown in full: base and target of the glTF that comes out, added."""

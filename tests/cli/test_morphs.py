@@ -222,34 +222,44 @@ def several_clips_and_one_of_the_same_name(run):
     equal(targets_of(again, again_data), targets_of(asset, data))
 
 
+def left(run, change, *options):
+    """Replaces a target of two_meshes after a change of it: the lines about bytes that are left, and the number in the report."""
+    scene = two_meshes(targets=2)
+    mesh = scene.asset["meshes"][0]
+    mesh["extras"]["targetNames"][0] = "squash"
+    change(scene, mesh["primitives"][0]["targets"])
+    write(run, scene)
+    done = run.ffd("deform", "in.glb", "out.glb", "--force", "--morph", "squash=shear.json", "--report", "r.json", *options, err=anything)
+    job = json.loads(run.text("r.json"))["jobs"][0]
+    return [line for line in done.err if "stay in the file" in line], job.get("bytes_left")
+
+
+def said(count):
+    return [f'in.glb: {count} bytes that only the old morph target "squash" used stay in the file'], count
+
+
+def whole(scene, targets):
+    targets[0]["POSITION"] = scene.add([[1, 2, 3, 0]] * 3, 5122, "VEC4")
+    scene.asset["accessors"][-1] |= {"type": "VEC3", "normalized": True}
+    scene.asset["bufferViews"][-1]["byteStride"] = 8
+
+
+def sparse(scene, targets):
+    scene.asset["accessors"][targets[0]["POSITION"]] = {
+        "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 0, 0], "sparse": {
+            "count": 1, "indices": {"bufferView": scene.view(b"\1\0\0\0"), "componentType": 5121},
+            "values": {"bufferView": scene.view(struct.pack("<3f", 1, 0, 0))}}}
+
+
+def again(scene, accessor, **change):
+    scene.asset["accessors"].append({**scene.asset["accessors"][accessor], **change})
+    return len(scene.asset["accessors"]) - 1
+
+
 @case
 def bytes_that_a_replaced_target_leaves_are_said(run):
     """Floats that nothing else uses are written over, and leave none. What cannot be is counted: whole numbers, sparse
     ones, of normals too; not what another target or an animation uses as well."""
-    def left(change, *options):
-        scene = two_meshes(targets=2)
-        mesh = scene.asset["meshes"][0]
-        mesh["extras"]["targetNames"][0] = "squash"
-        change(scene, mesh["primitives"][0]["targets"])
-        write(run, scene)
-        done = run.ffd("deform", "in.glb", "out.glb", "--force", "--morph", "squash=shear.json", "--report", "r.json", *options, err=anything)
-        job = json.loads(run.text("r.json"))["jobs"][0]
-        return [line for line in done.err if "stay in the file" in line], job.get("bytes_left")
-
-    def said(count):
-        return [f'in.glb: {count} bytes that only the old morph target "squash" used stay in the file'], count
-
-    def whole(scene, targets):
-        targets[0]["POSITION"] = scene.add([[1, 2, 3, 0]] * 3, 5122, "VEC4")
-        scene.asset["accessors"][-1] |= {"type": "VEC3", "normalized": True}
-        scene.asset["bufferViews"][-1]["byteStride"] = 8
-
-    def sparse(scene, targets):
-        scene.asset["accessors"][targets[0]["POSITION"]] = {
-            "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 0, 0], "sparse": {
-                "count": 1, "indices": {"bufferView": scene.view(b"\1\0\0\0"), "componentType": 5121},
-                "values": {"bufferView": scene.view(struct.pack("<3f", 1, 0, 0))}}}
-
     def shared(scene, targets):
         whole(scene, targets)
         targets[1]["POSITION"] = targets[0]["POSITION"]
@@ -258,12 +268,12 @@ def bytes_that_a_replaced_target_leaves_are_said(run):
         targets[0]["NORMAL"] = targets[1]["NORMAL"] = scene.add([[0.0, 0.0, 0.0]] * 3)
         targets[0]["TANGENT"] = scene.add([[0.0, 0.0, 0.0]] * 3)
 
-    equal(left(lambda scene, targets: None), ([], None), "written over")
-    equal(left(whole), said(18), "three elements of six bytes")
-    equal(left(sparse), said(13), "a place and three floats")
-    equal(left(shared), ([], None))
-    equal(left(normals), said(36), "tangents, which the mesh has not")
-    equal(left(normals, "--normals", "keep"), said(36))
+    equal(left(run, lambda scene, targets: None), ([], None), "written over")
+    equal(left(run, whole), said(18), "three elements of six bytes")
+    equal(left(run, sparse), said(13), "a place and three floats")
+    equal(left(run, shared), ([], None))
+    equal(left(run, normals), said(36), "tangents, which the mesh has not")
+    equal(left(run, normals, "--normals", "keep"), said(36))
 
     # With those of a clip that is replaced; a target is named once.
     write(run)
@@ -278,27 +288,91 @@ def bytes_that_a_replaced_target_leaves_are_said(run):
 
 
 @case
+def bytes_that_accessors_share_are_counted_once(run):
+    """Of two accessors that are replaced; bytes that an accessor which stays has too, or an image, are not counted."""
+    def twice(scene, targets):
+        whole(scene, targets)
+        targets[0]["NORMAL"] = again(scene, targets[0]["POSITION"])
+
+    def kept(scene, targets):
+        whole(scene, targets)
+        targets[1]["POSITION"] = again(scene, targets[0]["POSITION"])
+
+    def partly_kept(scene, targets):
+        view = scene.view(struct.pack("<16h", *range(16)))
+        scene.asset["bufferViews"][view]["byteStride"] = 8
+        scene.asset["accessors"].append({"bufferView": view, "componentType": 5122, "count": 3, "type": "VEC3", "normalized": True})
+        targets[0]["POSITION"] = len(scene.asset["accessors"]) - 1
+        targets[1]["POSITION"] = again(scene, targets[0]["POSITION"], byteOffset=8)
+
+    def woven(offset):
+        def change(scene, targets):
+            whole(scene, targets)
+            attributes = scene.asset["meshes"][0]["primitives"][0]["attributes"]
+            attributes["_WOVEN"] = again(scene, targets[0]["POSITION"], type="SCALAR", byteOffset=offset)
+        return change
+
+    def of_an_image(scene, targets):
+        whole(scene, targets)
+        scene.asset["images"] = [{"bufferView": scene.asset["accessors"][targets[0]["POSITION"]]["bufferView"], "mimeType": "image/png"}]
+
+    def sparse_twice(scene, targets):
+        sparse(scene, targets)
+        targets[0]["NORMAL"] = again(scene, targets[0]["POSITION"])
+
+    equal(left(run, twice), said(18), "two accessors of the same bytes")
+    equal(left(run, sparse_twice), said(13), "the same that is sparse")
+    equal(left(run, kept), ([], None), "another accessor of the same bytes stays")
+    equal(left(run, partly_kept), said(6), "another accessor has two of the elements")
+    equal(left(run, woven(6)), said(18), "between the elements is another's")
+    equal(left(run, woven(4)), said(12), "in each element is another's")
+    equal(left(run, of_an_image), ([], None), "no accessor, but an image")
+
+
+@case
+def bytes_that_two_replaced_animations_share(run):
+    """They are left once both are replaced."""
+    write(run)
+    asset, data = deformed(run, "--clip", "walk: 0, 1 squash=1", "--clip", "run: 0, 1 stretch=1")
+    walk, other = asset["animations"]
+    other["samplers"][0]["input"] = walk["samplers"][0]["input"]
+    run.write("in.glb", glb(asset, data))
+    done = run.ffd("deform", "in.glb", "out.glb", "--force", *MORPHS, "--clip", "walk: 0 squash=1", "--clip", "run: 0 squash=1", "--report", "r.json",
+                   err=anything)
+    equal([re.search(r'"(\w+)" already: it is replaced; (\d+) bytes', line).groups() for line in done.err if "stay in the file" in line],
+          [("walk", "16"), ("run", "24")], "two rows of two weights, then also two times")
+    equal(json.loads(run.text("r.json"))["jobs"][0]["bytes_left"], 40)
+
+
+@case
 def a_compressed_target_that_is_replaced(run):
-    """Its view has compressed bytes, which are counted where no other accessor has a part of it."""
+    """Its view has compressed bytes, which are counted where nothing else has a part of the view, or the same bytes."""
     with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "fuzz", "corpus", "glb", "meshopt"), "rb") as file:
         sample = file.read()
     run.write("l.json", lattice(low=(-99, -99, -99), high=(99, 99, 99), moves=[{"by": [1, 2, 3]}]))
-    for own in (True, False):
+    for view_of in ("bytes of its own", "the same bytes", "the same view"):
         asset, data = glb_split(sample)
         primitive = asset["meshes"][0]["primitives"][0]
         accessor = dict(asset["accessors"][primitive["attributes"]["POSITION"]])
         view = asset["bufferViews"][accessor["bufferView"]]
-        packed, = view["extensions"].values()
-        if own:
+        (extension, packed), = view["extensions"].items()
+        if view_of != "the same view":
             accessor["bufferView"] = len(asset["bufferViews"])
             asset["bufferViews"].append(view)
+        if view_of == "bytes of its own":
+            begin = packed.get("byteOffset", 0)
+            data += b"\0" * (-len(data) % 4)
+            asset["bufferViews"][-1] = {**view, "extensions": {extension: {**packed, "byteOffset": len(data)}}}
+            data += data[begin:begin + packed["byteLength"]]
+            asset["buffers"][packed["buffer"]]["byteLength"] = len(data)
         asset["accessors"].append(accessor)
         primitive["targets"] = [{"POSITION": len(asset["accessors"]) - 1}]
         asset["meshes"][0]["extras"] = {"targetNames": ["bent"]}
         run.write("in.glb", glb(asset, data))
         done = run.ffd("deform", "in.glb", "out.glb", "--force", "--morph", "bent=l.json", err=anything)
         equal([line for line in done.err if "stay in the file" in line],
-              [f'in.glb: {packed["byteLength"]} bytes that only the old morph target "bent" used stay in the file'] if own else [])
+              [f'in.glb: {packed["byteLength"]} bytes that only the old morph target "bent" used stay in the file'] if view_of == "bytes of its own" else [],
+              view_of)
 
 
 @case

@@ -4,7 +4,7 @@ data/schema/lattice.md 8, by the formulas as they stand there; exact bends on th
 import math
 import random
 
-from harness import INVALID, case, check, equal, lattice, main, near, obj_vertices
+from harness import INVALID, case, check, equal, lattice, main, near, obj_of, obj_vertices
 from said import anything
 from vectors import cross, dot, minus, unit
 
@@ -224,7 +224,7 @@ def draw_move(draw):
 def moves_are_those_of_another_evaluation(run):
     """Of degree 1 a vertex on a control point goes where that goes."""
     rest = grid()
-    run.write("a.obj", "".join("v %r %r %r\n" % tuple(p) for p in rest))
+    run.write("a.obj", obj_of(rest))
     draw = random.Random(11)
     for n in range(60):
         moves = [draw_move(draw) for _ in range(draw.choice([1, 1, 2, 3]))]
@@ -302,7 +302,7 @@ def placeholders_stand_for_any_of_their_values(run):
 def what_a_weight_of_nothing_reaches_keeps_its_bits(run):
     """Beyond a pull's radius and a falloff's end nothing changes, nor where mirrored points lie on no image."""
     points = [[-1.9, 0.1, 0.3], [1.7, -0.3, 0.1]]
-    text = "".join("v %r %r %r\n" % tuple(p) for p in points)
+    text = obj_of(points)
     run.write("a.obj", text)
     for move in ({"pull": {"point": [-2, 0, 0], "by": [0, 0, 1], "radius": 1.5}},
                  {"falloff": {"axis": "x", "from": -2, "to": -1}, "rotate": {"axis": "y", "degrees": 33}},

@@ -8,7 +8,7 @@ import subprocess
 from gltf_build import Scene
 from gltf_reader import Gltf
 from harness import (CUBE_CORNERS, CUBE_FACES, INVALID, MODELS, OK, case, check, equal, glb, glb_split, gltf_json,
-                     gltf_vectors, lattice, main, near)
+                     gltf_vectors, lattice, main, near, obj_of)
 from vectors import cross, dot, minus, unit
 
 TWIST = [{"twist": {"axis": "z", "degrees": 70}}, {"at": [3, 3, 3], "by": [0.5, 0.25, 1]}]
@@ -110,7 +110,7 @@ def recompute(run, file, out, *options):
 
 def hard_cube(normals=None):
     normals = normals or [unit(area_vector([CUBE_CORNERS[c - 1] for c in face])) for face in CUBE_FACES]
-    return ("".join("v %r %r %r\n" % tuple(p) for p in CUBE_CORNERS) + "".join("vn %r %r %r\n" % tuple(n) for n in normals)
+    return (obj_of(CUBE_CORNERS) + "".join("vn %r %r %r\n" % tuple(n) for n in normals)
             + "".join("f " + " ".join(f"{c}//{i + 1}" for c in face) + "\n" for i, face in enumerate(CUBE_FACES)))
 
 
@@ -136,7 +136,7 @@ def sphere(rows=12, columns=16):
 
 def sphere_obj():
     points, faces = sphere()
-    return ("".join("v %r %r %r\n" % tuple(p) for p in points) + "".join("vn %r %r %r\n" % tuple(p) for p in points)
+    return (obj_of(points) + "".join("vn %r %r %r\n" % tuple(p) for p in points)
             + "".join("f " + " ".join(f"{v + 1}//{v + 1}" for v in face) + "\n" for face in faces))
 
 

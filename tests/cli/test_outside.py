@@ -3,8 +3,8 @@
 the farther they are (--falloff), or refused; and what is said of them."""
 import math
 
-from harness import (CUBE, EMBEDDING, case, check, equal, glb, glb_positions, glb_split, gltf_json, gltf_vectors, lattice, main, near,
-                     obj_vertices)
+from harness import (CUBE, EMBEDDING, case, check, equal, glb, glb_positions, glb_split, gltf_json, gltf_vectors,
+                     lattice, main, near, obj_of, obj_vertices)
 from said import anything
 from vectors import cross, unit
 
@@ -14,16 +14,12 @@ BENT = [[x + 0.1 * y * y, y - 0.05 * x * z, z] for z in (-2, 0, 2) for y in (-2,
 SCATTERED = [[3 * math.sin(k * i) for k in (1, 2.5, 4.1)] for i in range(1, 301)]
 
 
-def obj(points):
-    return "".join("v %r %r %r\n" % tuple(p) for p in points)
-
-
 def bent(**members):
     return lattice(size=(3, 3, 3), rest={"points": BENT}, **members)
 
 
 def deformed(run, points, *options, lattices=("l.json",)):
-    run.write("p.obj", obj(points))
+    run.write("p.obj", obj_of(points))
     chosen = [word for name in lattices for word in ("-l", name)]
     run.ffd("deform", "p.obj", "q.obj", *chosen, "--force", "-q", *options)
     return obj_vertices(run.text("q.obj"))
@@ -110,7 +106,7 @@ def normals_outside_follow_the_extended_displacement(run):
     step, n = 1e-5, unit([1, 2, -0.5])
     places = [[3, 0.2, 0.7], [2.5, 3, 0.4], [0.1, -0.3, 2.8], [3, 3, 3.5], [-0.4, -2.9, 1.1]]
     around = [[x + side * step * (a == c) for a, x in enumerate(p)] for p in places for c in range(3) for side in (1, -1)]
-    mesh = obj(places) + "vn %r %r %r\n" % tuple(n) + "f" + "".join(f" {i + 1}//1" for i in range(len(places))) + "\n"
+    mesh = obj_of(places) + "vn %r %r %r\n" % tuple(n) + "f" + "".join(f" {i + 1}//1" for i in range(len(places))) + "\n"
     run.write("n.obj", mesh)
     for content in (lattice(moves=BEND), bent(moves=BEND[:1])):
         run.write("l.json", content)
@@ -236,7 +232,7 @@ def extending_is_in_scene_space(run):
 
 @case
 def embeddings_are_extended_too(run):
-    run.write("p.obj", obj(SCATTERED))
+    run.write("p.obj", obj_of(SCATTERED))
     for content in (lattice(moves=BEND), bent(moves=BEND[:1])):
         run.write("l.json", content)
         run.ffd("embed", "p.obj", "-l", "l.json", "-o", "e.npy", "-q", "--force")

@@ -5,8 +5,8 @@ import json
 import re
 import struct
 
-from harness import (CUBE, INVALID, IO, LIMIT, MODELS, NO, UNSUPPORTED, carried, case, check, equal, float32, lattice, main,
-                     models, near)
+from harness import (CUBE, INVALID, IO, LIMIT, MODELS, NO, UNSUPPORTED, carried, case, check, equal, float32, lattice,
+                     main, models, near, obj_of)
 
 BUMP = [{"at": [[1, 2], [1, 2], [1, 2]], "by": [0.5, 0.25, -0.125]}]
 CODES = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I", "float": "f", "double": "d",
@@ -95,10 +95,6 @@ def read_ply(data):
 
 def vectors(data, names=("x", "y", "z")):
     return [[row[name] for name in names] for row in read_ply(data)["vertex"]]
-
-
-def obj_of(points):
-    return "".join("v %r %r %r\n" % tuple(p) for p in points)
 
 
 OUTSIDE = {"lines": 1}  # one of POINTS is outside of the lattice, which is said

@@ -9,8 +9,8 @@ import random
 import re
 import struct
 
-from harness import (MODELS, OK, UNSUPPORTED, INVALID, SANITIZED, case, check, equal, float32, glb, glb_positions,
-                     glb_split, gltf_json, gltf_vectors, lattice, main, near, obj_vertices)
+from harness import (INVALID, MODELS, OK, SANITIZED, UNSUPPORTED, case, check, equal, float32, glb, glb_positions,
+                     glb_split, gltf_json, gltf_vectors, lattice, main, near, obj_of, obj_vertices)
 
 SEED = int(os.environ.get("FFD_SEED") or struct.unpack("<I", os.urandom(4))[0])
 # The instruction sets that kernels are compiled for, as far as this processor has them.
@@ -28,10 +28,6 @@ NOT_VALID = {"cube_att.gltf", "unassigned-skeleton.gltf", "synthetic_partial_att
 
 def cloud(draw, count=300):
     return [[float32(draw.uniform(-1, 1)) for _ in range(3)] for _ in range(count)]
-
-
-def obj(points):
-    return "".join("v %r %r %r\n" % tuple(p) for p in points)
 
 
 def unit(draw):
@@ -57,7 +53,7 @@ def rest_kinds(draw):
 
 def write_meshes(run, draw):
     points = cloud(draw)
-    run.write("a.obj", obj(points))
+    run.write("a.obj", obj_of(points))
     asset, data = gltf_json(points, normals=[unit(draw) for _ in points])
     run.write("a.glb", glb(asset, data))
     run.write("b.gltf", gltf_json(points, uri="b.bin")[0])
@@ -189,7 +185,7 @@ def order_company_threads_and_format_change_nothing(run):
     for kind, members in rest_kinds(draw).items():
         run.write("l.json", lattice(**{**members, "moves": [{"twist": {"axis": "z", "degrees": 50}},
                                                            {"at": [1, 1, 1], "by": [0.1, 0.2, 0.3]}]}))
-        run.write("a.obj", obj(points))
+        run.write("a.obj", obj_of(points))
         run.ffd("deform", "a.obj", "one.obj", "-l", "l.json", "--force", "-q", "-j", "1")
         run.ffd("deform", "a.obj", "many.obj", "-l", "l.json", "--force", "-q", "-j", "5")
         equal(run.read("many.obj"), run.read("one.obj"), kind)
@@ -198,7 +194,7 @@ def order_company_threads_and_format_change_nothing(run):
             equal(run.read("isa.obj"), run.read("one.obj"), f"{kind}, {isa}")
         straight = obj_vertices(run.text("one.obj"))
         numbers = draw.sample(range(len(points)), len(points) // 5)
-        run.write("part.obj", obj(points[n] for n in numbers))
+        run.write("part.obj", obj_of(points[n] for n in numbers))
         run.ffd("deform", "part.obj", "part-out.obj", "-l", "l.json", "--force", "-q")
         equal(obj_vertices(run.text("part-out.obj")), [straight[n] for n in numbers], kind)
         run.write("part.glb", glb(*gltf_json([points[n] for n in numbers])))

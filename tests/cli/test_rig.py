@@ -344,6 +344,27 @@ def a_mesh_at_a_joint_that_is_not_selected_stays_where_it_is(run):
 
 
 @case
+def what_another_scene_shows_of_the_joints_stays(run):
+    """By a skin of its own, which has the same inverse bind matrices or none, and by the same skin; a skin that is broken
+    stays as it is."""
+    for other in ({"joints": [2, 1], "inverseBindMatrices": 6}, {"joints": [2]}, None):
+        made = arm()
+        equal(made.asset["skins"][0]["inverseBindMatrices"], 6)
+        made.asset["nodes"].append({"name": "other", "mesh": 0 if other is None or len(other) > 1 else 2, "skin": 1 if other else 0})
+        made.asset["scenes"].append({"nodes": [0, 6]})
+        made.asset["skins"] += [other] if other else []
+        attributes = made.asset["meshes"][0]["primitives"][0]["attributes"]
+        made.asset["meshes"].append({"primitives": [{"attributes": attributes | {"JOINTS_0": made.add([[0] * 4] * 27, 5121, "VEC4")}}]})
+        _, _, follow = both(run, made, BEND)
+        near(follow.vertices()[6, 0], Posed(run.read("a.glb")).vertices()[6, 0], 1e-6, f"what {other} shows")
+    made.asset["skins"].append({"joints": [1, 2], "inverseBindMatrices": made.add([[1.0] * 16], shape="MAT4")})
+    made.asset["nodes"][6]["skin"] = 1
+    both(run, arm(), BEND)
+    _, broken = deform(run, made, BEND, "--rig", "follow")
+    equal(broken.asset["skins"][1], made.asset["skins"][1])
+
+
+@case
 def normals_at_a_joint_that_are_not_selected_stay_as_they_are(run):
     def shown(posed):
         m = posed.worlds()[2]

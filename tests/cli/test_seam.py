@@ -2,7 +2,7 @@
 """Edges across the seam of a full turn that is not closed: torn where its moved faces part."""
 import math
 
-from harness import case, equal, lattice, main, near, npy, obj_vertices
+from harness import case, equal, lattice, main, near, npy, obj_of, obj_vertices
 from said import anything, counts, entry, told
 
 
@@ -27,7 +27,7 @@ def lift(by, *, radius="all"):
 
 
 def polygons(points, *faces):
-    return "".join("v %r %r %r\n" % tuple(p) for p in points) + "".join(
+    return obj_of(points) + "".join(
         "f " + " ".join(str(v + 1) for v in face) + "\n" for face in faces)
 
 

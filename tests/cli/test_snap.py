@@ -11,16 +11,12 @@ from batches import lines_of, start
 from bspline import BoxVolume
 from gltf_build import Scene
 from harness import (INVALID, NO, SANITIZED, USAGE, case, check, equal, float32, glb_split, gltf_vectors, lattice,
-                     main, near, npy, obj_vertices)
+                     main, near, npy, obj_of, obj_vertices)
 from said import anything, counts, entry
 
 # Misses the face x = 1 by a millionth, as a file of six decimals does; a second one by three, a third is far away.
 NEAR = [[1.000001, 0.5, 0.25], [0.5, -0.000003, 0.75], [1.5, 0.5, 0.5], [0.5, 0.5, 0.5]]
 LOW, HIGH = [0.0, 0.0, 0.0], [1.0, 1.0, 1.0]
-
-
-def obj(points):
-    return "".join("v %r %r %r\n" % tuple(p) for p in points)
 
 
 def bend(p):
@@ -29,7 +25,7 @@ def bend(p):
 
 def begin(run):
     volume = BoxVolume(LOW, HIGH, bend)
-    run.write("a.obj", obj(NEAR))
+    run.write("a.obj", obj_of(NEAR))
     run.write("l.json", {**lattice(low=LOW, high=HIGH), "deformed": {
         "points": [[x + d for x, d in zip(p, offset)] for p, offset in zip(volume.points, volume.offsets)]}})
     return volume
@@ -68,7 +64,7 @@ def curved_lattices_snap_too(run):
     rest = [[r * x, r * y, h] for h in (0.0, 1.0) for x, y in ((1.0, 0.0), (0.0, 1.0)) for r in (1.0, 2.0)]
     run.write("l.json", lattice(size=(2, 2, 2), degree=[1, 1, 1], rest={"points": rest}, moves=[{"at": [0, 0, "all"], "by": [0, 0, 1]}]))
     miss = 1e-6 / math.sqrt(2)
-    run.write("a.obj", obj([[0.75 - miss, 0.25 - miss, 0.5]]))
+    run.write("a.obj", obj_of([[0.75 - miss, 0.25 - miss, 0.5]]))
     counts(entry(run, "deform", "a.obj", "b.obj", "-l", "l.json"), inside=0, outside=1)
     counts(entry(run, "deform", "a.obj", "b.obj", "-l", "l.json", "--snap", "1.1e-6"), inside=1, outside=0)
     near(obj_vertices(run.text("b.obj")), [[0.75 - miss, 0.25 - miss, 1.25]], 1e-9)
@@ -77,7 +73,7 @@ def curved_lattices_snap_too(run):
 @case
 def equal_positions_get_equal_bits(run):
     begin(run)
-    run.write("a.obj", obj(NEAR[:1] * 3 + NEAR))
+    run.write("a.obj", obj_of(NEAR[:1] * 3 + NEAR))
     run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--snap", "2e-6", err=anything)
     equal(len(set(run.text("b.obj").splitlines()[:4])), 1)
 
@@ -184,7 +180,7 @@ def far_from_the_origin_a_curved_lattice_holds_its_corners(run):
     run.write("l.json", lattice(size=(2, 2, 2), degree=[1, 1, 1], rest={"points": rest}, moves=[{"by": [0, 0, 1]}]))
     run.write("a.glb", glb_of(rest))
     counts(entry(run, "check", "a.glb", "-l", "l.json"), inside=8, outside=0, multiple=0)
-    run.write("a.obj", obj(rest))
+    run.write("a.obj", obj_of(rest))
     counts(entry(run, "check", "a.obj", "-l", "l.json"), inside=8, outside=0, multiple=0)
 
 
@@ -237,12 +233,12 @@ def a_new_lattice_holds_its_mesh_wherever_it_stands(run):
         offset = [(0 if far is None else 10 ** numbers.uniform(far - 1, far)) * numbers.choice((-1, 0.3, 1)) for _ in range(3)]
         sides = [10 ** numbers.uniform(-1, 1) for _ in range(3)]
         moved = [[o + s * numbers.uniform(-1, 1) for o, s in zip(offset, sides)] for _ in range(60)]
-        run.write("a.obj", obj(moved))
+        run.write("a.obj", obj_of(moved))
         run.write("a.off", f"OFF\n{len(moved)} 0 0\n" + "".join("%r %r %r\n" % tuple(p) for p in moved))
         run.write("a.glb", glb_of(moved))
         for kind in ("float", "double"):
             run.write(f"{kind}.ply", f"ply\nformat ascii 1.0\nelement vertex {len(moved)}\n"
-                      + "".join(f"property {kind} {axis}\n" for axis in "xyz") + "end_header\n" + obj(moved).replace("v ", ""))
+                      + "".join(f"property {kind} {axis}\n" for axis in "xyz") + "end_header\n" + obj_of(moved).replace("v ", ""))
         write_binary(run, "little.ply", "little", "f", "float", moved)
         write_binary(run, "big.ply", "big", "f", "float", moved)
         run.write("a.stl", b"\0" * 80 + struct.pack("<I", 20) + b"".join(
@@ -303,7 +299,7 @@ def edges_behind_another_lattice_have_the_rounding_of_where_it_brings_them(run):
     run.write("l.json", lattice(low=(-9, -9, -9), high=(9, 9, 9), moves=[{"by": [0, 1e6, 0]}]))
     run.write("m.json", lattice(low=(-9, 1e6 + 0.02, -9), high=(9, 1e6 + 9, 9), moves=[{"by": [0, 0, 1]}]))
     run.write("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-              "element face 1\nproperty list uchar int vertex_indices\nend_header\n" + obj(corners).replace("v ", "") + "3 0 1 2\n")
+              "element face 1\nproperty list uchar int vertex_indices\nend_header\n" + obj_of(corners).replace("v ", "") + "3 0 1 2\n")
     for name, skin in (("node.glb", {}), ("skin.glb", {"skin": 0})):
         scaled = {"scale": [10, 10, 10]}
         made = Scene(nodes=[{"mesh": 0, **(skin or scaled)}, scaled], scene=0, scenes=[{"nodes": [0, 1]}])
@@ -388,7 +384,7 @@ def an_embedding_of_another_snap_or_number_type_is_refused(run):
     run.write("l.json", tenth())
     rows = [[float32(0.1), 0.05, 0.05]]
     run.write("a.glb", glb_of(rows))
-    run.write("a.obj", obj(rows))
+    run.write("a.obj", obj_of(rows))
     run.ffd("embed", "a.glb", "-l", "l.json", "-o", "e.npy", "--force")
     run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--embedding", "e.npy", code=INVALID, err=anything)
 

@@ -10,7 +10,7 @@ from decimal import Decimal
 
 from gltf_build import SHIFT, Scene
 from gltf_reader import Gltf
-from harness import INVALID, case, check, equal, float32, lattice, main
+from harness import INVALID, case, check, equal, float32, lattice, main, obj_of
 from said import anything, lines_with, told
 
 decimal.getcontext().prec = 40
@@ -247,7 +247,7 @@ def each_splat_of_a_bent_cloud_has_its_own_gradient(run):
         for axis in range(3):
             for side in (h, -h):
                 points.append([row[n] + (side if i == axis else 0) for i, n in enumerate("xyz")])
-    run.write("p.obj", "".join("v %r %r %r\n" % tuple(p) for p in points))
+    run.write("p.obj", obj_of(points))
     run.ffd("deform", "p.obj", "q.obj", "-l", "l.json")
     moved = [[float(x) for x in line.split()[1:]] for line in run.text("q.obj").splitlines()]
     gradients = [transposed([[(a - b) / (2 * h) for a, b in zip(moved[6 * s + 2 * axis], moved[6 * s + 2 * axis + 1])] for axis in range(3)])

@@ -155,7 +155,7 @@ def names_are_those_of_the_file_in_one_line(run):
     equal(done.err, ["a.glb: 3 cameras stay where they are, though the lattice moves the mesh there: node 1, node 2, a?b?[31m?"])
     done = deformed(run, scene([at(long, 1, **eye)], cameras=[CAMERA]))
     equal(done.err, ["a.glb: 1 camera stays where it is, though the lattice moves the mesh there: " + long[:39]])
-    for name, shown in (("", "node 1"), ("a\nb", "a?b"), (long, long[:39])):
+    for name, shown in (("", "node 1"), ("a\nb", "a?b"), (long, long[:39]), ("\u0085a\u2029b\u2066\u2030", "??a???b???\u2030")):
         equal(deformed(run, scene([at(name, 1)])).err, [f"a.glb: 1 socket lies up to 1 off the deformed mesh ({shown}): see --rig"])
 
 

@@ -6,7 +6,7 @@ import re
 import struct
 
 from bspline import BoxVolume
-from harness import NO, OK, case, check, equal, glb, gltf_json, lattice, main, near
+from harness import NO, OK, case, check, equal, glb, gltf_json, lattice, main, near, obj_of
 from said import anything, entry, not_told, told
 
 # Holds x up to 1.5 and all else.
@@ -436,6 +436,20 @@ def the_node_of_a_gltf_is_named(run):
 
 
 @case
+def a_name_is_cut_between_characters(run):
+    """In the message and in the report; what would break a line or steer a terminal is replaced."""
+    run.write("l.json", lattice(low=LOW, high=HIGH, moves=UP))
+    for name, shown, part in (("\u65e5" * 100, "\u65e5" * 66, "\u65e5" * 83), ("a\u009b31m\u2028\u202eb", "a??31m??????b", "a??31m??????b")):
+        asset, data = gltf_json([[0, 0, 0], [2, 0, 0], [0, 1, 0]], nodes=[{"mesh": 0, "name": name}])
+        asset["meshes"][0]["primitives"][0]["mode"] = 4
+        run.write("a.glb", glb(asset, data))
+        equal(torn(run, 2, 0.25, mesh="a.glb")["part"], f"node:{part}")
+        told(run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", "--force", err=anything), f" of {re.escape(shown)} stays;")
+        run.write("a.obj", f"g {name}\nv 0 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\n")
+        equal(torn(run, 2, 0.25)["part"], f"group:{shown}")
+
+
+@case
 def primitives_of_a_mesh_meet(run):
     """Two primitives with vertices of their own share an edge across the border: it is one."""
     sides = ([[1, 0, 0], [2, 0, 0], [1, 1, 0]], [[2, 0, 0], [1, 0, 0], [1, -1, 0]])
@@ -542,7 +556,7 @@ def a_border_through_what_is_drawn_at_random(run):
 @case
 def threads_change_nothing(run):
     points = [[math.cos(n) * 2, math.sin(2 * n) * 2, math.sin(3 * n)] for n in range(3000)]
-    run.write("a.obj", "".join("v %r %r %r\n" % tuple(p) for p in points)
+    run.write("a.obj", obj_of(points)
               + "".join(f"f {n} {n + 1} {n + 2}\n" for n in range(1, 2990)))
     run.write("l.json", lattice(low=(-1, -1, -1), high=(1, 1, 1), moves=[{"twist": {"axis": "z", "degrees": 40}}]))
     texts = {run.ffd("check", "a.obj", "-l", "l.json", "--report", "-", "--report-stable", "-j", str(n), err=anything).text

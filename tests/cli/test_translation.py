@@ -5,7 +5,7 @@ import math
 import random
 
 from gltf_build import Scene
-from harness import case, check, equal, glb_split, gltf_vectors, lattice, main, obj_vertices
+from harness import case, check, equal, glb_split, gltf_vectors, lattice, main, obj_of, obj_vertices
 from said import anything
 
 STEP = [0.1, -1 / 3, 100.0]
@@ -20,7 +20,7 @@ def vertices():
 
 def carried(run, content, points, outside="error"):
     run.write("l.json", content)
-    run.write("a.obj", "".join("v %r %r %r\n" % tuple(p) for p in points))
+    run.write("a.obj", obj_of(points))
     run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--force", "--outside", outside, err=anything)
     return obj_vertices(run.text("b.obj"))
 

@@ -293,7 +293,7 @@ def forms_of_options(run):
 @case
 def names_that_are_unusual(run):
     files(run)
-    for name in ("with space.obj", "ä.obj", "a\nb.obj", "%s%n.obj", "UPPER.OBJ", ".obj.obj", "a" * 250 + ".obj"):
+    for name in ("with space.obj", "ä.obj", "a\nb.obj", "%s%n.obj", "UPPER.OBJ", ".obj.obj", "\u0085\u009b1m\u2028\u202e.obj", "a" * 250 + ".obj"):
         run.write(name, CUBE)
         run.ffd("deform", name, "out" + name[:200] + ".obj", "-l", "l.json")
         run.ffd("deform", "missing" + name[-200:], "x.obj", "-l", "l.json", code=3)

@@ -6,10 +6,12 @@ import re
 import struct
 
 from bspline import BoxVolume
+from gltf_build import Scene
 from harness import (CUBE, CUBE_CORNERS, EMBEDDING, INVALID, IO, NO, SANITIZED, UNSUPPORTED, USAGE, case, check, equal, glb,
-                     gltf_json, lattice, main, near)
+                     glb_split, gltf_json, lattice, main, near)
 from page import read_page
 from png import make_png, read_png
+from said import anything
 
 SHIFT = [{"by": [1, 0, 0]}]
 TWIST = [{"twist": {"axis": "z", "degrees": 50}}]
@@ -57,6 +59,39 @@ def a_deformation_is_shown_with_its_lattice_and_its_figures(run):
     near([moved[0]], [rest[0]], 1e-12, "the end of a twist stays")
     check(abs(moved[-1][0] - rest[-1][0]) > 0.5, "the other one turns")
     equal([page.scene["tears"], page.scene["witness"], page.flipped], [[], None, None], "nothing went wrong")
+
+
+def copied_meshes(**members):
+    """Two nodes with one mesh, of which one gets a copy behind the mesh of a third; animations with one of its weights."""
+    made = Scene(scene=0, scenes=[{"nodes": [0, 1, 2]}], nodes=[
+        {"mesh": 0}, {"mesh": 0, "translation": [0.5, 0, 0.75]}, {"mesh": 1, "translation": [-1, 0.5, 0]}], **members)
+    triangles = [[[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 0, 0], [0, 0.5, 0], [0, 0, 1], [0.5, 0, 0]]]
+    made.asset["meshes"] = [{"primitives": [{"attributes": {"POSITION": made.add(rows, bounds=True)}, "indices": made.add(
+        [[0], [1], [2]], 5121, "SCALAR"), "targets": [{"POSITION": made.add([[0, 0.25, 0.5]] * len(rows), bounds=True)}]}]}
+                            for rows in triangles]
+    keys = made.add([[0.0], [1.0]], shape="SCALAR", bounds=True)
+    ways = made.add([[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+    made.asset["animations"] = [{"name": "go", "samplers": [{"input": keys, "output": keys}, {"input": keys, "output": ways}],
+                                 "channels": [{"sampler": 0, "target": {"node": 1, "path": "weights"}},
+                                              {"sampler": 1, "target": {"node": 2, "path": "translation"}}]}]
+    return made.glb()
+
+
+@case
+def a_file_whose_meshes_were_copied_has_its_vertices_behind_others(run):
+    """They go with the nodes that show them, at rest and in every pose."""
+    run.write("a.glb", copied_meshes())
+    run.write("l.json", lattice(moves=TWIST))
+    run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", err=anything)
+    equal([node["mesh"] for node in glb_split(run.read("b.glb"))[0]["nodes"]], [0, 2, 1], "the copy")
+    pages = [view(run, "a.glb", *other, err=anything) for other in (["b.glb"], ["-l", "l.json"])]
+    same_places(pages[0].after, pages[1].after, "files and the deformation in memory")
+    size = ["--size", "80x80", "--frames", "3", "--color", "plain", "--camera", "iso", "--animation", "go"]
+    drawn = []
+    for other in (["b.glb"], ["-l", "l.json"]):
+        run.ffd("view", "a.glb", *other, *size, "-o", "p.png", "--force", err=anything)
+        drawn.append(read_png(run.read("p.png")))
+    check(drawn[0] == drawn[1], "the poses of files and of the deformation in memory")
 
 
 @case

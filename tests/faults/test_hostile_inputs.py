@@ -11,7 +11,7 @@ import re
 import resource
 import struct
 
-from harness import INVALID, LIMIT, NO, PNG, SANITIZED, case, check, equal, gltf_json, lattice, main
+from harness import INVALID, LIMIT, NO, PNG, SANITIZED, case, check, equal, gltf_json, lattice, main, obj_of
 from said import anything, told
 
 TWIST = [{"twist": {"axis": "y", "degrees": 40}}]
@@ -23,7 +23,7 @@ def sheet(moved=None):
     vertices = [[i / 8, j / 8, i * j % 3 / 10] for j in range(9) for i in range(9)]
     if moved is not None:
         vertices[moved][0] += 0.3
-    return ("".join("v %r %r %r\n" % tuple(p) for p in vertices)
+    return (obj_of(vertices)
             + "".join(f"f {k + 1} {k + 2} {k + 11} {k + 10}\n" for k in range(71) if k % 9 < 8))
 
 

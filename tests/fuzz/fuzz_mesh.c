@@ -2,15 +2,15 @@
 #include "fuzz_mesh.h"
 #include "base/vector/vec.h"
 #include "check_animations.h"
-#include "io/formats.h"
+#include "check_changed.h"
 #include "io/gltf/document/gltf_document.h"
 #include "job/chain/chain_load.h"
-#include "job/deform_job.h"
 #include "job/info_parts.h"
 #include "job/info_text.h"
 #include "job/input/source.h"
 #include "job/pass/chain_fit.h"
 #include "job/pass/pass.h"
+#include "mesh_trial.h"
 #include "promise.h"
 #include "work_folder.h"
 #include <math.h>
@@ -25,62 +25,11 @@
 /* Nothing is said of positions behind matrices that lose more digits. */
 #define WORST_CONDITION 1e6
 
-typedef struct trial {
-    ffd_format format;
-    ffd_space space;
-    ffd_normals normals;
-    ffd_rig rig;
-    bool is_quantized;          /* some positions of the input are whole numbers */
-    const char *input, *output; /* names in the work folder */
-    char lattice[WORK_PATH];
-} trial;
-
 static const char rest[] =
     "{\"format\": \"ffd-lattice\", \"version\": 1, \"size\": [3, 2, 2], \"rest\": {\"box\": "
     "{\"min\": [-2, -2, -2], \"max\": [2, 2, 2]}}, \"moves\": [";
 static const char moves[] = "{\"at\": [1, \"all\", \"all\"], \"by\": [0.25, 0.5, -0.125]}, "
                             "{\"twist\": {\"axis\": \"x\", \"degrees\": 40}}";
-
-static void check_refusal(ffd_status status, const ffd_error *error)
-{
-    PROMISE(status == FFD_E_INVALID || status == FFD_E_LIMIT || status == FFD_E_UNSUPPORTED ||
-                status == FFD_E_IO || status == FFD_E_MEMORY,
-            "status %d: %s", status, error->message);
-    PROMISE(error->status == status && error->message[0] && !strpbrk(error->message, "\r\n"),
-            "status %d says '%s'", status, error->message);
-}
-
-/* The bytes are in a block of their own size, so that reading past the end is seen. NULL: refused, *error
-   says why. */
-static mesh_document *try_open(const trial *of, const char *name, const uint8_t *data, size_t size,
-                               ffd_error *error)
-{
-    char path[WORK_PATH];
-    work_path(name, path);
-    unsigned char *const block = malloc(size > 0 ? size : 1);
-    PROMISE(block, "no memory");
-    memcpy(block, data, size);
-    file_input input = {.data = block, .size = size, .block = block};
-    const ffd_source source = {.path = path, .format = of->format, .space = of->space};
-    mesh_document *document = NULL;
-    const ffd_status status =
-        ffd_format_open(ffd_format_table(of->format), &input, &source, &document, error);
-    if (status) {
-        check_refusal(status, error);
-        PROMISE(!document, "a document in spite of status %d", status);
-        ffd_file_unload(&input);
-    }
-    return document;
-}
-
-/* What was accepted before. */
-static mesh_document *open_again(const trial *of, const char *name, const uint8_t *data, size_t size)
-{
-    ffd_error error = {0};
-    mesh_document *const document = try_open(of, name, data, size, &error);
-    PROMISE(document, "%s is refused: %s: %s", name, error.pointer, error.message);
-    return document;
-}
 
 static bool is_small(const mesh_document *document)
 {
@@ -151,7 +100,7 @@ static bool take_faces(const mesh_document *document, mesh_faces *faces)
     memset(faces, 0, sizeof *faces);
     const ffd_status status = document->format->faces(document, faces, &error);
     if (status) {
-        check_refusal(status, &error);
+        trial_refusal(status, &error);
         return false;
     }
     PROMISE(faces->face_count == 0 || faces->start[0] == 0, "the first face starts at %zu", faces->start[0]);
@@ -162,11 +111,6 @@ static bool take_faces(const mesh_document *document, mesh_faces *faces)
                     faces->corners[c], faces->vertex_count);
     }
     return true;
-}
-
-static bool is_gltf(ffd_format format)
-{
-    return format == FFD_FORMAT_GLTF || format == FFD_FORMAT_GLB;
 }
 
 /* Corners of an STL at one position are joined: those that were still are, and others may be now. */
@@ -188,56 +132,11 @@ static void check_same_faces(const trial *of, const mesh_faces *before, const me
     PROMISE(before->vertex_count == after.vertex_count && before->face_count == after.face_count,
             "%zu vertices and %zu faces became %zu and %zu", before->vertex_count, before->face_count,
             after.vertex_count, after.face_count);
-    PROMISE(before->face_count == 0 || is_gltf(of->format) ||
+    PROMISE(before->face_count == 0 || trial_is_gltf(of->format) ||
                 (!memcmp(before->start, after.start, (before->face_count + 1) * sizeof *before->start) &&
                  are_same_corners(of->format, before, &after)),
             "the faces changed");
     ffd_mesh_faces_free(&after);
-}
-
-static ffd_status save(const trial *of, const deform_job *job, ffd_error *error)
-{
-    char path[WORK_PATH];
-    work_path(of->output, path);
-    const mesh_save_options options = {.path = path, .format = of->format, .force = true};
-    file_output *output;
-    ffd_status status = ffd_output_create(&output, error);
-    if (!status)
-        status = job->document->format->save(job->document, &options, output, &job->log, error);
-    if (!status)
-        status = ffd_output_commit(output, error);
-    ffd_output_destroy(&output);
-    return status;
-}
-
-/* Deforms the document by of->lattice, saves it as of->output, and closes it. False: refused. */
-static bool deform(const trial *of, mesh_document *document, uint64_t *moved)
-{
-    const char *const lattices[] = {of->lattice};
-    ffd_deform_desc desc;
-    ffd_job_result result = {.struct_size = sizeof result};
-    deform_job job;
-    ffd_deform_desc_init(&desc, sizeof desc);
-    desc.input.path = of->input;
-    desc.input.space = of->space;
-    desc.lattices = lattices;
-    desc.lattice_count = 1;
-    desc.normals = of->normals;
-    desc.rig = of->rig;
-    desc.threads = 1;
-    ffd_status status = ffd_deform_job_begin(&job, &desc, false, &result);
-    job.document = document;
-    if (!status)
-        status = ffd_chain_load(&(chain_files){.paths = lattices, .count = 1}, &(chain_outside){0},
-                                FFD_ISA_AUTO, NULL, &job.chain, &result.error);
-    PROMISE(!status, "%s", result.error.message);
-    status = ffd_deform_job_run(&job, &result, &result.error);
-    if (!status)
-        status = save(of, &job, &result.error);
-    if (status)
-        check_refusal(status, &result.error);
-    *moved = result.moved;
-    return ffd_deform_job_end(&job, status, &result, NULL) == FFD_OK;
 }
 
 static void load_output(const trial *of, file_input *saved)
@@ -253,13 +152,13 @@ static void check_empty_move(trial *of, const uint8_t *data, size_t size)
 {
     uint64_t moved;
     file_input saved;
-    mesh_document *const document = open_again(of, of->input, data, size);
+    mesh_document *const document = trial_open_again(of, of->input, data, size);
     work_path("empty.json", of->lattice);
-    if (!deform(of, document, &moved))
+    if (!trial_deform(of, document, &moved))
         return;
     PROMISE(moved == 0, "%llu vertices moved in an empty move", (unsigned long long)moved);
     load_output(of, &saved);
-    mesh_document *const again = open_again(of, of->output, saved.data, saved.size);
+    mesh_document *const again = trial_open_again(of, of->output, saved.data, saved.size);
     again->format->close(again);
     const bool same = saved.size == size && !memcmp(saved.data, data, size);
     ffd_file_unload(&saved);
@@ -324,7 +223,7 @@ static double *deformed_positions(const trial *of, const uint8_t *data, size_t s
     lattice_chain chain = {0};
     ffd_error error;
     pass_totals totals;
-    mesh_document *document = open_again(of, of->input, data, size);
+    mesh_document *document = trial_open_again(of, of->input, data, size);
     PROMISE(ffd_chain_load(&(chain_files){.paths = lattices, .count = 1}, &(chain_outside){0}, FFD_ISA_AUTO,
                            NULL, &chain, &error) == FFD_OK &&
                 ffd_chain_fit(&chain, document, 1, &error) == FFD_OK,
@@ -342,15 +241,15 @@ static void check_move(trial *of, const uint8_t *data, size_t size, const mesh_f
 {
     uint64_t moved;
     file_input saved;
-    mesh_document *document = open_again(of, of->input, data, size);
+    mesh_document *document = trial_open_again(of, of->input, data, size);
     work_path("moves.json", of->lattice);
-    if (deform(of, document, &moved)) {
+    if (trial_deform(of, document, &moved)) {
         double *const expected = deformed_positions(of, data, size);
         load_output(of, &saved);
-        document = open_again(of, of->output, saved.data, saved.size);
+        document = trial_open_again(of, of->output, saved.data, saved.size);
         check_description(document);
         /* In the scene meshes may have become several, whose vertices have other numbers. */
-        if (!is_gltf(of->format) || of->space == FFD_SPACE_MESH)
+        if (!trial_is_gltf(of->format) || of->space == FFD_SPACE_MESH)
             check_positions(of, document, expected);
         check_same_faces(of, faces, document);
         ffd_source_close(&document);
@@ -387,20 +286,21 @@ static void run(trial *of, const uint8_t *data, size_t size)
 {
     mesh_faces faces;
     ffd_error error = {0};
-    mesh_document *document = try_open(of, of->input, data, size, &error);
+    mesh_document *document = trial_open(of, of->input, data, size, NULL, &error);
     if (!document)
         return;
     check_description(document);
     check_materials(document);
-    if (is_gltf(of->format) && of->space == FFD_SPACE_SCENE)
+    if (trial_is_gltf(of->format) && of->space == FFD_SPACE_SCENE)
         check_animations(document);
-    of->is_quantized = is_gltf(of->format) && is_quantized(document);
+    of->is_quantized = trial_is_gltf(of->format) && is_quantized(document);
     const bool goes_on = is_small(document) && take_faces(document, &faces);
     ffd_source_close(&document);
     if (!goes_on)
         return;
     check_empty_move(of, data, size);
     check_move(of, data, size, &faces);
+    check_changed(of, data, size);
     ffd_mesh_faces_free(&faces);
 }
 
@@ -414,13 +314,13 @@ void fuzz_mesh(ffd_format format, const uint8_t *data, size_t size)
         size = (size_t)(end - data);
     }
     run(&of, data, size);
-    if (is_gltf(format)) {
+    if (trial_is_gltf(format)) {
         of.rig = FFD_RIG_FOLLOW;
         run(&of, data, size);
         of.rig = FFD_RIG_KEEP;
     }
     of.space = FFD_SPACE_MESH;
-    of.normals = is_gltf(format) ? FFD_NORMALS_TRANSFORM : FFD_NORMALS_KEEP;
+    of.normals = trial_is_gltf(format) ? FFD_NORMALS_TRANSFORM : FFD_NORMALS_KEEP;
     run(&of, data, size);
 }
 
@@ -430,7 +330,7 @@ void fuzz_library(const uint8_t *data, size_t size)
     const trial of = {.format = FFD_FORMAT_OBJ};
     prepare_files();
     work_write("m.mtl", data, size);
-    mesh_document *document = open_again(&of, "m", (const uint8_t *)text, sizeof text - 1);
+    mesh_document *document = trial_open_again(&of, "m", (const uint8_t *)text, sizeof text - 1);
     check_materials(document);
     ffd_source_close(&document);
 }

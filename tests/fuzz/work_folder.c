@@ -1,5 +1,4 @@
 /* work_folder.c - a temporary folder for the files of one run. */
-#define _XOPEN_SOURCE 700 /* mkdtemp */
 #include "work_folder.h"
 #include "promise.h"
 #include <dirent.h>

@@ -95,8 +95,14 @@ m("set-torn-by-a-signal", "lock left out", "cleanup, file, cli_output, cli_batch
   "status = settle_all(output, stays, error);")
 m("exit-of-unsupported", "error code", "base", "case FFD_E_UNSUPPORTED: return 6;", "case FFD_E_UNSUPPORTED: return 4;")
 m("control-characters-shown", "message", "base, cli_errors",
-  "if (*c < 0x20 || *c == 0x7f) *c = '?'; } static void fill",
-  "if (*c < 0x20 && *c == 0x7f) *c = '?'; } static void fill")
+  "if (text[0] < 0x20 || text[0] == 0x7f)", "if (text[0] < 0x20 && text[0] == 0x7f)")
+m("c1-characters-shown", "message", "cli_stays_behind, cli_tears", "text[1] >= 0x80 && text[1] <= 0x9f", "text[1] >= 0x80 && text[1] <= 0x80")
+m("cut-parts-in-a-character", "cut", "cli_tears", "ffd_name_shown(text, name + begun, capacity - begun);", "snprintf(name + begun, capacity - begun, \"%s\", text);")
+m("check-counts-other-targets", "call left out", "cli_as_morph", "job.document->keeps_base = true;", "job.document->keeps_base = false;")
+m("new-weight-behind-others", "place", "cli_as_morph", "tree->values[weights].count > targets)", "tree->values[weights].count > targets + 9)")
+m("skins-elsewhere-left", "call left out", "cli_rig", "if (shown[s] || (staying[s] && ffd_gltf_has_joint_matrices(d, skin)))", "if (shown[s])")
+m("shown-by-other-weights", "check left out", "cli_morph_weights", "same_influences(part, wanted) && shown_alike(d, part, wanted, GLTF_POSITION))", "same_influences(part, wanted))")
+m("parts-in-the-order-of-files", "order", "cli_view", "return a->owner < b->owner ? -1 : 1;", "return 0;")
 m("long-names-alike", "limit", "cli_aliases",
   "1 + length + strlen(ending) <= LONGEST_NAME", "1 + length + strlen(ending) <= 2 * LONGEST_NAME")
 m("hash-of-doubles", "stride", "embedding_file, base", "store_double(bytes + 8 * i, values[done + i]);",
@@ -892,12 +898,15 @@ m("clip-default-weights", "condition", "cli_morphs", "if (names[t] == KEEPS && !
   "if (names[t] == IS_ZERO && !ffd_gltf_weight(d, default_value, &row[t]))")
 m("clip-weights-of-a-node", "condition", "cli_morphs", "size_t sampler = own ? GLTF_NONE : w->samplers[mesh];",
   "size_t sampler = w->samplers[mesh];")
-m("clip-own-bytes", "condition", "cli_morphs", "own[a] = own[a] && users[a] == 0;", "own[a] = own[a] && users[a] <= 2;")
+m("clip-own-bytes", "condition", "cli_morphs", "w->replaced.values[w->replaced.count++] = old;",
+  "w->replaced.values[0] = old;\n    w->replaced.count = 1;")
 m("target-of-others-lost", "condition", "cli_as_morph", "(is_own || ffd_gltf_is_partly_selected(", "(is_own && ffd_gltf_is_partly_selected(")
 m("target-of-others-lost-unsaid", "condition", "cli_as_morph", "old >= 0 && (size_t)old != accessor &&", "old >= 0 && (size_t)old == accessor &&")
-m("target-bytes-in-use", "condition", "cli_morphs", "before[a] > 0 && users[a] == 0", "before[a] > 0")
-m("target-bytes-compressed", "condition", "cli_morphs", "views[v] == IS_LEFT ?", "views[v] == IS_KEPT ?")
-m("target-bytes-sparse", "left out", "cli_morphs", "bytes += plain_bytes(d, sparse->values_view, sparse->count, size) +", "bytes +=")
+m("target-bytes-in-use", "condition", "cli_morphs", "if (users[a] > 0) ffd_gltf_add_accessor_bytes(", "if (users[a] > 2)\n            ffd_gltf_add_accessor_bytes(")
+m("target-bytes-of-others", "condition", "cli_morphs", "count += marks[i] == IS_OURS;", "count += marks[i] != IS_FREE;")
+m("target-bytes-of-an-image", "condition", "cli_morphs", "if (views[v]) ffd_gltf_add_view_bytes(d, v, kept);", "if (!views[v])\n            ffd_gltf_add_view_bytes(d, v, kept);")
+m("target-bytes-compressed", "condition", "cli_morphs", "if (buffer != GLTF_NONE && size != GLTF_NONE) add_bytes(", "if (buffer == GLTF_NONE && size != GLTF_NONE)\n            add_bytes(")
+m("target-bytes-sparse", "left out", "cli_morphs", "add_packed(d, sparse->values_view, sparse->values_offset, sparse->count, layout->element_size, list);", "")
 m("clip-replaced", "left out", "cli_morphs", "ffd_json_span_string_is(tree, name, w->clip->name)", "ffd_json_span_string_is(tree, name, \"\")")
 m("clip-of-a-conversion", "stride", "cli_morphs", "clip->key_count * target_count(plan, m), NULL", "clip->key_count * 1, NULL")
 m("morph-in-its-place", "operand", "cli_morphs, cli_as_morph", "ffd_gltf_target_place(&file->model.meshes[m].primitives[p], marks->named[m]);",
@@ -991,11 +1000,13 @@ m("across-not-turned", "left out", "cli_tears", "walk->across[a] += turned[a];",
 
 # job: areas and volumes
 
-m("volume-sum-not-exact", "rounding", "quality", "const double value = s->sum + s->lost;", "const double value = s->sum;")
+m("volume-sum-not-exact", "rounding", "quality", "return s->sum + s->lost;", "return s->sum;")
 m("zeros-of-two-signs-are-two-vertices", "equality", "quality", "number += 0.0;", "number *= 1.0;")
 m("edges-of-both-ways-alike", "sign", "quality", "return from < to ? hash : 0 - hash;", "return from < to ? hash : hash;")
-m("area-of-what-hides", "condition", "quality", "if (count > 0 && !is_hidden(&work, corners[0]))", "if (count > 0)")
-m("volume-not-known-as-not-closed", "condition", "cli_check", 'isnan(result->area_before) ? "not known" : result->faces == 0', 'result->faces == 0')
+m("area-of-what-hides", "condition", "quality", "if (count > 0 && !is_hidden(work, corners[0]))", "if (count > 0 && (count < 3 || !is_hidden(work, corners[0]) || count > 2))")
+m("volume-not-known-as-not-closed", "condition", "cli_check", 'if (isnan(area)) return "not known";', "")
+m("volume-too-large-as-not-closed", "condition", "quality, cli_check", "return isfinite(value) ? ldexp(value, exponent) : NAN;", "const double large = ldexp(value, exponent);\n    return isfinite(large) ? large : NAN;")
+m("volume-of-large-numbers-unscaled", "overflow", "quality", "work->scale = ldexp(1, -exponent);", "work->scale = ldexp(1, 0 * exponent);")
 m("volume-of-the-selection", "order", "cli_check", "measure_extent(job, arrays, result);\n    if (!ffd_selection_is_all(job->document))\n        status = ffd_selection_reduce(job->document, &arrays->faces, error);",
   "if (!ffd_selection_is_all(job->document))\n        status = ffd_selection_reduce(job->document, &arrays->faces, error);\n    measure_extent(job, arrays, result);")
 m("area-after-of-many-targets", "condition", "cli_morphs", "all->area_after = is_only ? target->area_after : NAN;", "all->area_after = target->area_after;")
@@ -1105,12 +1116,17 @@ m("row-replaced", "check left out", "cli_batch_positions",
 m("row-too-large", "check left out", "row_array, cli_batch_positions", "if (isinf((float)positions[i]) && isfinite(positions[i]))", "if (isinf((float)positions[i]) && isnan(positions[i]))")
 m("row-of-its-shard", "count", "cli_batch_positions", "job->row = source->count - 1;", "job->row = (source->count - 1) / source->desc.shards;")
 m("row-hash-left-out", "check left out", "cli_batch_positions", "if (row && ffd_row_hash(&row->array, row->number, &parts[count++], NULL))", "if (row && count > 0 && ffd_row_hash(&row->array, row->number, &parts[count++], NULL))")
-m("array-of-a-pipe", "check left out", "cli_batch_positions", "if (origin && ffd_file_reads_once(origin))", "if (origin && ffd_file_is_stream(origin))")
+m("array-of-a-pipe", "check left out", "cli_batch_positions", "return text && ffd_file_reads_once(text);", "return text && ffd_file_is_stream(text);")
 m("size-of-an-array", "overflow", "row_array", "(row_size(array) == 0 || array->rows <= most / row_size(array)))", "(row_size(array) == 0 || array->rows * row_size(array) <= most))")
 m("shown-positions", "state", "cli_batch_positions", "counting.deformed = job->positions;", "counting.deformed = NULL;")
 m("picture-not-checked-before", "check left out", "cli_batch_view", "return picture ? ffd_job_picture_check(picture, desc->force || desc->if_changed, error) : FFD_OK;",
   "return picture ? ffd_job_picture_check(picture, true, error) : FFD_OK;")
 m("missing-picture-is-skipped", "condition", "cli_batch_view", "if (has_output && (!picture || answer->has_picture))", "if (has_output)")
+m("picture-of-an-older-row", "check left out", "cli_batch_positions", "ffd_journal_find(run->journal, &task->picture_target, &drawn, NULL) && ffd_hash_equal(&drawn.inputs, &task->record.inputs);",
+  "ffd_journal_find(run->journal, &task->picture_target, &drawn, NULL);")
+m("picture-of-a-row-with-other-bytes", "check left out", "cli_batch_positions", "!ffd_cache_hash(NULL, picture, &bytes, NULL) && ffd_hash_equal(&bytes, &task->drawn);",
+  "!ffd_cache_hash(NULL, picture, &bytes, NULL);")
+m("picture-of-a-row-forgotten", "left out", "cli_batch_positions", "ffd_journal_put(run->journal, &task->picture_target, &drawn, \"\", 0);", "(void)drawn;")
 m("output-made-for-its-picture", "condition", "cli_batch_view", "if (!has_output) status = judge_row(", "if (!picture || !has_output || picture)\n        status = judge_row(")
 m("no-picture-behind-a-gate", "condition", "cli_batch_view", "if (picture && (status == FFD_OK || status == FFD_E_GATE))", "if (picture && status == FFD_OK)")
 m("picture-failure-forgotten", "error left out", "cli_batch_view", "answer->has_picture = status == FFD_OK || status == FFD_E_GATE;", "answer->has_picture = status < FFD_E_GATE || status >= FFD_OK;")
@@ -1118,8 +1134,10 @@ m("figures-of-no-job", "figure", "cli_batch_view", "if (is_all || !answer->has_p
 m("warnings-said-twice", "check left out", "cli_batch_view", "if (has_line(lines->data, before, line, length))", "if (has_line(lines->data, 0, line, length))")
 m("no-room-for-a-picture", "limit", "cli_batch_view", "|| stamp.size < LARGE)", "|| stamp.size < 100 * LARGE)")
 m("no-mesh-beside-a-picture", "limit", "cli_batch_view", "|| stamp.size < LARGE)", "|| stamp.size == 0)")
-m("picture-of-two-jobs", "check left out", "cli_batch_view", "if (!is_taken(outputs, file, &line))\n        return ffd_files_put(&outputs->lines, file, job->line, error); refuse(manifest, job, path, line);",
-  "if (!is_taken(outputs, file, &line) || line > 0)\n        return ffd_files_put(&outputs->lines, file, job->line, error);\n    refuse(manifest, job, path, line);")
+m("picture-of-two-jobs", "check left out", "cli_batch_view", "if (!is_taken(outputs, file, &line))\n        return ffd_files_put(&outputs->lines, file, job->line, error); refuse(manifest, job, \"\", path, line);",
+  "if (!is_taken(outputs, file, &line) || line > 0)\n        return ffd_files_put(&outputs->lines, file, job->line, error);\n    refuse(manifest, job, \"\", path, line);")
+m("embedding-of-the-run", "left out", "cli_batch_positions", "ffd_outputs_check_embedding(&run->written, ffd_run_manifest(run), job);", "")
+m("array-in-place-of-an-embedding", "condition", "cli_batch_positions", "(desc->force && desc->positions && ffd_file_exists(desc->positions))", "(desc->force && desc->positions && !ffd_file_exists(desc->positions))")
 m("index-as-an-output", "check left out", "cli_batch_view", "run->view ? ffd_run_view_page(run->view) : NULL};", "NULL};")
 m("index-out-of-order", "operation", "cli_batch_view", "|| run->depfile || run->view ||", "|| run->depfile ||")
 m("index-replaced", "check left out", "cli_batch_view", ".force = desc->force || desc->jobs.resume,", ".force = true,")
@@ -1229,8 +1247,8 @@ m("rig-not-selected", "check left out", "cli_rig", "place->stays = !chosen || in
   "place->stays = instanced || place->partial;")
 m("rig-similarity-without-scale", "operation", "cli_rig",
   "ffd_mat_rotation(f, rotation) ? ffd_cube_root(mat_determinant(f)) : 1", "ffd_mat_rotation(f, rotation) ? 1 : 1")
-m("rig-similarity-left-out", "call left out", "cli_rig", "if (shown[s] && !partial[s] && first != SIZE_MAX)",
-  "if (shown[s] && partial[s] && first != SIZE_MAX)")
+m("rig-similarity-left-out", "call left out", "cli_rig", "if (shown[s] && !staying[s] && first != SIZE_MAX)",
+  "if (shown[s] && staying[s] && first != SIZE_MAX)")
 m("rig-binds-of-all-skins-in-place", "share", "cli_rig", "if (known && number < rig->content_count)", "if (known && rig->content_count)")
 m("rig-normals-not-carried", "left out", "cli_rig", "if (gradients) ffd_part_carry_gradient(work->part, scratch->gradient + 9 * i);", "(void)gradients;")
 m("rig-targets-not-carried", "left out", "cli_rig", "if (work->part->part->carried) carry(work, k, gradients);",
@@ -1288,7 +1306,7 @@ m("times-of-each-channel", "condition", "cli_view_animation", "if (*place == SIZ
 m("broken-animation-stops-all", "condition", "cli_view_animation", "if (is_broken && animation != scene->animation)", "if (!is_broken && animation != scene->animation)")
 m("first-of-two-names", "condition", "cli_view_animation", "scene->animation = alike ? scene->animation : a;", "scene->animation = a;")
 m("smallest-of-many-bones", "condition", "view_page", "chosen[at - 1].weight < s->influences[i].weight", "chosen[at - 1].weight > s->influences[i].weight")
-m("follows-of-other-vertices", "index", "view_page", "if (follows) put_follow(rig, side, number_of(mesh, v));", "if (follows) put_follow(rig, side, v);")
+m("follows-of-other-vertices", "index", "view_page", "if (follows) put_follow(rig, side, number_of(mesh, side, v));", "if (follows) put_follow(rig, side, v);")
 
 # python
 

@@ -1,7 +1,7 @@
 /* moves_sample.h - random moves (data/schema/lattice.md 8), written as JSON and carried out in long double
  * with libm. */
-#ifndef FFD_TEST_MOVES_SAMPLE_H
-#define FFD_TEST_MOVES_SAMPLE_H
+#ifndef FFD_TESTS_MOVES_SAMPLE_H
+#define FFD_TESTS_MOVES_SAMPLE_H
 
 #include "sample.h"
 

@@ -2,8 +2,8 @@
    where there is a choice, no method with the library: basis functions by the plain recursion of Cox and de
    Boor, closed directions by periodic indices, sums over all control points, inversion by exclusion and
    projected Gauss-Newton steps. */
-#ifndef FFD_TEST_ORACLE_H
-#define FFD_TEST_ORACLE_H
+#ifndef FFD_TESTS_ORACLE_H
+#define FFD_TESTS_ORACLE_H
 
 #include <stdbool.h>
 #include <stddef.h>

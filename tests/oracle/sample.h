@@ -1,7 +1,7 @@
 /* sample.h - random lattices: as JSON text for the library, and as oracle volumes made independently of it.
  */
-#ifndef FFD_TEST_SAMPLE_H
-#define FFD_TEST_SAMPLE_H
+#ifndef FFD_TESTS_SAMPLE_H
+#define FFD_TESTS_SAMPLE_H
 
 #include "../support/draw.h"
 #include "oracle.h"

@@ -1,6 +1,6 @@
 /* shape_judge.h - what the oracle expects of a point in a lattice, and whether the library says so. */
-#ifndef FFD_TEST_SHAPE_JUDGE_H
-#define FFD_TEST_SHAPE_JUDGE_H
+#ifndef FFD_TESTS_SHAPE_JUDGE_H
+#define FFD_TESTS_SHAPE_JUDGE_H
 
 #include "sample.h"
 

@@ -1,8 +1,8 @@
 /* shape_sample.h - lattices of known shapes: bent, rolled up, twisted, closed on themselves, collapsed,
  * folded.
  */
-#ifndef FFD_TEST_SHAPE_SAMPLE_H
-#define FFD_TEST_SHAPE_SAMPLE_H
+#ifndef FFD_TESTS_SHAPE_SAMPLE_H
+#define FFD_TESTS_SHAPE_SAMPLE_H
 
 #include "volume_sample.h"
 

@@ -1,6 +1,6 @@
 /* volume_sample.h - random lattices whose rest volume is known to hold every point once. */
-#ifndef FFD_TEST_VOLUME_SAMPLE_H
-#define FFD_TEST_VOLUME_SAMPLE_H
+#ifndef FFD_TESTS_VOLUME_SAMPLE_H
+#define FFD_TESTS_VOLUME_SAMPLE_H
 
 #include "sample.h"
 

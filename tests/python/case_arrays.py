@@ -130,15 +130,30 @@ class Refusals(unittest.TestCase):
         for bad in (Q[:-1], Q.reshape(-1, 3), Q[..., :2]):
             self.refused(ValueError, "Q must have the shape", LATTICE.deform, embedding, bad)
         self.refused(TypeError, "Q must hold real numbers", LATTICE.deform, embedding, Q.astype(complex))
+        self.refused(TypeError, "Q must not be a masked array", LATTICE.deform, embedding, np.ma.masked_less(Q, 0.5))
         self.refused(ffd.InvalidError, "finite", LATTICE.deform, embedding, Q * np.nan)
         self.refused(ValueError, "not both", LATTICE.deform, embedding, Q, offsets=Q)
         self.refused(ValueError, "weights must have the shape", LATTICE.deform, embedding, weights=np.ones(3))
         self.refused(ffd.InvalidError, "weight", LATTICE.deform, embedding, weights=-np.ones(LATTICE.size))
         self.refused(ValueError, "another lattice", support.curved(RANDOM).basis, embedding)
         self.refused(ffd.InvalidError, "", support.curved(RANDOM).deform, embedding)
+        for other in (ffd.Lattice.from_points(LATTICE.rest, LATTICE.degree, knots="open"), ffd.Lattice.from_points(LATTICE.rest, 1),
+                      ffd.Lattice.from_points(LATTICE.rest, LATTICE.degree, weights=1 + Q[..., 0] ** 2)):
+            for function in (other.basis, other.deform):
+                self.refused(ffd.InvalidError, "another lattice", function, embedding)
+        self.assertEqual(LATTICE.moved(Q, weights=np.ones(LATTICE.size)).basis(embedding).shape, (5, Q[..., 0].size))
         self.refused(ValueError, "control_points", embedding.affected, [[9, 0, 0]])
+        for bad in (0 * Q[..., 0], -Q[..., 0], Q[..., 0] * np.nan):
+            self.refused(ffd.InvalidError, "weight", LATTICE.basis, embedding, weights=bad)
+            self.refused(ffd.InvalidError, "weight", LATTICE.basis_times, embedding, Q, weights=bad)
+            self.refused(ffd.InvalidError, "weight", LATTICE.basis_transposed, embedding, embedding.points, weights=bad)
         self.refused(ValueError, "vertices", LATTICE.deform, embedding, Q, vertices=[-1])
         self.refused(ffd.ArgumentError, "", LATTICE.deform, embedding, Q, vertices=[2, 1])
+
+    def test_knots(self):
+        for bad in (((), (), ()), ("closed",), [[]] * 3, ("open", "open", ("closed", [0, 1]))):
+            with self.assertRaises((ValueError, TypeError)):
+                ffd.Lattice.from_points(LATTICE.rest, knots=bad)
 
     def test_options(self):
         points = RANDOM.uniform(0, 1, (5, 3))

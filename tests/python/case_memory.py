@@ -113,6 +113,56 @@ class Facts(Folder):
             ffd.info_bytes(io.StringIO("v 0 0 0\n"), name="a.obj")
 
 
+class Embeddings(Folder):
+    def test_embeddings_are_those_of_the_program(self):
+        lattice = ffd.Lattice.box((-0.6, 0.0, -0.8), (0.6, 1.2, 1.2), size=5)
+        lattice.save("part.json")
+        support.program("embed", "spot.obj", "-l", "part.json", "-o", "theirs.npy", "--status", "theirs-status.npy", "--snap", "0.01r")
+        result = ffd.embed_file("spot.obj", "ours.npy", lattice, status_output="ours-status.npy", snap="0.01r")
+        self.assertEqual(read("ours.npy"), read("theirs.npy"))
+        self.assertEqual(read("ours-status.npy"), read("theirs-status.npy"))
+        uvw, status = np.load("ours.npy"), np.load("ours-status.npy")
+        self.assertEqual((uvw.shape, status.shape), ((result.vertices, 3), (result.vertices,)))
+        self.assertEqual(result.counts["inside"], (status == ffd.Status.INSIDE).sum())
+        self.assertEqual(result.counts["outside"], (status == ffd.Status.OUTSIDE).sum())
+        self.assertTrue(0 < result.counts["outside"] and any("not inside" in line for line in result.warnings))
+        for given in (lattice, "part.json", read("part.json")):
+            made = ffd.embed_bytes(read("spot.obj"), given, name="spot.obj", snap="0.01r", threads=1)
+            self.assertEqual(made.data, read("theirs.npy"))
+            self.assertEqual((made.uvw.tobytes(), made.status.tobytes()), (uvw.tobytes(), status.tobytes()))
+            self.assertEqual(made.result.counts, result.counts)
+        # Jobs take both, and nothing else in their place.
+        moved, spot = lattice.moved(lattice.rest + 0.25), read("spot.obj")
+        searched = ffd.deform_bytes(spot, moved, name="spot.obj", snap="0.01r").data
+        for embedding in ("ours.npy", made.data):
+            self.assertEqual(ffd.deform_bytes(spot, moved, name="spot.obj", snap="0.01r", embedding=embedding).data, searched)
+        with self.assertRaises(ffd.InvalidError):
+            ffd.deform_bytes(spot, moved, name="spot.obj", embedding=made.data)
+
+    def test_embeddings_of_meshes_of_several_files(self):
+        made = ffd.embed_bytes(self.files["t.gltf"], LIFT, name="t.gltf", files=self.files, space="mesh")  # "lift" has no value
+        self.assertEqual((made.uvw.shape, made.status.tolist()), ((3, 3), [0, 0, 0]))
+        self.assertEqual(made.uvw[:, 0].tolist(), [0, 1, 0])
+        self.assertEqual(sorted(os.listdir()), self.names)
+
+    def test_what_cannot_be_embedded(self):
+        ffd.embed_file("spot.obj", "e.npy", "twist.json")
+        with self.assertRaises(ffd.ExistsError):
+            ffd.embed_file("spot.obj", "e.npy", "twist.json")
+        ffd.embed_file("spot.obj", "e.npy", "twist.json", force=True)
+        with self.assertRaises(ffd.ExistsError):
+            ffd.embed_file("spot.obj", "spot.obj", "twist.json", force=True)
+        with self.assertRaises(ffd.ArgumentError):
+            ffd.embed_file("spot.obj", "f.npy", "twist.json", status_output="./f.npy")
+        for run in (lambda: ffd.embed_file("spot.obj", "f.npy", "twist.json", outside="extend"),
+                    lambda: ffd.embed_bytes(TRIANGLE, "twist.json", name="a.obj", force=True)):
+            with self.assertRaisesRegex(TypeError, "unknown option"):
+                run()
+        with self.assertRaisesRegex(LookupError, "t.bin"):
+            ffd.embed_bytes(self.files["t.gltf"], "twist.json", name="t.gltf", files=fails)
+        self.assertEqual(sorted(os.listdir()), sorted([*self.names, "e.npy"]))
+
+
 class Comparisons(Folder):
     def test_comparisons_say_what_the_program_says(self):
         theirs = json.loads(support.program("compare", "spot.obj", "spot.obj", "--json"))

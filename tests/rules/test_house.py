@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """What lets a newcomer find the way: an opening comment that says what a file is; in src also folders of at most 20
-sources, a comment above every function that an internal header declares, and which sources define these functions. An
-example of the library is a program of at most 60 lines."""
+sources, a comment above every function that an internal header declares, and which sources define these functions. A
+function of src or tests has at most 80 lines, an example of the library at most 60."""
 
+import ast
 import collections
 import os
 import re
@@ -11,6 +12,7 @@ import tree
 
 MOST_SOURCES = 20
 MOST_LINES_OF_EXAMPLES = 60
+MOST_LINES_OF_FUNCTIONS = 80
 COMMENT = re.compile(r"/\*.*?\*/", re.S)
 # A declaration at the start of a line, up to its semicolon: "void ffd_free(void *block);".
 PROTOTYPE = re.compile(r"^(?!typedef\b|static\b|extern\b|return\b)[a-z][\w \*]*?\b(\w+)\([^;{}]*\)[^;{}]*;", re.M)
@@ -76,6 +78,35 @@ def prototypes(path):
             yield f"{path}: no comment above {match.group(1)}"
 
 
+def functions_of_c(text):
+    """The first line of each function, and how many lines it has. clang-format begins lines with the brackets of its body."""
+    lines = text.splitlines()
+    first, opened = 0, None
+    for number, line in enumerate(lines):
+        if line == "{" and re.search(r"\)[ \w]*$", lines[number - 1]):  # else of a class
+            opened = first
+        elif line.startswith("}"):
+            if opened is not None:
+                yield lines[opened], number - opened + 1
+            first, opened = number + 1, None
+        elif not line or line.endswith((";", "*/")) or line.startswith("#"):
+            first = number + 1
+
+
+def functions_of_python(text):
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.FunctionDef):
+            yield f"def {node.name}", node.end_lineno - node.lineno + 1
+
+
+def long_functions(paths):
+    for path in paths:
+        functions = functions_of_python if path.endswith(".py") else functions_of_c
+        for name, lines in functions(tree.read(path)):
+            if lines > MOST_LINES_OF_FUNCTIONS:
+                yield f"{path}: {name}: {lines} lines, more than {MOST_LINES_OF_FUNCTIONS}"
+
+
 def long_examples(paths):
     """The programs of data/examples that are longer than README.md says."""
     for path in paths:
@@ -103,6 +134,8 @@ def main():
         findings += test_opening(path)
     examples = [path for path in files if path.startswith("data/examples/") and path.endswith((".c", ".cpp", ".py"))]
     findings += long_examples(examples)
+    sources = [path for path in files if path.startswith(("src/", "tests/")) and path.endswith((".c", ".cpp", ".h", ".py"))]
+    findings += long_functions(sources)
     findings += [f"{what}: no sources found" for what, found in (("tests", tests), ("data/examples", examples)) if not found]
     tree.finish(len(paths) + len(tests) + len(examples), "files", findings)
 

@@ -1,6 +1,6 @@
 /* draco_sample.h - meshes compressed with the Draco library, for tests. */
-#ifndef TESTS_DRACO_SAMPLE_H
-#define TESTS_DRACO_SAMPLE_H
+#ifndef FFD_TESTS_DRACO_SAMPLE_H
+#define FFD_TESTS_DRACO_SAMPLE_H
 
 #include <stdbool.h>
 #include <stddef.h>

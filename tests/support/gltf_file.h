@@ -1,6 +1,6 @@
 /* gltf_file.h - opens glTF from memory or from a folder, moves its vertices by a function, and saves it. */
-#ifndef TESTS_GLTF_FILE_H
-#define TESTS_GLTF_FILE_H
+#ifndef FFD_TESTS_GLTF_FILE_H
+#define FFD_TESTS_GLTF_FILE_H
 
 #include "base/file/path.h"
 #include "base/memory/memory.h"

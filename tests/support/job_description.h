@@ -1,6 +1,6 @@
 /* job_description.h - a default description of a job, for tests to change. */
-#ifndef FFD_TEST_JOB_DESCRIPTION_H
-#define FFD_TEST_JOB_DESCRIPTION_H
+#ifndef FFD_TESTS_JOB_DESCRIPTION_H
+#define FFD_TESTS_JOB_DESCRIPTION_H
 
 #include <ffd/job.h>
 

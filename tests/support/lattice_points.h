@@ -1,6 +1,6 @@
 /* lattice_points.h - checks control points in tests of moves. Includes come after cmocka.h. */
-#ifndef FFD_TEST_LATTICE_POINTS_H
-#define FFD_TEST_LATTICE_POINTS_H
+#ifndef FFD_TESTS_LATTICE_POINTS_H
+#define FFD_TESTS_LATTICE_POINTS_H
 
 #include "lattice/lattice.h"
 #include <math.h>

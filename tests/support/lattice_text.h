@@ -1,7 +1,7 @@
 /* lattice_text.h - makes lattices from the JSON of a rest volume and of moves. Includes come after
    cmocka.h. */
-#ifndef FFD_TEST_LATTICE_TEXT_H
-#define FFD_TEST_LATTICE_TEXT_H
+#ifndef FFD_TESTS_LATTICE_TEXT_H
+#define FFD_TESTS_LATTICE_TEXT_H
 
 #include "base/fail.h"
 #include "lattice/lattice.h"

@@ -1,7 +1,7 @@
 /* repetitions.h - reduces repetitions in memory-checked builds, which are up to thirty times as slow.
    Repeating the same code with other numbers finds no further memory errors. */
-#ifndef FFD_TEST_REPETITIONS_H
-#define FFD_TEST_REPETITIONS_H
+#ifndef FFD_TESTS_REPETITIONS_H
+#define FFD_TESTS_REPETITIONS_H
 
 #include <stdbool.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* test_folder.h - a temporary folder for a test. mkdtemp needs _XOPEN_SOURCE 700 before any #include. */
+/* test_folder.h - a temporary folder for a test. */
 #ifndef FFD_TESTS_TEST_FOLDER_H
 #define FFD_TESTS_TEST_FOLDER_H
 

@@ -1,5 +1,4 @@
 /* test_cleanup.c - a signal that ends a program while it writes leaves no temporary file. */
-#define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

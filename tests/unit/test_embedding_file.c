@@ -1,6 +1,5 @@
 /* test_embedding_file.c - hashes, and the file of `ffd embed`: its content, and that no other file is
    accepted. */
-#define _XOPEN_SOURCE 700 /* mkdtemp */
 #include "lattice/rest_hash.h"
 #include <setjmp.h>
 #include <stdarg.h>

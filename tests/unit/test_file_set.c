@@ -13,6 +13,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <ffd/job.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -56,6 +57,24 @@ int link(const char *from, const char *to)
 int unlink(const char *path)
 {
     return fault_is_due() ? -1 : (int)syscall(SYS_unlinkat, AT_FDCWD, path, 0);
+}
+
+/* What another run does to a record between this run's making and locking it. */
+static enum { LEAVES, LOCKS, REMOVES } other_run;
+
+int flock(int fd, int operation)
+{
+    char path[64], name[512];
+    snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
+    const ssize_t length = readlink(path, name, sizeof name - 1);
+    name[length < 0 ? 0 : length] = 0;
+    if (other_run == LEAVES || !strstr(name, ".ffd-set"))
+        return (int)syscall(SYS_flock, fd, operation);
+    const bool locks = other_run == LOCKS;
+    other_run = LEAVES;
+    assert_int_equal(syscall(SYS_unlinkat, AT_FDCWD, name, 0), 0);
+    errno = EWOULDBLOCK;
+    return locks ? -1 : (int)syscall(SYS_flock, fd, operation);
 }
 
 /* Three files: the first is new, the others replace old ones; the last one is the main file. */
@@ -191,6 +210,21 @@ static void killed_at_any_call(void **state)
     (void)state;
 }
 
+static void a_run_that_comes_between_is_in_no_way(void **state)
+{
+    ffd_error error;
+    for (int does = LOCKS; does <= REMOVES; does++) {
+        lay_out();
+        other_run = does == LOCKS ? LOCKS : REMOVES;
+        if (write_set(&error))
+            fail_msg("%s: %s", error.file, error.message);
+        assert_int_equal(other_run, LEAVES);
+        assert_true(new_is_whole());
+        assert_false(has_leftovers());
+    }
+    (void)state;
+}
+
 static bool failed_at(long number)
 {
     ffd_error error = {0};
@@ -289,6 +323,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(killed_at_any_call),
         cmocka_unit_test(failed_at_any_call),
+        cmocka_unit_test(a_run_that_comes_between_is_in_no_way),
         cmocka_unit_test(a_failure_says_where_the_old_file_is),
         cmocka_unit_test(a_target_that_must_not_be_replaced_undoes_all),
         cmocka_unit_test(a_copied_folder_is_mended),

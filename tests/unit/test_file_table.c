@@ -1,5 +1,4 @@
 /* test_file_table.c - numbers for many files, and the identity of the file at a path. */
-#define _XOPEN_SOURCE 700 /* mkdtemp, symlink */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

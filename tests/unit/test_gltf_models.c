@@ -1,6 +1,6 @@
 /* test_gltf_models.c - the sample models of FFD_MODELS: read, written back unchanged, and mutated at
    random. */
-#define _XOPEN_SOURCE 700 /* nftw, mkdtemp */
+#define _XOPEN_SOURCE 700 /* nftw */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

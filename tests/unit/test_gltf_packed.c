@@ -1,6 +1,5 @@
 /* test_gltf_packed.c - glTF with geometry compressed by Draco or meshopt: read like plain data, written
    uncompressed where something changed and unchanged where nothing did. */
-#define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

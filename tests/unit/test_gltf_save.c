@@ -1,5 +1,4 @@
 /* test_gltf_save.c - writing glTF: bytes in place, appended copies, files of buffers and images. */
-#define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,4 @@
 /* test_gltf_storage.c - numbers of every component type, and failing memory while results are stored. */
-#define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

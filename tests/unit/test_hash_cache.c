@@ -1,5 +1,4 @@
 /* test_hash_cache.c - what jobs of a batch reuse of files that earlier jobs have read. */
-#define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -8,10 +8,12 @@
 #include <cmocka.h>
 
 #include "../support/test_folder.h"
+#include "base/file/memory_files.h"
 #include "base/memory/memory.h"
 #include <ffd/ffd.h>
 #include <ffd/jacobian.h>
 #include <ftw.h>
+#include <math.h>
 #include <pthread.h>
 #include <stdint.h>
 #include <sys/stat.h>
@@ -938,6 +940,139 @@ static void descriptions_that_contradict_themselves_are_refused(void **state)
     (void)state;
 }
 
+static void no_name_in_a_file_leads_to_the_memory_of_a_job(void **state)
+{
+    memory_files *files;
+    assert_int_equal(ffd_memory_create(&files, NULL), FFD_OK);
+    for (int i = 0; i < 10000; i++) {
+        char path[40];
+        snprintf(path, sizeof path, "ffd-memory:%d/0/head.obj", i);
+        assert_false(ffd_memory_has(path));
+    }
+    ffd_memory_destroy(&files);
+    (void)state;
+}
+
+static void arrays_of_descriptions_are_complete(void **state)
+{
+    static const char *const none[] = {NULL};
+    static const ffd_setting settings[] = {{"lift", NULL}, {NULL, "1"}};
+    const ffd_source nameless = {.path = NULL};
+    const ffd_lattice_desc *const nothing = &(ffd_lattice_desc){.struct_size = sizeof *nothing};
+    ffd_job_result result = {.struct_size = sizeof result};
+    ffd_error error = {0};
+    both b;
+    begin(&b, make_gltf, "head.glb");
+    const ffd_deform_desc whole = b.desc;
+    for (int wrong = 0; wrong < 7; wrong++) {
+        b.desc = whole;
+        if (wrong == 0)
+            b.desc.only = none;
+        if (wrong == 1)
+            b.desc.clips = none;
+        if (wrong == 2)
+            b.desc.morphs = none;
+        if (wrong >= 3 && wrong < 5)
+            b.desc.set = &settings[wrong - 3];
+        if (wrong == 5)
+            b.desc.input.allow_extensions = none;
+        if (wrong == 6) {
+            b.desc.lattices = none;
+            b.desc.lattice_objects = NULL;
+        }
+        b.desc.only_count = b.desc.only != NULL;
+        b.desc.clip_count = b.desc.clips != NULL;
+        b.desc.set_count = b.desc.set != NULL;
+        b.desc.input.allow_extension_count = b.desc.input.allow_extensions != NULL;
+        assert_int_equal(ffd_deform_run(&b.desc, &result, &error), FFD_E_ARGUMENT);
+        assert_non_null(strstr(error.message, "is not complete"));
+        error = (ffd_error){0};
+    }
+    ffd_embed_desc embed;
+    ffd_info_desc info;
+    ffd_lattice_new_desc new;
+    char *text;
+    ffd_embed_desc_init(&embed, sizeof embed);
+    embed.input = whole.input;
+    embed.lattice_text = (ffd_bytes){open_text, sizeof open_text - 1};
+    embed.output = "uvw.npy";
+    embed.sink = take;
+    embed.sink_user = &b.sink;
+    embed.set = settings;
+    embed.set_count = 1;
+    assert_int_equal(ffd_embed_run(&embed, NULL, &error), FFD_E_ARGUMENT);
+    embed.set_count = 0;
+    embed.status_output = "uvw.npy";
+    assert_int_equal(ffd_embed_run(&embed, NULL, &error), FFD_E_ARGUMENT);
+    ffd_info_desc_init(&info, sizeof info);
+    info.file = (ffd_source){.path = "l.json", .bytes = embed.lattice_text};
+    info.set = settings;
+    info.set_count = 1;
+    assert_int_equal(ffd_info_run(&info, &text, &error), FFD_E_ARGUMENT);
+    ffd_lattice_new_desc_init(&new, sizeof new);
+    new.output = "new.json";
+    new.sink = take;
+    new.sink_user = &b.sink;
+    new.lattice = nothing;
+    new.meshes = &nameless;
+    new.mesh_count = 1;
+    assert_int_equal(ffd_lattice_new_run(&new, &error), FFD_E_ARGUMENT);
+    new.meshes = &whole.input;
+    new.only = none;
+    new.only_count = 1;
+    assert_int_equal(ffd_lattice_new_run(&new, &error), FFD_E_ARGUMENT);
+    assert_int_equal(b.sink.files.count, 0);
+    end(&b);
+    (void)state;
+}
+
+static void choices_that_are_none_are_refused(void **state)
+{
+    const double lengths[] = {(double)NAN, -1};
+    ffd_job_result result = {.struct_size = sizeof result};
+    ffd_error error = {0};
+    ffd_view_desc view;
+    both b;
+    begin(&b, make_gltf, "head.glb");
+    const ffd_deform_desc whole = b.desc;
+    for (int wrong = 0; wrong < 10; wrong++) {
+        const int number = wrong % 2 ? 3 : -1;
+        b.desc = whole;
+        if (wrong / 2 == 0)
+            b.desc.outside = (ffd_outside)number;
+        if (wrong / 2 == 1)
+            b.desc.normals = (ffd_normals)number;
+        if (wrong / 2 == 2)
+            b.desc.rig = (ffd_rig)number;
+        if (wrong / 2 == 3)
+            b.desc.resources = (ffd_resources)number;
+        if (wrong / 2 == 4)
+            b.desc.input.space = (ffd_space)number;
+        assert_int_equal(ffd_deform_run(&b.desc, &result, &error), FFD_E_ARGUMENT);
+        assert_non_null(strstr(error.message, "is no value of "));
+        error = (ffd_error){0};
+    }
+    for (int i = 0; i < 2; i++) {
+        b.desc = whole;
+        b.desc.fail_on = FFD_GATE_EDGES;
+        b.desc.edges_most = lengths[i];
+        assert_int_equal(ffd_check_run(&b.desc, &result, &error), FFD_E_ARGUMENT);
+    }
+    b.desc.fail_on = FFD_GATE_TEAR;
+    b.desc.tear_most = (double)NAN;
+    assert_int_equal(ffd_check_run(&b.desc, &result, &error), FFD_E_ARGUMENT);
+    ffd_view_desc_init(&view, sizeof view);
+    view.job = &whole;
+    view.output = "head.png";
+    view.sink = take;
+    view.sink_user = &b.sink;
+    view.color = (ffd_view_color)4;
+    assert_int_equal(ffd_view_run(&view, &result, &error), FFD_E_ARGUMENT);
+    assert_int_equal(b.sink.files.count, 0);
+    end(&b);
+    (void)state;
+}
+
 /* Runs a whole job inside the callback of another one. */
 static ffd_status take_and_run(void *user, const char *name, const void *bytes, size_t size)
 {
@@ -1038,6 +1173,9 @@ int main(void)
         cmocka_unit_test(jobs_run_in_threads_and_in_callbacks),
         cmocka_unit_test(memory_may_run_out_anywhere),
         cmocka_unit_test(descriptions_that_contradict_themselves_are_refused),
+        cmocka_unit_test(no_name_in_a_file_leads_to_the_memory_of_a_job),
+        cmocka_unit_test(arrays_of_descriptions_are_complete),
+        cmocka_unit_test(choices_that_are_none_are_refused),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -1,6 +1,5 @@
 /* test_job.c - whole jobs through the library: refused descriptions, which figures are filled, and failing
    memory. */
-#define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,4 @@
 /* test_job_cache.c - a cached mesh or lattice is not reused after its file has changed. */
-#define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,4 @@
 /* test_job_source.c - jobs from manifests and tables: their words, and refusals. */
-#define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,4 @@
 /* test_journal.c - a batch's journal of its outputs, also after a kill at any moment. */
-#define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -225,6 +225,75 @@ static void a_failure_changes_nothing(void **state)
     (void)state;
 }
 
+static void weights_that_are_refused_leave_none(void **state)
+{
+    const double weights[] = {2, 0};
+    ffd_lattice *lattice = make(REST, "{\"by\":[0.1,0,0]}"), *copy;
+    ffd_error error;
+    assert_int_equal(ffd_lattice_copy(lattice, &copy, NULL), FFD_OK);
+    assert_null(ffd_lattice_get_weights(lattice, FFD_VOLUME_REST));
+    assert_int_equal(ffd_lattice_set_weights(lattice, NULL, 2, weights, &error), FFD_E_INVALID);
+    assert_same(lattice, copy);
+    assert_int_equal(ffd_lattice_set_weights(lattice, NULL, 1, weights, &error), FFD_OK);
+    assert_int_equal(ffd_lattice_set_weights(lattice, NULL, 2, weights, &error), FFD_E_INVALID);
+    assert_true(ffd_lattice_get_weights(lattice, FFD_VOLUME_DEFORMED)[0] == 2);
+    ffd_lattice_destroy(&lattice);
+    ffd_lattice_destroy(&copy);
+    (void)state;
+}
+
+static void setting_nothing_changes_nothing(void **state)
+{
+    ffd_lattice *lattice = make(REST, "{\"by\":[0.1,0,0]}"), *copy;
+    char *first, *second;
+    size_t size;
+    assert_int_equal(ffd_lattice_copy(lattice, &copy, NULL), FFD_OK);
+    assert_int_equal(ffd_lattice_set_points(lattice, NULL, 0, NULL, NULL), FFD_OK);
+    assert_int_equal(ffd_lattice_set_offsets(lattice, NULL, 0, NULL, NULL), FFD_OK);
+    assert_int_equal(ffd_lattice_set_weights(lattice, NULL, 0, NULL, NULL), FFD_OK);
+    assert_same(lattice, copy);
+    assert_int_equal(ffd_lattice_text(lattice, &first, &size, NULL), FFD_OK);
+    assert_int_equal(ffd_lattice_text(copy, &second, &size, NULL), FFD_OK);
+    assert_string_equal(first, second);
+    ffd_free(first);
+    ffd_free(second);
+    ffd_lattice_destroy(&lattice);
+    ffd_lattice_destroy(&copy);
+    (void)state;
+}
+
+static void values_may_be_lent_by_the_lattice(void **state)
+{
+    const size_t swapped[] = {1, 0};
+    ffd_lattice *lattice = make(REST, "{\"by\":[0.1,0,0]}");
+    double before[6];
+    memcpy(before, ffd_lattice_get_points(lattice, FFD_VOLUME_DEFORMED), sizeof before);
+    assert_int_equal(ffd_lattice_set_points(lattice, swapped, 2,
+                                            ffd_lattice_get_points(lattice, FFD_VOLUME_DEFORMED), NULL),
+                     FFD_OK);
+    assert_memory_equal(lattice->deformed, before + 3, sizeof before / 2);
+    assert_memory_equal(lattice->deformed + 3, before, sizeof before / 2);
+    ffd_lattice_destroy(&lattice);
+    (void)state;
+}
+
+static void a_mesh_that_no_box_names_is_refused(void **state)
+{
+    ffd_lattice_arrays arrays;
+    char *path;
+    ffd_error error;
+    ffd_lattice_arrays_init(&arrays, sizeof arrays);
+    for (int a = 0; a < 3; a++) {
+        arrays.size[a] = 2;
+        arrays.box_max[a] = 1;
+    }
+    ffd_lattice *lattice = from_arrays(&arrays);
+    assert_int_equal(ffd_lattice_get_mesh(lattice, 0, &path, &error), FFD_E_ARGUMENT);
+    assert_null(path);
+    ffd_lattice_destroy(&lattice);
+    (void)state;
+}
+
 static void a_copy_is_equal_and_independent(void **state)
 {
     const double xyz[] = {5, 5, 5};
@@ -316,6 +385,10 @@ int main(void)
         cmocka_unit_test(set_offsets_are_used_as_they_are),
         cmocka_unit_test(set_weights_move_the_volume),
         cmocka_unit_test(a_failure_changes_nothing),
+        cmocka_unit_test(weights_that_are_refused_leave_none),
+        cmocka_unit_test(setting_nothing_changes_nothing),
+        cmocka_unit_test(values_may_be_lent_by_the_lattice),
+        cmocka_unit_test(a_mesh_that_no_box_names_is_refused),
         cmocka_unit_test(a_copy_is_equal_and_independent),
         cmocka_unit_test(a_box_that_is_fitted_anew_keeps_what_was_set),
         cmocka_unit_test(parameters_are_listed),

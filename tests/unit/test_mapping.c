@@ -1,5 +1,4 @@
 /* test_mapping.c - input files that are truncated while they are read, and unrelated signals. */
-#define _XOPEN_SOURCE 700 /* mkdtemp, truncate */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

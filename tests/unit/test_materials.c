@@ -1,6 +1,5 @@
 /* test_materials.c - materials of glTF files and of OBJ libraries: base colours, visibility, and which images
    are loaded. */
-#define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

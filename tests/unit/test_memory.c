@@ -3,7 +3,6 @@
    leaks.
 
        test_memory CORPUS      the folder tests/fuzz/corpus */
-#define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

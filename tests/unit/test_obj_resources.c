@@ -1,6 +1,5 @@
 /* test_obj_resources.c - libraries named in an OBJ, maps named in a library, and copying them with failing
    memory. */
-#define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,6 +1,5 @@
 /* test_older_callers.c - callers compiled with an older header, with shorter structs: nothing is written
    beyond their size, and missing members have defaults. */
-#define _XOPEN_SOURCE 700
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

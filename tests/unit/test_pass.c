@@ -1,5 +1,4 @@
 /* test_pass.c - a pass over a document: its arrays and figures, points outside, u,v,w from a file. */
-#define _XOPEN_SOURCE 700 /* mkdtemp */
 #include "lattice/rest_hash.h"
 #include <setjmp.h>
 #include <stdarg.h>

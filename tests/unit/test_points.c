@@ -1,6 +1,5 @@
 /* test_points.c - arrays of points in memory: the results are exactly those of a job on a file; also parts,
    strides, derivatives, serialization, refusals. */
-#define _XOPEN_SOURCE 700
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,6 +11,7 @@
 #include "../support/lattice_text.h"
 #include "../support/repetitions.h"
 #include "../support/test_folder.h"
+#include "base/memory/hash.h"
 #include "base/memory/memory.h"
 #include <ffd/ffd.h>
 #include <math.h>
@@ -355,6 +355,34 @@ static void bytes_bring_an_embedding_back(void **state)
     (void)state;
 }
 
+/* Bytes that somebody has made may have a hash that fits: a point that follows the border has no u,v,w. */
+static void points_of_forged_bytes_are_placed_once(void **state)
+{
+    static double xyz[3 * POINTS];
+    enum { HEAD = 80, POINT = 24 }; /* bytes before u,v,w of the first point; of one u,v,w */
+    draw d = {draw_seed()};
+    fill_points(xyz, &d);
+    ffd_lattice *rest = lattice_of(0, "");
+    ffd_embedding *embedding = embed(rest, span_of(xyz, FFD_FLOAT64), FFD_OUTSIDE_EXTEND, 0), *back;
+    unsigned char *bytes;
+    size_t size;
+    assert_int_equal(ffd_embedding_save(embedding, (void **)&bytes, &size, NULL), FFD_OK);
+    const size_t content = size - sizeof(hash128);
+    for (size_t i = 0; i < POINTS; i++) {
+        const double place[3] = {0.5, 0.5, 0.5};
+        assert_memory_equal(bytes + HEAD + POINT * i, ffd_embedding_get_uvw(embedding) + 3 * i, POINT);
+        memcpy(bytes + HEAD + POINT * i, place, POINT);
+    }
+    const hash128 hash = ffd_hash(bytes, content);
+    memcpy(bytes + content, &hash, sizeof hash);
+    assert_int_equal(ffd_embedding_load(bytes, size, rest, &back, NULL), FFD_E_INVALID);
+    assert_null(back);
+    ffd_free(bytes);
+    ffd_embedding_destroy(&embedding);
+    ffd_lattice_destroy(&rest);
+    (void)state;
+}
+
 static bool stop(void *user, double done)
 {
     ++*(int *)user;
@@ -393,6 +421,40 @@ static void progress_can_cancel(void **state)
         assert_int_equal(ffd_embedding_create(&desc, &run, &embedding, NULL), FFD_E_CANCELLED);
         assert_int_equal(calls, 1);
     }
+    ffd_lattice_destroy(&rest);
+    (void)state;
+}
+
+static bool rises(void *user, double done)
+{
+    double *const last = user;
+    assert_true(done > *last && done <= 1);
+    *last = done;
+    return true;
+}
+
+static void progress_of_a_basis_ends_at_1(void **state)
+{
+    enum { MANY = 3 * 4096 };
+    static double xyz[3 * POINTS], many[3 * MANY];
+    double last = 0;
+    draw d = {draw_seed()};
+    fill_points(xyz, &d);
+    for (size_t i = 0; i < 3 * MANY; i++)
+        many[i] = xyz[i % (3 * POINTS)];
+    ffd_lattice *rest = lattice_of(0, "");
+    ffd_embedding *embedding =
+        embed(rest, (ffd_span){.data = many, .count = MANY, .type = FFD_FLOAT64}, FFD_OUTSIDE_KEEP, 0);
+    ffd_csr matrix;
+    ffd_run run;
+    ffd_run_init(&run, sizeof run);
+    run.threads = 1;
+    run.progress = rises;
+    run.user = &last;
+    assert_int_equal(ffd_embedding_basis(embedding, NULL, &matrix, &run, NULL), FFD_OK);
+    assert_true(last == 1);
+    ffd_csr_free(&matrix);
+    ffd_embedding_destroy(&embedding);
     ffd_lattice_destroy(&rest);
     (void)state;
 }
@@ -437,6 +499,32 @@ static void what_cannot_be_is_refused(void **state)
     ffd_lattice_destroy(&rest);
     ffd_lattice_destroy(&other);
     ffd_lattice_destroy(&huge);
+    (void)state;
+}
+
+static void weights_of_a_basis_are_positive(void **state)
+{
+    static double xyz[3 * POINTS], product[3 * POINTS];
+    ffd_lattice *rest = lattice_of(0, "");
+    ffd_embedding *embedding = embed(rest, span_of(xyz, FFD_FLOAT64), FFD_OUTSIDE_KEEP, 0);
+    const double wrong[] = {0, -1, (double)NAN, (double)INFINITY};
+    double weights[5 * 4 * 6], dq[3 * 5 * 4 * 6] = {0};
+    for (size_t i = 0; i < sizeof weights / sizeof *weights; i++)
+        weights[i] = 1;
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        ffd_csr matrix;
+        ffd_error error;
+        weights[7] = wrong[i];
+        assert_int_equal(ffd_embedding_basis(embedding, weights, &matrix, NULL, &error), FFD_E_INVALID);
+        assert_non_null(strstr(error.message, "control point 7 "));
+        assert_null(matrix.values);
+        assert_int_equal(ffd_embedding_basis_times(embedding, weights, dq, product, NULL, &error),
+                         FFD_E_INVALID);
+        assert_int_equal(ffd_embedding_basis_transposed(embedding, weights, xyz, dq, NULL, &error),
+                         FFD_E_INVALID);
+    }
+    ffd_embedding_destroy(&embedding);
+    ffd_lattice_destroy(&rest);
     (void)state;
 }
 
@@ -508,8 +596,11 @@ int main(void)
         cmocka_unit_test(the_affected_points_are_all_that_move),
         cmocka_unit_test(the_basis_is_the_derivative),
         cmocka_unit_test(bytes_bring_an_embedding_back),
+        cmocka_unit_test(points_of_forged_bytes_are_placed_once),
         cmocka_unit_test(progress_can_cancel),
+        cmocka_unit_test(progress_of_a_basis_ends_at_1),
         cmocka_unit_test(what_cannot_be_is_refused),
+        cmocka_unit_test(weights_of_a_basis_are_positive),
         cmocka_unit_test(shorter_structs_of_older_callers_do),
         cmocka_unit_test(normals_follow_as_one_by_one),
     };

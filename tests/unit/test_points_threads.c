@@ -1,6 +1,5 @@
 /* test_points_threads.c - one embedding, lattice and locator shared by eight threads, for the thread
    sanitizer; results equal those of one thread. */
-#define _XOPEN_SOURCE 700
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

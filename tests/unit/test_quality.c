@@ -799,6 +799,36 @@ static void what_hides_or_has_no_number_is_not_measured(void **state)
     clear_mesh(&s);
 }
 
+static void sums_that_overflow_are_what_they_are(void **state)
+{
+    (void)state;
+    static const int exponents[] = {300, 340, 500, 1020};
+    double box[24];
+    put_box((const double[3]){0, 0, 0}, box);
+    for (size_t i = 0; i < 24; i++)
+        box[i] = ldexp(box[i], exponents[0]);
+    assert_near(extent_of(8, box, 6, 4, box_faces).volume / 0x1p900, 24);
+    for (size_t e = 1; e < sizeof exponents / sizeof *exponents; e++) {
+        for (size_t i = 0; i < 24; i++)
+            box[i] = ldexp(box[i], exponents[e] - exponents[e - 1]);
+        const mesh_extent extent = extent_of(8, box, 6, 4, box_faces);
+        assert_true(isinf(extent.volume) && extent.volume > 0);
+        if (exponents[e] < 510)
+            assert_near(ldexp(extent.area, -2 * exponents[e]), 52);
+        else
+            assert_true(isinf(extent.area));
+        assert_true(isnan(extent_of(8, box, 5, 4, box_faces).volume)); /* a lid is open */
+    }
+    /* Six times the volume of a part overflows, the volume does not. */
+    put_box((const double[3]){0, 0, 0}, box);
+    for (size_t i = 0; i < 24; i++)
+        box[i] = ldexp(box[i], i % 3 ? 339 : 341);
+    assert_near(ldexp(extent_of(8, box, 6, 4, box_faces).volume, -3 * 339), 96);
+    box[0] = NAN;
+    const mesh_extent unknown = extent_of(8, box, 6, 4, box_faces);
+    assert_true(isnan(unknown.volume) && isnan(unknown.area));
+}
+
 static void small_parts_are_not_lost_in_a_large_sum(void **state)
 {
     (void)state;
@@ -840,6 +870,7 @@ int main(void)
         cmocka_unit_test(what_is_not_closed_has_no_volume),
         cmocka_unit_test(vertices_at_one_position_close_a_mesh),
         cmocka_unit_test(what_hides_or_has_no_number_is_not_measured),
+        cmocka_unit_test(sums_that_overflow_are_what_they_are),
         cmocka_unit_test(small_parts_are_not_lost_in_a_large_sum),
         cmocka_unit_test(each_edge_is_listed_once_in_order),
         cmocka_unit_test(any_number_of_threads_gives_the_same_bits),

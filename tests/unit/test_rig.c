@@ -1,5 +1,4 @@
 /* test_rig.c - --rig follow through the library: figures, failing memory, and jobs that share the mesh. */
-#define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

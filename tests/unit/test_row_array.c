@@ -1,6 +1,5 @@
 /* test_row_array.c - an array for the positions of many jobs: of full size from the start, each row complete
    or NaN. */
-#define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

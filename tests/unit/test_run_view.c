@@ -1,6 +1,5 @@
 /* test_run_view.c - pictures of a batch: their names, whether they are up to date, and rows from report
    entries. */
-#define _XOPEN_SOURCE 700
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,4 @@
 /* test_source.c - the files that a mesh is read from. */
-#define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

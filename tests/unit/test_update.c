@@ -1,5 +1,4 @@
 /* test_update.c - files that are updated in place: no other file is opened, waited for or overwritten. */
-#define _XOPEN_SOURCE 700 /* mkdtemp, mkfifo */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

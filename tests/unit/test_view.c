@@ -1,6 +1,5 @@
 /* test_view.c - the job of ffd view through the library: refused descriptions, its result, failing memory;
    and the list of torn edges. */
-#define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,6 +1,5 @@
 /* test_view_index.c - the page that compares the jobs of a batch: text from files, sort keys, counts, the
    Content-Security-Policy. */
-#define _XOPEN_SOURCE 700
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,4 @@
 /* test_view_page.c - the page of ffd view: text from files, numbers, omissions, broken scenes. */
-#define _XOPEN_SOURCE 700
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -13,25 +13,26 @@
 struct cleanup_entry {
     cleanup_entry *older, *newer;
     char *path;
-    size_t made; /* of a folder; 0: a file */
+    size_t made; /* for a folder, as ffd_folder_make sets it; 0: a file */
     pid_t owner;
 };
 
-/* The signals from outside or from a pipe that end a program without a handler for them. */
+/* Signals from outside, and SIGPIPE, whose default action ends the program. */
 static const int signals[] = {SIGHUP, SIGINT, SIGPIPE, SIGQUIT, SIGTERM};
 enum { SIGNALS = sizeof signals / sizeof *signals };
 
 static atomic_flag held = ATOMIC_FLAG_INIT;
-static atomic_bool is_over;     /* a handler waits for the lock or holds it: nobody else may take it */
-static cleanup_entry *newest;   /* while held */
-static sigset_t mask_of_holder; /* before it held; while held */
+static atomic_bool is_over;     /* a signal handler holds or awaits the lock: nobody else may take it */
+static cleanup_entry *newest;   /* protected by the lock */
+static sigset_t mask_of_holder; /* signal mask of the lock's holder before it took the lock; protected by the
+                                   lock */
 
 static bool try_lock(void)
 {
     return !atomic_flag_test_and_set_explicit(&held, memory_order_acquire);
 }
 
-/* A millisecond, by what POSIX allows in handlers too. */
+/* Sleeps for a millisecond, with a function that is async-signal-safe. */
 static void wait_a_little(void)
 {
     poll(NULL, 0, 1);
@@ -90,7 +91,7 @@ void ffd_cleanup_strike(cleanup_entry **entry)
     *entry = NULL;
 }
 
-/* The newest first: files before their folders. */
+/* The newest first, so that files go before their folders. */
 static void remove_all(void)
 {
     for (const cleanup_entry *entry = newest; entry; entry = entry->older) {
@@ -103,8 +104,9 @@ static void remove_all(void)
     }
 }
 
-/* The lock is kept: nothing is begun or renamed any more. The signal, whose own effect is in force again,
-   waits until the handler is left, and then ends the program as if there had been none. */
+/* Keeps the lock, so that nothing is created or renamed any more. The signal has its default action again
+   (SA_RESETHAND) and is raised again: it is delivered when the handler returns, and ends the program as if
+   there were no handler. */
 static void clean_up(int signal)
 {
     atomic_store(&is_over, true);
@@ -114,7 +116,7 @@ static void clean_up(int signal)
     raise(signal);
 }
 
-/* The thread that crashed may hold the lock: the state of the list is then unknown. */
+/* If the thread that crashed holds the lock, the list may be inconsistent, and is not used. */
 static void clean_up_crash(int signal)
 {
     int tries = 1000;
@@ -126,7 +128,7 @@ static void clean_up_crash(int signal)
     raise(signal);
 }
 
-/* Installs the handler for signals that have none yet. */
+/* Installs the handler for those of the signals that have the default action. */
 static void install(void (*handler)(int signal), const int *numbers, int count)
 {
     struct sigaction action = {.sa_handler = handler, .sa_flags = (int)SA_RESETHAND}, old;

@@ -1,10 +1,9 @@
-/* cleanup.h - what must be removed when a signal ends the program: temporary files, and folders
-   that were made for them.
+/* cleanup.h - removes temporary files, and folders that were created for them, when a signal ends the
+   program.
 
-   The list is guarded by a lock that its holder keeps only while signals wait, so that a handler can take it:
-   in the holder's thread no handler runs, in other threads the handler waits its turn. The list lives in
-   memory of one process; what a parent noted a forked child leaves alone. A child must not be forked while
-   another thread holds the lock. */
+   A lock protects the list. Its holder blocks signals, so a handler can take the lock safely: no handler runs
+   in the thread that holds it, and in other threads the handler waits. The list belongs to one process: a
+   forked child does not remove what its parent has noted. Do not fork while another thread holds the lock. */
 #ifndef FFD_BASE_FILE_CLEANUP_H
 #define FFD_BASE_FILE_CLEANUP_H
 
@@ -12,21 +11,22 @@
 
 typedef struct cleanup_entry cleanup_entry;
 
-/* Between these two, signals wait and other threads take no part: to make a file and note it, or to rename it
-   and strike it off, as one step. Not nested; not for what takes long. */
+/* Takes the lock and blocks signals, to make one step of creating a file and noting it, or of renaming a file
+   and striking it off. Not recursive; hold it for a short time only. */
 void ffd_cleanup_hold(void);
-/* Lets signals and other threads go on. */
+/* Releases the lock and unblocks signals. */
 void ffd_cleanup_release(void);
 
-/* Notes a file of this name (copied). Only while held. NULL: no memory. */
+/* Adds a file to the list; path is copied. The caller holds the lock. Returns NULL if memory runs out. */
 cleanup_entry *ffd_cleanup_note(const char *path);
-/* Notes a folder as ffd_folder_make has made it. Only while held. NULL: no memory. */
+/* Adds folders that ffd_folder_make has made. The caller holds the lock. Returns NULL if memory runs out. */
 cleanup_entry *ffd_cleanup_note_folder(const char *path, size_t made);
-/* Strikes off, frees and clears the pointer. Only while held. A pointer to NULL is allowed. */
+/* Removes the entry from the list, frees it, and sets *entry to NULL. The caller holds the lock. *entry may
+   be NULL. */
 void ffd_cleanup_strike(cleanup_entry **entry);
 
-/* In a worker: the same that ffd_cleanup_on_signals does for signals from outside, for SIGALRM, by which
-   ffd_process_stop ends it, and for those of a crash. */
+/* In a worker: as ffd_cleanup_on_signals, also for SIGALRM, with which ffd_process_stop ends a worker, and
+   for the signals of a crash. */
 void ffd_cleanup_on_crashes(void);
 
 #endif

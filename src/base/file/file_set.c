@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* As many links in a row as systems follow. */
+/* As many symbolic links in a row as systems follow. */
 #define MOST_LINKS 40
 
 static bool exists(const char *path)
@@ -21,7 +21,8 @@ static bool exists(const char *path)
     return lstat(path, &info) == 0;
 }
 
-/* Whether the entry's new file stands under its name. A copy of it, or of the whole folder, is as good. */
+/* Returns whether the entry's new file has its name already. A copy with the same size and time, for instance
+   in a copied folder, counts too. */
 static bool is_placed(const set_entry *entry)
 {
     file_stamp there;
@@ -36,7 +37,7 @@ static ffd_status fail_place(const char *path, ffd_error *error)
     return ffd_fail_errno(error, path, "cannot be written");
 }
 
-/* The way forward: what was set aside goes. */
+/* Rolls forward: removes the old files that were set aside. */
 static ffd_status finish(const set_record *record, ffd_error *error)
 {
     ffd_status status = FFD_OK;
@@ -48,7 +49,7 @@ static ffd_status finish(const set_record *record, ffd_error *error)
     return status;
 }
 
-/* Somebody may have put another file where an old one is to come back to. */
+/* Checks that nobody has put another file where an old one is to be restored. */
 static ffd_status check_places(const set_record *record, ffd_error *error)
 {
     for (size_t i = 0; i < record->count; i++) {
@@ -63,14 +64,14 @@ static ffd_status check_places(const set_record *record, ffd_error *error)
     return FFD_OK;
 }
 
-/* The way back: the new files go, what was set aside comes back, the head last. */
+/* Rolls back: removes the new files and restores those that were set aside, the head last. */
 static ffd_status undo(const set_record *record, ffd_error *error)
 {
     ffd_status status = check_places(record, error);
     for (size_t i = 0; i < record->count && !status; i++) {
         const set_entry *const entry = &record->entries[i];
         int failed = 0;
-        if (entry->was_there && ffd_file_same(entry->aside, entry->target)) /* two names of it, by link */
+        if (entry->was_there && ffd_file_same(entry->aside, entry->target)) /* two hard links to one file */
             failed = unlink(entry->aside);
         else if (entry->was_there && exists(entry->aside))
             failed = ffd_place(entry->aside, entry->target, true);
@@ -82,7 +83,7 @@ static ffd_status undo(const set_record *record, ffd_error *error)
     return status;
 }
 
-/* To the new files or the old ones, and then without a record. */
+/* Completes the new files or restores the old ones, then removes the record. */
 static ffd_status settle(const set_record *record, bool is_done, ffd_error *error)
 {
     ffd_status status = is_done ? finish(record, error) : undo(record, error);
@@ -91,7 +92,7 @@ static ffd_status settle(const set_record *record, bool is_done, ffd_error *erro
     return status;
 }
 
-/* The head is placed last: it tells how far a run came that was killed. */
+/* Returns whether the head is placed. It is placed last, so this tells how far a killed run came. */
 static bool has_head(const set_record *record)
 {
     return record->count > 0 && is_placed(&record->entries[record->count - 1]);
@@ -118,7 +119,7 @@ static ffd_status place_all(set_file *files, size_t count, ffd_error *error)
     return FFD_OK;
 }
 
-/* Notes what is to be placed, and what stands there. */
+/* Records the files to be placed, and which targets exist. */
 static ffd_status survey(const set_file *files, size_t count, set_record *record, ffd_error *error)
 {
     ffd_status status = ffd_record_begin(record, files[count - 1].target, error);
@@ -140,7 +141,7 @@ static ffd_status survey(const set_file *files, size_t count, set_record *record
     return status;
 }
 
-/* Says in the error that not even the old files could be brought back. */
+/* Adds to the error that the old files could not be restored either. */
 static void tell_of_record(const set_record *record, ffd_error *error)
 {
     if (error && exists(record->entries[record->count - 1].aside))
@@ -154,8 +155,7 @@ static ffd_status place_set(set_file *files, size_t count, const set_record *rec
     ffd_status status = set_aside(record, error);
     if (!status)
         status = place_all(files, count, error);
-    /* Not by a look at the head, which may fail, or find that somebody moved it: this run knows what it
-     * placed. */
+    /* This run knows what it has placed: looking at the head could fail, or somebody could have moved it. */
     if (!status)
         return settle(record, true, error);
     if (settle(record, false, NULL))
@@ -182,7 +182,8 @@ ffd_status ffd_set_place(set_file *files, size_t count, ffd_error *error)
     return status;
 }
 
-/* Where path leads to, be a file there or not. Free with ffd_free; NULL: no memory. */
+/* Resolves symbolic links in path; the target need not exist. Free with ffd_free. Returns NULL if memory runs
+   out. */
 static char *follow_links(const char *path)
 {
     char *at = ffd_text_copy(path);

@@ -15,17 +15,18 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The text: this line, then for each file "old" or "new", size and time of the new one, and the path (only a
-   name where it stands beside the head); then the last line. A 0 ends each, since names may hold line breaks.
- */
+/* The content of the file: first_line, then for each file "old" or "new" (whether there was an old one), size
+   and time of the new file, and its path (only a name if it is in the folder of the head); then last_line.
+   Each is terminated by 0, because names may contain line breaks. */
 static const char first_line[] = "ffd-set 1\n", last_line[] = "end\n";
 
-/* A set has a file for each image of a model at most. */
+/* The largest record in bytes: a set has at most one file for each image of a model. */
 #define LARGEST ((size_t)1 << 26)
-/* Looks at a lock, a millisecond apart. */
+/* How often a lock is tried, at intervals of a millisecond. */
 #define MOST_LOOKS 1000
 
-static const char strange[] = "is not what a run has left: it is in the way";
+static const char strange[] = "is not the record of a run, though it has the name of one: remove it";
+static const char busy[] = "the files beside this are being written by another run";
 
 static char *path_for(const char *head)
 {
@@ -52,8 +53,8 @@ ffd_status ffd_record_add(set_record *record, const char *target, bool was_there
     return entry->target && entry->aside ? FFD_OK : ffd_fail_memory(error);
 }
 
-/* The path as the record has it: the folder of a model may be moved, or be mounted elsewhere, before a later
-   run reads this. Free with ffd_free; NULL: no memory. */
+/* Returns the path as the record stores it: relative, because the folder of a model may be moved, or mounted
+   elsewhere, before a later run reads the record. Free with ffd_free. Returns NULL if memory runs out. */
 static char *written_path(const set_record *record, const char *target)
 {
     char *const here = ffd_path_folder(record->path), *const there = ffd_path_folder(target);
@@ -106,17 +107,35 @@ static ffd_status write_text(const set_record *record, const byte_buffer *text, 
     return FFD_OK;
 }
 
-/* Makes the file, and locks it. */
+static ffd_status refuse(const set_record *record, const char *why, ffd_error *error)
+{
+    return ffd_fail_file(error, FFD_E_IO, record->path, "%s", why);
+}
+
+/* Creates the file and locks it. Between the two another run may lock it, and remove it as a record without
+   entries. The file is then created again. */
 static ffd_status make_file(set_record *record, ffd_error *error)
 {
-    record->fd = open(record->path, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
-    if (record->fd < 0)
-        return ffd_fail_errno(error, record->path, "cannot be written");
-    if (ffd_lock_named(record->fd, record->path) > 0)
-        return FFD_OK;
-    const ffd_status status = ffd_fail_errno(error, record->path, "cannot be locked");
-    ffd_record_remove(record);
-    return status;
+    for (int look = 0;; look++) {
+        record->fd = open(record->path, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+        const bool is_there = record->fd < 0 && errno == EEXIST && look > 0;
+        if (record->fd < 0 && !is_there)
+            return ffd_fail_errno(error, record->path, "cannot be written");
+        const int locked = is_there ? 0 : ffd_lock_named(record->fd, record->path);
+        if (locked > 0)
+            return FFD_OK;
+        if (locked < 0 && errno != EBUSY) {
+            const ffd_status status = ffd_fail_errno(error, record->path, "cannot be locked");
+            ffd_record_remove(record);
+            return status;
+        }
+        if (record->fd >= 0)
+            close(record->fd);
+        record->fd = -1;
+        if (look == MOST_LOOKS)
+            return refuse(record, busy, error);
+        ffd_clock_sleep(0.001);
+    }
 }
 
 ffd_status ffd_record_write(set_record *record, ffd_error *error)
@@ -134,20 +153,15 @@ ffd_status ffd_record_write(set_record *record, ffd_error *error)
     return status;
 }
 
-static ffd_status refuse(const set_record *record, const char *why, ffd_error *error)
-{
-    return ffd_fail_file(error, FFD_E_IO, record->path, "%s", why);
-}
-
-/* A record of somebody else could name any file. */
+/* Refuses the record of another user, which could name any file. */
 static ffd_status check_owner(const set_record *record, const struct stat *info, ffd_error *error)
 {
     if (info->st_uid == geteuid())
         return FFD_OK;
     return refuse(
         record,
-        "is of another user's run, which was killed while it wrote the files beside this: only that "
-        "user's next run brings them back",
+        "belongs to another user, whose run was killed while it wrote the files next to this: only that "
+        "user's next run restores them",
         error);
 }
 
@@ -165,7 +179,7 @@ static ffd_status check_record(const set_record *record, size_t *size, ffd_error
     return FFD_OK;
 }
 
-/* Reads one text, with its 0, at *at. Returns NULL at the end. */
+/* Reads the text at *at, up to its final 0. Returns NULL at the end. */
 static const char *next_text(const char *bytes, size_t size, size_t *at)
 {
     const char *const text = bytes + *at, *const end = memchr(text, 0, size - *at);
@@ -175,7 +189,7 @@ static const char *next_text(const char *bytes, size_t size, size_t *at)
     return text;
 }
 
-/* A file of the record, from its text. Returns false if it is not valid. */
+/* Parses the entry of a file. Returns false if it is not valid. */
 static bool parse_entry(const set_record *record, const char *text, char **target, set_entry *entry)
 {
     char kind[4];
@@ -194,8 +208,8 @@ static bool parse_entry(const set_record *record, const char *text, char **targe
     return true;
 }
 
-/* Adds the entries. *whole: with the last line, which a run that was killed while it wrote had not reached.
- */
+/* Adds the entries. *whole: the last line is there; it is missing if the run was killed while it wrote the
+   record. */
 static ffd_status parse(set_record *record, const char *bytes, size_t size, bool *whole, ffd_error *error)
 {
     size_t at = 0;
@@ -261,8 +275,8 @@ static ffd_status read_entries(set_record *record, ffd_error *error)
     return status;
 }
 
-/* After a failure to open: whether there is no record (whatever is wrong with its folder, others say), or why
-   it cannot be used. */
+/* After a failure to open the record: succeeds if there is none (problems with the folder are reported
+   elsewhere), otherwise says why it cannot be used. */
 static ffd_status explain(const set_record *record, ffd_error *error)
 {
     const int reason = errno;
@@ -274,7 +288,7 @@ static ffd_status explain(const set_record *record, ffd_error *error)
     return status ? status : ffd_fail_errno(error, record->path, "cannot be opened");
 }
 
-/* Opens and locks. No descriptor, and no failure: there is none. */
+/* Opens and locks the record. Success without a descriptor: there is none. */
 static ffd_status open_locked(set_record *record, ffd_error *error)
 {
     for (int look = 0;; look++) {
@@ -289,9 +303,8 @@ static ffd_status open_locked(set_record *record, ffd_error *error)
         record->fd = -1;
         errno = reason;
         if (locked < 0 && (errno != EBUSY || look >= MOST_LOOKS))
-            return errno == EBUSY
-                       ? refuse(record, "the files beside this are being written by another run", error)
-                       : ffd_fail_errno(error, record->path, "cannot be locked");
+            return errno == EBUSY ? refuse(record, busy, error)
+                                  : ffd_fail_errno(error, record->path, "cannot be locked");
         if (locked < 0)
             ffd_clock_sleep(0.001);
     }

@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The end of the next folder's name in a path, at or after offset `at`; 0: there is none. */
+/* Returns the end of the next folder's name in a path, at or after the offset `at`; 0 if there is none. */
 static size_t next_folder(const char *path, size_t at)
 {
     for (size_t i = at; path[i]; i++)

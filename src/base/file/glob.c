@@ -10,7 +10,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* A folder may have millions of files, and be on a slow disk: after a request to end there are no more. */
+/* A folder may have millions of files on a slow disk: after a request to end the program, the listing
+   stops. */
 #ifdef GLOB_ALTDIRFUNC
 #define OWN_CALLS GLOB_ALTDIRFUNC
 
@@ -68,7 +69,7 @@ static int refuse(const char *path, int reason)
 {
     (void)path;
     errno = reason;
-    return reason != ENOENT && reason != ENOTDIR; /* nothing matches in a folder that does not exist */
+    return reason != ENOENT && reason != ENOTDIR; /* a folder that does not exist has no matches */
 }
 
 static ffd_status copy(const glob_t *found, file_list *list, ffd_error *error)
@@ -81,7 +82,7 @@ static ffd_status copy(const glob_t *found, file_list *list, ffd_error *error)
         if (!list->paths[i])
             return ffd_fail_memory(error);
     }
-    /* Not in the order of a locale. */
+    /* Sorted by bytes: glob would sort by the locale. */
     qsort(list->paths, list->count, sizeof *list->paths, compare);
     return FFD_OK;
 }

@@ -13,8 +13,8 @@
 
 struct growing_file {
     char *path;
-    file_output *output; /* committed at the beginning */
-    int fd;              /* its own */
+    file_output *output; /* committed when the file is created */
+    int fd;              /* descriptor of the committed file; output closes it */
 };
 
 bool ffd_growing_can(const char *path)
@@ -24,7 +24,7 @@ bool ffd_growing_can(const char *path)
            (!ffd_file_exists(path) || ffd_file_stamp(path, &stamp));
 }
 
-/* Another run may be writing the file that is there. */
+/* Refuses a file that another run is writing. */
 static ffd_status refuse_locked(const char *path, ffd_error *error)
 {
     const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);

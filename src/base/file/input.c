@@ -13,31 +13,31 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The most bytes that are read of a stream that does not end. */
+/* The most bytes that are read from a stream, which may be endless. */
 #define LONGEST_STREAM ((size_t)1 << 32)
-/* Bytes of two files that are in memory while they are compared: a multiple of any page. */
+/* Size of the pieces in which two files are compared: a multiple of any page size. */
 #define COMPARED ((size_t)1 << 22)
 
-/* Smaller files are read, since mmap would take longer. A mapped page costs a page fault, and releasing
-   it stops every processor that the program runs on; under some hypervisors each takes as long as
-   reading a hundred kilobytes. */
+/* Smaller files are read instead of mapped, which is faster: a mapped page costs a page fault, and unmapping
+   it interrupts every processor that the program runs on (TLB shootdown). Under some hypervisors each of
+   these takes as long as reading a hundred kilobytes. */
 #define SMALL ((size_t)1 << 18)
 
-/* What bytes that are lent must be multiples of. */
+/* The alignment that borrowed bytes must have. */
 #define ALIGNED 8
 
-/* Fewer bytes are not prefaulted. */
+/* Smaller ranges are not prefaulted. */
 #define LEAST_PREFAULT ((size_t)1 << 16)
 
-/* Bytes that are released at a time while a file is read from start to end: a multiple of any page size. */
+/* How many bytes are released at a time while a file is read sequentially: a multiple of any page size. */
 #define RELEASE_UNIT ((size_t)1 << 23)
 
 static const unsigned char nothing[1] = {0};
 
-/* Read from the descriptor's current position instead of an offset in its file. */
+/* An offset that stands for the descriptor's current position. */
 #define FROM_HERE ((off_t)-1)
 
-/* Reads as many bytes as one call gives. *got: 0 at the end. */
+/* Reads as many bytes as a single call returns. *got is 0 at the end. */
 static ffd_status read_piece(int fd, const char *name, off_t offset, void *to, size_t size, size_t *got,
                              ffd_error *error)
 {
@@ -51,7 +51,7 @@ static ffd_status read_piece(int fd, const char *name, off_t offset, void *to, s
     return FFD_OK;
 }
 
-/* Reads what has no size to be mapped: pipes, terminals, /dev/stdin, files of /proc. */
+/* Reads files that have no size and cannot be mapped: pipes, terminals, /dev/stdin, files of /proc. */
 static ffd_status read_stream(int fd, const char *name, file_input *input, ffd_error *error)
 {
     unsigned char *block = NULL;
@@ -79,8 +79,8 @@ static ffd_status fail_memory(const char *name, size_t size, ffd_error *error)
     return ffd_fail_file(error, FFD_E_MEMORY, name, "out of memory for %zu bytes", size);
 }
 
-/* Like a memory mapping: the whole file, whatever the descriptor's position, without bytes that
-   are appended meanwhile. */
+/* Reads what a memory mapping would give: the whole file from its start, whatever the descriptor's position,
+   without bytes that are appended meanwhile. */
 static ffd_status read_file(int fd, const char *name, size_t size, file_input *input, ffd_error *error)
 {
     unsigned char *const block = ffd_alloc(size, 1);
@@ -142,7 +142,7 @@ bool ffd_file_reads_once(const char *path)
 
 bool ffd_stamp_equal(const file_stamp *a, const file_stamp *b)
 {
-    return memcmp(a, b, sizeof *a) == 0; /* there is nothing between the members */
+    return memcmp(a, b, sizeof *a) == 0; /* the struct has no padding */
 }
 
 bool ffd_stamps_hold(char *const *paths, const file_stamp *stamps, size_t count)
@@ -172,7 +172,7 @@ const char *ffd_file_display_name(const char *path)
     return name ? name : strcmp(path, "-") == 0 ? "standard input" : path;
 }
 
-/* A pipe or device among the files may never give anything, or never end. */
+/* Refuses pipes and devices, which may block forever or never end. */
 static ffd_status refuse_special(int fd, const char *path, ffd_error *error)
 {
     struct stat info;
@@ -207,8 +207,8 @@ static ffd_status fail_open(const char *path, int reason, ffd_error *error)
     return ffd_fail_file(error, FFD_E_IO, path, "cannot be opened: %s", strerror(reason));
 }
 
-/* Lends bytes in memory. Readers find numbers at multiples of their size where a file has them there: what
-   is not aligned is copied. */
+/* Borrows bytes in memory. Readers rely on numbers being aligned in memory if they are aligned in the file,
+   so unaligned bytes are copied. */
 static ffd_status lend(const void *bytes, size_t size, const char *name, file_input *input, ffd_error *error)
 {
     unsigned char *copy = NULL;
@@ -240,7 +240,8 @@ static ffd_status load(const char *path, size_t least_mapped, file_input *input,
         return load_memory(path, input, error);
     if (strcmp(path, "-") == 0)
         return load_descriptor(STDIN_FILENO, "standard input", least_mapped, input, error);
-    /* A pipe is not waited for: it is refused. The flags of descriptors are left alone. */
+    /* O_NONBLOCK, so that opening a pipe, which is refused later, does not block. Not for inherited
+       descriptors, whose flags must not change. */
     const int fd = open(path, O_RDONLY | O_CLOEXEC | (ffd_file_is_stream(path) ? 0 : O_NONBLOCK | O_NOCTTY));
     if (fd < 0)
         return fail_open(path, errno, error);
@@ -269,7 +270,7 @@ static bool is_inside(const char *folder, const char *path)
     return strncmp(folder, path, length) == 0 && path[length] == '/';
 }
 
-/* Both are normalized, so that no ".." can lead out. */
+/* Both paths are normalized, so no ".." can lead out of the folder. */
 static ffd_status load_memory_within(const char *folder, const char *relative, const char *named_by,
                                      file_input *input, ffd_error *error)
 {
@@ -347,7 +348,7 @@ void ffd_file_release_pages(const file_input *input, const void *bytes, size_t s
     const size_t begin = (size_t)((const unsigned char *)bytes - input->data);
     const size_t first = (begin + page - 1) / page * page;
     const size_t last = begin + size == input->size ? input->size : (begin + size) / page * page;
-    if (input->mapped && first < last) /* a mapping begins at a page */
+    if (input->mapped && first < last) /* a mapping begins at a page boundary */
         madvise((unsigned char *)input->block + first, last - first, MADV_DONTNEED);
 }
 
@@ -365,7 +366,8 @@ void ffd_file_prefault(const void *bytes, size_t size)
 #ifdef MADV_POPULATE_READ
     const uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE), first = (uintptr_t)bytes / page * page;
     if (size >= LEAST_PREFAULT)
-        madvise((void *)first, (uintptr_t)bytes + size - first, MADV_POPULATE_READ); /* advice only */
+        madvise((void *)first, (uintptr_t)bytes + size - first, MADV_POPULATE_READ); /* only advice: a failure
+                                                                                        does no harm */
 #else
     (void)bytes;
     (void)size;
@@ -399,7 +401,7 @@ bool ffd_file_exists(const char *path)
     return stat(path, &info) == 0;
 }
 
-/* Whether both paths are one path in memory. */
+/* Returns whether both paths are the same path in memory. */
 static bool is_same_memory(const char *a, const char *b)
 {
     char *const x = ffd_path_normalize(a), *const y = ffd_path_normalize(b);

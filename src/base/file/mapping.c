@@ -13,11 +13,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The handler reads what is atomic, in any thread and at any time; the lock guards the rest. */
+/* The signal handler reads the atomic members in any thread at any time; the lock protects the others. */
 struct file_mapping {
-    _Atomic uintptr_t begin; /* 0: this place is free */
+    _Atomic uintptr_t begin; /* 0: this entry is free */
     _Atomic size_t size;
-    atomic_bool is_cut; /* a read came past the file's end */
+    atomic_bool is_cut; /* the file was read beyond its new end */
     bool is_counted;
     bool has_identity;
     uint64_t identity[2];
@@ -26,7 +26,7 @@ struct file_mapping {
 
 enum { BLOCK = 64 };
 
-/* Blocks are never freed: the handler may be in them. */
+/* Blocks are never freed, because the handler may be reading them. */
 typedef struct mapping_block {
     file_mapping mappings[BLOCK];
     struct mapping_block *_Atomic next;
@@ -35,12 +35,12 @@ typedef struct mapping_block {
 static mapping_block first;
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static unsigned losses;
-static char lost[1024]; /* the last one's path */
+static char lost[1024]; /* path of the file that was truncated last */
 
 static size_t page_size;
 static struct sigaction other_handler;
 
-/* A free place; NULL: no memory. */
+/* Returns a free entry; NULL if memory runs out. */
 static file_mapping *find_place(void)
 {
     mapping_block *block = &first;
@@ -79,7 +79,7 @@ file_mapping *ffd_mapping_note(const void *begin, size_t size, const char *path,
     return mapping;
 }
 
-/* Whether the file is there under its name, and is shorter than it was. */
+/* Returns whether the file still exists at its path and is shorter than when it was mapped. */
 static bool is_shorter(const file_mapping *mapping)
 {
     struct stat info;
@@ -134,8 +134,8 @@ ffd_status ffd_mapping_judge(unsigned before, ffd_status status, ffd_error *erro
     return status;
 }
 
-/* Puts zeros in place of the pages from an address on that a file no longer has. Returns false if the address
-   is in none of them. */
+/* Maps pages of zeros over a truncated mapping, from the page of an address on. Returns false if the address
+   is not in a mapped input. */
 static bool patch(uintptr_t address)
 {
     for (mapping_block *block = &first; block; block = atomic_load(&block->next))
@@ -153,13 +153,13 @@ static bool patch(uintptr_t address)
     return false;
 }
 
-/* Leaves a signal that is not about an input to whoever was to have it. */
+/* Passes a signal that does not concern an input to the previous handler. */
 static void pass_on(int number, siginfo_t *info, void *context)
 {
     const bool is_default = other_handler.sa_handler == SIG_DFL || other_handler.sa_handler == SIG_IGN;
     if (is_default || other_handler.sa_flags & (int)SA_RESETHAND) {
         sigaction(number, &other_handler, NULL);
-        if (info->si_code <= 0) /* sent: it does not come again by itself */
+        if (info->si_code <= 0) /* sent by a process: it does not recur when the handler returns */
             raise(number);
     } else if (other_handler.sa_flags & SA_SIGINFO) {
         other_handler.sa_sigaction(number, info, context);

@@ -1,10 +1,10 @@
-/* mapping.h - the inputs that are mapped, and what happens when one becomes shorter while it is read.
+/* mapping.h - the mapped input files, and what happens if one of them is truncated while it is read.
 
-   A read of a mapped page that the file no longer has raises SIGBUS, in whatever thread and library reads.
-   Where the program has asked for it (ffd_guard_inputs), a handler puts pages of zeros there, so that the
-   read goes on, and notes it; a job asks at its end, and before it writes, and fails. Nothing is jumped out
-   of, and no thread is ended. Without the handler, and where a file ends within its last page, the size
-   tells. */
+   Reading a mapped page that the file no longer has raises SIGBUS, in any thread and in any library. If the
+   program has called ffd_guard_inputs, a handler maps pages of zeros there, so that the read continues, and
+   records the loss. A job checks for losses before it writes and at its end, and fails. There is no longjmp,
+   and no thread is ended. Without the handler, and if a file is truncated within its last page, a comparison
+   of sizes finds the loss. */
 #ifndef FFD_BASE_FILE_MAPPING_H
 #define FFD_BASE_FILE_MAPPING_H
 
@@ -13,15 +13,15 @@
 
 typedef struct file_mapping file_mapping;
 
-/* Notes that a file is mapped, path as messages name it. identity: device and number; NULL if the path does
-   not lead to it again (standard input). Returns NULL if memory runs out. Thread-safe, as all of these. */
+/* Records a mapped file; path is for messages. identity: device and inode; NULL if the path does not lead to
+   the file again (standard input). Returns NULL if memory runs out. Thread-safe, as all functions here. */
 file_mapping *ffd_mapping_note(const void *begin, size_t size, const char *path, const uint64_t identity[2]);
-/* Strikes it off, before it is unmapped. */
+/* Removes the record. To be called before unmapping. */
 void ffd_mapping_forget(file_mapping *mapping);
-/* How many inputs have become shorter so far, of all that this process has mapped. */
+/* Returns how many mapped inputs of this process were truncated so far. */
 unsigned ffd_mapping_losses(void);
-/* The status; or FFD_E_IO with the input's name, whatever the status, if there were more losses than
-   `before`: what was read since is not what the file held. */
+/* Returns status; but FFD_E_IO with the name of the input if there are more losses than `before`, because
+   what was read since then was not the content of the file. */
 ffd_status ffd_mapping_judge(unsigned before, ffd_status status, ffd_error *error);
 
 #endif

@@ -1,3 +1,4 @@
+#define _DEFAULT_SOURCE /* getentropy */
 #include "base/file/memory_files.h"
 #include "base/file/path.h"
 #include "base/memory/intern.h"
@@ -7,43 +8,46 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
-/* Paths are "ffd-memory:FILES/FOLDER/NAME", with the numbers of the files and of a folder of them. Names that
-   the caller gives may be absolute or lead upwards: only their last part is in a path. */
+/* Paths are "ffd-memory:FILES/FOLDER/NAME"; FILES and FOLDER are the numbers of a memory_files and of one of
+   its folders. Names from the caller may be absolute or contain "..": a path has only their last
+   component. */
 static const char scheme[] = "ffd-memory:";
 #define SCHEME_SIZE (sizeof scheme - 1)
-/* Of a path up to its folder, with the final slash. */
+/* Capacity for a path up to its folder, with the final slash. */
 #define HEAD_CAPACITY 64
 
-/* What was added under one name, and what is beside it. */
+/* A file that was added under a name, and further files in its folder. */
 typedef struct memory_folder {
     char *name;  /* as the caller gave it */
     char *path;  /* of that file */
-    char *shown; /* the folder of the name, with its slash */
-    size_t head; /* bytes of the path before the file's own name */
+    char *shown; /* folder of the name for messages, with a final slash */
+    size_t head; /* length of the path before the file name */
     memory_resolve *resolve;
     memory_sink *sink;
     void *user;
 } memory_folder;
 
 typedef struct memory_bytes {
-    const void *bytes; /* NULL: there is no file of this path */
+    const void *bytes; /* NULL: no file at this path */
     size_t size;
 } memory_bytes;
 
 struct memory_files {
     memory_files *next;
     uint64_t number;
-    pthread_mutex_t lock; /* of what follows */
+    pthread_mutex_t lock; /* protects the members below */
     memory_folder **folders;
     size_t folder_count, folder_capacity;
-    intern_table paths; /* normalized, of files that were asked for */
+    intern_table paths; /* normalized paths of files that were requested */
     memory_bytes *found;
     size_t found_capacity;
-    ffd_error failure; /* the first one of a resolve function, or of memory */
+    ffd_error failure; /* the first failure of a resolve function, or FFD_E_MEMORY */
 };
 
-/* All that exist, in any thread. */
+/* All existing objects, in any thread. Numbers start at a random one, so that a path in a file does not lead
+   to another job's memory. */
 static pthread_mutex_t all_lock = PTHREAD_MUTEX_INITIALIZER;
 static memory_files *all;
 static uint64_t last_number;
@@ -56,6 +60,8 @@ ffd_status ffd_memory_create(memory_files **files, ffd_error *error)
         return ffd_fail_memory(error);
     pthread_mutex_init(&made->lock, NULL);
     pthread_mutex_lock(&all_lock);
+    if (!last_number && getentropy(&last_number, sizeof last_number) != 0)
+        last_number = (uint64_t)(uintptr_t)made;
     made->number = ++last_number;
     made->next = all;
     all = made;
@@ -91,7 +97,7 @@ void ffd_memory_destroy(memory_files **files)
     *files = NULL;
 }
 
-/* The files that a path leads to; NULL: it is another path. */
+/* Returns the object that a path belongs to; NULL if it is not a path in memory. */
 static memory_files *files_of(const char *path)
 {
     if (strncmp(path, scheme, SCHEME_SIZE) != 0)
@@ -113,7 +119,7 @@ bool ffd_memory_has(const char *path)
     return files_of(path) != NULL;
 }
 
-/* The folder that a normalized path is in. */
+/* Returns the folder of a normalized path. */
 static const memory_folder *folder_of(const memory_files *files, const char *path)
 {
     for (size_t i = 0; i < files->folder_count; i++)
@@ -129,7 +135,7 @@ const char *ffd_memory_name(const char *path)
     return folder && strcmp(folder->path, path) == 0 ? folder->name : NULL;
 }
 
-/* Adds a file that was found, or not. */
+/* Records the result of a request, found or not. */
 static ffd_status note(memory_files *files, const char *path, memory_bytes bytes, ffd_error *error)
 {
     uint32_t number;
@@ -164,7 +170,7 @@ static memory_folder *make_folder(const memory_files *files, const char *name)
 static ffd_status add_folder(memory_files *files, const char *name, memory_folder **folder, ffd_error *error)
 {
     const char *const last = ffd_path_name(name);
-    if (!*last || strcmp(last, ".") == 0 || strcmp(last, "..") == 0) /* no path could lead to it */
+    if (!*last || strcmp(last, ".") == 0 || strcmp(last, "..") == 0) /* such a name cannot be a file */
         return ffd_fail(error, FFD_E_ARGUMENT, "\"%s\" is no name for a file", name);
     *folder = ffd_grow((void **)&files->folders, &files->folder_capacity, files->folder_count + 1,
                        sizeof(memory_folder *))
@@ -234,14 +240,14 @@ ffd_status ffd_memory_judge_path(const char *path, ffd_status status, ffd_error 
     return ffd_memory_judge(files_of(path), status, error);
 }
 
-/* Asks the callback for a file that is not known yet. */
+/* Calls the resolve function for a file that is not known yet. */
 static ffd_status resolve(memory_files *files, const char *path, memory_bytes *bytes, ffd_error *error)
 {
     const memory_folder *const folder = folder_of(files, path);
     *bytes = (memory_bytes){0};
     if (!folder || !folder->resolve || !path[folder->head])
         return FFD_OK;
-    if (files->failure.status) /* the job ends with it: nobody is asked again */
+    if (files->failure.status) /* the job will fail: no further calls */
         return ffd_memory_judge(files, FFD_OK, error);
     const char *const name = path + folder->head;
     const ffd_status status =
@@ -269,7 +275,7 @@ ffd_status ffd_memory_find(const char *path, const void **bytes, size_t *size, f
         else if (plain)
             status = resolve(files, plain, &found, error);
         if (status == FFD_E_MEMORY &&
-            !files->failure.status) /* who only asks whether it is there shall not go on */
+            !files->failure.status) /* record it, so that a caller who only tests for existence fails too */
             ffd_fail_memory(&files->failure);
         pthread_mutex_unlock(&files->lock);
     }

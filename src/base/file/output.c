@@ -18,24 +18,24 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Bytes that are buffered before a system call writes them. */
+/* Size of the write buffer. */
 #define BLOCK ((size_t)1 << 16)
 
 typedef struct output_file {
-    char *target;    /* where it will appear, with links resolved */
-    char *temporary; /* NULL where bytes go straight to the target: standard output, devices */
+    char *target;    /* final path, with symbolic links resolved */
+    char *temporary; /* NULL if bytes go directly to the target: standard output, devices */
     cleanup_entry *noted;
     int fd; /* -1 when closed */
     bool force, committed;
-    bool stays_open; /* after the commit too */
-    bool is_memory;  /* its bytes are collected here, for the callback of memory_files.h, */
+    bool stays_open; /* also after the commit */
+    bool is_memory;  /* bytes are collected here for the sink of memory_files.h */
     byte_buffer bytes;
-    char *name; /* under this name */
+    char *name; /* name for the sink */
 } output_file;
 
 typedef struct output_folder {
     char *path;
-    size_t made; /* as ffd_folder_make says it */
+    size_t made; /* as ffd_folder_make sets it */
     cleanup_entry *noted;
 } output_folder;
 
@@ -45,11 +45,11 @@ struct file_output {
     output_folder *folders; /* made for the files */
     size_t folder_count, folder_capacity;
     bool committed, keeps_equal;
-    bool was_busy;        /* the target of the file that was to be begun last */
-    unsigned char *block; /* bytes of the last file that are not yet written */
+    bool was_busy;        /* another run is writing the target of the last ffd_output_begin */
+    unsigned char *block; /* bytes of the last file that are not written yet */
     size_t filled;
-    written_files *written; /* or NULL */
-    hash_stream *hash;      /* of the first file's bytes; NULL: not wanted */
+    written_files *written; /* may be NULL */
+    hash_stream *hash;      /* hash of the first file; NULL: not requested */
 };
 
 ffd_status ffd_output_create(file_output **output, ffd_error *error)
@@ -70,7 +70,7 @@ void ffd_output_record(file_output *output, written_files *written)
 
 void ffd_output_hash(file_output *output)
 {
-    output->hash = ffd_hash_stream_create(); /* without memory there is none */
+    output->hash = ffd_hash_stream_create(); /* NULL if memory runs out: there is no hash then */
 }
 
 bool ffd_output_hash_value(const file_output *output, hash128 *hash)
@@ -89,7 +89,7 @@ static ffd_status refuse_written(const file_output *output, const char *path, ff
                          "was written by this run already, under this name or another");
 }
 
-/* No target may be a file of the record, nor have become one since it was begun. */
+/* Refuses targets that are among the written files, also if they became so after ffd_output_begin. */
 static ffd_status refuse_recorded(const file_output *output, ffd_error *error)
 {
     ffd_status status = FFD_OK;
@@ -99,8 +99,8 @@ static ffd_status refuse_recorded(const file_output *output, ffd_error *error)
     return status;
 }
 
-/* Before the renames, so that nothing is written that the record does not hold: a file stays the same one
-   when it gets another name. */
+/* Records the files before they are renamed, so that no file is missing in the record: a rename does not
+   change a file's identity. */
 static ffd_status record_files(const file_output *output, bool stays, ffd_error *error)
 {
     ffd_status status = FFD_OK;
@@ -116,8 +116,8 @@ static ffd_status record_files(const file_output *output, bool stays, ffd_error 
     return status;
 }
 
-/* The descriptor of a stream; -1 for other paths. A stream that was led into a file is written like any
-   other, and not replaced under that file's name. */
+/* Returns the descriptor of a stream; -1 for other paths. A stream that is redirected to a file is written
+   to, and the file is not replaced. */
 static int stream_of(const char *path)
 {
     static const char *const names[] = {"/dev/fd/", "/proc/self/fd/"};
@@ -140,13 +140,13 @@ bool ffd_output_is_stream(const char *path)
     return stream_of(path) >= 0;
 }
 
-/* The name of a target in messages. */
+/* Returns the name of a target for messages. */
 static const char *shown(const char *path)
 {
     return stream_of(path) == STDOUT_FILENO ? "standard output" : path;
 }
 
-/* What neither holds an output nor takes one without a wait. */
+/* Refuses targets that cannot hold an output, or block while they are opened. */
 static ffd_status refuse_special(const struct stat *info, const char *path, ffd_error *error)
 {
     if (S_ISDIR(info->st_mode))
@@ -159,7 +159,7 @@ static ffd_status refuse_special(const struct stat *info, const char *path, ffd_
                                                    : "device");
 }
 
-/* Whether the file of this name is the place of a mount, or may not be changed. */
+/* Returns whether a file is a mount point or immutable. */
 static bool is_fixed(const char *path)
 {
 #ifdef STATX_ATTR_MOUNT_ROOT
@@ -172,7 +172,8 @@ static bool is_fixed(const char *path)
 #endif
 }
 
-/* Whether a folder lets only their owners rename its files, and this user is none of them. */
+/* Returns whether the folder has the sticky bit, so that this user may not rename a file of another owner in
+   it. */
 static bool is_held_by_folder(const char *path, const struct stat *info)
 {
     struct stat folder = {0};
@@ -185,7 +186,8 @@ static bool is_held_by_folder(const char *path, const struct stat *info)
     return found && folder.st_mode & S_ISVTX && geteuid() != folder.st_uid;
 }
 
-/* What would come out only when the new file is complete, and others may have been replaced. */
+/* Detects early what would otherwise fail only at the rename, when other files may have been replaced
+   already. */
 static ffd_status check_replaceable(const char *path, const struct stat *info, ffd_error *error)
 {
     if (is_fixed(path))
@@ -240,7 +242,7 @@ ffd_status ffd_output_check(const char *path, bool force, ffd_error *error)
     return result;
 }
 
-/* Opens a character device, without a wait for what stands behind it. */
+/* Opens a character device without blocking. */
 static ffd_status open_device(output_file *file, const char *path, ffd_error *error)
 {
     struct stat info;
@@ -248,10 +250,10 @@ static ffd_status open_device(output_file *file, const char *path, ffd_error *er
     if (file->fd < 0 || fstat(file->fd, &info) != 0 ||
         fcntl(file->fd, F_SETFL, fcntl(file->fd, F_GETFL) & ~O_NONBLOCK) != 0)
         return ffd_fail_errno(error, path, "cannot be written");
-    return S_ISCHR(info.st_mode) ? FFD_OK : ffd_fail_file(error, FFD_E_IO, path, "is no device any more");
+    return S_ISCHR(info.st_mode) ? FFD_OK : ffd_fail_file(error, FFD_E_IO, path, "is not a device any more");
 }
 
-/* *busy: it failed because another run is writing the target. */
+/* Opens the temporary file. *busy: another run is writing the target. */
 static ffd_status open_beside(output_file *file, const char *path, const struct stat *old, bool *busy,
                               ffd_error *error)
 {
@@ -266,7 +268,7 @@ static ffd_status open_beside(output_file *file, const char *path, const struct 
     if (file->fd >= 0 && !file->noted)
         return ffd_fail_memory(error);
     if (file->fd < 0) {
-        ffd_free(file->temporary); /* not ours to remove */
+        ffd_free(file->temporary); /* it belongs to another run */
         file->temporary = NULL;
         *busy = reason == EBUSY;
         if (*busy)
@@ -274,7 +276,7 @@ static ffd_status open_beside(output_file *file, const char *path, const struct 
         errno = reason;
         return ffd_fail_errno(error, path, "cannot be written");
     }
-    /* Only root can give a file away; for others it is theirs already, or must stay so. */
+    /* Only root can change the owner of a file. */
     if (old && (old->st_uid != geteuid() || old->st_gid != getegid())) {
         const int given = fchown(file->fd, old->st_uid, old->st_gid);
         (void)given;
@@ -284,7 +286,7 @@ static ffd_status open_beside(output_file *file, const char *path, const struct 
     return FFD_OK;
 }
 
-/* Removes the temporary file, and gives up its lock. */
+/* Removes the temporary file and releases its lock. */
 static void drop_temporary(output_file *file)
 {
     ffd_cleanup_hold();
@@ -364,12 +366,12 @@ ffd_status ffd_output_begin(file_output *output, const char *path, bool force, f
     if (exists && !S_ISREG(info.st_mode))
         return open_device(file, path, error);
     status = open_beside(file, path, exists ? &info : NULL, &output->was_busy, error);
-    /* Another run may have placed the target before the name was locked for this one. */
+    /* Another run may have created the target before this one got the lock. */
     if (!status && !force && lstat(file->target, &info) == 0) {
         status = fail_exists(path, error);
         drop_temporary(file);
     }
-    if (status && file->fd < 0) { /* as if it had not been begun */
+    if (status && file->fd < 0) { /* the set is as before the call */
         ffd_free(file->target);
         output->count--;
     }
@@ -420,8 +422,8 @@ int ffd_output_keep_open(file_output *output)
     return output->files[output->count - 1].fd;
 }
 
-/* Some file systems report a full disk only when a file is closed. Closing a twin asks them, while the old
-   target is still there, and does not give up the lock. */
+/* Some file systems report a full disk only when a file is closed. Closing a duplicate descriptor triggers
+   the report while the old target still exists, and keeps the lock. */
 static ffd_status check_written(const file_output *output, ffd_error *error)
 {
     for (size_t i = 0; i < output->count; i++) {
@@ -438,7 +440,7 @@ void ffd_output_keep_equal(file_output *output)
     output->keeps_equal = true;
 }
 
-/* Whether a target already has the bytes that were written for it; false if it cannot be read. */
+/* Returns whether a target already has the bytes written for it; false if it cannot be read. */
 static bool is_equal(const output_file *file)
 {
     file_input bytes;
@@ -459,20 +461,20 @@ static bool is_to_stay(const file_output *output)
     return true;
 }
 
-/* Lets go of a file that has its name, or whose target stays. */
+/* Releases a file that is renamed, or whose target stays. */
 static ffd_status settle_file(output_file *file, ffd_error *error)
 {
     file->committed = true;
     ffd_cleanup_strike(&file->noted);
     if (file->stays_open || file->is_memory)
         return FFD_OK;
-    /* Closing gives up the lock: only now may another run take the name. */
+    /* Closing releases the lock: only now may another run use the temporary name. */
     const int fd = file->fd;
     file->fd = -1;
     return close(fd) == 0 ? FFD_OK : ffd_fail_errno(error, file->target, "cannot be written");
 }
 
-/* Removes the temporary files: the targets stay. */
+/* Removes the temporary files and keeps the targets. */
 static ffd_status drop_all(const file_output *output, ffd_error *error)
 {
     for (size_t i = 0; i < output->count; i++) {
@@ -504,7 +506,8 @@ static ffd_status place_all(file_output *output, ffd_error *error)
     return status;
 }
 
-/* Hands over what is for memory, in the order in which it was begun: the head of the set comes last. */
+/* Passes files in memory to their sink in the order in which they were begun, so the head of the set comes
+   last. */
 static ffd_status give_all(const file_output *output, ffd_error *error)
 {
     ffd_status status = FFD_OK;
@@ -542,11 +545,11 @@ ffd_status ffd_output_commit(file_output *output, ffd_error *error)
         status = record_files(output, stays, error);
     if (status)
         return status;
-    /* A signal comes before all renames or after them: a set is not torn apart. */
+    /* Signals are blocked during the renames, so that they cannot interrupt a set. */
     ffd_cleanup_hold();
     status = settle_all(output, stays, error);
     ffd_cleanup_release();
-    /* With no lock held: the callback may do anything. */
+    /* Without the lock, because the callback may do anything. */
     return status ? status : give_all(output, error);
 }
 

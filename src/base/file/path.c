@@ -114,7 +114,7 @@ char *ffd_path_normalize(const char *path)
     char *out = ffd_alloc(strlen(path) + 1, 1);
     if (!out)
         return NULL;
-    size_t length = 0, kept = 0; /* kept: length of the leading "/" or "../" */
+    size_t length = 0, kept = 0; /* kept: length of the leading "/" or "../" sequence */
     const bool absolute = *path == '/';
     if (absolute)
         out[length++] = *path++;

@@ -1,4 +1,4 @@
-/* path.h - parts of file names. Both '/' and, on Windows, '\\' separate. */
+/* path.h - operations on file names, without file system access. Separators are '/' and, on Windows, '\\'. */
 #ifndef FFD_BASE_FILE_PATH_H
 #define FFD_BASE_FILE_PATH_H
 
@@ -9,12 +9,12 @@
 const char *ffd_path_name(const char *path);
 /* "a/b.obj" -> ".obj", or ""; points into path. */
 const char *ffd_path_ending(const char *path);
-/* Whether path ends so; letters in any case. */
+/* Returns whether path has this ending, in upper or lower case. */
 bool ffd_path_has_ending(const char *path, const char *ending);
-/* Whether path starts at the root of a file system. */
+/* Returns whether path is absolute. */
 bool ffd_path_is_absolute(const char *path);
 
-/* Whether a normalized relative path leads out of its folder. */
+/* Returns whether a normalized relative path leads out of its folder. */
 bool ffd_path_leads_out(const char *path);
 
 /* The functions below return new strings (free with ffd_free); NULL if memory runs out. */
@@ -27,11 +27,11 @@ char *ffd_path_stem(const char *path);
 char *ffd_path_join(const char *folder, const char *name);
 /* "a/b.obj", "c" -> "a/c" */
 char *ffd_path_beside(const char *path, const char *name);
-/* The path with "." and ".." resolved ("a/../b" -> "b"); leading ".." of a relative path stay. */
+/* Resolves "." and "..": "a/../b" -> "b". Leading ".." of a relative path stay. */
 char *ffd_path_normalize(const char *path);
-/* The path that leads from the folder `from` to `to`, both absolute and normalized. */
+/* Returns the relative path from the folder `from` to `to`; both are absolute and normalized. */
 char *ffd_path_relative(const char *from, const char *to);
-/* A copy of text. */
+/* Copies a string. */
 char *ffd_text_copy(const char *text);
 
 #endif

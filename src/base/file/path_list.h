@@ -13,7 +13,7 @@ typedef struct path_list {
 
 /* Adds a copy of path. Errors: FFD_E_MEMORY. */
 ffd_status ffd_paths_add(path_list *list, const char *path, ffd_error *error);
-/* Frees the paths; the list is empty then. */
+/* Frees the paths and empties the list. */
 void ffd_paths_free(path_list *list);
 
 #endif

@@ -10,10 +10,10 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-/* Bytes that are copied at a time: a multiple of any page. */
+/* Bytes that are copied at a time: a multiple of any page size. */
 #define COPIED ((size_t)1 << 22)
 
-/* Opens a file without a name; -1 if that is not possible. */
+/* Opens a temporary file without a name. Returns -1 if that is not possible. */
 static int make_file(void)
 {
     const char *folder = getenv("TMPDIR");
@@ -22,7 +22,7 @@ static int make_file(void)
         snprintf(path, sizeof path, "%s/ffd-spill-XXXXXX", folder && *folder ? folder : "/var/tmp");
     if (length < 0 || (size_t)length >= sizeof path)
         return -1;
-    ffd_cleanup_hold(); /* a signal finds it without a name */
+    ffd_cleanup_hold(); /* so that a signal cannot leave a file with a name */
     const int file = mkstemp(path);
     if (file >= 0) {
         unlink(path);
@@ -32,8 +32,8 @@ static int make_file(void)
     return file;
 }
 
-/* The file's first `size` bytes, which have been allocated on the disk: writing to a page without disk space
-   would end the program. NULL if there is no disk space or no memory. */
+/* Maps the first `size` bytes of the file after allocating them on the disk: writing to a mapped page without
+   disk space would raise SIGBUS. Returns NULL if there is not enough disk space or memory. */
 static void *map_bytes(int file, size_t size)
 {
     int failure = (size_t)(off_t)size == size ? EINTR : EFBIG;
@@ -68,7 +68,7 @@ static bool leave_file(spill_array *array, size_t size)
     return true;
 }
 
-/* Moves the array into a file. Returns false if there can be none. */
+/* Moves the array into a file. Returns false if that is not possible. */
 static bool move_to_file(spill_array *array, size_t size)
 {
     const int file = make_file();

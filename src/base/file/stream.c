@@ -14,7 +14,7 @@ struct byte_stream {
     const char *name;
     uint64_t size, read;
     bool ended;
-    size_t next, filled; /* of the block */
+    size_t next, filled; /* positions in the block */
     unsigned char block[BLOCK];
 };
 
@@ -39,7 +39,7 @@ ffd_status ffd_stream_open(const char *path, const char *name, byte_stream **str
     return FFD_OK;
 }
 
-/* Waits for this many milliseconds; -1: without limit. */
+/* Waits at most this many milliseconds; -1: no limit. */
 static bool wait_for_bytes(const byte_stream *stream, int most)
 {
     struct pollfd ready = {.fd = stream->fd, .events = POLLIN};

@@ -1,4 +1,4 @@
-/* stream.h - reading a file or pipe as its bytes come. */
+/* stream.h - reads a file or pipe byte by byte as data arrive. */
 #ifndef FFD_BASE_FILE_STREAM_H
 #define FFD_BASE_FILE_STREAM_H
 
@@ -9,19 +9,21 @@
 
 typedef struct byte_stream byte_stream;
 
-/* path "-": standard input. name is that in messages, and is lent. Errors: FFD_E_IO, FFD_E_MEMORY. */
+/* Opens path ("-": standard input). name is for messages and must outlive the stream. Errors: FFD_E_IO,
+   FFD_E_MEMORY. */
 ffd_status ffd_stream_open(const char *path, const char *name, byte_stream **stream, ffd_error *error);
-/* Whether reading a byte will not wait. */
+/* Returns whether a byte can be read without blocking. */
 bool ffd_stream_is_ready(const byte_stream *stream);
-/* Waits until that is so. */
+/* Waits until a byte can be read. */
 void ffd_stream_wait(const byte_stream *stream);
-/* The next byte, or -1 at the end and after a failure, which *status then reports (FFD_E_IO). Waits. */
+/* Returns the next byte, and blocks until there is one; -1 at the end, or after a failure with *status
+   FFD_E_IO. */
 int ffd_stream_byte(byte_stream *stream, ffd_status *status, ffd_error *error);
-/* Bytes of the whole, 0 where that is not known, and of what was read. */
+/* Returns the size of the whole stream in bytes; 0 if unknown. */
 uint64_t ffd_stream_size(const byte_stream *stream);
-/* Bytes read so far. */
+/* Returns the number of bytes read so far. */
 uint64_t ffd_stream_position(const byte_stream *stream);
-/* NULL and pointers to NULL are allowed. */
+/* Closes the stream and sets *stream to NULL. stream and *stream may be NULL. */
 void ffd_stream_close(byte_stream **stream);
 
 #endif

@@ -12,10 +12,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The longest name that file systems take. */
+/* The longest file name that file systems accept, in bytes. */
 #define LONGEST_NAME 255
 
-/* FNV-1a (Fowler, Noll, Vo): distinguishes names that start alike. */
+/* FNV-1a (Fowler, Noll, Vo), to distinguish long names with the same beginning. */
 static unsigned long long digest_of(const char *text)
 {
     unsigned long long digest = 14695981039346656037ULL;
@@ -57,12 +57,12 @@ int ffd_lock_named(int fd, const char *path)
         errno = EEXIST;
         return -1;
     }
-    /* Its owner may have renamed or removed it between our open and our lock. */
+    /* Another run may have renamed or removed the file between open and lock. */
     return lstat(path, &there) == 0 && ours.st_ino == there.st_ino && ours.st_dev == there.st_dev;
 }
 
-/* Opens what a run has left, to be locked: for writing, which some file systems want for that, if it may be.
- */
+/* Opens the leftover of another run to lock it; for writing if possible, because some file systems require
+   that for a lock. */
 static int open_left(const char *path)
 {
     const int flags = O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
@@ -92,8 +92,8 @@ int ffd_temporary_open(const char *path)
     return locked > 0 ? fd : -1;
 }
 
-/* For file systems without renameat2's flags. A link is a second name, which is never given away; where there
-   are no links either, somebody may come between the look and the step. */
+/* For file systems without the flags of renameat2. link() never replaces a file. On file systems without hard
+   links there remains a race between the check and the rename. */
 static int place_by_link(const char *from, const char *to)
 {
     struct stat info;

@@ -1,31 +1,31 @@
-/* temporary.h - the names under which outputs are written until they are complete: beside their targets, the
-   same for the same target, locked by the run that writes. And the one step by which such a file gets its
+/* temporary.h - the temporary names of outputs that are not complete: in the folder of the target, always the
+   same for a target, locked by the run that writes. And the atomic step that gives such a file its final
    name. */
 #ifndef FFD_BASE_FILE_TEMPORARY_H
 #define FFD_BASE_FILE_TEMPORARY_H
 
 #include <stdbool.h>
 
-/* The target's folder and ".NAMEending"; of a name too long for that its beginning and a digest. Free with
-   ffd_free; NULL: no memory. */
+/* Returns the path ".NAMEending" in the target's folder; a name that is too long is shortened to its
+   beginning and a digest. Free with ffd_free. Returns NULL if memory runs out. */
 char *ffd_hidden_name(const char *target, const char *ending);
-/* That name with the ending ".ffd-tmp". */
+/* The same with the ending ".ffd-tmp". */
 char *ffd_temporary_name(const char *target);
-/* Locks the open file at path, so that no other run takes it. Returns 1; 0: path leads to another file by
-   now; -1: errno says why not; EBUSY: another run holds it. */
+/* Locks the open file at path against other runs. Returns 1; 0 if path leads to another file by now; -1 with
+   errno on failure, EBUSY if another run holds the lock. */
 int ffd_lock_named(int fd, const char *path);
-/* Makes the file of that name, for reading too, and locks it, so that a run that was killed leaves no
-   obstacle and one that still runs is not disturbed. A file that exists and is not locked is a leftover: it
-   is removed, since its permission bits are outdated. Returns its descriptor; -1: errno says why not; EBUSY:
-   another run holds it. */
+/* Creates the file for reading and writing, and locks it. An existing file without a lock is the leftover of
+   a killed run; it is removed first, because its permission bits may be outdated. A file that another run has
+   locked is left alone. Returns the descriptor; -1 with errno on failure, EBUSY if another run holds the
+   lock. */
 int ffd_temporary_open(const char *name);
-/* Renames a file. One that is there is replaced if `replace`; else it is left alone, and errno is EEXIST,
-   also where it came a moment ago. Returns 0, or -1 and errno. */
+/* Renames a file atomically. An existing target is replaced if `replace` is true; otherwise the call fails
+   with EEXIST, also if the target was created just now. Returns 0, or -1 with errno. */
 int ffd_place(const char *from, const char *to, bool replace);
 /* Removes the temporary file of a target, unless another run is writing it. */
 void ffd_temporary_remove(const char *target);
-/* Removes what a process that ended in the middle of writing path left beside it (and of the buffers beside a
-   .gltf), unless another one is writing it. */
+/* Removes the temporary files that a process left when it ended while writing path (for a .gltf also those of
+   its buffers), unless another run is writing them. */
 void ffd_temporary_discard(const char *path);
 
 #endif

@@ -13,7 +13,7 @@ struct update_file {
     int fd;
 };
 
-/* Takes over the descriptor. */
+/* Takes ownership of the descriptor. */
 static update_file *make(int fd)
 {
     update_file *const file = ffd_alloc(1, sizeof *file);
@@ -24,7 +24,7 @@ static update_file *make(int fd)
     return file;
 }
 
-/* Opens the file that is there, else makes it, if it may. */
+/* Opens an existing file; otherwise creates it if `makes` is true. */
 static int open_or_make(const char *path, bool makes)
 {
     const int flags = O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
@@ -69,7 +69,7 @@ ffd_status ffd_update_open_there(const char *path, update_file **file, ffd_error
     return open_file(path, false, file, error);
 }
 
-/* The offset as the system has it; negative if it is beyond what the system knows. */
+/* Returns the offset as the type of the system; negative if it is out of range. */
 static off_t offset_of(uint64_t at, size_t size)
 {
     const uint64_t most = sizeof(off_t) < sizeof at ? INT32_MAX : INT64_MAX;
@@ -137,7 +137,7 @@ bool ffd_successor_begin(file_successor *successor, const char *path)
     const int fd = name ? ffd_temporary_open(name) : -1;
     successor->noted = fd < 0 ? NULL : ffd_cleanup_note(name);
     ffd_cleanup_release();
-    if (fd < 0) { /* the name is not ours */
+    if (fd < 0) { /* the temporary file belongs to another run */
         ffd_free(name);
         ffd_successor_end(successor);
         return false;

@@ -2,7 +2,7 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 
-/* The members of a stamp that identify the file. */
+/* The members of a stamp that identify a file. */
 typedef struct file_key {
     uint64_t device, number;
 } file_key;
@@ -19,7 +19,7 @@ bool ffd_written_holds(const written_files *written, const char *path)
     if (written->count == 0 || !ffd_file_stamp(path, &stamp))
         return false;
     const file_key key = key_of(&stamp);
-    /* Its number on the device may be that of a file which somebody has removed since. */
+    /* The inode may be reused after somebody has removed the recorded file, so the paths are compared too. */
     return ffd_intern_find(&written->known, &key, sizeof key, &number) &&
            ffd_file_same(written->paths[number], path);
 }

@@ -3,12 +3,12 @@
 #include "base/memory/memory.h"
 #include <stdint.h>
 
-/* Compiled in, the streaming state can be on the stack: its size is then the header's, not that of
-   whatever library is installed. */
+/* Inlined, so that the streaming state can be on the stack: its size is then fixed by this header and does
+   not depend on the installed library. */
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-/* Doubles turned into bytes at a time. */
+/* Number of doubles that are converted to bytes at a time. */
 #define RUN 512
 
 static hash128 canonical(XXH128_hash_t hash)
@@ -37,7 +37,7 @@ hash128 ffd_hash_blocks(const hash_block *blocks, size_t count)
 }
 
 struct hash_stream {
-    XXH3_state_t *state; /* in the bytes behind, where it is aligned as it has to be */
+    XXH3_state_t *state; /* points into the bytes that follow, with the alignment it needs */
 };
 
 #define STATE_ALIGNMENT _Alignof(XXH3_state_t)

@@ -26,7 +26,7 @@ static uint32_t *find_slot(const intern_table *table, const void *key, size_t si
     return &table->slots[at];
 }
 
-/* At most half of the slots are used. */
+/* Keeps the load factor at 1/2 or less. */
 static bool make_slots(intern_table *table)
 {
     if (table->slot_count / 2 > table->count)

@@ -1,4 +1,4 @@
-/* intern.h - a hash table that numbers different keys: the first key is 0, the next new one 1, and so on. */
+/* intern.h - a hash table that numbers distinct keys 0, 1, 2, ... in the order in which they are added. */
 #ifndef FFD_BASE_MEMORY_INTERN_H
 #define FFD_BASE_MEMORY_INTERN_H
 
@@ -6,24 +6,24 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Zeroed: the empty table. */
+/* All zeros: an empty table. */
 typedef struct intern_table {
-    char *pool; /* the keys in a row, each followed by a 0 */
+    char *pool; /* all keys, each followed by a 0 */
     size_t pool_size, pool_capacity;
-    size_t *starts; /* of each key in the pool */
+    size_t *starts; /* offset of each key in the pool */
     size_t count, capacity;
-    uint32_t *slots; /* open addressing: a key's number, UINT32_MAX where free */
+    uint32_t *slots; /* open addressing: the number of a key, UINT32_MAX in a free slot */
     size_t slot_count;
 } intern_table;
 
-/* Looks up the number of a key, which is copied and added if it is new. Returns false if memory
-   or the numbers run out. */
+/* Looks up the number of a key, and adds a copy of the key if it is new. Returns false if memory or the
+   32-bit numbers run out. */
 bool ffd_intern(intern_table *table, const void *key, size_t size, uint32_t *number);
 /* Looks up the number of a key; false if it is not in the table. */
 bool ffd_intern_find(const intern_table *table, const void *key, size_t size, uint32_t *number);
-/* A key, ended by 0; lent until the next one is added. */
+/* Returns a key, terminated by 0. It is valid until the next key is added. */
 const char *ffd_intern_key(const intern_table *table, uint32_t number);
-/* Frees the keys; the table is empty then. */
+/* Frees the keys and empties the table. */
 void ffd_intern_free(intern_table *table);
 
 #endif

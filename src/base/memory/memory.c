@@ -5,11 +5,11 @@
 #include <stdlib.h>
 #include <sys/mman.h>
 
-/* Blocks from this size on get huge pages. */
+/* Blocks of at least this size get huge pages. */
 #define LARGE_BLOCK ((size_t)4 << 20)
 #define LARGE_PAGE ((size_t)2 << 20)
 
-/* For tests only; negative: allocations never fail on purpose. */
+/* For tests only: how many more allocations succeed; negative: no limit. */
 static atomic_long remaining_successes = -1;
 
 static bool fails_on_purpose(void)
@@ -57,11 +57,11 @@ void *ffd_alloc_whole(size_t count, size_t size)
 #ifdef MADV_HUGEPAGE
     size_t bytes;
     if (ffd_multiply_size(count, size, &bytes) && bytes >= LARGE_BLOCK && bytes <= SIZE_MAX - LARGE_PAGE) {
-        /* Aligned to huge pages, since the system uses them for nothing else. */
+        /* Aligned to huge pages: the system uses them for aligned memory only. */
         const size_t whole = (bytes + LARGE_PAGE - 1) / LARGE_PAGE * LARGE_PAGE;
         void *block = fails_on_purpose() ? NULL : aligned_alloc(LARGE_PAGE, whole);
         if (block)
-            madvise(block, whole, MADV_HUGEPAGE); /* advice only */
+            madvise(block, whole, MADV_HUGEPAGE); /* only advice: a failure does no harm */
         return block;
     }
 #endif
@@ -80,8 +80,8 @@ void *ffd_alloc_sparse(size_t count, size_t size)
 {
     char *const block = ffd_alloc_zero(count, size);
 #ifdef MADV_HUGEPAGE
-    /* calloc need not clear a block that is new from the system, so that none of it is touched yet. Such a
-       block may begin anywhere, a huge page only at a multiple of its size. */
+    /* calloc does not write to memory that is new from the system, so no page is allocated yet. The block may
+       begin anywhere, but a huge page only at a multiple of its size. */
     const size_t before = block ? (LARGE_PAGE - (uintptr_t)block % LARGE_PAGE) % LARGE_PAGE : 0;
     if (block && count * size >= LARGE_BLOCK)
         madvise(block + before, (count * size - before) / LARGE_PAGE * LARGE_PAGE, MADV_HUGEPAGE);

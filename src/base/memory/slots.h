@@ -1,11 +1,12 @@
-/* slots.h - the slots of a table with open addressing, for keys whose number is known beforehand. */
+/* slots.h - the slots of a hash table with open addressing, if the number of keys is known in advance. */
 #ifndef FFD_BASE_MEMORY_SLOTS_H
 #define FFD_BASE_MEMORY_SLOTS_H
 
 #include <stddef.h>
 
-/* mask + 1 slots, a power of two, of which `keys` fill at most half. All their bits are set: an unsigned
- * number's largest value marks a free slot. Freed by ffd_free; NULL: no memory. */
+/* Allocates mask + 1 slots of size bytes: a power of two, at least twice the number of keys. All bits are
+   set, so the largest value of an unsigned type marks a free slot. Free with ffd_free. Returns NULL if memory
+   runs out. */
 void *ffd_slots_make(size_t keys, size_t size, size_t *mask);
 
 #endif

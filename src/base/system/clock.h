@@ -2,9 +2,9 @@
 #ifndef FFD_BASE_SYSTEM_CLOCK_H
 #define FFD_BASE_SYSTEM_CLOCK_H
 
-/* Seconds from some fixed moment; never goes back. */
+/* Returns seconds since a fixed but unknown time (monotonic). */
 double ffd_clock_seconds(void);
-/* Waits at least this many seconds. */
+/* Sleeps for at least this many seconds. */
 void ffd_clock_sleep(double seconds);
 
 #endif

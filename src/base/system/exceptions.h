@@ -1,4 +1,5 @@
-/* exceptions.h - memory that C++ exceptions need (C++ behind C). */
+/* exceptions.h - reserves the memory that the first C++ exception of a thread needs (C++ behind a C
+   interface). */
 #ifndef FFD_BASE_SYSTEM_EXCEPTIONS_H
 #define FFD_BASE_SYSTEM_EXCEPTIONS_H
 
@@ -6,9 +7,9 @@
 extern "C" {
 #endif
 
-/* Gets the calling thread's memory for exceptions, where the C++ runtime came with a module. The C library
-   gets it when it is first used, and ends the program if there is none: the first exception may be that
-   memory has run out. */
+/* Allocates the thread-local exception state of the calling thread, if the C++ runtime was loaded with a
+   module. The C library allocates it at first use, and aborts the program if that fails; but the first
+   exception may be std::bad_alloc. */
 void ffd_exceptions_prepare(void);
 
 #ifdef __cplusplus

@@ -14,7 +14,7 @@ static void notice(int number)
     const int before = errno;
     (void)number;
     requested = true;
-    /* It stays readable from the first request on; a pipe that is full says as much. */
+    /* The pipe stays readable after the first request, so an error because it is full can be ignored. */
     const ssize_t written = write(stream[1], "", 1);
     (void)written;
     errno = before;
@@ -34,7 +34,7 @@ void ffd_interrupt_watch(void)
         for (int i = 0; i < 2; i++)
             keep_to_itself(stream[i]);
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
-        /* What is ignored from the start (nohup) stays so. */
+        /* A signal that the program was started to ignore (nohup) stays ignored. */
         if (sigaction(numbers[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
             sigaction(numbers[i], &action, NULL);
 }

@@ -14,11 +14,12 @@
 #define MODULE_BYTES ((size_t)16 << 20)
 #define THREAD_BYTES ((size_t)64 << 10)
 
-/* Where modules lie: absolute, or from the folder of the program or library that this is linked into. */
+/* The folders of modules: absolute, or relative to the folder of the program or library that this is linked
+   into. */
 static const char *const folders[] = {FFD_MODULE_FOLDERS};
 
-/* The file that this is linked into, as the system knows it: a program's own path may be relative, or that of
-   a link. False: it is not known. */
+/* Finds the file that this code is linked into, by what the system has mapped: the path by which a program
+   was started may be relative, or a symbolic link. Returns false if it is unknown. */
 static bool find_own_file(char file[LONGEST_PATH])
 {
     char line[LONGEST_PATH + 128];
@@ -39,9 +40,9 @@ static bool find_own_file(char file[LONGEST_PATH])
     return found;
 }
 
-/* Whether this is a file of those who may change what the program does: the administrator, the user, or the
-   owner of the program's own file. A program may stand in a folder where others put files too, and pipes, for
-   which the loader would wait. */
+/* Returns whether a file belongs to somebody who may change what the program does anyway: the administrator,
+   the user, or the owner of the program file. The folder of the program may be writable for others, who could
+   put files there, or pipes, on which the loader would block. */
 static bool is_trusted(const char *path, const struct stat *own)
 {
     struct stat link, file;
@@ -56,8 +57,8 @@ static bool is_trusted(const char *path, const struct stat *own)
     return has_link && has_file;
 }
 
-/* The path of a module in the first folder that has one to trust. False: none has, and path is what must not
-   be loaded. Where nothing is there at all, it is the path in the last folder. */
+/* Finds the path of a module in the first folder that has a trusted one. Returns false if there is none: path
+   is then that of a file which is not trusted or, if there is no file, the path in the last folder. */
 static bool find_module(const char *file, char path[LONGEST_PATH])
 {
     char own[LONGEST_PATH], tried[LONGEST_PATH];
@@ -83,7 +84,7 @@ static bool find_module(const char *file, char path[LONGEST_PATH])
     return !is_refused;
 }
 
-/* Whether there is so much memory to spare. It is not touched, as an allocation may be. */
+/* Returns whether this much memory is available, without touching it as an allocation could. */
 static bool has_memory(size_t bytes)
 {
     void *const mapped = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -96,7 +97,7 @@ static bool is_wanted(const module_identity *found, const module_identity *wante
            found->interface == wanted->interface;
 }
 
-/* found: what the module says that it is; NULL: nothing. */
+/* found: the identity that the module claims; NULL: none. */
 static ffd_status refuse_module(const char *path, const module_identity *found, const module *of,
                                 ffd_error *error)
 {
@@ -108,9 +109,10 @@ static ffd_status refuse_module(const char *path, const module_identity *found, 
                     is, of->wanted.file, of->wanted.version, (unsigned long)of->wanted.interface, of->what);
 }
 
-/* Libraries that run out of memory while they are loaded end the program, and the loader gives its reasons as
-   text, in words that are not fixed: what a module takes with its libraries must be there before. Does not
-   close what it refuses: another part of the process may have loaded the same file. */
+/* Checks that memory suffices for the module and its libraries before it loads them: libraries that run out
+   of memory while they are loaded abort the program, and the loader gives reasons only as text without fixed
+   wording. A module that is refused is not closed: another part of the process may have loaded the same
+   file. */
 static ffd_status open_module(const module *of, const module_head **head, ffd_error *error)
 {
     char path[LONGEST_PATH];
@@ -135,7 +137,8 @@ static ffd_status open_module(const module *of, const module_head **head, ffd_er
     return status;
 }
 
-/* Prepares the calling thread, once: there is one C++ runtime at most. False: memory is short. */
+/* Prepares the calling thread once, since there is at most one C++ runtime. Returns false if memory is
+   short. */
 static bool prepare_thread(const module_head *head)
 {
     static _Thread_local bool is_prepared __attribute__((tls_model("initial-exec")));

@@ -24,7 +24,8 @@ struct worker_process {
     int channel;
 };
 
-/* A worker's descriptor of the channel: none of the standard streams, where a library might print. */
+/* The file descriptor of the channel in a worker: not a standard stream, because a library might print to
+   these. */
 enum { CHANNEL = 3 };
 
 static ffd_status fail_start(ffd_error *error, int reason)
@@ -33,8 +34,8 @@ static ffd_status fail_start(ffd_error *error, int reason)
                     strerror(reason));
 }
 
-/* A pair of sockets that no other worker gets, and whose numbers are not that of a worker's. A pipe would end
-   the program with a signal where its worker has ended. */
+/* Makes a pair of sockets that other workers do not inherit, with descriptors other than CHANNEL. A pipe
+   would raise SIGPIPE if its worker has ended. */
 static bool make_channel(int ends[2])
 {
     int low[2];
@@ -59,7 +60,7 @@ static int spawn(const char *name, int channel, pid_t *id)
     char *arguments[] = {(char *)(uintptr_t)name, NULL};
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
-    /* What ends programs waits until the worker leaves it to its parent (ffd_interrupt_ignore). */
+    /* Signals that end programs are blocked until the worker ignores them (ffd_interrupt_ignore). */
     sigset_t wishes;
     sigemptyset(&wishes);
     sigaddset(&wishes, SIGHUP);
@@ -134,7 +135,7 @@ void ffd_process_wait(worker_process *const *processes, size_t count, double sec
     struct pollfd *set = ffd_alloc(count + 1, sizeof *set);
     nfds_t used = 0;
     if (!set) {
-        /* Waits without knowing which process has something to be read. */
+        /* A short pause, because it is unknown which process will send something. */
         poll(NULL, 0, 10);
         return;
     }
@@ -160,7 +161,7 @@ bool ffd_process_receive(worker_process *process, byte_buffer *bytes)
         if (size == 0 || (size < 0 && errno != EINTR))
             return false;
         ffd_buffer_append(bytes, block, size < 0 ? 0 : (size_t)size);
-    } while (size < 0 || (size_t)size == sizeof block); /* less: that was all for now */
+    } while (size < 0 || (size_t)size == sizeof block); /* a short read: nothing else is there yet */
     return true;
 }
 
@@ -206,7 +207,7 @@ void ffd_process_follow_parent(void)
 #ifdef __linux__
     char byte;
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    /* If that came too late, the parent process has closed the other end. */
+    /* If the parent ended before that call, it has closed the other end. */
     if (recv(CHANNEL, &byte, 1, MSG_PEEK | MSG_DONTWAIT) == 0)
         _exit(0);
 #endif

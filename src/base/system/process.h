@@ -1,5 +1,5 @@
-/* process.h - workers: processes of this program, reached over a channel. What ends a worker, be it a crash
-   or a limit of the system, ends nothing else. */
+/* process.h - workers: child processes of this program that communicate over a channel (a socket pair). A
+   crash or a system limit that ends a worker does not affect other processes. */
 #ifndef FFD_BASE_SYSTEM_PROCESS_H
 #define FFD_BASE_SYSTEM_PROCESS_H
 
@@ -10,41 +10,42 @@
 
 typedef struct worker_process worker_process;
 
-/* How a worker has ended. */
+/* How a worker ended. */
 typedef struct process_end {
-    int code;       /* its exit code, where no signal ended it */
+    int code;       /* exit code, if no signal ended it */
     int signal;     /* 0: none */
     char text[128]; /* in words: "Segmentation fault", "exit code 3" */
-    bool killed;    /* by a signal that no process sends itself: from the system, out of memory, or by hand */
+    bool killed;    /* by a signal from outside: the system is out of memory, or somebody killed it */
 } process_end;
 
-/* Starts this program with `name` as its argument 0, and no other arguments: by that it knows that it is a
-   worker. Standard error is shared. Errors: FFD_E_IO, FFD_E_MEMORY. */
+/* Starts this program with `name` as argv[0], which tells it that it is a worker, and no other arguments.
+   Standard error is inherited. Errors: FFD_E_IO, FFD_E_MEMORY. */
 ffd_status ffd_process_start(const char *name, worker_process **process, ffd_error *error);
-/* Sends bytes to the worker, and waits until it has taken them. Returns false if it has ended. */
+/* Sends bytes to the worker; blocks until all are sent. Returns false if the worker has ended. */
 bool ffd_process_send(worker_process *process, const void *bytes, size_t size);
-/* Waits until one of the processes has something to be read or has ended, or seconds have gone by (below 0:
-   without limit), or the program was interrupted (interrupt.h). Entries may be NULL. */
+/* Waits until a process has sent something or has ended, until seconds have passed (negative: no limit), or
+   until the program is interrupted (interrupt.h). Entries may be NULL. */
 void ffd_process_wait(worker_process *const *processes, size_t count, double seconds);
-/* Appends the bytes that can be read without waiting. Returns false at the end of the channel: the
-   worker has ended, or will. */
+/* Appends the bytes that can be read without blocking. Returns false at the end of the channel: the worker
+   has ended or is about to. */
 bool ffd_process_receive(worker_process *process, byte_buffer *bytes);
-/* Ends the worker after it has removed what it was writing. */
+/* Asks the worker to end after it has removed its unfinished output. */
 void ffd_process_stop(worker_process *process);
-/* Ends the worker at once. */
+/* Ends the worker immediately (SIGKILL). */
 void ffd_process_kill(worker_process *process);
-/* Closes the channel, at which an idle worker ends, waits for its end, and frees. NULL and pointers to NULL
-   are allowed; end may be NULL. */
+/* Closes the channel, at which an idle worker ends, waits for that, and frees the object. process and
+ *process may be NULL; end may be NULL. */
 void ffd_process_finish(worker_process **process, process_end *end);
 
-/* In a worker: ends it when its parent process ends, in whatever way, where the system can do that. */
+/* In a worker: lets the system end it when its parent process ends, if the system can do that. */
 void ffd_process_follow_parent(void);
-/* In a worker: from now on ffd_process_stop waits, or does not wait any more. One thread calls this; others
-   must have ended. */
+/* In a worker: from now on ffd_process_stop is deferred (wait), or takes effect (not wait). To be called when
+   the worker has only one thread. */
 void ffd_process_defer_stop(bool wait);
-/* In a worker: receives the next size bytes from its parent process. Returns false if there are no more. */
+/* In a worker: receives the next size bytes from its parent process. Returns false at the end of the
+   channel. */
 bool ffd_process_take(void *bytes, size_t size);
-/* In a worker: sends bytes to its parent process. Returns false if that has ended. */
+/* In a worker: sends bytes to its parent process. Returns false if the parent has ended. */
 bool ffd_process_give(const void *bytes, size_t size);
 
 #endif

@@ -4,9 +4,9 @@
 
 #include <stdbool.h>
 
-/* Whether standard error is a terminal on which a line can be drawn again. */
+/* Returns whether standard error is a terminal on which a line can be redrawn. */
 bool ffd_terminal_is_error(void);
-/* Its columns, 80 where they are not known. */
+/* Returns its number of columns; 80 if unknown. */
 int ffd_terminal_width(void);
 
 #endif

@@ -18,8 +18,8 @@ static void *start(void *argument)
     return NULL;
 }
 
-/* Runs in this many threads. Worker 0 is the calling thread, which alone suffices if no
-   others can be started. */
+/* Runs `run` in this many threads. Worker 0 is the calling thread, which does all the work if no others can
+   be started. */
 static void run_all(void (*run)(void *work, int number), void *work, int threads)
 {
     worker_thread *others = threads > 1 ? ffd_alloc_zero((size_t)threads - 1, sizeof *others) : NULL;
@@ -37,7 +37,8 @@ static void run_all(void (*run)(void *work, int number), void *work, int threads
     ffd_free(others);
 }
 
-/* Tiles that a thread takes at a time, if there are many: neighbours often need the same things. */
+/* Number of consecutive tiles that a thread takes at a time, if there are many: neighbours often need the
+   same data. */
 #define SHARE 8
 #define SHARES_A_THREAD 32
 
@@ -97,9 +98,9 @@ void ffd_parallel_tiles(size_t count, size_t tile_size, int threads, tile_functi
     run_all(run_tiles, &work, workers_for(work.tiling.tiles, threads));
 }
 
-/* A tile on its way. */
+/* A tile that is being processed or waits to be finished. */
 typedef struct tile_slot {
-    bool taken, made; /* made: it waits for its turn */
+    bool taken, made; /* made: it is processed and waits for its turn to be finished */
     size_t tile;
 } tile_slot;
 
@@ -107,15 +108,15 @@ typedef struct ordered_work {
     tiling tiling;
     tile_function function, finish;
     int slot_count;
-    /* Under the lock: */
+    /* Protected by the lock: */
     tile_slot *slots;
-    size_t next, turn; /* the tiles to be taken and to be finished next */
+    size_t next, turn; /* the next tile to be taken, and the next one to be finished */
     bool finishing;
     pthread_mutex_t lock;
     pthread_cond_t freed;
 } ordered_work;
 
-/* Tiles that may wait for their turn while threads go on. */
+/* How many tiles may wait for their turn while threads go on with others. */
 #define MOST_WAITING 8
 
 int ffd_ordered_slots(int threads)
@@ -125,7 +126,7 @@ int ffd_ordered_slots(int threads)
     return threads + MOST_WAITING;
 }
 
-/* The slot that has the tile, if it is made; -1: none. */
+/* Returns the slot of the tile if it is made; else -1. */
 static int find_made(const ordered_work *work, size_t tile)
 {
     for (int i = 0; i < work->slot_count; i++)
@@ -134,7 +135,8 @@ static int find_made(const ordered_work *work, size_t tile)
     return -1;
 }
 
-/* Takes the next tile into a free slot; waits for one. -1: no tile is left. Under the lock. */
+/* Takes the next tile into a free slot, and waits for a slot if none is free. Returns -1 if no tile is left.
+   The caller holds the lock. */
 static int take_tile(ordered_work *work)
 {
     for (; work->next < work->tiling.tiles; pthread_cond_wait(&work->freed, &work->lock))
@@ -146,8 +148,7 @@ static int take_tile(ordered_work *work)
     return -1;
 }
 
-/* Finishes the tiles whose turn it is, one after the other, unless another thread is at it. Under the lock.
- */
+/* Finishes the tiles whose turn it is, unless another thread is doing so. The caller holds the lock. */
 static void finish_made(ordered_work *work)
 {
     if (work->finishing)
@@ -167,7 +168,7 @@ static void finish_made(ordered_work *work)
 static void run_ordered(void *context, int worker)
 {
     ordered_work *work = context;
-    (void)worker; /* slots are numbered, not threads */
+    (void)worker; /* scratch memory belongs to slots, not to threads */
     pthread_mutex_lock(&work->lock);
     for (int slot; (slot = take_tile(work)) >= 0;) {
         const size_t number = work->slots[slot].tile;

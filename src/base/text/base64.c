@@ -3,7 +3,7 @@
 
 #define NONE 64
 
-/* The 6 bits that each character encodes; NONE: the character is not a digit of base64. */
+/* The 6 bits that each character encodes; NONE: not a base64 character. */
 static const uint8_t values[256] = {
     NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE,
     NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE,
@@ -23,7 +23,8 @@ static const uint8_t values[256] = {
     NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE,
 };
 
-/* Reads count (up to 4) digits into the highest of 24 bits. False: one of them is not a digit. */
+/* Reads count (up to 4) base64 characters into the highest of 24 bits. Returns false at any other
+   character. */
 static bool read_digits(const char *text, size_t count, uint32_t *bits)
 {
     uint32_t all = 0;

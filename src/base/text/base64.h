@@ -5,17 +5,18 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Returns the largest number of bytes that size characters encode. */
+/* Returns the capacity in bytes that decoding size characters needs. */
 static inline size_t ffd_base64_capacity(size_t size)
 {
     return size / 4 * 3 + 3;
 }
 
-/* Decodes size characters into bytes (of ffd_base64_capacity) and sets *count to their number. The final '='
-   may be missing. Returns false at any other character, and where the text ends within a byte. */
+/* Decodes size characters into bytes, which has a capacity of ffd_base64_capacity(size), and sets *count to
+   their number. The padding '=' may be missing. Returns false at an invalid character, or if the text ends
+   within a byte. */
 bool ffd_base64_decode(const char *text, size_t size, unsigned char *bytes, size_t *count);
 
-/* Returns the number of characters that count bytes take, with the final '='. */
+/* Returns the number of characters that encode count bytes, with padding. */
 static inline size_t ffd_base64_length(size_t count)
 {
     return count / 3 * 4 + (count % 3 ? 4 : 0);

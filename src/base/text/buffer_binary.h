@@ -1,11 +1,11 @@
-/* buffer_binary.h - numbers as bytes of a growing buffer, the lowest byte first. */
+/* buffer_binary.h - appends little-endian binary numbers to a growing buffer. */
 #ifndef FFD_BASE_TEXT_BUFFER_BINARY_H
 #define FFD_BASE_TEXT_BUFFER_BINARY_H
 
 #include "base/little_endian.h"
 #include "base/text/buffer.h"
 
-/* Appends a number of 32 bits. */
+/* Appends a 32-bit number. */
 static inline void ffd_buffer_u32(byte_buffer *buffer, uint32_t value)
 {
     unsigned char bytes[4];

@@ -42,32 +42,36 @@ const uint64_t ffd_powers_of_five[POWERS_OF_FIVE] = {
     UINT64_C(1490116119384765625),
 };
 
-/* What shortest_wide is made for. Of a float's mantissa. */
+/* LEAST_WIDE_EXPONENT: the least binary exponent that shortest_wide can convert. FLOAT_BITS: stored bits of a
+   float's mantissa. */
 #define LEAST_WIDE_EXPONENT (-172)
 #define FLOAT_BITS 23
 
-/* 10^point, which lifts the interval of a number with this exponent to a width of 1 to 10. */
+/* Returns the power of ten, 10^point, that scales the rounding interval of a double with this binary exponent
+   to a width of 1 to 10. */
 static int point_of(int exponent)
 {
     return (-exponent * 315653 + (1 << 20) - 1) >> 20; /* ceil(-exponent log10(2)) */
 }
 
-/* mantissa 2^exponent 10^point, as the whole number of 16 or 17 digits that has the fewest digits other than
-   final zeros of those between the neighbours' halfway points, and of these is the nearest.
+/* Returns mantissa * 2^exponent * 10^point rounded to an integer of 16 or 17 digits: of the integers in the
+   rounding interval (between the midpoints to the neighbouring doubles) the one with the most trailing zeros,
+   and of these the nearest.
 
-   The interval is 1 to 10 wide: it holds a whole number, and one multiple of 10 at most, which is shorter
-   than all others; else the nearest whole number has as many digits as any (Giulietti, The Schubfach way to
-   render doubles, 2020, 8). All of it is in whole numbers, in units of 2^-shift: nothing is rounded. (Of a
-   power of two the halfway point below is nearer.) Which way it goes cannot be predicted: no branches. */
+   The interval is 1 to 10 wide, so it contains an integer, and at most one multiple of 10. That multiple is
+   the shortest; without one, all integers in the interval are equally short, and the nearest is best
+   (Giulietti, The Schubfach way to render doubles, 2020, section 8). The arithmetic is in integers, in units
+   of 2^-shift, and exact. Powers of two are not handled here, because their lower midpoint is nearer. There
+   are no branches, because they would be unpredictable. */
 static ALWAYS_INLINE uint64_t shortest(uint64_t mantissa, int exponent, int point)
 {
-    const int shift = 2 - exponent - point; /* 2 to 60: ten units fit in 64 bits */
+    const int shift = 2 - exponent - point; /* 2 to 60, so that 10 * 2^shift fits in 64 bits */
     const uint64_t five = ffd_powers_of_five[point];
     const uint128 scaled = (uint128)(4 * mantissa) * five;
     const uint64_t low = (uint64_t)scaled, unit = (uint64_t)1 << shift;
     const uint64_t whole = (uint64_t)(scaled >> 64) << (64 - shift) | low >> shift;
     const uint64_t part = low & (unit - 1);
-    const uint64_t reach = 2 * five - (mantissa & 1); /* ties go to the even mantissa */
+    const uint64_t reach = 2 * five - (mantissa & 1); /* a midpoint rounds to the even mantissa */
     const uint64_t last_digit = whole % 10, above_ten = (last_digit << shift) + part;
     const uint64_t down = above_ten <= reach, up = 10 * unit - above_ten <= reach;
     const uint64_t nearest = whole + (part + (whole & 1) > unit / 2);
@@ -75,16 +79,16 @@ static ALWAYS_INLINE uint64_t shortest(uint64_t mantissa, int exponent, int poin
     return nearest + ((tens - nearest) & (0 - (down | up)));
 }
 
-/* The same for numbers that need longer powers of five. */
+/* The same for numbers that need powers of five beyond 64 bits. */
 static uint64_t shortest_wide(uint64_t mantissa, int exponent, int point)
 {
-    const int shift = 2 - exponent - point; /* 122 at most: ten units fit in 128 bits */
+    const int shift = 2 - exponent - point; /* at most 122, so that 10 * 2^shift fits in 128 bits */
     const int more = point > MOST_POWER_OF_FIVE ? point - MOST_POWER_OF_FIVE : 0;
     const uint128 five = (uint128)ffd_powers_of_five[point - more] * ffd_powers_of_five[more];
     const uint128 low = (uint128)(4 * mantissa) * (uint64_t)five;
     const uint128 high = (uint128)(4 * mantissa) * (uint64_t)(five >> 64) + (low >> 64);
     const uint128 unit = (uint128)1 << shift;
-    /* The product is high, and the lower half of low. */
+    /* The product is high * 2^64 plus the lower half of low. */
     const uint128 lower = high << 64 | (uint64_t)low;
     const uint64_t whole =
         (uint64_t)(shift < 64 ? high << (64 - shift) | (uint64_t)low >> shift : high >> (shift - 64));
@@ -101,8 +105,8 @@ static uint64_t shortest_wide(uint64_t mantissa, int exponent, int point)
 #define DIGITS 17
 #define EIGHT UINT32_C(100000000)
 
-/* Up to 24 characters, the first lowest. Registers: what was just written as bytes is slow to read as words.
- */
+/* Up to 24 characters in registers, the first in the lowest byte. In memory, a word load of bytes that were
+   just stored would stall (no store forwarding). */
 typedef struct characters {
     uint64_t first, middle, last;
 } characters;
@@ -114,7 +118,7 @@ static void put(characters from, char *to)
     store_u64((unsigned char *)to + 16, from.last);
 }
 
-/* The digits of a number below 10^8, one a byte. */
+/* Returns the 8 digits of a number below 10^8, one in each byte. */
 static uint64_t eight_digits(uint32_t value)
 {
     const uint32_t high = value / 10000;
@@ -125,8 +129,8 @@ static uint64_t eight_digits(uint32_t value)
     return tens | (pairs - 10 * tens) << 8;
 }
 
-/* The shortest digits of a number, 0 to 9, one a byte, the foremost lowest: one (0 where there are 16), eight
-   and eight. */
+/* The 17 shortest digits of a number, values 0 to 9: the first one (0 if there are 16), then two groups of
+   eight, one in each byte, the most significant in the lowest byte. */
 typedef struct number_digits {
     uint64_t first, middle, low;
 } number_digits;
@@ -138,7 +142,7 @@ static ALWAYS_INLINE number_digits digits_of(uint64_t number)
                            eight_digits((uint32_t)(number - (uint64_t)upper * EIGHT))};
 }
 
-/* How many zeros they end with. */
+/* Returns the number of trailing zeros. */
 static int final_zeros(number_digits digits)
 {
     return digits.low      ? __builtin_clzll(digits.low) / 8
@@ -149,13 +153,13 @@ static int final_zeros(number_digits digits)
 static characters characters_of(number_digits digits)
 {
     const uint64_t text = UINT64_C(0x3030303030303030);
-    const int shift = digits.first ? 8 : 0; /* where there is one digit more */
+    const int shift = digits.first ? 8 : 0; /* if there are 17 digits */
     return (characters){(digits.middle << shift | digits.first) + text,
                         (digits.low << shift | digits.middle >> 1 >> (63 - shift)) + text,
                         (digits.low >> 1 >> (63 - shift)) + text};
 }
 
-/* With a point after the first 1 to 7. */
+/* Inserts a decimal point after the first 1 to 7 digits. */
 static characters with_point(characters digits, int before_point)
 {
     const int at = 8 * before_point;
@@ -173,7 +177,7 @@ static char *put_fixed(char *to, characters digits, int count, int before_point)
     }
     put(digits, to);
     if (before_point >= count)
-        return to + before_point; /* the zeros are there */
+        return to + before_point; /* the trailing zeros are part of the digits */
     memmove(to + before_point + 1, to + before_point, (size_t)(count - before_point));
     to[before_point] = '.';
     return to + count + 1;
@@ -191,7 +195,7 @@ static char *put_scientific(char *to, characters digits, int count, int exponent
     return to;
 }
 
-/* In the shorter of both forms. */
+/* Writes the number in positional or scientific form, whichever is shorter. */
 static ALWAYS_INLINE char *put_number(char *to, characters digits, int count, int before_point)
 {
     if (before_point > 0 && before_point < 8 && before_point < count) {
@@ -215,10 +219,10 @@ static ALWAYS_INLINE size_t put_digits(double value, number_digits digits, int p
                     text);
 }
 
-#define LEAST_OF_DIGITS UINT64_C(1000000000000000) /* of DIGITS - 1 */
+#define LEAST_OF_DIGITS UINT64_C(1000000000000000) /* the least number with DIGITS - 1 digits */
 
-/* 2^exponent with all of its digits, as a whole number by 10^-point. No other number of as few digits as the
-   type surely keeps is so near. */
+/* Returns 2^exponent with all its decimal digits, as an integer times 10^-point. For these exponents it has
+   no more digits than the type always preserves, so no shorter text reads back as the same number. */
 static uint64_t power_of_two(int exponent, int *point)
 {
     uint64_t number = exponent < 0 ? ffd_powers_of_five[-exponent] : (uint64_t)1 << exponent;
@@ -246,7 +250,7 @@ size_t ffd_decimal_format(double value, char text[FFD_NUMBER_CAPACITY])
     return put_digits(value, digits_of(number), point, text);
 }
 
-/* 7 to 9 digits as many as a double has. */
+/* Extends 7 to 9 digits to the number of digits of a double. */
 static uint64_t widen(uint64_t number, int *point)
 {
     const bool is_short = number < EIGHT;
@@ -273,10 +277,10 @@ size_t ffd_decimal_format_float(float value, char text[FFD_NUMBER_CAPACITY])
     return put_digits((double)value, digits_of(number), point, text);
 }
 
-/* Numbers of a run that are that far from each other are near. */
+/* Numbers of a run that are at most this many elements apart count as near. */
 #define NEAR 8
 
-/* NULL where formatting one number after the other is as fast. */
+/* Returns NULL if formatting the numbers one by one is as fast. */
 static decimal_kernel *find_kernel(void)
 {
 #ifdef FFD_X86
@@ -286,8 +290,9 @@ static decimal_kernel *find_kernel(void)
     return NULL;
 }
 
-/* Whether the run has the text of a number now. It makes texts ahead only if the numbers before were near: in
-   an array that is read in another order it would make many that nobody reads. */
+/* Makes the text of a number available in the run, and returns whether it is. Formats ahead only if the
+   previous request was near: for an array that is read in another order, most of those texts would never be
+   used. */
 static bool reach(decimal_run *run, const double *value)
 {
     const double *const before = run->before;

@@ -1,16 +1,16 @@
-/* decimal_kernel.c - compiled for AVX-512, under the name FFD_DECIMAL_KERNEL. Digits are found as decimal.c
-   finds them, step by step; the text is put together in three words a number. */
+/* decimal_kernel.c - compiled for AVX-512 only, under the name FFD_DECIMAL_KERNEL. The algorithm is that of
+   decimal.c, step by step; the text of each number is assembled in three 64-bit words. */
 #include "base/text/decimal_kernel.h"
 #include "base/vector/lanes.h"
 #include <immintrin.h>
 
 typedef uint64_t words __attribute__((vector_size(64)));
-typedef uint32_t halves __attribute__((vector_size(64))); /* two in each word */
+typedef uint32_t halves __attribute__((vector_size(64))); /* two in each 64-bit word */
 
 #define EIGHT UINT64_C(100000000)
 #define ONES UINT64_C(0x0101010101010101)
 
-/* 2^52 as a double, whose last bits then are a whole number. */
+/* The bits of 2^52 as a double: its lowest bits then hold an integer. */
 #define WHOLE UINT64_C(0x4330000000000000)
 
 static ALWAYS_INLINE words words_of(uint64_t value)
@@ -18,7 +18,7 @@ static ALWAYS_INLINE words words_of(uint64_t value)
     return value - (words){0};
 }
 
-/* Of numbers below 2^52. */
+/* Converts integers below 2^52. */
 static ALWAYS_INLINE lanes to_lanes(words whole)
 {
     return (lanes)(whole | WHOLE) - 0x1p52;
@@ -29,13 +29,13 @@ static ALWAYS_INLINE words to_words(lanes value)
     return (words)(value + 0x1p52) & (((uint64_t)1 << MANTISSA_BITS) - 1);
 }
 
-/* The product of the lower halves; one of whole words would be three times as slow. */
+/* Multiplies the lower halves; a multiplication of whole words takes three times as long. */
 static ALWAYS_INLINE words times(words a, words b)
 {
     return (words)_mm512_mul_epu32((__m512i)a, (__m512i)b);
 }
 
-/* a b, of which the lower and upper 64 bits. */
+/* The lower and upper 64 bits of a * b. */
 static ALWAYS_INLINE void multiply(words a, words b, words *low, words *high)
 {
     const words half = words_of(UINT32_MAX), a1 = a >> 32, b1 = b >> 32;
@@ -49,7 +49,7 @@ static ALWAYS_INLINE words choose(words which, words yes, words no)
     return (which & yes) | (~which & no);
 }
 
-/* The digits of numbers below 10^8, one a byte, the foremost lowest. */
+/* The 8 digits of numbers below 10^8, one in each byte, the most significant in the lowest byte. */
 static ALWAYS_INLINE words eight_digits(words value)
 {
     const words high = times(value, words_of(109951163)) >> 40; /* / 10000 */
@@ -59,7 +59,7 @@ static ALWAYS_INLINE words eight_digits(words value)
     return (words)(tens | (pairs - 10 * tens) << 8);
 }
 
-/* All powers are in four registers. */
+/* Looks up powers of five, which fit in four registers. */
 static ALWAYS_INLINE words five_to(words power)
 {
     __m512i table[4];
@@ -70,22 +70,23 @@ static ALWAYS_INLINE words five_to(words power)
     return choose((words)(power < 16), low, high);
 }
 
-/* The shortest digits of numbers, in three parts of 1, 8 and 8; those of numbers of 16 digits begin with 0.
- */
+/* The 17 shortest digits of numbers in three groups of 1, 8 and 8; the first is 0 for numbers with 16
+   digits. */
 typedef struct digits {
-    words first, middle, low; /* one a byte, the foremost lowest */
-    words point;              /* 10^point lifted the number to 16 or 17 digits */
-    words fits;               /* all bits where the number has been one of those that this is for */
+    words first, middle, low; /* one digit in each byte, the most significant in the lowest */
+    words point;              /* the number was scaled by 10^point to 16 or 17 digits */
+    words fits;               /* all bits set for numbers that this kernel handles */
 } digits;
 
-/* decimal.c's shortest. */
+/* As `shortest` in decimal.c. */
 static ALWAYS_INLINE digits find(words bits)
 {
     const uint64_t hidden = (uint64_t)1 << MANTISSA_BITS;
     const words fraction = bits & (hidden - 1);
     const words above = (bits >> MANTISSA_BITS & 0x7ff) - (1075 + LEAST_EXPONENT);
     const words fits = (words)(fraction != 0) & (words)(above < -LEAST_EXPONENT);
-    const words less = -LEAST_EXPONENT - (above & fits); /* of others something that does no harm */
+    const words less = -LEAST_EXPONENT - (above & fits); /* harmless values for numbers that are not
+                                                            handled */
     const words point = (times(less, words_of(315653)) + ((1 << 20) - 1)) >> 20, shift = 2 + less - point;
     const words mantissa = fraction | hidden, five = five_to(point);
     words scaled, high;
@@ -93,7 +94,7 @@ static ALWAYS_INLINE digits find(words bits)
     const words unit = words_of(1) << shift, part = scaled & (unit - 1);
     const words whole = high << (64 - shift) | scaled >> shift;
     const words reach = 2 * five - (mantissa & 1);
-    /* whole = 10^8 upper + lower. 10^8 = 2^8 390625, and rounding is off by one at most. */
+    /* whole = 10^8 * upper + lower. 10^8 = 2^8 * 390625, so this is off by at most one after rounding. */
     words upper = to_words(to_lanes(whole >> 8) * (1 / 390625.0));
     words lower = whole - times(upper, words_of(EIGHT));
     const words over = (words)((mask)lower < 0);
@@ -112,15 +113,16 @@ static ALWAYS_INLINE digits find(words bits)
                     fits};
 }
 
-/* Returns how many of eight digits there are up to the last one that is not 0; below 0 if all are 0. A
-   double's exponent shows it: it cannot be rounded into the next byte. */
+/* Returns the number of digits up to the last one that is not 0, of eight; negative if all are 0. It is taken
+   from the exponent of the word converted to double: rounding cannot carry into the next byte. */
 static ALWAYS_INLINE mask last_of(words eight)
 {
     return (((mask) __builtin_convertvector(eight, lanes) >> MANTISSA_BITS) - 1023 + 8) >> 3;
 }
 
-/* The digits with zeros in front of them where the number is below 1, a point among them and a sign in front:
-   those after the point are moved to where they belong, then those before it back by one. */
+/* Assembles the texts: the sign, leading zeros if the number is below 1, the digits and the decimal point.
+   The digits after the point are moved to their place first, then the digits before the point are moved back
+   by one. */
 static ALWAYS_INLINE void write_numbers(const digits *d, words is_negative, decimal_batch *batch, size_t at)
 {
     const words has_first = (words)(d->first != 0) & 1, sign = is_negative & 1;
@@ -129,7 +131,7 @@ static ALWAYS_INLINE void write_numbers(const digits *d, words is_negative, deci
                                     (words)((mask)(d->middle != 0) & last_of(d->middle))) +
                        (mask)has_first;
     const words below_one = (words)(before <= 0);
-    const words zeros = below_one & (words)(1 - before); /* with that before the point */
+    const words zeros = below_one & (words)(1 - before); /* including the zero before the point */
     const words point = choose(below_one, words_of(1), (words)before) + sign;
     const mask fixed = (mask)choose((words)(count + (mask)zeros > (mask)(point - sign)),
                                     (words)(count + (mask)zeros + 1), (words)before);

@@ -1,31 +1,32 @@
-/* decimal_kernel.h - the texts of many numbers at once (inside decimal). */
+/* decimal_kernel.h - formats many numbers at once; used by decimal.c only. */
 #ifndef FFD_BASE_TEXT_DECIMAL_KERNEL_H
 #define FFD_BASE_TEXT_DECIMAL_KERNEL_H
 
 #include <stddef.h>
 #include <stdint.h>
 
-/* Of the mantissa as a whole number, of numbers that have digits here. */
+/* LEAST_EXPONENT: the least binary exponent, of the mantissa as an integer, that the kernel handles. */
 #define LEAST_EXPONENT (-84)
 #define MANTISSA_BITS 52
 
-/* As many as LEAST_EXPONENT asks for, and zeros up to the size of four registers. */
+/* The powers that LEAST_EXPONENT needs, padded with zeros to four registers. */
 #define POWERS_OF_FIVE 32
 #define MOST_POWER_OF_FIVE 26
 extern const uint64_t ffd_powers_of_five[POWERS_OF_FIVE];
 
-/* Numbers that are made at once. */
+/* Number of values in a batch. */
 #define DECIMAL_BATCH 24
 
-/* The shortest texts of numbers, as ffd_number_format has them: three times 8 characters of each, the first
-   lowest, and how many of them it has; 0 where it is to be made by itself: none of those that
-   ffd_decimal_format is for, or one that is written with an exponent or has more than seven characters before
-   the point, the sign among them. */
+/* The shortest texts of numbers, as ffd_number_format writes them: three groups of 8 characters for each, the
+   first in the lowest byte, and the length. A length of 0 means that the caller must format the number by
+   itself: ffd_decimal_format does not handle it, or it is written with an exponent, or it has more than seven
+   characters, including the sign, before the point. */
 typedef struct decimal_batch {
     uint64_t words[3][DECIMAL_BATCH], size[DECIMAL_BATCH];
 } decimal_batch;
 
-/* The kernel of the one instruction set (AVX-512) that is much faster by it than number by number. */
+/* Exists for AVX-512 only: with other instruction sets it would not be much faster than one number at a
+   time. */
 typedef void decimal_kernel(const double values[DECIMAL_BATCH], decimal_batch *batch);
 
 #ifdef FFD_X86

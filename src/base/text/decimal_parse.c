@@ -1,9 +1,9 @@
-/* decimal_parse.c - reads the decimal numbers that one exact division gives. */
+/* decimal_parse.c - reads the decimal numbers for which a single division is correctly rounded. */
 #include "base/text/decimal.h"
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Digits of a number that is read: more could be more than 2^53. */
+/* The most digits that are read: with more, a 64-bit number could wrap round. */
 #define MOST_DIGITS (POWERS_OF_TEN - 1)
 
 static unsigned digit_of(char c)
@@ -41,7 +41,7 @@ const char *ffd_decimal_parse(const char *first, const char *last, double *value
         behind = at - point - 1;
         count += behind;
     }
-    /* Numbers of more digits may have wrapped round. */
+    /* With more digits the number may have wrapped round. */
     if (count == 0 || count > MOST_DIGITS || number > (uint64_t)1 << 53 ||
         (at < last && (*at == 'e' || *at == 'E')))
         return NULL;

@@ -8,35 +8,37 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The digits of a positive number: it is them, as a whole number, by 10^exponent. */
+/* The decimal digits of a positive number, as an integer to be multiplied by 10^exponent. */
 typedef struct shortest_digits {
     char text[DBL_DECIMAL_DIG + 1];
     int count, exponent;
 } shortest_digits;
 
-/* Whether the nearest number of the type to the digits is the value. */
+/* Returns whether the digits read back as the value. */
 static bool reads_back(const shortest_digits *digits, double value, bool is_float)
 {
-    char whole[DBL_DECIMAL_DIG + 16]; /* without a point: the C library reads it so in every locale */
+    char whole[DBL_DECIMAL_DIG + 16]; /* without a decimal point, so that the C library reads it in every
+                                         locale */
     snprintf(whole, sizeof whole, "%se%d", digits->text, digits->exponent);
     const double back = is_float ? (double)strtof(whole, NULL) : strtod(whole, NULL);
     return !(back < value) && !(back > value);
 }
 
-/* The nearest number of so many digits. */
+/* Rounds to count digits. */
 static void round_to_digits(double value, int count, shortest_digits *digits)
 {
     char text[DBL_DECIMAL_DIG + 16];
     snprintf(text, sizeof text, "%.*e", count - 1, value);
     const char *const exponent = strchr(text, 'e');
     digits->text[0] = text[0];
-    memcpy(digits->text + 1, exponent - (count - 1), (size_t)(count - 1)); /* behind the locale's point */
+    memcpy(digits->text + 1, exponent - (count - 1), (size_t)(count - 1)); /* skips the locale's decimal
+                                                                              point */
     digits->text[count] = 0;
     digits->count = count;
     digits->exponent = atoi(exponent + 1) - (count - 1);
 }
 
-/* The next number of as many digits. False where it has more. */
+/* Increments the last digit. Returns false if that needs another digit. */
 static bool step_up(shortest_digits *digits)
 {
     int i = digits->count - 1;
@@ -47,16 +49,16 @@ static bool step_up(shortest_digits *digits)
     return i >= 0;
 }
 
-/* The digits of a positive number by trial: the C library rounds right both ways. Below a power of two the
-   next number is nearer than above: the nearest of so many digits may miss it where the one above does not.
- */
+/* Finds the shortest digits of a positive number by trial, with the C library's correctly rounded
+   conversions. The neighbour below a power of two is nearer than the one above, so the nearest number of n
+   digits may fail to read back while the next larger one does. */
 static void find_shortest(double value, bool is_float, shortest_digits *digits)
 {
     int exponent;
     const bool is_power_of_two = !(frexp(value, &exponent) > 0.5);
     const int most = is_float ? FLT_DECIMAL_DIG : DBL_DECIMAL_DIG;
     const bool is_normal = value >= (is_float ? FLT_MIN : DBL_MIN);
-    /* So many digits are kept by all numbers but the least. */
+    /* All normal numbers preserve at least this many digits; subnormal numbers may preserve fewer. */
     for (int count = !is_normal ? 1 : is_float ? FLT_DIG : DBL_DIG;; count++) {
         round_to_digits(value, count, digits);
         if (count == most || reads_back(digits, value, is_float))
@@ -79,7 +81,7 @@ static size_t write_scientific(const shortest_digits *digits, char *text)
 static size_t write_fixed(double value, const shortest_digits *digits, char *text)
 {
     const int before = digits->count + digits->exponent;
-    if (digits->exponent >= 0) /* with all digits of the number, not with zeros */
+    if (digits->exponent >= 0) /* use all digits of the number instead of zeros */
         return (size_t)snprintf(text, FFD_NUMBER_CAPACITY, "%.0f", value);
     if (before > 0)
         return (size_t)snprintf(text, FFD_NUMBER_CAPACITY, "%.*s.%s", before, digits->text,
@@ -87,7 +89,7 @@ static size_t write_fixed(double value, const shortest_digits *digits, char *tex
     return (size_t)snprintf(text, FFD_NUMBER_CAPACITY, "0.%.*s%s", -before, "00000000", digits->text);
 }
 
-/* The number in the shorter of both forms. */
+/* Writes the number in positional or scientific form, whichever is shorter. */
 static size_t format_positive(double value, bool is_float, char *text)
 {
     shortest_digits digits;
@@ -100,7 +102,7 @@ static size_t format_positive(double value, bool is_float, char *text)
         return 1;
     }
     find_shortest(value, is_float, &digits);
-    /* Without a point behind the first digit the scientific form is one shorter. */
+    /* With a single digit the scientific form has no point. */
     const int single = digits.count == 1;
     return digits.exponent >= single - digits.count - 3 && digits.exponent <= 5 - single
                ? write_fixed(value, &digits, text)

@@ -10,22 +10,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Digits that a 64-bit number holds, whatever they are. */
+/* The number of arbitrary digits that fit in 64 bits. */
 #define WHOLE_DIGITS 19
 
-/* Halfway between two doubles lies a number of 767 digits at most: of what follows so many it only counts
-   whether it is 0. */
+/* A midpoint between two doubles has at most 767 digits. Of the digits after MOST_DIGITS, it only matters
+   whether all are 0. */
 #define MOST_DIGITS 800
 
-/* No number of MOST_DIGITS is so large or small that it would not be too large or too small with this. */
+/* With this exponent every number of up to MOST_DIGITS digits overflows or underflows. */
 #define MOST_EXPONENT 100000
 
 /* The text of a number without its sign. */
 typedef struct decimal_text {
-    const char *first, *end; /* of its digits and point; end: NULL where there is no number */
+    const char *first, *end; /* of the digits and the point; end is NULL if there is no number */
     uint64_t number;         /* the first digits that are not leading zeros, WHOLE_DIGITS at most */
-    long long exponent;      /* of ten, that this is to be multiplied with */
-    bool is_cut;             /* digits that are not 0 follow */
+    long long exponent;      /* decimal exponent of number */
+    bool is_cut;             /* digits other than 0 follow */
 } decimal_text;
 
 static bool is_digit(const char *at, const char *last)
@@ -33,7 +33,7 @@ static bool is_digit(const char *at, const char *last)
     return at < last && *at >= '0' && *at <= '9';
 }
 
-/* Takes the exponent at the 'e', if there is one. Returns its end; `at` where there is none. */
+/* Reads the exponent that begins with 'e' at `at`. Returns its end, or `at` if there is none. */
 static const char *take_exponent(const char *at, const char *last, long long *exponent)
 {
     const char *digit = at + 1;
@@ -52,7 +52,7 @@ static const char *take_exponent(const char *at, const char *last, long long *ex
     return digit;
 }
 
-/* Returns the end of the digits. A number that is too long wraps round. */
+/* Returns the end of the digits. The number wraps round if it is too long. */
 static const char *take_digits(const char *at, const char *last, uint64_t *number)
 {
     uint64_t n = *number;
@@ -62,7 +62,7 @@ static const char *take_digits(const char *at, const char *last, uint64_t *numbe
     return at;
 }
 
-/* Reads again what may be too long: without leading zeros, and the first digits only. */
+/* Reads a number again that may have wrapped round: skips leading zeros, and takes the first digits only. */
 static void read_first_digits(decimal_text *text)
 {
     int count = 0;
@@ -105,7 +105,7 @@ static const char *read_decimal(const char *first, const char *last, decimal_tex
     return take_exponent(at, last, &text->exponent);
 }
 
-/* The end of a word at `at`, in capitals or not; NULL: it is not there. */
+/* Returns the end of a word at `at`, in upper or lower case; NULL if it is not there. */
 static const char *take_word(const char *at, const char *last, const char *word)
 {
     for (; *word; word++, at++)
@@ -114,7 +114,7 @@ static const char *take_word(const char *at, const char *last, const char *word)
     return at;
 }
 
-/* inf, infinity, nan, nan(letters, digits, _). */
+/* Reads inf, infinity, nan, nan(letters, digits, _). */
 static const char *take_special(const char *first, const char *last, double *value)
 {
     const char *const infinity = take_word(first, last, "infinity");
@@ -143,7 +143,7 @@ static int bits_of(uint128 number)
     return high ? 128 - __builtin_clzll(high) : 64 - __builtin_clzll((uint64_t)number);
 }
 
-/* number 2^exponent, 1e-30 to 1e50, in `bits` bits: the nearest, of two the even one. */
+/* Rounds number * 2^exponent, which is between 1e-30 and 1e50, to `bits` bits: to nearest, ties to even. */
 static double round_to(uint128 number, int exponent, int bits)
 {
     const int drop = bits_of(number) - bits;
@@ -153,14 +153,15 @@ static double round_to(uint128 number, int exponent, int bits)
         number += low > half || (low == half && (number & 1));
         exponent += drop;
     }
-    /* Neither is near the limits of a double. */
+    /* Neither factor is near the limits of a double. */
     const uint64_t power_bits = (uint64_t)(exponent + DBL_MAX_EXP - 1) << (DBL_MANT_DIG - 1);
     double power;
     memcpy(&power, &power_bits, sizeof power);
     return (double)(uint64_t)number * power;
 }
 
-/* number 10^exponent, not 0, in `bits` bits, by whole numbers only. False where they do not suffice. */
+/* Rounds number * 10^exponent, not 0, to `bits` bits with integer arithmetic only. Returns false if that is
+   not enough. */
 static bool round_whole(uint64_t number, long long exponent, int bits, double *value)
 {
     if (exponent < -MOST_POWER_OF_FIVE || exponent > MOST_POWER_OF_FIVE)
@@ -169,8 +170,8 @@ static bool round_whole(uint64_t number, long long exponent, int bits, double *v
         *value = round_to((uint128)number * ffd_powers_of_five[exponent], (int)exponent, bits);
         return true;
     }
-    /* The quotient has 62 to 64 bits, more than are kept: a processor divides to so many at once. Its last
-       bit says whether something is left. */
+    /* The quotient has 62 to 64 bits, more than are kept, which is what one division instruction gives. Its
+       last bit is set if there is a remainder (a sticky bit). */
     const uint64_t power = ffd_powers_of_five[-exponent];
     const int shift = 63 + bits_of(power) - bits_of(number);
     const uint128 scaled = (uint128)number << shift, quotient = scaled / power;
@@ -191,8 +192,8 @@ static bool round_whole(uint64_t number, long long exponent, int bits, double *v
 
 #endif
 
-/* A whole number of MOST_DIGITS and one more and a power of ten: without a point, the C library reads it so
-   in every locale. */
+/* Writes an integer of at most MOST_DIGITS + 1 digits and a decimal exponent: without a decimal point, the C
+   library reads it in every locale. */
 static void write_whole(const decimal_text *text, char whole[MOST_DIGITS + 32])
 {
     size_t count = 0;
@@ -216,7 +217,8 @@ static void write_whole(const decimal_text *text, char whole[MOST_DIGITS + 32])
     snprintf(whole + count, 32, "e%lld", exponent);
 }
 
-/* Any number, by the C library. Apart, so that the others do without its room on the stack. */
+/* Rounds any number, with the C library. Not inlined, so that the other paths do not need its space on the
+   stack. */
 __attribute__((noinline)) static double round_long(const decimal_text *text, bool is_float)
 {
     char whole[MOST_DIGITS + 32];
@@ -224,8 +226,8 @@ __attribute__((noinline)) static double round_long(const decimal_text *text, boo
     return is_float ? (double)strtof(whole, NULL) : strtod(whole, NULL);
 }
 
-/* A number by its first digits: it lies from them to the next number of as many, which must come to the same.
- */
+/* Rounds a number by its first digits. It lies between the number of these digits and the next number with as
+   many digits; both must round to the same value. */
 static bool round_decimal(const decimal_text *text, int bits, double *value)
 {
     double next;
@@ -234,7 +236,7 @@ static bool round_decimal(const decimal_text *text, int bits, double *value)
     return !text->is_cut || (round_whole(text->number + 1, text->exponent, bits, &next) && !(next > *value));
 }
 
-/* Reads the number that begins at first, after its sign, to a double or float. */
+/* Reads the number at first, after its sign, as a double or float. */
 static const char *parse(const char *first, const char *last, bool is_float, double *value)
 {
     decimal_text text;
@@ -247,7 +249,7 @@ static const char *parse(const char *first, const char *last, bool is_float, dou
     return end;
 }
 
-/* The sign, then the number. */
+/* Reads the sign, then the number. */
 static const char *parse_signed(const char *first, const char *last, bool is_float, double *value)
 {
     const bool negative = first < last && *first == '-';
@@ -270,8 +272,8 @@ const char *ffd_number_parse(const char *first, const char *last, double *value)
     return end;
 }
 
-/* Whether a double lies halfway between two floats. If it does not, a number that it is the nearest double of
-   is on the same side. */
+/* Returns whether a double is a midpoint between two floats. If it is not, rounding a number to double first
+   cannot change which float is nearest. */
 static bool is_halfway(double value)
 {
     const uint64_t half = (uint64_t)1 << (DBL_MANT_DIG - FLT_MANT_DIG - 1);

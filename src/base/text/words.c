@@ -1,7 +1,8 @@
 #include "base/text/words.h"
+#include "base/one_line.h"
 #include <string.h>
 
-/* Longer words are compared by their first letters only: names are short. */
+/* Longer words are compared by their first LONGEST letters. */
 #define LONGEST 40
 
 static size_t least(size_t a, size_t b)
@@ -17,7 +18,7 @@ bool ffd_word_is_known(const char *word, const char *const *known, size_t count)
     return false;
 }
 
-/* Optimal string alignment distance. */
+/* The optimal string alignment distance. */
 size_t ffd_word_distance(const char *a, size_t a_length, const char *b)
 {
     const size_t m = least(a_length, LONGEST), n = least(strlen(b), LONGEST);
@@ -66,7 +67,7 @@ void ffd_name_shown(const char *name, char *shown, size_t capacity)
         while (length > 0 && ((unsigned char)name[length] & 0xc0) == 0x80)
             length--;
     }
-    for (size_t i = 0; i < length; i++)
-        shown[i] = (unsigned char)name[i] < 0x20 || name[i] == 0x7f ? '?' : name[i];
+    memcpy(shown, name, length);
     shown[length] = 0;
+    ffd_make_one_line(shown, length);
 }

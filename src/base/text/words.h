@@ -1,4 +1,4 @@
-/* words.h - words of messages: after a count, the known one nearest to what somebody wrote, names. */
+/* words.h - words in messages: plurals, the known word that is most similar to a misspelt one, names. */
 #ifndef FFD_BASE_TEXT_WORDS_H
 #define FFD_BASE_TEXT_WORDS_H
 
@@ -6,33 +6,34 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Whether word is one of known (count words). */
+/* Returns whether word is one of known (count words). */
 bool ffd_word_is_known(const char *word, const char *const *known, size_t count);
 
-/* The edit distance (insert, delete, replace, swap of neighbours) of two words, by their first letters where
-   they are long. a has a_length letters. */
+/* Returns the edit distance of two words (insertions, deletions, replacements, swaps of adjacent letters).
+   Long words are compared by their first letters only. a has a_length letters. */
 size_t ffd_word_distance(const char *a, size_t a_length, const char *b);
 
-/* The known word that is nearest to one that somebody wrote, by edit distance. Start with word and length set
-   and the rest 0; then offer the known words one by one. */
+/* Finds the known word that is most similar to a word of the user's, by edit distance. Set word and length,
+   and all other members to 0; then offer the known words one by one. */
 typedef struct nearest_word {
     const char *word;
     size_t length;
-    const char *best; /* lent; the first of equals; NULL before a word was offered */
+    const char *best; /* borrowed; the first one if there are several; NULL before a word is offered */
     size_t distance;
 } nearest_word;
 
-/* Offers a known word: it becomes the best one if it is nearer than those before. */
+/* Offers a known word; keeps it if it is more similar than those before. */
 void ffd_nearest_offer(nearest_word *nearest, const char *known);
 
-/* The entry of known (count words) that is nearest to word, the first of equals; NULL when count is 0. */
+/* Returns the entry of known (count words) that is most similar to word, the first one if there are several;
+   NULL if count is 0. */
 const char *ffd_nearest_word(const char *word, const char *const *known, size_t count);
 
-/* one where count is 1, else many: "1 vertex is", "0 vertices are". */
+/* Returns `one` if count is 1, else `many`: "1 vertex is", "0 vertices are". */
 const char *ffd_plural(uint64_t count, const char *one, const char *many);
 
-/* Copies a name for a message, which is one line: control characters become '?', and what does not fit in
-   capacity bytes, its end among them, is cut off where a character of UTF-8 ends. */
+/* Copies a name for a message of one line: control characters become '?', and the copy is truncated at a
+   UTF-8 character boundary to fit in capacity bytes with its final 0. */
 void ffd_name_shown(const char *name, char *shown, size_t capacity);
 
 #endif

@@ -1,4 +1,4 @@
-/* array.c - chooses the loops over arrays for an instruction set. */
+/* array.c - selects the array kernels of an instruction set. */
 #include "base/vector/array_kernel.h"
 
 const array_kernel *ffd_array_kernel(ffd_isa isa)

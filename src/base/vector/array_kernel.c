@@ -1,10 +1,10 @@
-/* array_kernel.c - compiled once for each instruction set: FFD_ARRAY_KERNEL is the name of its table. */
+/* array_kernel.c - compiled once for each instruction set; FFD_ARRAY_KERNEL is the name of its table. */
 #include "base/vector/array_kernel.h"
 #include "base/little_endian.h"
 #include "base/vector/vec.h"
 #include <string.h>
 
-/* Points at a time whose numbers fill whole registers of every instruction set. */
+/* Points that are processed at a time: their numbers fill whole registers of every instruction set. */
 #define GROUP ((size_t)8)
 #define NUMBERS (3 * GROUP)
 
@@ -38,10 +38,10 @@ static void add(const double *restrict terms, size_t count, double *restrict to)
     }
 }
 
-/* The totals of groups of points, number by number. */
+/* Running bounds over groups of points, separately for each number of a group. */
 typedef struct group_range {
     double min[NUMBERS], max[NUMBERS];
-    double zero[NUMBERS]; /* no longer 0 where a number was not finite */
+    double zero[NUMBERS]; /* NaN where a number was not finite, else 0 */
 } group_range;
 
 static void widen_group(const double *restrict numbers, group_range *restrict range)
@@ -65,7 +65,7 @@ static bool widen(const double *points, size_t count, double min[3], double max[
         range.min[k] = range.max[k] = points[k % 3];
     for (; first + GROUP <= count; first += GROUP)
         widen_group(points + 3 * first, &range);
-    for (size_t k = 0; k < NUMBERS; k++) /* the rest, and the last point again */
+    for (size_t k = 0; k < NUMBERS; k++) /* the remaining points, padded with the last one */
         last[k] = points[3 * (first + k / 3 < count ? first + k / 3 : count - 1) + k % 3];
     widen_group(last, &range);
     for (size_t k = 0; k < NUMBERS; k++)
@@ -78,10 +78,10 @@ static bool widen(const double *points, size_t count, double min[3], double max[
     return true;
 }
 
-/* What becomes of a number. */
+/* What can happen to a number: it gets another value; the value is NaN or too large. */
 enum { OTHER = 1, UNFIT = 2 };
 
-/* first: the number of the group's first point. */
+/* first: index of the first point of the group. */
 static void displace_group(const double *restrict vectors, double largest, size_t first,
                            double *restrict numbers, uint8_t *restrict changed, size_t *unfit)
 {

@@ -1,5 +1,5 @@
-/* array_kernel.h - loops over many numbers, compiled once for each instruction set: compilers turn them into
-   SIMD. Each number is treated by itself, so that all give the same bits. array.c chooses among them. */
+/* array_kernel.h - loops over arrays, compiled once for each instruction set and vectorised by the compiler.
+   Each number is processed independently, so all instruction sets give the same bits. array.c selects one. */
 #ifndef FFD_BASE_VECTOR_ARRAY_KERNEL_H
 #define FFD_BASE_VECTOR_ARRAY_KERNEL_H
 
@@ -9,21 +9,21 @@
 #include <stdint.h>
 
 typedef struct array_kernel {
-    /* Floats as files have them: little-endian, at any address. */
+    /* Converts little-endian floats with any alignment. */
     void (*read_floats)(const unsigned char *from, size_t count, double *to);
-    /* Whole numbers of 32 bits, stored alike. Returns the largest; 0 of none. */
+    /* The same for unsigned 32-bit integers. Returns the largest; 0 if count is 0. */
     uint32_t (*read_u32)(const unsigned char *from, size_t count, uint32_t *to);
-    /* To the nearest float. */
+    /* Rounds to the nearest float. */
     void (*round)(const double *from, size_t count, float *to);
-    /* to[i] += terms[i]; where that is 0 the bits stay. */
+    /* to[i] += terms[i]; to[i] keeps its bits if terms[i] is 0. */
     void (*add)(const double *terms, size_t count, double *to);
-    /* Widens the box by count points, 3 numbers each. Returns whether all of these are
-       finite; else the box stays. */
+    /* Extends the box by count points of 3 numbers. Returns true if all are finite; otherwise the box is
+       unchanged. */
     bool (*widen)(const double *points, size_t count, double min[3], double max[3]);
-    /* Adds a vector to each of count points, 3 numbers each; a coordinate to which 0 is added keeps its
-       bits. changed: count bytes, 1 where a point has another value than before, else 0. Returns the
-       number of the first point with a coordinate that changed and is now NaN or larger than `largest`;
-       count if there is none. */
+    /* Adds a vector to each of count points of 3 numbers; a coordinate to which 0 is added keeps its bits.
+       changed: count bytes, set to 1 for points whose value changes, else to 0. Returns the index of the
+       first point with a changed coordinate that is NaN or greater in magnitude than `largest`; count if
+       there is none. */
     size_t (*displace)(const double *vectors, size_t count, double largest, double *points, uint8_t *changed);
 } array_kernel;
 
@@ -32,7 +32,7 @@ extern const array_kernel ffd_array_kernel_scalar;
 extern const array_kernel ffd_array_kernel_sse2, ffd_array_kernel_avx2, ffd_array_kernel_avx512;
 #endif
 
-/* The loops of an instruction set; FFD_ISA_AUTO: of the best one that the processor has. */
+/* Returns the table of an instruction set; FFD_ISA_AUTO: of the best available one. */
 const array_kernel *ffd_array_kernel(ffd_isa isa);
 
 #endif

@@ -2,8 +2,8 @@
 #include "base/vector/vec.h"
 #include <float.h>
 
-/* Below this sine of the angle two directions count as parallel: what is left after the subtraction would be
-   mostly the rounding of the text they were written in. */
+/* If the sine of the angle between two directions is below this, they count as parallel: the difference would
+   consist mostly of rounding errors of the text that they were read from. */
 #define PARALLEL_SINE 1e-9
 
 bool ffd_direction_unit(double v[3])
@@ -15,7 +15,7 @@ bool ffd_direction_unit(double v[3])
         largest = fabs(v[c]) > largest ? fabs(v[c]) : largest;
     if (!(largest > 0))
         return false;
-    /* Squares of the components as they are could overflow or vanish. */
+    /* Scaled first, because squares of the components could overflow or underflow. */
     double scaled[3];
     for (int c = 0; c < 3; c++)
         scaled[c] = v[c] / largest;
@@ -29,7 +29,7 @@ bool ffd_direction_perpendicular(const double axis[3], double v[3])
 {
     if (!ffd_direction_unit(v))
         return false;
-    /* Once more removes what the first subtraction's rounding left. */
+    /* The second pass removes what the rounding of the first subtraction left. */
     for (int pass = 0; pass < 2; pass++) {
         const double along = vec_dot(axis, v);
         if (fabs(along) <= 4 * DBL_EPSILON)

@@ -1,15 +1,17 @@
-/* direction.h - unit vectors made from what people write. */
+/* direction.h - unit vectors from directions that users give. */
 #ifndef FFD_BASE_VECTOR_DIRECTION_H
 #define FFD_BASE_VECTOR_DIRECTION_H
 
 #include <stdbool.h>
 
-/* Scales v to unit length; a vector that has it (to rounding) keeps its bits. Returns false if v is 0. */
+/* Normalises v; a vector of unit length to rounding keeps its bits. Returns false if v is 0. */
 bool ffd_direction_unit(double v[3]);
-/* The part of v that is perpendicular to the unit vector axis, of unit length; a vector that is both already
-   keeps its bits. Returns false if v is (nearly) along axis, or 0. */
+/* Replaces v by its component perpendicular to the unit vector axis, normalised; a vector that is
+   perpendicular and of unit length already keeps its bits. Returns false if v is 0 or nearly parallel to
+   axis. */
 bool ffd_direction_perpendicular(const double axis[3], double v[3]);
-/* The coordinate axis that is least along axis (the first of equals), made perpendicular to it. */
+/* Sets zero to the coordinate axis with the least component along axis (the first one if equal), made
+   perpendicular to axis. */
 void ffd_direction_default_zero(const double axis[3], double zero[3]);
 
 #endif

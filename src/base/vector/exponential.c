@@ -23,7 +23,7 @@ double ffd_log(double x)
     int exponent = (int)(bits >> EXPONENT_AT) - EXPONENT_BIAS;
     double m, sum = 0;
     bits = (bits & (((uint64_t)1 << EXPONENT_AT) - 1)) | (uint64_t)EXPONENT_BIAS << EXPONENT_AT;
-    memcpy(&m, &bits, sizeof m); /* from 1 to 2 */
+    memcpy(&m, &bits, sizeof m); /* in [1, 2) */
     if (m > ROOT_2) {
         m *= 0.5;
         exponent++;

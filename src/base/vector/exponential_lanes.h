@@ -1,12 +1,12 @@
-/* exponential_lanes.h - e^x and the natural logarithm for kernels: operation by operation they are those of
-   exponential.c. */
+/* exponential_lanes.h - e^x and the natural logarithm for kernels, with the same operations in the same order
+   as exponential.c. */
 #ifndef FFD_BASE_VECTOR_EXPONENTIAL_LANES_H
 #define FFD_BASE_VECTOR_EXPONENTIAL_LANES_H
 
 #include "base/vector/exponential_terms.h"
 #include "base/vector/lanes.h"
 
-/* Added to a number below 2^51, it leaves its nearest whole number in the lowest bits. */
+/* Adding this to a number below 2^51 leaves the nearest integer in the lowest bits of the sum. */
 #define WHOLE_BITS 0x1.8p52
 
 static ALWAYS_INLINE lanes lanes_exp(lanes x)

@@ -1,18 +1,17 @@
-/* exponential_terms.h - the constants of e^x and of the logarithm, for one number and for lanes. Used by
-   exponential.c and exponential_lanes.h only. */
+/* exponential_terms.h - the constants of exponential.c and exponential_lanes.h. */
 #ifndef FFD_BASE_VECTOR_EXPONENTIAL_TERMS_H
 #define FFD_BASE_VECTOR_EXPONENTIAL_TERMS_H
 
-/* ln 2 in two parts: products of the first with exponents of doubles are exact. */
+/* ln 2 as a sum of two parts; products of LN2_HIGH with exponents of doubles are exact. */
 #define LN2_HIGH 6.93147180369123816490e-01
 #define LN2_LOW 1.90821492927058770002e-10
 #define LOG2_E 1.44269504088896338700
 
-/* Where a double has its exponent, and what is added to it. */
+/* The position and the bias of the exponent in a double. */
 #define EXPONENT_AT 52
 #define EXPONENT_BIAS 1023
 
-/* 1/i!: the first term of Taylor's series that is left out is below 4e-18 for |r| <= ln 2 / 2. */
+/* 1/i!. The first omitted term of the Taylor series is below 4e-18 for |r| <= ln 2 / 2. */
 #define EXP_TERMS 13
 static const double inverse_factorials[EXP_TERMS + 1] = {1.0,
                                                          1.0,
@@ -29,7 +28,7 @@ static const double inverse_factorials[EXP_TERMS + 1] = {1.0,
                                                          2.08767569878681e-09,
                                                          1.6059043836821613e-10};
 
-/* Numbers from half of it to itself are those whose logarithms are computed. */
+/* The logarithm is computed for mantissas in [sqrt(2)/2, sqrt(2)). */
 #define ROOT_2 1.41421356237309504880
 
 /* log m = 2 artanh z with z = (m - 1)/(m + 1), and |z| < 0.172 for m from sqrt(1/2) to sqrt(2): the

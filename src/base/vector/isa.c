@@ -6,12 +6,12 @@
 #endif
 
 #ifdef FFD_X86
-/* What the processor and the system have. The C library has asked for it already: to ask again, as the
-   compiler's own function does at the start of every run, takes long in virtual machines. */
+/* Features that the processor and the operating system support, as the C library has found them at program
+   start. The compiler's built-in would execute CPUID again, which is slow in virtual machines. */
 #ifdef CPU_FEATURE_ACTIVE
 #define HAS(feature, name) has(x86_cpu_##feature)
 
-/* As x86_cpu_active of the header, which shifts into the sign. */
+/* As x86_cpu_active in the C library's header, but without a shift into the sign bit. */
 static bool has(unsigned feature)
 {
     const struct cpuid_feature *const leaf = __x86_get_cpuid_feature_leaf(feature / 128);

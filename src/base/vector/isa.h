@@ -1,16 +1,16 @@
-/* isa.h - the instruction sets that kernels are compiled for, and which of them this processor has. */
+/* isa.h - selects among the instruction sets that kernels are compiled for. */
 #ifndef FFD_BASE_VECTOR_ISA_H
 #define FFD_BASE_VECTOR_ISA_H
 
 #include <ffd/isa.h>
 
-/* The best of this processor. Never FFD_ISA_AUTO. */
+/* Returns the widest instruction set that is available; never FFD_ISA_AUTO. */
 ffd_isa ffd_isa_best(void);
 
-/* Its name as options have it: "avx2". */
+/* Returns the name of an instruction set as options take it, such as "avx2". */
 const char *ffd_isa_name(ffd_isa isa);
 
-/* FFD_ISA_AUTO becomes the best available one; others are returned as they are. */
+/* Returns the best available instruction set for FFD_ISA_AUTO, and others unchanged. */
 static inline ffd_isa ffd_isa_resolve(ffd_isa isa)
 {
     return isa == FFD_ISA_AUTO ? ffd_isa_best() : isa;

@@ -1,5 +1,5 @@
-/* lanes.h - doubles side by side in a SIMD register, for kernels that are compiled once for each instruction
-   set: FFD_LANES of them, 2, 4 or 8. */
+/* lanes.h - a SIMD register of FFD_LANES doubles (2, 4 or 8), for kernels that are compiled once for each
+   instruction set. */
 #ifndef FFD_BASE_VECTOR_LANES_H
 #define FFD_BASE_VECTOR_LANES_H
 
@@ -10,7 +10,7 @@
 #include <string.h>
 
 typedef double lanes __attribute__((vector_size(8 * FFD_LANES)));
-typedef int64_t mask __attribute__((vector_size(8 * FFD_LANES))); /* -1: yes, 0: no */
+typedef int64_t mask __attribute__((vector_size(8 * FFD_LANES))); /* -1: true, 0: false */
 
 static ALWAYS_INLINE lanes lanes_choose(mask which, lanes yes, lanes no)
 {
@@ -35,7 +35,7 @@ static ALWAYS_INLINE lanes lanes_root(lanes a)
     return root;
 }
 
-/* The largest magnitude of the entries of a matrix. */
+/* Returns the largest magnitude of the entries of a matrix, in each lane. */
 static ALWAYS_INLINE lanes lanes_largest_entry(const lanes m[9])
 {
     lanes largest = lanes_all(0);
@@ -71,14 +71,14 @@ static ALWAYS_INLINE lanes lanes_dot(const lanes a[3], const lanes b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* out must not be v. */
+/* out = m v, in each lane. out must not be v. */
 static ALWAYS_INLINE void lanes_apply(const double m[9], const lanes v[3], lanes out[3])
 {
     for (int r = 0; r < 3; r++)
         out[r] = m[3 * r] * v[0] + m[3 * r + 1] * v[1] + m[3 * r + 2] * v[2];
 }
 
-/* The transpose of a square of numbers, in place. */
+/* Transposes a square matrix in place. */
 static ALWAYS_INLINE void lanes_transpose(lanes row[FFD_LANES])
 {
 #if FFD_LANES == 8
@@ -114,7 +114,7 @@ static ALWAYS_INLINE void lanes_transpose(lanes row[FFD_LANES])
 #endif
 }
 
-/* Gathers and scatters nine numbers of each of FFD_LANES points, a register for each number. */
+/* Loads and stores nine numbers for each of FFD_LANES points: v[i] holds number i of all points. */
 static ALWAYS_INLINE void lanes_load_nines(const double *const from[FFD_LANES], lanes v[9])
 {
     for (int first = 0; first < 8; first += FFD_LANES) {
@@ -142,7 +142,7 @@ static ALWAYS_INLINE void lanes_store_nines(const lanes v[9], double *const to[F
         to[l][8] = v[8][l];
 }
 
-/* Loads and stores consecutive vectors of three, a register for each coordinate. */
+/* Loads and stores FFD_LANES consecutive triples: v[i] holds coordinate i of all points. */
 static ALWAYS_INLINE void lanes_load_triples(const double *from, lanes v[3])
 {
     const lanes a = lanes_load(from), b = lanes_load(from + FFD_LANES), c = lanes_load(from + 2 * FFD_LANES);

@@ -3,10 +3,11 @@
 #include <math.h>
 #include <string.h>
 
-/* Newton's iteration squares the error in each step, after a few that bring the sizes together. */
+/* Newton's iteration converges quadratically after a few steps that bring the singular values together. */
 #define MOST_STEPS 60
 #define CONVERGED 1e-15
-/* Of the entries of a rotation: what the gradient of a lattice that does not turn may be off by. */
+/* Tolerance for the entries of a rotation: rounding errors in the gradient of a lattice that does not
+   rotate. */
 #define ROUNDING 1e-12
 
 static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -27,10 +28,10 @@ static double square_sum(const double m[9])
     return sum;
 }
 
-/* One step: x becomes (s x + x^-T / s) / 2, with the s that makes both terms equally large. Returns how far
-   the entries move; negative where there is no inverse. ffd_splat_orthogonalise does the same in the order of
-   the kernels of splats, and keeps mirrors. Its last bits nearly always differ: here it would change outputs.
- */
+/* One step: x = (s x + x^-T / s) / 2, with the scale s that gives both terms the same size. Returns the
+   largest change of an entry; negative if x is not invertible. ffd_splat_orthogonalise does the same in the
+   order of operations of the splat kernels, and keeps reflections; its last bits nearly always differ, so
+   using it here would change outputs. */
 static double step(double x[9])
 {
     double inverse[9], moved = 0;
@@ -82,11 +83,12 @@ double ffd_cube_root(double value)
     return copysign(ldexp(root, (exponent - rest) / 3), value);
 }
 
-/* Divided by its largest component, then by its length. That of splats (splat.c) has the operations of their
-   kernels, and that of gltf_pose.c those of three.js: last bits often differ, and outputs keep theirs. */
+/* Divides by the largest component, then by the length. splat.c has a version with the operations of the
+   splat kernels, and gltf_pose.c one with those of three.js. They often differ in the last bits, so they
+   cannot be merged without changing outputs. */
 void ffd_mat_quaternion(const double r[9], double q[4])
 {
-    /* Four times the square of each component; the largest one is divided by. */
+    /* Four times the square of each component; the divisor is the largest component. */
     const double squares[4] = {1 + r[0] - r[4] - r[8], 1 - r[0] + r[4] - r[8], 1 - r[0] - r[4] + r[8],
                                1 + r[0] + r[4] + r[8]};
     const double products[4][4] = {{0, r[3] + r[1], r[2] + r[6], r[7] - r[5]},

@@ -1,25 +1,25 @@
-/* polar.h - the rotation in a matrix, and what goes with it: cube roots, quaternions. Only + - * / and square
-   roots, so that the bits are the same everywhere. */
+/* polar.h - polar decomposition, cube roots and quaternions, with + - * / and square roots only, so that
+   results have the same bits everywhere. */
 #ifndef FFD_BASE_VECTOR_POLAR_H
 #define FFD_BASE_VECTOR_POLAR_H
 
 #include <stdbool.h>
 
-/* The rotation R of the polar decomposition m = R H, which is the one nearest to m (N. J. Higham, Computing
-   the polar decomposition - with applications, 1986). One that differs from the identity by rounding is the
-   identity. False where m has no inverse or mirrors; rotation then is the identity. */
+/* Finds the rotation R of the polar decomposition m = R H, the rotation nearest to m (N. J. Higham, Computing
+   the polar decomposition - with applications, 1986). If it equals the identity to rounding, it is set to the
+   identity. Returns false, with the identity, if m is not invertible or has a negative determinant. */
 bool ffd_mat_rotation(const double m[9], double rotation[9]);
 
-/* Whether the matrix differs from the identity by no more than a number in each entry. */
+/* Returns whether each entry of m differs from the identity by at most `most`. */
 bool ffd_mat_is_near_identity(const double m[9], double most);
 
-/* The real cube root. */
+/* Returns the real cube root. */
 double ffd_cube_root(double value);
 
-/* The unit quaternion x,y,z,w of a rotation, w >= 0. */
+/* Converts a rotation matrix to the unit quaternion x,y,z,w with w >= 0. */
 void ffd_mat_quaternion(const double rotation[9], double quaternion[4]);
 
-/* product = a b: first b, then a. It may be a or b. */
+/* product = a b: rotates by b first, then by a. product may be a or b. */
 void ffd_quaternion_multiply(const double a[4], const double b[4], double product[4]);
 
 #endif

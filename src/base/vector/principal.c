@@ -2,10 +2,10 @@
 #include "base/vector/direction.h"
 #include "base/vector/vec.h"
 
-/* More than enough: Jacobi's sweeps converge quadratically. */
+/* More than enough, because Jacobi sweeps converge quadratically. */
 #define SWEEPS 30
 
-/* Sums of products of the coordinates' distances from their mean. */
+/* Sums the products of the coordinates relative to their mean. */
 static void find_covariance(const double *xyz, size_t count, const double center[3], double length,
                             double covariance[9])
 {
@@ -28,8 +28,8 @@ static void find_covariance(const double *xyz, size_t count, const double center
             covariance[3 * r + c] = (product[3 * r + c] - sum[r] * sum[c] / finite) / finite;
 }
 
-/* One rotation in the plane of axes p and q that makes a[p][q] zero (Golub & Van Loan, Matrix
- * Computations, 8.5.2). */
+/* A rotation in the plane of axes p and q that makes a[p][q] zero (Golub & Van Loan, Matrix Computations,
+   8.5.2). */
 static void rotate(double a[9], double vectors[9], int p, int q)
 {
     const double off = a[3 * p + q];
@@ -56,7 +56,7 @@ static void rotate(double a[9], double vectors[9], int p, int q)
     }
 }
 
-/* Indices by falling value; equal ones stay in order. */
+/* Sorts indices by descending value; a stable sort. */
 static void sort_falling(const double value[3], int order[3])
 {
     for (int i = 0; i < 3; i++) {

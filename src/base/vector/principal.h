@@ -4,9 +4,10 @@
 
 #include <stddef.h>
 
-/* Unit vectors, as rows, by falling variance of the points along them; points that are not finite do not
-   count. The largest component of the first two is positive (the first of equals), the third makes them
-   right-handed. center and length are the points' position and size, for numbers that do not overflow. */
+/* Finds the principal axes of count points: unit vectors in rows, in the order of descending variance. Points
+   that are not finite are ignored. The largest component of each of the first two axes is positive (the first
+   one if equal); the third makes the system right-handed. center and length: rough position and size of the
+   points, to scale the numbers so that they do not overflow. */
 void ffd_principal_axes(const double *xyz, size_t count, const double center[3], double length,
                         double axes[9]);
 

@@ -1,5 +1,5 @@
-/* quad.h - four doubles side by side, such as the components of a point, for kernels that are compiled once
-   for each instruction set: in registers of FFD_LANES doubles, or in one. */
+/* quad.h - four doubles, such as the homogeneous coordinates of a point, for kernels that are compiled once
+   for each instruction set: in one register, or in several of FFD_LANES doubles. */
 #ifndef FFD_BASE_VECTOR_QUAD_H
 #define FFD_BASE_VECTOR_QUAD_H
 
@@ -44,7 +44,7 @@ static ALWAYS_INLINE quad quad_times(double factor, const quad *a)
     return product;
 }
 
-/* *sum += factor term */
+/* *sum += factor * term */
 static ALWAYS_INLINE void quad_add(quad *sum, double factor, const quad *term)
 {
     for (int p = 0; p < QUAD_PARTS; p++)
@@ -71,8 +71,9 @@ static ALWAYS_INLINE quad quad_magnitude(const quad *a)
     return magnitude;
 }
 
-/* a > b ? a : b, a < b ? a : b. The processor has an instruction for just that, which compilers do not find:
-   it returns b where neither is larger, so that 0 and -0, and NaN, depend on the order of a and b. */
+/* a > b ? a : b and a < b ? a : b. The max and min instructions compute exactly this, but compilers do not
+   use them here. They return b if neither is larger, so the result for 0 and -0, and for NaN, depends on the
+   order of a and b. */
 #if FFD_LANES == 1
 #define QUAD_LARGER(a, b) ((a) > (b) ? (a) : (b))
 #define QUAD_LESSER(a, b) ((a) < (b) ? (a) : (b))
@@ -84,7 +85,7 @@ static ALWAYS_INLINE quad quad_magnitude(const quad *a)
 #define QUAD_LESSER(a, b) _mm256_min_pd(a, b)
 #endif
 
-/* a > b ? a : b, one by one. */
+/* a > b ? a : b for each element */
 static ALWAYS_INLINE quad quad_larger(const quad *a, const quad *b)
 {
     quad larger;

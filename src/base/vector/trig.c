@@ -9,7 +9,8 @@ typedef struct split_number {
     double high, low;
 } split_number;
 
-/* Dekker's splitting (Numer. Math. 18, 1971): high has 26 bits, so that products of halves are exact. */
+/* Dekker's splitting (Numer. Math. 18, 1971): each half has at most 26 bits, so products of halves are
+   exact. */
 static split_number split(double a)
 {
     const double c = 134217729.0 * a;
@@ -17,7 +18,7 @@ static split_number split(double a)
     return (split_number){high, a - high};
 }
 
-/* Degrees (at most 45 by size) in radians, to about 2^-105 of their size. */
+/* Converts degrees (|degrees| <= 45) to radians with a relative error of about 2^-105. */
 static split_number to_radians(double degrees)
 {
     const split_number a = split(degrees), b = split(RADIAN_HIGH);
@@ -28,8 +29,8 @@ static split_number to_radians(double degrees)
     return (split_number){high, low - (high - product)};
 }
 
-/* sin(h + l) = h + (l cos h + h^3 S(h^2)): Taylor's sum to h^17, the next term is below 2^-62 for h <= pi/4.
-   Only the last addition rounds at the size of the result. */
+/* sin(h + l) = h + (l cos h + h^3 S(h^2)): the Taylor series up to h^17; the next term is below 2^-62 for h
+   <= pi/4. Only the last addition has a rounding error of the result's magnitude. */
 static double sine_of(split_number x)
 {
     static const double term[] = {
@@ -42,7 +43,7 @@ static double sine_of(split_number x)
     return x.high + (x.high * z * sum + x.low * (1 - 0.5 * z));
 }
 
-/* cos(h + l) = 1 - h^2/2 + (h^4 K(h^2) - h l), to h^18; what 1 - h^2/2 loses in rounding is added again. */
+/* cos(h + l) = 1 - h^2/2 + (h^4 K(h^2) - h l), up to h^18. The rounding error of 1 - h^2/2 is added back. */
 static double cosine_of(split_number x)
 {
     static const double term[] = {
@@ -55,7 +56,8 @@ static double cosine_of(split_number x)
     return rest + (((1 - rest) - half) + (z * z * sum - x.high * x.low));
 }
 
-/* For |degrees| <= 45 and a little. 30 and 45 degrees have known values; sums could miss them by an ulp. */
+/* For |degrees| slightly above 45 at most. 30 and 45 degrees have exact cases, because the series could miss
+   them by an ulp. */
 static void sincos_octant(double degrees, double *sine, double *cosine)
 {
     const double size = fabs(degrees);
@@ -71,13 +73,13 @@ static void sincos_octant(double degrees, double *sine, double *cosine)
 
 void ffd_sincos_degrees(double degrees, double *sine, double *cosine)
 {
-    /* Exact: fmod by definition; the subtraction because both sides are within a factor of two (Sterbenz) or
-       the quadrant is 0. */
+    /* Both operations are exact: fmod always is; the subtraction because its operands are within a factor of
+       two (Sterbenz lemma) or the quadrant is 0. */
     const double turn = fmod(degrees, 360);
     const double quadrant = floor(turn / 90 + 0.5);
     double s, c;
     sincos_octant(turn - 90 * quadrant, &s, &c);
-    /* Adding 0 makes -0 to 0. */
+    /* Adding 0 turns -0 into 0. */
     switch ((int)quadrant & 3) {
     case 0:
         *sine = s + 0.0;
@@ -110,8 +112,8 @@ static const double ARC_OF_EIGHTHS[] = {0,
                                         0x1.921fb54442d18p-1};
 static const double HALF_TURN = 0x1.921fb54442d18p+1, QUARTER_TURN = 0x1.921fb54442d18p+0;
 
-/* atan(y/x) for 0 <= y <= x, 0 < x: with c the multiple of 1/8 nearest to y/x, atan(y/x) = atan(c) + atan((y
-   - c x)/(x + c y)), whose argument z is at most 1/16: Taylor's sum to z^15, the next term is below 2^-72. */
+/* atan(y/x) for 0 <= y <= x, 0 < x. With c the multiple of 1/8 nearest to y/x and z = (y - c x)/(x + c y),
+   atan(y/x) = atan(c) + atan(z), |z| <= 1/16: the Taylor series up to z^15; the next term is below 2^-72. */
 static double arc_of_octant(double y, double x)
 {
     static const double term[] = {-1.0 / 3, 1.0 / 5, -1.0 / 7, 1.0 / 9, -1.0 / 11, 1.0 / 13, -1.0 / 15};
@@ -128,7 +130,7 @@ double ffd_arc_tangent(double y, double x)
     double size = fabs(x);
     if (y == 0)
         return x < 0 ? HALF_TURN : 0;
-    /* So that x + c y does not overflow. */
+    /* Scaled so that x + c y does not overflow. */
     if (y > 0x1p1000 || size > 0x1p1000) {
         y *= 0x1p-30;
         size *= 0x1p-30;

@@ -1,8 +1,8 @@
 #include "base/vector/vec.h"
 #include <float.h>
 
-/* The power of two that brings the largest of three numbers into [0.5, 1); 0 where all are 0
-   or one is not finite. */
+/* Returns the exponent of the power of two that scales the largest of three magnitudes into [0.5, 1); 0, and
+ *usable false, if all are 0 or one is not finite. */
 static int exponent_of(double a, double b, double c, bool *usable)
 {
     const double largest = fmax(fabs(a), fmax(fabs(b), fabs(c)));
@@ -17,7 +17,7 @@ double ffd_vec_length_scaled(const double a[3])
     bool usable = true;
     const int exponent = exponent_of(a[0], a[1], a[2], &usable);
     if (!usable)
-        return fabs(a[0]) + fabs(a[1]) + fabs(a[2]); /* 0, infinite, or not a number */
+        return fabs(a[0]) + fabs(a[1]) + fabs(a[2]); /* 0, infinite or NaN */
     const double scaled[3] = {ldexp(a[0], -exponent), ldexp(a[1], -exponent), ldexp(a[2], -exponent)};
     return ldexp(sqrt(vec_dot(scaled, scaled)), exponent);
 }
@@ -60,7 +60,7 @@ bool ffd_mat_is_singular(const double m[9], double *determinant)
             column[a][r] = m[3 * r + a];
     vec_cross(column[1], column[2], cross);
     *determinant = vec_dot(column[0], cross);
-    /* Sums of sizes are no less than lengths, and need no roots. */
+    /* Sums of magnitudes are upper bounds of lengths, and need no square roots. */
     double sizes = 32 * DBL_EPSILON;
     for (int c = 0; c < 3; c++)
         sizes *= fabs(column[c][0]) + fabs(column[c][1]) + fabs(column[c][2]);

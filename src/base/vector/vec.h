@@ -1,4 +1,5 @@
-/* vec.h - small vectors and matrices: double[3], and double[9] row by row. Fixed order of operations. */
+/* vec.h - vectors double[3] and row-major matrices double[9]. The order of operations is fixed, so results
+   are reproducible to the bit. */
 #ifndef FFD_BASE_VECTOR_VEC_H
 #define FFD_BASE_VECTOR_VEC_H
 
@@ -9,7 +10,7 @@
 extern "C" {
 #endif
 
-/* fmin and fmax are function calls. Returns a when b is NaN. */
+/* Inline, unlike fmin. Returns a if b is NaN. */
 static inline double lesser_of(double a, double b)
 {
     return b < a ? b : a;
@@ -25,7 +26,7 @@ static inline double vec_dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* vec_length for vectors whose squares leave the range of doubles, or may have lost bits at its lower end. */
+/* As vec_length, for vectors whose squares overflow, underflow or become subnormal. */
 double ffd_vec_length_scaled(const double a[3]);
 
 static inline double vec_length(const double a[3])
@@ -34,7 +35,7 @@ static inline double vec_length(const double a[3])
     return square > 1e-280 && square < 1e300 ? sqrt(square) : ffd_vec_length_scaled(a);
 }
 
-/* out must be neither a nor b. */
+/* out = a x b; must be neither a nor b. */
 static inline void vec_cross(const double a[3], const double b[3], double out[3])
 {
     out[0] = a[1] * b[2] - a[2] * b[1];
@@ -44,10 +45,10 @@ static inline void vec_cross(const double a[3], const double b[3], double out[3]
 
 static inline bool vec_is_finite(const double a[3])
 {
-    return 0 * a[0] + 0 * a[1] + 0 * a[2] == 0; /* 0 times an infinity or NaN is NaN */
+    return 0 * a[0] + 0 * a[1] + 0 * a[2] == 0; /* 0 times infinity or NaN is NaN */
 }
 
-/* out may be v. */
+/* out = m v; may be v. */
 static inline void mat_apply(const double m[9], const double v[3], double out[3])
 {
     const double x = v[0], y = v[1], z = v[2];
@@ -56,7 +57,7 @@ static inline void mat_apply(const double m[9], const double v[3], double out[3]
     out[2] = m[6] * x + m[7] * y + m[8] * z;
 }
 
-/* out = a b; must be neither. */
+/* out = a b; must be neither a nor b. */
 static inline void mat_multiply(const double a[9], const double b[9], double out[9])
 {
     for (int r = 0; r < 3; r++)
@@ -64,8 +65,7 @@ static inline void mat_multiply(const double a[9], const double b[9], double out
             out[3 * r + c] = a[3 * r] * b[c] + a[3 * r + 1] * b[3 + c] + a[3 * r + 2] * b[6 + c];
 }
 
-/* cof(m): rows (or columns) are the cross products of m's other rows (columns); cof(m) = det(m) m^-T.
-   out must not be m. */
+/* out = cof(m) = det(m) m^-T: each row is the cross product of the other two rows of m. out must not be m. */
 static inline void mat_cofactor(const double m[9], double out[9])
 {
     vec_cross(m + 3, m + 6, out);
@@ -73,7 +73,7 @@ static inline void mat_cofactor(const double m[9], double out[9])
     vec_cross(m, m + 3, out + 6);
 }
 
-/* The largest magnitude of the entries. */
+/* Returns the largest magnitude of the entries. */
 static inline double mat_largest_entry(const double m[9])
 {
     double largest = 0;
@@ -82,7 +82,7 @@ static inline double mat_largest_entry(const double m[9])
     return largest;
 }
 
-/* Of the entries, row by row. */
+/* Returns the sum of the squares of the entries, summed row by row. */
 static inline double mat_square_sum(const double m[9])
 {
     return vec_dot(m, m) + vec_dot(m + 3, m + 3) + vec_dot(m + 6, m + 6);
@@ -95,17 +95,18 @@ static inline double mat_determinant(const double m[9])
     return vec_dot(m, c);
 }
 
-/* mat_invert for matrices whose products of three entries leave the range of doubles: rows and columns are
-   brought to size 1 by powers of two first. */
+/* As mat_invert, for matrices in which products of three entries overflow or underflow: rows and columns are
+   scaled to size 1 by powers of two first. */
 bool ffd_mat_invert_scaled(const double m[9], double out[9]);
 
-/* out = m^-1; false (out is not written) when the determinant is 0 or the result is not finite. */
+/* Sets out to m^-1. Returns false, and leaves out unchanged, if the determinant is 0 or the result is not
+   finite. */
 static inline bool mat_invert(const double m[9], double out[9])
 {
     double c[9], result[9];
     mat_cofactor(m, c);
     const double det = vec_dot(m, c);
-    if (!(fabs(det) > 1e-250 && fabs(det) < 1e250)) /* 0, not a number, or not to be trusted */
+    if (!(fabs(det) > 1e-250 && fabs(det) < 1e250)) /* 0, NaN, or inaccurate */
         return ffd_mat_invert_scaled(m, out);
     for (int r = 0; r < 3; r++)
         for (int k = 0; k < 3; k++) {
@@ -118,7 +119,7 @@ static inline bool mat_invert(const double m[9], double out[9])
     return true;
 }
 
-/* Whether the determinant, which is stored, is no more than the rounding of its own terms. */
+/* Sets *determinant, and returns whether its magnitude is at most the rounding error of its terms. */
 bool ffd_mat_is_singular(const double m[9], double *determinant);
 
 #ifdef __cplusplus

@@ -79,13 +79,13 @@ bool ffd_csv_split(char separator, const char *text, size_t size, csv_row *row)
 
 bool ffd_csv_is_text(const csv_row *row)
 {
-    const char *cell = NULL;
-    for (size_t i = 0; i < row->count; i++) {
-        cell = ffd_csv_next(row, cell);
+    const char *cell = row->text.data;
+    const char *const end = cell + row->text.size;
+    size_t count = 0;
+    for (; cell < end; cell = ffd_csv_next(row, cell), count++)
         if (!ffd_utf8_is_valid(cell, strlen(cell)))
             return false;
-    }
-    return true;
+    return count == row->count; /* else a cell has NUL bytes */
 }
 
 const char *ffd_csv_next(const csv_row *row, const char *cell)

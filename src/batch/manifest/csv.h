@@ -26,7 +26,7 @@ char ffd_csv_separator(const char *text, size_t size);
 /* Splits a complete row. Returns false for a quote inside an unquoted cell, or text behind a closing
    quote. */
 bool ffd_csv_split(char separator, const char *text, size_t size, csv_row *row);
-/* Whether all cells are valid UTF-8. */
+/* Whether all cells are valid UTF-8 without NUL bytes. */
 bool ffd_csv_is_text(const csv_row *row);
 /* Returns the next cell; cell NULL: the first one. */
 const char *ffd_csv_next(const csv_row *row, const char *cell);

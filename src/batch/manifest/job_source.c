@@ -462,6 +462,12 @@ ffd_status ffd_jobs_next(job_source *source, batch_job *job, line_state *state, 
     return status ? ffd_fail_memory(error) : FFD_OK;
 }
 
+bool ffd_jobs_come_once(const job_source_desc *desc)
+{
+    const char *const text = desc->manifest ? desc->manifest : desc->table;
+    return text && ffd_file_reads_once(text);
+}
+
 ffd_status ffd_jobs_total(const job_source_desc *desc, uint64_t *total, ffd_error *error)
 {
     job_source *source;

@@ -32,6 +32,8 @@ ffd_status ffd_jobs_open(const job_source_desc *desc, job_source **source, ffd_e
    still being written has no complete line, without waiting. ffd_job_free must be called in every case. An
    error in the job itself is stored in it, and is not a failure. Errors: FFD_E_IO, FFD_E_MEMORY. */
 ffd_status ffd_jobs_next(job_source *source, batch_job *job, line_state *state, ffd_error *error);
+/* Whether the jobs come from standard input or a pipe, and cannot be read twice. */
+bool ffd_jobs_come_once(const job_source_desc *desc);
 /* Counts the jobs of all shards. The source must be readable twice. Errors: those of ffd_jobs_open and
    ffd_jobs_next. */
 ffd_status ffd_jobs_total(const job_source_desc *desc, uint64_t *total, ffd_error *error);

@@ -4,13 +4,13 @@
 #include "embed/boundary/boundary_faces.h"
 #include <string.h>
 
-/* Exponents of the search's units for which products neither overflow nor underflow. */
+/* The greatest binary exponent of the search's units: products neither overflow nor underflow. */
 #define MOST_EXPONENT 1000
-/* Points farther than this are replaced by ones at this distance: squares must stay in the range of doubles.
- */
+/* A point that is farther away is replaced by one at this distance in the same direction, so that squares do
+   not overflow. */
 #define FARTHEST 0x1p400
 
-/* 2^-e that brings size to [0.5, 1). */
+/* Returns the power of two that scales size to [0.5, 1). */
 static double scale_of(double size)
 {
     int exponent = 0;
@@ -83,7 +83,8 @@ void ffd_boundary_destroy(boundary **made)
     *made = NULL;
 }
 
-/* Quarters do not overflow in the difference. Returns whether p is too far for the lattice's units. */
+/* Converts p to the search's units. Differences of quarters cannot overflow. Returns whether p is too far
+   away for these units. */
 static bool make_query(const boundary *border, const double p[3], boundary_query *query)
 {
     double farthest = 0;
@@ -99,7 +100,7 @@ static bool make_query(const boundary *border, const double p[3], boundary_query
     return is_far;
 }
 
-/* The residual may be too small to be squared. */
+/* The residual is scaled, because its square could underflow. */
 static void report_distance(const boundary_query *query, const boundary_foot *foot, boundary_point *nearest)
 {
     const double *r = foot->residual;

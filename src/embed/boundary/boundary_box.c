@@ -1,11 +1,11 @@
-/* boundary_box.c - the border of a box whose map is affine: its coordinates, clipped. */
+/* boundary_box.c - the nearest border point of a box with an affine map: clamps the coordinates. */
 #include "base/vector/vec.h"
 #include "embed/boundary/boundary_faces.h"
 #include "embed/frame/face.h"
 #include <float.h>
 #include <string.h>
 
-/* Faces count as equally near a point inside if their distances differ by no more than this. */
+/* Faces count as equally near to a point inside if their distances differ by at most this. */
 #define EQUAL (16 * DBL_EPSILON)
 
 static double coordinate(const boundary *border, int a, double t)
@@ -15,8 +15,8 @@ static double coordinate(const boundary *border, int a, double t)
     return t == 0 ? first : t == 1 ? last : ffd_knots_wrap(knots, first + t * (last - first));
 }
 
-/* Moves a point inside to the nearest face. Of several equally near ones it is the first by u,v,w: upper
-   faces come last, those of later directions before those of earlier ones. */
+/* Moves a point inside to the nearest face. Of equally near faces it chooses the one with the least u,v,w:
+   upper faces come last, and those of later directions before those of earlier ones. */
 static void go_to_face(const double t[3], const double side[3], double to[3])
 {
     double least = HUGE_VAL;
@@ -56,7 +56,7 @@ void ffd_boundary_box_find(const boundary *border, const boundary_query *query, 
             foot->residual[r] += (t[a] - to[a]) * column[a][r];
         if (to[a] == 0 || to[a] == 1)
             continue;
-        /* At least one coordinate is held on a face, so no more than two are free. */
+        /* At least one coordinate is fixed on a face, so at most two are free. */
         const knot_vector *knots = &border->lattice->knots[a];
         const double width = ffd_knots_last(knots) - ffd_knots_first(knots);
         for (int r = 0; r < 3; r++)

@@ -1,19 +1,20 @@
-/* boundary_cell.c - whether the border meets a cell: the tree's boxes, its patches and their halves are left
-   where a plane keeps them from the cell, until a point of one is found in it or none is left. */
+/* boundary_cell.c - decides whether the border meets a cell (a box in space). Boxes of the tree, patches and
+   their halves are dropped if a plane separates them from the cell, until a point of a patch is found in the
+   cell or none is left. */
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "embed/boundary/boundary_faces.h"
 #include <string.h>
 
-/* Patches, and parts of patches, that one search looks at. */
+/* The most patches and parts of patches that a search examines. */
 #define BUDGET 4096
-/* Parts of a cell of the face that are this short are not halved. */
+/* Parts of a patch that are this short, relative to a cell of the face, are not halved. */
 #define LEAST_PART 0x1p-44
 
 typedef struct cell_visit {
     const boundary *border;
     patch_cell cell;
-    face_patch *scratch; /* as large as any patch; made when first needed */
+    face_patch *scratch; /* large enough for any patch; allocated when first needed */
     int budget;
     bool meets, undecided;
     ffd_error *error;
@@ -61,7 +62,7 @@ static ffd_status make_scratch(cell_visit *visit)
     return visit->scratch ? FFD_OK : ffd_fail_memory(visit->error);
 }
 
-/* The patches of a leaf that are not kept. */
+/* Examines the patches of a leaf whose patches are not stored. */
 static ffd_status look_at_cells(cell_visit *visit, const boundary_node *leaf)
 {
     ffd_status status = make_scratch(visit);
@@ -87,7 +88,7 @@ static ffd_status look_at_node(cell_visit *visit, uint32_t number)
     return status ? status : look_at_node(visit, node->child + 1);
 }
 
-/* A face of a box whose map is affine, as a patch. */
+/* Makes a patch of a face of a box with an affine map. */
 static void make_box_face(const boundary *border, int direction, int end, face_patch *patch)
 {
     const int along[2] = {direction == 0 ? 1 : 0, direction == 2 ? 1 : 2};

@@ -1,5 +1,6 @@
-/* boundary_faces.c - the faces of the domain, cut into patches, and a tree over them that halves the
-   rectangle of a face's cells: neighbours on the surface stay together, and nothing is sorted. */
+/* boundary_faces.c - divides the faces of the domain into patches, and builds a tree over them. The tree
+   halves the rectangle of cells of a face, so neighbours on the surface stay together, and no sorting is
+   needed. */
 #include "embed/boundary/boundary_faces.h"
 #include "base/memory/memory.h"
 #include "spline/bezier.h"
@@ -8,23 +9,22 @@
 
 enum { N = PATCH_COMPONENTS };
 
-/* Patches are kept up to this size in all (bytes); a boundary with more of them has each search make its own.
- */
+/* The most bytes of stored patches; with more of them, each search makes the patches it needs. */
 #define KEPT_SIZE ((size_t)64 << 20)
-/* Kept patches are cut until they have one minimum for points about their own size away, but at most this
-   often, and into this many in all. */
+/* Stored patches are halved until the distance has one minimum for points about as far away as the patch is
+   large, but at most MOST_CUTS times, and into MOST_PARTS in total. */
 #define MOST_CUTS 6
 #define MOST_PARTS ((size_t)1 << 14)
-/* Control points of the faces are kept, 32 bytes each, if there are no more than this in all. */
+/* Control points of the faces are stored, 32 bytes each, if there are at most this many. */
 #define KEPT_POINTS ((size_t)1 << 20)
-/* A leaf holds one cell, or more if there would be more leaves than this. */
+/* A leaf holds one cell; or several if there would be more leaves than this. */
 #define MOST_LEAVES ((size_t)1 << 18)
 
 typedef struct builder {
     boundary *border;
     bool keeps;
     int cuts;
-    face_patch *scratch; /* where nothing is kept */
+    face_patch *scratch; /* if patches are not stored */
     size_t cells_a_leaf;
     ffd_error *error;
 } builder;
@@ -48,7 +48,7 @@ void ffd_boundary_free_patches(face_patch *list)
     }
 }
 
-/* The face's control point with these two indices, in the search's units. */
+/* Computes a control point of a face by its two indices, in the search's units. */
 static void sum_point(const boundary *border, const boundary_face *face, const size_t point[2], double sum[N])
 {
     const double h = face->sums.weights ? border->weight_scale : 1;
@@ -59,10 +59,10 @@ static void sum_point(const boundary *border, const boundary_face *face, const s
     ffd_border_point(&face->sums, index, border->origin, sum);
     for (int c = 0; c < 3; c++)
         sum[c] = sum[c] * h * border->scale;
-    sum[3] = face->sums.weights ? sum[3] * h : 1; /* a sum of 1 but for rounding */
+    sum[3] = face->sums.weights ? sum[3] * h : 1; /* without weights the sum is 1 except for rounding */
 }
 
-/* The same for two basis functions. */
+/* Computes the control point of two basis functions. */
 static void control_point(const boundary *border, int number, const size_t function[2], double result[N])
 {
     const boundary_face *face = &border->faces[number];
@@ -74,7 +74,7 @@ static void control_point(const boundary *border, int number, const size_t funct
         sum_point(border, face, point, result);
 }
 
-/* Multiplies the lines of points along f by the span's extraction matrix. */
+/* Multiplies the rows of points along f by the extraction matrix of the span. */
 static void extract(face_patch *made, int f, const double *matrix)
 {
     const size_t stride = N * (f == 0 ? 1 : (size_t)made->order[0]);
@@ -130,7 +130,7 @@ static void unite(bounds *box, const bounds *other)
     bounds_add(box, other->hi);
 }
 
-/* Adds two nodes; addresses of nodes change when the array grows. */
+/* Adds two nodes. Addresses of nodes change when the array grows. */
 static ffd_status add_children(builder *build, uint32_t *first)
 {
     boundary *border = build->border;
@@ -163,7 +163,7 @@ static bool is_cut_enough(const face_patch *patch)
     return ffd_patch_has_one_minimum(patch, &residual);
 }
 
-/* Makes the node of a measured patch, which the boundary then keeps or frees. */
+/* Makes the node of a measured patch. The boundary takes ownership of the patch. */
 static ffd_status keep(builder *build, uint32_t node, face_patch *patch, int cuts)
 {
     boundary *border = build->border;
@@ -209,7 +209,7 @@ static ffd_status make_leaf(builder *build, uint32_t node)
         border->nodes[node].box = ffd_patch_hull(patch);
         return FFD_OK;
     }
-    /* Several cells: their control points bound them. */
+    /* Several cells: the bounds of their control points. */
     size_t from[2], to[2], function[2];
     for (int f = 0; f < 2; f++) {
         const knot_vector *knots = boundary_knots(border, at.face, f);
@@ -229,7 +229,7 @@ static ffd_status make_leaf(builder *build, uint32_t node)
     return FFD_OK;
 }
 
-/* Fills the node, whose rectangle of cells is set. */
+/* Fills a node whose rectangle of cells is set. */
 static ffd_status divide(builder *build, uint32_t node)
 {
     boundary *border = build->border;
@@ -257,7 +257,7 @@ static ffd_status divide(builder *build, uint32_t node)
     return status;
 }
 
-/* The faces, in the order of directions, first before last. */
+/* Lists the faces in the order of directions, the first face before the last. */
 static void list_faces(boundary *border)
 {
     for (int direction = 0; direction < 3; direction++)
@@ -293,7 +293,7 @@ static ffd_status keep_points(boundary *border, ffd_error *error)
     return FFD_OK;
 }
 
-/* How many patches of a face's orders may be kept. */
+/* Returns how many patches of the orders of a face may be stored. */
 static size_t patches_to_keep(const boundary *border)
 {
     int order = 0;
@@ -317,7 +317,7 @@ ffd_status ffd_boundary_build(boundary *border, ffd_error *error)
     build.scratch = ffd_patch_create(largest, true);
     ffd_status status = build.scratch ? keep_points(border, error) : ffd_fail_memory(error);
     for (int i = 0; i < border->face_count && !status; i += 2) {
-        /* A direction's two faces take a pair of nodes. */
+        /* The two faces of a direction use a pair of nodes. */
         uint32_t root = 0;
         status = add_children(&build, &root);
         for (int end = 0; end < 2 && !status; end++) {

@@ -1,9 +1,9 @@
 /* boundary_search.c - branch and bound for the nearest point of the border. Boxes of the tree, patches and
-   halves of patches are looked at in the order of their distance from x, so that what is looked at does not
-   depend on the reach, which only ends the search earlier.
+   halves of patches are examined in the order of their distance from x. So the order does not depend on the
+   reach, which only ends the search earlier.
 
-   Distances are compared as |C - x| - |x|, which keeps its digits where x is far: it is
-   (C.C - 2 C.x) / (|C - x| + |x|). */
+   Distances are compared by their excess |C - x| - |x| = (C.C - 2 C.x) / (|C - x| + |x|), which does not lose
+   digits if x is far away. */
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "embed/boundary/boundary_faces.h"
@@ -11,22 +11,22 @@
 #include <math.h>
 #include <string.h>
 
-/* In the search's units, in which the lattice has about the size 1. */
-#define TIE (256 * DBL_EPSILON) /* excesses this near are equal to rounding */
-#define GAP 1e-12               /* what a patch may hide before it is left */
+/* In the search's units, in which the lattice has a size of about 1. */
+#define TIE (256 * DBL_EPSILON) /* excesses that differ by less are equal to rounding */
+#define GAP 1e-12               /* a patch is dropped if it cannot improve the excess by more */
 #define ROUNDINGS (16 * DBL_EPSILON)
-/* Patches, and parts of patches, that one search looks into. */
+/* The most patches and parts of patches that a search examines. */
 #define BUDGET 4096
-/* Parts of a cell this short are not halved. */
+/* Parts of a patch that are this short, relative to a cell, are not halved. */
 #define LEAST_PART 0x1p-44
 #define MOST_TIES 16
 
 /* An entry of the queue: a node of the tree, or a part of a patch. */
 typedef struct waiting {
     double key;      /* a lower bound of the excess */
-    uint32_t number; /* breaks ties: the order of arrival */
+    uint32_t number; /* order of insertion, to break ties */
     uint32_t node;
-    const face_patch *part; /* or NULL */
+    const face_patch *part; /* may be NULL */
 } waiting;
 
 typedef struct candidate {
@@ -40,21 +40,21 @@ typedef struct border_search {
     const double *x;
     double length;    /* |x| */
     double inward[3]; /* -x / |x|, or 0 */
-    double reach;     /* an excess */
-    double least;     /* excess found so far */
+    double reach;     /* the reach as an excess */
+    double least;     /* least excess found so far */
     candidate ties[MOST_TIES];
     int tie_count;
     waiting *heap;
     size_t heap_count, heap_capacity;
     uint32_t arrivals;
     int budget;
-    bool cut_short;      /* the budget was too small */
-    face_patch *parts;   /* made by this search, a list */
-    face_patch *scratch; /* as large as any patch; made when first needed */
+    bool cut_short;      /* the budget ran out */
+    face_patch *parts;   /* list of patches that this search has made */
+    face_patch *scratch; /* large enough for any patch; allocated when first needed */
     ffd_error *error;
 } border_search;
 
-/* No box beyond this can hold the answer or a tie with it. */
+/* Returns the excess beyond which no box can contain the result or a tie with it. */
 static double threshold(const border_search *search)
 {
     return (search->least < search->reach ? search->least : search->reach) + TIE;
@@ -62,7 +62,7 @@ static double threshold(const border_search *search)
 
 /* Lower bounds */
 
-/* From a box's lower bounds of |C - x| and of C . inward. */
+/* Returns a lower bound of the excess from lower bounds of |C - x| and of C . inward. */
 static double excess_bound(const border_search *search, double distance, double inward)
 {
     const double near = distance - search->length - ROUNDINGS * (1 + search->length);
@@ -143,8 +143,8 @@ static double excess_of(const border_search *search, const patch_sample *sample)
     return sum > 0 ? (vec_dot(point, point) - 2 * vec_dot(point, search->x)) / sum : 0;
 }
 
-/* The slot for a new candidate: that of one at the same point, a new one, or that of one that is farther
-   away or comes last by u,v,w. */
+/* Returns the slot for a new candidate: that of a candidate at the same point, a free one, or that of a
+   candidate that is farther away or comes last by u,v,w. */
 static candidate *seat(border_search *search, const candidate *found)
 {
     candidate *last = NULL;
@@ -200,7 +200,7 @@ static const candidate *choose(const border_search *search)
 
 /* Patches */
 
-/* Moves t to the least one of a line that the patch collapses to one point. */
+/* If the patch collapses a line to one point, moves t to the least parameter on that line. */
 static void go_to_least(const border_search *search, const face_patch *patch, double t[2],
                         patch_sample *sample)
 {
@@ -220,8 +220,9 @@ static void go_to_least(const border_search *search, const face_patch *patch, do
     }
 }
 
-/* Finds a candidate from t. Returns a lower bound for all of the patch: its control points lie no nearer than
-   the plane through the candidate's nearest control point across the way to x. */
+/* Finds a candidate by descent from (s, t). Returns a lower bound for the whole patch: the control points are
+   on the far side of the plane perpendicular to the direction of x through the control point that is nearest
+   in that direction. */
 static double try_from(border_search *search, const face_patch *patch, double s, double t)
 {
     double at[2] = {s, t}, inward[3];
@@ -268,7 +269,7 @@ static ffd_status halve(border_search *search, const face_patch *patch, double k
     return status;
 }
 
-/* Looks for the patch's nearest point; if that may not be the only minimum, the halves are queued. */
+/* Searches the nearest point of a patch. If the distance may have several minima, queues its halves. */
 static ffd_status look_into(border_search *search, const face_patch *patch, double key)
 {
     search->budget--;
@@ -278,7 +279,7 @@ static ffd_status look_into(border_search *search, const face_patch *patch, doub
     const bounds residual = ffd_patch_residual(patch, search->x);
     if (ffd_patch_has_one_minimum(patch, &residual))
         return FFD_OK;
-    try_from(search, patch, 0, 0); /* of a line of equally near points, the first */
+    try_from(search, patch, 0, 0); /* the first of a line of equally near points */
     if (bound >= search->least - GAP)
         return FFD_OK;
     if (patch->hi[0] - patch->lo[0] <= LEAST_PART || patch->hi[1] - patch->lo[1] <= LEAST_PART)
@@ -296,8 +297,8 @@ static ffd_status make_scratch(border_search *search)
     return search->scratch ? FFD_OK : ffd_fail_memory(search->error);
 }
 
-/* A leaf's patches that are not kept are made in the scratch; halves have their own memory. Which ones are
-   made must not depend on the reach: it would change the search. */
+/* Makes the patches of a leaf whose patches are not stored, in scratch memory; halves have their own memory.
+   Which patches are made must not depend on the reach, because that would change the search. */
 static ffd_status look_into_cells(border_search *search, const boundary_node *leaf)
 {
     ffd_status status = make_scratch(search);
@@ -353,7 +354,7 @@ static ffd_status search_border(border_search *search)
             break;
         status = expand(search, &next);
     }
-    /* What waits may hold a nearer point. */
+    /* The remaining queue may contain a nearer point. */
     if (search->budget <= 0 && search->heap_count > 0)
         search->cut_short |=
             search->heap[0].key < search->least - GAP && search->heap[0].key <= threshold(search);

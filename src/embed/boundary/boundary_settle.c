@@ -1,25 +1,25 @@
-/* boundary_settle.c - the end of a search: stationary to rounding, also across the lines where patches meet,
-   and how the point found follows x. */
+/* boundary_settle.c - the last step of a search: makes the distance stationary to rounding, also across the
+   edges between patches, and computes the derivative of the point by x. */
 #include "base/vector/vec.h"
 #include "embed/boundary/boundary_faces.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-/* The most lines between patches that a point crosses: it settles within roundings of where it starts. */
+/* The most edges between patches that a point crosses: it moves only by rounding errors. */
 #define CROSSINGS 6
-/* u,v,w that are this near in each coordinate, relative to the domain, are equal. */
+/* Coordinates of u,v,w whose difference is at most this, relative to the domain, are equal. */
 #define EQUAL_UVW 1e-9
-/* A slope of the distance counts as 0 up to this many roundings of |S_f| |x - S|. */
+/* A derivative of the distance counts as 0 up to this many eps of |S_f| |x - S|. */
 #define SLOPE_ROUNDINGS 64
-/* A second derivative matrix is singular where its determinant is this small. */
+/* A matrix of second derivatives is singular if its determinant is at most this (relative). */
 #define LEAST_DETERMINANT 1e-12
 
 typedef struct settling {
     const boundary *border;
     const double *x;
     boundary_location location;
-    face_patch *patch; /* of the point's cell */
+    face_patch *patch; /* of the cell that contains the point */
     patch_sample sample;
 } settling;
 
@@ -53,7 +53,7 @@ static void project(settling *at)
     ffd_patch_project(at->patch, at->x, at->location.t, &at->sample);
 }
 
-/* Whether coordinate f is at an end of the patch beyond which the distance decreases. */
+/* Returns whether coordinate f is at an end of the patch beyond which the distance decreases. */
 static bool leads_out(const settling *at, int f)
 {
     double gradient[2], hessian[3];
@@ -66,7 +66,7 @@ static bool leads_out(const settling *at, int f)
     return t == 0 ? gradient[f] > noise : gradient[f] < -noise;
 }
 
-/* Whether the patch's end at which coordinate f is lies on an edge of the face. */
+/* Returns whether the end of the patch at which coordinate f is, is an edge of the face. */
 static bool is_edge(const boundary *border, const boundary_location *location, int f)
 {
     const size_t cells = border->faces[location->face].cells[f];
@@ -74,8 +74,8 @@ static bool is_edge(const boundary *border, const boundary_location *location, i
            location->cell[f] == (location->t[f] == 0 ? 0 : cells - 1);
 }
 
-/* The same point as one of the next patch beyond coordinate f: of the same face, or beyond an edge of the
-   face that meets it there. The coordinate that may then move is *moving. */
+/* Expresses the point in the next patch beyond coordinate f: a patch of the same face or, at an edge, of the
+   adjacent face. *moving is the coordinate that may then change. */
 static void neighbour(const boundary *border, const boundary_location *from, int f, boundary_location *to,
                       int *moving)
 {
@@ -104,7 +104,7 @@ static void neighbour(const boundary *border, const boundary_location *from, int
         }
 }
 
-/* Moves to a neighbour in which the distance falls further. Returns false if there is none. */
+/* Moves to a neighbouring patch in which the distance decreases. Returns false if there is none. */
 static bool cross(settling *at)
 {
     for (int f = 0; f < 2; f++) {
@@ -123,8 +123,8 @@ static bool cross(settling *at)
     return false;
 }
 
-/* The coordinates of the point that are held neither on an edge of the face, nor on a line where the surface
-   has a ridge, nor where the face collapses them. */
+/* Lists the free coordinates of the point: those that are not fixed on an edge of the face or on a ridge of
+   the surface, and not collapsed by the face. Returns their number. */
 static int free_coordinates(const settling *at, int free[2])
 {
     int count = 0;
@@ -139,7 +139,8 @@ static int free_coordinates(const settling *at, int free[2])
     return count;
 }
 
-/* H dt = S_f . dx with H_fg = S_f . S_g + (S - x) . S_fg: the gradient stays 0. */
+/* Computes the derivative by x: H dt = S_f . dx with H_fg = S_f . S_g + (S - x) . S_fg keeps the gradient
+   0. */
 static void follow(const settling *at, boundary_foot *foot)
 {
     double gradient[2], h[3], rows[2][3];

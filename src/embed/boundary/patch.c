@@ -18,7 +18,7 @@ face_patch *ffd_patch_create(const int order[2], bool rational)
     return made;
 }
 
-/* Copies what a half has in common with the whole: all but points and bounds. */
+/* Copies the members that a half has in common with the whole patch: all except points and bounds. */
 static void inherit(const face_patch *whole, face_patch *half)
 {
     half->rational = whole->rational;

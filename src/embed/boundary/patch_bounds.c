@@ -1,4 +1,5 @@
-/* patch_bounds.c - an oriented box round a patch, and bounds of its derivatives along the box's axes. */
+/* patch_bounds.c - computes an oriented box round a patch, and bounds of its derivatives along the axes of
+   the box. */
 #include "base/vector/vec.h"
 #include "embed/boundary/patch.h"
 #include <float.h>
@@ -6,10 +7,10 @@
 
 enum { N = PATCH_COMPONENTS };
 
-/* Corners whose chords are more nearly parallel than this (sine) span no plane. */
+/* If the sine of the angle between the chords of the corners is below this, they do not span a plane. */
 #define LEAST_SINE 1e-10
 
-/* Bounds of vectors A and of their W. */
+/* Bounds of homogeneous vectors: of A and of W. */
 typedef struct range {
     double lo[N], hi[N];
 } range;
@@ -42,7 +43,8 @@ static bool to_unit(double v[3])
     return true;
 }
 
-/* axis[3..5] from axis[0..2]: perpendicular to it, towards the coordinate axis that is least along it. */
+/* Sets axis[3..5]: perpendicular to axis[0..2], towards the coordinate axis with the least component along
+   that. */
 static void set_second_axis(double axis[9])
 {
     int least = 0;
@@ -60,7 +62,7 @@ static void position_of(const double *point, double position[3])
         position[c] = point[c] / point[3];
 }
 
-/* The first axis goes along s, the last is the normal, both of the corners' bilinear patch. */
+/* Sets the first axis along s and the last to the normal of the bilinear patch of the corners. */
 static void set_axes(face_patch *patch)
 {
     const size_t os = (size_t)patch->order[0], count = os * (size_t)patch->order[1];
@@ -118,7 +120,7 @@ static void set_box(face_patch *patch)
 
 /* Derivatives */
 
-/* The control points along the axes, with the centre subtracted: A - centre W. */
+/* The control points along the axes, relative to the centre: A - centre W. */
 typedef double net[MAX_ORDER * MAX_ORDER][N];
 
 static void make_net(const face_patch *patch, net at)
@@ -134,7 +136,8 @@ static void make_net(const face_patch *patch, net at)
     }
 }
 
-/* The control vectors of the derivative of order n[0] by s and n[1] by t, n[0] + n[1] <= 2: differences. */
+/* Returns bounds of the control vectors of the derivative of order n[0] by s and n[1] by t, n[0] + n[1] <= 2:
+   differences of control points. */
 static range derivative_range(const face_patch *patch, net at, const int n[2])
 {
     const int os = patch->order[0];
@@ -144,7 +147,8 @@ static range derivative_range(const face_patch *patch, net at, const int n[2])
             factor *= patch->order[f] - k;
     if (factor == 0)
         return (range){{0}, {0}};
-    /* n = 2 takes points 0, 1, 2 of a line as 1, -2, 1; (1,1) those of a square as 1, -1, -1, 1. */
+    /* For n = 2 the coefficients are 1, -2, 1 on points 0, 1, 2 of a row; for (1,1) they are 1, -1, -1, 1 on
+       the points of a square. */
     const bool mixed = n[0] == 1 && n[1] == 1, twice = n[0] == 2 || n[1] == 2;
     const int step = n[0] ? 1 : os, other = mixed ? os : step;
     range all = empty_range;
@@ -163,7 +167,7 @@ static range derivative_range(const face_patch *patch, net at, const int n[2])
     return all;
 }
 
-/* [lo - reach, hi + reach] divided by weights in [least, most]. */
+/* Divides [lo - reach, hi + reach] by weights in [least, most]. */
 static void divide(const range *numerator, const double reach[3], const range *weight, bounds *quotient)
 {
     const double least = weight->lo[3], most = weight->hi[3];
@@ -180,8 +184,8 @@ static void copy_range(const range *from, bounds *to)
     memcpy(to->hi, from->hi, sizeof to->hi);
 }
 
-/* S_f = (A_f - S W_f)/W, S_fg = (A_fg - S_f W_g - S_g W_f - S W_fg)/W (NURBS Book 4.4), all with the centre
-   subtracted, so that |S| <= half along the axes. */
+/* S_f = (A_f - S W_f)/W, S_fg = (A_fg - S_f W_g - S_g W_f - S W_fg)/W (NURBS Book 4.4), relative to the
+   centre, so that |S| <= half along the axes. */
 static void set_derivatives(face_patch *patch, net at)
 {
     static const int order[5][2] = {{1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}};
@@ -252,7 +256,7 @@ bounds ffd_patch_residual(const face_patch *patch, const double x[3])
     return residual;
 }
 
-/* Bounds of a . b. */
+/* Computes bounds of a . b. */
 static void dot_range(const bounds *a, const bounds *b, double *lo, double *hi)
 {
     *lo = *hi = 0;
@@ -266,7 +270,7 @@ static void dot_range(const bounds *a, const bounds *b, double *lo, double *hi)
     }
 }
 
-/* The least |a|^2. */
+/* Returns the least |a|^2. */
 static double least_square(const bounds *a)
 {
     double sum = 0;
@@ -277,8 +281,8 @@ static double least_square(const bounds *a)
     return sum;
 }
 
-/* By intervals. A coordinate along which the distance only rises, or only falls, is at its end in a minimum;
-   in the others the second derivatives S_f . S_g + (S - x) . S_fg must stay positive definite. */
+/* By interval bounds: if the distance is monotone in a coordinate, a minimum is at its end; in the other
+   coordinates the second derivatives S_f . S_g + (S - x) . S_fg must be positive definite everywhere. */
 bool ffd_patch_has_one_minimum(const face_patch *patch, const bounds *residual)
 {
     double lo[3], hi[3], metric_lo, metric_hi;
@@ -308,7 +312,8 @@ static double greatest_length(const bounds *box)
     return sqrt(sum);
 }
 
-/* Halving f halves the variation of S_f by half a turn of S_ff, and that of the other by S_st. */
+/* Halving direction f halves the variation of S_f due to S_ff, and that of the other derivative due to
+   S_st. */
 int ffd_patch_direction(const face_patch *patch)
 {
     const double s = greatest_length(&patch->first[0]), t = greatest_length(&patch->first[1]);

@@ -1,20 +1,21 @@
-/* patch_cell.c - whether a patch and a cell have a point in common. In coordinates in which the cell is the
-   cube [-1,1]^3, planes between the cube and the control points show that they have none; a point of the
-   patch within the cube, found by linear maps, shows that they have one. */
+/* patch_cell.c - decides whether a patch and a cell have a point in common, in coordinates in which the cell
+   is the cube [-1,1]^3. A plane that separates the cube and the control points proves that they have none; a
+   point of the patch in the cube, found by linearisation, proves that they have one. */
 #include "base/vector/vec.h"
 #include "embed/boundary/patch.h"
 #include <string.h>
 
 enum { N = PATCH_COMPONENTS };
 
-/* Linear maps on the way to a point of the patch within the cell. */
+/* The most linearisation steps towards a point of the patch in the cell. */
 #define CELL_STEPS 4
-/* A patch of this size, in half sides of the cell, that no plane keeps from it counts as in it. */
+/* A patch of at most this size, in half sides of the cell, that no plane separates from the cell counts as
+   meeting it. */
 #define GRAZING 1e-6
-/* The corners of a square that six lines have cut. */
+/* The most corners of a square that is clipped by six lines. */
 #define MOST_CORNERS 10
 
-/* Control points in the cell's coordinates. */
+/* The control points in the coordinates of the cell. */
 typedef struct cell_net {
     double at[MAX_ORDER * MAX_ORDER][3];
     size_t count;
@@ -32,7 +33,7 @@ static void make_net(const face_patch *patch, const patch_cell *cell, cell_net *
 
 /* Planes between them */
 
-/* Whether a plane across `normal` is between the net and the cube. */
+/* Returns whether a plane with this normal separates the net and the cube. */
 static bool is_between(const cell_net *net, const double normal[3])
 {
     const double reach = fabs(normal[0]) + fabs(normal[1]) + fabs(normal[2]);
@@ -45,7 +46,7 @@ static bool is_between(const cell_net *net, const double normal[3])
     return least > reach || most < -reach;
 }
 
-/* A chord of the patch along f: the sum of its two edges. */
+/* Computes a chord of the patch along f: the sum of its two edges. */
 static void find_chord(const face_patch *patch, const cell_net *net, int f, double chord[3])
 {
     const size_t os = (size_t)patch->order[0], corner[4] = {0, os - 1, net->count - os, net->count - 1};
@@ -58,8 +59,8 @@ static void find_chord(const face_patch *patch, const cell_net *net, int f, doub
         chord[c] /= length;
 }
 
-/* The planes that keep a cube and a parallelogram apart, if any does: along faces of the cube, along the
-   parallelogram, and along an edge of each. */
+/* Tests the planes that can separate a cube and a parallelogram (separating axis theorem): parallel to the
+   faces of the cube, to the parallelogram, and to an edge of each. */
 static bool is_kept_apart(const face_patch *patch, const cell_net *net)
 {
     static const double axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -88,7 +89,7 @@ typedef struct polygon {
     size_t count;
 } polygon;
 
-/* Cuts off what lies beyond slope . t = end. */
+/* Clips the polygon to slope . t <= end. */
 static void cut(polygon *shape, const double slope[2], double end)
 {
     polygon rest = {.count = 0};
@@ -108,8 +109,8 @@ static void cut(polygon *shape, const double slope[2], double end)
     *shape = rest;
 }
 
-/* Moves t to the middle of the part of [0,1]^2 that the patch, linear as at t, has within the cell. Returns
-   false if there is none. */
+/* Moves t to the middle of the part of [0,1]^2 that the linearisation of the patch at t maps into the cell.
+   Returns false if that is empty. */
 static bool step_into(const patch_sample *sample, const patch_cell *cell, double t[2])
 {
     polygon shape = {{{-t[0], -t[1]}, {1 - t[0], -t[1]}, {1 - t[0], 1 - t[1]}, {-t[0], 1 - t[1]}}, 4};
@@ -153,7 +154,7 @@ static bool has_point_in(const face_patch *patch, const patch_cell *cell)
     return false;
 }
 
-/* How far the lines of the net along f reach, in half sides of the cell. */
+/* Returns the extent of the rows of the net along f, in half sides of the cell. */
 static double length_along(const face_patch *patch, const cell_net *net, int f)
 {
     const size_t os = (size_t)patch->order[0], step = f == 0 ? 1 : os;

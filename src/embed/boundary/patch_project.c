@@ -1,5 +1,5 @@
-/* patch_project.c - a local minimum of the distance from x within a patch: Newton's method on |S - x|^2 / 2
-   in the square [0,1]^2. */
+/* patch_project.c - finds a local minimum of the distance from x in a patch: Newton's method for |S - x|^2 /
+   2 in the square [0,1]^2. */
 #include "base/vector/vec.h"
 #include "embed/boundary/patch.h"
 #include <float.h>
@@ -8,15 +8,16 @@
 enum { N = PATCH_COMPONENTS };
 
 #define STEPS 48
-#define SHORTENINGS 24 /* halvings of one step */
-/* Second derivatives are trusted where their determinant is not mostly rounding. */
+#define SHORTENINGS 24 /* the most halvings of a step */
+/* Second derivatives are used if their relative determinant is at least this, else it is mostly rounding. */
 #define LEAST_DETERMINANT 1e-12
-/* Derivatives shorter than this are rounding: the patch collapses the coordinate. */
+/* Shorter derivatives are rounding: the patch collapses the coordinate. */
 #define LEAST_SLOPE (16 * DBL_EPSILON)
-/* Steps shorter than this should shrink by half at least, or they are rounding only. */
+/* Once steps are shorter than this, each must be at most half as long as the one before; otherwise they are
+   only rounding. */
 #define SHORT_STEP 1e-6
 
-/* From the degree - 1 polynomials' values to the degree's, in place (NURBS Book A1.2). */
+/* Raises the Bernstein polynomials of degree - 1 to those of degree, in place (NURBS Book A1.2). */
 static inline void raise_bernstein(int degree, double t, double *value)
 {
     const double s = 1 - t;
@@ -26,8 +27,8 @@ static inline void raise_bernstein(int degree, double t, double *value)
     value[0] *= s;
 }
 
-/* Bernstein polynomials at t with their first and second derivatives: differences of those of lower degree.
- */
+/* Evaluates the Bernstein polynomials at t with first and second derivatives, as differences of those of
+   lower degree. */
 static void bernstein(int order, double t, double value[3][MAX_ORDER])
 {
     const int degree = order - 1;
@@ -49,7 +50,7 @@ static void bernstein(int order, double t, double value[3][MAX_ORDER])
 
 enum { VALUE, BY_S, BY_T, BY_SS, BY_ST, BY_TT, SUMS };
 
-/* A and W with their derivatives. */
+/* Sums A and W with their derivatives. */
 static void sum_up(const face_patch *patch, const double t[2], double sum[SUMS][N])
 {
     double bs[3][MAX_ORDER], bt[3][MAX_ORDER];
@@ -76,7 +77,7 @@ static void sum_up(const face_patch *patch, const double t[2], double sum[SUMS][
     }
 }
 
-/* By the quotient rule (NURBS Book 4.4). */
+/* Applies the quotient rule (NURBS Book 4.4). */
 static void divide_by_weight(double sum[SUMS][N])
 {
     const double w = sum[VALUE][3], ws = sum[BY_S][3], wt = sum[BY_T][3];
@@ -123,8 +124,8 @@ static double clip_within(double x, double lo, double hi)
     return x < lo ? lo : x > hi ? hi : x;
 }
 
-/* The minimum of gradient . step + step . hessian step / 2, which is convex, with t + step in [0,1]^2: if it
-   is not inside, it lies on a side that the unconstrained one is beyond. */
+/* Minimises the convex function gradient . step + step . hessian step / 2 with t + step in [0,1]^2. If the
+   unconstrained minimum is outside, the minimum is on a side beyond which the former is. */
 static void minimise_in_square(const double gradient[2], const double hessian[3], const double t[2],
                                double step[2])
 {
@@ -151,8 +152,8 @@ static void minimise_in_square(const double gradient[2], const double hessian[3]
     }
 }
 
-/* The second derivative by f alone, or, where that is not positive to rounding, the metric S_f . S_f; 0 where
-   the patch collapses the coordinate. */
+/* Returns the second derivative by f; if it is not positive to rounding, S_f . S_f; 0 if the patch collapses
+   the coordinate. */
 static double second_derivative(const patch_sample *sample, int f, const double hessian[3])
 {
     const double metric = vec_dot(sample->first[f], sample->first[f]);
@@ -169,14 +170,15 @@ static bool is_definite(const patch_sample *sample, const double hessian[3])
            det > LEAST_DETERMINANT * hessian[0] * hessian[2];
 }
 
-/* A coordinate at an end of [0,1] is held there if the distance falls only outwards. */
+/* Returns whether a coordinate at an end of [0,1] is fixed there, because the distance decreases only
+   outwards. */
 static bool rests(double t, double gradient)
 {
     return (t == 0 && gradient >= 0) || (t == 1 && gradient <= 0);
 }
 
-/* Finds the next t. Returns false if both coordinates are held at an end. If the second derivatives are not
-   positive definite, each coordinate takes a step of its own. */
+/* Finds the next t. Returns false if both coordinates are fixed at an end. If the second derivatives are not
+   positive definite, each coordinate makes a step by itself. */
 static bool next_parameters(const patch_sample *sample, const double t[2], double to[2])
 {
     double gradient[2], hessian[3], step[2] = {0, 0};
@@ -197,7 +199,7 @@ static bool next_parameters(const patch_sample *sample, const double t[2], doubl
     return true;
 }
 
-/* |S - x|^2 of b less that of a, without the cancellation. */
+/* Returns |S - x|^2 of b minus that of a, without cancellation. */
 static double change_of_square(const patch_sample *a, const patch_sample *b)
 {
     double sum = 0;
@@ -215,7 +217,7 @@ void ffd_patch_project(const face_patch *patch, const double x[3], double t[2], 
         patch_sample ahead;
         if (!next_parameters(sample, t, to))
             return;
-        /* Points are of size 1 at most, and so are their roundings eps. */
+        /* Points have magnitudes of at most 1, so their rounding error is at most eps. */
         const double noise = 16 * DBL_EPSILON * vec_length(sample->residual);
         bool falls = false;
         for (int i = 0; i < SHORTENINGS && !falls; i++) {

@@ -15,7 +15,7 @@ static void brick_cells(const cell_search *cells, uint32_t number, size_t first[
     }
 }
 
-/* Bounds of all control points that act in the brick. */
+/* Returns the bounds of all control points that act in a brick. */
 static bounds brick_hull(const ffd_locator *locator, uint32_t number)
 {
     const cell_search *cells = locator->cells;
@@ -43,7 +43,7 @@ ffd_status ffd_bricks_create(const ffd_locator *locator, ffd_error *error)
     size_t count = 1;
     for (int a = 0; a < 3; a++) {
         cells->bricks[a] = (cells->cells[a] + BRICK_SIDE - 1) / BRICK_SIDE;
-        count *= cells->bricks[a]; /* no more than the control points, of which there are fewer than 2^31 */
+        count *= cells->bricks[a]; /* at most the number of control points, which is below 2^31 */
     }
     cells->made = ffd_alloc(count, sizeof *cells->made);
     if (!cells->made)
@@ -68,15 +68,15 @@ static void brick_free(cell_brick *brick)
     ffd_free(brick);
 }
 
-/* The cutting of one cell. */
+/* State while a cell is divided into leaves. */
 typedef struct cell_cutter {
     const ffd_locator *locator;
     cell_brick *brick;
     size_t capacity;
     int span[3];
     int budget;
-    double *slots;   /* coefficients for each depth */
-    double *columns; /* of the contraction bound */
+    double *slots;   /* coefficients of each depth */
+    double *columns; /* scratch memory of the contraction bound */
 } cell_cutter;
 
 static bool add_leaf(cell_cutter *cutter, const bezier_box *box, const bounds *hull,
@@ -167,16 +167,16 @@ static bool index_leaves(cell_brick *brick)
 
 /* Limits */
 
-/* Converts a limit in leaves of cubic lattices to leaves of these degrees, which take as much longer to make
-   as they have more control points. */
+/* Scales a limit for leaves of cubic lattices to these degrees: the time for a leaf is in proportion to its
+   control points. */
 static size_t limit_of(const cell_search *cells, size_t cubic)
 {
     const size_t points = ffd_bezier_count(cells->order);
     return points <= 64 ? cubic : cubic * 64 / points;
 }
 
-/* Gives the brick to the lattice, unless another thread was faster; that thread's brick is the same. Returns
-   whether the lattice took this one. */
+/* Publishes a brick, unless another thread has published the same brick first. Returns whether this one was
+   published. */
 static bool keep(cell_search *cells, uint32_t number, cell_brick *mine, const cell_brick **kept)
 {
     cell_brick *there = NULL;
@@ -189,7 +189,7 @@ static bool keep(cell_search *cells, uint32_t number, cell_brick *mine, const ce
     return false;
 }
 
-/* Which bricks a mesh needs does not depend on the order of its vertices, so neither does this. */
+/* The bricks that a mesh needs do not depend on the order of its vertices, so neither does this check. */
 static ffd_status check_heavy(cell_search *cells, ffd_error *error)
 {
     const size_t most = limit_of(cells, MOST_HEAVY_LEAVES);
@@ -233,7 +233,7 @@ ffd_status ffd_cells_brick(const ffd_locator *locator, uint32_t number, own_bric
         *brick = own->brick[slot];
     if (*brick)
         return FFD_OK;
-    const ffd_status status = check_heavy(cells, error); /* once too many, no more of them */
+    const ffd_status status = check_heavy(cells, error); /* once the limit is exceeded, no more are made */
     if (status)
         return status;
     cell_brick *mine = ffd_alloc_zero(1, sizeof *mine);

@@ -1,4 +1,4 @@
-/* cell_kernel.c - compiled once for each instruction set: FFD_CELL_KERNEL is the function's name. */
+/* cell_kernel.c - compiled once for each instruction set; FFD_CELL_KERNEL is the name of the function. */
 #include "embed/cells/cell_kernel.h"
 #include "base/vector/quad.h"
 
@@ -36,7 +36,7 @@ static inline void sum_cell(const cell_basis *basis, const int order[3], const c
 void FFD_CELL_KERNEL(const cell_basis *basis, const int order[3], const cell_rows *rows, homogeneous *result)
 {
     static const int cubic[3] = {4, 4, 4};
-    /* The compiler unrolls loops whose bounds it knows. */
+    /* Constant orders let the compiler unroll the loops. */
     if (order[0] == 4 && order[1] == 4 && order[2] == 4)
         sum_cell(basis, cubic, rows, result);
     else

@@ -1,12 +1,11 @@
-/* cell_kernel.h - a volume and its derivatives at one point of a cell. */
+/* cell_kernel.h - evaluates a volume and its derivatives at a point of a cell. */
 #ifndef FFD_EMBED_CELLS_CELL_KERNEL_H
 #define FFD_EMBED_CELLS_CELL_KERNEL_H
 
 #include "embed/frame/bezier_box.h"
 #include "lattice/lattice.h"
 
-/* A and W at u = t_span + offset, with their derivatives, from the polynomial of the given
-   span (also at its ends). */
+/* A and W with their derivatives, from the polynomial of a given span, also at its ends. */
 typedef struct homogeneous {
     double value[BEZIER_COMPONENTS];
     double derivative[3][BEZIER_COMPONENTS]; /* by u, v, w */
@@ -17,12 +16,13 @@ typedef struct cell_basis {
     double value[3][MAX_ORDER], slope[3][MAX_ORDER];
 } cell_basis;
 
-/* The rows of its control points along u, by w and v: BEZIER_COMPONENTS numbers a
-   point, one after the other. */
+/* Pointers to the rows of control points of a cell along u, indexed by w and v; BEZIER_COMPONENTS consecutive
+   numbers for each point. */
 typedef const double *cell_rows[MAX_ORDER][MAX_ORDER];
 
-/* sum N N N P with its derivatives, u first, then v, then w, each in ascending index. One function for each
-   instruction set, all of the same source and with the same bits: the components of a point are lanes. */
+/* Computes sum N N N P and its derivatives: over u first, then v, then w, each in ascending index. One
+   function for each instruction set, all from the same source and with the same bits: lanes are the
+   components of a point. */
 typedef void cell_kernel(const cell_basis *basis, const int order[3], const cell_rows *rows,
                          homogeneous *result);
 

@@ -5,8 +5,8 @@ enum { N = BEZIER_COMPONENTS };
 
 /* Flat cells */
 
-/* The columns C_u, C_v, C_w by the quotient rule, each coordinate in units of the lattice's extent; C itself
-   likewise where value is not NULL. */
+/* Computes C_u, C_v, C_w by the quotient rule, each coordinate in units of the lattice's extent; also C
+   unless value is NULL. */
 static void columns_of(const cell_search *cells, const homogeneous *at, double column[3][3], double *value)
 {
     for (int r = 0; r < 3; r++) {
@@ -26,7 +26,7 @@ static void derivatives_at(const ffd_locator *locator, const int span[3], const 
     columns_of(locator->cells, &at, column, value);
 }
 
-/* Returns det [C_u C_v C_w]; across[a] is the cross product of the other two columns, cyclic. */
+/* Returns det [C_u C_v C_w]. across[a] is the cross product of the next two columns, cyclically. */
 static double determinant_of(const double column[3][3], double across[3][3])
 {
     for (int a = 0; a < 3; a++)
@@ -34,7 +34,7 @@ static double determinant_of(const double column[3][3], double across[3][3])
     return vec_dot(column[0], across[0]);
 }
 
-/* A cell of the lattice without its weights, at one u,v,w. */
+/* The basis functions of a cell, without weights, at one u,v,w. */
 typedef struct plain_cell {
     cell_basis basis;
     cell_rows rows;
@@ -65,8 +65,8 @@ static void take_plain_cell(const ffd_locator *locator, const int span[3], const
         }
 }
 
-/* What each coordinate of a control point is rounded by, in units of the extent: half an ulp in the file
-   where it was worked out well, and less than another one when the origin is subtracted. */
+/* Computes the rounding error of each coordinate of a control point, in units of the extent: half an ulp in
+   the file, if it was computed accurately, and at most another half when the origin is subtracted. */
 static void roundings_of(const ffd_locator *locator, const double *point, double rounding[3])
 {
     const cell_search *const cells = locator->cells;
@@ -76,7 +76,8 @@ static void roundings_of(const ffd_locator *locator, const double *point, double
     }
 }
 
-/* What the determinant changes by at most when every control point moves by its rounding. */
+/* Returns an upper bound of the change of the determinant if every control point moves by its rounding
+   error. */
 static double effect_of_roundings(const ffd_locator *locator, const plain_cell *cell,
                                   const double column[3][3], const double across[3][3])
 {
@@ -96,14 +97,14 @@ static double effect_of_roundings(const ffd_locator *locator, const plain_cell *
                     alone[r] += fabs(slope[r]) * vec_length(rounding);
                 }
             }
-    /* Of second and third order, where the columns are nearly parallel or 0. */
+    /* Terms of second and third order, for columns that are nearly parallel or 0. */
     for (int a = 0; a < 3; a++)
         sum += (vec_length(column[a]) + alone[a]) * alone[(a + 1) % 3] * alone[(a + 2) % 3];
     return sum + 4 * DBL_EPSILON * vec_length(column[0]) * vec_length(column[1]) * vec_length(column[2]);
 }
 
-/* Whether the roundings of the control points can make the determinant 0. Weights are left out: where one
-   outdoes the others C hardly moves, and its derivatives are mostly rounding. */
+/* Returns whether the rounding errors of the control points can make the determinant 0. Weights are ignored:
+   where one weight dominates, C is nearly constant, and its derivatives are mostly rounding. */
 static bool is_flat_to_rounding(const ffd_locator *locator, const int span[3], const double offset[3])
 {
     const cell_search *const cells = locator->cells;
@@ -118,9 +119,9 @@ static bool is_flat_to_rounding(const ffd_locator *locator, const int span[3], c
              effect_of_roundings(locator, &cell, (const double(*)[3])column, (const double(*)[3])across));
 }
 
-/* Whether det [C_u C_v C_w] at t of a cell's [0,1]^3 is 0 to rounding. A first look settles most cells: there
-   it is far more than any rounding of its columns, which are sums of control points times slopes of about
-   degree / side. */
+/* Returns whether det [C_u C_v C_w] is 0 to rounding at t in [0,1]^3 of a cell. A cheap test decides most
+   cells: the determinant is far greater than the rounding errors of its columns, which are sums of control
+   points times slopes of about degree / side. */
 static bool is_flat_at(const ffd_locator *locator, const int span[3], const double t[3])
 {
     double offset[3], column[3][3], across[3][3], length[3], noise[3], most = 0;
@@ -160,23 +161,24 @@ static double triple_product(const double a[3], const double b[3], const double 
     return vec_dot(a, cross);
 }
 
-/* Signed volume: the integral of det [C_u C_v C_w] over the domain is that of det [C, C_b, C_c] / 3 over its
-   border (Gauss), (a,b,c) cyclic, last face less first. Faces of closed directions cancel. */
+/* Signed volume: by Gauss's theorem the integral of det [C_u C_v C_w] over the domain equals that of det [C,
+   C_b, C_c] / 3 over its border, (a,b,c) cyclic, last face minus first face. Faces of closed directions
+   cancel. */
 
-/* The four points of Gauss-Legendre's rule on [0,1]. It is exact for degree 7; a face of degree d has 3d - 1.
- */
+/* The Gauss-Legendre rule with four nodes on [0,1], which is exact for degree 7. The integrand of a face of
+   degree d has degree 3d - 1. */
 static const double rule[4][2] = {{0.06943184420297371, 0.17392742256872693},
                                   {0.33000947820757187, 0.32607257743127307},
                                   {0.66999052179242813, 0.32607257743127307},
                                   {0.93056815579702629, 0.17392742256872693}};
 
-/* Parts of a cell in each direction that the rule is used on. */
+/* Returns the number of parts of a cell in a direction to which the rule is applied. */
 static int parts_of(const cell_search *cells, int degree)
 {
     return 1 + degree / 4 + (cells->rational ? 2 : 0);
 }
 
-/* Over the cell of the face of direction a at `end` whose spans are given. */
+/* Integrates over a cell, given by its spans, of the face of direction a at `end`. */
 static double face_cell(const ffd_locator *locator, int a, int end, const int span[3])
 {
     const int b = (a + 1) % 3, c = (a + 2) % 3;

@@ -1,4 +1,4 @@
-/* cells.c - one cell of the rest lattice: its control points, its Bezier form, C and its derivatives. */
+/* cells.c - a cell of the rest lattice: its control points, its Bezier form, C and its derivatives. */
 #include "embed/cells/cells.h"
 #include "spline/basis.h"
 #include <string.h>

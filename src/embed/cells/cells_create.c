@@ -1,4 +1,4 @@
-/* cells_create.c - makes what the search in the cells of one rest lattice shares. */
+/* cells_create.c - builds the search structure of a rest lattice. */
 #include "base/memory/memory.h"
 #include "embed/cells/brick.h"
 #include "embed/cells/cell_locator.h"
@@ -9,7 +9,7 @@
 
 enum { N = BEZIER_COMPONENTS };
 
-/* The power of two that brings size into [0.5, 1), as far as doubles allow. */
+/* Returns the power of two that scales size to [0.5, 1), as far as it is a double. */
 static double scale_of(double size)
 {
     int exponent;
@@ -57,7 +57,7 @@ static ffd_status make_extractions(const ffd_locator *locator, cell_search *cell
     return FFD_OK;
 }
 
-/* Half a kilobyte each, so that a direction of millions of spans goes without. */
+/* A scheme has half a kilobyte; a direction with more spans does not store them. */
 #define MOST_SCHEMES ((size_t)4096)
 
 static ffd_status make_schemes(const ffd_locator *locator, cell_search *cells, ffd_error *error)
@@ -76,12 +76,12 @@ static ffd_status make_schemes(const ffd_locator *locator, cell_search *cells, f
     return FFD_OK;
 }
 
-/* The kernels of an instruction set; region is NULL if points are searched one by one. */
+/* The kernels of an instruction set; region is NULL if points are to be searched one by one. */
 typedef struct kernel_set {
     cell_kernel *cell;
     const contraction_kernel *contraction;
     region_kernel *region;
-    size_t lanes; /* of region */
+    size_t lanes; /* of the region kernel */
 } kernel_set;
 
 static const kernel_set kernels[] = {
@@ -129,7 +129,7 @@ ffd_status ffd_cells_create(ffd_locator *locator, ffd_error *error)
         status = ffd_collapses_find(locator, &cells->collapses, error);
     if (!status)
         status = ffd_bricks_create(locator, error);
-    return status; /* the locator's destroy frees what there is */
+    return status; /* ffd_locator_destroy frees what was made */
 }
 
 bool ffd_cells_have_seam(const cell_search *cells, int direction)

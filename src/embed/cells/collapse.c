@@ -10,13 +10,13 @@
 
 enum { N = BEZIER_COMPONENTS };
 
-/* A curve is halved until its parts are this short relative to a span, and into this many parts in all. */
+/* The limits of halving a curve: how often, and the number of parts in total. */
 #define CURVE_HALVINGS 52
 #define CURVE_BUDGET 4096
 
 /* Finding */
 
-/* The face's control point in the search's units. */
+/* Computes a control point of a face in the search's units. */
 static void face_point(const ffd_locator *locator, const border_face *face, const size_t index[3],
                        double point[N])
 {
@@ -33,14 +33,14 @@ static bool is_one_point(const double a[N], const double b[N], const double tole
     return true;
 }
 
-/* Half the tolerance of a point on the set: the other half is for the search. */
+/* Sets half the tolerance of a point of the set; the other half is for the search. */
 static void set_tolerance(const cell_search *cells, double tolerance[3])
 {
     for (int a = 0; a < 3; a++)
         tolerance[a] = 8 * DBL_EPSILON * cells->extent[a];
 }
 
-/* Whether the face's line of control points through index along a direction is one point. */
+/* Returns whether the row of control points of a face through index in a direction is a single point. */
 static bool line_collapses(const ffd_locator *locator, const border_face *face, int along, size_t index[3])
 {
     double first[N], point[N], tolerance[3];
@@ -55,7 +55,7 @@ static bool line_collapses(const ffd_locator *locator, const border_face *face, 
     return true;
 }
 
-/* Whether every line of the face along a direction is one point. */
+/* Returns whether every row of a face in a direction is a single point. */
 static bool face_collapses(const ffd_locator *locator, const border_face *face, int along)
 {
     const int other = 3 - face->direction - along;
@@ -83,7 +83,8 @@ static double end_of(const ffd_locator *locator, int direction, int end)
     return end ? ffd_knots_last(&locator->knots[direction]) : 0;
 }
 
-/* The face's points along one direction (-1: its one point), the other indices as they are in index. */
+/* Adds a set: the points of the face along a direction (-1: its single point), with the other indices from
+   index. */
 static ffd_status add_set(const ffd_locator *locator, const border_face *face, int along, size_t index[3],
                           const double uvw[3], collapse_list *list, ffd_error *error)
 {
@@ -105,15 +106,16 @@ static ffd_status add_set(const ffd_locator *locator, const border_face *face, i
     return FFD_OK;
 }
 
-/* The face's edges towards the end of `side`, where it collapses the line along the third direction. */
+/* Adds an edge of the face at an end of `side`, if the face collapses the row along the third direction
+   there. */
 static ffd_status add_edge(const ffd_locator *locator, const border_face *face, const double face_uvw[3],
                            int side, collapse_list *list, ffd_error *error)
 {
     const int along = 3 - face->direction - side;
     ffd_status status = FFD_OK;
     for (int end = 0; end < 2 && !status; end++) {
-        /* The edge's control points are those of the face's last line only where the knots are clamped; else
-           the face has no control points on its edge, and nobody collapses it by hand. */
+        /* Only with clamped knots the control points of the edge are those of the last row of the face.
+           Otherwise the face has no control points on its edge, and edges are not collapsed in practice. */
         const knot_vector *knots = &locator->knots[side];
         size_t index[3] = {0, 0, 0};
         index[side] = end ? locator->lattice->size[side] - 1 : 0;
@@ -141,7 +143,7 @@ static ffd_status look_at_face(const ffd_locator *locator, int direction, int en
     const bool by_a = face_collapses(locator, &face, a), by_b = face_collapses(locator, &face, b);
     if (by_a || by_b)
         return add_set(locator, &face, by_a && by_b ? -1 : by_a ? b : a, index, uvw, list, error);
-    /* An edge belongs to two faces: it is looked at from the one of the lower direction. */
+    /* An edge belongs to two faces; it is handled with the face of the lower direction. */
     ffd_status status = FFD_OK;
     for (int side = direction + 1; side < 3 && !status; side++)
         if (!ffd_knots_closed(&locator->knots[side]))
@@ -170,10 +172,11 @@ void ffd_collapses_free(collapse_list *list)
 typedef struct curve_search {
     const double *x, *tolerance;
     int order, budget;
-    double at; /* the answer: a fraction of the span */
+    double at; /* the result: a fraction of the span */
 } curve_search;
 
-/* Whether the part [lo, lo + width] of the span comes to x; the least such u is stored. */
+/* Returns whether the part [lo, lo + width] of the span passes x within the tolerance, and stores the least
+   such u. */
 static bool search_curve(curve_search *search, double curve[MAX_ORDER][N], double lo, double width, int level)
 {
     bounds box = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};

@@ -1,5 +1,5 @@
-/* contraction_kernel.c - compiled once for each instruction set: FFD_CONTRACTION_KERNEL is the name of its
-   table. How far Y J_F is from I over a box, and where to cut the box to bring it nearer. */
+/* contraction_kernel.c - compiled once for each instruction set; FFD_CONTRACTION_KERNEL is the name of its
+   table. It bounds the distance of Y J_F from I over a box, and selects the halving that reduces it most. */
 #include "embed/cells/contraction_kernel.h"
 #include "base/vector/quad.h"
 #include "base/vector/vec.h"
@@ -7,7 +7,7 @@
 
 enum { N = BEZIER_COMPONENTS };
 
-/* Bernstein polynomials of the degree at 1/2: binomial(d, i) / 2^d, exact. */
+/* Evaluates the Bernstein polynomials at 1/2: binomial(d, i) / 2^d, exact. */
 static void bernstein_at_half(int degree, double value[MAX_ORDER])
 {
     double factor = 1;
@@ -24,7 +24,7 @@ static ALWAYS_INLINE quad quad_of(double x, double y, double z)
     return quad_load((const double[N]){x, y, z, 0});
 }
 
-/* J_F at the centre, row by row. */
+/* Computes J_F at the centre, row-major. */
 static void centre_jacobian(const bezier_box *box, const double p[3], double jacobian[9])
 {
     double value[3][MAX_ORDER], slope[3][MAX_ORDER];
@@ -41,7 +41,7 @@ static void centre_jacobian(const bezier_box *box, const double p[3], double jac
     quad by_t[3] = {0};
     for (int k = 0; k < box->order[2]; k++)
         for (int j = 0; j < box->order[1]; j++) {
-            /* All products of these are exact. */
+            /* Products of these are exact. */
             const double du = value[1][j] * value[2][k], dv = slope[1][j] * value[2][k],
                          dw = value[1][j] * slope[2][k];
             for (int i = 0; i < box->order[0]; i++, c += N) {
@@ -60,11 +60,10 @@ static void centre_jacobian(const bezier_box *box, const double p[3], double jac
     }
 }
 
-/* A column of Y J_F: the coefficients that its three rows have, and the derivative's of
-   W, one after the other. */
+/* A column of Y J_F: for each Bernstein coefficient the values of its three rows, and the derivative of W. */
 typedef struct column_form {
-    double *numbers; /* N a coefficient */
-    int size[3];     /* the box's orders, one less along the column's own direction */
+    double *numbers; /* N numbers for each coefficient */
+    int size[3];     /* orders of the box, one less in the direction of the column */
 } column_form;
 
 static column_form column_of(const bezier_box *box, int b, double *columns)
@@ -103,7 +102,7 @@ static void fill_column(const bezier_box *box, int b, const double p[3], const d
         }
 }
 
-/* The greatest |delta_rb - coefficient| of each row of the column, with the reach of p added. */
+/* Computes the greatest |delta_rb - coefficient| of each row of a column, including the range of p. */
 static void column_distance(const column_form *column, int b, const double reach[3], const double inverse[9],
                             double distance[N])
 {
@@ -121,13 +120,14 @@ static void column_distance(const column_form *column, int b, const double reach
         quad with_reach = quad_magnitude(&off);
         quad_add(&with_reach, fabs(numbers[3]), &reached);
         greatest = quad_larger(&with_reach, &greatest);
-        quad_add(&zero, 0, &with_reach); /* NaN and infinity must not pass as a small bound */
+        quad_add(&zero, 0, &with_reach); /* so that NaN and infinity do not pass as a small bound */
     }
     quad_add(&greatest, 1, &zero);
     quad_store(&greatest, distance);
 }
 
-/* spread[r][a]: how much row r of the column varies along a, the most of all lines of coefficients. */
+/* Computes spread[r][a]: the greatest variation of row r of the column along a, over all rows of
+   coefficients. */
 static void column_spread(const column_form *column, int a, double spread[3][3])
 {
     const size_t stride = ffd_bezier_stride(column->size, a), slab = stride * (size_t)column->size[a],
@@ -150,9 +150,9 @@ static void column_spread(const column_form *column, int a, double spread[3][3])
         spread[r][a] = rows[r];
 }
 
-/* The greatest row sum of spreads once the box is halved along c (-1: as it is). Halving halves every
-   spread along c and all of column c (its derivative is by a shorter side), and doubles row c (its
-   coordinate is stretched). */
+/* Returns the greatest row sum of spreads after the box is halved in direction c (-1: without halving).
+   Halving divides by 2 every spread along c, and all of column c (its derivative is by a shorter side), and
+   doubles row c (its coordinate is stretched). */
 static double predicted_sum(double spread[3][3][3], int c)
 {
     double greatest = 0;
@@ -166,7 +166,7 @@ static double predicted_sum(double spread[3][3][3], int c)
     return greatest;
 }
 
-/* If no single halving lowers the bound, the longest side is halved: halving all three always lowers it. */
+/* If no single halving reduces the bound, the longest side is halved: halving all three always reduces it. */
 static int best_halving(const bezier_box *box, double spread[3][3][3])
 {
     int best = 0, longest = 0;

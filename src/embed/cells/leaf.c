@@ -1,12 +1,12 @@
-/* leaf.c - the one root of a region, by its contraction (src/maths.md 6.4). */
+/* leaf.c - finds the only root of a region by its contraction (src/maths.md 6.4). */
 #include "embed/cells/leaf.h"
 #include "base/vector/vec.h"
 #include "embed/frame/face.h"
 #include <float.h>
 #include <string.h>
 
-/* Newton steps in one leaf: the certified radius at least halves with each, and 2^-64 is below any rounding.
- */
+/* LEAF_STEPS: Newton steps in a leaf; each at least halves the certified radius, and 2^-64 is below any
+   rounding. CALM_STEPS: damped steps. */
 #define LEAF_STEPS 64
 #define CALM_STEPS 32
 
@@ -16,7 +16,7 @@ static double greatest(const double v[3])
     return x > y ? (x > z ? x : z) : (y > z ? y : z);
 }
 
-/* What is not finite proves nothing. */
+/* Values that are not finite prove nothing. */
 static bool is_beyond(const double v[3], double limit)
 {
     const double size = greatest(v);
@@ -38,14 +38,15 @@ void ffd_search_evaluate_in(point_search *search, const cell_region *region, con
         at->jacobian[i] *= region->width[i % 3];
 }
 
-/* t + step, clipped to the box. */
+/* Sets to = t + step, clamped to the box. */
 static void step_from(const double t[3], const double step[3], double to[3])
 {
     for (int a = 0; a < 3; a++)
         to[a] = clip_to_unit(t[a] + step[a]);
 }
 
-/* What a root at t may miss the point by: its tolerance, and what the rounding of u,v,w moves C by. */
+/* Computes the allowed residual of a root at t: the tolerance of the point, plus the change of C by rounding
+   u,v,w. */
 static void find_allowance(const point_search *search, const cell_region *region, const double t[3],
                            const sample *at, double allowance[3])
 {
@@ -67,11 +68,11 @@ bool ffd_search_admits(const point_search *search, const cell_region *region, co
     return ffd_within_tolerance(at->residual, allowance);
 }
 
-/* A root may lie a rounding outside the box. */
+/* The search for a root on a face: a root may be outside the box by a rounding error. */
 typedef struct face_search {
     point_search *search;
     const cell_region *region;
-    bool admits; /* whatever ffd_search_admits does */
+    bool admits; /* accept what ffd_search_admits accepts */
     sample at;
 } face_search;
 
@@ -85,7 +86,7 @@ static bool evaluate_on_face(void *context, const double t[3], double jacobian[9
                         : ffd_search_accepts(face->search, &face->at, face->region->weight_ratio);
 }
 
-/* Sets the root at t, whose sample is `at`. */
+/* Fills a root at t, whose sample is `at`. */
 static void find_root(const point_search *search, const cell_region *region, const double t[3],
                       const sample *at, root *found)
 {
@@ -122,7 +123,7 @@ void ffd_search_stall(point_search *search, const cell_region *region, const dou
     stall->singular = true;
 }
 
-/* Whether the face of the region is one of the domain: beyond it there is no other. */
+/* Returns whether a face of the region is on the border of the domain. */
 static bool is_domain_face(const ffd_locator *locator, const cell_region *region, int a, int end)
 {
     const knot_vector *knots = &locator->knots[a];
@@ -134,8 +135,9 @@ static bool is_domain_face(const ffd_locator *locator, const cell_region *region
                : span == knots->spans[0] && region->lo[a] == 0;
 }
 
-/* Whether the box is left by all that a root in it can be: what G = t - Y F makes of t is no farther from the
-   root than L e and the tolerance, in each direction. Sets e, a bound of the distance from a root. */
+/* Returns whether the contraction proves that the box has no root: G(t) = t - Y F is within L e plus the
+   tolerance of a root in each direction, but all such roots would be outside. Sets e, a bound of the distance
+   of t from a root. */
 static bool leaves_by_contraction(const point_search *search, const cell_region *region, const double t[3],
                                   const sample *at, double *e)
 {
@@ -158,10 +160,10 @@ static bool leaves_by_contraction(const point_search *search, const cell_region 
     return false;
 }
 
-/* v less its components along unit vectors that are orthogonal. */
+/* Subtracts from v its components along orthonormal vectors. */
 static void take_away(const double unit[3][3], int count, double v[3])
 {
-    for (int round = 0; round < 2; round++) /* twice: once leaves what rounding made */
+    for (int round = 0; round < 2; round++) /* the second time removes what rounding left */
         for (int i = 0; i < count; i++) {
             const double along = vec_dot(unit[i], v);
             for (int r = 0; r < 3; r++)
@@ -169,8 +171,8 @@ static void take_away(const double unit[3][3], int count, double v[3])
         }
 }
 
-/* What is left of the residual, and of the columns that the box holds, across those that are free. Returns
-   false if the free ones are not independent. */
+/* Projects the residual, and the columns of the fixed coordinates, onto the orthogonal complement of the
+   columns of the free coordinates. Returns false if the latter are not linearly independent. */
 static bool look_across(const double jacobian[9], const double residual[3], const double t[3],
                         double across[3][3], double left[3])
 {
@@ -199,9 +201,9 @@ static bool look_across(const double jacobian[9], const double residual[3], cons
     return true;
 }
 
-/* Whether t, on faces of the region, is next to the point of it that is closest to x in units of the
-   allowance, and that one misses: most of the residual is across the coordinates that are free, is more than
-   the allowance, and the others could only go on outwards. */
+/* Returns whether t, on faces of the region, is next to the point of the region closest to x, in units of the
+   allowance, and that point misses x: most of the residual is orthogonal to the free coordinates and exceeds
+   the allowance, and the fixed coordinates could improve it only outwards. */
 static bool is_closest(const double t[3], const sample *at, const double allowance[3])
 {
     double jacobian[9], equation[3], across[3][3], left[3];
@@ -223,11 +225,12 @@ static bool is_closest(const double t[3], const sample *at, const double allowan
     return outward;
 }
 
-/* J is taken for the same around t if it changes by no more than this part. */
+/* J counts as constant near t if its relative change is at most this. */
 #define MOST_CHANGE 0.25
 
-/* What I - Y J, which L bounds over the region, changes by at most within e of a point: Markov's inequality
-   for polynomials of the lattice's degrees. *usual: what it does but for polynomials made for it. */
+/* Returns an upper bound of the change of I - Y J, which L bounds over the region, within e of a point:
+   Markov's inequality for polynomials of the lattice's degrees. *usual: an estimate that holds except for
+   polynomials constructed against it. */
 static double change_of_jacobian(const point_search *search, const cell_region *region, double e,
                                  double *usual)
 {
@@ -240,9 +243,9 @@ static double change_of_jacobian(const point_search *search, const cell_region *
     return slope * region->bound * e;
 }
 
-/* Whether Newton's step, which ends within e of any root, leads out of the region. Over an inner face that
-   has to be by more than the tolerance explains, so that a root on the face is not left by both neighbours.
-   On a face of the domain the point that is closest was looked for before, and misses. */
+/* Returns whether Newton's step, which ends within e of any root, leads out of the region. At an inner face
+   it must do so by more than the tolerance, so that a root on the face is not dropped by both neighbours. On
+   the border of the domain the closest point was examined before, and misses. */
 static bool leads_out_by_step(const point_search *search, const cell_region *region, const double t[3],
                               const sample *at, const double allowance[3], double e)
 {
@@ -266,8 +269,8 @@ static bool leads_out_by_step(const point_search *search, const cell_region *reg
     return false;
 }
 
-/* Whether the point can only be out of the region: by the contraction, by Newton's step; or t, on a face of
-   it, is the point of the region that is closest, and misses. */
+/* Returns whether the region has no root: by the contraction, by Newton's step, or because t, on a face, is
+   the closest point of the region, and misses. */
 static bool leads_out(const point_search *search, const cell_region *region, const double t[3],
                       const sample *at)
 {
@@ -284,7 +287,7 @@ static bool is_within_box(const double t[3])
     return t[0] > 0 && t[0] < 1 && t[1] > 0 && t[1] < 1 && t[2] > 0 && t[2] < 1;
 }
 
-/* Whether t is a root, or the closest point of a face beside it. */
+/* Returns whether t is a root, or the closest point of a face next to it is one; t is moved there. */
 static bool settle(face_search *face, double t[3])
 {
     const sample at = face->at;
@@ -303,7 +306,7 @@ static bool settle(face_search *face, double t[3])
     return admitted;
 }
 
-/* |F| in units of each row's allowance. */
+/* Returns |F| in units of the allowance of each row. */
 static double miss_of(const sample *at, const double allowance[3])
 {
     double weighed[3];
@@ -312,7 +315,7 @@ static double miss_of(const sample *at, const double allowance[3])
     return vec_length(weighed);
 }
 
-/* Levenberg's damped step of least squares within the box. Returns false if there is none. */
+/* Makes a damped least-squares step (Levenberg), clamped to the box. Returns false if there is none. */
 static bool damped_step(const sample *at, const double allowance[3], double damping, const double t[3],
                         double to[3])
 {
@@ -342,9 +345,9 @@ static bool damped_step(const sample *at, const double allowance[3], double damp
     return true;
 }
 
-/* Where J is nearly singular, Newton's steps are mostly rounding in the direction that it hardly sees, and
-   the curvature makes each of them miss again. Damped steps leave that direction alone as long as they can.
-   Returns whether t is a root then. */
+/* Where J is nearly singular, Newton steps are mostly rounding in the null direction, and curvature makes
+   each step miss again. Damped steps avoid that direction as long as possible. Returns whether t is a root
+   afterwards. */
 static bool calm_down(point_search *search, const cell_region *region, double t[3], sample *at)
 {
     double damping = 1e-6;
@@ -367,7 +370,7 @@ static bool calm_down(point_search *search, const cell_region *region, double t[
     return ffd_search_admits(search, region, t, at);
 }
 
-/* The iteration stands still at t. Returns false if that proves nothing. */
+/* Handles an iteration that stalls at t. Returns false if that proves nothing. */
 static bool end_without_root(point_search *search, const cell_region *region, double t[3], sample *at,
                              root *stall)
 {
@@ -383,7 +386,7 @@ static bool end_without_root(point_search *search, const cell_region *region, do
     return true;
 }
 
-/* The first step, -Y F from the centre, whose value is known. Returns false if the region has no root. */
+/* Makes the first step, -Y F from the centre, where F is known. Returns false if the region has no root. */
 static bool leave_centre(const point_search *search, const cell_region *region, double noise, double t[3],
                          double *e)
 {
@@ -399,13 +402,13 @@ static bool leave_centre(const point_search *search, const cell_region *region, 
     return true;
 }
 
-/* What a step led to. */
+/* The result of a step. */
 typedef struct stride {
-    double t[3], radius; /* the new point, and a bound of its distance from the root */
+    double t[3], radius; /* the new point, and a bound of its distance to the root */
     sample at;
 } stride;
 
-/* Newton's step, where it brings the certified radius below that of the contraction. */
+/* Makes a Newton step. Returns false if its certified radius is not below that of the contraction step. */
 static bool newton_stride(point_search *search, const cell_region *region, const double t[3],
                           const sample *at, double noise, double shorter, stride *ahead)
 {
@@ -419,8 +422,8 @@ static bool newton_stride(point_search *search, const cell_region *region, const
     return ahead->radius <= shorter || ffd_search_accepts(search, &ahead->at, region->weight_ratio);
 }
 
-/* e bounds |t - root| throughout, if there is a root: Y F contracts distances from it by L, clipping does not
-   lengthen them, and any t has |Y F(t)| between (1-L) and (1+L) times its distance. */
+/* Invariant: if there is a root, |t - root| <= e. The map t - Y F contracts distances to the root by L,
+   clamping does not increase them, and |Y F(t)| is between (1-L) and (1+L) times the distance. */
 bool ffd_search_region(point_search *search, const cell_region *region, root *stall)
 {
     const double noise = ffd_image_of_tolerance(region->inverse, search->tolerance, region->greatest_weight);

@@ -1,6 +1,5 @@
-/* leaf_subdivision.c - leaves without a contraction bound, near folds and collapses: halved for one point
- * (src/maths.md 6.5).
- */
+/* leaf_subdivision.c - hard leaves, without a contraction bound, near folds and collapses: subdivided for a
+   single point (src/maths.md 6.5). */
 #include "embed/cells/leaf_subdivision.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
@@ -8,23 +7,24 @@
 #include "embed/frame/face.h"
 #include <string.h>
 
-/* A box is halved this often in each direction, unless the tolerance blurs its parts before: next to a
-   collapsed face one direction is to be cut as finely as doubles allow. */
+/* The most halvings of a box in each direction, unless the tolerance makes its parts indistinguishable
+   before: next to a collapsed face one direction must be divided as finely as doubles allow. */
 #define HARD_HALVINGS 48
 #define HARD_LEVELS (3 * HARD_HALVINGS + 2)
-/* Y of a larger box can be large by chance: where its centre lies on a fold. */
+/* Only boxes of at most this side can be blurred: Y of a larger box can be large by chance, if its centre is
+   on a fold. */
 #define BLURRED_SIDE 0x1p-22
-#define HARD_BUDGET 4096 /* boxes in one leaf */
+#define HARD_BUDGET 4096 /* boxes in a leaf */
 #define HARD_BOUND 0.75
-/* Halvings of a region in which the iteration stood still. */
+/* PART_LEVELS: halvings of a region in which the iteration stalled. */
 #define PART_LEVELS 16
 #define POLISH_ROUNDS 12
-/* A u,v,w that misses by more, in the search's units, in which the lattice has about the size 1, is no
- * answer. */
+/* A u,v,w with a greater residual, in the search's units, is not accepted; the lattice has a size of about 1
+   there. */
 #define LARGEST_MISS 1e-6
-/* Singular boxes that are polished in one hard leaf before the rest of it is left. */
+/* The most singular boxes that are polished in a hard leaf before the rest of it is dropped. */
 #define HARD_SINGULAR 8
-/* Boxes that are polished in one hard leaf once its budget is used up. */
+/* The most boxes that are polished in a hard leaf after its budget is used up. */
 #define MOST_LEFT 16
 
 static bool make_memory(point_search *search)
@@ -41,7 +41,7 @@ static bool make_memory(point_search *search)
     return false;
 }
 
-/* Levenberg's damped step: the direction that J cannot see rests, the others go to the solution. */
+/* Makes a damped step (Levenberg): no movement in the null direction of J, a Newton step in the others. */
 static bool damped_step(const double jacobian[9], const double equation[3], double step[3])
 {
     double normal[9], gradient[3], inverse[9], trace = 0;
@@ -60,7 +60,7 @@ static bool damped_step(const double jacobian[9], const double equation[3], doub
     return true;
 }
 
-/* One step, damped if need be; false if there is none. */
+/* Makes a step, damped if necessary. Returns false if there is none. */
 static bool polishing_step(const point_search *search, const sample *at, bool full, double t[3])
 {
     double jacobian[9], equation[3], step[3];
@@ -80,8 +80,8 @@ static void note_stall(point_search *search, const cell_region *region, const do
     ffd_search_note_stall(search, &stall);
 }
 
-/* A box that is not halved further, where J is singular or nearly so: Newton's steps while they can be made,
-   then damped ones. Returns whether there is a root; else notes the best point. */
+/* Handles a box that is not halved further, where J is singular or nearly so: Newton steps as long as
+   possible, then damped ones. Returns whether there is a root; otherwise records the best point. */
 static bool polish(point_search *search, const cell_region *region)
 {
     double t[3] = {0.5, 0.5, 0.5}, best_t[3], least = HUGE_VAL;
@@ -114,7 +114,7 @@ typedef struct hard_search {
     point_search *search;
     int span[3];
     int budget, singular;
-    int left; /* boxes left without a look into, of which a few are polished */
+    int left; /* boxes that were dropped without being examined, of which a few are polished */
     int most_levels;
 } hard_search;
 
@@ -129,8 +129,8 @@ static bool holds_zero(const bounds *box, const double slack[3])
     return bounds_hold(box, zero, slack);
 }
 
-/* The direction to halve: that of the contraction bound, or the longest where that one is short enough; -1:
-   all are. */
+/* Returns the direction to halve: the one that the contraction bound suggests or, if that is short enough
+   already, the longest; -1 if all are short enough. */
 static int direction_to_halve(const bezier_box *box, int wanted)
 {
     const double end = ldexp(1, -HARD_HALVINGS);
@@ -150,8 +150,8 @@ static double shortest_side(const bezier_box *box)
     return shortest;
 }
 
-/* Whether the box is done with: it holds no root, or its one root was looked for. *blurred: else, its parts
- * could not be distinguished, since the tolerance alone reaches across half of it. */
+/* Returns whether the box is finished: it has no root, or its only root was searched. Otherwise *blurred says
+   whether its halves could not be distinguished, because the tolerance is as large as half of the box. */
 static bool settle_box(hard_search *hard, const bezier_box *box, int level, contraction_bound *found,
                        cell_region *region, bool *blurred)
 {
@@ -183,15 +183,14 @@ static bool settle_box(hard_search *hard, const bezier_box *box, int level, cont
     root stall;
     if (ffd_search_region(search, region, &stall))
         return true;
-    /* Where the tolerance reaches across half of the box, its parts can tell no more. */
+    /* If the tolerance is as large as half of the box, halving it gives no information. */
     if (noise < 64 && level < hard->most_levels)
         return false;
     ffd_search_note_stall(search, &stall);
     return true;
 }
 
-/* A box that is not looked into any more. The point has at least the u,v,w at which the first few of them
- * end. */
+/* Drops a box. The first few dropped boxes are polished, so that the point gets at least a u,v,w. */
 static void leave_box(hard_search *hard, const bezier_box *box)
 {
     static const contraction_bound unknown = {.bound = HUGE_VAL};
@@ -233,7 +232,7 @@ static void halve_for_point(hard_search *hard, bezier_box *box, int level)
     halve_for_point(hard, &upper, level + 1);
 }
 
-/* Cuts box down to the part [lo, hi] of its cell, both reached by halving. */
+/* Restricts a box to the part [lo, hi] of its cell, both multiples of powers of 1/2. */
 static void restrict_to_part(bezier_box *box, const double lo[3], const double hi[3], double *spare)
 {
     for (int a = 0; a < 3; a++)
@@ -279,7 +278,7 @@ void ffd_search_part(point_search *search, const cell_region *region)
 {
     double lo[3], hi[3];
     for (int a = 0; a < 3; a++) {
-        /* Halvings of the cell, to which the roundings of lo and width are nothing. */
+        /* Number of halvings of the cell, which the rounding of lo and width does not affect. */
         const double *knot = search->locator->knots[a].t + region->span[a], side = knot[1] - knot[0];
         lo[a] = ldexp(round(ldexp(region->lo[a] / side, LEAF_DEPTH)), -LEAF_DEPTH);
         hi[a] = lo[a] + ldexp(round(ldexp(region->width[a] / side, LEAF_DEPTH)), -LEAF_DEPTH);

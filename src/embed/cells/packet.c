@@ -2,8 +2,8 @@
 #include <math.h>
 #include <string.h>
 
-/* The side of a packet, relative to a cell's mean side: points that share a walk have
-   nearly the same leaves. */
+/* The side of a packet relative to the mean side of a cell: points of a packet have nearly the same
+   leaves. */
 #define CELLS_A_PACKET (1.0 / 8)
 
 void ffd_packet_begin(point_packet *packet, const ffd_locator *locator)
@@ -77,7 +77,7 @@ static bool visit_brick(void *context, uint32_t number)
     point_packet *packet = context;
     const cell_search *cells = packet->locator->cells;
     bool any = false;
-    /* A brick that is not kept, or not made yet, may not outlast this point. */
+    /* Only stored bricks are used here: another one may not live beyond this point's search. */
     packet->brick = atomic_load_explicit(&cells->made[number], memory_order_acquire);
     for (int i = 0; i < packet->count; i++) {
         packet_point *point = &packet->points[i];

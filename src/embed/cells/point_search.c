@@ -1,11 +1,11 @@
-/* point_search.c - the search for one point: C and its derivatives beside it, what its tolerance means, and
-   the verdict on what was found (src/maths.md 6.6, 6.7). */
+/* point_search.c - the search for one point: evaluation relative to the point, its tolerance, and the verdict
+   on the roots found (src/maths.md 6.6, 6.7). */
 #include "embed/cells/point_search.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 
-/* Bernstein hulls and images carry a few roundings more than a value does: tests against them are this much
-   wider than the tolerance. */
+/* Bernstein hulls and images have a few more rounding errors than a value, so tests against them use this
+   multiple of the tolerance. */
 #define HULL_SLACK 4
 
 void ffd_search_evaluate(point_search *search, const int span[3], const double offset[3], sample *at)
@@ -43,7 +43,7 @@ double ffd_image_of_tolerance(const double inverse[9], const double tolerance[3]
     return most;
 }
 
-/* Whether Y (C - x) can be 0 in the leaf: x's image against that of the leaf's control points. */
+/* Returns whether Y (C - x) can be 0 in the leaf: compares Y x with the bounds of Y C. */
 bool ffd_search_image_holds(const point_search *search, const cell_leaf *leaf)
 {
     if (search->locator->cells->rational)
@@ -70,14 +70,14 @@ void ffd_search_note_stall(point_search *search, const root *stall)
         ffd_search_note_stall(search, &before);
         return;
     }
-    /* The list full, there may be more. */
+    /* If the list is full, more stalls are not recorded. */
     if (search->stall_count < MOST_STALLS)
         search->stalls[search->stall_count++] = *stall;
     else
         search->unresolved = true;
 }
 
-/* Whether the search stood still anywhere but at a root that it found. */
+/* Returns whether the search stalled anywhere except at a root that it has found. */
 static bool has_stalled(const point_search *search)
 {
     for (int i = 0; i < search->stall_count; i++)
@@ -101,7 +101,7 @@ void ffd_search_judge(const point_search *search, ffd_location *location)
     bool regular = false;
     for (int i = 0; i < list->count; i++)
         regular = regular || !list->roots[i].singular;
-    /* Several singular roots are a root set that the halving met more than once. */
+    /* Several singular roots are one set of roots that the subdivision found more than once. */
     if (list->count > 1 && regular)
         location->status = FFD_MULTIPLE;
     else

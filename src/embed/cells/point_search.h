@@ -1,5 +1,5 @@
-/* point_search.h - the search for one point: what its parts share. Nothing is carried from one point to the
-   next but memory. */
+/* point_search.h - the state of the search for one point. Only memory is reused from one point to the next,
+   so results do not depend on other points. */
 #ifndef FFD_EMBED_CELLS_POINT_SEARCH_H
 #define FFD_EMBED_CELLS_POINT_SEARCH_H
 
@@ -8,48 +8,48 @@
 #include "embed/cells/roots.h"
 #include <stddef.h>
 
-/* Bricks that one point may look into. */
+/* The most bricks that the search for a point visits. */
 #define SEARCH_BRICKS 4096
-/* Iterations without an end that are told apart for one point. */
+/* The most stalled iterations that are distinguished for a point. */
 #define MOST_STALLS 8
 
 struct search_scratch {
     struct many_scratch *many; /* search_many.c */
-    double *slots;             /* coefficients of a hard leaf's halvings */
-    double *columns;           /* of the contraction bound */
+    double *slots;             /* coefficients for the halvings of a hard leaf */
+    double *columns;           /* scratch memory of the contraction bound */
     own_bricks own;
 };
 
 typedef struct point_search {
     const ffd_locator *locator;
     double x[3];                 /* the point, in the search's units */
-    double tolerance[3], aim[3]; /* what a root may miss it by, and what the search aims at */
-    double slack[3];             /* that of hulls */
+    double tolerance[3], aim[3]; /* allowed residual of a root, and the residual that the search aims at */
+    double slack[3];             /* tolerance for tests against hulls */
     search_scratch *scratch;
-    bool unresolved; /* a part of the lattice is left in which nothing could be shown */
-    long hard_boxes; /* that may still be looked at */
-    uint32_t bricks; /* looked into */
+    bool unresolved; /* in a part of the lattice nothing could be proven */
+    long hard_boxes; /* remaining budget */
+    uint32_t bricks; /* number of visited bricks */
     uint32_t evaluations, leaves;
     ffd_status status;
     ffd_error *error;
-    int stall_count; /* iterations that ended without a root or a proof that there is none */
+    int stall_count; /* iterations that ended with neither a root nor a proof that there is none */
     root_list roots;
-    root stalls[MOST_STALLS]; /* where they stood still, the first with the least residual */
+    root stalls[MOST_STALLS]; /* where they stalled; the first has the least residual */
 } point_search;
 
-/* C - x and F's derivatives at one u,v,w. */
+/* The evaluation at one u,v,w. */
 typedef struct sample {
     double equation[3]; /* F = A - x W */
     double residual[3]; /* C - x = F / W */
-    double jacobian[9]; /* of F, row by row: by u,v,w, or by a region's t */
+    double jacobian[9]; /* of F, row-major: by u,v,w, or by t of a region */
     double weight;
 } sample;
 
-/* Makes the scratch if there is none. Returns false if memory runs out. */
+/* Allocates scratch memory if there is none. Returns false if memory runs out. */
 bool ffd_search_scratch_make(search_scratch **scratch);
 
-/* Clears what was found; the caller sets the point. Member by member: the lists are by far the largest, and
-   an instruction that clears a block takes longer to begin than these to end. */
+/* Clears the results; the caller sets the point. Clears members one by one instead of the whole struct: the
+   lists, which need not be cleared, are by far its largest part. */
 static inline void ffd_search_begin(point_search *search, const ffd_locator *locator)
 {
     search->locator = locator;
@@ -63,26 +63,26 @@ static inline void ffd_search_begin(point_search *search, const ffd_locator *loc
     search->roots.count = 0;
 }
 
-/* Sets the point, with the origin subtracted. Returns false if it is too far away for
-   the search's doubles. */
+/* Sets the point, which is relative to the origin. Returns false if it is too far away for the search's
+   units. */
 bool ffd_search_set_point(point_search *search, const double p[3]);
 
-/* Whether a leaf that is not hard can hold the point, by the image of its control points. */
+/* Returns whether a leaf that is not hard can contain the point, by the image of its control points. */
 bool ffd_search_image_holds(const point_search *search, const cell_leaf *leaf);
 
-/* What the roots that were found say. */
+/* Determines the result of the point from the roots found. */
 void ffd_search_judge(const point_search *search, ffd_location *location);
 
-/* At the offsets from the spans' starts. */
+/* Evaluates at offsets from the starts of the spans. */
 void ffd_search_evaluate(point_search *search, const int span[3], const double offset[3], sample *at);
 
-/* Whether the residual is within what the search aims at. */
+/* Returns whether the residual is within the aim of the search. */
 bool ffd_search_accepts(const point_search *search, const sample *at, double weight_ratio);
 
-/* Notes where an iteration ended that proved nothing. */
+/* Records a stalled iteration. */
 void ffd_search_note_stall(point_search *search, const root *stall);
 
-/* The greatest row of |Y| tolerance: what a rounding of C can do to t. */
+/* Returns the greatest row of |Y| tolerance: the effect on t of an error of C within the tolerance. */
 double ffd_image_of_tolerance(const double inverse[9], const double tolerance[3], double weight);
 
 #endif

@@ -1,7 +1,7 @@
-/* region_kernel.c - compiled once for each instruction set with lanes: FFD_REGION_KERNEL is the
-   function's name, FFD_LANES the number of SIMD lanes, each with one point. Operation by operation it is
-   leaf.c, evaluation included: a lane that is done keeps its numbers while the others go on. Loops are
-   unrolled as in deform/kernel.c. */
+/* region_kernel.c - compiled once for each SIMD instruction set; FFD_REGION_KERNEL is the name of the
+   function, FFD_LANES the number of lanes, each with one point. The operations are those of leaf.c in the
+   same order, including the evaluation. A lane that is finished keeps its values while the others continue.
+   Loops are unrolled as in deform/kernel.c. */
 #include "embed/cells/region_kernel.h"
 #include "base/vector/lanes.h"
 #include <float.h>
@@ -20,7 +20,7 @@ static ALWAYS_INLINE lanes clip_to_unit(lanes t)
     return lanes_choose(t < 0, lanes_all(0), lanes_choose(t > 1, lanes_all(1), t));
 }
 
-/* The numbers of the lanes' regions. */
+/* The data of the region of each lane. */
 typedef struct numbers_lanes {
     lanes lo[3], width[3], inverse[9], bound, centre[BEZIER_COMPONENTS], greatest_weight, weight_ratio, grain;
 } numbers_lanes;
@@ -44,7 +44,7 @@ static ALWAYS_INLINE void take_numbers(const cell_region *const region[REGION_LA
     }
 }
 
-/* out = m v; it must not be v. */
+/* out = m v; must not be v. */
 static ALWAYS_INLINE void apply(const lanes m[9], const lanes v[3], lanes out[3])
 {
     for (int r = 0; r < 3; r++)
@@ -55,7 +55,7 @@ typedef struct basis_lanes {
     lanes value[MAX_ORDER], slope[MAX_ORDER];
 } basis_lanes;
 
-/* basis.c's step by reciprocals. */
+/* As raise_by in spline/basis.c. */
 static ALWAYS_INLINE void raise_degree(const span_scheme *scheme, int d, int degree, lanes u, lanes *value)
 {
     const double *const right = scheme->knots + d, *const left = right - degree;
@@ -70,7 +70,7 @@ static ALWAYS_INLINE void raise_degree(const span_scheme *scheme, int d, int deg
     value[degree] = from_left;
 }
 
-/* ffd_basis_derivatives_by */
+/* As ffd_basis_derivatives_by. */
 static ALWAYS_INLINE void find_basis(const span_scheme *scheme, int d, lanes offset, basis_lanes *basis)
 {
     const lanes u = offset / scheme->length;
@@ -174,7 +174,7 @@ static ALWAYS_INLINE mask newton_step(const sample_lanes *at, const lanes t[3], 
     return usable;
 }
 
-/* t of the lanes, and which of them are not finished. */
+/* t of each lane, and a mask of the lanes that are not finished. */
 typedef struct progress {
     lanes t[3], e;
     sample_lanes at;
@@ -207,13 +207,13 @@ static ALWAYS_INLINE void count_evaluation(mask which, region_lanes *result)
         result->evaluations[l] += which[l] != 0;
 }
 
-/* What is not finite proves nothing. */
+/* Values that are not finite prove nothing. */
 static ALWAYS_INLINE mask is_beyond(lanes size, lanes limit)
 {
     return (mask)(size > limit) & (size <= DBL_MAX);
 }
 
-/* A bound of the distance from the root. */
+/* Returns a bound of the distance to the root. */
 static ALWAYS_INLINE lanes radius_at(const numbers_lanes *region, const sample_lanes *at, lanes noise)
 {
     lanes image[3];
@@ -221,7 +221,7 @@ static ALWAYS_INLINE lanes radius_at(const numbers_lanes *region, const sample_l
     return (greatest(image) + noise) / (1 - region->bound);
 }
 
-/* The step -Y F of the contraction, for those lanes that Newton's does not serve. */
+/* Makes the contraction step -Y F in the lanes in which Newton's step is not accepted. */
 static ALWAYS_INLINE void contract(const region_kernel_cell *cell, const int order[3],
                                    const numbers_lanes *region, const lanes x[3], const progress *now,
                                    const lanes image[3], mask which, lanes t[3], sample_lanes *at)
@@ -310,7 +310,7 @@ static ALWAYS_INLINE void find(const region_kernel_cell *cell, const int order[3
 void FFD_REGION_KERNEL(const region_kernel_cell *cell, region_lanes *result)
 {
     static const int cubic[3] = {4, 4, 4};
-    /* The compiler unrolls loops whose bounds it knows. */
+    /* Constant orders let the compiler unroll the loops. */
     if (cell->order[0] == 4 && cell->order[1] == 4 && cell->order[2] == 4)
         find(cell, cubic, result);
     else

@@ -1,6 +1,7 @@
 #include "embed/cells/roots.h"
 
-#define SAME 1e-9 /* of the domain: coordinates this near are equal (src/maths.md 6.7) */
+/* Coordinates that differ by at most this, relative to the domain, are equal (src/maths.md 6.7). */
+#define SAME 1e-9
 
 static double side_of(const ffd_locator *locator, int direction)
 {
@@ -13,22 +14,23 @@ static double tolerance_of(const ffd_locator *locator, const root *a, const root
     return fmax(SAME * side_of(locator, direction), fmax(a->spread[direction], b->spread[direction]));
 }
 
-/* Whether the shorter way from a to b along this direction leads over the domain's ends, which are one. */
+/* Returns whether the shorter way from a to b in this direction crosses the ends of the domain, which
+   coincide. */
 static bool is_across_seam(const ffd_locator *locator, const root *a, const root *b, int direction)
 {
     return (ffd_knots_closed(&locator->knots[direction]) || locator->cells->is_seam[direction]) &&
            fabs(a->uvw[direction] - b->uvw[direction]) > 0.5 * side_of(locator, direction);
 }
 
-/* How far apart two roots are along a direction, the short way round where its ends are one. */
+/* Returns the distance of two roots in a direction, the shorter way round if its ends coincide. */
 static double distance_along(const ffd_locator *locator, const root *a, const root *b, int direction)
 {
     const double apart = fabs(a->uvw[direction] - b->uvw[direction]);
     return is_across_seam(locator, a, b, direction) ? side_of(locator, direction) - apart : apart;
 }
 
-/* Two faces of other weights have a point of them at other parameters, so that those along the faces need not
-   agree. */
+/* Two coinciding faces with different weights have the same point at different parameters, so the parameters
+   along the faces need not agree. */
 static bool are_one_on_seam(const ffd_locator *locator, const root *a, const root *b)
 {
     for (int d = 0; d < 3; d++)
@@ -46,7 +48,7 @@ static bool are_one(const ffd_locator *locator, const root *a, const root *b)
     return true;
 }
 
-/* -1, 0, 1 as a comes before, with or after b by (u,v,w), coordinates being equal within the tolerance. */
+/* Compares two roots by (u,v,w), with coordinates equal within the tolerance. Returns -1, 0 or 1. */
 static int compare_within_tolerance(const ffd_locator *locator, const root *a, const root *b)
 {
     for (int d = 0; d < 3; d++)
@@ -72,8 +74,8 @@ static bool is_preferred(const ffd_locator *locator, const root *a, const root *
     return compare_within_tolerance(locator, a, b) < 0;
 }
 
-/* Chooses between two finds of one root: across a seam the least; else the one that meets the point
-   better. */
+/* Selects between two results for the same root: across a seam the least u,v,w, otherwise the smaller
+   residual. */
 static bool is_better_find(const ffd_locator *locator, const root *a, const root *b)
 {
     for (int d = 0; d < 3; d++)
@@ -86,7 +88,7 @@ static bool is_better_find(const ffd_locator *locator, const root *a, const root
 
 static void join(const ffd_locator *locator, root *kept, const root *found)
 {
-    const bool singular = kept->singular || found->singular; /* what is singular stays so */
+    const bool singular = kept->singular || found->singular; /* a singular root stays singular */
     if (is_better_find(locator, found, kept))
         *kept = *found;
     kept->singular = singular;

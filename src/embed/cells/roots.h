@@ -1,17 +1,18 @@
-/* roots.h - the u,v,w that were found for one point: joined where they are one, ranked by the tie rule. */
+/* roots.h - the list of roots that were found for a point: equal ones are joined, and the tie rule ranks
+   them. */
 #ifndef FFD_EMBED_CELLS_ROOTS_H
 #define FFD_EMBED_CELLS_ROOTS_H
 
 #include "embed/cells/cells.h"
 
-/* Roots of one point that are kept apart; of more, the best by the tie rule are kept. */
+/* The most roots of a point; of more, the best by the tie rule are kept. */
 #define MOST_ROOTS 16
 
 typedef struct root {
     double uvw[3];   /* in the locator's knots */
     double residual; /* |C - x|, in the search's units */
     double determinant;
-    double spread[3]; /* how far roots that are one may lie apart, by direction */
+    double spread[3]; /* for each direction, the distance within which roots are equal */
     bool singular;
 } root;
 
@@ -20,15 +21,15 @@ typedef struct root_list {
     root roots[MOST_ROOTS];
 } root_list;
 
-/* Adds a root, or joins it to one that is the same: both within 1e-9 of the domain or their spreads, also
-   across the seam of a closed direction or of two faces that are one. */
+/* Adds a root, or joins it with an equal one: one within 1e-9 of the domain or within the spreads, also
+   across the seam of a closed direction or of two coinciding faces. */
 void ffd_roots_add(const ffd_locator *locator, root_list *list, const root *found);
 
-/* Whether a root of the list is the same. */
+/* Returns whether the list has an equal root. */
 bool ffd_roots_hold(const ffd_locator *locator, const root_list *list, const root *found);
 
-/* The tie rule: the root with the sign of the lattice's volume, then the least (u,v,w). The
-   list must not be empty. */
+/* Returns the best root by the tie rule: det J with the sign of the lattice's volume, then the least (u,v,w).
+   The list must not be empty. */
 const root *ffd_roots_best(const ffd_locator *locator, const root_list *list);
 
 #endif

@@ -1,4 +1,4 @@
-/* search.c - every u,v,w with C(u,v,w) = p: bricks, leaves, verdict (src/maths.md 6.4 to 6.7). */
+/* search.c - finds every u,v,w with C(u,v,w) = p: bricks, leaves, verdict (src/maths.md 6.4 to 6.7). */
 #include "base/vector/vec.h"
 #include "embed/cells/cell_locator.h"
 #include "embed/cells/collapse.h"
@@ -7,8 +7,8 @@
 #include "embed/frame/face.h"
 
 #define CURVE_STEPS 2
-/* What one point may take, so that no lattice makes the search endless: bricks looked into (SEARCH_BRICKS),
-   and boxes of hard leaves (of degrees above 3 as many fewer as they are larger). */
+/* The budget of a point, so that no lattice makes the search endless: visited bricks (SEARCH_BRICKS), and
+   boxes of hard leaves. For degrees above 3 there are fewer boxes, in proportion to their size. */
 #define MOST_HARD_BOXES 16384
 #define LEAST_HARD_BOXES 1024
 
@@ -54,7 +54,7 @@ static bool visit_brick(void *context, uint32_t number)
     return ffd_box_tree_visit(&visit.brick->tree, search->x, search->slack, visit_leaf, &visit);
 }
 
-/* The curve of a collapse passes the point within the tolerance: finds the nearest point of it, by
+/* The curve of a collapse passes the point within the tolerance: finds the nearest point of the curve with
    Gauss-Newton steps. */
 static void settle_on_curve(point_search *search, int along, const int span[3], double offset[3], sample *at)
 {
@@ -75,7 +75,7 @@ static void settle_on_curve(point_search *search, int along, const int span[3], 
     }
 }
 
-/* A point of a collapsed face or edge has whole lines of u,v,w: the least of them, without a search. */
+/* A point of a collapsed face or edge has whole lines of u,v,w. Sets the least of them, without a search. */
 static bool is_on_collapse(point_search *search, ffd_location *location)
 {
     const ffd_locator *locator = search->locator;

@@ -1,7 +1,7 @@
-/* search_many.c - points of a general lattice, several at a time. A point waits until others of its cell are
-   there; their steps are then taken together, each in its own leaf. One that has several leaves waits in
-   each, and is judged when all of them are through. Whatever is not settled so is searched for alone
-   (search.c), and what is settled has the bits that it would get there. */
+/* search_many.c - searches several points of a general lattice at a time. A point is queued until there are
+   others of its cell; their iterations then run together, each in its own leaf. A point with several leaves
+   is queued in each, and gets its verdict when all of them are finished. Points that are not decided this way
+   are searched alone (search.c), and the others get the same bits as there. */
 #include "base/memory/memory.h"
 #include "embed/cells/leaf.h"
 #include "embed/cells/packet.h"
@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-/* What the steps in one leaf led to. */
+/* The result of the iteration in a leaf. */
 typedef struct leaf_result {
     const cell_leaf *leaf;
     region_outcome outcome;
@@ -21,24 +21,24 @@ typedef struct leaf_result {
 typedef struct waiting_point {
     const cell_leaf *leaf;
     uint32_t number;
-    leaf_result *result; /* of a point with several leaves; NULL: the point has no other */
+    leaf_result *result; /* for a point with several leaves; NULL: this is its only leaf */
 } waiting_point;
 
 /* A point with several leaves. */
 typedef struct shared_point {
     uint32_t number, count;
-    leaf_result *results; /* in the order in which it is in them */
+    leaf_result *results; /* in the order of its leaves */
 } shared_point;
 
-/* A point in the search's units, and what a root may miss it by: worked out once. */
+/* A point in the search's units with its tolerance, computed once. */
 typedef struct placed_point {
     double x[3], tolerance[3], aim[3];
 } placed_point;
 
-/* The points that wait in leaves of one cell. */
+/* The queued points in leaves of one cell. */
 typedef struct cell_group {
     const int *span;
-    size_t first, count; /* among the grouped */
+    size_t first, count; /* range in `grouped` */
 } cell_group;
 
 #define MOST_WAITING (2 * CELLS_AT_ONCE)
@@ -47,12 +47,12 @@ typedef struct cell_group {
 
 struct many_scratch {
     waiting_point waiting[MOST_WAITING], grouped[MOST_WAITING];
-    uint16_t group_of[MOST_WAITING]; /* of those waiting */
+    uint16_t group_of[MOST_WAITING]; /* group of each queued point */
     cell_group groups[MOST_WAITING];
-    uint16_t buckets[BUCKETS]; /* groups by their cells */
+    uint16_t buckets[BUCKETS]; /* hash table of groups by cell */
     shared_point shared[CELLS_AT_ONCE / 2];
     leaf_result results[CELLS_AT_ONCE];
-    placed_point placed[CELLS_AT_ONCE]; /* by their numbers, those that wait */
+    placed_point placed[CELLS_AT_ONCE]; /* indexed by the number of the point; set for queued points */
     region_kernel_cell cell;
     double own[CELL_NUMBERS];
     region_lanes lanes;
@@ -63,10 +63,10 @@ static bool same_cell(const int a[3], const int b[3])
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-/* Returns the group of the cell, which is made if it is new. */
+/* Returns the group of a cell, and adds it if it is new. */
 static cell_group *take_group(struct many_scratch *many, const int span[3], size_t *group_count)
 {
-    /* Primes: neighbours are in different buckets. */
+    /* Primes, so that neighbouring cells are in different buckets. */
     size_t bucket = ((size_t)span[0] + 61 * (size_t)span[1] + 3727 * (size_t)span[2]) % BUCKETS;
     for (; many->buckets[bucket] != NO_GROUP; bucket = (bucket + 1) % BUCKETS)
         if (same_cell(many->groups[many->buckets[bucket]].span, span))
@@ -77,8 +77,7 @@ static cell_group *take_group(struct many_scratch *many, const int span[3], size
     return made;
 }
 
-/* Brings the points of each cell together, in their order, into many->grouped. Returns how
-   many cells there are. */
+/* Groups the queued points by cell, stably, in many->grouped. Returns the number of cells. */
 static size_t group_waiting(struct many_scratch *many, size_t count)
 {
     size_t group_count = 0, first = 0;
@@ -122,7 +121,8 @@ static void load_point(const placed_point *point, const cell_leaf *leaf, int lan
     }
 }
 
-/* Written in place: copying at once what was stored number by number stalls the processor. */
+/* Written in place: a wide copy of values that were just stored one by one would stall (no store
+   forwarding). */
 static void take_result(const cell_leaf *leaf, const region_lanes *lanes, int lane, leaf_result *result)
 {
     result->leaf = leaf;
@@ -137,7 +137,7 @@ static void take_result(const cell_leaf *leaf, const region_lanes *lanes, int la
         result->at.jacobian[i] = lanes->jacobian[i][lane];
 }
 
-/* Judges by the results of all leaves of a point. */
+/* Determines the verdict from the results of all leaves of a point. */
 static void judge(const ffd_locator *locator, const placed_point *point, const leaf_result *results,
                   uint32_t count, ffd_location *location)
 {
@@ -159,7 +159,7 @@ static ffd_status find_alone(const ffd_locator *locator, const double *p, uint32
     return ffd_cells_find(locator, p + 3 * (size_t)number, scratch, &locations[number], error);
 }
 
-/* The points of one cell. */
+/* Processes the points of a cell. */
 static ffd_status find_in_cell(const ffd_locator *locator, const double *p, const waiting_point *waiting,
                                size_t count, search_scratch **scratch, ffd_location *locations,
                                ffd_error *error)
@@ -203,13 +203,14 @@ static ffd_status find_waiting(const ffd_locator *locator, const double *p, size
     return status;
 }
 
-/* Lanes need control points without weights; a collapse is looked at first, point by point. */
+/* The kernel needs a lattice without weights, and without collapses, which are examined first for each
+   point. */
 static bool has_lanes(const cell_search *cells)
 {
     return cells->region_kernel && !cells->rational && cells->collapses.count == 0;
 }
 
-/* The points of a call on their way. */
+/* The state of a call. */
 typedef struct many_search {
     const ffd_locator *locator;
     const double *p;
@@ -217,10 +218,10 @@ typedef struct many_search {
     ffd_location *locations;
     ffd_error *error;
     point_packet packet;
-    size_t waiting, shared, results; /* in the scratch */
+    size_t waiting, shared, results; /* numbers of entries in the scratch memory */
 } many_search;
 
-/* Queues a point in its leaves. Returns false if it has too many. */
+/* Queues a point in its leaves. Returns false if there are too many. */
 static bool wait_in_leaves(many_search *many, const packet_point *point)
 {
     struct many_scratch *const scratch = (*many->scratch)->many;
@@ -242,7 +243,7 @@ static bool wait_in_leaves(many_search *many, const packet_point *point)
     return true;
 }
 
-/* The points with several leaves, which all are through. */
+/* Determines the verdicts of points with several leaves, all of which are finished. */
 static ffd_status judge_shared(const many_search *many)
 {
     const struct many_scratch *const scratch = (*many->scratch)->many;
@@ -262,7 +263,7 @@ static ffd_status judge_shared(const many_search *many)
     return status;
 }
 
-/* Finds the leaves of the packet's points, and leaves it empty. */
+/* Finds the leaves of the points of the packet, queues the points, and empties the packet. */
 static ffd_status settle_packet(many_search *many)
 {
     point_packet *const p = &many->packet;

@@ -1,4 +1,4 @@
-/* affine.c - lattices whose rest map is affine: u,v,w by a 3x3 matrix. */
+/* affine.c - lattices with an affine rest map: u,v,w by a 3 x 3 matrix. */
 #include "embed/direct/affine.h"
 #include "base/vector/vec.h"
 #include "embed/frame/face.h"
@@ -12,7 +12,7 @@ static double domain_side(const ffd_lattice *lattice, int a)
     return ffd_knots_last(&lattice->knots[a]) - ffd_knots_first(&lattice->knots[a]);
 }
 
-/* Greville abscissa of point i, as a fraction of the domain: t there. */
+/* Returns the Greville abscissa of point i as a fraction of the domain. */
 static double greville_fraction(const ffd_lattice *lattice, int a, size_t i)
 {
     const knot_vector *knots = &lattice->knots[a];
@@ -27,7 +27,8 @@ static bool weights_are_equal(const ffd_lattice *lattice)
     return true;
 }
 
-/* The affine map that the corner and its last neighbours along each direction define: column a is by t_a. */
+/* Computes the affine map that the first corner and the last points in each direction define; column a is the
+   derivative by t_a. */
 static void map_of_corners(const ffd_locator *locator, double frame[9], double start[3])
 {
     const ffd_lattice *lattice = locator->lattice;
@@ -48,7 +49,8 @@ static void map_of_corners(const ffd_locator *locator, double frame[9], double s
             start[r] -= frame[3 * r + a] * first[a];
 }
 
-/* Whether every control point is where the map takes its Greville abscissae, to 4 eps of the shifted size. */
+/* Returns whether the map takes the Greville abscissae of every control point to its position, within 4 eps
+   of the size relative to the origin. */
 static bool map_fits(const ffd_locator *locator, const double frame[9], const double start[3])
 {
     const ffd_lattice *lattice = locator->lattice;
@@ -69,7 +71,7 @@ static bool map_fits(const ffd_locator *locator, const double frame[9], const do
     return true;
 }
 
-/* Whether the determinant is more than the rounding of its own terms, with columns brought to length 1. */
+/* Returns whether the determinant, with normalised columns, exceeds the rounding error of its terms. */
 static bool has_volume(const double frame[9])
 {
     double unit[9];
@@ -81,8 +83,8 @@ static bool has_volume(const double frame[9])
     return fabs(mat_determinant(unit)) > 16 * DBL_EPSILON;
 }
 
-/* Whether the determinant is more than the control points' own rounding makes: the ends of a column may each
-   be off by half an ulp in the file, and by as much once the origin is subtracted. */
+/* Returns whether the determinant exceeds the effect of rounding the control points: each end of a column may
+   be off by half an ulp in the file, and by as much again after the origin is subtracted. */
 static bool exceeds_rounding(const ffd_locator *locator, const double frame[9])
 {
     double column[3][3], off[3], across[3], sum = 0;
@@ -111,7 +113,8 @@ bool ffd_affine_detect(ffd_locator *locator)
     if (!weights_are_equal(lattice))
         return false;
     if (lattice->form == REST_BOX_AFFINE) {
-        /* The box of the file is exact; control points far from the origin are rounded to their own size. */
+        /* The box in the file is exact, but the rounding errors of control points are relative to their
+           distance from the origin. */
         for (int r = 0; r < 3; r++)
             locator->origin[r] = lattice->origin[r];
         for (int i = 0; i < 9; i++)
@@ -129,7 +132,7 @@ bool ffd_affine_detect(ffd_locator *locator)
     return has_volume(map->frame) && mat_invert(map->frame, map->inverse);
 }
 
-/* frame t - p */
+/* equation = frame t - p */
 static void affine_equation(const affine_map *map, const double p[3], const double t[3], double equation[3])
 {
     mat_apply(map->frame, t, equation);
@@ -137,7 +140,7 @@ static void affine_equation(const affine_map *map, const double p[3], const doub
         equation[r] -= p[r];
 }
 
-/* A strongly sheared frame loses digits in its inverse: iterative refinement wins them back. */
+/* The inverse of a strongly sheared frame loses digits; iterative refinement recovers them. */
 static void refine(const affine_map *map, const double p[3], const double tolerance[3], double t[3])
 {
     for (int step = 0; step < REFINEMENTS; step++) {
@@ -154,7 +157,7 @@ static void refine(const affine_map *map, const double p[3], const double tolera
 typedef struct affine_point {
     const affine_map *map;
     const double *p, *tolerance;
-    bool grains; /* beside the tolerance, what the rounding of t moves C by */
+    bool grains; /* allow also the change of C by rounding t */
 } affine_point;
 
 static bool evaluate_on_face(void *context, const double t[3], double jacobian[9], double equation[3])
@@ -172,7 +175,8 @@ static bool evaluate_on_face(void *context, const double t[3], double jacobian[9
     return ffd_within_tolerance(equation, allowance);
 }
 
-/* Clips t to the domain. Returns false if it is farther out than the tolerance and the residual explain. */
+/* Clamps t to the domain. Returns false if it is farther outside than the tolerance and the residual
+   allow. */
 static bool clip(const affine_map *map, const double p[3], const double tolerance[3], double t[3],
                  bool *clipped)
 {
@@ -180,7 +184,7 @@ static bool clip(const affine_map *map, const double p[3], const double toleranc
     affine_equation(map, p, t, residual);
     for (int a = 0; a < 3; a++) {
         const double inner = clip_to_unit(t[a]), *row = map->inverse + 3 * a;
-        double reach = 0; /* roundings included */
+        double reach = 0; /* including rounding */
         for (int r = 0; r < 3; r++)
             reach += fabs(row[r]) * larger_of(tolerance[r], fabs(residual[r]));
         if (fabs(t[a] - inner) > 4 * reach)
@@ -191,7 +195,7 @@ static bool clip(const affine_map *map, const double p[3], const double toleranc
     return true;
 }
 
-/* Whether t is a root, or the point of a face that is closest. */
+/* Returns whether t is a root, or the closest point of a face is one; t is moved there. */
 static bool settle(affine_point *point, bool clipped, const double aim[3], const double tolerance[3],
                    double t[3])
 {
@@ -219,7 +223,7 @@ void ffd_affine_find(const ffd_locator *locator, const double p[3], ffd_location
         return;
     const bool found = settle(&point, clipped, aim, tolerance, t);
     if (!found && clipped)
-        return; /* the closest point of the border misses */
+        return; /* outside: the closest point of the border misses */
     affine_equation(map, p, t, residual);
     location->status = found ? FFD_INSIDE : FFD_SINGULAR;
     location->unresolved = !found;

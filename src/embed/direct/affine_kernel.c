@@ -1,9 +1,10 @@
-/* affine_kernel.c - compiled once for each instruction set with lanes: FFD_AFFINE_KERNEL is the function's
-   name, FFD_LANES the number of SIMD lanes, each with one point. Operation by operation it is affine.c. */
+/* affine_kernel.c - compiled once for each SIMD instruction set; FFD_AFFINE_KERNEL is the name of the
+   function, FFD_LANES the number of lanes, each with one point. The operations are those of affine.c in the
+   same order. */
 #include "embed/direct/affine_kernel.h"
 #include "base/vector/lanes.h"
 
-/* Points and what is found of them, a lane each. */
+/* The points and results of the lanes. */
 typedef struct affine_lanes {
     lanes uvw[3], residual;
     mask found;
@@ -24,7 +25,7 @@ static ALWAYS_INLINE void find(const ffd_locator *locator, const double *xyz, af
         residual[a] -= p[a];
         at->found &= (residual[a] <= tolerance) & (residual[a] >= -tolerance) & (t[a] >= 0.0) & (t[a] <= 1.0);
     }
-    /* vec_length leaves all other lengths to a function. */
+    /* Other magnitudes need the scaled computation of vec_length. */
     const lanes square = lanes_dot(residual, residual);
     at->found &= ((square > 1e-280) & (square < 1e300)) |
                  ((residual[0] == 0.0) & (residual[1] == 0.0) & (residual[2] == 0.0));

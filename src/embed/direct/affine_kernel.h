@@ -1,15 +1,15 @@
-/* affine_kernel.h - u,v,w of an affine rest map for several points at a time, each in a lane. */
+/* affine_kernel.h - u,v,w of an affine rest map for several points at a time, one in each lane. */
 #ifndef FFD_EMBED_DIRECT_AFFINE_KERNEL_H
 #define FFD_EMBED_DIRECT_AFFINE_KERNEL_H
 
 #include "embed/frame/frame.h"
 
-/* Most points at once. */
+/* The most points of a call. */
 #define AFFINE_POINTS ((size_t)256)
 
-/* Finds those of count points (as ffd_locator_find has them) that the inverse matrix alone brings into the
-   domain and within the tolerance, with the bits of ffd_affine_find. found: one a point; where it is 0,
-   ffd_affine_find must. One function for each instruction set that has lanes. */
+/* Finds u,v,w of those of count points (xyz as in ffd_locator_find) for which the inverse matrix alone gives
+   a result in the domain and within the tolerance, with the same bits as ffd_affine_find. found: one byte for
+   each point; 0: call ffd_affine_find. One function for each SIMD instruction set. */
 typedef void affine_kernel(const ffd_locator *locator, const double *xyz, size_t count,
                            ffd_location *locations, uint8_t *found);
 

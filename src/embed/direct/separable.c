@@ -1,5 +1,5 @@
 /* separable.c - lattices with P_ijk = (x_i, y_j, z_k), each sequence strictly monotone: three equations in
-   one unknown, each with exactly one root or none. */
+   one unknown, each with one root or none. */
 #include "embed/direct/separable.h"
 #include "base/lower_bound.h"
 #include "base/memory/memory.h"
@@ -12,8 +12,7 @@ static size_t stride_of(const ffd_lattice *lattice, int a)
     return a == 0 ? 1 : a == 1 ? lattice->size[0] : lattice->size[0] * lattice->size[1];
 }
 
-/* Whether coordinate a of every control point is that of the point with the same index
-   along a and 0 elsewhere. */
+/* Returns whether coordinate a of every control point depends only on its index in direction a. */
 static bool depends_on_own_index(const ffd_lattice *lattice, int a)
 {
     const size_t stride = stride_of(lattice, a);
@@ -38,7 +37,7 @@ static bool is_strictly_monotone(const ffd_lattice *lattice, int a)
     return true;
 }
 
-/* At u = t_span + offset. */
+/* Evaluates the curve at u = t_span + offset. */
 static double value_at(const knot_vector *knots, const monotone_curve *curve, int span, double offset,
                        double *slope)
 {
@@ -114,7 +113,8 @@ static bool is_value_up_to(const void *breakpoint, const void *value)
     return v->falling ? v->x <= here : v->x >= here;
 }
 
-/* The number of the span whose values hold x; x beyond the ends gets the first or last. */
+/* Returns the index of the span whose range of values contains x; the first or last one for x beyond the
+   ends. */
 static size_t span_holding(const knot_vector *knots, const monotone_curve *curve, double x)
 {
     const curve_value value = {x, curve->falling};
@@ -122,10 +122,10 @@ static size_t span_holding(const knot_vector *knots, const monotone_curve *curve
                       is_value_up_to);
 }
 
-/* Solves x(u) = x within one span, by offsets from its start: Newton steps, and halving wherever one would
-   leave the bracket or gains less than a half. Ends when the bracket is two neighbouring numbers, or the
-   value is met. Beyond the ends the nearest end is the answer. Stores x(u) - x, and what the rounding of u
-   moves x(u) by. */
+/* Solves x(u) = x in a span, in offsets from its start: Newton steps, and bisection if a step leaves the
+   bracket or reduces it by less than half. Stops when the bracket is two adjacent doubles, or x(u) = x. For x
+   beyond the ends, returns the nearest end. Sets *residual to x(u) - x, and *grain to the change of x(u) by
+   rounding u. */
 static double solve(const knot_vector *knots, const monotone_curve *curve, double x, double *residual,
                     double *grain)
 {
@@ -142,7 +142,7 @@ static double solve(const knot_vector *knots, const monotone_curve *curve, doubl
             best_residual = off;
         }
     }
-    /* Twice the bits of a double: halving alone would end by then. */
+    /* Twice the bits of a double: bisection alone would have ended by then. */
     for (int step = 0; step < 128 && best_residual != 0; step++) {
         const double off = value_at(knots, curve, span, u, &slope) - x;
         if (fabs(off) < fabs(best_residual)) {
@@ -171,7 +171,7 @@ void ffd_separable_find(const ffd_locator *locator, const double p[3], ffd_locat
     double residual[3], tolerance[3], uvw[3], grain[3];
     ffd_locator_tolerance(locator, p, tolerance);
     for (int a = 0; a < 3; a++) {
-        /* Far outside needs no solving. */
+        /* Early exit for points far outside. */
         const monotone_curve *curve = &locator->curves[a];
         const double first = curve->breakpoints[0], last = curve->breakpoints[locator->knots[a].span_count];
         if (p[a] < fmin(first, last) - tolerance[a] || p[a] > fmax(first, last) + tolerance[a])
@@ -181,7 +181,7 @@ void ffd_separable_find(const ffd_locator *locator, const double p[3], ffd_locat
         uvw[a] = solve(&locator->knots[a], &locator->curves[a], p[a], &residual[a], &grain[a]);
     for (int a = 0; a < 3; a++)
         tolerance[a] += grain[a];
-    /* The point is not outside, which was the first question. */
+    /* Whether the point is outside was tested first. */
     const bool found = ffd_within_tolerance(residual, tolerance);
     location->status = found ? FFD_INSIDE : FFD_SINGULAR;
     location->unresolved = !found;

@@ -15,7 +15,7 @@ size_t ffd_bezier_size(const int order[3])
     return N * ffd_bezier_count(order);
 }
 
-/* Multiplies every line of points along a by the span's extraction matrix. */
+/* Multiplies every row of points in direction a by the extraction matrix of the span. */
 static void extract_direction(bezier_box *box, const double *matrix, int a)
 {
     const size_t inner = N * ffd_bezier_stride(box->order, a), size = ffd_bezier_size(box->order),
@@ -40,7 +40,7 @@ void ffd_bezier_extract(bezier_box *box, const double *const matrix[3])
         box->hi[a] = 1;
         extract_direction(box, matrix[a], a);
     }
-    if (!box->rational) /* the matrices' rows sum to 1 but for rounding */
+    if (!box->rational) /* the rows of the matrices sum to 1 except for rounding */
         for (size_t i = 0; i < ffd_bezier_count(box->order); i++)
             box->coefficients[N * i + 3] = 1;
 }
@@ -101,7 +101,7 @@ void ffd_bezier_weights(const bezier_box *box, double *least, double *greatest)
     }
 }
 
-/* F's value at a control point: A - p W. */
+/* Computes F at a control point: A - p W. */
 static void equation(const double *c, const double p[3], double f[3])
 {
     for (int a = 0; a < 3; a++)
@@ -133,7 +133,7 @@ bounds ffd_bezier_image(const bezier_box *box, const double inverse[9], const do
     return hull;
 }
 
-/* Of the polygon through a line of control points, in space. */
+/* Returns the length in space of the polygon through a row of control points. */
 static double polygon_length(const double *first, size_t stride, int count)
 {
     double length = 0;

@@ -5,18 +5,18 @@
 #include <string.h>
 
 #define ITEMS_A_LEAF 2
-/* The halves of a node's halves, so that all their boxes are tested at once. */
+/* Each node has four children, two levels of halving, whose boxes are tested together. */
 #define CHILDREN 4
-/* Every node quarters the items, so 2^31 of them need no more levels than this. */
+/* Every node divides the items by four, so 2^31 of them need fewer levels than this. */
 #define DEPTH 20
 
 typedef struct box_tree_child {
-    uint32_t first; /* leaf: its first item; else its node */
-    uint32_t count; /* of a leaf's items; 0: a node */
+    uint32_t first; /* leaf: index of its first item; else index of its node */
+    uint32_t count; /* number of items of a leaf; 0: a node */
 } box_tree_child;
 
 typedef struct box_tree_node {
-    double lo[3][CHILDREN], hi[3][CHILDREN]; /* NaN where there is no child: nothing meets it */
+    double lo[3][CHILDREN], hi[3][CHILDREN]; /* NaN if there is no child, so that no test succeeds */
     box_tree_child children[CHILDREN];
 } box_tree_node;
 
@@ -49,7 +49,7 @@ static bounds enclose(const bounds *boxes, const uint32_t *items, size_t count)
     return all;
 }
 
-/* The direction in which the boxes' centres spread most. */
+/* Returns the direction in which the centres of the boxes have the greatest extent. */
 static int widest_direction(const bounds *boxes, const uint32_t *items, size_t count)
 {
     bounds centres = {{1, 1, 1}, {-1, -1, -1}};
@@ -69,7 +69,7 @@ static int widest_direction(const bounds *boxes, const uint32_t *items, size_t c
     return widest;
 }
 
-/* Orders the items by the centres of their boxes, in the direction in which these spread most. */
+/* Sorts the items by the centres of their boxes in that direction. */
 static void sort_items(const tree_builder *builder, size_t first, size_t count)
 {
     const bounds *const boxes = builder->boxes;
@@ -96,7 +96,7 @@ static void set_child(const tree_builder *builder, uint32_t parent, int slot, si
                                                  : (box_tree_child){add_node(builder, first, count), 0};
 }
 
-/* Returns its number. */
+/* Adds a node. Returns its index. */
 static uint32_t add_node(const tree_builder *builder, size_t first, size_t count)
 {
     const uint32_t number = (uint32_t)builder->tree->node_count++;
@@ -128,8 +128,8 @@ bool ffd_box_tree_build(const bounds *boxes, size_t count, box_tree *tree)
     tree_builder builder = {.boxes = boxes, .tree = tree};
     builder.keys = ffd_alloc(count, sizeof *builder.keys);
     tree->items = ffd_alloc(count, sizeof *tree->items);
-    /* From three items on (count - 1) / 2 nodes at most, by induction: one for three, and of four children
-       that are nodes each leaves half a node to their parent. */
+    /* For at least three items there are at most (count - 1) / 2 nodes, by induction: one for three items;
+       and each of up to four children that are nodes leaves half a node for their parent. */
     tree->nodes = ffd_alloc(count / 2 + 1, sizeof *tree->nodes);
     if (builder.keys && tree->items && tree->nodes) {
         for (size_t i = 0; i < count; i++)
@@ -156,8 +156,7 @@ bool ffd_box_tree_visit(const box_tree *tree, const double p[3], const double sl
     return ffd_box_tree_visit_box(tree, &query, slack, visit, context);
 }
 
-/* Two boxes are tested at once where the processor has SIMD; the compiler splits the
-   vectors where it has none. */
+/* Two boxes are tested at once with SIMD; without SIMD the compiler splits the vectors. */
 typedef double pair __attribute__((vector_size(16)));
 typedef int64_t pair_mask __attribute__((vector_size(16)));
 
@@ -168,7 +167,7 @@ static pair load_pair(const double *numbers)
     return loaded;
 }
 
-/* One bit a child whose box, grown by slack, meets query. */
+/* Returns a bit mask of the children whose boxes, grown by slack, meet query. */
 static unsigned meet_children(const box_tree_node *node, const bounds *query, const double slack[3])
 {
     unsigned met = 0;
@@ -205,10 +204,10 @@ bool ffd_box_tree_visit_box(const box_tree *tree, const bounds *query, const dou
     return true;
 }
 
-/* A child on the way to what is near. */
+/* A child in the traversal by distance. */
 typedef struct near_child {
     box_tree_child child;
-    double square; /* of its distance */
+    double square; /* squared distance of its box */
 } near_child;
 
 static double square_distance(const box_tree_node *node, int i, const double p[3])
@@ -221,7 +220,7 @@ static double square_distance(const box_tree_node *node, int i, const double p[3
     return square;
 }
 
-/* Puts the node's children on the stack, the nearest last. Returns how many. */
+/* Pushes the children of a node on the stack, the nearest last. Returns their number. */
 static int push_children(const box_tree_node *node, const double p[3], near_child *stack)
 {
     int count = 0;

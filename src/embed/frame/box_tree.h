@@ -1,4 +1,5 @@
-/* box_tree.h - a tree over axis-aligned boxes that answers: which of them hold this point? */
+/* box_tree.h - a tree over axis-aligned boxes, to find those that contain a point (a bounding volume
+   hierarchy). */
 #ifndef FFD_EMBED_FRAME_BOX_TREE_H
 #define FFD_EMBED_FRAME_BOX_TREE_H
 
@@ -12,30 +13,30 @@ typedef struct bounds {
 
 typedef struct box_tree {
     struct box_tree_node *nodes; /* node 0 is the root */
-    uint32_t *items;             /* the boxes' numbers, leaf by leaf */
+    uint32_t *items;             /* indices of the boxes, leaf by leaf */
     size_t node_count;
 } box_tree;
 
-/* Builds the tree over count boxes (fewer than 2^31). Returns false if memory runs out. */
+/* Builds a tree over count boxes (fewer than 2^31). Returns false if memory runs out. */
 bool ffd_box_tree_build(const bounds *boxes, size_t count, box_tree *tree);
-/* Frees the tree; it is empty then. */
+/* Frees the tree and empties it. */
 void ffd_box_tree_free(box_tree *tree);
 
-/* A callback: returns false to stop the traversal. */
+/* A callback for a box; returns false to stop the traversal. */
 typedef bool (*box_tree_visitor)(void *context, uint32_t item);
 
-/* Calls visit for every box whose node's box, grown by slack in each coordinate, holds p; the caller tests
-   the box itself. The order depends on the boxes only. Stops and returns false when visit does. */
+/* Calls visit for every box whose leaf's box, grown by slack in each coordinate, contains p; the caller tests
+   the box itself. The order depends only on the boxes. Stops and returns false if visit does. */
 bool ffd_box_tree_visit(const box_tree *tree, const double p[3], const double slack[3],
                         box_tree_visitor visit, void *context);
 
-/* The same for every box that meets another one, `query`: one traversal for points that are neighbours.
-   What it visits for a point alone, it visits for the box too, if slack is no less. */
+/* The same for every box that meets the box `query`: one traversal for neighbouring points. With a slack that
+   is not less, it visits everything that it would visit for a point in the box. */
 bool ffd_box_tree_visit_box(const box_tree *tree, const bounds *query, const double slack[3],
                             box_tree_visitor visit, void *context);
 
-/* Calls visit for every box whose node's box is no farther than *reach from p (Euclidean), nearer nodes
- *first. reach is read again all the time: visit lowers it. Stops and returns false when visit does. */
+/* Calls visit for every box whose leaf's box is at most *reach from p (Euclidean distance), nearer nodes
+   first. visit may lower *reach during the traversal. Stops and returns false if visit does. */
 bool ffd_box_tree_visit_near(const box_tree *tree, const double p[3], const double *reach,
                              box_tree_visitor visit, void *context);
 

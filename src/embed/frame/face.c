@@ -2,7 +2,7 @@
 #include "base/vector/vec.h"
 #include <string.h>
 
-/* Coordinates this near an end may rest there. */
+/* A coordinate within this distance of an end may be fixed there. */
 #define NEAR_END 1e-6
 #define FACE_STEPS 5
 
@@ -41,7 +41,7 @@ static bool step_of_one(const double matrix[9], const double value[3], int a, do
     return true;
 }
 
-/* By orthogonal columns: those of a sheared cell are nearly parallel. */
+/* With orthogonalised columns, because those of a sheared cell are nearly parallel. */
 static bool step_of_two(const double matrix[9], const double value[3], int a, int b, double step[3])
 {
     double first[3], second[3];
@@ -61,7 +61,7 @@ static bool step_of_two(const double matrix[9], const double value[3], int a, in
     return true;
 }
 
-/* One Gauss-Newton step of the coordinates that do not rest, clipped; false if there is none. */
+/* Makes a Gauss-Newton step of the free coordinates, clamped. Returns false if there is none. */
 static bool step_within(const double jacobian[9], const double equation[3], const double tolerance[3],
                         const bool rests[3], double t[3])
 {

@@ -1,5 +1,5 @@
-/* face.h - a root that a rounding put outside the box: the closest point of the face, edge or corner that it
-   left through. */
+/* face.h - handles a root that is outside of the box by a rounding error: finds the closest point of the
+   face, edge or corner. */
 #ifndef FFD_EMBED_FRAME_FACE_H
 #define FFD_EMBED_FRAME_FACE_H
 
@@ -11,7 +11,7 @@ static inline double clip_to_unit(double t)
     return t < 0 ? 0 : t > 1 ? 1 : t;
 }
 
-/* The full Newton step -J^{-1} F by Cramer's rule; false if J is singular. */
+/* Computes the Newton step -J^-1 F with Cramer's rule. Returns false if J is singular. */
 static inline bool newton_step(const double jacobian[9], const double equation[3], double step[3])
 {
     double inverse[9];
@@ -23,19 +23,20 @@ static inline bool newton_step(const double jacobian[9], const double equation[3
     return true;
 }
 
-/* F and its jacobian in units of each row's tolerance (>= 0), times the least of these; a row without any
-   counts most. Returns false if no row has one. */
+/* Scales the rows of F and of its Jacobian by the reciprocals of their tolerances (>= 0), times the least
+   positive tolerance; a row with tolerance 0 gets the greatest weight. Returns false if all tolerances are
+   0. */
 bool ffd_weigh_rows(const double jacobian[9], const double equation[3], const double tolerance[3],
                     double weighed_jacobian[9], double weighed_equation[3]);
 
-/* F and its jacobian (by t, row by row) at t; returns whether F is within the tolerance there. */
+/* Evaluates F and its Jacobian (by t, row-major) at t. Returns whether F is within the tolerance. */
 typedef bool (*face_function)(void *context, const double t[3], double jacobian[9], double equation[3]);
 
-/* Looks for a t in [0,1]^3 with F(t) within the tolerance, from a t near it that has coordinates at or
-   next to an end: some of these are held there, in every combination, the others follow by Gauss-Newton
-   steps, each row of F weighed by its tolerance. closest: all steps are taken, to where F is least; else none
-   once F is within the tolerance. On success t is the point that `function` accepted last; else it is
-   unchanged. */
+/* Searches a t in [0,1]^3 with F(t) within the tolerance, starting from a nearby t with coordinates at or
+   next to an end. It fixes these coordinates at the end, in every combination, and moves the others with
+   Gauss-Newton steps, with rows of F weighted by their tolerance. closest: make all steps, to minimise F;
+   otherwise stop once F is within the tolerance. Returns whether it was found; then t is the point that
+   `function` accepted last, else it is unchanged. */
 bool ffd_face_settle(const double tolerance[3], bool closest, face_function function, void *context,
                      double t[3]);
 

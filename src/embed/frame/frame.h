@@ -1,5 +1,5 @@
-/* frame.h - what the methods that find u,v,w share: the rest lattice in the search's own
-   parameters, and the tolerance. */
+/* frame.h - what all methods that find u,v,w share: the rest lattice in the search's own parameters, and the
+   tolerance. */
 #ifndef FFD_EMBED_FRAME_FRAME_H
 #define FFD_EMBED_FRAME_FRAME_H
 
@@ -18,10 +18,11 @@ typedef struct affine_map {
     double frame[9], inverse[9];
 } affine_map;
 
-/* One direction of a separable lattice: a strictly monotone spline x(u). */
+/* A direction of a separable lattice: a strictly monotone spline x(u). */
 typedef struct monotone_curve {
-    double *points;      /* one a basis function, origin subtracted */
-    double *breakpoints; /* x at the start of each non-empty span, and at the domain's end: span_count + 1 */
+    double *points;      /* one for each basis function, relative to the origin */
+    double *breakpoints; /* x at the start of each non-empty span and at the end of the domain: span_count + 1
+                            values */
     bool falling;
 } monotone_curve;
 
@@ -29,23 +30,23 @@ struct ffd_locator {
     const ffd_lattice *lattice;
     ffd_isa isa;
     locator_method method;
-    /* The lattice's knots with the domain's start subtracted, times a power of two that brings the domain's
-       side to size 1: far from 0 a parameter would be too coarse to meet the tolerance, and derivatives by
-       very long or short parameters leave the range of doubles. Every search is in these; what is reported is
-       taken back. */
+    /* The knots of the lattice relative to the start of the domain, times a power of two that scales the
+       domain to size 1. Far from 0 a parameter would be too coarse for the tolerance, and derivatives by very
+       large or small parameters would overflow or underflow. All searches use these knots; results are
+       converted back. */
     knot_vector knots[3];
     double knot_scale[3];
-    double origin[3];              /* subtracted from control points and points before anything else */
+    double origin[3];              /* subtracted from control points and points first */
     double extent[3];              /* max |P_a - origin_a| over the control points */
-    bounds hull;                   /* of the control points, in world units */
-    struct locator_border *border; /* for points that miss the volume, made when first needed */
+    bounds hull;                   /* bounds of the control points, world units */
+    struct locator_border *border; /* for points outside; made on demand */
     affine_map affine;
     monotone_curve curves[3];
     struct cell_search *cells;
 };
 
-/* What a root may miss a point of the world by: 16 eps (max|P_a| + |p_a|), sizes as in the file (src/maths.md
-   6.6). */
+/* Computes the tolerance of a point in world units: 16 eps (max|P_a| + |p_a|), in the coordinates of the file
+   (src/maths.md 6.6). */
 static inline void ffd_world_tolerance(const ffd_locator *locator, const double xyz[3], double tolerance[3])
 {
     for (int a = 0; a < 3; a++) {
@@ -54,14 +55,15 @@ static inline void ffd_world_tolerance(const ffd_locator *locator, const double 
     }
 }
 
-/* What a search aims at, p with the origin subtracted: 16 eps of sizes from there, to which C is known. */
+/* Computes the residual that a search aims at, for p relative to the origin: 16 eps of magnitudes relative to
+   the origin, the accuracy of C. */
 static inline void ffd_locator_aim(const ffd_locator *locator, const double p[3], double aim[3])
 {
     for (int a = 0; a < 3; a++)
         aim[a] = 16 * DBL_EPSILON * (locator->extent[a] + fabs(p[a]));
 }
 
-/* The tolerance of p with the origin subtracted; no less than the aim. */
+/* Computes the tolerance of p relative to the origin; not less than the aim. */
 static inline void ffd_locator_tolerance(const ffd_locator *locator, const double p[3], double tolerance[3])
 {
     double xyz[3], aim[3];
@@ -73,7 +75,7 @@ static inline void ffd_locator_tolerance(const ffd_locator *locator, const doubl
         tolerance[a] = larger_of(tolerance[a], aim[a]);
 }
 
-/* The search's u,v,w in the lattice's own range. */
+/* Converts u,v,w of the search to the range of the lattice's knots. */
 static inline void ffd_locator_report(const ffd_locator *locator, const double local[3], double uvw[3])
 {
     for (int a = 0; a < 3; a++)
@@ -81,7 +83,7 @@ static inline void ffd_locator_report(const ffd_locator *locator, const double l
                                                                  local[a] / locator->knot_scale[a]);
 }
 
-/* Whether |r_a| <= tol_a for each a. */
+/* Returns whether |r_a| <= tol_a for each a. */
 static inline bool ffd_within_tolerance(const double residual[3], const double tolerance[3])
 {
     for (int a = 0; a < 3; a++)

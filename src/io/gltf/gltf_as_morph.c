@@ -224,7 +224,7 @@ static ffd_status reopen_replaced(morph_file *file, file_input *bytes, const cha
                                   ffd_error *error)
 {
     const size_t count = current(file)->model.accessor_count;
-    unsigned char *const before = ffd_gltf_count_users(current(file), JSON_NONE);
+    unsigned char *const before = ffd_gltf_count_users(current(file), NULL);
     ffd_status status = before ? reopen(file, bytes, error) : ffd_fail_memory(error);
     if (status == FFD_OK)
         status = ffd_gltf_warn_of_left(current(file), before, count, name, log, &file->bytes_left, error);

@@ -157,7 +157,7 @@ static void fill_values(const extractor *e)
     const gltf_document *d = e->document;
     for (size_t i = 0; i < d->base.part_count; i++) {
         const mesh_part *part = &d->mesh_parts[i];
-        if (!is_drawn(d, d->parts[i].node))
+        if (part->vertex_count == 0 || !is_drawn(d, d->parts[i].node))
             continue;
         if (!part->repeats_positions) {
             double *positions = e->model->positions + 3 * e->first_position[i];

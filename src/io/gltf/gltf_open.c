@@ -33,6 +33,22 @@
 /* Bytes that stay in memory per byte of a file: the file itself. */
 #define KEPT_PER_BYTE 1
 
+/* The numbers in the JSON are checked once and used as indices later. Another program must not change them in
+   between, which it can in a mapped file (mmap). */
+static ffd_status copy_json(gltf_document *d, const char **text, size_t size, ffd_error *error)
+{
+    const ffd_status status = ffd_budget_take(&d->base.budget, size, 1, error);
+    if (status)
+        return status;
+    d->json = ffd_alloc(size, 1);
+    if (!d->json)
+        return ffd_fail_memory(error);
+    memcpy(d->json, *text, size);
+    ffd_file_release_pages(&d->input, *text, size);
+    *text = d->json;
+    return FFD_OK;
+}
+
 static ffd_status find_json(gltf_document *d, ffd_format format, ffd_error *error)
 {
     const char *text = (const char *)d->input.data;
@@ -48,8 +64,10 @@ static ffd_status find_json(gltf_document *d, ffd_format format, ffd_error *erro
     } else if (is_glb) {
         return ffd_fail_file(error, FFD_E_INVALID, d->name, "is a GLB file: its name must end in .glb");
     }
+    ffd_status status = d->input.mapped ? copy_json(d, &text, size, error) : FFD_OK;
     const json_input json = {.text = text, .size = size, .name = d->name, .rules = JSON_ALLOW_MARK};
-    const ffd_status status = ffd_json_parse(&json, &d->tree, error);
+    if (!status)
+        status = ffd_json_parse(&json, &d->tree, error);
     return status ? status : ffd_budget_take(&d->base.budget, d->tree.count, sizeof *d->tree.values, error);
 }
 
@@ -303,6 +321,7 @@ static void free_document(gltf_document *d)
     free_decoded(d);
     ffd_gltf_free_model(&d->model);
     ffd_json_span_free(&d->tree);
+    ffd_free(d->json);
     ffd_free(d->first_primitive);
     ffd_free(d->buffers);
     ffd_free(d->layouts);

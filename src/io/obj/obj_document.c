@@ -9,7 +9,8 @@ static void walk_blocks(const obj_document *d, size_t first, size_t last, obj_wa
                                 .plain = first == last && from->plain},
                        .vertices = {d->vertices, from->vertices},
                        .texcoords = {d->texcoords, from->texcoords},
-                       .normals = {d->normals, from->normals}};
+                       .normals = {d->normals, from->normals},
+                       .faces = {d->faces, from->faces}};
 }
 
 void ffd_obj_document_walk(const obj_document *d, obj_walk *walk)

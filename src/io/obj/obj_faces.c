@@ -18,7 +18,6 @@ static void join_blocks(obj_document *d, const obj_users *users)
 {
     for (size_t i = 0; i < d->blocks.count; i++) {
         const obj_block_users *block = &users->blocks[i];
-        d->faces += block->faces;
         d->corners += block->corners;
         d->lines += block->lines;
         d->points += block->points;
@@ -185,12 +184,15 @@ static bool is_normal_up_to(const void *element, const void *normal)
     return *(const uint32_t *)element <= *(const size_t *)normal;
 }
 
-/* The normal's index in the vertex's ascending list. */
-size_t ffd_obj_find_pair(const obj_document *d, const obj_face_corner *corner)
+bool ffd_obj_find_pair(const obj_document *d, const obj_face_corner *corner, size_t *pair)
 {
+    if (!corner->has_normal || !d->pair_start)
+        return false;
+    /* The vertex's list is ascending. */
     const size_t first = d->pair_start[corner->vertex], end = d->pair_start[corner->vertex + 1];
-    return first + last_up_to(&corner->normal, d->pair_normal + first, end - first, sizeof *d->pair_normal,
-                              is_normal_up_to);
+    *pair = first + last_up_to(&corner->normal, d->pair_normal + first, end - first, sizeof *d->pair_normal,
+                               is_normal_up_to);
+    return *pair < end && d->pair_normal[*pair] == corner->normal;
 }
 
 static ffd_status fill_faces(const obj_document *d, mesh_faces *faces, ffd_error *error)
@@ -346,13 +348,15 @@ ffd_status ffd_obj_corner_normals(const mesh_document *document, const mesh_face
     obj_walk walk;
     obj_face_corner corner;
     const size_t count = faces->start[faces->face_count]; /* they are read again, in the same order */
-    size_t found = 0;
+    size_t found = 0, pair;
     ffd_obj_document_walk_users(d, &walk);
     while (ffd_obj_walk_next(&walk))
         while (walk.scan.keyword == OBJ_FACE && ffd_obj_walk_corner(&walk, &corner)) {
             if (found == count || corner.vertex != faces->corners[found])
                 return ffd_faces_changed(d->file.name, error);
-            normals[found++] = corner.has_normal ? (uint32_t)ffd_obj_find_pair(d, &corner) : MESH_NO_NORMAL;
+            if (ffd_obj_find_pair(d, &corner, &pair) != corner.has_normal)
+                return ffd_faces_changed(d->file.name, error);
+            normals[found++] = corner.has_normal ? (uint32_t)pair : MESH_NO_NORMAL;
         }
     return found == count ? FFD_OK : ffd_faces_changed(d->file.name, error);
 }

@@ -4,6 +4,7 @@
 #include "io/obj/obj_faces.h"
 #include "io/obj/obj_number.h"
 #include "io/text/vectors.h"
+#include "mesh/face_filler.h"
 #include <string.h>
 
 typedef struct extractor {
@@ -13,7 +14,6 @@ typedef struct extractor {
     char *object, *group, *material; /* the current names, owned; NULL: none */
     model_corner *corners;           /* of the current element */
     size_t capacity;
-    size_t faces; /* so far */
     bool has_library;
     ffd_error *error;
 } extractor;
@@ -118,15 +118,16 @@ static ffd_status find_texcoord(const extractor *e, obj_index index, uint32_t *n
 static uint32_t find_normal(const extractor *e, obj_index index, size_t vertex)
 {
     const obj_document *d = e->document;
-    obj_face_corner corner = {.vertex = vertex};
+    obj_face_corner corner = {.vertex = vertex, .has_normal = true};
+    size_t pair;
     if (!d->pair_start || index.text.first == index.text.last ||
         !ffd_obj_find(index.value, e->walk.normals, &corner.normal))
         return MODEL_NONE;
     if (!d->file.new_directions)
         return (uint32_t)corner.normal;
-    if (has_both(d) && !d->selected_faces[e->faces])
+    if (has_both(d) && !d->selected_faces[e->walk.faces.seen - 1])
         return (uint32_t)(d->file.part.normal_count + corner.normal);
-    return (uint32_t)ffd_obj_find_pair(d, &corner);
+    return ffd_obj_find_pair(d, &corner, &pair) ? (uint32_t)pair : MODEL_NONE;
 }
 
 static ffd_status take_element(extractor *e, model_kind kind)
@@ -139,14 +140,13 @@ static ffd_status take_element(extractor *e, model_kind kind)
             return ffd_fail_memory(e->error);
         model_corner *corner = &e->corners[count++];
         if (!ffd_obj_corner(word, &text) || !ffd_obj_find(text.vertex.value, e->walk.vertices, &vertex))
-            return FFD_OK; /* not in a file that was opened */
+            return ffd_faces_changed(e->document->file.name, e->error);
         corner->position = (uint32_t)vertex;
         corner->normal = kind == MODEL_FACES ? find_normal(e, text.normal, vertex) : MODEL_NONE;
         const ffd_status status = find_texcoord(e, text.texcoord, &corner->texcoord);
         if (status)
             return status;
     }
-    e->faces += kind == MODEL_FACES;
     return ffd_model_add(e->model, kind, e->corners, count, e->error);
 }
 

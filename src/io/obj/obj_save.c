@@ -14,14 +14,15 @@
 typedef struct saver {
     const obj_document *document;
     obj_split split;
-    byte_buffer *texts;  /* of blocks that are not written yet */
-    file_splice *splice; /* of the whole file */
-    atomic_bool is_over; /* after a failure */
+    byte_buffer *texts;     /* of blocks that are not written yet */
+    file_splice *splice;    /* of the whole file */
+    atomic_bool is_over;    /* after a failure */
+    atomic_bool is_changed; /* the file is not the one that was read */
 } saver;
 
 /* A block as it is being made. */
 typedef struct block_saver {
-    const saver *all;
+    saver *all;
     file_splice splice;
     decimal_run positions, directions;
 } block_saver;
@@ -39,12 +40,16 @@ static void replace_numbers(block_saver *s, obj_scan *scan, const double *number
 
 static void renumber_corners(block_saver *s, obj_walk *walk)
 {
-    const saver *all = s->all;
+    saver *all = s->all;
     obj_face_corner corner;
+    size_t pair;
     while (ffd_obj_walk_corner(walk, &corner)) {
         if (!corner.has_normal)
             continue;
-        const uint32_t target = all->split.target[ffd_obj_find_pair(all->document, &corner)];
+        const bool found = ffd_obj_find_pair(all->document, &corner, &pair);
+        const uint32_t target = found ? all->split.target[pair] : OBJ_NONE;
+        if (!found)
+            atomic_store(&all->is_changed, true);
         if (target == OBJ_NONE)
             continue;
         char text[24];
@@ -117,12 +122,17 @@ static void replace_normal(block_saver *s, obj_walk *walk)
     if (keeper != OBJ_NONE)
         replace_numbers(s, &walk->scan, d->file.new_directions + 3 * (size_t)keeper,
                         d->direction_changes[keeper], &s->directions);
-    if (n + 1 == d->normals && d->addition < d->end)
+    if (n + 1 < d->normals || d->addition == d->end)
+        return;
+    ffd_obj_scan_finish(&walk->scan);
+    if (walk->scan.at == (const char *)d->file.input.data + d->addition)
         add_normals(s->all, &s->splice);
+    else
+        atomic_store(&s->all->is_changed, true);
 }
 
-/* Writes the walk's statement, with its changes, of the block's faces so far. */
-static void write_statement(block_saver *s, obj_walk *walk, size_t faces)
+/* Writes the walk's statement with its changes. */
+static void write_statement(block_saver *s, obj_walk *walk)
 {
     const saver *all = s->all;
     const obj_document *d = all->document;
@@ -132,7 +142,7 @@ static void write_statement(block_saver *s, obj_walk *walk, size_t faces)
     else if (walk->scan.keyword == OBJ_NORMAL && all->split.keeper)
         replace_normal(s, walk);
     else if (walk->scan.keyword == OBJ_FACE && all->split.target &&
-             (!d->selected_faces || d->selected_faces[faces - 1]))
+             (!d->selected_faces || d->selected_faces[walk->faces.seen - 1]))
         renumber_corners(s, walk);
 }
 
@@ -141,24 +151,39 @@ static size_t pair_count(const obj_document *d)
     return d->pair_start[d->vertices];
 }
 
-static void make_block(const saver *all, size_t number, byte_buffer *text)
+static bool has_counts(const obj_walk *walk, size_t vertices, size_t texcoords, size_t normals, size_t faces)
+{
+    return walk->vertices.seen == vertices && walk->texcoords.seen == texcoords &&
+           walk->normals.seen == normals && walk->faces.seen == faces;
+}
+
+/* Whether a walk that has ended has met as many elements as the block had when the file was read. */
+static bool meets_all(const obj_document *d, size_t number, const obj_walk *walk)
+{
+    const obj_block *next = &d->blocks.list[number + 1];
+    return number + 1 == d->blocks.count
+               ? has_counts(walk, d->vertices, d->texcoords, d->normals, d->faces)
+               : has_counts(walk, next->vertices, next->texcoords, next->normals, next->faces);
+}
+
+static void make_block(saver *all, size_t number, byte_buffer *text)
 {
     const obj_block *block = &all->document->blocks.list[number];
     block_saver s = {.all = all};
     obj_walk walk;
-    size_t faces = block->faces;
     ffd_splice_begin_part(&s.splice, block->first, block->last, text, NULL);
     ffd_decimal_run_begin(&s.positions, all->document->file.new_positions + 3 * all->document->vertices);
     if (all->split.keeper)
         ffd_decimal_run_begin(&s.directions,
                               all->document->file.new_directions + 3 * pair_count(all->document));
     ffd_obj_document_walk_block(all->document, number, &walk);
-    while (ffd_obj_walk_next(&walk)) {
-        faces += walk.scan.keyword == OBJ_FACE;
-        write_statement(&s, &walk, faces);
-    }
-    ffd_splice_end(&s.splice);
-    ffd_obj_forget_vectors(all->document, block->vertices, walk.vertices.seen - block->vertices);
+    while (ffd_obj_walk_next(&walk))
+        write_statement(&s, &walk);
+    const bool is_spliced = ffd_splice_end(&s.splice) == FFD_OK;
+    if (is_spliced && meets_all(all->document, number, &walk))
+        ffd_obj_forget_vectors(all->document, block->vertices, walk.vertices.seen - block->vertices);
+    else
+        atomic_store(&all->is_changed, true);
 }
 
 /* Whether some statement of the block can change. */
@@ -225,13 +250,15 @@ ffd_status ffd_obj_save(mesh_document *document, const mesh_save_options *option
     if (status == FFD_OK && d->file.new_directions)
         status = ffd_obj_split_normals(d, &s.split, error);
     if (status == FFD_OK) {
-        ffd_splice_begin(&splice, &d->file.input, options, output, error);
+        ffd_splice_begin(&splice, &d->file, options, output, error);
         if (d->file.new_positions && splice.status == FFD_OK)
             write_blocks(&s);
         if (d->addition == d->end)
             add_normals(&s, &splice);
         status = ffd_splice_end(&splice);
     }
+    if (status == FFD_OK && atomic_load(&s.is_changed))
+        status = ffd_file_document_changed(&d->file, error);
     ffd_obj_split_free(&s.split);
     return status;
 }

@@ -2,10 +2,13 @@
    what follows into each group that it names, one without names, and the file's beginning, into "default"; an
    `o` or `usemtl` has one name, which may hold blanks. */
 #include "base/memory/memory.h"
+#include "base/text/words.h"
 #include "io/obj/obj_faces.h"
 #include "io/obj/obj_names.h"
 #include <stdio.h>
 #include <string.h>
+
+#define LONGEST_NAME 200 /* bytes of a part's name in messages */
 
 typedef struct selecting {
     obj_document *document;
@@ -51,14 +54,14 @@ static void mark_corners(selecting *s, obj_walk *walk, bool selected)
 {
     obj_document *d = s->document;
     obj_face_corner corner;
-    const bool face = walk->scan.keyword == OBJ_FACE && d->pair_start;
+    size_t pair;
     while (ffd_obj_walk_corner(walk, &corner)) {
         if (selected)
             d->selected_vertices[corner.vertex] = 1;
-        if (!face || !corner.has_normal)
+        if (walk->scan.keyword != OBJ_FACE || !ffd_obj_find_pair(d, &corner, &pair))
             continue;
         if (selected)
-            d->selected_pairs[ffd_obj_find_pair(d, &corner)] = 1;
+            d->selected_pairs[pair] = 1;
         else
             d->held_normals[corner.normal] = 1;
     }
@@ -67,7 +70,6 @@ static void mark_corners(selecting *s, obj_walk *walk, bool selected)
 static void mark_elements(selecting *s)
 {
     obj_walk walk;
-    size_t face = 0;
     ffd_obj_document_walk(s->document, &walk);
     while (ffd_obj_walk_next(&walk)) {
         switch (walk.scan.keyword) {
@@ -81,9 +83,8 @@ static void mark_elements(selecting *s)
             s->material = names(s, SELECT_MATERIAL, ffd_obj_names_line(&walk.scan));
             break;
         case OBJ_FACE:
-            s->document->selected_faces[face] = is_selected(s);
-            mark_corners(s, &walk, s->document->selected_faces[face]);
-            face++;
+            s->document->selected_faces[walk.faces.seen - 1] = is_selected(s);
+            mark_corners(s, &walk, is_selected(s));
             break;
         case OBJ_LINE:
         case OBJ_POINT:
@@ -239,7 +240,13 @@ uint64_t ffd_obj_name_part(const mesh_document *document, uint64_t vertex, uint8
     *name = 0;
     if (!found.first)
         return 0;
-    snprintf(name, capacity, "%s%.*s", kind,
-             (int)(found.last - found.first < 200 ? found.last - found.first : 200), found.first);
+    /* One byte more than is kept tells whether a character would be cut. */
+    char word[LONGEST_NAME + 2], shown[LONGEST_NAME + 1];
+    const size_t length = (size_t)(found.last - found.first);
+    const size_t size = length < sizeof word ? length : sizeof word - 1;
+    memcpy(word, found.first, size);
+    word[size] = 0;
+    ffd_name_shown(word, shown, sizeof shown);
+    snprintf(name, capacity, "%s%s", kind, shown);
     return count_marked(d, kind, found, marks);
 }

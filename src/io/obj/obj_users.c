@@ -159,7 +159,6 @@ static ffd_status read_statement(const block_reader *r, obj_scan *scan, obj_bloc
 {
     switch (scan->keyword) {
     case OBJ_FACE:
-        block->faces++;
         return check_corners(r, scan, block);
     case OBJ_LINE:
         block->lines++;
@@ -275,7 +274,7 @@ static ffd_status find_failure(const obj_document *d, const obj_users *users, si
         return ffd_fail_memory(error);
     status = read_block(d, users, number, &block, error);
     ffd_obj_free_block_users(&block);
-    return status ? status : ffd_fail_file(error, FFD_E_IO, d->file.name, "was changed while it was read");
+    return status ? status : ffd_file_document_changed(&d->file, error);
 }
 
 ffd_status ffd_obj_users_finish(const obj_document *d, obj_users *users, ffd_error *error)

@@ -15,9 +15,9 @@ typedef struct obj_vertex_normal {
 
 /* The faces, lines and points of one block. */
 typedef struct obj_block_users {
-    size_t faces, corners, lines, points; /* corners: of faces */
-    size_t vertices, normals;             /* the greatest numbers that are named, from 1; 0: none */
-    obj_vertex_normal *others;            /* corners of faces with a normal that is not their vertex' first */
+    size_t corners, lines, points; /* corners: of faces */
+    size_t vertices, normals;      /* the greatest numbers that are named, from 1; 0: none */
+    obj_vertex_normal *others;     /* corners of faces with a normal that is not their vertex' first */
     size_t other_count, other_capacity;
     size_t counts_back; /* offset after the last index of a normal that does; 0: none */
     bool is_late;       /* to be read again, as a whole */

@@ -97,9 +97,10 @@ static ffd_status read_block(const reader *r, size_t block, block_content *conte
     ffd_status status = FFD_OK;
     ffd_obj_document_walk_block(d, block, &walk);
     const size_t line = walk.scan.line;
-    while (status == FFD_OK && ffd_obj_walk_next(&walk)) {
+    while (status == FFD_OK && ffd_obj_scan_next(&walk.scan)) { /* totals are not known yet */
         const obj_keyword keyword = walk.scan.keyword;
         content->faces += keyword == OBJ_FACE;
+        content->texcoords += keyword == OBJ_TEXCOORD;
         if (may_name_elements(keyword)) {
             content->names_elements = true;
             ffd_obj_users_look(d, r->users, &walk.scan, &content->users);
@@ -113,7 +114,6 @@ static ffd_status read_block(const reader *r, size_t block, block_content *conte
             content->names_groups = true;
         }
     }
-    content->texcoords = walk.texcoords.seen;
     content->lines = walk.scan.line - line;
     content->loose = walk.scan.loose;
     content->loose_line = walk.scan.loose_line - line;
@@ -232,8 +232,7 @@ static ffd_status find_failure(const reader *r, ffd_error *error)
         return ffd_fail_memory(error);
     const ffd_status status = read_block(r, r->failed, &content, error);
     free_content(&content);
-    return status ? status
-                  : ffd_fail_file(error, FFD_E_IO, r->document->file.name, "was changed while it was read");
+    return status ? status : ffd_file_document_changed(&r->document->file, error);
 }
 
 static ffd_status note_flaws(reader *r, ffd_error *error)
@@ -267,6 +266,7 @@ static ffd_status read_blocks(reader *r, ffd_error *error)
     d->vertices = r->vertices;
     d->texcoords = r->texcoords;
     d->normals = r->normals;
+    d->faces = r->faces;
     if (r->failed != SIZE_MAX)
         return find_failure(r, error);
     d->file.positions = d->position_store.data;

@@ -1,16 +1,27 @@
 #include "io/obj/obj_walk.h"
 
+/* Whether the file had this element when its elements were counted. */
+static bool count(obj_count *elements)
+{
+    return elements->seen++ < elements->total;
+}
+
 bool ffd_obj_walk_next(obj_walk *walk)
 {
     if (!ffd_obj_scan_next(&walk->scan))
         return false;
-    if (walk->scan.keyword == OBJ_VERTEX)
-        walk->vertices.seen++;
-    else if (walk->scan.keyword == OBJ_TEXCOORD)
-        walk->texcoords.seen++;
-    else if (walk->scan.keyword == OBJ_NORMAL)
-        walk->normals.seen++;
-    return true;
+    switch (walk->scan.keyword) {
+    case OBJ_VERTEX:
+        return count(&walk->vertices);
+    case OBJ_TEXCOORD:
+        return count(&walk->texcoords);
+    case OBJ_NORMAL:
+        return count(&walk->normals);
+    case OBJ_FACE:
+        return count(&walk->faces);
+    default:
+        return true;
+    }
 }
 
 bool ffd_obj_find(int64_t index, obj_count count, size_t *element)
@@ -19,7 +30,7 @@ bool ffd_obj_find(int64_t index, obj_count count, size_t *element)
     if (index == 0 || size > (index < 0 ? count.seen : count.total))
         return false;
     *element = index < 0 ? count.seen - (size_t)size : (size_t)size - 1;
-    return *element < count.total; /* a file that changes may have more than were counted */
+    return true;
 }
 
 bool ffd_obj_walk_corner(obj_walk *walk, obj_face_corner *corner)

@@ -5,18 +5,19 @@
 #include "io/obj/obj_corner.h"
 
 /* Elements of one kind: in the whole file, and up to the current statement (which is the last of them where
-   it is one itself). Positive indices count in the former, negative ones in the latter. */
+   it is one itself); seen <= total. Positive indices count in the former, negative ones in the latter. */
 typedef struct obj_count {
     size_t total, seen;
 } obj_count;
 
-/* The caller sets the totals, which may be 0 if no positive index is looked up. */
+/* The caller sets the totals. */
 typedef struct obj_walk {
     obj_scan scan;
-    obj_count vertices, texcoords, normals;
+    obj_count vertices, texcoords, normals, faces;
 } obj_walk;
 
-/* Goes to the next statement and counts it. False at the end of the file. */
+/* Goes to the next statement and counts it. False at the end of the file, and at an element that is more than
+   the total: the file was changed after they were counted. */
 bool ffd_obj_walk_next(obj_walk *walk);
 
 /* The element, from 0, that an index names. Returns false if there is none. */

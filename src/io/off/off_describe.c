@@ -31,8 +31,8 @@ static off_facts survey(const off_document *d)
     for (size_t i = 0; i < d->header.faces; i++) {
         const size_t corners = ffd_off_walk_face_size(&walk);
         face_sizes_count(&facts.sizes, corners);
-        for (size_t c = 0; c < corners; c++)
-            ffd_off_walk_corner_index(&walk);
+        for (size_t c = 0; c < corners && ffd_off_walk_corner_index(&walk) != UINT32_MAX;)
+            c++;
         facts.coloured_faces += count_rest(&walk) > 0;
     }
     return facts;

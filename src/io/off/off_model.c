@@ -58,6 +58,8 @@ static ffd_status take_face(extractor *e)
         return ffd_fail_memory(e->error);
     for (size_t c = 0; c < count; c++) {
         const uint32_t vertex = ffd_off_walk_corner_index(&e->walk);
+        if (vertex >= e->document->header.vertices)
+            return ffd_file_document_changed(&e->document->file, e->error);
         e->corners[c] =
             (model_corner){vertex, texcoords ? vertex : MODEL_NONE, normals ? vertex : MODEL_NONE};
     }

@@ -19,7 +19,10 @@ static void write_vertices(const off_document *d, file_splice *splice)
     if (d->file.new_directions)
         ffd_decimal_run_begin(&directions, d->file.new_directions + 3 * d->header.vertices);
     for (size_t i = 0; splice->status == FFD_OK && i < d->header.vertices; i++) {
-        ffd_off_walk_vertex(&walk, &vertex);
+        if (!ffd_off_walk_vertex(&walk, &vertex) || vertex.found < off_header_numbers(&d->header)) {
+            splice->status = ffd_file_document_changed(&d->file, splice->error);
+            return;
+        }
         replace_numbers(splice, vertex.numbers, d->file.positions + 3 * i, d->file.new_positions + 3 * i,
                         &positions);
         if (d->file.new_directions)
@@ -34,7 +37,7 @@ ffd_status ffd_off_save(mesh_document *document, const mesh_save_options *option
     const off_document *d = ffd_off_of(document);
     file_splice splice;
     (void)log;
-    ffd_splice_begin(&splice, &d->file.input, options, output, error);
+    ffd_splice_begin(&splice, &d->file, options, output, error);
     if (d->file.new_positions)
         write_vertices(d, &splice);
     return ffd_splice_end(&splice);

@@ -69,14 +69,15 @@ bool ffd_off_walk_rest(off_walk *walk, text_word *word)
 
 size_t ffd_off_walk_face_size(off_walk *walk)
 {
+    text_word word;
+    uint64_t number;
     ffd_off_walk_face(walk);
-    return ffd_off_walk_corner_index(walk);
+    return ffd_off_walk_whole(walk, &word, &number) ? (uint32_t)number : 0;
 }
 
 uint32_t ffd_off_walk_corner_index(off_walk *walk)
 {
     text_word word;
-    uint64_t number = 0;
-    ffd_off_walk_whole(walk, &word, &number);
-    return (uint32_t)number;
+    uint64_t number;
+    return ffd_off_walk_whole(walk, &word, &number) ? (uint32_t)number : UINT32_MAX;
 }

@@ -36,7 +36,8 @@ bool ffd_off_walk_rest(off_walk *walk, text_word *word);
 
 /* Moves to the next face of a checked file and returns the number of its corners. */
 size_t ffd_off_walk_face_size(off_walk *walk);
-/* Returns the next corner's vertex in a checked file. */
+/* Returns the next corner's vertex in a checked file; UINT32_MAX if there is no number, because another
+   program has changed the file since. */
 uint32_t ffd_off_walk_corner_index(off_walk *walk);
 
 #endif

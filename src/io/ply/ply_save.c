@@ -21,7 +21,7 @@ ffd_status ffd_ply_save(mesh_document *document, const mesh_save_options *option
 {
     const ply_document *d = ffd_ply_of(document);
     file_splice splice;
-    ffd_splice_begin(&splice, &d->file.input, options, output, error);
+    ffd_splice_begin(&splice, &d->file, options, output, error);
     const size_t unturned = d->file.new_positions ? write_elements(d, &splice) : 0;
     if (unturned > 0)
         ffd_log_line(log, FFD_LOG_WARNING,

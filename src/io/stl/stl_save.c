@@ -3,6 +3,7 @@
 #include "io/stl/stl_document.h"
 #include "io/text/splice.h"
 #include "io/text/vectors.h"
+#include <math.h>
 #include <string.h>
 
 typedef struct stl_saver {
@@ -32,9 +33,9 @@ static bool renew_normal(const stl_document *d, const double before[9], const do
 
 static void write_text_facet(stl_saver *s, const stl_facet *facet, const double *before, const double *after)
 {
-    double old[3], normal[3];
+    double old[3] = {NAN, NAN, NAN}, normal[3];
     for (int a = 0; a < 3; a++)
-        ffd_stl_text_normal(facet->normal[a], &old[a]);
+        (void)ffd_stl_text_normal(facet->normal[a], &old[a]);
     if (renew_normal(s->document, before, after, old, normal))
         ffd_splice_numbers(&s->splice, facet->normal, normal, ffd_vectors_changes(old, normal, 3), 3, NULL);
     ffd_splice_numbers(&s->splice, facet->corners, after, ffd_vectors_changes(before, after, 9), 9, NULL);
@@ -67,8 +68,10 @@ static void write_facets(stl_saver *s)
         double before[9];
         corners_before(d, i, before);
         const bool moved = memcmp(before, after, sizeof before) != 0;
-        if (!d->binary)
-            ffd_stl_text_next(&text, d->file.name, &facet, &found, NULL);
+        if (!d->binary && (ffd_stl_text_next(&text, d->file.name, &facet, &found, NULL) || !found)) {
+            s->splice.status = ffd_file_document_changed(&d->file, s->splice.error);
+            return;
+        }
         if (moved && d->binary)
             write_binary_facet(s, i, before, after);
         else if (moved)
@@ -81,7 +84,7 @@ ffd_status ffd_stl_save(mesh_document *document, const mesh_save_options *option
 {
     stl_saver s = {.document = ffd_stl_of(document)};
     (void)log;
-    ffd_splice_begin(&s.splice, &s.document->file.input, options, output, error);
+    ffd_splice_begin(&s.splice, &s.document->file, options, output, error);
     if (s.document->file.new_positions)
         write_facets(&s);
     return ffd_splice_end(&s.splice);

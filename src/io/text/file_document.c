@@ -155,6 +155,11 @@ ffd_status ffd_file_document_model(const file_document *d, size_t texcoords, mes
     return FFD_OK;
 }
 
+ffd_status ffd_file_document_changed(const file_document *document, ffd_error *error)
+{
+    return ffd_fail_file(error, FFD_E_IO, document->name, "was changed while it was read");
+}
+
 void ffd_file_document_fill_positions(const file_document *d, mesh_faces *faces)
 {
     for (size_t c = 0; !faces->numbers && c < faces->start[faces->face_count]; c++) {

@@ -4,12 +4,20 @@
 /* Bytes of a file held in memory while it is copied. */
 #define PIECE ((size_t)2 * 1024 * 1024)
 
-void ffd_splice_begin(file_splice *splice, const file_input *input, const mesh_save_options *options,
+static const file_input *input_of(const file_splice *splice)
+{
+    return &splice->document->input;
+}
+
+void ffd_splice_begin(file_splice *splice, const file_document *document, const mesh_save_options *options,
                       file_output *output, ffd_error *error)
 {
-    const char *data = (const char *)input->data;
-    *splice = (file_splice){
-        .input = input, .output = output, .error = error, .copied = data, .last = data + input->size};
+    const char *data = (const char *)document->input.data;
+    *splice = (file_splice){.document = document,
+                            .output = output,
+                            .error = error,
+                            .copied = data,
+                            .last = data + document->input.size};
     splice->status = ffd_output_begin(output, options->path, options->force, error);
 }
 
@@ -29,11 +37,11 @@ void ffd_splice_bytes(file_splice *splice, const void *bytes, size_t size)
 
 void ffd_splice_copy(file_splice *splice, const char *to)
 {
-    while (splice->status == FFD_OK && splice->input && (size_t)(to - splice->copied) > PIECE) {
+    while (splice->status == FFD_OK && splice->document && (size_t)(to - splice->copied) > PIECE) {
         ffd_file_prefault(splice->copied, PIECE);
         ffd_splice_bytes(splice, splice->copied, PIECE);
         splice->copied += PIECE;
-        ffd_file_release_until(splice->input, splice->copied, &splice->released);
+        ffd_file_release_until(input_of(splice), splice->copied, &splice->released);
     }
     ffd_splice_bytes(splice, splice->copied, (size_t)(to - splice->copied));
     splice->copied = to;
@@ -47,11 +55,29 @@ void ffd_splice_part(file_splice *splice, const char *first, const char *last, c
     else
         ffd_splice_bytes(splice, first, (size_t)(last - first));
     splice->copied = last;
-    ffd_file_release_until(splice->input, last, &splice->released);
+    ffd_file_release_until(input_of(splice), last, &splice->released);
+}
+
+/* Whether a word follows what is copied. Words come in the order of the file, unless another program changes
+ * it. */
+static bool is_ahead(const file_splice *splice, text_word word)
+{
+    return word.first >= splice->copied && word.last >= word.first && word.last <= splice->last;
+}
+
+static void refuse_changed(file_splice *splice)
+{
+    if (splice->status == FFD_OK)
+        splice->status =
+            splice->document ? ffd_file_document_changed(splice->document, splice->error) : FFD_E_IO;
 }
 
 void ffd_splice_replace(file_splice *splice, text_word word, const void *bytes, size_t size)
 {
+    if (!is_ahead(splice, word)) {
+        refuse_changed(splice);
+        return;
+    }
     ffd_splice_copy(splice, word.first);
     ffd_splice_bytes(splice, bytes, size);
     splice->copied = word.last;
@@ -78,6 +104,11 @@ static char *copy_between(const file_splice *splice, const char *to, char *buffe
 static void replace_in_text(file_splice *splice, const text_word *words, const double *numbers,
                             unsigned changes, size_t count, decimal_run *run)
 {
+    for (size_t i = 0; i < count; i++)
+        if (!is_ahead(splice, words[i]) || (i > 0 && words[i].first < words[i - 1].last)) {
+            refuse_changed(splice);
+            return;
+        }
     const size_t before = (size_t)(words[count - 1].last - splice->copied);
     char *const start = ffd_buffer_reserve(splice->text, before + count * FFD_NUMBER_CAPACITY), *at = start;
     if (!start)
@@ -108,8 +139,8 @@ ffd_status ffd_splice_end(file_splice *splice)
 {
     ffd_splice_copy(splice, splice->last);
     if (splice->text)
-        return splice->text->failed ? ffd_fail_memory(splice->error) : FFD_OK;
-    ffd_file_release_pages(splice->input, splice->input->data + splice->released,
-                           splice->input->size - splice->released);
+        return splice->text->failed ? ffd_fail_memory(splice->error) : splice->status;
+    const file_input *const input = input_of(splice);
+    ffd_file_release_pages(input, input->data + splice->released, input->size - splice->released);
     return splice->status;
 }

@@ -2,15 +2,14 @@
 #ifndef FFD_IO_TEXT_SPLICE_H
 #define FFD_IO_TEXT_SPLICE_H
 
-#include "base/file/input.h"
 #include "base/file/output.h"
 #include "base/text/buffer.h"
 #include "base/text/decimal.h"
+#include "io/text/file_document.h"
 #include "io/text/text_scan.h"
-#include "mesh/mesh.h"
 
 typedef struct file_splice {
-    const file_input *input; /* NULL in a part */
+    const file_document *document; /* NULL in a part */
     file_output *output;
     ffd_error *error;
     ffd_status status;         /* the first failure; nothing is written after it */
@@ -20,7 +19,7 @@ typedef struct file_splice {
 } file_splice;
 
 /* Begins the output that options name. ffd_splice_end must follow; it returns any failure. */
-void ffd_splice_begin(file_splice *splice, const file_input *input, const mesh_save_options *options,
+void ffd_splice_begin(file_splice *splice, const file_document *document, const mesh_save_options *options,
                       file_output *output, ffd_error *error);
 /* Begins a part [first, last) of the file; its bytes are appended to text, so that threads can splice parts
    in parallel. ffd_splice_end must follow. */
@@ -32,7 +31,8 @@ void ffd_splice_part(file_splice *splice, const char *first, const char *last, c
 void ffd_splice_copy(file_splice *splice, const char *to);
 /* Inserts bytes that the file does not have. */
 void ffd_splice_bytes(file_splice *splice, const void *bytes, size_t size);
-/* Copies the file up to a word, and writes other bytes in its place. */
+/* Copies the file up to a word, and writes other bytes in its place. A word that is not behind the last one
+   ends in FFD_E_IO: another program has changed the file since it was read. */
 void ffd_splice_replace(file_splice *splice, text_word word, const void *bytes, size_t size);
 /* Replaces words by count numbers, at most 32: those whose bit is set in changes. run: the decimal_run of the
    array with the numbers, or NULL. */

@@ -12,3 +12,19 @@ ffd_status ffd_deform_desc_take(const ffd_deform_desc *callers, ffd_deform_desc 
     ffd_deform_desc_init(own, sizeof *own);
     return ffd_struct_take(own, sizeof *own, callers, "ffd_deform_desc", error);
 }
+
+bool ffd_desc_has_texts(const char *const *texts, size_t count)
+{
+    size_t there = 0;
+    while (texts && there < count && texts[there])
+        there++;
+    return there == count;
+}
+
+bool ffd_desc_has_settings(const ffd_setting *set, size_t count)
+{
+    size_t there = 0;
+    while (set && there < count && set[there].name && set[there].value)
+        there++;
+    return there == count;
+}

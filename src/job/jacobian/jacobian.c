@@ -1,4 +1,5 @@
 /* jacobian.c - the job of `ffd jacobian`. */
+#include "base/file/input.h"
 #include "base/file/output.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
@@ -23,6 +24,18 @@ static bool is_product(const ffd_jacobian_desc *desc)
     return desc->times || desc->transposed;
 }
 
+/* force is for older outputs, not for what is read. */
+static bool is_input(const ffd_jacobian_desc *desc)
+{
+    const char *const inputs[] = {desc->job->input.path, desc->times, desc->transposed};
+    bool found = false;
+    for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++)
+        found = found || (inputs[i] && ffd_file_same(inputs[i], desc->output));
+    for (size_t i = 0; i < desc->job->lattice_count && desc->job->lattices; i++)
+        found = found || ffd_file_same(desc->job->lattices[i], desc->output);
+    return found;
+}
+
 static ffd_status check_output(const ffd_jacobian_desc *desc, ffd_error *error)
 {
     const char *const path = desc->output;
@@ -36,6 +49,8 @@ static ffd_status check_output(const ffd_jacobian_desc *desc, ffd_error *error)
     if (npy && !is_product(desc) && by_points)
         return ffd_fail_file(error, FFD_E_ARGUMENT, path,
                              "a matrix by control points is sparse: it is written as .npz or .mtx");
+    if (is_input(desc))
+        return ffd_fail_file(error, FFD_E_EXISTS, path, "is an input of this command");
     return ffd_output_check(path, desc->job->force, error);
 }
 

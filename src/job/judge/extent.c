@@ -18,8 +18,7 @@ static void add(exact_sum *s, double value)
 
 static double total(const exact_sum *s)
 {
-    const double value = s->sum + s->lost;
-    return isfinite(value) ? value : NAN;
+    return s->sum + s->lost;
 }
 
 typedef struct extent_work {
@@ -27,9 +26,14 @@ typedef struct extent_work {
     const double *rest, *xyz;
     size_t part, first, end; /* part of the last vertex looked up, and its vertices [first, end) */
     const double *origin;    /* a vertex relative to which volumes are computed; NULL before the first face */
+    double scale;            /* of the positions, a power of 2 */
+    double largest;          /* the largest finite coordinate */
     exact_sum area, volume;
     uint64_t border; /* sum of edge hashes; 0 if the mesh is closed */
 } extent_work;
+
+/* Called for each face that is not hidden. */
+typedef void face_visit(extent_work *work, const uint32_t *corners, size_t count);
 
 static const double *position(const extent_work *work, uint32_t vertex)
 {
@@ -104,7 +108,7 @@ static void measure_face(extent_work *work, const uint32_t *corners, size_t coun
         const double *const q = position(work, corners[c]);
         const uint64_t hash = hash_of(q);
         for (int a = 0; a < 3; a++)
-            after[a] = q[a] - p[a];
+            after[a] = q[a] * work->scale - p[a] * work->scale;
         normal[0] += before[1] * after[2] - before[2] * after[1];
         normal[1] += before[2] * after[0] - before[0] * after[2];
         normal[2] += before[0] * after[1] - before[1] * after[0];
@@ -116,21 +120,61 @@ static void measure_face(extent_work *work, const uint32_t *corners, size_t coun
     if (!work->origin)
         work->origin = p;
     for (int a = 0; a < 3; a++)
-        from_origin[a] = p[a] - work->origin[a];
+        from_origin[a] = p[a] * work->scale - work->origin[a] * work->scale;
     add(&work->area, vec_length(normal) / 2);
     add(&work->volume, vec_dot(from_origin, normal) / 6);
+}
+
+static void find_largest(extent_work *work, const uint32_t *corners, size_t count)
+{
+    for (size_t c = 0; c < count; c++) {
+        const double *const p = position(work, corners[c]);
+        for (int a = 0; a < 3; a++)
+            if (isfinite(p[a]))
+                work->largest = fmax(work->largest, fabs(p[a]));
+    }
+}
+
+static void visit_faces(extent_work *work, const mesh_faces *faces, face_visit *visit)
+{
+    for (size_t f = 0; f < faces->face_count; f++) {
+        const uint32_t *const corners = faces->corners + faces->start[f];
+        const size_t count = faces->start[f + 1] - faces->start[f];
+        if (count > 0 && !is_hidden(work, corners[0]))
+            visit(work, corners, count);
+    }
+}
+
+/* Takes the sums again with coordinates of at most 1, so that they do not overflow. Returns e: the lengths
+   are to be multiplied by 2^e. */
+static int measure_scaled(extent_work *work, const mesh_faces *faces)
+{
+    int exponent;
+    visit_faces(work, faces, find_largest);
+    frexp(work->largest, &exponent);
+    work->scale = ldexp(1, -exponent);
+    work->area = work->volume = (exact_sum){0};
+    visit_faces(work, faces, measure_face);
+    return exponent;
+}
+
+/* Returns a sum times 2^exponent: infinite if that is too large for a double, NaN if a position is not
+ * finite.
+ */
+static double unscaled(const exact_sum *sum, int exponent)
+{
+    const double value = total(sum);
+    return isfinite(value) ? ldexp(value, exponent) : NAN;
 }
 
 void ffd_extent_measure(const mesh_document *document, const mesh_faces *faces, const double *xyz,
                         mesh_extent *extent)
 {
-    extent_work work = {.document = document, .rest = faces->positions, .xyz = xyz};
-    for (size_t f = 0; f < faces->face_count; f++) {
-        const uint32_t *const corners = faces->corners + faces->start[f];
-        const size_t count = faces->start[f + 1] - faces->start[f];
-        if (count > 0 && !is_hidden(&work, corners[0]))
-            measure_face(&work, corners, count);
-    }
-    extent->area = total(&work.area);
-    extent->volume = work.origin && work.border == 0 ? total(&work.volume) : NAN;
+    extent_work work = {.document = document, .rest = faces->positions, .xyz = xyz, .scale = 1};
+    visit_faces(&work, faces, measure_face);
+    const bool is_closed = work.origin && work.border == 0;
+    const bool overflows = !isfinite(total(&work.area)) || !isfinite(total(&work.volume));
+    const int exponent = overflows ? measure_scaled(&work, faces) : 0;
+    extent->area = unscaled(&work.area, 2 * exponent);
+    extent->volume = is_closed ? unscaled(&work.volume, 3 * exponent) : NAN;
 }

@@ -5,13 +5,13 @@
 #include "mesh/mesh.h"
 
 typedef struct mesh_extent {
-    double area;   /* of all faces; NaN if it overflows */
-    double volume; /* by the divergence theorem, negative if faces are inside out. NaN if the mesh is not
-                      closed, has no faces, or the volume overflows */
+    double area;   /* of all faces; NaN if a vertex of one is not finite */
+    double volume; /* by the divergence theorem, negative if faces are inside out. NaN likewise, and if the
+                      mesh is not closed or has no faces */
 } mesh_extent;
 
-/* Measures the faces of visible nodes. The area of a polygon that is not flat is that of its largest
-   projection, and its volume is bounded by its fan of triangles.
+/* Measures the faces of visible nodes. What is too large for a double is infinite. The area of a polygon that
+   is not flat is that of its largest projection, and its volume is bounded by its fan of triangles.
 
    A mesh is closed if each edge is used equally often in both directions. Vertices at one position are one,
    because formats repeat vertices for other normals or texture coordinates; a mesh that is closed by its

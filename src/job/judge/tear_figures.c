@@ -104,9 +104,6 @@ static void name_part(const deform_job *job, ffd_job_result *result)
     if (format->name_part)
         result->tear_stays = format->name_part(job->document, result->tear_vertex, job->kept,
                                                result->tear_part, sizeof result->tear_part);
-    for (char *c = result->tear_part; *c; c++) /* messages have one line */
-        if ((unsigned char)*c < 0x20 || *c == 0x7f)
-            *c = '?';
     if (*result->tear_part)
         return;
     result->tear_stays = 0;
@@ -244,13 +241,16 @@ ffd_status ffd_tear_figures_find(deform_job *job, figure_arrays *arrays, ffd_job
 void ffd_tear_figures_describe(const ffd_job_result *result, char *text, size_t capacity)
 {
     const char *const colon = strchr(result->tear_part, ':');
+    char name[201] = "";
+    if (colon)
+        ffd_name_shown(colon + 1, name, sizeof name);
     if (result->tear_between) {
         snprintf(
             text, capacity,
             "the lattices move the two ends of edges differently; the largest step to a neighbour is %g, "
-            "at vertex %" PRIu64 "%s%.200s (%" PRIu64 " torn %s)",
-            result->tear_largest, result->tear_vertex, colon ? " of " : "", colon ? colon + 1 : "",
-            result->tear_edges, ffd_plural(result->tear_edges, "edge", "edges"));
+            "at vertex %" PRIu64 "%s%s (%" PRIu64 " torn %s)",
+            result->tear_largest, result->tear_vertex, colon ? " of " : "", name, result->tear_edges,
+            ffd_plural(result->tear_edges, "edge", "edges"));
         return;
     }
     if (result->tear_disagrees) {
@@ -267,9 +267,9 @@ void ffd_tear_figures_describe(const ffd_job_result *result, char *text, size_t 
                  result->tear_largest);
         return;
     }
-    snprintf(text, capacity, "%" PRIu64 " %s%s%.200s %s; the largest step to a neighbour is %g",
+    snprintf(text, capacity, "%" PRIu64 " %s%s%s %s; the largest step to a neighbour is %g",
              result->tear_stays, ffd_plural(result->tear_stays, "vertex", "vertices"), colon ? " of " : "",
-             colon ? colon + 1 : "", ffd_plural(result->tear_stays, "stays", "stay"), result->tear_largest);
+             name, ffd_plural(result->tear_stays, "stays", "stay"), result->tear_largest);
 }
 
 void ffd_tear_figures_warn(const deform_job *job, const ffd_job_result *result)

@@ -113,7 +113,7 @@ static void write_number_or_null(json_text *json, const char *key, double value)
 
 static void write_extent(json_text *json, const char *key, double before, double after)
 {
-    if (isnan(before) && isnan(after)) {
+    if (!isfinite(before) && !isfinite(after)) {
         ffd_json_null(json, key);
         return;
     }

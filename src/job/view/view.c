@@ -19,6 +19,7 @@
 #include "job/view/view_inputs.h"
 #include "job/view/view_marks.h"
 #include "job/view/view_mesh.h"
+#include "job/view/view_order.h"
 #include "job/view/view_rigs.h"
 #include "view/page.h"
 #include "view/view_picture.h"
@@ -78,6 +79,8 @@ static ffd_status check_desc(const view_work *work, ffd_error *error)
     if (!desc->output || (desc->deformed && !desc->deformed->path))
         return ffd_fail(error, FFD_E_ARGUMENT, "the view's description is not complete");
     const view_picture_options picture = describe_picture(work);
+    if ((int)desc->color < FFD_VIEW_DISPLACEMENT || desc->color > FFD_VIEW_PLAIN)
+        return ffd_fail(error, FFD_E_ARGUMENT, "%d is no value of color", (int)desc->color);
     for (int a = 0; a < 3; a++)
         if (!isfinite(desc->camera[a]))
             return ffd_fail(error, FFD_E_ARGUMENT, "the camera's direction is not finite");
@@ -267,6 +270,8 @@ static ffd_status read_deformed(view_work *work, ffd_error *error)
                                ffd_source_name(&work->desc->job->input), (unsigned long long)count);
     if (!status)
         status = read_positions(work, work->other, &positions, error);
+    if (!status)
+        status = ffd_view_match_parts(work->job.document, work->other, &work->scene.rigs[1].order, error);
     if (!status)
         status = ffd_view_place_after(&work->model, positions, &work->scene, error);
     ffd_free(positions);

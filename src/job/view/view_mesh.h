@@ -13,7 +13,7 @@
 ffd_status ffd_view_take_mesh(mesh_model *model, view_scene *scene, uint32_t **faces, const mesh_log *log,
                               ffd_error *error);
 
-/* Fills the positions after. deformed: 3 numbers for each vertex of the document, in the order of `ffd
+/* Fills the positions after. deformed: 3 numbers for each vertex of the document after, in the order of `ffd
    embed`; NULL: no vertex moves. A vertex whose entry is NaN (its transform has no inverse) stays. Errors:
    FFD_E_LIMIT (the model's memory budget), FFD_E_MEMORY. */
 ffd_status ffd_view_place_after(const mesh_model *model, const double *deformed, view_scene *scene,

@@ -13,7 +13,7 @@
 #include "lattice/spec.h"
 #include <string.h>
 
-/* Makes the lattice of a spec, which it takes. */
+/* Makes the lattice of a spec. Takes ownership of the spec, also after a failure. */
 static ffd_status build(lattice_spec *spec, ffd_lattice **lattice, ffd_error *error)
 {
     const ffd_status status = ffd_spec_build(spec, NULL, NULL, lattice, error);
@@ -119,8 +119,8 @@ ffd_status ffd_lattice_list_open(const char *path, const ffd_setting *values, si
     return status;
 }
 
-/* What the lattice's file says now: what moves have done and the caller has set as offsets. Borrows all from
-   the lattice and its spec. */
+/* Returns a spec with the current state of an edited lattice: the result of the moves and of the caller's
+   changes as offsets. Its arrays are borrowed from the lattice and its spec. */
 static lattice_spec edited_spec(const ffd_lattice *lattice)
 {
     lattice_spec spec = *lattice->spec;
@@ -180,14 +180,18 @@ ffd_status ffd_spec_mesh(const lattice_spec *spec, size_t i, char **path, ffd_er
 
 ffd_status ffd_lattice_get_mesh(const ffd_lattice *lattice, size_t i, char **path, ffd_error *error)
 {
-    return ffd_spec_mesh(lattice->spec, i, path, error);
+    const size_t count = ffd_lattice_get_mesh_count(lattice);
+    *path = NULL;
+    return i < count
+               ? ffd_spec_mesh(lattice->spec, i, path, error)
+               : ffd_fail(error, FFD_E_ARGUMENT, "there is no mesh %zu: the rest box names %zu", i, count);
 }
 
 ffd_status ffd_lattice_fit(ffd_lattice *lattice, const double min[3], const double max[3], ffd_error *error)
 {
     if (!ffd_lattice_needs_bounds(lattice))
         return FFD_OK;
-    /* Built anew beside the old one, which stays as it is when that fails. */
+    /* Builds a new lattice first, so that a failure leaves the old one unchanged. */
     ffd_lattice *fitted;
     const lattice_spec now = edited_spec(lattice);
     lattice_spec *const spec = lattice->edited ? ffd_spec_copy(&now) : lattice->spec;

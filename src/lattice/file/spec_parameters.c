@@ -8,14 +8,14 @@
 
 #define COUNT_OF(array) (sizeof(array) / sizeof *(array))
 
-/* A member that may be missing. */
+/* Reads an optional number. */
 static ffd_status read_bound(json_cursor parameter, const char *key, double *bound)
 {
     const json_cursor member = ffd_cursor_member(parameter, key);
     return ffd_cursor_exists(member) ? ffd_json_read_double(member, bound) : FFD_OK;
 }
 
-/* The same for a text; *text stays NULL. */
+/* Reads an optional text; *text stays NULL if it is missing. */
 static ffd_status read_text(json_cursor parameter, const char *key, char **text)
 {
     const json_cursor member = ffd_cursor_member(parameter, key);
@@ -27,7 +27,7 @@ static ffd_status read_text(json_cursor parameter, const char *key, char **text)
     return *text ? FFD_OK : ffd_fail_memory(parameter.file->error);
 }
 
-/* The text of the default, as it is in the file. */
+/* Copies the JSON text of the default from the file. */
 static ffd_status copy_default(json_cursor cursor, char **text)
 {
     const json_value *const value = &cursor.tree->values[cursor.value];
@@ -40,7 +40,7 @@ static ffd_status copy_default(json_cursor cursor, char **text)
     return FFD_OK;
 }
 
-/* Whether a value, or one within it, is outside the bounds. */
+/* Finds a number in a value, which may be in nested arrays, that is out of bounds. */
 static bool find_outside(const json_span *tree, uint32_t value, const spec_parameter *parameter,
                          double *number)
 {

@@ -43,7 +43,7 @@ static ffd_status read_version(json_cursor root)
     return FFD_OK;
 }
 
-/* The size of one direction; spec->count is the product of those before it. */
+/* Reads the size of a direction; spec->count is the product of the sizes before it. */
 static ffd_status read_direction_size(json_cursor cursor, lattice_spec *spec, size_t a)
 {
     double size;
@@ -52,7 +52,7 @@ static ffd_status read_direction_size(json_cursor cursor, lattice_spec *spec, si
         return status;
     if (size < 2)
         return ffd_cursor_fail(cursor, "is %.0f, but a direction has at least 2 control points", size);
-    /* count <= limit and size >= 2: dividing needs no wider numbers. */
+    /* Because count <= the limit, dividing the limit avoids an overflow. */
     if (size > (double)(FFD_MAX_CONTROL_POINTS / spec->count))
         return ffd_cursor_fail_as(cursor, FFD_E_LIMIT, "size %.0f makes more than %zu control points", size,
                                   FFD_MAX_CONTROL_POINTS);
@@ -141,7 +141,7 @@ static ffd_status read_direction_knots(json_cursor cursor, lattice_spec *spec, s
     return status;
 }
 
-/* A closed direction needs rest points that form a ring. */
+/* A closed direction needs control points at rest that form a ring. */
 static ffd_status check_closed(json_cursor cursor, const lattice_spec *spec, size_t a)
 {
     if (spec->kind[a] != KNOTS_CLOSED && spec->kind[a] != KNOTS_CLOSED_LIST)
@@ -226,8 +226,8 @@ static ffd_status read_rest_weights(json_cursor cursor, lattice_spec *spec)
     return read_weights(cursor, spec->count, &spec->weights);
 }
 
-/* The members but the moves, in the order in which they need each other. Only size and rest must be there;
-   the readers of degree and knots supply what a missing value means. */
+/* Reads all members except the moves, in the order of their dependencies. Only size and rest are required;
+   the readers of degree and knots supply defaults. */
 static ffd_status read_members(json_cursor root, lattice_spec *spec)
 {
     static const struct member {
@@ -255,7 +255,7 @@ static ffd_status read_members(json_cursor root, lattice_spec *spec)
     return status;
 }
 
-/* Before all else: a newer version may mean something else by all that follows. */
+/* Checked first, because in a newer version anything else may have another meaning. */
 static ffd_status check_kind(json_cursor root)
 {
     if (!ffd_cursor_is(root, JSON_OBJECT))
@@ -275,7 +275,7 @@ static ffd_status read_root(json_cursor root, bool with_moves, lattice_spec *spe
     return status;
 }
 
-/* Reads a tree, with values for the placeholders of its moves. */
+/* Reads the tree of a lattice file, with values for the placeholders in its moves. */
 static ffd_status read_tree(json_file *file, const spec_settings *settings, lattice_spec *spec)
 {
     spec_values values = {0};

@@ -4,17 +4,17 @@
 
 #include "lattice/spec.h"
 
-/* Reads the JSON text of a lattice file (data/schema/lattice.md), with these values for placeholders (NULL:
-   none). Free the spec with ffd_spec_free. Errors as ffd_lattice_parse. */
+/* Reads the JSON text of a lattice file (data/schema/lattice.md). settings: values for placeholders; may be
+   NULL. Free the spec with ffd_spec_free. Errors: those of ffd_lattice_parse. */
 ffd_status ffd_spec_parse(const char *text, size_t size, const char *name, const spec_settings *settings,
                           lattice_spec **spec, ffd_error *error);
 
-/* The same of a file. *size: its bytes. Errors also: FFD_E_IO, and FFD_E_ARGUMENT for a stream that names
-   meshes, which would be beside it. */
+/* The same for a file. *size is its size in bytes. Further errors: FFD_E_IO, and FFD_E_ARGUMENT for standard
+   input that names meshes, because their paths are relative to the lattice file. */
 ffd_status ffd_spec_load(const char *path, const spec_settings *settings, lattice_spec **spec, size_t *size,
                          ffd_error *error);
 
-/* The path of a mesh that the box goes round; free with ffd_free. Errors: FFD_E_MEMORY. */
+/* Returns the path of mesh i that the rest box goes round; free it with ffd_free. Errors: FFD_E_MEMORY. */
 ffd_status ffd_spec_mesh(const lattice_spec *spec, size_t i, char **path, ffd_error *error);
 
 #endif

@@ -8,7 +8,7 @@
 
 #define COUNT_OF(array) (sizeof(array) / sizeof *(array))
 
-/* One control point index, from the end where negative. */
+/* Reads an index of control points; a negative one counts from the end. */
 static ffd_status read_index(json_cursor cursor, size_t size, size_t *index)
 {
     double number;
@@ -35,7 +35,7 @@ static ffd_status read_range(json_cursor cursor, size_t size, size_t *first, siz
     return status;
 }
 
-/* An index, an inclusive range [lo, hi], or "all". */
+/* Reads an index, an inclusive range [lo, hi], or "all". */
 static ffd_status read_indices(json_cursor cursor, size_t size, size_t *first, size_t *last)
 {
     static const char *const names[] = {"all"};
@@ -112,7 +112,7 @@ static ffd_status read_scale(json_cursor cursor, lattice_move *move)
     return status ? status : read_about(cursor, move);
 }
 
-/* An axis as it is written, of one that was read. */
+/* Reads an axis as it is written, without normalising it. */
 static ffd_status read_raw_axis(json_cursor object, const char *key, const double axis[3], double raw[3])
 {
     const json_cursor member = ffd_cursor_member(object, key);
@@ -120,7 +120,8 @@ static ffd_status read_raw_axis(json_cursor object, const char *key, const doubl
     return ffd_cursor_is(member, JSON_ARRAY) ? ffd_json_read_doubles(member, 3, raw) : FFD_OK;
 }
 
-/* An axis, in a bend the direction "toward", an amount under this key, "about". */
+/* Reads an axial action: its axis, for a bend the direction "toward", the amount under the given key, and
+   "about". */
 static ffd_status read_axial(json_cursor cursor, const char *const *known, size_t count, const char *amount,
                              lattice_move *move)
 {
@@ -276,7 +277,7 @@ static ffd_status read_axis_falloff(json_cursor cursor, move_falloff *falloff)
                            ffd_number_text(falloff->to).text);
 }
 
-/* The member that is there; the last one if none is. */
+/* Returns the first of the keys that the object has; the last one if it has none. */
 static const char *first_member(json_cursor object, const char *const *keys, size_t count)
 {
     size_t i = 0;
@@ -285,7 +286,7 @@ static const char *first_member(json_cursor object, const char *const *keys, siz
     return keys[i];
 }
 
-/* Along an axis, or round a centre. */
+/* Reads a falloff along an axis or round a centre. */
 static ffd_status read_falloff(json_cursor cursor, move_falloff *falloff)
 {
     static const char *const keys[] = {"axis", "from", "to", "center", "radius", SPEC_NOTES};
@@ -330,7 +331,7 @@ static ffd_status read_move(json_cursor cursor, const lattice_spec *spec, lattic
                                        "by",    "to",     "scale",  "rotate",  "matrix",
                                        "twist", "taper",  "bend",   "pull",    SPEC_NOTES};
     const json_cursor exact = ffd_cursor_member(cursor, "exact");
-    if (ffd_cursor_exists(exact)) /* the nearest known key would be no help */
+    if (ffd_cursor_exists(exact)) /* a suggestion of the most similar key would mislead */
         return ffd_cursor_fail(exact, "unknown key \"exact\" of a move; it is one of \"bend\"");
     ffd_status status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
     if (!status)

@@ -1,4 +1,4 @@
-/* spec_parse_moves.h - the moves of a lattice file. */
+/* spec_parse_moves.h - reads the moves of a lattice file. */
 #ifndef FFD_LATTICE_FILE_SPEC_PARSE_MOVES_H
 #define FFD_LATTICE_FILE_SPEC_PARSE_MOVES_H
 

@@ -7,8 +7,8 @@
 
 #define COUNT_OF(array) (sizeof(array) / sizeof *(array))
 
-/* How far the axes of a box may be from orthonormal (each dot product from 0 or 1): seven decimals suffice.
-   They are then used as written: min and max are along them, whatever their last digits. */
+/* How far the dot products of the axes of a box may be from 0 or 1: axes written with seven decimals pass.
+   They are used as written, not orthonormalised, and min and max are coordinates along them. */
 #define AXES_TOLERANCE 1e-6
 
 static ffd_status check_axes(json_cursor cursor, const double axes[9])
@@ -77,7 +77,7 @@ static ffd_status read_box(json_cursor cursor, lattice_spec *spec)
     return status ? status : check_sides(cursor, spec);
 }
 
-/* A number, or three: one for each direction. */
+/* Reads a margin: a number, or one for each direction. */
 static ffd_status read_margin(json_cursor cursor, double margin[3])
 {
     ffd_status status;
@@ -98,7 +98,8 @@ static ffd_status refuse_margin(json_cursor cursor)
     return ffd_cursor_fail(cursor, "a margin goes only with a box round meshes");
 }
 
-/* Keys that are known elsewhere in a rest: the nearest known one would mislead. */
+/* Refuses keys that belong elsewhere in "rest", for which a suggestion of the most similar key would
+   mislead. */
 static ffd_status refuse_misplaced(json_cursor box)
 {
     static const char *const of_sides[] = {"min", "max", "spacing", "axes"};
@@ -119,7 +120,7 @@ static ffd_status refuse_misplaced(json_cursor box)
                   : refuse_margin(margin);
 }
 
-/* {"meshes": [..]}: the files that the box goes round. */
+/* Reads {"meshes": [..]}, the files that the box goes round. */
 static ffd_status read_meshes(json_cursor box, lattice_spec *spec)
 {
     static const char *const keys[] = {"meshes", SPEC_NOTES};
@@ -144,7 +145,7 @@ static ffd_status read_meshes(json_cursor box, lattice_spec *spec)
     return status;
 }
 
-/* "box": {"min": ..}, or "box": "mesh" or {"meshes": ..} with a margin beside it. */
+/* Reads "box": {"min": ..}, or "box": "mesh" or {"meshes": ..} with a margin as the next member of "rest". */
 static ffd_status read_any_box(json_cursor rest, lattice_spec *spec)
 {
     static const char *const names[] = {"mesh"};

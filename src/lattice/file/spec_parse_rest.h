@@ -1,4 +1,4 @@
-/* spec_parse_rest.h - where a lattice file puts its control points at rest. */
+/* spec_parse_rest.h - reads the control points at rest of a lattice file. */
 #ifndef FFD_LATTICE_FILE_SPEC_PARSE_REST_H
 #define FFD_LATTICE_FILE_SPEC_PARSE_REST_H
 

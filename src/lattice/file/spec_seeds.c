@@ -3,7 +3,7 @@
 #include "base/memory/memory.h"
 #include <string.h>
 
-/* Whether a value is a number or an array of numbers. */
+/* Returns whether a value is a number or an array of numbers. */
 static bool is_numbers(const json_span *tree)
 {
     double number;
@@ -54,7 +54,7 @@ static json_cursor cursor_at(const json_file *file, uint32_t value)
     return (json_cursor){file, file->tree, value, JSON_NONE};
 }
 
-/* Whether a number selects points. */
+/* Returns whether the number at this offset of a move selects control points. */
 static bool selects(size_t offset)
 {
     const size_t first = offsetof(lattice_move, within_min), last = offsetof(lattice_move, within_max);

@@ -8,14 +8,15 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A placeholder: {"$": "NAME"} or {"$": "-NAME"}, with "times": NUMBER or not. */
+/* A placeholder: {"$": "NAME"} or {"$": "-NAME"}, optionally with "times": NUMBER. */
 typedef struct spec_placeholder {
     json_cursor at;
     char *name;
     double factor;
 } spec_placeholder;
 
-/* The string under "$", beside which there may be a factor and notes; JSON_NONE: it is not a placeholder. */
+/* Returns the string value of "$"; JSON_NONE if the value is not a placeholder. A factor and notes are
+   allowed as further members. */
 static uint32_t placeholder_text(const json_span *tree, uint32_t value)
 {
     static const char *const others[] = {"times", SPEC_NOTES};
@@ -30,7 +31,7 @@ static uint32_t placeholder_text(const json_span *tree, uint32_t value)
     return tree->values[value].count == known ? name : JSON_NONE;
 }
 
-/* Reads the placeholder at the cursor; free its name, after a failure too. */
+/* Reads the placeholder at the cursor. The caller frees its name, also after a failure. */
 static ffd_status read_placeholder(json_cursor cursor, uint32_t text, spec_placeholder *placeholder)
 {
     json_cursor times = cursor;
@@ -50,7 +51,7 @@ static ffd_status read_placeholder(json_cursor cursor, uint32_t text, spec_place
     return status;
 }
 
-/* Lists the parameters' names, which are all different, so that they are found in a file of any size. */
+/* Makes a hash table of the parameters' names, which are distinct, for fast lookup in a file of any size. */
 static ffd_status list_names(const json_file *file, const lattice_spec *spec, intern_table *names)
 {
     uint32_t number;
@@ -60,7 +61,7 @@ static ffd_status list_names(const json_file *file, const lattice_spec *spec, in
     return FFD_OK;
 }
 
-/* The parameter of a name; NULL where there is none. */
+/* Returns the parameter of a name; NULL if there is none. */
 static const spec_parameter *find_parameter(const char *name, const lattice_spec *spec,
                                             const spec_values *values)
 {
@@ -68,8 +69,8 @@ static const spec_parameter *find_parameter(const char *name, const lattice_spec
     return ffd_intern_find(&values->names, name, strlen(name), &number) ? &spec->parameters[number] : NULL;
 }
 
-/* The value that a setting or else a parameter's default has for a name; NULL: there is none. number: of its
-   place in spec_values. */
+/* Returns the text of the value for a name, from a setting or else from the parameter's default; NULL if
+   there is none. *number is its index in spec_values. */
 static const char *find_text(const char *name, const spec_settings *settings, const lattice_spec *spec,
                              const spec_parameter *parameter, size_t *number)
 {
@@ -85,7 +86,7 @@ static const char *find_text(const char *name, const spec_settings *settings, co
     return parameter->value;
 }
 
-/* The value of the placeholder, without its factor; none where it is open. */
+/* Finds the value of a placeholder, without its factor; none if the placeholder is open. */
 static ffd_status find_value(const spec_placeholder *placeholder, const spec_settings *settings,
                              const lattice_spec *spec, spec_values *values, const json_span **tree)
 {
@@ -107,7 +108,7 @@ static ffd_status find_value(const spec_placeholder *placeholder, const spec_set
     return parameter ? ffd_spec_check_bounds(placeholder->at, parameter, *tree) : FFD_OK;
 }
 
-/* Writes a number, or an array of numbers, times the factor; false where it is neither. */
+/* Writes a number or an array of numbers, multiplied by the factor. Returns false if the value is neither. */
 static bool write_product(byte_buffer *text, const json_span *tree, double factor)
 {
     const bool is_array = tree->values[0].kind == JSON_ARRAY;
@@ -126,7 +127,7 @@ static bool write_product(byte_buffer *text, const json_span *tree, double facto
     return numbers;
 }
 
-/* Takes the text. */
+/* Takes ownership of text. */
 static ffd_status add_product(spec_values *values, char *text, const json_span **tree)
 {
     spec_product *const product = text ? ffd_alloc_zero(1, sizeof *product) : NULL;
@@ -142,7 +143,7 @@ static ffd_status add_product(spec_values *values, char *text, const json_span *
     return ffd_json_setting_parse(text, JSON_NO_NUL | JSON_DOUBLES, &product->value);
 }
 
-/* Replaces the value by its product with the placeholder's factor. */
+/* Replaces the value by its product with the factor of the placeholder. */
 static ffd_status multiply(const spec_placeholder *placeholder, spec_values *values, const json_span **tree)
 {
     byte_buffer text = {0};
@@ -157,7 +158,7 @@ static ffd_status multiply(const spec_placeholder *placeholder, spec_values *val
                            placeholder->name);
 }
 
-/* Notes the name of a placeholder without a value. */
+/* Records the name of a placeholder without a value. */
 static ffd_status note_open(const spec_placeholder *placeholder, intern_table *open)
 {
     uint32_t number;
@@ -166,7 +167,7 @@ static ffd_status note_open(const spec_placeholder *placeholder, intern_table *o
                : ffd_fail_memory(placeholder->at.file->error);
 }
 
-/* Bytes of names in a message. */
+/* The most bytes of names in a message. */
 #define NAMES_SHOWN 300
 
 void ffd_spec_describe_open(const intern_table *open, char *text, size_t capacity)
@@ -186,7 +187,7 @@ void ffd_spec_describe_open(const intern_table *open, char *text, size_t capacit
     snprintf(text, capacity, "the placeholders %s have no values (--set NAME=VALUE for each)", names);
 }
 
-/* All of them at once, at the place of the first. */
+/* Reports all open placeholders in one message, at the position of the first. */
 static ffd_status refuse_open(const json_file *file, uint32_t value, const intern_table *open)
 {
     char text[480];
@@ -204,7 +205,7 @@ static ffd_status add_substitute(const json_file *file, uint32_t value, const js
     return FFD_OK;
 }
 
-/* Fills the placeholder at value v of the file, or notes that it is open. */
+/* Substitutes the placeholder at value v of the file, or records that it is open. */
 static ffd_status fill(json_file *file, uint32_t v, uint32_t text, const spec_settings *settings,
                        lattice_spec *spec, spec_values *values)
 {
@@ -235,7 +236,7 @@ ffd_status ffd_spec_set(json_file *file, uint32_t moves, const spec_settings *se
     values->values = ffd_alloc_zero(values->count, sizeof *values->values);
     if (!status && !values->values)
         status = ffd_fail_memory(file->error);
-    /* All that is within moves follows it in the tree. */
+    /* Descendants of "moves" follow it in the tree. */
     for (uint32_t v = moves + 1; v < end && !status; v++) {
         const uint32_t text = placeholder_text(tree, v);
         if (text == JSON_NONE)

@@ -184,7 +184,7 @@ static void write_pull(json_text *json, const lattice_move *move)
     ffd_json_end(json, '}');
 }
 
-/* The actions that are objects: their members in the order of data/schema/lattice.md. */
+/* Writes an action that is an object, with its members in the order of data/schema/lattice.md. */
 static void write_action_object(json_text *json, const char *key, const lattice_move *move)
 {
     ffd_json_object(json, key, true);
@@ -272,7 +272,7 @@ char *ffd_spec_text(const lattice_spec *spec, size_t *size)
         write_deformed(&json, spec);
     if (spec->box_units)
         ffd_json_string(&json, "units", "box");
-    /* Also where there are none: a file that is new shows where they go. */
+    /* Also if there are none: a new file shows where moves are to be added. */
     write_moves(&json, spec);
     ffd_json_end(&json, '}');
     *size = buffer.size;

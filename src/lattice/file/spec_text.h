@@ -4,8 +4,8 @@
 
 #include "lattice/spec.h"
 
-/* The file's text for a spec, size bytes with a final line break, and a 0 after them (free with ffd_free).
-   NULL: no memory. */
+/* Returns the text of a lattice file: *size bytes, ending with a line break, followed by a 0; free it with
+   ffd_free. NULL if memory runs out. */
 char *ffd_spec_text(const lattice_spec *spec, size_t *size);
 
 #endif

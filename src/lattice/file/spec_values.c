@@ -14,7 +14,7 @@ static bool is_known(const char *key, const char *const *known, size_t count)
     return false;
 }
 
-/* The nearest word by its letters would be another one. */
+/* Keys of other programs, for which the most similar known key would be a wrong suggestion. */
 static ffd_status refuse_foreign(json_cursor cursor, const char *const *known, size_t count)
 {
     static const struct foreign {
@@ -43,7 +43,7 @@ ffd_status ffd_spec_check_notes(json_cursor object)
 {
     static const char *const keys[] = {SPEC_NOTES};
     for (size_t i = 0; i < COUNT_OF(keys); i++) {
-        /* As it is in the text: there are no placeholders for notes. */
+        /* Read without substitutes, because notes have no placeholders. */
         json_cursor note = object;
         note.value = ffd_json_span_member(object.tree, object.value, keys[i]);
         if (ffd_cursor_exists(note) && !ffd_cursor_is(note, JSON_STRING))

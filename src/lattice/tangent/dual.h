@@ -1,5 +1,5 @@
-/* dual.h - numbers with their derivative by one parameter: forward differentiation (Griewank & Walther,
-   Evaluating Derivatives, 2nd ed., 3.1). */
+/* dual.h - dual numbers: a value with its derivative by one parameter, for forward differentiation (Griewank
+   & Walther, Evaluating Derivatives, 2nd ed., 3.1). */
 #ifndef FFD_LATTICE_TANGENT_DUAL_H
 #define FFD_LATTICE_TANGENT_DUAL_H
 
@@ -44,7 +44,7 @@ static inline dual dual_scale(dual a, double k)
     return (dual){k * a.v, k * a.d};
 }
 
-/* Where a is 0 the square root has no derivative: 0 is given. */
+/* At 0 the square root has no derivative; the result has derivative 0. */
 static inline dual dual_sqrt(dual a)
 {
     const double root = sqrt(a.v);
@@ -81,7 +81,7 @@ static inline dual3 dual3_cross(dual3 a, dual3 b)
     return out;
 }
 
-/* A vector that is not 0, scaled to length 1. */
+/* Normalises a vector that is not 0. */
 static inline dual3 dual3_unit(dual3 a)
 {
     return dual3_scale(a, dual_div(dual_of(1), dual_sqrt(dual3_dot(a, a))));

@@ -9,7 +9,7 @@ static dual3 vector_of(const double v[3], const double d[3])
     return (dual3){{{v[0], d[0]}, {v[1], d[1]}, {v[2], d[2]}}};
 }
 
-/* Of a constant matrix, row by row. */
+/* m x, for a constant row-major matrix. */
 static dual3 apply(const double m[9], dual3 x)
 {
     dual3 out;
@@ -26,21 +26,21 @@ static dual3 to_world(const move_step *step, dual3 x)
     return step->inverse ? dual3_add(apply(step->region->frame, x), vector_of(o, none)) : x;
 }
 
-/* Makes a vector perpendicular to a unit vector, of unit length. */
+/* Makes v perpendicular to a unit vector, and normalises it. */
 static dual3 perpendicular(dual3 axis, dual3 v)
 {
     const dual3 unit = dual3_unit(v);
     return dual3_unit(dual3_sub(unit, dual3_scale(axis, dual3_dot(axis, unit))));
 }
 
-/* B M B^-1 of a matrix that maps fractions of the region. */
+/* Converts a matrix that acts on fractions of the region: B M B^-1. */
 static void matrix_to_world(const move_step *step, const lattice_move *d, dual_move *made)
 {
     const double none[3] = {0, 0, 0};
     const dual3 start = vector_of(step->region->origin, none);
     dual3 columns[3], offset;
     for (int c = 0; c < 3; c++) {
-        /* The image of the world's unit vector c. */
+        /* The image of the unit vector c of world space. */
         double e[3] = {c == 0, c == 1, c == 2}, x[3];
         mat_apply(step->inverse, e, x);
         for (int r = 0; r < 3; r++) {
@@ -64,7 +64,7 @@ static void matrix_to_world(const move_step *step, const lattice_move *d, dual_m
     }
 }
 
-/* What is a direction or a length in the file's units, in those of the world. */
+/* Converts directions and lengths from the units of the file to world units. */
 static void make_numbers(const move_step *step, const lattice_move *d, dual_move *made)
 {
     const lattice_move *const m = step->move;
@@ -105,7 +105,7 @@ static void make_directions(const move_step *step, const lattice_move *d, dual_m
         made->falloff_axis = dual3_unit(vector_of(m->falloff.raw_axis, d->falloff.raw_axis));
 }
 
-/* A control point as the step's plane shows it. */
+/* Returns a control point, reflected in the plane of the step. */
 static dual3 seen(const dual_move *move, size_t point, const double derivative[3])
 {
     const double *const q = move->step->lattice->deformed + 3 * point;
@@ -140,7 +140,7 @@ static void find_centroid(const double *points, dual_move *made)
         made->about.c[c] = (dual){step->ready->move.about[c], sum[c] / (double)count};
 }
 
-/* Of the first lowest and the first highest point. */
+/* Uses the first lowest and the first highest point. */
 static void find_extent(const double *points, dual_move *made)
 {
     const move_step *const step = made->step;
@@ -199,16 +199,16 @@ static dual3 taper(const dual_move *move, dual3 p)
     return dual3_add(p, dual3_scale(e, dual_mul(dual_sub(move->amount, dual_of(1)), fraction(move, p))));
 }
 
-/* A function of one number by its value and its derivative. */
+/* Applies the chain rule for a function with this value and derivative at x. */
 static dual chain(dual x, double value, double derivative)
 {
     return (dual){value, derivative * x.d};
 }
 
-/* Below this the quotients below are their series: what is left out is less than 1e-17. */
+/* Below this the quotients are computed from their series, with an error below 1e-17. */
 #define SERIES 0.5
 
-/* The same bits on every processor. */
+/* Has the same bits on every processor, unlike sin. */
 static double sine_of(double radians)
 {
     double sine, cosine;
@@ -246,9 +246,10 @@ static dual cosine_quotient(dual x)
     return chain(x, lost / s, (sine_of(v) - 2 * lost / v) / s);
 }
 
-/* ffd_move_bend in terms of the whole angle a in radians, so that the radius R = length/a may be infinite:
-   with the point's own angle x = a g, R sin x = length g S(x) and R (1 - cos x) = length a g^2 C(x). more: m
-   of an exact bend, R m = length a h^2 C(a h)/cos(a h) with half the arc's part h. */
+/* As ffd_move_bend, in terms of the whole angle a in radians, so that the radius R = length/a may be
+   infinite. For the point's angle x = a g, R sin x = length g S(x) and R (1 - cos x) = length a g^2 C(x),
+   with S(x) = sin x / x and C(x) = (1 - cos x) / x^2. For an exact bend m = more, R m = length a h^2 C(a
+   h)/cos(a h), with h half the arc's part of the whole angle. */
 static dual3 bend(const dual_move *move, dual3 p, dual part, const dual *half)
 {
     const dual3 from = dual3_sub(p, move->about);
@@ -313,7 +314,7 @@ static dual square_radii(const double place[3], dual3 center, dual radius)
     return dual_div(dual3_dot(away, away), dual_mul(radius, radius));
 }
 
-/* (axis . place) from the origin of the units. */
+/* Position along the falloff's axis, between `from` (0) and `to` (1). */
 static dual way_along(const dual_move *move, const double rest[3])
 {
     const move_step *const step = move->step;

@@ -6,14 +6,14 @@
 #include "lattice/tangent/move_tangent.h"
 #include <string.h>
 
-/* What goes along with the moves of a lattice. */
+/* The derivatives while the moves of a lattice are applied again. */
 typedef struct tangent_work {
     const lattice_spec *spec;
     lattice_tangents *tangents;
     size_t count;         /* control points */
-    lattice_move *seeded; /* one a column: the derivatives of the numbers of the move at hand */
-    dual_move *moves;     /* one a column; kept for the mirror image of a move */
-    dual *parts, *halves; /* one a layer of an exact bend */
+    lattice_move *seeded; /* one for each column: the derivatives of the numbers of the current move */
+    dual_move *moves;     /* one for each column; kept for the mirror image of a move */
+    dual *parts, *halves; /* one for each layer of an exact bend */
 } tangent_work;
 
 size_t ffd_spec_column_count(const lattice_spec *spec)
@@ -32,7 +32,7 @@ static size_t first_column(const lattice_spec *spec, size_t variable)
     return column;
 }
 
-/* The derivatives of the numbers of one move by each column. */
+/* Sets the derivatives of the numbers of a move for each column. */
 static void seed_move(tangent_work *work, size_t number)
 {
     memset(work->seeded, 0, work->tangents->columns * sizeof *work->seeded);
@@ -54,7 +54,7 @@ static double *points_of(const tangent_work *work, size_t column)
     return work->tangents->points + column * 3 * work->count;
 }
 
-/* Where the layers of an exact bend are on its arc, as parts of the whole angle. */
+/* Finds the positions of the layers of an exact bend as fractions of the whole angle. */
 static void find_parts(const tangent_work *work, const dual_move *move, const exact_layers *layers,
                        size_t column)
 {
@@ -71,7 +71,7 @@ static void find_parts(const tangent_work *work, const dual_move *move, const ex
     }
 }
 
-/* The weight of a point between joints gets the factor cos h: h = half the angle of its arc. */
+/* Multiplies the weight of a point between joints by cos h, with h half the angle of its arc. */
 static void bend_weight(const tangent_work *work, const dual_move *move, size_t point, dual half,
                         size_t column)
 {

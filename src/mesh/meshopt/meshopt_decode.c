@@ -1,4 +1,4 @@
-/* meshopt_decode.c - decodes by the meshoptimizer library. */
+/* meshopt_decode.c - decodes with the meshoptimizer library. */
 #include "base/little_endian.h"
 #include "mesh/meshopt/meshopt_filters.h"
 #include "mesh/meshopt/meshopt_view.h"
@@ -22,8 +22,8 @@ static int decode(const meshopt_view *view, size_t count, size_t stride, unsigne
     }
 }
 
-/* A number before its filter: the exponent in the highest byte, the factor in the others
-   (KHR_meshopt_compression, "Filter 3: exponential"). */
+/* Finds the exponents before the filter is applied: a number has its exponent in the highest byte, and its
+   mantissa in the others (KHR_meshopt_compression, "Filter 3: exponential"). */
 static void find_exponents(const meshopt_view *view, size_t count, size_t stride, const unsigned char *bytes)
 {
     const size_t columns = stride / 4;

@@ -16,21 +16,21 @@ static void store_16(unsigned char *bytes, int value)
     bytes[1] = (unsigned char)((unsigned)value >> 8 & 0xff);
 }
 
-/* The nearest integer, halves away from zero; what is out of range, as broken data is, at its end. */
+/* Rounds to the nearest integer, halves away from zero. Values out of range, in broken data, are clamped. */
 static int to_integer(double value, double largest)
 {
     const double whole = value < 0 ? ceil(value - 0.5) : floor(value + 0.5);
     return (int)fmax(fmin(whole, largest), -largest);
 }
 
-/* Integers of an octahedron whose corner has the coordinate `one` become those of the unit sphere. Up to the
-   root all is exact. */
+/* Converts integers in octahedral encoding, in which `one` is the coordinate of a corner, to integers of a
+   unit vector. Everything before the square root is exact. */
 static void unfold(const int from[3], double largest, int to[3])
 {
     const double one = from[2];
     double x = from[0], y = from[1];
     const double z = one - fabs(x) - fabs(y);
-    /* The lower half is folded outward. */
+    /* The lower hemisphere is folded outward. */
     const double outside = z < 0 ? -z : 0;
     x += x < 0 ? outside : -outside;
     y += y < 0 ? outside : -outside;
@@ -55,8 +55,8 @@ void ffd_meshopt_unfold(unsigned char *bytes, size_t count, size_t stride)
     }
 }
 
-/* Three components are there, in parts of `one` times the square root of 2; the fourth is the largest, and
-   not negative. */
+/* Three components are stored, in units of 1 / (`one` sqrt(2)); the fourth is the largest, and not
+   negative. */
 static void complete(unsigned char *bytes)
 {
     const int last = load_16(bytes + 6), largest = last & 3;

@@ -1,4 +1,4 @@
-/* meshopt_load.c - decodes and simplifies by the module, which is loaded when it is first needed. */
+/* meshopt_load.c - decodes and simplifies with the module, which is loaded on first use. */
 #include "mesh/meshopt/meshopt_module.h"
 
 static module meshopt = {MESHOPT_IDENTITY, "meshopt", NULL};

@@ -1,5 +1,5 @@
-/* meshopt_module.h - what the module with meshoptimizer shows. meshopt_module.c is part of the module;
-   meshopt_load.c, in its place, of a program that loads it. */
+/* meshopt_module.h - the function table of the module with meshoptimizer. meshopt_module.c is part of the
+   module, meshopt_load.c of the program that loads it. */
 #ifndef FFD_MESH_MESHOPT_MESHOPT_MODULE_H
 #define FFD_MESH_MESHOPT_MESHOPT_MODULE_H
 

@@ -1,11 +1,11 @@
 #include "mesh/meshopt/meshopt_simplify.h"
 #include <meshoptimizer.h>
 
-/* No limit: the number of triangles decides. */
+/* The error limit: none, because the number of triangles is the criterion. */
 #define FARTHEST 1e6f
 #define STRIDE (3 * sizeof(float))
 
-/* The library asks `operator new` for memory, which throws. */
+/* The library allocates with `operator new`, which throws. */
 extern "C" ffd_status ffd_meshopt_simplify(const meshopt_mesh *mesh, size_t target, bool is_rough,
                                            uint32_t *result, size_t *count, ffd_error *error)
 {

@@ -1,5 +1,5 @@
-/* meshopt_simplify.h - a mesh with fewer triangles, by the meshoptimizer library. Declares
-   meshopt_simplify.cpp and meshopt_load.c, of which a program has one. */
+/* meshopt_simplify.h - simplifies meshes with the meshoptimizer library. Implemented in meshopt_simplify.cpp
+   or, for a program that loads the module, in meshopt_load.c. */
 #ifndef FFD_MESH_MESHOPT_MESHOPT_SIMPLIFY_H
 #define FFD_MESH_MESHOPT_MESHOPT_SIMPLIFY_H
 
@@ -13,15 +13,16 @@ extern "C" {
 #endif
 
 typedef struct meshopt_mesh {
-    const float *positions; /* 3 a vertex, finite */
+    const float *positions; /* 3 for each vertex, finite */
     size_t vertex_count;
-    const uint32_t *indices; /* 3 a triangle, each below vertex_count */
+    const uint32_t *indices; /* 3 for each triangle, each below vertex_count */
     size_t index_count;
 } meshopt_mesh;
 
-/* Chooses triangles of the mesh's own vertices, about target indices of them, into result (index_count), and
-   sets *count. Open borders keep their vertices. is_rough: gets to the target even where the surface is cut
-   up. Errors, without a file's name: FFD_E_UNSUPPORTED (the library is not there), FFD_E_MEMORY. */
+/* Simplifies a mesh to about `target` indices, with a subset of its vertices. result: room for index_count
+   indices, of which *count are set. Open borders keep their vertices. is_rough: reaches the target even if
+   the surface consists of many pieces. Errors, without a file name: FFD_E_UNSUPPORTED (the library is
+   missing), FFD_E_MEMORY. */
 ffd_status ffd_meshopt_simplify(const meshopt_mesh *mesh, size_t target, bool is_rough, uint32_t *result,
                                 size_t *count, ffd_error *error);
 

@@ -2,12 +2,12 @@
 #include "base/text/words.h"
 #include <stdbool.h>
 
-/* The first byte of a stream: its kind in the high half, the version of the kind in the low half. */
+/* The first byte of a stream: its kind in the high four bits, its version in the low four bits. */
 #define KIND_MASK 0xf0u
 #define VERSION_MASK 0x0fu
 
-/* A stream of attributes has at least one byte for each byte of an element and each 64 elements,
-   followed by one element or by this many bytes, whichever is more. */
+/* A stream of attributes has, for each 64 elements, at least one byte for each byte of an element; then one
+   element, or ATTRIBUTES_TAIL bytes if that is more. */
 #define ELEMENTS_PER_BYTE 64
 #define ATTRIBUTES_TAIL 32
 #define LARGEST_STRIDE 256
@@ -16,7 +16,7 @@
 
 typedef struct mode_facts {
     const char *name;
-    unsigned char kind, newest; /* the newest version that the library reads */
+    unsigned char kind, newest; /* newest: the newest version that the library can read */
 } mode_facts;
 
 static const mode_facts facts[] = {{"ATTRIBUTES", 0xa0, 0}, {"TRIANGLES", 0xe0, 1}, {"INDICES", 0xd0, 1}};
@@ -38,11 +38,11 @@ static bool is_filter(const meshopt_view *view)
     case MESHOPT_QUATERNION:
         return view->mode == MESHOPT_ATTRIBUTES && view->stride == 8;
     default:
-        return view->mode == MESHOPT_ATTRIBUTES; /* its stride is a multiple of 4 */
+        return view->mode == MESHOPT_ATTRIBUTES; /* whose stride is a multiple of 4 */
     }
 }
 
-/* Returns the smallest size that can hold the view's elements. */
+/* Returns the least size of a stream with the elements of the view. */
 static uint64_t least_size(const meshopt_view *view)
 {
     switch (view->mode) {

@@ -1,5 +1,5 @@
-/* meshopt_view.h - decodes a bufferView of EXT_meshopt_compression, by the meshoptimizer library. Declares
-   meshopt_decode.c and meshopt_load.c too, of which a program has one. */
+/* meshopt_view.h - decodes a bufferView of EXT_meshopt_compression with the meshoptimizer library. Also
+   declares functions of meshopt_decode.c or, for a program that loads the module, meshopt_load.c. */
 #ifndef FFD_MESH_MESHOPT_MESHOPT_VIEW_H
 #define FFD_MESH_MESHOPT_MESHOPT_VIEW_H
 
@@ -16,33 +16,33 @@ typedef enum meshopt_filter {
     MESHOPT_EXPONENTIAL
 } meshopt_filter;
 
-/* Numbers of 4 bytes that an element may have. */
+/* The most 4-byte numbers of an element. */
 #define MESHOPT_COLUMNS 64
 
 typedef struct meshopt_view {
     meshopt_mode mode;
     meshopt_filter filter;
-    uint64_t count, stride;     /* elements, bytes of each; below 2^54 each */
-    const unsigned char *bytes; /* lent */
+    uint64_t count, stride;     /* number of elements, and bytes of an element; both below 2^54 */
+    const unsigned char *bytes; /* borrowed */
     size_t size;
-    /* With the filter EXPONENTIAL, whose numbers are whole multiples of powers of two: gets the least
-       exponent of each of an element's numbers, zeros not counted (MESHOPT_COLUMNS); or NULL. */
+    /* For the filter EXPONENTIAL, whose numbers are integers times powers of two: receives the least exponent
+       of each of the MESHOPT_COLUMNS numbers of an element, zeros ignored. May be NULL. */
     int8_t *exponents;
 } meshopt_view;
 
-/* Refuses what cannot be valid, from the data's first byte and the numbers alone; afterwards count *
-   stride is at most 64 times the size. Errors, without a file's name: FFD_E_INVALID, FFD_E_UNSUPPORTED
-   (another version). */
+/* Checks a view by its numbers and the first byte of its data. If it passes, count * stride is at most 64
+   times the size of the data. Errors, without a file name: FFD_E_INVALID, FFD_E_UNSUPPORTED (another
+   version). */
 ffd_status ffd_meshopt_check(const meshopt_view *view, ffd_error *error);
 
-/* The name of a mode. */
+/* Returns the name of a mode. */
 const char *ffd_meshopt_mode_name(meshopt_mode mode);
 
-/* Whether the library is there. Errors, without a file's name: FFD_E_UNSUPPORTED, FFD_E_MEMORY. */
+/* Checks that the library is available. Errors, without a file name: FFD_E_UNSUPPORTED, FFD_E_MEMORY. */
 ffd_status ffd_meshopt_ready(ffd_error *error);
 
-/* Decodes a view that was checked, when the library is there, into count * stride bytes, aligned as by
-   ffd_alloc. Errors: FFD_E_INVALID; the bytes are then undefined. */
+/* Decodes a checked view into count * stride bytes with the alignment of ffd_alloc. The library must be
+   available. Errors: FFD_E_INVALID; the bytes are then undefined. */
 ffd_status ffd_meshopt_decode(const meshopt_view *view, unsigned char *bytes, ffd_error *error);
 
 #endif

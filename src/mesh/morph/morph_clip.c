@@ -8,20 +8,20 @@
 #include <math.h>
 #include <string.h>
 
-/* So much of a name or a number is shown. */
+/* The most bytes of a name or number that a message shows. */
 #define SHOWN 64
 
 typedef struct clip_parser {
     const char *at, *end;
     morph_clip *clip;
-    char *word; /* as long as the text: the name that was read last, */
+    char *word; /* buffer as long as the text: the name that was read last */
     size_t length;
-    size_t *last_key; /* of each target: 1 + the last key that names it */
+    size_t *last_key; /* for each target: 1 + the last key that names it */
     size_t last_capacity;
     ffd_error *error;
 } clip_parser;
 
-/* Shows what stands at a place, up to a blank or a comma. */
+/* Copies the text at the current position, up to a blank or a comma, for a message. */
 static void show_place(const clip_parser *p, char shown[SHOWN])
 {
     char word[SHOWN];
@@ -32,7 +32,7 @@ static void show_place(const clip_parser *p, char shown[SHOWN])
     ffd_name_shown(word, shown, SHOWN);
 }
 
-/* Fails with what is wrong with the clip, in front of what stands there. */
+/* Fails with a message and the text at the current position. */
 static ffd_status refuse(const clip_parser *p, const char *what)
 {
     char name[SHOWN], place[SHOWN];
@@ -63,7 +63,7 @@ static ffd_status read_quoted(clip_parser *p)
     return refuse(p, "begins a name in quotes that has no end");
 }
 
-/* Reads a name, which ends before one of these characters unless it is in quotes. */
+/* Reads a name. Without quotes it ends before one of the characters `ends`. */
 static ffd_status read_name(clip_parser *p, const char *ends)
 {
     ffd_status status = FFD_OK;
@@ -89,7 +89,8 @@ static ffd_status read_name(clip_parser *p, const char *ends)
     return refuse(p, "is not a name in UTF-8");
 }
 
-/* Reads a number that a float can hold, which ends at a blank, a comma or the end. what: that it is not. */
+/* Reads a number within the range of a float, which ends at a blank, a comma or the end. what: for the
+   message. */
 static ffd_status read_number(clip_parser *p, const char *what, double *value)
 {
     const char *const end = ffd_number_parse(p->at, p->end, value);
@@ -136,7 +137,7 @@ static ffd_status read_weight(clip_parser *p)
     return FFD_OK;
 }
 
-/* Times of a file are floats, and must ascend as these. */
+/* Reads a time. Files store times as floats, which must ascend after rounding. */
 static ffd_status read_time(clip_parser *p)
 {
     morph_clip *const clip = p->clip;

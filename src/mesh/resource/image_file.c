@@ -2,11 +2,11 @@
 #include "base/file/path.h"
 #include <string.h>
 
-/* Endings of the images that glTF, its extensions and the materials of OBJ use. */
+/* Endings of images that glTF, its extensions and OBJ materials use. */
 static const char *const endings[] = {".png", ".jpg", ".jpeg", ".webp", ".avif", ".ktx2", ".ktx", ".basis",
                                       ".dds", ".bmp", ".gif",  ".tif",  ".tiff", ".tga",  ".hdr", ".exr"};
 
-/* How a kind of image begins: these bytes at an offset. */
+/* The signature of an image format: these bytes at an offset. */
 typedef struct image_mark {
     size_t offset, size;
     const char *bytes;
@@ -18,7 +18,7 @@ static const image_mark marks[] = {
     {8, 4, "WEBP"},         /* in a RIFF file */
     {4, 8, "ftypavif"},
     {4, 8, "ftypavis"},
-    {4, 8, "ftypmif1"}, /* AVIF too, by its general brand */
+    {4, 8, "ftypmif1"}, /* AVIF with the general brand */
     {0, 12, "\xabKTX 20\xbb\r\n\x1a\n"},
     {0, 12, "\xabKTX 11\xbb\r\n\x1a\n"},
     {0, 2, "sB"}, /* Basis Universal */
@@ -48,7 +48,8 @@ bool ffd_image_is_hidden(const char *path)
     return path[0] == '.' || strstr(path, "/.") || strstr(path, "\\.");
 }
 
-/* Targa has no mark: the members of its header must make sense (colour map, kind, bits of a pixel). */
+/* Targa has no signature: checks that the members of its header are plausible (colour map, kind, bits for
+   each pixel). */
 static bool is_targa(const unsigned char *bytes, size_t size)
 {
     if (size < TGA_HEADER || bytes[1] > 1)

@@ -1,17 +1,19 @@
-/* image_file.h - which files may be copied as the images of a mesh: its file says their names, and must not
-   be able to bring anything else into the folder of the output. */
+/* image_file.h - decides which files may be copied as images of a mesh. Their names come from the mesh file,
+   which must not be able to copy other kinds of files into the folder of the output. */
 #ifndef FFD_MESH_RESOURCE_IMAGE_FILE_H
 #define FFD_MESH_RESOURCE_IMAGE_FILE_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Whether the name ends as those of images do (.png, .jpg, .ktx2 and others; letters in any case). */
+/* Returns whether a name has the ending of an image (.png, .jpg, .ktx2 and others, in upper or lower
+   case). */
 bool ffd_image_has_name(const char *path);
-/* Whether some part of the path begins with a dot, as hidden files and folders do; "." and ".." count. */
+/* Returns whether a component of the path begins with a dot, as hidden files and folders do; "." and ".."
+   count too. */
 bool ffd_image_is_hidden(const char *path);
-/* Whether the bytes begin as an image of some kind does. That an image has the ending of another kind is
-   common, and does no harm. */
+/* Returns whether the bytes have the signature of an image format. It need not match the ending: a wrong
+   ending is common and harmless. */
 bool ffd_image_has_content(const unsigned char *bytes, size_t size);
 
 #endif

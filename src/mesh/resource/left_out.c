@@ -3,7 +3,7 @@
 #include "base/text/words.h"
 #include <stdio.h>
 
-/* Of a name, with its end. */
+/* Capacity for a name, including the final 0. */
 #define NAME_SIZE 81
 
 void ffd_left_add(left_out *left, const char *name, const char *why)

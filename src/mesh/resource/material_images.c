@@ -33,12 +33,13 @@ ffd_status ffd_images_find(material_images *images, const char *name, bool *is_k
     return FFD_OK;
 }
 
-/* Takes what an image needs from the budget. */
+/* Takes the memory of an image from the budget. */
 static ffd_status take(const material_images *images, const char *name, uint64_t size, ffd_error *error)
 {
     char shown[81];
     ffd_error problem = {0};
-    const uint64_t all = size + strlen(name) + 1 + sizeof *images->materials->images; /* both are in memory */
+    const uint64_t all = size + strlen(name) + 1 + sizeof *images->materials->images; /* both are in memory at
+                                                                                         the same time */
     const ffd_status status = ffd_budget_take(images->budget, 1, all, &problem);
     if (status == FFD_OK)
         return FFD_OK;

@@ -11,9 +11,8 @@
 #define MOST_WAITING 60.0
 #define LOOK 0.002
 
-/* Begins the copy's file, unless it exists. Another mesh that is saved at the same time may be writing the
-   same copy: this waits for it. There is no deadlock, since all write their copies in the order of their
-   paths. */
+/* Begins the file of a copy, unless it exists. If another process is writing the same copy, waits for it.
+   There is no deadlock, because all processes write copies in the order of their paths. */
 static ffd_status begin_copy(const resource_copier *c, const char *target, bool *exists, ffd_error *error)
 {
     const double begin = ffd_clock_seconds();
@@ -22,7 +21,7 @@ static ffd_status begin_copy(const resource_copier *c, const char *target, bool 
         if (*exists)
             return FFD_OK;
         const ffd_status status = ffd_output_begin(c->output, target, false, error);
-        /* It may also have been created between these two calls. */
+        /* The file may also have been created between these two calls. */
         const bool waits = status && (ffd_output_was_busy(c->output) || status == FFD_E_EXISTS);
         if (!waits || ffd_clock_seconds() - begin > MOST_WAITING)
             return status;
@@ -62,7 +61,7 @@ static ffd_status write_copy(const resource_copier *c, const resource_kind *kind
                   : ffd_output_write(c->output, bytes->data, bytes->size, error);
 }
 
-/* Whether a link leads to a path below the folder. */
+/* Returns whether a path in the folder goes through a symbolic link. */
 static bool is_through_link(const char *folder, const char *path)
 {
     char *const root = ffd_path_resolve(folder), *const joined = ffd_path_join(folder, path);
@@ -76,7 +75,7 @@ static bool is_through_link(const char *folder, const char *path)
     return !same;
 }
 
-/* Why a file, which stays in the mesh's folder, is left by its name alone; NULL: it is not. */
+/* Returns the reason why a file in the mesh's folder is not copied, judging by its name alone; NULL: none. */
 static const char *left_by_name(const mesh_resource *resource, const char *source)
 {
     if (!resource->kind->has_name(resource->path))

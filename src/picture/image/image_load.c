@@ -1,4 +1,4 @@
-/* image_load.c - decodes and writes images by the module, which is loaded when it is first needed. */
+/* image_load.c - decodes and writes images with the module, which is loaded on first use. */
 #include "picture/image/image_module.h"
 
 static module images = {IMAGE_IDENTITY, "images", NULL};

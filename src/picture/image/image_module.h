@@ -1,5 +1,5 @@
-/* image_module.h - what the module with libpng and libjpeg shows. image_module.c is part of the module;
-   image_load.c, in its place, of a program that loads it. */
+/* image_module.h - the function table of the module with libpng and libjpeg. image_module.c is part of the
+   module, image_load.c of the program that loads it. */
 #ifndef FFD_PICTURE_IMAGE_IMAGE_MODULE_H
 #define FFD_PICTURE_IMAGE_IMAGE_MODULE_H
 

@@ -1,4 +1,4 @@
-/* image_size.c - what an image may take. */
+/* image_size.c - checks the size of an image. */
 #include "picture/image/image.h"
 
 ffd_status ffd_image_check(uint64_t width, uint64_t height, uint64_t bytes_a_pixel,

@@ -1,5 +1,5 @@
-/* jpeg.c - JPEG by libjpeg; the only source that includes it. The exact integer transform and plain
-   upsampling give the same pixels from every version of the library. */
+/* jpeg.c - decodes JPEG with libjpeg; the only source that includes it. The accurate integer DCT and simple
+   upsampling give the same pixels with every version of the library. */
 #include "base/memory/memory.h"
 #include "picture/image/image.h"
 #include <setjmp.h>
@@ -11,17 +11,18 @@
 
 #include <jerror.h>
 
-/* Scans of a progressive image. Each costs a walk over all its pixels, and a short file can have thousands.
- */
+/* The most scans of a progressive image. Each scan processes all pixels, and a short file can have
+   thousands. */
 #define MOST_SCANS 100
-/* The library keeps the coefficients of a progressive image, 2 bytes each, beside our 4 bytes a pixel. */
+/* A decoded pixel has 4 bytes; for a progressive image the library also stores coefficients of 2 bytes
+   each. */
 #define BYTES_A_PIXEL 4
 #define COEFFICIENT_BYTES 2
-/* What the library takes beside that: tables and a few rows. */
+/* Further memory of the library: tables and a few rows. */
 #define TABLES_SIZE ((uint64_t)8 << 20)
 
 typedef struct jpeg_task {
-    struct jpeg_error_mgr manager; /* first: the library hands it back */
+    struct jpeg_error_mgr manager; /* first member, because the library passes back a pointer to it */
     struct jpeg_progress_mgr progress;
     jmp_buf failed;
     char message[JMSG_LENGTH_MAX];
@@ -42,7 +43,7 @@ _Noreturn static void fail(j_common_ptr jpeg)
     longjmp(task->failed, 1);
 }
 
-/* Warnings that pixels are made up, as of a file that is cut off, are failures here. */
+/* Turns warnings that pixels are missing, as in a truncated file, into failures. */
 static void heed(j_common_ptr jpeg, int level)
 {
     static const int failures[] = {JWRN_JPEG_EOF,       JWRN_HIT_MARKER,  JWRN_HUFF_BAD_CODE,
@@ -80,12 +81,13 @@ static ffd_status check(struct jpeg_decompress_struct *jpeg, const memory_budget
     const uint64_t pixels = (uint64_t)jpeg->image_width * jpeg->image_height;
     const ffd_status status =
         ffd_image_check(jpeg->image_width, jpeg->image_height, BYTES_A_PIXEL + kept, budget, error);
-    /* Blocks at the right and lower ends reach beyond the image. */
+    /* Doubled, because blocks at the right and lower edges extend beyond the image. */
     jpeg->mem->max_memory_to_use = (long)(2 * kept * pixels + TABLES_SIZE);
     return status;
 }
 
-/* Between setjmp and longjmp nothing but what task, result and jpeg point to may change. */
+/* Local variables must not change between setjmp and longjmp; only what task, result and jpeg point to
+   may. */
 static ffd_status read_pixels(struct jpeg_decompress_struct *jpeg, jpeg_task *task,
                               const unsigned char *bytes, size_t size, const memory_budget *budget,
                               image *result, ffd_error *error)

@@ -1,4 +1,4 @@
-/* png.c - PNG by libpng; the only source that includes it. */
+/* png.c - decodes and writes PNG with libpng; the only source that includes it. */
 #include "base/memory/memory.h"
 #include "picture/image/image.h"
 #include <png.h>
@@ -6,16 +6,16 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* What libpng's callbacks know. */
+/* The context of libpng's callbacks. */
 typedef struct png_task {
     jmp_buf failed;
     char message[128];
     bool is_out_of_memory;
-    const unsigned char *next, *end; /* of the file that is read */
-    image_sink sink;                 /* of the one that is written */
+    const unsigned char *next, *end; /* remaining bytes of the file that is read */
+    image_sink sink;                 /* for writing */
     void *context;
     ffd_error *error;
-    ffd_status status; /* of the sink */
+    ffd_status status; /* result of the sink */
 } png_task;
 
 _Noreturn static void fail(png_structp png, png_const_charp message)
@@ -76,7 +76,8 @@ static ffd_status failure(const png_task *task, ffd_error *error)
     return ffd_fail(error, FFD_E_INVALID, "the PNG image is broken: %s", task->message);
 }
 
-/* All kinds of PNG become 8 bits of red, green, blue, alpha. Returns how often the rows come. */
+/* Requests conversion of all kinds of PNG to 8-bit RGBA. Returns the number of passes over the rows
+   (interlacing). */
 static int ask_for_colors(png_structp png, png_infop info)
 {
     png_set_expand(png);
@@ -88,7 +89,7 @@ static int ask_for_colors(png_structp png, png_infop info)
     return passes;
 }
 
-/* Chunks that say nothing of the pixels may be large when they are unpacked. */
+/* Skips chunks without pixel data, which can be large after decompression. */
 static void skip_texts(png_structp png)
 {
     static const png_byte names[] = "iCCP\0zTXt\0iTXt\0tEXt\0eXIf\0sPLT\0hIST";
@@ -96,7 +97,7 @@ static void skip_texts(png_structp png)
     png_set_user_limits(png, IMAGE_MOST_SIDE, IMAGE_MOST_SIDE);
 }
 
-/* Between setjmp and longjmp nothing but what task and result point to may change. */
+/* Local variables must not change between setjmp and longjmp; only what task and result point to may. */
 static ffd_status read_pixels(png_structp png, png_infop info, png_task *task, const memory_budget *budget,
                               image *result, ffd_error *error)
 {
@@ -111,7 +112,7 @@ static ffd_status read_pixels(png_structp png, png_infop info, png_task *task, c
         return status;
     const int passes = ask_for_colors(png, info);
     if (png_get_rowbytes(png, info) != (size_t)4 * width)
-        png_error(png, "its rows are of another size");
+        png_error(png, "its rows have an unexpected size");
     *result = (image){width, height, ffd_alloc_zero((size_t)width * height, 4)};
     if (!result->pixels)
         return ffd_fail_memory(error);
@@ -127,7 +128,7 @@ ffd_status ffd_png_decode(const unsigned char *bytes, size_t size, const memory_
 {
     png_task task = {.next = bytes, .end = bytes + size};
     *result = (image){0, 0, NULL};
-    /* Creating it fails by a jump too. */
+    /* png_create_* also fails with a longjmp. */
     if (setjmp(task.failed))
         return failure(&task, error);
     png_structp png =

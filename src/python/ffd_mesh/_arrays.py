@@ -85,7 +85,7 @@ def address(array: np.ndarray) -> int:
 
 def doubles(value: Any, what: str, shape: tuple[int, ...]) -> np.ndarray:
     """Returns value as contiguous float64 of this shape, in C order; copied only if necessary."""
-    array = np.asarray(value)
+    array = np.asanyarray(value)
     if isinstance(array, np.ma.MaskedArray):
         raise TypeError(f"{what} must not be a masked array: its mask would be ignored")
     if array.dtype.kind not in "fiu":

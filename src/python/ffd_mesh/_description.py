@@ -36,11 +36,35 @@ def described(source: Any, lattices: Any, options: dict[str, Any],
     source: a path or a `Memory`; lattices: None if the job needs none; known: the options that the job accepts
     """
     desc = library.filled("ffd_deform_desc")
-    kept = [source, None if lattices is None else _set_lattices(desc, lattices)]
-    place(source, desc.input)
-    kept += _set_options(desc, options, known)
-    with library.logged(desc) as warnings:
+    kept = [None if lattices is None else _set_lattices(desc, lattices)]
+    with _logged(desc, source, options, known, kept) as warnings:
         yield desc, warnings
+
+
+@contextlib.contextmanager
+def embedding_described(source: Any, lattice: AnyLattice, options: dict[str, Any],
+                        known: Collection[str]) -> Iterator[tuple[Any, list[str]]]:
+    """The same of a job that embeds, in one lattice."""
+    desc = library.filled("ffd_embed_desc")
+    kept = [lattice]
+    if isinstance(lattice, Lattice):
+        desc.lattice_object = lattice._owned.pointer.value
+    elif isinstance(lattice, bytes):
+        desc.lattice_text.data, desc.lattice_text.size, text = library.lend_bytes(lattice, "a lattice")
+        kept.append(text)
+    else:
+        desc.lattice = library.path(lattice)
+    with _logged(desc, source, options, known, kept) as warnings:
+        yield desc, warnings
+
+
+@contextlib.contextmanager
+def _logged(desc: Any, source: Any, options: dict[str, Any], known: Collection[str], kept: list[Any]) -> Iterator[list[str]]:
+    """Gives a job its mesh and its options, and keeps alive what it has been given."""
+    place(source, desc.input)
+    kept += [source, *_set_options(desc, options, known)]
+    with library.logged(desc) as warnings:
+        yield warnings
     del kept
 
 

@@ -406,6 +406,10 @@ class Lattice:
         where = lib.ffd_lattice_get_weights(self._fitted, volume)
         return self._controls(where) if where else None
 
+    def _weights_or_ones(self, volume: int) -> np.ndarray:
+        weights = self._weights(volume)
+        return np.ones(self.size) if weights is None else weights
+
     def _copy(self) -> Lattice:
         copy = Lattice._new(lib.ffd_lattice_copy, self._pointer, parameters=self._parameters)
         copy._bounds = self._bounds
@@ -423,9 +427,12 @@ class Lattice:
     def _check_same(self, embedding: Embedding) -> None:
         if not isinstance(embedding, Embedding):
             raise TypeError(f"embedding must be what embed returns, not {type(embedding).__name__}")
-        if embedding.lattice is self:
+        other = embedding.lattice
+        if other is self:
             return
-        if embedding.lattice.size != self.size or not np.array_equal(embedding.lattice.rest, self.rest):
+        if other.size != self.size or other.degree != self.degree \
+                or not all(map(np.array_equal, (*other.knots, other.rest, other._weights_or_ones(REST)),
+                               (*self.knots, self.rest, self._weights_or_ones(REST)))):
             raise InvalidError("the embedding was made with another lattice")
 
     def _source_and_out(self, embedding: Embedding, points: Any, out: Any, vertices: Any) -> tuple[np.ndarray, np.ndarray]:

@@ -107,14 +107,18 @@ def shape_of(size: Any, degree: Any) -> tuple[list[int], list[int]]:
     return sizes, degrees
 
 
+def _has_breakpoints(knots: Any) -> bool:
+    """Whether these are ("closed", breakpoints)."""
+    return isinstance(knots, tuple) and len(knots) == 2 and isinstance(knots[0], str) and knots[0] == "closed"
+
+
 def described(size: Any, degree: Any, knots: Any) -> tuple[Any, list[np.ndarray]]:
     """Makes an ffd_lattice_arrays. Returns it with the arrays that must stay alive."""
     made, kept = library.filled("ffd_lattice_arrays"), []
     made.size[:], made.degree[:] = shape_of(size, degree)
-    one = isinstance(knots, str) or isinstance(knots, tuple) and len(knots) == 2 and knots[0] == "closed"
+    one = isinstance(knots, str) or _has_breakpoints(knots)
     for direction, knot in enumerate((knots,) * 3 if one else three(knots, "knots")):
-        word, values = (knot, None) if isinstance(knot, str) else knot if isinstance(knot, tuple) and knot[0] == "closed" \
-            else ("default", knot)
+        word, values = (knot, None) if isinstance(knot, str) else knot if _has_breakpoints(knot) else ("default", knot)
         made.knots[direction] = library.number_of("ffd_knots", word, "knots")
         if values is not None:
             kept.append(arrays.doubles(values, "knots", (len(values),)))

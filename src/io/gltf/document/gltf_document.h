@@ -72,6 +72,8 @@ typedef struct gltf_part {
     const gltf_skin *skin;            /* NULL: no skin, or in mesh space */
     const gltf_influence *influences; /* lent by the model; only with a skin */
     size_t influence_count;
+    const gltf_primitive *primitive; /* lent by the model: the first one that it deforms, which shows its */
+    uint32_t first_weight;           /* morph targets by default weights from this JSON value on */
     gltf_stream streams[GLTF_DEFORMED];
     uint8_t *selected;  /* as in mesh_part */
     uint8_t *used;      /* as in mesh_part */
@@ -132,6 +134,7 @@ typedef struct gltf_document {
     bool binary;
     glb_layout glb;
     json_span tree;
+    char *json; /* the text of tree, if the file is mapped; else NULL: tree.text is in input */
     gltf_values buffer_values, view_values, accessor_values, mesh_values, node_values, skin_values,
         material_values, image_values, texture_values, sampler_values;
     gltf_values primitive_values; /* of all meshes, in order */

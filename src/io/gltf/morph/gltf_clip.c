@@ -32,8 +32,9 @@ typedef struct clip_writer {
     size_t *samplers;
     size_t sampler_count, channel_count;
     byte_buffer sampler_text, channel_text;
-    byte_buffer added;   /* new animations, with commas */
-    uint64_t bytes_left; /* bytes that replaced animations leave unused */
+    byte_buffer added;    /* new animations, with commas */
+    gltf_values replaced; /* animations that clips replace */
+    uint64_t bytes_left;  /* bytes that these leave unused */
     ffd_error *error;
 } clip_writer;
 
@@ -234,17 +235,16 @@ static uint32_t find_animation(const clip_writer *w, uint32_t animations)
     return JSON_NONE;
 }
 
-/* Counts the bytes of accessors that only this animation uses. Returns false if memory runs out. */
-static bool count_own_bytes(const gltf_document *d, uint32_t animation, uint64_t *bytes)
+/* Counts the bytes that nothing but this animation and others that are replaced uses. Returns false if memory
+   runs out. */
+static bool count_own_bytes(const gltf_document *d, uint32_t animation, const gltf_values *replaced,
+                            uint64_t *bytes)
 {
-    unsigned char *const users = ffd_gltf_count_users(d, animation);
+    unsigned char *const users = ffd_gltf_count_users(d, replaced);
     bool *const own = ffd_alloc_zero(d->model.accessor_count, sizeof *own);
-    const bool done = users && own;
-    if (done)
+    if (users && own)
         ffd_gltf_mark_animation(d, animation, own);
-    for (size_t a = 0; done && a < d->model.accessor_count; a++)
-        own[a] = own[a] && users[a] == 0;
-    const bool counted = done && ffd_gltf_count_left_bytes(d, own, bytes);
+    const bool counted = users && own && ffd_gltf_count_left_bytes(d, own, users, bytes);
     ffd_free(users);
     ffd_free(own);
     return counted;
@@ -255,7 +255,8 @@ static ffd_status warn_of_replaced(clip_writer *w, uint32_t old, const char *nam
 {
     char left[80] = "";
     uint64_t bytes;
-    if (!count_own_bytes(w->file.saver.document, old, &bytes))
+    w->replaced.values[w->replaced.count++] = old;
+    if (!count_own_bytes(w->file.saver.document, old, &w->replaced, &bytes))
         return ffd_fail_memory(w->error);
     w->bytes_left += bytes;
     if (bytes > 0)
@@ -329,7 +330,8 @@ static ffd_status add_all(clip_writer *w, const morph_clip *clips, size_t count,
         most = ffd_gltf_target_count(d, m) > most ? ffd_gltf_target_count(d, m) : most;
     uint32_t *const names = ffd_alloc(most, sizeof *names);
     w->samplers = ffd_alloc(d->model.mesh_count, sizeof *w->samplers);
-    ffd_status status = names && w->samplers ? FFD_OK : ffd_fail_memory(w->error);
+    w->replaced.values = ffd_alloc(count, sizeof *w->replaced.values);
+    ffd_status status = names && w->samplers && w->replaced.values ? FFD_OK : ffd_fail_memory(w->error);
     for (size_t c = 0; c < count && !status; c++)
         status = add_clip(w, &clips[c], names, animations);
     ffd_free(names);
@@ -355,6 +357,7 @@ ffd_status ffd_gltf_add_clips(const gltf_document *d, const morph_clip *clips, s
     const ffd_status status = add_all(&w, clips, clip_count, made);
     *bytes_left += w.bytes_left;
     ffd_free(w.samplers);
+    ffd_free(w.replaced.values);
     ffd_buffer_free(&w.sampler_text);
     ffd_buffer_free(&w.channel_text);
     ffd_buffer_free(&w.added);

@@ -1,70 +1,41 @@
 #include "io/gltf/morph/gltf_left_bytes.h"
 #include "base/memory/memory.h"
 #include "base/text/words.h"
-#include "io/gltf/decode/gltf_read.h"
-#include "io/gltf/decode/gltf_views.h"
+#include "io/gltf/morph/gltf_byte_runs.h"
 #include "io/gltf/morph/gltf_morph_reuse.h"
+#include "io/gltf/refer/gltf_view_users.h"
 #include <inttypes.h>
 
-/* Who uses a view: nobody, only unused accessors, or others as well. */
-enum { IS_FREE, IS_LEFT, IS_KEPT };
-
-static void mark_view(int view, bool dropped, uint8_t *views)
+/* Adds the bytes that something uses. Returns false if memory runs out. */
+static bool add_used(const gltf_document *d, const unsigned char *users, gltf_byte_runs *kept)
 {
-    if (view >= 0 && views[view] != IS_KEPT)
-        views[view] = dropped ? IS_LEFT : IS_KEPT;
-}
-
-static void mark_views(const gltf_document *d, const bool *dropped, uint8_t *views)
-{
-    for (size_t a = 0; a < d->model.accessor_count; a++) {
-        const gltf_accessor *const accessor = &d->model.accessors[a];
-        mark_view(accessor->view, dropped[a], views);
-        if (!accessor->sparse.present)
-            continue;
-        mark_view(accessor->sparse.indices_view, dropped[a], views);
-        mark_view(accessor->sparse.values_view, dropped[a], views);
-    }
-}
-
-/* Returns the bytes of elements in a view, 0 if the view is compressed. */
-static uint64_t plain_bytes(const gltf_document *d, int view, uint64_t count, size_t size)
-{
-    const bool is_plain = view >= 0 && ffd_gltf_meshopt_value(d, (size_t)view) == JSON_NONE;
-    return is_plain ? count * size : 0;
-}
-
-static uint64_t accessor_bytes(const gltf_document *d, size_t a)
-{
-    const gltf_accessor *const accessor = &d->model.accessors[a];
-    const gltf_sparse *const sparse = &accessor->sparse;
-    const size_t size = d->layouts[a].element_size;
-    uint64_t bytes = plain_bytes(d, accessor->view, accessor->count, size);
-    if (sparse->present)
-        bytes += plain_bytes(d, sparse->values_view, sparse->count, size) +
-                 plain_bytes(d, sparse->indices_view, sparse->count,
-                             ffd_gltf_component_size(sparse->indices_type));
-    return bytes;
-}
-
-bool ffd_gltf_count_left_bytes(const gltf_document *d, const bool *dropped, uint64_t *bytes)
-{
-    uint8_t *const views = ffd_alloc_zero(d->model.view_count, sizeof *views);
-    *bytes = 0;
+    bool *const views = ffd_alloc_zero(d->model.view_count, sizeof *views);
     if (!views)
         return false;
-    mark_views(d, dropped, views);
-    for (size_t a = 0; a < d->model.accessor_count; a++)
-        if (dropped[a])
-            *bytes += accessor_bytes(d, a);
-    for (size_t v = 0; v < d->model.view_count; v++) {
-        const uint32_t packed = views[v] == IS_LEFT ? ffd_gltf_meshopt_value(d, v) : JSON_NONE;
-        double length;
-        if (ffd_json_span_number(&d->tree, ffd_json_span_member(&d->tree, packed, "byteLength"), &length))
-            *bytes += (uint64_t)length;
-    }
+    ffd_gltf_mark_other_views(d, views);
+    for (size_t v = 0; v < d->model.view_count; v++)
+        if (views[v])
+            ffd_gltf_add_view_bytes(d, v, kept);
     ffd_free(views);
+    for (size_t a = 0; a < d->model.accessor_count; a++)
+        if (users[a] > 0)
+            ffd_gltf_add_accessor_bytes(d, a, kept);
     return true;
+}
+
+bool ffd_gltf_count_left_bytes(const gltf_document *d, const bool *dropped, const unsigned char *users,
+                               uint64_t *bytes)
+{
+    gltf_byte_runs left = {0}, kept = {0};
+    *bytes = 0;
+    for (size_t a = 0; a < d->model.accessor_count; a++)
+        if (dropped[a] && users[a] == 0)
+            ffd_gltf_add_accessor_bytes(d, a, &left);
+    const bool counted = (left.count == 0 && !left.failed) ||
+                         (add_used(d, users, &kept) && ffd_gltf_count_bytes_without(d, &left, &kept, bytes));
+    ffd_free(left.runs);
+    ffd_free(kept.runs);
+    return counted;
 }
 
 ffd_status ffd_gltf_warn_of_left(const gltf_document *d, const unsigned char *before, size_t count,
@@ -72,11 +43,11 @@ ffd_status ffd_gltf_warn_of_left(const gltf_document *d, const unsigned char *be
 {
     char shown[80];
     uint64_t left = 0;
-    unsigned char *const users = ffd_gltf_count_users(d, JSON_NONE);
+    unsigned char *const users = ffd_gltf_count_users(d, NULL);
     bool *const dropped = ffd_alloc_zero(d->model.accessor_count, sizeof *dropped);
-    for (size_t a = 0; a < count && users && dropped; a++)
-        dropped[a] = before[a] > 0 && users[a] == 0;
-    const bool counted = users && dropped && ffd_gltf_count_left_bytes(d, dropped, &left);
+    for (size_t a = 0; a < count && dropped; a++)
+        dropped[a] = before[a] > 0;
+    const bool counted = users && dropped && ffd_gltf_count_left_bytes(d, dropped, users, &left);
     ffd_free(users);
     ffd_free(dropped);
     if (!counted)

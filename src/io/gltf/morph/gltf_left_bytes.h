@@ -5,9 +5,12 @@
 
 #include "io/gltf/document/gltf_document.h"
 
-/* Counts the bytes of unused accessors (dropped[a] for accessor a): their elements, sparse values and sparse
-   indices, and compressed views that no other accessor uses. Returns false if memory runs out. */
-bool ffd_gltf_count_left_bytes(const gltf_document *document, const bool *dropped, uint64_t *bytes);
+/* Counts the bytes of accessors that were used before (dropped[a] for accessor a) and have no users now:
+   their elements, sparse values and indices, compressed bytes. A byte counts once. It does not count if
+   something else uses it: another accessor with users, an image, data of an extension. Returns false if
+   memory runs out. */
+bool ffd_gltf_count_left_bytes(const gltf_document *document, const bool *dropped, const unsigned char *users,
+                               uint64_t *bytes);
 
 /* Warns of the bytes that a replaced morph target leaves unused, and adds them to *bytes. These are the bytes
    of the accessors a < count with before[a] > 0 (ffd_gltf_count_users) that have no users now. Errors:

@@ -15,7 +15,7 @@ static void count_primitive(const gltf_primitive *primitive, unsigned char *user
         add_user(users, gltf_slot_accessor(primitive, slot));
 }
 
-unsigned char *ffd_gltf_count_users(const gltf_document *d, uint32_t but)
+unsigned char *ffd_gltf_count_users(const gltf_document *d, const gltf_values *but)
 {
     const size_t count = d->model.accessor_count;
     unsigned char *const users = ffd_alloc_zero(count, sizeof *users);

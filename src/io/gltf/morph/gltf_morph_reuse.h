@@ -11,9 +11,9 @@ typedef struct morph_place {
     gltf_semantic semantic;
 } morph_place;
 
-/* Counts the users of each accessor; 2 means two or more. `but`: an animation that does not count, or
-   JSON_NONE. The caller frees the array. NULL: memory ran out. */
-unsigned char *ffd_gltf_count_users(const gltf_document *document, uint32_t but);
+/* Counts the users of each accessor; 2 means two or more. `but`: animations that do not count, or NULL. The
+   caller frees the array. NULL: memory ran out. */
+unsigned char *ffd_gltf_count_users(const gltf_document *document, const gltf_values *but);
 
 /* Whether any node that shows the primitive is not selected: it keeps the old offsets. */
 bool ffd_gltf_is_partly_selected(const gltf_document *document, size_t mesh, size_t primitive);

@@ -198,13 +198,17 @@ static void add_names(gltf_saver *saver, const char *name, size_t mesh)
     ffd_buffer_free(&text);
 }
 
-/* Adds a weight 0. make: creates the list if there is none, for a mesh; a node needs no weights of its
-   own. */
+/* Adds a weight 0, or puts it in the place of one that no target had. targets: how many there are. make: also
+   if there are no weights yet, as for a mesh; a node needs none of its own. */
 static void add_weights(gltf_saver *saver, uint32_t value, size_t targets, bool make)
 {
-    const uint32_t weights = ffd_json_span_member(&saver->document->tree, value, "weights");
+    const json_span *const tree = &saver->document->tree;
+    const uint32_t weights = ffd_json_span_member(tree, value, "weights");
     byte_buffer text = {0};
-    if (is_array(saver, weights)) {
+    if (is_array(saver, weights) && tree->values[weights].count > targets) {
+        const json_value *const old = &tree->values[ffd_json_span_element(tree, weights, targets)];
+        ffd_edits_replace(&saver->edits, old->begin, old->end, "0", 1);
+    } else if (is_array(saver, weights)) {
         ffd_buffer_text(&text, "0");
         ffd_gltf_insert_last(saver, weights, &text);
     } else if (weights == JSON_NONE && make) {
@@ -237,7 +241,8 @@ static void add_to_meshes(morph_writer *w)
     }
     for (size_t n = 0; n < d->model.node_count; n++)
         if (d->model.nodes[n].mesh >= 0 && w->grow[d->model.nodes[n].mesh])
-            add_weights(&w->file.saver, d->node_values.values[n], 0, false);
+            add_weights(&w->file.saver, d->node_values.values[n],
+                        ffd_gltf_target_count(d, (size_t)d->model.nodes[n].mesh), false);
 }
 
 ffd_status ffd_gltf_add_target(const gltf_document *d, const morph_request *request, file_input *made,
@@ -246,7 +251,7 @@ ffd_status ffd_gltf_add_target(const gltf_document *d, const morph_request *requ
     const size_t count = d->model.accessor_count;
     morph_writer w = {.file.saver = {.document = d, .log = request->log}, .request = request};
     ffd_status status = FFD_OK;
-    w.users = ffd_gltf_count_users(d, JSON_NONE);
+    w.users = ffd_gltf_count_users(d, NULL);
     w.grow = ffd_alloc(d->model.mesh_count, sizeof *w.grow);
     for (size_t m = 0; m < d->model.mesh_count && w.grow; m++)
         w.grow[m] = request->meshes[m] && request->named[m] == GLTF_NONE;

@@ -12,7 +12,7 @@ void ffd_gltf_mark_other_users(const gltf_document *document, bool *used);
 /* Sets used[a] for the accessors of one animation. */
 void ffd_gltf_mark_animation(const gltf_document *document, uint32_t animation, bool *used);
 
-/* Sets used[a] for the accessors of skins and animations, except one animation (JSON_NONE: none). */
-void ffd_gltf_mark_rig_users(const gltf_document *document, uint32_t but, bool *used);
+/* Sets used[a] for the accessors of skins and animations, except those animations (NULL: none). */
+void ffd_gltf_mark_rig_users(const gltf_document *document, const gltf_values *but, bool *used);
 
 #endif

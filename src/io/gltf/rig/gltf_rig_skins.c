@@ -6,6 +6,7 @@
 #include "io/gltf/decode/gltf_read.h"
 #include "io/gltf/scene/gltf_results.h"
 #include "io/gltf/scene/gltf_scene.h"
+#include "io/gltf/scene/gltf_skin.h"
 #include <float.h>
 #include <string.h>
 
@@ -90,9 +91,13 @@ static void find_similarity(const mesh_place *place, const mesh_place_move *move
     pin(move->to, place->at, inverse);
 }
 
-/* Marks the skins that the scene shows, and those that also move vertices which are not selected. */
-static void mark_skins(const gltf_document *d, bool *shown, bool *partial)
+/* Marks the skins that the scene shows, and those that show something which stays as it is: it is not
+   selected, or it is in another scene. */
+static void mark_skins(const gltf_document *d, bool *shown, bool *staying)
 {
+    for (size_t n = 0; n < d->model.node_count; n++)
+        if (!d->in_scene[n] && d->model.nodes[n].mesh >= 0 && d->model.nodes[n].skin >= 0)
+            staying[d->model.nodes[n].skin] = true;
     for (size_t m = 0; m < d->model.mesh_count; m++) {
         const gltf_mesh_uses *const uses = &d->mesh_uses[m];
         for (size_t n = 0; uses->nodes && n < uses->node_count; n++) {
@@ -101,7 +106,7 @@ static void mark_skins(const gltf_document *d, bool *shown, bool *partial)
                 continue;
             shown[skin] = true;
             for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
-                partial[skin] = partial[skin] || !ffd_gltf_instances(d, m, p)[n].selected;
+                staying[skin] = staying[skin] || !ffd_gltf_instances(d, m, p)[n].selected;
         }
     }
 }
@@ -258,21 +263,21 @@ ffd_status ffd_gltf_follow_skins(gltf_document *d, const mesh_places *places, co
     const size_t count = d->skin_values.count;
     affine *const inverses = ffd_alloc(count, sizeof *inverses);
     bool *const shown = ffd_alloc_zero(count, sizeof *shown);
-    bool *const partial = ffd_alloc_zero(count, sizeof *partial);
+    bool *const staying = ffd_alloc_zero(count, sizeof *staying);
     rig->skin_contents = ffd_alloc(count, sizeof *rig->skin_contents);
-    const bool allocated = inverses && shown && partial && rig->skin_contents;
+    const bool allocated = inverses && shown && staying && rig->skin_contents;
     ffd_status status = allocated ? FFD_OK : ffd_fail_memory(error);
     if (allocated)
-        mark_skins(d, shown, partial);
+        mark_skins(d, shown, staying);
     for (size_t s = 0; s < count && status == FFD_OK; s++) {
         affine similarity = still;
         const gltf_skin *const skin = &d->skins[s];
         const size_t first = skin->joint_count ? find_place(places, skin->joints[0]) : SIZE_MAX;
         inverses[s] = still;
         rig->skin_contents[s] = GLTF_NONE;
-        if (shown[s] && !partial[s] && first != SIZE_MAX)
+        if (shown[s] && !staying[s] && first != SIZE_MAX)
             find_similarity(&places->list[first], &moves[first], &similarity, &inverses[s]);
-        if (shown[s])
+        if (shown[s] || (staying[s] && ffd_gltf_has_joint_matrices(d, skin)))
             status = follow_skin(d, s, &similarity, rig, error);
     }
     if (status == FFD_OK)
@@ -282,6 +287,6 @@ ffd_status ffd_gltf_follow_skins(gltf_document *d, const mesh_places *places, co
             status = ffd_gltf_add_results(d, i, error);
     ffd_free(inverses);
     ffd_free(shown);
-    ffd_free(partial);
+    ffd_free(staying);
     return status;
 }

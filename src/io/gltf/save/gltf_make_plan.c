@@ -330,7 +330,7 @@ static ffd_status choose_in_place(const gltf_document *d, gltf_plan *plan, ffd_e
     if (d->rig)
         ffd_gltf_mark_rig_originals(d, original);
     else
-        ffd_gltf_mark_rig_users(d, JSON_NONE, original);
+        ffd_gltf_mark_rig_users(d, NULL, original);
     for (size_t a = 0; a < d->model.accessor_count; a++)
         plan->in_place[a] = GLTF_NONE;
     for (size_t v = plan->version_count; v-- > 0;) {

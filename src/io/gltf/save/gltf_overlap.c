@@ -1,5 +1,6 @@
 #include "io/gltf/save/gltf_overlap.h"
 #include "base/memory/memory.h"
+#include "io/gltf/refer/gltf_view_users.h"
 #include "io/gltf/save/gltf_plan.h"
 #include <stdlib.h>
 #include <string.h>
@@ -75,29 +76,14 @@ static void add_compressed(const gltf_document *d, uint32_t view, user_list *lis
     }
 }
 
-/* Whether the key of a value makes it the index of a bufferView: in images, sparse and compressed data, and
-   in property tables of EXT_structural_metadata. */
-static bool names_view(const json_span *tree, uint32_t value)
-{
-    static const char *const keys[] = {"bufferView", "values", "arrayOffsets", "stringOffsets"};
-    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
-        if (ffd_json_span_key_is(tree, value, keys[i]))
-            return true;
-    return false;
-}
-
-/* Marks the views that are named by anything but an accessor. */
+/* Marks the views that hold anything but the elements of accessors. */
 static void mark_other_views(const gltf_document *d, bool *others)
 {
-    const json_span *tree = &d->tree;
-    const uint32_t accessors = ffd_json_span_member(tree, 0, "accessors");
-    for (uint32_t v = 1; v < tree->count; v++) {
-        double view;
-        if (tree->values[v].kind != JSON_NUMBER || !names_view(tree, v) ||
-            tree->values[tree->values[v].parent].parent == accessors)
-            continue;
-        if (ffd_json_span_number(tree, v, &view) && view >= 0 && view < (double)d->model.view_count)
-            others[(size_t)view] = true;
+    ffd_gltf_mark_other_views(d, others);
+    for (size_t a = 0; a < d->model.accessor_count; a++) {
+        const gltf_sparse *const sparse = &d->model.accessors[a].sparse;
+        if (sparse->present)
+            others[sparse->indices_view] = others[sparse->values_view] = true;
     }
 }
 

@@ -1,5 +1,6 @@
 #include "io/gltf/scene/gltf_names.h"
 #include "base/memory/memory.h"
+#include "base/text/words.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -56,8 +57,10 @@ static bool write_name(const gltf_document *d, const char *array, const char *ki
         return false;
     char *const text = ffd_json_span_string(&d->tree, member, NULL);
     const bool named = text && *text;
-    if (named)
-        snprintf(name, capacity, "%s:%s", kind, text);
+    if (named) {
+        const size_t begun = (size_t)snprintf(name, capacity, "%s:", kind);
+        ffd_name_shown(text, name + begun, capacity - begun);
+    }
     ffd_free(text);
     return named;
 }

@@ -3,6 +3,7 @@
 #include "base/memory/slots.h"
 #include "base/vector/vec.h"
 #include "io/gltf/decode/gltf_rounding.h"
+#include "io/gltf/scene/gltf_shapes.h"
 #include <string.h>
 
 #define MOST_VERTICES ((uint64_t)UINT32_MAX - 1)
@@ -13,7 +14,8 @@
     (sizeof(gltf_instance) + sizeof(gltf_part) + sizeof(mesh_part) + 4 * sizeof(size_t) + SAVED_BYTES)
 #define SAVED_BYTES 400
 
-/* A hash table of the parts, by POSITION accessor, node and (with a skin) influences. */
+/* A hash table of the parts by POSITION accessor, node, with a skin influences, and the morph targets of
+   positions that default weights show. */
 typedef struct part_table {
     size_t *heads; /* the first part with a slot's key; GLTF_NONE: free */
     size_t mask;
@@ -23,6 +25,7 @@ typedef struct part_table {
 static ffd_status count_instances(gltf_document *d, size_t *total, ffd_error *error)
 {
     ffd_status status = FFD_OK;
+    uint64_t targets = 0;
     *total = 0;
     for (size_t m = 0; m < d->model.mesh_count && status == FFD_OK; m++) {
         const uint64_t instances =
@@ -30,6 +33,11 @@ static ffd_status count_instances(gltf_document *d, size_t *total, ffd_error *er
         d->mesh_uses[m].first_instance = *total;
         status = ffd_budget_take(&d->base.budget, instances, INSTANCE_BYTES, error);
         *total += (size_t)instances;
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
+            targets += (uint64_t)d->model.meshes[m].primitives[p].target_count * d->mesh_uses[m].node_count;
+        /* Each is looked at, and has a number in the end. */
+        if (status == FFD_OK)
+            status = ffd_budget_check(&d->base.budget, targets, sizeof *d->targets, error);
     }
     return status;
 }
@@ -46,17 +54,64 @@ static bool same_influences(const gltf_part *a, const gltf_part *b)
     return true;
 }
 
+/* What default weights show of a part's morph targets, from first to last. */
+typedef struct shown_walk {
+    const gltf_part *part;
+    gltf_semantic semantic;
+    size_t target;
+    uint32_t weight;
+} shown_walk;
+
+static shown_walk begin_shown(const gltf_part *part, gltf_semantic semantic)
+{
+    return (shown_walk){part, semantic, 0, part->first_weight};
+}
+
+/* Goes on to the next target with offsets and a weight: its accessor; -1: there is none. */
+static int next_shown(const gltf_document *d, shown_walk *walk, double *weight)
+{
+    const gltf_primitive *const primitive = walk->part->primitive;
+    while (walk->target < primitive->target_count && walk->weight != JSON_NONE) {
+        const int accessor = primitive->target_accessors[GLTF_DEFORMED * walk->target++ + walk->semantic];
+        const uint32_t value = walk->weight;
+        walk->weight = ffd_json_span_after(&d->tree, value);
+        if (accessor >= 0 && ffd_gltf_weight(d, value, weight) && *weight != 0)
+            return accessor;
+    }
+    *weight = 0;
+    return -1;
+}
+
+/* Whether default weights show two parts with the same offsets. */
+static bool shown_alike(const gltf_document *d, const gltf_part *a, const gltf_part *b,
+                        gltf_semantic semantic)
+{
+    shown_walk of_a = begin_shown(a, semantic), of_b = begin_shown(b, semantic);
+    double weight, other;
+    int accessor = 0;
+    while (accessor >= 0) {
+        accessor = next_shown(d, &of_a, &weight);
+        if (next_shown(d, &of_b, &other) != accessor || weight < other || weight > other)
+            return false;
+    }
+    return true;
+}
+
 static size_t *find_slot(const gltf_document *d, const part_table *table, const gltf_part *wanted)
 {
     const size_t accessor = wanted->streams[GLTF_POSITION].accessor;
     size_t slot = accessor * 0x9e3779b1u + wanted->node * 0x85ebca6bu;
     for (size_t i = 0; i < wanted->influence_count; i++)
         slot = slot * 31 + (size_t)wanted->influences[i].joints + 7 * (size_t)wanted->influences[i].weights;
+    shown_walk walk = begin_shown(wanted, GLTF_POSITION);
+    double weight;
+    for (int shown; (shown = next_shown(d, &walk, &weight)) >= 0;)
+        slot = slot * 31 + (size_t)shown;
     slot &= table->mask;
     while (table->heads[slot] != GLTF_NONE) {
         const gltf_part *part = &d->parts[table->heads[slot]];
         if (part->streams[GLTF_POSITION].accessor == accessor && part->node == wanted->node &&
-            same_influences(part, wanted))
+            same_influences(part, wanted) && shown_alike(d, part, wanted, GLTF_POSITION))
             break;
         slot = (slot + 1) & table->mask;
     }
@@ -70,11 +125,19 @@ static size_t readable_accessor(const gltf_document *d, const gltf_primitive *pr
     return accessor >= 0 && d->layouts[accessor].readable ? (size_t)accessor : GLTF_NONE;
 }
 
-/* Whether the part can deform a primitive with these attributes. A tangent depends on its normal. */
-static bool serves(const gltf_part *part, size_t normal, size_t tangent)
+/* Whether a part serves another one's primitive with an attribute. */
+static bool has_stream(const gltf_document *d, const gltf_part *part, const gltf_part *wanted,
+                       gltf_semantic semantic)
 {
-    return (normal == GLTF_NONE || part->streams[GLTF_NORMAL].accessor == normal) &&
-           (tangent == GLTF_NONE || part->streams[GLTF_TANGENT].accessor == tangent);
+    const size_t accessor = wanted->streams[semantic].accessor;
+    return accessor == GLTF_NONE ||
+           (part->streams[semantic].accessor == accessor && shown_alike(d, part, wanted, semantic));
+}
+
+/* Whether a part serves another one's primitive. A tangent depends on its normal. */
+static bool serves(const gltf_document *d, const gltf_part *part, const gltf_part *wanted)
+{
+    return has_stream(d, part, wanted, GLTF_NORMAL) && has_stream(d, part, wanted, GLTF_TANGENT);
 }
 
 static void set_part_transform(const gltf_document *d, const gltf_part *from, mesh_part *part)
@@ -104,14 +167,19 @@ static size_t add_part(gltf_document *d, const gltf_part *part, size_t repeated)
     made->repeats_positions = repeated != GLTF_NONE;
     made->repeats = repeated;
     made->hidden = ffd_gltf_is_hidden(d, part->node);
+    made->owner = part->node;
     set_part_transform(d, part, made);
     return index;
 }
 
-/* Describes the part that a primitive under a node needs. */
-static gltf_part describe_part(const gltf_document *d, const gltf_primitive *primitive, size_t node)
+/* Returns the part that a primitive under a node needs. */
+static gltf_part describe_part(const gltf_document *d, size_t mesh, size_t p, size_t node)
 {
-    gltf_part part = {.node = node, .first_splat = GLTF_NONE};
+    const gltf_primitive *const primitive = &d->model.meshes[mesh].primitives[p];
+    gltf_part part = {.node = node,
+                      .primitive = primitive,
+                      .first_weight = ffd_gltf_first_weight(d, mesh, node),
+                      .first_splat = GLTF_NONE};
     for (int s = 0; s < GLTF_DEFORMED; s++) {
         part.streams[s].accessor = readable_accessor(d, primitive, (gltf_semantic)s);
         part.streams[s].components = 3;
@@ -129,9 +197,7 @@ static gltf_part describe_part(const gltf_document *d, const gltf_primitive *pri
 static void add_instance(gltf_document *d, const part_table *table, size_t mesh, size_t p, size_t node,
                          gltf_instance *instance)
 {
-    const gltf_part wanted = describe_part(d, &d->model.meshes[mesh].primitives[p], node);
-    const size_t normal = wanted.streams[GLTF_NORMAL].accessor;
-    const size_t tangent = wanted.streams[GLTF_TANGENT].accessor;
+    const gltf_part wanted = describe_part(d, mesh, p, node);
     for (int s = 0; s < GLTF_DEFORMED; s++)
         instance->part[s] = GLTF_NONE;
     instance->selected = true;
@@ -140,7 +206,7 @@ static void add_instance(gltf_document *d, const part_table *table, size_t mesh,
         return;
     size_t *const head = find_slot(d, table, &wanted);
     size_t part = *head, last = GLTF_NONE;
-    while (part != GLTF_NONE && !serves(&d->parts[part], normal, tangent)) {
+    while (part != GLTF_NONE && !serves(d, &d->parts[part], &wanted)) {
         last = part;
         part = table->next[part];
     }

@@ -108,26 +108,44 @@ static ffd_status read_inverse_bind(const gltf_document *d, const gltf_skin *ski
     return FFD_OK;
 }
 
+/* The matrix of joint j: that of its node after its inverse bind matrix. */
+static ffd_status make_joint_matrix(const gltf_document *d, const gltf_skin *skin, size_t j,
+                                    const double *worlds, double matrix[12], ffd_error *error)
+{
+    const double *const world = worlds + 12 * skin->joints[j];
+    double bind[12];
+    if (skin->inverse_bind < 0) {
+        memcpy(matrix, world, 12 * sizeof *matrix);
+    } else {
+        const ffd_status failed = read_inverse_bind(d, skin, j, bind, error);
+        if (failed)
+            return failed;
+        ffd_gltf_join_matrix(world, bind, bind + 9, matrix);
+    }
+    for (int i = 0; i < 12; i++)
+        if (!isfinite(matrix[i]))
+            return ffd_json_span_fail(&d->tree, d->node_values.values[skin->joints[j]], d->name,
+                                      FFD_E_INVALID, error, "the joint's matrix is not finite");
+    return FFD_OK;
+}
+
 ffd_status ffd_gltf_joint_matrices(const gltf_document *d, const gltf_skin *skin, const double *worlds,
                                    double *matrices, ffd_error *error)
 {
-    for (size_t j = 0; j < skin->joint_count; j++) {
-        const double *world = worlds + 12 * skin->joints[j];
-        double *matrix = matrices + 12 * j, bind[12];
-        if (skin->inverse_bind < 0) {
-            memcpy(matrix, world, 12 * sizeof *matrix);
-        } else {
-            const ffd_status failed = read_inverse_bind(d, skin, j, bind, error);
-            if (failed)
-                return failed;
-            ffd_gltf_join_matrix(world, bind, bind + 9, matrix);
-        }
-        for (int i = 0; i < 12; i++)
-            if (!isfinite(matrix[i]))
-                return ffd_json_span_fail(&d->tree, d->node_values.values[skin->joints[j]], d->name,
-                                          FFD_E_INVALID, error, "the joint's matrix is not finite");
-    }
-    return FFD_OK;
+    ffd_status status = FFD_OK;
+    for (size_t j = 0; j < skin->joint_count && status == FFD_OK; j++)
+        status = make_joint_matrix(d, skin, j, worlds, matrices + 12 * j, error);
+    return status;
+}
+
+bool ffd_gltf_has_joint_matrices(const gltf_document *d, const gltf_skin *skin)
+{
+    double matrix[12];
+    bool has = skin->inverse_bind < 0 ||
+               (check_inverse_bind(d, skin, NULL) == FFD_OK && d->layouts[skin->inverse_bind].readable);
+    for (size_t j = 0; j < skin->joint_count && has; j++)
+        has = make_joint_matrix(d, skin, j, d->world, matrix, NULL) == FFD_OK;
+    return has;
 }
 
 static ffd_status make_joint_matrices(gltf_document *d, gltf_skin *skin, ffd_error *error)
@@ -304,6 +322,12 @@ static void blend(const gltf_skin *skin, joint_weight *terms, size_t count, doub
             transform[k] += terms[i].weight / total * skin->matrices[12 * terms[i].joint + k];
 }
 
+/* The joint of a checked index; the first one if another program has changed the file since (mmap). */
+static size_t known_joint(const gltf_skin *skin, double index)
+{
+    return index < (double)skin->joint_count ? (size_t)index : 0;
+}
+
 void ffd_gltf_read_transforms(const mesh_document *document, size_t p, size_t first, size_t count,
                               double *transforms, skin_weights *found)
 {
@@ -321,7 +345,7 @@ void ffd_gltf_read_transforms(const mesh_document *document, size_t p, size_t fi
             ffd_gltf_read(d, (size_t)part->influences[s].joints, first + at, size, 4, joints);
             ffd_gltf_read(d, (size_t)part->influences[s].weights, first + at, size, 4, weights);
             for (size_t i = 0; i < 4 * size; i++)
-                terms[i / 4][4 * s + i % 4] = (joint_weight){(size_t)joints[i], weights[i]};
+                terms[i / 4][4 * s + i % 4] = (joint_weight){known_joint(part->skin, joints[i]), weights[i]};
         }
         for (size_t i = 0; i < size; i++)
             blend(part->skin, terms[i], 4 * part->influence_count, transforms + 12 * (at + i), found);

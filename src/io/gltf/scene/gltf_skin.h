@@ -16,6 +16,9 @@ ffd_status ffd_gltf_prepare_skins(gltf_document *document, ffd_error *error);
 ffd_status ffd_gltf_joint_matrices(const gltf_document *document, const gltf_skin *skin, const double *worlds,
                                    double *matrices, ffd_error *error);
 
+/* Whether the joint matrices of a skin that was not prepared, since the scene does not show it, are valid. */
+bool ffd_gltf_has_joint_matrices(const gltf_document *document, const gltf_skin *skin);
+
 /* Frees document->skins. */
 void ffd_gltf_free_skins(gltf_document *document);
 
