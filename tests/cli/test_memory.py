@@ -76,7 +76,9 @@ def run_all(run, name, commands, is_text=False):
     for command in commands:
         arguments = [name if a == "IN" else a.replace("ENDING", ending) for a in COMMANDS[command]]
         if command != "info":
-            arguments += ["--threads", "64"]
+            # What threads work in is part of the 400 MB of a view, up to 1 MB for each that runs at the same time: only few
+            # threads leave no memory for a copy that is not needed.
+            arguments += ["--threads", "8" if is_text and command in ("view", "picture") else "64"]
         most = (MOST_OF_TEXT.get(command, MOST_OF_OTHERS) if is_text else MOST) + MOST_PER_BYTE * size
         if not is_text and command in ("view", "picture"):
             most = max(most, MOST_OF_VIEWS)
