@@ -1,3 +1,4 @@
+/* check_changed.c - uses open documents after the bytes of their files were changed. */
 #include "check_changed.h"
 #include "../support/repetitions.h"
 #include "fuzz_target.h"

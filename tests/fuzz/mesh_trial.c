@@ -1,3 +1,4 @@
+/* mesh_trial.c - opens the bytes of a mesh, and deforms and saves it. */
 #include "mesh_trial.h"
 #include "io/formats.h"
 #include "job/chain/chain_load.h"

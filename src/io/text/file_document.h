@@ -36,8 +36,8 @@ void ffd_file_document_free(file_document *document);
 ffd_status ffd_file_document_model(const file_document *document, size_t texcoords, mesh_model *model,
                                    ffd_error *error);
 
-/* Fails with FFD_E_IO: a second reading has found something else than the first. The file is mapped (mmap), and
-   another program has written to it. */
+/* Fails with FFD_E_IO: a second reading has found something else than the first. The file is mapped (mmap),
+   and another program has written to it. */
 ffd_status ffd_file_document_changed(const file_document *document, ffd_error *error);
 
 /* Fills in the positions of vertices in faces; others stay unset. */
