@@ -257,11 +257,11 @@ static void select_at(moved_points *m, text *out, draw *random)
 /* A box round some rest points; in box units (only without axes) by fractions. */
 static void select_within(moved_points *m, text *out, draw *random)
 {
-    double lo[3], hi[3], bounds[2][3];
+    double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY}, bounds[2][3];
     for (size_t i = 0; i < m->count; i++)
         for (size_t a = 0; a < 3; a++) {
-            lo[a] = i == 0 ? m->rest[a] : fmin(lo[a], m->rest[3 * i + a]);
-            hi[a] = i == 0 ? m->rest[a] : fmax(hi[a], m->rest[3 * i + a]);
+            lo[a] = fmin(lo[a], m->rest[3 * i + a]);
+            hi[a] = fmax(hi[a], m->rest[3 * i + a]);
         }
     for (int a = 0; a < 3; a++) {
         double from = 0, side = 1;
