@@ -932,6 +932,9 @@ m("morph-limit-of-viewers", "bound", "cli_morphs", "if (count <= MORPHS_PLAYED |
   "if (count < MORPHS_PLAYED || count <= ffd_gltf_target_count(d, m))")
 m("changed-corners", "bound", "changed_faces", "if (filler->corner < filler->corners && vertex < filler->faces->vertex_count)",
   "if (filler->corner < filler->corners || vertex < filler->faces->vertex_count)")
+m("changed-counts-saved", "check left out", "changed_faces", "if (is_spliced && meets_all(all->document, number, &walk))",
+  "if (is_spliced)")
+m("changed-words-saved", "check left out", "changed_faces", "if (!is_ahead(splice, word)) {", "if (false) {")
 m("changed-normals", "check left out", "changed_faces", "if (found == count || corner.vertex != faces->corners[found])", "if (found == count)")
 
 m("info-member", "member name", "info, cli_info", '"boundary_edges", topology->boundary_edges',

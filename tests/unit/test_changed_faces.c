@@ -1,5 +1,5 @@
-/* A mesh file that is overwritten while it is in use: the faces are read twice, and the second time they
-   differ. */
+/* A mesh file that is overwritten while it is in use: faces, and the places of numbers, are read twice, and
+   differ the second time. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -86,11 +86,45 @@ static void other_corners_have_no_normals(void **state)
     }
 }
 
+#define PLY_START                                                                                            \
+    "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"        \
+    "end_header\n"
+#define STL_FACET "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+static const changed_text saved_texts[] = {
+    {FFD_FORMAT_OBJ, "v 0 0 0\nv 1 0 0\nvn 0 0 1\n", "v 0 0 0\nv 1 0 0\nv  0 0 1\n"}, /* more vertices */
+    {FFD_FORMAT_OBJ, "v 0 0 0\nv 1 0 0\n", "v 0 0 0\n# 1 0 0\n"},                     /* fewer vertices */
+    {FFD_FORMAT_OFF, "OFF\n2 0 0\n0 0 0\n1 0 0\n", "OFF\n2 0 0\n0 0 0\n1    \n"},
+    {FFD_FORMAT_PLY, PLY_START "0 0 0\n1 0 0\n", PLY_START "0 0 0\n1    \n"},
+    {FFD_FORMAT_STL, "solid\n" STL_FACET "endfacet\nendsolid\n", "solid\nendsolid\n"},
+};
+
+/* The numbers that are replaced are found in the text again. */
+static void another_text_is_not_saved(void **state)
+{
+    static const double moved[3] = {7, 8, 9};
+    static const uint8_t changed = 1;
+    (void)state;
+    for (size_t i = 0; i < COUNT(saved_texts); i++) {
+        char bytes[SIZE];
+        mesh_document *const document = opened_copy(saved_texts[i].format, saved_texts[i].before, bytes);
+        file_input saved;
+        ffd_error error;
+        assert_int_equal(document->format->begin_results(document, true, true, NULL), FFD_OK);
+        document->format->write_positions(document, 0, 1, 1, moved, &changed);
+        overwrite(bytes, saved_texts[i].after);
+        if (save_bytes(document, &saved, &error) != FFD_E_IO)
+            fail_msg("case %zu was saved", i);
+        assert_string_equal(error.message, "was changed while it was read");
+        document->format->close(document);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(other_faces_are_refused),
         cmocka_unit_test(other_corners_have_no_normals),
+        cmocka_unit_test(another_text_is_not_saved),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

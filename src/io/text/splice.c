@@ -58,11 +58,11 @@ void ffd_splice_part(file_splice *splice, const char *first, const char *last, c
     ffd_file_release_until(input_of(splice), last, &splice->released);
 }
 
-/* Whether a word follows what is copied. Words come in the order of the file, unless another program changes
- * it. */
+/* Whether a word is not empty and follows what is copied. This only fails if another program has changed the
+   file. */
 static bool is_ahead(const file_splice *splice, text_word word)
 {
-    return word.first >= splice->copied && word.last >= word.first && word.last <= splice->last;
+    return word.first >= splice->copied && word.last > word.first && word.last <= splice->last;
 }
 
 static void refuse_changed(file_splice *splice)
