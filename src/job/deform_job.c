@@ -56,7 +56,7 @@ static bool is_complete(const ffd_deform_desc *desc)
            ffd_desc_has_settings(desc->set, desc->set_count);
 }
 
-/* Numbers of enumerations that have no meaning would be taken for others. */
+/* An unknown enumeration number would be taken for another choice. */
 static ffd_status check_choices(const ffd_deform_desc *desc, ffd_error *error)
 {
     const struct {
@@ -71,12 +71,12 @@ static ffd_status check_choices(const ffd_deform_desc *desc, ffd_error *error)
     };
     for (size_t i = 0; i < sizeof choices / sizeof *choices; i++)
         if (choices[i].number < 0 || choices[i].number > choices[i].last)
-            return ffd_fail(error, FFD_E_ARGUMENT, "%d is no value of %s", choices[i].number,
+            return ffd_fail(error, FFD_E_ARGUMENT, "%d is not a value of %s", choices[i].number,
                             choices[i].name);
     return FFD_OK;
 }
 
-/* A gate that is never violated would be none. */
+/* A limit of NaN would never be exceeded. */
 static ffd_status check_gates(const ffd_deform_desc *desc, ffd_error *error)
 {
     if (desc->fail_on & FFD_GATE_TEAR && isnan(desc->tear_most))

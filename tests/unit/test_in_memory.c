@@ -1049,7 +1049,7 @@ static void choices_that_are_none_are_refused(void **state)
         if (wrong / 2 == 4)
             b.desc.input.space = (ffd_space)number;
         assert_int_equal(ffd_deform_run(&b.desc, &result, &error), FFD_E_ARGUMENT);
-        assert_non_null(strstr(error.message, "is no value of "));
+        assert_non_null(strstr(error.message, "is not a value of "));
         error = (ffd_error){0};
     }
     for (int i = 0; i < 2; i++) {

@@ -80,7 +80,7 @@ static ffd_status check_desc(const view_work *work, ffd_error *error)
         return ffd_fail(error, FFD_E_ARGUMENT, "the view's description is not complete");
     const view_picture_options picture = describe_picture(work);
     if ((int)desc->color < FFD_VIEW_DISPLACEMENT || desc->color > FFD_VIEW_PLAIN)
-        return ffd_fail(error, FFD_E_ARGUMENT, "%d is no value of color", (int)desc->color);
+        return ffd_fail(error, FFD_E_ARGUMENT, "%d is not a value of color", (int)desc->color);
     for (int a = 0; a < 3; a++)
         if (!isfinite(desc->camera[a]))
             return ffd_fail(error, FFD_E_ARGUMENT, "the camera's direction is not finite");
