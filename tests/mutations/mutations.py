@@ -935,6 +935,8 @@ m("changed-corners", "bound", "changed_faces", "if (filler->corner < filler->cor
 m("changed-counts-saved", "check left out", "changed_faces", "if (is_spliced && meets_all(all->document, number, &walk))",
   "if (is_spliced)")
 m("changed-words-saved", "check left out", "changed_faces", "if (!is_ahead(splice, word)) {", "if (false) {")
+m("list-past-the-file", "bound", "changed_faces", "if (*count <= (size_t)(walk->last - walk->at) / least)", "if (least > 0)")
+m("face-past-the-file", "bound", "changed_faces", "if (count > (size_t)(e->walk.scan.last - e->walk.scan.at))", "if (count == SIZE_MAX)")
 m("changed-normals", "check left out", "changed_faces", "if (found == count || corner.vertex != faces->corners[found])", "if (found == count)")
 
 m("info-member", "member name", "info, cli_info", '"boundary_edges", topology->boundary_edges',

@@ -54,6 +54,9 @@ static ffd_status take_face(extractor *e)
     const size_t count = ffd_off_walk_face_size(&e->walk);
     const bool texcoords = e->model->texcoord_count > 0, normals = e->model->normal_count > 0;
     text_word word;
+    /* It was checked when the file was opened: the file has changed since. */
+    if (count > (size_t)(e->walk.scan.last - e->walk.scan.at))
+        return ffd_file_document_changed(&e->document->file, e->error);
     if (!ffd_grow((void **)&e->corners, &e->capacity, count, sizeof *e->corners))
         return ffd_fail_memory(e->error);
     for (size_t c = 0; c < count; c++) {

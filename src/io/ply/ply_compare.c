@@ -150,11 +150,9 @@ static bool same_value(const comparer *c, ply_type type, text_word a, text_word 
 static void compare_list(comparer *c, const ply_property *property)
 {
     text_word a, b;
-    size_t count_a = 0, count_b = 0;
-    ffd_ply_walk_value(&c->in_a, property->count_type, &a);
-    ffd_ply_walk_value(&c->in_b, property->count_type, &b);
-    ffd_ply_load_count(c->a->header.encoding, property->count_type, a, &count_a);
-    ffd_ply_load_count(c->b->header.encoding, property->count_type, b, &count_b);
+    size_t count_a, count_b;
+    ffd_ply_walk_list(&c->in_a, property, &a, &count_a);
+    ffd_ply_walk_list(&c->in_b, property, &b, &count_b);
     bool same = count_a == count_b;
     if (!same)
         differ_in_values(c, property, property->count_type, a, b);

@@ -16,8 +16,7 @@ static face_sizes survey_faces(const ply_document *d)
             ply_walk list = walk;
             text_word word;
             size_t count;
-            if (property == d->face_corners && ffd_ply_walk_value(&list, property->count_type, &word) &&
-                ffd_ply_load_count(d->header.encoding, property->count_type, word, &count))
+            if (property == d->face_corners && ffd_ply_walk_list(&list, property, &word, &count))
                 face_sizes_count(&sizes, count);
             ffd_ply_walk_skip(&walk, property);
         }

@@ -22,9 +22,9 @@ static void take_corners(face_writer *w, ply_walk walk)
 {
     const ply_document *d = w->document;
     text_word word;
-    size_t count = 0, vertex;
+    size_t count, vertex;
     w->count = 0;
-    ffd_ply_walk_count(&walk, d->face_corners->count_type, &word, &count);
+    ffd_ply_walk_list(&walk, d->face_corners, &word, &count);
     if (!ffd_grow((void **)&w->corners, &w->capacity, count, sizeof *w->corners)) {
         w->splice->status = ffd_fail_memory(w->splice->error);
         return;

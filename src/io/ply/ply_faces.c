@@ -82,8 +82,9 @@ static ffd_status read_corners(face_reader *r, uint64_t face)
     const ply_document *d = r->document;
     const ply_property *list = d->face_corners;
     text_word word;
-    size_t count = 0;
-    ffd_ply_walk_count(&r->walk, list->count_type, &word, &count);
+    size_t count;
+    if (!ffd_ply_walk_list(&r->walk, list, &word, &count))
+        return ffd_faces_changed(d->file.name, r->error);
     if (!begin_face(r, count))
         return ffd_fail_memory(r->error);
     for (size_t i = 0; i < count; i++) {

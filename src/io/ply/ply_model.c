@@ -115,10 +115,9 @@ static bool take_face_texcoords(const extractor *e, ply_walk *walk, size_t face)
     const size_t first = e->faces.start[face], corners = e->faces.start[face + 1] - first;
     const ply_property *list = e->face_texcoords;
     text_word word;
-    size_t count = 0;
+    size_t count;
     double value;
-    ffd_ply_walk_value(walk, list->count_type, &word);
-    ffd_ply_load_count(d->header.encoding, list->count_type, word, &count);
+    ffd_ply_walk_list(walk, list, &word, &count);
     bool there = count == 2 * corners;
     for (size_t i = 0; i < count; i++) {
         const bool read = ffd_ply_walk_value(walk, list->type, &word) &&

@@ -1,4 +1,5 @@
 #include "io/ply/ply_strips.h"
+#include "mesh/face_filler.h"
 
 typedef struct strip_reader {
     const ply_document *document;
@@ -28,11 +29,12 @@ static ffd_status read_strip(strip_reader *r, uint64_t row)
     const ply_document *d = r->document;
     const ply_property *const list = d->strip_corners;
     text_word word;
-    size_t count = 0, vertex;
+    size_t count, vertex;
     double value;
     ffd_status status = FFD_OK;
     r->length = 0;
-    ffd_ply_walk_count(&r->walk, list->count_type, &word, &count);
+    if (!ffd_ply_walk_list(&r->walk, list, &word, &count))
+        return ffd_faces_changed(d->file.name, r->error);
     for (size_t i = 0; i < count && status == FFD_OK; i++) {
         ffd_ply_walk_value(&r->walk, list->type, &word);
         if (ffd_ply_load_count(d->header.encoding, list->type, word, &vertex) &&

@@ -64,7 +64,7 @@ static uint64_t load_bits(ply_encoding encoding, text_word word)
 static bool is_negative(ply_type type, text_word word, uint64_t bits)
 {
     const bool is_signed = type == PLY_CHAR || type == PLY_SHORT || type == PLY_INT;
-    return is_signed && bits >> (8 * (word.last - word.first) - 1);
+    return is_signed && word.first < word.last && bits >> (8 * (word.last - word.first) - 1);
 }
 
 static double load_whole(ply_type type, text_word word, uint64_t bits)

@@ -77,6 +77,17 @@ bool ffd_ply_walk_count(ply_walk *walk, ply_type type, text_word *word, size_t *
            ffd_ply_load_count(walk->header->encoding, type, *word, count);
 }
 
+bool ffd_ply_walk_list(ply_walk *walk, const ply_property *list, text_word *word, size_t *count)
+{
+    if (ffd_ply_walk_count(walk, list->count_type, word, count)) {
+        const size_t least = walk->header->encoding == PLY_ASCII ? 1 : ffd_ply_type_size(list->type);
+        if (*count <= (size_t)(walk->last - walk->at) / least)
+            return true;
+    }
+    *count = 0;
+    return false;
+}
+
 /* Moves past `count` values. */
 static bool skip_values(ply_walk *walk, ply_type type, size_t count)
 {
@@ -98,7 +109,7 @@ bool ffd_ply_walk_skip(ply_walk *walk, const ply_property *property)
 {
     text_word word;
     size_t count = 1;
-    if (property->is_list && !ffd_ply_walk_count(walk, property->count_type, &word, &count))
+    if (property->is_list && !ffd_ply_walk_list(walk, property, &word, &count))
         return false;
     return skip_values(walk, property->type, count);
 }
