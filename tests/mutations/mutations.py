@@ -685,8 +685,8 @@ m("ply-plain-corner-of-none", "limit", "cli_ply", "if (*count > 0 && largest >= 
   "if (*count > 0 && largest > plain->limit)")
 m("ply-plain-unmarked", "left out", "mixed_faces", "for (size_t i = 0; i < count && r->used; i++)",
   "for (size_t i = 1; i < count && r->used; i++)")
-m("ply-sign-of-integers", "bound", "ply, cli_ply", "is_signed && bits >> (8 * (word.last - word.first) - 1);",
-  "is_signed && bits > (uint64_t)1 << (8 * (word.last - word.first) - 1);")
+m("ply-sign-of-integers", "bound", "ply, cli_ply", "is_signed && word.first < word.last && bits >> (8 * (word.last - word.first) - 1);",
+  "is_signed && word.first < word.last && bits > (uint64_t)1 << (8 * (word.last - word.first) - 1);")
 m("ply-rows-do-not-fit", "limit", "ply, cli_ply, replay ply", "e->count > left / e->least",
   "e->count > left / 1")
 m("ply-colour-of-shorts", "factor", "ply, model, cli_convert", "type == PLY_USHORT ? 65535 : 1",
