@@ -178,8 +178,6 @@ static ffd_status allocate(fold_work *work, int threads, ffd_error *error)
 {
     const size_t cells = work->plan.cell_count;
     work->tile_count = cells / TILE_CELLS + (cells % TILE_CELLS != 0);
-    if (threads < 1)
-        threads = ffd_processor_count();
     if ((size_t)threads > work->tile_count)
         threads = (int)work->tile_count;
     work->lower = ffd_alloc(cells, sizeof(double));
@@ -204,7 +202,9 @@ static ffd_status find(const ffd_lattice *lattice, int threads, ffd_folds *folds
     if (!ffd_lattice_get_points(lattice, FFD_VOLUME_REST))
         return ffd_fail(error, FFD_E_ARGUMENT,
                         "the lattice has no control points yet: its box is that of a mesh");
-    ffd_status status = ffd_fold_plan_make(lattice, &work.plan, error);
+    ffd_status status = ffd_threads_choose(threads, &threads, error);
+    if (!status)
+        status = ffd_fold_plan_make(lattice, &work.plan, error);
     if (!status)
         status = allocate(&work, threads, error);
     if (status)

@@ -190,11 +190,10 @@ ffd_status ffd_deform_job_begin(deform_job *job, const ffd_deform_desc *desc, bo
     if (!status && check && desc->morphs)
         status = ffd_fail(&result->error, FFD_E_ARGUMENT,
                           "several morph targets are made by a deformation only (--morph)");
-    if (status)
-        return status;
-    job->threads = desc->threads > 0 ? desc->threads : ffd_processor_count();
+    if (!status)
+        status = ffd_threads_choose(desc->threads, &job->threads, &result->error);
     job->log = job->file_log = (mesh_log){desc->log, desc->log_user};
-    return FFD_OK;
+    return status;
 }
 
 static ffd_status open_mesh(deform_job *job, ffd_error *error)

@@ -169,9 +169,11 @@ static ffd_status embed(const ffd_embed_desc *desc, embedding *made, double star
                         ffd_error *error)
 {
     const mesh_log log = {desc->log, desc->log_user};
-    const int threads = desc->threads > 0 ? desc->threads : ffd_processor_count();
     pass_totals totals;
-    ffd_status status = open_mesh(desc, made, threads, error);
+    int threads;
+    ffd_status status = ffd_threads_choose(desc->threads, &threads, error);
+    if (!status)
+        status = open_mesh(desc, made, threads, error);
     if (status)
         return status;
     const double opened = ffd_clock_seconds();

@@ -9,27 +9,21 @@ void ffd_run_init(ffd_run *run, size_t size)
     ffd_struct_give(&defaults, sizeof defaults, run, size);
 }
 
-static int threads_for(int wanted, size_t total)
-{
-    const size_t tiles = total / POINT_TILE + 1;
-    const int threads = wanted > 0 ? wanted : ffd_processor_count();
-    return tiles < (size_t)threads ? (int)tiles : threads;
-}
-
 ffd_status ffd_point_run_begin(const ffd_run *callers, size_t total, point_run *run, ffd_error *error)
 {
     *run = (point_run){.total = total, .passes = 1};
     ffd_run_init(&run->run, sizeof run->run);
-    const ffd_status status =
+    const size_t tiles = total / POINT_TILE + 1;
+    ffd_status status =
         callers ? ffd_struct_take(&run->run, sizeof run->run, callers, "ffd_run", error) : FFD_OK;
+    if (!status)
+        status = ffd_threads_choose(run->run.threads, &run->run.threads, error);
     if (status)
         return status;
-    if (run->run.threads < 0)
-        return ffd_fail(error, FFD_E_ARGUMENT, "threads is %d: it is 0 for all cores, or positive",
-                        run->run.threads);
     if (run->run.isa != FFD_ISA_AUTO && !ffd_isa_available(run->run.isa))
         return ffd_fail(error, FFD_E_ARGUMENT, "instruction set %d is not available here", (int)run->run.isa);
-    run->run.threads = threads_for(run->run.threads, total);
+    if (tiles < (size_t)run->run.threads)
+        run->run.threads = (int)tiles;
     atomic_init(&run->done, 0);
     atomic_init(&run->stopped, false);
     const size_t threads = (size_t)run->run.threads;

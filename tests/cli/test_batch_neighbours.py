@@ -289,7 +289,9 @@ def a_terminal_s_interrupt_at_the_start(run):
         check(process.returncode in (OK, NO, -signal.SIGINT, 128 + signal.SIGINT), process.returncode, said)
         run.check_no_leftovers()
         if run.exists("r.json"):
-            equal([e["error"] for e in report(run) if e["status"] == "failed"], [], said)
+            # On a machine that is busy a job may take longer than the part of a second that it gets.
+            errors = [e["error"] for e in report(run) if e["status"] == "failed"]
+            equal([error for error in errors if not error.endswith("was stopped before it ended")], [], said)
             run.remove("r.json")
 
 

@@ -146,6 +146,18 @@ def files_have_no_status_and_no_det_f(run):
 
 
 @case
+def files_say_which_settings_of_a_deformation_do_nothing(run):
+    work = start(run)
+    page = view(run, "a.obj", *work)
+    said = "a.obj: not used, since files are shown as they are: {} (a deformation needs -l, and no OUT-MESH)"
+    for settings, names in ((["--rig", "follow"], "--rig"), (["--normals", "keep", "--outside", "extend"], "--outside, --normals"),
+                            (["--blocks", "--snap", "1", "--as-morph", "m"],
+                             "--snap, --blocks, --as-morph")):
+        equal(view(run, "a.obj", *work, *settings, err=said.format(names)).scene, page.scene, "the page")
+    view(run, "a.obj", "--set", "a=1", err=said.format("--set"))
+
+
+@case
 def a_lattice_round_the_mesh_is_drawn_round_the_mesh_at_rest(run):
     start(run, SHIFT, rest={"box": "mesh", "margin": 0})
     run.write("b.obj", re.sub(r"v 1 ", "v 7 ", CUBE))

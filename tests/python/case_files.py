@@ -125,6 +125,9 @@ class Files(unittest.TestCase):
         self.assertEqual((lattice.offsets[2, 3, 2, 1], list(lattice.parameters)), (0.25, ["lift"]))
         with self.assertRaisesRegex(ValueError, "'lifted'"):
             ffd.Lattice.load("lift.json", {"lifted": 1})
+        os.mkfifo("lift.pipe")
+        with self.assertRaisesRegex(ValueError, "read twice"):
+            ffd.Lattice.load("lift.pipe")
         self.assertEqual(ffd.info("lift.json", set={"lift": 0.25})["kind"], "lattice")
         self.assertEqual(ffd.info(SPOT)["vertices"], 11533)
         ffd.deform_file(SPOT, "lifted.obj", "lift.json", set={"lift": 0.25}, force=True)

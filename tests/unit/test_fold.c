@@ -902,7 +902,7 @@ static void bernstein_products_and_parts_keep_their_values(void **state)
 
 /* Errors */
 
-static void a_lattice_without_bounds_is_refused(void **state)
+static void no_bounds_and_negative_threads_are_refused(void **state)
 {
     (void)state;
     ffd_lattice *lattice = parsed("{\"format\":\"ffd-lattice\",\"version\":1,\"size\":[4,4,4],"
@@ -913,6 +913,7 @@ static void a_lattice_without_bounds_is_refused(void **state)
     assert_true(error.message[0]);
     const double min[3] = {0, 0, 0}, max[3] = {1, 1, 1};
     assert_int_equal(ffd_lattice_fit(lattice, min, max, &error), FFD_OK);
+    assert_int_equal(ffd_folds_find(lattice, -1, &folds, &error), FFD_E_ARGUMENT);
     assert_int_equal(ffd_folds_find(lattice, 0, &folds, &error), FFD_OK);
     assert_int_equal(folds.verdict, FFD_FOLDS_NONE);
     ffd_lattice_destroy(&lattice);
@@ -966,7 +967,7 @@ int main(void)
         cmocka_unit_test(a_ball_folds_only_when_its_pole_is_pushed_in),
         cmocka_unit_test(a_rational_quarter_folds_only_when_its_axis_tears),
         cmocka_unit_test(a_volume_that_is_zero_inside_is_never_called_free),
-        cmocka_unit_test(a_lattice_without_bounds_is_refused),
+        cmocka_unit_test(no_bounds_and_negative_threads_are_refused),
         cmocka_unit_test(each_failed_allocation_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1026,6 +1026,25 @@ static void arrays_of_descriptions_are_complete(void **state)
     (void)state;
 }
 
+static void negative_threads_are_refused(void **state)
+{
+    static const char message[] = "threads is -2: it is 0 for all cores, or positive";
+    ffd_job_result result = {.struct_size = sizeof result};
+    ffd_error error = {0};
+    both b;
+    (void)state;
+    begin(&b, make_gltf, "head.glb");
+    b.desc.threads = -2;
+    assert_int_equal(ffd_deform_run(&b.desc, &result, &error), FFD_E_ARGUMENT);
+    assert_string_equal(error.message, message);
+    b.desc.threads = 2;
+    b.desc.input.threads = -2;
+    assert_int_equal(ffd_check_run(&b.desc, &result, &error), FFD_E_ARGUMENT);
+    assert_string_equal(error.message, message);
+    assert_int_equal(b.sink.files.count, 0);
+    end(&b);
+}
+
 static void choices_that_are_none_are_refused(void **state)
 {
     const double lengths[] = {(double)NAN, -1};
@@ -1176,6 +1195,7 @@ int main(void)
         cmocka_unit_test(no_name_in_a_file_leads_to_the_memory_of_a_job),
         cmocka_unit_test(arrays_of_descriptions_are_complete),
         cmocka_unit_test(choices_that_are_none_are_refused),
+        cmocka_unit_test(negative_threads_are_refused),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -205,3 +205,11 @@ int ffd_processor_count(void)
     const long count = sysconf(_SC_NPROCESSORS_ONLN);
     return count < 1 ? 1 : count > 1024 ? 1024 : (int)count;
 }
+
+ffd_status ffd_threads_choose(int wanted, int *threads, ffd_error *error)
+{
+    if (wanted < 0)
+        return ffd_fail(error, FFD_E_ARGUMENT, "threads is %d: it is 0 for all cores, or positive", wanted);
+    *threads = wanted > 0 ? wanted : ffd_processor_count();
+    return FFD_OK;
+}

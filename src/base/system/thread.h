@@ -2,6 +2,7 @@
 #ifndef FFD_BASE_SYSTEM_THREAD_H
 #define FFD_BASE_SYSTEM_THREAD_H
 
+#include "base/fail.h"
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -25,5 +26,8 @@ int ffd_ordered_slots(int threads);
 
 /* Returns the number of processors that are online, at least 1. */
 int ffd_processor_count(void);
+/* Sets *threads to the number that a caller wants, or to that of the processors if it is 0. Errors:
+   FFD_E_ARGUMENT (the number is negative). */
+ffd_status ffd_threads_choose(int wanted, int *threads, ffd_error *error);
 
 #endif

@@ -3,6 +3,7 @@
 #include "base/file/memory_files.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/system/thread.h"
 #include "base/vector/vec.h"
 #include "io/formats.h"
 #include "mesh/bounds.h"
@@ -54,8 +55,9 @@ ffd_status ffd_source_open_bytes(const ffd_source *source, int threads, file_inp
 {
     ffd_source typed = *source;
     *document = NULL;
-    typed.threads = source->threads > 0 ? source->threads : threads;
     ffd_status status = ffd_source_format(source, &typed.format, error);
+    if (!status)
+        status = ffd_threads_choose(source->threads ? source->threads : threads, &typed.threads, error);
     if (!status) {
         status = ffd_format_open(ffd_format_table(typed.format), input, &typed, document, error);
         ffd_fail_name_file(status ? error : NULL, ffd_source_name(source));

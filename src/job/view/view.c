@@ -349,6 +349,35 @@ static void judge_color(const view_work *work)
                      color == FFD_VIEW_DET ? "det F" : "status");
 }
 
+/* Names the settings of a deformation, which do nothing where files are shown as they are. */
+static void warn_of_unused(const view_work *work)
+{
+    const ffd_deform_desc *const job = work->desc->job;
+    const struct {
+        const char *name;
+        bool is_set;
+    } settings[] = {
+        {"--set", job->set_count > 0 && job->lattice_count == 0},
+        {"--outside", job->outside != FFD_OUTSIDE_KEEP},
+        {"--snap", job->snap > 0},
+        {"--blocks", job->blocks},
+        {"--normals", job->normals != FFD_NORMALS_TRANSFORM},
+        {"--rig", job->rig != FFD_RIG_KEEP},
+        {"--as-morph", job->as_morph},
+    };
+    char names[128] = "";
+    for (size_t i = 0; i < sizeof settings / sizeof *settings; i++)
+        if (settings[i].is_set) {
+            strcat(names, *names ? ", " : "");
+            strcat(names, settings[i].name);
+        }
+    if (*names)
+        ffd_log_line(&work->job.log, FFD_LOG_WARNING,
+                     "not used, since files are shown as they are: %s (a deformation needs -l, and no "
+                     "OUT-MESH)",
+                     names);
+}
+
 static ffd_status run(view_work *work, ffd_job_result *result, ffd_error *error)
 {
     const bool deforms = !work->desc->deformed && work->desc->job->lattice_count > 0;
@@ -363,6 +392,8 @@ static ffd_status run(view_work *work, ffd_job_result *result, ffd_error *error)
         ffd_log_line(&work->job.log, FFD_LOG_WARNING, "not shown: the GPU instances of %zu %s",
                      work->model.nodes_left, ffd_plural(work->model.nodes_left, "node", "nodes"));
     judge_color(work);
+    if (!deforms)
+        warn_of_unused(work);
     ffd_view_measure(&work->scene);
     free_sources(work); /* drawing needs memory of its own */
     return write_view(work, error);

@@ -76,7 +76,12 @@ class Lattice:
 
     @classmethod
     def load(cls, path: str | os.PathLike[str], values: Mapping[str, Any] | None = None) -> Lattice:
-        """Loads a lattice file (data/schema/lattice.md). values: for the placeholders of its moves, by name."""
+        """Loads a lattice file (data/schema/lattice.md), which is read twice: not a pipe.
+
+        values: for the placeholders of its moves, by name
+        """
+        if os.path.exists(path) and not os.path.isfile(path) and not os.path.isdir(path):
+            raise ValueError(f"{os.fspath(path)} is not a file that can be read twice; Lattice.parse takes what was read")
         made, count = settings(values)
         used = (ctypes.c_bool * count)()
         self = cls._new(lib.ffd_lattice_load_set, library.path(path), made, count, used)
