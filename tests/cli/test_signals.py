@@ -12,6 +12,7 @@ import time
 from harness import FFD, NO, SANITIZED, SECONDS, case, check, equal, lattice, main
 
 LIMIT = 5 if SANITIZED else 1
+MIDST = 0.3 if SANITIZED else 0.15  # seconds from the start of a command to the signal
 POINTS = 40000000  # of a mesh that takes longer to read than the signal to come
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
@@ -36,11 +37,11 @@ def heed_all():
         signal.signal(number, signal.SIG_DFL)
 
 
-def interrupted(run, number, *words, wait=0.3):
+def interrupted(run, number, *words):
     """Sends a command a signal in its midst; returns its exit code and how long it took to end."""
     process = subprocess.Popen([FFD, *words], cwd=run.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
                                preexec_fn=heed_all)
-    time.sleep(wait)
+    time.sleep(MIDST)
     check(process.poll() is None, f"{words}: it ended before the signal came")
     begun = time.monotonic()
     process.send_signal(number)

@@ -215,7 +215,7 @@ static void users_are_those_of_all_corners(void **state)
     (void)state;
     draw d = {draw_seed()};
     int early = 0; /* files with elements first and no late block */
-    for (int round = 0; round < 32; round += is_memory_checked() ? 3 : 1) {
+    for (int round = 0; round < 32; round += is_under_valgrind() ? 5 : is_memory_checked() ? 3 : 1) {
         file f;
         begin_file(&f, &d, draw_int(&d, 500, 12000), round / 4 == 7 ? 0 : draw_int(&d, 1, 9000));
         f.pairs = draw_int(&d, 0, 1);
