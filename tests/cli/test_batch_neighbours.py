@@ -283,15 +283,17 @@ def a_terminal_s_interrupt_at_the_start(run):
     for i in range(5 if SANITIZED else 14):
         process = begin(run, "m.jsonl", "-j", "4", "--force", "--report", "r.json")
         time.sleep(0.002 + i % 7 * 0.001)
+        begun = time.monotonic()
         os.killpg(process.pid, signal.SIGINT)
         said = ended(process)
+        seconds = time.monotonic() - begun
         check("crashed" not in said and "Interrupt" not in said, said)
         check(process.returncode in (OK, NO, -signal.SIGINT, 128 + signal.SIGINT), process.returncode, said)
         run.check_no_leftovers()
         if run.exists("r.json"):
-            # On a machine that is busy a job may take longer than the part of a second that it gets.
+            # A job that goes on is stopped 0.4 s after the signal, and no sooner: a machine that is busy may take that long.
             errors = [e["error"] for e in report(run) if e["status"] == "failed"]
-            equal([error for error in errors if not error.endswith("was stopped before it ended")], [], said)
+            equal(errors if seconds < 0.4 else [error for error in errors if not error.endswith("was stopped before it ended")], [], said)
             run.remove("r.json")
 
 
