@@ -62,7 +62,7 @@ typedef struct ffd_folds {
    than a full turn.
 
    threads: >= 1, or 0 for all cores; does not affect the result. Thread-safe. Errors: FFD_E_ARGUMENT (the
-   lattice has no control points yet, struct_size), FFD_E_MEMORY. */
+   lattice has no control points yet, threads is negative, struct_size), FFD_E_MEMORY. */
 FFD_API ffd_status ffd_folds_find(const ffd_lattice *lattice, int threads, ffd_folds *folds,
                                   ffd_error *error);
 
