@@ -474,21 +474,37 @@ static ffd_status count_others(const part_work *work, size_t tiles, size_t size,
     return status;
 }
 
+static size_t tile_count(size_t count)
+{
+    const size_t size = tile_size(count);
+    return count / size + (count % size != 0);
+}
+
+/* Scratch memory is several megabytes a worker: a small mesh needs no more workers than it has tiles. */
+static int worker_count(const mesh_pass *pass)
+{
+    size_t most = 1;
+    for (size_t i = 0; i < pass->document->part_count; i++) {
+        const size_t tiles = tile_count(pass->document->parts[i].vertex_count);
+        most = tiles > most ? tiles : most;
+    }
+    return most < (size_t)pass->threads ? (int)most : pass->threads;
+}
+
 static ffd_status run_part(part_work *work, pass_totals *totals, ffd_error *error)
 {
-    const size_t count = work->part->vertex_count, size = tile_size(count);
-    const size_t tiles = count / size + (count % size != 0);
+    const size_t count = work->part->vertex_count, size = tile_size(count), tiles = tile_count(count);
     work->tiles = ffd_alloc_zero(tiles, sizeof *work->tiles);
     if (!work->tiles)
         return ffd_fail_memory(error);
-    ffd_parallel_tiles(count, size, work->pass->threads, run_tile, work);
+    ffd_parallel_tiles(count, size, work->workers, run_tile, work);
     const ffd_status status = count_others(work, tiles, size, error);
     for (size_t i = 0; i < tiles; i++)
         ffd_totals_join(&work->tiles[i], totals);
     ffd_free(work->tiles);
     if (status)
         return status;
-    for (int i = 0; i < work->pass->threads; i++)
+    for (int i = 0; i < work->workers; i++)
         if (work->scratch[i].status) {
             if (error)
                 *error = work->scratch[i].error;
@@ -517,7 +533,7 @@ static void free_scratch(tile_scratch *scratch, int workers)
 }
 
 /* Returns NULL if memory runs out. */
-static tile_scratch *make_scratch(const mesh_pass *pass)
+static tile_scratch *make_scratch(const mesh_pass *pass, int workers)
 {
     bool shapes = false, splats = false;
     for (size_t i = 0; i < pass->document->part_count; i++) {
@@ -525,8 +541,8 @@ static tile_scratch *make_scratch(const mesh_pass *pass)
         splats = splats || ffd_pass_takes_splats(pass, &pass->document->parts[i]);
     }
     /* Several megabytes, of which a small mesh uses little: clear only what must be. */
-    tile_scratch *scratch = ffd_alloc((size_t)pass->threads, sizeof *scratch);
-    for (int i = 0; scratch && i < pass->threads; i++) {
+    tile_scratch *scratch = ffd_alloc((size_t)workers, sizeof *scratch);
+    for (int i = 0; scratch && i < workers; i++) {
         ffd_displacement_scratch_clear(&scratch[i].chain.displacement);
         scratch[i].chain.displacement.kept.threads = pass->threads;
         scratch[i].shape = NULL;
@@ -534,7 +550,7 @@ static tile_scratch *make_scratch(const mesh_pass *pass)
         scratch[i].kept = NULL;
         scratch[i].status = FFD_OK;
     }
-    for (int i = 0; scratch && i < pass->threads; i++) {
+    for (int i = 0; scratch && i < workers; i++) {
         if (shapes)
             scratch[i].shape = ffd_alloc(1, sizeof *scratch[i].shape);
         if (splats)
@@ -543,7 +559,7 @@ static tile_scratch *make_scratch(const mesh_pass *pass)
             scratch[i].kept = ffd_alloc_zero(ffd_kept_planes(ffd_chain_marked(pass->chain)), CHAIN_RUN);
         if ((shapes && !scratch[i].shape) || (splats && !scratch[i].splat) ||
             (pass->kept && !scratch[i].kept)) {
-            free_scratch(scratch, pass->threads);
+            free_scratch(scratch, workers);
             return NULL;
         }
     }
@@ -552,11 +568,11 @@ static tile_scratch *make_scratch(const mesh_pass *pass)
 
 ffd_status ffd_pass_run(const mesh_pass *pass, pass_totals *totals, ffd_error *error)
 {
-    part_work work = {.pass = pass};
+    part_work work = {.pass = pass, .workers = worker_count(pass)};
     ffd_status status = FFD_OK;
     ffd_totals_clear(totals);
     atomic_init(&work.stopped, false);
-    work.scratch = make_scratch(pass);
+    work.scratch = make_scratch(pass, work.workers);
     if (!work.scratch)
         return ffd_fail_memory(error);
     for (size_t i = 0; i < pass->document->part_count && !status; i++) {
@@ -569,6 +585,6 @@ ffd_status ffd_pass_run(const mesh_pass *pass, pass_totals *totals, ffd_error *e
         if (!work.part->repeats_positions)
             work.first_vertex += work.part->vertex_count;
     }
-    free_scratch(work.scratch, pass->threads);
+    free_scratch(work.scratch, work.workers);
     return status;
 }

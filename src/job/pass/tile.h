@@ -61,6 +61,7 @@ typedef struct part_work {
     const mesh_part *part;
     size_t part_number;
     uint64_t first_vertex; /* number of the part's first vertex in the document */
+    int workers;
     tile_scratch *scratch; /* one for each worker */
     pass_totals *tiles;    /* figures of each tile */
     atomic_bool stopped;   /* a tile has failed: skip the others */
