@@ -5,6 +5,7 @@
 
 #include <cmocka.h>
 
+#include "../support/repetitions.h"
 #include "../support/test_folder.h"
 #include "base/file/cleanup.h"
 #include "base/file/input.h"
@@ -159,7 +160,7 @@ static void run_writers(void)
 /* Whatever its threads are doing: every name in the folder is that of a complete file. */
 static void threads_at_work_leave_only_complete_files(void **state)
 {
-    for (int n = 0; n < 60; n++) {
+    for (int n = 0; n < 60; n += stride(10)) {
         int ready[2], status;
         assert_int_equal(pipe(ready), 0);
         const pid_t child = fork();

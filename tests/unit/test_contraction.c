@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "../support/draw.h"
+#include "../support/repetitions.h"
 #include "base/vector/isa.h"
 #include "base/vector/vec.h"
 #include "embed/cells/contraction_kernel.h"
@@ -126,7 +127,7 @@ static void bounds_hold_and_kernels_agree(void **state)
 {
     static double numbers[MOST], columns[3 * MOST];
     draw d = {draw_seed()};
-    for (int round = 0; round < 300; round++) {
+    for (int round = 0; round < repetitions(300); round++) {
         bezier_box box = {.coefficients = numbers};
         contraction_bound found;
         double middle[3], reach[3];

@@ -142,7 +142,7 @@ static void batches_give_what_points_get_alone(void **state)
         ffd_lattice *lattice = random_lattice(&d, i);
         ffd_displacement_scratch_clear(&s->scratch);
         s->scratch.kept.threads = i % 4 == 0 ? 1000 : i % 4;
-        for (int round = 0; round < ROUNDS; round++)
+        for (int round = 0; round < ROUNDS; round += stride(3))
             check_batch(&d, lattice, s);
         ffd_lattice_destroy(&lattice);
     }

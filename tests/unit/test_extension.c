@@ -8,6 +8,7 @@
 
 #include "../support/draw.h"
 #include "../support/lattice_by_hand.h"
+#include "../support/repetitions.h"
 #include "base/vector/vec.h"
 #include "deform/displacement.h"
 #include "deform/extension.h"
@@ -269,7 +270,8 @@ static void check_gradients(const char *members, double falloff, draw *d)
 {
     sample s = shaken(members, 0.3, d);
     int compared = 0, moving = 0;
-    for (int i = 0; i < POINTS; i++) {
+    const int points = repetitions(POINTS);
+    for (int i = 0; i < points; i++) {
         double p[3], delta[3], gradient[9], columns[3][3];
         far_point(d, p);
         const boundary_point nearest = nearest_to(&s, p);
@@ -287,8 +289,10 @@ static void check_gradients(const char *members, double falloff, draw *d)
                     fail_msg("%s, point %d: d delta_%d / d p_%d is %g, not %g", members, i, r, c,
                              columns[c][r], gradient[3 * r + c]);
     }
-    assert_true(compared > POINTS * 3 / 4);
-    assert_true(moving > compared / 2);
+    if (points == POINTS) { /* else too few to count */
+        assert_true(compared > POINTS * 3 / 4);
+        assert_true(moving > compared / 2);
+    }
     clear(&s);
 }
 

@@ -656,7 +656,7 @@ static void random_control_points_are_found_to_fold(void **state)
 {
     (void)state;
     draw d = {3};
-    for (int i = 0; i < 6; i++) {
+    for (int i = 0; i < 6; i += stride(3)) { /* 3 is prime to 4 */
         const int degree = 1 + i % 4;
         const lattice_kinds shape = {
             {KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_CLAMPED}, {degree, degree, degree}, {7, 7, 7}};
@@ -713,7 +713,7 @@ static void a_collapsed_axis_is_no_fold(void **state)
             for (int far = 0; far < 2; far++) {
                 if (k >= 3 && (i == 4 || i == 5)) /* with these knots no single ring of points is the axis */
                     continue;
-                if (is_under_valgrind() && (i + k + (size_t)far) % 5)
+                if (is_under_valgrind() && (i + k + (size_t)far) % 9)
                     continue;
                 ffd_lattice *lattice = parsed(cylinder_text, shapes[k], far ? 1e6 : 1.0, 2, moves[i]);
                 const ffd_folds folds = assert_verdict(lattice, 1, FFD_FOLDS_NONE);
@@ -779,6 +779,8 @@ static void a_ball_folds_only_when_its_pole_is_pushed_in(void **state)
     };
     for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++)
         for (int rough = 0; rough < 2; rough++) {
+            if (is_under_valgrind() && i > 0 && (i + (size_t)rough) % 2)
+                continue;
             ffd_lattice *lattice = mapped(&shapes[i], rough ? rough_ball : ball);
             for (size_t p = 0; p < lattice->count; p++) {
                 double *q = lattice->deformed + 3 * p;

@@ -578,16 +578,17 @@ static void check_all_inside(ffd_lattice *lattice, draw *d)
     double xyz[3 * POINTS], lo[3], hi[3];
     ffd_location found[POINTS];
     ffd_locator *locator;
+    const int count = repetitions(POINTS);
     ffd_lattice_get_domain(lattice, lo, hi);
-    for (int i = 0; i < POINTS; i++) {
+    for (int i = 0; i < count; i++) {
         double uvw[3];
         for (int a = 0; a < 3; a++)
             uvw[a] = draw_between(d, lo[a], hi[a]);
         ffd_lattice_evaluate(lattice, FFD_VOLUME_REST, uvw, xyz + 3 * i, NULL);
     }
     assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
-    assert_int_equal(ffd_locator_find(locator, xyz, POINTS, found, NULL), FFD_OK);
-    for (int i = 0; i < POINTS; i++)
+    assert_int_equal(ffd_locator_find(locator, xyz, (size_t)count, found, NULL), FFD_OK);
+    for (int i = 0; i < count; i++)
         assert_int_equal(found[i].status, FFD_INSIDE);
     ffd_locator_destroy(&locator);
 }
@@ -770,7 +771,7 @@ static void every_instruction_set_gives_the_same_bits(void **state)
     static double points[3 * COUNT];
     static ffd_location one_by_one[COUNT], several[COUNT];
     draw d = {draw_seed()};
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i += (size_t)stride(3)) {
         ffd_lattice *lattice = clamped(kinds[i].degree, kinds[i].size);
         ffd_locator *locator;
         set_points(lattice, kinds[i].map);

@@ -271,7 +271,7 @@ static void a_full_turn_covers_its_cylinder(void **state)
     (void)state;
     static const turn turns[] = {{0, 360}, {-37.5, 322.5}, {90, 450}};
     for (int degree = 1; degree <= 9; degree += stride(4))
-        for (int n = degree < 3 ? 3 : degree + 1; n <= 40; n += n < 12 ? stride(3) : 9)
+        for (int n = degree < 3 ? 3 : degree + 1; n <= 40; n += n < 12 ? stride(5) : 9 * stride(2))
             check_one_cylinder(n, degree, "\"closed\"", turns[(n + degree) % 3], n % 2 ? 0 : 0.75);
     /* A full turn that is not closed has a seam, if there are enough points. */
     for (int degree = 1; degree <= 5; degree += stride(2))
@@ -289,7 +289,7 @@ static void a_partial_turn_covers_its_sector(void **state)
     static const char *const kinds[] = {"\"clamped\"", "\"open\"", "\"uniform\""};
     for (size_t t = 0; t < COUNT(turns); t++)
         for (size_t k = 0; k < COUNT(kinds); k++) {
-            if (is_memory_checked() && (t + k) % 2)
+            if (is_memory_checked() && (t + k) % (size_t)stride(5))
                 continue;
             for (int degree = 1; degree <= 9; degree += 2 * stride(2))
                 for (int n = degree + 4; n <= 30; n += 7 * stride(2))
