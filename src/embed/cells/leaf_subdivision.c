@@ -4,6 +4,7 @@
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "embed/cells/leaf.h"
+#include "embed/cells/tolerance_image.h"
 #include "embed/frame/face.h"
 #include <string.h>
 
@@ -16,6 +17,8 @@
 #define BLURRED_SIDE 0x1p-22
 #define HARD_BUDGET 4096 /* boxes in a leaf */
 #define HARD_BOUND 0.75
+/* If the tolerance is as large as half of a box, halving it gives no information. */
+#define MOST_BLUR 64
 /* PART_LEVELS: halvings of a region in which the iteration stalled. */
 #define PART_LEVELS 16
 #define POLISH_ROUNDS 12
@@ -150,6 +153,65 @@ static double shortest_side(const bezier_box *box)
     return shortest;
 }
 
+/* Searches a region with a contraction bound. Returns false if it must be halved. */
+static bool settle_region(hard_search *hard, const cell_region *region, double noise, int level)
+{
+    point_search *const search = hard->search;
+    root stall;
+    if (ffd_search_region(search, region, &stall))
+        return true;
+    if (noise < MOST_BLUR && level < hard->most_levels)
+        return false;
+    search->blurred = true;
+    ffd_search_note_stall(search, &stall);
+    return true;
+}
+
+/* The same in a second search, which looks at the shape of the image of the tolerance and not at its size. */
+static bool settle_by_shape(hard_search *hard, const cell_region *region, const tolerance_view *view,
+                            int level)
+{
+    point_search *const search = hard->search;
+    double t[3];
+    sample at;
+    root stall;
+    if (ffd_search_region(search, region, &stall))
+        return true;
+    if (ffd_tolerance_find(search, region, t, &at)) {
+        ffd_search_record(search, region, t, &at, false);
+        return true;
+    }
+    if (view->blur < MOST_BLUR && level < hard->most_levels)
+        return false;
+    ffd_search_note_stall(search, &stall);
+    return true;
+}
+
+/* Settles a box with a regular J at the centre. noise: the size of the image of the tolerance. Results as for
+   settle_box. */
+static bool settle_regular(hard_search *hard, const bezier_box *box, cell_region *region, double noise,
+                           int level, bool *blurred)
+{
+    point_search *const search = hard->search;
+    tolerance_view view = {.blur = noise};
+    if (search->again) {
+        ffd_cells_centre(search->locator, region);
+        view = ffd_tolerance_view(search, region, box);
+        if (view.misses)
+            return true;
+    }
+    if (region->bound > HARD_BOUND) {
+        *blurred = view.blur >= 0.5 && shortest_side(box) <= BLURRED_SIDE;
+        search->blurred = search->blurred || *blurred;
+        return false;
+    }
+    if (!search->again)
+        ffd_cells_centre(search->locator, region);
+    search->evaluations++;
+    return search->again ? settle_by_shape(hard, region, &view, level)
+                         : settle_region(hard, region, noise, level);
+}
+
 /* Returns whether the box is finished: it has no root, or its only root was searched. Otherwise *blurred says
    whether its halves could not be distinguished, because the tolerance is as large as half of the box. */
 static bool settle_box(hard_search *hard, const bezier_box *box, int level, contraction_bound *found,
@@ -174,20 +236,7 @@ static bool settle_box(hard_search *hard, const bezier_box *box, int level, cont
     hull = ffd_bezier_image(box, found->inverse, search->x);
     if (!holds_zero(&hull, image_slack))
         return true;
-    if (found->bound > HARD_BOUND) {
-        *blurred = noise >= 0.5 && shortest_side(box) <= BLURRED_SIDE;
-        return false;
-    }
-    ffd_cells_centre(search->locator, region);
-    search->evaluations++;
-    root stall;
-    if (ffd_search_region(search, region, &stall))
-        return true;
-    /* If the tolerance is as large as half of the box, halving it gives no information. */
-    if (noise < 64 && level < hard->most_levels)
-        return false;
-    ffd_search_note_stall(search, &stall);
-    return true;
+    return settle_regular(hard, box, region, noise, level, blurred);
 }
 
 /* Drops a box. The first few dropped boxes are polished, so that the point gets at least a u,v,w. */
@@ -283,5 +332,5 @@ void ffd_search_part(point_search *search, const cell_region *region)
         lo[a] = ldexp(round(ldexp(region->lo[a] / side, LEAF_DEPTH)), -LEAF_DEPTH);
         hi[a] = lo[a] + ldexp(round(ldexp(region->width[a] / side, LEAF_DEPTH)), -LEAF_DEPTH);
     }
-    search_part(search, region->span, lo, hi, PART_LEVELS);
+    search_part(search, region->span, lo, hi, search->again ? HARD_LEVELS : PART_LEVELS);
 }

@@ -11,6 +11,8 @@
    boxes of hard leaves. For degrees above 3 there are fewer boxes, in proportion to their size. */
 #define MOST_HARD_BOXES 16384
 #define LEAST_HARD_BOXES 1024
+/* A second search has the budget divided by this. */
+#define AGAIN_PART 2
 
 typedef struct brick_visit {
     point_search *search;
@@ -112,6 +114,30 @@ static long hard_boxes_of(const cell_search *cells)
     return points <= 64 ? MOST_HARD_BOXES : boxes < LEAST_HARD_BOXES ? LEAST_HARD_BOXES : boxes;
 }
 
+static void search_bricks(point_search *search, ffd_location *location)
+{
+    ffd_box_tree_visit(&search->locator->cells->brick_tree, search->x, search->slack, visit_brick, search);
+    if (!search->status)
+        ffd_search_judge(search, location);
+}
+
+/* Searches again, more thoroughly, if stalled iterations leave the point undecided. What the first
+   search decides never depends on the second. */
+static void search_again(point_search *search, ffd_location *location)
+{
+    ffd_location second = {.uvw = {NAN, NAN, NAN}};
+    if (search->status || location->status != FFD_SINGULAR || !location->unresolved || !search->blurred)
+        return;
+    search->again = true;
+    search->unresolved = false;
+    search->hard_boxes = hard_boxes_of(search->locator->cells) / AGAIN_PART;
+    search->bricks = 0;
+    search->stall_count = search->roots.count = 0;
+    search_bricks(search, &second);
+    if (!search->status && !second.unresolved)
+        *location = second;
+}
+
 ffd_status ffd_cells_find(const ffd_locator *locator, const double p[3], search_scratch **scratch,
                           ffd_location *location, ffd_error *error)
 {
@@ -123,9 +149,8 @@ ffd_status ffd_cells_find(const ffd_locator *locator, const double p[3], search_
     if (!ffd_search_set_point(&search, p))
         return FFD_OK;
     if (!is_on_collapse(&search, location)) {
-        ffd_box_tree_visit(&cells->brick_tree, search.x, search.slack, visit_brick, &search);
-        if (!search.status)
-            ffd_search_judge(&search, location);
+        search_bricks(&search, location);
+        search_again(&search, location);
     }
     location->evaluations = search.evaluations;
     location->leaves = search.leaves;
