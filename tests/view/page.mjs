@@ -6,7 +6,8 @@ import {folder, launch, runAll, watch} from './browser.mjs';
 
 const WIDE = {width: 860, height: 480}, PHONE = {width: 390, height: 844};
 
-const browser = await launch(['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader']);
+const browser = await launch(['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
+  '--webgl-antialiasing-mode=none']);
 
 async function open(kind, options = {}) {
   const url = 'file://' + join(folder, kind + '.html');
