@@ -12,6 +12,7 @@ import sys
 from broken_gltf_cases import TRIANGLES, USHORT, Model
 from harness import (CUBE, FFD, INVALID, IO, LIMIT, OK, SANITIZED, UNSUPPORTED, case, check, equal, glb, gltf_json, lattice, main)
 
+MEASURE_PEAK = None if SANITIZED else os.path.abspath(sys.argv.pop(1))  # the program of that name
 REFUSALS = (IO, INVALID, UNSUPPORTED, LIMIT)
 MEGABYTE = 2**20
 
@@ -187,20 +188,13 @@ def images_that_lead_out_are_not_copied(run):
         equal(run.names("o"), [], uri)
 
 
-# In a process of its own: what a process had before it became another counts as that one's. Without MALLOC_PERTURB_,
-# which makes memory of what never would be any.
-MEASURE = """import os, sys
-os.environ.pop("MALLOC_PERTURB_", None)
-pid = os.posix_spawn(sys.argv[1], sys.argv[1:], os.environ)
-_, status, usage = os.wait4(pid, 0)
-print(os.waitstatus_to_exitcode(status), usage.ru_maxrss * 1024)"""
-
-
 def peak(run, *words, code):
-    """Peak memory of a run, in bytes."""
-    done = subprocess.run([sys.executable, "-S", "-c", MEASURE, FFD, *words], cwd=run.folder, capture_output=True,
-                          check=True, timeout=300)
-    ended, used = done.stdout.split()[-2:]
+    """Peak memory of a run, in bytes. Without MALLOC_PERTURB_, which makes memory of what never would be any."""
+    environment = {name: value for name, value in os.environ.items() if name != "MALLOC_PERTURB_"}
+    subprocess.run([MEASURE_PEAK, run.path("peak"), FFD, *words], cwd=run.folder, env=environment, capture_output=True, check=True,
+                   timeout=300)
+    ended, used = run.text("peak").split()
+    run.remove("peak")
     check(int(ended) in code, f"{words}: exit {int(ended)}, expected {code}")
     return int(used)
 
