@@ -159,12 +159,10 @@ build() {
 }
 
 # build_stage STAGE: a build that only --all has. Programs with sanitizers are linked to a fixed address: one that may be loaded
-# anywhere sets half a million pointers right before it begins, which touches thousands of pages each time. Global variables
-# are registered by program, not by file (dead-stripping), which makes a program a third smaller. A finding ends the program in
-# any case: that no code goes on after one (no recover) spares a third of compiling.
+# anywhere sets half a million pointers right before it begins, which touches thousands of pages each time. A finding
+# ends the program in any case: that no code goes on after one (no recover) spares a third of compiling.
 lines=-gline-tables-only
-coverage="-fsanitize=fuzzer-no-link -fno-sanitize-coverage=trace-cmp,pc-table $lines"
-coverage="$coverage -fsanitize-address-globals-dead-stripping -fdata-sections -fno-sanitize-recover=all"
+coverage="-fsanitize=fuzzer-no-link -fno-sanitize-coverage=trace-cmp,pc-table -fno-sanitize-recover=all $lines"
 build_stage() {
     case "$1" in
     release)
