@@ -47,9 +47,11 @@ OK, NO, USAGE, IO, INVALID, EMBEDDING, UNSUPPORTED, LIMIT = range(8)
 os.environ["MALLOC_PERTURB_"] = os.environ.get("FFD_PERTURB") or str(random.randrange(1, 256))
 
 with open(FFD, "rb") as _program:
-    SANITIZED = re.search(b"__[at]san_init", _program.read()) is not None
+    _sanitizer = re.search(b"__[at]san_init", _program.read())
+    SANITIZED, _sees_races = _sanitizer is not None, _sanitizer is not None and _sanitizer[0] == b"__tsan_init"
 
 _cases = []
+_threaded = []
 _driver = Driver(os.environ["FFD_DRIVER"]) if os.environ.get("FFD_DRIVER") else None
 _seen = set()  # (command, .., exit code) of the runs so far
 
@@ -57,6 +59,13 @@ _seen = set()  # (command, .., exit code) of the runs so far
 def case(function):
     _cases.append(function)
     return function
+
+
+def threaded_case(function):
+    """One whose meshes are large enough for several threads. The thread sanitizer finds nothing in the others, and runs these only
+    (where a file has any)."""
+    _threaded.append(function)
+    return case(function)
 
 
 def repetitions(count):
@@ -394,7 +403,8 @@ def glb_positions(file):
 def main():
     failed = 0
     only = sys.argv[1:]
-    chosen = [function for function in _cases if not only or function.__name__ in only]
+    cases = _threaded if _sees_races and _threaded else _cases
+    chosen = [function for function in cases if not only or function.__name__ in only]
     for function in chosen:
         with tempfile.TemporaryDirectory(prefix="ffd-test-") as folder:
             try:

@@ -8,7 +8,7 @@ import re
 
 from batches import batch, lines_of
 from bspline import BoxVolume
-from harness import NO, USAGE, case, check, equal, lattice, main, near, obj_of, obj_vertices
+from harness import NO, USAGE, case, check, equal, lattice, main, near, obj_of, obj_vertices, threaded_case
 from said import anything, counts, entry, not_told, told
 
 
@@ -48,7 +48,7 @@ def heights(run, name="out.obj"):
     return [p[2] for p in obj_vertices(run.text(name))]
 
 
-@case
+@threaded_case
 def two_blocks_that_share_a_face(run):
     """4000 points, a tenth of them on the face, each as its block alone would carry it."""
     numbers = random.Random(5)
@@ -462,7 +462,7 @@ def steep_blocks_within_the_rounding(run):
             apart(run, ("a.json", "b.json"), expected)
 
 
-@case
+@threaded_case
 def steep_blocks_far_from_the_origin(run):
     """Two blocks at 1e6, the first 0.001 thin and rising by 1 across, whose common face is bent: what the rounding of a
     double makes of that slope is no difference. A control point of the face that moves otherwise is."""
@@ -575,7 +575,7 @@ def outside_of_all_blocks(run):
     run.ffd("deform", "beam.obj", "no.obj", *both("a.json", "b.json"), "--blocks", "--outside", "error", code=5)
 
 
-@case
+@threaded_case
 def threads_change_nothing(run):
     for name, (low, high) in zip(("a.json", "b.json"), BOXES):
         run.write(name, block(low, high)[0])

@@ -234,9 +234,9 @@ def crowd(primitives, nodes):
 
 # Vertices, and nodes that show them: each time counts as a vertex of the file. With a sanitizer, which leaves no memory
 # to be measured, fewer are the same; so are all things of which a file has many.
-SHOWN = 400, 400 if SANITIZED else 4000
-ZEROS = 2**18 if SANITIZED else 2**22
-MANY = 10**5 if SANITIZED else 10**6
+SHOWN = 400, 100 if SANITIZED else 4000
+ZEROS = 2**16 if SANITIZED else 2**22
+MANY = 10**4 if SANITIZED else 10**6
 
 # The name, and what makes the file.
 HUNGRY = [

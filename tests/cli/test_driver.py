@@ -6,7 +6,7 @@ import signal
 import subprocess
 
 from driver import Driver
-from harness import CUBE, CUBE_CORNERS, FFD, SECONDS, case, check, equal, glb, gltf_json, lattice, main
+from harness import CUBE, CUBE_CORNERS, FFD, SECONDS, case, check, equal, glb, gltf_json, lattice, main, threaded_case
 
 MESH = CUBE + "v 9 9 9\np 9\n"
 # Command lines and their exit codes. Each runs in a folder of its own.
@@ -79,7 +79,7 @@ def every_command_and_exit_code(run):
     equal(driver.close(), 0, "the driver's own")
 
 
-@case
+@threaded_case
 def the_environment_the_umask_and_large_streams_go_along(run):
     """And a run leaves nothing to the next one."""
     driver = Driver(os.environ["FFD_DRIVER"])

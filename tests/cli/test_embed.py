@@ -4,7 +4,8 @@ import math
 import os
 import struct
 
-from harness import (CUBE, CUBE_CORNERS, INVALID, IO, USAGE, case, check, equal, glb, gltf_json, lattice, main, near, npy)
+from harness import (CUBE, CUBE_CORNERS, INVALID, IO, USAGE, case, check, equal, glb, gltf_json, lattice, main, near, npy,
+                     threaded_case)
 
 
 def start(run, **members):
@@ -209,7 +210,7 @@ def inputs_are_not_overwritten(run):
     equal([run.text("a.obj"), run.text("l.json"), run.exists("e.npy")], [CUBE, lattice_text, False])
 
 
-@case
+@threaded_case
 def threads_change_nothing(run):
     points = "".join(f"v {x / 50} {x % 7 / 4} {x % 11 / 6}\n" for x in range(-100, 100) for _ in range(60))
     run.write("a.obj", points)

@@ -10,7 +10,7 @@ import struct
 
 from gltf_reader import (DEFORMED, FLOAT, SCALES, TYPES, Gltf, attribute_sets, check_bounds, check_rest,
                          deformed_accessors)
-from harness import LIMIT, MODELS, OK, UNSUPPORTED, announce, case, check, equal, glb, lattice, main, near, pad
+from harness import LIMIT, MODELS, OK, UNSUPPORTED, announce, case, check, equal, glb, lattice, main, near, pad, threaded_case
 
 announce("(camera|light)s? stays? where|off the deformed mesh")
 POINTS = [(-1.0, -1.0, -0.5), (1.0, -1.0, 0.25), (-1.0, 1.0, 0.5), (1.0, 1.0, 0.0), (0.0, 0.5, 1.0), (0.0, 0.0, 0.0)]
@@ -203,7 +203,7 @@ def a_new_buffer_beside_others(run):
     near(after.decoded(after.primitives()[0]["attributes"]["POSITION"]), [SHIFT, SHIFT], 1e-6)
 
 
-@case
+@threaded_case
 def too_many_zeros_are_refused(run):
     run.write("l.json", ALL)
     for count, code in ((1 << 20, OK), (1 << 23, LIMIT), (1 << 31, LIMIT), (1 << 52, LIMIT)):
@@ -539,7 +539,7 @@ def other_users():
     yield "positions between positions", made, True
 
 
-@case
+@threaded_case
 def bytes_that_others_use(run):
     """Integers are written in place only where nothing else reads these bytes, or all want the same."""
     moves = lattice(low=(-1,) * 3, high=(1,) * 3, moves=[{"by": [0.1, -0.2, 0.15]}])
@@ -573,7 +573,7 @@ def positions_that_an_animation_reads(run):
         equal(after.stored(0), before.stored(0), key)
 
 
-@case
+@threaded_case
 def models_like_their_float_twins(run):
     """Every sample model with integers, sparse data or none at all; compressed ones are left out."""
     if not MODELS:
@@ -608,7 +608,7 @@ def models_like_their_float_twins(run):
     check(done > 0, "no model was deformed")
 
 
-@case
+@threaded_case
 def buffers_of_many_pieces(run):
     """An interleaved buffer of any length is put together in pieces, by any number of threads."""
     run.write("l.json", lattice(low=(0, 0, 0), high=(9, 9, 9), moves=[{"by": list(SHIFT)}]))
@@ -635,7 +635,7 @@ def buffers_of_many_pieces(run):
                 equal(bytes(found[:len(expected)]) == expected, True, f"{count} {tail} {container} {threads}")
 
 
-@case
+@threaded_case
 def streams_of_many_pieces(run):
     """A buffer of streams one behind the other is written from where they are, whatever pieces they end in."""
     run.write("l.json", lattice(low=(0, 0, 0), high=(9, 9, 9), moves=[{"by": list(SHIFT)}]))

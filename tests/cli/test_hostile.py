@@ -8,7 +8,7 @@ import random
 import resource
 import struct
 
-from harness import CUBE, INVALID, LIMIT, OK, SANITIZED, case, check, equal, lattice, main, npy, obj_of
+from harness import CUBE, INVALID, LIMIT, OK, SANITIZED, case, check, equal, lattice, main, npy, obj_of, repetitions
 from vectors import cross, dot
 
 INSIDE, OUTSIDE, MULTIPLE, SINGULAR, POINT_INVALID = range(5)
@@ -335,7 +335,7 @@ def lattices_of_hardly_any_volume_are_refused_or_answered_truly(run):
 @case
 def collapsed_all_over(run):
     """Only one control point is apart; layers fall together; every second layer is turned back."""
-    draw = random.Random(6)
+    draw, known, count = random.Random(6), repetitions(30), repetitions(10)
     grid = [(i, j, k) for k in range(5) for j in range(5) for i in range(5)]
     shapes = {
         "one apart": lambda i, j, k: [1, 1, 1] if i + j + k == 12 else [0, 0, 0],
@@ -349,12 +349,12 @@ def collapsed_all_over(run):
         for degree in (1, 2, 4):
             spline, bounds = write_lattice(run, [5] * 3, [degree] * 3, [list(map(float, shape(*at))) for at in grid])
             points = [spline([draw.choice((0, 0.25, 0.5, 1, draw.random())) for _ in range(3)], (0, 0, 0))[0]
-                      for _ in range(30)] + within(draw, bounds, 10)
+                      for _ in range(known)] + within(draw, bounds, count)
             write_points(run, points)
             found = embed(run, "m.obj", "l.json", code=(OK, INVALID))
             if found:
                 verify(spline, bounds, points, found)
-                check(OUTSIDE not in found[1][:30], f"{name}, degree {degree}: a point of the volume is outside")
+                check(OUTSIDE not in found[1][:known], f"{name}, degree {degree}: a point of the volume is outside")
                 look_for_more(spline, bounds, points, found, draw, 4)
 
 

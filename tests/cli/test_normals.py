@@ -7,8 +7,8 @@ import subprocess
 
 from gltf_build import Scene
 from gltf_reader import Gltf
-from harness import (CUBE_CORNERS, CUBE_FACES, INVALID, MODELS, OK, case, check, equal, glb, glb_split, gltf_json,
-                     gltf_vectors, lattice, main, near, obj_of)
+from harness import (CUBE_CORNERS, CUBE_FACES, INVALID, MODELS, OK, case, check, equal, glb, glb_split, gltf_json, gltf_vectors,
+                     lattice, main, near, obj_of, threaded_case)
 from vectors import cross, dot, minus, unit
 
 TWIST = [{"twist": {"axis": "z", "degrees": 70}}, {"at": [3, 3, 3], "by": [0.5, 0.25, 1]}]
@@ -326,7 +326,7 @@ def rotate(q, v):
     return [a + q[3] * b + c for a, b, c in zip(v, t, cross(u, t))]
 
 
-@case
+@threaded_case
 def gltf_is_computed_in_its_scene(run):
     """One mesh under three nodes, turned, stretched and mirrored: each normal is that of the scene's faces,
     brought back, and tangents are perpendicular to them."""
@@ -465,7 +465,7 @@ def models(ending, limit):
                 yield path
 
 
-@case
+@threaded_case
 def normals_of_obj_models_are_those_of_the_slow_implementation(run):
     """The models with normals: as the slow implementation says; an empty move leaves every byte."""
     if not MODELS:
@@ -556,7 +556,7 @@ def is_plain(asset):
             "targets" in primitive for mesh in asset["meshes"] for primitive in mesh["primitives"])
 
 
-@case
+@threaded_case
 def normals_of_gltf_models_are_those_of_the_slow_implementation(run):
     """An empty move leaves every byte; a twist in mesh space gives what the slow implementation says of the
     output's own positions."""

@@ -3,7 +3,7 @@
 that move, and the indices that an added `vn` asks for."""
 import re
 
-from harness import INVALID, MODELS, SANITIZED, carried, case, check, equal, lattice, main, models
+from harness import INVALID, MODELS, SANITIZED, carried, case, check, equal, lattice, main, models, threaded_case
 
 NAMES = ("g", "o", "usemtl", "mtllib")
 BUMP = [{"at": [[1, 2], [1, 2], [1, 2]], "by": [0.5, 0.25, -0.125]}]
@@ -247,7 +247,7 @@ def dialect_is_read_as_meant(run):
     equal(vectors(logical_lines(DIALECT), "v")[6], [123456.7, 1234567890.1234567, -1e-7])
 
 
-@case
+@threaded_case
 def sample_models_are_copied_and_deformed(run):
     found = models(".obj")
     changed = 0

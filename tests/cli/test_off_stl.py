@@ -6,8 +6,8 @@ import os
 import re
 import struct
 
-from harness import (INVALID, IO, MODELS, NO, UNSUPPORTED, carried, case, check, equal, float32, lattice, main, models,
-                     near)
+from harness import (INVALID, IO, MODELS, NO, UNSUPPORTED, carried, case, check, equal, float32, lattice, main, models, near,
+                     threaded_case)
 from vectors import cross, minus
 
 BUMP = [{"at": [[1, 2], [1, 2], [1, 2]], "by": [0.5, 0.25, -0.125]}]
@@ -234,7 +234,7 @@ def other_commands(run, path):
         run.ffd(*command)
 
 
-@case
+@threaded_case
 def sample_models_of_off_are_copied_and_deformed(run):
     """An empty move copies each sample; a real one takes each vertex where the lattice takes its position, and
     changes nothing else."""
@@ -474,7 +474,7 @@ def broken_stl_files_are_refused(run):
     run.ffd("deform", "p.stl", "q.stl", "-l", "far.json")
 
 
-@case
+@threaded_case
 def sample_models_of_stl_are_copied_and_deformed(run):
     found = models(".stl")
     write_model_lattices(run)

@@ -5,8 +5,8 @@ import json
 import re
 import struct
 
-from harness import (CUBE, INVALID, IO, LIMIT, MODELS, NO, UNSUPPORTED, carried, case, check, equal, float32, lattice,
-                     main, models, near, obj_of)
+from harness import (CUBE, INVALID, IO, LIMIT, MODELS, NO, UNSUPPORTED, carried, case, check, equal, float32, lattice, main, models,
+                     near, obj_of, threaded_case)
 
 BUMP = [{"at": [[1, 2], [1, 2], [1, 2]], "by": [0.5, 0.25, -0.125]}]
 CODES = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I", "float": "f", "double": "d",
@@ -475,7 +475,7 @@ def words_of(data):
     return re.split(rb"(\s+)", body) if b"format ascii" in re.sub(rb"[ \t]+", b" ", header) else []
 
 
-@case
+@threaded_case
 def sample_models_are_copied_and_deformed(run):
     """An empty move copies each sample; a real one takes each vertex where the lattice takes its position, rounded
     to the file's precision, and changes nothing but positions and normals."""

@@ -9,8 +9,8 @@ import random
 import re
 import struct
 
-from harness import (INVALID, MODELS, OK, SANITIZED, UNSUPPORTED, case, check, equal, float32, glb, glb_positions,
-                     glb_split, gltf_json, gltf_vectors, lattice, main, near, obj_of, obj_vertices)
+from harness import (INVALID, MODELS, OK, SANITIZED, UNSUPPORTED, case, check, equal, float32, glb, glb_positions, glb_split,
+                     gltf_json, gltf_vectors, lattice, main, near, obj_of, obj_vertices, threaded_case)
 
 SEED = int(os.environ.get("FFD_SEED") or struct.unpack("<I", os.urandom(4))[0])
 # The instruction sets that kernels are compiled for, as far as this processor has them.
@@ -151,7 +151,7 @@ def what_no_moved_control_point_reaches_keeps_its_bytes(run):
     equal(out, asset, "the JSON")
 
 
-@case
+@threaded_case
 def a_large_mesh_gives_what_its_pieces_give(run):
     """Also where some of what is written together moves and some does not."""
     draw = random.Random(SEED + 5)
@@ -178,7 +178,7 @@ def a_large_mesh_gives_what_its_pieces_give(run):
     check(10000 < moved < 69000, f"{moved} moved")
 
 
-@case
+@threaded_case
 def order_company_threads_and_format_change_nothing(run):
     draw = random.Random(SEED + 4)
     points = write_meshes(run, draw) + cloud(draw, 500 if SANITIZED else 3000)
@@ -221,7 +221,7 @@ def long_obj(draw, backwards):
     return "".join(line + draw.choice(("\n", "\n", "\n", "\r\n", "\r")) for line in lines) + "g end\n"
 
 
-@case
+@threaded_case
 def blocks_change_nothing(run):
     """A long OBJ is read and written in blocks; comments behind it make them longer."""
     draw = random.Random(SEED + 6)
@@ -268,7 +268,7 @@ def a_lattice_that_moves_back_gives_the_mesh_again(run):
     near(obj_vertices(run.text("out.obj")), points, 1e-14)
 
 
-@case
+@threaded_case
 def sample_models_with_buffers_of_their_own(run):
     """.gltf models: the JSON but for the buffers' names, the buffers and the images come through unchanged."""
     if not MODELS:

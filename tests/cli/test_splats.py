@@ -10,7 +10,7 @@ from decimal import Decimal
 
 from gltf_build import SHIFT, Scene
 from gltf_reader import Gltf
-from harness import INVALID, case, check, equal, float32, lattice, main, obj_of
+from harness import INVALID, case, check, equal, float32, lattice, main, obj_of, threaded_case
 from said import anything, lines_with, told
 
 decimal.getcontext().prec = 40
@@ -269,7 +269,7 @@ def what_does_not_change_keeps_its_bytes(run):
     equal(read(deform(run, data, near))[:5], read(data)[:5], "outside")
 
 
-@case
+@threaded_case
 def any_threads_and_lanes(run):
     data = ply(cloud(5000, 45, "float", seed=6))
     bend = lattice(low=(-10, -10, -10), high=(10, 10, 10), moves=[{"twist": {"axis": "z", "degrees": 200}}])
