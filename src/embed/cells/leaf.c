@@ -243,10 +243,29 @@ static double change_of_jacobian(const point_search *search, const cell_region *
     return slope * region->bound * e;
 }
 
+/* The image of the tolerance is a sliver if it is at least this many times as long as it is wide. */
+#define SLIVER 1024
+
+/* Returns whether the image of the allowance is a sliver. The columns of the inverse times the allowance are
+   its edges. */
+static bool is_sliver(const double inverse[9], const double allowance[3])
+{
+    double least = HUGE_VAL, most = 0;
+    for (int r = 0; r < 3; r++) {
+        const double edge[3] = {inverse[r], inverse[3 + r], inverse[6 + r]};
+        const double length = vec_length(edge) * allowance[r];
+        least = lesser_of(least, length);
+        most = larger_of(most, length);
+    }
+    return most > SLIVER * least;
+}
+
 /* Returns whether Newton's step, which ends within e of any root, leads out of the region. At an inner face
    it must do so by more than the tolerance, so that a root on the face is not dropped by both neighbours. On
-   the border of the domain the closest point was examined before, and misses. */
-static bool leads_out_by_step(const point_search *search, const cell_region *region, const double t[3],
+   the border of the domain the closest point was examined before, and misses. Across a sliver that is
+   doubtful, unless the step leads out by more than the tolerance: t may stop so far from an edge or a corner
+   of the domain that the closest point there was never examined. */
+static bool leads_out_by_step(point_search *search, const cell_region *region, const double t[3],
                               const sample *at, const double allowance[3], double e)
 {
     double inverse[9], step[3], reach[3], usual, most = 0;
@@ -261,25 +280,28 @@ static bool leads_out_by_step(const point_search *search, const cell_region *reg
         most = larger_of(most, fabs(step[a]) + reach[a]);
     }
     for (int a = 0; a < 3; a++) {
-        const double to = t[a] - step[a], out = to < 0 ? -to : to - 1;
-        if ((change < MOST_CHANGE && out > change * most / (1 - change) + reach[a]) ||
-            (out > usual * most / (1 - usual) && is_domain_face(search->locator, region, a, to > 0)))
+        const double to = t[a] - step[a], out = to < 0 ? -to : to - 1, bend = usual * most / (1 - usual);
+        if (change < MOST_CHANGE && out > change * most / (1 - change) + reach[a])
             return true;
+        if (search->strict || !(out > bend) || !is_domain_face(search->locator, region, a, to > 0))
+            continue;
+        if (!(out > bend + reach[a]) && is_sliver(inverse, allowance))
+            search->doubtful = true;
+        return true;
     }
     return false;
 }
 
 /* Returns whether the region has no root: by the contraction, by Newton's step, or because t, on a face, is
-   the closest point of the region, and misses. */
-static bool leads_out(const point_search *search, const cell_region *region, const double t[3],
-                      const sample *at)
+   the closest point of the region, and misses; the last is an estimate as well. */
+static bool leads_out(point_search *search, const cell_region *region, const double t[3], const sample *at)
 {
     double allowance[3], e;
     if (leaves_by_contraction(search, region, t, at, &e))
         return true;
     find_allowance(search, region, t, at, allowance);
     return leads_out_by_step(search, region, t, at, allowance, e) ||
-           (8 * region->bound * e <= MOST_CHANGE && is_closest(t, at, allowance));
+           (!search->strict && 8 * region->bound * e <= MOST_CHANGE && is_closest(t, at, allowance));
 }
 
 static bool is_within_box(const double t[3])

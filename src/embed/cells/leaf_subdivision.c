@@ -19,6 +19,8 @@
 #define HARD_BOUND 0.75
 /* If the tolerance is as large as half of a box, halving it gives no information. */
 #define MOST_BLUR 64
+/* The same in a search for a root of a point that otherwise stays outside: smaller boxes show no more. */
+#define STRICT_BLUR 1
 /* PART_LEVELS: halvings of a region in which the iteration stalled. */
 #define PART_LEVELS 16
 #define POLISH_ROUNDS 12
@@ -167,7 +169,7 @@ static bool settle_region(hard_search *hard, const cell_region *region, double n
     return true;
 }
 
-/* The same in a second search, which looks at the shape of the image of the tolerance and not at its size. */
+/* The same in a further search, which looks at the shape of the tolerance's image and not at its size. */
 static bool settle_by_shape(hard_search *hard, const cell_region *region, const tolerance_view *view,
                             int level)
 {
@@ -181,7 +183,7 @@ static bool settle_by_shape(hard_search *hard, const cell_region *region, const 
         ffd_search_record(search, region, t, &at, false);
         return true;
     }
-    if (view->blur < MOST_BLUR && level < hard->most_levels)
+    if (view->blur < (search->strict ? STRICT_BLUR : MOST_BLUR) && level < hard->most_levels)
         return false;
     ffd_search_note_stall(search, &stall);
     return true;

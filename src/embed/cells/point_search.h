@@ -28,7 +28,9 @@ typedef struct point_search {
     search_scratch *scratch;
     bool unresolved; /* in a part of the lattice nothing could be proven */
     bool blurred;    /* a box was not halved any further because of the size of the tolerance's image */
-    bool again;      /* the second search for the point, which looks at the shape of that image */
+    bool again;      /* a further search for the point, which looks at the shape of that image */
+    bool doubtful;   /* a region was left by an estimate that a sliver of the tolerance may contradict */
+    bool strict;     /* a further search that leaves regions by proofs only */
     long hard_boxes; /* remaining budget */
     uint32_t bricks; /* number of visited bricks */
     uint32_t evaluations, leaves;
@@ -56,7 +58,7 @@ static inline void ffd_search_begin(point_search *search, const ffd_locator *loc
 {
     search->locator = locator;
     search->scratch = NULL;
-    search->unresolved = search->blurred = search->again = false;
+    search->unresolved = search->blurred = search->again = search->doubtful = search->strict = false;
     search->hard_boxes = 0;
     search->bricks = search->evaluations = search->leaves = 0;
     search->status = FFD_OK;

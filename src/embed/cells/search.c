@@ -11,8 +11,9 @@
    boxes of hard leaves. For degrees above 3 there are fewer boxes, in proportion to their size. */
 #define MOST_HARD_BOXES 16384
 #define LEAST_HARD_BOXES 1024
-/* A second search has the budget divided by this. */
+/* A further search has the budget divided by this: for an undecided point, and for one probably outside. */
 #define AGAIN_PART 2
+#define STRICT_PART 16
 
 typedef struct brick_visit {
     point_search *search;
@@ -121,21 +122,30 @@ static void search_bricks(point_search *search, ffd_location *location)
         ffd_search_judge(search, location);
 }
 
-/* Searches again, more thoroughly, if stalled iterations leave the point undecided. What the first
-   search decides never depends on the second. */
-static void search_again(point_search *search, ffd_location *location)
+/* Searches again, more thoroughly. The result stays if this leaves the point undecided, unless it was outside
+   and there is a root. */
+static void search_by_shape(point_search *search, long part, ffd_location *location)
 {
     ffd_location second = {.uvw = {NAN, NAN, NAN}};
-    if (search->status || location->status != FFD_SINGULAR || !location->unresolved || !search->blurred)
-        return;
     search->again = true;
-    search->unresolved = false;
-    search->hard_boxes = hard_boxes_of(search->locator->cells) / AGAIN_PART;
+    search->unresolved = search->doubtful = false;
+    search->hard_boxes = hard_boxes_of(search->locator->cells) / part;
     search->bricks = 0;
     search->stall_count = search->roots.count = 0;
     search_bricks(search, &second);
-    if (!search->status && !second.unresolved)
+    if (!search->status && (!second.unresolved || (search->strict && search->roots.count > 0)))
         *location = second;
+}
+
+/* Searches again if stalled iterations leave the point undecided, or if only a doubtful estimate calls it
+   outside. Nothing else that the first search decides depends on this. */
+static void search_again(point_search *search, ffd_location *location)
+{
+    if (!search->status && location->status == FFD_SINGULAR && location->unresolved && search->blurred)
+        search_by_shape(search, AGAIN_PART, location);
+    search->strict = search->doubtful && location->status == FFD_OUTSIDE;
+    if (!search->status && search->strict)
+        search_by_shape(search, STRICT_PART, location);
 }
 
 ffd_status ffd_cells_find(const ffd_locator *locator, const double p[3], search_scratch **scratch,
