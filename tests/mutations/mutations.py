@@ -323,6 +323,12 @@ m("mixed-derivative", "operation", "boundary, extension",
   "(sum[BY_ST][c] - s * wt - t * ws - value * sum[BY_ST][3]) / w;",
   "(sum[BY_ST][c] - s * wt - t * ws + value * sum[BY_ST][3]) / w;")
 m("origin-added", "sign", "locator", "p[a] = xyz[a] - locator->origin[a];", "p[a] = xyz[a] + locator->origin[a];")
+m("stalled-point-searched-once", "condition", "border_cells",
+  "location->status == FFD_SINGULAR && location->unresolved && search->blurred", "location->status == FFD_SINGULAR && search->strict")
+m("sliver-never-doubtful", "condition", "border_cells", "search->doubtful = true;", "search->doubtful = false;")
+m("further-search-leaves-by-an-estimate", "condition", "border_cells",
+  "if (search->strict || !(out > bend) ||", "if (!(out > bend) ||")
+m("image-without-the-tolerance", "bound", "border_cells", "if (fabs(off) > reach + rounding +", "if (fabs(off) > rounding +")
 m("plane-in-the-cell", "bound", "border_cells", "return least > reach || most < -reach;",
   "return least > 0.5 * reach || most < -0.5 * reach;")
 m("plane-behind-the-cell", "bound", "border_cells", "return least > reach || most < -reach;",
