@@ -25,8 +25,8 @@ def find_browser():
     return [node_folder, browser]
 
 
-def run_script(name, found, pages, home, timeout):
+def run_script(name, found, pages, home, timeout, *words):
     """Returns the exit code. The browser wants a home of its own."""
-    done = subprocess.run(["node", os.path.join(HERE, name), *found, pages], check=False, env={**os.environ, "HOME": home},
+    done = subprocess.run(["node", os.path.join(HERE, name), *found, pages, *words], check=False, env={**os.environ, "HOME": home},
                           timeout=timeout)
     return done.returncode

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Pages of ffd view in Chromium, opened as files: the slider, colours, parts, marks, names, sizes of windows, and that
-nothing is asked of a network. Most are made by hand, with what a page may have at the most; those named real_ by the
-program, of a lattice that folds, of one that tears, and of names that are markup.
+nothing is asked of a network. Those of `made` are made by hand, with what a page may have at the most; those of `real` by
+the program, of a lattice that folds, of one that tears, and of names that are markup.
 
-    test_page.py FFD MAKE_PAGE MODEL.obj
+    test_page.py FFD MAKE_PAGE MODEL.obj made|real
 
 FFD_NODE names the folder whose node_modules holds playwright-core. FFD_SCREENSHOTS names a folder for pictures to be
 looked at.
@@ -81,15 +81,22 @@ def make_real(ffd, model, folder):
                        check=True)
 
 
+def make_by_hand(make_page, model, folder):
+    for kind in KINDS:
+        words = [make_page, kind, os.path.join(folder, kind + ".html")]
+        subprocess.run(words + ([model] if kind in ("torn", "fold") else []), check=True, stdout=subprocess.DEVNULL)
+
+
 def main():
-    ffd, make_page, model = [os.path.abspath(path) for path in sys.argv[1:]]
+    ffd, make_page, model = [os.path.abspath(path) for path in sys.argv[1:4]]
+    origin = sys.argv[4]
     found = find_browser()
     with tempfile.TemporaryDirectory() as folder:
-        for kind in KINDS:
-            words = [make_page, kind, os.path.join(folder, kind + ".html")]
-            subprocess.run(words + ([model] if kind in ("torn", "fold") else []), check=True, stdout=subprocess.DEVNULL)
-        make_real(ffd, model, folder)
-        code = run_script("page.mjs", found, folder, folder, 140)
+        if origin == "made":
+            make_by_hand(make_page, model, folder)
+        else:
+            make_real(ffd, model, folder)
+        code = run_script("page.mjs", found, folder, folder, 140, origin)
     sys.exit(code)
 
 
