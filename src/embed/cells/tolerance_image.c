@@ -59,6 +59,7 @@ static void find_change(const bezier_box *box, const double x[3], tolerance_imag
     }
 }
 
+/* Returns false if Y cannot be inverted: then the image has no shape to look at. */
 static bool make_image(const point_search *search, const cell_region *region, const bezier_box *box,
                        tolerance_image *image)
 {
@@ -158,6 +159,7 @@ static void make_slabs(const point_search *search, const cell_region *region, co
     }
 }
 
+/* The share of 1e-9 is for corners, which lie on three slabs' ends but for rounding. */
 static bool is_in_slabs(const slab slabs[6], const double d[3])
 {
     for (int i = 0; i < 6; i++)
