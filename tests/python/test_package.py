@@ -45,7 +45,7 @@ def make_environment(folder, lists):
         tried = subprocess.run([*pip, "--require-hashes", "--find-links", wheels, "-r", os.path.join(HERE, name)],
                                capture_output=True, text=True, check=False)
         if tried.returncode != 0 and "No matching distribution" in tried.stderr:
-            skip(f"the pinned wheels are not for Python {sys.version.split()[0]} here")
+            skip(f"wheels: the pinned ones are not for Python {sys.version.split()[0]} here")
         if tried.returncode != 0:
             sys.exit(tried.stderr)
     return python, pip
@@ -66,7 +66,7 @@ def build_wheel(python, source, build, folder, compilers):
     if os.path.isdir(kept):  # the environment that it was set up with is gone
         shutil.rmtree(kept)
     run(python, "-m", "pip", "wheel", "--no-index", "--no-build-isolation", "--no-deps", "--disable-pip-version-check",
-        "-C", f"build-dir={kept}", "-w", folder, source, env=environment)
+        f"--config-settings=build-dir={kept}", "-w", folder, source, env=environment)
     (wheel,) = glob.glob(os.path.join(folder, "*.whl"))
     return wheel
 
@@ -75,7 +75,7 @@ def fetched(source, variable, name):
     """The folder of wheels that .ci/setup has fetched, or that the variable names."""
     wheels = os.environ.get(variable) or os.path.join(source, ".build-test", name)
     if not glob.glob(os.path.join(wheels, "*.whl")):
-        skip(f"no wheels in {wheels}: .ci/setup could not fetch them")
+        skip(f"wheels: none in {wheels}: .ci/setup could not fetch them")
     return wheels
 
 
