@@ -2,7 +2,7 @@
 #include "base/file/temporary.h"
 #include "base/memory/memory.h"
 #include "base/system/clock.h"
-#include "base/system/thread.h"
+#include "base/system/processors.h"
 #include <ffd/job.h>
 #include <stdio.h>
 #include <string.h>
