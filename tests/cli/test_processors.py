@@ -4,6 +4,7 @@
 A library that is loaded before all others (tests/support/machine_trap.c) shows the program a machine with any number of
 processors and the cgroups that a case lays out, and counts its threads."""
 
+import json
 import os
 import re
 import sys
@@ -78,12 +79,71 @@ def workers_are_as_many_as_the_process_may_use(run):
         others = [line for line in said if not COUNTS.match(line) and not SUMMARY.match(line)]
         return int(next(filter(None, counts))[1]), others
 
+    def short(jobs, megabytes, name="a.obj", needed=100):
+        return [f"m.jsonl: {jobs} job{'s' * (jobs > 1)} at a time on 4 processors: the cgroup allows {megabytes} MB of memory, "
+                f"and {name} may take {needed} MB (--memory); -j sets the number"]
+
     start(run, [job(i) for i in range(8)])
     lay_out(run)
     equal([workers(n) for n in (1, 3, 4)], [(1, []), (3, []), (4, [])], "by affinity")
     lay_out(run, files={"a/cpu.max": "150000 100000"})
     equal(workers(4), (2, []), "by quota")
     equal(workers(4, "-j", "3"), (3, []), "what the user says")
+    # A job on a mesh and a lattice of no size may take 100 MB.
+    lay_out(run, files={"a/cpu.max": "max 100000", "a/memory.max": "max", "memory.max": "410000000"})
+    equal(workers(4), (4, []), "memory for all")
+    lay_out(run, files={"memory.max": "350000000"})
+    equal(workers(4), (3, short(3, 350)))
+    equal(workers(4, "--memory", "60M"), (3, short(3, 350)), "a budget is no less than its default")
+    equal(workers(4, "--memory", "170M"), (2, short(2, 350, needed=170)))
+    equal(seen(run, 4, "batch", "m.jsonl", "-q")[1], [])
+    equal(workers(4, "-j", "4"), (4, []), "what the user says")
+    equal(workers(2), (2, []), "memory for all")
+    lay_out(run, files={"a/memory.max": "1"})
+    equal(workers(4), (1, short(1, 0)), "one job always runs")
+    lay_out(run, "4:memory:/pod/a\n", VERSION_1, {"memory/memory.limit_in_bytes": "250000000"})
+    equal(workers(4), (2, short(2, 250)), "version 1")
+    equal(workers(4, "--view", "v"), (1, short(1, 250, needed=400)), "pictures")
+
+
+@case
+def a_job_that_needs_more_memory_waits_for_the_others(run):
+    """Sizes of files count too, and the job's own --memory."""
+    start(run)
+    run.write("big.obj", "v 0 0 0\n" + "# 456789012345678\n" * 500000)  # 9 MB
+    run.write("big.json", json.dumps(lattice(moves=[{"by": [1, 0, 0]}])) + " " * 3000000)
+    lay_out(run, files={"a/memory.max": "1050000000"})
+
+    def shortage(*jobs):
+        run.write("m.jsonl", lines_of(jobs))
+        said = seen(run, 4, "batch", "m.jsonl")[1]
+        check(re.match(rf"{len(jobs)} jobs in .* {len(jobs)} done", said[-1]), said)
+        return re.match(r"m\.jsonl: (\d) jobs? at a time on 4 .* 1050 MB of memory, and (.*) may take (\d+) MB", said[0]).groups()
+    small, large = {"memory": "101M"}, {"memory": "1G"}
+    equal(shortage(job(0, options=small), job(1, options=small), job(2, options=large), job(3)), ("2", "a.obj", "1000"))
+    equal(shortage(job(0, options=large), *(job(i) for i in range(1, 4))), ("1", "a.obj", "100"))
+    big = {"in": "big.obj", "lattice": "big.json"}  # 100 MB and 20 times 9 and 3
+    equal(shortage(*(job(i, **big) for i in range(4))), ("3", "big.obj", "340"))
+
+
+@case
+def a_large_job_has_the_memory_of_idle_workers(run):
+    """Two small jobs run, then a large one alone, then four small ones: the second worker has ended, three new ones begin."""
+    small, large = {"memory": "101M"}, {"memory": "1G"}
+    start(run, [job(i, options=large if i == 2 else small) for i in range(7)])
+    lay_out(run, files={"a/memory.max": "1050000000"})
+    said = seen(run, 4, "batch", "m.jsonl", "-v")[1]
+    equal([match[1] for match in map(COUNTS.match, said) if match], ["5"], said)
+
+
+@case
+def a_job_that_runs_alone_has_all_threads(run):
+    write_grid(run)
+    run.write("m.jsonl", lines_of(job(i, **{"in": "grid.obj"}) for i in range(4)))
+    lay_out(run, files={"a/memory.max": "200000000"})
+    alone = seen(run, 4, "batch", "m.jsonl")[0]
+    equal(seen(run, 4, "batch", "m.jsonl", "-j", "1")[0], alone, "threads that were started")
+    check(alone > 0, "no thread was started")
 
 
 main()

@@ -1087,6 +1087,11 @@ m("hash-of-one-of-two-files", "condition", "file, cli_batch_resume",
   "output->hash && output->count == 1 && output->files[0].temporary;", "output->hash && output->count >= 1 && output->files[0].temporary;")
 m("timeout-named-stop", "message", "cli_batch_failures, cli_batch", "worker->timed_out = !worker->stopped;",
   "worker->timed_out = worker->stopped;")
+m("memory-of-idle-workers", "clean-up left out", "cli_processors", "if (other != worker && !other->task) finish_worker(other, NULL);",
+  "if (other != worker && other->is_ending)\n            finish_worker(other, NULL);")
+m("threads-of-jobs-without-memory", "count", "cli_processors", "if (!fits(pool, task, left)) break;",
+  "if (!fits(pool, task, UINT64_MAX))\n            break;")
+m("memory-without-lattices", "case left out", "job_source, cli_processors", "i == 0 ? word : ffd_word_lattice(word);", "i == 0 ? word : NULL;")
 
 # cli
 
