@@ -1,7 +1,7 @@
 #include "io/gltf/gltf_open.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
-#include "base/system/thread.h"
+#include "base/system/processors.h"
 #include "io/gltf/decode/gltf_check.h"
 #include "io/gltf/decode/gltf_drawing.h"
 #include "io/gltf/decode/gltf_indices.h"
