@@ -435,8 +435,8 @@ def default_weights_of_morph_targets_are_shown(run):
     same_places(page.after, page.before, "two files")
     run.ffd("check", "a.glb", "-l", "l.json", "--picture", "q.html")
     page = read_page(run, "q.html")
-    equal(page.report, report(run, "a.glb", "-l", "l.json"), "a check looks at what the file stores")
-    same_places(page.before, [[*p[:2], 0] for p in page.before], "and so does its picture")
+    equal(page.report, report(run, "a.glb", "-l", "l.json"), "a check looks at what is shown")
+    same_places(page.before, [[*p[:2], 1] for p in page.before], "and so does its picture")
 
 
 @case

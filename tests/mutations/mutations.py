@@ -98,7 +98,7 @@ m("control-characters-shown", "message", "base, cli_errors",
   "if (text[0] < 0x20 || text[0] == 0x7f)", "if (text[0] < 0x20 && text[0] == 0x7f)")
 m("c1-characters-shown", "message", "cli_stays_behind, cli_tears", "text[1] >= 0x80 && text[1] <= 0x9f", "text[1] >= 0x80 && text[1] <= 0x80")
 m("cut-parts-in-a-character", "cut", "cli_tears", "ffd_name_shown(text, name + begun, capacity - begun);", "snprintf(name + begun, capacity - begun, \"%s\", text);")
-m("check-counts-other-targets", "call left out", "cli_as_morph", "job.document->keeps_base = true;", "job.document->keeps_base = false;")
+m("check-counts-other-targets", "call left out", "cli_as_morph", "job->document->keeps_base = true;", "job->document->keeps_base = false;")
 m("new-weight-behind-others", "place", "cli_as_morph", "tree->values[weights].count > targets)", "tree->values[weights].count > targets + 9)")
 m("skins-elsewhere-left", "call left out", "cli_rig", "if (shown[s] || (staying[s] && ffd_gltf_has_joint_matrices(d, skin)))", "if (shown[s])")
 m("shown-by-other-weights", "check left out", "cli_morph_weights", "same_influences(part, wanted) && shown_alike(d, part, wanted, GLTF_POSITION))", "same_influences(part, wanted))")
@@ -848,13 +848,15 @@ m("status-array", "format", "cli_embed", 'ffd_npy_begin(output, "|u1"', 'ffd_npy
 m("kept-mesh-of-another-space", "check left out", "share|job_cache, job_source, cli_batch_shared",
   "a->format != b->format || a->space != b->space", "a->format != b->format")
 m("box-without-targets", "left out", "cli_morph_weights", ".bounds_shapes = true", ".bounds_shapes = false")
-m("shown-of-a-mixture", "condition", "cli_morph_weights", "shown == 1 && part->shapes[last].weight == 1 ? last : SHOWN",
-  "shown == 1 ? last : SHOWN", "return shown > 1 || !whole;", "return shown > 1 && !whole;")
-m("bounds-of-the-base", "left out", "cli_morph_weights", ".bounds_shown = true,", ".bounds_shown = false,")
-m("bounds-of-what-stays", "operand", "cli_morph_weights", "deformed ? work->tile->position + 3 * i : s->base + 3 * i",
-  "deformed ? s->base + 3 * i : work->tile->position + 3 * i")
-m("shown-outside-of-a-target", "condition", "cli_morph_weights", "work->totals->shown_outside += work->is_shown;",
-  "work->totals->shown_outside += work->shape == SHOWN;")
+m("shown-of-a-mixture", "condition", "cli_morph_weights", "!(shown == 1 && part->shapes[last].weight == 1)",
+  "!(shown == 1)", "return shown > 1 || !whole;", "return shown > 1 && !whole;")
+m("figures-of-the-base", "left out", "cli_morph_weights", "return !job->stored && !job->document->keeps_base &&",
+  "return job->stored && !job->document->keeps_base &&")
+m("written-as-stored", "condition", "cli_morph_weights", "shown.discards = !writes_shown;", "shown.discards = true;")
+m("base-outside-of-all", "condition", "cli_morph_weights", "if (other & OTHER_OUTSIDE && part->shows_shapes)",
+  "if (other & OTHER_OUTSIDE)")
+m("base-outside-left-out", "call left out", "cli_morph_weights", "shown->base_outside = stored->weighted_outside;", "")
+m("cell-without-offsets", "term left out", "cli_morph_weights", "all[a] += fabs(shape->weight) * cell[a];", "all[a] += 0 * cell[a];")
 m("report-of-targets", "figure", "cli_morph_weights", '"shown_outside", result->shown_outside',
   '"shown_outside", result->targets_outside')
 m("not-finite-unshown", "left out", "cli_boxes", "(other & OTHER_STATUS) == FFD_POINT_INVALID ||",
@@ -891,10 +893,8 @@ m("merged-exit-code", "bound", "cli_report_merge", "code >= 0 && code <= 7", "co
 m("gate-exit", "error code", "cli_fail_on", "return line.length ? ffd_fail_file(error, FFD_E_GATE,",
   "return line.length ? ffd_fail_file(error, FFD_E_INVALID,")
 m("shapes-outside", "error code", "cli_outside, cli_gltf_scene, cli_errors",
-  "if (desc->outside == FFD_OUTSIDE_ERROR && (totals->shapes_outside || totals->shown_outside)) "
-  "return ffd_fail_file(error, FFD_E_EMBEDDING,",
-  "if (desc->outside == FFD_OUTSIDE_ERROR && (totals->shapes_outside || totals->shown_outside))\n"
-  "        return ffd_fail_file(error, FFD_E_INVALID,")
+  "if (desc->outside == FFD_OUTSIDE_ERROR && stores_outside(totals)) return ffd_fail_file(error, FFD_E_EMBEDDING,",
+  "if (desc->outside == FFD_OUTSIDE_ERROR && stores_outside(totals))\n        return ffd_fail_file(error, FFD_E_INVALID,")
 m("range-of-offsets", "sign", "cli_as_morph, cli_convert", "morph ? model->morphs[morph - 1].positions[i] - model->positions[i]",
   "morph ? model->morphs[morph - 1].positions[i] + model->positions[i]", "morph ? model->morph_positions[i] - model->positions[i]",
   "morph ? model->morph_positions[i] + model->positions[i]", "less ? values[i] - less[i] : values[i];",
@@ -1141,7 +1141,7 @@ m("row-of-its-shard", "count", "cli_batch_positions", "job->row = source->count 
 m("row-hash-left-out", "check left out", "cli_batch_positions", "if (row && ffd_row_hash(&row->array, row->number, &parts[count++], NULL))", "if (row && count > 0 && ffd_row_hash(&row->array, row->number, &parts[count++], NULL))")
 m("array-of-a-pipe", "check left out", "cli_batch_positions", "return text && ffd_file_reads_once(text);", "return text && ffd_file_is_stream(text);")
 m("size-of-an-array", "overflow", "row_array", "(row_size(array) == 0 || array->rows <= most / row_size(array)))", "(row_size(array) == 0 || array->rows * row_size(array) <= most))")
-m("shown-positions", "state", "cli_batch_positions", "counting.deformed = job->positions;", "counting.deformed = NULL;")
+m("shown-positions", "state", "cli_batch_positions", "pass->deformed = pass->deformed ? pass->deformed : job->positions;", "")
 m("picture-not-checked-before", "check left out", "cli_batch_view", "return picture ? ffd_job_picture_check(picture, desc->force || desc->if_changed, error) : FFD_OK;",
   "return picture ? ffd_job_picture_check(picture, true, error) : FFD_OK;")
 m("missing-picture-is-skipped", "condition", "cli_batch_view", "if (has_output && (!picture || answer->has_picture))", "if (has_output)")
@@ -1234,7 +1234,7 @@ m("cage-at-rest-twice", "wrong array", "cli_view", "cage->deformed = copy_points
   "cage->deformed = copy_points(lattice->rest, lattice->count);")
 m("unmarked-instances", "message left out", "cli_view", "if (work->model.nodes_left)", "if (work->model.nodes_left > 1)")
 m("name-of-the-left", "sign", "cli_view", '{"left", {-1, 0, 0}}', '{"left", {1, 0, 0}}')
-m("picture-of-the-wrong-shape", "shape", "cli_view", "return !work->desc->as_stored && ffd_mesh_shows_shapes(document);",
+m("picture-of-the-wrong-shape", "shape", "cli_view", "return !work->job.stored && ffd_mesh_shows_shapes(document);",
   "return !work->desc->full && ffd_mesh_shows_shapes(document);")
 m("unused-take-room", "mark left out", "cli_view", "if (found > 0 && found < scene->vertex_count)", "if (found > scene->vertex_count)")
 m("flipped-in-the-first-picture", "condition", "cli_view", "const size_t marked = s->share > 0 ? from->flipped_count : 0;", "const size_t marked = from->flipped_count;")

@@ -17,6 +17,11 @@
 /* Gates that need the faces. */
 #define NEED_FACES (FFD_GATE_TEAR | FFD_GATE_FLIPPED | FFD_GATE_EDGES)
 
+bool ffd_figures_wanted(const deform_job *job)
+{
+    return job->check || job->desc->quality || job->desc->fail_on & (FFD_GATE_FLIPPED | FFD_GATE_EDGES);
+}
+
 /* Checks that the budget suffices for recomputing normals. */
 static ffd_status check_normals(const deform_job *job, const mesh_faces *faces, memory_budget budget,
                                 ffd_error *error)

@@ -12,6 +12,9 @@ typedef struct figure_arrays {
     memory_budget budget;         /* the document's, to which these arrays are charged */
 } figure_arrays;
 
+/* Whether folds, flipped faces and det F are wanted. */
+bool ffd_figures_wanted(const deform_job *job);
+
 /* Reads the mesh's faces (at rest, so before the pass) and allocates the arrays, charged to arrays->budget.
    If the faces are invalid or exceed the budget, a check or a recomputation of normals fails; a deformation
    warns and goes on without these figures. */

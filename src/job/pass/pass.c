@@ -117,7 +117,7 @@ static void finish_positions(const part_work *work, tile_scratch *scratch, size_
         totals->moved += scratch->changed[i];
     if (unfit < count)
         totals->first_overflow = work->first_vertex + first + unfit;
-    if (pass->write)
+    if (ffd_pass_stores(pass))
         pass->document->format->write_positions(pass->document, work->part_number, first, count, scratch->raw,
                                                 scratch->changed);
 }
@@ -155,8 +155,9 @@ static void deform_normals(const part_work *work, tile_scratch *scratch, size_t 
         scratch->normals_changed[i] = selected && scratch->outcomes[i] == ATTRIBUTE_CARRIED;
         totals->normals_collapsed += selected && scratch->outcomes[i] == ATTRIBUTE_COLLAPSED;
     }
-    document->format->write_normals(document, work->part_number, from, batch.count, scratch->normals,
-                                    scratch->normals_changed);
+    if (ffd_pass_stores(work->pass))
+        document->format->write_normals(document, work->part_number, from, batch.count, scratch->normals,
+                                        scratch->normals_changed);
 }
 
 /* Deforms normals that are not one a vertex, in runs of at most a tile. */
@@ -188,7 +189,7 @@ static void deform_tangents(const part_work *work, tile_scratch *scratch, size_t
     ffd_deform_tangents(work->pass->chain->isa, &batch);
     for (size_t i = 0; i < count; i++)
         scratch->tangents_changed[i] = scratch->outcomes[i] == ATTRIBUTE_CARRIED;
-    if (work->pass->only_offsets)
+    if (work->pass->only_offsets || !ffd_pass_stores(work->pass))
         return;
     document->format->write_tangents(document, work->part_number, first, count, scratch->tangents,
                                      scratch->tangents_changed);
@@ -268,6 +269,7 @@ static void keep_locations(const part_work *work, const tile_scratch *scratch, s
 typedef struct tile_rounding {
     const part_work *work;
     const tile_scratch *scratch;
+    size_t first; /* the tile's first vertex in the part */
 } tile_rounding;
 
 static void find_rounding(const void *context, size_t point, bool is_first, const double x[3], double half[3])
@@ -279,7 +281,7 @@ static void find_rounding(const void *context, size_t point, bool is_first, cons
     memcpy(position, tile->scratch->raw + 3 * i, sizeof position);
     if (!is_first)
         ffd_vertex_in_file(&transform, x, position);
-    ffd_rounding_cell(&tile->work->part->rounding, position, half);
+    ffd_vertex_cell(tile->work->pass->document, tile->work->part_number, tile->first + i, position, half);
     ffd_vertex_rounding_place(&transform, half);
 }
 
@@ -379,7 +381,7 @@ static ffd_status deform_points(part_work *work, tile_scratch *scratch, size_t f
 {
     const mesh_pass *pass = work->pass;
     const bool counts = !work->part->repeats_positions;
-    const tile_rounding tile_of = {work, scratch};
+    const tile_rounding tile_of = {work, scratch, first};
     const chain_rounding cells = {find_rounding, &tile_of};
     const chain_rounding *const rounding = ffd_rounding_is_none(&work->part->rounding) ? NULL : &cells;
     chain_run run = {.x = scratch->position,

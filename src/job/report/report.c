@@ -225,12 +225,15 @@ static void write_shared_faces(json_text *json, const ffd_job_result *result)
     ffd_json_end(json, '}');
 }
 
-/* Figures of morph targets that gates count separately. */
+/* Figures of stored shapes, which gates count separately; of the base only if default weights show another
+   shape. */
 static void write_targets(json_text *json, const ffd_job_result *result)
 {
     ffd_json_object(json, "morph_targets", true);
     ffd_json_count(json, "outside", result->targets_outside);
     ffd_json_count(json, "shown_outside", result->shown_outside);
+    if (result->base_outside)
+        ffd_json_count(json, "base_outside", result->base_outside);
     ffd_json_count(json, "invalid", result->targets_invalid);
     ffd_json_end(json, '}');
 }
