@@ -922,8 +922,8 @@ m("target-bytes-compressed", "condition", "cli_morphs", "if (buffer != GLTF_NONE
 m("target-bytes-sparse", "left out", "cli_morphs", "add_packed(d, sparse->values_view, sparse->values_offset, sparse->count, layout->element_size, list);", "")
 m("clip-replaced", "left out", "cli_morphs", "ffd_json_span_string_is(tree, name, w->clip->name)", "ffd_json_span_string_is(tree, name, \"\")")
 m("clip-of-a-conversion", "stride", "cli_morphs", "clip->key_count * target_count(plan, m), NULL", "clip->key_count * 1, NULL")
-m("morph-in-its-place", "operand", "cli_morphs, cli_as_morph", "ffd_gltf_target_place(&file->model.meshes[m].primitives[p], marks->named[m]);",
-  "ffd_gltf_target_place(&d->model.meshes[m].primitives[p], marks->named[m]);")
+m("morph-in-its-place", "operand", "cli_morphs, cli_as_morph", ": ffd_gltf_target_count(file, m);",
+  ": ffd_gltf_target_count(d, m);")
 m("morphs-leave-nothing-behind", "figure", "cli_splats", "if (target->behind[kind].count > all->behind[kind].count)",
   "if (target->behind[kind].count < all->behind[kind].count)")
 m("edges-of-no-target", "figure", "cli_morphs", "all->has_edges = target->has_edges && (is_first || all->has_edges);",

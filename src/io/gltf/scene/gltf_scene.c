@@ -333,6 +333,23 @@ static void count_targets(gltf_document *d)
         }
 }
 
+/* Notes primitives with fewer morph targets than others of their mesh. Viewers do not move them by a weight of
+   a target that they lack. */
+static ffd_status note_unequal_targets(gltf_document *d, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count && status == FFD_OK; p++) {
+            const size_t count = d->model.meshes[m].primitives[p].target_count;
+            if (count < d->mesh_uses[m].target_count)
+                status = ffd_gltf_flaw(d, ffd_gltf_primitive_value(d, m, p), error,
+                                       "the primitive has %zu morph targets, but another one of its mesh has "
+                                       "%zu: the further ones do not move it",
+                                       count, d->mesh_uses[m].target_count);
+        }
+    return status;
+}
+
 ffd_status ffd_gltf_make_scene(gltf_document *d, ffd_error *error)
 {
     const size_t count = d->model.node_count;
@@ -352,7 +369,8 @@ ffd_status ffd_gltf_make_scene(gltf_document *d, ffd_error *error)
         goto done;
     count_targets(d);
     find_parents(d, &twice);
-    if (twice != GLTF_NONE)
+    status = note_unequal_targets(d, error);
+    if (status == FFD_OK && twice != GLTF_NONE)
         status = ffd_gltf_flaw(d, d->node_values.values[twice], error,
                                "node %zu names the node twice as its child", d->parents[twice]);
     if (status == FFD_OK)
