@@ -365,7 +365,8 @@ typedef struct ffd_behind {
 } ffd_behind;
 
 /* The joints, pivots and sockets of a glTF, and their lag: the distance from where a joint is in the output
-   to where the lattice moves its place in the mesh. */
+   to where the lattice moves its place in the mesh. With as_morph and morphs only joints count, and the mesh
+   is that of the morph target in full. */
 typedef struct ffd_rig_result {
     bool is_there; /* there are joints, pivots or sockets, or other nodes follow; if false, all other members
                       are 0 */
@@ -382,6 +383,11 @@ typedef struct ffd_rig_result {
     char worst[80];     /* name of the first node with this lag, in the form of ffd_behind.names; "": none */
     uint64_t lagging_skins, lagging_pivots, lagging_sockets; /* with a lag above 0; skins: with such a
                                                                 joint */
+    uint64_t lagging_joints; /* joints with a lag that belong to no skin of the scene */
+    /* FOLLOW: nodes that stay where they are because they are not selected, though a node above them follows;
+       and the largest distance from where that node would carry one of them. */
+    uint64_t unselected;
+    double unselected_by;
 } ffd_rig_result;
 
 /* The result of a job: the figures of the report (data/schema/formats.md 2; src/maths.md 11). Lengths are in
@@ -466,7 +472,7 @@ typedef struct ffd_job_result {
     ffd_behind behind[FFD_BEHIND_KIND_COUNT]; /* indexed by ffd_behind_kind */
     ffd_behind behind_room[5];
     ffd_rig_result rig;
-    uint64_t rig_room[8];
+    uint64_t rig_room[5];
     ffd_flaw flaws[FFD_FLAWS]; /* flaw_count entries, of the input */
     size_t flaw_count;
     uint64_t indices_left; /* indices in glTF extensions that still refer to meshes and accessors before the

@@ -364,12 +364,10 @@ bool ffd_deform_job_writes(const ffd_deform_desc *desc)
     return desc->in_place || desc->output || !desc->positions;
 }
 
-/* Whether nodes and other places matter: conversions, morph targets and arrays of positions do not contain
-   them. */
+/* Whether nodes and other places matter: conversions and arrays of positions do not contain them. */
 static bool has_rig(const deform_job *job)
 {
-    return !job->desc->as_morph && (job->check || ffd_deform_job_writes(job->desc)) &&
-           (!job->document->converted || job->details);
+    return (job->check || ffd_deform_job_writes(job->desc)) && (!job->document->converted || job->details);
 }
 
 /* Finds how the lattices move the document's places (nodes, joints, sockets), and with --rig follow moves
@@ -393,6 +391,7 @@ static ffd_status find_left(deform_job *job, ffd_job_result *result, ffd_error *
     const ffd_status status = ffd_behind_find(job, result, error);
     return status ? status
                   : ffd_rig_figures_find(job->document, &job->rig, &job->following,
+                                         job->desc->as_morph ? RIG_KINDS_OF_MORPHS : RIG_KINDS,
                                          ffd_rig_diagonal(&result->before), &result->rig, error);
 }
 
@@ -401,7 +400,11 @@ static void warn_of_left(const deform_job *job, const ffd_job_result *result)
     const double diagonal = ffd_rig_diagonal(&result->before);
     ffd_behind_warn(result, job->desc->rig, &job->log);
     if (job->totals.moved > 0)
-        ffd_rig_warn(&result->rig, job->desc->rig == FFD_RIG_FOLLOW, diagonal, &job->log);
+        ffd_rig_warn(&result->rig,
+                     job->desc->as_morph                ? RIG_MORPHED
+                     : job->desc->rig == FFD_RIG_FOLLOW ? RIG_FOLLOWED
+                                                        : RIG_KEPT,
+                     diagonal, &job->log);
 }
 
 /* Computes the figures that take extra time, then applies the gates to all figures. */

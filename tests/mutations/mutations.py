@@ -817,8 +817,12 @@ m("obj-name-joins-lines", "format", "cli_convert", "(*c == '\\\\' && !c[1]);", "
 m("behind-out-of-reach", "check left out", "cli_stays_behind", "if (move->moves && stays)", "if (stays)")
 m("behind-a-name-cut", "operation", "cli_stays_behind", "((unsigned char)name[length] & 0xc0) == 0x80",
   "((unsigned char)name[length] & 0xc0) == 0xc0")
-m("behind-a-morph", "check left out", "cli_stays_behind",
-  "return !job->desc->as_morph && (job->check ||", "return (job->check ||")
+m("behind-a-morph", "selection", "cli_stays_behind", "job->desc->as_morph ? RIG_KINDS_OF_MORPHS : RIG_KINDS,", "RIG_KINDS,")
+m("joints-of-a-morph", "text", "cli_stays_behind", "job->desc->as_morph ? RIG_MORPHED", "job->desc->morphs ? RIG_MORPHED")
+m("joints-of-no-skin", "figure", "cli_stays_behind", "*loose += marked[n] && !joined[n];", "*loose += marked[n] && joined[n];")
+m("left-on-a-joint", "left out", "cli_rig", "if (place && is_left(w, n))", "if (place && place->stays && is_left(w, n))")
+m("skin-of-no-joints", "left out", "cli_skin_weights", "places = !ffd_gltf_is_skinned(&mesh->primitives[p]);", "places = false;")
+m("half-sets", "check left out", "cli_skin_weights", "if (is_whole(&primitive->influences[i])) return FFD_OK;", "if (!primitive) return FFD_OK;")
 m("joints-of-no-file", "condition", "cli_batch_positions", "(job->check || ffd_deform_job_writes(job->desc)) &&", "(job->check || job->desc) &&")
 m("splats-moved", "figure", "cli_stays_behind, job", "totals->splats_moved += moved;", "totals->splats_moved = moved;")
 m("splats-in-the-scene", "left out", "cli_splats", "if (!transform.identity && !transform.singular) ffd_splat_turn_to_file",
@@ -1287,7 +1291,7 @@ m("rig-values-not-counted", "limit left out", "cli_rig", "ffd_budget_take(rig->b
   "ffd_budget_take(rig->budget, 0, size, error)")
 m("rig-left-for-the-next-job", "clean-up left out", "rig", "ffd_gltf_free_rig((gltf_document *)document); const ffd_status status = ffd_gltf_begin_results(",
   "const ffd_status status = ffd_gltf_begin_results(")
-m("rig-lag-of-cameras", "selection", "cli_stays_behind, cli_rig", "const double lag = kinds & OF_THE_RIG ? ffd_rig_lag(&rig->moves[i], diagonal) : 0;",
+m("rig-lag-of-cameras", "selection", "cli_stays_behind, cli_rig", "const double lag = kinds ? ffd_rig_lag(&rig->moves[i], diagonal) : 0;",
   "const double lag = ffd_rig_lag(&rig->moves[i], diagonal);")
 m("rig-small-lags-said", "threshold", "cli_rig", "#define LAG_SAID 1e-3", "#define LAG_SAID 1e-6")
 m("rig-by-a-morph", "check left out", "rig", "desc->rig == FFD_RIG_FOLLOW && (desc->as_morph || desc->morphs || desc->input.space == FFD_SPACE_MESH)",

@@ -16,6 +16,7 @@
 #include "io/gltf/scene/gltf_scene.h"
 #include "io/gltf/scene/gltf_shapes.h"
 #include "io/gltf/scene/gltf_skin.h"
+#include "io/gltf/scene/gltf_skin_sets.h"
 #include "io/gltf/splat/gltf_splats.h"
 #include "json/json_parse.h"
 #include <stdlib.h>
@@ -387,6 +388,8 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
         status = ffd_gltf_list_skins(d, error);
     if (status == FFD_OK)
         status = ffd_gltf_make_scene(d, error);
+    if (status == FFD_OK)
+        status = ffd_gltf_settle_skins(d, error);
     if (status == FFD_OK)
         status = ffd_gltf_make_parts(d, error);
     if (status == FFD_OK)

@@ -258,6 +258,10 @@ static void write_rig(json_text *json, const ffd_rig_result *rig)
         ffd_json_count(json, "partial", rig->partial);
     if (rig->unscaled)
         ffd_json_count(json, "unscaled", rig->unscaled);
+    if (rig->unselected) {
+        ffd_json_count(json, "unselected", rig->unselected);
+        ffd_json_number(json, "unselected_by", rig->unselected_by);
+    }
     ffd_json_end(json, '}');
 }
 

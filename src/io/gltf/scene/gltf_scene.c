@@ -333,8 +333,8 @@ static void count_targets(gltf_document *d)
         }
 }
 
-/* Notes primitives with fewer morph targets than others of their mesh. Viewers do not move them by a weight of
-   a target that they lack. */
+/* Notes primitives with fewer morph targets than others of their mesh. Viewers do not move them by a weight
+   of a target that they lack. */
 static ffd_status note_unequal_targets(gltf_document *d, ffd_error *error)
 {
     ffd_status status = FFD_OK;
