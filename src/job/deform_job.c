@@ -18,6 +18,7 @@
 #include "job/judge/figures.h"
 #include "job/judge/gates.h"
 #include "job/judge/result.h"
+#include "job/judge/still.h"
 #include "job/judge/tear_figures.h"
 #include "job/pass/chain_fit.h"
 #include "job/pass/pass.h"
@@ -453,6 +454,13 @@ static ffd_status give_positions(deform_job *job, ffd_error *error)
                   : FFD_OK;
 }
 
+/* Whether a word is needed if nothing moves: a check prints how many vertices move, and a morph target of
+   zeros is told when it is saved. */
+static bool tells_still(const deform_job *job)
+{
+    return job->check ? job->details != NULL : !job->desc->as_morph;
+}
+
 ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error *error)
 {
     figure_arrays arrays = {0}, stored = {0};
@@ -483,6 +491,8 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
         status = ffd_overlaps_warn(&job->chain, &job->log, error);
     if (!status)
         ffd_result_warn(&job->totals, &job->chain, true, &job->log);
+    if (!status && tells_still(job))
+        ffd_still_warn(job, &result->before);
     if (!status)
         warn_of_left(job, result);
     if (!status && job->totals.vertices == 0)
