@@ -1,5 +1,6 @@
 #include "job/deform_passes.h"
 #include "job/chain/job_cache.h"
+#include "job/deform_job.h"
 #include "job/pass/pass.h"
 #include "job/pass/recompute.h"
 #include <string.h>
@@ -14,10 +15,11 @@ bool ffd_passes_write_shown(const deform_job *job)
     return ffd_passes_judge_shown(job) && (job->check || job->document->converted);
 }
 
-/* The gate of folds also checks det F at extended vertices. */
+/* The gate of folds also checks det F at extended vertices, and a mesh that is written must not turn inside
+   out without a word. */
 static bool wants_determinants(const deform_job *job)
 {
-    return ffd_figures_wanted(job) ||
+    return ffd_figures_wanted(job) || ffd_deform_job_writes(job->desc) ||
            (job->desc->fail_on & FFD_GATE_FOLDS && job->desc->outside == FFD_OUTSIDE_EXTEND);
 }
 

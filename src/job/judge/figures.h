@@ -33,7 +33,7 @@ ffd_status ffd_figures_folds(lattice_chain *chain, int threads, ffd_job_result *
 ffd_status ffd_figures_faces(const deform_job *job, figure_arrays *arrays, ffd_job_result *result,
                              ffd_error *error);
 
-/* Warns of folds and turned-over faces that no gate asks for. */
+/* Warns of folds and of faces that are turned over. */
 void ffd_figures_warn(const deform_job *job, const ffd_job_result *result);
 
 /* Describes folds, such as "folds in 3 of 27 cells, as at u,v,w = 0.5 0.5 0.5 of b.json, x,y,z = 1 2 3", or

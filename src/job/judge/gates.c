@@ -64,7 +64,10 @@ ffd_status ffd_policies_judge(const ffd_deform_desc *desc, const char *name, con
 {
     if (totals->first_missed != UINT64_MAX)
         return fail_missed(desc->embedding, totals, error);
-    if (desc->outside == FFD_OUTSIDE_ERROR && totals->outside_all + totals->unshown_outside > 0)
+    /* If a target alone moves what is shown outside, that is the reason. */
+    const bool by_target = totals->of_shown && !totals->base_outside && totals->shapes_outside &&
+                           totals->outside_all == totals->weighted_outside && !totals->unshown_outside;
+    if (desc->outside == FFD_OUTSIDE_ERROR && totals->outside_all + totals->unshown_outside > 0 && !by_target)
         return fail_outside(name, chain, totals, error);
     if (desc->outside == FFD_OUTSIDE_ERROR && stores_outside(totals))
         return ffd_fail_file(error, FFD_E_EMBEDDING, name,

@@ -35,6 +35,15 @@ static void fill_nan(double *values, size_t count)
         values[i] = NAN;
 }
 
+/* det F relative to the product of the lengths of F's rows: closer to 0 it may be the rounding of a collapse.
+ */
+#define COLLAPSE 1e-12
+
+static bool turns_over(const double f[9], double det)
+{
+    return det < 0 && det < -COLLAPSE * vec_length(f) * vec_length(f + 3) * vec_length(f + 6);
+}
+
 static void note_determinant(const double gradient[9], bool outside, size_t number, pass_totals *totals)
 {
     double f[9];
@@ -46,6 +55,13 @@ static void note_determinant(const double gradient[9], bool outside, size_t numb
     if (outside && det < totals->det_outside) {
         totals->det_outside = det;
         totals->first_det_outside = number;
+    }
+    if (outside || !turns_over(f, det))
+        return;
+    totals->inverted++;
+    if (det < totals->det_inverted) {
+        totals->det_inverted = det;
+        totals->first_inverted = number;
     }
 }
 

@@ -11,8 +11,8 @@ void ffd_totals_clear(pass_totals *totals)
     totals->first_shape_outside = totals->first_weighted_outside = totals->first_base_outside = UINT64_MAX;
     totals->first_missed = UINT64_MAX;
     totals->first_unshown_outside = UINT64_MAX;
-    totals->first_det_outside = UINT64_MAX;
-    totals->det_min = totals->det_outside = HUGE_VAL;
+    totals->first_det_outside = totals->first_inverted = UINT64_MAX;
+    totals->det_min = totals->det_outside = totals->det_inverted = HUGE_VAL;
     totals->det_max = -HUGE_VAL;
 }
 
@@ -82,6 +82,11 @@ void ffd_totals_join(const pass_totals *tile, pass_totals *all)
     if (tile->det_outside < all->det_outside) { /* the first of equal ones */
         all->det_outside = tile->det_outside;
         all->first_det_outside = tile->first_det_outside;
+    }
+    all->inverted += tile->inverted;
+    if (tile->det_inverted < all->det_inverted) { /* likewise */
+        all->det_inverted = tile->det_inverted;
+        all->first_inverted = tile->first_inverted;
     }
     all->det_min = fmin(all->det_min, tile->det_min);
     all->det_max = fmax(all->det_max, tile->det_max);

@@ -48,6 +48,10 @@ typedef struct pass_totals {
     int splat_part_count;
     double det_outside;         /* the smallest det F of extended vertices, like det_min; else infinite */
     uint64_t first_det_outside; /* the first such vertex */
+    /* Vertices in a lattice with det F < 0, beyond rounding, the first of them, and their least det F;
+     * likewise. */
+    uint64_t inverted, first_inverted;
+    double det_inverted;
     double det_min, det_max; /* range of det F over non-singular vertices that a link moves, if wanted; empty:
                                 min > max */
     /* Vertices that are not simply inside and not visible (used by no face, line or point, or of hidden
