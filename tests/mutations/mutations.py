@@ -601,6 +601,16 @@ m("draco-clash", "check left out", "gltf_packed, draco, gltf",
   "unpacked->size != size || memcmp(unpacked->bytes, bytes, size) != 0", "unpacked->size != size")
 m("draco-too-often", "limit", "gltf_packed, draco", "#define MOST_DECODED_A_BYTE 0.25",
   "#define MOST_DECODED_A_BYTE 1e9")
+m("directions-of-draco", "left out", "gltf_mended", "if (step > 0 && has_directions(d, value, accessor))", "if (step < 0 && has_directions(d, value, accessor))")
+m("directions-not-quantized", "condition", "gltf_packed", "if (step > 0 && has_directions(d, value, accessor))", "if (has_directions(d, value, accessor))")
+m("handedness-of-draco", "left out", "gltf_mended", "v[3] = v[3] < 0 ? -1.0f : 1.0f;", "v[3] += 0;")
+m("weights-of-one-set", "bound", "gltf_mended", "for (size_t i = 0; i < 4 * of->set_count; i++) sum += of->weight[i];", "for (size_t i = 0; i < 4; i++)\n        sum += of->weight[i];")
+m("weights-about-one", "tolerance", "gltf_mended", "? fabs(sum - 1) <= SUM_ROUNDING", "? fabs(sum - 1) <= 0 * SUM_ROUNDING")
+m("weights-of-steps", "left out", "gltf_mended", "of->weight[largest] = (double)ffd_gltf_round(of->weights[largest / 4].accessor, rest);", "(void)rest;")
+m("joints-of-two-weights", "check left out", "gltf_mended", "m->partner[set->joints] == (size_t)set->weights &&", "")
+m("weights-mended-again", "check left out", "gltf_mended", "!m->done[set->weights] &&", "")
+m("bounds-before-mending", "operand", "gltf_mended", "edit_bounds(saver, unpacking->accessor, NULL, unpacking->bytes, edits);",
+  "edit_bounds(saver, unpacking->accessor, NULL, saver->document->layouts[unpacking->accessor].data, edits);")
 m("meshopt-triangles", "check left out", "meshopt, gltf_packed", "view->mode == MESHOPT_TRIANGLES && view->count % 3)",
   "view->mode == MESHOPT_TRIANGLES && view->count % 3 > 2)")
 m("glb-newer-version", "error code", "gltf, cli_broken_gltf",
@@ -823,7 +833,7 @@ m("joints-of-no-skin", "figure", "cli_stays_behind", "*loose += marked[n] && !jo
 m("left-on-a-joint", "left out", "cli_rig", "if (place && is_left(w, n))", "if (place && place->stays && is_left(w, n))")
 m("skin-of-no-joints", "left out", "cli_skin_weights", "places = !ffd_gltf_is_skinned(&mesh->primitives[p]);", "places = false;")
 m("half-sets", "check left out", "cli_skin_weights", "if (is_whole(&primitive->influences[i])) return FFD_OK;", "if (!primitive) return FFD_OK;")
-m("joints-of-no-file", "condition", "cli_batch_positions", "(job->check || ffd_deform_job_writes(job->desc)) &&", "(job->check || job->desc) &&")
+m("joints-of-no-file", "condition", "cli_batch_positions", "(job->check || ffd_deform_desc_writes(job->desc)) &&", "(job->check || job->desc) &&")
 m("splats-moved", "figure", "cli_stays_behind, job", "totals->splats_moved += moved;", "totals->splats_moved = moved;")
 m("splats-in-the-scene", "left out", "cli_splats", "if (!transform.identity && !transform.singular) ffd_splat_turn_to_file",
   "if (transform.singular)\n            ffd_splat_turn_to_file")
