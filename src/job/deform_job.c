@@ -360,15 +360,10 @@ static ffd_status locate(deform_job *job, ffd_error *error)
                                &job->embedding, error);
 }
 
-bool ffd_deform_job_writes(const ffd_deform_desc *desc)
-{
-    return desc->in_place || desc->output || !desc->positions;
-}
-
 /* Whether nodes and other places matter: conversions and arrays of positions do not contain them. */
 static bool has_rig(const deform_job *job)
 {
-    return (job->check || ffd_deform_job_writes(job->desc)) && (!job->document->converted || job->details);
+    return (job->check || ffd_deform_desc_writes(job->desc)) && (!job->document->converted || job->details);
 }
 
 /* Finds how the lattices move the document's places (nodes, joints, sockets), and with --rig follow moves

@@ -1,6 +1,6 @@
 #include "job/deform_passes.h"
 #include "job/chain/job_cache.h"
-#include "job/deform_job.h"
+#include "job/input/deform_desc.h"
 #include "job/pass/pass.h"
 #include "job/pass/recompute.h"
 #include <string.h>
@@ -19,7 +19,7 @@ bool ffd_passes_write_shown(const deform_job *job)
    out without a word. */
 static bool wants_determinants(const deform_job *job)
 {
-    return ffd_figures_wanted(job) || ffd_deform_job_writes(job->desc) ||
+    return ffd_figures_wanted(job) || ffd_deform_desc_writes(job->desc) ||
            (job->desc->fail_on & FFD_GATE_FOLDS && job->desc->outside == FFD_OUTSIDE_EXTEND);
 }
 
