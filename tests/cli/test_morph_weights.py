@@ -231,6 +231,17 @@ def counts_and_messages_are_of_what_is_shown(run):
 
 
 @case
+def the_base_of_other_meshes_is_not_counted_beside_what_is_shown(run):
+    """A mesh without weights beside one with them, both at z = 0, outside."""
+    run.write("l.json", lattice(low=(-9, -9, 4), high=(9, 9, 6), moves=[{"by": [1, 0, 0]}]))
+    made = scene([[0.0, 0.0, 5.0]], [1], nodes=[{"mesh": 0}, {"mesh": 1}])
+    made.asset["meshes"].append({"primitives": [{"attributes": {"POSITION": made.add(TRIANGLE, bounds=True)}}]})
+    run.write("a.glb", made.glb())
+    job = entry(run, "check", "a.glb", "-l", "l.json")
+    equal([job["inside"], job["outside"], job["morph_targets"]["base_outside"]], [3, 3, 3])
+
+
+@case
 def a_vertex_shown_has_the_rounding_of_base_and_offsets(run):
     """1 - 0.9 as float32 is 2.4e-8 above the lattice's end at 0.1: less than these numbers are rounded by, and more than 0.1 is."""
     run.write("l.json", lattice(low=(-9, -9, -9), high=(9, 9, 0.1), moves=[{"by": [1, 0, 0]}]))
@@ -357,6 +368,9 @@ def a_lattice_round_a_mesh_holds_base_targets_and_what_is_shown(run):
         run.ffd("check", "a.glb", "-l", "l.json", "--fail-on", "outside")
         run.ffd("embed", "a.glb", "-l", "l.json", "-o", "e.npy", "--force")
         near(npy(run.read("e.npy"))[2], [[(x - a) / (b - a) for x, a, b in zip(p, low, high)] for p in TRIANGLE], 1e-9)
+    # One target, and weights that show more than it, or the other side.
+    for weight, low, high in ((2, [0, 0, 0], [5, 1, 2]), (-1, [-2, 0, -1], [3, 1, 1])):
+        near(box_round(run, scene(TWO[:1], [weight])), [low, high], 1e-6, str(weight))
 
 
 def primitives(run, name, mesh):

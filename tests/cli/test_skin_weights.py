@@ -108,6 +108,8 @@ def a_node_that_places_a_primitive_follows(run):
                 run.write("still.json", STILL)
                 run.ffd("deform", "b.glb", "c.obj", "-l", "still.json", "--force", err=anything)
                 shown.append(obj_vertices(run.text("c.obj")))
+                placed = [glb_split(run.read(name))[0]["nodes"][0] for name in ("a.glb", "b.glb")]
+                equal(placed[0] == placed[1], rig == "keep", f"{sets} {node} {rig}")
             near(shown[1], shown[0], 1e-5, f"{sets} {node}")
             equal(len(kept), len(sets))
 

@@ -575,7 +575,17 @@ m("detail-below-a-detail", "check left out", "cli_stays_behind", "c < node->chil
   "c < node->child_count && d->stands_in[n] && n == 0")
 m("details-without-scenes", "check left out", "cli_stays_behind", "if (parents[n] == GLTF_NONE && !d->stands_in[n])",
   "if (parents[n] == GLTF_NONE)")
-m("details-of-a-selection", "call left out", "cli_stays_behind", "mark_details(s, n, &waiting);", "")
+m("details-of-a-selection", "call left out", "cli_stays_behind", "mark_stand_ins(s, n, &waiting);", "")
+m("shape-by-its-own-transform", "place", "cli_colliders", "if (d->collides[n]) memcpy(d->world + 12 * n, d->world + 12 * parents[n], 12 * sizeof *d->world);",
+  "if (parents[n] != GLTF_NONE && d->collides[parents[n]])\n        memcpy(d->world + 12 * n, d->world + 12 * parents[n], 12 * sizeof *d->world);")
+m("shape-that-is-seen", "left out", "cli_colliders", "d->hidden[shape] = d->collides[shape] = true;", "d->collides[shape] = true;")
+m("shapes-of-shapes", "check left out", "cli_colliders", "if (!d->collides[queue[i]]) status = add_below(", "status = add_below(")
+m("shapes-elsewhere", "left out", "cli_colliders", "d->shapes_shared += !stand_alike(d, shape, n);", "d->shapes_shared += 0;")
+m("shape-without-scenes", "condition", "cli_colliders", "d->stands_in[found] = d->stands_in[found] || !walk.collides;", "d->stands_in[found] = true;")
+m("shape-that-stays", "left out", "cli_colliders", "if (w->document->collides[n]) memcpy(w->rig->world + 12 * n, made_of(w, p), sizeof identity);",
+  "if (w->document->collides[n])\n        memcpy(w->rig->world + 12 * n, w->document->world + 12 * n, sizeof identity);")
+m("shape-with-a-place", "check left out", "cli_colliders", "if (!(s->nodes[n] & IS_SHOWN) || d->collides[n])", "if (!(s->nodes[n] & IS_SHOWN))")
+m("triggers-left", "bound", "cli_colliders", "while (walk->shapes < 2)", "while (walk->shapes < 1)")
 m("joints-of-a-selection", "operation", "cli_stays_behind", "skin >= 0 && j < d->skins[skin].joint_count",
   "skin > 0 && j < d->skins[skin].joint_count")
 m("joints-that-are-animated", "check left out", "cli_stays_behind", "if (kinds == 0 && s->nodes[n] & IS_ANIMATED)",
@@ -1249,7 +1259,7 @@ m("cage-at-rest-twice", "wrong array", "cli_view", "cage->deformed = copy_points
 m("unmarked-instances", "message left out", "cli_view", "if (work->model.nodes_left)", "if (work->model.nodes_left > 1)")
 m("name-of-the-left", "sign", "cli_view", '{"left", {-1, 0, 0}}', '{"left", {1, 0, 0}}')
 m("picture-of-the-wrong-shape", "shape", "cli_view", "return !work->job.stored && ffd_mesh_shows_shapes(document);",
-  "return !work->desc->full && ffd_mesh_shows_shapes(document);")
+  "return work->job.stored && ffd_mesh_shows_shapes(document);")
 m("unused-take-room", "mark left out", "cli_view", "if (found > 0 && found < scene->vertex_count)", "if (found > scene->vertex_count)")
 m("flipped-in-the-first-picture", "condition", "cli_view", "const size_t marked = s->share > 0 ? from->flipped_count : 0;", "const size_t marked = from->flipped_count;")
 m("flipped-triangles-first", "offset", "cli_view", "size_t plain = 0, flipped = s->plain_count;", "size_t plain = s->flipped_count, flipped = 0;")

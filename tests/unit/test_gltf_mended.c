@@ -214,11 +214,13 @@ static void joints_with_several_weights_are_left(void **state)
     free(written);
 }
 
-/* Two primitives with the same joints and weights: mended once. */
+/* Two primitives with the same joints and weights, the second one with fewer sets: mended once. */
 static void shared_weights_are_mended_once(void **state)
 {
     (void)state;
-    char *text = make_cases(SET_PRIMITIVE "," SET_PRIMITIVE), *written;
+    char *text =
+             make_cases(SET_PRIMITIVE ",{\"attributes\":{\"POSITION\":0,\"JOINTS_0\":1,\"WEIGHTS_0\":2}}"),
+         *written;
     mesh_document *document = move_into(text, false, &written);
     const double halves[4] = {0.5, 0.25, 0, 0};
     check_four(document, 2, 1, halves);
@@ -280,9 +282,9 @@ static char *make_coarse(void)
     uint16_t joints[4 * VERTICES];
     uint32_t triangles[VERTICES];
     for (uint32_t i = 0; i < VERTICES; i++) {
-        const float turn = 0.7f * (float)i, share = 0.09f * (float)i;
+        const float turn = 0.7f * (float)i, share = 0.05f + 0.09f * (float)i;
         const float position[3] = {(float)i, (float)(i * i), 0.5f * (float)(i % 2)};
-        const float tangent[4] = {cosf(turn), sinf(turn), 0, i % 2 ? 1.0f : -1.0f};
+        const float tangent[4] = {1.05f * cosf(turn), 1.05f * sinf(turn), 0, i % 2 ? 1.0f : -1.0f};
         const float normal[3] = {0, 0, 1}, weight[4] = {1 - share, 0.7f * share, 0.3f * share, 0};
         const uint16_t joint[4] = {1, 2, 3, 0};
         memcpy(positions + 3 * i, position, sizeof position);
@@ -338,7 +340,7 @@ static void draco_is_valid_again(void **state)
         for (size_t c = 0; c < 4; c++)
             sum += weights[c];
         largest = fmax(largest, weights[0]);
-        if (fabs(sum - 1) > 1e-7 || weights[2] > 0.25)
+        if (fabs(sum - 1) > 1e-7 || weights[2] > 0.28)
             fail_msg("vertex %zu: %g %g %g %g", v, weights[0], weights[1], weights[2], weights[3]);
         const double length =
             sqrt(tangent[0] * tangent[0] + tangent[1] * tangent[1] + tangent[2] * tangent[2]);

@@ -331,6 +331,7 @@ static void free_document(gltf_document *d)
     ffd_free(d->scene_ranks);
     ffd_free(d->parents);
     ffd_free(d->stands_in);
+    ffd_free(d->collides);
     ffd_free(d->selected_nodes);
     ffd_free(d->hidden);
     ffd_free(d->scene_nodes);

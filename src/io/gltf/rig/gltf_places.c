@@ -233,7 +233,7 @@ static bool is_anchor(const survey *s, size_t n, mesh_place *place)
     const gltf_document *d = s->document;
     const unsigned parts = HAS_SELECTED | HAS_OTHERS;
     const bool chosen = s->nodes[n] & IS_CHOSEN, instanced = ffd_gltf_instanced_node(d, n);
-    if (!(s->nodes[n] & IS_SHOWN))
+    if (!(s->nodes[n] & IS_SHOWN) || d->collides[n])
         return false;
     place->kinds = kinds_of(s, n);
     const bool follows = place->kinds || has_own(d, n) || is_uneven(d, n);

@@ -155,8 +155,11 @@ static void join_world(const node_walk *w, size_t n, const gltf_moved_node *made
 
 static void carry_along(const node_walk *w, size_t n)
 {
-    w->changed[n] = w->document->parents[n] != GLTF_NONE && w->changed[w->document->parents[n]];
-    if (w->changed[n])
+    const size_t p = w->document->parents[n];
+    w->changed[n] = p != GLTF_NONE && w->changed[p];
+    if (w->document->collides[n])
+        memcpy(w->rig->world + 12 * n, made_of(w, p), sizeof identity);
+    else if (w->changed[n])
         join_world(w, n, NULL);
     else
         memcpy(w->rig->world + 12 * n, w->document->world + 12 * n, 12 * sizeof *w->rig->world);

@@ -25,6 +25,12 @@ static void warn_of_rest(const gltf_saver *saver)
     warn(saver, d->details_shared,
          "use of a node by MSFT_lod is at another place than the first: the node is deformed for that one",
          "uses of nodes by MSFT_lod are at other places than the first: the nodes are deformed for that one");
+    warn(saver, d->shapes_shared,
+         "use of a node by a collider or trigger is at another place than where the node is shown or used "
+         "first: "
+         "the node is deformed for that one",
+         "uses of nodes by colliders and triggers are at other places than where the nodes are shown or used "
+         "first: the nodes are deformed for those");
     warn(saver, unused, "mesh is not used by any node: left as it is",
          "meshes are not used by any node: left as they are");
 }
