@@ -501,6 +501,8 @@ typedef struct ffd_job_result {
     /* glTF whose default weights show another shape than the base: vertices of the base that are outside of
        every lattice. The gates include them. */
     uint64_t base_outside;
+    uint64_t bounds_left; /* boxes and spheres in glTF extensions and extras that are named as bounds of what
+                             was deformed, and stay as they were before */
 } ffd_job_result;
 
 /* Runs a job. It makes all checks before it writes anything; the output is complete or absent. result is

@@ -293,6 +293,7 @@ static ffd_status run(deform_job *job, ffd_job_result *result, ffd_error *error)
     const double start = ffd_clock_seconds();
     options.indices_left = &result->indices_left;
     options.bytes_left = &result->bytes_left;
+    options.bounds_left = &result->bounds_left;
     status = save(job, &options, error);
     result->seconds_write = ffd_clock_seconds() - start;
     return status;

@@ -204,6 +204,7 @@ typedef struct mesh_save_options {
     /* Receives the number of bytes of replaced morph targets and animations that stay in the file unused. May
        be NULL. */
     uint64_t *bytes_left;
+    uint64_t *bounds_left; /* receives the number of bounds in extensions that no longer fit; may be NULL */
 } mesh_save_options;
 
 /* x = linear p + offset, in place. */

@@ -383,6 +383,7 @@ typedef struct ffd_job_result {
     double volume_before, volume_after;
     uint64_t bytes_left;
     uint64_t base_outside;
+    uint64_t bounds_left;
 } ffd_job_result;
 ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);
 ffd_status ffd_check_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);

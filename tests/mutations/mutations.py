@@ -658,6 +658,10 @@ m("shape-of-a-manifold", "table", "cli_gltf_follow, cli_faults", "{GLTF_INDEX_SH
 m("trigger-of-a-body", "table", "cli_gltf_follow", 'BODIES "trigger/geometry/mesh"', 'BODIES "trigger/mesh"')
 m("normals-of-silhouettes", "table", "cli_gltf_follow", 'EDGES "silhouetteNormals"', 'EDGES "normals"')
 m("indices-left-twice", "figure", "cli_gltf_follow", "if (value == last) continue;", "if (value == last + 1)\n            continue;")
+m("bounds-of-weight-0", "condition", "cli_stale_bounds", "d->shapes[shape - d->base.part_count].weight != 0 &&",
+  "d->shapes[shape - d->base.part_count].weight != 1 &&")
+m("bounds-above-a-node", "limit", "cli_stale_bounds", "for (; n != GLTF_NONE && !s->nodes[n]; n = s->document->parents[n])",
+  "for (; n != GLTF_NONE && !s->nodes[n]; n = GLTF_NONE)")
 m("lower-half-of-an-octahedron", "term left out", "meshopt", "const double outside = z < 0 ? -z : 0;",
   "const double outside = z < 0 ? 0 : 0;")
 m("largest-of-a-quaternion", "index", "meshopt", "to[(largest + 1 + a) % 4] = to_integer(", "to[(largest + 3 - a) % 4] = to_integer(")

@@ -213,6 +213,8 @@ static void write_left(json_text *json, const ffd_job_result *result)
         ffd_json_count(json, "indices_left", result->indices_left);
     if (result->bytes_left)
         ffd_json_count(json, "bytes_left", result->bytes_left);
+    if (result->bounds_left)
+        ffd_json_count(json, "bounds_left", result->bounds_left);
 }
 
 /* Vertices on faces that two lattices share. */
