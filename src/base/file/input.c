@@ -140,9 +140,11 @@ bool ffd_file_reads_once(const char *path)
                                         !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode));
 }
 
+_Static_assert(sizeof(file_stamp) == 7 * sizeof(uint64_t), "bytes that are compared have no padding");
+
 bool ffd_stamp_equal(const file_stamp *a, const file_stamp *b)
 {
-    return memcmp(a, b, sizeof *a) == 0; /* the struct has no padding */
+    return memcmp(a, b, sizeof *a) == 0;
 }
 
 bool ffd_stamps_hold(char *const *paths, const file_stamp *stamps, size_t count)
