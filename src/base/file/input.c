@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 /* The most bytes that are read from a stream, which may be endless. */
-#define LONGEST_STREAM ((size_t)1 << 32)
+#define LONGEST_STREAM (SIZE_MAX > UINT32_MAX ? (size_t)UINT32_MAX + 1 : SIZE_MAX / 2)
 /* Size of the pieces in which two files are compared: a multiple of any page size. */
 #define COMPARED ((size_t)1 << 22)
 
@@ -194,8 +194,11 @@ static ffd_status load_descriptor(int fd, const char *name, size_t least_mapped,
         return ffd_fail_file(error, FFD_E_IO, name, "is a folder");
     if (!S_ISREG(info.st_mode) || info.st_size <= 0)
         return read_stream(fd, name, input, error);
-    if ((unsigned long long)info.st_size > (size_t)-1)
-        return ffd_fail_file(error, FFD_E_LIMIT, name, "is too large for this machine");
+    if ((uint64_t)info.st_size > SIZE_MAX)
+        return ffd_fail_file(
+            error, FFD_E_LIMIT, name,
+            "has %lld bytes, more than the %zu that a program with addresses of 32 bits holds",
+            (long long)info.st_size, SIZE_MAX);
     const size_t size = (size_t)info.st_size;
     const ffd_status status = size < least_mapped ? read_file(fd, name, size, input, error)
                                                   : map_file(fd, name, &info, input, error);
