@@ -59,10 +59,12 @@ fi
 work=$root/.build-test
 logs=$work/logs
 mkdir -p "$logs" || exit 1
-case "$suite$soak" in
-peers | 1) sh "$root/.ci/setup" peers || exit 1 ;;
-*) sh "$root/.ci/setup" test || exit 1 ;;
+case "$mode$suite" in
+--suitepeers | --soak) needs=peers ;;
+--suiteslow | --suitepython | --suitepackages | --stages) needs=stages ;;
+*) needs=test ;;
 esac
+sh "$root/.ci/setup" $needs || exit 1
 
 # The suite python builds a wheel, optimized: it follows the stage of --all that has compiled the same, and the quick run, which
 # has not, leaves it out. Its tools come from a package index, which a machine need not reach (.ci/setup).
