@@ -37,8 +37,9 @@ FILE *fopen64(const char *path, const char *mode)
 int posix_spawn(pid_t *id, const char *path, const posix_spawn_file_actions_t *actions,
                 const posix_spawnattr_t *attributes, char *const arguments[], char *const environment[])
 {
-    int (*real)(pid_t *, const char *, const posix_spawn_file_actions_t *, const posix_spawnattr_t *, char *const[],
-                char *const[]);
+    int (*real)(pid_t *, const char *, const posix_spawn_file_actions_t *, const posix_spawnattr_t *,
+                char *const[], char *const[]);
     find("posix_spawn", &real);
-    return strncmp(path, "/proc/", 6) == 0 ? ENOENT : real(id, path, actions, attributes, arguments, environment);
+    return strncmp(path, "/proc/", 6) == 0 ? ENOENT
+                                           : real(id, path, actions, attributes, arguments, environment);
 }

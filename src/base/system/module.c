@@ -1,4 +1,4 @@
-#define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
+#define _GNU_SOURCE /* RTLD_DEEPBIND, RTLD_DEFAULT, MAP_ANONYMOUS */
 #include "base/system/module.h"
 #include "base/system/own_file.h"
 #include <dlfcn.h>
@@ -16,6 +16,9 @@
 /* The folders of modules: absolute, or relative to the folder of the program or library that this is linked
    into. */
 static const char *const folders[] = {FFD_MODULE_FOLDERS};
+
+/* The modules whose libraries are the system's, and not compiled into them. */
+static const char *const deep[] = {FFD_DEEP_MODULES};
 
 /* Returns whether a file belongs to somebody who may change what the program does anyway: the administrator,
    the user, or the owner of the program file. The folder of the program may be writable for others, who could
@@ -98,6 +101,23 @@ static ffd_status refuse_module(const char *path, const module_identity *found, 
                     is, of->wanted.file, of->wanted.version, (unsigned long)of->wanted.interface, of->what);
 }
 
+/* How names are found that a module does not define itself. The loader looks in the program and in what it
+   was started with first: there, functions of other versions can have the names of those that the libraries
+   of a module have, and call each other by. With RTLD_DEEPBIND the module's own libraries come first. Only
+   the functions that allocate memory are still those of the process (base/memory/process_allocator.h). The
+   runtime of a sanitizer must come first, and ends the program at this flag. */
+static int binding_of(const char *file)
+{
+#ifdef RTLD_DEEPBIND
+    for (size_t i = 0; i < sizeof deep / sizeof *deep; i++)
+        if (strcmp(deep[i], file) == 0 && !dlsym(RTLD_DEFAULT, "__sanitizer_set_report_path"))
+            return RTLD_DEEPBIND;
+#endif
+    (void)deep;
+    (void)file;
+    return 0;
+}
+
 /* Checks that memory suffices for the module and its libraries before it loads them: libraries that run out
    of memory while they are loaded abort the program, and the loader gives reasons only as text without fixed
    wording. A module that is refused is not closed: another part of the process may have loaded the same
@@ -113,7 +133,7 @@ static ffd_status open_module(const module *of, const module_head **head, ffd_er
                         "the module for %s cannot be loaded: %s: is no file, or one of another user, or one "
                         "that everybody may change",
                         of->what, path);
-    void *const handle = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    void *const handle = dlopen(path, RTLD_NOW | RTLD_LOCAL | binding_of(of->wanted.file));
     if (!handle) {
         const char *const said = dlerror();
         return ffd_fail(error, FFD_E_UNSUPPORTED, "the module for %s cannot be loaded: %s%s", of->what,
