@@ -9,6 +9,9 @@
 #include "base/file/path.h"
 #include "base/text/base64.h"
 #include "io/gltf/file/uri.h"
+#include "io/gltf/model/gltf_model.h"
+#include <stdlib.h>
+#include <unistd.h>
 
 #define ASSET "\"asset\":{\"version\":\"2.0\"}"
 /* 36 bytes: the triangle (0,0,0) (1,0,0) (0,1,0). */
@@ -467,6 +470,23 @@ static void standard_input_has_no_folder(void **state)
     assert_string_equal(error.message, "the buffer is the file \"a.bin\", and standard input has no folder");
 }
 
+/* Callers pass no URIs. If one did, the file would be there to be read. */
+static void tinygltf_opens_no_file(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/ffd-test-XXXXXX", text[200];
+    gltf_model model;
+    ffd_error error = {0};
+    const int file = mkstemp(path);
+    assert_true(file >= 0);
+    assert_int_equal(write(file, "1234", 4), 4);
+    close(file);
+    snprintf(text, sizeof text, "{" ASSET ",\"buffers\":[{\"byteLength\":4,\"uri\":\"%s\"}]}", path);
+    const ffd_status status = ffd_gltf_parse_model(text, strlen(text), "t.gltf", &model, &error);
+    unlink(path);
+    assert_int_equal(status, FFD_E_INVALID);
+}
+
 static void base64_is_read_and_written(void **state)
 {
     (void)state;
@@ -546,6 +566,7 @@ int main(void)
         cmocka_unit_test(a_primitive_with_wrong_indices_has_vertices_but_no_faces),
         cmocka_unit_test(broken_glb_is_refused),
         cmocka_unit_test(standard_input_has_no_folder),
+        cmocka_unit_test(tinygltf_opens_no_file),
         cmocka_unit_test(base64_is_read_and_written),
         cmocka_unit_test(paths_are_worked_in),
     };
