@@ -449,11 +449,10 @@ static ffd_status give_positions(deform_job *job, ffd_error *error)
                   : FFD_OK;
 }
 
-/* Whether a word is needed if nothing moves: a check prints how many vertices move, and a morph target of
-   zeros is told when it is saved. */
+/* Whether a word is needed if nothing moves: a check prints how many vertices move. */
 static bool tells_still(const deform_job *job)
 {
-    return job->check ? job->details != NULL : !job->desc->as_morph;
+    return !job->check || job->details;
 }
 
 ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error *error)

@@ -69,6 +69,25 @@ def moves_that_move_no_vertex_are_told(run):
 
 
 @case
+def a_morph_target_that_moves_nothing_is_told_with_the_reason(run):
+    """Of --as-morph and of each --morph; what moves beside it does not hide it."""
+    start(run, [{"pull": {"point": [90, 50, 0], "by": [0, 0, 1], "radius": 0.5}}])
+    run.write("m.json", lattice(moves=MOVE))
+    lies = r" \(the mesh lies from -1 -1 -1 to 1 1 1\)"
+    zeros = "no vertex moves: all offsets of the morph target are 0"
+    for options, expected in ((["-l", "l.json", "--as-morph", "far"], [f"a.obj: the move of l.json moves no control point{lies}", f"a.obj: {zeros}"]),
+                              (["--morph", "far=l.json"], [f"a.obj: the move of l.json moves no control point{lies}", f"a.obj: {zeros}"]),
+                              (["-l", "m.json", "-l", "l.json", "--as-morph", "far"], ["a.obj: the move of l.json moves no control point"])):
+        done = run.ffd("deform", "a.obj", "b.glb", *options, "--force", err=lambda said: None)
+        found = [line for line in done.err if "control point" in line or "no vertex" in line]
+        check(len(found) == len(expected) and all(re.fullmatch(e, f) for e, f in zip(expected, found)), options, done.err)
+    run.ffd("deform", "a.obj", "b.glb", "--morph", "near=m.json", "--morph", "far=l.json", "--force",
+            err=lambda said: equal(len([line for line in said if "far" in line and "moves no control point" in line]), 1, str(said)))
+    run.ffd("view", "a.obj", "-l", "l.json", "--as-morph", "far", "-o", "v.html",
+            err=re.compile("^a.obj: no vertex moves: the move of l.json moves no control point"))
+
+
+@case
 def a_row_of_a_table_that_moves_nothing_is_told(run):
     start(run, [{"twist": {"axis": "x", "degrees": {"$": "D"}}}])
     run.write("t.csv", "D\n0\n30\n")

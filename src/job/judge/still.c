@@ -59,6 +59,8 @@ void ffd_still_warn(const deform_job *job, const ffd_bounds *box)
 {
     const pass_totals *const totals = &job->totals;
     const bool still = totals->moved == 0;
+    /* That a morph target has offsets of zero is told when it is saved; why is told here. */
+    const bool is_told = job->desc->as_morph && !job->check;
     char where[200] = "";
     lattice_group idle = {0}, active = {0};
     uint64_t points = 0;
@@ -79,10 +81,10 @@ void ffd_still_warn(const deform_job *job, const ffd_bounds *box)
         tell_bounds(box, where, sizeof where);
     if (idle.count > 0)
         ffd_log_line(&job->log, FFD_LOG_WARNING, "%s%s of %s %s no control point%s",
-                     still && active.count == 0 ? "no vertex moves: " : "",
+                     still && active.count == 0 && !is_told ? "no vertex moves: " : "",
                      ffd_plural(idle.moves, "the move", "the moves"), idle.names,
                      ffd_plural(idle.moves, "moves", "move"), active.count == 0 ? where : "");
-    if (still && active.count > 0 && !is_explained(totals))
+    if (still && !is_told && active.count > 0 && !is_explained(totals))
         ffd_log_line(&job->log, FFD_LOG_WARNING, "no vertex moves, though %s %s %" PRIu64 " control %s%s",
                      active.names, ffd_plural(active.count, "moves", "move"), points,
                      ffd_plural(points, "point", "points"), where);
