@@ -257,7 +257,7 @@ def offsets_of(run, name, mesh=0):
 @case
 def a_new_target_has_one_number_in_all_primitives(run):
     """Also where they have not as many targets: targets of zeros fill the gaps, and the new one has the weight 0."""
-    told_of = re.compile("has [01] morph targets, but another one of its mesh has [12]")
+    told_of = re.compile("has (0 morph targets|1 morph target), but another one of its mesh has [12]")
     for counts in ([1, 0], [0, 2], [1, 2, 2], [2, 1, 0]):
         most = max(counts)
         old = [[[0, t + 1, 0] if t < count else [0, 0, 0] for t in range(most)] for count in counts]
@@ -279,7 +279,7 @@ def a_new_target_has_one_number_in_all_primitives(run):
 def primitives_with_fewer_targets_than_others_are_a_flaw(run):
     run.write("in.glb", unequal([1, 0, 2]).glb())
     run.write("l.json", SHIFT)
-    run.ffd("deform", "in.glb", "out.glb", "-l", "l.json", "--report", "r.json", err=re.compile("has 1 morph targets, but another"))
+    run.ffd("deform", "in.glb", "out.glb", "-l", "l.json", "--report", "r.json", err=re.compile("has 1 morph target, but another"))
     equal([(flaw["pointer"], flaw["count"]) for flaw in json.loads(run.text("r.json"))["jobs"][0]["flaws"]],
           [("/meshes/0/primitives/0", 2)])
     run.ffd("deform", "in.glb", "strict.glb", "-l", "l.json", "--strict", code=INVALID, lines=1)

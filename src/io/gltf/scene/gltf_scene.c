@@ -1,6 +1,7 @@
 #include "io/gltf/scene/gltf_scene.h"
 #include "base/lower_bound.h"
 #include "base/memory/memory.h"
+#include "base/text/words.h"
 #include "base/vector/vec.h"
 #include "io/gltf/scene/gltf_detail.h"
 #include "io/gltf/scene/gltf_visibility.h"
@@ -381,9 +382,10 @@ static ffd_status note_unequal_targets(gltf_document *d, ffd_error *error)
             const size_t count = d->model.meshes[m].primitives[p].target_count;
             if (count < d->mesh_uses[m].target_count)
                 status = ffd_gltf_flaw(d, ffd_gltf_primitive_value(d, m, p), error,
-                                       "the primitive has %zu morph targets, but another one of its mesh has "
-                                       "%zu: the further ones do not move it",
-                                       count, d->mesh_uses[m].target_count);
+                                       "the primitive has %zu %s, but another one of its mesh has %zu: the "
+                                       "further ones do not move it",
+                                       count, ffd_plural(count, "morph target", "morph targets"),
+                                       d->mesh_uses[m].target_count);
         }
     return status;
 }
