@@ -16,6 +16,7 @@
 #include "io/gltf/scene/gltf_scene.h"
 #include "io/gltf/scene/gltf_shapes.h"
 #include "io/gltf/scene/gltf_skin.h"
+#include "io/gltf/scene/gltf_skin_sets.h"
 #include "io/gltf/splat/gltf_splats.h"
 #include "json/json_parse.h"
 #include <stdlib.h>
@@ -340,6 +341,7 @@ static void free_document(gltf_document *d)
     ffd_free(d->scene_ranks);
     ffd_free(d->parents);
     ffd_free(d->stands_in);
+    ffd_free(d->collides);
     ffd_free(d->selected_nodes);
     ffd_free(d->hidden);
     ffd_free(d->scene_nodes);
@@ -397,6 +399,8 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
         status = ffd_gltf_list_skins(d, error);
     if (status == FFD_OK)
         status = ffd_gltf_make_scene(d, error);
+    if (status == FFD_OK)
+        status = ffd_gltf_settle_skins(d, error);
     if (status == FFD_OK)
         status = ffd_gltf_make_parts(d, error);
     if (status == FFD_OK)
