@@ -65,6 +65,36 @@ ffd_status ffd_lines_next(line_reader *reader, bool append, line_state *state, f
     return end_line(reader, error);
 }
 
+/* Blank lines are skipped. */
+static bool is_blank(const byte_buffer *line)
+{
+    for (size_t i = 0; i < line->size; i++)
+        if (line->data[i] == 0 || !strchr(" \t\r", line->data[i]))
+            return false;
+    return true;
+}
+
+/* Skips a byte order mark, which some editors write. */
+static void skip_mark(line_reader *reader)
+{
+    byte_buffer *const line = &reader->line;
+    if (reader->number != 1 || line->size < 3 || memcmp(line->data, "\xef\xbb\xbf", 3) != 0)
+        return;
+    line->size -= 3;
+    memmove(line->data, line->data + 3, line->size + 1);
+}
+
+ffd_status ffd_lines_next_filled(line_reader *reader, line_state *state, ffd_error *error)
+{
+    ffd_status status;
+    do {
+        status = ffd_lines_next(reader, false, state, error);
+        if (!status && *state == LINE_READ)
+            skip_mark(reader);
+    } while (!status && *state == LINE_READ && is_blank(&reader->line));
+    return status;
+}
+
 void ffd_lines_close(line_reader *reader)
 {
     ffd_stream_close(&reader->stream);

@@ -29,6 +29,9 @@ typedef enum line_state {
 /* Reads the next line, as far as it has arrived. append: add it to the current one, after a line break.
    Errors: FFD_E_IO, FFD_E_MEMORY. */
 ffd_status ffd_lines_next(line_reader *reader, bool append, line_state *state, ffd_error *error);
+/* Reads the next line that is not blank. A byte order mark, which some editors write, is skipped. Errors: as
+   above. */
+ffd_status ffd_lines_next_filled(line_reader *reader, line_state *state, ffd_error *error);
 /* Closes the file and frees the line. */
 void ffd_lines_close(line_reader *reader);
 
