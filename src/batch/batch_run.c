@@ -200,7 +200,7 @@ static ffd_status begin_jobs(batch_run *run, ffd_error *error)
 static ffd_status wait_for_ends(batch_run *run, ffd_error *error)
 {
     if (ffd_pool_running(run->pool) > 0 || run->starved)
-        ffd_pool_wait(run->pool, LOOK);
+        ffd_pool_wait(run->pool, run->starved ? ffd_jobs_descriptor(run->source) : -1, LOOK);
     if (run->ending || run->desc->stop || ffd_interrupt_requested())
         return FFD_OK;
     const ffd_status status = ffd_pool_assign(run->pool, run->tasks, run->count, error);

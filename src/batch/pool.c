@@ -444,11 +444,11 @@ static double time_left(const worker_pool *pool, double seconds)
     return seconds;
 }
 
-void ffd_pool_wait(worker_pool *pool, double seconds)
+void ffd_pool_wait(worker_pool *pool, int input, double seconds)
 {
     for (int i = 0; i < pool->desc.workers; i++)
         pool->processes[i] = pool->workers[i].process;
-    ffd_process_wait(pool->processes, (size_t)pool->desc.workers, time_left(pool, seconds));
+    ffd_process_wait(pool->processes, (size_t)pool->desc.workers, input, time_left(pool, seconds));
     const double now = ffd_clock_seconds();
     for (int i = 0; i < pool->desc.workers; i++) {
         if (!pool->workers[i].process)
@@ -482,7 +482,7 @@ void ffd_pool_stop(worker_pool *pool)
         worker->deadline = end;
     }
     while (ffd_pool_running(pool) > 0)
-        ffd_pool_wait(pool, GRACE);
+        ffd_pool_wait(pool, -1, GRACE);
 }
 
 void ffd_pool_destroy(worker_pool **pool)

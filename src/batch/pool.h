@@ -75,8 +75,9 @@ ffd_status ffd_pool_create(const pool_desc *desc, worker_pool **pool, ffd_error 
 /* Assigns ready tasks to idle workers. tasks: in the order of the jobs; entries may be NULL. Errors: no
    worker can be started. */
 ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t count, ffd_error *error);
-/* Waits at most this many seconds for a worker's answer, and handles what has happened. */
-void ffd_pool_wait(worker_pool *pool, double seconds);
+/* Waits at most this many seconds for a worker's answer, or until a descriptor can be read (negative: none),
+   and handles what has happened. */
+void ffd_pool_wait(worker_pool *pool, int input, double seconds);
 /* Returns the number of running tasks. */
 size_t ffd_pool_running(const worker_pool *pool);
 /* Statistics for --verbose. */

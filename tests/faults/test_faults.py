@@ -417,6 +417,36 @@ def wild_16_csv_semicolon(run):
     equal((run.names("o"), run.read("o/a.obj")), (["a.obj"], run.read("single.obj")))
 
 
+def swept(run, name):
+    """The table of a folder is read as one with commas is; what is said of it."""
+    os.environ["XDG_CACHE_HOME"] = run.path("cache")
+    run.folder_of("o")
+    arguments = ["batch", "--csv", name, "--in", "m.obj", "-l", "sweep.json", "--out-dir", "o"]
+    done = run.ffd(*arguments, err=anything)
+    run.ffd("deform", "m.obj", "single.obj", "-l", "sweep.json", "--set", "DEGREES=30", "--force")
+    equal((run.names("o"), run.read("o/a.obj")), (["a.obj"], run.read("single.obj")))
+    said = done.err[0]
+    run.ffd(*arguments, "--strict", "--force", code=(1, INVALID), err=anything)
+    os.unlink(run.path("o/a.obj"))
+    os.rmdir(run.path("o"))
+    return said
+
+
+@case
+def wild3_16_table_dialects(run):
+    """Columns that are separated by tabs, and the column without a name that pandas writes, are read; both are said."""
+    use(run, "wild3-16-table-dialects")
+    equal(swept(run, "tab.csv"), "tab.csv: line 1: the columns are separated by tabs: numbers may have a decimal comma")
+    equal(swept(run, "index.csv"), "index.csv: line 1: column 1 has no name, as the index of pandas (index=False), and is left out")
+
+
+@case
+def wild3_16b_table_blanks(run):
+    """Blanks behind the commas are no part of a name or a value."""
+    use(run, "wild3-16b-table-blanks")
+    equal(swept(run, "t.csv"), 't.csv: line 1: blanks beside "DEGREES" are left out')
+
+
 @case
 def wild_17_obj_backslash_blank(run):
     """A blank behind the backslash at a line's end: the line goes on, which is said, and --strict refuses it."""

@@ -1,7 +1,7 @@
 #include "base/file/stream.h"
+#include "base/file/input.h"
 #include "base/memory/memory.h"
 #include <errno.h>
-#include <fcntl.h>
 #include <poll.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -24,15 +24,14 @@ ffd_status ffd_stream_open(const char *path, const char *name, byte_stream **str
     *stream = ffd_alloc(1, sizeof **stream);
     if (!*stream)
         return ffd_fail_memory(error);
-    (*stream)->fd = strcmp(path, "-") == 0 ? STDIN_FILENO : open(path, O_RDONLY | O_CLOEXEC);
     (*stream)->name = name;
     (*stream)->read = (*stream)->next = (*stream)->filled = 0;
     (*stream)->ended = false;
-    if ((*stream)->fd < 0) {
-        const int reason = errno;
+    const ffd_status status = ffd_file_open(path, &(*stream)->fd, error);
+    if (status) {
         ffd_free(*stream);
         *stream = NULL;
-        return ffd_fail_file(error, FFD_E_IO, name, "cannot be read: %s", strerror(reason));
+        return status;
     }
     const bool is_file = fstat((*stream)->fd, &info) == 0 && S_ISREG(info.st_mode);
     (*stream)->size = is_file ? (uint64_t)info.st_size : 0;
@@ -79,6 +78,16 @@ int ffd_stream_byte(byte_stream *stream, ffd_status *status, ffd_error *error)
         return -1;
     stream->read++;
     return stream->block[stream->next++];
+}
+
+int ffd_stream_descriptor(const byte_stream *stream)
+{
+    return stream->fd;
+}
+
+const char *ffd_stream_name(const byte_stream *stream)
+{
+    return stream->name;
 }
 
 uint64_t ffd_stream_size(const byte_stream *stream)

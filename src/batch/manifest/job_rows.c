@@ -96,21 +96,15 @@ static void add_output(job_description *job, const char *folder, const char *inp
     ffd_free(name);
 }
 
-bool ffd_column_is_ignored(const char *ignored, const char *column)
-{
-    const size_t length = strlen(column);
-    for (const char *word = ignored; word && *word; word += strcspn(word, ","), word += *word == ',')
-        if (strcspn(word, ",") == length && memcmp(word, column, length) == 0)
-            return true;
-    return false;
-}
-
 /* The columns "in", "out" and "lattice" are files; others are values of placeholders. Paths are relative to
-   the table's folder, those of outputs to --out-dir. */
-static void describe_cell(const job_commons *commons, const char *column, const char *cell,
+   the table's folder, those of outputs to --out-dir. An empty cell says nothing; but one in quotes is a
+   text. */
+static void describe_cell(const job_commons *commons, const char *column, const char *cell, char way,
                           job_description *job, csv_flaw *flaw)
 {
     const char *const out_dir = commons->out_dir;
+    if (!*cell && !(way & CSV_IN_QUOTES))
+        return;
     if (strcmp(column, "in") != 0 && strcmp(column, "out") != 0 && strcmp(column, "lattice") != 0)
         set_cell(commons, column, cell, job, flaw);
     else if (*cell && *column == 'o')
@@ -126,8 +120,8 @@ void ffd_describe_row(const job_commons *commons, const csv_row *columns, const 
     for (size_t i = 0; i < row->count; i++) {
         column = ffd_csv_next(columns, column);
         cell = ffd_csv_next(row, cell);
-        if (!ffd_column_is_ignored(commons->ignored, column))
-            describe_cell(commons, column, cell, job, flaw);
+        if (!commons->skipped[i])
+            describe_cell(commons, column, cell, row->ways.data[i], job, flaw);
     }
     if (commons->input && !ffd_description_find(job, JOB_INPUT))
         ffd_description_add(job, JOB_INPUT, NULL, commons->input);

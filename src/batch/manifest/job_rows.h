@@ -14,7 +14,7 @@ typedef struct job_commons {
     const char *const *lattices; /* for jobs without any */
     size_t lattice_count;
     const char *const *morphs; /* lattice_count names, if each lattice makes a morph target; or NULL */
-    const char *ignored;       /* columns to ignore, "a,b"; or NULL */
+    const uint8_t *skipped;    /* of a table's columns: whether they are left out */
     bool decimal_comma;        /* numbers may have a decimal comma */
 } job_commons;
 
@@ -23,8 +23,6 @@ typedef struct csv_flaw {
     char cell[48], number[64]; /* of the first one: the original, and the number read */
 } csv_flaw;
 
-/* Whether a column is in the list of ignored ones. */
-bool ffd_column_is_ignored(const char *ignored, const char *column);
 /* Describes a row. Its cells must be UTF-8, as many as the columns. number: of the row, for the name of an
    output without one (0: use the input's name). */
 void ffd_describe_row(const job_commons *commons, const csv_row *columns, const csv_row *row, uint64_t number,

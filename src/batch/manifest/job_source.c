@@ -61,8 +61,8 @@ static job_commons list_commons(const job_source *source)
                          .lattices = desc->lattices,
                          .lattice_count = desc->lattice_count,
                          .morphs = desc->morphs,
-                         .ignored = desc->ignored,
-                         .decimal_comma = source->table.separator == ';'};
+                         .skipped = source->table.skipped,
+                         .decimal_comma = source->table.separator != ','};
 }
 
 /* Returns the path of a row's mesh, freed by the caller; NULL: it has none, or memory runs out. */
@@ -185,11 +185,6 @@ static ffd_status open_table(job_source *source, ffd_error *error)
     return status ? status : ffd_table_begin(&source->table, error);
 }
 
-static bool has_output_column(const job_source *source)
-{
-    return ffd_table_has(&source->table, "out") && !ffd_column_is_ignored(source->desc.ignored, "out");
-}
-
 static ffd_status count_row(const job_source *other, file_table *meshes, ffd_error *error)
 {
     uint64_t rows = 0;
@@ -235,7 +230,8 @@ ffd_status ffd_jobs_open(const job_source_desc *desc, job_source **source, ffd_e
         status = open_table(*source, error);
     else
         status = find_files(*source, error);
-    (*source)->numbers_outputs = !status && desc->table && desc->out_dir && !has_output_column(*source);
+    (*source)->numbers_outputs =
+        !status && desc->table && desc->out_dir && !ffd_table_has(&(*source)->table, "out");
     if (!status && (*source)->numbers_outputs && !ffd_file_reads_once(desc->table))
         status = count_meshes(*source, error);
     if (status)
@@ -330,6 +326,11 @@ double ffd_jobs_fraction(const job_source *source)
         return -1;
     const uint64_t size = ffd_stream_size(stream);
     return size ? (double)ffd_stream_position(stream) / (double)size : -1;
+}
+
+int ffd_jobs_descriptor(const job_source *source)
+{
+    return source->reader.stream ? ffd_stream_descriptor(source->reader.stream) : -1;
 }
 
 const mesh_flaws *ffd_jobs_flaws(const job_source *source)

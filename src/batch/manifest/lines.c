@@ -15,6 +15,7 @@ static void begin_line(line_reader *reader, bool append)
     } else {
         reader->line.size = 0;
         reader->too_long = false;
+        reader->left_out = 0;
     }
 }
 
@@ -43,10 +44,15 @@ static ffd_status take_bytes(line_reader *reader, line_state *state, ffd_error *
         *state = LINE_READ;
         if (byte == '\n')
             return FFD_OK;
-        if (reader->line.size < LINE_MOST)
+        if (reader->line.size < LINE_MOST) {
             ffd_buffer_append(&reader->line, &byte, 1);
-        else
-            reader->too_long = true;
+            continue;
+        }
+        reader->too_long = true;
+        if (++reader->left_out == LINE_LOST)
+            return ffd_fail_line(error, FFD_E_INVALID, ffd_stream_name(reader->stream),
+                                 (size_t)reader->number + 1, "the line does not end within %zu bytes",
+                                 LINE_LOST);
     }
     *state = LINE_LATER;
     return FFD_OK;
@@ -78,10 +84,20 @@ static bool is_blank(const byte_buffer *line)
 static void skip_mark(line_reader *reader)
 {
     byte_buffer *const line = &reader->line;
-    if (reader->number != 1 || line->size < 3 || memcmp(line->data, "\xef\xbb\xbf", 3) != 0)
+    if (line->size < 3 || memcmp(line->data, "\xef\xbb\xbf", 3) != 0)
         return;
     line->size -= 3;
     memmove(line->data, line->data + 3, line->size + 1);
+}
+
+static ffd_status check_mark(line_reader *reader, ffd_error *error)
+{
+    const byte_buffer *const line = &reader->line;
+    if (line->size >= 2 && (memcmp(line->data, "\xff\xfe", 2) == 0 || memcmp(line->data, "\xfe\xff", 2) == 0))
+        return ffd_fail_line(error, FFD_E_INVALID, ffd_stream_name(reader->stream), 1,
+                             "is text in UTF-16: it must be UTF-8");
+    skip_mark(reader);
+    return FFD_OK;
 }
 
 ffd_status ffd_lines_next_filled(line_reader *reader, line_state *state, ffd_error *error)
@@ -89,8 +105,8 @@ ffd_status ffd_lines_next_filled(line_reader *reader, line_state *state, ffd_err
     ffd_status status;
     do {
         status = ffd_lines_next(reader, false, state, error);
-        if (!status && *state == LINE_READ)
-            skip_mark(reader);
+        if (!status && *state == LINE_READ && reader->number == 1)
+            status = check_mark(reader, error);
     } while (!status && *state == LINE_READ && is_blank(&reader->line));
     return status;
 }
