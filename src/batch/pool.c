@@ -22,6 +22,7 @@ typedef struct pool_worker {
     uint64_t memory;         /* bytes that this task may take: the worker keeps its mesh */
     bool has_mesh, timed_out, stopped, retires;
     bool was_told;   /* the task was sent */
+    bool is_unheard; /* its message is invalid, or memory ran out for it */
     bool is_ending;  /* its time is up */
     double deadline; /* 0: none */
 } pool_worker;
@@ -251,7 +252,7 @@ static void begin_task(const worker_pool *pool, pool_worker *worker, pool_task *
     worker->mesh = task->mesh;
     worker->memory = task->memory;
     worker->has_mesh = true;
-    worker->timed_out = worker->stopped = worker->is_ending = false;
+    worker->timed_out = worker->stopped = worker->is_ending = worker->is_unheard = false;
     worker->deadline = pool->desc.timeout > 0 ? ffd_clock_seconds() + pool->desc.timeout : 0;
     task->looks = task->state == TASK_NEW;
     task->took_row = pool->desc.rows != NULL;
@@ -375,6 +376,10 @@ static void describe_failure(const worker_pool *pool, const pool_worker *worker,
         ffd_fail_file(error, FFD_E_LIMIT, name, "was stopped before it ended");
     else if (!end->signal && end->code == ffd_status_exit_code(FFD_E_MEMORY))
         ffd_fail_file(error, FFD_E_MEMORY, name, "out of memory");
+    else if (worker->is_unheard || (!end->signal && end->code == 0))
+        ffd_fail_file(
+            error, FFD_E_IO, name,
+            "the connection to the worker that did this job has failed: what it has made is not known");
     else if (end->killed)
         ffd_fail_file(error, FFD_E_MEMORY, name,
                       "was ended by the system (%s), probably because memory ran out", end->text);
@@ -412,8 +417,9 @@ static void receive(worker_pool *pool, pool_worker *worker)
     const bool understood = take_answer(pool, worker) && !worker->answer.failed;
     if (understood && alive && !worker->retires)
         return;
+    worker->is_unheard = !understood;
     if (!understood && alive)
-        ffd_process_kill(worker->process); /* its message is invalid */
+        ffd_process_kill(worker->process);
     end_worker(pool, worker);
 }
 
