@@ -222,6 +222,21 @@ static ffd_status rehearse(deform_job *job, const mesh_save_options *options, ff
     return status;
 }
 
+static const char *name_of_format(ffd_format format)
+{
+    return format == FFD_FORMAT_GLB ? "GLB" : ffd_format_table(format)->name;
+}
+
+/* Programs go by the ending. */
+static void warn_of_ending(const deform_job *job, const mesh_save_options *options)
+{
+    const ffd_format ending = ffd_format_from_name(options->path);
+    if (ending != FFD_FORMAT_AUTO && ending != options->format)
+        ffd_log_line(&job->log, FFD_LOG_WARNING, "%s is written as %s, although its ending says %s",
+                     ffd_file_display_name(options->path), name_of_format(options->format),
+                     name_of_format(ending));
+}
+
 static ffd_status check_morph(const deform_job *job, const mesh_save_options *options, ffd_error *error)
 {
     const bool morphs = options->format == FFD_FORMAT_GLTF || options->format == FFD_FORMAT_GLB;
@@ -287,6 +302,7 @@ static ffd_status run(deform_job *job, ffd_job_result *result, ffd_error *error)
             job->desc->morphs ? ffd_morphs_run(job, result, error) : ffd_deform_job_run(job, result, error);
     if (status || !ffd_deform_job_writes(job->desc))
         return status;
+    warn_of_ending(job, &options);
     if (job->desc->dry_run)
         return rehearse(job, &options, error);
     const double start = ffd_clock_seconds();

@@ -433,6 +433,17 @@ def swept(run, name):
 
 
 @case
+def wild3_09_batch_to_another_format(run):
+    """The outputs of a folder that is converted have the ending of their format."""
+    use(run, "wild3-09-batch-to-another-format")
+    os.environ["XDG_CACHE_HOME"] = run.path("cache")
+    run.folder_of("out")
+    run.ffd("batch", "--in", "parts/*.obj", "-l", "twist.json", "--out-dir", "out", "--output-format", "glb", err=anything)
+    equal(run.names("out"), ["a.glb", "b.glb"])
+    equal(info(run, "out/a.glb")["mesh_format"], "glTF")
+
+
+@case
 def wild3_16_table_dialects(run):
     """Columns that are separated by tabs, and the column without a name that pandas writes, are read; both are said."""
     use(run, "wild3-16-table-dialects")

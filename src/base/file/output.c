@@ -288,7 +288,7 @@ static ffd_status open_beside(output_file *file, const char *path, const struct 
    taken it for a leftover. */
 static void remove_temporary(const output_file *file)
 {
-    if (ffd_names_file(file->fd, file->temporary))
+    if (!ffd_names_other(file->fd, file->temporary))
         unlink(file->temporary);
 }
 
@@ -437,7 +437,7 @@ static ffd_status check_written(const file_output *output, ffd_error *error)
         const int twin = file->temporary ? dup(file->fd) : -1;
         if (file->temporary && (twin < 0 || close(twin) != 0))
             return ffd_fail_errno(error, file->target, "cannot be written");
-        if (file->temporary && ffd_file_exists(file->temporary) && !ffd_names_file(file->fd, file->temporary))
+        if (file->temporary && ffd_names_other(file->fd, file->temporary))
             return ffd_fail_file(error, FFD_E_IO, file->target, "is being written by another run");
     }
     return FFD_OK;

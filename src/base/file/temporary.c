@@ -50,15 +50,9 @@ static bool has_no_locks(void)
     return errno == ENOLCK || errno == ENOSYS || errno == EOPNOTSUPP;
 }
 
-static bool is_at(const struct stat *file, const char *path)
-{
-    struct stat there;
-    return lstat(path, &there) == 0 && file->st_ino == there.st_ino && file->st_dev == there.st_dev;
-}
-
 int ffd_lock_named(int fd, const char *path)
 {
-    struct stat ours;
+    struct stat ours, there;
     if (flock(fd, LOCK_EX | LOCK_NB) != 0 && !has_no_locks()) {
         errno = errno == EWOULDBLOCK ? EBUSY : errno;
         return -1;
@@ -70,13 +64,14 @@ int ffd_lock_named(int fd, const char *path)
         return -1;
     }
     /* Another run may have renamed or removed the file between open and lock. */
-    return is_at(&ours, path);
+    return lstat(path, &there) == 0 && ours.st_ino == there.st_ino && ours.st_dev == there.st_dev;
 }
 
-bool ffd_names_file(int fd, const char *path)
+bool ffd_names_other(int fd, const char *path)
 {
-    struct stat ours;
-    return fstat(fd, &ours) == 0 && is_at(&ours, path);
+    struct stat ours, there;
+    return lstat(path, &there) == 0 && fstat(fd, &ours) == 0 &&
+           (ours.st_ino != there.st_ino || ours.st_dev != there.st_dev);
 }
 
 /* Opens the leftover of another run to lock it; for writing if possible, because some file systems require

@@ -77,22 +77,28 @@ static void add_lattices(job_description *job, const job_commons *commons)
             ffd_description_add(job, JOB_LATTICE, NULL, commons->lattices[i]);
 }
 
-/* Adds the output: the input's name in the folder of outputs. number: appended if the input has several
-   outputs (STEM-ROW.EXT); 0: not appended. */
-static void add_output(job_description *job, const char *folder, const char *input, uint64_t number)
+char *ffd_output_name(const job_commons *commons, const char *input, uint64_t number)
 {
-    char *const stem = ffd_path_stem(input);
+    char *const named = commons->ending ? ffd_path_with_ending(input, commons->ending) : ffd_text_copy(input);
+    char *const stem = named ? ffd_path_stem(named) : NULL;
     byte_buffer text = {.failed = !stem};
     if (stem && number)
-        ffd_buffer_format(&text, "%s-%" PRIu64 "%s", stem, number, ffd_path_ending(input));
-    else
-        ffd_buffer_text(&text, ffd_path_name(input));
-    char *const name = ffd_buffer_finish(&text);
+        ffd_buffer_format(&text, "%s-%" PRIu64 "%s", stem, number, ffd_path_ending(named));
+    else if (stem)
+        ffd_buffer_text(&text, ffd_path_name(named));
+    ffd_free(stem);
+    ffd_free(named);
+    return ffd_buffer_finish(&text);
+}
+
+/* Adds the output, in the folder of outputs. number: as in ffd_output_name. */
+static void add_output(const job_commons *commons, const char *input, uint64_t number, job_description *job)
+{
+    char *const name = ffd_output_name(commons, input, number);
     if (name)
-        add_path(job, JOB_OUTPUT, folder, name);
+        add_path(job, JOB_OUTPUT, commons->out_dir, name);
     else
         job->texts.failed = true;
-    ffd_free(stem);
     ffd_free(name);
 }
 
@@ -127,7 +133,7 @@ void ffd_describe_row(const job_commons *commons, const csv_row *columns, const 
         ffd_description_add(job, JOB_INPUT, NULL, commons->input);
     const char *const input = ffd_description_find(job, JOB_INPUT);
     if (commons->out_dir && input && !ffd_description_find(job, JOB_OUTPUT))
-        add_output(job, commons->out_dir, input, number);
+        add_output(commons, input, number, job);
     if (!ffd_description_find(job, JOB_LATTICE))
         add_lattices(job, commons);
 }
@@ -136,6 +142,6 @@ void ffd_describe_file(const job_commons *commons, const char *path, job_descrip
 {
     ffd_description_add(job, JOB_INPUT, NULL, path);
     if (commons->out_dir)
-        add_output(job, commons->out_dir, path, 0);
+        add_output(commons, path, 0, job);
     add_lattices(job, commons);
 }

@@ -52,11 +52,22 @@ static ffd_status read_manifest_line(job_source *source, batch_job *job)
 
 /* Tables */
 
+/* Returns the ending that --output-format gives to outputs; NULL: none. */
+static const char *ending_of(const job_source_desc *desc)
+{
+    const char *ending = NULL;
+    for (size_t i = 0; i < desc->default_count; i++)
+        if (strcmp(desc->defaults[i].name, "output-format") == 0)
+            ending = desc->defaults[i].value;
+    return ending;
+}
+
 static job_commons list_commons(const job_source *source)
 {
     const job_source_desc *const desc = &source->desc;
     return (job_commons){.folder = source->folder,
                          .out_dir = desc->out_dir,
+                         .ending = ending_of(desc),
                          .input = desc->pattern,
                          .lattices = desc->lattices,
                          .lattice_count = desc->lattice_count,
@@ -120,25 +131,36 @@ static ffd_status read_file(const job_source *source, const char *path, batch_jo
     return status;
 }
 
+/* A file, and the name of its output. */
+typedef struct named_file {
+    const char *path;
+    char *name;
+} named_file;
+
 static int compare_names(const void *a, const void *b)
 {
-    return strcmp(ffd_path_name(*(const char *const *)a), ffd_path_name(*(const char *const *)b));
+    return strcmp(((const named_file *)a)->name, ((const named_file *)b)->name);
 }
 
-/* Refuses files of equal names: their outputs would overwrite each other. */
+/* Refuses files whose outputs have equal names: they would overwrite each other. */
 static ffd_status refuse_equal_names(const job_source *source, ffd_error *error)
 {
     const file_list *const files = &source->files;
-    char **const sorted = ffd_alloc(files->count, sizeof *sorted);
-    ffd_status status = FFD_OK;
-    if (!sorted)
-        return ffd_fail_memory(error);
-    memcpy(sorted, files->paths, files->count * sizeof *sorted);
-    qsort(sorted, files->count, sizeof *sorted, compare_names);
+    const job_commons commons = list_commons(source);
+    named_file *const sorted = ffd_alloc_zero(files->count, sizeof *sorted);
+    ffd_status status = sorted ? FFD_OK : ffd_fail_memory(error);
+    for (size_t i = 0; i < files->count && !status; i++) {
+        sorted[i] = (named_file){files->paths[i], ffd_output_name(&commons, files->paths[i], 0)};
+        status = sorted[i].name ? FFD_OK : ffd_fail_memory(error);
+    }
+    if (!status)
+        qsort(sorted, files->count, sizeof *sorted, compare_names);
     for (size_t i = 1; i < files->count && !status; i++)
         if (compare_names(&sorted[i - 1], &sorted[i]) == 0)
             status = ffd_fail(error, FFD_E_ARGUMENT, "%s and %s would both be written as \"%s\"",
-                              sorted[i - 1], sorted[i], ffd_path_name(sorted[i]));
+                              sorted[i - 1].path, sorted[i].path, sorted[i].name);
+    for (size_t i = 0; sorted && i < files->count; i++)
+        ffd_free(sorted[i].name);
     ffd_free(sorted);
     return status;
 }
