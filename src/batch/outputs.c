@@ -2,6 +2,7 @@
 #include "base/file/folder.h"
 #include "base/file/path.h"
 #include "base/file/path_list.h"
+#include "base/file/place.h"
 #include "base/memory/memory.h"
 #include "io/formats.h"
 #include <inttypes.h>
@@ -170,7 +171,7 @@ static ffd_status claim_copy(run_outputs *outputs, const char *manifest, batch_j
     char *const target = ffd_path_beside(job->target, source + (ffd_path_name(input) - input));
     if (!target)
         return ffd_fail_memory(error);
-    const hash128 file = ffd_file_identity(target);
+    const hash128 file = ffd_place_of(NULL, target);
     const bool is_copy = ffd_files_find(&outputs->copies, &file, &number);
     if (is_copy && !is_same_copy(outputs->copied[number].source, source))
         refuse(manifest, job, "", target, outputs->copied[number].line);
@@ -190,7 +191,7 @@ static ffd_status claim_files(run_outputs *outputs, const char *manifest, batch_
     ffd_status status = identities ? FFD_OK : ffd_fail_memory(error);
     uint64_t line;
     for (size_t i = 0; i < files->count && !status && !job->error.status; i++) {
-        identities[i] = ffd_file_identity(files->paths[i]);
+        identities[i] = ffd_place_of(NULL, files->paths[i]);
         if (is_taken(outputs, &identities[i], &line))
             refuse(manifest, job, "", files->paths[i], line);
     }
@@ -204,7 +205,7 @@ ffd_status ffd_outputs_claim(run_outputs *outputs, const char *manifest, batch_j
                              ffd_error *error)
 {
     uint64_t line;
-    *target = ffd_file_identity(job->target);
+    *target = ffd_place_of(NULL, job->target);
     if (!is_taken(outputs, target, &line))
         return ffd_files_put(&outputs->lines, target, job->line, error);
     refuse(manifest, job, "", ffd_job_output_name(job), line);
@@ -242,14 +243,14 @@ void ffd_outputs_check_embedding(const run_outputs *outputs, const char *manifes
     uint64_t line;
     if (!embedding || job->error.status)
         return;
-    const hash128 file = ffd_file_identity(embedding);
+    const hash128 file = ffd_place_of(NULL, embedding);
     if (is_taken(outputs, &file, &line))
         refuse(manifest, job, "the embedding ", embedding, line);
 }
 
 ffd_status ffd_outputs_reserve(run_outputs *outputs, const char *path, ffd_error *error)
 {
-    const hash128 file = ffd_file_identity(path);
+    const hash128 file = ffd_place_of(NULL, path);
     return ffd_files_put(&outputs->lines, &file, 0, error);
 }
 

@@ -5,6 +5,7 @@
 #include "base/memory/memory.h"
 #include <errno.h>
 #include <fcntl.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -44,10 +45,16 @@ char *ffd_temporary_name(const char *target)
     return ffd_hidden_name(target, ".ffd-tmp");
 }
 
-/* Whether the last call failed because the file system has no locks. */
+/* Whether a file could not be locked because its file system has no locks. */
+static atomic_bool lacks_locks;
+
+/* Whether the last call failed for this reason. */
 static bool has_no_locks(void)
 {
-    return errno == ENOLCK || errno == ENOSYS || errno == EOPNOTSUPP;
+    if (errno != ENOLCK && errno != ENOSYS && errno != EOPNOTSUPP)
+        return false;
+    atomic_store(&lacks_locks, true);
+    return true;
 }
 
 int ffd_lock_named(int fd, const char *path)
@@ -70,7 +77,7 @@ int ffd_lock_named(int fd, const char *path)
 bool ffd_names_other(int fd, const char *path)
 {
     struct stat ours, there;
-    return lstat(path, &there) == 0 && fstat(fd, &ours) == 0 &&
+    return atomic_load(&lacks_locks) && lstat(path, &there) == 0 && fstat(fd, &ours) == 0 &&
            (ours.st_ino != there.st_ino || ours.st_dev != there.st_dev);
 }
 

@@ -19,7 +19,8 @@ char *ffd_temporary_name(const char *target);
 /* Locks the open file at path against other runs, where the file system has locks. Returns 1; 0 if path leads
    to another file by now; -1 with errno on failure, EBUSY if another run holds the lock. */
 int ffd_lock_named(int fd, const char *path);
-/* Returns whether path leads to another file than the open one. */
+/* Returns whether path leads to another file than the open one, which only happens where there are no
+   locks. */
 bool ffd_names_other(int fd, const char *path);
 /* Creates the file for reading and writing, and locks it. An existing file without a lock is the leftover of
    a killed run; it is removed first, because its permission bits may be outdated. A file that another run has

@@ -5,7 +5,8 @@
 #include "base/memory/memory.h"
 #include "base/system/interrupt.h"
 #include "base/text/words.h"
-#include "batch/manifest/file_table.h"
+#include "base/file/file_table.h"
+#include "base/file/place.h"
 #include "batch/manifest/job_rows.h"
 #include "batch/manifest/lines.h"
 #include "batch/manifest/manifest.h"
@@ -97,7 +98,7 @@ static bool is_repeated(const job_source *source)
     if (ffd_file_reads_once(source->desc.table))
         return true;
     char *const mesh = mesh_of(source);
-    const hash128 file = mesh ? ffd_file_identity(mesh) : (hash128){{0}};
+    const hash128 file = mesh ? ffd_place_of(NULL, mesh) : (hash128){{0}};
     ffd_free(mesh);
     return ffd_files_find(&source->meshes, &file, &rows) && rows > 1;
 }
@@ -213,7 +214,7 @@ static ffd_status count_row(const job_source *other, file_table *meshes, ffd_err
     char *const mesh = mesh_of(other);
     if (!mesh)
         return FFD_OK;
-    const hash128 file = ffd_file_identity(mesh);
+    const hash128 file = ffd_place_of(NULL, mesh);
     ffd_free(mesh);
     const bool is_known = ffd_files_find(meshes, &file, &rows);
     return is_known && rows > 1 ? FFD_OK : ffd_files_put(meshes, &file, is_known ? 2 : 1, error);
