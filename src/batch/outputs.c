@@ -49,7 +49,7 @@ static bool has_copies(const batch_job *job, const output_kind *kind)
 output_others ffd_outputs_others(const batch_job *job)
 {
     const output_kind kind = kind_of(job);
-    const bool has_beside = job->output && kind.format && kind.format->list_beside;
+    const bool has_beside = job->output && kind.format && kind.format->name_beside;
     if (has_beside && !kind.is_kept)
         return OTHERS_KNOWN;
     return has_beside || has_copies(job, &kind) ? OTHERS_BY_MESH : OTHERS_NONE;
@@ -94,13 +94,19 @@ static ffd_status list_beside(const run_outputs *outputs, const batch_job *job, 
 {
     const mesh_format *const format = kind->format;
     size_t beside = 0;
-    if (!job->output || !format || !format->list_beside)
+    if (!job->output || !format || !format->name_beside)
         return FFD_OK;
     if (!kind->is_kept)
         beside = format->count_beside(NULL, kind->from, kind->to);
     else if (knows(outputs, kind))
         beside = outputs->beside;
-    return format->list_beside(job->target, beside, files, error);
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < beside && !status; i++) {
+        char *const path = format->name_beside(job->target, i);
+        status = path ? ffd_paths_add(files, path, error) : ffd_fail_memory(error);
+        ffd_free(path);
+    }
+    return status;
 }
 
 /* role: what the file is for the job, with a blank; or "". */

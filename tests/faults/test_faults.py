@@ -433,6 +433,51 @@ def swept(run, name):
 
 
 @case
+def wild3_22_shared_buffer_in_place(run):
+    """Two models that share a buffer are each moved once, in whatever order; one alone leaves its neighbour as it was."""
+    names = ["chair.gltf", "chair_blue.gltf"]
+    at_rest, moved = [[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[1, 0, 0], [2, 0, 0], [2, 1, 0]]
+    told = "chair.gltf: chair.bin is a buffer of chair_blue.gltf too, and stays: chair-1.bin is written in place of it"
+
+    def begin():
+        for name in run.names():
+            run.remove(name)
+        use(run, "wild3-22-shared-buffer-in-place")
+
+    def shown():
+        return [positions(run, name) for name in names]
+
+    begin()
+    run.ffd("deform", *names, "--in-place", "-l", "move.json", err=told)
+    equal(shown(), [moved, moved])
+    begin()
+    run.ffd("deform", *names[::-1], "--in-place", "-l", "move.json")
+    equal(shown(), [moved, moved])
+    begin()
+    run.ffd("deform", "chair.gltf", "--in-place", "-l", "move.json", err=told)
+    equal(shown(), [moved, at_rest])
+    run.ffd("deform", "chair.gltf", "--in-place", "-l", "move.json")
+    equal((shown(), run.names()), ([[[2, 0, 0], [3, 0, 0], [3, 1, 0]], at_rest],
+                                   ["chair-1.bin", "chair.bin", "chair.gltf", "chair_blue.gltf", "move.json"]))
+    # Another model is written over the first.
+    begin()
+    os.mkdir(run.path("new"))
+    for name in ("chair_blue.gltf", "chair.bin"):
+        shutil.move(run.path(name), run.path("new/" + name))
+        shutil.copy(run.path("new/" + name), run.path(name))
+    run.ffd("deform", "new/chair_blue.gltf", "chair.gltf", "-l", "move.json", "--force",
+            err="new/chair_blue.gltf: " + told.partition(": ")[2])
+    equal((shown(), positions(run, "new/chair_blue.gltf")), ([moved, at_rest], at_rest))
+    # And converted over it: a mesh of another format.
+    run.write("cube.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n")
+    run.write("z.gltf", run.text("chair_blue.gltf").replace("chair.bin", "cube.bin"))
+    shutil.copy(run.path("chair.bin"), run.path("cube.bin"))
+    run.ffd("deform", "cube.obj", "cube.gltf", "-l", "move.json", "--force",
+            err="cube.obj: cube.bin is a buffer of z.gltf too, and stays: cube-1.bin is written in place of it")
+    equal((positions(run, "cube.gltf"), positions(run, "z.gltf")), (moved, at_rest))
+
+
+@case
 def wild3_09_batch_to_another_format(run):
     """The outputs of a folder that is converted have the ending of their format."""
     use(run, "wild3-09-batch-to-another-format")
