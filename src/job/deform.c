@@ -12,6 +12,7 @@
 #include "job/input/source.h"
 #include "job/judge/result.h"
 #include "job/morphs.h"
+#include "job/reads.h"
 #include "job/report/depfile.h"
 #include "job/report/output_set.h"
 #include "job/sharing.h"
@@ -288,6 +289,16 @@ static bool needs_only_positions(const ffd_deform_desc *desc, const mesh_save_op
            ffd_source_format(&desc->input, &input, NULL) == FFD_OK && input == options->format;
 }
 
+/* Refuses to replace what the job reads through its mesh and its lattices. */
+static ffd_status check_reads(const deform_job *job, const char *output, ffd_error *error)
+{
+    const ffd_deform_desc *const desc = job->desc;
+    if (!ffd_deform_job_writes(desc) || desc->in_place)
+        return FFD_OK;
+    const ffd_status status = ffd_reads_check_mesh(output, &desc->input, error);
+    return status ? status : ffd_reads_check_boxes(output, &job->chain, desc->lattices, error);
+}
+
 /* Saves the result; a dry run only looks whether that would be refused. */
 static ffd_status write_output(deform_job *job, mesh_save_options *options, ffd_job_result *result,
                                ffd_error *error)
@@ -317,6 +328,8 @@ static ffd_status run(deform_job *job, ffd_job_result *result, ffd_error *error)
     job->only_positions = !status && needs_only_positions(job->desc, &options);
     if (!status)
         status = ffd_deform_job_open(job, result, error);
+    if (!status)
+        status = check_reads(job, options.path, error);
     if (!status)
         status = check_rig(job, &options, error);
     if (!status)

@@ -13,7 +13,7 @@ import socket
 import subprocess
 import time
 
-from harness import CUBE, CUBE_CORNERS, FFD, INVALID, IO, NOBODY, SECONDS, case, check, equal, gltf_json, lattice, main
+from harness import CUBE, CUBE_CORNERS, FFD, INVALID, IO, NO, NOBODY, PNG, SECONDS, case, check, equal, gltf_json, lattice, main
 
 TWIST = lattice(low=(-1, -1, -1), high=(2, 2, 2), moves=[{"twist": {"axis": "z", "degrees": 40}}])
 
@@ -125,6 +125,51 @@ def siege_05_a_file_that_appears_under_the_name_of_the_output_stays(run):
         equal(run.text("race.obj"), "precious")
         return run.check_no_leftovers()
     check(False, "the file never appeared in time")
+
+
+def what_is_read(run):
+    """A glTF with a buffer and an image, an OBJ with a material library and a map, and a lattice round both."""
+    asset, data = gltf_json(CUBE_CORNERS, uri="m.bin")
+    asset["images"] = [{"uri": "m.png"}]
+    run.write("m.gltf", asset)
+    run.write("m.bin", data)
+    run.write("m.png", PNG)
+    run.write("k.obj", "mtllib k.mtl\n" + CUBE)
+    run.write("k.mtl", "newmtl a\nmap_Kd k.png\n")
+    run.write("k.png", PNG)
+    run.write("l.json", TWIST)
+    run.write("box.json", {**TWIST, "rest": {"box": {"meshes": ["m.gltf", "k.obj"]}, "margin": 0.1}})
+    run.write("other.obj", CUBE)
+    return {name: run.read(name) for name in run.names()}
+
+
+@case
+def siege3_04_no_output_replaces_what_is_read(run):
+    """In whatever format and by whatever option an output is written: what the input is made of stays, with --force too."""
+    kept = what_is_read(run)
+    buffer, resource = "is a buffer of the input m.gltf", "is an image or a material library of the input "
+    box = "is a file of the meshes that the box of box.json goes round"
+    outputs = [("m.bin", "m.gltf", buffer), ("m.png", "m.gltf", resource + "m.gltf"), ("k.mtl", "k.obj", resource + "k.obj"),
+               ("k.png", "k.obj", resource + "k.obj")]
+    for output, mesh, told in outputs:
+        told = f"{output}: {told} and is not overwritten"
+        for to in ("obj", "ply", "off", "stl", "glb", "gltf"):
+            run.ffd("deform", mesh, output, "-l", "l.json", "--output-format", to, "--force", code=IO, err=told)
+        run.ffd("embed", mesh, "-l", "l.json", "-o", output, "--force", code=IO, err=told)
+        run.ffd("embed", mesh, "-l", "l.json", "-o", "e.npy", "--status", output, "--force", code=IO, err=told)
+        run.ffd("lattice", "new", "other.obj", mesh, "-o", output, "--force", code=IO, err=told)
+        run.write("m.jsonl", json.dumps({"in": mesh, "lattice": "l.json", "out": output, "options": {"output-format": "obj", "force": True}}))
+        run.ffd("batch", "m.jsonl", "-q", code=NO, err=lambda said, told=told: check(told in said[0], said))
+        run.remove("m.jsonl")
+    for output in ("m.bin", "m.gltf", "k.obj"):
+        for arguments in (["deform", "other.obj", output, "--output-format", "obj"], ["embed", "other.obj", "-o", output]):
+            run.ffd(*arguments, "-l", "box.json", "--force", code=IO, err=f"{output}: {box} and is not overwritten")
+    equal({name: run.read(name) for name in run.names() if name != "cache"}, kept)
+    # What is read is not replaced where a link leads to it either; a mesh in place may stand in the box.
+    os.symlink("m.bin", run.path("link"))
+    run.ffd("deform", "m.gltf", "link", "-l", "l.json", "--output-format", "obj", "--force", code=IO,
+            err="link: is a buffer of the input m.gltf and is not overwritten")
+    run.ffd("deform", "k.obj", "--in-place", "-l", "box.json")
 
 
 @case
