@@ -3,7 +3,7 @@
 #include "base/memory/memory.h"
 #include "io/formats.h"
 #include "job/input/source.h"
-#include "lattice/file/spec_parse.h"
+#include "lattice/file/box_meshes.h"
 #include <string.h>
 
 static cached_file *find(hash_cache *cache, const char *path, const file_stamp *stamp)
@@ -237,54 +237,14 @@ ffd_status ffd_cache_look(hash_cache *cache, const ffd_source *source, ffd_forma
     return copy_list(&cache->look.copied, copied, error);
 }
 
-/* Whether the text may contain the member "meshes", possibly with escapes. */
-static bool may_name_meshes(const file_input *input)
-{
-    static const char key[] = "\"meshes\"";
-    const char *at = (const char *)input->data, *const end = at + input->size;
-    for (; at < end; at++) {
-        if (*at == '\\')
-            return true;
-        if (*at == '"' && (size_t)(end - at) >= sizeof key - 1 && memcmp(at, key, sizeof key - 1) == 0)
-            return true;
-    }
-    return false;
-}
-
-/* Adds the meshes that a lattice file names for its box. Unreadable files are ignored here: they fail their
-   job later. */
-static ffd_status look_through(const char *path, path_list *meshes, ffd_error *error)
-{
-    const spec_settings rest_only = {.may_be_open = true};
-    lattice_spec *spec = NULL;
-    file_input input;
-    size_t size;
-    if (ffd_file_load(path, &input, NULL))
-        return FFD_OK;
-    const bool may = may_name_meshes(&input);
-    ffd_file_unload(&input);
-    if (!may || ffd_spec_load(path, &rest_only, &spec, &size, NULL))
-        return FFD_OK;
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < spec->mesh_count && !status; i++) {
-        char *mesh = NULL;
-        status = ffd_spec_mesh(spec, i, &mesh, error);
-        if (!status)
-            status = ffd_paths_add(meshes, mesh, error);
-        ffd_free(mesh);
-    }
-    ffd_spec_free(spec);
-    return status;
-}
-
 ffd_status ffd_cache_box_meshes(hash_cache *cache, const char *path, path_list *meshes, ffd_error *error)
 {
     file_stamp stamp;
     cached_file *const file = ffd_file_stamp(path, &stamp) ? find(cache, path, &stamp) : NULL;
     if (!file)
-        return look_through(path, meshes, error);
+        return ffd_lattice_box_meshes(path, meshes, error);
     if (!file->is_looked_through) {
-        const ffd_status status = look_through(path, &file->meshes, error);
+        const ffd_status status = ffd_lattice_box_meshes(path, &file->meshes, error);
         if (status)
             return status;
         file->is_looked_through = true;

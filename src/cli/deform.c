@@ -4,6 +4,7 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "cli/morphs.h"
+#include "job/plan.h"
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -112,6 +113,14 @@ static char *join(const char *folder, const char *name)
     return path;
 }
 
+/* Returns the path of an input's output, freed with free; NULL after a complaint. */
+static char *output_of(const settings *s, const char *input)
+{
+    char *const name = name_output(s, input), *const output = name ? join(s->out_dir, name) : NULL;
+    ffd_free(name);
+    return output;
+}
+
 /* A missing folder would fail every job: complain once, before any work. */
 static int refuse_missing_folder(const char *folder)
 {
@@ -160,11 +169,36 @@ static int run_job(cli_job *job, const char *input, ffd_report *report)
     settings *s = (settings *)job;
     if (!s->out_dir)
         return deform(s, input, s->output, report);
-    char *const name = name_output(s, input), *const output = name ? join(s->out_dir, name) : NULL;
+    char *const output = output_of(s, input);
     const int code = output ? deform(s, input, output, report) : ffd_status_exit_code(FFD_E_MEMORY);
-    ffd_free(name);
     free(output);
     return code;
+}
+
+static ffd_status add_output(const settings *s, job_plan *plan, const char *input, ffd_error *error)
+{
+    char *const output = s->out_dir ? output_of(s, input) : NULL;
+    const ffd_status status =
+        s->out_dir && !output ? FFD_E_MEMORY : ffd_plan_write(plan, input, output ? output : input, error);
+    free(output);
+    return status;
+}
+
+/* Refuses jobs of which one reads what another one writes. Returns 0, or an exit code after a complaint. */
+static int refuse_conflicts(settings *s, const cli_words *inputs)
+{
+    job_plan plan = {0};
+    ffd_error error = {.status = FFD_E_MEMORY, .message = "out of memory"};
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < inputs->count && !status; i++)
+        status = add_output(s, &plan, inputs->words[i], &error);
+    for (size_t i = 0; i < inputs->count && !status; i++) {
+        ffd_deform_desc desc;
+        cli_job_describe(&s->job, inputs->words[i], &desc);
+        status = ffd_plan_read(&plan, i, &desc, &error);
+    }
+    ffd_plan_free(&plan);
+    return status ? cli_fail(&error) : EXIT_DONE;
 }
 
 /* Whether all words are IN; else they are IN and OUT. */
@@ -262,7 +296,9 @@ static int act(const cli_command *command, void *context, const cli_words *words
 {
     settings *const s = context;
     const size_t inputs = has_many(s) || !words->count ? words->count : 1;
-    const int code = refuse(command, s, words, inputs);
+    int code = refuse(command, s, words, inputs);
+    if (!code && inputs > 1)
+        code = refuse_conflicts(s, words);
     return code ? code : run_all(s, words, inputs);
 }
 

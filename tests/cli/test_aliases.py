@@ -5,7 +5,7 @@ import os
 import resource
 import stat
 
-from harness import CUBE, CUBE_CORNERS, IO, NO, USAGE, case, check, equal, gltf_json, lattice, main
+from harness import CUBE, CUBE_CORNERS, INVALID, IO, NO, USAGE, case, check, equal, gltf_json, lattice, main
 
 UP = lattice(moves=[{"by": [0, 0, 1]}])
 
@@ -18,16 +18,25 @@ def start(run):
 
 
 @case
-def one_file_is_deformed_once_in_place(run):
-    once = start(run)
-    run.ffd("deform", "a.obj", "./a.obj", "--in-place", "-l", "l.json", code=NO,
-            err="./a.obj: was written by this run already, under this name or another")
-    equal(run.read("a.obj"), once)
+def one_file_under_two_names_is_refused_before_any_work(run):
+    start(run)
+    run.ffd("deform", "a.obj", "./a.obj", "--in-place", "-l", "l.json", code=INVALID,
+            err="./a.obj: and a.obj would both write one file")
     run.write("b.obj", CUBE)
     os.symlink("b.obj", run.path("c.obj"))
-    run.ffd("deform", "b.obj", "c.obj", "--in-place", "-l", "l.json", code=NO,
-            err="c.obj: was written by this run already, under this name or another")
-    equal(run.read("b.obj"), once)
+    run.ffd("deform", "a.obj", "b.obj", "c.obj", "--in-place", "-l", "l.json", code=INVALID,
+            err="c.obj: and b.obj would both write one file")
+    equal((run.text("a.obj"), run.text("b.obj")), (CUBE, CUBE))
+
+
+@case
+def one_file_is_deformed_once_in_place(run):
+    """Two hard links are two files once one of them was replaced."""
+    once = start(run)
+    run.write("b.obj", CUBE)
+    os.link(run.path("b.obj"), run.path("c.obj"))
+    run.ffd("deform", "b.obj", "c.obj", "--in-place", "-l", "l.json")
+    equal((run.read("b.obj"), run.read("c.obj")), (once, once))
 
 
 @case

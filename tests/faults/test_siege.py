@@ -173,6 +173,25 @@ def siege3_04_no_output_replaces_what_is_read(run):
 
 
 @case
+def siege3_05_a_box_of_meshes_in_place_is_refused(run):
+    """The first mesh in place would change the box of the second: neither is moved. --shared-box goes round both as they were."""
+    kit = {**TWIST, "rest": {"box": {"meshes": ["a.obj", "b.obj"]}, "margin": 0.1}}
+    run.write("kit.json", kit)
+    run.write("round.json", {**TWIST, "rest": {"box": "mesh", "margin": 0.1}})
+    for name, shift in (("a.obj", 0), ("b.obj", 1.5)):
+        run.write(name, "".join(f"v {x + shift} {y} {z}\n" for x, y, z in CUBE_CORNERS))
+    kept = run.read("a.obj"), run.read("b.obj")
+    for names in (["a.obj", "b.obj"], ["b.obj", "a.obj"]):
+        run.ffd("deform", *names, "--in-place", "-l", "kit.json", code=INVALID,
+                err=lambda said: check("(for the box of kit.json)" in said[0], said))
+        equal((run.read("a.obj"), run.read("b.obj")), kept)
+    run.folder_of("apart")
+    run.ffd("deform", "a.obj", "b.obj", "--out-dir", "apart", "-l", "kit.json")
+    run.ffd("deform", "b.obj", "a.obj", "--in-place", "-l", "round.json", "--shared-box")
+    equal((run.read("a.obj"), run.read("b.obj")), (run.read("apart/a.obj"), run.read("apart/b.obj")))
+
+
+@case
 def siege_07_pipes_sockets_and_disks_are_refused_at_once(run):
     """Pipes, sockets and disks as outputs of any kind: one line at once, and no work is done."""
     run.write("a.obj", CUBE)

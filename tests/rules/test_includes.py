@@ -129,7 +129,7 @@ LAYERS = {
         "base", "base/file", "base/memory", "base/system", "base/text", "batch/manifest", "io", "io/npy", "job/chain", "job/input",
         "job/judge", "job/report", "json", "lattice/file", "view",
     },
-    "cli": {"base", "base/file", "base/memory", "base/text", "batch"},
+    "cli": {"base", "base/file", "base/memory", "base/text", "batch", "job"},
     "cli/pages": {"cli"},
     "python": set(),
     "job": {
