@@ -3,7 +3,7 @@
 #ifndef FFD_BATCH_MESH_STATES_H
 #define FFD_BATCH_MESH_STATES_H
 
-#include "base/file/file_table.h"
+#include "base/memory/file_table.h"
 #include "base/text/buffer.h"
 #include "batch/pool.h"
 

@@ -2,7 +2,7 @@
 #ifndef FFD_BATCH_OUTPUTS_H
 #define FFD_BATCH_OUTPUTS_H
 
-#include "base/file/file_table.h"
+#include "base/memory/file_table.h"
 #include "base/file/input.h"
 #include "base/file/path_list.h"
 #include "batch/manifest/job_words.h"

@@ -16,7 +16,7 @@
 #include "job/report/depfile.h"
 #include "job/report/output_set.h"
 #include "job/sharing.h"
-#include "mesh/beside.h"
+#include "mesh/resource/beside.h"
 #include <string.h>
 
 /* Restores files that a killed run had set aside, before they are read. */
@@ -295,8 +295,8 @@ static ffd_status check_reads(const deform_job *job, const char *output, ffd_err
     const ffd_deform_desc *const desc = job->desc;
     if (!ffd_deform_job_writes(desc) || desc->in_place)
         return FFD_OK;
-    const ffd_status status = ffd_reads_check_mesh(output, &desc->input, error);
-    return status ? status : ffd_reads_check_boxes(output, &job->chain, desc->lattices, error);
+    const ffd_status status = ffd_job_check_mesh_files(output, &desc->input, job->document, error);
+    return status ? status : ffd_job_check_box_files(output, &job->chain, desc->lattices, error);
 }
 
 /* Saves the result; a dry run only looks whether that would be refused. */

@@ -125,9 +125,9 @@ static ffd_status check_reads(const ffd_embed_desc *desc, const embedding *made,
     const char *const outputs[] = {desc->output, desc->status_output};
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < 2 && outputs[i] && !status; i++) {
-        status = ffd_reads_check_mesh(outputs[i], &desc->input, error);
+        status = ffd_job_check_mesh_files(outputs[i], &desc->input, NULL, error);
         if (!status)
-            status = ffd_reads_check_boxes(outputs[i], &made->chain, &desc->lattice, error);
+            status = ffd_job_check_box_files(outputs[i], &made->chain, &desc->lattice, error);
     }
     return status;
 }

@@ -130,7 +130,7 @@ static ffd_status check_desc(const ffd_lattice_new_desc *desc, ffd_error *error)
         if (ffd_file_same(desc->meshes[i].path, desc->output))
             return ffd_fail_file(error, FFD_E_ARGUMENT, desc->output, "the lattice would replace its mesh");
     for (size_t i = 0; i < desc->mesh_count; i++) {
-        const ffd_status status = ffd_reads_check_mesh(desc->output, &desc->meshes[i], error);
+        const ffd_status status = ffd_job_check_mesh_files(desc->output, &desc->meshes[i], NULL, error);
         if (status)
             return status;
     }

@@ -89,7 +89,7 @@ static ffd_status list_mesh(const ffd_source *source, path_list *files, ffd_erro
     if (status || ffd_source_format(source, &format, NULL) || !ffd_format_table(format)->list_files ||
         ffd_file_load(source->path, &bytes, NULL))
         return status;
-    status = ffd_format_table(format)->find_named(source->path, &bytes, files, error);
+    status = ffd_format_table(format)->find_named(source->path, &bytes, files, NULL, error);
     ffd_file_unload(&bytes);
     return status;
 }

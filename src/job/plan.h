@@ -3,9 +3,9 @@
 #ifndef FFD_JOB_PLAN_H
 #define FFD_JOB_PLAN_H
 
-#include "base/file/file_table.h"
 #include "base/file/path_list.h"
 #include "base/file/place.h"
+#include "base/memory/file_table.h"
 #include <ffd/job.h>
 
 /* All zeros: no jobs. */

@@ -28,42 +28,52 @@ static bool may_name(const mesh_format *format, const char *output)
     return format->find_named && (format->list_files || ffd_format_from_name(output) == FFD_FORMAT_AUTO);
 }
 
-/* Looks for the file among those that the mesh names; resources: images and material libraries. */
-static ffd_status find(const mesh_format *format, const ffd_source *source, const char *output,
-                       bool *is_named, bool *is_resource, ffd_error *error)
+/* The files that a mesh names; resources: images and material libraries, which may be among `named`. */
+typedef struct mesh_names {
+    path_list named, resources;
+} mesh_names;
+
+static ffd_status list_by_document(const mesh_document *document, mesh_names *names, ffd_error *error)
+{
+    const mesh_format *const format = document->format;
+    const ffd_status status = format->list_files(document, &names->named, error);
+    return status || !format->list_images ? status : format->list_images(document, &names->resources, error);
+}
+
+static ffd_status list_by_bytes(const mesh_format *format, const ffd_source *source, mesh_names *names,
+                                ffd_error *error)
 {
     file_input bytes;
-    path_list named = {0}, resources = {0};
-    *is_named = *is_resource = false;
     if (ffd_file_load(source->path, &bytes, NULL)) /* opening the mesh fails too */
         return FFD_OK;
-    ffd_status status = format->find_named(source->path, &bytes, &named, error);
-    *is_named = !status && holds(&named, output);
-    if (*is_named)
-        status = format->find_resources(source->path, &bytes, &resources, error);
-    *is_resource = holds(&resources, output);
-    ffd_paths_free(&named);
-    ffd_paths_free(&resources);
+    const ffd_status status =
+        format->find_named(source->path, &bytes, &names->named, &names->resources, error);
     ffd_file_unload(&bytes);
     return status;
 }
 
-ffd_status ffd_reads_check_mesh(const char *output, const ffd_source *source, ffd_error *error)
+ffd_status ffd_job_check_mesh_files(const char *output, const ffd_source *source,
+                                    const mesh_document *document, ffd_error *error)
 {
     ffd_format format;
-    bool is_named, is_resource;
+    mesh_names names = {0};
     if (!replaces(output) || ffd_file_is_stream(source->path) || ffd_memory_has(source->path) ||
         ffd_source_format(source, &format, NULL) || !may_name(ffd_format_table(format), output))
         return FFD_OK;
-    const ffd_status status = find(ffd_format_table(format), source, output, &is_named, &is_resource, error);
-    if (status || !is_named)
-        return status;
-    return ffd_fail_file(error, FFD_E_EXISTS, output, "is %s of the input %s and is not overwritten",
-                         is_resource ? "an image or a material library" : "a buffer", source->path);
+    const mesh_format *const table = ffd_format_table(format);
+    ffd_status status = document && table->list_files ? list_by_document(document, &names, error)
+                                                      : list_by_bytes(table, source, &names, error);
+    const bool is_resource = !status && holds(&names.resources, output);
+    if (!status && (is_resource || holds(&names.named, output)))
+        status = ffd_fail_file(error, FFD_E_EXISTS, output, "is %s of the input %s and is not overwritten",
+                               is_resource ? "an image or a material library" : "a buffer", source->path);
+    ffd_paths_free(&names.named);
+    ffd_paths_free(&names.resources);
+    return status;
 }
 
-ffd_status ffd_reads_check_boxes(const char *output, const lattice_chain *chain, const char *const *lattices,
-                                 ffd_error *error)
+ffd_status ffd_job_check_box_files(const char *output, const lattice_chain *chain,
+                                   const char *const *lattices, ffd_error *error)
 {
     if (!replaces(output))
         return FFD_OK;

@@ -4,6 +4,17 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "io/formats.h"
+#include "io/users.h"
+
+static ffd_status add_models(job_sharing *s, const char *folder, ffd_error *error)
+{
+    path_list pairs = {0};
+    ffd_status status = ffd_users_list(folder, &pairs, error);
+    for (size_t i = 0; i + 1 < pairs.count && !status; i += 2)
+        status = ffd_users_add(&s->known->users, pairs.paths[i + 1], pairs.paths[i], error);
+    ffd_paths_free(&pairs);
+    return status;
+}
 
 /* Adds the models of a folder, once. */
 static ffd_status list_folder(job_sharing *s, const char *file, ffd_error *error)
@@ -17,7 +28,7 @@ static ffd_status list_folder(job_sharing *s, const char *file, ffd_error *error
     ffd_status status =
         ffd_intern(&s->known->folders, &there, sizeof there, &number) ? FFD_OK : ffd_fail_memory(error);
     if (!status && number == count)
-        status = s->list_users(folder, &s->known->users, error);
+        status = add_models(s, folder, error);
     ffd_free(folder);
     return status;
 }
@@ -50,10 +61,9 @@ static ffd_status find(void *context, const char *file, const char *output, size
 void ffd_sharing_begin(job_sharing *sharing, const ffd_deform_desc *desc, const mesh_document *document,
                        const char *output, ffd_format to, const mesh_sharing **used)
 {
-    mesh_list_users_function *const list_users = ffd_format_table(to)->list_users;
-    *sharing = (job_sharing){.document = document, .input = desc->input.path, .list_users = list_users};
+    *sharing = (job_sharing){.document = document, .input = desc->input.path};
     *used = NULL;
-    if (!list_users || ffd_output_is_stream(output) || ffd_memory_has(output))
+    if (!ffd_format_table(to)->name_beside || ffd_output_is_stream(output) || ffd_memory_has(output))
         return;
     sharing->known = desc->written ? &desc->written->users : &sharing->own;
     sharing->sharing = (mesh_sharing){find, sharing, sharing->known->is_complete};

@@ -8,8 +8,7 @@
 
 typedef struct job_sharing {
     const mesh_document *document;
-    const char *input; /* its file */
-    mesh_list_users_function *list_users;
+    const char *input;       /* its file */
     known_users own, *known; /* own: of a job without a record of the run */
     bool has_input;          /* the files of the document are among them */
     mesh_sharing sharing;

@@ -8,7 +8,6 @@
 #ifndef FFD_MESH_MESH_H
 #define FFD_MESH_MESH_H
 
-#include "base/file/file_users.h"
 #include "base/file/input.h"
 #include "base/file/output.h"
 #include "base/file/path_list.h"
@@ -241,7 +240,8 @@ typedef ffd_status mesh_find_resources_function(const char *path, const file_inp
                                                 ffd_error *error);
 typedef size_t mesh_count_beside_function(const file_input *bytes, ffd_format from, ffd_format to);
 typedef char *mesh_name_beside_function(const char *output, size_t number);
-typedef ffd_status mesh_list_users_function(const char *folder, file_users *users, ffd_error *error);
+typedef ffd_status mesh_find_named_function(const char *path, const file_input *bytes, path_list *files,
+                                            path_list *copies, ffd_error *error);
 typedef ffd_status mesh_check_function(const mesh_document *document, ffd_error *error);
 typedef ffd_status mesh_warn_function(const mesh_document *document, const mesh_log *log, ffd_error *error);
 /* Results of vertices are written in ranges that begin at multiples of this. */
@@ -323,16 +323,14 @@ typedef struct mesh_format {
        at a path without opening a document. An invalid file has none. NULL: nothing is copied. */
     mesh_find_resources_function *find_resources;
     /* Adds every file beside it that a mesh names, existing or not, in the same way: buffers, images,
-       material libraries and their maps. NULL: none. */
-    mesh_find_resources_function *find_named;
+       material libraries and their maps; to `copies` (may be NULL) those that find_resources adds. NULL:
+       none. */
+    mesh_find_named_function *find_named;
     /* Counts the further files, without images, that saving a mesh as `to` writes, by scanning the bytes of
        the input (NULL if its format is another one). An invalid file has none. NULL: there are none. */
     mesh_count_beside_function *count_beside;
     /* Returns the path of number `number` of these files, if no other model names it (beside.h). */
     mesh_name_beside_function *name_beside;
-    /* Adds the models in a folder that name buffers, by scanning them. NULL: no output has files beside it.
-     */
-    mesh_list_users_function *list_users;
     /* Refuses (FFD_E_UNSUPPORTED) content that the streams of the parts do not represent, before anything is
        embedded or deformed: skins, morph targets, compressed data. Not needed for a document that is only
        described. NULL: the streams represent everything. Called by ffd_mesh_check. */

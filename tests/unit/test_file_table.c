@@ -5,7 +5,7 @@
 
 #include <cmocka.h>
 
-#include "base/file/file_table.h"
+#include "base/memory/file_table.h"
 #include "base/memory/memory.h"
 
 static hash128 file_of(uint64_t number)

@@ -26,7 +26,7 @@
 #include "io/gltf/scene/gltf_used.h"
 #include "io/gltf/skeleton/gltf_skeleton.h"
 #include "io/gltf/splat/gltf_splats.h"
-#include "mesh/beside.h"
+#include "mesh/resource/beside.h"
 #include <float.h>
 
 static ffd_status check(const mesh_document *document, ffd_error *error)
@@ -93,7 +93,6 @@ const mesh_format ffd_gltf_format = {
     .find_named = ffd_gltf_find_named,
     .count_beside = ffd_gltf_count_beside,
     .name_beside = ffd_beside_name,
-    .list_users = ffd_gltf_list_users,
     .check = check,
     .warn = ffd_gltf_warn_of_faults,
     .check_reach = ffd_gltf_check_reach,

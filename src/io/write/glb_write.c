@@ -7,8 +7,8 @@
 #include "io/write/glb_origin.h"
 #include "io/write/glb_writer.h"
 #include "io/write/write.h"
-#include "mesh/beside.h"
 #include "mesh/polygon_cut.h"
+#include "mesh/resource/beside.h"
 #include "mesh/srgb.h"
 #include <float.h>
 #include <string.h>

@@ -113,9 +113,9 @@ static ffd_status run(const ffd_jacobian_desc *desc, ffd_jacobian_result *result
     if (!status)
         status = ffd_deform_job_open(&j.job, &figures, &figures.error);
     if (!status)
-        status = ffd_reads_check_mesh(desc->output, &desc->job->input, &figures.error);
+        status = ffd_job_check_mesh_files(desc->output, &desc->job->input, j.job.document, &figures.error);
     if (!status)
-        status = ffd_reads_check_boxes(desc->output, &j.job.chain, desc->job->lattices, &figures.error);
+        status = ffd_job_check_box_files(desc->output, &j.job.chain, desc->job->lattices, &figures.error);
     if (!status)
         status = make(&j, result, &figures.error);
     ffd_jacobian_free(&j);

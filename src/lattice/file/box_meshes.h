@@ -2,7 +2,6 @@
 #ifndef FFD_LATTICE_FILE_BOX_MESHES_H
 #define FFD_LATTICE_FILE_BOX_MESHES_H
 
-#include "base/fail.h"
 #include "base/file/path_list.h"
 
 /* Adds the paths of these meshes; none if the file cannot be read, which fails its job. Errors:

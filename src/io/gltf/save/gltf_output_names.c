@@ -5,7 +5,7 @@
 #include "io/gltf/file/glb.h"
 #include "io/gltf/file/uri.h"
 #include "io/gltf/save/gltf_container.h"
-#include "mesh/beside.h"
+#include "mesh/resource/beside.h"
 #include <string.h>
 
 /* Refuses to replace a file of the input by the output. */

@@ -75,7 +75,18 @@ static ffd_status find_images(const json_span *tree, const char *mesh, path_list
     return status;
 }
 
-/* Parses the JSON text of a file. *is_model: false if it is not valid, which is no error. */
+/* Whether a JSON text may have a member "uri", perhaps with escapes: most GLB files have none. */
+static bool may_name_files(const char *text, size_t size)
+{
+    const char *const end = text + size;
+    for (const char *c = memchr(text, 'u', size); c; c = memchr(c + 1, 'u', (size_t)(end - c - 1)))
+        if ((end - c >= 4 && memcmp(c, "uri\"", 4) == 0) || (c > text && c[-1] == '\\'))
+            return true;
+    return false;
+}
+
+/* Parses the JSON text of a file that may name others. *is_model: false if it does not, or is not valid,
+   which is no error. */
 static ffd_status parse(const char *path, const file_input *bytes, json_span *tree, bool *is_model,
                         ffd_error *error)
 {
@@ -87,6 +98,7 @@ static ffd_status parse(const char *path, const file_input *bytes, json_span *tr
         json.text += *is_model ? layout.json_begin : 0;
         json.size = *is_model ? layout.json_size : 0;
     }
+    *is_model = *is_model && may_name_files(json.text, json.size);
     const ffd_status parsed = *is_model ? ffd_json_parse(&json, tree, NULL) : FFD_E_INVALID;
     *is_model = parsed == FFD_OK;
     return parsed == FFD_E_MEMORY ? ffd_fail_memory(error) : FFD_OK;
@@ -125,7 +137,8 @@ static ffd_status find_files(const json_span *tree, const char *array, const cha
     return status;
 }
 
-ffd_status ffd_gltf_find_named(const char *path, const file_input *bytes, path_list *files, ffd_error *error)
+ffd_status ffd_gltf_find_named(const char *path, const file_input *bytes, path_list *files, path_list *copies,
+                               ffd_error *error)
 {
     json_span tree;
     bool is_model;
@@ -135,47 +148,9 @@ ffd_status ffd_gltf_find_named(const char *path, const file_input *bytes, path_l
     status = find_files(&tree, "buffers", path, files, error);
     if (!status)
         status = find_files(&tree, "images", path, files, error);
+    if (!status && copies)
+        status = find_images(&tree, path, copies, error);
     ffd_json_span_free(&tree);
-    return status;
-}
-
-/* Adds a model as the user of its buffers. */
-static ffd_status add_user(const char *path, file_users *users, ffd_error *error)
-{
-    file_input bytes;
-    path_list buffers = {0};
-    json_span tree;
-    bool is_model;
-    if (ffd_file_load(path, &bytes, NULL))
-        return FFD_OK;
-    const ffd_format format = ffd_glb_is(bytes.data, bytes.size) ? FFD_FORMAT_GLB : FFD_FORMAT_GLTF;
-    const bool is_single = ffd_gltf_count_beside(&bytes, format, format) == 0;
-    ffd_status status = is_single ? FFD_OK : parse(path, &bytes, &tree, &is_model, error);
-    if (!is_single && is_model) {
-        status = find_files(&tree, "buffers", path, &buffers, error);
-        ffd_json_span_free(&tree);
-    }
-    ffd_file_unload(&bytes);
-    for (size_t i = 0; i < buffers.count && !status; i++)
-        status = ffd_users_add(users, buffers.paths[i], path, error);
-    ffd_paths_free(&buffers);
-    return status;
-}
-
-ffd_status ffd_gltf_list_users(const char *folder, file_users *users, ffd_error *error)
-{
-    path_list names = {0};
-    ffd_status status = ffd_folder_list(folder, &names, error);
-    for (size_t i = 0; i < names.count && !status; i++) {
-        const ffd_format format = ffd_format_from_name(names.paths[i]);
-        if (format != FFD_FORMAT_GLTF && format != FFD_FORMAT_GLB)
-            continue;
-        char *const path =
-            strcmp(folder, ".") == 0 ? ffd_text_copy(names.paths[i]) : ffd_path_join(folder, names.paths[i]);
-        status = path ? add_user(path, users, error) : ffd_fail_memory(error);
-        ffd_free(path);
-    }
-    ffd_paths_free(&names);
     return status;
 }
 

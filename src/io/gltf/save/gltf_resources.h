@@ -17,9 +17,9 @@ ffd_status ffd_gltf_file_path(const json_span *tree, uint32_t value, const char 
 
 /* mesh_format's list_images. */
 mesh_list_files_function ffd_gltf_list_images;
-/* mesh_format's find_resources and find_named. */
-mesh_find_resources_function ffd_gltf_find_resources, ffd_gltf_find_named;
-/* mesh_format's list_users. */
-mesh_list_users_function ffd_gltf_list_users;
+/* mesh_format's find_resources. */
+mesh_find_resources_function ffd_gltf_find_resources;
+/* mesh_format's find_named. */
+mesh_find_named_function ffd_gltf_find_named;
 
 #endif

@@ -1,6 +1,6 @@
 /* file_table.h - a compact table of numbers by the place of a file (place.h). */
-#ifndef FFD_BASE_FILE_FILE_TABLE_H
-#define FFD_BASE_FILE_FILE_TABLE_H
+#ifndef FFD_BASE_MEMORY_FILE_TABLE_H
+#define FFD_BASE_MEMORY_FILE_TABLE_H
 
 #include "base/fail.h"
 #include "base/memory/hash.h"

@@ -1,4 +1,4 @@
-#include "base/file/file_table.h"
+#include "base/memory/file_table.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* beside.h - the names of the files beside an output: OUT-stem.bin, OUT-stem-1.bin, and so on. */
-#ifndef FFD_MESH_BESIDE_H
-#define FFD_MESH_BESIDE_H
+#ifndef FFD_MESH_RESOURCE_BESIDE_H
+#define FFD_MESH_RESOURCE_BESIDE_H
 
 #include "mesh/mesh.h"
 

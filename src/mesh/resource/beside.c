@@ -1,4 +1,4 @@
-#include "mesh/beside.h"
+#include "mesh/resource/beside.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/text/words.h"
