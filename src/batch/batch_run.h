@@ -1,13 +1,13 @@
-/* batch_run.h - the state of a running batch. batch_run.c runs it (batch.h), batch_ends.c has the functions
-   below. */
+/* batch_run.h - the state of a running batch. batch_run.c runs it (batch.h); batch_ends.c and run_claims.c
+   have the functions below. */
 #ifndef FFD_BATCH_BATCH_RUN_H
 #define FFD_BATCH_BATCH_RUN_H
 
 #include "base/file/path.h"
 #include "batch/batch.h"
+#include "batch/files/claims.h"
 #include "batch/journal.h"
 #include "batch/mesh_states.h"
-#include "batch/outputs.h"
 #include "batch/progress.h"
 #include "batch/run_rows.h"
 #include "batch/run_view.h"
@@ -28,7 +28,7 @@ typedef struct batch_run {
     shown_box box;        /* the shared box of all meshes */
     path_list box_files;  /* its files, for the depfile */
     path_list outputs;    /* outputs that depend on box_files */
-    run_outputs written;  /* files claimed so far */
+    run_files files;      /* what the jobs read and write */
     mesh_states meshes;   /* states of the meshes read so far */
     uint64_t jobs;        /* number of jobs read so far */
     batch_progress progress;
@@ -46,6 +46,15 @@ typedef struct batch_run {
 const char *ffd_run_manifest(const batch_run *run);
 /* Prints an error that belongs to no job. */
 void ffd_run_say_error(batch_run *run, const ffd_error *error);
+/* Fails a job whose error is stored in it. */
+void ffd_run_fail_task(pool_task *task);
+/* Notes the outputs of all jobs before any of them begins, if the jobs can be read twice. checks: refuse a
+   job that reads a file which the run itself replaces. Errors: those of reading the jobs, too. */
+ffd_status ffd_run_expect(batch_run *run, bool checks, ffd_error *error);
+/* Claims the files of jobs as far as they are known, and makes these ready to run. Errors: FFD_E_MEMORY. */
+ffd_status ffd_run_claim_tasks(batch_run *run, ffd_error *error);
+/* Takes what the end of a task, or of a look that found nothing, says of its files. Errors: FFD_E_MEMORY. */
+ffd_status ffd_run_learn(batch_run *run, pool_task *task, ffd_error *error);
 /* Handles the ends of jobs that need not wait for earlier jobs. An invalid job "ends" when all earlier ones
    have, because an earlier failure may stop the run; it is dropped if no more jobs are begun. Errors:
    FFD_E_MEMORY, FFD_E_IO. */

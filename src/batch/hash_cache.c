@@ -184,6 +184,7 @@ ffd_status ffd_cache_images(hash_cache *cache, const ffd_source *source, path_li
 static void forget_look(cached_look *look)
 {
     ffd_free(look->path);
+    ffd_paths_free(&look->named);
     ffd_paths_free(&look->copied);
     *look = (cached_look){0};
 }
@@ -208,8 +209,8 @@ static ffd_status look_at_bytes(hash_cache *cache, const char *path, const file_
         return status;
     if (table->count_beside)
         look->beside = table->count_beside(&bytes, from, to);
-    if (table->find_resources)
-        status = table->find_resources(path, &bytes, &look->copied, error);
+    if (table->find_named)
+        status = table->find_named(path, &bytes, &look->named, &look->copied, error);
     ffd_kept_put(&cache->kept, path, stamp, &bytes);
     look->path = status ? NULL : ffd_text_copy(path);
     look->stamp = *stamp;
@@ -219,22 +220,37 @@ static ffd_status look_at_bytes(hash_cache *cache, const char *path, const file_
 }
 
 ffd_status ffd_cache_look(hash_cache *cache, const ffd_source *source, ffd_format to, size_t *beside,
-                          path_list *copied, ffd_error *error)
+                          path_list *named, path_list *copied, ffd_error *error)
 {
     ffd_format from;
     file_stamp stamp;
     *beside = 0;
     ffd_status status = ffd_source_format(source, &from, error);
-    if (status || !ffd_format_table(from)->list_files)
-        return status ? status : ffd_cache_images(cache, source, copied, error);
-    if (!ffd_file_stamp(source->path, &stamp))
-        return FFD_OK;
+    if (!status && !ffd_format_table(from)->list_files) {
+        status = ffd_cache_images(cache, source, copied, error);
+        return status ? status : copy_list(copied, named, error);
+    }
+    if (status || !ffd_file_stamp(source->path, &stamp))
+        return status;
     if (!is_last_look(&cache->look, source->path, &stamp, from, to))
         status = look_at_bytes(cache, source->path, &stamp, from, to, error);
     if (status)
         return status;
     *beside = cache->look.beside;
-    return copy_list(&cache->look.copied, copied, error);
+    status = copy_list(&cache->look.named, named, error);
+    return status ? status : copy_list(&cache->look.copied, copied, error);
+}
+
+ffd_status ffd_cache_list_named(const ffd_source *source, path_list *named, ffd_error *error)
+{
+    ffd_format format;
+    file_input bytes;
+    if (ffd_source_format(source, &format, NULL) || !ffd_format_table(format)->list_files ||
+        ffd_file_load(source->path, &bytes, NULL))
+        return FFD_OK;
+    const ffd_status status = ffd_format_table(format)->find_named(source->path, &bytes, named, NULL, error);
+    ffd_file_unload(&bytes);
+    return status;
 }
 
 ffd_status ffd_cache_box_meshes(hash_cache *cache, const char *path, path_list *meshes, ffd_error *error)

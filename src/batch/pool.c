@@ -88,10 +88,12 @@ static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_t
     append_word(&text, ffd_job_output_name(job) ? ffd_job_output_name(job) : "");
     append_word(&text, task->picture ? task->picture : "");
     append_word(&text, desc->rows ? desc->rows->path : "");
+    ffd_buffer_append(&text, task->passed.data, task->passed.size);
     head.line = job->line;
     head.text_size = text.size - sizeof head;
     head.word_count = (uint32_t)job->word_count;
     head.content_words = count_words(&job->content);
+    head.passed_count = count_words(&task->passed) / 2;
     head.threads = threads;
     head.record = task->record;
     head.has_record = task->has_record;
@@ -117,6 +119,11 @@ static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_t
         head.is_double = desc->rows->is_double;
     }
     head.look = task->looks;
+    head.look_at_mesh = task->looks_at_mesh;
+    head.look_only = task->looks_only;
+    head.survey = task->looks && task->surveys;
+    head.tells = desc->tells;
+    head.is_unsurveyed = task->is_unsurveyed;
     head.has_box = desc->box != NULL;
     if (desc->box)
         head.box = *desc->box;
@@ -298,14 +305,14 @@ static void end_task(pool_worker *worker, wire_outcome outcome)
 }
 
 /* Takes the result of a look; the task goes back to the window. */
-static void take_look(pool_worker *worker, const wire_answer *head, const char *copied)
+static void take_look(pool_worker *worker, const wire_answer *head, const char *found)
 {
     pool_task *const task = worker->task;
-    ffd_buffer_append(&task->copied, copied, head->rule_size);
+    ffd_buffer_append(&task->found, found, head->rule_size);
     task->beside = (size_t)head->beside;
     task->was_returned = false;
     worker->retires = head->retires;
-    if (head->out_of_memory || task->copied.failed) {
+    if (head->out_of_memory || task->found.failed) {
         ffd_fail_file(&task->failure, FFD_E_MEMORY, task->job.input, "out of memory");
         end_task(worker, OUTCOME_FAILED);
         return;
@@ -323,19 +330,28 @@ static bool take_answer(worker_pool *pool, pool_worker *worker)
     if (bytes->size < sizeof head)
         return true;
     memcpy(&head, bytes->data, sizeof head);
-    if (!worker->task || (head.looked && !worker->task->looks) || head.log_size > WIRE_MOST ||
-        head.entry_size > WIRE_MOST || head.rule_size > WIRE_MOST || head.figures_size > WIRE_MOST)
+    if (!worker->task || ((head.looked || head.goes_on) && !worker->task->looks) ||
+        head.log_size > WIRE_MOST || head.entry_size > WIRE_MOST || head.rule_size > WIRE_MOST ||
+        head.figures_size > WIRE_MOST)
         return false;
     if (bytes->size < sizeof head + head.log_size + head.entry_size + head.rule_size + head.figures_size)
         return true;
+    pool_task *const task = worker->task;
+    if (head.goes_on) { /* the rest of the answer may be here already */
+        task->looks = false;
+        task->looked_in_vain = true;
+        bytes->size -= sizeof head;
+        memmove(bytes->data, bytes->data + sizeof head, bytes->size);
+        return take_answer(pool, worker);
+    }
     const char *const log = bytes->data + sizeof head, *const entry = log + head.log_size,
                       *const rule = entry + head.entry_size, *const figures = rule + head.rule_size;
-    pool_task *const task = worker->task;
     if (head.looked) {
         take_look(worker, &head, rule);
         bytes->size = 0;
         return true;
     }
+    task->looked_in_vain = task->looked_in_vain || task->looks;
     ffd_buffer_append(&task->log, log, head.log_size);
     ffd_buffer_append(&task->entry, entry, head.entry_size);
     ffd_buffer_append(&task->rule, rule, head.rule_size);
@@ -526,6 +542,7 @@ void ffd_task_free(pool_task *task)
     ffd_buffer_free(&task->entry);
     ffd_buffer_free(&task->rule);
     ffd_buffer_free(&task->figures);
-    ffd_buffer_free(&task->copied);
+    ffd_buffer_free(&task->found);
+    ffd_buffer_free(&task->passed);
     ffd_free(task);
 }

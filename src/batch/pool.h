@@ -14,6 +14,7 @@ typedef struct pool_desc {
     bool records, resume, dry, depfile, report, quality, stable, quiet, verbose, measure, count; /* as in
                                                                                                   wire_task */
     bool draws;            /* jobs make pictures too */
+    bool tells;            /* as in wire_task */
     const row_array *rows; /* array of positions, or NULL */
     const shown_box *box;  /* shared box, or NULL */
 } pool_desc;
@@ -48,9 +49,16 @@ typedef struct pool_task {
     task_state state;
     char *picture;            /* path; NULL: none is wanted */
     const char *picture_name; /* part of that path below the folder of pictures */
-    bool looks;               /* while running: it began as TASK_NEW */
+    bool looks_at_mesh;       /* a look is at the mesh too, not only at the lattices */
+    bool looks_only;          /* its worker answers after the look, whatever it finds */
+    bool surveys;             /* likewise, and looks through the models of the output's folder */
+    bool looks;               /* while running: it began as TASK_NEW, and its worker still looks */
+    bool looked_in_vain;      /* the look found nothing */
+    bool is_learned;          /* that was taken to heart (ffd_run_learn) */
     size_t beside;            /* result of a look: number of files beside the output, */
-    byte_buffer copied;       /* and files that may be copied, each path terminated by 0 */
+    byte_buffer found;        /* and what else it found (look.h) */
+    byte_buffer passed;       /* names that the output must not take (ffd_claims_others) */
+    bool is_unsurveyed;       /* these are not known: the job looks by itself */
     bool was_returned;        /* a worker had ended before it could take the task */
     bool noted;               /* its end was handled (ffd_run_note_ends) */
     bool took_row;            /* its row may have been written to */

@@ -125,8 +125,9 @@ LAYERS = {
         "job/pass", "job/report", "lattice", "mesh", "view",
     },
     "batch/manifest": {"base", "base/file", "base/memory", "base/system", "base/text", "json", "mesh"},
+    "batch/files": {"base/file", "base/memory", "base/text", "batch/manifest", "io"},
     "batch": {
-        "base", "base/file", "base/memory", "base/system", "base/text", "batch/manifest", "io", "io/npy", "job/chain", "job/input",
+        "base", "base/file", "base/memory", "base/system", "base/text", "batch/files", "batch/manifest", "io", "io/npy", "job/chain", "job/input",
         "job/judge", "job/report", "json", "lattice/file", "view",
     },
     "cli": {"base", "base/file", "base/memory", "base/text", "batch", "job"},
