@@ -69,15 +69,24 @@ static ffd_status fill(byte_stream *stream, ffd_error *error)
     return FFD_OK;
 }
 
-int ffd_stream_byte(byte_stream *stream, ffd_status *status, ffd_error *error)
+ffd_status ffd_stream_take(byte_stream *stream, const char **bytes, size_t *size, ffd_error *error)
 {
-    *status = FFD_OK;
-    if (stream->next == stream->filled && !stream->ended)
-        *status = fill(stream, error);
-    if (*status || stream->ended)
-        return -1;
-    stream->read++;
-    return stream->block[stream->next++];
+    *size = 0;
+    if (stream->next == stream->filled && !stream->ended) {
+        const ffd_status status = fill(stream, error);
+        if (status)
+            return status;
+    }
+    if (stream->ended)
+        return FFD_OK;
+    const unsigned char *const begin = stream->block + stream->next;
+    const size_t left = stream->filled - stream->next;
+    const unsigned char *const feed = memchr(begin, '\n', left);
+    *bytes = (const char *)begin;
+    *size = feed ? (size_t)(feed - begin) + 1 : left;
+    stream->next += *size;
+    stream->read += *size;
+    return FFD_OK;
 }
 
 int ffd_stream_descriptor(const byte_stream *stream)

@@ -34,22 +34,24 @@ static ffd_status end_line(line_reader *reader, ffd_error *error)
 /* Reads bytes up to the end of the line, as far as they have arrived. */
 static ffd_status take_bytes(line_reader *reader, line_state *state, ffd_error *error)
 {
-    ffd_status status;
+    const char *bytes;
+    size_t size;
     /* A line may be endless, so interrupts must be noticed. */
     while (ffd_stream_is_ready(reader->stream) && !ffd_interrupt_requested()) {
-        const int c = ffd_stream_byte(reader->stream, &status, error);
-        const char byte = (char)c;
-        if (c < 0)
+        const ffd_status status = ffd_stream_take(reader->stream, &bytes, &size, error);
+        if (status || size == 0)
             return status;
         *state = LINE_READ;
-        if (byte == '\n')
+        const bool ends = bytes[size - 1] == '\n';
+        const size_t length = size - ends;
+        const size_t room = reader->line.size < LINE_MOST ? LINE_MOST - reader->line.size : 0;
+        const size_t taken = length < room ? length : room;
+        ffd_buffer_append(&reader->line, bytes, taken);
+        reader->too_long = reader->too_long || taken < length;
+        reader->left_out += length - taken;
+        if (ends)
             return FFD_OK;
-        if (reader->line.size < LINE_MOST) {
-            ffd_buffer_append(&reader->line, &byte, 1);
-            continue;
-        }
-        reader->too_long = true;
-        if (++reader->left_out == LINE_LOST)
+        if (reader->left_out >= LINE_LOST)
             return ffd_fail_line(error, FFD_E_INVALID, ffd_stream_name(reader->stream),
                                  (size_t)reader->number + 1, "the line does not end within %zu bytes",
                                  LINE_LOST);
