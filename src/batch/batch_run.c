@@ -56,7 +56,7 @@ static ffd_status read_jobs(batch_run *run, ffd_error *error)
         pool_task *const task = ffd_alloc_zero(1, sizeof *task);
         if (!task)
             return ffd_fail_memory(error);
-        const ffd_status status = ffd_jobs_next(run->source, &task->job, &state, error);
+        const ffd_status status = ffd_run_next_job(run, &task->job, &state, error);
         if (status || state != LINE_READ) {
             ffd_task_free(task);
             run->ended = state == LINE_NONE;
@@ -150,7 +150,7 @@ static ffd_status run_jobs(batch_run *run, ffd_error *error)
             status = ffd_run_note_ends(run, first ? NULL : error); /* of those that were just stopped */
         if (!status)
             status = ffd_run_take_ended(run, first ? NULL : error);
-        ffd_progress_show(&run->progress, &run->counts, ffd_jobs_fraction(run->source));
+        ffd_progress_show(&run->progress, &run->counts, ffd_run_fraction(run));
         if (run->count == 0 && (run->ended || run->ending))
             break;
     }
@@ -383,5 +383,6 @@ ffd_status ffd_batch_run(const batch_desc *desc, bool *failed, ffd_error *error)
     ffd_paths_free(&run.box_files);
     ffd_paths_free(&run.outputs);
     ffd_run_files_free(&run.files);
+    ffd_run_drop_early(&run);
     return status;
 }

@@ -253,19 +253,35 @@ ffd_status ffd_cache_list_named(const ffd_source *source, path_list *named, ffd_
     return status;
 }
 
+/* Loads a lattice file, remembers its hash, and looks through it. */
+static ffd_status look_through(hash_cache *cache, const char *path, path_list *meshes, ffd_error *error)
+{
+    file_stamp stamp;
+    file_input bytes;
+    if (!ffd_file_stamp(path, &stamp) || load_and_hash(cache, path, &stamp, &bytes, NULL))
+        return FFD_OK;
+    ffd_status status = ffd_lattice_box_meshes(path, &bytes, meshes, error);
+    ffd_file_unload(&bytes);
+    cached_file *const file = status ? NULL : find(cache, path, &stamp);
+    if (!file || file->is_looked_through)
+        return status;
+    status = copy_list(meshes, &file->meshes, error);
+    file->is_looked_through = !status;
+    return status;
+}
+
 ffd_status ffd_cache_box_meshes(hash_cache *cache, const char *path, path_list *meshes, ffd_error *error)
 {
     file_stamp stamp;
-    cached_file *const file = ffd_file_stamp(path, &stamp) ? find(cache, path, &stamp) : NULL;
-    if (!file)
-        return ffd_lattice_box_meshes(path, meshes, error);
-    if (!file->is_looked_through) {
-        const ffd_status status = ffd_lattice_box_meshes(path, &file->meshes, error);
-        if (status)
-            return status;
-        file->is_looked_through = true;
-    }
-    return copy_list(&file->meshes, meshes, error);
+    path_list found = {0};
+    const cached_file *const file = ffd_file_stamp(path, &stamp) ? find(cache, path, &stamp) : NULL;
+    if (file && file->is_looked_through)
+        return copy_list(&file->meshes, meshes, error);
+    ffd_status status = look_through(cache, path, &found, error);
+    if (!status)
+        status = copy_list(&found, meshes, error);
+    ffd_paths_free(&found);
+    return status;
 }
 
 void ffd_cache_free(hash_cache *cache)

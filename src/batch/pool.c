@@ -119,7 +119,8 @@ static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_t
         head.is_double = desc->rows->is_double;
     }
     head.look = task->looks;
-    head.look_at_mesh = task->looks_at_mesh;
+    head.look_at_mesh = task->needs.mesh;
+    head.look_at_lattices = task->needs.lattices;
     head.look_only = task->looks_only;
     head.survey = task->looks && task->surveys;
     head.tells = desc->tells;
@@ -310,6 +311,7 @@ static void take_look(pool_worker *worker, const wire_answer *head, const char *
     pool_task *const task = worker->task;
     ffd_buffer_append(&task->found, found, head->rule_size);
     task->beside = (size_t)head->beside;
+    task->has_looked = true;
     task->was_returned = false;
     worker->retires = head->retires;
     if (head->out_of_memory || task->found.failed) {

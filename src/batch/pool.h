@@ -2,6 +2,7 @@
 #ifndef FFD_BATCH_POOL_H
 #define FFD_BATCH_POOL_H
 
+#include "batch/files/claims.h"
 #include "batch/manifest/job_words.h"
 #include "batch/row_array.h"
 #include "batch/wire.h"
@@ -49,13 +50,14 @@ typedef struct pool_task {
     task_state state;
     char *picture;            /* path; NULL: none is wanted */
     const char *picture_name; /* part of that path below the folder of pictures */
-    bool looks_at_mesh;       /* a look is at the mesh too, not only at the lattices */
+    claim_needs needs;        /* what a look must look at */
     bool looks_only;          /* its worker answers after the look, whatever it finds */
     bool surveys;             /* likewise, and looks through the models of the output's folder */
     bool looks;               /* while running: it began as TASK_NEW, and its worker still looks */
     bool looked_in_vain;      /* the look found nothing */
     bool is_learned;          /* that was taken to heart (ffd_run_learn) */
-    size_t beside;            /* result of a look: number of files beside the output, */
+    bool has_looked;          /* the results of a look are here: */
+    size_t beside;            /* number of files beside the output, */
     byte_buffer found;        /* and what else it found (look.h) */
     byte_buffer passed;       /* names that the output must not take (ffd_claims_others) */
     bool is_unsurveyed;       /* these are not known: the job looks by itself */

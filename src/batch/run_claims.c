@@ -1,6 +1,4 @@
 /* run_claims.c - claims the files of a batch's jobs, in their order. */
-#include "base/memory/memory.h"
-#include "base/system/interrupt.h"
 #include "batch/batch_run.h"
 #include "batch/files/run_reads.h"
 
@@ -9,41 +7,6 @@ void ffd_run_fail_task(pool_task *task)
     task->failure = task->job.error;
     task->state = TASK_ENDED;
     task->outcome = OUTCOME_FAILED;
-}
-
-/* Looks at the next job, if there is one. */
-static ffd_status expect_next(batch_run *run, job_source *source, bool checks, line_state *state,
-                              ffd_error *error)
-{
-    batch_job job = {0};
-    ffd_status status = ffd_jobs_next(source, &job, state, error);
-    if (!status && *state == LINE_READ && !job.error.status) {
-        if (checks)
-            ffd_reads_check_own(&run->files, &job);
-        status = job.error.status;
-        if (status && error)
-            *error = job.error;
-        if (!status)
-            status = ffd_claims_expect(&run->files, &job, error);
-    }
-    ffd_job_free(&job);
-    return status;
-}
-
-ffd_status ffd_run_expect(batch_run *run, bool checks, ffd_error *error)
-{
-    const job_source_desc *const jobs = &run->desc->jobs;
-    job_source *source;
-    line_state state = LINE_READ;
-    run->files.comes_once = ffd_jobs_come_once(jobs);
-    run->files.has_odd_outputs = run->files.comes_once || run->view;
-    if (run->files.comes_once)
-        return FFD_OK;
-    ffd_status status = ffd_jobs_open(jobs, &source, error);
-    while (!status && state == LINE_READ && !ffd_interrupt_requested())
-        status = expect_next(run, source, checks, &state, error);
-    ffd_jobs_close(&source);
-    return status;
 }
 
 static void find_record(batch_run *run, pool_task *task)
@@ -73,19 +36,16 @@ static ffd_status claim_picture(batch_run *run, pool_task *task, ffd_error *erro
 /* Claims the output of a job and checks what it reads, as far as its words say it. */
 static ffd_status claim_output(batch_run *run, pool_task *task, ffd_error *error)
 {
-    static const task_state states[] = {[CLAIM_NOTHING] = TASK_WAITS,
-                                        [CLAIM_KNOWN] = TASK_LOOKED,
-                                        [CLAIM_LOOK_AT_LATTICES] = TASK_NEW,
-                                        [CLAIM_LOOK] = TASK_NEW};
     batch_job *const job = &task->job;
     const job_kind kind = ffd_job_kind(job);
     if (job->target && ffd_claims_output(&run->files, job, &task->target, error))
         return FFD_E_MEMORY;
     if (run->desc->positions)
         task->target = ffd_run_rows_target(&run->rows, job->row, job->target ? &task->target : NULL);
-    const claim_needs needs = ffd_claims_need(&run->files, job, &kind);
-    task->state = states[needs];
-    task->looks_at_mesh = needs == CLAIM_LOOK;
+    task->needs = ffd_claims_need(&run->files, job, &kind);
+    task->state = task->needs.mesh || task->needs.lattices ? TASK_NEW
+                  : task->needs.others                     ? TASK_LOOKED
+                                                           : TASK_WAITS;
     task->looks_only = ffd_job_count_beside(&kind) > 0;
     if (run->view && !job->error.status && claim_picture(run, task, error))
         return FFD_E_MEMORY;
@@ -102,7 +62,7 @@ static ffd_status claim_output(batch_run *run, pool_task *task, ffd_error *error
 /* Sends a task to a worker, which looks through the models of the folder of its output. */
 static ffd_status ask_for_survey(batch_run *run, pool_task *task, ffd_error *error)
 {
-    task->surveys = task->looks_at_mesh = true;
+    task->surveys = task->needs.mesh = true;
     task->state = TASK_NEW;
     return ffd_run_set_survey(&run->files, task->job.target, SURVEY_ASKED, error);
 }
@@ -111,12 +71,14 @@ static ffd_status ask_for_survey(batch_run *run, pool_task *task, ffd_error *err
 static ffd_status claim_others(batch_run *run, pool_task *task, ffd_error *error)
 {
     batch_job *const job = &task->job;
-    const job_kind kind = ffd_job_kind(job);
+    job_kind kind = ffd_job_kind(job);
     ffd_status status = FFD_OK;
-    if (task->found.size > 0)
+    if (task->has_looked)
         status =
-            ffd_reads_learn(&run->files, job, &kind, task->looks_at_mesh, task->beside, &task->found, error);
+            ffd_reads_learn(&run->files, job, &kind, task->needs.mesh, task->beside, &task->found, error);
     ffd_buffer_free(&task->found);
+    task->has_looked = false;
+    kind.is_looked_at = ffd_reads_know_mesh(&run->files, &kind);
     if (!status && ffd_claims_need_survey(&run->files, job, &kind))
         return ask_for_survey(run, task, error);
     if (!status)
@@ -129,12 +91,12 @@ static ffd_status claim_others(batch_run *run, pool_task *task, ffd_error *error
 }
 
 /* Whether a task that waits for a worker to look needs that no more, since others were looked at. */
-static bool is_known(batch_run *run, const pool_task *task)
+static bool is_known(const batch_run *run, const pool_task *task)
 {
     if (task->state != TASK_NEW || task->surveys)
         return false;
     const job_kind kind = ffd_job_kind(&task->job);
-    return ffd_claims_need(&run->files, &task->job, &kind) <= CLAIM_KNOWN;
+    return ffd_claims_are_ready(&run->files, &task->job, &kind, &task->needs);
 }
 
 ffd_status ffd_run_learn(batch_run *run, pool_task *task, ffd_error *error)
@@ -144,7 +106,7 @@ ffd_status ffd_run_learn(batch_run *run, pool_task *task, ffd_error *error)
     if (task->state == TASK_ENDED && task->surveys &&
         ffd_run_survey(&run->files, task->job.target) == SURVEY_ASKED)
         return ffd_run_set_survey(&run->files, task->job.target, SURVEY_FAILED, error);
-    return is_new ? ffd_reads_learn_nothing(&run->files, &task->job, task->looks_at_mesh, error) : FFD_OK;
+    return is_new ? ffd_reads_learn_nothing(&run->files, &task->job, task->needs.mesh, error) : FFD_OK;
 }
 
 /* No file beside an output, or copied with it, has the ending of a mesh format. So an output with one is
@@ -156,10 +118,10 @@ ffd_status ffd_run_claim_tasks(batch_run *run, ffd_error *error)
     bool settled = true;
     for (size_t i = 0; i < run->count && !status; i++) {
         pool_task *const task = run->tasks[i];
-        status = ffd_run_learn(run, task, error);
-        if (status)
-            break;
-        if (task->state == TASK_ORDERED && (settled || (task->has_mesh_name && !run->files.comes_once)))
+        if (task->looked_in_vain && !task->is_learned)
+            status = ffd_run_learn(run, task, error);
+        if (!status && task->state == TASK_ORDERED &&
+            (settled || (task->has_mesh_name && !run->files.comes_once)))
             status = claim_output(run, task, error);
         if (!status && settled && (task->state == TASK_LOOKED || is_known(run, task)))
             status = claim_others(run, task, error);

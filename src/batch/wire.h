@@ -42,8 +42,9 @@ typedef struct wire_task {
     bool measure;  /* only measure the mesh's box, and list its files if depfile is set */
     bool count;    /* only count the mesh's vertices */
     bool has_row, is_double;
-    bool look;          /* first look at the files of the job (look.h) */
-    bool look_at_mesh;  /* at the mesh too, not only at the lattices */
+    bool look;         /* first look at the files of the job (look.h): */
+    bool look_at_mesh; /* those of the mesh, */
+    bool look_at_lattices;
     bool look_only;     /* answer after the look, whatever it finds */
     bool survey;        /* likewise, and look through the models of the folder of the output */
     bool tells;         /* tell at once that the look has found nothing */

@@ -2,18 +2,16 @@
 #include "base/file/cleanup.h"
 #include "base/file/mapping.h"
 #include "base/file/output.h"
-#include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/one_line.h"
 #include "base/system/interrupt.h"
-#include "batch/files/look.h"
 #include "batch/fingerprint.h"
+#include "batch/job_look.h"
 #include "batch/job_picture.h"
 #include "batch/manifest/settings.h"
 #include "batch/row_array.h"
 #include "batch/wire.h"
 #include "io/formats.h"
-#include "io/users.h"
 #include "job/chain/chain_load.h"
 #include "job/chain/job_cache.h"
 #include "job/input/shown_box.h"
@@ -355,88 +353,6 @@ static ffd_status count_vertices(const wire_task *task, const ffd_deform_desc *d
     return status;
 }
 
-/* Adds the lattices of a job, and the files of the meshes that their boxes go round. *has_boxes: there are
-   some. */
-static ffd_status look_at_lattices(batch_worker *worker, const ffd_deform_desc *desc, bool *has_boxes,
-                                   ffd_error *error)
-{
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < desc->lattice_count && !status; i++) {
-        path_list meshes = {0};
-        ffd_look_add(&worker->rule, LOOK_LATTICE, desc->lattices[i]);
-        status = ffd_cache_box_meshes(&worker->hashes, desc->lattices[i], &meshes, error);
-        *has_boxes = *has_boxes || meshes.count > 0;
-        for (size_t m = 0; m < meshes.count && !status; m++) {
-            const ffd_source source = {.path = meshes.paths[m]};
-            path_list named = {0};
-            ffd_look_add(&worker->rule, LOOK_BOX, meshes.paths[m]);
-            status = ffd_cache_list_named(&source, &named, error);
-            ffd_look_add_all(&worker->rule, LOOK_BOX, &named);
-            ffd_paths_free(&named);
-        }
-        ffd_paths_free(&meshes);
-    }
-    return status;
-}
-
-/* Returns the format of the output; FFD_FORMAT_AUTO: there is none, or it is unknown. */
-static ffd_format output_format_of(const ffd_deform_desc *desc)
-{
-    ffd_format format = desc->output_format;
-    if (desc->in_place && ffd_source_format(&desc->input, &format, NULL))
-        return FFD_FORMAT_AUTO;
-    return format == FFD_FORMAT_AUTO && desc->output ? ffd_format_from_name(desc->output) : format;
-}
-
-/* Adds the models of the output's folder, with the files that they name. */
-static ffd_status survey(batch_worker *worker, const ffd_deform_desc *desc, ffd_error *error)
-{
-    const char *const output = desc->in_place ? desc->input.path : desc->output;
-    char *const folder = ffd_path_folder(output);
-    path_list pairs = {0};
-    ffd_status status = folder ? FFD_OK : ffd_fail_memory(error);
-    if (!status)
-        status = ffd_users_list(folder, &pairs, error);
-    ffd_look_add(&worker->rule, LOOK_FOLDER, folder ? folder : "");
-    for (size_t i = 0; i + 1 < pairs.count && !status; i += 2) {
-        ffd_look_add(&worker->rule, LOOK_MODEL, pairs.paths[i]);
-        ffd_look_add(&worker->rule, LOOK_BUFFER, pairs.paths[i + 1]);
-    }
-    ffd_paths_free(&pairs);
-    ffd_free(folder);
-    return status;
-}
-
-/* Looks at the files of a job, as the first process must know them before the job works. answer->looked:
-   there are some. An unreadable mesh fails the job later. */
-static ffd_status look(batch_worker *worker, const wire_task *task, const ffd_deform_desc *desc,
-                       wire_answer *answer, ffd_error *error)
-{
-    path_list named = {0}, copies = {0};
-    size_t beside = 0;
-    bool has_boxes = false;
-    const ffd_format to = output_format_of(desc);
-    ffd_status status =
-        task->look_at_mesh ? ffd_cache_look(&worker->hashes, &desc->input, to, &beside, &named, &copies, NULL)
-                           : FFD_OK;
-    if (!status) {
-        ffd_look_add_all(&worker->rule, LOOK_NAMED, &named);
-        ffd_look_add_all(&worker->rule, LOOK_COPY, &copies);
-    }
-    if (status != FFD_E_MEMORY)
-        status = look_at_lattices(worker, desc, &has_boxes, error);
-    if (!status && task->survey)
-        status = survey(worker, desc, error);
-    answer->beside = beside;
-    answer->looked =
-        !status && (beside > 0 || named.count > 0 || has_boxes || task->look_only || task->survey);
-    if (!answer->looked)
-        worker->rule.size = 0;
-    ffd_paths_free(&named);
-    ffd_paths_free(&copies);
-    return status == FFD_E_MEMORY ? ffd_fail_memory(error) : FFD_OK;
-}
-
 /* Tells the first process that a look has found nothing, and the job goes on. */
 static ffd_status tell(ffd_error *error)
 {
@@ -457,7 +373,7 @@ static ffd_status do_task(batch_worker *worker, const wire_task *task, const fin
     const unsigned losses = ffd_mapping_losses();
     ffd_status status = take_row(task, row, desc, answer, &result->error);
     if (!status && task->look)
-        status = look(worker, task, desc, answer, &result->error);
+        status = ffd_job_look(&worker->hashes, task, desc, &worker->rule, answer, &result->error);
     if (status || answer->looked)
         return status;
     if (task->look && task->tells)
@@ -487,7 +403,7 @@ static ffd_status do_task(batch_worker *worker, const wire_task *task, const fin
 static ffd_status take_passed(batch_worker *worker, const wire_task *task, const char *text,
                               const ffd_deform_desc *desc, ffd_error *error)
 {
-    const mesh_format *const format = ffd_format_table(output_format_of(desc));
+    const mesh_format *const format = ffd_format_table(ffd_job_output_format(desc));
     if (!format || !format->name_beside)
         return FFD_OK;
     ffd_status status = ffd_written_create(&worker->written, error);

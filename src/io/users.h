@@ -6,7 +6,7 @@
 #include "base/file/path_list.h"
 
 /* Adds the path of each such model and that of each file which it names, in pairs, by scanning the models.
-   Those that cannot be read have none. Errors: FFD_E_MEMORY, those of listing the folder. */
+   Those that cannot be read have none. Errors: FFD_E_MEMORY. */
 ffd_status ffd_users_list(const char *folder, path_list *pairs, ffd_error *error);
 
 #endif

@@ -109,11 +109,13 @@ static ffd_status check_box(job_plan *plan, const char *lattice, const char *mes
 static ffd_status check_lattice(job_plan *plan, const char *lattice, ffd_error *error)
 {
     path_list meshes = {0};
-    if (ffd_file_is_stream(lattice))
+    file_input bytes;
+    if (ffd_file_is_stream(lattice) || ffd_file_load(lattice, &bytes, NULL))
         return FFD_OK;
     ffd_status status = check_common(plan, lattice, NULL, error);
     if (!status)
-        status = ffd_lattice_box_meshes(lattice, &meshes, error);
+        status = ffd_lattice_box_meshes(lattice, &bytes, &meshes, error);
+    ffd_file_unload(&bytes);
     for (size_t i = 0; i < meshes.count && !status; i++)
         status = check_box(plan, lattice, meshes.paths[i], error);
     ffd_paths_free(&meshes);

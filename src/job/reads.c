@@ -15,7 +15,7 @@ static bool replaces(const char *output)
 
 static bool holds(const path_list *files, const char *output)
 {
-    for (size_t i = 0; i < files->count; i++)
+    for (size_t i = 0; i < files->count && replaces(output); i++)
         if (ffd_file_same(files->paths[i], output))
             return true;
     return false;
@@ -57,12 +57,15 @@ ffd_status ffd_job_check_mesh_files(const char *output, const ffd_source *source
 {
     ffd_format format;
     mesh_names names = {0};
-    if (!replaces(output) || ffd_file_is_stream(source->path) || ffd_memory_has(source->path) ||
+    if (ffd_file_is_stream(source->path) || ffd_memory_has(source->path) ||
         ffd_source_format(source, &format, NULL) || !may_name(ffd_format_table(format), output))
         return FFD_OK;
     const mesh_format *const table = ffd_format_table(format);
-    ffd_status status = document && table->list_files ? list_by_document(document, &names, error)
-                                                      : list_by_bytes(table, source, &names, error);
+    ffd_status status = FFD_OK;
+    if (document && table->list_files)
+        status = list_by_document(document, &names, error);
+    else if (replaces(output))
+        status = list_by_bytes(table, source, &names, error);
     const bool is_resource = !status && holds(&names.resources, output);
     if (!status && (is_resource || holds(&names.named, output)))
         status = ffd_fail_file(error, FFD_E_EXISTS, output, "is %s of the input %s and is not overwritten",
@@ -75,8 +78,6 @@ ffd_status ffd_job_check_mesh_files(const char *output, const ffd_source *source
 ffd_status ffd_job_check_box_files(const char *output, const lattice_chain *chain,
                                    const char *const *lattices, ffd_error *error)
 {
-    if (!replaces(output))
-        return FFD_OK;
     for (size_t i = 0; i < chain->count; i++)
         if (holds(&chain->links[i].box_files, output))
             return ffd_fail_file(

@@ -52,8 +52,9 @@ static ffd_status find(void *context, const char *file, const char *output, size
                        path_list *names, ffd_error *error)
 {
     job_sharing *const s = context;
-    ffd_status status = s->known->is_complete ? FFD_OK : list_folder(s, file, error);
-    if (!status && !s->has_input)
+    const bool is_complete = s->known->is_complete;
+    ffd_status status = is_complete ? FFD_OK : list_folder(s, file, error);
+    if (!status && !is_complete && !s->has_input)
         status = add_input(s, error);
     return status ? status : ffd_users_find(&s->known->users, file, output, count, by_output, names, error);
 }

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Races and hostile surroundings that once cost users their files (siege-*): what stands under a name when a run ends is
-whole, and what is not the run's own is as it was. The inputs are made here. siege-02, a run that is killed at any call, is
-tests/cli/test_file_sets.py.
+whole, and what is not the run's own is as it was. The inputs are made here. Others are in tests/cli: siege-02, a run that is
+killed at any call, and siege3-07, file systems without locks, in test_file_sets.py; siege3-06, textures beyond the memory, in
+test_memory.py; siege3-09, jobs that read what others write, and siege3-05 in a batch in test_batch_reads.py.
 
     FFD=... PYTHONPATH=tests/cli python3 tests/faults/test_siege.py siege_05_a_file_that_appears_under_the_name_of_the_output_stays
 """

@@ -43,11 +43,13 @@ ffd_status ffd_users_add(file_users *users, const char *file, const char *user, 
 ffd_status ffd_users_find(file_users *users, const char *file, const char *except, size_t *count, bool *by_it,
                           path_list *names, ffd_error *error)
 {
-    const user_pair pair = {ffd_place_of(&users->places, file), ffd_place_of(&users->places, except)};
     uint32_t number;
     ffd_status status = FFD_OK;
     *count = 0;
     *by_it = false;
+    if (users->known.count == 0)
+        return FFD_OK;
+    const user_pair pair = {ffd_place_of(&users->places, file), ffd_place_of(&users->places, except)};
     if (!ffd_intern_find(&users->known, &pair.file, sizeof pair.file, &number))
         return FFD_OK;
     const used_file *const known = &users->files[number];

@@ -5,21 +5,19 @@
 #include <inttypes.h>
 #include <string.h>
 
-/* Whether an output would replace the mesh that it is made of, which a worker refuses. */
-static bool is_mesh(run_files *files, const batch_job *job, const hash128 *target)
+/* Whether an output would replace the mesh that it is made of, which a worker refuses: other jobs may read
+   the mesh. */
+static bool is_mesh(const batch_job *job)
 {
-    const hash128 mesh = ffd_run_read_place(files, job->words.data);
-    return job->output && ffd_hash_equal(&mesh, target);
+    return job->output && strcmp(job->words.data, job->target) == 0;
 }
 
 ffd_status ffd_claims_expect(run_files *files, const batch_job *job, ffd_error *error)
 {
     uint64_t line;
-    if (!job->target)
+    if (!job->target || is_mesh(job))
         return FFD_OK;
     const hash128 place = ffd_run_place(files, job->target);
-    if (is_mesh(files, job, &place))
-        return FFD_OK;
     if (!files->has_odd_outputs) {
         const job_kind kind = ffd_job_kind(job);
         files->has_odd_outputs =
@@ -47,7 +45,7 @@ ffd_status ffd_claims_output(run_files *files, batch_job *job, hash128 *target, 
 {
     uint64_t line;
     *target = ffd_run_place(files, job->target);
-    if (is_mesh(files, job, target))
+    if (is_mesh(job))
         return FFD_OK;
     const bool taken = is_taken(files, job, target, &line), is_own = taken && line == job->line;
     if (taken && !is_own) /* else it was expected */
@@ -76,11 +74,16 @@ claim_needs ffd_claims_need(run_files *files, const batch_job *job, const job_ki
 {
     const bool by_mesh = (kind->has_beside && kind->is_kept) || ffd_reads_need_named(files, kind) ||
                          ffd_job_has_copies(job, kind);
-    if (by_mesh && !ffd_reads_know_mesh(files, kind))
-        return CLAIM_LOOK;
-    if (!ffd_reads_know_lattices(files, job))
-        return by_mesh ? CLAIM_LOOK : CLAIM_LOOK_AT_LATTICES;
-    return by_mesh || ffd_job_count_beside(kind) > 0 ? CLAIM_KNOWN : CLAIM_NOTHING;
+    return (claim_needs){.mesh = by_mesh,
+                         .lattices = !ffd_reads_know_lattices(files, job),
+                         .others = by_mesh || ffd_job_count_beside(kind) > 0};
+}
+
+bool ffd_claims_are_ready(const run_files *files, const batch_job *job, const job_kind *kind,
+                          const claim_needs *needs)
+{
+    return (!needs->mesh || ffd_reads_know_mesh(files, kind)) &&
+           (!needs->lattices || ffd_reads_know_lattices(files, job));
 }
 
 /* Returns the number of files beside an output, as far as they are known. */
@@ -88,7 +91,7 @@ static size_t count_beside(const run_files *files, const job_kind *kind)
 {
     if (!kind->has_beside || !kind->is_kept)
         return ffd_job_count_beside(kind);
-    return ffd_reads_know_mesh(files, kind) ? files->look.beside : 0;
+    return kind->is_looked_at ? files->look.beside : 0;
 }
 
 bool ffd_claims_need_survey(run_files *files, const batch_job *job, const job_kind *kind)
@@ -258,12 +261,11 @@ static ffd_status claim_beside(run_files *files, batch_job *job, const job_kind 
 ffd_status ffd_claims_others(run_files *files, batch_job *job, const job_kind *kind, byte_buffer *passed,
                              ffd_error *error)
 {
-    const bool is_known = ffd_reads_know_mesh(files, kind);
     const size_t beside = count_beside(files, kind);
-    const size_t copies = is_known && ffd_job_has_copies(job, kind) ? files->look.copies.count : 0;
+    const size_t copies = kind->is_looked_at && ffd_job_has_copies(job, kind) ? files->look.copies.count : 0;
     ffd_status status = FFD_OK;
     ffd_reads_check_boxes(files, job);
-    if (is_known && !job->error.status)
+    if (kind->is_looked_at && !job->error.status)
         ffd_reads_check_named(files, job);
     if (beside > 0 && !job->error.status)
         status = claim_beside(files, job, kind, beside, passed, error);

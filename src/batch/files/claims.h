@@ -15,16 +15,17 @@ ffd_status ffd_claims_output(run_files *files, batch_job *job, hash128 *target, 
 /* Likewise claims the picture of a job, whose place is `file`. */
 ffd_status ffd_claims_picture(run_files *files, batch_job *job, const hash128 *file, const char *path,
                               ffd_error *error);
-/* How the other files of a job become known. The first process opens no mesh: one that crashes or hangs must
-   cost its own jobs only. */
-typedef enum claim_needs {
-    CLAIM_NOTHING,          /* there are none */
-    CLAIM_KNOWN,            /* they are known: from the formats, or from the last look */
-    CLAIM_LOOK_AT_LATTICES, /* a worker must look at the lattices alone */
-    CLAIM_LOOK              /* at the mesh too */
+/* What must be known before the other files of a job are claimed. The first process opens no mesh: one that
+   crashes or hangs must cost its own jobs only. */
+typedef struct claim_needs {
+    bool mesh, lattices; /* a worker must look at these */
+    bool others;         /* there may be such files */
 } claim_needs;
-/* Returns how. */
+/* Returns that. */
 claim_needs ffd_claims_need(run_files *files, const batch_job *job, const job_kind *kind);
+/* Whether all of it is known: from the formats, or from the last looks. */
+bool ffd_claims_are_ready(const run_files *files, const batch_job *job, const job_kind *kind,
+                          const claim_needs *needs);
 /* Whether a worker must first look through the models of the folder of the output, which could name the files
    beside it. */
 bool ffd_claims_need_survey(run_files *files, const batch_job *job, const job_kind *kind);

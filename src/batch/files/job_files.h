@@ -12,9 +12,10 @@ typedef struct job_kind {
     const mesh_format *source, *format; /* of these; NULL: unknown */
     bool is_kept;                       /* they are the same */
     bool has_beside;                    /* the output may have files beside it */
+    bool is_looked_at;                  /* a worker has looked at this mesh last (run_files.h) */
 } job_kind;
 
-/* Returns the kind of a valid job. */
+/* Returns the kind of a valid job; is_looked_at: false. */
 job_kind ffd_job_kind(const batch_job *job);
 /* Whether files may be copied with the output. */
 bool ffd_job_has_copies(const batch_job *job, const job_kind *kind);

@@ -62,20 +62,6 @@ void ffd_run_refuse_written(const run_files *files, batch_job *job, const char *
     refuse(files, job, what);
 }
 
-read_conflicts ffd_run_find_conflicts(run_files *files, const path_list *list)
-{
-    read_conflicts found = {0};
-    for (size_t i = 0; i < list->count && found.count < 2; i++) {
-        const hash128 place = ffd_run_place(files, list->paths[i]);
-        uint64_t line;
-        if (!ffd_run_writer(files, &place, &line) || (found.count && line == found.lines[0]))
-            continue;
-        found.files[found.count] = i;
-        found.lines[found.count++] = line;
-    }
-    return found;
-}
-
 void ffd_run_refuse_conflict(const run_files *files, batch_job *job, const char *role, const path_list *list,
                              const read_conflicts *conflicts)
 {

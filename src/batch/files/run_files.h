@@ -110,8 +110,6 @@ void ffd_run_refuse(const run_files *files, batch_job *job, const char *role, co
                     uint64_t line);
 /* Stores in a job that a file which it writes is read by the job of a line. */
 void ffd_run_refuse_written(const run_files *files, batch_job *job, const char *file, uint64_t line);
-/* Finds the first files of a list that other jobs, or the run, write. */
-read_conflicts ffd_run_find_conflicts(run_files *files, const path_list *list);
 /* Stores in a job that it reads one of these files, unless it is the job that writes it. role: as above. */
 void ffd_run_refuse_conflict(const run_files *files, batch_job *job, const char *role, const path_list *list,
                              const read_conflicts *conflicts);

@@ -12,12 +12,22 @@ static ffd_status note(run_files *files, const hash128 *file, uint64_t line, ffd
                                                        : ffd_files_put(&files->reads, file, line, error);
 }
 
-static ffd_status note_all(run_files *files, const path_list *list, uint64_t line, ffd_error *error)
+/* Notes that a job reads all files of a list. *conflicts: the first of them that other jobs, or the run,
+   write. */
+static ffd_status note_all(run_files *files, const path_list *list, uint64_t line, read_conflicts *conflicts,
+                           ffd_error *error)
 {
     ffd_status status = FFD_OK;
+    *conflicts = (read_conflicts){0};
     for (size_t i = 0; i < list->count && !status; i++) {
         const hash128 place = ffd_run_place(files, list->paths[i]);
+        uint64_t writer;
         status = note(files, &place, line, error);
+        if (conflicts->count == 2 || !ffd_run_writer(files, &place, &writer) ||
+            (conflicts->count && writer == conflicts->lines[0]))
+            continue;
+        conflicts->files[conflicts->count] = i;
+        conflicts->lines[conflicts->count++] = writer;
     }
     return status;
 }
@@ -127,8 +137,7 @@ static ffd_status end_lattice(run_files *files, known_lattice *lattice, uint64_t
 {
     if (!lattice)
         return FFD_OK;
-    lattice->conflicts = ffd_run_find_conflicts(files, &lattice->files);
-    return note_all(files, &lattice->files, line, error);
+    return note_all(files, &lattice->files, line, &lattice->conflicts, error);
 }
 
 /* The mesh */
@@ -169,11 +178,10 @@ static void begin_look(run_files *files, const job_kind *kind, size_t beside)
 static ffd_status end_look(run_files *files, const job_kind *kind, uint64_t line, ffd_error *error)
 {
     mesh_look *const look = &files->look;
-    ffd_status status = FFD_OK;
-    look->conflicts = ffd_run_find_conflicts(files, &look->named);
+    ffd_status status = note_all(files, &look->named, line, &look->conflicts, error);
     for (size_t i = 0; i < look->named.count && !status; i++)
         status = ffd_users_add(&files->users, look->named.paths[i], kind->input, error);
-    return status ? status : note_all(files, &look->named, line, error);
+    return status;
 }
 
 /* State of reading what a worker has found. */

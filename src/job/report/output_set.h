@@ -11,7 +11,7 @@
 typedef struct known_users {
     file_users users;
     intern_table folders; /* places of the folders whose models are among the users */
-    bool is_complete;     /* no folder needs to be read */
+    bool is_complete;     /* no folder needs to be read, and the files of no input are missing */
 } known_users;
 
 struct ffd_written {

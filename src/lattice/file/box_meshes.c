@@ -1,5 +1,4 @@
 #include "lattice/file/box_meshes.h"
-#include "base/file/input.h"
 #include "base/memory/memory.h"
 #include "lattice/file/spec_parse.h"
 #include <string.h>
@@ -18,17 +17,13 @@ static bool may_name_meshes(const file_input *input)
     return false;
 }
 
-ffd_status ffd_lattice_box_meshes(const char *path, path_list *meshes, ffd_error *error)
+ffd_status ffd_lattice_box_meshes(const char *path, const file_input *bytes, path_list *meshes,
+                                  ffd_error *error)
 {
     const spec_settings rest_only = {.may_be_open = true};
     lattice_spec *spec = NULL;
-    file_input input;
     size_t size;
-    if (ffd_file_load(path, &input, NULL))
-        return FFD_OK;
-    const bool may = may_name_meshes(&input);
-    ffd_file_unload(&input);
-    if (!may || ffd_spec_load(path, &rest_only, &spec, &size, NULL))
+    if (!may_name_meshes(bytes) || ffd_spec_load(path, &rest_only, &spec, &size, NULL))
         return FFD_OK;
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < spec->mesh_count && !status; i++) {
