@@ -8,6 +8,7 @@
 #include "job/chain/job_cache.h"
 #include "job/conversion.h"
 #include "job/deform_job.h"
+#include "job/input/deform_desc.h"
 #include "job/input/shown_box.h"
 #include "job/input/source.h"
 #include "job/judge/result.h"
@@ -46,7 +47,7 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
                                    .force = desc->force || desc->if_changed,
                                    .resources = desc->resources,
                                    .input = input};
-    if (!ffd_deform_job_writes(desc)) {
+    if (!ffd_deform_desc_writes(desc)) {
         const ffd_status status = check_no_output(desc, error);
         return status ? status : ffd_source_format(&desc->input, &options->format, error);
     }
@@ -293,7 +294,7 @@ static bool needs_only_positions(const ffd_deform_desc *desc, const mesh_save_op
 static ffd_status check_reads(const deform_job *job, const char *output, ffd_error *error)
 {
     const ffd_deform_desc *const desc = job->desc;
-    if (!ffd_deform_job_writes(desc) || desc->in_place)
+    if (!ffd_deform_desc_writes(desc) || desc->in_place)
         return FFD_OK;
     const ffd_status status = ffd_job_check_mesh_files(output, &desc->input, job->document, error);
     return status ? status : ffd_job_check_box_files(output, &job->chain, desc->lattices, error);
@@ -308,6 +309,7 @@ static ffd_status write_output(deform_job *job, mesh_save_options *options, ffd_
     ffd_sharing_begin(&sharing, job->desc, job->document, options->path, options->format, &options->sharing);
     options->indices_left = &result->indices_left;
     options->bytes_left = &result->bytes_left;
+    options->bounds_left = &result->bounds_left;
     const ffd_status status = job->desc->dry_run ? rehearse(job, options, error) : save(job, options, error);
     ffd_sharing_end(&sharing);
     if (!job->desc->dry_run)
@@ -341,7 +343,7 @@ static ffd_status run(deform_job *job, ffd_job_result *result, ffd_error *error)
     if (!status)
         status =
             job->desc->morphs ? ffd_morphs_run(job, result, error) : ffd_deform_job_run(job, result, error);
-    if (status || !ffd_deform_job_writes(job->desc))
+    if (status || !ffd_deform_desc_writes(job->desc))
         return status;
     warn_of_ending(job, &options);
     return write_output(job, &options, result, error);
@@ -363,7 +365,7 @@ static ffd_status deform(const ffd_deform_desc *desc, ffd_job_result *result, ff
 {
     ffd_share *share = NULL;
     ffd_deform_desc own = *desc;
-    if (!ffd_deform_job_writes(desc)) /* normals are not written */
+    if (!ffd_deform_desc_writes(desc)) /* normals are not written */
         own.normals = FFD_NORMALS_KEEP;
     if (!desc->morphs || ffd_cache_holds_meshes(desc->share))
         return run_job(&own, result, error);

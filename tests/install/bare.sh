@@ -111,7 +111,7 @@ run_meson() {
 # The block ```sh package, with what the package itself says that it is built with, and no more.
 run_deb() {
     package=$(sed -n '/^```sh package$/,/^```$/p' "$root/README.md" | sed '1d;$d' | tr '\n' ';')
-    make -- dpkg-dev && timed deb "set -e; apt-get -qq update; $(echo "$package" | sed 's/dpkg-buildpackage/apt-get -qq build-dep .\/; &/'); ls ../*.deb"
+    make -- dpkg-dev && timed deb "set -e; apt-get -qq update; $(echo "$package" | sed 's/dpkg-buildpackage/apt-get -qq build-dep .\/; &/') ls ../*.deb"
 }
 
 [ "${1-}" != --list ] || { two_commands && echo "$others" | tr ' ' '\n' && exit 0; }

@@ -95,8 +95,7 @@ def readme_build(source, environment, findings):
     ffd, pc, library = (next(os.path.join(path, os.path.basename(name)) for path, _, names in os.walk(root)
                              if os.path.basename(name) in names and path.endswith(os.path.dirname(name)))
                         for name in ("bin/ffd", "ffd.pc", "libffd.so"))
-    environment = dict(os.environ, PKG_CONFIG_PATH=os.path.dirname(pc), PKG_CONFIG_SYSROOT_DIR=root,
-                       LD_LIBRARY_PATH=os.path.dirname(library))
+    environment = dict(os.environ, PKG_CONFIG_PATH=os.path.dirname(pc), LD_LIBRARY_PATH=os.path.dirname(library))
     version = stage.run([ffd, "--version"], env=environment).strip()
     if os.path.basename(source) != version.replace(" ", "-"):
         findings.append(f"{os.path.basename(source)} holds {version}")
