@@ -163,6 +163,7 @@ static void free_morphs(cli_job *job)
     for (size_t i = 0; i < job->morph_count; i++)
         free((char *)(uintptr_t)job->morphs[i]);
     free(job->morphs);
+    ffd_intern_free(&job->morph_names);
     free(job->morph_results);
     cli_names_free(&job->clips);
 }

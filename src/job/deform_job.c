@@ -152,7 +152,9 @@ static ffd_status run_in_memory(deform_job_function run, ffd_deform_desc *desc, 
 {
     const char *const *const lattices = desc->lattices;
     job_memory memory = {0};
-    ffd_status status = ffd_in_memory_desc(&memory, desc, &result->error);
+    ffd_status status = ffd_chain_check_count(desc->lattice_count, &result->error);
+    if (!status)
+        status = ffd_in_memory_desc(&memory, desc, &result->error);
     if (!status)
         status = run_own(run, desc, result, size, &result->error);
     status = ffd_in_memory_judge(&memory, status, &result->error);
