@@ -31,7 +31,7 @@ LAYERS = {
     "io/gltf/document": {"io/gltf/file", "io/gltf/model", "json", "mesh"},
     "io/gltf/decode": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/gltf/document",
-        "io/gltf/model", "mesh", "mesh/meshopt",
+        "io/gltf/model", "io/text", "mesh", "mesh/meshopt",
     },
     "io/gltf/refer": {"io/gltf/document"},
     "io/gltf/scene": {

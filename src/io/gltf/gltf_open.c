@@ -3,8 +3,10 @@
 #include "base/memory/memory.h"
 #include "base/system/processors.h"
 #include "io/gltf/decode/gltf_check.h"
+#include "io/gltf/decode/gltf_contents.h"
 #include "io/gltf/decode/gltf_drawing.h"
 #include "io/gltf/decode/gltf_indices.h"
+#include "io/gltf/decode/gltf_stated.h"
 #include "io/gltf/model/gltf_schema.h"
 #include "io/gltf/rig/gltf_places.h"
 #include "io/gltf/rig/gltf_rig.h"
@@ -141,6 +143,9 @@ static ffd_status note_buffer(gltf_document *d, size_t i, ffd_error *error)
             ffd_gltf_flaw(d, uri, error, "the URI has backslashes for slashes: \"%s\" is read", buffer->path);
     if (status == FFD_OK && buffer->flaws & BUFFER_SHORT)
         status = ffd_gltf_flaw(d, value, error, "the buffer has %zu bytes, less than its byteLength %zu",
+                               buffer->size, buffer->stated);
+    if (status == FFD_OK && buffer->flaws & BUFFER_LONG)
+        status = ffd_gltf_flaw(d, value, error, "the buffer has %zu bytes, more than its byteLength %zu",
                                buffer->size, buffer->stated);
     return status;
 }
@@ -370,6 +375,8 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
         status = parse_model(d, error);
     if (status == FFD_OK)
         status = load_buffers(d, error);
+    if (status == FFD_OK)
+        status = ffd_gltf_check_contents(d, error);
     if (status)
         return status;
     ffd_gltf_choose_pages(d);
@@ -379,6 +386,8 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
     status = ffd_gltf_check(d, error);
     if (status == FFD_OK)
         status = ffd_gltf_check_indices(d, error);
+    if (status == FFD_OK)
+        status = ffd_gltf_check_stated(d, error);
     if (status == FFD_OK)
         status = ffd_gltf_check_vrm(d, error);
     if (status == FFD_OK)

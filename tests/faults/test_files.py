@@ -1,0 +1,169 @@
+#!/usr/bin/env python3
+"""Files that are not what a run takes them for, and what they need beside them (wild3-*, artist-*, siege3-*). Each case
+runs the program on the files of its folder, or on files that it makes, and says what is right.
+
+    FFD=... PYTHONPATH=tests/cli python3 tests/faults/test_files.py wild3_01_a_pointer_is_no_buffer
+"""
+
+import json
+import os
+import re
+import shutil
+import struct
+import zlib
+
+from harness import INVALID, PNG, case, check, equal, glb, gltf_json, lattice, main
+from said import anything, not_told, told
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+LIFT = lattice(moves=[{"by": [0, 0, 1]}])
+TRIANGLE = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+
+
+def use(run, name):
+    shutil.copytree(os.path.join(HERE, name), run.folder, dirs_exist_ok=True)
+
+
+# Buffers
+
+POINTER = b"version https://git-lfs.github.com/spec/v1\noid sha256:" + b"0" * 64 + b"\nsize 52233\n"
+
+
+@case
+def wild3_01_a_pointer_is_no_buffer(run):
+    """A Git LFS pointer where the buffer should be: refused by every command, whatever its length."""
+    use(run, "wild3-01-lfs-pointer-as-buffer")
+    why = re.compile(r'^model\.gltf:/buffers/0/uri: the buffer "model\.bin" seems to be a Git LFS pointer: the file itself is not there$')
+    for words in (["deform", "model.gltf", "out.gltf", "-l"], ["check", "model.gltf", "-l"], ["embed", "model.gltf", "-o", "e.npy", "-l"],
+                  ["view", "model.gltf", "-o", "v.html", "-l"], ["deform", "model.gltf", "out.obj", "-l"]):
+        run.ffd(*words, "twist.json", code=INVALID, err=why)
+    run.ffd("info", "model.gltf", code=INVALID, err=why)
+    run.ffd("compare", "model.gltf", "model.gltf", code=INVALID, err=anything)
+    check(not run.exists("out.gltf") and not run.exists("out.bin"), "nothing is written")
+    asset = json.loads(run.text("model.gltf"))
+    asset["buffers"][0]["byteLength"] = 5000
+    run.write("model.gltf", asset)
+    run.ffd("info", "model.gltf", code=INVALID, err=why)
+
+
+@case
+def other_files_are_no_buffers(run):
+    """Pages, archives, images and JSON in place of a buffer, beside the model, in a GLB and in its second buffer."""
+    wrong = {"an HTML page": b"\n<!DOCTYPE html><html><body>404: not found, the page is gone</body></html>",
+             "JSON text": b'{"message": "Not Found", "documentation_url": "https://docs.example.org"}',
+             "a gzip file": zlib.compress(bytes(range(200)), wbits=31), "a ZIP archive": b"PK\3\4\x14\0\0\0\x08\0" + bytes(60),
+             "a PNG image": PNG, "a JPEG image": b"\xff\xd8\xff\xe0\0\x10JFIF" + bytes(60), "an XML file": b'<?xml version="1.0"?><Error>' + b" " * 60,
+             "a Git LFS pointer": POINTER, "a GLB file": glb(*gltf_json(TRIANGLE)), "a bzip2 file": b"BZh91AY&SY" + bytes(60)}
+    run.write("l.json", LIFT)
+    asset, data = gltf_json(TRIANGLE, uri="m.bin")
+    run.write("m.gltf", asset)
+    for kind, content in wrong.items():
+        run.write("m.bin", content)
+        run.ffd("deform", "m.gltf", "o.gltf", "-l", "l.json", code=INVALID, err=re.compile(f'/buffers/0/uri: the buffer "m.bin" seems to be {kind}'))
+        short = {**asset, "buffers": [{"byteLength": len(content)}]}
+        run.write("b.glb", glb(short, content))
+        run.ffd("info", "b.glb", code=INVALID, err=re.compile(f"/buffers/0: the buffer seems to be {kind}"))
+        second = {**asset, "buffers": [{"byteLength": len(data)}, asset["buffers"][0]], "bufferViews": [{**asset["bufferViews"][0], "buffer": 1}]}
+        run.write("s.glb", glb(second, data))
+        run.ffd("info", "s.glb", code=INVALID, err=re.compile(f'/buffers/1/uri: the buffer "m.bin" seems to be {kind}'))
+
+
+@case
+def bytes_that_look_like_other_files_are_read(run):
+    """An image at the start of a buffer, and numbers that begin as an archive, an image or text would."""
+    run.write("l.json", LIFT)
+    asset, data = gltf_json(TRIANGLE)
+    packed = {**asset, "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": len(PNG)},
+                                       {"buffer": 0, "byteOffset": 200, "byteLength": len(data)}],
+              "images": [{"bufferView": 0, "mimeType": "image/png"}], "buffers": [{"byteLength": 200 + len(data)}]}
+    packed["accessors"][0]["bufferView"] = 1
+    check(len(PNG) <= 200)
+    run.write("p.glb", glb(packed, PNG.ljust(200, b"\0") + data))
+    run.ffd("deform", "p.glb", "o.glb", "-l", "l.json")
+    # Colours and indices at the start.
+    for first in (b"\x1f\x8b\xff\xff", b"\xff\xd8\xff\xff", b"\xff\xfe\0\0", b"{{{\xff", b"{{{{", b"v v ", b"solid", b"off\n"):
+        asset, data = gltf_json(TRIANGLE)
+        asset["bufferViews"] += [{"buffer": 0, "byteOffset": len(data), "byteLength": 12}]
+        asset["accessors"] += [{"bufferView": 1, "componentType": 5121, "normalized": True, "count": 3, "type": "VEC4"}]
+        asset["bufferViews"][0]["byteOffset"], asset["bufferViews"][1]["byteOffset"] = 12, 0
+        asset["buffers"][0]["byteLength"] = 12 + len(data)
+        asset["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = 1
+        run.write("c.glb", glb(asset, (first * 12)[:12] + data))
+        run.ffd("deform", "c.glb", "o.glb", "-l", "l.json", "--force")
+
+
+def three(low, high, data, **members):
+    """A model beside its buffer, whose accessor states these bounds."""
+    asset, _ = gltf_json(TRIANGLE, uri="m.bin")
+    asset["accessors"][0].update(min=low, max=high)
+    asset["buffers"][0].update(members)
+    return asset, data
+
+
+@case
+def positions_are_where_the_accessor_says(run):
+    """More than 1e15 times beyond min and max: refused; outside: a flaw, which --strict refuses."""
+    run.write("l.json", LIFT)
+    big = struct.pack("<9f", 0, 0, 0, 1, -2e15, 0, 0, 1, 0)
+    for name, asset in (("m", three([0, 0, 0], [1, 1, 0], big)[0]), ("z", three([0, 0, 0], [0, 0, 0], big)[0]),
+                        ("t", three([0, -2e15, 0], [1, 1, 0], big)[0])):
+        run.write("m.bin", big)
+        run.write(name + ".gltf", asset)
+        code = INVALID if name == "m" else 0
+        done = run.ffd("deform", name + ".gltf", "o.gltf", "-l", "l.json", "--force", "--report", "r.json", code=code, err=anything)
+        if name == "m":
+            told(done, r"^m\.gltf:/accessors/0: a coordinate of -2e\+15 is more than 1e15 times the largest number of min and max, 1: ")
+        elif name == "t":
+            not_told(done, "min|max")
+    run.write("m.bin", struct.pack("<9f", 0, 0, 0, 3.5, 0, 0, 0, 1, 0))
+    done = run.ffd("deform", "m.gltf", "o.gltf", "-l", "l.json", "--force", "--report", "r.json", err=anything)
+    told(done, r"^m\.gltf: /accessors/0/max: a position has x = 3\.5, more than the max 1$")
+    equal([(flaw["pointer"], flaw["count"]) for flaw in json.loads(run.text("r.json"))["jobs"][0]["flaws"]], [("/accessors/0/max", 1)])
+    run.ffd("check", "m.gltf", "-l", "l.json", "--strict", code=INVALID, err=re.compile("more than the max 1$"))
+    # Numbers that are not finite are counted elsewhere; those that min and max round to are equal.
+    run.write("m.bin", struct.pack("<9f", 0, 0, 0, 1, float("inf"), 0, 0, float("nan"), 0))
+    not_told(run.ffd("info", "m.gltf", err=anything), "a position has|1e15")
+    run.write("m.bin", struct.pack("<9f", 0, 0, 0, 0.1, 0.7, 0, 0, 0, 0))
+    run.write("m.gltf", three([0, 0, 0], [0.1, 0.7, 0], b"")[0])
+    run.ffd("info", "m.gltf")
+
+
+@case
+def offsets_are_where_the_accessor_says(run):
+    """The same for the offsets of morph targets."""
+    asset, data = gltf_json(TRIANGLE)
+    far = struct.pack("<9f", 0, 0, 0, 0, 0, 5e20, 0, 0, 0)
+    asset["bufferViews"].append({"buffer": 0, "byteOffset": len(data), "byteLength": 36})
+    asset["accessors"].append({**asset["accessors"][0], "bufferView": 1})
+    asset["buffers"][0]["byteLength"] += 36
+    asset["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": 1}]
+    run.write("m.glb", glb(asset, data + far))
+    run.ffd("info", "m.glb", code=INVALID, err=re.compile(r"^m\.glb:/accessors/1: a coordinate of 5e\+20 "))
+
+
+@case
+def a_buffer_of_another_length_is_a_flaw(run):
+    """Longer or shorter than byteLength, though it holds its bufferViews; a GLB is padded."""
+    run.write("l.json", LIFT)
+    _, data = gltf_json(TRIANGLE)
+    for more, what in ((4, "40 bytes, more than its byteLength 36"), (1, "37 bytes, more than its byteLength 36")):
+        run.write("m.gltf", three([0, 0, 0], [1, 1, 0], b"")[0])
+        run.write("m.bin", data + bytes(more))
+        done = run.ffd("deform", "m.gltf", "o.gltf", "-l", "l.json", "--force", err=anything)
+        told(done, rf"^m\.gltf: /buffers/0: the buffer has {what}$")
+        run.ffd("info", "m.gltf", "--strict", code=INVALID, err=re.compile(what))
+    run.write("m.gltf", three([0, 0, 0], [1, 1, 0], b"", byteLength=40)[0])
+    run.write("m.bin", data)
+    told(run.ffd("info", "m.gltf", err=anything), "36 bytes, less than its byteLength 40")
+    asset, data = gltf_json(TRIANGLE)
+    asset["buffers"][0]["byteLength"] = 35
+    run.write("m.gltf", three([0, 0, 0], [1, 1, 0], b"", byteLength=35)[0])
+    run.ffd("info", "m.gltf", code=INVALID, err=re.compile("are outside buffer 0 of 35 bytes"))
+    asset["buffers"][0]["byteLength"] = 36
+    for more, flaws in ((0, False), (4, True)):
+        run.write("p.glb", glb(asset, data + bytes(more)))
+        done = run.ffd("info", "p.glb", err=anything)
+        (told if flaws else not_told)(done, "the buffer has 40 bytes, more than its byteLength 36")
+
+
+main()
