@@ -12,7 +12,8 @@ import shutil
 import struct
 import zlib
 
-from harness import INVALID, PNG, case, check, equal, glb, gltf_json, lattice, main
+from harness import (INVALID, PNG, UNSUPPORTED, case, check, equal, glb, glb_split, gltf_json, gltf_vectors, lattice,
+                     main)
 from said import anything, not_told, told
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -164,6 +165,95 @@ def a_buffer_of_another_length_is_a_flaw(run):
         run.write("p.glb", glb(asset, data + bytes(more)))
         done = run.ffd("info", "p.glb", err=anything)
         (told if flaws else not_told)(done, "the buffer has 40 bytes, more than its byteLength 36")
+
+
+# Names and numbers of a glTF
+
+def skinned(second, **members):
+    """A mesh of points under a skin, whose second primitive has these attributes: accessors 1 joints, 2 weights."""
+    asset, data = gltf_json(TRIANGLE, nodes=[{"mesh": 0, "skin": 0}, {"name": "J"}])
+    for component, kind, element in ((5121, "VEC4", b"\0" * 4), (5126, "VEC4", struct.pack("<4f", 1, 0, 0, 0)), (5126, "VEC3", bytes(12))):
+        asset["bufferViews"].append({"buffer": 0, "byteOffset": len(data), "byteLength": 3 * len(element)})
+        asset["accessors"].append({"bufferView": len(asset["bufferViews"]) - 1, "componentType": component, "count": 3, "type": kind})
+        data += 3 * element
+    asset["buffers"][0]["byteLength"] = len(data)
+    asset["skins"] = [{"joints": [1]}]
+    first = asset["meshes"][0]["primitives"][0]
+    first["attributes"] |= {"JOINTS_0": 1, "WEIGHTS_0": 2}
+    asset["meshes"][0]["primitives"] = [first, {"attributes": second, "mode": 0, **members}]
+    return glb(asset, data)
+
+
+COMMANDS = (["deform", "m.glb", "o.glb", "--force", "-l", "l.json"], ["deform", "m.glb", "o.obj", "--force", "-l", "l.json"],
+            ["deform", "m.glb", "o.glb", "--force", "-l", "l.json", "--as-morph", "a"],
+            ["deform", "m.glb", "o.glb", "--force", "-l", "l.json", "--rig", "follow"], ["check", "m.glb", "-l", "l.json"],
+            ["embed", "m.glb", "-l", "l.json", "-o", "e.npy", "--force"], ["view", "m.glb", "-o", "v.html", "--force"], ["info", "m.glb"])
+
+
+@case
+def siege3_01_primitives_without_positions_are_passed_over(run):
+    """Joints, weights, morph targets and splats of a primitive without POSITION: it has no vertices, and nobody reads them."""
+    run.write("l.json", LIFT)
+    without = [{"WEIGHTS_0": 2}, {"JOINTS_0": 1}, {"WEIGHTS_0": 2, "JOINTS_1": 1}, {"JOINTS_1": 1}, {"NORMAL": 3}, {}]
+    primitives = [(attributes, {}) for attributes in without]
+    primitives += [({"WEIGHTS_0": 2}, {"targets": [{"POSITION": 3, "NORMAL": 3}]}),
+                   ({"KHR_gaussian_splatting:ROTATION": 2, "KHR_gaussian_splatting:SCALE": 3},
+                    {"extensions": {"KHR_gaussian_splatting": {"kernel": "ellipse"}}})]
+    for attributes, members in primitives:
+        run.write("m.glb", skinned(attributes, **members))
+        for words in COMMANDS:
+            done = run.ffd(*words, code=(0, INVALID), err=anything, data=True)
+            check(done.code == 0 or len(done.err) == 1, attributes, words, done.err)
+    # With positions what is missing is named.
+    for attributes, missing in (({"WEIGHTS_0": 2}, "JOINTS_0"), ({"JOINTS_0": 1}, "WEIGHTS_0"), ({"WEIGHTS_0": 2, "JOINTS_1": 1}, "JOINTS_0")):
+        run.write("m.glb", skinned({"POSITION": 0, **attributes}))
+        run.ffd(*COMMANDS[0], code=INVALID, err=re.compile(missing + " is missing"))
+
+
+def named(*names, targets=()):
+    """Points, and attributes of these names with other positions."""
+    asset, data = gltf_json(TRIANGLE, nodes=[{"mesh": 0, "name": "N\0"}, {"mesh": 0, "translation": [3, 0, 0]}])
+    far = [[9, 9, 9]] * 3
+    asset["bufferViews"].append({"buffer": 0, "byteOffset": len(data), "byteLength": 36})
+    asset["accessors"].append({**asset["accessors"][0], "bufferView": 1, "min": far[0], "max": far[0]})
+    asset["buffers"][0]["byteLength"] += 36
+    primitive = asset["meshes"][0]["primitives"][0]
+    primitive["attributes"] |= {name: 1 for name in names}
+    if targets:
+        primitive["targets"] = [{name: 1 for name in targets}]
+    return glb(asset, data + struct.pack("<9f", *[x for p in far for x in p]))
+
+
+@case
+def siege3_02_a_name_with_nul_is_another_name(run):
+    """Attributes whose names begin with that of a known one and go on with U+0000: neither that attribute nor a crash."""
+    run.write("l.json", LIFT)
+    names = ["POSITION", "NORMAL", "TANGENT", "JOINTS_0", "WEIGHTS_0", "COLOR_0", "TEXCOORD_0", "KHR_gaussian_splatting:SCALE"]
+    for name in names:
+        for spelled in (name + "\0", name + "\0x", "\0" + name):
+            for targets in ((), (spelled,)):
+                run.write("m.glb", named(spelled, targets=targets))
+                facts = run.ffd("info", "m.glb", "--json", err=anything).json
+                equal([facts["vertices"], facts["normals"]], [6, 0])
+                for words in COMMANDS:
+                    run.ffd(*words, code=(0, INVALID), err=anything, data=True)
+                run.ffd(*COMMANDS[0], err=anything)
+                asset, data = glb_split(run.read("o.glb"))
+                primitive = asset["meshes"][0]["primitives"][0]
+                equal(gltf_vectors(asset, data, primitive["attributes"]["POSITION"]), [[x, y, z + 1.0] for x, y, z in TRIANGLE])
+                equal(gltf_vectors(asset, data, primitive["attributes"][spelled]), [[9, 9, 9]] * 3)
+
+
+@case
+def names_of_extensions_with_nul_are_not_known(run):
+    """A required extension whose name has a U+0000 is not the one that its beginning names."""
+    run.write("l.json", LIFT)
+    asset, data = gltf_json(TRIANGLE)
+    for name in ("KHR_mesh_quantization\0", "KHR_draco_mesh_compression\0x", "KHR_node_visibility\0"):
+        asset["extensionsRequired"] = asset["extensionsUsed"] = [name]
+        run.write("m.glb", glb(asset, data))
+        run.ffd("deform", "m.glb", "o.glb", "-l", "l.json", code=UNSUPPORTED,
+                err=re.compile('the required extension "' + name.replace("\0", "\u2400") + '" is not known'))
 
 
 main()

@@ -76,7 +76,7 @@ static ffd_status find_json(gltf_document *d, ffd_format format, ffd_error *erro
 static ffd_status list_values(const gltf_document *d, const char *key, gltf_values *list, ffd_error *error)
 {
     const uint32_t array = ffd_json_span_member(&d->tree, 0, key);
-    const size_t count = array == JSON_NONE ? 0 : d->tree.values[array].count;
+    const size_t count = ffd_json_span_count(&d->tree, array);
     list->values = ffd_alloc(count, sizeof *list->values);
     if (!list->values)
         return ffd_fail_memory(error);
@@ -174,7 +174,8 @@ static ffd_status list_primitives(gltf_document *d, ffd_error *error)
 {
     size_t total = 0;
     for (size_t m = 0; m < d->mesh_values.count; m++)
-        total += d->tree.values[ffd_json_span_member(&d->tree, d->mesh_values.values[m], "primitives")].count;
+        total += ffd_json_span_count(&d->tree,
+                                     ffd_json_span_member(&d->tree, d->mesh_values.values[m], "primitives"));
     gltf_values *list = &d->primitive_values;
     list->values = ffd_alloc(total, sizeof *list->values);
     d->first_primitive = ffd_alloc(d->mesh_values.count, sizeof *d->first_primitive);
@@ -196,7 +197,7 @@ static ffd_status limit_objects(gltf_document *d, ffd_error *error)
     const uint32_t scenes = ffd_json_span_member(&d->tree, 0, "scenes");
     const uint64_t count = (uint64_t)d->buffer_values.count + d->view_values.count +
                            d->accessor_values.count + d->mesh_values.count + d->primitive_values.count +
-                           d->node_values.count + (scenes == JSON_NONE ? 0 : d->tree.values[scenes].count);
+                           d->node_values.count + ffd_json_span_count(&d->tree, scenes);
     const ffd_status status = ffd_budget_check(&d->base.budget, count, OBJECT_BYTES, error);
     return status ? status : ffd_budget_take(&d->base.budget, count, KEPT_OBJECT_BYTES, error);
 }
@@ -210,6 +211,25 @@ static void hide_indices(const gltf_document *d, json_edits *edits)
         if (indices != JSON_NONE)
             ffd_edits_format(edits, d->tree.values[indices].key_begin, d->tree.values[indices].key_end,
                              "\"\"");
+    }
+}
+
+/* Replaces U+0000 in keys by its symbol, U+2400: tinygltf takes a key for one that ends there. */
+static void show_nuls(const gltf_document *d, json_edits *edits)
+{
+    static const char nul[] = "\\u0000";
+    const uint32_t size = sizeof nul - 1;
+    for (size_t v = 0; v < d->tree.count; v++) {
+        const uint32_t end = d->tree.values[v].key_end;
+        for (uint32_t at = d->tree.values[v].key_begin; at + size < end; at++) {
+            const char *const escape = memchr(d->tree.text + at, '\\', end - at);
+            if (!escape)
+                break;
+            at = (uint32_t)(escape - d->tree.text);
+            if (at + size < end && memcmp(escape, nul, size) == 0)
+                ffd_edits_format(edits, at, at + size, "\\u2400");
+            at++; /* past a backslash that is escaped */
+        }
     }
 }
 
@@ -244,7 +264,7 @@ static ffd_status check_counts(const gltf_document *d, ffd_error *error)
                 model->mesh_count == d->mesh_values.count && model->node_count == d->node_values.count;
     for (size_t m = 0; m < model->mesh_count && same; m++) {
         const uint32_t primitives = ffd_json_span_member(&d->tree, d->mesh_values.values[m], "primitives");
-        same = model->meshes[m].primitive_count == d->tree.values[primitives].count;
+        same = model->meshes[m].primitive_count == ffd_json_span_count(&d->tree, primitives);
     }
     return same ? FFD_OK
                 : ffd_fail_file(error, FFD_E_INVALID, d->name,
@@ -264,6 +284,7 @@ static ffd_status parse_model(gltf_document *d, ffd_error *error)
         status = limit_objects(d, error);
     if (status == FFD_OK) {
         hide_indices(d, &plain);
+        show_nuls(d, &plain);
         ffd_edits_sort(&plain);
         write_model_text(d, &plain, &text);
         if (ffd_edits_failed(&plain) || text.failed)

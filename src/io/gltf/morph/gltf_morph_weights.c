@@ -86,7 +86,7 @@ static bool begin_animation(const gltf_saver *saver, uint32_t value, animation *
     const json_span *tree = &saver->document->tree;
     a->samplers = ffd_json_span_member(tree, value, "samplers");
     a->channels = ffd_json_span_member(tree, value, "channels");
-    a->sampler_count = a->samplers == JSON_NONE ? 0 : tree->values[a->samplers].count;
+    a->sampler_count = ffd_json_span_count(tree, a->samplers);
     a->sampler_values = ffd_alloc(a->sampler_count, sizeof *a->sampler_values);
     a->targets = ffd_alloc_zero(a->sampler_count, sizeof *a->targets);
     a->others = ffd_alloc_zero(a->sampler_count, sizeof *a->others);

@@ -129,8 +129,9 @@ static ffd_status copy_image(const resources *r, const mesh_resource *image, ffd
 static ffd_status refer_to_image(const resources *r, size_t image, const char *path, ffd_error *error)
 {
     const gltf_document *d = r->saver->document;
-    const json_value *uri =
-        &d->tree.values[ffd_json_span_member(&d->tree, d->image_values.values[image], "uri")];
+    const uint32_t uri = ffd_json_span_member(&d->tree, d->image_values.values[image], "uri");
+    if (uri == JSON_NONE)
+        return FFD_OK;
     char *from = ffd_path_resolve(r->from), *to = ffd_path_resolve(r->to);
     char *absolute = from ? ffd_path_join(from, path) : NULL;
     char *plain = absolute ? ffd_path_normalize(absolute) : NULL;
@@ -140,7 +141,8 @@ static ffd_status refer_to_image(const resources *r, size_t image, const char *p
     if (!encoded)
         status = ffd_fail_memory(error);
     else
-        ffd_edits_replace(&r->saver->edits, uri->begin + 1, uri->end - 1, encoded, strlen(encoded));
+        ffd_edits_replace(&r->saver->edits, d->tree.values[uri].begin + 1, d->tree.values[uri].end - 1,
+                          encoded, strlen(encoded));
     char *const texts[] = {from, to, absolute, plain, relative, encoded};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
         ffd_free(texts[i]);

@@ -46,6 +46,8 @@ static ffd_status refuse_skin(const gltf_document *d, size_t node, ffd_error *er
     ffd_status status = FFD_OK;
     for (size_t p = 0; skin && p < d->model.meshes[m].primitive_count && status == FFD_OK; p++) {
         const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
+        if (primitive->accessor[GLTF_POSITION] < 0)
+            continue; /* nothing to move, and nobody has checked its influences */
         if (skin->inverse_bind >= 0)
             status = ffd_gltf_refuse_unreadable(d, m, p, skin->inverse_bind, error);
         for (size_t i = 0; i < primitive->influence_count && status == FFD_OK; i++) {
