@@ -256,4 +256,75 @@ def names_of_extensions_with_nul_are_not_known(run):
                 err=re.compile('the required extension "' + name.replace("\0", "\u2400") + '" is not known'))
 
 
+# Geometry that an extension holds
+
+SPZ = "KHR_gaussian_splatting_compression_spz_2"
+
+
+@case
+def artist_05_geometry_of_an_extension_is_not_deformed(run):
+    """Splats in a compressed stream: no command takes zeros for their positions, and no option claims to deform them."""
+    use(run, "artist-05-spz-splats")
+    facts = run.ffd("info", "spz.glb", "--json").json
+    equal([facts["vertices"], facts["bounds"]], [0, None])
+    equal(facts["positions_unknown"], f'the extension "{SPZ}" holds the geometry in a form that is not supported')
+    why = re.compile(rf'^spz\.glb:/meshes/0/primitives/0/extensions/KHR_gaussian_splatting/extensions/{SPZ}: the extension "{SPZ}" holds the '
+                     "geometry in a form that is not supported$")
+    for words in (["deform", "spz.glb", "o.glb"], ["check", "spz.glb"], ["embed", "spz.glb", "-o", "e.npy"], ["view", "spz.glb", "-o", "v.png"],
+                  ["deform", "spz.glb", "o.ply"]):
+        run.ffd(*words, "-l", "move.json", code=UNSUPPORTED, err=why)
+        if words[0] != "view":
+            run.ffd(*words, "-l", "move.json", "--allow-extension", SPZ, code=UNSUPPORTED, err=why)
+    run.ffd("view", "spz.glb", "-o", "v.png", code=UNSUPPORTED, err=why)
+
+
+def empty(low, high, **extensions):
+    asset, data = gltf_json(TRIANGLE)
+    asset["accessors"].append({"componentType": 5126, "count": 3, "type": "VEC3", "min": low, "max": high})
+    asset["meshes"][0]["primitives"].append({"attributes": {"POSITION": 1}, "mode": 0, "extensions": extensions})
+    return asset, data
+
+
+@case
+def accessors_without_bytes_hold_zeros_or_nothing(run):
+    """Without a bufferView positions are zeros; not where min and max say otherwise, or an extension holds them."""
+    run.write("l.json", LIFT)
+    deform = ["deform", "m.glb", "o.glb", "-l", "l.json", "--force"]
+    run.write("m.glb", glb(*empty([0] * 3, [0] * 3)))
+    run.ffd(*deform)
+    elsewhere = re.compile("^m.glb:/accessors/1: the accessor has no bytes, but its min and max are not 0: the positions are in a form that is not "
+                           "supported$")
+    for extensions in ({}, {"ACME_mesh_compression": {"bufferView": 0}}):
+        asset, data = empty([0] * 3, [1] * 3, **extensions)
+        asset["extensionsUsed"] = asset["extensionsRequired"] = list(extensions)
+        run.write("m.glb", glb(asset, data))
+        run.ffd(*deform, code=UNSUPPORTED, err=elsewhere)
+        run.ffd(*deform, "--allow-extension", "ACME_mesh_compression", code=UNSUPPORTED, err=elsewhere)
+        facts = run.ffd("info", "m.glb", "--json").json
+        equal([facts["vertices"], facts["bounds"]["max"]], [3, [1, 1, 0]])
+        check("min and max are not 0" in facts["positions_unknown"])
+    run.write("m.glb", glb(*empty([0] * 3, [0] * 3, EXT_implicit_geometry={})))
+    run.ffd(*deform, code=UNSUPPORTED, err=re.compile('the extension "EXT_implicit_geometry" holds the geometry'))
+
+
+@case
+def an_extension_beside_positions_keeps_the_old_geometry(run):
+    """What a file holds twice, or beside its vertices, is deformed once: a line says which extension keeps the old one."""
+    run.write("l.json", LIFT)
+    for name, required in ((SPZ, False), (SPZ, True), ("EXT_primitive_voxels", True), ("ASOBO_asset_optimized", False)):
+        asset, data = gltf_json(TRIANGLE)
+        asset["extensionsUsed"] = [name]
+        if required:
+            asset["extensionsRequired"] = [name]
+        asset["meshes"][0]["primitives"][0]["extensions"] = {name: {"bufferView": 0}}
+        run.write("m.glb", glb(asset, data))
+        allow = ["--allow-extension", name] if required else []
+        if required:
+            run.ffd("deform", "m.glb", "o.glb", "-l", "l.json", "--force", code=UNSUPPORTED,
+                    err=re.compile(rf"\(--allow-extension {name} deforms what else the file holds\)$"))
+        for words in (["deform", "m.glb", "o.glb", "--force"], ["check", "m.glb"]):
+            told(run.ffd(*words, "-l", "l.json", *allow, err=anything),
+                 f'the extension "{name}" holds geometry in a form of its own, which is not deformed')
+
+
 main()

@@ -14,6 +14,7 @@
 #include "io/gltf/save/gltf_resources.h"
 #include "io/gltf/scene/gltf_faces.h"
 #include "io/gltf/scene/gltf_faults.h"
+#include "io/gltf/scene/gltf_held.h"
 #include "io/gltf/scene/gltf_instancing.h"
 #include "io/gltf/scene/gltf_listing.h"
 #include "io/gltf/scene/gltf_mixed.h"
@@ -31,6 +32,12 @@
 static ffd_status check(const mesh_document *document, ffd_error *error)
 {
     return ffd_gltf_refuse_read(ffd_gltf_of(document), error);
+}
+
+static ffd_status warn(const mesh_document *document, const mesh_log *log, ffd_error *error)
+{
+    const ffd_status status = ffd_gltf_warn_of_held(ffd_gltf_of(document), log, error);
+    return status ? status : ffd_gltf_warn_of_faults(document, log, error);
 }
 
 static void read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
@@ -92,7 +99,7 @@ const mesh_format ffd_gltf_format = {
     .count_beside = ffd_gltf_count_beside,
     .list_beside = ffd_gltf_list_beside,
     .check = check,
-    .warn = ffd_gltf_warn_of_faults,
+    .warn = warn,
     .check_reach = ffd_gltf_check_reach,
     .list_places = ffd_gltf_list_places,
     .place_name = ffd_gltf_place_name,

@@ -11,6 +11,7 @@
 #include "io/gltf/rig/gltf_places.h"
 #include "io/gltf/rig/gltf_rig.h"
 #include "io/gltf/rig/gltf_vrm.h"
+#include "io/gltf/scene/gltf_held.h"
 #include "io/gltf/scene/gltf_instancing.h"
 #include "io/gltf/scene/gltf_parts.h"
 #include "io/gltf/scene/gltf_required.h"
@@ -413,6 +414,8 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
         status = ffd_gltf_check_vrm(d, error);
     if (status == FFD_OK)
         status = ffd_gltf_find_required(d, source, error);
+    if (status == FFD_OK)
+        ffd_gltf_find_held(d);
     if (status == FFD_OK)
         status = ffd_gltf_list_skins(d, error);
     if (status == FFD_OK)

@@ -80,6 +80,13 @@ static bool read_stated(const gltf_document *d, uint32_t array, double numbers[3
     return count == 3;
 }
 
+bool ffd_gltf_stated(const gltf_document *d, size_t a, double min[3], double max[3])
+{
+    const uint32_t value = d->accessor_values.values[a];
+    return read_stated(d, ffd_json_span_member(&d->tree, value, "min"), min) &&
+           read_stated(d, ffd_json_span_member(&d->tree, value, "max"), max);
+}
+
 static double farthest(const range *r)
 {
     double most = 0;
@@ -94,7 +101,7 @@ static ffd_status compare(gltf_document *d, size_t a, const range *found, ffd_er
     const uint32_t min = ffd_json_span_member(&d->tree, value, "min");
     const uint32_t max = ffd_json_span_member(&d->tree, value, "max");
     range stated;
-    if (!read_stated(d, min, stated.min) || !read_stated(d, max, stated.max))
+    if (!ffd_gltf_stated(d, a, stated.min, stated.max))
         return FFD_OK;
     double largest = 0;
     for (size_t c = 0; c < 3; c++)

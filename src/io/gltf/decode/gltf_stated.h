@@ -9,4 +9,7 @@
    do not count. Errors: FFD_E_INVALID, FFD_E_MEMORY. */
 ffd_status ffd_gltf_check_stated(gltf_document *document, ffd_error *error);
 
+/* Reads min and max of an accessor. Returns false if they are not three finite numbers each. */
+bool ffd_gltf_stated(const gltf_document *document, size_t accessor, double min[3], double max[3]);
+
 #endif

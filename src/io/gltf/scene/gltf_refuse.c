@@ -2,6 +2,7 @@
 #include "base/memory/memory.h"
 #include "io/gltf/decode/gltf_draco.h"
 #include "io/gltf/decode/gltf_views.h"
+#include "io/gltf/scene/gltf_held.h"
 #include "io/gltf/scene/gltf_required.h"
 #include <string.h>
 
@@ -86,11 +87,24 @@ static ffd_status refuse_newer_version(const gltf_document *d, ffd_error *error)
     return status;
 }
 
+/* Refuses geometry that an extension holds, with or without --allow-extension. */
+static ffd_status refuse_held(const gltf_document *d, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count && d->mesh_uses[m].node_count > 0; p++)
+            if (status == FFD_OK)
+                status = ffd_gltf_refuse_held(d, m, p, error);
+    return status;
+}
+
 ffd_status ffd_gltf_refuse_read(const gltf_document *d, ffd_error *error)
 {
     ffd_status status = refuse_newer_version(d, error);
     if (status == FFD_OK)
         status = refuse_shared_child(d, error);
+    if (status == FFD_OK)
+        status = refuse_held(d, error);
     if (status == FFD_OK)
         status = ffd_gltf_refuse_required(d, error);
     if (status == FFD_OK && d->skins_status) {

@@ -118,6 +118,11 @@ static extension_effect effect_of(const char *name)
     return EXTENSION_UNKNOWN;
 }
 
+bool ffd_gltf_holds_geometry(const char *extension)
+{
+    return effect_of(extension) == EXTENSION_HOLDS;
+}
+
 static bool is_allowed(const ffd_source *source, const char *name)
 {
     for (size_t i = 0; i < source->allow_extension_count; i++)
@@ -156,8 +161,8 @@ ffd_status ffd_gltf_refuse_required(const gltf_document *d, ffd_error *error)
                                                   : "is not known";
     const ffd_status status = ffd_json_span_fail(
         &d->tree, d->refused_extension, d->name, FFD_E_UNSUPPORTED, error,
-        "the required extension \"%s\" %s (--allow-extension %s deforms the file all the same)", name, why,
-        name);
+        "the required extension \"%s\" %s (--allow-extension %s deforms %s)", name, why, name,
+        effect == EXTENSION_HOLDS ? "what else the file holds" : "the file all the same");
     ffd_free(name);
     return status;
 }

@@ -9,6 +9,9 @@
    geometry. Extensions that the caller allows (source) pass. Errors: FFD_E_MEMORY. */
 ffd_status ffd_gltf_find_required(gltf_document *document, const ffd_source *source, ffd_error *error);
 
+/* Whether an extension of this name holds geometry in a form that is not supported. */
+bool ffd_gltf_holds_geometry(const char *extension);
+
 /* Refuses the document if it has such an extension. Errors: FFD_E_UNSUPPORTED, FFD_E_MEMORY. */
 ffd_status ffd_gltf_refuse_required(const gltf_document *document, ffd_error *error);
 
