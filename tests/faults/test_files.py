@@ -12,7 +12,7 @@ import shutil
 import struct
 import zlib
 
-from harness import (INVALID, PNG, UNSUPPORTED, case, check, equal, glb, glb_split, gltf_json, gltf_vectors, lattice,
+from harness import (INVALID, PNG, UNSUPPORTED, USAGE, case, check, equal, glb, glb_split, gltf_json, gltf_vectors, lattice,
                      main)
 from said import anything, not_told, told
 
@@ -325,6 +325,39 @@ def an_extension_beside_positions_keeps_the_old_geometry(run):
         for words in (["deform", "m.glb", "o.glb", "--force"], ["check", "m.glb"]):
             told(run.ffd(*words, "-l", "l.json", *allow, err=anything),
                  f'the extension "{name}" holds geometry in a form of its own, which is not deformed')
+
+
+# Words
+
+@case
+def artist_10_hints_name_what_is_meant(run):
+    """An axis in capitals, with a sign, a word for an index: the hint is what the user meant, or all that there is."""
+    run.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n")
+    sign = 'the axis "{}" has a sign; write [{}] for that direction'
+    index = 'is the text "{}", not an index (0 is the first layer, -1 the last), a range [lo, hi] or "all"'
+    axes = 'unknown word "{}"; known ones are "x", "y", "z"'
+    nearest = 'unknown word "{}"; the nearest known one is "{}"'
+    for word, why in (("Y", nearest.format("Y", "y")), ("Z", nearest.format("Z", "z")), ("-y", sign.format("-y", "0, -1, 0")),
+                      ("-Z", sign.format("-Z", "0, 0, -1")), ("+x", nearest.format("+x", "x")), ("up", axes.format("up")), ("w", axes.format("w"))):
+        for move, at in (({"twist": {"axis": word, "degrees": 90}}, "twist/axis"),
+                         ({"bend": {"axis": "x" if word[-1] in "Yy" else "y", "toward": word, "degrees": 9}}, "bend/toward")):
+            run.write("l.json", lattice(moves=[move]))
+            run.ffd("check", "m.obj", "-l", "l.json", code=INVALID, err=f"l.json:/moves/0/{at}: {why}")
+    for word in ("top", "al", "ALL", "last", "-1"):
+        run.write("l.json", lattice(moves=[{"at": ["all", word, "all"], "by": [0, 1, 0]}]))
+        run.ffd("check", "m.obj", "-l", "l.json", code=INVALID, err="l.json:/moves/0/at/1: " + index.format(word))
+    for members, at, why in (({"rest": {"box": "Mesh"}}, "rest/box", nearest.format("Mesh", "mesh")), ({"units": "BOX"}, "units", nearest.format("BOX", "box")),
+                             ({"knots": ["Clamped"] * 3}, "knots/0", nearest.format("Clamped", "clamped")),
+                             ({"moves": [{"By": [1, 0, 0]}]}, "moves/0/By", 'unknown key "By"; the nearest known one is "by"'),
+                             ({"moves": [{"by": [1, 0, 0], "mirror": "X"}]}, "moves/0/mirror", nearest.format("X", "x"))):
+        run.write("l.json", lattice(**members))
+        run.ffd("check", "m.obj", "-l", "l.json", code=INVALID, err=f"l.json:/{at}: {why}")
+    run.write("l.json", LIFT)
+    for words, why in ((["--outside", "Keep"], '--outside: "Keep" is not one of keep, extend, error'),
+                       (["--fail-on", "FOLDS"], '--fail-on: unknown gate "FOLDS" (nearest: folds)')):
+        run.ffd("check", "m.obj", "-l", "l.json", *words, code=USAGE, err=why)
+    run.ffd("view", "m.obj", "-o", "v.png", "--camera", "Front", code=USAGE,
+            err='--camera: "Front" is not front, back, left, right, top, iso or a direction like 1,0.5,2')
 
 
 main()
