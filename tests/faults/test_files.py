@@ -327,6 +327,81 @@ def an_extension_beside_positions_keeps_the_old_geometry(run):
                  f'the extension "{name}" holds geometry in a form of its own, which is not deformed')
 
 
+# Strips that restart
+
+def unrolled(mode, indices, restart):
+    """The mode without restarts, and its indices."""
+    runs = [[]]
+    for index in indices:
+        if index == restart:
+            runs.append([])
+        else:
+            runs[-1].append(index)
+    found = []
+    for run in runs:
+        if mode in (2, 3):
+            if len(run) > 1:
+                found += [i for pair in zip(run, run[1:] + (run[:1] if mode == 2 else [])) for i in pair]
+        else:
+            for t in range(len(run) - 2):
+                found += [run[0], run[t + 1], run[t + 2]] if mode == 6 else [run[t], run[t + 1 + t % 2], run[t + 2 - t % 2]]
+    return 1 if mode in (2, 3) else 4, found
+
+
+def drawn(mode, indices, component, **members):
+    """A wavy grid of 4 x 3 vertices, which this draws."""
+    points = [[x, y, x * y % 3 / 4] for y in range(3) for x in range(4)]
+    asset, data = gltf_json(points)
+    code = {5121: "B", 5123: "H", 5125: "I"}[component]
+    packed = struct.pack(f"<{len(indices)}{code}", *indices)
+    asset["bufferViews"].append({"buffer": 0, "byteOffset": len(data), "byteLength": len(packed)})
+    asset["accessors"].append({"bufferView": 1, "componentType": component, "count": len(indices), "type": "SCALAR"})
+    asset["buffers"][0]["byteLength"] += len(packed)
+    asset["meshes"][0]["primitives"][0] |= {"mode": mode, "indices": 1}
+    return glb({**asset, **members}, data + packed)
+
+
+RESTART = {"extensionsUsed": ["KHR_mesh_primitive_restart"], "extensionsRequired": ["KHR_mesh_primitive_restart"]}
+
+
+@case
+def wild3_08_strips_restart(run):
+    """Strips, fans, lines and loops that restart are what the same triangles and lines are, in every command."""
+    run.write("l.json", lattice(low=(-1, -1, -1), high=(4, 3, 2), moves=[{"at": [[2, 3], "all", "all"], "by": [0.5, 0.25, 1]}]))
+    for component, r in ((5121, 255), (5123, 65535), (5125, 2 ** 32 - 1)):
+        for mode in (2, 3, 5, 6):
+            for indices in ([0, 4, 1, 5, 2, 6, 3, 7, r, 4, 8, 5, 9, 6, 10, 7, 11], [r, r, 0, 1, 4, r, 5, 4, 1, 2, 6, r, r, 3, r, 8, 9, r],
+                            [r, r], [0, 1, 4, r]):
+                run.write("a.glb", drawn(mode, indices, component, **RESTART))
+                run.write("b.glb", drawn(*unrolled(mode, indices, r), component))
+                a, b = (run.ffd("info", name, "--json", "--strict").json for name in ("a.glb", "b.glb"))
+                equal(a["topology"], b["topology"], (mode, indices))
+                for key in ("triangles", "lines", "points"):
+                    equal(a["contents"]["stored"][key], b["contents"]["stored"][key], (mode, indices, key))
+                for name in "ab":
+                    run.ffd("deform", name + ".glb", name + ".obj", "-l", "l.json", "--force", "--strict", err=anything)
+                    run.ffd("check", name + ".glb", "-l", "l.json", "--report", name + ".json", err=anything)
+                equal(run.text("a.obj").replace("a.glb", "b.glb"), run.text("b.obj"), (mode, indices))
+                a, b = (json.loads(run.text(name + ".json"))["jobs"][0] for name in "ab")
+                for key in ("unused", "flipped_faces", "tear", "area", "volume", "edges", "bounds"):
+                    equal(a[key], b[key], (mode, indices, key))
+    run.ffd("deform", "a.glb", "o.glb", "-l", "l.json")
+    asset, data = glb_split(run.read("o.glb"))
+    before, old = glb_split(run.read("a.glb"))
+    equal([asset["meshes"], data[144:]], [before["meshes"], old[144:]], "what is drawn stays as it is")
+
+
+@case
+def an_index_that_is_none_stays_a_flaw(run):
+    """Without the extension, in triangles, and where another index is too large."""
+    strip = [0, 4, 1, 255, 4, 8, 5]
+    for name, content in (("no.glb", drawn(5, strip, 5121)), ("triangles.glb", drawn(4, [0, 4, 1, 255, 8, 5], 5121, **RESTART)),
+                          ("large.glb", drawn(5, [0, 4, 1, 255, 4, 12, 5], 5121, **RESTART))):
+        run.write(name, content)
+        told(run.ffd("info", name, err=anything), "what the primitive draws is not known", "index 12" if name == "large.glb" else "index 255")
+        run.ffd("info", name, "--strict", code=INVALID, err=anything)
+
+
 # Words
 
 @case

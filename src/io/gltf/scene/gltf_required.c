@@ -33,7 +33,7 @@ static const known_extension known[] = {
     {"KHR_lights_*", EXTENSION_APART},
     {"KHR_materials_*", EXTENSION_APART},
     {"KHR_mesh_instancing", EXTENSION_PLACES},
-    {"KHR_mesh_primitive_restart", EXTENSION_APART},
+    {"KHR_mesh_primitive_restart", EXTENSION_READ},
     {"KHR_mesh_quantization", EXTENSION_READ},
     {"KHR_meshopt_compression", EXTENSION_READ},
     {"KHR_node_hoverability", EXTENSION_APART},
