@@ -435,4 +435,68 @@ def artist_10_hints_name_what_is_meant(run):
             err='--camera: "Front" is not front, back, left, right, top, iso or a direction like 1,0.5,2')
 
 
+# Colours of faces
+
+def ply_faces(data):
+    """The property lines of the faces, and the bytes behind the corners of each triangle."""
+    header, _, body = data.partition(b"end_header\n")
+    lines = header.decode().split("\n")
+    vertices, faces = (int(next(line for line in lines if line.startswith("element " + name)).split()[2]) for name in ("vertex", "face"))
+    properties = lines[lines.index(f"element face {faces}") + 2:]
+    size = (len(body) - 24 * vertices) // faces
+    return properties[:-1], [body[24 * vertices + i * size + 13:24 * vertices + (i + 1) * size] for i in range(faces)]
+
+
+OFF = "OFF\n4 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
+
+
+@case
+def wild3_19_colours_of_faces_are_kept(run):
+    """OFF to PLY and back, bytes and fractions, with alpha, with a face that has no colour; STL to both; the line elsewhere."""
+    run.write("l.json", lattice(low=(-1, -1, -1), high=(2, 2, 2), moves=[{"by": [0, 0, 0]}]))
+    byte = [f"property uchar {name}" for name in ("red", "green", "blue", "alpha")]
+    grey = bytes([170, 170, 170])
+    for faces, properties, colours, back in (
+            ("3 0 1 2 230 20 20\n3 0 2 3 0 0 1\n3 1 2 3\n", byte[:3], [bytes([230, 20, 20]), bytes([0, 0, 1]), grey],
+             ["3 0 1 2 230 20 20", "3 0 2 3 0 0 1", "3 1 2 3 170 170 170"]),
+            ("3 0 1 2 1.0 0 0\n3 0 2 3 0 0 1.0 0.2\n3 1 2 3 0 0 0.0\n", byte, [bytes([255, 0, 0, 255]), bytes([0, 0, 255, 51]), bytes([0, 0, 0, 255])],
+             ["3 0 1 2 255 0 0 255", "3 0 2 3 0 0 255 51", "3 1 2 3 0 0 0 255"]),
+            ("3 0 1 2 0.25 0.5 0.1\n3 0 2 3\n3 1 2 3\n", [p.replace("uchar", "float") for p in byte[:3]], None, None)):
+        run.write("m.off", OFF + faces)
+        run.ffd("deform", "m.off", "m.ply", "-l", "l.json", "--force")
+        found = ply_faces(run.read("m.ply"))
+        equal(found[0], properties)
+        if colours:
+            equal(found[1], colours)
+            run.ffd("deform", "m.ply", "n.off", "-l", "l.json", "--force")
+            equal(run.text("n.off").splitlines()[6:], back)
+        for name in ("m.off", "m.ply"):
+            for out in ("m.obj", "m.glb", "m.stl"):
+                told(run.ffd("deform", name, out, "-l", "l.json", "--force", err=anything), "cannot hold", "face colours")
+            told(run.ffd("view", name, "-o", "v.png", "--force", err=anything), "the colours of faces are not shown")
+    # Other spellings, and what is no colour.
+    run.write("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+                       "property uchar diffuse_blue\nproperty list uchar int vertex_indices\nproperty uchar diffuse_red\n"
+                       "property uchar diffuse_green\nproperty int id\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 3 0 1 2 1 2 7\n")
+    told(run.ffd("deform", "a.ply", "a.off", "-l", "l.json", err=anything), "further data of vertices and faces")
+    equal(run.text("a.off").splitlines()[-1], "3 0 1 2 1 2 3")
+    run.write("m.off", OFF + "3 0 1 2 7\n3 0 2 3\n3 1 2 3\n")
+    told(run.ffd("deform", "m.off", "m.ply", "-l", "l.json", "--force", err=anything), "further data of vertices and faces")
+
+
+@case
+def colours_of_stl_facets_are_kept(run):
+    """Five bits each, red first or last, as the header says; without a valid colour a facet is grey."""
+    run.write("l.json", lattice(low=(-1, -1, -1), high=(2, 2, 2), moves=[{"by": [0, 0, 0]}]))
+    for header, attributes, colours in ((b"x", (0x8000 | 31 << 10 | 5, 0x8000 | 31 << 5, 0), [(255, 0, 41), (0, 255, 0), (170, 170, 170)]),
+                                        (b"a COLOR=\xff\xff\xff\xff", (31 | 5 << 10, 31 << 5, 0x8000), [(255, 0, 41), (0, 255, 0), (170, 170, 170)])):
+        facets = b"".join(struct.pack("<12fH", 0, 0, 1, 0, 0, i, 1, 0, i, 0, 1, i, attribute) for i, attribute in enumerate(attributes))
+        run.write("m.stl", header.ljust(80, b"\0") + struct.pack("<I", len(attributes)) + facets)
+        done = run.ffd("deform", "m.stl", "m.ply", "-l", "l.json", "--force", err=anything)
+        not_told(done, "face colours")
+        near = [[round(255 * x) for x in struct.unpack("<3f", colour)] for colour in ply_faces(run.read("m.ply"))[1]]
+        equal(near, [list(c) for c in colours])
+        told(run.ffd("deform", "m.stl", "m.obj", "-l", "l.json", "--force", err=anything), "face colours")
+
+
 main()
