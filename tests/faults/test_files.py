@@ -499,4 +499,47 @@ def colours_of_stl_facets_are_kept(run):
         told(run.ffd("deform", "m.stl", "m.obj", "-l", "l.json", "--force", err=anything), "face colours")
 
 
+# What a file needs beside it
+
+def textured_ply(*names):
+    return ("ply\nformat ascii 1.0\n" + "".join(f"comment TextureFile {name}\n" for name in names) + "element vertex 3\nproperty float x\n"
+            "property float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\n"
+            "property int texnumber\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 6 0 0 1 0 0 1 0\n")
+
+
+def files_in(run, folder):
+    return sorted(os.path.relpath(os.path.join(where, name), run.path(folder)) for where, _, names in os.walk(run.path(folder)) for name in names)
+
+
+@case
+def wild3_12_textures_of_a_ply_go_along(run):
+    """The images of "comment TextureFile" are copied with an output in another folder, as those of other formats; or a line says what is left."""
+    run.write("l.json", LIFT)
+    run.write("in/m.ply", textured_ply("a.png", "sub/two words.png", "gone.png", "/tmp/x.png", "sub\\b.png"))
+    for name in ("a.png", "sub/two words.png", "sub/b.png"):
+        run.write("in/" + name, PNG + name.encode())
+    run.folder_of("out")
+    done = run.ffd("deform", "in/m.ply", "out/m.ply", "-l", "l.json", err=anything)
+    equal(done.err, ['in/m.ply: the image "gone.png" is missing and was not copied'])
+    equal(files_in(run, "out"), ["a.png", "m.ply", "sub/b.png", "sub/two words.png"])
+    equal(run.read("out/sub/b.png"), PNG + b"sub/b.png")
+    run.folder_of("ref")
+    done = run.ffd("deform", "in/m.ply", "ref/m.ply", "-l", "l.json", "--resources", "reference", err=anything)
+    told(done, r'the output does not reach the image "a\.png" \(--resources copy copies it\)')
+    equal(files_in(run, "ref"), ["m.ply"])
+    run.ffd("deform", "in/m.ply", "in/n.ply", "-l", "l.json")
+    run.write("up/in/m.ply", textured_ply("../out.png"))
+    run.write("up/out.png", PNG)
+    run.folder_of("up/to/x")
+    told(run.ffd("deform", "up/in/m.ply", "up/to/x/m.ply", "-l", "l.json", err=anything), "cannot be copied")
+    told(run.ffd("deform", "in/m.ply", "out/m.obj", "-l", "l.json", err=anything), "cannot hold", "textures")
+    told(run.ffd("view", "in/m.ply", "-o", "v.png", err=anything), "the textures that the file names are not shown")
+    # Two jobs of a batch that would copy different images to one place.
+    run.write("b/m.ply", textured_ply("a.png"))
+    run.write("b/a.png", PNG + b"other")
+    run.write("m.jsonl", "".join(json.dumps({"in": f"{name}/m.ply", "lattice": "l.json", "out": f"all/{name}.ply"}) + "\n" for name in ("in", "b")))
+    run.folder_of("all")
+    run.ffd("batch", "m.jsonl", "-q", code=1, err=re.compile("a\\.png"))
+
+
 main()

@@ -71,7 +71,8 @@ LAYERS = {
     },
     "io/off": {"base/file", "base/memory", "base/text", "io/text", "mesh"},
     "io/ply": {
-        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/text", "mesh", "splat",
+        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/text", "mesh",
+        "mesh/resource", "splat",
     },
     "io/stl": {"base", "base/memory", "base/text", "base/vector", "io/text", "mesh"},
     "io": {"base/file", "io/gltf", "io/obj", "io/off", "io/ply", "io/stl", "io/text", "mesh"},

@@ -1,6 +1,7 @@
 /* ply_model.c - a PLY file as a model, for conversions. */
 #include "base/memory/memory.h"
 #include "io/ply/ply_document.h"
+#include "io/ply/ply_textures.h"
 #include <string.h>
 
 /* What the model takes of a vertex besides its position and normal. */
@@ -253,22 +254,13 @@ static ffd_status take_edges(extractor *e)
     return status;
 }
 
-static bool is_texture_note(text_word note)
-{
-    static const char key[] = "TextureFile";
-    const size_t size = (size_t)(note.last - note.first);
-    for (size_t i = 0; i + sizeof key - 1 <= size; i++)
-        if (memcmp(note.first + i, key, sizeof key - 1) == 0)
-            return true;
-    return false;
-}
-
 /* Returns the features of the file that the model cannot hold. */
 static uint32_t features_of(const extractor *e)
 {
     const ply_document *d = e->document;
     const ply_element *edges = ffd_ply_find_edges(d);
     uint32_t found = 0;
+    text_word name;
     for (size_t i = 0; i < d->vertex->property_count; i++)
         if (d->vertex->properties[i].slot >= PLY_ROTATION_SLOT &&
             role_of(e, &d->vertex->properties[i]) == ROLE_COUNT)
@@ -285,7 +277,7 @@ static uint32_t features_of(const extractor *e)
             found |= MODEL_HAS_MORE;
     }
     for (size_t i = 0; i < d->header.note_count; i++)
-        found |= is_texture_note(d->header.notes[i]) ? MODEL_HAS_TEXTURES : 0;
+        found |= ffd_ply_texture_name(d->header.notes[i], &name) ? MODEL_HAS_TEXTURES : 0;
     return found;
 }
 

@@ -6,7 +6,7 @@
 #include "io/obj/resource/obj_paths.h"
 #include "io/obj/resource/resource_names.h"
 #include "mesh/resource/image_file.h"
-#include "mesh/resource/resource_copy.h"
+#include "mesh/resource/resource_bring.h"
 #include <string.h>
 
 /* Adds a map of a library. */
@@ -61,38 +61,6 @@ static ffd_status list_all(const resource_copier *c, const file_input *input, bo
     return status;
 }
 
-/* Whether a relative path leads from the output's folder to a file, and if it leads out of the mesh's folder,
-   to that one. */
-static bool is_reached(const resource_copier *c, const char *path)
-{
-    char *const from = ffd_path_join(c->from, path), *const to = ffd_path_join(c->to, path);
-    const bool reached =
-        from && to && (ffd_path_leads_out(path) ? ffd_file_same(from, to) : ffd_file_exists(to));
-    ffd_free(from);
-    ffd_free(to);
-    return reached;
-}
-
-static ffd_status copy(const resource_copier *c, const mesh_resource *resource, ffd_error *error)
-{
-    ffd_error refused;
-    if (ffd_path_leads_out(resource->path) && is_reached(c, resource->path))
-        return FFD_OK;
-    const ffd_status status = ffd_resource_copy(c, resource, &refused, error);
-    if (!status && refused.status)
-        ffd_log_line(c->log, FFD_LOG_WARNING, "the %s \"%s\" cannot be copied: %s", resource->kind->name,
-                     resource->path, refused.message);
-    return status;
-}
-
-static void say_unreached(const resource_copier *c, const mesh_resource *library)
-{
-    if (!is_reached(c, library->path))
-        ffd_log_line(c->log, FFD_LOG_WARNING,
-                     "the output does not reach the material library \"%s\" (--resources copy copies it)",
-                     library->path);
-}
-
 /* is_stay: mesh and output are in one folder. */
 static ffd_status bring(const resource_copier *c, const file_input *input, const mesh_save_options *options,
                         bool is_stay, ffd_error *error)
@@ -100,14 +68,8 @@ static ffd_status bring(const resource_copier *c, const file_input *input, const
     const bool copies = options->resources == FFD_RESOURCES_COPY;
     resource_list list = {0};
     ffd_status status = list_all(c, input, copies || is_stay, &list, error);
-    for (size_t i = 0; i < list.count && !status; i++)
-        status = ffd_resource_check_target(c, &list.resources[i], copies || is_stay, options->path, error);
-    for (size_t i = 0; i < list.count && !status && !is_stay; i++) {
-        if (copies)
-            status = copy(c, &list.resources[i], error);
-        else
-            say_unreached(c, &list.resources[i]);
-    }
+    if (!status)
+        status = ffd_resources_bring(c, &list, copies, is_stay, options->path, error);
     ffd_resources_free(&list);
     return status;
 }
