@@ -208,7 +208,8 @@ static ffd_status look_at_bytes(hash_cache *cache, const char *path, const file_
         return status;
     if (table->count_beside)
         look->beside = table->count_beside(&bytes, from, to);
-    if (table->find_resources)
+    /* A GLB that is made of a .gltf holds its images. */
+    if (table->find_resources && !(from == FFD_FORMAT_GLTF && to == FFD_FORMAT_GLB))
         status = table->find_resources(path, &bytes, &look->copied, error);
     ffd_kept_put(&cache->kept, path, stamp, &bytes);
     look->path = status ? NULL : ffd_text_copy(path);

@@ -5,6 +5,7 @@ runs the program on the files of its folder, or on files that it makes, and says
     FFD=... PYTHONPATH=tests/cli python3 tests/faults/test_files.py wild3_01_a_pointer_is_no_buffer
 """
 
+import base64
 import json
 import os
 import re
@@ -12,7 +13,7 @@ import shutil
 import struct
 import zlib
 
-from harness import (INVALID, PNG, UNSUPPORTED, USAGE, case, check, equal, glb, glb_split, gltf_json, gltf_vectors, lattice,
+from harness import (INVALID, IO, LIMIT, PNG, UNSUPPORTED, USAGE, case, check, equal, glb, glb_split, gltf_json, gltf_vectors, lattice,
                      main)
 from said import anything, not_told, told
 
@@ -540,6 +541,57 @@ def wild3_12_textures_of_a_ply_go_along(run):
     run.write("m.jsonl", "".join(json.dumps({"in": f"{name}/m.ply", "lattice": "l.json", "out": f"all/{name}.ply"}) + "\n" for name in ("in", "b")))
     run.folder_of("all")
     run.ffd("batch", "m.jsonl", "-q", code=1, err=re.compile("a\\.png"))
+
+
+def image_of(gltf, number=0):
+    head, _, data = json.loads(gltf)["images"][number]["uri"].partition(",")
+    return head, base64.b64decode(data)
+
+
+@case
+def artist_14_a_glb_of_a_gltf_holds_its_images(run):
+    """In another folder and in its own, on stdout, as .vrm, in a batch where two images have one name: the GLB needs no file."""
+    run.write("l.json", LIFT)
+    asset, data = gltf_json(TRIANGLE, uri="m.bin")
+    jpeg = b"\xff\xd8\xff\xe0\0\x10JFIF" + bytes(50)
+    asset["images"] = [{"uri": "tex/a.png", "name": "a"}, {"uri": "b%20c.jpg"}, {"uri": "gone.png"}, {"uri": "data:image/png;base64,iVBORw0KGgo="}]
+    for folder, more in (("in", b"1"), ("b", b"2")):
+        run.write(folder + "/m.gltf", asset)
+        run.write(folder + "/m.bin", data)
+        run.write(folder + "/tex/a.png", PNG + more)
+        run.write(folder + "/b c.jpg", jpeg)
+    run.folder_of("out")
+    for out in ("out/m.glb", "in/m.glb", "out/m.vrm"):
+        done = run.ffd("deform", "in/m.gltf", out, "-l", "l.json", err=anything)
+        equal(done.err, ['in/m.gltf: the image "gone.png" is missing and is not in the output'])
+        text = json.dumps(glb_split(run.read(out))[0])
+        equal([image_of(text), image_of(text, 1)], [("data:image/png;base64", PNG + b"1"), ("data:image/jpeg;base64", jpeg)])
+        equal(json.loads(text)["images"][2:], asset["images"][2:])
+    equal(files_in(run, "out"), ["m.glb", "m.vrm"])
+    done = run.ffd("deform", "in/m.gltf", "-", "--output-format", "glb", "-l", "l.json", err=anything)
+    equal(done.out, run.read("out/m.glb"))
+    # By reference it names them where they are, and a .gltf of the GLB keeps them.
+    run.ffd("deform", "in/m.gltf", "out/r.glb", "-l", "l.json", "--resources", "reference")
+    equal(glb_split(run.read("out/r.glb"))[0]["images"][0]["uri"], "../in/tex/a.png")
+    run.ffd("deform", "out/m.glb", "out/n.gltf", "-l", "l.json", err=anything)
+    equal(image_of(run.text("out/n.gltf")), ("data:image/png;base64", PNG + b"1"))
+    # Two models whose images have one name.
+    run.folder_of("all")
+    run.write("m.jsonl", "".join(json.dumps({"in": f"{name}/m.gltf", "lattice": "l.json", "out": f"all/{name}.glb"}) + "\n" for name in ("in", "b")))
+    run.ffd("batch", "m.jsonl", "-q", err=anything)
+    equal([image_of(json.dumps(glb_split(run.read(f"all/{name}.glb"))[0]))[1] for name in ("in", "b")], [PNG + b"1", PNG + b"2"])
+    equal(files_in(run, "all"), ["b.glb", "in.glb"])
+    # What is no image is not taken in, and what is outside is refused.
+    run.write("in/tex/a.png", "echo")
+    told(run.ffd("deform", "in/m.gltf", "out/t.glb", "-l", "l.json", err=anything), '"tex/a.png" does not have the content of an image and is not in the output')
+    run.write("secret.png", PNG)
+    run.write("in/m.gltf", {**asset, "images": [{"uri": "../secret.png"}]})
+    run.ffd("deform", "in/m.gltf", "out/s.glb", "-l", "l.json", code=IO, err=re.compile("cannot be put into the output: .*--resources reference"))
+    run.ffd("deform", "in/m.gltf", "out/big.glb", "-l", "l.json", "--resources", "reference")
+    run.write("in/m.gltf", {**asset, "images": [{"uri": "tex/a.png"}] * 40})
+    run.write("in/tex/a.png", PNG + bytes(2 << 20))
+    run.ffd("deform", "in/m.gltf", "out/l.glb", "-l", "l.json", code=LIMIT, err=re.compile("memory"))
+    check(not run.exists("out/l.glb") and not run.exists("out/s.glb"), "nothing is written")
 
 
 main()

@@ -2,6 +2,7 @@
 #include "base/file/folder.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/text/base64.h"
 #include "io/gltf/file/glb.h"
 #include "io/gltf/file/uri.h"
 #include "mesh/resource/image_file.h"
@@ -15,6 +16,8 @@ typedef struct resources {
     resource_copier copier;
     char *from, *to;
     resource_list copies;
+    bool embeds; /* a GLB that is made of a .gltf holds its images */
+    memory_budget budget;
 } resources;
 
 static ffd_status normalize(const char *mesh, char *name, char **path, ffd_error *error)
@@ -149,12 +152,63 @@ static ffd_status refer_to_image(const resources *r, size_t image, const char *p
     return status;
 }
 
+/* Replaces the URI of an image by one that holds its bytes. */
+static ffd_status put_data_uri(resources *r, size_t image, const file_input *bytes, ffd_error *error)
+{
+    const json_span *const tree = &r->saver->document->tree;
+    const uint32_t uri = ffd_json_span_member(tree, r->saver->document->image_values.values[image], "uri");
+    const size_t size = ffd_base64_length(bytes->size);
+    const ffd_status status = ffd_budget_take(&r->budget, size, 2, error); /* here, and among the edits */
+    if (status || uri == JSON_NONE)
+        return status;
+    char *const text = ffd_alloc(size, 1);
+    if (!text)
+        return ffd_fail_memory(error);
+    ffd_base64_encode(bytes->data, bytes->size, text);
+    const uint32_t begin = tree->values[uri].begin + 1, end = tree->values[uri].end - 1;
+    ffd_edits_format(&r->saver->edits, begin, end, "data:%s;base64,",
+                     ffd_image_media_type(bytes->data, bytes->size));
+    ffd_edits_replace(&r->saver->edits, end, end, text, size);
+    ffd_free(text);
+    return FFD_OK;
+}
+
+static ffd_status embed_image(resources *r, size_t number, char *path, ffd_error *error)
+{
+    const gltf_document *d = r->saver->document;
+    const mesh_resource image = {path, &ffd_resource_image, number};
+    const char *left;
+    ffd_error refused;
+    file_input bytes = {0};
+    ffd_status status = ffd_resource_load(&r->copier, &image, &bytes, &left, &refused, error);
+    if (status)
+        return status;
+    if (refused.status)
+        return ffd_json_span_fail(&d->tree, d->image_values.values[number], d->name, FFD_E_IO, error,
+                                  "the image \"%s\" cannot be put into the output: %s; --resources reference "
+                                  "refers to it where it is",
+                                  path, refused.message);
+    if (left) {
+        ffd_log_line(r->saver->log, FFD_LOG_WARNING, "the image \"%s\" %s and is not in the output", path,
+                     left);
+        return FFD_OK;
+    }
+    status = put_data_uri(r, number, &bytes, error);
+    ffd_file_unload(&bytes);
+    return status;
+}
+
 static ffd_status bring_image(resources *r, size_t image, ffd_error *error)
 {
     char *path;
     ffd_status status = image_path(r->saver->document, image, &path, error);
     if (status || !path)
         return status;
+    if (r->embeds) {
+        status = embed_image(r, image, path, error);
+        ffd_free(path);
+        return status;
+    }
     if (r->saver->options->resources != FFD_RESOURCES_REFERENCE)
         return ffd_resources_add(&r->copies, &ffd_resource_image, image, path, error);
     status = refer_to_image(r, image, path, error);
@@ -170,7 +224,7 @@ static ffd_status refuse_image_name(const resources *r, size_t number, bool own_
     ffd_status status = image_path(saver->document, number, &image.path, error);
     if (status || !image.path)
         return status;
-    if (!saver->in_place)
+    if (!saver->in_place && !ffd_output_is_stream(saver->options->path))
         status = ffd_resource_check_target(&r->copier, &image, own_copy, saver->options->path, error);
     for (size_t b = 0; b < saver->document->buffer_values.count && status == FFD_OK; b++)
         if (saver->buffers[b].target)
@@ -182,10 +236,15 @@ static ffd_status refuse_image_name(const resources *r, size_t number, bool own_
 ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error)
 {
     const gltf_document *d = saver->document;
-    if (ffd_file_is_stream(d->path) || ffd_output_is_stream(saver->options->path))
+    const bool copies = saver->options->resources == FFD_RESOURCES_COPY;
+    const bool embeds = copies && saver->binary && !d->binary;
+    if (ffd_file_is_stream(d->path) || (ffd_output_is_stream(saver->options->path) && !embeds))
         return FFD_OK;
-    resources r = {
-        .saver = saver, .from = ffd_path_folder(d->path), .to = ffd_path_folder(saver->options->path)};
+    resources r = {.saver = saver,
+                   .from = ffd_path_folder(d->path),
+                   .to = ffd_path_folder(saver->options->path),
+                   .embeds = embeds,
+                   .budget = d->base.budget};
     r.copier = (resource_copier){.mesh = d->path,
                                  .from = r.from,
                                  .to = r.to,
@@ -194,10 +253,10 @@ ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error)
                                  .copied = saver->options->copied};
     ffd_status status = r.from && r.to ? FFD_OK : ffd_fail_memory(error);
     const bool stay = status == FFD_OK && (saver->in_place || ffd_file_same(r.from, r.to));
-    const bool own_copies = stay || saver->options->resources == FFD_RESOURCES_COPY;
+    const bool own_copies = stay || (copies && !embeds);
     for (size_t i = 0; i < d->image_values.count && status == FFD_OK; i++)
         status = refuse_image_name(&r, i, own_copies, error);
-    for (size_t i = 0; i < d->image_values.count && status == FFD_OK && !stay; i++)
+    for (size_t i = 0; i < d->image_values.count && status == FFD_OK && (!stay || embeds); i++)
         status = bring_image(&r, i, error);
     ffd_resources_sort(&r.copies);
     for (size_t i = 0; i < r.copies.count && status == FFD_OK; i++)
