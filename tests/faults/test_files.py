@@ -594,4 +594,27 @@ def artist_14_a_glb_of_a_gltf_holds_its_images(run):
     check(not run.exists("out/l.glb") and not run.exists("out/s.glb"), "nothing is written")
 
 
+@case
+def wild3_13_files_of_extensions_are_named(run):
+    """What extensions name by uri stays, and a line says so where the output does not reach it."""
+    run.write("l.json", LIFT)
+    asset, data = gltf_json(TRIANGLE, uri="m.bin")
+    asset["extensions"] = {"EXT_structural_metadata": {"schemaUri": "schema.json"},
+                           "KHR_audio_emitter": {"audio": [{"uri": "a%20b.mp3"}, {"uri": "data:audio/mpeg;base64,AAAA"}, {"uri": "https://x.org/a.mp3"}]},
+                           "MPEG_media": {"media": [{"alternatives": [{"uri": "v.mp4"}, {"uri": "../v.mp4"}]}]}}
+    asset["nodes"][0]["extensions"] = {"EXT_x": {"extras": {"uri": "no.txt"}, "name": "uri"}}
+    asset["extras"] = {"extensions": {"X": {"uri": "no.txt"}}}
+    run.write("in/m.gltf", asset)
+    run.write("in/m.bin", data)
+    run.write("in/schema.json", "{}")
+    run.folder_of("out")
+    line = (r'4 files that extensions name are not copied: "schema\.json" of EXT_structural_metadata, "a b\.mp3" of KHR_audio_emitter, '
+            r'"v\.mp4" of MPEG_media and 1 more$')
+    for words in (["out/m.gltf"], ["out/m.glb"], ["out/n.gltf", "--resources", "reference"]):
+        told(run.ffd("deform", "in/m.gltf", *words, "-l", "l.json", err=anything), line)
+    run.ffd("deform", "in/m.gltf", "in/n.gltf", "-l", "l.json")
+    run.write("out/schema.json", "{}")
+    told(run.ffd("deform", "in/m.gltf", "out/m.gltf", "-l", "l.json", "--force", err=anything), "3 files that extensions name are not copied")
+
+
 main()

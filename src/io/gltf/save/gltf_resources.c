@@ -6,8 +6,10 @@
 #include "io/gltf/file/glb.h"
 #include "io/gltf/file/uri.h"
 #include "mesh/resource/image_file.h"
+#include "mesh/resource/left_out.h"
 #include "mesh/resource/resource_copy.h"
 #include "json/json_parse.h"
+#include <stdio.h>
 #include <string.h>
 
 /* The folders of input and output, and the images to copy. */
@@ -32,11 +34,11 @@ static ffd_status normalize(const char *mesh, char *name, char **path, ffd_error
     return *path ? FFD_OK : ffd_fail_memory(error);
 }
 
-ffd_status ffd_gltf_image_path(const json_span *tree, uint32_t image, const char *mesh, char **path,
-                               ffd_error *error)
+/* Returns the path of a file that a URI names, relative to the model's folder; NULL if it names none. */
+static ffd_status relative_path(const json_span *tree, uint32_t uri, const char *mesh, char **path,
+                                ffd_error *error)
 {
     *path = NULL;
-    const uint32_t uri = ffd_json_span_member(tree, image, "uri");
     if (uri == JSON_NONE || tree->values[uri].kind != JSON_STRING)
         return FFD_OK;
     size_t size;
@@ -52,6 +54,12 @@ ffd_status ffd_gltf_image_path(const json_span *tree, uint32_t image, const char
     }
     ffd_free(text);
     return status;
+}
+
+ffd_status ffd_gltf_image_path(const json_span *tree, uint32_t image, const char *mesh, char **path,
+                               ffd_error *error)
+{
+    return relative_path(tree, ffd_json_span_member(tree, image, "uri"), mesh, path, error);
 }
 
 static ffd_status image_path(const gltf_document *d, size_t image, char **path, ffd_error *error)
@@ -233,6 +241,69 @@ static ffd_status refuse_image_name(const resources *r, size_t number, bool own_
     return status;
 }
 
+/* Returns the extension inside which a value is; JSON_NONE: none. */
+static uint32_t extension_around(const json_span *tree, uint32_t v)
+{
+    for (; tree->values[v].parent != JSON_NONE; v = tree->values[v].parent) {
+        const uint32_t parent = tree->values[v].parent;
+        if (ffd_json_span_key_is(tree, v, "extras"))
+            return JSON_NONE;
+        if (ffd_json_span_key_is(tree, parent, "extensions"))
+            return v;
+    }
+    return JSON_NONE;
+}
+
+/* Whether a value is a string whose key is "uri" or ends with "Uri". */
+static bool is_uri(const json_span *tree, uint32_t v)
+{
+    const json_value *const value = &tree->values[v];
+    const char *const end = tree->text + value->key_end;
+    return value->kind == JSON_STRING && value->key_end - value->key_begin >= sizeof "uri" + 1 &&
+           (memcmp(end - 4, "Uri\"", 4) == 0 || ffd_json_span_key_is(tree, v, "uri"));
+}
+
+/* Lists a file that an extension names, unless the output reaches it or it is the uri of an image. */
+static ffd_status leave_file(const resources *r, uint32_t uri, uint32_t extension, left_out *left,
+                             ffd_error *error)
+{
+    const json_span *const tree = &r->saver->document->tree;
+    char *path;
+    ffd_status status = relative_path(tree, uri, r->saver->document->path, &path, error);
+    if (status || !path)
+        return status;
+    char *const name = ffd_json_span_key(tree, extension), *const there = ffd_path_join(r->to, path);
+    if (!name || !there)
+        status = ffd_fail_memory(error);
+    else if (!ffd_file_exists(there)) {
+        char why[120];
+        snprintf(why, sizeof why, "of %s", name);
+        ffd_left_add(left, path, why);
+    }
+    ffd_free(name);
+    ffd_free(there);
+    ffd_free(path);
+    return status;
+}
+
+/* Names the files that extensions name, which are neither images nor buffers: they are not copied, whatever
+   they are. */
+static ffd_status warn_of_left(const resources *r, ffd_error *error)
+{
+    const json_span *const tree = &r->saver->document->tree;
+    left_out left = {0};
+    ffd_status status = FFD_OK;
+    for (uint32_t v = 0; v < tree->count && status == FFD_OK; v++) {
+        const uint32_t extension = is_uri(tree, v) ? extension_around(tree, v) : JSON_NONE;
+        if (extension != JSON_NONE)
+            status = leave_file(r, v, extension, &left, error);
+    }
+    if (status == FFD_OK)
+        ffd_left_say(&left, "file that an extension names is not copied",
+                     "files that extensions name are not copied", r->saver->log);
+    return status;
+}
+
 ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error)
 {
     const gltf_document *d = saver->document;
@@ -261,6 +332,8 @@ ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error)
     ffd_resources_sort(&r.copies);
     for (size_t i = 0; i < r.copies.count && status == FFD_OK; i++)
         status = copy_image(&r, &r.copies.resources[i], error);
+    if (status == FFD_OK && !stay && !ffd_output_is_stream(saver->options->path))
+        status = warn_of_left(&r, error);
     ffd_resources_free(&r.copies);
     ffd_free(r.from);
     ffd_free(r.to);
