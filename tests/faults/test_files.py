@@ -617,4 +617,22 @@ def wild3_13_files_of_extensions_are_named(run):
     told(run.ffd("deform", "in/m.gltf", "out/m.gltf", "-l", "l.json", "--force", err=anything), "3 files that extensions name are not copied")
 
 
+@case
+def wild3_14_tiles_go_along(run):
+    """A map whose name stands for tiles: those that exist are copied; a picture says why it is grey."""
+    run.write("l.json", LIFT)
+    run.write("in/m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1.5 0\nusemtl a\nf 1/1 2/2 3/1\n")
+    run.write("in/m.mtl", "newmtl a\nmap_Kd tex/s.<UDIM>.png\nbump n_<UVTILE>.png\nmap_Ks none.<UDIM>.png\n")
+    tiles = ["tex/s.1001.png", "tex/s.1010.png", "tex/s.1101.png", "n_u1_v1.png", "n_u10_v2.png"]
+    for name in [*tiles, "tex/s.1000.png", "tex/s.png", "tex/s.3001.png", "n_u0_v1.png"]:
+        run.write("in/" + name, PNG + name.encode())
+    run.folder_of("out")
+    done = run.ffd("deform", "in/m.obj", "out/m.obj", "-l", "l.json", err=anything)
+    equal(done.err, ['in/m.obj: the image "none.<UDIM>.png" is missing and was not copied'])
+    equal(files_in(run, "out"), sorted([*tiles, "m.mtl", "m.obj"]))
+    told(run.ffd("view", "in/m.obj", "-o", "v.png", err=anything), r'cannot be shown: "tex/s\.<UDIM>\.png" has tiles$')
+    run.write("in/m.mtl", "newmtl a\n" + "".join(f"map_Kd {i}.<UDIM>.png\n" for i in range(300)))
+    run.ffd("deform", "in/m.obj", "out/n.obj", "-l", "l.json", code=LIMIT, err=re.compile("m.mtl: names more than 256 maps with tiles"))
+
+
 main()

@@ -244,14 +244,14 @@ static ffd_status refuse_image_name(const resources *r, size_t number, bool own_
 /* Returns the extension inside which a value is; JSON_NONE: none. */
 static uint32_t extension_around(const json_span *tree, uint32_t v)
 {
+    uint32_t found = JSON_NONE;
     for (; tree->values[v].parent != JSON_NONE; v = tree->values[v].parent) {
-        const uint32_t parent = tree->values[v].parent;
         if (ffd_json_span_key_is(tree, v, "extras"))
             return JSON_NONE;
-        if (ffd_json_span_key_is(tree, parent, "extensions"))
-            return v;
+        if (found == JSON_NONE && ffd_json_span_key_is(tree, tree->values[v].parent, "extensions"))
+            found = v;
     }
-    return JSON_NONE;
+    return found;
 }
 
 /* Whether a value is a string whose key is "uri" or ends with "Uri". */
