@@ -635,4 +635,43 @@ def wild3_14_tiles_go_along(run):
     run.ffd("deform", "in/m.obj", "out/n.obj", "-l", "l.json", code=LIMIT, err=re.compile("m.mtl: names more than 256 maps with tiles"))
 
 
+# Forms of files
+
+@case
+def wild3_15_compressed_splats_are_not_supported(run):
+    """Compressed splats are valid, and not read: exit 6, and what to do."""
+    run.write("l.json", LIFT)
+    chunk = "".join(f"property float {edge}_{axis}\n" for edge in ("min", "max") for axis in "xyz")
+    packed = "".join(f"property uint packed_{name}\n" for name in ("position", "rotation", "scale", "color"))
+    header = f"ply\nformat binary_little_endian 1.0\nelement chunk 1\n{chunk}element vertex 4\n{packed}end_header\n"
+    run.write("c.compressed.ply", header.encode() + bytes(24 + 64))
+    why = "c.compressed.ply:10: compressed Gaussian splats (packed_position): save them uncompressed"
+    for words in (["deform", "c.compressed.ply", "o.ply", "-l", "l.json"], ["check", "c.compressed.ply", "-l", "l.json"], ["info", "c.compressed.ply"]):
+        run.ffd(*words, code=UNSUPPORTED, err=why)
+
+
+@case
+def ends_of_stl_in_two_words(run):
+    """"end loop" and "end facet" are read, with a warning, as "end solid" is."""
+    run.write("l.json", LIFT)
+    text = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nend loop\nEND FACET\nend solid a\n"
+    run.write("m.stl", text)
+    done = run.ffd("deform", "m.stl", "o.stl", "-l", "l.json", err=anything)
+    told(done, '"endloop" or "endfacet" is written as two words')
+    equal(run.text("o.stl"), text.replace(" 0\nvertex", " 1\nvertex").replace("0 1 0\nend", "0 1 1\nend"))
+    run.ffd("info", "m.stl", "--strict", code=INVALID, err=re.compile("two words"))
+    run.write("m.stl", text.replace("end loop", "end"))
+    run.ffd("info", "m.stl", code=INVALID, err=re.compile("endloop"))
+
+
+@case
+def an_stl_whose_count_was_not_filled_in(run):
+    """A binary STL of 0 facets with facets behind is refused; one that is empty is not."""
+    facet = struct.pack("<12fH", 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0)
+    run.write("m.stl", b"x".ljust(80) + struct.pack("<I", 0) + 3 * facet)
+    run.ffd("info", "m.stl", code=INVALID, err="m.stl: 0 facets are stated, but 150 bytes follow, which hold 3: the count was not filled in")
+    run.write("e.stl", b"x".ljust(80) + struct.pack("<I", 0))
+    equal(run.ffd("info", "e.stl", "--json").json["vertices"], 0)
+
+
 main()
