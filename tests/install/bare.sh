@@ -68,7 +68,7 @@ run_two_commands() {
 
 # skips_are_due models|alone open|closed: without models something is skipped, and in a closed room; else nothing is
 skips_are_due() {
-    kinds=$(sed -n 's/^  skipped: [^:]*: \([^:]*\):.*/\1/p' "$log.out" | sort -u | grep -v 'Debian 12' | tr '\n' ' ')
+    kinds=$(sed -n 's|^  skipped: .* / [^:]*: \([^:]*\):.*|\1|p' "$log.out" | sort -u | grep -v 'Debian 12' | tr '\n' ' ')
     found="$found | skipped: ${kinds:-nothing}"
     case $1-$2-$user in
     models-open-) due= ;;
@@ -111,7 +111,7 @@ run_meson() {
 # The block ```sh package, with what the package itself says that it is built with, and no more.
 run_deb() {
     package=$(sed -n '/^```sh package$/,/^```$/p' "$root/README.md" | sed '1d;$d' | tr '\n' ';')
-    make -- dpkg-dev && timed deb "set -e; apt-get -qq update; $(echo "$package" | sed 's/dpkg-buildpackage/apt-get -qq build-dep .\/; &/'); ls ../*.deb"
+    make -- dpkg-dev && timed deb "set -e; apt-get -qq update; $(echo "$package" | sed 's/dpkg-buildpackage/apt-get -qq build-dep .\/; &/') ls ../*.deb"
 }
 
 [ "${1-}" != --list ] || { two_commands && echo "$others" | tr ' ' '\n' && exit 0; }
