@@ -11,7 +11,6 @@
 #include "io/gltf/rig/gltf_places.h"
 #include "io/gltf/rig/gltf_rig.h"
 #include "io/gltf/rig/gltf_vrm.h"
-#include "io/gltf/scene/gltf_held.h"
 #include "io/gltf/scene/gltf_instancing.h"
 #include "io/gltf/scene/gltf_parts.h"
 #include "io/gltf/scene/gltf_required.h"

@@ -2,7 +2,6 @@
 #include "base/memory/memory.h"
 #include "io/gltf/decode/gltf_draco.h"
 #include "io/gltf/decode/gltf_views.h"
-#include "io/gltf/scene/gltf_held.h"
 #include "io/gltf/scene/gltf_required.h"
 #include <string.h>
 
