@@ -232,14 +232,14 @@ static void show_nuls(const gltf_document *d, json_edits *edits)
     const uint32_t size = sizeof nul - 1;
     for (size_t v = 0; v < d->tree.count; v++) {
         const uint32_t end = d->tree.values[v].key_end;
-        for (uint32_t at = d->tree.values[v].key_begin; at + size < end; at++) {
+        for (uint32_t at = d->tree.values[v].key_begin; at + size < end;) {
             const char *const escape = memchr(d->tree.text + at, '\\', end - at);
             if (!escape)
                 break;
             at = (uint32_t)(escape - d->tree.text);
             if (at + size < end && memcmp(escape, nul, size) == 0)
                 ffd_edits_format(edits, at, at + size, "\\u2400");
-            at++; /* past a backslash that is escaped */
+            at += 2; /* past a backslash that is escaped */
         }
     }
 }
