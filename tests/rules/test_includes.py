@@ -31,7 +31,7 @@ LAYERS = {
     "io/gltf/document": {"io/gltf/file", "io/gltf/model", "json", "mesh"},
     "io/gltf/decode": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/gltf/document",
-        "io/gltf/model", "mesh", "mesh/meshopt",
+        "io/gltf/model", "io/text", "mesh", "mesh/meshopt",
     },
     "io/gltf/refer": {"io/gltf/document"},
     "io/gltf/scene": {
@@ -71,7 +71,8 @@ LAYERS = {
     },
     "io/off": {"base/file", "base/memory", "base/text", "io/text", "mesh"},
     "io/ply": {
-        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/text", "mesh", "splat",
+        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/text", "mesh",
+        "mesh/resource", "splat",
     },
     "io/stl": {"base", "base/memory", "base/text", "base/vector", "io/text", "mesh"},
     "io": {"base", "base/file", "base/memory", "io/gltf", "io/obj", "io/off", "io/ply", "io/stl", "io/text", "mesh"},
