@@ -542,7 +542,7 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
     if (!status)
         status = locate(job, error);
     if (!status)
-        status = ffd_tear_figures_prepare(job, error);
+        status = ffd_tear_figures_prepare(job, &arrays, error);
     if (!status)
         status = move_rig(job, error);
     if (!status)

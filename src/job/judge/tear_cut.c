@@ -1,0 +1,443 @@
+#include "job/judge/tear_cut.h"
+#include "base/memory/memory.h"
+#include "base/vector/vec.h"
+#include "embed/frame/frame.h"
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* Differences below this part of the edge's length are left alone. */
+#define NEGLIGIBLE (TORN / 4)
+/* What is cut first is cut here, not at the middle: meshes and lattices often have their corners at simple
+   fractions, and at the very place where two lattices meet both may act. */
+#define FIRST_CUT 0.4870129870129
+/* A part is narrow enough to be measured, relative to the edge; about 20 halvings. */
+#define NARROW 1.05e-6
+/* Where the slopes differ so much that the step is not known to this part of it, */
+#define EXACT 1e-12
+/* cutting goes on to this width. */
+#define NARROWEST 1e-12
+/* A place farther from a border than this many eps of the coordinates is on one side of it, whatever the
+   rounding. */
+#define BESIDE 256
+/* An edge is cut into so many pieces first where it is not known where it meets borders: in one lattice, in
+   several one after the other. */
+#define PIECES_IN_ONE 4
+#define PIECES_IN_CHAIN 8
+/* The most parts of an edge that are cut at once; of more those with the smallest differences are left
+   out. */
+#define PARTS 16
+
+/* A place of an edge. */
+typedef struct cut_place {
+    double t;                  /* 0 at the first end, 1 at the second */
+    double delta[3], slope[3]; /* the displacement, and its derivative by t */
+} cut_place;
+
+/* A part of an edge along which the displacement may jump. */
+typedef struct cut_part {
+    cut_place low, middle, high; /* middle: once it is cut */
+    double defect;               /* how much the displacement differs from what the slopes say */
+    tear_step known;             /* the jump along it, as far as it was measured; 0: it was not */
+} cut_part;
+
+typedef struct cut_edge {
+    uint32_t ends[2]; /* the first has the lesser position: equal edges have equal steps */
+    double start[3], along[3], length;
+    double beside; /* of t: farther from a border than the rounding of places on it */
+    cut_part parts[PARTS];
+    size_t count;
+    tear_step step;
+} cut_edge;
+
+/* The most places that an edge is cut at first: its ends, and where it meets borders of lattices. */
+#define FIRST_PLACES 64
+
+/* Places of an edge, ascending. */
+typedef struct place_list {
+    double t[FIRST_PLACES];
+    size_t count;
+} place_list;
+
+struct tear_cuts {
+    field_scratch *field;
+    cut_edge edges[CUT_RUN];
+    place_list lists[CUT_RUN];
+    field_place places[FIELD_RUN];
+    cut_edge *of_edges[FIELD_RUN]; /* what is cut at a place */
+    cut_part *of_parts[FIELD_RUN];
+    size_t count; /* of these places */
+};
+
+/* What all steps of a run share. */
+typedef struct cut_work {
+    const tear_field *field;
+    const lattice_chain *chain;
+    const mesh_faces *faces;
+    tear_cuts *cuts;
+    double size; /* of the lattices' coordinates */
+    ffd_error *error;
+} cut_work;
+
+/* Clips the segment start + t along, t in 0 .. 1, to the box from lo to hi. Returns whether it meets it. */
+static bool clip(const double lo[3], const double hi[3], const double start[3], const double along[3],
+                 double *from, double *to)
+{
+    *from = 0;
+    *to = 1;
+    for (int a = 0; a < 3; a++) {
+        const double enters = (lo[a] - start[a]) / along[a], leaves = (hi[a] - start[a]) / along[a];
+        if (along[a] == 0 && !(start[a] >= lo[a] && start[a] <= hi[a]))
+            return false;
+        if (along[a] == 0)
+            continue;
+        *from = larger_of(*from, lesser_of(enters, leaves));
+        *to = lesser_of(*to, larger_of(enters, leaves));
+    }
+    return *from <= *to;
+}
+
+bool ffd_link_clip(const chain_link *link, const double start[3], const double along[3], double *from,
+                   double *to)
+{
+    static const double zero[3] = {0, 0, 0}, one[3] = {1, 1, 1};
+    const ffd_locator *const locator = link->locator;
+    double p[3], d[3];
+    if (locator->method != METHOD_AFFINE)
+        return clip(locator->hull.lo, locator->hull.hi, start, along, from, to);
+    for (int a = 0; a < 3; a++)
+        p[a] = start[a] - locator->origin[a];
+    mat_apply(locator->affine.inverse, p, p);
+    mat_apply(locator->affine.inverse, along, d);
+    return clip(zero, one, p, d, from, to);
+}
+
+/* The length of D(1) - D(0) - (D'(0) + D'(1)) / 2, which is 0 for parabolas. */
+static double find_defect(const double low[3], const double high[3], const double low_slope[3],
+                          const double high_slope[3], double width)
+{
+    double defect[3];
+    for (int a = 0; a < 3; a++)
+        defect[a] = high[a] - low[a] - width / 2 * (low_slope[a] + high_slope[a]);
+    return vec_length(defect);
+}
+
+bool ffd_tear_may_jump(const double along[3], const double *const delta[2], const double *const gradient[2])
+{
+    double slope[2][3];
+    for (int end = 0; end < 2; end++)
+        mat_apply(gradient[end], along, slope[end]);
+    return !(find_defect(delta[0], delta[1], slope[0], slope[1], 1) <= NEGLIGIBLE * vec_length(along));
+}
+
+static void place_at(const cut_edge *edge, double t, field_place *place)
+{
+    memcpy(place->ends, edge->ends, sizeof place->ends);
+    place->by = t <= 0 ? FIELD_FIRST : t >= 1 ? FIELD_SECOND : FIELD_BETWEEN;
+    for (int a = 0; a < 3; a++)
+        place->x[a] = edge->start[a] + t * edge->along[a];
+}
+
+static cut_place take(const cut_edge *edge, double t, const field_place *from)
+{
+    cut_place place = {.t = t};
+    memcpy(place.delta, from->delta, sizeof place.delta);
+    mat_apply(from->gradient, edge->along, place.slope);
+    return place;
+}
+
+/* Adds a part if the displacement may jump along it. known: the jump along what it is a half of. Returns
+   whether it is added. */
+static bool add_part(cut_edge *edge, const cut_place *low, const cut_place *high, const tear_step *known)
+{
+    const double defect = find_defect(low->delta, high->delta, low->slope, high->slope, high->t - low->t);
+    size_t at = 0;
+    if (!(defect > NEGLIGIBLE * edge->length))
+        return false;
+    const cut_part part = {.low = *low, .high = *high, .defect = defect, .known = *known};
+    if (edge->count < PARTS) {
+        edge->parts[edge->count++] = part;
+        return true;
+    }
+    for (size_t p = 1; p < PARTS; p++)
+        if (edge->parts[p].defect < edge->parts[at].defect)
+            at = p;
+    if (defect > edge->parts[at].defect)
+        edge->parts[at] = part;
+    return true;
+}
+
+static bool precedes(const double a[3], const double b[3])
+{
+    for (int c = 0; c < 3; c++)
+        if (a[c] != b[c])
+            return a[c] < b[c];
+    return false;
+}
+
+static void begin_edge(const cut_work *work, uint64_t key, cut_edge *edge)
+{
+    const uint32_t of_key[2] = {(uint32_t)(key >> 32), (uint32_t)(key & UINT32_MAX)};
+    const double *const a = work->faces->positions + 3 * (size_t)of_key[0];
+    const double *const b = work->faces->positions + 3 * (size_t)of_key[1];
+    const int first = precedes(b, a);
+    memset(edge, 0, sizeof *edge);
+    edge->ends[0] = of_key[first];
+    edge->ends[1] = of_key[1 - first];
+    memcpy(edge->start, first ? b : a, sizeof edge->start);
+    for (int c = 0; c < 3; c++)
+        edge->along[c] = (first ? a : b)[c] - edge->start[c];
+    edge->length = vec_length(edge->along);
+    double size = work->size;
+    for (int c = 0; c < 3; c++)
+        size = larger_of(size, larger_of(fabs(a[c]), fabs(b[c])));
+    edge->beside = lesser_of(BESIDE * DBL_EPSILON * size / edge->length, 1.0 / 16);
+}
+
+static void add_place(place_list *list, double t)
+{
+    if (!(t > 0 && t < 1) || list->count == FIRST_PLACES - 1)
+        return;
+    size_t at = list->count++;
+    for (; list->t[at - 1] > t; at--)
+        list->t[at] = list->t[at - 1];
+    list->t[at] = t;
+}
+
+/* Context of add_crossings. */
+typedef struct crossing_work {
+    const lattice_chain *chain;
+    const cut_edge *edge;
+    place_list *list;
+} crossing_work;
+
+/* Adds the places just before and behind the borders of a box that the edge meets; of another volume, places
+   within its bounds. */
+static bool add_crossings(void *context, uint32_t number)
+{
+    const crossing_work *const work = context;
+    const cut_edge *const edge = work->edge;
+    const chain_link *const link = &work->chain->links[number];
+    const double beside = larger_of(4 * edge->beside, NARROWEST / 2);
+    double from, to;
+    if (!ffd_link_clip(link, edge->start, edge->along, &from, &to))
+        return true;
+    for (int piece = 0; piece < PIECES_IN_ONE && !link->is_convex; piece++)
+        add_place(work->list, from + (piece + FIRST_CUT) / PIECES_IN_ONE * (to - from));
+    for (int end = 0; end < 2 && link->is_convex; end++) {
+        add_place(work->list, (end ? to : from) - beside);
+        add_place(work->list, (end ? to : from) + beside);
+    }
+    return true;
+}
+
+/* Lists the places where an edge is cut first. */
+static void list_places(const lattice_chain *chain, const cut_edge *edge, place_list *list)
+{
+    static const double none[3] = {0, 0, 0};
+    crossing_work work = {chain, edge, list};
+    bounds box;
+    *list = (place_list){.t = {0}, .count = 1};
+    for (int a = 0; a < 3; a++) {
+        const double end = edge->start[a] + edge->along[a];
+        box.lo[a] = lesser_of(edge->start[a], end);
+        box.hi[a] = larger_of(edge->start[a], end);
+    }
+    if (chain->blocks)
+        ffd_box_tree_visit_box(&chain->tree, &box, none, add_crossings, &work);
+    for (size_t l = 0; l < chain->count && !chain->blocks; l++)
+        add_crossings(&work, (uint32_t)l);
+    for (int piece = 0; piece < PIECES_IN_CHAIN && !chain->blocks && chain->count > 1; piece++)
+        add_place(list, (piece + FIRST_CUT) / PIECES_IN_CHAIN);
+    list->t[list->count++] = 1;
+}
+
+/* Makes the parts between the first places of an edge. Blocks may have moved its ends. */
+static void begin_parts(const place_list *list, const field_place *places, cut_edge *edge)
+{
+    const tear_step none = {0};
+    const field_place *const last = &places[list->count - 1];
+    for (int a = 0; a < 3; a++) {
+        edge->start[a] = places->x[a];
+        edge->along[a] = last->x[a] - places->x[a];
+    }
+    cut_place low = take(edge, 0, places);
+    for (size_t i = 1; i < list->count; i++) {
+        const cut_place high = take(edge, list->t[i], &places[i]);
+        if (high.t > low.t)
+            add_part(edge, &low, &high, &none);
+        low = high;
+    }
+}
+
+/* Finds the first places of all edges, of as many edges at once as have room. */
+static ffd_status begin_edges(const cut_work *work, size_t count)
+{
+    tear_cuts *const cuts = work->cuts;
+    ffd_status status = FFD_OK;
+    for (size_t e = 0; e < count; e++)
+        list_places(work->chain, &cuts->edges[e], &cuts->lists[e]);
+    for (size_t first = 0, end; first < count && !status; first = end) {
+        size_t places = 0;
+        for (end = first; end < count && places + cuts->lists[end].count <= FIELD_RUN; end++)
+            for (size_t i = 0; i < cuts->lists[end].count; i++)
+                place_at(&cuts->edges[end], cuts->lists[end].t[i], &cuts->places[places++]);
+        status = ffd_tear_field_find(work->field, cuts->places, places, cuts->field, work->error);
+        places = 0;
+        for (size_t e = first; e < end && !status; places += cuts->lists[e++].count)
+            begin_parts(&cuts->lists[e], cuts->places + places, &cuts->edges[e]);
+    }
+    return status;
+}
+
+/* Finds the middles of the listed parts. */
+static ffd_status find_middles(const cut_work *work)
+{
+    tear_cuts *const cuts = work->cuts;
+    const ffd_status status =
+        ffd_tear_field_find(work->field, cuts->places, cuts->count, cuts->field, work->error);
+    for (size_t i = 0; i < cuts->count && !status; i++) {
+        cut_place *const middle = &cuts->of_parts[i]->middle;
+        *middle = take(cuts->of_edges[i], middle->t, &cuts->places[i]);
+    }
+    cuts->count = 0;
+    return status;
+}
+
+/* Finds a place in every part of all edges, at this share of its length. *some: whether there are parts. */
+static ffd_status cut_all(const cut_work *work, size_t count, double share, bool *some)
+{
+    tear_cuts *const cuts = work->cuts;
+    ffd_status status = FFD_OK;
+    *some = false;
+    for (size_t e = 0; e < count; e++)
+        for (size_t p = 0; p < cuts->edges[e].count && !status; p++) {
+            cut_edge *const edge = &cuts->edges[e];
+            cut_part *const part = &edge->parts[p];
+            part->middle.t = part->low.t + (part->high.t - part->low.t) * share;
+            place_at(edge, part->middle.t, &cuts->places[cuts->count]);
+            cuts->of_edges[cuts->count] = edge;
+            cuts->of_parts[cuts->count++] = part;
+            *some = true;
+            if (cuts->count == FIELD_RUN)
+                status = find_middles(work);
+        }
+    return status ? status : find_middles(work);
+}
+
+/* How much the step along a part depends on where along it the jump is. */
+static double doubt_of(const cut_place *low, const cut_place *high)
+{
+    double bend[3];
+    for (int a = 0; a < 3; a++)
+        bend[a] = high->slope[a] - low->slope[a];
+    return vec_length(bend) * (high->t - low->t);
+}
+
+/* Whether a part is narrow enough for a measurement: a first one, or if there was one, an exact one. */
+static bool is_narrow(const cut_part *part)
+{
+    const double width = part->high.t - part->low.t;
+    if (width > NARROW || part->known.length == 0)
+        return width <= NARROW;
+    return width <= NARROWEST || doubt_of(&part->low, &part->high) <= EXACT * part->known.length;
+}
+
+/* Measures the jump along a narrow part: the difference of both displacements at its middle, where their
+   slopes lead. *settled: there is none, or it is exact. */
+static ffd_status measure(const cut_work *work, const cut_edge *edge, cut_part *part, bool *settled)
+{
+    const double from = part->low.t - edge->beside, to = part->high.t + edge->beside;
+    const double t[2] = {from > 0 ? from : 0, to < 1 ? to : 1};
+    field_place pair[2];
+    cut_place place[2];
+    tear_step step;
+    for (int i = 0; i < 2; i++)
+        place_at(edge, t[i], &pair[i]);
+    const ffd_status status =
+        ffd_tear_field_compare(work->field, pair, work->cuts->field, &step.cause, work->error);
+    for (int i = 0; i < 2; i++)
+        place[i] = take(edge, t[i], &pair[i]);
+    step.length = find_defect(place[0].delta, place[1].delta, place[0].slope, place[1].slope, t[1] - t[0]);
+    const double doubt = doubt_of(&place[0], &place[1]);
+    if (step.length > doubt) /* else it may be a kink */
+        part->known = step;
+    *settled = !(step.length > NEGLIGIBLE * edge->length) || doubt <= EXACT * step.length ||
+               part->high.t - part->low.t <= NARROWEST;
+    return status;
+}
+
+/* Replaces the parts of an edge by the halves along which the displacement may jump, and measures narrow
+   ones. */
+static ffd_status halve(const cut_work *work, cut_edge *edge)
+{
+    cut_part parts[PARTS];
+    const size_t count = edge->count;
+    ffd_status status = FFD_OK;
+    memcpy(parts, edge->parts, count * sizeof *parts);
+    edge->count = 0;
+    for (size_t p = 0; p < count && !status; p++) {
+        cut_part *const part = &parts[p];
+        bool settled = false, added = false;
+        if (is_narrow(part))
+            status = measure(work, edge, part, &settled);
+        if (!settled) {
+            added = add_part(edge, &part->low, &part->middle, &part->known);
+            added = add_part(edge, &part->middle, &part->high, &part->known) || added;
+        }
+        if (!added && part->known.length > edge->step.length)
+            edge->step = part->known;
+    }
+    return status;
+}
+
+ffd_status ffd_tear_cut(const tear_field *field, const lattice_chain *chain, const mesh_faces *faces,
+                        const uint64_t *edges, size_t count, tear_step *steps, tear_cuts *cuts,
+                        ffd_error *error)
+{
+    cut_work work = {field, chain, faces, cuts, 0, error};
+    double share = FIRST_CUT;
+    bool some = true;
+    for (size_t l = 0; l < chain->count; l++)
+        for (int a = 0; a < 3; a++)
+            work.size = larger_of(work.size, larger_of(fabs(chain->links[l].locator->hull.lo[a]),
+                                                       fabs(chain->links[l].locator->hull.hi[a])));
+    for (size_t e = 0; e < count; e++)
+        begin_edge(&work, edges[e], &cuts->edges[e]);
+    cuts->count = 0;
+    ffd_status status = begin_edges(&work, count);
+    for (; some && !status; share = 0.5) {
+        status = cut_all(&work, count, share, &some);
+        for (size_t e = 0; e < count && !status; e++)
+            status = halve(&work, &cuts->edges[e]);
+    }
+    for (size_t e = 0; e < count; e++)
+        steps[e] = cuts->edges[e].step;
+    return status;
+}
+
+field_scratch *ffd_tear_cuts_scratch(const tear_cuts *cuts)
+{
+    return cuts->field;
+}
+
+tear_cuts *ffd_tear_cuts_make(void)
+{
+    tear_cuts *const cuts = ffd_alloc(1, sizeof *cuts);
+    field_scratch *const field = ffd_tear_field_scratch();
+    if (!cuts || !field) {
+        ffd_free(cuts);
+        ffd_free(field);
+        return NULL;
+    }
+    cuts->field = field;
+    return cuts;
+}
+
+void ffd_tear_cuts_free(tear_cuts *cuts)
+{
+    if (!cuts)
+        return;
+    ffd_free(cuts->field);
+    ffd_free(cuts);
+}
