@@ -46,6 +46,7 @@ typedef struct chain_link {
     /* Set by ffd_seams_find: */
     bool is_convex;  /* the rest volume is a box: its displacement is continuous, also as it is extended */
     bool opens_axis; /* ffd_lattice_opens_axis */
+    bool is_still;   /* no control point is moved */
     int parts[3];    /* into how many parts marks divide each direction (marks.h) */
 } chain_link;
 

@@ -5,8 +5,8 @@
 
 #include "job/chain/chain.h"
 
-/* Finds the seams and axes of a chain, and which volumes are boxes. All lattices must be fitted. Errors:
-   FFD_E_MEMORY. */
+/* Finds the seams and axes of a chain, which volumes are boxes, and which move nothing. All lattices must be
+   fitted. Errors: FFD_E_MEMORY. */
 ffd_status ffd_seams_find(lattice_chain *chain, ffd_error *error);
 
 /* Returns whether two neighbouring points of link l, at a and b, are on different sides of a seam. */

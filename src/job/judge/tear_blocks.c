@@ -57,9 +57,9 @@ static ffd_status find_outside(const tear_field *field, const field_place *place
     return status;
 }
 
-/* Displaces places by the blocks that hold them; which: the places. */
-static ffd_status find_inside(const tear_field *field, const field_place *places, const uint32_t *which,
-                              size_t count, field_scratch *scratch, ffd_error *error)
+/* Displaces all places by the blocks that hold them. */
+static ffd_status find_inside(const tear_field *field, const field_place *places, size_t count,
+                              field_scratch *scratch, ffd_error *error)
 {
     chain_run run = {.x = scratch->x,
                      .count = count,
@@ -68,37 +68,32 @@ static ffd_status find_inside(const tear_field *field, const field_place *places
                      .delta = scratch->delta,
                      .gradient = scratch->gradient,
                      .outcomes = scratch->outcomes};
-    for (size_t k = 0; k < count; k++)
-        memcpy(scratch->x + 3 * k, places[which[k]].x, 3 * sizeof *scratch->x);
-    return count ? ffd_chain_apply(&field->plain, field->plain.count, &run, error) : FFD_OK;
+    for (size_t i = 0; i < count; i++)
+        memcpy(scratch->x + 3 * i, places[i].x, 3 * sizeof *scratch->x);
+    return ffd_chain_apply(&field->plain, field->plain.count, &run, error);
+}
+
+/* Whether the block that holds a place gives its displacement: that of an end is its own block. */
+static bool is_held(const tear_field *field, const field_place *place, uint32_t block)
+{
+    return block != BLOCK_NONE &&
+           (place->by == FIELD_BETWEEN || block == owner_of(field, place->ends[place->by == FIELD_SECOND]));
 }
 
 ffd_status ffd_tear_blocks_find(const tear_field *field, field_place *places, size_t count,
                                 field_scratch *scratch, ffd_error *error)
 {
-    size_t between = 0;
-    ffd_status status = FFD_OK;
+    ffd_status status = find_inside(field, places, count, scratch, error);
     for (size_t i = 0; i < count && !status; i++) {
+        field_place *const place = &places[i];
         field_foot foot;
-        if (places[i].by == FIELD_BETWEEN) {
-            scratch->asked[between++] = (uint32_t)i;
+        if (is_held(field, place, scratch->chain.owners[i])) {
+            memcpy(place->delta, scratch->delta + 3 * i, sizeof place->delta);
+            memcpy(place->gradient, scratch->gradient + 9 * i, sizeof place->gradient);
             continue;
         }
-        status = find_end(field, &places[i], &foot, error);
-        if (!status)
-            ffd_foot_displacement(field, &foot, places[i].delta, places[i].gradient);
-    }
-    if (!status)
-        status = find_inside(field, places, scratch->asked, between, scratch, error);
-    for (size_t k = 0; k < between && !status; k++) {
-        field_place *const place = &places[scratch->asked[k]];
-        field_foot foot;
-        if (scratch->chain.owners[k] != BLOCK_NONE) {
-            memcpy(place->delta, scratch->delta + 3 * k, sizeof place->delta);
-            memcpy(place->gradient, scratch->gradient + 9 * k, sizeof place->gradient);
-            continue;
-        }
-        status = find_outside(field, place, &foot, error);
+        status = place->by == FIELD_BETWEEN ? find_outside(field, place, &foot, error)
+                                            : find_end(field, place, &foot, error);
         if (!status)
             ffd_foot_displacement(field, &foot, place->delta, place->gradient);
     }

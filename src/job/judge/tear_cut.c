@@ -20,10 +20,8 @@
 /* A place farther from a border than this many eps of the coordinates is on one side of it, whatever the
    rounding. */
 #define BESIDE 256
-/* An edge is cut into so many pieces first where it is not known where it meets borders: in one lattice, in
-   several one after the other. */
-#define PIECES_IN_ONE 4
-#define PIECES_IN_CHAIN 8
+/* An edge is cut into so many pieces first where it is in the bounds of a volume that is no box. */
+#define PIECES 4
 /* The most parts of an edge that are cut at once; of more those with the smallest differences are left
    out. */
 #define PARTS 16
@@ -59,10 +57,18 @@ typedef struct place_list {
     size_t count;
 } place_list;
 
+/* An edge on its way through links one after the other. */
+typedef struct edge_way {
+    double x[2][3], last[2][3]; /* its ends: as links that move both have moved them; as all have */
+    bool follows;               /* the last link moves both */
+} edge_way;
+
 struct tear_cuts {
     field_scratch *field;
     cut_edge edges[CUT_RUN];
     place_list lists[CUT_RUN];
+    edge_way ways[CUT_RUN];
+    cut_place low[CUT_RUN], high[CUT_RUN]; /* their ends */
     field_place places[FIELD_RUN];
     cut_edge *of_edges[FIELD_RUN]; /* what is cut at a place */
     cut_part *of_parts[FIELD_RUN];
@@ -72,8 +78,6 @@ struct tear_cuts {
 /* What all steps of a run share. */
 typedef struct cut_work {
     const tear_field *field;
-    const lattice_chain *chain;
-    const mesh_faces *faces;
     tear_cuts *cuts;
     double size; /* of the lattices' coordinates */
     ffd_error *error;
@@ -178,8 +182,8 @@ static bool precedes(const double a[3], const double b[3])
 static void begin_edge(const cut_work *work, uint64_t key, cut_edge *edge)
 {
     const uint32_t of_key[2] = {(uint32_t)(key >> 32), (uint32_t)(key & UINT32_MAX)};
-    const double *const a = work->faces->positions + 3 * (size_t)of_key[0];
-    const double *const b = work->faces->positions + 3 * (size_t)of_key[1];
+    const double *const a = work->field->faces->positions + 3 * (size_t)of_key[0];
+    const double *const b = work->field->faces->positions + 3 * (size_t)of_key[1];
     const int first = precedes(b, a);
     memset(edge, 0, sizeof *edge);
     edge->ends[0] = of_key[first];
@@ -204,88 +208,132 @@ static void add_place(place_list *list, double t)
     list->t[at] = t;
 }
 
-/* Context of add_crossings. */
+/* Adds places of an edge where a link begins or ends: just before and behind the borders of a box. Other
+   volumes are somewhere within their bounds. way: the edge as the links before leave it. */
+static void add_crossings(const chain_link *link, const cut_edge *edge, const edge_way *way, place_list *list)
+{
+    const double beside = larger_of(4 * edge->beside, NARROWEST / 2);
+    const int pieces = link->is_convex ? 1 : PIECES;
+    double from, to, along[3];
+    for (int a = 0; a < 3; a++)
+        along[a] = way->x[1][a] - way->x[0][a];
+    if (!ffd_link_clip(link, way->x[0], along, &from, &to) || (link->is_convex && from <= 0 && to >= 1))
+        return;
+    for (int piece = 0; piece < pieces; piece++)
+        add_place(list, from + (piece + FIRST_CUT) / pieces * (to - from));
+    for (int end = 0; end < 2 && link->is_convex; end++)
+        if (end ? to < 1 : from > 0) {
+            add_place(list, (end ? to : from) - beside);
+            add_place(list, (end ? to : from) + beside);
+        }
+}
+
+/* Context of visit_link and visit_block. */
 typedef struct crossing_work {
-    const lattice_chain *chain;
-    const cut_edge *edge;
-    place_list *list;
+    const tear_field *field;
+    tear_cuts *cuts;
+    size_t edges; /* visit_link: how many; visit_block: which */
 } crossing_work;
 
-/* Adds the places just before and behind the borders of a box that the edge meets; of another volume, places
-   within its bounds. */
-static bool add_crossings(void *context, uint32_t number)
+/* Lists where edges meet a link. What only one end gets from the links before does not count: the places
+   between mostly do not get it. */
+static void visit_link(void *context, size_t link, const double *x)
 {
     const crossing_work *const work = context;
-    const cut_edge *const edge = work->edge;
-    const chain_link *const link = &work->chain->links[number];
-    const double beside = larger_of(4 * edge->beside, NARROWEST / 2);
-    double from, to;
-    if (!ffd_link_clip(link, edge->start, edge->along, &from, &to))
-        return true;
-    for (int piece = 0; piece < PIECES_IN_ONE && !link->is_convex; piece++)
-        add_place(work->list, from + (piece + FIRST_CUT) / PIECES_IN_ONE * (to - from));
-    for (int end = 0; end < 2 && link->is_convex; end++) {
-        add_place(work->list, (end ? to : from) - beside);
-        add_place(work->list, (end ? to : from) + beside);
+    const chain_link *const of = &work->field->chain->links[link];
+    for (size_t e = 0; e < work->edges; e++) {
+        cut_edge *const edge = &work->cuts->edges[e];
+        edge_way *const way = &work->cuts->ways[e];
+        for (int end = 0; end < 2; end++)
+            for (size_t a = 0; a < 3; a++) {
+                const double now = x[3 * (2 * e + (size_t)end) + a];
+                way->x[end][a] += way->follows ? now - way->last[end][a] : 0;
+                way->last[end][a] = now;
+            }
+        way->follows = ffd_marks_take(&work->field->marks, edge->ends[0], link) &&
+                       ffd_marks_take(&work->field->marks, edge->ends[1], link);
+        if (!of->is_still)
+            add_crossings(of, edge, way, &work->cuts->lists[e]);
     }
+}
+
+static bool visit_block(void *context, uint32_t block)
+{
+    const crossing_work *const work = context;
+    const size_t e = work->edges;
+    add_crossings(&work->field->chain->links[block], &work->cuts->edges[e], &work->cuts->ways[e],
+                  &work->cuts->lists[e]);
     return true;
 }
 
-/* Lists the places where an edge is cut first. */
-static void list_places(const lattice_chain *chain, const cut_edge *edge, place_list *list)
+/* Finds the ends of all edges, and lists the places where they are cut first. */
+static ffd_status begin_ends(const cut_work *work, size_t count)
 {
     static const double none[3] = {0, 0, 0};
-    crossing_work work = {chain, edge, list};
-    bounds box;
-    *list = (place_list){.t = {0}, .count = 1};
-    for (int a = 0; a < 3; a++) {
-        const double end = edge->start[a] + edge->along[a];
-        box.lo[a] = lesser_of(edge->start[a], end);
-        box.hi[a] = larger_of(edge->start[a], end);
+    tear_cuts *const cuts = work->cuts;
+    const tear_field *const field = work->field;
+    crossing_work crossings = {field, cuts, count};
+    const field_visitor visitor = {visit_link, &crossings};
+    for (size_t e = 0; e < count; e++) {
+        cuts->lists[e] = (place_list){.t = {0}, .count = 1};
+        for (size_t end = 0; end < 2; end++) {
+            place_at(&cuts->edges[e], (double)end, &cuts->places[2 * e + end]);
+            memcpy(cuts->ways[e].x[end], cuts->places[2 * e + end].x, sizeof cuts->ways[e].x[end]);
+        }
+        cuts->ways[e].follows = false;
     }
-    if (chain->blocks)
-        ffd_box_tree_visit_box(&chain->tree, &box, none, add_crossings, &work);
-    for (size_t l = 0; l < chain->count && !chain->blocks; l++)
-        add_crossings(&work, (uint32_t)l);
-    for (int piece = 0; piece < PIECES_IN_CHAIN && !chain->blocks && chain->count > 1; piece++)
-        add_place(list, (piece + FIRST_CUT) / PIECES_IN_CHAIN);
-    list->t[list->count++] = 1;
+    const ffd_status status =
+        ffd_tear_field_find(field, cuts->places, 2 * count, &visitor, cuts->field, work->error);
+    for (size_t e = 0; e < count && !status; e++) {
+        const field_place *const ends = &cuts->places[2 * e];
+        bounds box;
+        for (int a = 0; a < 3; a++) { /* blocks may have moved the ends to their borders */
+            cuts->edges[e].start[a] = cuts->ways[e].x[0][a] = ends[0].x[a];
+            cuts->edges[e].along[a] = ends[1].x[a] - ends[0].x[a];
+            cuts->ways[e].x[1][a] = ends[1].x[a];
+            box.lo[a] = lesser_of(ends[0].x[a], ends[1].x[a]);
+            box.hi[a] = larger_of(ends[0].x[a], ends[1].x[a]);
+        }
+        crossings.edges = e;
+        if (field->chain->blocks)
+            ffd_box_tree_visit_box(&field->chain->tree, &box, none, visit_block, &crossings);
+        cuts->lists[e].t[cuts->lists[e].count++] = 1;
+        cuts->low[e] = take(&cuts->edges[e], 0, &ends[0]);
+        cuts->high[e] = take(&cuts->edges[e], 1, &ends[1]);
+    }
+    return status;
 }
 
-/* Makes the parts between the first places of an edge. Blocks may have moved its ends. */
-static void begin_parts(const place_list *list, const field_place *places, cut_edge *edge)
+/* Makes the parts between the first places of an edge. places: those between its ends. */
+static void begin_parts(tear_cuts *cuts, size_t e, const field_place *places)
 {
-    const tear_step none = {0};
-    const field_place *const last = &places[list->count - 1];
-    for (int a = 0; a < 3; a++) {
-        edge->start[a] = places->x[a];
-        edge->along[a] = last->x[a] - places->x[a];
-    }
-    cut_place low = take(edge, 0, places);
+    static const tear_step none = {0};
+    const place_list *const list = &cuts->lists[e];
+    cut_edge *const edge = &cuts->edges[e];
+    cut_place low = cuts->low[e];
     for (size_t i = 1; i < list->count; i++) {
-        const cut_place high = take(edge, list->t[i], &places[i]);
+        const cut_place high = i == list->count - 1 ? cuts->high[e] : take(edge, list->t[i], &places[i - 1]);
         if (high.t > low.t)
             add_part(edge, &low, &high, &none);
         low = high;
     }
 }
 
-/* Finds the first places of all edges, of as many edges at once as have room. */
+/* Cuts all edges first, as many edges at once as have room. */
 static ffd_status begin_edges(const cut_work *work, size_t count)
 {
     tear_cuts *const cuts = work->cuts;
-    ffd_status status = FFD_OK;
-    for (size_t e = 0; e < count; e++)
-        list_places(work->chain, &cuts->edges[e], &cuts->lists[e]);
+    ffd_status status = begin_ends(work, count);
     for (size_t first = 0, end; first < count && !status; first = end) {
         size_t places = 0;
         for (end = first; end < count && places + cuts->lists[end].count <= FIELD_RUN; end++)
-            for (size_t i = 0; i < cuts->lists[end].count; i++)
+            for (size_t i = 1; i + 1 < cuts->lists[end].count; i++)
                 place_at(&cuts->edges[end], cuts->lists[end].t[i], &cuts->places[places++]);
-        status = ffd_tear_field_find(work->field, cuts->places, places, cuts->field, work->error);
+        if (places > 0)
+            status = ffd_tear_field_find(work->field, cuts->places, places, NULL, cuts->field, work->error);
         places = 0;
-        for (size_t e = first; e < end && !status; places += cuts->lists[e++].count)
-            begin_parts(&cuts->lists[e], cuts->places + places, &cuts->edges[e]);
+        for (size_t e = first; e < end && !status; places += cuts->lists[e++].count - 2)
+            begin_parts(cuts, e, cuts->places + places);
     }
     return status;
 }
@@ -295,7 +343,7 @@ static ffd_status find_middles(const cut_work *work)
 {
     tear_cuts *const cuts = work->cuts;
     const ffd_status status =
-        ffd_tear_field_find(work->field, cuts->places, cuts->count, cuts->field, work->error);
+        ffd_tear_field_find(work->field, cuts->places, cuts->count, NULL, cuts->field, work->error);
     for (size_t i = 0; i < cuts->count && !status; i++) {
         cut_place *const middle = &cuts->of_parts[i]->middle;
         *middle = take(cuts->of_edges[i], middle->t, &cuts->places[i]);
@@ -391,11 +439,11 @@ static ffd_status halve(const cut_work *work, cut_edge *edge)
     return status;
 }
 
-ffd_status ffd_tear_cut(const tear_field *field, const lattice_chain *chain, const mesh_faces *faces,
-                        const uint64_t *edges, size_t count, tear_step *steps, tear_cuts *cuts,
-                        ffd_error *error)
+ffd_status ffd_tear_cut(const tear_field *field, const uint64_t *edges, size_t count, tear_step *steps,
+                        tear_cuts *cuts, ffd_error *error)
 {
-    cut_work work = {field, chain, faces, cuts, 0, error};
+    cut_work work = {field, cuts, 0, error};
+    const lattice_chain *const chain = field->chain;
     double share = FIRST_CUT;
     bool some = true;
     for (size_t l = 0; l < chain->count; l++)

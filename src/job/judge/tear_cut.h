@@ -28,9 +28,8 @@ field_scratch *ffd_tear_cuts_scratch(const tear_cuts *cuts);
 
 /* Finds the steps of at most CUT_RUN edges between vertices of faces, one end in the upper 32 bits. A step of
    0: no jump above a quarter of what counts was found. Errors: FFD_E_MEMORY, FFD_E_LIMIT. */
-ffd_status ffd_tear_cut(const tear_field *field, const lattice_chain *chain, const mesh_faces *faces,
-                        const uint64_t *edges, size_t count, tear_step *steps, tear_cuts *cuts,
-                        ffd_error *error);
+ffd_status ffd_tear_cut(const tear_field *field, const uint64_t *edges, size_t count, tear_step *steps,
+                        tear_cuts *cuts, ffd_error *error);
 
 /* Clips the segment start + t along, t in 0 .. 1, to a lattice's volume if it is a box, else to the bounds of
    its control points. Returns whether it meets that. */

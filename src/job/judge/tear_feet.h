@@ -13,14 +13,6 @@ typedef struct field_foot {
     boundary_point point; /* inside: only its u,v,w are set */
 } field_foot;
 
-struct tear_field {
-    const lattice_chain *chain;
-    const mesh_faces *faces;
-    mark_planes marks;
-    uint8_t *moves;      /* of each link: it moves something */
-    lattice_chain plain; /* of blocks: the chain without an extension and a snap */
-};
-
 struct field_scratch {
     chain_scratch chain;
     double x[3 * FIELD_RUN], delta[3 * FIELD_RUN], gradient[9 * FIELD_RUN];

@@ -18,7 +18,7 @@ typedef enum link_action {
 
 static bool takes(const tear_field *field, uint32_t vertex, size_t link)
 {
-    return field->moves[link] && ffd_marks_take(&field->marks, vertex, link);
+    return !field->chain->links[link].is_still && ffd_marks_take(&field->marks, vertex, link);
 }
 
 static link_action action_of(const tear_field *field, const field_place *place, size_t link)
@@ -26,7 +26,7 @@ static link_action action_of(const tear_field *field, const field_place *place, 
     const bool first = takes(field, place->ends[0], link), second = takes(field, place->ends[1], link);
     if (place->by != FIELD_BETWEEN)
         return (place->by == FIELD_FIRST ? first : second) ? EXTENDS : LEAVES;
-    return first && second ? EXTENDS : field->moves[link] ? HOLDS : LEAVES;
+    return first && second ? EXTENDS : field->chain->links[link].is_still ? LEAVES : HOLDS;
 }
 
 /* Lists the places that a link may act on, and locates them in it. */
@@ -147,7 +147,8 @@ static ffd_status apply_link(const tear_field *field, size_t link, field_place *
 
 /* cause: of a pair of places; or NULL. */
 static ffd_status apply_links(const tear_field *field, field_place *places, size_t count,
-                              ffd_tear_cause *cause, field_scratch *scratch, ffd_error *error)
+                              const field_visitor *visitor, ffd_tear_cause *cause, field_scratch *scratch,
+                              ffd_error *error)
 {
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < count; i++) {
@@ -156,8 +157,11 @@ static ffd_status apply_links(const tear_field *field, field_place *places, size
         memset(places[i].gradient, 0, sizeof places[i].gradient);
         scratch->held[i] = false;
     }
-    for (size_t l = 0; l < field->chain->count && !status; l++)
+    for (size_t l = 0; l < field->chain->count && !status; l++) {
+        if (visitor)
+            visitor->visit(visitor->context, l, scratch->x);
         status = apply_link(field, l, places, count, cause, scratch, error);
+    }
     return status;
 }
 
@@ -204,15 +208,16 @@ static ffd_status find_gaps(const tear_field *field, const field_place *places, 
 
 /* Lattices one after the other. cause: of a pair of places; or NULL. */
 static ffd_status find_in_links(const tear_field *field, field_place *places, size_t count,
-                                ffd_tear_cause *cause, field_scratch *scratch, ffd_error *error)
+                                const field_visitor *visitor, ffd_tear_cause *cause, field_scratch *scratch,
+                                ffd_error *error)
 {
     size_t gaps = 0;
-    ffd_status status = apply_links(field, places, count, cause, scratch, error);
+    ffd_status status = apply_links(field, places, count, visitor, cause, scratch, error);
     if (!status && field->chain->count > 1 && !field->chain->outside.extend)
         status = find_gaps(field, places, count, &gaps, scratch, error);
     if (status || gaps == 0)
         return status;
-    status = apply_links(field, scratch->in_gaps, gaps, NULL, scratch, error);
+    status = apply_links(field, scratch->in_gaps, gaps, NULL, NULL, scratch, error);
     for (size_t k = 0; k < gaps && !status; k++) {
         field_place *const place = &places[scratch->gaps[k]];
         memcpy(place->delta, scratch->in_gaps[k].delta, sizeof place->delta);
@@ -224,10 +229,10 @@ static ffd_status find_in_links(const tear_field *field, field_place *places, si
 }
 
 ffd_status ffd_tear_field_find(const tear_field *field, field_place *places, size_t count,
-                               field_scratch *scratch, ffd_error *error)
+                               const field_visitor *visitor, field_scratch *scratch, ffd_error *error)
 {
     return field->chain->blocks ? ffd_tear_blocks_find(field, places, count, scratch, error)
-                                : find_in_links(field, places, count, NULL, scratch, error);
+                                : find_in_links(field, places, count, visitor, NULL, scratch, error);
 }
 
 ffd_status ffd_tear_field_compare(const tear_field *field, field_place pair[2], field_scratch *scratch,
@@ -235,49 +240,14 @@ ffd_status ffd_tear_field_compare(const tear_field *field, field_place pair[2], 
 {
     *cause = FFD_TEAR_NONE;
     return field->chain->blocks ? ffd_tear_blocks_compare(field, pair, cause, error)
-                                : find_in_links(field, pair, 2, cause, scratch, error);
+                                : find_in_links(field, pair, 2, NULL, cause, scratch, error);
 }
 
-static bool moves_something(const ffd_lattice *lattice)
+tear_field ffd_tear_field_make(const lattice_chain *chain, const mesh_faces *faces, const mark_planes *marks)
 {
-    for (size_t i = 0; i < lattice->count; i++)
-        if (lattice->moved[i] & POINT_MOVED)
-            return true;
-    return false;
-}
-
-tear_field *ffd_tear_field_make(const lattice_chain *chain, const mesh_faces *faces, const uint8_t *marks)
-{
-    tear_field *const field = ffd_alloc_zero(1, sizeof *field);
-    uint8_t *const moves = ffd_alloc(chain->count, sizeof *moves);
-    if (!field || !moves) {
-        ffd_free(field);
-        ffd_free(moves);
-        return NULL;
-    }
-    for (size_t l = 0; l < chain->count; l++)
-        moves[l] = moves_something(chain->links[l].lattice);
-    field->chain = chain;
-    field->faces = faces;
-    field->marks = (mark_planes){marks, faces->vertex_count};
-    field->moves = moves;
-    field->plain = *chain;
-    field->plain.outside = (chain_outside){0};
-    field->plain.marks = (mark_layout){0};
+    tear_field field = {.chain = chain, .faces = faces, .marks = *marks, .plain = *chain};
+    field.plain.outside = (chain_outside){0};
     return field;
-}
-
-bool ffd_tear_field_moves(const tear_field *field, size_t link)
-{
-    return field->moves[link];
-}
-
-void ffd_tear_field_free(tear_field *field)
-{
-    if (!field)
-        return;
-    ffd_free(field->moves);
-    ffd_free(field);
 }
 
 field_scratch *ffd_tear_field_scratch(void)

@@ -26,21 +26,32 @@ typedef struct field_place {
 /* The most places at once. */
 #define FIELD_RUN ((size_t)1024)
 
-typedef struct tear_field tear_field;
+/* Where places are looked up; shared by threads. */
+typedef struct tear_field {
+    const lattice_chain *chain;
+    const mesh_faces *faces;
+    mark_planes marks;
+    lattice_chain plain; /* of blocks: the chain without an extension and a snap */
+} tear_field;
+
 typedef struct field_scratch field_scratch; /* of a thread */
 
-/* Returns NULL if memory runs out. The field borrows all arguments. marks: of the vertices of faces. */
-tear_field *ffd_tear_field_make(const lattice_chain *chain, const mesh_faces *faces, const uint8_t *marks);
-/* Accepts NULL. */
-void ffd_tear_field_free(tear_field *field);
-/* Whether a lattice of the chain moves anything. */
-bool ffd_tear_field_moves(const tear_field *field, size_t link);
+/* Makes a field that borrows all arguments. marks: of the vertices of faces. */
+tear_field ffd_tear_field_make(const lattice_chain *chain, const mesh_faces *faces, const mark_planes *marks);
 /* Returns NULL if memory runs out. */
 field_scratch *ffd_tear_field_scratch(void);
 
-/* Finds the displacements of at most FIELD_RUN places. Errors: FFD_E_MEMORY, FFD_E_LIMIT. */
+/* A callback before a link, of several one after the other: x: where the links before it have moved the
+   places, 3 a place. */
+typedef struct field_visitor {
+    void (*visit)(void *context, size_t link, const double *x);
+    void *context;
+} field_visitor;
+
+/* Finds the displacements of at most FIELD_RUN places. visitor may be NULL. Errors: FFD_E_MEMORY,
+   FFD_E_LIMIT. */
 ffd_status ffd_tear_field_find(const tear_field *field, field_place *places, size_t count,
-                               field_scratch *scratch, ffd_error *error);
+                               const field_visitor *visitor, field_scratch *scratch, ffd_error *error);
 
 /* The same for two neighbouring places of an edge, and why their displacements may differ. Where points
    outside stay, and both places are outside of a volume that moves both ends, the border point nearest to

@@ -1,6 +1,7 @@
 #include "job/judge/tear_figures.h"
 #include "base/memory/memory.h"
 #include "base/text/words.h"
+#include "job/chain/block_nets.h"
 #include "job/chain/marks.h"
 #include "job/judge/tears.h"
 #include "lattice/lattice.h"
@@ -43,18 +44,15 @@ ffd_status ffd_tear_figures_prepare(deform_job *job, figure_arrays *arrays, ffd_
     const size_t count = count_vertices(job);
     if (count == 0)
         return FFD_OK;
-    ffd_marks_lay_out(&job->chain, true);
+    ffd_status status = job->chain.blocks && !is_asked_for(job)
+                            ? ffd_blocks_join(&job->chain, &job->blocks_join, error)
+                            : FFD_OK;
+    if (status)
+        return status;
+    ffd_marks_lay_out(&job->chain, !job->blocks_join || job->chain.outside.extend);
     /* Zeroed pages that are never written to take no memory. */
     job->kept = ffd_alloc_zero(count, job->chain.marks.planes);
     return job->kept ? make_arrays(job, arrays, error) : ffd_fail_memory(error);
-}
-
-static bool moves_nothing(const ffd_lattice *lattice)
-{
-    for (size_t i = 0; i < lattice->count; i++)
-        if (lattice->moved[i] & POINT_MOVED)
-            return false;
-    return true;
 }
 
 /* Marks all vertices as left by lattices that move nothing. */
@@ -63,7 +61,7 @@ static void mark_left(const deform_job *job)
     const size_t vertices = count_vertices(job);
     for (size_t l = 0; l < job->chain.count && !job->chain.blocks; l++) {
         uint8_t *const marks = job->kept + ffd_kept_plane(l) * vertices;
-        if (!moves_nothing(job->chain.links[l].lattice))
+        if (!job->chain.links[l].is_still)
             continue;
         for (size_t v = 0; v < vertices; v++)
             marks[v] |= ffd_kept_bit(l);
@@ -81,7 +79,9 @@ static bool may_tear(const deform_job *job, size_t *planes)
     const bool parts = chain->marks.parted_count > 0 && opens;
     *planes = parts ? chain->marks.planes : chain->marks.owners ? chain->marks.parts : chain->marks.kept;
     return totals->located + totals->extended > 0 &&
-           (totals->kept > 0 || chain->marks.owners || parts || (is_asked_for(job) && chain->count > 1));
+           (totals->kept > 0 || parts ||
+            (chain->marks.owners && !(job->blocks_join && totals->extended == 0)) ||
+            (is_asked_for(job) && chain->count > 1));
 }
 
 /* Lists the hidden vertices, except in parts that repeat positions. *ranges is freed by the caller. */
@@ -170,17 +170,19 @@ static ffd_status count_marked(const deform_job *job, const mesh_faces *faces, u
 {
     tear_count count;
     vertex_range *hidden = NULL;
-    tear_question question = {.faces = faces,
-                              .chain = &job->chain,
+    tear_question question = {.mesh = {.faces = faces,
+                                       .chain = &job->chain,
+                                       .marks = {marks, faces->vertex_count},
+                                       .stays = job->totals.kept > 0,
+                                       .passes = is_asked_for(job) && job->chain.count > 1,
+                                       .deformed = arrays->deformed,
+                                       .gradients = arrays->gradients,
+                                       .budget = budget},
                               .marks = marks,
-                              .passes = is_asked_for(job) && job->chain.count > 1,
-                              .deformed = arrays->deformed,
-                              .gradients = arrays->gradients,
                               .torn = job->details ? &job->details->tears : NULL,
-                              .budget = budget,
                               .threads = job->threads};
-    ffd_status status = list_hidden(job, &hidden, &question.hidden_count, error);
-    question.hidden = hidden;
+    ffd_status status = list_hidden(job, &hidden, &question.mesh.hidden_count, error);
+    question.mesh.hidden = hidden;
     if (!status)
         status = ffd_tears_count(&question, &count, error);
     if (!status)
