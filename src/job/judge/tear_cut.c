@@ -408,10 +408,10 @@ static ffd_status measure(const cut_work *work, const cut_edge *edge, cut_part *
         place[i] = take(edge, t[i], &pair[i]);
     step.length = find_defect(place[0].delta, place[1].delta, place[0].slope, place[1].slope, t[1] - t[0]);
     const double doubt = doubt_of(&place[0], &place[1]);
-    if (step.length > doubt) /* else it may be a kink */
+    const bool jumps = step.length > NEGLIGIBLE * edge->length;
+    if (jumps && step.length > doubt) /* else it may be a kink */
         part->known = step;
-    *settled = !(step.length > NEGLIGIBLE * edge->length) || doubt <= EXACT * step.length ||
-               part->high.t - part->low.t <= NARROWEST;
+    *settled = !jumps || doubt <= EXACT * step.length || part->high.t - part->low.t <= NARROWEST;
     return status;
 }
 

@@ -3,6 +3,7 @@
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "job/judge/tear_cut.h"
+#include "lattice/lattice.h"
 #include "mesh/positions.h"
 #include <string.h>
 
@@ -17,6 +18,9 @@ typedef struct list_work {
     /* If edges may lead through other lattices: of each block, whether an earlier one overlaps it; of a chain
        the bits of links that move something, a byte for each plane of bits. Else NULL. */
     uint8_t *others;
+    /* With others, of each link of a chain: how far the links before it move a point at most, and those
+       behind it. */
+    double *before, *behind;
     edge_list *edges;
     size_t capacity;
 } list_work;
@@ -73,9 +77,9 @@ static bool may_jump(const list_work *work, uint32_t a, uint32_t b)
 typedef struct edge_way {
     const list_work *work;
     const uint32_t *corners; /* of equal marks, or those of one edge */
-    bounds box;              /* round them */
-    unsigned owner;          /* blocks: theirs */
-    bool clips;              /* corners are one edge, which is clipped; else boxes do */
+    bounds box, deformed; /* round them, at rest and deformed; the latter of a chain only, if it is known */
+    unsigned owner;       /* blocks: theirs */
+    bool clips;           /* corners are one edge, which is clipped; else boxes do */
 } edge_way;
 
 static bool boxes_meet(const bounds *a, const bounds *b)
@@ -84,20 +88,66 @@ static bool boxes_meet(const bounds *a, const bounds *b)
            a->lo[2] <= b->hi[2] && b->lo[2] <= a->hi[2];
 }
 
-/* Stops at a lattice that moves places of the edges, but not their ends. */
-static bool look_at_lattice(void *context, uint32_t link)
+/* Stops at a block that moves places of the edges, but not their ends. */
+static bool look_at_block(void *context, uint32_t block)
 {
     const edge_way *const way = context;
     const list_work *const work = way->work;
     const lattice_chain *const chain = work->mesh->chain;
-    const unsigned owner = way->owner & ~OWNER_NEAREST;
     double from, to, along[3];
-    if (chain->blocks && (link == owner || (link > owner && !(way->owner & OWNER_NEAREST))))
+    if (block == (way->owner & ~OWNER_NEAREST) || (block > way->owner && !(way->owner & OWNER_NEAREST)))
         return true; /* of what two blocks hold the earlier one has all */
-    if (!boxes_meet(&way->box, &chain->boxes[link]) || !way->clips)
-        return !boxes_meet(&way->box, &chain->boxes[link]);
+    if (!boxes_meet(&way->box, &chain->boxes[block]) || !way->clips)
+        return !boxes_meet(&way->box, &chain->boxes[block]);
     ffd_tear_along(work->mesh->faces, way->corners[0], way->corners[1], along);
-    return !ffd_link_clip(&chain->links[link], position_of(work, way->corners[0]), along, &from, &to);
+    return !ffd_link_clip(&chain->links[block], position_of(work, way->corners[0]), along, &from, &to);
+}
+
+static const double *deformed_of(const list_work *work, uint32_t vertex)
+{
+    return work->mesh->deformed + 3 * (size_t)ffd_faces_number(work->mesh->faces, vertex);
+}
+
+/* Whether a link of a chain may move places of the edges, but not their ends. The ends are where the links
+   before have moved them: that is near their places at rest, and near the deformed ones. */
+static bool may_meet(const edge_way *way, size_t link)
+{
+    const list_work *const work = way->work;
+    const chain_link *const of = &work->mesh->chain->links[link];
+    const bool deformed = work->mesh->deformed && work->behind[link] < work->before[link];
+    const double reach = deformed ? work->behind[link] : work->before[link];
+    bounds box = deformed ? way->deformed : way->box;
+    double from, to, along[3];
+    if (of->is_still || ffd_marks_take(&work->mesh->marks, way->corners[0], link))
+        return false;
+    for (int c = 0; c < 3; c++) {
+        box.lo[c] -= reach;
+        box.hi[c] += reach;
+    }
+    if (!boxes_meet(&box, &work->mesh->chain->boxes[link]) || !way->clips || reach > 0)
+        return boxes_meet(&box, &work->mesh->chain->boxes[link]);
+    const double *const start =
+        deformed ? deformed_of(work, way->corners[0]) : position_of(work, way->corners[0]);
+    const double *const end =
+        deformed ? deformed_of(work, way->corners[1]) : position_of(work, way->corners[1]);
+    for (int c = 0; c < 3; c++)
+        along[c] = end[c] - start[c];
+    return ffd_link_clip(of, start, along, &from, &to);
+}
+
+/* The box round positions of the corners. */
+static bounds box_of(const list_work *work, const uint32_t *corners, size_t count, bool deformed)
+{
+    bounds box;
+    for (size_t i = 0; i < count; i++) {
+        const double *const p = deformed ? deformed_of(work, corners[i]) : position_of(work, corners[i]);
+        if (i == 0) {
+            memcpy(box.lo, p, sizeof box.lo);
+            memcpy(box.hi, p, sizeof box.hi);
+        }
+        bounds_add(&box, p);
+    }
+    return box;
 }
 
 /* Whether edges between these corners, of equal marks, may lead through a lattice that does not move them.
@@ -121,15 +171,13 @@ static bool may_pass(const list_work *work, const uint32_t *corners, size_t coun
         some = some || marks->bytes[p * marks->points + corners[0]] & work->others[p];
     if (!some)
         return false;
-    memcpy(way.box.lo, position_of(work, corners[0]), sizeof way.box.lo);
-    memcpy(way.box.hi, position_of(work, corners[0]), sizeof way.box.hi);
-    for (size_t c = 1; c < count; c++)
-        bounds_add(&way.box, position_of(work, corners[c]));
+    way.box = box_of(work, corners, count, false);
+    if (work->mesh->deformed && !chain->blocks)
+        way.deformed = box_of(work, corners, count, true);
     for (size_t l = 0; l < chain->count && !chain->blocks; l++)
-        if (!chain->links[l].is_still && !ffd_marks_take(marks, corners[0], l) &&
-            !look_at_lattice(&way, (uint32_t)l))
+        if (may_meet(&way, l))
             return true;
-    return chain->blocks && !ffd_box_tree_visit_box(&chain->tree, &way.box, none, look_at_lattice, &way);
+    return chain->blocks && !ffd_box_tree_visit_box(&chain->tree, &way.box, none, look_at_block, &way);
 }
 
 static bool precedes(const double a[3], const double b[3])
@@ -265,16 +313,29 @@ static bool meet_earlier(void *context, uint32_t other)
     return !overlap;
 }
 
+/* Returns how far a lattice moves a point at most. */
+static double reach_of(const ffd_lattice *lattice)
+{
+    double most = 0;
+    for (size_t i = 0; i < lattice->count; i++)
+        if (lattice->moved[i] & POINT_MOVED)
+            most = larger_of(most, vec_length(lattice->difference + 3 * i));
+    return lattice->weights_moved ? most + lattice->diagonal : most;
+}
+
 /* Finds the lattices that can lie between two points of another one: links of a chain that move something,
    and blocks that overlap a later one. */
 static ffd_status find_others(list_work *work, ffd_error *error)
 {
     static const double none[3] = {0, 0, 0};
     const lattice_chain *const chain = work->mesh->chain;
+    double before = 0, behind = 0;
     if (!work->mesh->passes)
         return FFD_OK;
     work->others = ffd_alloc_zero(chain->count, sizeof *work->others);
-    if (!work->others)
+    work->before = ffd_alloc(chain->count, sizeof *work->before);
+    work->behind = ffd_alloc(chain->count, sizeof *work->behind);
+    if (!work->others || !work->before || !work->behind)
         return ffd_fail_memory(error);
     for (size_t l = 0; l < chain->count; l++) {
         overlap_search search = {chain->boxes, (uint32_t)l};
@@ -284,6 +345,12 @@ static ffd_status find_others(list_work *work, ffd_error *error)
                 !ffd_box_tree_visit_box(&chain->tree, &chain->boxes[l], none, meet_earlier, &search);
         else if (!chain->links[l].is_still)
             work->others[ffd_kept_plane(l)] |= ffd_kept_bit(l);
+    }
+    for (size_t l = 0; l < chain->count && !chain->blocks; l++) {
+        work->before[l] = before;
+        before += reach_of(chain->links[l].lattice);
+        work->behind[chain->count - 1 - l] = behind;
+        behind += reach_of(chain->links[chain->count - 1 - l].lattice);
     }
     return FFD_OK;
 }
@@ -298,6 +365,8 @@ ffd_status ffd_tear_edges_list(const tear_mesh *mesh, tear_kind kind, size_t spa
     if (!status)
         status = list_all(&work, error);
     ffd_free(work.others);
+    ffd_free(work.before);
+    ffd_free(work.behind);
     if (status || edges->count == 0)
         return status;
     status = join_ends(&work, error);
