@@ -31,10 +31,12 @@ static inline uint8_t ffd_kept_bit(size_t link)
    some are no boxes always do. */
 void ffd_marks_lay_out(lattice_chain *chain, bool owners);
 
-/* Mark a point of a run, if it has marks. uvw: in the link, NULL: the link does not move the point, or no
-   single u,v,w can be told. */
+/* Marks a point of a run, if it has marks, as left by a link. */
 void ffd_mark_kept(chain_run *run, size_t point, size_t link);
+/* Sets the owner of a point, if it has marks and blocks note owners. */
 void ffd_mark_owner(const lattice_chain *chain, const chain_run *run, size_t point, unsigned owner);
+/* Sets the part of a link that a point is in, if it has marks. uvw: in the link; NULL: the link does not move
+   the point, or no single u,v,w can be told. */
 void ffd_mark_part(const lattice_chain *chain, size_t link, const chain_run *run, size_t point,
                    const double uvw[3]);
 

@@ -1,3 +1,4 @@
+#include "job/judge/tear_blocks.h"
 #include "base/vector/vec.h"
 #include "embed/locator.h"
 #include "job/chain/blocks.h"

@@ -2,6 +2,7 @@
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "embed/frame/frame.h"
+#include "job/pass/pass.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -74,6 +75,9 @@ struct tear_cuts {
     cut_part *of_parts[FIELD_RUN];
     size_t count; /* of these places */
 };
+
+_Static_assert(sizeof(struct tear_cuts) + sizeof(field_scratch) - sizeof(kept_cells) < THREAD_BYTES,
+               "a thread takes more than is counted");
 
 /* What all steps of a run share. */
 typedef struct cut_work {

@@ -1,9 +1,9 @@
 /* tear_feet.h - the point of a lattice's volume whose displacement a place gets: its foot. Internal to
-   tear_field.h; declares tear_feet.c and tear_blocks.c. */
+   tear_field.h. */
 #ifndef FFD_JOB_JUDGE_TEAR_FEET_H
 #define FFD_JOB_JUDGE_TEAR_FEET_H
 
-#include "job/judge/tear_field.h"
+#include "job/judge/tear_place.h"
 
 typedef struct field_foot {
     bool found;  /* false: none acts; the other members are not set */
@@ -12,19 +12,6 @@ typedef struct field_foot {
     bool on_seam;         /* it was moved there, and the displacement does not follow the place */
     boundary_point point; /* inside: only its u,v,w are set */
 } field_foot;
-
-struct field_scratch {
-    chain_scratch chain;
-    double x[3 * FIELD_RUN], delta[3 * FIELD_RUN], gradient[9 * FIELD_RUN];
-    point_outcome outcomes[FIELD_RUN];
-    /* One after the other: */
-    double link_x[3 * FIELD_RUN];
-    uint8_t actions[FIELD_RUN];
-    uint32_t asked[FIELD_RUN]; /* the places that a link may act on */
-    uint8_t held[FIELD_RUN];   /* a link that moves one end, or none, holds the place */
-    uint32_t gaps[FIELD_RUN];  /* the places in a gap */
-    field_place in_gaps[FIELD_RUN];
-};
 
 /* Finds the border point of a link that is nearest to x, within the link's falloff. Errors: FFD_E_MEMORY. */
 ffd_status ffd_foot_on_border(const tear_field *field, size_t link, const double x[3], field_foot *foot,
@@ -38,11 +25,5 @@ void ffd_foot_displacement(const tear_field *field, const field_foot *foot, doub
 void ffd_feet_join(const tear_field *field, field_foot *first, field_foot *second);
 /* Returns why the displacements at two neighbouring feet of a link may differ. */
 ffd_tear_cause ffd_feet_cause(const tear_field *field, const field_foot *first, const field_foot *second);
-
-/* Blocks: as ffd_tear_field_find, and ffd_tear_field_compare. */
-ffd_status ffd_tear_blocks_find(const tear_field *field, field_place *places, size_t count,
-                                field_scratch *scratch, ffd_error *error);
-ffd_status ffd_tear_blocks_compare(const tear_field *field, field_place pair[2], ffd_tear_cause *cause,
-                                   ffd_error *error);
 
 #endif

@@ -4,6 +4,7 @@
 #include "embed/locator.h"
 #include "embed/locator_border.h"
 #include "job/chain/point_outcome.h"
+#include "job/judge/tear_blocks.h"
 #include "job/judge/tear_feet.h"
 #include "lattice/lattice.h"
 #include <math.h>

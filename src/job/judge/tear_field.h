@@ -2,39 +2,7 @@
 #ifndef FFD_JOB_JUDGE_TEAR_FIELD_H
 #define FFD_JOB_JUDGE_TEAR_FIELD_H
 
-#include "job/chain/marks.h"
-#include "mesh/mesh.h"
-
-/* Which lattices act at a place. */
-typedef enum field_by {
-    FIELD_FIRST,  /* those that move the first end, also where they do not hold the place */
-    FIELD_SECOND, /* likewise of the second end */
-    /* Those that hold the place, and those that move both ends. In a gap, where none of those that move one
-       end only holds it, those of the end whose lattices are nearer. Blocks: the first that holds the place;
-       if none does, the one that moves both ends, else the nearest. */
-    FIELD_BETWEEN
-} field_by;
-
-typedef struct field_place {
-    uint32_t ends[2]; /* of the edge; vertices of faces */
-    field_by by;
-    double x[3]; /* at rest. Blocks: an end that its block holds by the vertex's rounding or by the snap is
-                    moved to the border */
-    double delta[3], gradient[9]; /* filled: the displacement, and its derivative by x */
-} field_place;
-
-/* The most places at once. */
-#define FIELD_RUN ((size_t)1024)
-
-/* Where places are looked up; shared by threads. */
-typedef struct tear_field {
-    const lattice_chain *chain;
-    const mesh_faces *faces;
-    mark_planes marks;
-    lattice_chain plain; /* of blocks: the chain without an extension and a snap */
-} tear_field;
-
-typedef struct field_scratch field_scratch; /* of a thread */
+#include "job/judge/tear_place.h"
 
 /* Makes a field that borrows all arguments. marks: of the vertices of faces. */
 tear_field ffd_tear_field_make(const lattice_chain *chain, const mesh_faces *faces, const mark_planes *marks);
