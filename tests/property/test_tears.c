@@ -225,6 +225,7 @@ static void compare(const scene *s, draw *d, const double low[3], const double h
                                              .chain = &s->chain,
                                              .marks = {marks, count},
                                              .passes = s->chain.count > 1,
+                                             .most = SIZE_MAX,
                                              .budget = &budget},
                                     .marks = marks,
                                     .torn = &torn,

@@ -63,8 +63,10 @@ void ffd_feet_join(const tear_field *field, field_foot *first, field_foot *secon
         return;
     if (ffd_seams_part(field->chain, first->link, first->point.uvw, second->point.uvw))
         move_onto_seams(field->chain, first, second);
-    else if (!field->chain->outside.extend && !first->inside && !second->inside)
+    else if (!field->chain->outside.extend && !second->inside)
         *second = *first;
+    else if (!field->chain->outside.extend && !first->inside)
+        *first = *second;
 }
 
 /* Whether two feet are in different parts of a volume or of its border. */

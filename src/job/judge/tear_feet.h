@@ -20,8 +20,8 @@ ffd_status ffd_foot_on_border(const tear_field *field, size_t link, const double
 void ffd_foot_displacement(const tear_field *field, const field_foot *foot, double delta[3],
                            double gradient[9]);
 /* Adjusts the feet of two neighbouring places in one link. Beside a seam both are moved onto it, each on its
-   own face. Where points outside stay, and both are on the border, the first one serves for both unless a
-   seam is between. */
+   own face. Where points outside stay, and a place is outside, one foot serves for both unless a seam is
+   between. */
 void ffd_feet_join(const tear_field *field, field_foot *first, field_foot *second);
 /* Returns why the displacements at two neighbouring feet of a link may differ. */
 ffd_tear_cause ffd_feet_cause(const tear_field *field, const field_foot *first, const field_foot *second);

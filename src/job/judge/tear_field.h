@@ -22,9 +22,8 @@ ffd_status ffd_tear_field_find(const tear_field *field, field_place *places, siz
                                const field_visitor *visitor, field_scratch *scratch, ffd_error *error);
 
 /* The same for two neighbouring places of an edge, and why their displacements may differ. Where points
-   outside stay, and both places are outside of a volume that moves both ends, the border point nearest to
-   the first place stands for both, unless a seam is between: an edge that cuts a corner of a volume is not
-   torn. */
+   outside stay, and a place is outside of a volume that moves both ends, the displacement of one place stands
+   for both, unless a seam is between: an edge that cuts a corner of a volume is not torn. */
 ffd_status ffd_tear_field_compare(const tear_field *field, field_place pair[2], field_scratch *scratch,
                                   ffd_tear_cause *cause, ffd_error *error);
 

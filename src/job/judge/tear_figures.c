@@ -1,6 +1,7 @@
 #include "job/judge/tear_figures.h"
 #include "base/memory/memory.h"
 #include "base/text/words.h"
+#include "base/vector/vec.h"
 #include "job/chain/block_nets.h"
 #include "job/chain/marks.h"
 #include "job/judge/tears.h"
@@ -12,6 +13,14 @@
 
 /* A deformation of a larger mesh reads the faces only if the figures are asked for. */
 #define UNASKED_VERTICES ((uint64_t)5500000)
+
+/* Unasked, edges in volumes that are no boxes are cut only if that takes little beside the search for the
+   vertices: of a mesh that is coarse beside its lattice all edges may have to be, and in a lattice that
+   overlaps itself each place takes long. An edge is cut at so many places. */
+#define PLACES_OF_EDGE 20
+/* The evaluations that are allowed: this part of those of the search, and so many anyway. */
+#define SHARE_OF_SEARCH (1.0 / 8)
+#define FREE_EVALUATIONS 3e5
 
 /* Memory of the arrays for each vertex, in bytes. */
 #define ARRAY_BYTES (12 * sizeof(double))
@@ -146,6 +155,17 @@ static void name_part(const deform_job *job, ffd_job_result *result)
         result->tear_stays++;
 }
 
+/* How many edges may be cut. */
+static size_t most_edges(const deform_job *job)
+{
+    const pass_totals *const totals = &job->totals;
+    const double searched = (double)totals->evaluations, located = (double)totals->located;
+    const double each = PLACES_OF_EDGE * larger_of(searched / larger_of(located, 1), 1);
+    if (is_asked_for(job) || job->chain.marks.parted_count == 0)
+        return SIZE_MAX;
+    return (size_t)((SHARE_OF_SEARCH * searched + FREE_EVALUATIONS) / each);
+}
+
 static void fill_result(const deform_job *job, const mesh_faces *faces, const tear_count *count,
                         ffd_job_result *result)
 {
@@ -177,6 +197,7 @@ static ffd_status count_marked(const deform_job *job, const mesh_faces *faces, u
                                        .passes = is_asked_for(job) && job->chain.count > 1,
                                        .deformed = arrays->deformed,
                                        .gradients = arrays->gradients,
+                                       .most = most_edges(job),
                                        .budget = budget},
                               .marks = marks,
                               .torn = job->details ? &job->details->tears : NULL,
