@@ -1,4 +1,4 @@
-/* test_tears.c - torn edges beside the plainest way to find them: the displacement at thousands of places of
+/* test_tears.c - torn edges beside the plainest way to find them: the displacement at a thousand places of
    each edge. Random edges in, round and across rings, horseshoes, spirals, blocks and boxes one after the
    other. */
 #include <setjmp.h>
@@ -24,7 +24,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { EDGES = 40, SAMPLES = 4096, LINKS = 8, TEXT = 1 << 16 };
+enum { EDGES = 40, SAMPLES = 1024, LINKS = 8, TEXT = 1 << 16 };
 
 #define TURN 6.283185307179586
 
@@ -158,8 +158,8 @@ static double plain_jump(const scene *s, const double a[3], const double b[3])
     double along[3], most = 0;
     for (int c = 0; c < 3; c++)
         along[c] = b[c] - a[c];
-    for (size_t first = 0; first < SAMPLES; first += CHAIN_RUN / 2) {
-        const size_t count = CHAIN_RUN / 2 + 1;
+    for (size_t first = 0; first < SAMPLES; first += SAMPLES) {
+        const size_t count = SAMPLES + 1;
         for (size_t i = 0; i < count; i++)
             for (size_t c = 0; c < 3; c++)
                 samples[3 * i + c] = a[c] + (double)(first + i) / SAMPLES * along[c];
@@ -259,10 +259,15 @@ static void compare(const scene *s, draw *d, const double low[3], const double h
     ffd_free(torn.list);
 }
 
-static void report(const char *what, long cases, const found *f)
+/* data/promises.md names what may be missed; a step may be that of another of two jumps, and what is thinner
+   than the plain way sees is none of its jumps. */
+static void judge(const char *what, long cases, const found *f)
 {
     print_message("%s: %ld cases, %zu edges, %zu torn, %zu missed, %zu invented, %zu of another step\n", what,
                   cases, f->edges, f->torn, f->missed, f->invented, f->wrong);
+    assert_true(f->missed <= 1 + f->torn / 50);
+    assert_true(f->invented <= f->torn / 100);
+    assert_true(f->wrong <= 1 + f->torn / 50);
 }
 
 typedef struct bar {
@@ -295,7 +300,7 @@ static void bars_that_extend(void **state)
             compare(&s, &d, low, high, 2, &f);
             end_scene(&s);
         }
-        report(bars[k].name, made, &f);
+        judge(bars[k].name, made, &f);
     }
     (void)state;
 }
@@ -322,7 +327,7 @@ static void blocks(void **state)
             compare(&s, &d, low, high, 1, &f);
             end_scene(&s);
         }
-        report(notch ? "blocks with a notch" : "blocks", made, &f);
+        judge(notch ? "blocks with a notch" : "blocks", made, &f);
     }
     (void)state;
 }
@@ -350,7 +355,7 @@ static void boxes_one_after_the_other(void **state)
         compare(&s, &d, low, high, 1, &f);
         end_scene(&s);
     }
-    report("boxes", made, &f);
+    judge("boxes", made, &f);
     (void)state;
 }
 
