@@ -23,9 +23,11 @@
 #define BESIDE 256
 /* An edge is cut into so many pieces first where it is in the bounds of a volume that is no box. */
 #define PIECES 4
-/* The most parts of an edge that are cut at once; of more those with the smallest differences are left
-   out. */
+/* The most parts of an edge that wait while another one is cut; of more those with the smallest defects are
+   left out. */
 #define PARTS 16
+/* A part whose defect is at most this part of the step that was found is left: it hardly has a larger one. */
+#define PROMISING 0.5
 
 /* A place of an edge. */
 typedef struct cut_place {
@@ -35,17 +37,20 @@ typedef struct cut_place {
 
 /* A part of an edge along which the displacement may jump. */
 typedef struct cut_part {
-    cut_place low, middle, high; /* middle: once it is cut */
-    double defect;               /* how much the displacement differs from what the slopes say */
-    tear_step known;             /* the jump along it, as far as it was measured; 0: it was not */
+    cut_place low, high;
+    double defect;   /* how much the displacement differs from what the slopes say */
+    bool is_half;    /* of another part */
+    tear_step known; /* the jump along it, as far as it was measured; 0: it was not */
 } cut_part;
 
 typedef struct cut_edge {
     uint32_t ends[2]; /* the first has the lesser position: equal edges have equal steps */
     double start[3], along[3], length;
     double beside; /* of t: farther from a border than the rounding of places on it */
-    cut_part parts[PARTS];
-    size_t count;
+    cut_part part; /* what is being cut, */
+    bool is_cut;   /* if something is */
+    cut_part waiting[PARTS];
+    size_t count; /* of these */
     tear_step step;
 } cut_edge;
 
@@ -71,9 +76,6 @@ struct tear_cuts {
     edge_way ways[CUT_RUN];
     cut_place low[CUT_RUN], high[CUT_RUN]; /* their ends */
     field_place places[FIELD_RUN];
-    cut_edge *of_edges[FIELD_RUN]; /* what is cut at a place */
-    cut_part *of_parts[FIELD_RUN];
-    size_t count; /* of these places */
 };
 
 _Static_assert(sizeof(struct tear_cuts) + sizeof(field_scratch) - sizeof(kept_cells) < THREAD_BYTES,
@@ -154,25 +156,40 @@ static cut_place take(const cut_edge *edge, double t, const field_place *from)
     return place;
 }
 
-/* Adds a part if the displacement may jump along it. known: the jump along what it is a half of. Returns
-   whether it is added. */
-static bool add_part(cut_edge *edge, const cut_place *low, const cut_place *high, const tear_step *known)
+/* Makes a part. Returns whether the displacement may jump along it. */
+static bool make_part(const cut_edge *edge, const cut_place *low, const cut_place *high, cut_part *part)
 {
-    const double defect = find_defect(low->delta, high->delta, low->slope, high->slope, high->t - low->t);
+    *part = (cut_part){.low = *low, .high = *high};
+    part->defect = find_defect(low->delta, high->delta, low->slope, high->slope, high->t - low->t);
+    return part->defect > NEGLIGIBLE * edge->length;
+}
+
+static void let_wait(cut_edge *edge, const cut_part *part)
+{
     size_t at = 0;
-    if (!(defect > NEGLIGIBLE * edge->length))
-        return false;
-    const cut_part part = {.low = *low, .high = *high, .defect = defect, .known = *known};
     if (edge->count < PARTS) {
-        edge->parts[edge->count++] = part;
-        return true;
+        edge->waiting[edge->count++] = *part;
+        return;
     }
     for (size_t p = 1; p < PARTS; p++)
-        if (edge->parts[p].defect < edge->parts[at].defect)
+        if (edge->waiting[p].defect < edge->waiting[at].defect)
             at = p;
-    if (defect > edge->parts[at].defect)
-        edge->parts[at] = part;
-    return true;
+    if (part->defect > edge->waiting[at].defect)
+        edge->waiting[at] = *part;
+}
+
+/* Takes the waiting part with the largest defect, if it is promising. */
+static void take_next(cut_edge *edge)
+{
+    size_t at = 0;
+    for (size_t p = 1; p < edge->count; p++)
+        if (edge->waiting[p].defect > edge->waiting[at].defect)
+            at = p;
+    edge->is_cut = edge->count > 0 && edge->waiting[at].defect > PROMISING * edge->step.length;
+    if (!edge->is_cut)
+        return;
+    edge->part = edge->waiting[at];
+    edge->waiting[at] = edge->waiting[--edge->count];
 }
 
 static bool precedes(const double a[3], const double b[3])
@@ -311,16 +328,17 @@ static ffd_status begin_ends(const cut_work *work, size_t count)
 /* Makes the parts between the first places of an edge. places: those between its ends. */
 static void begin_parts(tear_cuts *cuts, size_t e, const field_place *places)
 {
-    static const tear_step none = {0};
     const place_list *const list = &cuts->lists[e];
     cut_edge *const edge = &cuts->edges[e];
     cut_place low = cuts->low[e];
     for (size_t i = 1; i < list->count; i++) {
         const cut_place high = i == list->count - 1 ? cuts->high[e] : take(edge, list->t[i], &places[i - 1]);
-        if (high.t > low.t)
-            add_part(edge, &low, &high, &none);
+        cut_part part;
+        if (high.t > low.t && make_part(edge, &low, &high, &part))
+            let_wait(edge, &part);
         low = high;
     }
+    take_next(edge);
 }
 
 /* Cuts all edges first, as many edges at once as have room. */
@@ -340,41 +358,6 @@ static ffd_status begin_edges(const cut_work *work, size_t count)
             begin_parts(cuts, e, cuts->places + places);
     }
     return status;
-}
-
-/* Finds the middles of the listed parts. */
-static ffd_status find_middles(const cut_work *work)
-{
-    tear_cuts *const cuts = work->cuts;
-    const ffd_status status =
-        ffd_tear_field_find(work->field, cuts->places, cuts->count, NULL, cuts->field, work->error);
-    for (size_t i = 0; i < cuts->count && !status; i++) {
-        cut_place *const middle = &cuts->of_parts[i]->middle;
-        *middle = take(cuts->of_edges[i], middle->t, &cuts->places[i]);
-    }
-    cuts->count = 0;
-    return status;
-}
-
-/* Finds a place in every part of all edges, at this share of its length. *some: whether there are parts. */
-static ffd_status cut_all(const cut_work *work, size_t count, double share, bool *some)
-{
-    tear_cuts *const cuts = work->cuts;
-    ffd_status status = FFD_OK;
-    *some = false;
-    for (size_t e = 0; e < count; e++)
-        for (size_t p = 0; p < cuts->edges[e].count && !status; p++) {
-            cut_edge *const edge = &cuts->edges[e];
-            cut_part *const part = &edge->parts[p];
-            part->middle.t = part->low.t + (part->high.t - part->low.t) * share;
-            place_at(edge, part->middle.t, &cuts->places[cuts->count]);
-            cuts->of_edges[cuts->count] = edge;
-            cuts->of_parts[cuts->count++] = part;
-            *some = true;
-            if (cuts->count == FIELD_RUN)
-                status = find_middles(work);
-        }
-    return status ? status : find_middles(work);
 }
 
 /* How much the step along a part depends on where along it the jump is. */
@@ -419,27 +402,63 @@ static ffd_status measure(const cut_work *work, const cut_edge *edge, cut_part *
     return status;
 }
 
-/* Replaces the parts of an edge by the halves along which the displacement may jump, and measures narrow
-   ones. */
-static ffd_status halve(const cut_work *work, cut_edge *edge)
+/* Goes on with the half of a part that has the larger defect; the other one waits. Returns false if the
+   displacement jumps along neither. */
+static bool go_on(cut_edge *edge, const cut_place *middle)
 {
-    cut_part parts[PARTS];
-    const size_t count = edge->count;
-    ffd_status status = FFD_OK;
-    memcpy(parts, edge->parts, count * sizeof *parts);
-    edge->count = 0;
-    for (size_t p = 0; p < count && !status; p++) {
-        cut_part *const part = &parts[p];
-        bool settled = false, added = false;
-        if (is_narrow(part))
-            status = measure(work, edge, part, &settled);
-        if (!settled) {
-            added = add_part(edge, &part->low, &part->middle, &part->known);
-            added = add_part(edge, &part->middle, &part->high, &part->known) || added;
-        }
-        if (!added && part->known.length > edge->step.length)
-            edge->step = part->known;
+    const cut_part whole = edge->part;
+    cut_part halves[2];
+    bool jumps[2];
+    for (int h = 0; h < 2; h++) {
+        jumps[h] = make_part(edge, h ? middle : &whole.low, h ? &whole.high : middle, &halves[h]);
+        halves[h].is_half = true;
+        halves[h].known = whole.known;
     }
+    const int next = halves[1].defect > halves[0].defect;
+    edge->part = halves[next];
+    if (jumps[1 - next])
+        let_wait(edge, &halves[1 - next]);
+    return jumps[next];
+}
+
+/* Cuts the part at hand, or measures it if it is narrow. */
+static ffd_status cut(const cut_work *work, cut_edge *edge, const cut_place *middle)
+{
+    bool settled = false;
+    ffd_status status = FFD_OK;
+    if (is_narrow(&edge->part))
+        status = measure(work, edge, &edge->part, &settled);
+    const tear_step known = edge->part.known;
+    if (!status && !settled && go_on(edge, middle))
+        return FFD_OK;
+    if (known.length > edge->step.length)
+        edge->step = known;
+    take_next(edge);
+    return status;
+}
+
+/* Cuts the parts at hand of all edges. *some: whether there are any. */
+static ffd_status cut_all(const cut_work *work, size_t count, bool *some)
+{
+    tear_cuts *const cuts = work->cuts;
+    double t[CUT_RUN];
+    size_t places = 0;
+    for (size_t e = 0; e < count; e++) {
+        const cut_part *const part = &cuts->edges[e].part;
+        t[e] = part->low.t + (part->high.t - part->low.t) * (part->is_half ? 0.5 : FIRST_CUT);
+        if (cuts->edges[e].is_cut)
+            place_at(&cuts->edges[e], t[e], &cuts->places[places++]);
+    }
+    *some = places > 0;
+    ffd_status status =
+        *some ? ffd_tear_field_find(work->field, cuts->places, places, NULL, cuts->field, work->error)
+              : FFD_OK;
+    places = 0;
+    for (size_t e = 0; e < count && !status; e++)
+        if (cuts->edges[e].is_cut) {
+            const cut_place middle = take(&cuts->edges[e], t[e], &cuts->places[places++]);
+            status = cut(work, &cuts->edges[e], &middle);
+        }
     return status;
 }
 
@@ -448,7 +467,6 @@ ffd_status ffd_tear_cut(const tear_field *field, const uint64_t *edges, size_t c
 {
     cut_work work = {field, cuts, 0, error};
     const lattice_chain *const chain = field->chain;
-    double share = FIRST_CUT;
     bool some = true;
     for (size_t l = 0; l < chain->count; l++)
         for (int a = 0; a < 3; a++)
@@ -456,13 +474,9 @@ ffd_status ffd_tear_cut(const tear_field *field, const uint64_t *edges, size_t c
                                                        fabs(chain->links[l].locator->hull.hi[a])));
     for (size_t e = 0; e < count; e++)
         begin_edge(&work, edges[e], &cuts->edges[e]);
-    cuts->count = 0;
     ffd_status status = begin_edges(&work, count);
-    for (; some && !status; share = 0.5) {
-        status = cut_all(&work, count, share, &some);
-        for (size_t e = 0; e < count && !status; e++)
-            status = halve(&work, &cuts->edges[e]);
-    }
+    while (some && !status)
+        status = cut_all(&work, count, &some);
     for (size_t e = 0; e < count; e++)
         steps[e] = cuts->edges[e].step;
     return status;
