@@ -325,6 +325,9 @@ typedef struct ffd_deform_desc {
        be NULL, to write no mesh; as_morph, morphs, depfile and output_format are FFD_E_ARGUMENT then. */
     ffd_positions_function positions;
     void *positions_user;
+    /* A job that takes longer than so many seconds fails with FFD_E_LIMIT and writes nothing; 0: no limit.
+       The job looks at the time at least between its steps. */
+    double timeout;
 } ffd_deform_desc;
 
 /* Sets desc to defaults: all members 0, NULL or false. size: sizeof(ffd_deform_desc) in the caller's

@@ -3,12 +3,14 @@
 #include "base/memory/memory.h"
 #include "base/struct_size.h"
 #include "base/system/clock.h"
+#include "base/system/deadline.h"
 #include "base/system/thread.h"
 #include "base/vector/isa.h"
 #include "job/chain/chain_load.h"
 #include "job/chain/job_cache.h"
 #include "job/chain/lattice_memory.h"
 #include "job/chain/overlaps.h"
+#include "job/chain/pace.h"
 #include "job/input/deform_desc.h"
 #include "job/input/in_memory.h"
 #include "job/input/selection.h"
@@ -99,6 +101,8 @@ static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
         return ffd_fail(error, FFD_E_ARGUMENT, "the falloff %g is not a length", desc->falloff);
     if (!(desc->snap >= 0 && isfinite(desc->snap)))
         return ffd_fail(error, FFD_E_ARGUMENT, "the snap %g is not a length", desc->snap);
+    if (!(desc->timeout >= 0))
+        return ffd_fail(error, FFD_E_ARGUMENT, "the timeout %g is not a time", desc->timeout);
     if (desc->falloff > 0 && desc->outside != FFD_OUTSIDE_EXTEND)
         return ffd_fail(error, FFD_E_ARGUMENT, "--falloff needs --outside extend");
     if (desc->positions && desc->morphs)
@@ -171,9 +175,12 @@ ffd_status ffd_job_for_caller(deform_job_function run, const ffd_deform_desc *ca
     if (status)
         return status;
     const size_t size = callers_result->struct_size;
+    deadline own;
     status = ffd_deform_desc_take(callers, &desc, &result.error);
+    const deadline *const before = ffd_deadline_begin(&own, status ? 0 : desc.timeout);
     if (!status)
         status = run_in_memory(run, &desc, &result, size);
+    ffd_deadline_end(before);
     if (status && error)
         *error = result.error;
     result.status = status;
@@ -254,6 +261,8 @@ ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_erro
                                "has no nodes that could follow: only glTF has (--rig follow)");
     if (!status)
         ffd_result_note_flaws(result, &job->document->flaws);
+    if (!status)
+        status = ffd_deadline_check(error);
     for (size_t l = 0; l < job->chain.count; l++)
         result->own_box = result->own_box || !job->chain.links[l].locator;
     result->seconds_read = ffd_clock_seconds() - start;
@@ -447,6 +456,12 @@ static ffd_status deform(deform_job *job, const figure_arrays *arrays, ffd_error
     const bool keeps = job->chain.count == 1 && !job->desc->embedding && !job->forgets_locations;
     ffd_share *const share = keeps ? job->desc->share : NULL;
     const hash128 rest = located_in(&job->chain.links[0]);
+    chain_pace pace = {.points = (double)ffd_mesh_vertex_count(job->document),
+                       .threads = job->threads,
+                       .links = job->chain.links,
+                       .lattices = job->desc->lattices,
+                       .more = arrays->has_faces ? ", and edges longer (see --timeout)" : " (see --timeout)",
+                       .log = job->log};
     bool is_located;
     ffd_location *const locations =
         ffd_cache_locations(share, job->document, job->document_is_shared, &rest, &is_located);
@@ -467,6 +482,7 @@ static ffd_status deform(deform_job *job, const figure_arrays *arrays, ffd_error
                             .statuses = job->details ? job->details->statuses : NULL,
                             .determinants = wants_determinants(job),
                             .bounds_shown = true,
+                            .pace = &pace,
                             .kept = job->kept,
                             .kept_stride = (size_t)ffd_mesh_vertex_count(job->document)};
     recompute_counts counts = {0};
@@ -540,6 +556,8 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
     const double prepared = ffd_clock_seconds();
     result->seconds_read += prepared - start;
     if (!status)
+        status = ffd_deadline_check(error);
+    if (!status)
         status = locate(job, error);
     if (!status)
         status = ffd_tear_figures_prepare(job, &arrays, error);
@@ -551,9 +569,10 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
         ffd_result_fill(result, &job->totals, ffd_clock_seconds() - prepared);
         status = find_left(job, result, error);
     }
-    if (!status) {
+    if (!status)
         status = judge(job, &arrays, result, error);
-    }
+    if (!status)
+        status = ffd_deadline_check(error);
     status = ffd_mapping_judge(job->losses, status, error);
     if (!status)
         ffd_flaws_warn(&job->document->flaws, NULL, &job->file_log);

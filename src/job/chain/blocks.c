@@ -7,6 +7,7 @@
 #include "job/chain/block_faces.h"
 #include "job/chain/common_faces.h"
 #include "job/chain/marks.h"
+#include "job/chain/pace.h"
 #include "job/chain/point_outcome.h"
 #include "job/chain/point_rounding.h"
 #include <float.h>
@@ -219,7 +220,7 @@ static ffd_status look_in_block(const block_work *work, const uint32_t *points, 
     const face_ends ends = ffd_face_ends(link->lattice, ffd_faces_near(link, snap, run));
     for (size_t k = 0; k < count; k++)
         memcpy(blocks->x + 3 * k, run->x + 3 * (size_t)points[k], 3 * sizeof *blocks->x);
-    ffd_status status = ffd_locator_find(link->locator, blocks->x, count, blocks->found, error);
+    ffd_status status = ffd_pace_find(link, blocks->x, count, run->pace, blocks->found, error);
     for (size_t k = 0; k < count && !status; k++) {
         const uint32_t i = points[k];
         blocks->asked[i] = block + 1;

@@ -153,6 +153,8 @@ typedef struct chain_scratch {
     displacement_scratch displacement;
 } chain_scratch;
 
+struct chain_pace;
+
 /* A run of points that is sent through the chain. */
 typedef struct chain_run {
     double *x;                      /* 3 a point: replaced by the new positions */
@@ -161,6 +163,7 @@ typedef struct chain_run {
     bool first_only;                /* blocks: do not look up a point on a face in other blocks too */
     const chain_rounding *rounding; /* NULL: coordinates are exact */
     chain_scratch *scratch;
+    struct chain_pace *pace; /* pace.h; or NULL */
     /* Filled, one entry a point: */
     double *delta;    /* 3: displacement by all links, world units; zeros where nothing acts */
     double *gradient; /* 9: F - I of the whole deformation; or NULL */

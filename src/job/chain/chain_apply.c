@@ -1,5 +1,6 @@
 #include "job/chain/chain_apply.h"
 #include "base/system/clock.h"
+#include "base/system/deadline.h"
 #include "base/vector/array_kernel.h"
 #include "base/vector/vec.h"
 #include "deform/extension.h"
@@ -7,6 +8,7 @@
 #include "job/chain/blocks.h"
 #include "job/chain/common_faces.h"
 #include "job/chain/marks.h"
+#include "job/chain/pace.h"
 #include "job/chain/point_outcome.h"
 #include "job/chain/point_rounding.h"
 #include "lattice/lattice.h"
@@ -50,7 +52,9 @@ static ffd_status extend(const lattice_chain *chain, size_t l, chain_run *run,
     if (run->scratch->locations[i].status == FFD_POINT_INVALID || !link->border)
         return FFD_OK;
     const double reach = link->falloff > 0 ? link->falloff : HUGE_VAL;
-    const ffd_status status = ffd_boundary_find(link->border, run->x + 3 * i, reach, &nearest, error);
+    ffd_status status = link->is_convex ? FFD_OK : ffd_deadline_check(error);
+    if (!status)
+        status = ffd_boundary_find(link->border, run->x + 3 * i, reach, &nearest, error);
     if (status || !nearest.found)
         return status;
     ffd_mark_part(chain, l, run, i, nearest.uvw);
@@ -150,8 +154,8 @@ ffd_status ffd_chain_apply(const lattice_chain *chain, size_t links, chain_run *
     for (size_t l = 0; l < links && !status; l++) {
         const double start = ffd_clock_seconds();
         if (l > 0 || !run->located)
-            status =
-                ffd_locator_find(chain->links[l].locator, run->x, run->count, run->scratch->locations, error);
+            status = ffd_pace_find(&chain->links[l], run->x, run->count, run->pace, run->scratch->locations,
+                                   error);
         const double middle = ffd_clock_seconds();
         if (!status)
             status = apply_link(chain, l, run, error);

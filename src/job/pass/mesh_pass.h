@@ -44,6 +44,7 @@ typedef struct mesh_pass {
     uint8_t *kept;
     size_t kept_stride;
     pass_bounds bounds_of;
+    struct chain_pace *pace; /* told by the calling thread; or NULL */
 } mesh_pass;
 
 #endif

@@ -1,5 +1,6 @@
 #include "job/pass/pass.h"
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include "base/system/thread.h"
 #include "base/vector/array_kernel.h"
 #include "base/vector/vec.h"
@@ -406,6 +407,7 @@ static ffd_status deform_points(part_work *work, tile_scratch *scratch, size_t f
                      .located = recall(work, scratch, first, rounding, totals),
                      .rounding = rounding,
                      .scratch = &scratch->chain,
+                     .pace = scratch == work->scratch ? pass->pace : NULL,
                      .delta = scratch->delta,
                      .gradient = gradients ? scratch->gradient : NULL,
                      .outcomes = scratch->point_outcomes,
@@ -445,7 +447,9 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
     if (atomic_load(&work->stopped))
         return;
     take_points(work, scratch, first, count, totals);
-    scratch->status = deform_points(work, scratch, first, count, gradients, totals);
+    scratch->status = ffd_deadline_check(&scratch->error);
+    if (!scratch->status)
+        scratch->status = deform_points(work, scratch, first, count, gradients, totals);
     if (scratch->status) {
         atomic_store(&work->stopped, true);
         return;
