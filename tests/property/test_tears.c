@@ -19,6 +19,7 @@
 #include "job/chain/seams.h"
 #include "job/judge/tears.h"
 #include <ffd/lattice.h>
+#include <limits.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -225,11 +226,11 @@ static void compare(const scene *s, draw *d, const double low[3], const double h
                                              .chain = &s->chain,
                                              .marks = {marks, count},
                                              .passes = s->chain.count > 1,
-                                             .most = SIZE_MAX,
                                              .budget = &budget},
                                     .marks = marks,
                                     .torn = &torn,
-                                    .threads = 1};
+                                    .threads = 1,
+                                    .most = LLONG_MAX};
     assert_int_equal(ffd_tears_count(&question, &result, NULL), FFD_OK);
     for (size_t e = 0; e < EDGES; e++) {
         const double *const a = positions + 6 * e, *const b = a + 3;

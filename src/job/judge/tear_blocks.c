@@ -71,7 +71,11 @@ static ffd_status find_inside(const tear_field *field, const field_place *places
                      .outcomes = scratch->outcomes};
     for (size_t i = 0; i < count; i++)
         memcpy(scratch->x + 3 * i, places[i].x, 3 * sizeof *scratch->x);
-    return ffd_chain_apply(&field->plain, field->plain.count, &run, error);
+    const ffd_status status = ffd_chain_apply(&field->plain, field->plain.count, &run, error);
+    long long taken = 0;
+    for (size_t i = 0; i < count && !status; i++)
+        taken += scratch->outcomes[i].evaluations;
+    return status ? status : ffd_field_take(field, taken, error);
 }
 
 /* Whether the block that holds a place gives its displacement: that of an end is its own block. */

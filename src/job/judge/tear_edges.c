@@ -370,10 +370,5 @@ ffd_status ffd_tear_edges_list(const tear_mesh *mesh, tear_kind kind, size_t spa
     if (status || edges->count == 0)
         return status;
     status = join_ends(&work, error);
-    if (!status)
-        status = ffd_edges_sort(edges, error);
-    if (!status && kind == TEAR_MOVES && edges->count > mesh->most)
-        status = ffd_fail(error, FFD_E_LIMIT, "%zu edges lead far through the lattice (see --report)",
-                          edges->count);
-    return status;
+    return status ? status : ffd_edges_sort(edges, error);
 }

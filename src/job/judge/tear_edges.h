@@ -30,7 +30,6 @@ typedef struct tear_mesh {
     const vertex_range
         *hidden; /* hidden_count ranges of vertices of the document, ascending: hidden edges are not listed */
     size_t hidden_count;
-    size_t most; /* edges of TEAR_MOVES that may be listed; more are FFD_E_LIMIT */
     const memory_budget *budget;
 } tear_mesh;
 

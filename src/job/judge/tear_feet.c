@@ -1,4 +1,5 @@
 #include "job/judge/tear_feet.h"
+#include "base/system/deadline.h"
 #include "base/vector/vec.h"
 #include "deform/extension.h"
 #include "embed/locator_border.h"
@@ -18,7 +19,9 @@ ffd_status ffd_foot_on_border(const tear_field *field, size_t link, const double
     const chain_link *const of = &field->chain->links[link];
     const boundary *border;
     *foot = (field_foot){.link = link};
-    ffd_status status = ffd_locator_border(of->locator, &border, error);
+    ffd_status status = ffd_deadline_check(error);
+    if (!status)
+        status = ffd_locator_border(of->locator, &border, error);
     if (!status)
         status = ffd_boundary_find(border, x, of->falloff > 0 ? of->falloff : HUGE_VAL, &foot->point, error);
     foot->found = !status && foot->point.found;

@@ -1,8 +1,8 @@
 #include "job/judge/tear_field.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
-#include "embed/locator.h"
 #include "embed/locator_border.h"
+#include "job/chain/pace.h"
 #include "job/chain/point_outcome.h"
 #include "job/judge/tear_blocks.h"
 #include "job/judge/tear_feet.h"
@@ -42,8 +42,12 @@ static ffd_status locate(const tear_field *field, size_t link, const field_place
         memcpy(scratch->link_x + 3 * *asked, scratch->x + 3 * i, 3 * sizeof *scratch->x);
         scratch->asked[(*asked)++] = (uint32_t)i;
     }
-    return ffd_locator_find(field->chain->links[link].locator, scratch->link_x, *asked,
-                            scratch->chain.locations, error);
+    const ffd_status status = ffd_pace_find(&field->chain->links[link], scratch->link_x, *asked, NULL,
+                                            scratch->chain.locations, error);
+    long long taken = 0;
+    for (size_t k = 0; k < *asked && !status; k++)
+        taken += scratch->chain.locations[k].evaluations;
+    return status ? status : ffd_field_take(field, taken, error);
 }
 
 /* Finds the foot of an asked place. One that the link neither holds nor extends to gets no foot. */

@@ -1,5 +1,6 @@
 #include "job/judge/tear_figures.h"
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include "base/text/words.h"
 #include "base/vector/vec.h"
 #include "job/chain/block_nets.h"
@@ -8,6 +9,7 @@
 #include "lattice/lattice.h"
 #include "mesh/mixed_faces.h"
 #include <inttypes.h>
+#include <limits.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -16,11 +18,10 @@
 
 /* Unasked, edges in volumes that are no boxes are cut only if that takes little beside the search for the
    vertices: of a mesh that is coarse beside its lattice all edges may have to be, and in a lattice that
-   overlaps itself each place takes long. An edge is cut at so many places. */
-#define PLACES_OF_EDGE 20
-/* The evaluations that are allowed: this part of those of the search, and so many anyway. */
+   overlaps itself each place takes long. These evaluations are allowed: this part of those of the search, and
+   so many anyway. */
 #define SHARE_OF_SEARCH (1.0 / 8)
-#define FREE_EVALUATIONS 3e5
+#define FREE_EVALUATIONS 5e4
 
 /* Memory of the arrays for each vertex, in bytes. */
 #define ARRAY_BYTES (12 * sizeof(double))
@@ -155,22 +156,20 @@ static void name_part(const deform_job *job, ffd_job_result *result)
         result->tear_stays++;
 }
 
-/* How many edges may be cut. */
-static size_t most_edges(const deform_job *job)
+/* How many evaluations the edges may take. */
+static long long most_evaluations(const deform_job *job)
 {
-    const pass_totals *const totals = &job->totals;
-    const double searched = (double)totals->evaluations, located = (double)totals->located;
-    const double each = PLACES_OF_EDGE * larger_of(searched / larger_of(located, 1), 1);
-    if (is_asked_for(job) || job->chain.marks.parted_count == 0)
-        return SIZE_MAX;
-    return (size_t)((SHARE_OF_SEARCH * searched + FREE_EVALUATIONS) / each);
+    return is_asked_for(job)
+               ? LLONG_MAX
+               : (long long)(SHARE_OF_SEARCH * (double)job->totals.evaluations + FREE_EVALUATIONS);
 }
 
-static void fill_result(const deform_job *job, const mesh_faces *faces, const tear_count *count,
+/* has_all: count is of all edges. */
+static void fill_result(const deform_job *job, const mesh_faces *faces, const tear_count *count, bool has_all,
                         ffd_job_result *result)
 {
     const bool torn = count->edges > 0;
-    result->has_tear = true;
+    result->has_tear = has_all;
     result->tear_edges = count->edges;
     result->tear_largest = count->largest;
     result->tear_vertex = torn ? ffd_faces_number(faces, count->vertex) : count->vertex;
@@ -197,17 +196,18 @@ static ffd_status count_marked(const deform_job *job, const mesh_faces *faces, u
                                        .passes = is_asked_for(job) && job->chain.count > 1,
                                        .deformed = arrays->deformed,
                                        .gradients = arrays->gradients,
-                                       .most = most_edges(job),
                                        .budget = budget},
                               .marks = marks,
                               .torn = job->details ? &job->details->tears : NULL,
-                              .threads = job->threads};
+                              .threads = job->threads,
+                              .most = most_evaluations(job)};
     ffd_status status = list_hidden(job, &hidden, &question.mesh.hidden_count, error);
     question.mesh.hidden = hidden;
-    if (!status)
-        status = ffd_tears_count(&question, &count, error);
-    if (!status)
-        fill_result(job, faces, &count, result);
+    if (status)
+        return status;
+    status = ffd_tears_count(&question, &count, error);
+    if (!status || status == FFD_E_LIMIT)
+        fill_result(job, faces, &count, !status, result);
     ffd_free(hidden);
     return status;
 }
@@ -285,13 +285,14 @@ ffd_status ffd_tear_figures_find(deform_job *job, figure_arrays *arrays, ffd_job
         status = read_and_count(job, planes, arrays, result, &own);
     if (status == FFD_OK)
         return FFD_OK;
-    if (job->desc->fail_on & FFD_GATE_TEAR || status == FFD_E_MEMORY) {
+    if (job->desc->fail_on & FFD_GATE_TEAR || status == FFD_E_MEMORY || ffd_deadline_passed()) {
         if (error)
             *error = own;
         return status;
     }
     ffd_error_format(&own, line, sizeof line);
-    ffd_log_line(&job->log, FFD_LOG_WARNING, "torn edges are not counted: %s", line);
+    ffd_log_line(&job->log, FFD_LOG_WARNING, "torn edges %sare not counted: %s",
+                 result->tear_edges > 0 ? "of which both ends move " : "", line);
     return FFD_OK;
 }
 
@@ -352,7 +353,7 @@ void ffd_tear_figures_warn(const deform_job *job, const ffd_job_result *result)
                                    ? "see --outside extend, --falloff, a larger lattice"
                                : job->desc->only_count ? "--only does not select them"
                                                        : "the matrix of their node or skin has no inverse";
-    if (!result->has_tear || result->tear_edges == 0)
+    if (result->tear_edges == 0)
         return;
     ffd_tear_figures_describe(result, text, sizeof text);
     ffd_log_line(&job->log, FFD_LOG_WARNING, "%s (%s)", text, remedy);

@@ -4,6 +4,7 @@
 
 #include "job/chain/marks.h"
 #include "mesh/mesh.h"
+#include <stdatomic.h>
 
 /* Which lattices act at a place. */
 typedef enum field_by {
@@ -32,6 +33,9 @@ typedef struct tear_field {
     const mesh_faces *faces;
     mark_planes marks;
     lattice_chain plain; /* of blocks: the chain without an extension and a snap */
+    /* The evaluations that are left to all threads; NULL: there is no limit. Whether they suffice does not
+       depend on the order in which threads take them. */
+    atomic_llong *left;
 } tear_field;
 
 /* Scratch memory of a thread. */
@@ -47,5 +51,13 @@ typedef struct field_scratch {
     uint32_t gaps[FIELD_RUN];  /* the places in a gap */
     field_place in_gaps[FIELD_RUN];
 } field_scratch;
+
+/* Takes what a search cost from the evaluations that are left. Errors: FFD_E_LIMIT. */
+static inline ffd_status ffd_field_take(const tear_field *field, long long evaluations, ffd_error *error)
+{
+    return !field->left || atomic_fetch_sub(field->left, evaluations) >= evaluations
+               ? FFD_OK
+               : ffd_fail(error, FFD_E_LIMIT, "they take long in this lattice (see --report)");
+}
 
 #endif

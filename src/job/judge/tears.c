@@ -1,5 +1,6 @@
 #include "job/judge/tears.h"
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include "base/system/thread.h"
 #include "base/vector/vec.h"
 #include "job/judge/tear_cut.h"
@@ -65,6 +66,8 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
     tear_worker *const own = &work->workers[worker];
     const uint64_t *const keys = work->edges.keys + first;
     (void)tile;
+    if (!own->status)
+        own->status = ffd_deadline_check(&own->error);
     if (own->status)
         return;
     own->status = work->kind == TEAR_STAYS ? find_stays(work, keys, last - first, work->steps + first, own)
@@ -176,14 +179,17 @@ static ffd_status count_kind(tear_work *work, ffd_error *error)
 ffd_status ffd_tears_count(const tear_question *question, tear_count *count, ffd_error *error)
 {
     const tear_mesh *const mesh = &question->mesh;
+    atomic_llong left;
     tear_work work = {.question = question,
                       .mesh = mesh,
                       .field = ffd_tear_field_make(mesh->chain, mesh->faces, &mesh->marks),
                       .count = count};
     *count = (tear_count){.vertex = UINT32_MAX};
+    atomic_init(&left, question->most);
     ffd_status status = join_marks(&work, error);
     for (int kind = mesh->stays ? TEAR_STAYS : TEAR_MOVES; kind < TEAR_KINDS && !status; kind++) {
         work.kind = (tear_kind)kind;
+        work.field.left = kind == TEAR_MOVES ? &left : NULL;
         status = count_kind(&work, error);
     }
     if (!status && question->torn)

@@ -12,6 +12,7 @@ typedef struct tear_question {
     uint8_t *marks;
     torn_edges *torn; /* gets the edges with the largest steps, in the document's numbers; or NULL */
     int threads;      /* never change the result */
+    long long most;   /* evaluations along edges of which both ends move; more are FFD_E_LIMIT */
 } tear_question;
 
 typedef struct tear_count {
@@ -22,7 +23,8 @@ typedef struct tear_count {
 } tear_count;
 
 /* Counts the edges whose step exceeds 1e-3 of their length at rest. Vertices that share a position are one,
-   so an edge between two parts counts once. Errors: FFD_E_MEMORY, FFD_E_LIMIT. */
+   so an edge between two parts counts once. Errors: FFD_E_MEMORY, FFD_E_LIMIT, which leaves in count the
+   edges of which one end stays, if those could be counted. */
 ffd_status ffd_tears_count(const tear_question *question, tear_count *count, ffd_error *error);
 
 #endif
