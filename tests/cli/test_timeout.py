@@ -93,8 +93,8 @@ def each_of_several_meshes_has_the_time(run):
 
 
 @case
-def a_proof_of_folds_and_figures_of_edges_end_too(run):
-    """Of a mesh with few vertices the search is not what takes the time."""
+def a_job_of_few_vertices_in_a_large_lattice_ends_too(run):
+    """Reading the lattice and the proof of folds take the time, not the search."""
     draw = random.Random(1)
     points = [[i / 39 + draw.uniform(-0.1, 0.1), j / 39 + draw.uniform(-0.1, 0.1), k / 39 + draw.uniform(-0.1, 0.1)]
               for k in range(40) for j in range(40) for i in range(40)]

@@ -978,7 +978,7 @@ m("cut-beside-the-jump", "condition", "cli_jumps", "const int next = halves[1].d
 m("other-half-forgotten", "left out", "tears", "if (jumps[1 - next]) let_wait(edge, &halves[1 - next]);",
   "if (jumps[1 - next] && edge->count > PARTS)\n        let_wait(edge, &halves[1 - next]);")
 m("edges-cut-without-end", "limit", "cli_jumps", "atomic_fetch_sub(field->left, evaluations) >= evaluations",
-  "atomic_fetch_sub(field->left, evaluations) >= LLONG_MIN + evaluations")
+  "atomic_fetch_sub(field->left, evaluations) >= evaluations - (1LL << 60)")
 m("staying-lost-with-moving", "left out", "cli_jumps", "if (!status || status == FFD_E_LIMIT) fill_result(", "if (!status)\n        fill_result(")
 m("blocks-at-two-places", "left out", "cli_blocks", "bool found = distance(at[0], at[1]) <= off;",
   "bool found = distance(at[0], at[1]) >= 0;")
@@ -1082,7 +1082,6 @@ m("hash-of-one-of-two-files", "condition", "file, cli_batch_resume",
 m("deadline-of-one-thread", "left out", "cli_timeout", "ffd_deadline_set(self->deadline);", "ffd_deadline_set(NULL);")
 m("search-without-deadline", "left out", "cli_timeout", "size = ends ? next_slice(now, seconds) : MOST_POINTS; status = ffd_deadline_check(error);",
   "size = ends ? next_slice(now, seconds) : MOST_POINTS;")
-m("proof-without-deadline", "left out", "cli_timeout", "if (ffd_deadline_passed()) {", "if (ffd_deadline_passed() && boxes < 0) {")
 m("slowness-told-again", "left out", "cli_timeout", "pace->is_told = true;", "pace->is_told = false;")
 m("stream-waited-for", "left out", "cli_timeout", "while (ffd_deadline_left() >= 0) {", "while (ffd_deadline_left() > 1 << 30) {")
 m("timeout-named-stop", "message", "cli_batch_failures, cli_batch", "worker->timed_out = !worker->stopped;",
