@@ -7,6 +7,7 @@
 #include "job/chain/job_cache.h"
 #include "job/conversion.h"
 #include "job/deform_job.h"
+#include "job/input/deform_desc.h"
 #include "job/input/shown_box.h"
 #include "job/input/source.h"
 #include "job/judge/result.h"
@@ -42,7 +43,7 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
                                    .force = desc->force || desc->if_changed,
                                    .resources = desc->resources,
                                    .input = input};
-    if (!ffd_deform_job_writes(desc)) {
+    if (!ffd_deform_desc_writes(desc)) {
         const ffd_status status = check_no_output(desc, error);
         return status ? status : ffd_source_format(&desc->input, &options->format, error);
     }
@@ -285,13 +286,14 @@ static ffd_status run(deform_job *job, ffd_job_result *result, ffd_error *error)
     if (!status)
         status =
             job->desc->morphs ? ffd_morphs_run(job, result, error) : ffd_deform_job_run(job, result, error);
-    if (status || !ffd_deform_job_writes(job->desc))
+    if (status || !ffd_deform_desc_writes(job->desc))
         return status;
     if (job->desc->dry_run)
         return rehearse(job, &options, error);
     const double start = ffd_clock_seconds();
     options.indices_left = &result->indices_left;
     options.bytes_left = &result->bytes_left;
+    options.bounds_left = &result->bounds_left;
     status = save(job, &options, error);
     result->seconds_write = ffd_clock_seconds() - start;
     return status;
@@ -313,7 +315,7 @@ static ffd_status deform(const ffd_deform_desc *desc, ffd_job_result *result, ff
 {
     ffd_share *share = NULL;
     ffd_deform_desc own = *desc;
-    if (!ffd_deform_job_writes(desc)) /* normals are not written */
+    if (!ffd_deform_desc_writes(desc)) /* normals are not written */
         own.normals = FFD_NORMALS_KEEP;
     if (!desc->morphs || ffd_cache_holds_meshes(desc->share))
         return run_job(&own, result, error);

@@ -128,12 +128,13 @@ static inline uint32_t ffd_faces_number(const mesh_faces *faces, uint32_t vertex
 
 /* A thing at a point of the file that is not a vertex: a joint, a camera and so on. */
 typedef struct mesh_place {
-    double at[3];   /* position in the space of the lattice */
-    unsigned kinds; /* a set of PLACE_BIT; 0: no kind, but follow moves it */
-    bool stays;     /* follow does not move it, even if it moves its parent */
-    bool partial;   /* because its mesh is selected only in part */
-    unsigned holds; /* a set of PLACE_HOLDS: sizes that do not follow */
-    size_t number;  /* number for place_name */
+    double at[3];    /* position in the space of the lattice */
+    unsigned kinds;  /* a set of PLACE_BIT; 0: no kind, but follow moves it */
+    bool stays;      /* follow does not move it, even if it moves its parent */
+    bool partial;    /* because its mesh is selected only in part */
+    bool unselected; /* it, or what it places, is not selected: this stays */
+    unsigned holds;  /* a set of PLACE_HOLDS: sizes that do not follow */
+    size_t number;   /* number for place_name */
 } mesh_place;
 #define PLACE_BIT(kind) (1u << (kind)) /* the bit of an ffd_behind_kind */
 
@@ -158,6 +159,8 @@ typedef struct mesh_following {
     uint64_t partial;  /* nodes that stay because their meshes are selected only in part */
     uint64_t unscaled; /* nodes with sizes that do not follow: physics shapes, spring bones, offsets of eyes,
                           splats */
+    uint64_t unselected;  /* nodes that stay because they are not selected, below a node that moves */
+    double unselected_by; /* the largest distance from where that node would carry one of them */
 } mesh_following;
 
 typedef struct mesh_places {
@@ -201,6 +204,7 @@ typedef struct mesh_save_options {
     /* Receives the number of bytes of replaced morph targets and animations that stay in the file unused. May
        be NULL. */
     uint64_t *bytes_left;
+    uint64_t *bounds_left; /* receives the number of bounds in extensions that no longer fit; may be NULL */
 } mesh_save_options;
 
 /* x = linear p + offset, in place. */
@@ -240,7 +244,8 @@ typedef ffd_status mesh_list_places_function(const mesh_document *document, bool
                                              ffd_error *error);
 typedef char *mesh_place_name_function(const mesh_document *document, size_t number);
 typedef ffd_status mesh_count_skins_function(const mesh_document *document, const mesh_places *places,
-                                             const uint8_t *marks, uint64_t *count, ffd_error *error);
+                                             const uint8_t *marks, uint64_t *count, uint64_t *loose,
+                                             ffd_error *error);
 typedef ffd_status mesh_follow_function(mesh_document *document, const mesh_places *places,
                                         mesh_place_move *moves, const mesh_log *log,
                                         mesh_following *following, ffd_error *error);
@@ -331,7 +336,8 @@ typedef struct mesh_format {
     mesh_list_places_function *list_places;
     /* Returns the name of a place, which the caller frees; NULL if memory runs out. */
     mesh_place_name_function *place_name;
-    /* Counts the skins with a marked place (one byte each) among their joints. */
+    /* Counts the skins with a marked place (one byte each) among their joints, and the marked places that are
+       joints of none of these (loose). */
     mesh_count_skins_function *count_skins;
     /* Moves all places with the deformation, and their animations and the skins. To be called after
        begin_results, which resets it, and before vertices are written, because it may set `carried` of parts.
