@@ -14,10 +14,12 @@ typedef struct deadline {
 /* Begins a deadline of the calling thread in this many seconds, unless it has an earlier one; 0: none.
    Returns the deadline before, for ffd_deadline_end. *own must stay until then. */
 const deadline *ffd_deadline_begin(deadline *own, double seconds);
+/* Ends the deadline. */
 void ffd_deadline_end(const deadline *before);
 
-/* The deadline of the calling thread, NULL: none; and setting it in a thread that was started. */
+/* Returns the deadline of the calling thread, NULL: none. */
 const deadline *ffd_deadline_get(void);
+/* Sets it in a thread that was started. */
 void ffd_deadline_set(const deadline *shared);
 
 /* Whether the deadline has passed. Without one it takes no time. */

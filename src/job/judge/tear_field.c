@@ -134,7 +134,7 @@ static ffd_status apply_link(const tear_field *field, size_t link, field_place *
 {
     chain_scratch *const chain = &scratch->chain;
     displacement_batch batch = {.uvw = chain->locations[0].uvw,
-                                .stride = sizeof *chain->locations / sizeof(double),
+                                .stride = sizeof *chain->locations,
                                 .which = chain->inside,
                                 .delta = scratch->delta,
                                 .gradient = scratch->gradient,
