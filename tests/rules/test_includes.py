@@ -105,7 +105,7 @@ LAYERS = {
         "mesh",
     },
     "job/chain": {
-        "base", "base/file", "base/memory", "base/system", "base/vector", "deform", "embed", "embed/boundary",
+        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed", "embed/boundary",
         "embed/frame", "job/input", "lattice", "lattice/file", "mesh",
     },
     "job/pass": {
@@ -122,7 +122,7 @@ LAYERS = {
         "job", "job/chain", "job/input", "job/judge", "job/pass", "lattice/tangent", "points",
     },
     "job/view": {
-        "base", "base/file", "base/memory", "base/text", "base/vector", "job", "job/chain", "job/input", "job/judge",
+        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "job", "job/chain", "job/input", "job/judge",
         "job/pass", "job/report", "lattice", "mesh", "view",
     },
     "batch/manifest": {"base", "base/file", "base/memory", "base/system", "base/text", "json", "mesh"},
