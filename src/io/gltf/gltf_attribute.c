@@ -1,6 +1,5 @@
 #include "io/gltf/gltf_attribute.h"
 #include "base/vector/trig.h"
-#include "io/gltf/decode/gltf_read.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -115,8 +114,9 @@ static void read_transform(const gltf_document *d, uint32_t transform, gltf_texc
                                   .to_v = {-sine * scale[0], cosine * scale[1], offset[1]}};
 }
 
-/* Finds the texture coordinates that a texture of a primitive's material uses. */
-static void find_taken(const gltf_document *d, size_t m, size_t p, uint32_t texture, gltf_texcoords *taken)
+/* Finds the texture coordinates that a texture of a primitive's material uses. Returns the number of their
+   set. */
+static size_t find_taken(const gltf_document *d, size_t m, size_t p, uint32_t texture, gltf_texcoords *taken)
 {
     const uint32_t transform = ffd_gltf_extension(d, texture, "KHR_texture_transform");
     char name[32];
@@ -126,13 +126,13 @@ static void find_taken(const gltf_document *d, size_t m, size_t p, uint32_t text
     snprintf(name, sizeof name, "TEXCOORD_%zu", set);
     taken->accessor = ffd_gltf_attribute(d, m, p, name, 2, 2);
     read_transform(d, transform, taken);
+    return set;
 }
 
-void ffd_gltf_texcoords(const gltf_document *d, size_t m, size_t p, gltf_texcoords *texcoords)
+size_t ffd_gltf_texcoords(const gltf_document *d, size_t m, size_t p, gltf_texcoords *texcoords)
 {
-    find_taken(d, m, p, main_texture(d, material_of(d, m, p)), texcoords);
-    if (texcoords->accessor == GLTF_NONE)
-        find_taken(d, m, p, JSON_NONE, texcoords);
+    const size_t set = find_taken(d, m, p, main_texture(d, material_of(d, m, p)), texcoords);
+    return texcoords->accessor == GLTF_NONE ? find_taken(d, m, p, JSON_NONE, texcoords) : set;
 }
 
 static bool has_further_set(const gltf_document *d, size_t m, size_t p, const gltf_texcoords *texcoords)
@@ -164,11 +164,9 @@ bool ffd_gltf_has_more_texcoords(const gltf_document *d, size_t m, size_t p, con
     return false;
 }
 
-void ffd_gltf_read_texcoords(const gltf_document *d, const gltf_texcoords *texcoords, double *values)
+void ffd_gltf_turn_texcoords(const gltf_texcoords *texcoords, size_t count, double *values)
 {
-    const size_t count = (size_t)d->model.accessors[texcoords->accessor].count;
     const double *to_u = texcoords->to_u, *to_v = texcoords->to_v;
-    ffd_gltf_read(d, texcoords->accessor, 0, count, 2, values);
     for (size_t i = 0; i < count; i++) {
         const double u = values[2 * i], v = values[2 * i + 1];
         values[2 * i] = to_u[0] * u + to_u[1] * v + to_u[2];
