@@ -148,6 +148,11 @@ static void warn(const mesh_model *model, const model_target *target, const mesh
     ffd_model_describe_loss(model, target->holds, lost, sizeof lost);
     if (*lost)
         ffd_log_line(log, FFD_LOG_WARNING, "%s cannot hold: %s", target->name, lost);
+    if (model->odd_texcoords && target->holds & MODEL_HAS_TEXCOORDS)
+        ffd_log_line(log, FFD_LOG_WARNING,
+                     "%zu %s texture coordinates, which are not two numbers for each corner, and %s left out",
+                     model->odd_texcoords, ffd_plural(model->odd_texcoords, "face has", "faces have"),
+                     ffd_plural(model->odd_texcoords, "is", "are"));
     if (model->position_count == 0 && model->features & MODEL_HAS_HIDDEN)
         ffd_log_line(log, FFD_LOG_WARNING, "the displayed scene is empty: the output has no vertices");
     for (size_t k = 0; k < model->morph_count; k++) {

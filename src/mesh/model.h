@@ -105,8 +105,10 @@ typedef struct mesh_model {
     size_t run_count, run_capacity;
     bool wants_details; /* set by the caller who needs material numbers, and: */
     uint64_t *numbers;  /* numbers of positions in the order of `ffd embed`; NULL: they are in that order */
-    size_t nodes_left;  /* nodes that a model cannot represent (GPU instances); refused unless
-                           wants_details */
+    size_t
+        odd_texcoords; /* faces whose texture coordinates were left out: they have not one for each corner */
+    size_t nodes_left; /* nodes that a model cannot represent (GPU instances); refused unless
+                          wants_details */
     intern_table names;
     uint32_t features;     /* set of model_feature; complete after ffd_model_finish */
     memory_budget *budget; /* memory budget of the model and of writing it, borrowed; NULL: unlimited */
