@@ -809,6 +809,21 @@ def attributes_that_are_not_finite(run):
 
 
 @case
+def texture_coordinates_beyond_floats(run):
+    """PLY and glTF hold them as floats: 1e300 is no infinity there."""
+    run.write("still.json", STILL)
+    run.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 1e300 0\nvt 0.5 -1e39\nvt 0.5 0.25\nvn 0 0 1e300\nf 1/1/1 2/2/1 3/3/1\n")
+    for target, name in (("ply", "PLY"), ("glb", "glTF"), ("gltf", "glTF")):
+        run.ffd("deform", "a.obj", f"b.{target}", "-l", "still.json",
+                err=f"a.obj: not finite as numbers of {name}, and zero: 0 normals, 2 texture coordinates, 0 colours")
+        run.ffd("deform", f"b.{target}", "b.obj", "-l", "still.json", "--force", err=anything)
+        equal([line for line in run.text("b.obj").splitlines() if line.startswith("vt")],
+              ["vt 0 0", "vt 0 0", "vt 0.5 0.25"] if target == "ply" else ["vt 0 0", "vt 0 0", "vt 0.5 0.25"], target)
+    run.ffd("deform", "a.obj", "b.off", "-l", "still.json", err=[])
+    check("1e+300 0" in run.text("b.off"), run.text("b.off"))
+
+
+@case
 def a_scene_that_shows_nothing(run):
     made = Scene(nodes=[{"mesh": 0, "extensions": {"KHR_node_visibility": {"visible": False}}}], scene=0, scenes=[{"nodes": [0]}],
                  extensionsUsed=["KHR_node_visibility"])
