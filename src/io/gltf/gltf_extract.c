@@ -84,7 +84,8 @@ static shown_texcoords texcoords_of(const extractor *e, size_t m, size_t p, size
     const gltf_document *const d = e->document;
     shown_texcoords found = {.mesh = GLTF_NONE, .primitive = GLTF_NONE, .node = GLTF_NONE, .set = GLTF_NONE};
     char name[SET_NAME];
-    const size_t set = ffd_gltf_texcoords(d, m, p, &found.taken), node = node_of(e, m, n);
+    bool stands_in;
+    const size_t set = ffd_gltf_texcoords(d, m, p, &found.taken, &stands_in), node = node_of(e, m, n);
     name_set(set, name);
     if (found.taken.accessor == GLTF_NONE ||
         !ffd_gltf_add_shapes(d, m, p, node, name, (size_t)d->model.accessors[found.taken.accessor].count, 2,
@@ -417,10 +418,13 @@ static uint32_t feature_of_attribute(const json_span *tree, uint32_t value)
                                                                                : MODEL_HAS_MORE;
 }
 
-static uint32_t features_of_primitive(const gltf_document *d, size_t m, size_t p)
+static uint32_t features_of_primitive(const extractor *e, size_t m, size_t p)
 {
+    const gltf_document *const d = e->document;
     gltf_texcoords texcoords;
-    ffd_gltf_texcoords(d, m, p, &texcoords);
+    bool stands_in = false;
+    ffd_gltf_texcoords(d, m, p, &texcoords, &stands_in);
+    e->model->other_texcoords += stands_in;
     const uint32_t attributes =
         ffd_json_span_member(&d->tree, ffd_gltf_primitive_value(d, m, p), "attributes");
     uint32_t found = d->model.meshes[m].primitives[p].target_count > 0 ? MODEL_HAS_MORPHS : 0;
@@ -443,7 +447,7 @@ static uint32_t features_of(const extractor *e)
     uint32_t found = 0;
     for (size_t m = 0; m < d->model.mesh_count; m++)
         for (size_t p = 0; p < d->model.meshes[m].primitive_count && is_mesh_drawn(e, m); p++)
-            found |= features_of_primitive(d, m, p);
+            found |= features_of_primitive(e, m, p);
     for (size_t n = 0; n < d->model.node_count; n++)
         found |= d->model.nodes[n].child_count > 0 ? MODEL_HAS_HIERARCHY : 0;
     found |= has_any(d, "materials") ? MODEL_HAS_MATERIALS : 0;
