@@ -503,6 +503,9 @@ typedef struct ffd_job_result {
     uint64_t base_outside;
     uint64_t bounds_left; /* boxes and spheres in glTF extensions and extras that are named as bounds of what
                              was deformed, and stay as they were before */
+    /* Results so far from the origin that float32 changes their shape: the largest rounding error, and the
+       largest side of the part that it changes most, both in the file's space. 0: none. */
+    double precision_error, precision_side;
 } ffd_job_result;
 
 /* Runs a job. It makes all checks before it writes anything; the output is complete or absent. result is

@@ -384,6 +384,7 @@ typedef struct ffd_job_result {
     uint64_t bytes_left;
     uint64_t base_outside;
     uint64_t bounds_left;
+    double precision_error, precision_side;
 } ffd_job_result;
 ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);
 ffd_status ffd_check_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);

@@ -61,6 +61,8 @@ void ffd_result_fill(ffd_job_result *result, const pass_totals *totals, double s
     result->weights_off = totals->weights.off;
     result->weights_farthest = totals->weights.farthest;
     result->weights_none = totals->weights.none;
+    result->precision_error = totals->lost.error;
+    result->precision_side = totals->lost.side;
     const double own = totals->embed_seconds + totals->deform_seconds;
     result->seconds_embed = own > 0 ? seconds * totals->embed_seconds / own : 0;
     result->seconds_deform = seconds - result->seconds_embed;
@@ -273,4 +275,10 @@ void ffd_result_warn(const pass_totals *totals, const lattice_chain *chain, bool
                      ffd_plural(totals->normals_collapsed, "normal is", "normals are"),
                      ffd_plural(totals->normals_collapsed, "it", "them"));
     warn_of_splats(totals, log);
+    if (totals->lost.side > 0)
+        ffd_log_line(
+            log, FFD_LOG_WARNING,
+            "floats cannot hold: the precision of coordinates that far from the origin (off by up to "
+            "%g, in a shape of %g)",
+            totals->lost.error, totals->lost.side);
 }
