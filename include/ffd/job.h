@@ -432,7 +432,8 @@ typedef struct ffd_job_result {
     uint64_t weights_off;         /* vertices whose skin weights do not sum to 1 and are divided by their
                                      sum */
     double weights_farthest;      /* the largest difference of such a sum from 1 */
-    uint64_t weights_none;        /* vertices without skin weights, which follow their first joint */
+    uint64_t weights_none;        /* vertices whose skin weights sum to 0 or less, which follow their first
+                                     joint; weights that are not finite count nowhere */
     bool has_folds;               /* the proof ran: with ffd_check_run, quality and FFD_GATE_FOLDS */
     /* Of all lattices: the worst verdict (some, then unknown, then none), the sums of cells, the least
        min_det, and the witness of the first lattice that has one. */

@@ -156,22 +156,6 @@ static void tell_others(const pass_totals *totals, const chain_outside *outside,
     }
 }
 
-/* Viewers that do not normalize weights show a visibly different shape if a sum is this far from 1. */
-#define WEIGHTS_FAR 0.01
-
-static void tell_weights(const skin_weights *weights, const mesh_log *log)
-{
-    if (weights->off)
-        ffd_log_line(log, weights->farthest > WEIGHTS_FAR ? FFD_LOG_WARNING : FFD_LOG_INFO,
-                     "the skin weights of %" PRIu64
-                     " %s do not add up to 1 (off by up to %g): they are divided by their sum",
-                     weights->off, vertices(weights->off), weights->farthest);
-    if (weights->none)
-        ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " %s no skin weights: %s first joint", weights->none,
-                     ffd_plural(weights->none, "vertex has", "vertices have"),
-                     ffd_plural(weights->none, "it follows its", "they follow their"));
-}
-
 /* Warns about vertices on common faces of lattices. */
 static void warn_of_faces(const pass_totals *totals, const mesh_log *log)
 {
@@ -262,7 +246,6 @@ void ffd_result_warn(const pass_totals *totals, const lattice_chain *chain, bool
                      totals->transforms_singular,
                      ffd_plural(totals->transforms_singular, "vertex does", "vertices do"),
                      ffd_plural(totals->transforms_singular, "its", "their"));
-    tell_weights(&totals->weights, log);
     if (totals->normals_carried)
         ffd_log_line(log, FFD_LOG_WARNING,
                      "%" PRIu64 " %s no face with an area to be computed from: %s the deformation",
