@@ -218,6 +218,20 @@ static obj_keyword keyword_of(text_word word)
     return OBJ_OTHER;
 }
 
+bool ffd_obj_is_known(text_word name)
+{
+    static const char *const others[] = {
+        "s",         "mg",    "vp",       "cstype",   "deg",  "bmat",   "step",   "curv",
+        "curv2",     "surf",  "parm",     "trim",     "hole", "scrv",   "sp",     "end",
+        "con",       "bevel", "c_interp", "d_interp", "lod",  "usemap", "maplib", "shadow_obj",
+        "trace_obj", "ctech", "stech",    "call",     "csh",  "bsp",    "bzp",    "cdc",
+        "cdp",       "res",   "fo",       "vc",       "vw",   "t"};
+    bool known = keyword_of(name) != OBJ_OTHER;
+    for (size_t i = 0; i < sizeof others / sizeof *others && !known; i++)
+        known = ffd_text_is(name, others[i]);
+    return known;
+}
+
 bool ffd_obj_scan_next(obj_scan *scan)
 {
     if (take_next_line(scan))
