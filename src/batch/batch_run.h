@@ -4,6 +4,7 @@
 #define FFD_BATCH_BATCH_RUN_H
 
 #include "base/file/path.h"
+#include "base/memory/intern.h"
 #include "batch/batch.h"
 #include "batch/journal.h"
 #include "batch/mesh_states.h"
@@ -30,6 +31,7 @@ typedef struct batch_run {
     path_list outputs;    /* outputs that depend on box_files */
     run_outputs written;  /* files claimed so far */
     mesh_states meshes;   /* states of the meshes read so far */
+    intern_table boxed;   /* names (as hashes) of the meshes round each of which a lattice's box was laid */
     uint64_t jobs;        /* number of jobs read so far */
     batch_progress progress;
     batch_counts counts;

@@ -53,6 +53,7 @@ typedef struct pool_task {
     byte_buffer copied;       /* and files that may be copied, each path terminated by 0 */
     bool was_returned;        /* a worker had ended before it could take the task */
     bool noted;               /* its end was handled (ffd_run_note_ends) */
+    bool own_box;             /* a lattice's box was laid round its mesh */
     bool took_row;            /* its row may have been written to */
     /* After the end: */
     wire_outcome outcome;
