@@ -4,6 +4,7 @@
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "embed/cells/leaf.h"
+#include "embed/cells/region_root.h"
 #include "embed/cells/tolerance_image.h"
 #include "embed/frame/face.h"
 #include <string.h>
