@@ -14,15 +14,14 @@ static bool is_placed(const ffd_location *location)
     return vec_is_finite(location->uvw);
 }
 
-/* 16 eps (max|P_a| + |p_a|), sizes as in the file, times the weight ratio; and those of the origins that the
-   library takes: the middle of the control points or a corner of the box. */
+/* 16 eps (max|P_a| + |p_a|), sizes as in the file, whatever the weights are; and those of the origins that
+   the library takes: the middle of the control points or a corner of the box. */
 static void tolerance_of(const probe *of, bool is_affine, const double p[3], double tolerance[3])
 {
     for (int a = 0; a < 3; a++) {
         const double extent = is_affine ? 3 * of->extent[a] : of->extent[a];
-        tolerance[a] = 16 * DBL_EPSILON *
-                       fmax(extent + fabs(p[a] - of->centre[a]), of->magnitude[a] + fabs(p[a])) *
-                       of->weight_ratio;
+        tolerance[a] =
+            16 * DBL_EPSILON * fmax(extent + fabs(p[a] - of->centre[a]), of->magnitude[a] + fabs(p[a]));
         /* The box of the file, not its rounded control points, is the map then. */
         if (is_affine)
             tolerance[a] += 4 * DBL_EPSILON * of->magnitude[a];
@@ -88,7 +87,7 @@ static bool is_exact(const probe *of, bool is_affine, const double p[3])
     tolerance_of(of, false, p, tolerance);
     for (int a = 0; a < 3; a++) {
         const double rounding = DBL_EPSILON * (is_affine ? of->magnitude[a] : fabs(p[a]));
-        if (!(rounding <= tolerance[a] / of->weight_ratio / 4))
+        if (!(rounding <= tolerance[a] / 4))
             return false;
     }
     return true;

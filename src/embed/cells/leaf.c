@@ -50,7 +50,7 @@ static bool newton_stride(point_search *search, const cell_region *region, const
     ffd_search_evaluate_in(search, region, ahead->t, &ahead->at);
     mat_apply(region->inverse, ahead->at.equation, image);
     ahead->radius = (vec_greatest(image) + noise) / (1 - region->bound);
-    return ahead->radius <= shorter || ffd_search_accepts(search, &ahead->at, region->weight_ratio);
+    return ahead->radius <= shorter || ffd_search_accepts(search, region, ahead->t, &ahead->at);
 }
 
 /* Invariant: if there is a root, |t - root| <= e. The map t - Y F contracts distances to the root by L,
@@ -67,7 +67,7 @@ bool ffd_search_region(point_search *search, const cell_region *region, root *st
     for (int i = 0; i < LEAF_STEPS; i++) {
         stride ahead;
         e = e > least ? e : least;
-        if (ffd_search_accepts(search, &at, region->weight_ratio)) {
+        if (ffd_search_accepts(search, region, t, &at)) {
             ffd_search_record(search, region, t, &at, false);
             return true;
         }

@@ -1,6 +1,7 @@
 #include "embed/cells/leaf_exit.h"
 #include "base/vector/vec.h"
 #include "embed/cells/region_root.h"
+#include "embed/cells/tolerance_image.h"
 #include "embed/frame/face.h"
 #include <float.h>
 #include <string.h>
@@ -23,7 +24,7 @@ static bool evaluate_on_face(void *context, const double t[3], double jacobian[9
     memcpy(jacobian, face->at.jacobian, sizeof face->at.jacobian);
     memcpy(equation, face->at.equation, sizeof face->at.equation);
     return face->admits ? ffd_search_admits(face->search, face->region, t, &face->at)
-                        : ffd_search_accepts(face->search, &face->at, face->region->weight_ratio);
+                        : ffd_search_accepts(face->search, face->region, t, &face->at);
 }
 
 /* Returns whether a face of the region is on the border of the domain. */
@@ -163,18 +164,20 @@ static bool is_sliver(const double inverse[9], const double allowance[3])
     return most > SLIVER * least;
 }
 
-/* Returns whether Newton's step, which ends within e of any root, leads out of the region. At an inner face
-   it must do so by more than the tolerance, so that a root on the face is not dropped by both neighbours. On
-   the border of the domain the closest point was examined before, and misses. Across a sliver that is
-   doubtful, unless the step leads out by more than the tolerance: t may stop so far from an edge or a corner
-   of the domain that the closest point there was never examined. */
+/* Returns whether Newton's step, which ends within e of any root, leads out of the region by more than the
+   curvature and the tolerance explain: then there is no root. If not surely, an estimate of the curvature is
+   enough at the border of the domain, without the tolerance: what is within it there was looked for. Across a
+   sliver that is doubtful: t may stop so far from an edge or a corner of the domain that the points there
+   were never examined. */
 static bool leads_out_by_step(point_search *search, const cell_region *region, const double t[3],
-                              const sample *at, const double allowance[3], double e)
+                              const sample *at, double e, bool surely)
 {
-    double inverse[9], step[3], reach[3], usual, most = 0;
+    double allowance[3], inverse[9], step[3], reach[3], usual, most = 0;
     const double change = change_of_jacobian(search, region, e, &usual);
-    if (usual > MOST_CHANGE || !mat_invert(at->jacobian, inverse))
+    const double bent = surely ? change : usual;
+    if (usual > MOST_CHANGE || !(bent < MOST_CHANGE) || !mat_invert(at->jacobian, inverse))
         return false;
+    ffd_search_allowance(search, region, t, at, allowance);
     mat_apply(inverse, at->equation, step);
     for (int a = 0; a < 3; a++) {
         const double *row = inverse + 3 * a;
@@ -182,29 +185,51 @@ static bool leads_out_by_step(point_search *search, const cell_region *region, c
                    (fabs(row[0]) * allowance[0] + fabs(row[1]) * allowance[1] + fabs(row[2]) * allowance[2]);
         most = larger_of(most, fabs(step[a]) + reach[a]);
     }
+    const double bend = bent * most / (1 - bent);
     for (int a = 0; a < 3; a++) {
-        const double to = t[a] - step[a], out = to < 0 ? -to : to - 1, bend = usual * most / (1 - usual);
-        if (change < MOST_CHANGE && out > change * most / (1 - change) + reach[a])
-            return true;
-        if (search->strict || !(out > bend) || !is_domain_face(search->locator, region, a, to > 0))
+        const double to = t[a] - step[a], out = to < 0 ? -to : to - 1;
+        const bool is_far = out > bend + reach[a];
+        if (surely ? !is_far : !(out > bend) || !is_domain_face(search->locator, region, a, to > 0))
             continue;
-        if (!(out > bend + reach[a]) && is_sliver(inverse, allowance))
+        if (!is_far && is_sliver(inverse, allowance))
             search->doubtful = true;
         return true;
     }
     return false;
 }
 
-/* Returns whether the region has no root: by the contraction, by Newton's step, or because t, on a face, is
-   the closest point of the region, and misses; the last is an estimate as well. */
-static bool leads_out(point_search *search, const cell_region *region, const double t[3], const sample *at)
+/* Returns whether it is proven that the region has no root. Sets e, a bound of the distance of t from a
+   root. */
+static bool is_empty(point_search *search, const cell_region *region, const double t[3], const sample *at,
+                     double *e)
 {
-    double allowance[3], e;
-    if (leaves_by_contraction(search, region, t, at, &e))
-        return true;
+    return leaves_by_contraction(search, region, t, at, e) ||
+           leads_out_by_step(search, region, t, at, *e, true);
+}
+
+/* Returns whether estimates say so: of Newton's step, or because t, on a face, is the closest point of the
+   region, and misses. */
+static bool seems_empty(point_search *search, const cell_region *region, const double t[3], const sample *at,
+                        double e)
+{
+    double allowance[3];
+    if (search->strict)
+        return false;
     ffd_search_allowance(search, region, t, at, allowance);
-    return leads_out_by_step(search, region, t, at, allowance, e) ||
-           (!search->strict && 8 * region->bound * e <= MOST_CHANGE && is_closest(t, at, allowance));
+    return leads_out_by_step(search, region, t, at, e, false) ||
+           (8 * region->bound * e <= MOST_CHANGE && is_closest(t, at, allowance));
+}
+
+/* Finds a root next to t: the closest point of the border, in least squares, may miss in one coordinate where
+   another point is within the tolerance in all three. */
+static bool find_beside(point_search *search, const cell_region *region, const double t[3])
+{
+    double beside[3] = {t[0], t[1], t[2]};
+    sample at;
+    if (!ffd_tolerance_find(search, region, beside, &at))
+        return false;
+    ffd_search_record(search, region, beside, &at, false);
+    return true;
 }
 
 static bool is_within_box(const double t[3])
@@ -216,7 +241,7 @@ static bool is_within_box(const double t[3])
 static bool settle(face_search *face, double t[3])
 {
     const sample at = face->at;
-    if (ffd_search_accepts(face->search, &at, face->region->weight_ratio) ||
+    if (ffd_search_accepts(face->search, face->region, t, &at) ||
         ffd_face_settle(face->search->aim, false, evaluate_on_face, face, t))
         return true;
     const bool admitted = ffd_search_admits(face->search, face->region, t, &at);
@@ -280,7 +305,7 @@ static bool calm_down(point_search *search, const cell_region *region, double t[
         double allowance[3], to[3];
         sample ahead;
         ffd_search_allowance(search, region, t, at, allowance);
-        if (ffd_within_tolerance(at->residual, allowance))
+        if (ffd_search_admits(search, region, t, at))
             return true;
         if (!damped_step(at, allowance, damping, t, to) || memcmp(t, to, sizeof to) == 0)
             return false;
@@ -298,11 +323,13 @@ static bool calm_down(point_search *search, const cell_region *region, double t[
 bool ffd_search_end(point_search *search, const cell_region *region, double t[3], sample *at, root *stall)
 {
     face_search face = {.search = search, .region = region, .at = *at};
+    double e;
     if (settle(&face, t))
         ffd_search_record(search, region, t, &face.at, false);
     else if (calm_down(search, region, t, at))
         ffd_search_record(search, region, t, at, false);
-    else if (!leads_out(search, region, t, at)) {
+    else if (!is_empty(search, region, t, at, &e) && !find_beside(search, region, t) &&
+             !seems_empty(search, region, t, at, e)) {
         ffd_search_stall(search, region, t, at, stall);
         return false;
     }

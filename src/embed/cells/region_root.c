@@ -1,6 +1,10 @@
 #include "embed/cells/region_root.h"
 #include "base/vector/vec.h"
+#include "embed/frame/slabs.h"
 #include <float.h>
+
+/* With weights: the share of the aim at which a root is accepted, for the same reason as TOLERANCE_SHARE. */
+#define AIM_SHARE 0.5
 
 static void offset_of(const cell_region *region, const double t[3], double offset[3])
 {
@@ -17,25 +21,56 @@ void ffd_search_evaluate_in(point_search *search, const cell_region *region, con
         at->jacobian[i] *= region->width[i % 3];
 }
 
+/* Computes how far the rounding of u,v,w can move t. */
+static void find_grain(const cell_region *region, const double t[3], double grain[3])
+{
+    for (int a = 0; a < 3; a++)
+        grain[a] = DBL_EPSILON * (region->lo[a] / region->width[a] + t[a]);
+}
+
 void ffd_search_allowance(const point_search *search, const cell_region *region, const double t[3],
                           const sample *at, double allowance[3])
 {
+    double grain[3];
+    find_grain(region, t, grain);
     for (int r = 0; r < 3; r++) {
         double jump = 0;
-        for (int a = 0; a < 3; a++) {
-            const double grain = DBL_EPSILON * (region->lo[a] / region->width[a] + t[a]);
-            jump += fabs(at->jacobian[3 * r + a]) * grain;
-        }
-        allowance[r] = search->tolerance[r] * region->weight_ratio + jump / at->weight;
+        for (int a = 0; a < 3; a++)
+            jump += fabs(at->jacobian[3 * r + a]) * grain[a];
+        allowance[r] = search->tolerance[r] + jump / at->weight;
     }
+}
+
+/* Returns whether a tolerance and the rounding of u,v,w, of both this share, explain the residual. */
+static bool is_explained(const double tolerance[3], double share, const cell_region *region,
+                         const double t[3], const sample *at)
+{
+    double allowed[3], grain[3];
+    find_grain(region, t, grain);
+    for (int a = 0; a < 3; a++) {
+        allowed[a] = share * at->weight * tolerance[a];
+        grain[a] *= share;
+    }
+    return ffd_residual_is_explained(at->equation, at->jacobian, allowed, grain);
+}
+
+bool ffd_search_accepts(const point_search *search, const cell_region *region, const double t[3],
+                        const sample *at)
+{
+    return search->locator->cells->rational ? is_explained(search->aim, AIM_SHARE, region, t, at)
+                                            : ffd_within_tolerance(at->residual, search->aim);
 }
 
 bool ffd_search_admits(const point_search *search, const cell_region *region, const double t[3],
                        const sample *at)
 {
-    double allowance[3];
-    ffd_search_allowance(search, region, t, at, allowance);
-    return ffd_within_tolerance(at->residual, allowance);
+    return is_explained(search->tolerance, TOLERANCE_SHARE, region, t, at);
+}
+
+bool ffd_search_meets(const point_search *search, const cell_region *region, const double t[3],
+                      const sample *at)
+{
+    return is_explained(search->tolerance, 1, region, t, at);
 }
 
 /* Fills a root at t, whose sample is `at`. */
@@ -53,7 +88,7 @@ static void find_root(const point_search *search, const cell_region *region, con
     if (mat_invert(at->jacobian, inverse))
         for (int a = 0; a < 3; a++) {
             const double *row = inverse + 3 * a;
-            found->spread[a] = 4 * region->width[a] * at->weight * region->weight_ratio *
+            found->spread[a] = 4 * region->width[a] * at->weight *
                                (fabs(row[0]) * search->tolerance[0] + fabs(row[1]) * search->tolerance[1] +
                                 fabs(row[2]) * search->tolerance[2]);
         }

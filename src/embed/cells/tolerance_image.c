@@ -72,8 +72,7 @@ static bool make_image(const point_search *search, const cell_region *region, co
     for (int r = 0; r < 3; r++) {
         double size = 0;
         image->equation[r] = region->centre[r] - search->x[r] * region->centre[3];
-        image->allowance[r] = region->greatest_weight *
-                              (search->tolerance[r] * region->weight_ratio + rounding * search->aim[r]);
+        image->allowance[r] = region->greatest_weight * (search->tolerance[r] + rounding * search->aim[r]);
         for (int i = 0; i < 9; i++)
             size += fabs(region->inverse[3 * r + i / 3] * image->jacobian[i]);
         most = larger_of(most, size);
@@ -137,39 +136,19 @@ tolerance_view ffd_tolerance_view(const point_search *search, const cell_region 
 
 /* A point in both */
 
-/* Makes the slabs of steps d from t: those that stay in the region, and those that lead to a root of the
-   linearisation at t. */
-static void make_slabs(const point_search *search, const cell_region *region, const double t[3],
-                       const sample *at, slab slabs[SLABS])
-{
-    for (int a = 0; a < 3; a++) {
-        slab *const side = &slabs[a], *const end = &slabs[3 + a];
-        for (int b = 0; b < 3; b++) {
-            side->row[b] = a == b;
-            end->row[b] = at->jacobian[3 * a + b];
-        }
-        side->middle = 0.5 - t[a];
-        side->half = 0.5;
-        end->middle = -at->equation[a];
-        end->half = at->weight * search->tolerance[a] * region->weight_ratio;
-    }
-}
-
 bool ffd_tolerance_find(point_search *search, const cell_region *region, double t[3], sample *at)
 {
-    for (int a = 0; a < 3; a++)
-        t[a] = 0.5;
     for (int step = 0; step < FIND_STEPS; step++) {
-        slab slabs[SLABS];
-        double d[3];
+        const step_box box = steps_in_unit_box(t);
+        double allowed[3], d[3];
         ffd_search_evaluate_in(search, region, t, at);
-        if (ffd_search_admits(search, region, t, at))
+        if (ffd_search_meets(search, region, t, at))
             return true;
-        make_slabs(search, region, t, at, slabs);
-        if (!ffd_slabs_find(slabs, d))
-            return false;
         for (int a = 0; a < 3; a++)
-            t[a] = clip_to_unit(t[a] + d[a]);
+            allowed[a] = at->weight * search->tolerance[a];
+        if (!ffd_slabs_find(&box, at->equation, at->jacobian, allowed, d))
+            return false;
+        step_from(t, d, t);
     }
     return false;
 }
