@@ -70,7 +70,7 @@ bool ffd_search_admits(const point_search *search, const cell_region *region, co
 bool ffd_search_meets(const point_search *search, const cell_region *region, const double t[3],
                       const sample *at)
 {
-    return is_explained(search->tolerance, 1, region, t, at);
+    return is_explained(search->tolerance, BORDER_SHARE, region, t, at);
 }
 
 /* Fills a root at t, whose sample is `at`. */

@@ -20,7 +20,7 @@ bool ffd_search_accepts(const point_search *search, const cell_region *region, c
    weights a share of both is left for the rounding of C itself. */
 bool ffd_search_admits(const point_search *search, const cell_region *region, const double t[3],
                        const sample *at);
-/* The same without leaving a share, for a t at which the residual is nearly the least. */
+/* The same with a smaller share left, for a t at which the residual is nearly the least. */
 bool ffd_search_meets(const point_search *search, const cell_region *region, const double t[3],
                       const sample *at);
 

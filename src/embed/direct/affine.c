@@ -208,7 +208,7 @@ static bool find_within(affine_point *point, double t[3])
     if (!ffd_slabs_find(&box, equation, point->map->frame, point->tolerance, step))
         return false;
     step_from(t, step, to);
-    point->share = 1;
+    point->share = BORDER_SHARE;
     if (!evaluate_on_face(point, to, jacobian, equation))
         return false;
     memcpy(t, to, sizeof to);

@@ -67,6 +67,8 @@ static inline void ffd_locator_aim(const ffd_locator *locator, const double p[3]
    rounding of C itself, and of u,v,w in the range of the knots, so that the residual is within the tolerance
    when it is computed exactly. */
 #define TOLERANCE_SHARE (15.0 / 16)
+/* The same where no root is better: on the border, as near as it comes. */
+#define BORDER_SHARE (31.0 / 32)
 
 /* Computes the tolerance of p relative to the origin. */
 static inline void ffd_locator_tolerance(const ffd_locator *locator, const double p[3], double tolerance[3])
