@@ -1,8 +1,11 @@
 #include "batch/pool.h"
 #include "base/file/temporary.h"
 #include "base/memory/memory.h"
+#include "base/system/cgroup.h"
 #include "base/system/clock.h"
-#include "base/system/thread.h"
+#include "base/system/processors.h"
+#include "base/text/words.h"
+#include "batch/manifest/job_memory.h"
 #include <ffd/job.h>
 #include <stdio.h>
 #include <string.h>
@@ -16,8 +19,10 @@ typedef struct pool_worker {
     pool_task *task;         /* NULL: idle */
     byte_buffer answer;      /* bytes received so far */
     hash128 mesh;            /* of the current or last task */
+    uint64_t memory;         /* bytes that this task may take: the worker keeps its mesh */
     bool has_mesh, timed_out, stopped, retires;
     bool was_told;   /* the task was sent */
+    bool is_unheard; /* its message is invalid, or memory ran out for it */
     bool is_ending;  /* its time is up */
     double deadline; /* 0: none */
 } pool_worker;
@@ -28,6 +33,8 @@ struct worker_pool {
     pool_worker *workers;       /* desc.workers entries */
     worker_process **processes; /* the same processes, as an array to wait for */
     bool rehearsed;             /* dry run: a job was tried, all but writing */
+    uint64_t memory;            /* bytes that all workers together may take; UINT64_MAX: no limit */
+    pool_shortage shortage;     /* if needed > 0 */
     pool_counts counts;
 };
 
@@ -38,6 +45,7 @@ ffd_status ffd_pool_create(const pool_desc *desc, worker_pool **pool, ffd_error 
         return ffd_fail_memory(error);
     (*pool)->desc = *desc;
     (*pool)->processors = ffd_processor_count();
+    (*pool)->memory = desc->workers == 0 ? ffd_cgroup_memory_limit(CGROUP_SELF) : UINT64_MAX;
     if (desc->workers == 0)
         (*pool)->desc.workers = (*pool)->processors;
     const size_t workers = (size_t)(*pool)->desc.workers;
@@ -80,10 +88,12 @@ static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_t
     append_word(&text, ffd_job_output_name(job) ? ffd_job_output_name(job) : "");
     append_word(&text, task->picture ? task->picture : "");
     append_word(&text, desc->rows ? desc->rows->path : "");
+    ffd_buffer_append(&text, task->passed.data, task->passed.size);
     head.line = job->line;
     head.text_size = text.size - sizeof head;
     head.word_count = (uint32_t)job->word_count;
     head.content_words = count_words(&job->content);
+    head.passed_count = count_words(&task->passed) / 2;
     head.threads = threads;
     head.record = task->record;
     head.has_record = task->has_record;
@@ -109,6 +119,12 @@ static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_t
         head.is_double = desc->rows->is_double;
     }
     head.look = task->looks;
+    head.look_at_mesh = task->needs.mesh;
+    head.look_at_lattices = task->needs.lattices;
+    head.look_only = task->looks_only;
+    head.survey = task->looks && task->surveys;
+    head.tells = desc->tells;
+    head.is_unsurveyed = task->is_unsurveyed;
     head.has_box = desc->box != NULL;
     if (desc->box)
         head.box = *desc->box;
@@ -153,18 +169,85 @@ static pool_task *choose(const worker_pool *pool, const pool_worker *worker, poo
     return first;
 }
 
-/* Counts the tasks that can run at the same time, including running ones: at most one a worker, and one for
-   each large mesh. */
+/* Memory */
+
+/* Returns the memory that is left beside the workers that run and, unless worker is NULL, all other idle
+   ones. */
+static uint64_t memory_beside(const worker_pool *pool, const pool_worker *worker)
+{
+    uint64_t left = pool->memory;
+    for (int i = 0; i < pool->desc.workers; i++) {
+        const pool_worker *const other = &pool->workers[i];
+        if (other->task || (worker && other != worker && other->process))
+            left -= other->memory < left ? other->memory : left;
+    }
+    return left;
+}
+
+/* Whether a task fits into this much memory. */
+static bool fits(const worker_pool *pool, pool_task *task, uint64_t left)
+{
+    if (task->memory == 0 && left < UINT64_MAX)
+        task->memory = ffd_job_memory(&task->job, pool->desc.draws);
+    return task->memory <= left;
+}
+
+/* Ends a worker. end: how it ended; or NULL. */
+static void finish_worker(pool_worker *worker, process_end *end)
+{
+    ffd_process_finish(&worker->process, end);
+    ffd_buffer_free(&worker->answer);
+    worker->has_mesh = worker->retires = false;
+}
+
+static void note_shortage(worker_pool *pool, const pool_task *task)
+{
+    pool_shortage *const shortage = &pool->shortage;
+    if (shortage->needed > 0)
+        return;
+    *shortage = (pool_shortage){.limit = pool->memory,
+                                .needed = task->memory,
+                                .running = (int)ffd_pool_running(pool),
+                                .processors = pool->processors};
+    ffd_name_shown(task->job.input, shortage->name, sizeof shortage->name);
+}
+
+/* Whether memory suffices for an idle worker's next task, if need be without the other idle workers, which
+   are ended. Else the task waits for those that run; but one always may. */
+static bool make_room(worker_pool *pool, const pool_worker *worker, pool_task *task)
+{
+    for (int i = 0; i < pool->desc.workers && !fits(pool, task, memory_beside(pool, worker)); i++) {
+        pool_worker *const other = &pool->workers[i];
+        if (other != worker && !other->task)
+            finish_worker(other, NULL);
+    }
+    if (fits(pool, task, memory_beside(pool, worker)) || ffd_pool_running(pool) == 0)
+        return true;
+    note_shortage(pool, task);
+    return false;
+}
+
+const pool_shortage *ffd_pool_shortage(const worker_pool *pool)
+{
+    return pool->shortage.needed > 0 ? &pool->shortage : NULL;
+}
+
+/* Counts the tasks that can run at the same time, including running ones: at most one a worker, one for each
+   large mesh, and as many as memory allows. */
 static int count_runnable(const worker_pool *pool, pool_task *const *tasks, size_t count)
 {
     int found = (int)ffd_pool_running(pool);
     const hash128 *large = NULL;
+    uint64_t left = memory_beside(pool, NULL);
     for (size_t i = 0; i < count && found < pool->desc.workers; i++) {
-        const pool_task *const task = tasks[i];
+        pool_task *const task = tasks[i];
         if (!task || !ffd_task_is_pending(task))
             continue;
         if (task->is_large && ((large && ffd_hash_equal(large, &task->mesh)) || is_taken(pool, NULL, task)))
             continue;
+        if (!fits(pool, task, left))
+            break;
+        left -= left < UINT64_MAX ? task->memory : 0;
         found++;
         large = task->is_large ? &task->mesh : large;
     }
@@ -175,8 +258,9 @@ static void begin_task(const worker_pool *pool, pool_worker *worker, pool_task *
 {
     worker->task = task;
     worker->mesh = task->mesh;
+    worker->memory = task->memory;
     worker->has_mesh = true;
-    worker->timed_out = worker->stopped = worker->is_ending = false;
+    worker->timed_out = worker->stopped = worker->is_ending = worker->is_unheard = false;
     worker->deadline = pool->desc.timeout > 0 ? ffd_clock_seconds() + pool->desc.timeout : 0;
     task->looks = task->state == TASK_NEW;
     task->took_row = pool->desc.rows != NULL;
@@ -191,6 +275,8 @@ ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t co
         pool_task *const task = worker->task ? NULL : choose(pool, worker, tasks, count);
         if (!task)
             continue;
+        if (!make_room(pool, worker, task))
+            return FFD_OK; /* none of the others goes first: the task could wait for ever */
         const ffd_status status =
             worker->process ? FFD_OK : ffd_process_start(WORKER_NAME, &worker->process, error);
         if (status && ffd_pool_running(pool) > 0)
@@ -220,14 +306,15 @@ static void end_task(pool_worker *worker, wire_outcome outcome)
 }
 
 /* Takes the result of a look; the task goes back to the window. */
-static void take_look(pool_worker *worker, const wire_answer *head, const char *copied)
+static void take_look(pool_worker *worker, const wire_answer *head, const char *found)
 {
     pool_task *const task = worker->task;
-    ffd_buffer_append(&task->copied, copied, head->rule_size);
+    ffd_buffer_append(&task->found, found, head->rule_size);
     task->beside = (size_t)head->beside;
+    task->has_looked = true;
     task->was_returned = false;
     worker->retires = head->retires;
-    if (head->out_of_memory || task->copied.failed) {
+    if (head->out_of_memory || task->found.failed) {
         ffd_fail_file(&task->failure, FFD_E_MEMORY, task->job.input, "out of memory");
         end_task(worker, OUTCOME_FAILED);
         return;
@@ -245,19 +332,28 @@ static bool take_answer(worker_pool *pool, pool_worker *worker)
     if (bytes->size < sizeof head)
         return true;
     memcpy(&head, bytes->data, sizeof head);
-    if (!worker->task || (head.looked && !worker->task->looks) || head.log_size > WIRE_MOST ||
-        head.entry_size > WIRE_MOST || head.rule_size > WIRE_MOST || head.figures_size > WIRE_MOST)
+    if (!worker->task || ((head.looked || head.goes_on) && !worker->task->looks) ||
+        head.log_size > WIRE_MOST || head.entry_size > WIRE_MOST || head.rule_size > WIRE_MOST ||
+        head.figures_size > WIRE_MOST)
         return false;
     if (bytes->size < sizeof head + head.log_size + head.entry_size + head.rule_size + head.figures_size)
         return true;
+    pool_task *const task = worker->task;
+    if (head.goes_on) { /* the rest of the answer may be here already */
+        task->looks = false;
+        task->looked_in_vain = true;
+        bytes->size -= sizeof head;
+        memmove(bytes->data, bytes->data + sizeof head, bytes->size);
+        return take_answer(pool, worker);
+    }
     const char *const log = bytes->data + sizeof head, *const entry = log + head.log_size,
                       *const rule = entry + head.entry_size, *const figures = rule + head.rule_size;
-    pool_task *const task = worker->task;
     if (head.looked) {
         take_look(worker, &head, rule);
         bytes->size = 0;
         return true;
     }
+    task->looked_in_vain = task->looked_in_vain || task->looks;
     ffd_buffer_append(&task->log, log, head.log_size);
     ffd_buffer_append(&task->entry, entry, head.entry_size);
     ffd_buffer_append(&task->rule, rule, head.rule_size);
@@ -298,6 +394,10 @@ static void describe_failure(const worker_pool *pool, const pool_worker *worker,
         ffd_fail_file(error, FFD_E_LIMIT, name, "was stopped before it ended");
     else if (!end->signal && end->code == ffd_status_exit_code(FFD_E_MEMORY))
         ffd_fail_file(error, FFD_E_MEMORY, name, "out of memory");
+    else if (worker->is_unheard || (!end->signal && end->code == 0))
+        ffd_fail_file(
+            error, FFD_E_IO, name,
+            "the connection to the worker that did this job has failed: what it has made is not known");
     else if (end->killed)
         ffd_fail_file(error, FFD_E_MEMORY, name,
                       "was ended by the system (%s), probably because memory ran out", end->text);
@@ -308,9 +408,7 @@ static void describe_failure(const worker_pool *pool, const pool_worker *worker,
 static void end_worker(const worker_pool *pool, pool_worker *worker)
 {
     process_end end;
-    ffd_process_finish(&worker->process, &end);
-    ffd_buffer_free(&worker->answer);
-    worker->has_mesh = worker->retires = false;
+    finish_worker(worker, &end);
     if (!worker->task)
         return;
     pool_task *const task = worker->task;
@@ -337,8 +435,9 @@ static void receive(worker_pool *pool, pool_worker *worker)
     const bool understood = take_answer(pool, worker) && !worker->answer.failed;
     if (understood && alive && !worker->retires)
         return;
+    worker->is_unheard = !understood;
     if (!understood && alive)
-        ffd_process_kill(worker->process); /* its message is invalid */
+        ffd_process_kill(worker->process);
     end_worker(pool, worker);
 }
 
@@ -369,11 +468,11 @@ static double time_left(const worker_pool *pool, double seconds)
     return seconds;
 }
 
-void ffd_pool_wait(worker_pool *pool, double seconds)
+void ffd_pool_wait(worker_pool *pool, int input, double seconds)
 {
     for (int i = 0; i < pool->desc.workers; i++)
         pool->processes[i] = pool->workers[i].process;
-    ffd_process_wait(pool->processes, (size_t)pool->desc.workers, time_left(pool, seconds));
+    ffd_process_wait(pool->processes, (size_t)pool->desc.workers, input, time_left(pool, seconds));
     const double now = ffd_clock_seconds();
     for (int i = 0; i < pool->desc.workers; i++) {
         if (!pool->workers[i].process)
@@ -407,7 +506,7 @@ void ffd_pool_stop(worker_pool *pool)
         worker->deadline = end;
     }
     while (ffd_pool_running(pool) > 0)
-        ffd_pool_wait(pool, GRACE);
+        ffd_pool_wait(pool, -1, GRACE);
 }
 
 void ffd_pool_destroy(worker_pool **pool)
@@ -445,6 +544,7 @@ void ffd_task_free(pool_task *task)
     ffd_buffer_free(&task->entry);
     ffd_buffer_free(&task->rule);
     ffd_buffer_free(&task->figures);
-    ffd_buffer_free(&task->copied);
+    ffd_buffer_free(&task->found);
+    ffd_buffer_free(&task->passed);
     ffd_free(task);
 }

@@ -2,17 +2,20 @@
 #ifndef FFD_BATCH_POOL_H
 #define FFD_BATCH_POOL_H
 
+#include "batch/files/claims.h"
 #include "batch/manifest/job_words.h"
 #include "batch/row_array.h"
 #include "batch/wire.h"
 
 typedef struct pool_desc {
-    int workers;        /* number of processes; 0: one for each processor */
+    int workers;        /* number of processes; 0: one for each processor, as far as memory allows */
     int threads;        /* of each job; 0: an equal share of the processors */
     double timeout;     /* limit of a job in seconds; 0: none */
     const char *origin; /* name of the manifest, for messages */
     bool records, resume, dry, depfile, report, quality, stable, quiet, verbose, measure, count; /* as in
                                                                                                   wire_task */
+    bool draws;            /* jobs make pictures too */
+    bool tells;            /* as in wire_task */
     const row_array *rows; /* array of positions, or NULL */
     const shown_box *box;  /* shared box, or NULL */
 } pool_desc;
@@ -36,6 +39,7 @@ typedef struct pool_task {
     hash128 picture_target; /* the journal's key for the picture of a job without an output */
     hash128 mesh;           /* hash of the input's name: a worker prefers the mesh that it has */
     bool is_large;          /* the input is large: only one worker may read it */
+    uint64_t memory;        /* bytes that it may take; 0: the pool has not asked yet */
     bool has_mesh_name;     /* the output has the ending of a mesh format */
     job_record record;      /* if has_record: before the job, of the last time; after it, of this time */
     bool has_record;
@@ -46,9 +50,17 @@ typedef struct pool_task {
     task_state state;
     char *picture;            /* path; NULL: none is wanted */
     const char *picture_name; /* part of that path below the folder of pictures */
-    bool looks;               /* while running: it began as TASK_NEW */
-    size_t beside;            /* result of a look: number of files beside the output, */
-    byte_buffer copied;       /* and files that may be copied, each path terminated by 0 */
+    claim_needs needs;        /* what a look must look at */
+    bool looks_only;          /* its worker answers after the look, whatever it finds */
+    bool surveys;             /* likewise, and looks through the models of the output's folder */
+    bool looks;               /* while running: it began as TASK_NEW, and its worker still looks */
+    bool looked_in_vain;      /* the look found nothing */
+    bool is_learned;          /* that was taken to heart (ffd_run_learn) */
+    bool has_looked;          /* the results of a look are here: */
+    size_t beside;            /* number of files beside the output, */
+    byte_buffer found;        /* and what else it found (look.h) */
+    byte_buffer passed;       /* names that the output must not take (ffd_claims_others) */
+    bool is_unsurveyed;       /* these are not known: the job looks by itself */
     bool was_returned;        /* a worker had ended before it could take the task */
     bool noted;               /* its end was handled (ffd_run_note_ends) */
     bool took_row;            /* its row may have been written to */
@@ -73,8 +85,9 @@ ffd_status ffd_pool_create(const pool_desc *desc, worker_pool **pool, ffd_error 
 /* Assigns ready tasks to idle workers. tasks: in the order of the jobs; entries may be NULL. Errors: no
    worker can be started. */
 ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t count, ffd_error *error);
-/* Waits at most this many seconds for a worker's answer, and handles what has happened. */
-void ffd_pool_wait(worker_pool *pool, double seconds);
+/* Waits at most this many seconds for a worker's answer, or until a descriptor can be read (negative: none),
+   and handles what has happened. */
+void ffd_pool_wait(worker_pool *pool, int input, double seconds);
 /* Returns the number of running tasks. */
 size_t ffd_pool_running(const worker_pool *pool);
 /* Statistics for --verbose. */
@@ -84,6 +97,14 @@ typedef struct pool_counts {
 } pool_counts;
 /* Returns the counts so far. */
 pool_counts ffd_pool_counts(const worker_pool *pool);
+/* That a task had to wait for memory: the control group (cgroup.h) has too little for one more. */
+typedef struct pool_shortage {
+    uint64_t limit, needed; /* bytes: of the group; that the task may take */
+    int running, processors;
+    char name[256]; /* of the task's mesh, for messages */
+} pool_shortage;
+/* Returns the first shortage; NULL: there was none. */
+const pool_shortage *ffd_pool_shortage(const worker_pool *pool);
 /* Gives running tasks a moment to finish, then fails the others. */
 void ffd_pool_stop(worker_pool *pool);
 /* Ends the workers and sets *pool to NULL, which it may be already. */

@@ -176,7 +176,6 @@ static ffd_status run_job(const settings *s, const ffd_deform_desc *desc, ffd_jo
     view.job = desc;
     view.output = s->picture;
     view.force = s->force;
-    view.as_stored = true;
     return ffd_view_run(&view, result, NULL);
 }
 

@@ -20,6 +20,7 @@ typedef struct cli_job {
     const char *as_morph;
     const char **morphs; /* morph_count names, owned: of the targets that the lattices make */
     size_t morph_count;
+    intern_table morph_names;
     cli_names clips;
     ffd_job_result *morph_results; /* of the last job, morph_count entries */
     unsigned fail_on;              /* bits of ffd_gate, with limits: */

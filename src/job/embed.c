@@ -16,6 +16,7 @@
 #include "job/judge/result.h"
 #include "job/pass/chain_fit.h"
 #include "job/pass/pass.h"
+#include "job/reads.h"
 #include <math.h>
 #include <string.h>
 
@@ -118,6 +119,19 @@ static ffd_status check_outputs(const ffd_embed_desc *desc, ffd_error *error)
     return status;
 }
 
+/* Refuses to replace what is read through the mesh and the lattice. */
+static ffd_status check_reads(const ffd_embed_desc *desc, const embedding *made, ffd_error *error)
+{
+    const char *const outputs[] = {desc->output, desc->status_output};
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < 2 && outputs[i] && !status; i++) {
+        status = ffd_job_check_mesh_files(outputs[i], &desc->input, NULL, error);
+        if (!status)
+            status = ffd_job_check_box_files(outputs[i], &made->chain, &desc->lattice, error);
+    }
+    return status;
+}
+
 /* Opens the mesh and fits the loaded lattice to it. */
 static ffd_status open_mesh(const ffd_embed_desc *desc, embedding *made, int threads, ffd_error *error)
 {
@@ -213,7 +227,9 @@ static ffd_status run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_er
         status = ffd_chain_load(&files, &outside, FFD_ISA_AUTO, NULL, &made.chain, error);
     if (status)
         return status;
-    status = embed(desc, &made, start, result, error);
+    status = check_reads(desc, &made, error);
+    if (!status)
+        status = embed(desc, &made, start, result, error);
     if (status)
         status = ffd_mapping_judge(made.losses, status, error);
     if (status && status != FFD_E_ARGUMENT)

@@ -724,7 +724,7 @@ def conversions_go_through_streams(run):
 def outputs_are_not_overwritten(run):
     start(run)
     run.write("b.bin", b"mine")
-    convert(run, "a.obj", "b.gltf", code=IO, err="./b.bin: exists already (--force overwrites it)")
+    convert(run, "a.obj", "b.gltf", code=IO, err="b.bin: exists already (--force overwrites it)")
     equal([run.read("b.bin"), run.exists("b.gltf")], [b"mine", False])
     convert(run, "a.obj", "b.gltf", "--force")
     equal(read_faces(run, "b.gltf") != [], True)
@@ -732,7 +732,7 @@ def outputs_are_not_overwritten(run):
     # Nor the input, force or not.
     run.write("c.bin", SHAPE)
     convert(run, "c.bin", "c.gltf", "--input-format", "obj", "--force", code=IO,
-            err="./c.bin: is the input and is not overwritten by a buffer")
+            err="c.bin: is the input and is not overwritten by a buffer")
     equal([run.text("c.bin"), run.exists("c.gltf")], [SHAPE, False])
 
 

@@ -528,6 +528,92 @@ def wild_16_csv_semicolon(run):
     equal((run.names("o"), run.read("o/a.obj")), (["a.obj"], run.read("single.obj")))
 
 
+def swept(run, name):
+    """The table of a folder is read as one with commas is; what is said of it."""
+    os.environ["XDG_CACHE_HOME"] = run.path("cache")
+    run.folder_of("o")
+    arguments = ["batch", "--csv", name, "--in", "m.obj", "-l", "sweep.json", "--out-dir", "o"]
+    done = run.ffd(*arguments, err=anything)
+    run.ffd("deform", "m.obj", "single.obj", "-l", "sweep.json", "--set", "DEGREES=30", "--force")
+    equal((run.names("o"), run.read("o/a.obj")), (["a.obj"], run.read("single.obj")))
+    said = done.err[0]
+    run.ffd(*arguments, "--strict", "--force", code=(1, INVALID), err=anything)
+    os.unlink(run.path("o/a.obj"))
+    os.rmdir(run.path("o"))
+    return said
+
+
+@case
+def wild3_22_shared_buffer_in_place(run):
+    """Two models that share a buffer are each moved once, in whatever order; one alone leaves its neighbour as it was."""
+    names = ["chair.gltf", "chair_blue.gltf"]
+    at_rest, moved = [[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[1, 0, 0], [2, 0, 0], [2, 1, 0]]
+    told = "chair.gltf: chair.bin is a buffer of chair_blue.gltf too, and stays: chair-1.bin is written in place of it"
+
+    def begin():
+        for name in run.names():
+            run.remove(name)
+        use(run, "wild3-22-shared-buffer-in-place")
+
+    def shown():
+        return [positions(run, name) for name in names]
+
+    begin()
+    run.ffd("deform", *names, "--in-place", "-l", "move.json", err=told)
+    equal(shown(), [moved, moved])
+    begin()
+    run.ffd("deform", *names[::-1], "--in-place", "-l", "move.json")
+    equal(shown(), [moved, moved])
+    begin()
+    run.ffd("deform", "chair.gltf", "--in-place", "-l", "move.json", err=told)
+    equal(shown(), [moved, at_rest])
+    run.ffd("deform", "chair.gltf", "--in-place", "-l", "move.json")
+    equal((shown(), run.names()), ([[[2, 0, 0], [3, 0, 0], [3, 1, 0]], at_rest],
+                                   ["chair-1.bin", "chair.bin", "chair.gltf", "chair_blue.gltf", "move.json"]))
+    # Another model is written over the first.
+    begin()
+    os.mkdir(run.path("new"))
+    for name in ("chair_blue.gltf", "chair.bin"):
+        shutil.move(run.path(name), run.path("new/" + name))
+        shutil.copy(run.path("new/" + name), run.path(name))
+    run.ffd("deform", "new/chair_blue.gltf", "chair.gltf", "-l", "move.json", "--force",
+            err="new/chair_blue.gltf: " + told.partition(": ")[2])
+    equal((shown(), positions(run, "new/chair_blue.gltf")), ([moved, at_rest], at_rest))
+    # And converted over it: a mesh of another format.
+    run.write("cube.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n")
+    run.write("z.gltf", run.text("chair_blue.gltf").replace("chair.bin", "cube.bin"))
+    shutil.copy(run.path("chair.bin"), run.path("cube.bin"))
+    run.ffd("deform", "cube.obj", "cube.gltf", "-l", "move.json", "--force",
+            err="cube.obj: cube.bin is a buffer of z.gltf too, and stays: cube-1.bin is written in place of it")
+    equal((positions(run, "cube.gltf"), positions(run, "z.gltf")), (moved, at_rest))
+
+
+@case
+def wild3_09_batch_to_another_format(run):
+    """The outputs of a folder that is converted have the ending of their format."""
+    use(run, "wild3-09-batch-to-another-format")
+    os.environ["XDG_CACHE_HOME"] = run.path("cache")
+    run.folder_of("out")
+    run.ffd("batch", "--in", "parts/*.obj", "-l", "twist.json", "--out-dir", "out", "--output-format", "glb", err=anything)
+    equal(run.names("out"), ["a.glb", "b.glb"])
+    equal(info(run, "out/a.glb")["mesh_format"], "glTF")
+
+
+@case
+def wild3_16_table_dialects(run):
+    """Columns that are separated by tabs, and the column without a name that pandas writes, are read; both are said."""
+    use(run, "wild3-16-table-dialects")
+    equal(swept(run, "tab.csv"), "tab.csv: line 1: the columns are separated by tabs: numbers may have a decimal comma")
+    equal(swept(run, "index.csv"), "index.csv: line 1: column 1 has no name, as the index of pandas (index=False), and is left out")
+
+
+@case
+def wild3_16b_table_blanks(run):
+    """Blanks behind the commas are no part of a name or a value."""
+    use(run, "wild3-16b-table-blanks")
+    equal(swept(run, "t.csv"), 't.csv: line 1: blanks beside "DEGREES" are left out')
+
+
 @case
 def wild_17_obj_backslash_blank(run):
     """A blank behind the backslash at a line's end: the line goes on, which is said, and --strict refuses it."""

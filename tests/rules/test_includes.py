@@ -74,10 +74,10 @@ LAYERS = {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/text", "mesh", "splat",
     },
     "io/stl": {"base", "base/memory", "base/text", "base/vector", "io/text", "mesh"},
-    "io": {"base/file", "io/gltf", "io/obj", "io/off", "io/ply", "io/stl", "io/text", "mesh"},
+    "io": {"base", "base/file", "base/memory", "io/gltf", "io/obj", "io/off", "io/ply", "io/stl", "io/text", "mesh"},
     "io/write": {
         "base", "base/file", "base/memory", "base/text", "base/vector", "io/gltf/file", "io/stl", "json",
-        "mesh", "mesh/morph",
+        "mesh", "mesh/morph", "mesh/resource",
     },
     "view": {
         "base", "base/file", "base/memory", "base/text", "base/vector", "json", "mesh", "mesh/meshopt", "picture",
@@ -125,17 +125,18 @@ LAYERS = {
         "job/pass", "job/report", "lattice", "mesh", "view",
     },
     "batch/manifest": {"base", "base/file", "base/memory", "base/system", "base/text", "json", "mesh"},
+    "batch/files": {"base/file", "base/memory", "base/text", "batch/manifest", "io"},
     "batch": {
-        "base", "base/file", "base/memory", "base/system", "base/text", "batch/manifest", "io", "io/npy", "job/chain", "job/input",
+        "base", "base/file", "base/memory", "base/system", "base/text", "batch/files", "batch/manifest", "io", "io/npy", "job/chain", "job/input",
         "job/judge", "job/report", "json", "lattice/file", "view",
     },
-    "cli": {"base", "base/file", "base/text", "batch"},
+    "cli": {"base", "base/file", "base/memory", "base/text", "batch", "job"},
     "cli/pages": {"cli"},
     "python": set(),
     "job": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io", "io/npy",
         "io/openmesh", "io/write", "job/chain", "job/input", "job/judge", "job/pass", "job/report", "job/rig", "json",
-        "lattice", "lattice/file", "mesh", "mesh/morph",
+        "lattice", "lattice/file", "mesh", "mesh/morph", "mesh/resource",
     },
 }
 

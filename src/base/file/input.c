@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 /* The most bytes that are read from a stream, which may be endless. */
-#define LONGEST_STREAM ((size_t)1 << 32)
+#define LONGEST_STREAM (SIZE_MAX > UINT32_MAX ? (size_t)UINT32_MAX + 1 : SIZE_MAX / 2)
 /* Size of the pieces in which two files are compared: a multiple of any page size. */
 #define COMPARED ((size_t)1 << 22)
 
@@ -140,9 +140,11 @@ bool ffd_file_reads_once(const char *path)
                                         !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode));
 }
 
+_Static_assert(sizeof(file_stamp) == 7 * sizeof(uint64_t), "bytes that are compared have no padding");
+
 bool ffd_stamp_equal(const file_stamp *a, const file_stamp *b)
 {
-    return memcmp(a, b, sizeof *a) == 0; /* the struct has no padding */
+    return memcmp(a, b, sizeof *a) == 0;
 }
 
 bool ffd_stamps_hold(char *const *paths, const file_stamp *stamps, size_t count)
@@ -172,11 +174,15 @@ const char *ffd_file_display_name(const char *path)
     return name ? name : strcmp(path, "-") == 0 ? "standard input" : path;
 }
 
-/* Refuses pipes and devices, which may block forever or never end. */
+/* Refuses folders, and pipes and devices, which may block forever or never end. */
 static ffd_status refuse_special(int fd, const char *path, ffd_error *error)
 {
     struct stat info;
-    if (ffd_file_is_stream(path) || fstat(fd, &info) != 0 || S_ISREG(info.st_mode) || S_ISDIR(info.st_mode))
+    if (fstat(fd, &info) != 0 || S_ISREG(info.st_mode))
+        return FFD_OK;
+    if (S_ISDIR(info.st_mode))
+        return ffd_fail_file(error, FFD_E_IO, path, "is a folder");
+    if (ffd_file_is_stream(path))
         return FFD_OK;
     return ffd_fail_file(error, FFD_E_IO, path, "is a %s, not a file (- reads standard input)",
                          S_ISFIFO(info.st_mode) ? "pipe" : "device");
@@ -192,8 +198,11 @@ static ffd_status load_descriptor(int fd, const char *name, size_t least_mapped,
         return ffd_fail_file(error, FFD_E_IO, name, "is a folder");
     if (!S_ISREG(info.st_mode) || info.st_size <= 0)
         return read_stream(fd, name, input, error);
-    if ((unsigned long long)info.st_size > (size_t)-1)
-        return ffd_fail_file(error, FFD_E_LIMIT, name, "is too large for this machine");
+    if ((uint64_t)info.st_size > SIZE_MAX)
+        return ffd_fail_file(
+            error, FFD_E_LIMIT, name,
+            "has %lld bytes, more than the %zu that a program with addresses of 32 bits holds",
+            (long long)info.st_size, SIZE_MAX);
     const size_t size = (size_t)info.st_size;
     const ffd_status status = size < least_mapped ? read_file(fd, name, size, input, error)
                                                   : map_file(fd, name, &info, input, error);
@@ -233,22 +242,34 @@ static ffd_status load_memory(const char *path, file_input *input, ffd_error *er
     return lend(bytes, size, ffd_file_display_name(path), input, error);
 }
 
+ffd_status ffd_file_open(const char *path, int *fd, ffd_error *error)
+{
+    *fd = STDIN_FILENO;
+    if (strcmp(path, "-") == 0)
+        return FFD_OK;
+    /* O_NONBLOCK, so that opening a pipe, which is refused later, does not block. Not for inherited
+       descriptors, whose flags must not change. */
+    *fd = open(path, O_RDONLY | O_CLOEXEC | (ffd_file_is_stream(path) ? 0 : O_NONBLOCK | O_NOCTTY));
+    if (*fd < 0)
+        return fail_open(path, errno, error);
+    const ffd_status status = refuse_special(*fd, path, error);
+    if (status)
+        close(*fd);
+    return status;
+}
+
 static ffd_status load(const char *path, size_t least_mapped, file_input *input, ffd_error *error)
 {
+    int fd;
     *input = (file_input){.data = nothing};
     if (ffd_memory_has(path))
         return load_memory(path, input, error);
-    if (strcmp(path, "-") == 0)
-        return load_descriptor(STDIN_FILENO, "standard input", least_mapped, input, error);
-    /* O_NONBLOCK, so that opening a pipe, which is refused later, does not block. Not for inherited
-       descriptors, whose flags must not change. */
-    const int fd = open(path, O_RDONLY | O_CLOEXEC | (ffd_file_is_stream(path) ? 0 : O_NONBLOCK | O_NOCTTY));
-    if (fd < 0)
-        return fail_open(path, errno, error);
-    ffd_status status = refuse_special(fd, path, error);
-    if (!status)
-        status = load_descriptor(fd, path, least_mapped, input, error);
-    close(fd);
+    ffd_status status = ffd_file_open(path, &fd, error);
+    if (status)
+        return status;
+    status = load_descriptor(fd, ffd_file_display_name(path), least_mapped, input, error);
+    if (fd != STDIN_FILENO)
+        close(fd);
     return status;
 }
 

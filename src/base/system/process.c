@@ -14,6 +14,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #ifdef __linux__
+#include <sys/auxv.h>
 #include <sys/prctl.h>
 #endif
 
@@ -83,6 +84,12 @@ static int spawn(const char *name, int channel, pid_t *id)
             failed = posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
         if (!failed)
             failed = posix_spawn(id, "/proc/self/exe", &actions, &attributes, arguments, environ);
+#ifdef __linux__
+        /* Without /proc: the name by which the system started this program. */
+        if (failed == ENOENT)
+            failed = posix_spawn(id, (const char *)getauxval(AT_EXECFN), &actions, &attributes, arguments,
+                                 environ);
+#endif
         posix_spawnattr_destroy(&attributes);
     }
     posix_spawn_file_actions_destroy(&actions);
@@ -130,9 +137,9 @@ bool ffd_process_send(worker_process *process, const void *bytes, size_t size)
     return send_all(process->channel, bytes, size);
 }
 
-void ffd_process_wait(worker_process *const *processes, size_t count, double seconds)
+void ffd_process_wait(worker_process *const *processes, size_t count, int input, double seconds)
 {
-    struct pollfd *set = ffd_alloc(count + 1, sizeof *set);
+    struct pollfd *set = ffd_alloc(count + 2, sizeof *set);
     nfds_t used = 0;
     if (!set) {
         /* A short pause, because it is unknown which process will send something. */
@@ -142,6 +149,8 @@ void ffd_process_wait(worker_process *const *processes, size_t count, double sec
     for (size_t i = 0; i < count; i++)
         if (processes[i])
             set[used++] = (struct pollfd){.fd = processes[i]->channel, .events = POLLIN};
+    if (input >= 0)
+        set[used++] = (struct pollfd){.fd = input, .events = POLLIN};
     const int interrupts = ffd_interrupt_stream();
     if (interrupts >= 0)
         set[used++] = (struct pollfd){.fd = interrupts, .events = POLLIN};

@@ -162,7 +162,8 @@ ffd_status ffd_gltf_describe(const mesh_document *document, json_text *json, ffd
         describe_count(d, counted[i], json);
     ffd_json_count(json, "primitives", d->primitive_values.count);
     ffd_json_count(json, "nodes_with_mesh_not_shown", d->nodes_outside_scene);
-    ffd_json_count(json, "nodes_with_mesh_of_coarser_detail", ffd_gltf_count_stand_ins(d));
+    ffd_json_count(json, "nodes_with_mesh_of_coarser_detail", ffd_gltf_count_stand_ins(d, false));
+    ffd_json_count(json, "nodes_with_mesh_of_colliders", ffd_gltf_count_stand_ins(d, true));
     if (d->shared_child != GLTF_NONE)
         ffd_json_count(json, "node_with_two_parents", d->shared_child);
     ffd_status status = describe_attributes(d, json, error);

@@ -26,6 +26,7 @@
 #include "io/gltf/scene/gltf_used.h"
 #include "io/gltf/skeleton/gltf_skeleton.h"
 #include "io/gltf/splat/gltf_splats.h"
+#include "mesh/resource/beside.h"
 #include <float.h>
 
 static ffd_status check(const mesh_document *document, ffd_error *error)
@@ -89,8 +90,9 @@ const mesh_format ffd_gltf_format = {
     .list_files = ffd_gltf_list_files,
     .list_images = ffd_gltf_list_images,
     .find_resources = ffd_gltf_find_resources,
+    .find_named = ffd_gltf_find_named,
     .count_beside = ffd_gltf_count_beside,
-    .list_beside = ffd_gltf_list_beside,
+    .name_beside = ffd_beside_name,
     .check = check,
     .warn = ffd_gltf_warn_of_faults,
     .check_reach = ffd_gltf_check_reach,

@@ -8,27 +8,30 @@
 #include "io/write/glb_writer.h"
 #include "io/write/write.h"
 #include "mesh/polygon_cut.h"
+#include "mesh/resource/beside.h"
 #include "mesh/srgb.h"
 #include <float.h>
+#include <inttypes.h>
 #include <string.h>
 
 static void measure(gltf_writer *w)
 {
     for (size_t i = 0; i < w->plan.primitive_count; i++) {
         const glb_primitive *primitive = &w->plan.primitives[i];
-        w->sizes[VIEW_POSITIONS] += 12 * primitive->vertex_count;
-        w->sizes[VIEW_NORMALS] += primitive->normals ? 12 * primitive->vertex_count : 0;
-        w->sizes[VIEW_TEXCOORDS] += primitive->texcoords ? 8 * primitive->vertex_count : 0;
-        w->sizes[VIEW_COLOURS] += w->model->colours ? glb_colour_size(w) * primitive->vertex_count : 0;
+        const uint64_t vertices = primitive->vertex_count, indices = primitive->index_count;
+        w->sizes[VIEW_POSITIONS] += 12 * vertices;
+        w->sizes[VIEW_NORMALS] += primitive->normals ? 12 * vertices : 0;
+        w->sizes[VIEW_TEXCOORDS] += primitive->texcoords ? 8 * vertices : 0;
+        w->sizes[VIEW_COLOURS] += w->model->colours ? glb_colour_size(w) * vertices : 0;
         for (size_t k = 0; k < w->model->morph_count; k++) {
-            const size_t offsets = glb_has_morph(&w->plan, primitive, k) ? 12 * primitive->vertex_count : 0;
+            const uint64_t offsets = glb_has_morph(&w->plan, primitive, k) ? 12 * vertices : 0;
             w->sizes[VIEW_POSITION_OFFSETS] += offsets;
             w->sizes[VIEW_NORMAL_OFFSETS] += primitive->normals ? offsets : 0;
         }
         if (glb_has_short_indices(primitive))
-            w->sizes[VIEW_SHORT] += 2 * primitive->index_count;
+            w->sizes[VIEW_SHORT] += 2 * indices;
         else
-            w->sizes[VIEW_LONG] += 4 * primitive->index_count;
+            w->sizes[VIEW_LONG] += 4 * indices;
     }
     w->sizes[VIEW_CLIPS] = w->clips.bytes.size;
     size_t number = 0;
@@ -72,19 +75,18 @@ static ffd_status put_glb(gltf_writer *w, const char *path)
     if (w->text.failed)
         return ffd_fail_memory(w->error);
     const size_t json = w->text.size - 1; /* without the line end */
-    const size_t padded = ffd_gltf_align(json);
-    const size_t bin = w->total > 0 ? GLB_CHUNK_HEADER_SIZE + w->total : 0;
-    const size_t total = GLB_HEADER_SIZE + GLB_CHUNK_HEADER_SIZE + padded + bin;
+    const uint64_t padded = ffd_gltf_align(json), bin = w->total > 0 ? GLB_CHUNK_HEADER_SIZE + w->total : 0;
+    const uint64_t total = GLB_HEADER_SIZE + GLB_CHUNK_HEADER_SIZE + padded + bin;
     if (total > UINT32_MAX)
         return ffd_fail_file(w->error, FFD_E_LIMIT, path,
-                             "would have %zu bytes, more than a GLB's 4294967295", total);
+                             "would have %" PRIu64 " bytes, more than a GLB's 4294967295", total);
     ffd_sink_u32(&w->sink, GLB_MAGIC);
     ffd_sink_u32(&w->sink, GLB_VERSION);
     ffd_sink_u32(&w->sink, (uint32_t)total);
     ffd_sink_u32(&w->sink, (uint32_t)padded);
     ffd_sink_u32(&w->sink, GLB_CHUNK_JSON);
     ffd_sink_bytes(&w->sink, w->text.data, json);
-    ffd_sink_bytes(&w->sink, blanks, padded - json);
+    ffd_sink_bytes(&w->sink, blanks, (size_t)(padded - json));
     if (bin > 0) {
         ffd_sink_u32(&w->sink, (uint32_t)w->total);
         ffd_sink_u32(&w->sink, GLB_CHUNK_BIN);
@@ -107,49 +109,36 @@ static ffd_status put_stream(gltf_writer *w)
     return w->sink.status;
 }
 
-/* Returns the name of the buffer's file: the output's name with the ending .bin. The caller frees it. */
-static char *bin_name(const char *path)
+static ffd_status put_bin_file(gltf_writer *w, const mesh_save_options *options, const char *path)
 {
-    char *stem = ffd_path_stem(path);
-    byte_buffer name = {.failed = !stem};
-    if (stem)
-        ffd_buffer_text(&name, stem);
-    ffd_buffer_text(&name, ".bin");
-    ffd_free(stem);
-    return ffd_buffer_finish(&name);
-}
-
-static ffd_status put_bin_file(gltf_writer *w, const mesh_save_options *options, const char *name)
-{
-    char *folder = ffd_path_folder(options->path), *path = folder ? ffd_path_join(folder, name) : NULL;
-    if (!path)
-        w->sink.status = ffd_fail_memory(w->error);
-    else if (options->input && ffd_file_same(options->input, path))
+    if (options->input && ffd_file_same(options->input, path))
         w->sink.status =
             ffd_fail_file(w->error, FFD_E_EXISTS, path, "is the input and is not overwritten by a buffer");
     else
         w->sink.status = ffd_output_begin(w->sink.output, path, options->force, w->error);
     ffd_glb_put_content(w);
-    ffd_free(folder);
-    ffd_free(path);
     return w->sink.status;
 }
 
-static ffd_status put_files(gltf_writer *w, const mesh_save_options *options)
+static ffd_status put_files(gltf_writer *w, const mesh_save_options *options, const mesh_log *log)
 {
-    char *name = bin_name(options->path), *uri = name ? ffd_uri_encode(name) : NULL;
-    ffd_status status = uri ? FFD_OK : ffd_fail_memory(w->error);
+    beside_names names = {.options = options, .log = log};
+    char *path;
+    ffd_status status = ffd_beside_next(&names, NULL, NULL, &path, w->error);
+    char *const uri = path ? ffd_uri_encode(ffd_path_name(path)) : NULL;
+    if (status == FFD_OK)
+        status = uri ? FFD_OK : ffd_fail_memory(w->error);
     if (status == FFD_OK)
         ffd_glb_make_json(w, false, uri);
     if (status == FFD_OK && w->text.failed)
         status = ffd_fail_memory(w->error);
     if (status == FFD_OK && w->total > 0)
-        status = put_bin_file(w, options, name);
+        status = put_bin_file(w, options, path);
     if (status == FFD_OK)
         status = ffd_output_begin(w->sink.output, options->path, options->force, w->error);
     if (status == FFD_OK)
         status = ffd_output_write(w->sink.output, w->text.data, w->text.size, w->error);
-    ffd_free(name);
+    ffd_free(path);
     ffd_free(uri);
     return status;
 }
@@ -176,7 +165,7 @@ static ffd_status write(const mesh_model *model, const mesh_save_options *option
         status = ffd_output_begin(output, options->path, options->force, error);
     w->sink = (model_sink){output, error, status};
     if (status == FFD_OK)
-        status = files ? put_files(w, options) : binary ? put_glb(w, options->path) : put_stream(w);
+        status = files ? put_files(w, options, log) : binary ? put_glb(w, options->path) : put_stream(w);
     if (status == FFD_OK && w->is_far)
         tell_origin(w, log);
     if (status == FFD_OK)

@@ -11,6 +11,7 @@
 #include "job/jacobian/jacobian_output.h"
 #include "job/jacobian/jacobian_product.h"
 #include "job/judge/result.h"
+#include "job/reads.h"
 #include <string.h>
 
 void ffd_jacobian_desc_init(ffd_jacobian_desc *desc, size_t size)
@@ -111,6 +112,10 @@ static ffd_status run(const ffd_jacobian_desc *desc, ffd_jacobian_result *result
     j.job.only_positions = true;
     if (!status)
         status = ffd_deform_job_open(&j.job, &figures, &figures.error);
+    if (!status)
+        status = ffd_job_check_mesh_files(desc->output, &desc->job->input, j.job.document, &figures.error);
+    if (!status)
+        status = ffd_job_check_box_files(desc->output, &j.job.chain, desc->job->lattices, &figures.error);
     if (!status)
         status = make(&j, result, &figures.error);
     ffd_jacobian_free(&j);

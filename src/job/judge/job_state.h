@@ -15,6 +15,7 @@ typedef struct deform_job {
     bool check;          /* no output will be written; all figures are wanted */
     bool recomputes;     /* normals exist, and are to be recomputed from the deformed faces */
     bool derives;        /* set before opening: keep derivatives by placeholders */
+    bool stored;         /* set before it runs: judge the base, whatever default weights show */
     bool only_positions; /* set before opening: nothing needs normals */
     unsigned losses;     /* of mapped inputs, before this job (base/file/mapping.h) */
     int threads;

@@ -25,10 +25,9 @@ typedef struct mesh_pass {
     bool is_located;
     bool bounds_shapes; /* fill totals.shapes: the bounds of morph targets and of the shape with default
                            weights */
-    bool bounds_shown;  /* for parts whose morph targets the pass visits: take bounds from the shape with
-                           default weights */
     bool counts_shapes; /* count morph targets too (a pass that writes always does) */
     bool write;         /* write positions to the document, after begin_results */
+    bool discards;      /* with write: compute and count the results, but leave those of the document alone */
     bool attributes;    /* write normals and tangents too */
     bool only_offsets;  /* with attributes: write those of morph targets only, not the base's */
     /* Output arrays, in the order of `ffd embed` (ffd_mesh_vertex_count), as mesh_faces numbers vertices. */

@@ -35,6 +35,15 @@ static void fill_nan(double *values, size_t count)
         values[i] = NAN;
 }
 
+/* det F relative to the product of the lengths of F's rows: closer to 0 it may be the rounding of a collapse.
+ */
+#define COLLAPSE 1e-12
+
+static bool turns_over(const double f[9], double det)
+{
+    return det < 0 && det < -COLLAPSE * vec_length(f) * vec_length(f + 3) * vec_length(f + 6);
+}
+
 static void note_determinant(const double gradient[9], bool outside, size_t number, pass_totals *totals)
 {
     double f[9];
@@ -46,6 +55,13 @@ static void note_determinant(const double gradient[9], bool outside, size_t numb
     if (outside && det < totals->det_outside) {
         totals->det_outside = det;
         totals->first_det_outside = number;
+    }
+    if (outside || !turns_over(f, det))
+        return;
+    totals->inverted++;
+    if (det < totals->det_inverted) {
+        totals->det_inverted = det;
+        totals->first_inverted = number;
     }
 }
 
@@ -117,7 +133,7 @@ static void finish_positions(const part_work *work, tile_scratch *scratch, size_
         totals->moved += scratch->changed[i];
     if (unfit < count)
         totals->first_overflow = work->first_vertex + first + unfit;
-    if (pass->write)
+    if (ffd_pass_stores(pass))
         pass->document->format->write_positions(pass->document, work->part_number, first, count, scratch->raw,
                                                 scratch->changed);
 }
@@ -155,8 +171,9 @@ static void deform_normals(const part_work *work, tile_scratch *scratch, size_t 
         scratch->normals_changed[i] = selected && scratch->outcomes[i] == ATTRIBUTE_CARRIED;
         totals->normals_collapsed += selected && scratch->outcomes[i] == ATTRIBUTE_COLLAPSED;
     }
-    document->format->write_normals(document, work->part_number, from, batch.count, scratch->normals,
-                                    scratch->normals_changed);
+    if (ffd_pass_stores(work->pass))
+        document->format->write_normals(document, work->part_number, from, batch.count, scratch->normals,
+                                        scratch->normals_changed);
 }
 
 /* Deforms normals that are not one a vertex, in runs of at most a tile. */
@@ -188,7 +205,7 @@ static void deform_tangents(const part_work *work, tile_scratch *scratch, size_t
     ffd_deform_tangents(work->pass->chain->isa, &batch);
     for (size_t i = 0; i < count; i++)
         scratch->tangents_changed[i] = scratch->outcomes[i] == ATTRIBUTE_CARRIED;
-    if (work->pass->only_offsets)
+    if (work->pass->only_offsets || !ffd_pass_stores(work->pass))
         return;
     document->format->write_tangents(document, work->part_number, first, count, scratch->tangents,
                                      scratch->tangents_changed);
@@ -268,6 +285,7 @@ static void keep_locations(const part_work *work, const tile_scratch *scratch, s
 typedef struct tile_rounding {
     const part_work *work;
     const tile_scratch *scratch;
+    size_t first; /* the tile's first vertex in the part */
 } tile_rounding;
 
 static void find_rounding(const void *context, size_t point, bool is_first, const double x[3], double half[3])
@@ -279,7 +297,7 @@ static void find_rounding(const void *context, size_t point, bool is_first, cons
     memcpy(position, tile->scratch->raw + 3 * i, sizeof position);
     if (!is_first)
         ffd_vertex_in_file(&transform, x, position);
-    ffd_rounding_cell(&tile->work->part->rounding, position, half);
+    ffd_vertex_cell(tile->work->pass->document, tile->work->part_number, tile->first + i, position, half);
     ffd_vertex_rounding_place(&transform, half);
 }
 
@@ -379,7 +397,7 @@ static ffd_status deform_points(part_work *work, tile_scratch *scratch, size_t f
 {
     const mesh_pass *pass = work->pass;
     const bool counts = !work->part->repeats_positions;
-    const tile_rounding tile_of = {work, scratch};
+    const tile_rounding tile_of = {work, scratch, first};
     const chain_rounding cells = {find_rounding, &tile_of};
     const chain_rounding *const rounding = ffd_rounding_is_none(&work->part->rounding) ? NULL : &cells;
     chain_run run = {.x = scratch->position,

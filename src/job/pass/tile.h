@@ -81,10 +81,10 @@ static inline bool ffd_pass_takes_splats(const mesh_pass *pass, const mesh_part 
            !pass->document->keeps_base && !pass->document->converted;
 }
 
-/* Whether the bounds of a part are those of its shape with default weights instead of its vertices. */
-static inline bool ffd_pass_bounds_shown(const mesh_pass *pass, const mesh_part *part)
+/* Whether the results go to the document. */
+static inline bool ffd_pass_stores(const mesh_pass *pass)
 {
-    return pass->bounds_shown && part->shows_shapes && ffd_pass_takes_shapes(pass, part);
+    return pass->write && !pass->discards;
 }
 
 /* Returns the index in the tile of chosen vertex i. */

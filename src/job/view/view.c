@@ -26,10 +26,6 @@
 #include <math.h>
 #include <string.h>
 
-/* The memory limit is at least this without --memory: a view holds all that a mesh shows, and a short file
-   may show many instances. */
-#define LEAST_MEMORY ((uint64_t)400000000)
-
 /* The state of a view. */
 typedef struct view_work {
     const ffd_view_desc *desc;
@@ -97,7 +93,7 @@ static ffd_status check_desc(const view_work *work, ffd_error *error)
 /* Whether to show the shape with default weights of morph targets instead of the stored one. */
 static bool shows_shapes(const view_work *work, const mesh_document *document)
 {
-    return !work->desc->as_stored && ffd_mesh_shows_shapes(document);
+    return !work->job.stored && ffd_mesh_shows_shapes(document);
 }
 
 /* Reads the mesh in the shape that is shown. */
@@ -147,7 +143,7 @@ static ffd_status make_rigs(view_work *work, bool deformed, ffd_error *error)
                                  .deformed = deformed,
                                  .follows = deformed && desc->job->rig == FFD_RIG_FOLLOW,
                                  .gradients = work->details.gradients,
-                                 .shown = !desc->as_stored,
+                                 .shown = !work->job.stored,
                                  .before_name = ffd_source_name(&desc->job->input),
                                  .after_name = desc->deformed ? ffd_source_name(desc->deformed) : NULL,
                                  .animation = desc->animation,
@@ -184,6 +180,7 @@ static ffd_status check_mesh(const view_work *work, const ffd_source *source, me
 static ffd_status run_job(view_work *work, ffd_job_result *result, ffd_error *error)
 {
     deform_job *const job = &work->job;
+    job->stored = job->stored || job->desc->as_morph; /* it keeps the other targets */
     ffd_status status = ffd_deform_job_open(job, result, error);
     if (!status)
         status = check_mesh(work, &work->desc->job->input, job->document, error);
@@ -411,6 +408,7 @@ static ffd_status view(const ffd_view_desc *desc, ffd_job_result *result, ffd_er
     view_work work = {.desc = desc, .scene = {.animation = RIG_NONE}};
     ffd_error own;
     ffd_status status = ffd_deform_job_begin(&work.job, desc->job, true, result);
+    work.job.stored = desc->as_stored;
     if (!status) {
         status = run(&work, result, &own);
         if (status) {
@@ -426,8 +424,8 @@ static ffd_status view(const ffd_view_desc *desc, ffd_job_result *result, ffd_er
 
 static void allow_memory(ffd_source *source)
 {
-    if (source->memory < LEAST_MEMORY)
-        source->memory = LEAST_MEMORY;
+    if (source->memory < LEAST_VIEW_MEMORY)
+        source->memory = LEAST_VIEW_MEMORY;
 }
 
 /* The same for descriptions that may hold data in memory. */

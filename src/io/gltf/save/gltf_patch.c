@@ -10,6 +10,7 @@
 #include "io/gltf/save/gltf_json_insert.h"
 #include "io/gltf/save/gltf_plan.h"
 #include "io/gltf/save/gltf_sparse.h"
+#include "io/gltf/save/gltf_stale.h"
 #include "io/gltf/save/gltf_unpack.h"
 
 static const json_value *value_of(const gltf_saver *saver, uint32_t value)
@@ -314,6 +315,7 @@ ffd_status ffd_gltf_make_edits(gltf_saver *saver, ffd_error *error)
     const ffd_status status = ffd_gltf_follow_meshes(saver, error);
     if (status)
         return status;
+    ffd_gltf_warn_of_stale(saver);
     edit_rig(saver);
     edit_buffers(saver);
     ffd_gltf_move_buffers(saver);

@@ -4,6 +4,7 @@
 #include "base/memory/memory.h"
 #include "io/gltf/file/glb.h"
 #include "io/gltf/file/uri.h"
+#include "io/gltf/save/gltf_output_names.h"
 #include "mesh/resource/image_file.h"
 #include "mesh/resource/resource_copy.h"
 #include "json/json_parse.h"
@@ -29,11 +30,11 @@ static ffd_status normalize(const char *mesh, char *name, char **path, ffd_error
     return *path ? FFD_OK : ffd_fail_memory(error);
 }
 
-ffd_status ffd_gltf_image_path(const json_span *tree, uint32_t image, const char *mesh, char **path,
-                               ffd_error *error)
+ffd_status ffd_gltf_file_path(const json_span *tree, uint32_t value, const char *mesh, char **path,
+                              ffd_error *error)
 {
     *path = NULL;
-    const uint32_t uri = ffd_json_span_member(tree, image, "uri");
+    const uint32_t uri = ffd_json_span_member(tree, value, "uri");
     if (uri == JSON_NONE || tree->values[uri].kind != JSON_STRING)
         return FFD_OK;
     size_t size;
@@ -53,7 +54,7 @@ ffd_status ffd_gltf_image_path(const json_span *tree, uint32_t image, const char
 
 static ffd_status image_path(const gltf_document *d, size_t image, char **path, ffd_error *error)
 {
-    return ffd_gltf_image_path(&d->tree, d->image_values.values[image], d->path, path, error);
+    return ffd_gltf_file_path(&d->tree, d->image_values.values[image], d->path, path, error);
 }
 
 /* Adds the images of a JSON text that may be copied, with their names. */
@@ -63,7 +64,7 @@ static ffd_status find_images(const json_span *tree, const char *mesh, path_list
     uint32_t image = ffd_json_span_first(tree, ffd_json_span_member(tree, 0, "images"));
     for (; image != JSON_NONE && !status; image = ffd_json_span_after(tree, image)) {
         char *relative, *path = NULL;
-        status = ffd_gltf_image_path(tree, image, mesh, &relative, error);
+        status = ffd_gltf_file_path(tree, image, mesh, &relative, error);
         if (relative && ffd_image_has_name(relative) && !ffd_image_is_hidden(relative)) {
             path = ffd_path_beside(mesh, relative);
             status = path ? ffd_paths_add(files, path, error) : ffd_fail_memory(error);
@@ -74,24 +75,82 @@ static ffd_status find_images(const json_span *tree, const char *mesh, path_list
     return status;
 }
 
+/* Whether a JSON text may have a member "uri", perhaps with escapes: most GLB files have none. */
+static bool may_name_files(const char *text, size_t size)
+{
+    const char *const end = text + size;
+    for (const char *c = memchr(text, 'u', size); c; c = memchr(c + 1, 'u', (size_t)(end - c - 1)))
+        if ((end - c >= 4 && memcmp(c, "uri\"", 4) == 0) || (c > text && c[-1] == '\\'))
+            return true;
+    return false;
+}
+
+/* Parses the JSON text of a file that may name others. *is_model: false if it does not, or is not valid,
+   which is no error. */
+static ffd_status parse(const char *path, const file_input *bytes, json_span *tree, bool *is_model,
+                        ffd_error *error)
+{
+    glb_layout layout;
+    json_input json = {.text = (const char *)bytes->data, .size = bytes->size, .rules = JSON_ALLOW_MARK};
+    *is_model = true;
+    if (ffd_glb_is(bytes->data, bytes->size)) {
+        *is_model = !ffd_glb_parse(bytes->data, bytes->size, path, &layout, NULL);
+        json.text += *is_model ? layout.json_begin : 0;
+        json.size = *is_model ? layout.json_size : 0;
+    }
+    *is_model = *is_model && may_name_files(json.text, json.size);
+    const ffd_status parsed = *is_model ? ffd_json_parse(&json, tree, NULL) : FFD_E_INVALID;
+    *is_model = parsed == FFD_OK;
+    return parsed == FFD_E_MEMORY ? ffd_fail_memory(error) : FFD_OK;
+}
+
 ffd_status ffd_gltf_find_resources(const char *path, const file_input *bytes, path_list *files,
                                    ffd_error *error)
 {
-    glb_layout layout;
     json_span tree;
-    json_input json = {.text = (const char *)bytes->data, .size = bytes->size, .rules = JSON_ALLOW_MARK};
-    bool is_model = true;
-    if (ffd_glb_is(bytes->data, bytes->size)) {
-        is_model = !ffd_glb_parse(bytes->data, bytes->size, path, &layout, NULL);
-        json.text += is_model ? layout.json_begin : 0;
-        json.size = is_model ? layout.json_size : 0;
-    }
-    const ffd_status parsed = is_model ? ffd_json_parse(&json, &tree, NULL) : FFD_E_INVALID;
-    ffd_status status = parsed == FFD_E_MEMORY ? ffd_fail_memory(error) : FFD_OK;
-    if (!parsed) {
+    bool is_model;
+    ffd_status status = parse(path, bytes, &tree, &is_model, error);
+    if (is_model) {
         status = find_images(&tree, path, files, error);
         ffd_json_span_free(&tree);
     }
+    return status;
+}
+
+/* Adds the files that the members of an array name. */
+static ffd_status find_files(const json_span *tree, const char *array, const char *mesh, path_list *files,
+                             ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    uint32_t value = ffd_json_span_first(tree, ffd_json_span_member(tree, 0, array));
+    for (; value != JSON_NONE && !status; value = ffd_json_span_after(tree, value)) {
+        char *relative;
+        status = ffd_gltf_file_path(tree, value, mesh, &relative, error);
+        char *const path = relative ? ffd_path_beside(mesh, relative) : NULL;
+        if (path)
+            status = ffd_paths_add(files, path, error);
+        else if (relative)
+            status = ffd_fail_memory(error);
+        ffd_free(path);
+        ffd_free(relative);
+    }
+    return status;
+}
+
+ffd_status ffd_gltf_find_named(const char *path, const file_input *bytes, path_list *files, path_list *copies,
+                               ffd_error *error)
+{
+    json_span tree;
+    bool is_model;
+    ffd_status status = parse(path, bytes, &tree, &is_model, error);
+    if (!is_model)
+        return status;
+    status = find_files(&tree, "buffers", path, files, error);
+    if (!status)
+        status = find_files(&tree, "images", path, files, error);
+    if (!status && copies)
+        status = find_images(&tree, path, copies, error);
+    ffd_json_span_free(&tree);
     return status;
 }
 

@@ -152,3 +152,13 @@ ffd_status ffd_obj_find_resources(const char *path, const file_input *bytes, pat
     ffd_free(from);
     return status;
 }
+
+ffd_status ffd_obj_find_named(const char *path, const file_input *bytes, path_list *files, path_list *copies,
+                              ffd_error *error)
+{
+    const size_t before = files->count;
+    ffd_status status = ffd_obj_find_resources(path, bytes, files, error);
+    for (size_t i = before; copies && i < files->count && !status; i++)
+        status = ffd_paths_add(copies, files->paths[i], error);
+    return status;
+}

@@ -1,13 +1,13 @@
-/* file_table.h - a compact table of numbers by file. The files need not exist. */
-#ifndef FFD_BATCH_MANIFEST_FILE_TABLE_H
-#define FFD_BATCH_MANIFEST_FILE_TABLE_H
+/* file_table.h - a compact table of numbers by the place of a file (place.h). */
+#ifndef FFD_BASE_MEMORY_FILE_TABLE_H
+#define FFD_BASE_MEMORY_FILE_TABLE_H
 
 #include "base/fail.h"
 #include "base/memory/hash.h"
 #include <stdbool.h>
 #include <stdint.h>
 
-/* 16 bytes a file: the first bytes of its identity, and its number. */
+/* 16 bytes a file: the first bytes of its place, and its number. */
 typedef struct file_entry {
     unsigned char file[11];
     unsigned char number[5]; /* the number plus 1; 0: free */
@@ -21,9 +21,6 @@ typedef struct file_table {
     size_t slots, used;
 } file_table;
 
-/* Returns a hash that identifies the file at a path, existing or not: of its absolute path with links
-   resolved. */
-hash128 ffd_file_identity(const char *path);
 /* Sets the number of a file, which must be below 2^40 - 1. Errors: FFD_E_MEMORY. */
 ffd_status ffd_files_put(file_table *table, const hash128 *file, uint64_t number, ffd_error *error);
 /* Finds the number of a file. Returns false if it has none. */

@@ -1,26 +1,9 @@
-#include "batch/manifest/file_table.h"
-#include "base/file/folder.h"
-#include "base/file/path.h"
+#include "base/memory/file_table.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include <stdlib.h>
 
 #define FEWEST_SLOTS ((size_t)1024)
-
-hash128 ffd_file_identity(const char *path)
-{
-    char *const whole = ffd_path_resolve(path); /* NULL: the folder does not exist yet */
-    char *const folder = ffd_path_folder(whole ? whole : path);
-    char *const resolved = folder && !whole ? ffd_path_resolve(folder) : NULL;
-    const char *const start = resolved ? resolved : folder ? folder : "";
-    const char *const name = ffd_path_name(whole ? whole : path);
-    const hash_block blocks[] = {{start, strlen(start) + 1}, {name, strlen(name)}};
-    const hash128 hash = ffd_hash_blocks(blocks, 2);
-    ffd_free(whole);
-    ffd_free(folder);
-    ffd_free(resolved);
-    return hash;
-}
 
 /* Returns 0 for a free slot. */
 static uint64_t number_of(const file_entry *entry)
