@@ -134,6 +134,26 @@ def maths3_05_cylinder_seam_open_knots(run):
             counts(entry(run, "check", "seam.obj", "-l", "s.json"), vertices=9, inside=9, multiple=0)
 
 
+def rays(*ends):
+    """A lattice of degree 1 through rays from one point of the plane z = 0 to another, of height 1."""
+    points = [[*p, z] for z in (0, 1) for ray in ends for p in ray]
+    return {"format": "ffd-lattice", "version": 1, "size": [2, len(ends), 2], "degree": [1, 1, 1], "rest": {"points": points}}
+
+
+@case
+def faces_that_overlap_in_a_plane_are_a_seam_where_the_volume_goes_on(run):
+    """Sibling of maths3-05: a full turn whose first and last ray have other radii. One that comes back overlaps itself."""
+    turned = [[[0, 1], [0, 2]], [[-1, 0], [-2, 0]], [[0, -1], [0, -2]]]
+    run.write("turn.json", rays([[1, 0], [2, 0]], *turned, [[1.25, 0], [2.25, 0]]))
+    run.write("m.obj", obj_of([[x, 0, z] for x in (1.25, 1.5, 2) for z in (0, 0.5, 1)]))
+    counts(entry(run, "check", "m.obj", "-l", "turn.json"), vertices=9, inside=9, multiple=0)
+    run.ffd("embed", "m.obj", "-l", "turn.json", "-o", "u.npy")
+    # The least u,v,w: u is less on the last ray.
+    near(npy(run.read("u.npy"))[2], [[x - 1.25, 1, z] for x in (1.25, 1.5, 2) for z in (0, 0.5, 1)], 1e-15)
+    run.write("back.json", rays([[1, 0], [2, 0]], [[1, 1], [2, 1]], [[1.25, 0], [2.25, 0]]))
+    counts(entry(run, "check", "m.obj", "-l", "back.json"), vertices=9, multiple=9)
+
+
 @case
 def maths3_10_box_weights_open_knots(run):
     """With weights, and knots that are not clamped, the volume is not the whole box: by how much is said."""
