@@ -2,6 +2,7 @@
 #include "check_embedding.h"
 #include "base/vector/vec.h"
 #include "embed/locator.h"
+#include "lattice/border.h"
 #include "promise.h"
 #include <ffd/deform.h>
 #include <ffd/embedding.h>
@@ -117,11 +118,23 @@ static bool is_on_face(const probe *of, int a, double u)
     return u - of->lo[a] < 1e-6 * (of->hi[a] - of->lo[a]) || of->hi[a] - u < 1e-6 * (of->hi[a] - of->lo[a]);
 }
 
+/* Whether the roots are on the two faces of a seam, whose parameters along the faces may differ. */
+static bool is_across_seam(const probe *of, const double here[3], const double there[3])
+{
+    for (int a = 0; a < 3; a++)
+        if (is_on_face(of, a, here[a]) && is_on_face(of, a, there[a]) &&
+            fabs(here[a] - there[a]) > 0.5 * (of->hi[a] - of->lo[a]) && ffd_lattice_is_seam(of->lattice, a))
+            return true;
+    return false;
+}
+
 /* "Exactly one u,v,w" cannot be said of a point that was made from another. Faces that are one place are one
    (a bar bent to a ring). */
 static void check_only_root(const probe *of, const probe_point *point, const ffd_location *location)
 {
     double here[3], there[3];
+    if (is_across_seam(of, location->uvw, point->uvw))
+        return;
     root_spread(of, point->p, location->uvw, here);
     root_spread(of, point->p, point->uvw, there);
     for (int a = 0; a < 3; a++) {
