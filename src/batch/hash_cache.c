@@ -209,8 +209,10 @@ static ffd_status look_at_bytes(hash_cache *cache, const char *path, const file_
         return status;
     if (table->count_beside)
         look->beside = table->count_beside(&bytes, from, to);
+    /* A GLB that is made of a .gltf holds its images. */
+    path_list *copied = from == FFD_FORMAT_GLTF && to == FFD_FORMAT_GLB ? NULL : &look->copied;
     if (table->find_named)
-        status = table->find_named(path, &bytes, &look->named, &look->copied, error);
+        status = table->find_named(path, &bytes, &look->named, copied, error);
     ffd_kept_put(&cache->kept, path, stamp, &bytes);
     look->path = status ? NULL : ffd_text_copy(path);
     look->stamp = *stamp;

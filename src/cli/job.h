@@ -13,7 +13,7 @@ typedef struct cli_job {
     cli_values values;
     cli_names only, allowed; /* selectors; extensions */
     int outside, normals, space, rig;
-    double falloff; /* 0: not given */
+    double falloff, timeout; /* 0: not given */
     cli_distance snap;
     bool blocks;
     const char *embedding;

@@ -9,6 +9,7 @@
 #include "io/npy/npy.h"
 #include "job/chain/chain_load.h"
 #include "job/chain/lattice_memory.h"
+#include "job/chain/pace.h"
 #include "job/input/deform_desc.h"
 #include "job/input/embedding_file.h"
 #include "job/input/in_memory.h"
@@ -147,7 +148,8 @@ static ffd_status open_mesh(const ffd_embed_desc *desc, embedding *made, int thr
 }
 
 /* Allocates and fills the arrays. */
-static ffd_status make(embedding *made, int threads, pass_totals *totals, ffd_error *error)
+static ffd_status make(const ffd_embed_desc *desc, embedding *made, int threads, const mesh_log *log,
+                       pass_totals *totals, ffd_error *error)
 {
     made->count = (size_t)ffd_mesh_vertex_count(made->document);
     memory_budget budget = made->document->budget;
@@ -160,12 +162,20 @@ static ffd_status make(embedding *made, int threads, pass_totals *totals, ffd_er
     made->statuses = ffd_alloc(made->count, sizeof *made->statuses);
     if (!made->uvw || !made->statuses)
         return ffd_fail_memory(error);
+    threads = ffd_pass_threads(&budget, 0, threads);
+    chain_pace pace = {.points = (double)made->count,
+                       .threads = threads,
+                       .links = made->chain.links,
+                       .lattices = &desc->lattice,
+                       .more = "",
+                       .log = *log};
     const mesh_pass pass = {.document = made->document,
                             .chain = &made->chain,
                             .links = 1,
-                            .threads = ffd_pass_threads(&budget, 0, threads),
+                            .threads = threads,
                             .uvw = made->uvw,
-                            .statuses = made->statuses};
+                            .statuses = made->statuses,
+                            .pace = &pace};
     return ffd_pass_run(&pass, totals, error);
 }
 
@@ -192,7 +202,7 @@ static ffd_status embed(const ffd_embed_desc *desc, embedding *made, double star
         return status;
     const double opened = ffd_clock_seconds();
     result->seconds_read = opened - start;
-    status = make(made, threads, &totals, error);
+    status = make(desc, made, threads, &log, &totals, error);
     status = ffd_mapping_judge(made->losses, status, error);
     if (status)
         return status;

@@ -197,3 +197,44 @@ bool ffd_lattice_opens_seam(const ffd_lattice *lattice, int direction)
 {
     return !faces_meet(lattice, FFD_VOLUME_DEFORMED, direction, 64, true);
 }
+
+/* Returns whether the row of control points of a face through index, in a direction, is one point. */
+static bool is_one_point(const border_face *face, int along, size_t index[3], const double tolerance[3])
+{
+    double first[4], point[4];
+    index[along] = 0;
+    ffd_border_point(face, index, face->points, first);
+    for (index[along] = 1; index[along] < face->lattice->size[along]; index[along]++) {
+        ffd_border_point(face, index, face->points, point);
+        if (!are_equal(first, point, tolerance))
+            return false;
+    }
+    return true;
+}
+
+/* Returns whether some row of a face in a direction is one point at rest and several deformed. */
+static bool opens_row(const ffd_lattice *lattice, int direction, int end, int along)
+{
+    const int other = 3 - direction - along;
+    border_face rest, deformed;
+    double of_rest[3], of_deformed[3];
+    size_t index[3] = {0, 0, 0};
+    ffd_border_face(lattice, FFD_VOLUME_REST, direction, end, &rest);
+    ffd_border_face(lattice, FFD_VOLUME_DEFORMED, direction, end, &deformed);
+    size_up(lattice, rest.points, 16, of_rest);
+    size_up(lattice, deformed.points, 64, of_deformed);
+    for (index[other] = 0; index[other] < lattice->size[other]; index[other]++)
+        if (is_one_point(&rest, along, index, of_rest) && !is_one_point(&deformed, along, index, of_deformed))
+            return true;
+    return false;
+}
+
+bool ffd_lattice_opens_axis(const ffd_lattice *lattice)
+{
+    for (int direction = 0; direction < 3; direction++)
+        for (int end = 0; end < 2 && !ffd_knots_closed(&lattice->knots[direction]); end++)
+            for (int along = 0; along < 3; along++)
+                if (along != direction && opens_row(lattice, direction, end, along))
+                    return true;
+    return false;
+}

@@ -34,4 +34,8 @@ bool ffd_lattice_is_seam(const ffd_lattice *lattice, int direction);
    control points of the faces differ, or if the ratio of their weights is not constant. */
 bool ffd_lattice_opens_seam(const ffd_lattice *lattice, int direction);
 
+/* Returns whether the moves separate control points of a face or an edge of the domain that are one point at
+   rest, as on a cylinder's axis. */
+bool ffd_lattice_opens_axis(const ffd_lattice *lattice);
+
 #endif

@@ -96,16 +96,16 @@ def set_in_a_manifest(run):
     begin(run)
     run.write("k.json", lattice(low=(-9, -9, -9), high=(9, 9, 9), moves=[{"by": [0, {"$": "K"}, 0]}, {"by": [0, {"$": "H"}, 0]}]))
     run.write("l.json", lattice())
-    jobs = [job(i, lattice="p.json", set={"H": i / 16}) for i in range(12)]
+    jobs = [job(i, lattice="p.json", set={"H": (i + 1) / 16}) for i in range(12)]
     jobs += [job(12, lattice=["p.json", "k.json"], set={"H": 0.25, "K": 0.5}), job(13, lattice=["l.json", "p.json"], set={"H": -0.5})]
     run.write("m.jsonl", lines_of(jobs))
     batch(run, "m.jsonl", "-j", "2", done=14)
     for i in range(12):
-        raised(run, f"o{i}.obj", i / 16)
+        raised(run, f"o{i}.obj", (i + 1) / 16)
     raised(run, "o12.obj", 1)
     raised(run, "o13.obj", -0.5)
     for i in (3, 7):
-        run.ffd("deform", "a.obj", "s.obj", "-l", "p.json", "--set", f"H={i / 16}", "--force")
+        run.ffd("deform", "a.obj", "s.obj", "-l", "p.json", "--set", f"H={(i + 1) / 16}", "--force")
         equal(run.read(f"o{i}.obj"), run.read("s.obj"), f"o{i}.obj and a single run's")
     # A changed value is a changed job.
     jobs[4]["set"]["H"] = 0.875
@@ -287,14 +287,14 @@ def options_stand_in_for_columns(run):
 @case
 def tables_and_the_options_of_batches(run):
     begin(run)
-    run.write("t.csv", "in,lattice,out,H\n" + "".join(f"a.obj,p.json,o{i}.obj,{i / 16}\n" for i in range(20)))
+    run.write("t.csv", "in,lattice,out,H\n" + "".join(f"a.obj,p.json,o{i}.obj,{(i + 1) / 16}\n" for i in range(20)))
     batch(run, "--csv", "t.csv", "--dry-run", done=20, out="".join(f"to do: a.obj -> o{i}.obj\n" for i in range(20)))
     for shard in range(3):
         batch(run, "--csv", "t.csv", "--shard", f"{shard}/3", done=len(range(shard, 20, 3)))
     for i in range(20):
-        raised(run, f"o{i}.obj", i / 16)
+        raised(run, f"o{i}.obj", (i + 1) / 16)
     batch(run, "--csv", "t.csv", "--resume", "--normals", "keep", "-j", "3", done=20)
-    run.write("t.csv", run.text("t.csv").replace("o7.obj,0.4375", "o7.obj,0.75"))
+    run.write("t.csv", run.text("t.csv").replace("o7.obj,0.5", "o7.obj,0.75"))
     batch(run, "--csv", "t.csv", "--resume", "--normals", "keep", done=1, kept=19)
     raised(run, "o7.obj", 0.75)
 

@@ -221,6 +221,34 @@ def a_box_round_a_mesh_that_weights_change_is_named(run):
     told(run.ffd("check", "m.obj", "-l", "l.json", err=anything), "l.json", "not its whole box", "along u that", "0.333 off")
 
 
+# Torn edges
+
+@case
+def maths3_11_blocks_jump_unseen(run):
+    """The blocks move their common face apart, between the vertices: two edges jump by 0.6 there, as without --blocks."""
+    use(run, "maths3-11-blocks-jump-unseen")
+    both = ("-l", "a.json", "-l", "b.json")
+    for options in (both, both + ("--blocks",)):
+        tear = entry(run, "check", "m.obj", *options)["tear"]
+        equal([tear["edges"], tear["largest"]], [2, 0.6], options)
+        run.ffd("deform", "m.obj", "out.obj", *options, "--fail-on", "tear", code=NO, err=anything)
+        check(not run.exists("out.obj"), "nothing is written")
+    told(run.ffd("deform", "m.obj", "out.obj", *both, "--blocks", err=anything), "blocks", "differently", r"\b0\.6\b")
+
+
+@case
+def maths3_12_extend_jumps_between_arms(run):
+    """Between the arms of a horseshoe, of which one moves by 1, the nearest border changes: two edges jump by 1."""
+    use(run, "maths3-12-extend-jumps-between-arms")
+    options = ("-l", "l.json", "--outside", "extend")
+    tear = entry(run, "check", "m.obj", *options)["tear"]
+    equal(tear["edges"], 2)
+    near([tear["largest"]], [1], 1e-9)
+    run.ffd("deform", "m.obj", "out.obj", *options, "--fail-on", "tear,folds", code=NO, err=anything)
+    check(not run.exists("out.obj"), "nothing is written")
+    told(run.ffd("deform", "m.obj", "out.obj", *options, err=anything), "border", r"\bstep to a neighbour is 1\b")
+
+
 # 4x4 matrices, as rows.
 
 def product(a, b):

@@ -4,8 +4,10 @@
 #include "base/file/memory_files.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -51,6 +53,20 @@ static ffd_status read_piece(int fd, const char *name, off_t offset, void *to, s
     return FFD_OK;
 }
 
+/* Waits until a stream has bytes, or the deadline. */
+static ffd_status wait_for_bytes(int fd, ffd_error *error)
+{
+    struct pollfd ready = {.fd = fd, .events = POLLIN};
+    while (ffd_deadline_left() >= 0) {
+        if (poll(&ready, 1, ffd_deadline_left()) > 0)
+            return FFD_OK;
+        const ffd_status status = ffd_deadline_check(error);
+        if (status)
+            return status;
+    }
+    return FFD_OK;
+}
+
 /* Reads files that have no size and cannot be mapped: pipes, terminals, /dev/stdin, files of /proc. */
 static ffd_status read_stream(int fd, const char *name, file_input *input, ffd_error *error)
 {
@@ -65,6 +81,8 @@ static ffd_status read_stream(int fd, const char *name, file_input *input, ffd_e
         else if (!ffd_grow((void **)&block, &capacity, size + 65536, 1))
             status = ffd_fail_file(error, FFD_E_MEMORY, name, "out of memory after %zu bytes", size);
         else
+            status = wait_for_bytes(fd, error);
+        if (!status)
             status = read_piece(fd, name, FROM_HERE, block + size, capacity - size, &got, error);
     } while (!status && got > 0);
     if (status)

@@ -9,6 +9,7 @@
 #include "base/file/temporary.h"
 #include "base/file/written_files.h"
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include "base/text/buffer.h"
 #include <errno.h>
 #include <fcntl.h>
@@ -407,9 +408,17 @@ ffd_status ffd_output_folder(file_output *output, const char *path, ffd_error *e
     return status;
 }
 
+/* Empties the block, in time: a file that is complete or absent is not written on after the deadline. */
+static ffd_status make_room(file_output *output, ffd_error *error)
+{
+    const output_file *const file = &output->files[output->count - 1];
+    const ffd_status status = file->temporary || file->is_memory ? ffd_deadline_check(error) : FFD_OK;
+    return status ? status : flush(output, error);
+}
+
 ffd_status ffd_output_write(file_output *output, const void *bytes, size_t size, ffd_error *error)
 {
-    const ffd_status status = size > BLOCK - output->filled ? flush(output, error) : FFD_OK;
+    const ffd_status status = size > BLOCK - output->filled ? make_room(output, error) : FFD_OK;
     if (status)
         return status;
     if (output->hash && output->count == 1)

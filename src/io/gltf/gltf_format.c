@@ -19,6 +19,7 @@
 #include "io/gltf/scene/gltf_mixed.h"
 #include "io/gltf/scene/gltf_names.h"
 #include "io/gltf/scene/gltf_refuse.h"
+#include "io/gltf/scene/gltf_required.h"
 #include "io/gltf/scene/gltf_results.h"
 #include "io/gltf/scene/gltf_select.h"
 #include "io/gltf/scene/gltf_shown.h"
@@ -32,6 +33,12 @@
 static ffd_status check(const mesh_document *document, ffd_error *error)
 {
     return ffd_gltf_refuse_read(ffd_gltf_of(document), error);
+}
+
+static ffd_status warn(const mesh_document *document, const mesh_log *log, ffd_error *error)
+{
+    const ffd_status status = ffd_gltf_warn_of_held(ffd_gltf_of(document), log, error);
+    return status ? status : ffd_gltf_warn_of_faults(document, log, error);
 }
 
 static void read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
@@ -94,7 +101,7 @@ const mesh_format ffd_gltf_format = {
     .count_beside = ffd_gltf_count_beside,
     .name_beside = ffd_beside_name,
     .check = check,
-    .warn = ffd_gltf_warn_of_faults,
+    .warn = warn,
     .check_reach = ffd_gltf_check_reach,
     .list_places = ffd_gltf_list_places,
     .place_name = ffd_gltf_place_name,
