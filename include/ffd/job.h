@@ -325,6 +325,9 @@ typedef struct ffd_deform_desc {
        be NULL, to write no mesh; as_morph, morphs, depfile and output_format are FFD_E_ARGUMENT then. */
     ffd_positions_function positions;
     void *positions_user;
+    /* A job that takes longer than so many seconds fails with FFD_E_LIMIT and writes nothing; 0: no limit.
+       The job looks at the time at least between its steps. */
+    double timeout;
 } ffd_deform_desc;
 
 /* Sets desc to defaults: all members 0, NULL or false. size: sizeof(ffd_deform_desc) in the caller's
@@ -390,6 +393,19 @@ typedef struct ffd_rig_result {
     double unselected_by;
 } ffd_rig_result;
 
+/* Why an edge is torn (src/maths.md 7.4). */
+typedef enum ffd_tear_cause {
+    FFD_TEAR_NONE = 0,
+    FFD_TEAR_STAYS,      /* an end is outside of the lattices, and stays */
+    FFD_TEAR_UNSELECTED, /* an end is not selected, or its matrix is not invertible */
+    FFD_TEAR_LATTICES,   /* the edge leads out of a lattice, or into another one */
+    FFD_TEAR_BLOCKS,     /* it leads from one block to another that moves the place differently */
+    FFD_TEAR_SEAM,       /* it crosses two coinciding rest faces of a lattice that are moved apart */
+    FFD_TEAR_AXIS,       /* it meets a collapsed face of a lattice that is opened */
+    FFD_TEAR_BORDER,     /* outside, where another part of the border becomes the nearest */
+    FFD_TEAR_OVERLAP     /* it leads from one part of a lattice that overlaps itself to another */
+} ffd_tear_cause;
+
 /* The result of a job: the figures of the report (data/schema/formats.md 2; src/maths.md 11). Lengths are in
    world units unless stated otherwise. */
 typedef struct ffd_job_result {
@@ -443,10 +459,10 @@ typedef struct ffd_job_result {
     size_t folds_lattice;   /* index of the lattice of the witness, from 0 */
     bool has_flipped;       /* with ffd_check_run and quality */
     uint64_t faces, flipped_faces;
-    /* Torn edges: one end moves and the other stays, where the displacement does not fade; or the ends move
-       differently although both are at a common border or seam (src/maths.md 7.4). Invisible edges do not
-       count. Counted with ffd_check_run, quality and FFD_GATE_TEAR, and if vertices stay in a mesh of at most
-       5.5 million. */
+    /* Torn edges: one end moves and the other stays, where the displacement does not fade; or both move, but
+       the displacement jumps between them (src/maths.md 7.4). Invisible edges do not count. Counted with
+       ffd_check_run, quality and FFD_GATE_TEAR, and in a mesh of at most 5.5 million vertices wherever some
+       edge may be torn. */
     bool has_tear;
     uint64_t tear_edges; /* number of torn edges */
     double tear_largest; /* the largest step of a torn edge */
@@ -458,10 +474,9 @@ typedef struct ffd_job_result {
     uint64_t tear_stays; /* vertices that stay in that part, or in the mesh if there is no part */
     /* That vertex stays because it is not selected, or because its matrix is not invertible. */
     bool tear_unselected;
-    bool tear_between;   /* it moves, but with other lattices of the chain than the other end, or with more or
-                            fewer */
-    bool tear_seam;      /* the edge crosses two coinciding rest faces of a lattice that are moved apart */
-    bool tear_disagrees; /* blocks: it is on a common face that another block moves differently */
+    bool tear_between;   /* tear_cause is FFD_TEAR_LATTICES */
+    bool tear_seam;      /* tear_cause is FFD_TEAR_SEAM */
+    bool tear_disagrees; /* tear_cause is FFD_TEAR_BLOCKS */
     /* With FFD_OUTSIDE_EXTEND: the least det F at vertices outside, if it is computed (ffd_check_run,
        quality, FFD_GATE_FOLDS), and the vertex; else infinite. */
     double det_outside;
@@ -504,6 +519,7 @@ typedef struct ffd_job_result {
     uint64_t base_outside;
     uint64_t bounds_left; /* boxes and spheres in glTF extensions and extras that are named as bounds of what
                              was deformed, and stay as they were before */
+    ffd_tear_cause tear_cause; /* of the torn edge with the largest step */
     /* Results so far from the origin that float32 changes their shape: the largest rounding error, and the
        largest side of the part that it changes most, both in the file's space. 0: none. */
     double precision_error, precision_side;

@@ -3,6 +3,7 @@
 #include "base/memory/memory.h"
 #include "base/struct_size.h"
 #include "base/system/clock.h"
+#include "base/system/deadline.h"
 #include "base/system/thread.h"
 #include "base/vector/isa.h"
 #include "job/chain/chain_load.h"
@@ -100,6 +101,8 @@ static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
         return ffd_fail(error, FFD_E_ARGUMENT, "the falloff %g is not a length", desc->falloff);
     if (!(desc->snap >= 0 && isfinite(desc->snap)))
         return ffd_fail(error, FFD_E_ARGUMENT, "the snap %g is not a length", desc->snap);
+    if (!(desc->timeout >= 0))
+        return ffd_fail(error, FFD_E_ARGUMENT, "the timeout %g is not a time", desc->timeout);
     if (desc->falloff > 0 && desc->outside != FFD_OUTSIDE_EXTEND)
         return ffd_fail(error, FFD_E_ARGUMENT, "--falloff needs --outside extend");
     if (desc->positions && desc->morphs)
@@ -152,7 +155,9 @@ static ffd_status run_in_memory(deform_job_function run, ffd_deform_desc *desc, 
 {
     const char *const *const lattices = desc->lattices;
     job_memory memory = {0};
-    ffd_status status = ffd_in_memory_desc(&memory, desc, &result->error);
+    ffd_status status = ffd_chain_check_count(desc->lattice_count, &result->error);
+    if (!status)
+        status = ffd_in_memory_desc(&memory, desc, &result->error);
     if (!status)
         status = run_own(run, desc, result, size, &result->error);
     status = ffd_in_memory_judge(&memory, status, &result->error);
@@ -172,9 +177,12 @@ ffd_status ffd_job_for_caller(deform_job_function run, const ffd_deform_desc *ca
     if (status)
         return status;
     const size_t size = callers_result->struct_size;
+    deadline own;
     status = ffd_deform_desc_take(callers, &desc, &result.error);
+    const deadline *const before = ffd_deadline_begin(&own, status ? 0 : desc.timeout);
     if (!status)
         status = run_in_memory(run, &desc, &result, size);
+    ffd_deadline_end(before);
     if (status && error)
         *error = result.error;
     result.status = status;
@@ -259,6 +267,8 @@ ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_erro
                                "has no nodes that could follow: only glTF has (--rig follow)");
     if (!status)
         ffd_result_note_flaws(result, &job->document->flaws);
+    if (!status)
+        status = ffd_deadline_check(error);
     for (size_t l = 0; l < job->chain.count; l++)
         result->own_box = result->own_box || !job->chain.links[l].locator;
     result->seconds_read = ffd_clock_seconds() - start;
@@ -463,9 +473,11 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
     const double prepared = ffd_clock_seconds();
     result->seconds_read += prepared - start;
     if (!status)
+        status = ffd_deadline_check(error);
+    if (!status)
         status = locate(job, error);
     if (!status)
-        status = ffd_tear_figures_prepare(job, error);
+        status = ffd_tear_figures_prepare(job, &arrays, error);
     if (!status)
         status = move_rig(job, error);
     if (!status)
@@ -477,6 +489,8 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
     }
     if (!status)
         status = judge(job, &arrays, result, error);
+    if (!status)
+        status = ffd_deadline_check(error);
     job->document->shown = job->document->shown && ffd_passes_write_shown(job);
     status = ffd_mapping_judge(job->losses, status, error);
     if (!status)

@@ -1,5 +1,6 @@
 #include "job/deform_passes.h"
 #include "job/chain/job_cache.h"
+#include "job/chain/pace.h"
 #include "job/input/deform_desc.h"
 #include "job/pass/pass.h"
 #include "job/pass/recompute.h"
@@ -31,12 +32,13 @@ static hash128 located_in(const chain_link *link)
 }
 
 /* Describes a pass that deforms everything, without output arrays. */
-static mesh_pass describe(const deform_job *job)
+static mesh_pass describe(const deform_job *job, chain_pace *pace)
 {
     return (mesh_pass){.document = job->document,
                        .chain = &job->chain,
                        .links = job->chain.count,
                        .threads = job->threads,
+                       .pace = pace,
                        .write = true,
                        .attributes = job->desc->normals != FFD_NORMALS_KEEP,
                        .only_offsets = job->desc->normals == FFD_NORMALS_RECOMPUTE};
@@ -88,11 +90,11 @@ static ffd_status run_stored(deform_job *job, mesh_pass *pass, pass_totals *tota
 /* Deforms base and targets, or only counts them if nothing needs their results; then the shape with default
    weights, of which all figures are. */
 static ffd_status run_both(deform_job *job, const figure_arrays *figures, const figure_arrays *stored,
-                           recompute_counts *counts, ffd_error *error)
+                           chain_pace *pace, recompute_counts *counts, ffd_error *error)
 {
     const bool writes_shown = ffd_passes_write_shown(job);
     pass_totals of_stored;
-    mesh_pass pass = describe(job), shown = describe(job);
+    mesh_pass pass = describe(job, pace), shown = describe(job, pace);
     pass.deformed = stored->deformed;
     pass.gradients = stored->gradients;
     pass.write = !writes_shown;
@@ -113,10 +115,10 @@ static ffd_status run_both(deform_job *job, const figure_arrays *figures, const 
     return status;
 }
 
-static ffd_status run_one(deform_job *job, const figure_arrays *figures, recompute_counts *counts,
-                          ffd_error *error)
+static ffd_status run_one(deform_job *job, const figure_arrays *figures, chain_pace *pace,
+                          recompute_counts *counts, ffd_error *error)
 {
-    mesh_pass pass = describe(job);
+    mesh_pass pass = describe(job, pace);
     fill_figures(job, figures, &pass);
     const ffd_status status = run_stored(job, &pass, &job->totals, error);
     return status || !job->totals.moved ? status : recompute(job, figures, counts, error);
@@ -126,8 +128,15 @@ ffd_status ffd_passes_run(deform_job *job, const figure_arrays *figures, const f
                           ffd_error *error)
 {
     recompute_counts counts = {0};
-    const ffd_status status = ffd_passes_judge_shown(job) ? run_both(job, figures, stored, &counts, error)
-                                                          : run_one(job, figures, &counts, error);
+    chain_pace pace = {.points = (double)ffd_mesh_vertex_count(job->document),
+                       .threads = job->threads,
+                       .links = job->chain.links,
+                       .lattices = job->desc->lattices,
+                       .more = figures->has_faces ? ", and edges longer (see --timeout)" : " (see --timeout)",
+                       .log = job->log};
+    const ffd_status status = ffd_passes_judge_shown(job)
+                                  ? run_both(job, figures, stored, &pace, &counts, error)
+                                  : run_one(job, figures, &pace, &counts, error);
     job->totals.normals_collapsed += counts.collapsed;
     job->totals.normals_carried = counts.carried;
     return status;

@@ -190,12 +190,24 @@ void ffd_mesh_faces_free(mesh_faces *faces);
 /* The normal index of a corner without a normal. */
 #define MESH_NO_NORMAL UINT32_MAX
 
+/* Finds which models name a file, other than the output: the first ones are added to `names`, *count is their
+   number. *by_output: whether the model that the output replaces names it. */
+typedef ffd_status mesh_find_users_function(void *context, const char *file, const char *output,
+                                            size_t *count, bool *by_output, path_list *names,
+                                            ffd_error *error);
+typedef struct mesh_sharing {
+    mesh_find_users_function *find;
+    void *context;
+    bool is_cheap; /* find reads no files */
+} mesh_sharing;
+
 typedef struct mesh_save_options {
     const char *path; /* "-": standard output */
     ffd_format format;
     bool force;
     ffd_resources resources;
     const char *input; /* file of the document, which a conversion must not replace; NULL or "-": none */
+    const mesh_sharing *sharing; /* models that may share buffers with the output; NULL: none */
     /* Receives further files of the output with unchanged content: images and material libraries that are
        copied next to it, or exist already. May be NULL. */
     path_list *copied;
@@ -231,8 +243,9 @@ typedef ffd_status mesh_list_files_function(const mesh_document *document, path_
 typedef ffd_status mesh_find_resources_function(const char *path, const file_input *bytes, path_list *files,
                                                 ffd_error *error);
 typedef size_t mesh_count_beside_function(const file_input *bytes, ffd_format from, ffd_format to);
-typedef ffd_status mesh_list_beside_function(const char *output, size_t count, path_list *files,
-                                             ffd_error *error);
+typedef char *mesh_name_beside_function(const char *output, size_t number);
+typedef ffd_status mesh_find_named_function(const char *path, const file_input *bytes, path_list *files,
+                                            path_list *copies, ffd_error *error);
 typedef ffd_status mesh_check_function(const mesh_document *document, ffd_error *error);
 typedef ffd_status mesh_warn_function(const mesh_document *document, const mesh_log *log, ffd_error *error);
 /* Results of vertices are written in ranges that begin at multiples of this. */
@@ -314,11 +327,15 @@ typedef struct mesh_format {
     /* The same for images and other files that are copied with an output, by scanning the bytes of the file
        at a path without opening a document. An invalid file has none. NULL: nothing is copied. */
     mesh_find_resources_function *find_resources;
+    /* Adds every file beside it that a mesh names, existing or not, in the same way: buffers, images,
+       material libraries and their maps; to `copies` (may be NULL) those that find_resources adds. NULL:
+       none. */
+    mesh_find_named_function *find_named;
     /* Counts the further files, without images, that saving a mesh as `to` writes, by scanning the bytes of
        the input (NULL if its format is another one). An invalid file has none. NULL: there are none. */
     mesh_count_beside_function *count_beside;
-    /* Adds the paths of the first `count` of these files. */
-    mesh_list_beside_function *list_beside;
+    /* Returns the path of number `number` of these files, if no other model names it (beside.h). */
+    mesh_name_beside_function *name_beside;
     /* Refuses (FFD_E_UNSUPPORTED) content that the streams of the parts do not represent, before anything is
        embedded or deformed: skins, morph targets, compressed data. Not needed for a document that is only
        described. NULL: the streams represent everything. Called by ffd_mesh_check. */

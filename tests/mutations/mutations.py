@@ -68,7 +68,7 @@ m("close-not-checked", "close check left out", "file, cli_full_disk, cli_output"
 m("output-not-locked", "lock left out", "file, cli_output, cli_batch_signals",
   "if (flock(fd, LOCK_EX | LOCK_NB) != 0)", "if (flock(fd, LOCK_UN) != 0)")
 m("block-overrun", "bound", "file, cli_output",
-  "size > BLOCK - output->filled ? flush(output, error)", "size > BLOCK ? flush(output, error)")
+  "size > BLOCK - output->filled ? make_room(output, error)", "size > BLOCK ? make_room(output, error)")
 m("mode-not-kept", "file mode", "file, cli_output", "old->st_mode & 0777", "old->st_mode & 0666")
 m("output-left-open", "freed resource", "file, cli_many", "if (file->fd >= 0) close(file->fd);",
   "if (file->fd >= 1000000)\n            close(file->fd);")
@@ -1008,11 +1008,13 @@ m("figures-of-a-dry-run", "figure", "cli_batch_report", ".planned = task->dry &&
   ".planned = false && answer && task->dry,")
 # job: torn edges, lattices side by side
 
-m("later-borders-not-looked-at", "left out", "cli_tears", "more |= !walk->by_ends;", "more |= walk->over;")
-m("sides-go-as-their-ends", "left out", "cli_tears", "if (!outer || holds[WITHIN] || holds[BEYOND])",
-  "if (!outer && holds[WITHIN] && !holds[WITHIN])")
-m("borders-at-one-place-twice", "left out", "cli_tears", "if (takes_way[WITHIN] == inner && takes_way[BEYOND] == outer)",
-  "if (takes_way[WITHIN] == outer && takes_way[BEYOND] == inner)")
+m("cut-beside-the-jump", "condition", "cli_jumps", "const int next = halves[1].defect > halves[0].defect;",
+  "const int next = halves[1].defect < halves[0].defect;")
+m("other-half-forgotten", "left out", "tears", "if (jumps[1 - next]) let_wait(edge, &halves[1 - next]);",
+  "if (jumps[1 - next] && edge->count > PARTS)\n        let_wait(edge, &halves[1 - next]);")
+m("edges-cut-without-end", "limit", "cli_jumps", "atomic_fetch_sub(field->left, evaluations) >= evaluations",
+  "atomic_fetch_sub(field->left, evaluations) >= evaluations - (1LL << 60)")
+m("staying-lost-with-moving", "left out", "cli_jumps", "if (!status || status == FFD_E_LIMIT) fill_result(", "if (!status)\n        fill_result(")
 m("blocks-at-two-places", "left out", "cli_blocks", "bool found = distance(at[0], at[1]) <= off;",
   "bool found = distance(at[0], at[1]) >= 0;")
 m("slope-of-the-rounding", "left out", "cli_blocks", "limit += change_of(gradient, off);", "limit += change_of(gradient, 0);")
@@ -1034,15 +1036,14 @@ m("unused-as-staying", "left out", "cli_tears", "job->kept[first + v] &= ffd_par
   "job->kept[first + v] &= !part->hidden;")
 m("numbers-of-few-as-of-all", "number", "cli_tears", "torn ? ffd_faces_number(faces, count->vertex) : count->vertex;",
   "count->vertex;")
-m("marks-of-few-as-of-all", "number", "cli_tears", "job->kept[p * all.vertices + faces->numbers[v]];",
-  "job->kept[p * all.vertices + v];")
-m("hidden-of-few-as-of-all", "number", "cli_tears", "const uint32_t vertex = ffd_faces_number(work->question->faces, of_faces);",
+m("marks-of-few-as-of-all", "number", "cli_tears", "job->kept[p * vertices + faces->numbers[v]];",
+  "job->kept[p * vertices + v];")
+m("hidden-of-few-as-of-all", "number", "cli_tears", "const uint32_t vertex = ffd_faces_number(mesh->faces, of_faces);",
   "const uint32_t vertex = of_faces;")
 m("last-of-eight-marks", "limit", "mixed_faces", "while (marks->planes == 1 && marks->vertices - vertex > sizeof eight) {",
   "while (marks->planes >= 1 && marks->vertices - vertex > sizeof eight) {")
 m("vertices-before-a-word", "off by one", "mixed_faces", "set->before[w] = (uint32_t)*count;",
   "set->before[w] = (uint32_t)*count + (w > 0);")
-m("across-not-turned", "left out", "cli_tears", "walk->across[a] += turned[a];", "walk->across[a] += 0 * turned[a];")
 
 # job: areas and volumes
 
@@ -1113,6 +1114,11 @@ m("images-not-in-the-record", "check left out", "cli_batch_sweep",
   "!job->document->converted && ffd_source_is_alone(job->document);", "!job->document->converted;")
 m("hash-of-one-of-two-files", "condition", "file, cli_batch_resume",
   "output->hash && output->count == 1 && output->files[0].temporary;", "output->hash && output->count >= 1 && output->files[0].temporary;")
+m("deadline-of-one-thread", "left out", "cli_timeout", "ffd_deadline_set(self->deadline);", "ffd_deadline_set(NULL);")
+m("search-without-deadline", "left out", "cli_timeout", "size = ends ? next_slice(now, seconds) : MOST_POINTS; status = ffd_deadline_check(error);",
+  "size = ends ? next_slice(now, seconds) : MOST_POINTS;")
+m("slowness-told-again", "left out", "cli_timeout", "pace->is_told = true;", "pace->is_told = false;")
+m("stream-waited-for", "left out", "cli_timeout", "while (ffd_deadline_left() >= 0) {", "while (ffd_deadline_left() > 1 << 30) {")
 m("timeout-named-stop", "message", "cli_batch_failures, cli_batch", "worker->timed_out = !worker->stopped;",
   "worker->timed_out = worker->stopped;")
 m("memory-of-idle-workers", "clean-up left out", "cli_processors", "if (other != worker && !other->task) finish_worker(other, NULL);",

@@ -103,8 +103,8 @@ static ffd_status describe_attributes(const gltf_document *d, json_text *json, f
 {
     size_t count = 0;
     for (size_t i = 0; i < d->primitive_values.count; i++)
-        count +=
-            d->tree.values[ffd_json_span_member(&d->tree, d->primitive_values.values[i], "attributes")].count;
+        count += ffd_json_span_count(
+            &d->tree, ffd_json_span_member(&d->tree, d->primitive_values.values[i], "attributes"));
     json_member *members = ffd_alloc(count, sizeof *members);
     if (!members)
         return ffd_fail_memory(error);

@@ -219,7 +219,7 @@ static ffd_status add_triangles(extractor *e, const drawn *drawing)
     ffd_status status = FFD_OK;
     for (size_t t = 0; t < count && status == FFD_OK; t++) {
         uint32_t triangle[3];
-        ffd_gltf_triangle(mode, t, drawing->corners, triangle);
+        gltf_triangle(mode, t, drawing->corners, triangle);
         const int second = drawing->mirrored ? 2 : 1;
         const model_corner corners[3] = {corner_at(drawing, triangle[0]),
                                          corner_at(drawing, triangle[second]),

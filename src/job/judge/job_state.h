@@ -28,7 +28,8 @@ typedef struct deform_job {
     rig_places rig;           /* the document's joints, pivots, sockets and so on */
     mesh_following following; /* what --rig follow has done */
     pass_totals totals;
-    uint8_t *kept;          /* marks of vertices that stay (job/chain/chain.h); NULL: no vertices */
+    uint8_t *kept;          /* marks of the vertices (job/chain/marks.h); NULL: no vertices */
+    bool blocks_join;       /* ffd_blocks_join; false: not known */
     job_details *details;   /* to be filled, or NULL */
     double *positions;      /* 3 a vertex, like mesh_pass.deformed; NULL: not wanted */
     mesh_model base;        /* the shape before, if a conversion adds the deformation as a morph target */

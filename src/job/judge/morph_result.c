@@ -82,6 +82,7 @@ static void join_tears(const ffd_job_result *target, bool is_first, ffd_job_resu
     all->tear_stays = target->tear_stays;
     all->tear_unselected = target->tear_unselected;
     all->tear_seam = target->tear_seam;
+    all->tear_cause = target->tear_cause;
 }
 
 /* Combines the figures that take extra time, where all targets have them. */

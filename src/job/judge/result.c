@@ -223,6 +223,7 @@ void ffd_result_warn(const pass_totals *totals, const lattice_chain *chain, bool
                      const mesh_log *log)
 {
     const uint64_t others = totals->vertices - totals->counts[FFD_INSIDE] - totals->unused - totals->hidden;
+    ffd_coverage_warn(chain, log);
     if (others) {
         char list[600], coverage[600] = "";
         tell_others(totals, &chain->outside, deformed, list, sizeof list);

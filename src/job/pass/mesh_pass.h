@@ -38,11 +38,12 @@ typedef struct mesh_pass {
     double *gradients; /* 9 a vertex, or NULL: F - I of the whole chain, row-major, in the lattice's space;
                           NaN likewise */
     bool determinants; /* find the range of det F for the totals */
-    /* Marks of vertices that stay (chain.h): ffd_kept_planes(ffd_chain_marked) planes of kept_stride bytes,
-       initially 0; or NULL. */
+    /* Marks of the vertices (job/chain/marks.h): chain->marks.planes planes of kept_stride bytes, initially
+       0; or NULL. */
     uint8_t *kept;
     size_t kept_stride;
     pass_bounds bounds_of;
+    struct chain_pace *pace; /* told by the calling thread; or NULL */
 } mesh_pass;
 
 #endif

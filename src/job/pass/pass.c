@@ -1,12 +1,13 @@
 #include "job/pass/pass.h"
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include "base/system/thread.h"
 #include "base/vector/array_kernel.h"
 #include "base/vector/vec.h"
 #include "deform/attribute.h"
 #include "job/chain/chain_apply.h"
+#include "job/chain/marks.h"
 #include "job/chain/point_rounding.h"
-#include "job/chain/seams.h"
 #include "job/pass/pass_shapes.h"
 #include "job/pass/pass_splats.h"
 #include "job/pass/tile_totals.h"
@@ -357,24 +358,12 @@ static void mark_always(const mesh_pass *pass, size_t vertex, pass_totals *total
     totals->kept++;
 }
 
-/* Marks the vertices of a tile that are not selected, or whose transform is singular. Copies the chain's
-   marks to the caller's (keeps: there are some), and clears them. */
-static void mark_kept(const part_work *work, tile_scratch *scratch, size_t first, size_t count, bool keeps,
-                      pass_totals *totals)
+/* Adds the bits of the chosen vertices to the caller's, and clears them. */
+static void add_bits(const mesh_pass *pass, tile_scratch *scratch, size_t before, pass_totals *totals)
 {
-    const mesh_pass *const pass = work->pass;
-    const size_t before = (size_t)work->first_vertex + first;
-    const size_t planes = ffd_kept_planes(ffd_chain_marked(pass->chain));
-    if (work->part->singular || work->part->skinned)
-        for (size_t i = 0; i < count; i++)
-            if (ffd_vertex_transform_of(&scratch->transforms, i).singular)
-                mark_always(pass, before + i, totals);
-    for (size_t i = 0; i < count && !scratch->all_chosen; i++)
-        if (!ffd_part_selects(work->part, first + i))
-            mark_always(pass, before + i, totals);
-    for (size_t i = 0; i < scratch->chosen_count && keeps; i++) {
+    for (size_t i = 0; i < scratch->chosen_count; i++) {
         unsigned any = 0;
-        for (size_t p = 0; p < planes; p++) {
+        for (size_t p = 0; p < pass->chain->marks.kept; p++) {
             uint8_t *const mark = &scratch->kept[p * CHAIN_RUN + i];
             pass->kept[p * pass->kept_stride + before + ffd_tile_chosen(scratch, i)] |= *mark;
             any |= *mark;
@@ -382,6 +371,37 @@ static void mark_kept(const part_work *work, tile_scratch *scratch, size_t first
         }
         totals->kept += any != 0;
     }
+}
+
+/* Copies a plane of other marks of the chosen vertices to the caller's. */
+static void copy_plane(const mesh_pass *pass, const tile_scratch *scratch, size_t before, size_t plane)
+{
+    const uint8_t *const from = scratch->kept + plane * CHAIN_RUN;
+    uint8_t *const to = pass->kept + plane * pass->kept_stride + before;
+    if (scratch->all_chosen)
+        memcpy(to, from, scratch->chosen_count);
+    for (size_t i = 0; i < scratch->chosen_count && !scratch->all_chosen; i++)
+        to[scratch->chosen[i]] = from[i];
+}
+
+/* Marks the vertices of a tile that are not selected, or whose transform is singular. Copies the chain's
+   marks to the caller's (keeps: there are bits). */
+static void mark_kept(const part_work *work, tile_scratch *scratch, size_t first, size_t count, bool keeps,
+                      pass_totals *totals)
+{
+    const mesh_pass *const pass = work->pass;
+    const size_t before = (size_t)work->first_vertex + first;
+    if (work->part->singular || work->part->skinned)
+        for (size_t i = 0; i < count; i++)
+            if (ffd_vertex_transform_of(&scratch->transforms, i).singular)
+                mark_always(pass, before + i, totals);
+    for (size_t i = 0; i < count && !scratch->all_chosen; i++)
+        if (!ffd_part_selects(work->part, first + i))
+            mark_always(pass, before + i, totals);
+    if (keeps)
+        add_bits(pass, scratch, before, totals);
+    for (size_t p = pass->chain->marks.kept; p < pass->chain->marks.planes; p++)
+        copy_plane(pass, scratch, before, p);
 }
 
 /* Moves the results of the selected vertices back to their slots in the tile; the others get no
@@ -436,6 +456,7 @@ static ffd_status deform_points(part_work *work, tile_scratch *scratch, size_t f
                      .located = recall(work, scratch, first, rounding, totals),
                      .rounding = rounding,
                      .scratch = &scratch->chain,
+                     .pace = scratch == work->scratch ? pass->pace : NULL,
                      .delta = scratch->delta,
                      .gradient = gradients ? scratch->gradient : NULL,
                      .outcomes = scratch->point_outcomes,
@@ -475,7 +496,9 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
     if (atomic_load(&work->stopped))
         return;
     take_points(work, scratch, first, count, totals);
-    scratch->status = deform_points(work, scratch, first, count, gradients, totals);
+    scratch->status = ffd_deadline_check(&scratch->error);
+    if (!scratch->status)
+        scratch->status = deform_points(work, scratch, first, count, gradients, totals);
     if (scratch->status) {
         atomic_store(&work->stopped, true);
         return;
@@ -606,7 +629,7 @@ static tile_scratch *make_scratch(const mesh_pass *pass, int workers)
         if (splats)
             scratch[i].splat = ffd_alloc(1, sizeof *scratch[i].splat);
         if (pass->kept)
-            scratch[i].kept = ffd_alloc_zero(ffd_kept_planes(ffd_chain_marked(pass->chain)), CHAIN_RUN);
+            scratch[i].kept = ffd_alloc_zero(pass->chain->marks.planes, CHAIN_RUN);
         if ((shapes && !scratch[i].shape) || (splats && !scratch[i].splat) ||
             (pass->kept && !scratch[i].kept)) {
             free_scratch(scratch, workers);

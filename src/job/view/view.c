@@ -5,6 +5,7 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/struct_size.h"
+#include "base/system/deadline.h"
 #include "base/text/words.h"
 #include "job/chain/chain_load.h"
 #include "job/deform_job.h"
@@ -473,8 +474,11 @@ ffd_status ffd_view_run(const ffd_view_desc *callers, ffd_job_result *callers_re
         status = ffd_deform_desc_take(desc.job, &job, &result.error);
     job.morph_results = NULL; /* only jobs that write fill these */
     desc.job = &job;
+    deadline own;
+    const deadline *const before = ffd_deadline_begin(&own, status ? 0 : job.timeout);
     if (!status)
         status = view_in_memory(&desc, &job, &result);
+    ffd_deadline_end(before);
     if (status && error)
         *error = result.error;
     result.status = status;

@@ -131,8 +131,8 @@ static bool begin_animation(const gltf_saver *saver, uint32_t value, animation *
     const json_span *tree = &saver->document->tree;
     a->samplers = ffd_json_span_member(tree, value, "samplers");
     a->channels = ffd_json_span_member(tree, value, "channels");
-    a->sampler_count = a->samplers == JSON_NONE ? 0 : tree->values[a->samplers].count;
-    a->channel_count = a->channels == JSON_NONE ? 0 : tree->values[a->channels].count;
+    a->sampler_count = ffd_json_span_count(tree, a->samplers);
+    a->channel_count = ffd_json_span_count(tree, a->channels);
     a->sampler_values = ffd_alloc(a->sampler_count, sizeof *a->sampler_values);
     a->first = ffd_alloc(a->sampler_count, sizeof *a->first);
     a->others = ffd_alloc_zero(a->sampler_count, sizeof *a->others);

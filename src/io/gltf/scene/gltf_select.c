@@ -216,7 +216,7 @@ ffd_status ffd_gltf_select(mesh_document *document, const mesh_selector *selecto
     gltf_document *d = (gltf_document *)document;
     selecting s = {.document = d, .selectors = selectors, .count = count};
     const uint32_t materials = array_of(d, SELECT_MATERIAL);
-    s.material_count = materials == JSON_NONE ? 0 : d->tree.values[materials].count;
+    s.material_count = ffd_json_span_count(&d->tree, materials);
     s.nodes = ffd_alloc_zero(d->model.node_count, sizeof *s.nodes);
     s.pending = ffd_alloc(d->model.node_count, sizeof *s.pending);
     s.meshes = ffd_alloc_zero(d->model.mesh_count, sizeof *s.meshes);
