@@ -116,6 +116,21 @@ def junk_is_refused(run):
 
 
 @case
+def what_stands_in_for_a_lattice_or_the_jobs_is_named(run):
+    """In one line, however many lines it has."""
+    run.write("a.obj", OBJ)
+    for content, kind in JUNK[:3]:
+        for name in ("l.json", "m.jsonl", "m.csv"):
+            run.write(name, content)
+        for words, name in ((("deform", "a.obj", "o.obj", "-l", "l.json"), "l.json"), (("info", "l.json"), "l.json"),
+                            (("batch", "m.jsonl"), "m.jsonl"), (("batch", "--csv", "m.csv"), "m.csv")):
+            done = run.ffd(*words, code=INVALID)
+            check(done.err[0].startswith(name) and done.err[0].endswith("it seems to be " + kind), done.err)
+    run.write("l.json", "<?")
+    run.ffd("info", "l.json", code=INVALID, err=lambda lines: "seems" not in lines[0])
+
+
+@case
 def a_mesh_without_vertices_is_warned_of(run):
     """A warning, and a violated gate."""
     start(run)
