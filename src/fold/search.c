@@ -3,6 +3,9 @@
 
 #define UNIT (0.5 * DBL_EPSILON)
 
+/* The least side of a box. Smaller ones near 1 have ends that are not doubles. */
+#define LEAST_SIDE 0x1p-53
+
 static void local_of(const box *part, const double t[3], double local[3])
 {
     for (int a = 0; a < 3; a++)
@@ -111,6 +114,16 @@ static bool must_stop(const cell_search *search)
     return !search->refining && search->result.verdict == FFD_FOLDS_SOME;
 }
 
+/* Returns the direction in which to halve a box, or -1 if it cannot be halved: because it has the greatest
+   depth, the budget is used up, or its ends would no longer be exact. */
+static int direction_of(const cell_search *search, const box *part, int depth)
+{
+    if (depth == search->scratch->depth || search->boxes <= 0)
+        return -1;
+    const int a = ffd_bernstein_direction(part->coefficients, search->order);
+    return part->hi[a] - part->lo[a] > LEAST_SIDE ? a : -1;
+}
+
 void ffd_search_box(cell_search *search, box *part, int depth)
 {
     box_view view;
@@ -120,14 +133,15 @@ void ffd_search_box(cell_search *search, box *part, int depth)
         search->whole_lower = ffd_box_lower(search, part, &view);
     const bool done =
         search->refining ? is_near(search, part, &view) : is_decided(search, part, &view, depth);
-    if (done || depth == search->scratch->depth || search->boxes <= 0) {
+    const int a = done ? -1 : direction_of(search, part, depth);
+    if (a < 0) {
         if (!done && !search->refining)
             search->result.verdict = FFD_FOLDS_UNKNOWN;
         ffd_search_lower_to(search, ffd_box_lower(search, part, &view));
         return;
     }
     box lower;
-    ffd_box_halve(search, part, ffd_bernstein_direction(part->coefficients, search->order), depth, &lower);
+    ffd_box_halve(search, part, a, depth, &lower);
     /* The half with the least coefficient first, because it may decide the cell. The other half keeps its
        slot: subdivision writes to deeper ones. */
     const bool lower_first = ffd_box_least(search, &lower) <= ffd_box_least(search, part);

@@ -597,6 +597,36 @@ static void too_few_boxes_leave_a_cell_unknown(void **state)
     ffd_lattice_destroy(&lattice);
 }
 
+/* A quarter of a ring, rounded to 1/100, with one heavy layer. Its boxes beside the end of v were halved until
+   their ends were no doubles, and then for ever. */
+static void every_search_ends(void **state)
+{
+    (void)state;
+    static const double scale[] = {1, 1e154, 1e300, 1e-200, 1e-310};
+    const lattice_kinds shape = {{KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {1, 2, 1}, {4, 5, 2}};
+    for (size_t s = 0; s < sizeof scale / sizeof *scale; s++) {
+        ffd_lattice *lattice = mapped(&shape, identity);
+        lattice_add_weights(lattice);
+        for (size_t i = 0; i < lattice->count; i++) {
+            static const double x[4] = {1, 0.8355, 0.3962, -0.1734}, y[4] = {0, 0.5494, 0.9181, 0.9849};
+            double *p = lattice->rest + 3 * i, *q = lattice->deformed + 3 * i;
+            const double radius = 100 + 30 * p[1];
+            if (i / 4 % 5 == 0)
+                lattice->rest_weights[i] = lattice->deformed_weights[i] = 256;
+            q[0] = round(radius * x[i % 4]) / 100 * scale[s];
+            q[1] = round(radius * y[i % 4]) / 100 * scale[s];
+            q[2] = p[2] * scale[s];
+            for (int r = 0; r < 3; r++)
+                p[r] *= scale[s];
+        }
+        finish(lattice);
+        const ffd_folds folds = find(lattice, 1);
+        assert_int_equal(folds.verdict, FFD_FOLDS_SOME);
+        assert_true(folds.min_det <= folds.witness_det);
+        ffd_lattice_destroy(&lattice);
+    }
+}
+
 /* A fold across the seam of a closed direction. */
 static void folds_at_the_seam_are_found(void **state)
 {
@@ -960,6 +990,7 @@ int main(void)
         cmocka_unit_test(a_hair_at_a_corner_is_decided),
         cmocka_unit_test(exactly_on_the_edge_is_never_called_free),
         cmocka_unit_test(too_few_boxes_leave_a_cell_unknown),
+        cmocka_unit_test(every_search_ends),
         cmocka_unit_test(folds_at_the_seam_are_found),
         cmocka_unit_test(flat_and_mirrored_volumes_fold_everywhere),
         cmocka_unit_test(random_control_points_are_found_to_fold),
