@@ -1,27 +1,18 @@
 /* volume.c - the signed volume of the rest lattice. */
 #include "base/memory/memory.h"
 #include "embed/frame/face_net.h"
+#include "embed/frame/rational_volume.h"
 #include "fold/bernstein.h"
 #include "fold/determinant.h"
 
-/* By Gauss's theorem the integral of det [C_u C_v C_w] over the domain equals that of det [C, C_b, C_c] / 3
-   over its border, (a,b,c) cyclic, last face minus first face; closed directions have no faces. With C = A/W
-   the integrand is det [A, A_b, A_c] / W^3; without weights it is a polynomial, whose integral over a cell is
-   the mean of its Bernstein coefficients. */
+/* Without weights. By Gauss's theorem the integral of det [C_u C_v C_w] over the domain equals that of det
+   [C, C_b, C_c] / 3 over its border, (a,b,c) cyclic, last face minus first face; closed directions have no
+   faces. The integrand is a polynomial, whose integral over a cell is the mean of its Bernstein coefficients.
+ */
 
 enum { N = BEZIER_COMPONENTS };
 
 #define UNIT (0.5 * DBL_EPSILON)
-
-/* Nodes and weights of Gauss-Legendre rules on [0,1]: the first half; the other half is symmetric. */
-static const double rule_8[4][2] = {{0.019855071751231884, 0.05061426814518813},
-                                    {0.10166676129318664, 0.11119051722668724},
-                                    {0.2372337950418355, 0.15685332293894363},
-                                    {0.4082826787521751, 0.181341891689181}};
-static const double rule_12[6][2] = {
-    {0.009219682876640375, 0.023587668193255914}, {0.04794137181476257, 0.05346966299765921},
-    {0.11504866290284765, 0.08003916427167311},   {0.2063410228566913, 0.10158371336153296},
-    {0.3160842505009099, 0.1167462682691774},     {0.43738329574426554, 0.12457352290670139}};
 
 /* A face of the domain, and memory for a single cell of it. */
 typedef struct volume_face {
@@ -66,25 +57,6 @@ static void make_form(const volume_face *face, size_t cell_b, size_t cell_c, bez
     }
 }
 
-/* Integrates numerator / W^3 with a rule of 2 * half nodes in each direction. */
-static double integrate(const double *numerator, const int order[3], const double *weights,
-                        const int weight_order[3], const double rule[][2], int half)
-{
-    double sum = 0;
-    for (int j = 0; j < 2 * half; j++) {
-        double row = 0;
-        for (int i = 0; i < 2 * half; i++) {
-            const double *u = rule[i < half ? i : 2 * half - 1 - i];
-            const double *v = rule[j < half ? j : 2 * half - 1 - j];
-            const double t[3] = {i < half ? u[0] : 1 - u[0], j < half ? v[0] : 1 - v[0], 0};
-            const double w = ffd_bernstein_value(weights, weight_order, t);
-            row += u[1] * v[1] * (ffd_bernstein_value(numerator, order, t) / (w * w * w));
-        }
-        sum += row;
-    }
-    return sum;
-}
-
 static void add_cell(const volume_face *face, size_t cell_b, size_t cell_c, volume_sum *sum)
 {
     bezier_box box;
@@ -96,27 +68,14 @@ static void add_cell(const volume_face *face, size_t cell_b, size_t cell_c, volu
     ffd_determinant_coefficients(&form, 1, face->scratch, face->product);
     for (int a = 0; a < 3; a++)
         order[a] = form.order[0][a] + form.order[1][a] + form.order[2][a] - 2;
-    const size_t count = ffd_bernstein_count(order), weight_count = ffd_bernstein_count(box.order);
-    double integral = 0, error = limits.rounding;
-    if (face->plan->rational) {
-        double *weights = face->rows; /* the rows are not needed any more */
-        double least = DBL_MAX;
-        for (size_t i = 0; i < weight_count; i++) {
-            weights[i] = box.coefficients[N * i + 3];
-            least = fmin(least, weights[i]);
-        }
-        const double rough = integrate(face->product, order, weights, box.order, rule_8, 4);
-        integral = integrate(face->product, order, weights, box.order, rule_12, 6);
-        error = error / (least * least * least) + fabs(integral - rough);
-    } else {
-        for (size_t i = 0; i < count; i++)
-            integral += face->product[i];
-        integral /= (double)count;
-        error += (double)count * UNIT * limits.greatest;
-    }
+    const size_t count = ffd_bernstein_count(order);
+    double integral = 0;
+    for (size_t i = 0; i < count; i++)
+        integral += face->product[i];
+    integral /= (double)count;
     sum->volume += integral;
     sum->size += fabs(integral);
-    sum->error += error;
+    sum->error += limits.rounding + (double)count * UNIT * limits.greatest;
 }
 
 /* Summed row by row, so that rounding errors do not accumulate over all cells. */
@@ -161,7 +120,7 @@ out:
     return status;
 }
 
-ffd_status ffd_fold_volume(const fold_plan *plan, signed_volume *volume, ffd_error *error)
+static ffd_status find_polynomial_volume(const fold_plan *plan, rational_volume *volume, ffd_error *error)
 {
     face_scale scale;
     volume_sum total = {0, 0, 0};
@@ -175,15 +134,43 @@ ffd_status ffd_fold_volume(const fold_plan *plan, signed_volume *volume, ffd_err
         if (status)
             return status;
     }
-    const int exponent = scale.exponent[0] + scale.exponent[1] + scale.exponent[2];
-    const double size = fabs(total.volume), doubt = total.error + (double)rows * UNIT * total.size;
-    volume->sign = total.volume < 0 ? -1 : 1;
-    if (size > 2 * doubt && size <= DBL_MAX) {
-        volume->reference = scaled_make(size / 3, exponent);
-        volume->doubt = doubt / size + 4 * UNIT;
-    } else {
-        volume->reference = scaled_make(1, exponent);
-        volume->doubt = 0;
+    volume->triple = total.volume;
+    volume->doubt = total.error + (double)rows * UNIT * total.size;
+    volume->exponent = scale.exponent[0] + scale.exponent[1] + scale.exponent[2];
+    return FFD_OK;
+}
+
+/* The volume of the bounds of the control points. A side of 0 counts as the longest one. */
+static scaled bounds_volume(const ffd_lattice *lattice)
+{
+    double side[3], longest = 0;
+    scaled volume = scaled_make(1, 0);
+    for (int r = 0; r < 3; r++) {
+        double lo = lattice->rest[r], hi = lo;
+        for (size_t i = 0; i < lattice->count; i++) {
+            lo = fmin(lo, lattice->rest[3 * i + (size_t)r]);
+            hi = fmax(hi, lattice->rest[3 * i + (size_t)r]);
+        }
+        side[r] = hi - lo;
+        longest = fmax(longest, side[r]);
     }
+    for (int r = 0; r < 3 && longest > 0; r++)
+        volume = scaled_multiply(volume, scaled_make(side[r] > 0 ? side[r] : longest, 0));
+    return volume;
+}
+
+ffd_status ffd_fold_volume(const fold_plan *plan, signed_volume *volume, ffd_error *error)
+{
+    rational_volume found;
+    const ffd_status status = plan->rational ? ffd_rational_volume(plan->lattice, &found, error)
+                                             : find_polynomial_volume(plan, &found, error);
+    if (status)
+        return status;
+    const double size = fabs(found.triple);
+    volume->sign = found.triple < 0 ? -1 : 1;
+    volume->is_mean = size > 2 * found.doubt && size <= DBL_MAX;
+    volume->reference =
+        volume->is_mean ? scaled_make(size / 3, found.exponent) : bounds_volume(plan->lattice);
+    volume->doubt = volume->is_mean ? found.doubt / size + 4 * UNIT : 4 * UNIT;
     return FFD_OK;
 }
