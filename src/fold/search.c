@@ -51,15 +51,18 @@ static void look_at_least(cell_search *search, const box *part, const box_view *
     }
     const double value = ffd_bernstein_value(part->coefficients, search->order, t);
     const double relative = ffd_search_relative(search, value, ffd_box_weight(search, part, t));
+    const double greatest =
+        search->rational ? ffd_bernstein_greatest_size(part->coefficients, ffd_bernstein_count(search->order))
+                         : search->greatest;
     ffd_search_see(search, relative);
-    if (value < -part->rounding - 8 * orders * UNIT * search->greatest &&
-        search->result.verdict != FFD_FOLDS_SOME) {
+    if (value < -part->rounding - 8 * orders * UNIT * greatest && search->result.verdict != FFD_FOLDS_SOME) {
         local_of(part, t, local);
         ffd_search_set_folded(search, local, relative);
     }
 }
 
-/* Returns whether all coefficients are 0 within rounding: smaller boxes cannot decide the sign. */
+/* Returns whether all coefficients are 0 within rounding: smaller boxes, if the weights do not differ, cannot
+   decide the sign. */
 static bool is_lost(const cell_search *search, const box *part)
 {
     return ffd_bernstein_greatest_size(part->coefficients, ffd_bernstein_count(search->order)) <=
@@ -71,7 +74,7 @@ static bool is_lost(const cell_search *search, const box *part)
 static void give_up(cell_search *search, const box *part, int depth)
 {
     static const double centre[3] = {0.5, 0.5, 0.5};
-    if (depth == 0 && is_lost(search, part) && !(ffd_box_least(search, part) > 0))
+    if (depth == 0 && !search->rational && is_lost(search, part) && !(ffd_box_least(search, part) > 0))
         ffd_search_set_folded(search, centre, 0);
     else
         search->result.verdict = FFD_FOLDS_UNKNOWN;
@@ -83,13 +86,16 @@ static bool is_decided(cell_search *search, const box *part, const box_view *vie
     if (view->is_positive)
         return true;
     if (is_lost(search, part)) {
-        give_up(search, part, depth);
-        return true;
+        if (depth == 0 && search->rational)
+            ffd_search_flat(search);
+        if (search->result.verdict != FFD_FOLDS_SOME && part->is_even)
+            give_up(search, part, depth);
+        return search->result.verdict == FFD_FOLDS_SOME || part->is_even;
     }
     const bool doubtful = look_at_corners(search, part, view);
     if (search->result.verdict == FFD_FOLDS_SOME)
         return true;
-    if (doubtful && view->least >= -part->rounding) {
+    if (doubtful && part->is_even && view->least >= -part->rounding) {
         give_up(search, part, depth);
         return true;
     }
@@ -103,7 +109,7 @@ static bool is_near(cell_search *search, const box *part, const box_view *view)
     look_at_corners(search, part, view);
     const double rounding = ffd_search_relative(search, 4 * part->rounding, view->least_weight);
     const double lower = ffd_box_lower(search, part, view), seen = search->result.least_seen;
-    if (lower >= ffd_fold_target(seen) || lower >= seen - rounding)
+    if (lower >= ffd_fold_target(seen) || (part->is_even && lower >= seen - rounding))
         return true;
     look_at_least(search, part, view);
     return lower >= ffd_fold_target(search->result.least_seen);
