@@ -4,6 +4,7 @@
 #include "base/memory/memory.h"
 #include "base/struct_size.h"
 #include "base/system/thread.h"
+#include "fold/affine.h"
 #include "fold/cell.h"
 #include "fold/place.h"
 #include <string.h>
@@ -244,11 +245,15 @@ static ffd_status find(const ffd_lattice *lattice, int threads, ffd_folds *folds
     if (status)
         return status;
     folds->cells = lattice->knots[0].span_count * lattice->knots[1].span_count * lattice->knots[2].span_count;
+    folds->relative_to = FFD_FOLDS_TO_PLACE;
+    if (ffd_fold_is_affine(lattice, &folds->min_det))
+        return FFD_OK;
     status = ffd_fold_plan_make(lattice, &work.plan, error);
     if (!status)
         status = allocate(&work, threads, error);
     if (status)
         goto out;
+    folds->relative_to = work.plan.volume.is_mean ? FFD_FOLDS_TO_MEAN : FFD_FOLDS_TO_BOUNDS;
     decide_all(&work);
     folds->min_det = refine(&work, join_tiles(&work, folds));
     if (folds->has_witness) /* the witness' value can be below the bound by rounding */
