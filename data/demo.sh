@@ -13,25 +13,22 @@ fail() {
     exit 1
 }
 
-# quietly WHAT COMMAND...: its output only where it fails
-quietly() {
-    what=$1
-    shift
-    if ! "$@" >"$build/demo.log" 2>&1; then
-        tail -n 40 "$build/demo.log" >&2
-        fail "$what failed"
-    fi
-}
-
-sh "$root/.ci/setup" || fail "the packages that the build needs could not be installed"
+. "$root/.ci/progress.sh"
+sh "$root/.ci/setup" || exit 1
 
 mkdir -p "$build" "$out" || fail "cannot make the folder $out"
+
+# quietly WHAT COMMAND...: how far it is, and its output only where it fails
+quietly() {
+    progress "$build/demo.log" "$@" || { tail -n 40 "$build/demo.log" >&2 && fail "$1 failed"; }
+}
+
 if [ ! -f "$build/release/build.ninja" ]; then
     echo "Configuring the build in $build/release"
     quietly "meson setup" meson setup -Dbuildtype=release -Dtests=disabled "$build/release" "$root"
 fi
-echo "Building ffd"
-quietly "the build" ninja -C "$build/release"
+echo "Building ffd (the first time, a few minutes)"
+quietly building ninja -C "$build/release"
 ffd=$build/release/src/cli/ffd
 [ -x "$ffd" ] || fail "the build made no program at $ffd"
 

@@ -4,29 +4,29 @@
 #     sh tests/run.sh --suite NAME    the gcc build, one suite (unit property oracle fuzz golden cli rules python packages bench
 #                                     slow)
 #                                     or one tag (threads compilers text), or peers (other packages; fetches 280 MB)
-#     sh tests/run.sh --all           and: slow suites, release, clang with sanitizers, valgrind, fuzzing, the demo, the wraps
+#     sh tests/run.sh --all           in a bare root of Debian 12: data/demo.sh, then this script, then its other stages (tests/install/all.sh)
+#     sh tests/run.sh --stages        the stages that only --all has: slow suites, release, clang with sanitizers, valgrind, fuzzing, the wraps
 #     sh tests/run.sh --soak          the gcc build, what takes hours, with other random numbers every time
-#     --keep                          keeps the build folders of the stages that only --all has
+#     --keep                          keeps the build folders of the stages that only --all has, and its root
 # FFD_MODELS names a folder of sample models (default: shared/models beside the checkout); without it the tests
 # that need it are skipped. One line a stage, then what failed; the last line: N passed, N failed[, N skipped].
 set -u
 
 usage() {
-    echo "usage: sh tests/run.sh [--all | --soak | --suite NAME] [--keep]" >&2
+    echo "usage: sh tests/run.sh [--all | --stages | --soak | --suite NAME] [--keep]" >&2
     exit 2
 }
 
-all=
-soak=
+mode=
 suite=
 keep=
 while [ $# -gt 0 ]; do
     case "$1" in
-    --all) all=1 ;;
-    --soak) soak=1 ;;
-    --keep) keep=1 ;;
+    --all | --stages | --soak) mode=$mode$1 ;;
+    --keep) keep=--keep ;;
     --suite)
         [ $# -ge 2 ] || usage
+        mode=$mode$1
         suite=$2
         shift
         ;;
@@ -34,28 +34,37 @@ while [ $# -gt 0 ]; do
     esac
     shift
 done
-[ "$suite" != soak ] && [ "$all$soak" != 11 ] && { [ -z "$all$soak" ] || [ -z "$suite" ]; } || usage
+all=
+soak=
+case "$mode$suite" in
+'' | --suite?*) ;;
+--all | --stages) all=1 ;;
+--soak) soak=1 ;;
+*) usage ;;
+esac
+[ "$suite" != soak ] || usage
 
 root=$(cd "$(dirname "$0")/.." && pwd) || exit 1
-work=$root/.build-test
-logs=$work/logs
-mkdir -p "$logs" || exit 1
-case "$suite$soak" in
-peers | 1) sh "$root/.ci/setup" peers || exit 1 ;;
-*) sh "$root/.ci/setup" test || exit 1 ;;
-esac
-
 if [ -z "${FFD_MODELS-}" ] && [ -d "$root/../shared/models" ]; then
     FFD_MODELS=$(cd "$root/../shared/models" && pwd)
 fi
-may_skip=
 if [ -n "${FFD_MODELS-}" ]; then
     export FFD_MODELS
 else
     unset FFD_MODELS
-    may_skip=--may-skip
     echo "FFD_MODELS is not set: tests on the sample models are skipped"
 fi
+# shellcheck disable=SC2086 # an option or nothing
+[ "$mode" != --all ] || exec sh "$root/tests/install/all.sh" $keep
+work=$root/.build-test
+logs=$work/logs
+mkdir -p "$logs" || exit 1
+case "$mode$suite" in
+--suitepeers | --soak) needs=peers ;;
+--suiteslow | --suitepython | --suitepackages | --stages) needs=stages ;;
+*) needs=test ;;
+esac
+sh "$root/.ci/setup" $needs || exit 1
 
 # The suite python builds a wheel, optimized: it follows the stage of --all that has compiled the same, and the quick run, which
 # has not, leaves it out. Its tools come from a package index, which a machine need not reach (.ci/setup).
@@ -64,7 +73,6 @@ skipped=0
 if { [ -n "$all$soak" ] || [ "$suite" = python ]; } && ! cmp -s "$root/tests/python/requirements.txt" "$work/wheels/requirements.txt"; then
     python=
     skipped=1
-    [ "$suite" != python ] || may_skip=--may-skip
     echo "the wheels of tests/python are not there: the suite python is skipped"
 fi
 
@@ -198,8 +206,8 @@ suites() {
     rm -f "$folder/meson-logs/$stage"*.json
     meson test -C "$folder" --no-rebuild --logbase "$stage" "$@" >"$logs/$stage-test.log" 2>&1 </dev/null
     status=$?
-    # shellcheck disable=SC2086 # an option or nothing. With --wrap the log's name has the wrapper's behind it.
-    python3 "$root/tests/summary.py" "$folder/meson-logs/$stage"*.json $may_skip >"$logs/$stage-summary.log"
+    # With --wrap the log's name has the wrapper's behind it.
+    python3 "$root/tests/summary.py" "$folder/meson-logs/$stage"*.json >"$logs/$stage-summary.log"
     counts=$(tail -n 1 "$logs/$stage-summary.log")
     # shellcheck disable=SC2086 # three numbers
     set -- $counts
@@ -239,11 +247,27 @@ compare_pages() {
     done
 }
 
-# Both libraries by their wraps, from sources that were downloaded before.
-build_from_wraps() {
-    rm -rf "$work/wraps"
-    meson setup --wrap-mode=nodownload --force-fallback-for=openmesh,tinygltf -Dtests=disabled "$work/wraps" "$root" &&
-        ninja -C "$work/wraps"
+# The libraries that a system may lack, each compiled by its wrap, from sources that .ci/wraps gets: every module links, and the
+# program, with modules and without, gives the bytes that the golden suite remembers. A machine may not reach the sources.
+wraps='--wrap-mode=nodownload --force-fallback-for=draco,meshoptimizer,openmesh,tinygltf'
+test_wraps() {
+    clock=$(date +%s)
+    if ! sh "$root/.ci/wraps" >"$logs/wraps-sources.log" 2>&1 </dev/null; then
+        skipped=$((skipped + 1))
+        say wraps "skipped: $(tail -n 1 "$logs/wraps-sources.log")"
+        return
+    fi
+    for kind in both static; do
+        # shellcheck disable=SC2086 # options
+        if build "wraps-$kind" golden gcc g++ -Dbuildtype=release -Dc_args="$delivered" -Dcpp_args="$delivered" \
+            -Ddefault_library=$kind $wraps; then
+            chosen='--suite golden --no-suite node --no-suite part_of_corpus --no-suite slow'
+            [ "$kind" = both ] || chosen=golden
+            # shellcheck disable=SC2086 # words
+            suites "wraps-$kind" "wraps-$kind" $chosen
+        fi
+        drop "wraps-$kind"
+    done
 }
 
 export FFD_NODE="$work/node"
@@ -257,13 +281,13 @@ if build gcc '' gcc g++ -Dbuildtype=debugoptimized -Dc_args=-g1 -Dcpp_args=-g1; 
         suites gcc gcc --suite "$suite" --no-suite soak
     elif [ -n "$all" ]; then
         ahead release
-        # What is part of another test follows there.
-        suites gcc gcc --no-suite python --no-suite packages --no-suite part_of_corpus --no-suite soak
+        suites slow gcc --suite slow --no-suite python --no-suite packages --no-suite soak
     elif [ -n "$soak" ]; then
         FFD_SEED=${FFD_SEED-$started}
         export FFD_SEED
         echo "FFD_SEED=$FFD_SEED"
         suites soak gcc --suite soak --timeout-multiplier 0
+        case_of bare roots sh "$root/tests/install/bare.sh"
         # The Python package in an interpreter with the address sanitizer: the hours of soak have the time for that build.
         if [ -n "$python" ] && build_stage asan; then
             suites sanitized asan --suite sanitized --timeout-multiplier 6
@@ -309,9 +333,6 @@ if [ -n "$all" ]; then
     fi
     drop asan
 
-    # The demo runs beside what comes next, as the builds do.
-    { CC="${ccache}gcc" CXX="${ccache}g++" CFLAGS=$delivered CXXFLAGS=$delivered nice -n 19 sh "$root/data/demo.sh" "$work/demo" >"$logs/demo.out" 2>&1 </dev/null; echo $? >"$logs/demo.status"; } &
-
     # What is only to be found with clang and optimization: other code for the kernels and what is around them (suite
     # compilers; the same bytes are promised). The thread sanitizer adds its checks after the optimizer, so that one build
     # serves for both. It finds something only where there are threads. All else of clang is in the build above.
@@ -328,17 +349,7 @@ if [ -n "$all" ]; then
             --wrap "valgrind -q --error-exitcode=99 --leak-check=full --errors-for-leak-kinds=definite"
     fi
 
-    wait
-    case_of demo run sh -c 'cat "$1.out"; exit "$(cat "$1.status")"' sh "$logs/demo"
-
-    if [ -d "$root/subprojects/openmesh-9.0" ] && [ -d "$root/subprojects/tinygltf-2.7.0" ]; then
-        case_of wraps build build_from_wraps
-        drop wraps
-    else
-        # They come from their own hosts, which a machine need not reach.
-        clock=$(date +%s)
-        say wraps "not tried: no sources in subprojects/ (meson subprojects download)"
-    fi
+    test_wraps
 fi
 
 printf 'logs in %s; %d s\n' "$logs" "$(($(date +%s) - started))"

@@ -1,15 +1,29 @@
 #!/usr/bin/env python3
 """Sums up a `meson test` run from its testlog.json: prints what failed, with its output, and the counts.
 
-    summary.py TESTLOG.json [--may-skip]       last line: PASSED FAILED SKIPPED
+    summary.py TESTLOG.json       last line: PASSED FAILED SKIPPED
 
-A test that was skipped although nothing is missing (no --may-skip) has failed. So has a run without tests.
+A test that skips itself prints "SKIP: WHAT: why", with what this machine lacks. Where it lacks nothing of that name the test has
+failed. So has a run without tests.
 """
 
 import json
+import os
+import subprocess
 import sys
 
 LINES = 40
+WHEELS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".build-test", "wheels")
+MOUNT_EXT4 = ["unshare", "-m", "sh", "-ec", """
+folder=$(mktemp -d)
+trap 'rm -r "$folder"' EXIT
+truncate -s 1M "$folder/image"
+PATH=$PATH:/usr/sbin:/sbin
+mkfs.ext4 -q -O ^has_journal "$folder/image"
+mkdir "$folder/disk"
+mount -o loop "$folder/image" "$folder/disk"
+umount "$folder/disk"
+"""]
 
 
 def tail(text):
@@ -19,8 +33,34 @@ def tail(text):
     return "".join(f"    {line}\n" for line in lines)
 
 
+def succeeds(*words):
+    return subprocess.run(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False).returncode == 0
+
+
+def is_debian_12():
+    with open("/etc/os-release", encoding="utf-8") as file:
+        return "VERSION_CODENAME=bookworm\n" in file.readlines()
+
+
+# What a machine may lack.
+LACKS = {
+    "models": lambda: not os.environ.get("FFD_MODELS"),
+    "mounts": lambda: not succeeds(*MOUNT_EXT4),
+    "Debian 12": lambda: not is_debian_12(),
+    "wheels": lambda: not is_debian_12() or not os.path.exists(WHEELS),
+}
+
+
+def reason(test):
+    """Why a skipped test says that it was, and whether that is so."""
+    for line in test.get("stdout", "").splitlines():
+        if line.startswith("SKIP: "):
+            what, _, why = line[len("SKIP: "):].partition(": ")
+            return f"{what}: {why}", what in LACKS and LACKS[what]()
+    return "no reason given", False
+
+
 def main():
-    may_skip = "--may-skip" in sys.argv[2:]
     counts = {"passed": 0, "failed": 0, "skipped": 0}
     try:
         with open(sys.argv[1], encoding="utf-8", errors="replace") as file:
@@ -31,13 +71,15 @@ def main():
         result = test["result"]
         if result in ("OK", "EXPECTEDFAIL"):
             counts["passed"] += 1
-        elif result == "SKIP" and may_skip:
+            continue
+        why, lacks = reason(test) if result == "SKIP" else (result.lower(), False)
+        if lacks:
             counts["skipped"] += 1
-            reasons = [line for line in test.get("stdout", "").splitlines() if line.startswith("SKIP")]
-            print(f"  skipped: {test['name']}: {' '.join(reasons)}")
+            print(f"  skipped: {test['name']}: {why}")
         else:
             counts["failed"] += 1
-            why = "skipped though nothing is missing" if result == "SKIP" else result.lower()
+            if result == "SKIP":
+                why = f"skipped, and nothing of that is missing here: {why}"
             print(f"  FAILED: {test['name']} ({why}, exit {test.get('returncode')}, {test['duration']:.1f} s)")
             print(tail(test.get("stdout", "")) + tail(test.get("stderr", "")), end="")
     if not tests:

@@ -16,7 +16,9 @@
      after a failure it is NULL. Pointers that a get function returns belong to the object.
    - Threads. Any number of threads may use an object through const pointers at the same time. A function that
      takes a pointer without const needs the object for itself. "Thread-safe" means that a function shares no
-     other state.
+     other state. If a number of threads is 0, for all cores, it is that of the processors which the calling
+     thread may use: those of its affinity mask, which each call reads, but at most the processor time of its
+     cgroup, rounded up, which the library reads at most once a second.
    - Errors. A function that can fail returns an ffd_status; "Errors" lists the values other than FFD_OK.
 
    data/promises.md says which versions are compatible. */

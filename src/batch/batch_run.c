@@ -208,6 +208,23 @@ static ffd_status wait_for_ends(batch_run *run, ffd_error *error)
     return status;
 }
 
+/* Says once that jobs wait for memory, while processors are idle. */
+static void say_shortage(batch_run *run)
+{
+    const pool_shortage *const shortage = ffd_pool_shortage(run->pool);
+    ffd_error note;
+    if (!shortage || run->said_shortage || run->desc->quiet)
+        return;
+    run->said_shortage = true;
+    ffd_fail_file(&note, FFD_E_LIMIT, ffd_jobs_name(run->source),
+                  "%d %s at a time on %d processors: the cgroup allows %" PRIu64
+                  " MB of memory, and %s may take %" PRIu64 " MB (--memory); -j sets the number",
+                  shortage->running, ffd_plural((uint64_t)shortage->running, "job", "jobs"),
+                  shortage->processors, shortage->limit / 1000000, shortage->name,
+                  shortage->needed / 1000000);
+    ffd_run_say_error(run, &note);
+}
+
 static ffd_status run_jobs(batch_run *run, ffd_error *error)
 {
     ffd_status status = FFD_OK, first = FFD_OK;
@@ -217,6 +234,7 @@ static ffd_status run_jobs(batch_run *run, ffd_error *error)
             first = begin_jobs(run, error);
         const ffd_status waited = wait_for_ends(run, first ? NULL : error);
         first = first ? first : waited;
+        say_shortage(run);
         status = ffd_run_note_ends(run, first ? NULL : error);
         heed_interrupts(run);
         if (!status && run->ending)
@@ -339,6 +357,7 @@ static ffd_status open_all(batch_run *run, ffd_error *error)
         status = ffd_run_rows_place(&run->rows, desc, error);
     pool.report = run->report || run->view || run->rows.report;
     pool.quality = run->report || run->view;
+    pool.draws = run->view != NULL;
     pool.rows = desc->positions ? &run->rows.array : NULL;
     pool.depfile = run->depfile != NULL;
     pool.records = run->journal != NULL;

@@ -39,6 +39,7 @@ typedef struct batch_run {
     bool starved;                   /* the next job is not complete yet */
     bool ending;                    /* no more jobs are begun */
     bool dropped;                   /* some jobs were not begun */
+    bool said_shortage;             /* that jobs wait for memory */
 } batch_run;
 
 /* Returns the file whose lines the jobs are, for messages; NULL: none. */

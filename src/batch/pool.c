@@ -1,8 +1,11 @@
 #include "batch/pool.h"
 #include "base/file/temporary.h"
 #include "base/memory/memory.h"
+#include "base/system/cgroup.h"
 #include "base/system/clock.h"
-#include "base/system/thread.h"
+#include "base/system/processors.h"
+#include "base/text/words.h"
+#include "batch/manifest/job_memory.h"
 #include <ffd/job.h>
 #include <stdio.h>
 #include <string.h>
@@ -16,6 +19,7 @@ typedef struct pool_worker {
     pool_task *task;         /* NULL: idle */
     byte_buffer answer;      /* bytes received so far */
     hash128 mesh;            /* of the current or last task */
+    uint64_t memory;         /* bytes that this task may take: the worker keeps its mesh */
     bool has_mesh, timed_out, stopped, retires;
     bool was_told;   /* the task was sent */
     bool is_ending;  /* its time is up */
@@ -28,6 +32,8 @@ struct worker_pool {
     pool_worker *workers;       /* desc.workers entries */
     worker_process **processes; /* the same processes, as an array to wait for */
     bool rehearsed;             /* dry run: a job was tried, all but writing */
+    uint64_t memory;            /* bytes that all workers together may take; UINT64_MAX: no limit */
+    pool_shortage shortage;     /* if needed > 0 */
     pool_counts counts;
 };
 
@@ -38,6 +44,7 @@ ffd_status ffd_pool_create(const pool_desc *desc, worker_pool **pool, ffd_error 
         return ffd_fail_memory(error);
     (*pool)->desc = *desc;
     (*pool)->processors = ffd_processor_count();
+    (*pool)->memory = desc->workers == 0 ? ffd_cgroup_memory_limit(CGROUP_SELF) : UINT64_MAX;
     if (desc->workers == 0)
         (*pool)->desc.workers = (*pool)->processors;
     const size_t workers = (size_t)(*pool)->desc.workers;
@@ -153,18 +160,85 @@ static pool_task *choose(const worker_pool *pool, const pool_worker *worker, poo
     return first;
 }
 
-/* Counts the tasks that can run at the same time, including running ones: at most one a worker, and one for
-   each large mesh. */
+/* Memory */
+
+/* Returns the memory that is left beside the workers that run and, unless worker is NULL, all other idle
+   ones. */
+static uint64_t memory_beside(const worker_pool *pool, const pool_worker *worker)
+{
+    uint64_t left = pool->memory;
+    for (int i = 0; i < pool->desc.workers; i++) {
+        const pool_worker *const other = &pool->workers[i];
+        if (other->task || (worker && other != worker && other->process))
+            left -= other->memory < left ? other->memory : left;
+    }
+    return left;
+}
+
+/* Whether a task fits into this much memory. */
+static bool fits(const worker_pool *pool, pool_task *task, uint64_t left)
+{
+    if (task->memory == 0 && left < UINT64_MAX)
+        task->memory = ffd_job_memory(&task->job, pool->desc.draws);
+    return task->memory <= left;
+}
+
+/* Ends a worker. end: how it ended; or NULL. */
+static void finish_worker(pool_worker *worker, process_end *end)
+{
+    ffd_process_finish(&worker->process, end);
+    ffd_buffer_free(&worker->answer);
+    worker->has_mesh = worker->retires = false;
+}
+
+static void note_shortage(worker_pool *pool, const pool_task *task)
+{
+    pool_shortage *const shortage = &pool->shortage;
+    if (shortage->needed > 0)
+        return;
+    *shortage = (pool_shortage){.limit = pool->memory,
+                                .needed = task->memory,
+                                .running = (int)ffd_pool_running(pool),
+                                .processors = pool->processors};
+    ffd_name_shown(task->job.input, shortage->name, sizeof shortage->name);
+}
+
+/* Whether memory suffices for an idle worker's next task, if need be without the other idle workers, which
+   are ended. Else the task waits for those that run; but one always may. */
+static bool make_room(worker_pool *pool, const pool_worker *worker, pool_task *task)
+{
+    for (int i = 0; i < pool->desc.workers && !fits(pool, task, memory_beside(pool, worker)); i++) {
+        pool_worker *const other = &pool->workers[i];
+        if (other != worker && !other->task)
+            finish_worker(other, NULL);
+    }
+    if (fits(pool, task, memory_beside(pool, worker)) || ffd_pool_running(pool) == 0)
+        return true;
+    note_shortage(pool, task);
+    return false;
+}
+
+const pool_shortage *ffd_pool_shortage(const worker_pool *pool)
+{
+    return pool->shortage.needed > 0 ? &pool->shortage : NULL;
+}
+
+/* Counts the tasks that can run at the same time, including running ones: at most one a worker, one for each
+   large mesh, and as many as memory allows. */
 static int count_runnable(const worker_pool *pool, pool_task *const *tasks, size_t count)
 {
     int found = (int)ffd_pool_running(pool);
     const hash128 *large = NULL;
+    uint64_t left = memory_beside(pool, NULL);
     for (size_t i = 0; i < count && found < pool->desc.workers; i++) {
-        const pool_task *const task = tasks[i];
+        pool_task *const task = tasks[i];
         if (!task || !ffd_task_is_pending(task))
             continue;
         if (task->is_large && ((large && ffd_hash_equal(large, &task->mesh)) || is_taken(pool, NULL, task)))
             continue;
+        if (!fits(pool, task, left))
+            break;
+        left -= left < UINT64_MAX ? task->memory : 0;
         found++;
         large = task->is_large ? &task->mesh : large;
     }
@@ -175,6 +249,7 @@ static void begin_task(const worker_pool *pool, pool_worker *worker, pool_task *
 {
     worker->task = task;
     worker->mesh = task->mesh;
+    worker->memory = task->memory;
     worker->has_mesh = true;
     worker->timed_out = worker->stopped = worker->is_ending = false;
     worker->deadline = pool->desc.timeout > 0 ? ffd_clock_seconds() + pool->desc.timeout : 0;
@@ -191,6 +266,8 @@ ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t co
         pool_task *const task = worker->task ? NULL : choose(pool, worker, tasks, count);
         if (!task)
             continue;
+        if (!make_room(pool, worker, task))
+            return FFD_OK; /* none of the others goes first: the task could wait for ever */
         const ffd_status status =
             worker->process ? FFD_OK : ffd_process_start(WORKER_NAME, &worker->process, error);
         if (status && ffd_pool_running(pool) > 0)
@@ -308,9 +385,7 @@ static void describe_failure(const worker_pool *pool, const pool_worker *worker,
 static void end_worker(const worker_pool *pool, pool_worker *worker)
 {
     process_end end;
-    ffd_process_finish(&worker->process, &end);
-    ffd_buffer_free(&worker->answer);
-    worker->has_mesh = worker->retires = false;
+    finish_worker(worker, &end);
     if (!worker->task)
         return;
     pool_task *const task = worker->task;

@@ -7,12 +7,13 @@
 #include "batch/wire.h"
 
 typedef struct pool_desc {
-    int workers;        /* number of processes; 0: one for each processor */
+    int workers;        /* number of processes; 0: one for each processor, as far as memory allows */
     int threads;        /* of each job; 0: an equal share of the processors */
     double timeout;     /* limit of a job in seconds; 0: none */
     const char *origin; /* name of the manifest, for messages */
     bool records, resume, dry, depfile, report, quality, stable, quiet, verbose, measure, count; /* as in
                                                                                                   wire_task */
+    bool draws;            /* jobs make pictures too */
     const row_array *rows; /* array of positions, or NULL */
     const shown_box *box;  /* shared box, or NULL */
 } pool_desc;
@@ -36,6 +37,7 @@ typedef struct pool_task {
     hash128 picture_target; /* the journal's key for the picture of a job without an output */
     hash128 mesh;           /* hash of the input's name: a worker prefers the mesh that it has */
     bool is_large;          /* the input is large: only one worker may read it */
+    uint64_t memory;        /* bytes that it may take; 0: the pool has not asked yet */
     bool has_mesh_name;     /* the output has the ending of a mesh format */
     job_record record;      /* if has_record: before the job, of the last time; after it, of this time */
     bool has_record;
@@ -84,6 +86,14 @@ typedef struct pool_counts {
 } pool_counts;
 /* Returns the counts so far. */
 pool_counts ffd_pool_counts(const worker_pool *pool);
+/* That a task had to wait for memory: the control group (cgroup.h) has too little for one more. */
+typedef struct pool_shortage {
+    uint64_t limit, needed; /* bytes: of the group; that the task may take */
+    int running, processors;
+    char name[256]; /* of the task's mesh, for messages */
+} pool_shortage;
+/* Returns the first shortage; NULL: there was none. */
+const pool_shortage *ffd_pool_shortage(const worker_pool *pool);
 /* Gives running tasks a moment to finish, then fails the others. */
 void ffd_pool_stop(worker_pool *pool);
 /* Ends the workers and sets *pool to NULL, which it may be already. */

@@ -31,7 +31,7 @@ static const cli_option options[] = {
     {"space", 0, "scene|mesh", "glTF: the space that the lattice is in; default scene", cli_set_choice,
      AT(space), space_names},
     {"snap", 0, "D|Dr", CLI_SNAP, cli_set_distance, AT(snap), NULL},
-    {"threads", 'j', "N", "number of threads; never changes the output; default all processors",
+    {"threads", 'j', "N", "number of threads; never changes the output; default all usable processors",
      cli_set_count, AT(threads), NULL},
     {"force", 0, NULL, "overwrite existing outputs", cli_set_flag, AT(force), NULL},
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},

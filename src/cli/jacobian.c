@@ -57,7 +57,7 @@ static const cli_option options[] = {
      AT(job.space), cli_space_names},
     {"only", 0, "KIND:NAME", "only this, repeatable, as for ffd deform", cli_add_selector, AT(job.only),
      NULL},
-    {"threads", 'j', "N", "number of threads; never changes the output; default all processors",
+    {"threads", 'j', "N", "number of threads; never changes the output; default all usable processors",
      cli_set_count, AT(job.threads), NULL},
     {"isa", 0, "auto|scalar|sse2|avx2|avx512", "instruction set; never changes the output; default auto",
      cli_set_choice, AT(job.isa), cli_isa_names},

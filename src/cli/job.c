@@ -143,7 +143,7 @@ const cli_option cli_job_options[] = {
     {"report", 0, "FILE|-", "JSON report; JSON Lines if the name ends in .jsonl", cli_set_text, AT(report),
      NULL},
     {"report-stable", 0, NULL, "leave the seconds out of the report", cli_set_flag, AT(stable), NULL},
-    {"threads", 'j', "N", "number of threads; never changes the output; default all processors",
+    {"threads", 'j', "N", "number of threads; never changes the output; default all usable processors",
      cli_set_count, AT(threads), NULL},
     {"isa", 0, "auto|scalar|sse2|avx2|avx512",
      "instruction set of the kernels; never changes the output; default auto", cli_set_choice, AT(isa),

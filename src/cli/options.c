@@ -1,5 +1,6 @@
 #include "cli/options.h"
 #include "base/one_line.h"
+#include "base/text/size.h"
 #include "base/text/words.h"
 #include <errno.h>
 #include <ffd/ffd.h>
@@ -104,21 +105,10 @@ bool cli_set_count(void *settings, const cli_option *option, const char *value)
 
 bool cli_set_bytes(void *settings, const cli_option *option, const char *value)
 {
-    static const char units[] = "KMG";
-    double number = 0, unit = 1;
-    char digits[32] = "";
-    const size_t length = strlen(value);
-    const char *letter = length > 1 ? strchr(units, value[length - 1]) : NULL;
-    for (const char *u = units; letter && u <= letter; u++)
-        unit *= 1000;
-    if (length < sizeof digits)
-        memcpy(digits, value, length - (letter != NULL));
-    if (!cli_parse_number(digits, &number) || !(number * unit >= 1 && number * unit < 0x1p63)) {
-        cli_complain("--%s: \"%s\" is not a size in bytes, as 700M or 4G", option->name, value);
-        return false;
-    }
-    *(uint64_t *)field(settings, option) = (uint64_t)(number * unit);
-    return true;
+    if (ffd_size_parse(value, field(settings, option)))
+        return true;
+    cli_complain("--%s: \"%s\" is not a size in bytes, as 700M or 4G", option->name, value);
+    return false;
 }
 
 bool cli_set_choice(void *settings, const cli_option *option, const char *value)

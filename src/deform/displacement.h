@@ -67,8 +67,9 @@ typedef struct displacement_scratch {
 } displacement_scratch;
 
 typedef struct displacement_batch {
-    const double *uvw; /* u,v,w of point n begins at uvw[n * stride]; in the domain */
-    size_t stride;
+    const double *uvw; /* u,v,w of point 0; in the domain */
+    size_t stride;     /* bytes from those of a point to those of the next. Not doubles: on i386 the size of a
+                          struct with doubles need not be a multiple of theirs. */
     const uint32_t *which; /* the indices n of the points to compute, below DISPLACEMENT_BATCH, in strictly
                               ascending order */
     size_t count;
@@ -76,6 +77,12 @@ typedef struct displacement_batch {
     double *gradient; /* of point n: begins at gradient[9 * n]; may be NULL */
     uint8_t *moves;   /* moves[n]: what ffd_displacement returns */
 } displacement_batch;
+
+/* Returns u,v,w of point n. */
+static inline const double *ffd_batch_uvw(const displacement_batch *batch, size_t n)
+{
+    return (const double *)((const char *)batch->uvw + n * batch->stride);
+}
 
 /* Clears the caches. To be called before the first batch, unless the scratch memory is zeroed, and before a
    batch of a new lattice, which could have the address of a destroyed one. */

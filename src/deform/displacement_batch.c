@@ -70,7 +70,7 @@ static size_t find_cell(const ffd_lattice *lattice, const double uvw[3], displac
 /* Returns u,v,w of the k-th point to compute. */
 static const double *uvw_of(const displacement_batch *batch, size_t k)
 {
-    return batch->uvw + batch->which[k] * batch->stride;
+    return ffd_batch_uvw(batch, batch->which[k]);
 }
 
 /* Divides the points into stretches of which only the first point may need to be wrapped. */
@@ -258,9 +258,8 @@ void ffd_displacements(const ffd_lattice *lattice, ffd_isa isa, const displaceme
     if (lattice->rest_weights) {
         for (size_t k = 0; k < batch->count; k++) {
             const size_t n = batch->which[k];
-            batch->moves[n] =
-                (uint8_t)ffd_displacement(lattice, batch->uvw + n * batch->stride, batch->delta + 3 * n,
-                                          batch->gradient ? batch->gradient + 9 * n : NULL);
+            batch->moves[n] = (uint8_t)ffd_displacement(lattice, uvw_of(batch, k), batch->delta + 3 * n,
+                                                        batch->gradient ? batch->gradient + 9 * n : NULL);
         }
         return;
     }

@@ -17,9 +17,11 @@ static uint64_t add(uint64_t a, uint64_t b, uint64_t times)
     return times && b > (UINT64_MAX - a) / times ? UINT64_MAX : a + b * times;
 }
 
+/* Not more than this machine can address: what was taken fits a size_t. */
 uint64_t ffd_budget_most(const memory_budget *budget)
 {
-    return budget->asked > budget->most ? budget->asked : budget->most;
+    const uint64_t most = budget->asked > budget->most ? budget->asked : budget->most;
+    return most < SIZE_MAX ? most : SIZE_MAX;
 }
 
 memory_budget ffd_budget_make(uint64_t asked)
@@ -51,9 +53,10 @@ ffd_status ffd_budget_check(const memory_budget *budget, uint64_t count, uint64_
 {
     if (size == 0 || count <= ffd_budget_left(budget) / size)
         return FFD_OK;
-    return ffd_fail(error, FFD_E_LIMIT,
-                    "needs more than the %llu MB of memory allowed (--memory raises this)",
-                    (unsigned long long)(ffd_budget_most(budget) / MEGABYTE));
+    return ffd_fail(error, FFD_E_LIMIT, "needs more than the %llu MB of memory %s",
+                    (unsigned long long)(ffd_budget_most(budget) / MEGABYTE),
+                    ffd_budget_most(budget) < SIZE_MAX ? "allowed (--memory raises this)"
+                                                       : "that a program with addresses of 32 bits holds");
 }
 
 ffd_status ffd_budget_take(memory_budget *budget, uint64_t count, uint64_t size, ffd_error *error)

@@ -10,6 +10,10 @@
 extern "C" {
 #endif
 
+/* The budget for a picture or a page is at least this: a view holds all that a mesh shows, and a short file
+   may show many instances. */
+#define LEAST_VIEW_MEMORY ((uint64_t)400000000)
+
 /* The memory that a document may use, in bytes. */
 typedef struct memory_budget {
     uint64_t most;

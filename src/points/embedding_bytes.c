@@ -20,6 +20,8 @@ typedef struct bytes_head {
     hash128 rest;
 } bytes_head;
 
+_Static_assert(sizeof(bytes_head) == 80, "a head has no padding, which would be hashed and saved");
+
 static const char magic[8] = "ffd-emb";
 
 static bytes_head head_of(const ffd_embedding *embedding)

@@ -112,7 +112,7 @@ static void displace_few(const ffd_lattice *lattice, const displacement_batch *b
 {
     for (size_t k = 0; k < batch->count; k++) {
         const size_t n = batch->which[k];
-        ffd_displacement(lattice, batch->uvw + n * batch->stride, batch->delta + 3 * n,
+        ffd_displacement(lattice, ffd_batch_uvw(batch, n), batch->delta + 3 * n,
                          batch->gradient ? batch->gradient + 9 * n : NULL);
     }
 }
@@ -123,7 +123,7 @@ static ffd_status deform_tile(void *context, size_t first, size_t count, int wor
     deform_scratch *const s = &work->scratch[worker];
     const size_t chosen = choose(work, first, count, s);
     const displacement_batch batch = {.uvw = work->vertices ? s->uvw : work->embedding->uvw + 3 * first,
-                                      .stride = 3,
+                                      .stride = 3 * sizeof(double),
                                       .which = s->which,
                                       .count = chosen,
                                       .delta = s->delta,

@@ -56,7 +56,7 @@ static void by_kernels(sample *s, bool narrow, bool gradients)
     for (size_t first = 0; first < s->count; first += DISPLACEMENT_BATCH) {
         const size_t rest = s->count - first, count = rest < DISPLACEMENT_BATCH ? rest : DISPLACEMENT_BATCH;
         const displacement_batch batch = {.uvw = ffd_embedding_get_uvw(s->embedding) + 3 * first,
-                                          .stride = 3,
+                                          .stride = 3 * sizeof(double),
                                           .which = s->which,
                                           .count = count,
                                           .delta = s->delta,

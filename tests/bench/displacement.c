@@ -85,7 +85,7 @@ static void run_batches(sample *s)
     for (size_t first = 0; first < s->count; first += DISPLACEMENT_BATCH) {
         const size_t rest = s->count - first;
         const displacement_batch batch = {.uvw = s->uvw + 3 * first,
-                                          .stride = 3,
+                                          .stride = 3 * sizeof(double),
                                           .which = s->which,
                                           .count = rest < DISPLACEMENT_BATCH ? rest : DISPLACEMENT_BATCH,
                                           .delta = s->delta,

@@ -46,6 +46,10 @@ OK, NO, USAGE, IO, INVALID, EMBEDDING, UNSUPPORTED, LIMIT = range(8)
 # one it would take more time than everything else.
 os.environ["MALLOC_PERTURB_"] = os.environ.get("FFD_PERTURB") or str(random.randrange(1, 256))
 
+# A bar is for a terminal that can show one: what the machine's own terminal can do must decide nothing.
+os.environ["TERM"] = "xterm"
+os.environ.pop("NO_COLOR", None)
+
 with open(FFD, "rb") as _program:
     _sanitizer = re.search(b"__[at]san_init", _program.read())
     SANITIZED, _sees_races = _sanitizer is not None, _sanitizer is not None and _sanitizer[0] == b"__tsan_init"

@@ -131,7 +131,11 @@ class Slurm:
 
     def start_node(self, node):
         self.start(node, "slurmd", "-D", "-N", node)
-        wait_until(lambda: self.ask("sinfo", "-h", "-N", "-n", node, "-o", "%T") in (["idle"], ["mixed"]), f"{node} is up")
+        try:
+            wait_until(lambda: self.ask("sinfo", "-h", "-N", "-n", node, "-o", "%T") in (["idle"], ["mixed"]), f"{node} is not up")
+        except AssertionError as problem:
+            with open(self.path(node + ".out"), encoding="utf-8") as file:
+                raise AssertionError(f"{problem}; it says:\n{file.read()[-2000:]}") from None
 
     def run(self, *command):
         """Runs a command of Slurm's."""

@@ -140,7 +140,7 @@ def main():
     print(f"{len(rows)} runs: {', '.join(f'{count} {what}' for what, count in counts.items())}; {table}")
     if not os.environ.get("FFD_MODELS"):
         if not failed:
-            skip("FFD_MODELS is not set: only data/models was looked at")
+            skip("models: FFD_MODELS is not set: only data/models was looked at")
     sys.exit(1 if failed or not counts["valid"] else 0)
 
 

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -48,6 +49,11 @@ def copy_source(target):
     return target
 
 
+def version():
+    """That of the headers."""
+    return re.search(r'#define FFD_VERSION "(.*)"', read("include/ffd/version.h"))[1]
+
+
 class Stage:
     """A build installed below a folder (DESTDIR)."""
 
@@ -64,9 +70,8 @@ class Stage:
     def environment(self):
         """In which programs are built with the installed library and run with it."""
         libraries = self.path("libdir")
-        return dict(os.environ, PKG_CONFIG_PATH=os.path.join(libraries, "pkgconfig"), PKG_CONFIG_SYSROOT_DIR=self.root,
-                    LD_LIBRARY_PATH=libraries, PATH=self.path("bindir") + os.pathsep + os.environ["PATH"],
-                    PYTHONDONTWRITEBYTECODE="1")
+        return dict(os.environ, PKG_CONFIG_PATH=os.path.join(libraries, "pkgconfig"), LD_LIBRARY_PATH=libraries,
+                    PATH=self.path("bindir") + os.pathsep + os.environ["PATH"], PYTHONDONTWRITEBYTECODE="1")
 
 
 def commands(ffd):

@@ -93,22 +93,28 @@ def check_points_alone(place, findings):
 
 CMAKE = """cmake_minimum_required(VERSION 3.16)
 project(example C)
-find_package(ffd 0.1 REQUIRED)
+find_package(ffd @VERSION@ REQUIRED)
 add_executable(by_cmake data/examples/c/deform_points.c)
 target_link_libraries(by_cmake ffd::ffd m)
+add_executable(by_cmake_static data/examples/c/deform_points.c)
+target_link_libraries(by_cmake_static ffd::ffd_static)
 """
 
 
 def check_cmake(place, findings):
-    """A project of CMake finds the library by its package config."""
+    """A project of CMake finds the library by its package config, and the static one."""
     if not shutil.which("cmake"):
         return
     with open(place.path("CMakeLists.txt"), "w", encoding="ascii") as file:
-        file.write(CMAKE)
+        file.write(CMAKE.replace("@VERSION@", stage.version()))
     libraries = place.environment["LD_LIBRARY_PATH"]
-    place.run(f"cmake -S . -B build-cmake -DCMAKE_PREFIX_PATH={libraries} && cmake --build build-cmake")
+    place.run(f"cmake -S . -B build-cmake -DCMAKE_PREFIX_PATH={libraries}/cmake && cmake --build build-cmake")
     place.run("build-cmake/by_cmake data/lattices/wave.json <points.txt >by_cmake.txt")
     equal(findings, place.rows("by_cmake.txt"), place.rows("moved.txt"), "CMake")
+    place.run("build-cmake/by_cmake_static data/lattices/wave.json <points.txt >by_cmake_static.txt")
+    equal(findings, place.rows("by_cmake_static.txt"), place.rows("moved.txt"), "CMake, the static library")
+    if "libffd" in place.run("ldd build-cmake/by_cmake_static"):
+        findings.append("CMake: ffd::ffd_static is the shared library")
 
 
 def check_cpp(place, findings):

@@ -135,6 +135,13 @@ m("utf8-surrogates", "check left out", "base, json_span", "(first == 0xed && c[1
   "*code > 0x10ffff || (*code >= 0xd800 && *code <= 0xdfff)", "*code > 0x10ffff")
 m("null-for-infinity", "format", "base", "if (isfinite(value)) ffd_buffer_number(json->out, value);",
   "if (!isnan(value))\n        ffd_buffer_number(json->out, value);")
+m("processors-of-the-machine", "limit left out", "processors, cli_ops", "return CPU_COUNT_S(count * sizeof *sets, sets);",
+  "return count_online();")
+m("quota-left-out", "limit left out", "cli_processors", "limit = allowed > 1 ? count_limit() : 1;", "limit = allowed > 1 && count_limit() > 0 ? INT_MAX : 1;")
+m("quota-rounded-down", "rounding", "processors, cli_processors", "return quota / period + (quota % period != 0);",
+  "return quota < period ? 1 : quota / period;")
+m("limits-above-the-cgroup", "loop", "processors, cli_processors", "if (!slash || (size_t)(slash - in->folder) < in->top)",
+  "if (slash || (size_t)(slash - in->folder) < in->top)")
 
 # spline
 
@@ -1080,6 +1087,11 @@ m("hash-of-one-of-two-files", "condition", "file, cli_batch_resume",
   "output->hash && output->count == 1 && output->files[0].temporary;", "output->hash && output->count >= 1 && output->files[0].temporary;")
 m("timeout-named-stop", "message", "cli_batch_failures, cli_batch", "worker->timed_out = !worker->stopped;",
   "worker->timed_out = worker->stopped;")
+m("memory-of-idle-workers", "clean-up left out", "cli_processors", "if (other != worker && !other->task) finish_worker(other, NULL);",
+  "if (other != worker && other->is_ending)\n            finish_worker(other, NULL);")
+m("threads-of-jobs-without-memory", "count", "cli_processors", "if (!fits(pool, task, left)) break;",
+  "if (!fits(pool, task, UINT64_MAX))\n            break;")
+m("memory-without-lattices", "case left out", "job_source, cli_processors", "i == 0 ? word : ffd_word_lattice(word);", "i == 0 ? word : NULL;")
 
 # cli
 

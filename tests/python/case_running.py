@@ -69,6 +69,23 @@ class Running(unittest.TestCase):
         caller.join()
         self.assertGreater(turns, 5)
 
+    def test_threads_follow_affinity(self):
+        """A thread that may use one processor of several: its calls start no other."""
+        random = support.rng("affinity")
+        lattice = support.curved(random)
+        points = random.uniform(0, 1, (30_000, 3))
+        tasks = []
+
+        def confined():
+            os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
+            tasks.append(len(os.listdir("/proc/self/task")))
+            lattice.embed(points, progress=lambda done: tasks.append(len(os.listdir("/proc/self/task"))))
+        caller = threading.Thread(target=confined)
+        caller.start()
+        caller.join()
+        self.assertGreater(len(tasks), 1)
+        self.assertEqual(set(tasks), {tasks[0]})
+
     def test_progress_rises_and_cancels(self):
         random = support.rng("progress")
         lattice = support.curved(random)

@@ -45,7 +45,7 @@ def make_environment(folder, lists):
         tried = subprocess.run([*pip, "--require-hashes", "--find-links", wheels, "-r", os.path.join(HERE, name)],
                                capture_output=True, text=True, check=False)
         if tried.returncode != 0 and "No matching distribution" in tried.stderr:
-            skip(f"the pinned wheels are not for Python {sys.version.split()[0]} here")
+            skip(f"wheels: the pinned ones are not for Python {sys.version.split()[0]} here")
         if tried.returncode != 0:
             sys.exit(tried.stderr)
     return python, pip
@@ -59,23 +59,38 @@ def flags(build):
 
 
 def build_wheel(python, source, build, folder, compilers):
-    """The wheel; what it was compiled to stays beside the build folder, for the next time."""
+    """The wheel, and the folder of what it was compiled to, which stays beside the build folder for the next time."""
     kept = os.path.join(os.path.dirname(os.path.abspath(build)), ".build-python")
     environment = dict(os.environ, PATH=os.path.dirname(python) + os.pathsep + os.environ["PATH"], CC=compilers[0], CXX=compilers[1],
                        **flags(build))
     if os.path.isdir(kept):  # the environment that it was set up with is gone
         shutil.rmtree(kept)
     run(python, "-m", "pip", "wheel", "--no-index", "--no-build-isolation", "--no-deps", "--disable-pip-version-check",
-        "-C", f"build-dir={kept}", "-w", folder, source, env=environment)
+        f"--config-settings=build-dir={kept}", "-w", folder, source, env=environment)
     (wheel,) = glob.glob(os.path.join(folder, "*.whl"))
-    return wheel
+    return wheel, kept
+
+
+def check_program(python, kept, folder):
+    """A build with the package has a program too, which needs nothing of the package: also where both were moved."""
+    root, moved = os.path.join(folder, "root"), os.path.join(folder, "moved")
+    run(os.path.join(os.path.dirname(python), "meson"), "install", "-C", kept, "--destdir", root)
+    os.rename(root, moved)
+    (program,) = glob.glob(os.path.join(moved, "**", "bin", "ffd"), recursive=True)
+    for package in glob.glob(os.path.join(moved, "**", "ffd_mesh"), recursive=True):
+        shutil.rmtree(package)
+    mesh = os.path.join(folder, "empty.gltf")
+    with open(mesh, "w", encoding="ascii") as file:
+        file.write('{"asset": {"version": "2.0"}}')
+    run(program, "info", mesh)
+    shutil.rmtree(moved)
 
 
 def fetched(source, variable, name):
     """The folder of wheels that .ci/setup has fetched, or that the variable names."""
     wheels = os.environ.get(variable) or os.path.join(source, ".build-test", name)
     if not glob.glob(os.path.join(wheels, "*.whl")):
-        skip(f"no wheels in {wheels}: .ci/setup could not fetch them")
+        skip(f"wheels: none in {wheels}: .ci/setup could not fetch them")
     return wheels
 
 
@@ -103,10 +118,12 @@ def main():
         lists["peers.txt"] = fetched(source, "FFD_PEERS", "peers")
     with tempfile.TemporaryDirectory() as folder:
         python, pip = make_environment(os.path.join(folder, "venv"), lists)
-        wheel = build_wheel(python, source, build, os.path.join(folder, "dist"), (cc, cxx))
+        wheel, kept = build_wheel(python, source, build, os.path.join(folder, "dist"), (cc, cxx))
         if "-cp311-abi3-" not in wheel:
             sys.exit(f"{os.path.basename(wheel)} is not for every CPython from 3.11 on")
         run(*pip, wheel)
+        if not peers and not chosen:
+            check_program(python, kept, folder)
         environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
         environment |= {"FFD_SOURCE": source, "PYTHONDONTWRITEBYTECODE": "1", "PYTHONPATH": HERE, "TMPDIR": folder}
         code = run_peers(python, chosen[1:], folder, environment) if peers else run_cases(python, chosen, folder, environment)

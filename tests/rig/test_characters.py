@@ -145,7 +145,7 @@ def large_rigs_move_as_one(run):
 
 
 if not os.environ.get("FFD_MODELS"):
-    print("SKIP: FFD_MODELS is not set")
+    print("SKIP: models: FFD_MODELS is not set")
     sys.exit(77)
 if __name__ == "__main__":
     main()

@@ -23,7 +23,7 @@ CLOSE = 1e-6  # of the size: three.js keeps keys, weights and inverse binds in s
 
 
 def main():
-    reason = viewer.missing() or (None if os.environ.get("FFD_MODELS") else "FFD_MODELS is not set")
+    reason = viewer.missing() or (None if os.environ.get("FFD_MODELS") else "models: FFD_MODELS is not set")
     if reason:
         print(f"SKIP: {reason}")
         sys.exit(SKIPPED)

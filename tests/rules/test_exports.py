@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
-"""The shared library exports what include/ffd declares FFD_API, no more and no less.
+"""The shared library exports what include/ffd declares FFD_API, no more and no less. A module exports its table; if it is bound to
+the system's libraries, also what allocates memory (base/memory/process_allocator.h). No symbol is one that the loader makes the same
+in the whole process, whoever has it (STB_GNU_UNIQUE).
 
-    test_exports.py SHARED-LIBRARY
+    test_exports.py SHARED-LIBRARY MODULE...
 """
 
+import os
 import re
 import shutil
 import subprocess
@@ -22,21 +25,39 @@ def declared():
     return names
 
 
+ALLOCATION = re.compile(r"malloc|calloc|realloc|aligned_alloc|posix_memalign|free|_Z(n[wa]|d[la])\w+")
+
+
 def exported(library):
-    if not shutil.which("nm"):
-        tree.skip("nm is not there")
+    """Name -> nm's letter for its kind."""
     run = subprocess.run(["nm", "-D", "--defined-only", library], capture_output=True, text=True, check=True)
     # A template instance or type information of the C++ library, as a weak symbol, is not part of our interface, but it
     # would be one more thing that a user's program can collide with: it counts.
     # The name of a symbol version is an absolute symbol.
-    return {line.split()[-1].split("@")[0] for line in run.stdout.splitlines() if line.strip() and line.split()[-2] != "A"}
+    lines = [line.split() for line in run.stdout.splitlines() if line.strip()]
+    return {words[-1].split("@")[0]: words[-2] for words in lines if words[-2] != "A"}
+
+
+def of_module(module):
+    name, symbols = os.path.basename(module), exported(module)
+    if "ffd_module" not in symbols:
+        yield f"{name}: has no table"
+    for symbol, kind in sorted(symbols.items()):
+        if symbol != "ffd_module" and not ALLOCATION.fullmatch(symbol):
+            yield f"{name}: exports {symbol}"
+        if kind == "u":
+            yield f"{name}: {symbol} is unique in the whole process"
 
 
 def main():
-    offered, promised = exported(sys.argv[1]), declared()
+    if not shutil.which("nm"):
+        tree.skip("nm is not there")
+    offered, promised = set(exported(sys.argv[1])), declared()
     findings = [f"declared FFD_API but not exported: {name}" for name in sorted(promised - offered)]
     findings += [f"exported but not declared FFD_API: {name}" for name in sorted(offered - promised)]
-    tree.finish(len(promised), "functions", findings)
+    for module in sys.argv[2:]:
+        findings += of_module(module)
+    tree.finish(len(promised) + len(sys.argv[2:]), "functions and modules", findings)
 
 
 main()

@@ -9,6 +9,7 @@ wanted, the answer needs no other library's development files.
 import glob
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -64,18 +65,27 @@ def installed(stage, pattern):
 
 
 def shared_alone(folder):
-    """What is wrong with what a build of only the shared library would install; it is set up, and not compiled."""
+    """What is wrong with what a build of only the shared library would install, into folders outside of the prefix; it is set up,
+    and not compiled."""
     build = os.path.join(folder, "shared")
-    run(["meson", "setup", "-Ddefault_library=shared", "-Dtests=disabled", build, tree.ROOT])
+    run(["meson", "setup", "-Ddefault_library=shared", "-Dtests=disabled", "-Dprefix=/p", "-Dbindir=/q/programs/bin", "-Dlibdir=/q/lib",
+         build, tree.ROOT])
     paths = json.loads(run(["meson", "introspect", "--installed", build])).values()
     names = {os.path.basename(path) for path in paths}
     if "libffd.so" not in names or "libffd.a" in names:
         yield "default_library=shared installs other libraries than the shared one"
-    found = os.path.join(build, "meson-private")
+    found = os.path.join(build, "data", "packaging")
     environment = dict(os.environ, PKG_CONFIG_PATH="", PKG_CONFIG_LIBDIR=found)
     asked = subprocess.run(["pkg-config", "--cflags", "--libs", "ffd"], env=environment, capture_output=True, text=True, check=False)
     if asked.returncode or "-lffd" not in asked.stdout:
         yield f"pkg-config, where only the shared library is: {asked.stdout}{asked.stderr}"
+    with open(os.path.join(build, "compile_commands.json"), encoding="utf-8") as file:
+        if not re.search(r'FFD_MODULE_FOLDERS=\W+\.\./\.\./lib/ffd-[\d.]+\\?",', file.read()):
+            yield "the program does not look for modules from its own folder to theirs"
+    for line in ("prefix=${pcfiledir}/../../../p", "includedir=${pcfiledir}/../../../p/include", "libdir=${pcfiledir}/.."):
+        with open(os.path.join(found, "ffd.pc"), encoding="utf-8") as file:
+            if line not in file.read().splitlines():
+                yield f"ffd.pc lacks {line}"
 
 
 def main():
@@ -98,8 +108,7 @@ def main():
             checked += 1
             if not os.path.isfile(stage + options["prefix"] + "/" + header):
                 findings.append(f"not installed: {header}")
-        environment = dict(os.environ, PKG_CONFIG_PATH=os.path.dirname(pc), PKG_CONFIG_SYSROOT_DIR=stage,
-                           LD_LIBRARY_PATH=libraries)
+        environment = dict(os.environ, PKG_CONFIG_PATH=os.path.dirname(pc), LD_LIBRARY_PATH=libraries)
         program = installed(stage, "bin/ffd")
         if not run([program, "--version"], env=environment).strip():
             findings.append("the installed ffd says no version")

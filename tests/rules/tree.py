@@ -24,6 +24,8 @@ def files():
         for folder, folders, names in os.walk(ROOT):
             if folder == ROOT:
                 folders[:] = [name for name in folders if not is_build_folder(name)]
+            if folder == os.path.join(ROOT, "subprojects"):
+                folders[:] = ["packagefiles"]  # others are sources of other projects
             folders[:] = [name for name in folders if name != "__pycache__"]
             paths += [os.path.relpath(os.path.join(folder, name), ROOT) for name in names]
     return sorted(path for path in paths if os.path.isfile(os.path.join(ROOT, path)))

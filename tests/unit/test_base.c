@@ -11,6 +11,7 @@
 #include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include "base/memory/slots.h"
+#include "base/system/processors.h"
 #include "base/system/thread.h"
 #include "base/text/buffer.h"
 #include "base/text/words.h"

@@ -10,6 +10,7 @@
 #include "../support/lattice_by_hand.h"
 #include "../support/repetitions.h"
 #include "deform/displacement.h"
+#include <ffd/embedding.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -79,8 +80,11 @@ static void random_uvw(draw *d, const ffd_lattice *lattice, double uvw[3])
 }
 
 typedef struct sample {
-    double uvw[4 * DISPLACEMENT_BATCH + 1], delta[3 * DISPLACEMENT_BATCH + 1],
-        gradient[9 * DISPLACEMENT_BATCH + 1];
+    union {
+        double numbers[3 * DISPLACEMENT_BATCH + 1];
+        ffd_location locations[DISPLACEMENT_BATCH + 1];
+    } uvw;
+    double delta[3 * DISPLACEMENT_BATCH + 1], gradient[9 * DISPLACEMENT_BATCH + 1];
     uint8_t moves[DISPLACEMENT_BATCH];
     uint32_t which[DISPLACEMENT_BATCH];
     displacement_scratch scratch;
@@ -91,30 +95,30 @@ static void check_point(const ffd_lattice *lattice, const displacement_batch *ba
 {
     double delta[3], gradient[9];
     const int moves =
-        ffd_displacement(lattice, batch->uvw + n * batch->stride, delta, batch->gradient ? gradient : NULL);
+        ffd_displacement(lattice, ffd_batch_uvw(batch, n), delta, batch->gradient ? gradient : NULL);
     if (moves != batch->moves[n] || memcmp(delta, batch->delta + 3 * n, sizeof delta) != 0 ||
         (batch->gradient && memcmp(gradient, batch->gradient + 9 * n, sizeof gradient) != 0))
         fail_msg("%s: point %zu of %zu has another displacement than alone: %.17g %.17g", isa, n,
                  batch->count, batch->delta[3 * n], delta[0]);
 }
 
-/* Whole vectors of every width plus a remainder, at every alignment. */
+/* Whole vectors of every width plus a remainder, at every alignment; u,v,w alone or in locations. */
 static void check_batch(draw *d, const ffd_lattice *lattice, sample *s)
 {
     static const size_t counts[] = {0, 1, 2, 3, 5, 7, 8, 9, 17, 64, 333, DISPLACEMENT_BATCH};
     const size_t wanted = counts[draw_int(d, 0, 11)];
     const size_t odd = (size_t)draw_int(d, 0, 1);
-    displacement_batch batch = {.uvw = s->uvw + odd,
-                                .stride = 3 + (size_t)draw_int(d, 0, 1),
+    displacement_batch batch = {.uvw = s->uvw.numbers + odd,
+                                .stride = draw_int(d, 0, 1) ? 3 * sizeof(double) : sizeof(ffd_location),
                                 .which = s->which,
                                 .delta = s->delta + odd,
                                 .gradient = draw_int(d, 0, 2) ? s->gradient + 1 - odd : NULL,
                                 .moves = s->moves};
     for (size_t n = 0; n < DISPLACEMENT_BATCH; n++) {
-        random_uvw(d, lattice, s->uvw + odd + n * batch.stride);
+        random_uvw(d, lattice, (double *)ffd_batch_uvw(&batch, n));
         /* Neighbours are mostly in the same cell. */
         if (n > 0 && draw_int(d, 0, 3))
-            memcpy(s->uvw + odd + n * batch.stride, s->uvw + odd + (n - 1) * batch.stride,
+            memcpy((double *)ffd_batch_uvw(&batch, n), (double *)ffd_batch_uvw(&batch, n - 1),
                    2 * sizeof(double));
         if (batch.count < wanted && (wanted == DISPLACEMENT_BATCH || draw_int(d, 0, 4)))
             s->which[batch.count++] = (uint32_t)n;

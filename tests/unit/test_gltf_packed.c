@@ -358,9 +358,9 @@ static void draco_that_cannot_be_is_refused(void **state)
          WITH(POSITION_ONLY("\"POSITION\":3", "\"indices\":0,")), "/meshes/0/primitives/0/extensions/" DRACO,
          "the Draco data's count of triangles is 32, that of its indices 93", FFD_E_INVALID},
         {"{\"componentType\":5123,\"count\":96,\"type\":\"SCALAR\"},"
-         "{\"componentType\":5126,\"count\":9007199254740992,\"type\":\"VEC3\"}",
+         "{\"componentType\":5126,\"count\":4294967295,\"type\":\"VEC3\"}",
          WITH(POSITION_ONLY("\"POSITION\":3", "\"indices\":0,")), "/meshes/0/primitives/0/extensions/" DRACO,
-         "the Draco data's count of points is 25, that of its accessors 9007199254740992", FFD_E_INVALID},
+         "the Draco data's count of points is 25, that of its accessors 4294967295", FFD_E_INVALID},
         {DRACO_ACCESSORS, WITH(POSITION_ONLY("\"POSITION\":3", "\"indices\":0,\"mode\":5,")),
          "/meshes/0/primitives/0/extensions/" DRACO,
          "indices of mode 5 compressed by Draco are not supported, only triangles", FFD_E_UNSUPPORTED},

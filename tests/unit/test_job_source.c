@@ -6,6 +6,7 @@
 #include <cmocka.h>
 
 #include "../support/test_folder.h"
+#include "batch/manifest/job_memory.h"
 #include "batch/manifest/job_source.h"
 #include "batch/manifest/lines.h"
 #include "batch/manifest/manifest.h"
@@ -235,6 +236,45 @@ static void files_of_a_pattern_come_sorted(void **state)
     (void)state;
 }
 
+static void check_memory(const batch_frame *frame, const char *text, bool draws, unsigned megabytes)
+{
+    batch_job job = parsed(frame, text);
+    assert_int_equal(job.error.status, FFD_OK);
+    assert_int_equal(ffd_job_memory(&job, draws), 1000000ull * megabytes);
+    ffd_job_free(&job);
+}
+
+/* By the sizes of its mesh and of all its lattices. */
+static void a_job_may_take_the_budget_of_its_files(void **state)
+{
+    static char blanks[3000000];
+    const batch_default budget = {"memory", "400M"};
+    const batch_frame frame = {.name = "m", .folder = folder},
+                      given = {.name = "m", .folder = folder, .defaults = &budget, .default_count = 1};
+    memset(blanks, ' ', sizeof blanks);
+    put("3MB", blanks, sizeof blanks);
+    put("1MB", blanks, 1000000);
+    put("it's=", blanks, 2000000);
+    check_memory(&frame, "{\"in\": \"none\", \"lattice\": \"none\", \"out\": \"b\"}", false, 100);
+    check_memory(&frame, "{\"in\": \"3MB\", \"lattice\": \"none\", \"out\": \"1MB\"}", false, 160);
+    check_memory(&frame, "{\"in\": \"3MB\", \"lattice\": [\"1MB\", \"1MB\", \"it's=\"], \"out\": \"b\"}",
+                 false, 240);
+    check_memory(&frame,
+                 "{\"in\": \"1MB\", \"morph\": {\"a\": \"3MB\", \"it's='\": \"it's=\", \"''\": \"1MB\"}, "
+                 "\"out\": \"b\"}",
+                 false, 240);
+    check_memory(&frame, "{\"in\": \"3MB\", \"lattice\": \"none\", \"out\": \"b\"}", true, 400);
+#define WITH(size)                                                                                           \
+    "{\"in\": \"3MB\", \"lattice\": \"none\", \"out\": \"b\", \"options\": {\"memory\": " size "}}"
+    check_memory(&frame, WITH("\"2G\""), false, 2000);
+    check_memory(&frame, WITH("\"2G\""), true, 2000);
+    check_memory(&frame, WITH("\"20M\""), false, 160);
+    check_memory(&frame, WITH("\"much\""), false, 160);
+    check_memory(&given, WITH("500000000"), false, 500);
+    check_memory(&given, "{\"in\": \"3MB\", \"lattice\": \"none\", \"out\": \"b\"}", false, 400);
+    (void)state;
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -245,6 +285,7 @@ int main(void)
         cmocka_unit_test(a_line_too_long_is_refused_and_skipped),
         cmocka_unit_test(rows_of_a_table_become_jobs),
         cmocka_unit_test(files_of_a_pattern_come_sorted),
+        cmocka_unit_test(a_job_may_take_the_budget_of_its_files),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -243,7 +243,8 @@ static const refusal refusals[] = {
      0,
      {0},
      FFD_E_LIMIT,
-     "direction v: 18446744073709551615 control points are too many"},
+     SIZE_MAX > UINT32_MAX ? "direction v: 18446744073709551615 control points are too many"
+                           : "direction v: 4294967295 control points are too many"},
     {KNOTS_LIST,
      2,
      3,

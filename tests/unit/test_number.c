@@ -9,6 +9,7 @@
 #include "../support/repetitions.h"
 #include "base/text/decimal.h"
 #include "base/text/number.h"
+#include "base/text/size.h"
 #include <float.h>
 #include <locale.h>
 #include <math.h>
@@ -294,6 +295,51 @@ static void a_run_gives_each_number_the_text_it_has_alone(void **state)
     (void)state;
 }
 
+static void sizes_have_a_unit_or_none(void **state)
+{
+    static const struct {
+        const char *text;
+        uint64_t bytes; /* 0: refused */
+    } sizes[] = {
+        {"1", 1},
+        {"4096", 4096},
+        {"1K", 1000},
+        {"700M", 700000000},
+        {"4G", 4000000000},
+        {"1.5G", 1500000000},
+        {".5K", 500},
+        {"1e3M", 1000000000},
+        {"1e-3K", 1},
+        {"9223372036854774784", 9223372036854774784u}, /* the last double below 2^63 */
+        {"9223372036854775808", 0},
+        {"9223372037G", 0},
+        {"0", 0},
+        {"0.5", 0},
+        {"-1", 0},
+        {"-1G", 0},
+        {"", 0},
+        {"M", 0},
+        {"1k", 0},
+        {"1MB", 0},
+        {"1 M", 0},
+        {" 1", 0},
+        {"1M ", 0},
+        {"1e", 0},
+        {"1eM", 0},
+        {"0x10", 0},
+        {"inf", 0},
+        {"nan", 0},
+        {"infG", 0},
+        {"1e400", 0},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        uint64_t bytes = 0;
+        if (ffd_size_parse(sizes[i].text, &bytes) != (sizes[i].bytes != 0) || bytes != sizes[i].bytes)
+            fail_msg("\"%s\": %llu bytes", sizes[i].text, (unsigned long long)bytes);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -305,6 +351,7 @@ int main(void)
         cmocka_unit_test(text_is_the_shortest_that_reads_back),
         cmocka_unit_test(texts_read_as_the_c_library_reads_them),
         cmocka_unit_test(a_run_gives_each_number_the_text_it_has_alone),
+        cmocka_unit_test(sizes_have_a_unit_or_none),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

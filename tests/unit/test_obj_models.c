@@ -212,7 +212,9 @@ int main(void)
         cmocka_unit_test(moving_all_vertices_changes_only_coordinates),
         cmocka_unit_test(saved_models_hold_their_new_normals),
     };
-    if (!getenv("FFD_MODELS"))
+    if (!getenv("FFD_MODELS")) {
+        puts("SKIP: models: FFD_MODELS is not set");
         return 77;
+    }
     return cmocka_run_group_tests(tests, find_models, free_paths);
 }

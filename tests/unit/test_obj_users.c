@@ -234,7 +234,8 @@ static void users_are_those_of_all_corners(void **state)
         }
         free_file(&f);
     }
-    assert_true(early > 0);
+    if (!is_memory_checked()) /* which reads one or two such files, and one in fifteen has a late block */
+        assert_true(early > 0);
 }
 
 static void assert_refused_so(const file *f, int line, const char *expected)

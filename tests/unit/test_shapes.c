@@ -571,7 +571,7 @@ static void bad_lattice_descriptions_are_refused(void **state)
     desc.degree[2] = 10;
     assert_int_equal(ffd_lattice_create(&desc, points, 2, &l, &error), FFD_E_ARGUMENT);
     desc = good;
-    desc.size[0] = (size_t)1 << 40;
+    desc.size[0] = SIZE_MAX / 2;
     assert_int_equal(ffd_lattice_create(&desc, points, 2, &l, &error), FFD_E_LIMIT);
     desc = good;
     desc.margin[1] = -0.5;

@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 /* The most bytes that are read from a stream, which may be endless. */
-#define LONGEST_STREAM ((size_t)1 << 32)
+#define LONGEST_STREAM (SIZE_MAX > UINT32_MAX ? (size_t)UINT32_MAX + 1 : SIZE_MAX / 2)
 /* Size of the pieces in which two files are compared: a multiple of any page size. */
 #define COMPARED ((size_t)1 << 22)
 
@@ -140,9 +140,11 @@ bool ffd_file_reads_once(const char *path)
                                         !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode));
 }
 
+_Static_assert(sizeof(file_stamp) == 7 * sizeof(uint64_t), "bytes that are compared have no padding");
+
 bool ffd_stamp_equal(const file_stamp *a, const file_stamp *b)
 {
-    return memcmp(a, b, sizeof *a) == 0; /* the struct has no padding */
+    return memcmp(a, b, sizeof *a) == 0;
 }
 
 bool ffd_stamps_hold(char *const *paths, const file_stamp *stamps, size_t count)
@@ -192,8 +194,11 @@ static ffd_status load_descriptor(int fd, const char *name, size_t least_mapped,
         return ffd_fail_file(error, FFD_E_IO, name, "is a folder");
     if (!S_ISREG(info.st_mode) || info.st_size <= 0)
         return read_stream(fd, name, input, error);
-    if ((unsigned long long)info.st_size > (size_t)-1)
-        return ffd_fail_file(error, FFD_E_LIMIT, name, "is too large for this machine");
+    if ((uint64_t)info.st_size > SIZE_MAX)
+        return ffd_fail_file(
+            error, FFD_E_LIMIT, name,
+            "has %lld bytes, more than the %zu that a program with addresses of 32 bits holds",
+            (long long)info.st_size, SIZE_MAX);
     const size_t size = (size_t)info.st_size;
     const ffd_status status = size < least_mapped ? read_file(fd, name, size, input, error)
                                                   : map_file(fd, name, &info, input, error);

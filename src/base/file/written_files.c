@@ -7,6 +7,8 @@ typedef struct file_key {
     uint64_t device, number;
 } file_key;
 
+_Static_assert(sizeof(file_key) == 2 * sizeof(uint64_t), "a key has no padding");
+
 static file_key key_of(const file_stamp *stamp)
 {
     return (file_key){stamp->device, stamp->number};

@@ -1,7 +1,7 @@
-#define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
+#define _GNU_SOURCE /* RTLD_DEEPBIND, RTLD_DEFAULT, MAP_ANONYMOUS */
 #include "base/system/module.h"
+#include "base/system/own_file.h"
 #include <dlfcn.h>
-#include <inttypes.h>
 #include <pthread.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -10,7 +10,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define LONGEST_PATH 4096
 #define MODULE_BYTES ((size_t)16 << 20)
 #define THREAD_BYTES ((size_t)64 << 10)
 
@@ -18,27 +17,8 @@
    into. */
 static const char *const folders[] = {FFD_MODULE_FOLDERS};
 
-/* Finds the file that this code is linked into, by what the system has mapped: the path by which a program
-   was started may be relative, or a symbolic link. Returns false if it is unknown. */
-static bool find_own_file(char file[LONGEST_PATH])
-{
-    char line[LONGEST_PATH + 128];
-    FILE *const maps = fopen("/proc/self/maps", "re");
-    bool found = false;
-    while (maps && !found && fgets(line, sizeof line, maps)) {
-        uintptr_t first, end;
-        const char *const path = strchr(line, '/');
-        if (!path || sscanf(line, "%" SCNxPTR "-%" SCNxPTR, &first, &end) != 2)
-            continue;
-        const size_t length = strcspn(path, "\n");
-        found = (uintptr_t)folders >= first && (uintptr_t)folders < end && length < LONGEST_PATH;
-        if (found)
-            snprintf(file, LONGEST_PATH, "%.*s", (int)length, path);
-    }
-    if (maps)
-        fclose(maps);
-    return found;
-}
+/* The modules whose libraries are the system's, and not compiled into them. */
+static const char *const deep[] = {FFD_DEEP_MODULES};
 
 /* Returns whether a file belongs to somebody who may change what the program does anyway: the administrator,
    the user, or the owner of the program file. The folder of the program may be writable for others, who could
@@ -57,23 +37,35 @@ static bool is_trusted(const char *path, const struct stat *own)
     return has_link && has_file;
 }
 
+/* Finds the folder of the program or library that this is linked into, and what is known of that file. */
+static bool find_own_folder(char folder[LONGEST_PATH], struct stat *own)
+{
+    if (!ffd_find_own_file(folders, folder))
+        return false;
+    if (stat(folder, own) != 0)
+        own->st_uid = geteuid(); /* it was deleted: there is no owner to trust */
+    *strrchr(folder, '/') = 0;
+    return true;
+}
+
 /* Finds the path of a module in the first folder that has a trusted one. Returns false if there is none: path
-   is then that of a file which is not trusted or, if there is no file, the path in the last folder. */
-static bool find_module(const char *file, char path[LONGEST_PATH])
+   is then that of a file which is not trusted or, if there is no file, the path in the last folder. is_known:
+   whether there is a folder of our own to look in. */
+static bool find_module(const char *file, char path[LONGEST_PATH], bool *is_known)
 {
     char own[LONGEST_PATH], tried[LONGEST_PATH];
     struct stat own_info = {0}, info;
     bool is_refused = false;
-    const bool is_known = find_own_file(own) && stat(own, &own_info) == 0;
-    if (is_known)
-        *strrchr(own, '/') = 0;
+    *is_known = find_own_folder(own, &own_info);
     for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
         const bool is_absolute = folders[i][0] == '/';
-        if (!is_absolute && !is_known)
+        if (!is_absolute && !*is_known)
             continue;
         const int length = snprintf(tried, LONGEST_PATH, "%s%s%s/%s", is_absolute ? "" : own,
                                     is_absolute ? "" : "/", folders[i], file);
-        const bool is_there = length < LONGEST_PATH && lstat(tried, &info) == 0;
+        if (length >= LONGEST_PATH)
+            continue;
+        const bool is_there = lstat(tried, &info) == 0;
         const bool is_good = is_there && is_trusted(tried, &own_info);
         if (is_good || !is_refused)
             memcpy(path, tried, sizeof tried);
@@ -109,6 +101,23 @@ static ffd_status refuse_module(const char *path, const module_identity *found, 
                     is, of->wanted.file, of->wanted.version, (unsigned long)of->wanted.interface, of->what);
 }
 
+/* How names are found that a module does not define itself. The loader looks in the program and in what it
+   was started with first: there, functions of other versions can have the names of those that the libraries
+   of a module have, and call each other by. With RTLD_DEEPBIND the module's own libraries come first. Only
+   the functions that allocate memory are still those of the process (base/memory/process_allocator.h). The
+   runtime of a sanitizer must come first, and ends the program at this flag. */
+static int binding_of(const char *file)
+{
+#ifdef RTLD_DEEPBIND
+    for (size_t i = 0; i < sizeof deep / sizeof *deep; i++)
+        if (strcmp(deep[i], file) == 0 && !dlsym(RTLD_DEFAULT, "__sanitizer_set_report_path"))
+            return RTLD_DEEPBIND;
+#endif
+    (void)deep;
+    (void)file;
+    return 0;
+}
+
 /* Checks that memory suffices for the module and its libraries before it loads them: libraries that run out
    of memory while they are loaded abort the program, and the loader gives reasons only as text without fixed
    wording. A module that is refused is not closed: another part of the process may have loaded the same
@@ -116,18 +125,20 @@ static ffd_status refuse_module(const char *path, const module_identity *found, 
 static ffd_status open_module(const module *of, const module_head **head, ffd_error *error)
 {
     char path[LONGEST_PATH];
+    bool is_known;
     if (!has_memory(MODULE_BYTES))
         return ffd_fail_memory(error);
-    if (!find_module(of->wanted.file, path))
+    if (!find_module(of->wanted.file, path, &is_known))
         return ffd_fail(error, FFD_E_UNSUPPORTED,
                         "the module for %s cannot be loaded: %s: is no file, or one of another user, or one "
                         "that everybody may change",
                         of->what, path);
-    void *const handle = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    void *const handle = dlopen(path, RTLD_NOW | RTLD_LOCAL | binding_of(of->wanted.file));
     if (!handle) {
         const char *const said = dlerror();
-        return ffd_fail(error, FFD_E_UNSUPPORTED, "the module for %s cannot be loaded: %s", of->what,
-                        said ? said : "no reason is given");
+        return ffd_fail(error, FFD_E_UNSUPPORTED, "the module for %s cannot be loaded: %s%s", of->what,
+                        said ? said : "no reason is given",
+                        is_known ? "" : "; the folder of ffd is not known, or its path is too long");
     }
     *head = dlsym(handle, MODULE_SYMBOL);
     if (*head && is_wanted(&(*head)->identity, &of->wanted))

@@ -1,5 +1,6 @@
 /* module.h - parts of the program that are loaded (dlopen) when a file first needs them. Each module wraps a
-   C++ library and exports only a table of C functions. So a run that does not need the library does not spend
+   library and exports a table of C functions (and, where it is bound to the system's library, allocators:
+   base/memory/process_allocator.h). So a run that does not need the library does not spend
    time on loading it and the C++ runtime. */
 #ifndef FFD_BASE_SYSTEM_MODULE_H
 #define FFD_BASE_SYSTEM_MODULE_H

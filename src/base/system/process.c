@@ -14,6 +14,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #ifdef __linux__
+#include <sys/auxv.h>
 #include <sys/prctl.h>
 #endif
 
@@ -83,6 +84,12 @@ static int spawn(const char *name, int channel, pid_t *id)
             failed = posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
         if (!failed)
             failed = posix_spawn(id, "/proc/self/exe", &actions, &attributes, arguments, environ);
+#ifdef __linux__
+        /* Without /proc: the name by which the system started this program. */
+        if (failed == ENOENT)
+            failed = posix_spawn(id, (const char *)getauxval(AT_EXECFN), &actions, &attributes, arguments,
+                                 environ);
+#endif
         posix_spawnattr_destroy(&attributes);
     }
     posix_spawn_file_actions_destroy(&actions);

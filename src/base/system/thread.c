@@ -1,8 +1,8 @@
 #include "base/system/thread.h"
 #include "base/memory/memory.h"
+#include "base/system/processors.h"
 #include <pthread.h>
 #include <stdatomic.h>
-#include <unistd.h>
 
 typedef struct worker_thread {
     void (*run)(void *work, int number);
@@ -198,12 +198,6 @@ bool ffd_parallel_in_order(size_t count, size_t tile_size, int threads, tile_fun
     pthread_mutex_destroy(&work.lock);
     ffd_free(work.slots);
     return true;
-}
-
-int ffd_processor_count(void)
-{
-    const long count = sysconf(_SC_NPROCESSORS_ONLN);
-    return count < 1 ? 1 : count > 1024 ? 1024 : (int)count;
 }
 
 ffd_status ffd_threads_choose(int wanted, int *threads, ffd_error *error)

@@ -24,10 +24,8 @@ bool ffd_parallel_in_order(size_t count, size_t tile_size, int threads, tile_fun
 /* Returns the number of values of `worker` in ffd_parallel_in_order. */
 int ffd_ordered_slots(int threads);
 
-/* Returns the number of processors that are online, at least 1. */
-int ffd_processor_count(void);
-/* Sets *threads to the number that a caller wants, or to that of the processors if it is 0. Errors:
-   FFD_E_ARGUMENT (the number is negative). */
+/* Sets *threads to the number that a caller wants, or to that of the processors (processors.h) if it is 0.
+   Errors: FFD_E_ARGUMENT (the number is negative). */
 ffd_status ffd_threads_choose(int wanted, int *threads, ffd_error *error);
 
 #endif

@@ -3,8 +3,13 @@
 #ifndef FFD_BASE_VECTOR_VEC_H
 #define FFD_BASE_VECTOR_VEC_H
 
+#include <float.h>
 #include <math.h>
 #include <stdbool.h>
+
+#if FLT_EVAL_METHOD != 0
+#error "numbers are not rounded to their types (-msse2 -mfpmath=sse, -fexcess-precision=fast)"
+#endif
 
 #ifdef __cplusplus
 extern "C" {

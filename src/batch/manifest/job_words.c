@@ -392,6 +392,20 @@ const char *ffd_job_option(const batch_job *job, const char *name)
     return value;
 }
 
+/* In "--morph='NAME'=PATH" a quote of the name is doubled. */
+const char *ffd_word_lattice(const char *word)
+{
+    static const char lattice[] = "--lattice=", morph[] = "--morph='";
+    if (strncmp(word, lattice, sizeof lattice - 1) == 0)
+        return word + sizeof lattice - 1;
+    if (strncmp(word, morph, sizeof morph - 1) != 0)
+        return NULL;
+    const char *quote = strchr(word + sizeof morph - 1, '\'');
+    while (quote && quote[1] == '\'')
+        quote = strchr(quote + 2, '\'');
+    return quote && quote[1] == '=' ? quote + 2 : NULL;
+}
+
 void ffd_job_free(batch_job *job)
 {
     ffd_free(job->input);

@@ -44,6 +44,8 @@ ffd_status ffd_job_make(const batch_frame *frame, const job_description *descrip
 const char *ffd_job_output_name(const batch_job *job);
 /* Returns the value of an option of the job; NULL: not set. */
 const char *ffd_job_option(const batch_job *job, const char *name);
+/* Returns the path of the lattice that a word of a job names; NULL: it names none. */
+const char *ffd_word_lattice(const char *word);
 /* Frees the texts; leaves an empty job. */
 void ffd_job_free(batch_job *job);
 

@@ -11,11 +11,14 @@ size_t ffd_gltf_attribute(const gltf_document *document, size_t mesh, size_t pri
                           int least, int most);
 
 /* Texture coordinates as a texture uses them: those of an accessor, transformed (KHR_texture_transform): u' =
-   to_u[0] u + to_u[1] v + to_u[2], and v' likewise. The struct is a key for lookups: it has no padding. */
+   to_u[0] u + to_u[1] v + to_u[2], and v' likewise. The bytes of the struct are a key for lookups. */
 typedef struct gltf_texcoords {
-    size_t accessor; /* GLTF_NONE: no texture coordinates */
+    unsigned long long accessor; /* GLTF_NONE: no texture coordinates. As wide as a double: a size_t may leave
+                                    padding behind it, with any bytes. */
     double to_u[3], to_v[3];
 } gltf_texcoords;
+
+_Static_assert(sizeof(gltf_texcoords) == 7 * sizeof(double), "a key has no padding");
 
 /* Finds the texture coordinates of a primitive's base colour texture, or else of another texture of its
    material. Without a texture, or if the primitive lacks the set that it uses: TEXCOORD_0, untransformed. */

@@ -1,7 +1,7 @@
 #include "io/gltf/gltf_open.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
-#include "base/system/thread.h"
+#include "base/system/processors.h"
 #include "io/gltf/decode/gltf_check.h"
 #include "io/gltf/decode/gltf_drawing.h"
 #include "io/gltf/decode/gltf_indices.h"
@@ -196,16 +196,26 @@ static ffd_status limit_objects(gltf_document *d, ffd_error *error)
     return status ? status : ffd_budget_take(&d->base.budget, count, KEPT_OBJECT_BYTES, error);
 }
 
-/* Hides indices from tinygltf: it refuses those whose accessor has no bufferView, which is allowed for
-   compressed and sparse accessors. */
-static void hide_indices(const gltf_document *d, json_edits *edits)
+static void hide_member(const gltf_document *d, uint32_t object, const char *key, json_edits *edits)
 {
-    for (size_t i = 0; i < d->primitive_values.count; i++) {
-        const uint32_t indices = ffd_json_span_member(&d->tree, d->primitive_values.values[i], "indices");
-        if (indices != JSON_NONE)
-            ffd_edits_format(edits, d->tree.values[indices].key_begin, d->tree.values[indices].key_end,
-                             "\"\"");
-    }
+    const uint32_t member = ffd_json_span_member(&d->tree, object, key);
+    if (member != JSON_NONE)
+        ffd_edits_format(edits, d->tree.values[member].key_begin, d->tree.values[member].key_end, "\"\"");
+}
+
+/* Hides from tinygltf what not all of its versions accept: indices whose accessor has no bufferView, which is
+   allowed for compressed and sparse accessors, and extensions of nodes and scenes, of which 2.9 refuses those
+   that it knows and that lack a member. */
+static void hide_members(const gltf_document *d, json_edits *edits)
+{
+    for (size_t i = 0; i < d->primitive_values.count; i++)
+        hide_member(d, d->primitive_values.values[i], "indices", edits);
+    for (size_t i = 0; i < d->node_values.count; i++)
+        hide_member(d, d->node_values.values[i], "extensions", edits);
+    const uint32_t scenes = ffd_json_span_member(&d->tree, 0, "scenes");
+    for (uint32_t v = scenes == JSON_NONE ? JSON_NONE : ffd_json_span_first(&d->tree, scenes); v != JSON_NONE;
+         v = ffd_json_span_after(&d->tree, v))
+        hide_member(d, v, "extensions", edits);
 }
 
 /* Writes the JSON for tinygltf. It has only the geometry, so that tinygltf neither spends time on the rest
@@ -258,7 +268,7 @@ static ffd_status parse_model(gltf_document *d, ffd_error *error)
     if (status == FFD_OK)
         status = limit_objects(d, error);
     if (status == FFD_OK) {
-        hide_indices(d, &plain);
+        hide_members(d, &plain);
         ffd_edits_sort(&plain);
         write_model_text(d, &plain, &text);
         if (ffd_edits_failed(&plain) || text.failed)

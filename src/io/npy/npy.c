@@ -1,17 +1,18 @@
 #include "io/npy/npy.h"
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
 /* The header is padded so that the values start at a multiple of this (NumPy format 1.0). */
 #define ALIGNMENT 64
 
-size_t ffd_npy_header(const char *descr, size_t rows, size_t columns, char header[NPY_HEADER_CAPACITY])
+size_t ffd_npy_header(const char *descr, uint64_t rows, size_t columns, char header[NPY_HEADER_CAPACITY])
 {
     char shape[64];
     if (columns)
-        snprintf(shape, sizeof shape, "(%zu, %zu)", rows, columns);
+        snprintf(shape, sizeof shape, "(%" PRIu64 ", %zu)", rows, columns);
     else
-        snprintf(shape, sizeof shape, "(%zu,)", rows);
+        snprintf(shape, sizeof shape, "(%" PRIu64 ",)", rows);
     return ffd_npy_header_of(descr, shape, header);
 }
 

@@ -9,7 +9,7 @@
 
 /* Makes the header of a C-order array of rows x columns values (columns 0: one-dimensional). descr is NumPy's
    ("<f8", "|u1"). Returns the length of the header, a multiple of 64. */
-size_t ffd_npy_header(const char *descr, size_t rows, size_t columns, char header[NPY_HEADER_CAPACITY]);
+size_t ffd_npy_header(const char *descr, uint64_t rows, size_t columns, char header[NPY_HEADER_CAPACITY]);
 
 /* The same for an array of any shape, which is written as in NumPy: "()", "(2, 3, 4)". */
 size_t ffd_npy_header_of(const char *descr, const char *shape, char header[NPY_HEADER_CAPACITY]);

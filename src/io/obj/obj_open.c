@@ -1,6 +1,6 @@
 /* obj_open.c - opens and closes an OBJ file. */
 #include "base/memory/memory.h"
-#include "base/system/thread.h"
+#include "base/system/processors.h"
 #include "io/obj/obj_faces.h"
 #include "io/obj/obj_results.h"
 #include "io/obj/obj_vectors.h"

@@ -1,5 +1,6 @@
 #include "io/ply/ply_document.h"
 #include "base/memory/memory.h"
+#include "base/system/processors.h"
 #include "base/system/thread.h"
 #include <float.h>
 #include <inttypes.h>

@@ -29,6 +29,8 @@ typedef struct primitive_key {
     uint32_t mesh, material, kind, normals, texcoords;
 } primitive_key;
 
+_Static_assert(sizeof(primitive_key) == 5 * sizeof(uint32_t), "a key has no padding");
+
 static bool read_texcoord(const mesh_model *model, uint32_t number, float *values)
 {
     ffd_glb_texcoord(model, number, values);

@@ -10,25 +10,27 @@
 #include "mesh/polygon_cut.h"
 #include "mesh/srgb.h"
 #include <float.h>
+#include <inttypes.h>
 #include <string.h>
 
 static void measure(gltf_writer *w)
 {
     for (size_t i = 0; i < w->plan.primitive_count; i++) {
         const glb_primitive *primitive = &w->plan.primitives[i];
-        w->sizes[VIEW_POSITIONS] += 12 * primitive->vertex_count;
-        w->sizes[VIEW_NORMALS] += primitive->normals ? 12 * primitive->vertex_count : 0;
-        w->sizes[VIEW_TEXCOORDS] += primitive->texcoords ? 8 * primitive->vertex_count : 0;
-        w->sizes[VIEW_COLOURS] += w->model->colours ? glb_colour_size(w) * primitive->vertex_count : 0;
+        const uint64_t vertices = primitive->vertex_count, indices = primitive->index_count;
+        w->sizes[VIEW_POSITIONS] += 12 * vertices;
+        w->sizes[VIEW_NORMALS] += primitive->normals ? 12 * vertices : 0;
+        w->sizes[VIEW_TEXCOORDS] += primitive->texcoords ? 8 * vertices : 0;
+        w->sizes[VIEW_COLOURS] += w->model->colours ? glb_colour_size(w) * vertices : 0;
         for (size_t k = 0; k < w->model->morph_count; k++) {
-            const size_t offsets = glb_has_morph(&w->plan, primitive, k) ? 12 * primitive->vertex_count : 0;
+            const uint64_t offsets = glb_has_morph(&w->plan, primitive, k) ? 12 * vertices : 0;
             w->sizes[VIEW_POSITION_OFFSETS] += offsets;
             w->sizes[VIEW_NORMAL_OFFSETS] += primitive->normals ? offsets : 0;
         }
         if (glb_has_short_indices(primitive))
-            w->sizes[VIEW_SHORT] += 2 * primitive->index_count;
+            w->sizes[VIEW_SHORT] += 2 * indices;
         else
-            w->sizes[VIEW_LONG] += 4 * primitive->index_count;
+            w->sizes[VIEW_LONG] += 4 * indices;
     }
     w->sizes[VIEW_CLIPS] = w->clips.bytes.size;
     size_t number = 0;
@@ -72,19 +74,18 @@ static ffd_status put_glb(gltf_writer *w, const char *path)
     if (w->text.failed)
         return ffd_fail_memory(w->error);
     const size_t json = w->text.size - 1; /* without the line end */
-    const size_t padded = ffd_gltf_align(json);
-    const size_t bin = w->total > 0 ? GLB_CHUNK_HEADER_SIZE + w->total : 0;
-    const size_t total = GLB_HEADER_SIZE + GLB_CHUNK_HEADER_SIZE + padded + bin;
+    const uint64_t padded = ffd_gltf_align(json), bin = w->total > 0 ? GLB_CHUNK_HEADER_SIZE + w->total : 0;
+    const uint64_t total = GLB_HEADER_SIZE + GLB_CHUNK_HEADER_SIZE + padded + bin;
     if (total > UINT32_MAX)
         return ffd_fail_file(w->error, FFD_E_LIMIT, path,
-                             "would have %zu bytes, more than a GLB's 4294967295", total);
+                             "would have %" PRIu64 " bytes, more than a GLB's 4294967295", total);
     ffd_sink_u32(&w->sink, GLB_MAGIC);
     ffd_sink_u32(&w->sink, GLB_VERSION);
     ffd_sink_u32(&w->sink, (uint32_t)total);
     ffd_sink_u32(&w->sink, (uint32_t)padded);
     ffd_sink_u32(&w->sink, GLB_CHUNK_JSON);
     ffd_sink_bytes(&w->sink, w->text.data, json);
-    ffd_sink_bytes(&w->sink, blanks, padded - json);
+    ffd_sink_bytes(&w->sink, blanks, (size_t)(padded - json));
     if (bin > 0) {
         ffd_sink_u32(&w->sink, (uint32_t)w->total);
         ffd_sink_u32(&w->sink, GLB_CHUNK_BIN);

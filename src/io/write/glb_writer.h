@@ -35,7 +35,8 @@ typedef struct gltf_writer {
     double origin[3];              /* that translation; else zeros */
     bool byte_colours;             /* colours are sRGB bytes, which are stored as 16-bit linear numbers */
     uint16_t linear_of_bytes[256]; /* the linear number of each byte */
-    size_t sizes[VIEW_COUNT], begins[VIEW_COUNT], numbers[VIEW_COUNT], filled[VIEW_COUNT], total;
+    size_t numbers[VIEW_COUNT];
+    uint64_t sizes[VIEW_COUNT], begins[VIEW_COUNT], filled[VIEW_COUNT], total; /* bytes */
     glb_clips clips;
     byte_buffer text;
     json_text json;

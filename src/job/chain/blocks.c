@@ -360,7 +360,7 @@ static void displace(const block_work *work)
     const uint32_t *const sorted =
         sort_by_block(scratch->owners, (uint32_t)(chain->count - 1), count, blocks->pending, blocks->sorted);
     displacement_batch batch = {.uvw = scratch->locations[0].uvw,
-                                .stride = sizeof *scratch->locations / sizeof(double),
+                                .stride = sizeof *scratch->locations,
                                 .delta = run->delta,
                                 .gradient = run->gradient,
                                 .moves = scratch->moves};

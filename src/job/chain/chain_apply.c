@@ -26,7 +26,7 @@ static displacement_batch begin_batch(const chain_run *run, size_t link)
 {
     chain_scratch *scratch = run->scratch;
     return (displacement_batch){.uvw = scratch->locations[0].uvw,
-                                .stride = sizeof *scratch->locations / sizeof(double),
+                                .stride = sizeof *scratch->locations,
                                 .which = scratch->inside,
                                 .delta = link == 0 ? run->delta : scratch->delta,
                                 .gradient = !run->gradient ? NULL

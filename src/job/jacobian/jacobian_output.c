@@ -173,7 +173,7 @@ static ffd_status begin_array(zip_writer *zip, const char *name, const char *des
                               size_t each, ffd_error *error)
 {
     char header[NPY_HEADER_CAPACITY];
-    const size_t length = ffd_npy_header(descr, (size_t)size, 0, header);
+    const size_t length = ffd_npy_header(descr, size, 0, header);
     const ffd_status status = ffd_zip_member(zip, name, length + size * each, error);
     return status ? status : ffd_zip_write(zip, header, length, error);
 }

@@ -1,5 +1,6 @@
 #include "job/judge/quality_edges.h"
 #include "base/memory/memory.h"
+#include "base/system/processors.h"
 #include "base/system/thread.h"
 #include "base/vector/vec.h"
 #include "embed/frame/box_tree.h"

@@ -26,10 +26,6 @@
 #include <math.h>
 #include <string.h>
 
-/* The memory limit is at least this without --memory: a view holds all that a mesh shows, and a short file
-   may show many instances. */
-#define LEAST_MEMORY ((uint64_t)400000000)
-
 /* The state of a view. */
 typedef struct view_work {
     const ffd_view_desc *desc;
@@ -426,8 +422,8 @@ static ffd_status view(const ffd_view_desc *desc, ffd_job_result *result, ffd_er
 
 static void allow_memory(ffd_source *source)
 {
-    if (source->memory < LEAST_MEMORY)
-        source->memory = LEAST_MEMORY;
+    if (source->memory < LEAST_VIEW_MEMORY)
+        source->memory = LEAST_VIEW_MEMORY;
 }
 
 /* The same for descriptions that may hold data in memory. */

@@ -5,7 +5,8 @@
 #define FARTHEST 1e6f
 #define STRIDE (3 * sizeof(float))
 
-/* The library allocates with `operator new`, which throws. */
+/* The library allocates with `operator new`, which throws. The rough way is the header's C++ function: its
+   arguments are the same in all versions, those of the C function changed in 0.25. */
 extern "C" ffd_status ffd_meshopt_simplify(const meshopt_mesh *mesh, size_t target, bool is_rough,
                                            uint32_t *result, size_t *count, ffd_error *error)
 {

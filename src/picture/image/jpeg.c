@@ -2,6 +2,7 @@
    upsampling give the same pixels with every version of the library. */
 #include "base/memory/memory.h"
 #include "picture/image/image.h"
+#include <limits.h>
 #include <setjmp.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -82,7 +83,8 @@ static ffd_status check(struct jpeg_decompress_struct *jpeg, const memory_budget
     const ffd_status status =
         ffd_image_check(jpeg->image_width, jpeg->image_height, BYTES_A_PIXEL + kept, budget, error);
     /* Doubled, because blocks at the right and lower edges extend beyond the image. */
-    jpeg->mem->max_memory_to_use = (long)(2 * kept * pixels + TABLES_SIZE);
+    const uint64_t most = 2 * kept * pixels + TABLES_SIZE;
+    jpeg->mem->max_memory_to_use = most < LONG_MAX ? (long)most : LONG_MAX;
     return status;
 }
 

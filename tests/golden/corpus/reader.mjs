@@ -6,11 +6,13 @@ import path from 'node:path';
 import { pathToFileURL } from 'node:url';
 import * as matrix from './matrix.mjs';
 
-const require = createRequire(path.resolve(process.env.FFD_NODE ?? '.', 'package.json'));
-const { NodeIO, Logger } = require('@gltf-transform/core');
-const { ALL_EXTENSIONS } = require('@gltf-transform/extensions');
-const { MeshoptDecoder } = await import(pathToFileURL(require.resolve('meshoptimizer/decoder')));
-const draco = await require('draco3dgltf').createDecoderModule();
+const packages = path.resolve(process.env.FFD_NODE ?? '.', 'node_modules');
+const packaged = (file) => import(pathToFileURL(path.join(packages, file)));
+// By their files: Node 18 cannot require() what are ES modules, and import() by name looks beside this script only.
+const { NodeIO, Logger } = await packaged('@gltf-transform/core/dist/index.js');
+const { ALL_EXTENSIONS } = await packaged('@gltf-transform/extensions/dist/index.js');
+const { MeshoptDecoder } = await packaged('meshoptimizer/meshopt_decoder.mjs');
+const draco = await createRequire(path.join(packages, 'x'))('draco3dgltf').createDecoderModule();
 
 const io = new NodeIO().setLogger(new Logger(Logger.Verbosity.SILENT)).registerExtensions(ALL_EXTENSIONS)
     .registerDependencies({ 'draco3d.decoder': draco, 'meshopt.decoder': MeshoptDecoder });

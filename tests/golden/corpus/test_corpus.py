@@ -322,7 +322,7 @@ def requirements():
     """The folders of the models and of the packages; without them there is nothing to run."""
     root = os.environ.get("FFD_MODELS", "")
     if not root:
-        validate.skip("FFD_MODELS is not set")
+        validate.skip("models: FFD_MODELS is not set")
     return root, validate.find_packages(*PACKAGES)
 
 

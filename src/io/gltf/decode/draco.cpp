@@ -2,6 +2,7 @@
    trusts the numbers in the data's headers and allocates memory for them at once; classes derived from its
    decoders check these numbers first. */
 #include "io/gltf/decode/draco.h"
+#include "base/vector/vec.h"
 #include "io/gltf/decode/draco_floats.h"
 #include "io/gltf/decode/draco_orientations.h"
 #include "io/gltf/model/gltf_model.h"
@@ -214,9 +215,10 @@ double step_of(draco::PointCloudDecoder &decoder, int32_t attribute)
     if (!data || data->transform_type() != draco::ATTRIBUTE_QUANTIZATION_TRANSFORM ||
         !transform.InitFromAttribute(*portable))
         return 0;
+    /* Not by std::fmax: gcc 12 for arm64 breaks off with an internal error at that loop. */
     double greatest = 0;
     for (const float least : transform.min_values())
-        greatest = std::fmax(greatest, std::fmax(std::fabs(least), std::fabs(least + transform.range())));
+        greatest = larger_of(greatest, larger_of(std::fabs(least), std::fabs(least + transform.range())));
     const double step = transform.range() / (std::ldexp(1.0, transform.quantization_bits()) - 1);
     return step >= 0 && std::isfinite(greatest) ? step + 4 * greatest * FLT_EPSILON : 0;
 }

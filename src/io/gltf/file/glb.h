@@ -5,6 +5,7 @@
 #include "base/fail.h"
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #define GLB_HEADER_SIZE 12
 #define GLB_CHUNK_HEADER_SIZE 8
@@ -15,7 +16,7 @@
 
 /* Returns size rounded up to a multiple of 4, the alignment of chunks, matrix columns and vertex attributes
    (glTF 2.0, 3.6.2.4 and 4.4.3.1). */
-static inline size_t ffd_gltf_align(size_t size)
+static inline uint64_t ffd_gltf_align(uint64_t size)
 {
     return (size + 3) / 4 * 4;
 }

@@ -22,6 +22,9 @@ typedef enum gltf_component {
 typedef enum gltf_semantic { GLTF_POSITION, GLTF_NORMAL, GLTF_TANGENT, GLTF_OTHER, GLTF_SPLAT } gltf_semantic;
 #define GLTF_DEFORMED 3 /* the number of vector attributes */
 
+/* The largest size that a file may state: exact in a double, and not more than this machine can address. */
+#define GLTF_LARGEST_SIZE ((size_t)(SIZE_MAX < UINT64_C(1) << 53 ? SIZE_MAX : UINT64_C(1) << 53))
+
 /* What a primitive draws. MODE_UNKNOWN: its mode or its indices are not valid; it then has no indices. */
 enum {
     MODE_POINTS,

@@ -1,5 +1,6 @@
 #include "io/gltf/model/gltf_schema.h"
 #include "base/memory/memory.h"
+#include "io/gltf/model/gltf_model.h"
 #include <math.h>
 #include <string.h>
 
@@ -195,11 +196,16 @@ static ffd_status check_component(const checker *c, uint32_t value, bool known, 
 static ffd_status check_integer(const checker *c, uint32_t value, rule_kind kind)
 {
     double number = 0;
-    const bool known = read_integer(c, value, kind == RULE_SIZE ? 9007199254740992.0 : INT32_MAX, &number);
+    const bool known = read_integer(c, value, kind == RULE_SIZE ? 0x1p53 : INT32_MAX, &number);
     switch (kind) {
     case RULE_INDEX:
         return known ? FFD_OK : refuse(c, value, "an integer from 0 to 2147483647");
     case RULE_SIZE:
+        if (known && number > (double)GLTF_LARGEST_SIZE)
+            return ffd_json_span_fail(
+                c->tree, value, c->name, FFD_E_LIMIT, c->error,
+                "%.0f is more than the %zu that a program with addresses of 32 bits holds", number,
+                GLTF_LARGEST_SIZE);
         return known ? FFD_OK : refuse(c, value, "an integer from 0 to 2^53");
     default:
         return check_component(c, value, known, number);

@@ -3,11 +3,14 @@
 #include "base/memory/memory.h"
 #include "io/gltf/model/gltf_model.h"
 #include <cstring>
+#include <fstream> /* tinygltf leaves it out, but has functions that write, and that nobody calls */
 #include <new>
+#include <type_traits>
 
 /* Renamed: a program that links the static library may have its own tinygltf. */
 #define tinygltf ffd_tinygltf
 #define TINYGLTF_IMPLEMENTATION
+#define TINYGLTF_NO_FS
 #define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #define TINYGLTF_NO_EXTERNAL_IMAGE
@@ -202,6 +205,38 @@ bool never_written(std::string *, const std::string &, const std::vector<unsigne
     return false;
 }
 
+/* Version 2.9 asks for the size of a file before it reads it. The second one is for older versions. */
+template <typename Callbacks>
+auto refuse_size(Callbacks &callbacks, int) -> decltype(callbacks.GetFileSizeInBytes, void())
+{
+    callbacks.GetFileSizeInBytes = [](size_t *, std::string *, const std::string &, void *) { return false; };
+}
+
+template <typename Callbacks> void refuse_size(Callbacks &, long) {}
+
+/* Version 2.9 returns whether it accepts the callbacks: only if it knows all of them. */
+template <typename Reader> bool set_callbacks(Reader &reader, const tinygltf::FsCallbacks &callbacks)
+{
+    if constexpr (std::is_void_v<decltype(reader.SetFsCallbacks(callbacks))>) {
+        reader.SetFsCallbacks(callbacks);
+        return true;
+    } else {
+        return reader.SetFsCallbacks(callbacks);
+    }
+}
+
+/* Keeps tinygltf from every file: it has no functions for them (TINYGLTF_NO_FS), and these refuse all. */
+bool refuse_files(tinygltf::TinyGLTF &reader)
+{
+    tinygltf::FsCallbacks callbacks{};
+    callbacks.FileExists = never_exists;
+    callbacks.ExpandFilePath = never_expanded;
+    callbacks.ReadWholeFile = never_read;
+    callbacks.WriteWholeFile = never_written;
+    refuse_size(callbacks, 0);
+    return set_callbacks(reader, callbacks);
+}
+
 /* An upper bound of the number of values in the JSON. */
 size_t count_values(const char *text, size_t size)
 {
@@ -222,9 +257,11 @@ size_t reserve_size(const char *text, size_t size)
 ffd_status parse(const char *text, size_t size, const char *name, gltf_model *model, ffd_error *error)
 {
     const json_reserve reserve(reserve_size(text, size));
-    tinygltf::FsCallbacks callbacks = {never_exists, never_expanded, never_read, never_written, nullptr};
     tinygltf::TinyGLTF reader;
-    reader.SetFsCallbacks(callbacks);
+    if (!refuse_files(reader))
+        return ffd_fail_file(
+            error, FFD_E_UNSUPPORTED, name,
+            "glTF cannot be read: this tinygltf has callbacks for files that ffd does not know");
     tinygltf::Model read;
     std::string problems, warnings;
     if (!reader.LoadASCIIFromString(&read, &problems, &warnings, text, static_cast<unsigned int>(size), "",

@@ -7,12 +7,15 @@
 #include <float.h>
 #include <string.h>
 
-/* How the values of an output change: everything that this depends on. */
+/* How the values of an output change: everything that this depends on. All members are as wide as a double: a
+   key has no padding. */
 typedef struct change_key {
     double turn[4];                  /* rotations q become turn q */
     double carry[9], rest[3], to[3]; /* translations t become to + carry (t - rest) */
-    size_t accessor, path, cubic;
+    uint64_t accessor, path, cubic;
 } change_key;
+
+_Static_assert(sizeof(change_key) == 22 * sizeof(double), "a key has no padding");
 
 typedef struct channel_work {
     gltf_document *document;
@@ -44,7 +47,7 @@ static change_key describe(const channel_work *w, const gltf_channel *channel,
     change_key key;
     memset(&key, 0, sizeof key);
     key.accessor = sampler->output;
-    key.path = (size_t)channel->path;
+    key.path = (uint64_t)channel->path;
     key.cubic = sampler->interpolation == GLTF_CUBICSPLINE;
     if (channel->path == GLTF_ROTATION) {
         memcpy(key.turn, motion->turn, sizeof key.turn);

@@ -10,8 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LARGEST_BUFFER ((size_t)1 << 53)
-
 static size_t buffer_of(const gltf_document *d, size_t accessor)
 {
     return (size_t)d->model.views[d->model.accessors[accessor].view].buffer;
@@ -145,10 +143,11 @@ static size_t element_size(const gltf_document *d, const gltf_version *version)
 static ffd_status add_append(const gltf_saver *saver, size_t b, gltf_append append, ffd_error *error)
 {
     gltf_new_buffer *buffer = &saver->buffers[b];
-    append.offset = ffd_gltf_align(buffer->length);
-    if (append.size > LARGEST_BUFFER || append.offset > LARGEST_BUFFER - append.size)
+    const uint64_t offset = ffd_gltf_align(buffer->length);
+    if (append.size > GLTF_LARGEST_SIZE || offset > GLTF_LARGEST_SIZE - append.size)
         return ffd_fail_file(error, FFD_E_LIMIT, saver->options->path,
-                             "a buffer would have more than 2^53 bytes");
+                             "a buffer would have more than %zu bytes", GLTF_LARGEST_SIZE);
+    append.offset = (size_t)offset;
     buffer->appends[buffer->append_count++] = append;
     buffer->length = append.offset + append.size;
     return FFD_OK;

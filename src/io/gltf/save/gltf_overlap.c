@@ -57,7 +57,7 @@ static size_t size_member(const gltf_document *d, uint32_t object, const char *k
 {
     double number = 0;
     if (!ffd_json_span_number(&d->tree, ffd_json_span_member(&d->tree, object, key), &number) ||
-        !(number >= 0) || number > 9007199254740992.0)
+        !(number >= 0) || number > (double)GLTF_LARGEST_SIZE)
         return 0;
     return (size_t)number;
 }

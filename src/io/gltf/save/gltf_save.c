@@ -15,6 +15,7 @@
 #include "io/gltf/save/gltf_sparse.h"
 #include "io/gltf/save/gltf_unpack.h"
 #include "io/gltf/scene/gltf_results.h"
+#include <inttypes.h>
 #include <string.h>
 
 static ffd_status put(const gltf_saver *saver, const void *bytes, size_t size, ffd_error *error)
@@ -90,7 +91,7 @@ static size_t json_end(const gltf_saver *saver)
     return value_end;
 }
 
-static ffd_status put_chunk_header(const gltf_saver *saver, size_t size, uint32_t type, ffd_error *error)
+static ffd_status put_chunk_header(const gltf_saver *saver, uint64_t size, uint32_t type, ffd_error *error)
 {
     unsigned char header[GLB_CHUNK_HEADER_SIZE];
     store_u32(header, (uint32_t)size);
@@ -100,9 +101,10 @@ static ffd_status put_chunk_header(const gltf_saver *saver, size_t size, uint32_
 
 /* The sizes of a GLB to write; sizes of chunks include their padding. */
 typedef struct glb_sizes {
-    size_t json_end, json, json_chunk; /* old text; new text; new text with padding */
-    bool has_bin, own_bin;             /* whether there is a BIN chunk; whether it is the first buffer */
-    size_t bin, bin_chunk, rest, total;
+    size_t json_end, json; /* old text; new text */
+    bool has_bin, own_bin; /* whether there is a BIN chunk; whether it is the first buffer */
+    size_t bin, rest;
+    uint64_t json_chunk, bin_chunk, total; /* with padding */
 } glb_sizes;
 
 static glb_sizes measure_glb(const gltf_saver *saver)
@@ -138,7 +140,7 @@ static ffd_status put_glb(const gltf_saver *saver, ffd_error *error)
     const glb_sizes sizes = measure_glb(saver);
     if (sizes.total > UINT32_MAX)
         return ffd_fail_file(error, FFD_E_LIMIT, saver->options->path,
-                             "would have %zu bytes, but a GLB holds at most 4294967295", sizes.total);
+                             "would have %" PRIu64 " bytes, but a GLB holds at most 4294967295", sizes.total);
     unsigned char header[GLB_HEADER_SIZE];
     store_u32(header, GLB_MAGIC);
     store_u32(header + 4, GLB_VERSION);

@@ -1,0 +1,90 @@
+#define _GNU_SOURCE /* dladdr */
+#include "base/system/own_file.h"
+#include <dlfcn.h>
+#include <inttypes.h>
+#include <limits.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#ifdef __linux__
+#include <sys/auxv.h>
+#endif
+
+/* What the system writes behind the path of a file that was deleted, or replaced by another. */
+static const char deleted[] = " (deleted)";
+
+static bool exists(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0;
+}
+
+/* Takes the path of a mapped file. Returns false if it is too long. */
+static bool take_path(const char *from, char path[LONGEST_PATH])
+{
+    const size_t length = strcspn(from, "\n"), ending = sizeof deleted - 1;
+    if (length >= LONGEST_PATH)
+        return false;
+    memcpy(path, from, length);
+    path[length] = 0;
+    if (length > ending && strcmp(path + length - ending, deleted) == 0 && !exists(path))
+        path[length - ending] = 0;
+    return true;
+}
+
+/* Finds the file by what the system has mapped: a path without symbolic links, whatever name the file was
+   started by. */
+static bool find_mapped(const void *inside, char path[LONGEST_PATH])
+{
+    FILE *const maps = fopen("/proc/self/maps", "re");
+    char *line = NULL;
+    size_t capacity = 0;
+    bool found = false;
+    while (maps && !found && getline(&line, &capacity, maps) >= 0) {
+        uintptr_t first, end;
+        const char *const file = strchr(line, '/');
+        if (file && sscanf(line, "%" SCNxPTR "-%" SCNxPTR, &first, &end) == 2)
+            found = (uintptr_t)inside >= first && (uintptr_t)inside < end && take_path(file, path);
+    }
+    free(line);
+    if (maps)
+        fclose(maps);
+    return found;
+}
+
+/* The name by which the system started the program, or the loader found the library. A relative name of a
+   library is not used: the process may have changed its folder since. NULL: unknown. */
+static const char *find_name(const void *inside)
+{
+    Dl_info object;
+    if (!dladdr(inside, &object))
+        return NULL;
+#ifdef __linux__
+    /* The program is the object with the program headers that the system passed. */
+    Dl_info program;
+    if (dladdr((const void *)getauxval(AT_PHDR), &program) && program.dli_fbase == object.dli_fbase)
+        return (const char *)getauxval(AT_EXECFN);
+#endif
+    return object.dli_fname && object.dli_fname[0] == '/' ? object.dli_fname : NULL;
+}
+
+/* In a folder whose path is too long only a relative name would do, for which the loader of glibc 2.41 waits
+   forever. */
+static bool find_named(const void *inside, char path[LONGEST_PATH])
+{
+    _Static_assert(LONGEST_PATH >= PATH_MAX, "realpath writes that much");
+    const char *const name = find_name(inside);
+    return name && realpath(name, path);
+}
+
+bool ffd_find_own_file(const void *inside, char path[LONGEST_PATH])
+{
+    char named[LONGEST_PATH];
+    const bool is_mapped = find_mapped(inside, path);
+    if ((is_mapped && exists(path)) || !find_named(inside, named))
+        return is_mapped;
+    memcpy(path, named, sizeof named);
+    return true;
+}
