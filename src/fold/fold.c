@@ -4,7 +4,7 @@
 #include "base/memory/memory.h"
 #include "base/struct_size.h"
 #include "base/system/thread.h"
-#include "fold/affine.h"
+#include "fold/affine/affine.h"
 #include "fold/cell.h"
 #include "fold/place.h"
 #include <string.h>

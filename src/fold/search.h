@@ -1,5 +1,6 @@
 /* search.h - the search in a cell: its result, the boxes into which it is subdivided, and bounds from their
-   coefficients. Main header of the search: declares figures.c, box.c, border.c, search.c. */
+   coefficients. Main header of the search: declares figures.c, box.c, border.c, flat.c,
+   search.c. */
 #ifndef FFD_FOLD_SEARCH_H
 #define FFD_FOLD_SEARCH_H
 

@@ -14,10 +14,11 @@ typedef struct wide {
     uint32_t limb[WIDE_LIMBS];
 } wide;
 
-/* The results are exact, or too small by less than 2^-223 of the larger operand (of a sum) or of the
-   product. */
-wide ffd_wide_of(double value); /* finite; exact */
+/* Returns a finite number, exactly. */
+wide ffd_wide_of(double value);
+/* Returns the sum. It is exact, or off by less than 2^-223 of the larger operand. */
 wide ffd_wide_add(const wide *a, const wide *b);
+/* Returns the product. It is exact, or off by less than 2^-223 of itself. */
 wide ffd_wide_multiply(const wide *a, const wide *b);
 
 static inline wide wide_negative(const wide *a)

@@ -27,6 +27,7 @@ void ffd_face_scale_find(const ffd_lattice *lattice, face_scale *scale);
 /* Allocates the points of the faces across direction a, which is not closed. Free with ffd_face_net_free.
    Errors: FFD_E_MEMORY. */
 ffd_status ffd_face_net_create(const ffd_lattice *lattice, int a, face_net *net, ffd_error *error);
+/* Frees the points. */
 void ffd_face_net_free(face_net *net);
 
 /* Fills the points of the first (end 0) or the last face. */

@@ -1,7 +1,7 @@
 /* scaled_points.h - the control points at rest and how they move, in units in which the lattice has size 1.
  */
-#ifndef FFD_FOLD_SCALED_POINTS_H
-#define FFD_FOLD_SCALED_POINTS_H
+#ifndef FFD_FOLD_AFFINE_SCALED_POINTS_H
+#define FFD_FOLD_AFFINE_SCALED_POINTS_H
 
 #include "lattice/lattice.h"
 

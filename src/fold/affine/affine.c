@@ -1,6 +1,6 @@
-#include "fold/affine.h"
+#include "fold/affine/affine.h"
 #include "base/vector/vec.h"
-#include "fold/rest_box.h"
+#include "fold/affine/rest_box.h"
 #include "lattice/spec.h"
 #include <float.h>
 

@@ -1,4 +1,4 @@
-#include "fold/scaled_points.h"
+#include "fold/affine/scaled_points.h"
 #include "base/vector/vec.h"
 #include <float.h>
 

@@ -1,6 +1,6 @@
 /* affine.h - deformations that are one affine map, and cannot fold (src/maths.md 10.1). */
-#ifndef FFD_FOLD_AFFINE_H
-#define FFD_FOLD_AFFINE_H
+#ifndef FFD_FOLD_AFFINE_AFFINE_H
+#define FFD_FOLD_AFFINE_AFFINE_H
 
 #include "lattice/lattice.h"
 

@@ -1,8 +1,8 @@
 /* rest_box.h - whether given control points are those of a box. */
-#ifndef FFD_FOLD_REST_BOX_H
-#define FFD_FOLD_REST_BOX_H
+#ifndef FFD_FOLD_AFFINE_REST_BOX_H
+#define FFD_FOLD_AFFINE_REST_BOX_H
 
-#include "fold/scaled_points.h"
+#include "fold/affine/scaled_points.h"
 
 /* Returns whether the control points at rest are a grid with straight edges, in no closed direction, and
    farther apart than their rounding. */

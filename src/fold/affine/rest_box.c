@@ -1,4 +1,4 @@
-#include "fold/rest_box.h"
+#include "fold/affine/rest_box.h"
 #include "base/vector/vec.h"
 
 /* What the rounding of control points may be at most, in units of the distance between layers. */
