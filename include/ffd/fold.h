@@ -59,7 +59,7 @@ typedef struct ffd_folds {
    - A cell whose volume is 0 to rounding everywhere counts as folded, with a witness_det of 0. With weights
      only if det J_Q is not positive at some place.
    With weights the witness' u,v,w, as they are given here, were looked at with 58 digits: det J_Q is not
-   positive there, and witness_det has its digits. At most 64 witnesses are looked at, each at 27 places.
+   positive there, and witness_det has its digits. At most 64 witnesses are looked at.
 
    The time is bounded for any lattice, by the number of boxes whose coefficients are computed: 64 in each
    cell, and 2^26 in all (1 in each of more cells); then 2048 in each undecided cell, and 2^22 in all of them;

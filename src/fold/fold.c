@@ -118,30 +118,9 @@ static void decide_all(fold_work *work)
         ffd_parallel_tiles(cells, TILE_CELLS, work->workers, decide_rest_of_tile, work);
 }
 
-/* Moves a witness by up to one unit in the last place of each parameter, within its cell, until det J is not
-   positive there. Returns false if it is positive everywhere. */
-static bool settle_witness(const fold_work *work, const size_t index[3], double uvw[3], double *det)
-{
-    double lo[3], hi[3], end[3] = {1, 1, 1}, start[3] = {0, 0, 0};
-    const double found[3] = {uvw[0], uvw[1], uvw[2]};
-    ffd_place_parameters(&work->plan, index, start, lo);
-    ffd_place_parameters(&work->plan, index, end, hi);
-    for (int way = 0; way < 27; way++) {
-        const int step[3] = {way % 3, way / 3 % 3, way / 9};
-        for (int a = 0; a < 3; a++)
-            uvw[a] = step[a] == 0 ? found[a] : nextafter(found[a], step[a] == 1 ? lo[a] : hi[a]);
-        const place_determinant place =
-            ffd_place_determinant(&work->plan, index, uvw, work->scratch[0]->working);
-        *det = -place.size;
-        if (place.sign <= 0)
-            return true;
-    }
-    return false;
-}
-
 /* Reports the witness of a tile. With weights it is looked at once more: the parameters are rounded, and the
-   value, of W^4 det J, is known to the bound of its rounding only. Nothing is reported if no place near it
-   folds. */
+   value, of W^4 det J, is known to the bound of its rounding only. Nothing is reported if it does not fold.
+ */
 static void report_witness(const fold_work *work, const tile_verdict *tile, ffd_folds *folds)
 {
     const fold_plan *plan = &work->plan;
@@ -150,8 +129,13 @@ static void report_witness(const fold_work *work, const tile_verdict *tile, ffd_
     ffd_fold_cell_at(plan, tile->first, index, span);
     ffd_place_parameters(plan, index, tile->witness.local, folds->witness_uvw);
     folds->witness_det = tile->witness.value;
-    if (plan->rational && !settle_witness(work, index, folds->witness_uvw, &folds->witness_det))
-        return;
+    if (plan->rational) {
+        const place_determinant place =
+            ffd_place_determinant(plan, index, folds->witness_uvw, work->scratch[0]->working);
+        if (place.sign > 0)
+            return;
+        folds->witness_det = -place.size;
+    }
     ffd_lattice_evaluate(plan->lattice, FFD_VOLUME_DEFORMED, folds->witness_uvw, folds->witness_xyz, NULL);
     ffd_lattice_evaluate(plan->lattice, FFD_VOLUME_REST, folds->witness_uvw, folds->witness_rest, NULL);
     folds->has_witness = true;

@@ -3,7 +3,7 @@
 #include <string.h>
 
 /* The bounds are sums of positive terms: their relative rounding error is far below this. */
-#define ROUNDING 1e-12
+#define SUM_ROUNDING 1e-12
 #define EVEN_RATIO 4 /* of weights in a box */
 
 size_t ffd_sizes_count(const int order[3])
@@ -39,7 +39,7 @@ void ffd_sizes_halve(const cell_form *form, int a, double *memory, const row_siz
 
 static double greatest_of(const cell_form *form, int b, const double *row)
 {
-    return ffd_bernstein_greatest_size(row, ffd_bernstein_count(form->order[b])) * (1 + ROUNDING);
+    return ffd_bernstein_greatest_size(row, ffd_bernstein_count(form->order[b])) * (1 + SUM_ROUNDING);
 }
 
 static bool is_even(const cell_form *form, const double *weights)
