@@ -1,7 +1,7 @@
 # For other scripts, which read this file with ".": shows how far a long command is.
 
 # progress LOG WHAT COMMAND...: runs it with its output in the file LOG, and prints WHAT with the percentage that ninja
-# ("[12/345] ...") or apt (APT::Status-Fd) tells: on a terminal in a line that is written over, else a line for each fifth; nothing
+# ("[12/345] ..."), meson test ("12/345 ...") or apt (APT::Status-Fd) tells: on a terminal in a line that is written over, else a line for each fifth; nothing
 # where WHAT is empty. Returns the command's exit code.
 progress() {
     log=$1
@@ -15,8 +15,9 @@ progress() {
         echo "exit $code"
     } | awk -v what="$what" -v log_file="$log" -v terminal="$terminal" '
         function percent_of(line,   part) {
-            if (match(line, /^\[[0-9]+\/[0-9]+\]/)) {
-                split(substr(line, 2, RLENGTH - 2), part, "/")
+            if (match(line, /^\[?[ 0-9]+\/[0-9]+[] ]/)) {
+                sub(/^[[ ]+/, "", line)
+                split(line, part, /[] \/]+/)
                 return 100 * part[1] / part[2]
             }
             # What is downloaded first is a half, what is installed then the other.

@@ -56,6 +56,7 @@ else
 fi
 # shellcheck disable=SC2086 # an option or nothing
 [ "$mode" != --all ] || exec sh "$root/tests/install/all.sh" $keep
+. "$root/.ci/progress.sh"
 work=$root/.build-test
 logs=$work/logs
 mkdir -p "$logs" || exit 1
@@ -204,8 +205,8 @@ suites() {
     shift 2
     clock=$(date +%s)
     rm -f "$folder/meson-logs/$stage"*.json
-    meson test -C "$folder" --no-rebuild --logbase "$stage" "$@" >"$logs/$stage-test.log" 2>&1 </dev/null
-    status=$?
+    status=0
+    progress "$logs/$stage-test.log" testing meson test -C "$folder" --no-rebuild --logbase "$stage" "$@" || status=$?
     # With --wrap the log's name has the wrapper's behind it.
     python3 "$root/tests/summary.py" "$folder/meson-logs/$stage"*.json >"$logs/$stage-summary.log"
     counts=$(tail -n 1 "$logs/$stage-summary.log")

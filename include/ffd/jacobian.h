@@ -38,7 +38,7 @@ typedef enum ffd_jacobian_by { FFD_BY_POINTS = 0, FFD_BY_PARAMETERS } ffd_jacobi
 typedef struct ffd_jacobian_desc {
     size_t struct_size;         /* sizeof(ffd_jacobian_desc) in the caller's header */
     const ffd_deform_desc *job; /* used are input, lattices, set, outside, falloff, snap, only, threads, isa,
-                                   force, log, sink */
+                                   force, log, sink, timeout */
     const char *output; /* a path or name that ends in .npz (CSR as SciPy reads it), .mtx (Matrix Market) or
                            .npy (dense); not "-" */
     ffd_jacobian_by by;

@@ -325,6 +325,9 @@ typedef struct ffd_deform_desc {
        be NULL, to write no mesh; as_morph, morphs, depfile and output_format are FFD_E_ARGUMENT then. */
     ffd_positions_function positions;
     void *positions_user;
+    /* A job that takes longer than so many seconds fails with FFD_E_LIMIT and writes nothing; 0: no limit.
+       The job looks at the time at least between its steps. */
+    double timeout;
 } ffd_deform_desc;
 
 /* Sets desc to defaults: all members 0, NULL or false. size: sizeof(ffd_deform_desc) in the caller's
@@ -365,7 +368,8 @@ typedef struct ffd_behind {
 } ffd_behind;
 
 /* The joints, pivots and sockets of a glTF, and their lag: the distance from where a joint is in the output
-   to where the lattice moves its place in the mesh. */
+   to where the lattice moves its place in the mesh. With as_morph and morphs only joints count, and the mesh
+   is that of the morph target in full. */
 typedef struct ffd_rig_result {
     bool is_there; /* there are joints, pivots or sockets, or other nodes follow; if false, all other members
                       are 0 */
@@ -382,7 +386,25 @@ typedef struct ffd_rig_result {
     char worst[80];     /* name of the first node with this lag, in the form of ffd_behind.names; "": none */
     uint64_t lagging_skins, lagging_pivots, lagging_sockets; /* with a lag above 0; skins: with such a
                                                                 joint */
+    uint64_t lagging_joints; /* joints with a lag that belong to no skin of the scene */
+    /* FOLLOW: nodes that stay where they are because they are not selected, though a node above them follows;
+       and the largest distance from where that node would carry one of them. */
+    uint64_t unselected;
+    double unselected_by;
 } ffd_rig_result;
+
+/* Why an edge is torn (src/maths.md 7.4). */
+typedef enum ffd_tear_cause {
+    FFD_TEAR_NONE = 0,
+    FFD_TEAR_STAYS,      /* an end is outside of the lattices, and stays */
+    FFD_TEAR_UNSELECTED, /* an end is not selected, or its matrix is not invertible */
+    FFD_TEAR_LATTICES,   /* the edge leads out of a lattice, or into another one */
+    FFD_TEAR_BLOCKS,     /* it leads from one block to another that moves the place differently */
+    FFD_TEAR_SEAM,       /* it crosses two coinciding rest faces of a lattice that are moved apart */
+    FFD_TEAR_AXIS,       /* it meets a collapsed face of a lattice that is opened */
+    FFD_TEAR_BORDER,     /* outside, where another part of the border becomes the nearest */
+    FFD_TEAR_OVERLAP     /* it leads from one part of a lattice that overlaps itself to another */
+} ffd_tear_cause;
 
 /* The result of a job: the figures of the report (data/schema/formats.md 2; src/maths.md 11). Lengths are in
    world units unless stated otherwise. */
@@ -392,23 +414,23 @@ typedef struct ffd_job_result {
     ffd_error error;    /* details of a failure */
     uint64_t vertices;  /* selected vertices that are counted */
     /* Vertices by ffd_vertex_status. With several lattices a vertex is outside if it is outside of all of
-       them; otherwise its status is the highest of those it has in the lattices. */
+       them; otherwise its status is the highest of those it has in the lattices. Of a glTF all figures are of
+       the shape that the default weights of morph targets show; if the deformation becomes a morph target
+       itself (as_morph, morphs), of the base shape. */
     uint64_t counts[FFD_VERTEX_STATUS_COUNT];
     /* Vertices that are not inside and not visible: in no face, line or point; of hidden nodes
        (KHR_node_visibility). counts and gates leave them out, unless they are not finite. */
     uint64_t unused, hidden;
     /* glTF: vertices that a morph target moves outside of every lattice, or to coordinates that are not
-       finite, counted for each target; vertices that the default weights of all targets move outside. The
-       gates include them. */
+       finite, counted for each target; of counts, the vertices outside in parts whose default weights show
+       another shape than the base. The gates include them. */
     uint64_t targets_outside, targets_invalid, shown_outside;
     bool own_box;                      /* a box "mesh" was laid round the mesh of this job */
     uint64_t moved;                    /* vertices whose position changes */
     double residual_max, residual_rms; /* relative to the diagonal of the rest lattice */
     double evaluations_mean;           /* evaluations of C for a vertex */
     uint32_t evaluations_max;
-    /* Of vertices that are not hidden, in the shape that the default weights of morph targets show; if the
-       deformation becomes a morph target itself (as_morph), of the base shape. */
-    ffd_bounds before, after;
+    ffd_bounds before, after; /* of vertices that are not hidden */
     double displacement_max, displacement_rms;
     /* Vertices on a face that two lattices share, and that both lattices move, one after the other. */
     uint64_t moved_twice;
@@ -436,10 +458,10 @@ typedef struct ffd_job_result {
     size_t folds_lattice;   /* index of the lattice of the witness, from 0 */
     bool has_flipped;       /* with ffd_check_run and quality */
     uint64_t faces, flipped_faces;
-    /* Torn edges: one end moves and the other stays, where the displacement does not fade; or the ends move
-       differently although both are at a common border or seam (src/maths.md 7.4). Invisible edges do not
-       count. Counted with ffd_check_run, quality and FFD_GATE_TEAR, and if vertices stay in a mesh of at most
-       5.5 million. */
+    /* Torn edges: one end moves and the other stays, where the displacement does not fade; or both move, but
+       the displacement jumps between them (src/maths.md 7.4). Invisible edges do not count. Counted with
+       ffd_check_run, quality and FFD_GATE_TEAR, and in a mesh of at most 5.5 million vertices wherever some
+       edge may be torn. */
     bool has_tear;
     uint64_t tear_edges; /* number of torn edges */
     double tear_largest; /* the largest step of a torn edge */
@@ -451,10 +473,9 @@ typedef struct ffd_job_result {
     uint64_t tear_stays; /* vertices that stay in that part, or in the mesh if there is no part */
     /* That vertex stays because it is not selected, or because its matrix is not invertible. */
     bool tear_unselected;
-    bool tear_between;   /* it moves, but with other lattices of the chain than the other end, or with more or
-                            fewer */
-    bool tear_seam;      /* the edge crosses two coinciding rest faces of a lattice that are moved apart */
-    bool tear_disagrees; /* blocks: it is on a common face that another block moves differently */
+    bool tear_between;   /* tear_cause is FFD_TEAR_LATTICES */
+    bool tear_seam;      /* tear_cause is FFD_TEAR_SEAM */
+    bool tear_disagrees; /* tear_cause is FFD_TEAR_BLOCKS */
     /* With FFD_OUTSIDE_EXTEND: the least det F at vertices outside, if it is computed (ffd_check_run,
        quality, FFD_GATE_FOLDS), and the vertex; else infinite. */
     double det_outside;
@@ -466,7 +487,7 @@ typedef struct ffd_job_result {
     ffd_behind behind[FFD_BEHIND_KIND_COUNT]; /* indexed by ffd_behind_kind */
     ffd_behind behind_room[5];
     ffd_rig_result rig;
-    uint64_t rig_room[8];
+    uint64_t rig_room[5];
     ffd_flaw flaws[FFD_FLAWS]; /* flaw_count entries, of the input */
     size_t flaw_count;
     uint64_t indices_left; /* indices in glTF extensions that still refer to meshes and accessors before the
@@ -483,9 +504,8 @@ typedef struct ffd_job_result {
     const struct ffd_job_result *morph_results;
     /* Wall clock time of each step. */
     double seconds_read, seconds_embed, seconds_deform, seconds_judge, seconds_write;
-    /* With ffd_check_run and quality: the area of all visible faces, selected or not, in world space, without
-       morph targets. NaN: unknown. Infinite: too large for a double. With several morphs area_after and
-       volume_after are NaN. */
+    /* With ffd_check_run and quality: the area of all visible faces, selected or not, in world space. NaN:
+       unknown. Infinite: too large for a double. With several morphs area_after and volume_after are NaN. */
     double area_before, area_after;
     /* The volume that these faces enclose; negative if their back sides are outside. NaN if there are no
        faces or the surface is not closed: at some edge the numbers of faces in its two directions differ
@@ -493,6 +513,12 @@ typedef struct ffd_job_result {
     double volume_before, volume_after;
     /* Bytes of replaced morph targets and animations that remain in the glTF although nothing uses them. */
     uint64_t bytes_left;
+    /* glTF whose default weights show another shape than the base: vertices of the base that are outside of
+       every lattice. The gates include them. */
+    uint64_t base_outside;
+    uint64_t bounds_left; /* boxes and spheres in glTF extensions and extras that are named as bounds of what
+                             was deformed, and stay as they were before */
+    ffd_tear_cause tear_cause; /* of the torn edge with the largest step */
 } ffd_job_result;
 
 /* Runs a job. It makes all checks before it writes anything; the output is complete or absent. result is
@@ -538,8 +564,8 @@ typedef struct ffd_view_desc {
        lattices are not drawn. A page has all animations and opens with this one. The deformed mesh is
        animated as its own file says or, if it was deformed in memory, as the input. */
     const char *animation;
-    /* true: show the shapes stored in the file, which ffd_check_run judges. false: show the shapes with the
-       default weights of morph targets. */
+    /* true: show and judge the base shapes stored in the file. false: those with the default weights of morph
+       targets, which ffd_check_run judges. */
     bool as_stored;
     ffd_sink_function sink; /* as ffd_deform_desc.sink; job->sink is ignored */
     void *sink_user;

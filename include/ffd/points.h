@@ -55,7 +55,8 @@ typedef struct ffd_embedding_desc {
     ffd_span points;            /* points at rest, world units, at most 2^32 - 1; used during the call only */
     ffd_outside outside;        /* for points without u,v,w; default FFD_OUTSIDE_KEEP */
     double falloff;             /* with FFD_OUTSIDE_EXTEND: the distance in world units over which the
-                                   displacement fades to 0; 0 (default): it does not fade */
+                                   displacement fades to 0; 0 (default): it does not fade. With
+                                   other values of outside: refused */
     /* A point that is outside of the volume by at most this distance (world units, >= 0, default 0) is
        inside, at the nearest point of the border. A float32 point is inside also if its rounding reaches the
        volume. */

@@ -98,7 +98,9 @@ static ffd_status note_end(batch_run *run, pool_task *task, ffd_error *error)
     task->noted = true;
     if (task->outcome == OUTCOME_FAILED)
         clear_row(run, task);
-    ffd_status status = ffd_states_note(&run->meshes, task, error);
+    ffd_status status = ffd_run_learn(run, task, error);
+    if (!status)
+        status = ffd_states_note(&run->meshes, task, error);
     if (!status)
         status = say_task(run, task, error);
     if (task->outcome == OUTCOME_FAILED && run->desc->stop)

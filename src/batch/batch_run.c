@@ -5,7 +5,6 @@
 #include "base/system/interrupt.h"
 #include "base/text/words.h"
 #include "batch/measure.h"
-#include "batch/run_reads.h"
 #include "job/report/report_file.h"
 #include <inttypes.h>
 #include <stdio.h>
@@ -21,26 +20,6 @@
 #define LOOK 0.1
 
 /* Reading jobs */
-
-static void fail_task(pool_task *task, const ffd_error *error)
-{
-    task->failure = *error;
-    task->state = TASK_ENDED;
-    task->outcome = OUTCOME_FAILED;
-}
-
-static void find_record(batch_run *run, pool_task *task)
-{
-    byte_buffer *const figures = run->report || run->view || run->rows.report ? &task->figures : NULL;
-    job_record drawn;
-    task->has_record = ffd_journal_find(run->journal, &task->target, &task->record, figures);
-    /* A run without pictures may have made the row anew since it was drawn. */
-    task->has_drawn = task->has_record && task->picture && !task->job.output &&
-                      ffd_journal_find(run->journal, &task->picture_target, &drawn, NULL) &&
-                      ffd_hash_equal(&drawn.inputs, &task->record.inputs);
-    if (task->has_drawn)
-        task->drawn = drawn.outputs;
-}
 
 /* A job that was added after the jobs were counted has no row. */
 static void check_row(const batch_run *run, batch_job *job)
@@ -59,7 +38,7 @@ static void add_task(batch_run *run, pool_task *task)
     task->number = run->jobs++;
     check_row(run, job);
     if (job->error.status) {
-        fail_task(task, &job->error);
+        ffd_run_fail_task(task);
         return;
     }
     task->mesh = ffd_hash(job->input, strlen(job->input));
@@ -77,7 +56,7 @@ static ffd_status read_jobs(batch_run *run, ffd_error *error)
         pool_task *const task = ffd_alloc_zero(1, sizeof *task);
         if (!task)
             return ffd_fail_memory(error);
-        const ffd_status status = ffd_jobs_next(run->source, &task->job, &state, error);
+        const ffd_status status = ffd_run_next_job(run, &task->job, &state, error);
         if (status || state != LINE_READ) {
             ffd_task_free(task);
             run->ended = state == LINE_NONE;
@@ -87,76 +66,6 @@ static ffd_status read_jobs(batch_run *run, ffd_error *error)
         add_task(run, task);
     }
     return FFD_OK;
-}
-
-/* Names the picture of a job and claims its file, at the same time as the output. */
-static ffd_status claim_picture(batch_run *run, pool_task *task, ffd_error *error)
-{
-    hash128 file;
-    const ffd_status status = ffd_run_view_name(run->view, task, &file, error);
-    const hash_block blocks[] = {{file.bytes, sizeof file.bytes}, {task->target.bytes, sizeof file.bytes}};
-    if (!status)
-        task->picture_target = ffd_hash_blocks(blocks, 2);
-    return status ? status
-                  : ffd_outputs_claim_picture(&run->written, ffd_run_manifest(run), &task->job, &file,
-                                              task->picture, error);
-}
-
-/* Claims the output file for a job; fails the job if an earlier one writes that file. */
-static ffd_status claim_output(batch_run *run, pool_task *task, ffd_error *error)
-{
-    batch_job *const job = &task->job;
-    if (job->target && ffd_outputs_claim(&run->written, ffd_run_manifest(run), job, &task->target, error))
-        return FFD_E_MEMORY;
-    if (run->desc->positions)
-        task->target = ffd_run_rows_target(&run->rows, job->row, job->target ? &task->target : NULL);
-    static const task_state states[] = {
-        [OTHERS_NONE] = TASK_WAITS, [OTHERS_KNOWN] = TASK_LOOKED, [OTHERS_BY_MESH] = TASK_NEW};
-    task->state = states[ffd_outputs_others(job)];
-    if (run->view && !job->error.status && claim_picture(run, task, error))
-        return FFD_E_MEMORY;
-    ffd_outputs_check_embedding(&run->written, ffd_run_manifest(run), job);
-    if (job->error.status)
-        fail_task(task, &job->error);
-    else if (run->journal)
-        find_record(run, task);
-    return FFD_OK;
-}
-
-/* Claims the files beside the output and copied with it, once they are known. */
-static ffd_status claim_others(batch_run *run, pool_task *task, ffd_error *error)
-{
-    batch_job *const job = &task->job;
-    ffd_status status = FFD_OK;
-    if (task->state == TASK_LOOKED)
-        status = ffd_outputs_learn(&run->written, job, task->beside, &task->copied, error);
-    ffd_buffer_free(&task->copied);
-    if (!status)
-        status = ffd_outputs_claim_others(&run->written, ffd_run_manifest(run), job, error);
-    task->state = TASK_WAITS;
-    if (!status && job->error.status)
-        fail_task(task, &job->error);
-    return status;
-}
-
-/* Makes jobs ready to run. No file beside an output, or copied with it, has the ending of a mesh format. So
-   an output with one is claimed at once; any other is claimed when the files of all earlier jobs are
-   known. */
-static ffd_status claim_tasks(batch_run *run, ffd_error *error)
-{
-    ffd_status status = FFD_OK;
-    bool settled = true;
-    for (size_t i = 0; i < run->count && !status; i++) {
-        pool_task *const task = run->tasks[i];
-        if (task->state == TASK_ORDERED && (settled || task->has_mesh_name))
-            status = claim_output(run, task, error);
-        const bool is_known =
-            settled && task->state == TASK_NEW && ffd_outputs_know_mesh(&run->written, &task->job);
-        if (!status && settled && (task->state == TASK_LOOKED || is_known))
-            status = claim_others(run, task, error);
-        settled = settled && ffd_task_is_settled(task);
-    }
-    return status;
 }
 
 /* The whole */
@@ -188,7 +97,7 @@ static ffd_status begin_jobs(batch_run *run, ffd_error *error)
 {
     ffd_status status = read_jobs(run, error);
     if (!status)
-        status = claim_tasks(run, error);
+        status = ffd_run_claim_tasks(run, error);
     if (!status && !run->ending)
         status = ffd_pool_assign(run->pool, run->tasks, run->count, error);
     run->ending = run->ending || status;
@@ -200,7 +109,7 @@ static ffd_status begin_jobs(batch_run *run, ffd_error *error)
 static ffd_status wait_for_ends(batch_run *run, ffd_error *error)
 {
     if (ffd_pool_running(run->pool) > 0 || run->starved)
-        ffd_pool_wait(run->pool, LOOK);
+        ffd_pool_wait(run->pool, run->starved ? ffd_jobs_descriptor(run->source) : -1, LOOK);
     if (run->ending || run->desc->stop || ffd_interrupt_requested())
         return FFD_OK;
     const ffd_status status = ffd_pool_assign(run->pool, run->tasks, run->count, error);
@@ -241,7 +150,7 @@ static ffd_status run_jobs(batch_run *run, ffd_error *error)
             status = ffd_run_note_ends(run, first ? NULL : error); /* of those that were just stopped */
         if (!status)
             status = ffd_run_take_ended(run, first ? NULL : error);
-        ffd_progress_show(&run->progress, &run->counts, ffd_jobs_fraction(run->source));
+        ffd_progress_show(&run->progress, &run->counts, ffd_run_fraction(run));
         if (run->count == 0 && (run->ended || run->ending))
             break;
     }
@@ -285,7 +194,7 @@ static ffd_status claim_own(batch_run *run, ffd_error *error)
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < sizeof own / sizeof *own && !status; i++)
         if (own[i] && !ffd_output_is_stream(own[i]))
-            status = ffd_outputs_reserve(&run->written, own[i], error);
+            status = ffd_run_reserve(&run->files, own[i], error);
     return status;
 }
 
@@ -347,10 +256,11 @@ static ffd_status open_all(batch_run *run, ffd_error *error)
         status = ffd_depfile_create(desc->depfile, &run->depfile, error);
     if (!status && desc->view)
         status = open_view(run, error);
+    run->files.manifest = status ? NULL : ffd_run_manifest(run);
     if (!status)
         status = claim_own(run, error);
-    if (!status && replaces_files(run))
-        status = ffd_run_check_reads(&desc->jobs, &run->written, error);
+    if (!status)
+        status = ffd_run_expect(run, replaces_files(run), error);
     if (!status && desc->report)
         status = ffd_report_create(desc->report, pool.stable, NULL, &run->report, error);
     if (!status && desc->positions)
@@ -362,6 +272,7 @@ static ffd_status open_all(batch_run *run, ffd_error *error)
     pool.depfile = run->depfile != NULL;
     pool.records = run->journal != NULL;
     pool.box = desc->shared_box ? &run->box : NULL;
+    pool.tells = run->files.comes_once;
     pool.origin = status ? NULL : ffd_jobs_name(run->source);
     return status ? status : ffd_pool_create(&pool, &run->pool, error);
 }
@@ -471,6 +382,7 @@ ffd_status ffd_batch_run(const batch_desc *desc, bool *failed, ffd_error *error)
     ffd_jobs_close(&run.source);
     ffd_paths_free(&run.box_files);
     ffd_paths_free(&run.outputs);
-    ffd_outputs_free(&run.written);
+    ffd_run_files_free(&run.files);
+    ffd_run_drop_early(&run);
     return status;
 }

@@ -1,13 +1,13 @@
-/* batch_run.h - the state of a running batch. batch_run.c runs it (batch.h), batch_ends.c has the functions
-   below. */
+/* batch_run.h - the state of a running batch. batch_run.c runs it (batch.h); batch_ends.c, run_early.c
+   and run_claims.c have the functions below. */
 #ifndef FFD_BATCH_BATCH_RUN_H
 #define FFD_BATCH_BATCH_RUN_H
 
 #include "base/file/path.h"
 #include "batch/batch.h"
+#include "batch/files/claims.h"
 #include "batch/journal.h"
 #include "batch/mesh_states.h"
-#include "batch/outputs.h"
 #include "batch/progress.h"
 #include "batch/run_rows.h"
 #include "batch/run_view.h"
@@ -15,6 +15,13 @@
 
 /* The most jobs in memory. If results are output in order, jobs that end early wait here for earlier ones. */
 #define BATCH_WINDOW ((size_t)1024)
+
+/* The jobs of a run, if they are few: they are read before the first one begins. */
+typedef struct early_jobs {
+    batch_job *list;
+    size_t count, capacity, next; /* next: of those that are still to be taken */
+    bool are_all;
+} early_jobs;
 
 typedef struct batch_run {
     const batch_desc *desc;
@@ -28,9 +35,10 @@ typedef struct batch_run {
     shown_box box;        /* the shared box of all meshes */
     path_list box_files;  /* its files, for the depfile */
     path_list outputs;    /* outputs that depend on box_files */
-    run_outputs written;  /* files claimed so far */
-    mesh_states meshes;   /* states of the meshes read so far */
-    uint64_t jobs;        /* number of jobs read so far */
+    run_files files;      /* what the jobs read and write */
+    early_jobs early;
+    mesh_states meshes; /* states of the meshes read so far */
+    uint64_t jobs;      /* number of jobs read so far */
     batch_progress progress;
     batch_counts counts;
     pool_task *tasks[BATCH_WINDOW]; /* count tasks in the order of the jobs */
@@ -46,6 +54,21 @@ typedef struct batch_run {
 const char *ffd_run_manifest(const batch_run *run);
 /* Prints an error that belongs to no job. */
 void ffd_run_say_error(batch_run *run, const ffd_error *error);
+/* Fails a job whose error is stored in it. */
+void ffd_run_fail_task(pool_task *task);
+/* Notes the outputs of all jobs before any of them begins, if the jobs can be read twice. checks: refuse a
+   job that reads a file which the run itself replaces. Errors: those of reading the jobs, too. */
+ffd_status ffd_run_expect(batch_run *run, bool checks, ffd_error *error);
+/* Reads the next job as ffd_jobs_next does, or takes one that was read before. */
+ffd_status ffd_run_next_job(batch_run *run, batch_job *job, line_state *state, ffd_error *error);
+/* Returns the fraction of the jobs read, as ffd_jobs_fraction does. */
+double ffd_run_fraction(const batch_run *run);
+/* Frees the jobs that were read before and not taken. */
+void ffd_run_drop_early(batch_run *run);
+/* Claims the files of jobs as far as they are known, and makes these ready to run. Errors: FFD_E_MEMORY. */
+ffd_status ffd_run_claim_tasks(batch_run *run, ffd_error *error);
+/* Takes what the end of a task, or of a look that found nothing, says of its files. Errors: FFD_E_MEMORY. */
+ffd_status ffd_run_learn(batch_run *run, pool_task *task, ffd_error *error);
 /* Handles the ends of jobs that need not wait for earlier jobs. An invalid job "ends" when all earlier ones
    have, because an earlier failure may stop the run; it is dropped if no more jobs are begun. Errors:
    FFD_E_MEMORY, FFD_E_IO. */

@@ -3,7 +3,7 @@
 #include "base/memory/memory.h"
 #include "io/formats.h"
 #include "job/input/source.h"
-#include "lattice/file/spec_parse.h"
+#include "lattice/file/box_meshes.h"
 #include <string.h>
 
 static cached_file *find(hash_cache *cache, const char *path, const file_stamp *stamp)
@@ -184,6 +184,7 @@ ffd_status ffd_cache_images(hash_cache *cache, const ffd_source *source, path_li
 static void forget_look(cached_look *look)
 {
     ffd_free(look->path);
+    ffd_paths_free(&look->named);
     ffd_paths_free(&look->copied);
     *look = (cached_look){0};
 }
@@ -208,8 +209,10 @@ static ffd_status look_at_bytes(hash_cache *cache, const char *path, const file_
         return status;
     if (table->count_beside)
         look->beside = table->count_beside(&bytes, from, to);
-    if (table->find_resources)
-        status = table->find_resources(path, &bytes, &look->copied, error);
+    /* A GLB that is made of a .gltf holds its images. */
+    path_list *copied = from == FFD_FORMAT_GLTF && to == FFD_FORMAT_GLB ? NULL : &look->copied;
+    if (table->find_named)
+        status = table->find_named(path, &bytes, &look->named, copied, error);
     ffd_kept_put(&cache->kept, path, stamp, &bytes);
     look->path = status ? NULL : ffd_text_copy(path);
     look->stamp = *stamp;
@@ -219,77 +222,68 @@ static ffd_status look_at_bytes(hash_cache *cache, const char *path, const file_
 }
 
 ffd_status ffd_cache_look(hash_cache *cache, const ffd_source *source, ffd_format to, size_t *beside,
-                          path_list *copied, ffd_error *error)
+                          path_list *named, path_list *copied, ffd_error *error)
 {
     ffd_format from;
     file_stamp stamp;
     *beside = 0;
     ffd_status status = ffd_source_format(source, &from, error);
-    if (status || !ffd_format_table(from)->list_files)
-        return status ? status : ffd_cache_images(cache, source, copied, error);
-    if (!ffd_file_stamp(source->path, &stamp))
-        return FFD_OK;
+    if (!status && !ffd_format_table(from)->list_files) {
+        status = ffd_cache_images(cache, source, copied, error);
+        return status ? status : copy_list(copied, named, error);
+    }
+    if (status || !ffd_file_stamp(source->path, &stamp))
+        return status;
     if (!is_last_look(&cache->look, source->path, &stamp, from, to))
         status = look_at_bytes(cache, source->path, &stamp, from, to, error);
     if (status)
         return status;
     *beside = cache->look.beside;
-    return copy_list(&cache->look.copied, copied, error);
+    status = copy_list(&cache->look.named, named, error);
+    return status ? status : copy_list(&cache->look.copied, copied, error);
 }
 
-/* Whether the text may contain the member "meshes", possibly with escapes. */
-static bool may_name_meshes(const file_input *input)
+ffd_status ffd_cache_list_named(const ffd_source *source, path_list *named, ffd_error *error)
 {
-    static const char key[] = "\"meshes\"";
-    const char *at = (const char *)input->data, *const end = at + input->size;
-    for (; at < end; at++) {
-        if (*at == '\\')
-            return true;
-        if (*at == '"' && (size_t)(end - at) >= sizeof key - 1 && memcmp(at, key, sizeof key - 1) == 0)
-            return true;
-    }
-    return false;
+    ffd_format format;
+    file_input bytes;
+    if (ffd_source_format(source, &format, NULL) || !ffd_format_table(format)->list_files ||
+        ffd_file_load(source->path, &bytes, NULL))
+        return FFD_OK;
+    const ffd_status status = ffd_format_table(format)->find_named(source->path, &bytes, named, NULL, error);
+    ffd_file_unload(&bytes);
+    return status;
 }
 
-/* Adds the meshes that a lattice file names for its box. Unreadable files are ignored here: they fail their
-   job later. */
-static ffd_status look_through(const char *path, path_list *meshes, ffd_error *error)
+/* Loads a lattice file, remembers its hash, and looks through it. */
+static ffd_status look_through(hash_cache *cache, const char *path, path_list *meshes, ffd_error *error)
 {
-    const spec_settings rest_only = {.may_be_open = true};
-    lattice_spec *spec = NULL;
-    file_input input;
-    size_t size;
-    if (ffd_file_load(path, &input, NULL))
+    file_stamp stamp;
+    file_input bytes;
+    if (!ffd_file_stamp(path, &stamp) || load_and_hash(cache, path, &stamp, &bytes, NULL))
         return FFD_OK;
-    const bool may = may_name_meshes(&input);
-    ffd_file_unload(&input);
-    if (!may || ffd_spec_load(path, &rest_only, &spec, &size, NULL))
-        return FFD_OK;
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < spec->mesh_count && !status; i++) {
-        char *mesh = NULL;
-        status = ffd_spec_mesh(spec, i, &mesh, error);
-        if (!status)
-            status = ffd_paths_add(meshes, mesh, error);
-        ffd_free(mesh);
-    }
-    ffd_spec_free(spec);
+    ffd_status status = ffd_lattice_box_meshes(path, &bytes, meshes, error);
+    ffd_file_unload(&bytes);
+    cached_file *const file = status ? NULL : find(cache, path, &stamp);
+    if (!file || file->is_looked_through)
+        return status;
+    status = copy_list(meshes, &file->meshes, error);
+    file->is_looked_through = !status;
     return status;
 }
 
 ffd_status ffd_cache_box_meshes(hash_cache *cache, const char *path, path_list *meshes, ffd_error *error)
 {
     file_stamp stamp;
-    cached_file *const file = ffd_file_stamp(path, &stamp) ? find(cache, path, &stamp) : NULL;
-    if (!file)
-        return look_through(path, meshes, error);
-    if (!file->is_looked_through) {
-        const ffd_status status = look_through(path, &file->meshes, error);
-        if (status)
-            return status;
-        file->is_looked_through = true;
-    }
-    return copy_list(&file->meshes, meshes, error);
+    path_list found = {0};
+    const cached_file *const file = ffd_file_stamp(path, &stamp) ? find(cache, path, &stamp) : NULL;
+    if (file && file->is_looked_through)
+        return copy_list(&file->meshes, meshes, error);
+    ffd_status status = look_through(cache, path, &found, error);
+    if (!status)
+        status = copy_list(&found, meshes, error);
+    ffd_paths_free(&found);
+    return status;
 }
 
 void ffd_cache_free(hash_cache *cache)

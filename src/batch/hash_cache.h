@@ -32,7 +32,7 @@ typedef struct cached_look {
     file_stamp stamp;
     ffd_format from, to;
     size_t beside;
-    path_list copied;
+    path_list named, copied;
 } cached_look;
 
 /* All zeros: empty. */
@@ -51,10 +51,13 @@ ffd_status ffd_cache_hash(hash_cache *cache, const char *path, hash128 *hash, ff
 ffd_status ffd_cache_list(hash_cache *cache, const ffd_source *source, path_list *files, ffd_error *error);
 /* Adds the images and material libraries that a mesh refers to, existing or not. Errors: those of reading. */
 ffd_status ffd_cache_images(hash_cache *cache, const ffd_source *source, path_list *images, ffd_error *error);
-/* Finds what saving a mesh in its own format, as `to`, writes beside it: *beside is the number of other
-   files; paths that may be copied with it are added to `copied`. Errors: those of reading. */
+/* Finds the files that a mesh names, which are added to `named`, and to `copied` those that may be copied
+   with it; and what saving it in its own format, as `to`, writes beside it: *beside is the number of other
+   files. Errors: those of reading. */
 ffd_status ffd_cache_look(hash_cache *cache, const ffd_source *source, ffd_format to, size_t *beside,
-                          path_list *copied, ffd_error *error);
+                          path_list *named, path_list *copied, ffd_error *error);
+/* Adds the files that a mesh names; none if it cannot be read. Errors: FFD_E_MEMORY. */
+ffd_status ffd_cache_list_named(const ffd_source *source, path_list *named, ffd_error *error);
 /* Adds the meshes that a lattice file names for its box; none if it cannot be read. Errors: FFD_E_MEMORY. */
 ffd_status ffd_cache_box_meshes(hash_cache *cache, const char *path, path_list *meshes, ffd_error *error);
 /* Frees all entries; leaves an empty cache. */

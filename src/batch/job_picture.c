@@ -57,7 +57,6 @@ ffd_status ffd_job_picture_write(const char *path, const ffd_deform_desc *desc, 
     view.job = &job;
     view.output = path;
     view.force = force;
-    view.as_stored = true;
     ffd_result_clear(result);
     ffd_status status = make_folder(path, &folder, &made, &result->error);
     if (!status)

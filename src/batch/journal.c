@@ -10,11 +10,11 @@
 #include "batch/journal.h"
 #include "base/file/folder.h"
 #include "base/file/path.h"
+#include "base/file/place.h"
 #include "base/file/update.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include "base/system/interrupt.h"
-#include "batch/manifest/file_table.h"
 #include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
@@ -359,7 +359,7 @@ static char *cache_folder(void)
 
 char *ffd_journal_default_path(const char *jobs, uint64_t shard, uint64_t shards)
 {
-    const hash128 hash = ffd_file_identity(jobs);
+    const hash128 hash = ffd_place_of(NULL, jobs);
     char name[80];
     snprintf(name, sizeof name, "batch-%016" PRIx64 "%016" PRIx64 "-%" PRIu64 "-of-%" PRIu64,
              load_u64(hash.bytes), load_u64(hash.bytes + 8), shard, shards);

@@ -114,7 +114,7 @@ static ffd_status measure_all(measuring *m, ffd_error *error)
         if (!status)
             status = ffd_pool_assign(m->pool, m->tasks, m->count, error);
         if (!status && (ffd_pool_running(m->pool) > 0 || m->starved))
-            ffd_pool_wait(m->pool, LOOK);
+            ffd_pool_wait(m->pool, -1, LOOK);
         if (!status)
             status = take_ended(m, error);
         if (m->count == 0 && (m->ended || m->found))

@@ -3,8 +3,8 @@
 #ifndef FFD_BATCH_MESH_STATES_H
 #define FFD_BATCH_MESH_STATES_H
 
+#include "base/memory/file_table.h"
 #include "base/text/buffer.h"
-#include "batch/manifest/file_table.h"
 #include "batch/pool.h"
 
 /* All zeros: empty. */

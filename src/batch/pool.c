@@ -22,6 +22,7 @@ typedef struct pool_worker {
     uint64_t memory;         /* bytes that this task may take: the worker keeps its mesh */
     bool has_mesh, timed_out, stopped, retires;
     bool was_told;   /* the task was sent */
+    bool is_unheard; /* its message is invalid, or memory ran out for it */
     bool is_ending;  /* its time is up */
     double deadline; /* 0: none */
 } pool_worker;
@@ -87,10 +88,12 @@ static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_t
     append_word(&text, ffd_job_output_name(job) ? ffd_job_output_name(job) : "");
     append_word(&text, task->picture ? task->picture : "");
     append_word(&text, desc->rows ? desc->rows->path : "");
+    ffd_buffer_append(&text, task->passed.data, task->passed.size);
     head.line = job->line;
     head.text_size = text.size - sizeof head;
     head.word_count = (uint32_t)job->word_count;
     head.content_words = count_words(&job->content);
+    head.passed_count = count_words(&task->passed) / 2;
     head.threads = threads;
     head.record = task->record;
     head.has_record = task->has_record;
@@ -116,6 +119,12 @@ static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_t
         head.is_double = desc->rows->is_double;
     }
     head.look = task->looks;
+    head.look_at_mesh = task->needs.mesh;
+    head.look_at_lattices = task->needs.lattices;
+    head.look_only = task->looks_only;
+    head.survey = task->looks && task->surveys;
+    head.tells = desc->tells;
+    head.is_unsurveyed = task->is_unsurveyed;
     head.has_box = desc->box != NULL;
     if (desc->box)
         head.box = *desc->box;
@@ -251,7 +260,7 @@ static void begin_task(const worker_pool *pool, pool_worker *worker, pool_task *
     worker->mesh = task->mesh;
     worker->memory = task->memory;
     worker->has_mesh = true;
-    worker->timed_out = worker->stopped = worker->is_ending = false;
+    worker->timed_out = worker->stopped = worker->is_ending = worker->is_unheard = false;
     worker->deadline = pool->desc.timeout > 0 ? ffd_clock_seconds() + pool->desc.timeout : 0;
     task->looks = task->state == TASK_NEW;
     task->took_row = pool->desc.rows != NULL;
@@ -297,14 +306,15 @@ static void end_task(pool_worker *worker, wire_outcome outcome)
 }
 
 /* Takes the result of a look; the task goes back to the window. */
-static void take_look(pool_worker *worker, const wire_answer *head, const char *copied)
+static void take_look(pool_worker *worker, const wire_answer *head, const char *found)
 {
     pool_task *const task = worker->task;
-    ffd_buffer_append(&task->copied, copied, head->rule_size);
+    ffd_buffer_append(&task->found, found, head->rule_size);
     task->beside = (size_t)head->beside;
+    task->has_looked = true;
     task->was_returned = false;
     worker->retires = head->retires;
-    if (head->out_of_memory || task->copied.failed) {
+    if (head->out_of_memory || task->found.failed) {
         ffd_fail_file(&task->failure, FFD_E_MEMORY, task->job.input, "out of memory");
         end_task(worker, OUTCOME_FAILED);
         return;
@@ -322,19 +332,28 @@ static bool take_answer(worker_pool *pool, pool_worker *worker)
     if (bytes->size < sizeof head)
         return true;
     memcpy(&head, bytes->data, sizeof head);
-    if (!worker->task || (head.looked && !worker->task->looks) || head.log_size > WIRE_MOST ||
-        head.entry_size > WIRE_MOST || head.rule_size > WIRE_MOST || head.figures_size > WIRE_MOST)
+    if (!worker->task || ((head.looked || head.goes_on) && !worker->task->looks) ||
+        head.log_size > WIRE_MOST || head.entry_size > WIRE_MOST || head.rule_size > WIRE_MOST ||
+        head.figures_size > WIRE_MOST)
         return false;
     if (bytes->size < sizeof head + head.log_size + head.entry_size + head.rule_size + head.figures_size)
         return true;
+    pool_task *const task = worker->task;
+    if (head.goes_on) { /* the rest of the answer may be here already */
+        task->looks = false;
+        task->looked_in_vain = true;
+        bytes->size -= sizeof head;
+        memmove(bytes->data, bytes->data + sizeof head, bytes->size);
+        return take_answer(pool, worker);
+    }
     const char *const log = bytes->data + sizeof head, *const entry = log + head.log_size,
                       *const rule = entry + head.entry_size, *const figures = rule + head.rule_size;
-    pool_task *const task = worker->task;
     if (head.looked) {
         take_look(worker, &head, rule);
         bytes->size = 0;
         return true;
     }
+    task->looked_in_vain = task->looked_in_vain || task->looks;
     ffd_buffer_append(&task->log, log, head.log_size);
     ffd_buffer_append(&task->entry, entry, head.entry_size);
     ffd_buffer_append(&task->rule, rule, head.rule_size);
@@ -369,12 +388,16 @@ static void describe_failure(const worker_pool *pool, const pool_worker *worker,
 {
     const char *const name = worker->task->job.input;
     if (worker->timed_out)
-        ffd_fail_file(error, FFD_E_LIMIT, name, "took longer than %g seconds (--timeout)",
-                      pool->desc.timeout);
+        ffd_fail_file(error, FFD_E_LIMIT, name, "took longer than %g %s (--timeout)", pool->desc.timeout,
+                      pool->desc.timeout == 1 ? "second" : "seconds");
     else if (worker->stopped)
         ffd_fail_file(error, FFD_E_LIMIT, name, "was stopped before it ended");
     else if (!end->signal && end->code == ffd_status_exit_code(FFD_E_MEMORY))
         ffd_fail_file(error, FFD_E_MEMORY, name, "out of memory");
+    else if (worker->is_unheard || (!end->signal && end->code == 0))
+        ffd_fail_file(
+            error, FFD_E_IO, name,
+            "the connection to the worker that did this job has failed: what it has made is not known");
     else if (end->killed)
         ffd_fail_file(error, FFD_E_MEMORY, name,
                       "was ended by the system (%s), probably because memory ran out", end->text);
@@ -412,8 +435,9 @@ static void receive(worker_pool *pool, pool_worker *worker)
     const bool understood = take_answer(pool, worker) && !worker->answer.failed;
     if (understood && alive && !worker->retires)
         return;
+    worker->is_unheard = !understood;
     if (!understood && alive)
-        ffd_process_kill(worker->process); /* its message is invalid */
+        ffd_process_kill(worker->process);
     end_worker(pool, worker);
 }
 
@@ -444,11 +468,11 @@ static double time_left(const worker_pool *pool, double seconds)
     return seconds;
 }
 
-void ffd_pool_wait(worker_pool *pool, double seconds)
+void ffd_pool_wait(worker_pool *pool, int input, double seconds)
 {
     for (int i = 0; i < pool->desc.workers; i++)
         pool->processes[i] = pool->workers[i].process;
-    ffd_process_wait(pool->processes, (size_t)pool->desc.workers, time_left(pool, seconds));
+    ffd_process_wait(pool->processes, (size_t)pool->desc.workers, input, time_left(pool, seconds));
     const double now = ffd_clock_seconds();
     for (int i = 0; i < pool->desc.workers; i++) {
         if (!pool->workers[i].process)
@@ -482,7 +506,7 @@ void ffd_pool_stop(worker_pool *pool)
         worker->deadline = end;
     }
     while (ffd_pool_running(pool) > 0)
-        ffd_pool_wait(pool, GRACE);
+        ffd_pool_wait(pool, -1, GRACE);
 }
 
 void ffd_pool_destroy(worker_pool **pool)
@@ -520,6 +544,7 @@ void ffd_task_free(pool_task *task)
     ffd_buffer_free(&task->entry);
     ffd_buffer_free(&task->rule);
     ffd_buffer_free(&task->figures);
-    ffd_buffer_free(&task->copied);
+    ffd_buffer_free(&task->found);
+    ffd_buffer_free(&task->passed);
     ffd_free(task);
 }

@@ -2,6 +2,7 @@
 #ifndef FFD_BATCH_POOL_H
 #define FFD_BATCH_POOL_H
 
+#include "batch/files/claims.h"
 #include "batch/manifest/job_words.h"
 #include "batch/row_array.h"
 #include "batch/wire.h"
@@ -14,6 +15,7 @@ typedef struct pool_desc {
     bool records, resume, dry, depfile, report, quality, stable, quiet, verbose, measure, count; /* as in
                                                                                                   wire_task */
     bool draws;            /* jobs make pictures too */
+    bool tells;            /* as in wire_task */
     const row_array *rows; /* array of positions, or NULL */
     const shown_box *box;  /* shared box, or NULL */
 } pool_desc;
@@ -48,9 +50,17 @@ typedef struct pool_task {
     task_state state;
     char *picture;            /* path; NULL: none is wanted */
     const char *picture_name; /* part of that path below the folder of pictures */
-    bool looks;               /* while running: it began as TASK_NEW */
-    size_t beside;            /* result of a look: number of files beside the output, */
-    byte_buffer copied;       /* and files that may be copied, each path terminated by 0 */
+    claim_needs needs;        /* what a look must look at */
+    bool looks_only;          /* its worker answers after the look, whatever it finds */
+    bool surveys;             /* likewise, and looks through the models of the output's folder */
+    bool looks;               /* while running: it began as TASK_NEW, and its worker still looks */
+    bool looked_in_vain;      /* the look found nothing */
+    bool is_learned;          /* that was taken to heart (ffd_run_learn) */
+    bool has_looked;          /* the results of a look are here: */
+    size_t beside;            /* number of files beside the output, */
+    byte_buffer found;        /* and what else it found (look.h) */
+    byte_buffer passed;       /* names that the output must not take (ffd_claims_others) */
+    bool is_unsurveyed;       /* these are not known: the job looks by itself */
     bool was_returned;        /* a worker had ended before it could take the task */
     bool noted;               /* its end was handled (ffd_run_note_ends) */
     bool took_row;            /* its row may have been written to */
@@ -75,8 +85,9 @@ ffd_status ffd_pool_create(const pool_desc *desc, worker_pool **pool, ffd_error 
 /* Assigns ready tasks to idle workers. tasks: in the order of the jobs; entries may be NULL. Errors: no
    worker can be started. */
 ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t count, ffd_error *error);
-/* Waits at most this many seconds for a worker's answer, and handles what has happened. */
-void ffd_pool_wait(worker_pool *pool, double seconds);
+/* Waits at most this many seconds for a worker's answer, or until a descriptor can be read (negative: none),
+   and handles what has happened. */
+void ffd_pool_wait(worker_pool *pool, int input, double seconds);
 /* Returns the number of running tasks. */
 size_t ffd_pool_running(const worker_pool *pool);
 /* Statistics for --verbose. */

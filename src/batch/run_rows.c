@@ -2,11 +2,11 @@
 #include "base/file/folder.h"
 #include "base/file/input.h"
 #include "base/file/output.h"
+#include "base/file/place.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include "base/system/interrupt.h"
 #include "base/text/buffer.h"
-#include "batch/manifest/file_table.h"
 #include "batch/measure.h"
 #include "job/report/report_file.h"
 #include <inttypes.h>
@@ -80,7 +80,7 @@ ffd_status ffd_run_rows_open(run_rows *rows, const batch_desc *desc, ffd_error *
         status = measure(rows, desc, error);
     if (!status && rows->is_there)
         status = make_array(rows, desc, error);
-    rows->file = ffd_file_identity(desc->positions);
+    rows->file = ffd_place_of(NULL, desc->positions);
     return status ? status : ffd_report_check(rows->list, error);
 }
 

@@ -3,9 +3,9 @@
 #include "base/file/input.h"
 #include "base/file/output.h"
 #include "base/file/path.h"
+#include "base/file/place.h"
 #include "base/memory/memory.h"
 #include "batch/index_entry.h"
-#include "batch/manifest/file_table.h"
 #include "batch/manifest/settings.h"
 #include "view/index.h"
 #include <inttypes.h>
@@ -122,7 +122,7 @@ ffd_status ffd_run_view_name(const run_view *view, pool_task *task, hash128 *fil
     char *const whole = name ? ffd_path_join(view->resolved, name) : NULL;
     task->picture = name ? ffd_path_join(view->desc.folder, name) : NULL;
     if (whole) /* same identity whether or not folders below exist yet */
-        *file = ffd_file_identity(whole);
+        *file = ffd_place_of(NULL, whole);
     if (task->picture)
         task->picture_name = task->picture + strlen(task->picture) - strlen(name);
     ffd_free(name);

@@ -19,14 +19,14 @@ typedef struct job_record {
 
 /* A task for a worker, followed by its texts, each terminated by 0: words, content, the name of the manifest,
    the names of input and output (empty: no mesh is written), the paths of the picture and of the array of
-   positions (empty: none). */
+   positions (empty: none), and passed_count pairs of texts as ffd_claims_others fills them. */
 typedef struct wire_task {
     uint64_t line;     /* of the job in its manifest */
     job_record record; /* of the last time, if has_record */
     hash128 drawn;     /* bytes of the picture that was drawn then, if has_drawn */
     uint64_t text_size;
     uint64_t row, rows, vertices; /* of the array of positions, if has_row */
-    uint32_t word_count, content_words;
+    uint32_t word_count, content_words, passed_count;
     int32_t threads;
     bool has_record, has_drawn;
     bool records;  /* fill the answer's record */
@@ -42,7 +42,13 @@ typedef struct wire_task {
     bool measure;  /* only measure the mesh's box, and list its files if depfile is set */
     bool count;    /* only count the mesh's vertices */
     bool has_row, is_double;
-    bool look; /* first look for files that are written beside the output, or copied with it */
+    bool look;         /* first look at the files of the job (look.h): */
+    bool look_at_mesh; /* those of the mesh, */
+    bool look_at_lattices;
+    bool look_only;     /* answer after the look, whatever it finds */
+    bool survey;        /* likewise, and look through the models of the folder of the output */
+    bool tells;         /* tell at once that the look has found nothing */
+    bool is_unsurveyed; /* look through these models when a file beside the output would be replaced */
     bool has_box;
     shown_box box; /* shared box, if has_box */
 } wire_task;
@@ -51,10 +57,10 @@ typedef enum wire_outcome { OUTCOME_DONE, OUTCOME_SKIPPED, OUTCOME_FAILED } wire
 
 /* An answer of a worker, followed by its texts. */
 typedef struct wire_answer {
-    uint64_t log_size;   /* messages, each with its line break */
-    uint64_t entry_size; /* of the report */
-    uint64_t rule_size; /* depfile rule; of a measured mesh: its files; after a look: files that may be copied
-                           (each terminated by 0) */
+    uint64_t log_size;     /* messages, each with its line break */
+    uint64_t entry_size;   /* of the report */
+    uint64_t rule_size;    /* depfile rule; of a measured mesh: its files, each terminated by 0; after a look:
+                              what    was found (look.h) */
     uint64_t figures_size; /* of the job, as JSON terminated by 0 */
     job_record record;
     hash128 drawn;       /* bytes of the picture of a job without an output, if has_drawn */
@@ -69,6 +75,7 @@ typedef struct wire_answer {
     bool has_picture;   /* it exists, made now or before */
     bool took_row;      /* the row may be written to */
     bool looked;        /* the look found files, and nothing else was done */
+    bool goes_on;       /* the look found nothing: no more than this is said yet */
     bool retires;       /* the worker ends: send no more tasks */
     bool out_of_memory; /* memory ran out for the answer, so the job failed and there are no texts */
 } wire_answer;

@@ -6,16 +6,19 @@
 #include "base/one_line.h"
 #include "base/system/interrupt.h"
 #include "batch/fingerprint.h"
+#include "batch/job_look.h"
 #include "batch/job_picture.h"
 #include "batch/manifest/settings.h"
 #include "batch/row_array.h"
 #include "batch/wire.h"
+#include "io/formats.h"
 #include "job/chain/chain_load.h"
 #include "job/chain/job_cache.h"
 #include "job/input/shown_box.h"
 #include "job/input/source.h"
 #include "job/judge/result.h"
 #include "job/report/depfile.h"
+#include "job/report/output_set.h"
 #include "job/report/report.h"
 #include <inttypes.h>
 #include <string.h>
@@ -29,7 +32,8 @@ typedef struct batch_worker {
     size_t word_capacity;
     byte_buffer log, entry, rule, figures; /* of the answer */
     byte_buffer message;                   /* the whole answer */
-    void *opened;                          /* of the task: owns what desc borrows; or NULL */
+    ffd_written *written; /* of the task: the models that share files with its output; or NULL */
+    void *opened;         /* of the task: owns what desc borrows; or NULL */
 } batch_worker;
 
 /* Returns the next word. */
@@ -349,22 +353,15 @@ static ffd_status count_vertices(const wire_task *task, const ffd_deform_desc *d
     return status;
 }
 
-/* Opens the mesh to find the files that the job writes beside its output and copies with it. answer->looked:
-   there are some. An unreadable mesh fails the job later. */
-static ffd_status look(batch_worker *worker, const ffd_deform_desc *desc, wire_answer *answer,
-                       ffd_error *error)
+/* Tells the first process that a look has found nothing, and the job goes on. */
+static ffd_status tell(ffd_error *error)
 {
-    path_list copied = {0};
-    size_t beside = 0;
-    const ffd_format to =
-        desc->output_format == FFD_FORMAT_AUTO ? ffd_format_from_name(desc->output) : desc->output_format;
-    const ffd_status status = ffd_cache_look(&worker->hashes, &desc->input, to, &beside, &copied, NULL);
-    for (size_t i = 0; i < copied.count && !status; i++)
-        ffd_buffer_append(&worker->rule, copied.paths[i], strlen(copied.paths[i]) + 1);
-    answer->beside = beside;
-    answer->looked = !status && (beside > 0 || copied.count > 0);
-    ffd_paths_free(&copied);
-    return status == FFD_E_MEMORY ? ffd_fail_memory(error) : FFD_OK;
+    wire_answer note;
+    memset(&note, 0, sizeof note);
+    note.goes_on = true;
+    return ffd_process_give(&note, sizeof note)
+               ? FFD_OK
+               : ffd_fail(error, FFD_E_IO, "the connection to the first process has failed");
 }
 
 /* Does everything that the task asks for. */
@@ -375,15 +372,19 @@ static ffd_status do_task(batch_worker *worker, const wire_task *task, const fin
     const ffd_shared_box shared = {.box = task->box};
     const unsigned losses = ffd_mapping_losses();
     ffd_status status = take_row(task, row, desc, answer, &result->error);
-    /* Files that a killed run has set aside are restored before they are read. */
     if (!status && task->look)
-        status = look(worker, desc, answer, &result->error);
+        status = ffd_job_look(&worker->hashes, task, desc, &worker->rule, answer, &result->error);
     if (status || answer->looked)
+        return status;
+    if (task->look && task->tells)
+        status = tell(&result->error);
+    if (status)
         return status;
     if (task->count) {
         status = count_vertices(task, desc, answer, &result->error);
         return ffd_mapping_judge(losses, status, &result->error);
     }
+    /* Files that a killed run has set aside are restored before they are read. */
     if (desc->in_place && !task->dry)
         status = ffd_restore_output(desc->input.path, &result->error);
     if (!status && task->measure)
@@ -394,6 +395,25 @@ static ffd_status do_task(batch_worker *worker, const wire_task *task, const fin
     status = ffd_mapping_judge(losses, status, &result->error);
     if (!status)
         status = do_job(worker, task, *picture ? picture : NULL, row, desc, answer, result);
+    return status;
+}
+
+/* Prepares the models that share files with the output, as the first process knows them. text: of the passed
+   names. */
+static ffd_status take_passed(batch_worker *worker, const wire_task *task, const char *text,
+                              const ffd_deform_desc *desc, ffd_error *error)
+{
+    const mesh_format *const format = ffd_format_table(ffd_job_output_format(desc));
+    if (!format || !format->name_beside)
+        return FFD_OK;
+    ffd_status status = ffd_written_create(&worker->written, error);
+    for (uint32_t i = 0; i < task->passed_count && !status; i++) {
+        const char *const users = next_word(text);
+        status = ffd_users_add(&worker->written->users.users, text, users, error);
+        text = next_word(users);
+    }
+    if (!status)
+        worker->written->users.is_complete = !task->is_unsurveyed;
     return status;
 }
 
@@ -423,6 +443,9 @@ static ffd_status run_words(batch_worker *worker, const wire_task *task, wire_an
     desc.positions = task->has_row ? take_positions : NULL;
     desc.positions_user = &row;
     desc.share = worker->share;
+    if (take_passed(worker, task, next_word(row.array.path), &desc, &result->error))
+        return result->error.status;
+    desc.written = worker->written;
     if (desc.threads == 0)
         desc.threads = task->threads;
     const ffd_status status =
@@ -474,6 +497,7 @@ static void answer_task(batch_worker *worker, const wire_task *task, wire_answer
     }
     if (task->report && !answer->looked && answer->outcome != OUTCOME_SKIPPED)
         make_entry(worker, task, answer, &result);
+    ffd_written_destroy(&worker->written);
     if (worker->opened)
         worker->program->close(worker->opened);
     worker->opened = NULL;

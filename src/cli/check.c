@@ -71,17 +71,23 @@ static void print_folds(const ffd_job_result *result, const char *lattice)
         print_witness(folds, lattice);
 }
 
-/* Says why the edge with the largest step is torn. */
+/* Prints why the edge with the largest step is torn. */
 static void print_tear_reason(const ffd_job_result *result)
 {
+    static const char *const reasons[] = {
+        [FFD_TEAR_LATTICES] = "the lattices move its two ends differently",
+        [FFD_TEAR_BLOCKS] = "neighbouring blocks move their common faces differently",
+        [FFD_TEAR_SEAM] = "the two faces of a lattice's seam are moved apart",
+        [FFD_TEAR_AXIS] = "control points at one place on a lattice's axis are moved apart",
+        [FFD_TEAR_BORDER] = "along it the nearest part of the lattice's border changes",
+        [FFD_TEAR_OVERLAP] = "it leads from one part of a lattice that overlaps itself to another",
+    };
     const uint64_t faces = result->disagreeing, stay = result->tear_stays;
-    if (result->tear_disagrees)
+    if (result->tear_cause == FFD_TEAR_BLOCKS && faces)
         printf("; blocks move %" PRIu64 " vert%s on their faces differently", faces,
                faces == 1 ? "ex" : "ices");
-    else if (result->tear_seam)
-        printf("; the two faces of a lattice's seam are moved apart");
-    else if (result->tear_between)
-        printf("; the lattices move its two ends differently");
+    else if (result->tear_cause > FFD_TEAR_UNSELECTED)
+        printf("; %s", reasons[result->tear_cause]);
     else
         printf("; %" PRIu64 " vert%s", stay, stay == 1 ? "ex stays" : "ices stay");
 }
@@ -178,7 +184,6 @@ static ffd_status run_job(const settings *s, const ffd_deform_desc *desc, ffd_jo
     view.job = desc;
     view.output = s->picture;
     view.force = s->force;
-    view.as_stored = true;
     return ffd_view_run(&view, result, NULL);
 }
 

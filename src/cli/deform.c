@@ -1,13 +1,23 @@
 /* deform.c - ffd deform: one mesh to a file, or many to a folder; and single jobs of a batch. */
 #include "cli/deform.h"
 #include "base/file/folder.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
 #include "cli/morphs.h"
+#include "job/plan.h"
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 typedef cli_deform_settings settings;
+
+static bool set_output_format(void *context, const cli_option *option, const char *value)
+{
+    settings *const s = context;
+    s->output_ending = value;
+    return cli_set_format(context, option, value);
+}
 
 #define AT(field) offsetof(settings, field)
 const cli_option cli_deform_options[] = {
@@ -28,47 +38,65 @@ const cli_option cli_deform_options[] = {
     {"resources", 0, "copy|reference",
      "images or materials of a mesh written elsewhere: copied, or referred to; default copy", cli_set_choice,
      AT(resources), cli_resources_names},
-    {"output-format", 0, "FORMAT", CLI_FORMATS "; needed for -", cli_set_format, AT(output_format), NULL},
+    {"output-format", 0, "FORMAT",
+     CLI_FORMATS "; needed for -; with --out-dir and in batch OUT gets its ending", set_output_format,
+     AT(output_format), NULL},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
 
-static const char *name_of(const char *path)
+/* Returns the name of an input's output in --out-dir; free it with ffd_free. NULL after a complaint. */
+static char *name_output(const settings *s, const char *input)
 {
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
+    const char *const name = ffd_path_name(input);
+    char *const output =
+        s->output_ending ? ffd_path_with_ending(name, s->output_ending) : ffd_text_copy(name);
+    if (!output)
+        cli_complain("out of memory");
+    return output;
 }
+
+/* An input, and what must differ between inputs: the name of its output, or (in place) its own path. */
+typedef struct named_input {
+    const char *input;
+    char *name;
+} named_input;
 
 static int compare_names(const void *a, const void *b)
 {
-    return strcmp(name_of(*(const char *const *)a), name_of(*(const char *const *)b));
+    return strcmp(((const named_input *)a)->name, ((const named_input *)b)->name);
 }
 
-static int compare_paths(const void *a, const void *b)
+static int complain_of_equal(const named_input *a, const named_input *b)
 {
-    return strcmp(*(const char *const *)a, *(const char *const *)b);
+    if (strcmp(a->input, b->input) == 0)
+        cli_complain("%s: is named twice", a->input);
+    else
+        cli_complain("%s and %s would both be written as \"%s\"", a->input, b->input, a->name);
+    return EXIT_USAGE;
 }
 
 /* Refuses inputs of equal names: their outputs would overwrite each other. Returns 0, or an exit code after a
    complaint. */
-static int refuse_equal_outputs(const cli_words *inputs, int (*compare)(const void *, const void *))
+static int refuse_equal_outputs(const settings *s, const cli_words *inputs)
 {
-    const char **sorted = calloc(inputs->count, sizeof *sorted);
+    named_input *const sorted = calloc(inputs->count, sizeof *sorted);
     int code = EXIT_DONE;
     if (!sorted) {
         cli_complain("out of memory");
         return ffd_status_exit_code(FFD_E_MEMORY);
     }
-    memcpy(sorted, inputs->words, inputs->count * sizeof *sorted);
-    qsort(sorted, inputs->count, sizeof *sorted, compare);
+    for (size_t i = 0; i < inputs->count && !code; i++) {
+        const char *const input = inputs->words[i];
+        sorted[i] = (named_input){input, s->out_dir ? name_output(s, input) : ffd_text_copy(input)};
+        code = sorted[i].name ? EXIT_DONE : ffd_status_exit_code(FFD_E_MEMORY);
+    }
+    if (!code)
+        qsort(sorted, inputs->count, sizeof *sorted, compare_names);
     for (size_t i = 1; i < inputs->count && !code; i++)
-        if (compare(&sorted[i - 1], &sorted[i]) == 0) {
-            if (strcmp(sorted[i - 1], sorted[i]) == 0)
-                cli_complain("%s: is named twice", sorted[i]);
-            else
-                cli_complain("%s and %s would both be written as \"%s\"", sorted[i - 1], sorted[i],
-                             name_of(sorted[i]));
-            code = EXIT_USAGE;
-        }
+        if (compare_names(&sorted[i - 1], &sorted[i]) == 0)
+            code = complain_of_equal(&sorted[i - 1], &sorted[i]);
+    for (size_t i = 0; i < inputs->count; i++)
+        ffd_free(sorted[i].name);
     free(sorted);
     return code;
 }
@@ -83,6 +111,14 @@ static char *join(const char *folder, const char *name)
     else
         cli_complain("out of memory");
     return path;
+}
+
+/* Returns the path of an input's output, freed with free; NULL after a complaint. */
+static char *output_of(const settings *s, const char *input)
+{
+    char *const name = name_output(s, input), *const output = name ? join(s->out_dir, name) : NULL;
+    ffd_free(name);
+    return output;
 }
 
 /* A missing folder would fail every job: complain once, before any work. */
@@ -133,12 +169,36 @@ static int run_job(cli_job *job, const char *input, ffd_report *report)
     settings *s = (settings *)job;
     if (!s->out_dir)
         return deform(s, input, s->output, report);
-    char *output = join(s->out_dir, name_of(input));
-    if (!output)
-        return ffd_status_exit_code(FFD_E_MEMORY);
-    const int code = deform(s, input, output, report);
+    char *const output = output_of(s, input);
+    const int code = output ? deform(s, input, output, report) : ffd_status_exit_code(FFD_E_MEMORY);
     free(output);
     return code;
+}
+
+static ffd_status add_output(const settings *s, job_plan *plan, const char *input, ffd_error *error)
+{
+    char *const output = s->out_dir ? output_of(s, input) : NULL;
+    const ffd_status status =
+        s->out_dir && !output ? FFD_E_MEMORY : ffd_plan_write(plan, input, output ? output : input, error);
+    free(output);
+    return status;
+}
+
+/* Refuses jobs of which one reads what another one writes. Returns 0, or an exit code after a complaint. */
+static int refuse_conflicts(settings *s, const cli_words *inputs)
+{
+    job_plan plan = {0};
+    ffd_error error = {.status = FFD_E_MEMORY, .message = "out of memory"};
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < inputs->count && !status; i++)
+        status = add_output(s, &plan, inputs->words[i], &error);
+    for (size_t i = 0; i < inputs->count && !status; i++) {
+        ffd_deform_desc desc;
+        cli_job_describe(&s->job, inputs->words[i], &desc);
+        status = ffd_plan_read(&plan, i, &desc, &error);
+    }
+    ffd_plan_free(&plan);
+    return status ? cli_fail(&error) : EXIT_DONE;
 }
 
 /* Whether all words are IN; else they are IN and OUT. */
@@ -211,7 +271,7 @@ static int refuse(const cli_command *command, settings *s, const cli_words *word
     }
     if (!has_many(s))
         return EXIT_DONE;
-    const int code = refuse_equal_outputs(words, s->out_dir ? compare_names : compare_paths);
+    const int code = refuse_equal_outputs(s, words);
     return code || !s->out_dir || words->count == 1 ? code : refuse_missing_folder(s->out_dir);
 }
 
@@ -236,7 +296,9 @@ static int act(const cli_command *command, void *context, const cli_words *words
 {
     settings *const s = context;
     const size_t inputs = has_many(s) || !words->count ? words->count : 1;
-    const int code = refuse(command, s, words, inputs);
+    int code = refuse(command, s, words, inputs);
+    if (!code && inputs > 1)
+        code = refuse_conflicts(s, words);
     return code ? code : run_all(s, words, inputs);
 }
 

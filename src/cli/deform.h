@@ -13,6 +13,7 @@ typedef struct cli_deform_settings {
     ffd_depfile *depfile; /* NULL: not wanted */
     int resources;
     ffd_format output_format;
+    const char *output_ending; /* as it was given; NULL: none */
     bool force, if_changed, in_place;
     bool no_output; /* job of a batch: write no mesh, only positions */
 } cli_deform_settings;

@@ -62,6 +62,7 @@ static const cli_option options[] = {
     {"isa", 0, "auto|scalar|sse2|avx2|avx512", "instruction set; never changes the output; default auto",
      cli_set_choice, AT(job.isa), cli_isa_names},
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(job.memory), NULL},
+    {"timeout", 0, "SECONDS", CLI_TIMEOUT, cli_set_positive, AT(job.timeout), NULL},
     {"allow-extension", 0, "NAME", CLI_ALLOW_EXTENSION, cli_add_name, AT(job.allowed), NULL},
     {"strict", 0, NULL, CLI_STRICT, cli_set_flag, AT(job.strict), NULL},
     {"input-format", 0, "FORMAT", CLI_FORMATS "; needed for -", cli_set_format, AT(job.input_format), NULL},

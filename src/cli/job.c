@@ -149,6 +149,7 @@ const cli_option cli_job_options[] = {
      "instruction set of the kernels; never changes the output; default auto", cli_set_choice, AT(isa),
      cli_isa_names},
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
+    {"timeout", 0, "SECONDS", CLI_TIMEOUT, cli_set_positive, AT(timeout), NULL},
     {"allow-extension", 0, "NAME", CLI_ALLOW_EXTENSION, cli_add_name, AT(allowed), NULL},
     {"strict", 0, NULL, CLI_STRICT, cli_set_flag, AT(strict), NULL},
     {"input-format", 0, "FORMAT", CLI_FORMATS "; needed for -", cli_set_format, AT(input_format), NULL},
@@ -163,6 +164,7 @@ static void free_morphs(cli_job *job)
     for (size_t i = 0; i < job->morph_count; i++)
         free((char *)(uintptr_t)job->morphs[i]);
     free(job->morphs);
+    ffd_intern_free(&job->morph_names);
     free(job->morph_results);
     cli_names_free(&job->clips);
 }
@@ -323,6 +325,7 @@ void cli_job_describe(cli_job *job, const char *input, ffd_deform_desc *desc)
     desc->only_count = job->only.count;
     desc->threads = job->threads;
     desc->isa = (ffd_isa)job->isa;
+    desc->timeout = job->timeout;
     desc->written = job->written;
     desc->share = job->share;
     desc->shared_box = job->shared_box;

@@ -13,13 +13,14 @@ typedef struct cli_job {
     cli_values values;
     cli_names only, allowed; /* selectors; extensions */
     int outside, normals, space, rig;
-    double falloff; /* 0: not given */
+    double falloff, timeout; /* 0: not given */
     cli_distance snap;
     bool blocks;
     const char *embedding;
     const char *as_morph;
     const char **morphs; /* morph_count names, owned: of the targets that the lattices make */
     size_t morph_count;
+    intern_table morph_names;
     cli_names clips;
     ffd_job_result *morph_results; /* of the last job, morph_count entries */
     unsigned fail_on;              /* bits of ffd_gate, with limits: */

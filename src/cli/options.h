@@ -11,6 +11,9 @@
 /* What --memory does. */
 #define CLI_MEMORY "memory for mesh and lattices, as 4G; default 100M (views: 400M) and 20 times their files"
 
+/* What --timeout does. */
+#define CLI_TIMEOUT "a job that takes longer ends with exit 7, and nothing is written"
+
 /* What --strict does. */
 #define CLI_STRICT "refuse what the format's specification calls an error even where its meaning is plain"
 

@@ -3,14 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool is_set(const cli_values *values, const char *name, size_t length)
-{
-    for (size_t i = 0; i < values->count; i++)
-        if (strlen(values->set[i].name) == length && memcmp(values->set[i].name, name, length) == 0)
-            return true;
-    return false;
-}
-
 /* Parses NAME=VALUE. */
 bool cli_add_value(void *settings, const cli_option *option, const char *value)
 {
@@ -21,11 +13,13 @@ bool cli_add_value(void *settings, const cli_option *option, const char *value)
         return false;
     }
     const size_t length = (size_t)(equals - value);
-    if (is_set(values, value, length)) {
+    uint32_t number;
+    const bool is_known = ffd_intern(&values->known, value, length, &number);
+    if (is_known && number < values->count) {
         cli_complain("--%s: \"%.*s\" is set twice", option->name, (int)length, value);
         return false;
     }
-    char *const name = malloc(length + 1);
+    char *const name = is_known ? malloc(length + 1) : NULL;
     ffd_setting *const grown = realloc(values->set, (values->count + 1) * sizeof *grown);
     values->set = grown ? grown : values->set;
     if (!name || !grown) {
@@ -44,5 +38,6 @@ void cli_values_free(cli_values *values)
     for (size_t i = 0; i < values->count; i++)
         free((char *)(uintptr_t)values->set[i].name);
     free(values->set);
+    ffd_intern_free(&values->known);
     *values = (cli_values){0};
 }

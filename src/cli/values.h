@@ -2,6 +2,7 @@
 #ifndef FFD_CLI_VALUES_H
 #define FFD_CLI_VALUES_H
 
+#include "base/memory/intern.h"
 #include "cli/options.h"
 #include <ffd/lattice.h>
 
@@ -9,6 +10,7 @@
 typedef struct cli_values {
     ffd_setting *set; /* count entries; their names are owned */
     size_t count;
+    intern_table known; /* their names */
 } cli_values;
 
 /* A setter: adds to the cli_values at the option's offset. */

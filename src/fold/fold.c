@@ -3,6 +3,7 @@
 
 #include "base/memory/memory.h"
 #include "base/struct_size.h"
+#include "base/system/deadline.h"
 #include "base/system/thread.h"
 #include "fold/affine/affine.h"
 #include "fold/cell.h"
@@ -52,6 +53,12 @@ static bool is_better(const tile_verdict *tile, const cell_verdict *witness, siz
 static void decide(fold_work *work, size_t cell, long boxes, int worker, tile_verdict *result)
 {
     cell_verdict verdict;
+    if (ffd_deadline_passed()) { /* then the proof fails as a whole */
+        work->lower[cell] = -DBL_MAX;
+        work->verdicts[cell] = FFD_FOLDS_UNKNOWN;
+        result->unknown++;
+        return;
+    }
     ffd_cell_decide(&work->plan, cell, boxes, work->scratch[worker], &verdict);
     work->lower[cell] = verdict.lower;
     work->verdicts[cell] = (unsigned char)verdict.verdict;
@@ -239,6 +246,9 @@ static ffd_status find(const ffd_lattice *lattice, int threads, ffd_folds *folds
         goto out;
     folds->relative_to = work.plan.volume.is_mean ? FFD_FOLDS_TO_MEAN : FFD_FOLDS_TO_BOUNDS;
     decide_all(&work);
+    status = ffd_deadline_check(error);
+    if (status)
+        goto out;
     folds->min_det = refine(&work, join_tiles(&work, folds));
     if (folds->has_witness) /* the witness' value can be below the bound by rounding */
         folds->min_det = fmin(folds->min_det, folds->witness_det);

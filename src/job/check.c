@@ -7,10 +7,6 @@ static ffd_status check(const ffd_deform_desc *desc, ffd_job_result *result, ffd
     ffd_status status = ffd_deform_job_begin(&job, desc, true, result);
     if (!status)
         status = ffd_deform_job_open(&job, result, &result->error);
-    /* Its output would be a glTF with one more morph target: the others of a glTF stay, and are not judged.
-     */
-    if (!status && desc->as_morph && job.document->format->keep_base)
-        job.document->keeps_base = true;
     if (!status)
         status = ffd_deform_job_run(&job, result, &result->error);
     return ffd_deform_job_end(&job, status, result, error);

@@ -2,17 +2,22 @@
 #include "base/file/mapping.h"
 #include "base/file/memory_files.h"
 #include "base/file/path.h"
+#include "base/memory/memory.h"
 #include "base/system/clock.h"
 #include "io/formats.h"
 #include "job/chain/job_cache.h"
 #include "job/conversion.h"
 #include "job/deform_job.h"
+#include "job/input/deform_desc.h"
 #include "job/input/shown_box.h"
 #include "job/input/source.h"
 #include "job/judge/result.h"
 #include "job/morphs.h"
+#include "job/reads.h"
 #include "job/report/depfile.h"
 #include "job/report/output_set.h"
+#include "job/sharing.h"
+#include "mesh/resource/beside.h"
 #include <string.h>
 
 /* Restores files that a killed run had set aside, before they are read. */
@@ -42,7 +47,7 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
                                    .force = desc->force || desc->if_changed,
                                    .resources = desc->resources,
                                    .input = input};
-    if (!ffd_deform_job_writes(desc)) {
+    if (!ffd_deform_desc_writes(desc)) {
         const ffd_status status = check_no_output(desc, error);
         return status ? status : ffd_source_format(&desc->input, &options->format, error);
     }
@@ -202,24 +207,48 @@ static ffd_status save(deform_job *job, const mesh_save_options *options, ffd_er
     return status;
 }
 
+/* Refuses a conversion whose other files cannot be written. */
+static ffd_status rehearse_conversion(deform_job *job, const mesh_save_options *options, ffd_error *error)
+{
+    const mesh_format *const to = ffd_format_table(options->format);
+    beside_names names = {.options = options, .log = &job->log};
+    ffd_format from;
+    if (!to->count_beside || ffd_output_is_stream(options->path))
+        return FFD_OK;
+    ffd_status status = ffd_source_format(&job->desc->input, &from, error);
+    const size_t count = status ? 0 : to->count_beside(NULL, from, options->format);
+    for (size_t i = 0; i < count && !status; i++) {
+        char *path;
+        status = ffd_beside_next(&names, NULL, NULL, &path, error);
+        if (!status)
+            status = ffd_output_check(path, options->force, error);
+        ffd_free(path);
+    }
+    return status;
+}
+
 /* Refuses an output whose other files cannot be written, as writing would. */
 static ffd_status rehearse(deform_job *job, const mesh_save_options *options, ffd_error *error)
 {
-    const mesh_format *const format = job->document->format, *const to = ffd_format_table(options->format);
-    ffd_format from;
-    path_list files = {0};
-    if (!ffd_conversion_needed(job->document, options->format))
-        return format->check_save ? format->check_save(job->document, options, NULL, &job->log, error)
-                                  : FFD_OK;
-    if (!to->list_beside || ffd_output_is_stream(options->path))
-        return FFD_OK;
-    ffd_status status = ffd_source_format(&job->desc->input, &from, error);
-    if (!status)
-        status = to->list_beside(options->path, to->count_beside(NULL, from, options->format), &files, error);
-    for (size_t i = 0; i < files.count && !status; i++)
-        status = ffd_output_check(files.paths[i], options->force, error);
-    ffd_paths_free(&files);
-    return status;
+    const mesh_format *const format = job->document->format;
+    if (ffd_conversion_needed(job->document, options->format))
+        return rehearse_conversion(job, options, error);
+    return format->check_save ? format->check_save(job->document, options, NULL, &job->log, error) : FFD_OK;
+}
+
+static const char *name_of_format(ffd_format format)
+{
+    return format == FFD_FORMAT_GLB ? "GLB" : ffd_format_table(format)->name;
+}
+
+/* Programs go by the ending. */
+static void warn_of_ending(const deform_job *job, const mesh_save_options *options)
+{
+    const ffd_format ending = ffd_format_from_name(options->path);
+    if (ending != FFD_FORMAT_AUTO && ending != options->format)
+        ffd_log_line(&job->log, FFD_LOG_WARNING, "%s is written as %s, although its ending says %s",
+                     ffd_file_display_name(options->path), name_of_format(options->format),
+                     name_of_format(ending));
 }
 
 static ffd_status check_morph(const deform_job *job, const mesh_save_options *options, ffd_error *error)
@@ -261,6 +290,33 @@ static bool needs_only_positions(const ffd_deform_desc *desc, const mesh_save_op
            ffd_source_format(&desc->input, &input, NULL) == FFD_OK && input == options->format;
 }
 
+/* Refuses to replace what the job reads through its mesh and its lattices. */
+static ffd_status check_reads(const deform_job *job, const char *output, ffd_error *error)
+{
+    const ffd_deform_desc *const desc = job->desc;
+    if (!ffd_deform_desc_writes(desc) || desc->in_place)
+        return FFD_OK;
+    const ffd_status status = ffd_job_check_mesh_files(output, &desc->input, job->document, error);
+    return status ? status : ffd_job_check_box_files(output, &job->chain, desc->lattices, error);
+}
+
+/* Saves the result; a dry run only looks whether that would be refused. */
+static ffd_status write_output(deform_job *job, mesh_save_options *options, ffd_job_result *result,
+                               ffd_error *error)
+{
+    const double start = ffd_clock_seconds();
+    job_sharing sharing;
+    ffd_sharing_begin(&sharing, job->desc, job->document, options->path, options->format, &options->sharing);
+    options->indices_left = &result->indices_left;
+    options->bytes_left = &result->bytes_left;
+    options->bounds_left = &result->bounds_left;
+    const ffd_status status = job->desc->dry_run ? rehearse(job, options, error) : save(job, options, error);
+    ffd_sharing_end(&sharing);
+    if (!job->desc->dry_run)
+        result->seconds_write = ffd_clock_seconds() - start;
+    return status;
+}
+
 static ffd_status run(deform_job *job, ffd_job_result *result, ffd_error *error)
 {
     mesh_save_options options;
@@ -275,6 +331,8 @@ static ffd_status run(deform_job *job, ffd_job_result *result, ffd_error *error)
     if (!status)
         status = ffd_deform_job_open(job, result, error);
     if (!status)
+        status = check_reads(job, options.path, error);
+    if (!status)
         status = check_rig(job, &options, error);
     if (!status)
         status = ffd_conversion_check(job->document, options.format, error);
@@ -285,16 +343,10 @@ static ffd_status run(deform_job *job, ffd_job_result *result, ffd_error *error)
     if (!status)
         status =
             job->desc->morphs ? ffd_morphs_run(job, result, error) : ffd_deform_job_run(job, result, error);
-    if (status || !ffd_deform_job_writes(job->desc))
+    if (status || !ffd_deform_desc_writes(job->desc))
         return status;
-    if (job->desc->dry_run)
-        return rehearse(job, &options, error);
-    const double start = ffd_clock_seconds();
-    options.indices_left = &result->indices_left;
-    options.bytes_left = &result->bytes_left;
-    status = save(job, &options, error);
-    result->seconds_write = ffd_clock_seconds() - start;
-    return status;
+    warn_of_ending(job, &options);
+    return write_output(job, &options, result, error);
 }
 
 static ffd_status run_job(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
@@ -313,7 +365,7 @@ static ffd_status deform(const ffd_deform_desc *desc, ffd_job_result *result, ff
 {
     ffd_share *share = NULL;
     ffd_deform_desc own = *desc;
-    if (!ffd_deform_job_writes(desc)) /* normals are not written */
+    if (!ffd_deform_desc_writes(desc)) /* normals are not written */
         own.normals = FFD_NORMALS_KEEP;
     if (!desc->morphs || ffd_cache_holds_meshes(desc->share))
         return run_job(&own, result, error);

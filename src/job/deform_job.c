@@ -3,12 +3,14 @@
 #include "base/memory/memory.h"
 #include "base/struct_size.h"
 #include "base/system/clock.h"
+#include "base/system/deadline.h"
 #include "base/system/thread.h"
 #include "base/vector/isa.h"
 #include "job/chain/chain_load.h"
 #include "job/chain/job_cache.h"
 #include "job/chain/lattice_memory.h"
 #include "job/chain/overlaps.h"
+#include "job/deform_passes.h"
 #include "job/input/deform_desc.h"
 #include "job/input/in_memory.h"
 #include "job/input/selection.h"
@@ -17,10 +19,10 @@
 #include "job/judge/figures.h"
 #include "job/judge/gates.h"
 #include "job/judge/result.h"
+#include "job/judge/still.h"
 #include "job/judge/tear_figures.h"
 #include "job/pass/chain_fit.h"
 #include "job/pass/pass.h"
-#include "job/pass/recompute.h"
 #include "job/report/output_set.h"
 #include "job/rig/rig_figures.h"
 #include <math.h>
@@ -99,6 +101,8 @@ static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
         return ffd_fail(error, FFD_E_ARGUMENT, "the falloff %g is not a length", desc->falloff);
     if (!(desc->snap >= 0 && isfinite(desc->snap)))
         return ffd_fail(error, FFD_E_ARGUMENT, "the snap %g is not a length", desc->snap);
+    if (!(desc->timeout >= 0))
+        return ffd_fail(error, FFD_E_ARGUMENT, "the timeout %g is not a time", desc->timeout);
     if (desc->falloff > 0 && desc->outside != FFD_OUTSIDE_EXTEND)
         return ffd_fail(error, FFD_E_ARGUMENT, "--falloff needs --outside extend");
     if (desc->positions && desc->morphs)
@@ -151,7 +155,9 @@ static ffd_status run_in_memory(deform_job_function run, ffd_deform_desc *desc, 
 {
     const char *const *const lattices = desc->lattices;
     job_memory memory = {0};
-    ffd_status status = ffd_in_memory_desc(&memory, desc, &result->error);
+    ffd_status status = ffd_chain_check_count(desc->lattice_count, &result->error);
+    if (!status)
+        status = ffd_in_memory_desc(&memory, desc, &result->error);
     if (!status)
         status = run_own(run, desc, result, size, &result->error);
     status = ffd_in_memory_judge(&memory, status, &result->error);
@@ -171,9 +177,12 @@ ffd_status ffd_job_for_caller(deform_job_function run, const ffd_deform_desc *ca
     if (status)
         return status;
     const size_t size = callers_result->struct_size;
+    deadline own;
     status = ffd_deform_desc_take(callers, &desc, &result.error);
+    const deadline *const before = ffd_deadline_begin(&own, status ? 0 : desc.timeout);
     if (!status)
         status = run_in_memory(run, &desc, &result, size);
+    ffd_deadline_end(before);
     if (status && error)
         *error = result.error;
     result.status = status;
@@ -249,11 +258,17 @@ ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_erro
     job->document_is_shared = job->document;
     if (!status && !job->document)
         status = open_mesh(job, error);
+    /* Nothing is saved, but a deformation would add a morph target, and keep the others, which are not
+       judged. */
+    if (!status && job->check && desc->as_morph && job->document->format->keep_base)
+        job->document->keeps_base = true;
     if (!status && desc->rig == FFD_RIG_FOLLOW && !job->document->format->follow)
         status = ffd_fail_file(error, FFD_E_ARGUMENT, ffd_source_name(&desc->input),
                                "has no nodes that could follow: only glTF has (--rig follow)");
     if (!status)
         ffd_result_note_flaws(result, &job->document->flaws);
+    if (!status)
+        status = ffd_deadline_check(error);
     for (size_t l = 0; l < job->chain.count; l++)
         result->own_box = result->own_box || !job->chain.links[l].locator;
     result->seconds_read = ffd_clock_seconds() - start;
@@ -266,24 +281,6 @@ static bool has_normals(const mesh_document *document)
         if (document->parts[i].normal_count)
             return true;
     return false;
-}
-
-static bool wants_figures(const deform_job *job)
-{
-    return job->check || job->desc->quality || job->desc->fail_on & (FFD_GATE_FLIPPED | FFD_GATE_EDGES);
-}
-
-/* The gate of folds also checks det F at extended vertices. */
-static bool wants_determinants(const deform_job *job)
-{
-    return wants_figures(job) ||
-           (job->desc->fail_on & FFD_GATE_FOLDS && job->desc->outside == FFD_OUTSIDE_EXTEND);
-}
-
-/* Whether the output is the shape with default weights of morph targets, as in conversions. */
-static bool converts_shown(const deform_job *job)
-{
-    return job->document->converted && ffd_mesh_shows_shapes(job->document);
 }
 
 /* A gate that depends on faces fails if some faces are unknown. */
@@ -311,8 +308,27 @@ static ffd_status prepare_positions(deform_job *job, memory_budget *budget, ffd_
     return job->positions ? FFD_OK : ffd_fail_memory(error);
 }
 
+/* Reads the faces at rest, and allocates the arrays of the figures and of recomputed normals: in stored, if
+   the normals are those of another shape than the figures. */
+static ffd_status prepare_arrays(deform_job *job, figure_arrays *arrays, figure_arrays *stored,
+                                 ffd_error *error)
+{
+    const bool both = ffd_passes_judge_shown(job) && !ffd_passes_write_shown(job);
+    ffd_status status = FFD_OK;
+    job->document->shown = ffd_passes_judge_shown(job);
+    if (ffd_figures_wanted(job) || (job->recomputes && !both))
+        status = ffd_figures_prepare(job, arrays, error);
+    job->document->shown = false;
+    if (status || !job->recomputes || !both)
+        return status;
+    stored->budget = arrays->budget;
+    status = ffd_figures_prepare(job, stored, error);
+    arrays->budget = stored->budget;
+    return status;
+}
+
 /* Refuses what can be refused before vertices are processed, and allocates the results. */
-static ffd_status prepare(deform_job *job, figure_arrays *arrays, ffd_error *error)
+static ffd_status prepare(deform_job *job, figure_arrays *arrays, figure_arrays *stored, ffd_error *error)
 {
     const bool attributes = job->desc->normals != FFD_NORMALS_KEEP;
     const mesh_format *format = job->document->format;
@@ -322,7 +338,7 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, ffd_error *err
     if (!status)
         status = ffd_mesh_warn(job->document, &job->file_log, error);
     job->recomputes = job->desc->normals == FFD_NORMALS_RECOMPUTE && has_normals(job->document);
-    job->document->results_replace = !ffd_cache_holds_meshes(job->desc->share) && !wants_figures(job) &&
+    job->document->results_replace = !ffd_cache_holds_meshes(job->desc->share) && !ffd_figures_wanted(job) &&
                                      !job->recomputes && !job->desc->morphs;
     if (!status)
         status = format->begin_results(job->document, attributes, attributes, error);
@@ -331,13 +347,11 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, ffd_error *err
     arrays->budget = job->document->budget;
     if (!status)
         status = ffd_lattice_memory_share(&job->chain, &arrays->budget, error);
-    job->document->shown = converts_shown(job);
-    if (!status && (wants_figures(job) || job->recomputes))
-        status = ffd_figures_prepare(job, arrays, error);
+    if (!status)
+        status = prepare_arrays(job, arrays, stored, error);
     if (!status && job->details)
         status = ffd_details_begin(job->details, (size_t)ffd_mesh_vertex_count(job->document),
                                    &arrays->budget, error);
-    job->document->shown = false;
     if (!status)
         status = prepare_positions(job, &arrays->budget, error);
     job->threads =
@@ -356,17 +370,10 @@ static ffd_status locate(deform_job *job, ffd_error *error)
                                &job->embedding, error);
 }
 
-bool ffd_deform_job_writes(const ffd_deform_desc *desc)
-{
-    return desc->in_place || desc->output || !desc->positions;
-}
-
-/* Whether nodes and other places matter: conversions, morph targets and arrays of positions do not contain
-   them. */
+/* Whether nodes and other places matter: conversions and arrays of positions do not contain them. */
 static bool has_rig(const deform_job *job)
 {
-    return !job->desc->as_morph && (job->check || ffd_deform_job_writes(job->desc)) &&
-           (!job->document->converted || job->details);
+    return (job->check || ffd_deform_desc_writes(job->desc)) && (!job->document->converted || job->details);
 }
 
 /* Finds how the lattices move the document's places (nodes, joints, sockets), and with --rig follow moves
@@ -390,6 +397,7 @@ static ffd_status find_left(deform_job *job, ffd_job_result *result, ffd_error *
     const ffd_status status = ffd_behind_find(job, result, error);
     return status ? status
                   : ffd_rig_figures_find(job->document, &job->rig, &job->following,
+                                         job->desc->as_morph ? RIG_KINDS_OF_MORPHS : RIG_KINDS,
                                          ffd_rig_diagonal(&result->before), &result->rig, error);
 }
 
@@ -398,92 +406,11 @@ static void warn_of_left(const deform_job *job, const ffd_job_result *result)
     const double diagonal = ffd_rig_diagonal(&result->before);
     ffd_behind_warn(result, job->desc->rig, &job->log);
     if (job->totals.moved > 0)
-        ffd_rig_warn(&result->rig, job->desc->rig == FFD_RIG_FOLLOW, diagonal, &job->log);
-}
-
-/* Hashes all that determines the locations of a mesh's vertices in a link. */
-static hash128 located_in(const chain_link *link)
-{
-    const hash128 parts[] = {link->rest, ffd_hash_doubles(&link->snap, 1)};
-    return ffd_hash(parts, sizeof parts);
-}
-
-/* Deforms the shape with default weights. job->totals then holds the counts of base and targets, but the
-   figures of the output come from this pass. */
-static ffd_status deform_shown(deform_job *job, const mesh_pass *first, ffd_error *error)
-{
-    mesh_pass pass = *first;
-    pass_totals totals;
-    pass.embedding = NULL; /* it belongs to the base shape */
-    pass.locations = NULL;
-    pass.is_located = false;
-    job->document->shown = true;
-    const ffd_status status = ffd_pass_run(&pass, &totals, error);
-    job->totals.moved = totals.moved;
-    job->totals.first_overflow = totals.first_overflow;
-    job->totals.normals_collapsed = totals.normals_collapsed;
-    job->totals.det_min = totals.det_min;
-    job->totals.det_max = totals.det_max;
-    return status;
-}
-
-/* Sends base and morph targets through the chain. If the output is the shape with default weights, they are
-   only counted, and that shape is deformed. */
-static ffd_status send(deform_job *job, const mesh_pass *pass, ffd_error *error)
-{
-    if (!converts_shown(job))
-        return ffd_pass_run(pass, &job->totals, error);
-    mesh_pass counting = *pass;
-    counting.write = counting.attributes = counting.determinants = false;
-    counting.counts_shapes = true;
-    counting.deformed = job->positions;
-    counting.gradients = NULL;
-    const ffd_status status = ffd_pass_run(&counting, &job->totals, error);
-    return status ? status : deform_shown(job, pass, error);
-}
-
-static ffd_status deform(deform_job *job, const figure_arrays *arrays, ffd_error *error)
-{
-    const bool keeps = job->chain.count == 1 && !job->desc->embedding && !job->forgets_locations;
-    ffd_share *const share = keeps ? job->desc->share : NULL;
-    const hash128 rest = located_in(&job->chain.links[0]);
-    bool is_located;
-    ffd_location *const locations =
-        ffd_cache_locations(share, job->document, job->document_is_shared, &rest, &is_located);
-    const mesh_pass pass = {.document = job->document,
-                            .chain = &job->chain,
-                            .links = job->chain.count,
-                            .threads = job->threads,
-                            .locations = locations,
-                            .is_located = is_located,
-                            .embedding = job->desc->embedding ? &job->embedding : NULL,
-                            .write = true,
-                            .attributes = job->desc->normals != FFD_NORMALS_KEEP,
-                            .only_offsets = job->desc->normals == FFD_NORMALS_RECOMPUTE,
-                            .deformed = arrays->deformed      ? arrays->deformed
-                                        : converts_shown(job) ? NULL
-                                                              : job->positions,
-                            .gradients = arrays->gradients,
-                            .statuses = job->details ? job->details->statuses : NULL,
-                            .determinants = wants_determinants(job),
-                            .bounds_shown = true,
-                            .kept = job->kept,
-                            .kept_stride = (size_t)ffd_mesh_vertex_count(job->document)};
-    recompute_counts counts = {0};
-    if (!is_located && !job->desc->embedding)
-        ffd_cache_count_search(job->desc->share);
-    ffd_status status = send(job, &pass, error);
-    if (!status)
-        ffd_cache_locations_filled(share);
-    if (!status && job->positions && arrays->deformed && !converts_shown(job))
-        memcpy(job->positions, arrays->deformed,
-               (size_t)ffd_mesh_vertex_count(job->document) * 3 * sizeof *job->positions);
-    if (!status && job->recomputes && job->totals.moved)
-        status = ffd_recompute_normals(job->document, &arrays->faces, arrays->deformed, arrays->gradients,
-                                       &counts, error);
-    job->totals.normals_collapsed += counts.collapsed;
-    job->totals.normals_carried = counts.carried;
-    return status;
+        ffd_rig_warn(&result->rig,
+                     job->desc->as_morph                ? RIG_MORPHED
+                     : job->desc->rig == FFD_RIG_FOLLOW ? RIG_FOLLOWED
+                                                        : RIG_KEPT,
+                     diagonal, &job->log);
 }
 
 /* Computes the figures that take extra time, then applies the gates to all figures. */
@@ -493,11 +420,11 @@ static ffd_status judge(deform_job *job, figure_arrays *arrays, ffd_job_result *
     const char *name = ffd_source_name(&desc->input);
     const double start = ffd_clock_seconds();
     ffd_status status = ffd_policies_judge(desc, name, &job->chain, &job->totals, error);
-    if (!status && (wants_figures(job) || desc->fail_on & FFD_GATE_FOLDS))
+    if (!status && (ffd_figures_wanted(job) || desc->fail_on & FFD_GATE_FOLDS))
         status = ffd_figures_folds(&job->chain, job->threads, result, error);
     if (!status)
         status = ffd_tear_figures_find(job, arrays, result, error);
-    if (!status && wants_figures(job))
+    if (!status && ffd_figures_wanted(job))
         status = ffd_figures_faces(job, arrays, result, error);
     if (!status && job->details) /* check late, so that the picture can be drawn all the same */
         status = check_unknown(job, error);
@@ -532,28 +459,39 @@ static ffd_status give_positions(deform_job *job, ffd_error *error)
                   : FFD_OK;
 }
 
+/* Whether a word is needed if nothing moves: a check prints how many vertices move. */
+static bool tells_still(const deform_job *job)
+{
+    return !job->check || job->details;
+}
+
 ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error *error)
 {
-    figure_arrays arrays = {0};
+    figure_arrays arrays = {0}, stored = {0};
     const double start = ffd_clock_seconds();
-    ffd_status status = prepare(job, &arrays, error);
+    ffd_status status = prepare(job, &arrays, &stored, error);
     const double prepared = ffd_clock_seconds();
     result->seconds_read += prepared - start;
     if (!status)
+        status = ffd_deadline_check(error);
+    if (!status)
         status = locate(job, error);
     if (!status)
-        status = ffd_tear_figures_prepare(job, error);
+        status = ffd_tear_figures_prepare(job, &arrays, error);
     if (!status)
         status = move_rig(job, error);
     if (!status)
-        status = deform(job, &arrays, error);
+        status = ffd_passes_run(job, &arrays, &stored, error);
+    ffd_figures_free(&stored);
     if (!status) {
         ffd_result_fill(result, &job->totals, ffd_clock_seconds() - prepared);
         status = find_left(job, result, error);
     }
-    if (!status) {
+    if (!status)
         status = judge(job, &arrays, result, error);
-    }
+    if (!status)
+        status = ffd_deadline_check(error);
+    job->document->shown = job->document->shown && ffd_passes_write_shown(job);
     status = ffd_mapping_judge(job->losses, status, error);
     if (!status)
         ffd_flaws_warn(&job->document->flaws, NULL, &job->file_log);
@@ -561,6 +499,8 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
         status = ffd_overlaps_warn(&job->chain, &job->log, error);
     if (!status)
         ffd_result_warn(&job->totals, &job->chain, true, &job->log);
+    if (!status && tells_still(job))
+        ffd_still_warn(job, &result->before);
     if (!status)
         warn_of_left(job, result);
     if (!status && job->totals.vertices == 0)

@@ -17,9 +17,6 @@ ffd_status ffd_job_for_caller(deform_job_function run, const ffd_deform_desc *de
 ffd_status ffd_deform_job_begin(deform_job *job, const ffd_deform_desc *desc, bool check,
                                 ffd_job_result *result);
 
-/* Whether a deformation writes a mesh; else only its positions are wanted. */
-bool ffd_deform_job_writes(const ffd_deform_desc *desc);
-
 /* Loads the job's lattices into its chain; they are fitted later. share may be NULL. Errors: those of
    ffd_chain_load. */
 ffd_status ffd_deform_job_load_chain(deform_job *job, const chain_outside *outside, ffd_share *share,

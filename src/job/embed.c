@@ -9,6 +9,7 @@
 #include "io/npy/npy.h"
 #include "job/chain/chain_load.h"
 #include "job/chain/lattice_memory.h"
+#include "job/chain/pace.h"
 #include "job/input/deform_desc.h"
 #include "job/input/embedding_file.h"
 #include "job/input/in_memory.h"
@@ -16,6 +17,7 @@
 #include "job/judge/result.h"
 #include "job/pass/chain_fit.h"
 #include "job/pass/pass.h"
+#include "job/reads.h"
 #include <math.h>
 #include <string.h>
 
@@ -118,6 +120,19 @@ static ffd_status check_outputs(const ffd_embed_desc *desc, ffd_error *error)
     return status;
 }
 
+/* Refuses to replace what is read through the mesh and the lattice. */
+static ffd_status check_reads(const ffd_embed_desc *desc, const embedding *made, ffd_error *error)
+{
+    const char *const outputs[] = {desc->output, desc->status_output};
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < 2 && outputs[i] && !status; i++) {
+        status = ffd_job_check_mesh_files(outputs[i], &desc->input, NULL, error);
+        if (!status)
+            status = ffd_job_check_box_files(outputs[i], &made->chain, &desc->lattice, error);
+    }
+    return status;
+}
+
 /* Opens the mesh and fits the loaded lattice to it. */
 static ffd_status open_mesh(const ffd_embed_desc *desc, embedding *made, int threads, ffd_error *error)
 {
@@ -133,7 +148,8 @@ static ffd_status open_mesh(const ffd_embed_desc *desc, embedding *made, int thr
 }
 
 /* Allocates and fills the arrays. */
-static ffd_status make(embedding *made, int threads, pass_totals *totals, ffd_error *error)
+static ffd_status make(const ffd_embed_desc *desc, embedding *made, int threads, const mesh_log *log,
+                       pass_totals *totals, ffd_error *error)
 {
     made->count = (size_t)ffd_mesh_vertex_count(made->document);
     memory_budget budget = made->document->budget;
@@ -146,12 +162,20 @@ static ffd_status make(embedding *made, int threads, pass_totals *totals, ffd_er
     made->statuses = ffd_alloc(made->count, sizeof *made->statuses);
     if (!made->uvw || !made->statuses)
         return ffd_fail_memory(error);
+    threads = ffd_pass_threads(&budget, 0, threads);
+    chain_pace pace = {.points = (double)made->count,
+                       .threads = threads,
+                       .links = made->chain.links,
+                       .lattices = &desc->lattice,
+                       .more = "",
+                       .log = *log};
     const mesh_pass pass = {.document = made->document,
                             .chain = &made->chain,
                             .links = 1,
-                            .threads = ffd_pass_threads(&budget, 0, threads),
+                            .threads = threads,
                             .uvw = made->uvw,
-                            .statuses = made->statuses};
+                            .statuses = made->statuses,
+                            .pace = &pace};
     return ffd_pass_run(&pass, totals, error);
 }
 
@@ -178,7 +202,7 @@ static ffd_status embed(const ffd_embed_desc *desc, embedding *made, double star
         return status;
     const double opened = ffd_clock_seconds();
     result->seconds_read = opened - start;
-    status = make(made, threads, &totals, error);
+    status = make(desc, made, threads, &log, &totals, error);
     status = ffd_mapping_judge(made->losses, status, error);
     if (status)
         return status;
@@ -213,7 +237,9 @@ static ffd_status run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_er
         status = ffd_chain_load(&files, &outside, FFD_ISA_AUTO, NULL, &made.chain, error);
     if (status)
         return status;
-    status = embed(desc, &made, start, result, error);
+    status = check_reads(desc, &made, error);
+    if (!status)
+        status = embed(desc, &made, start, result, error);
     if (status)
         status = ffd_mapping_judge(made.losses, status, error);
     if (status && status != FFD_E_ARGUMENT)

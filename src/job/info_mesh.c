@@ -33,6 +33,16 @@ static void write_vertices(const mesh_document *document, json_text *json)
     ffd_info_bounds(json, "bounds", &facts.bounds);
 }
 
+/* Says why positions are missing, or not where they are shown: what the file needs is not supported. */
+static ffd_status write_reason(const mesh_document *document, json_text *json, ffd_error *error)
+{
+    ffd_error reason = {0};
+    const ffd_status status = document->format->check ? document->format->check(document, &reason) : FFD_OK;
+    if (status == FFD_E_UNSUPPORTED)
+        ffd_json_string(json, "positions_unknown", reason.message);
+    return status == FFD_E_MEMORY ? ffd_fail_memory(error) : FFD_OK;
+}
+
 static void write_topology(const mesh_faces *faces, const mesh_topology *topology, json_text *json)
 {
     ffd_json_object(json, "topology", false);
@@ -88,8 +98,11 @@ ffd_status ffd_info_document(const mesh_document *document, json_text *json, ffd
 {
     ffd_json_string(json, "mesh_format", document->format->name);
     write_vertices(document, json);
+    ffd_status status = write_reason(document, json, error);
+    if (status)
+        return status;
     ffd_json_object(json, "contents", false);
-    const ffd_status status = document->format->describe(document, json, error);
+    status = document->format->describe(document, json, error);
     ffd_json_end(json, '}');
     return status == FFD_OK ? survey_faces(document, json, error) : status;
 }

@@ -7,6 +7,7 @@
 #include "job/input/in_memory.h"
 #include "job/input/selection.h"
 #include "job/input/source.h"
+#include "job/reads.h"
 #include "lattice/lattice.h"
 #include <math.h>
 #include <string.h>
@@ -128,6 +129,11 @@ static ffd_status check_desc(const ffd_lattice_new_desc *desc, ffd_error *error)
     for (size_t i = 0; i < desc->mesh_count && !ffd_output_is_stream(desc->output); i++)
         if (ffd_file_same(desc->meshes[i].path, desc->output))
             return ffd_fail_file(error, FFD_E_ARGUMENT, desc->output, "the lattice would replace its mesh");
+    for (size_t i = 0; i < desc->mesh_count; i++) {
+        const ffd_status status = ffd_job_check_mesh_files(desc->output, &desc->meshes[i], NULL, error);
+        if (status)
+            return status;
+    }
     return ffd_output_check(desc->output, desc->force, error);
 }
 

@@ -164,12 +164,12 @@ ffd_status ffd_json_read_object(json_cursor cursor, const char *const *known, si
     json_cursor member = cursor;
     for (member.value = ffd_json_span_first(cursor.tree, cursor.value); ffd_cursor_exists(member);
          member.value = ffd_json_span_after(member.tree, member.value)) {
-        char key[81];
+        char key[81], hint[300];
         if (is_known(member, known, count))
             continue;
         read_key(member, key, sizeof key);
-        return ffd_cursor_fail(member, "unknown key \"%s\"; the nearest known one is \"%s\"", key,
-                               ffd_nearest_word(key, known, count));
+        ffd_words_hint(key, known, count, hint, sizeof hint);
+        return ffd_cursor_fail(member, "unknown key \"%s\"; %s", key, hint);
     }
     return FFD_OK;
 }
@@ -223,10 +223,10 @@ ffd_status ffd_json_read_word(json_cursor cursor, const char *const *words, size
     if (!ffd_cursor_is(cursor, JSON_STRING))
         return ffd_cursor_fail(cursor, "must be a word like \"%s\", not %s", words[0],
                                ffd_json_describe(cursor).text);
-    char text[81];
+    char text[81], hint[300];
     read_text(cursor, text, sizeof text);
-    return ffd_cursor_fail(cursor, "unknown word \"%s\"; the nearest known one is \"%s\"", text,
-                           ffd_nearest_word(text, words, count));
+    ffd_words_hint(text, words, count, hint, sizeof hint);
+    return ffd_cursor_fail(cursor, "unknown word \"%s\"; %s", text, hint);
 }
 
 ffd_status ffd_json_require(json_cursor object, const char *key, json_cursor *member)

@@ -72,6 +72,25 @@ bool ffd_json_span_number(const json_span *tree, uint32_t value, double *number)
                             number) != NULL;
 }
 
+#define NUL_SYMBOL "\xe2\x90\x80" /* U+2400 */
+
+/* Replaces U+0000, at which a C string would end, by its symbol. There is room: the escape was longer. */
+static void show_nuls(char *text, size_t length)
+{
+    const size_t symbol = sizeof NUL_SYMBOL - 1;
+    size_t nuls = 0;
+    for (size_t i = 0; i < length; i++)
+        nuls += text[i] == 0;
+    size_t to = length + nuls * (symbol - 1);
+    text[to] = 0;
+    for (size_t from = length; nuls > 0;) {
+        const char c = text[--from];
+        to -= c ? 1 : symbol;
+        memcpy(text + to, c ? &c : NUL_SYMBOL, c ? 1 : symbol);
+        nuls -= c == 0;
+    }
+}
+
 /* Decodes the string whose quotes are at begin and end - 1. */
 static char *decode(const json_span *tree, uint32_t begin, uint32_t end, size_t *size)
 {
@@ -82,6 +101,8 @@ static char *decode(const json_span *tree, uint32_t begin, uint32_t end, size_t 
     const size_t length = ffd_json_decode(tree->text + begin + 1, tree->text + end - 1, text, capacity);
     if (size)
         *size = length;
+    else
+        show_nuls(text, length);
     return text;
 }
 

@@ -53,12 +53,19 @@ uint32_t ffd_json_span_first(const json_span *tree, uint32_t container);
 /* Returns the member or element after `value`; JSON_NONE at the end. */
 uint32_t ffd_json_span_after(const json_span *tree, uint32_t value);
 
+/* Returns the number of members or elements of a container; 0 if value is JSON_NONE. */
+static inline size_t ffd_json_span_count(const json_span *tree, uint32_t value)
+{
+    return value == JSON_NONE ? 0 : tree->values[value].count;
+}
+
 /* Reads a number. Returns false if the value is not a number. An overflow gives an infinity. */
 bool ffd_json_span_number(const json_span *tree, uint32_t value, double *number);
 /* Returns the decoded string in UTF-8 with a final 0; free it with ffd_free. *size is its length, which tells
-   whether it contains a 0; size may be NULL. Returns NULL if memory runs out. */
+   whether it contains a 0. size may be NULL: U+0000 is then replaced by its symbol, U+2400, so that the text
+   neither ends there nor equals one without it. Returns NULL if memory runs out. */
 char *ffd_json_span_string(const json_span *tree, uint32_t value, size_t *size);
-/* The same for the key of a value. */
+/* The same for the key of a value, with that symbol. */
 char *ffd_json_span_key(const json_span *tree, uint32_t value);
 /* Returns whether the key of a value equals text. */
 bool ffd_json_span_key_is(const json_span *tree, uint32_t value, const char *text);

@@ -128,12 +128,13 @@ static inline uint32_t ffd_faces_number(const mesh_faces *faces, uint32_t vertex
 
 /* A thing at a point of the file that is not a vertex: a joint, a camera and so on. */
 typedef struct mesh_place {
-    double at[3];   /* position in the space of the lattice */
-    unsigned kinds; /* a set of PLACE_BIT; 0: no kind, but follow moves it */
-    bool stays;     /* follow does not move it, even if it moves its parent */
-    bool partial;   /* because its mesh is selected only in part */
-    unsigned holds; /* a set of PLACE_HOLDS: sizes that do not follow */
-    size_t number;  /* number for place_name */
+    double at[3];    /* position in the space of the lattice */
+    unsigned kinds;  /* a set of PLACE_BIT; 0: no kind, but follow moves it */
+    bool stays;      /* follow does not move it, even if it moves its parent */
+    bool partial;    /* because its mesh is selected only in part */
+    bool unselected; /* it, or what it places, is not selected: this stays */
+    unsigned holds;  /* a set of PLACE_HOLDS: sizes that do not follow */
+    size_t number;   /* number for place_name */
 } mesh_place;
 #define PLACE_BIT(kind) (1u << (kind)) /* the bit of an ffd_behind_kind */
 
@@ -158,6 +159,8 @@ typedef struct mesh_following {
     uint64_t partial;  /* nodes that stay because their meshes are selected only in part */
     uint64_t unscaled; /* nodes with sizes that do not follow: physics shapes, spring bones, offsets of eyes,
                           splats */
+    uint64_t unselected;  /* nodes that stay because they are not selected, below a node that moves */
+    double unselected_by; /* the largest distance from where that node would carry one of them */
 } mesh_following;
 
 typedef struct mesh_places {
@@ -187,12 +190,24 @@ void ffd_mesh_faces_free(mesh_faces *faces);
 /* The normal index of a corner without a normal. */
 #define MESH_NO_NORMAL UINT32_MAX
 
+/* Finds which models name a file, other than the output: the first ones are added to `names`, *count is their
+   number. *by_output: whether the model that the output replaces names it. */
+typedef ffd_status mesh_find_users_function(void *context, const char *file, const char *output,
+                                            size_t *count, bool *by_output, path_list *names,
+                                            ffd_error *error);
+typedef struct mesh_sharing {
+    mesh_find_users_function *find;
+    void *context;
+    bool is_cheap; /* find reads no files */
+} mesh_sharing;
+
 typedef struct mesh_save_options {
     const char *path; /* "-": standard output */
     ffd_format format;
     bool force;
     ffd_resources resources;
     const char *input; /* file of the document, which a conversion must not replace; NULL or "-": none */
+    const mesh_sharing *sharing; /* models that may share buffers with the output; NULL: none */
     /* Receives further files of the output with unchanged content: images and material libraries that are
        copied next to it, or exist already. May be NULL. */
     path_list *copied;
@@ -201,6 +216,7 @@ typedef struct mesh_save_options {
     /* Receives the number of bytes of replaced morph targets and animations that stay in the file unused. May
        be NULL. */
     uint64_t *bytes_left;
+    uint64_t *bounds_left; /* receives the number of bounds in extensions that no longer fit; may be NULL */
 } mesh_save_options;
 
 /* x = linear p + offset, in place. */
@@ -227,8 +243,9 @@ typedef ffd_status mesh_list_files_function(const mesh_document *document, path_
 typedef ffd_status mesh_find_resources_function(const char *path, const file_input *bytes, path_list *files,
                                                 ffd_error *error);
 typedef size_t mesh_count_beside_function(const file_input *bytes, ffd_format from, ffd_format to);
-typedef ffd_status mesh_list_beside_function(const char *output, size_t count, path_list *files,
-                                             ffd_error *error);
+typedef char *mesh_name_beside_function(const char *output, size_t number);
+typedef ffd_status mesh_find_named_function(const char *path, const file_input *bytes, path_list *files,
+                                            path_list *copies, ffd_error *error);
 typedef ffd_status mesh_check_function(const mesh_document *document, ffd_error *error);
 typedef ffd_status mesh_warn_function(const mesh_document *document, const mesh_log *log, ffd_error *error);
 /* Results of vertices are written in ranges that begin at multiples of this. */
@@ -240,7 +257,8 @@ typedef ffd_status mesh_list_places_function(const mesh_document *document, bool
                                              ffd_error *error);
 typedef char *mesh_place_name_function(const mesh_document *document, size_t number);
 typedef ffd_status mesh_count_skins_function(const mesh_document *document, const mesh_places *places,
-                                             const uint8_t *marks, uint64_t *count, ffd_error *error);
+                                             const uint8_t *marks, uint64_t *count, uint64_t *loose,
+                                             ffd_error *error);
 typedef ffd_status mesh_follow_function(mesh_document *document, const mesh_places *places,
                                         mesh_place_move *moves, const mesh_log *log,
                                         mesh_following *following, ffd_error *error);
@@ -309,11 +327,15 @@ typedef struct mesh_format {
     /* The same for images and other files that are copied with an output, by scanning the bytes of the file
        at a path without opening a document. An invalid file has none. NULL: nothing is copied. */
     mesh_find_resources_function *find_resources;
+    /* Adds every file beside it that a mesh names, existing or not, in the same way: buffers, images,
+       material libraries and their maps; to `copies` (may be NULL) those that find_resources adds. NULL:
+       none. */
+    mesh_find_named_function *find_named;
     /* Counts the further files, without images, that saving a mesh as `to` writes, by scanning the bytes of
        the input (NULL if its format is another one). An invalid file has none. NULL: there are none. */
     mesh_count_beside_function *count_beside;
-    /* Adds the paths of the first `count` of these files. */
-    mesh_list_beside_function *list_beside;
+    /* Returns the path of number `number` of these files, if no other model names it (beside.h). */
+    mesh_name_beside_function *name_beside;
     /* Refuses (FFD_E_UNSUPPORTED) content that the streams of the parts do not represent, before anything is
        embedded or deformed: skins, morph targets, compressed data. Not needed for a document that is only
        described. NULL: the streams represent everything. Called by ffd_mesh_check. */
@@ -331,7 +353,8 @@ typedef struct mesh_format {
     mesh_list_places_function *list_places;
     /* Returns the name of a place, which the caller frees; NULL if memory runs out. */
     mesh_place_name_function *place_name;
-    /* Counts the skins with a marked place (one byte each) among their joints. */
+    /* Counts the skins with a marked place (one byte each) among their joints, and the marked places that are
+       joints of none of these (loose). */
     mesh_count_skins_function *count_skins;
     /* Moves all places with the deformation, and their animations and the skins. To be called after
        begin_results, which resets it, and before vertices are written, because it may set `carried` of parts.

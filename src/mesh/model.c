@@ -15,6 +15,7 @@ void ffd_model_free(mesh_model *model)
     }
     ffd_free(model->morphs);
     ffd_free(model->colours);
+    ffd_free(model->face_colours);
     for (int k = 0; k < MODEL_KINDS; k++) {
         ffd_free(model->lists[k].starts);
         ffd_free(model->lists[k].corners);
@@ -149,6 +150,39 @@ ffd_status ffd_model_add(mesh_model *model, model_kind kind, const model_corner 
     if (count == 0 || status)
         return status;
     return append(&model->lists[count == 2 ? MODEL_LINES : kind], corners, count, error);
+}
+
+/* The colour of a face without one (Geomview's manual, OFF). */
+#define GREY (2.0 / 3)
+
+/* Adds colours of faces up to `count`: grey ones. */
+static ffd_status colour_up_to(mesh_model *model, size_t count, ffd_error *error)
+{
+    const size_t more = count - model->coloured_faces;
+    const ffd_status status = ffd_model_take(model, more, 4 * sizeof *model->face_colours, error);
+    if (status)
+        return status;
+    if (!ffd_grow((void **)&model->face_colours, &model->face_colour_capacity, 4 * count,
+                  sizeof *model->face_colours))
+        return ffd_fail_memory(error);
+    for (size_t i = 4 * model->coloured_faces; i < 4 * count; i++)
+        model->face_colours[i] = i % 4 == 3 ? 1 : GREY;
+    model->coloured_faces = count;
+    return FFD_OK;
+}
+
+ffd_status ffd_model_colour_face(mesh_model *model, const double colour[4], ffd_error *error)
+{
+    const size_t count = model->lists[MODEL_FACES].count;
+    const ffd_status status = colour_up_to(model, count, error);
+    if (status == FFD_OK && count > 0)
+        memcpy(model->face_colours + 4 * (count - 1), colour, 4 * sizeof *colour);
+    return status;
+}
+
+ffd_status ffd_model_colour_rest(mesh_model *model, ffd_error *error)
+{
+    return model->face_colours ? colour_up_to(model, model->lists[MODEL_FACES].count, error) : FFD_OK;
 }
 
 ffd_status ffd_model_check_memory(const mesh_model *model, size_t corner_bytes, size_t run_bytes,

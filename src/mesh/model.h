@@ -62,13 +62,13 @@ typedef enum model_feature {
     MODEL_HAS_OBJECTS = 1 << 11,
     MODEL_HAS_GROUPS = 1 << 12,
     MODEL_HAS_MATERIAL_NAMES = 1 << 13,
+    MODEL_HAS_FACE_COLOURS = 1 << 19,
     MODEL_HAS_FINE_POSITIONS = 1 << 14, /* so far from the origin that float32 would change the shape */
     /* Not in the model: */
     MODEL_HAS_MATERIALS = 1 << 15,
     MODEL_HAS_TEXTURES = 1 << 16,
     MODEL_HAS_MORE_TEXCOORDS = 1 << 17, /* further sets, sets of other textures, or third coordinates */
     MODEL_HAS_TANGENTS = 1 << 18,
-    MODEL_HAS_FACE_COLOURS = 1 << 19,
     MODEL_HAS_SMOOTHING = 1 << 20,
     MODEL_HAS_FREE_FORM = 1 << 21,
     MODEL_HAS_HIERARCHY = 1 << 22,
@@ -95,8 +95,11 @@ typedef struct mesh_model {
     size_t morph_count, morph_capacity;
     const struct morph_clip *clips; /* clip_count animations of their weights, borrowed */
     size_t clip_count;
-    double *colours;     /* 4 for each position: red, green, blue, alpha, 0 to 1, sRGB; NULL: none */
-    bool coarse_colours; /* colours were linear bytes, so sRGB bytes are precise enough */
+    double *colours;      /* 4 for each position: red, green, blue, alpha, 0 to 1, sRGB; NULL: none */
+    bool coarse_colours;  /* colours were linear bytes, so sRGB bytes are precise enough */
+    double *face_colours; /* the same for the first coloured_faces faces; NULL: none. After
+                             ffd_model_finish all faces have one, or none has */
+    size_t coloured_faces, face_colour_capacity;
     model_list lists[MODEL_KINDS];
     model_run *runs;
     size_t run_count, run_capacity;
@@ -130,6 +133,12 @@ ffd_status ffd_model_number_material(mesh_model *model, uint32_t number, ffd_err
    FFD_E_MEMORY. */
 ffd_status ffd_model_add(mesh_model *model, model_kind kind, const model_corner *corners, size_t count,
                          ffd_error *error);
+/* Gives the face that was added last a colour: red, green, blue, alpha, as in mesh_model. Faces before it
+   without one are grey. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
+ffd_status ffd_model_colour_face(mesh_model *model, const double colour[4], ffd_error *error);
+/* Gives the faces behind the last coloured one a colour too, if there is one. Errors: FFD_E_LIMIT,
+   FFD_E_MEMORY. */
+ffd_status ffd_model_colour_rest(mesh_model *model, ffd_error *error);
 /* Takes count * size bytes from the model's memory budget, if it has one. Errors: FFD_E_LIMIT. */
 ffd_status ffd_model_take(mesh_model *model, uint64_t count, uint64_t size, ffd_error *error);
 /* Checks that the budget allows a writer these bytes for each corner, with polygons triangulated, and for
@@ -173,6 +182,10 @@ bool ffd_model_normals_by_position(const mesh_model *model, uint32_t *numbers);
 /* Returns whether bytes can represent all colours: they are multiples of 1/255, to six decimal digits, or
    coarse_colours is set. */
 bool ffd_model_colours_fit_bytes(const mesh_model *model);
+/* The same for the colours of faces. */
+bool ffd_model_face_colours_fit_bytes(const mesh_model *model);
+/* Returns whether a face has an alpha other than 1. */
+bool ffd_model_has_face_alpha(const mesh_model *model);
 
 /* Lists the content of a model that a target with the features `holds` loses: "normals, materials"; "" if
    none. The text is truncated to capacity. */

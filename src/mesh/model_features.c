@@ -63,14 +63,32 @@ bool ffd_model_normals_by_position(const mesh_model *model, uint32_t *numbers)
     return note_corners(model, true, numbers);
 }
 
-bool ffd_model_colours_fit_bytes(const mesh_model *model)
+static bool fit_bytes(const double *numbers, size_t count)
 {
-    for (size_t i = 0; model->colours && !model->coarse_colours && i < 4 * model->position_count; i++) {
-        const double scaled = 255 * model->colours[i];
+    for (size_t i = 0; i < count; i++) {
+        const double scaled = 255 * numbers[i];
         if (!(scaled >= 0 && scaled <= 255 && fabs(scaled - floor(scaled + 0.5)) <= BYTE_TOLERANCE))
             return false;
     }
     return true;
+}
+
+bool ffd_model_colours_fit_bytes(const mesh_model *model)
+{
+    return !model->colours || model->coarse_colours || fit_bytes(model->colours, 4 * model->position_count);
+}
+
+bool ffd_model_face_colours_fit_bytes(const mesh_model *model)
+{
+    return !model->face_colours || fit_bytes(model->face_colours, 4 * model->coloured_faces);
+}
+
+bool ffd_model_has_face_alpha(const mesh_model *model)
+{
+    bool found = false;
+    for (size_t i = 0; i < model->coloured_faces; i++)
+        found = found || model->face_colours[4 * i + 3] < 1;
+    return found;
 }
 
 /* Returns whether colours are from 0 to 255, which some files do not declare: all are integers, and not all
@@ -200,7 +218,9 @@ static uint32_t features_of_positions(const mesh_model *model)
 
 ffd_status ffd_model_finish(mesh_model *model, ffd_error *error)
 {
-    const ffd_status status = make_cloud(model, error);
+    ffd_status status = make_cloud(model, error);
+    if (status == FFD_OK)
+        status = ffd_model_colour_rest(model, error);
     if (status)
         return status;
     uint32_t *numbers = ffd_alloc(model->position_count, sizeof *numbers);
@@ -209,6 +229,7 @@ ffd_status ffd_model_finish(mesh_model *model, ffd_error *error)
     scale_colours(model);
     model->features |= features_of_corners(model) | features_of_names(model) | features_of_colours(model) |
                        features_of_positions(model);
+    model->features |= model->face_colours ? MODEL_HAS_FACE_COLOURS : 0;
     if (ffd_model_normals_by_position(model, numbers))
         model->features |= MODEL_HAS_CORNER_NORMALS;
     if (ffd_model_texcoords_by_position(model, numbers))

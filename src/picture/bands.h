@@ -24,7 +24,7 @@ typedef struct bands {
 /* The resources that work may use. */
 typedef struct band_means {
     int threads;
-    const memory_budget *budget; /* NULL: unlimited */
+    memory_budget *budget; /* NULL: unlimited; lists are taken from it */
 } band_means;
 
 /* Sorts count items (< 2^32) into the bands of rows [top, bottom), of which there are fewer than 2^18.

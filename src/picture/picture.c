@@ -14,6 +14,7 @@ typedef struct scratch {
 /* Panels are prepared and drawn one after the other, so that many panels need the memory of one. */
 typedef struct drawing {
     const picture *of;
+    memory_budget budget; /* what is left of the caller's */
     layout layout;
     linear_tables tables;
     ffd_bounds seen;
@@ -28,7 +29,15 @@ typedef struct drawing {
 #define TRIANGLE_BYTES 40
 #define POINT_BYTES 64
 
-static ffd_status check_size(const picture *of, const memory_budget *budget, ffd_error *error)
+/* Bytes of lists and points of cages in a panel, as far as they are not large. */
+#define LIST_BYTES ((uint64_t)8 << 20)
+
+uint64_t ffd_picture_bytes(uint64_t pixels, uint64_t vertices, uint64_t triangles)
+{
+    return 3 * pixels + VERTEX_BYTES * vertices + TRIANGLE_BYTES * triangles + LIST_BYTES;
+}
+
+static ffd_status check_size(const picture *of, memory_budget *budget, ffd_error *error)
 {
     const uint64_t pixels = (uint64_t)of->width * of->height;
     if (of->width == 0 || of->height == 0 || of->width > PICTURE_MOST_SIDE ||
@@ -38,14 +47,13 @@ static ffd_status check_size(const picture *of, const memory_budget *budget, ffd
                         "a picture of %lu x %lu pixels; it has 1 to %d a side, and %llu at most",
                         (unsigned long)of->width, (unsigned long)of->height, PICTURE_MOST_SIDE,
                         (unsigned long long)PICTURE_MOST_PIXELS);
-    return budget ? ffd_budget_check(budget, pixels, 3, error) : FFD_OK;
+    return budget ? ffd_budget_take(budget, pixels, 3, error) : FFD_OK;
 }
 
-/* Checks the memory of a panel, in addition to all pixels, against the budget. */
-static ffd_status check_panel(const picture *of, const picture_panel *filled, const memory_budget *budget,
-                              ffd_error *error)
+/* Takes the memory of a panel from the budget. */
+static ffd_status check_panel(const picture_panel *filled, memory_budget *budget, ffd_error *error)
 {
-    uint64_t bytes = 3 * (uint64_t)of->width * of->height;
+    uint64_t bytes = 0;
     for (size_t m = 0; m < filled->mesh_count; m++) {
         const picture_mesh *const mesh = &filled->meshes[m];
         if (mesh->triangle_count >= UINT32_MAX || mesh->vertex_count >= UINT32_MAX)
@@ -56,7 +64,7 @@ static ffd_status check_panel(const picture *of, const picture_panel *filled, co
     }
     for (size_t c = 0; c < filled->cage_count; c++)
         bytes += POINT_BYTES * ((uint64_t)filled->cages[c].point_count + filled->cages[c].segment_count);
-    return budget ? ffd_budget_check(budget, bytes, 1, error) : FFD_OK;
+    return budget ? ffd_budget_take(budget, bytes, 1, error) : FFD_OK;
 }
 
 /* Returns the bounds of the scene along the axes of the camera. */
@@ -168,15 +176,17 @@ static void draw_band(void *context, size_t band, size_t begin, size_t end, int 
 static ffd_status draw_panel(drawing *d, size_t number, ffd_error *error)
 {
     const picture *const of = d->of;
+    const memory_budget before = d->budget;
     ffd_status status = of->fill ? of->fill(of->context, number, error) : FFD_OK;
     if (!status)
-        status = check_panel(of, &of->panels[number], d->means.budget, error);
+        status = check_panel(&of->panels[number], d->means.budget, error);
     if (!status)
         status = ffd_panel_make(&d->layout, number, &d->seen, &d->means, &d->drawn, error);
     if (status)
         return status;
     ffd_parallel_tiles(of->height, BAND_ROWS, d->means.threads, draw_band, d);
     ffd_panel_free(&d->drawn);
+    d->budget = before;
     return FFD_OK;
 }
 
@@ -201,11 +211,17 @@ static int thread_count(const picture *of, const memory_budget *budget)
 ffd_status ffd_picture_draw(const picture *of, const memory_budget *budget, uint8_t **pixels,
                             ffd_error *error)
 {
+    drawing d = {.of = of};
     *pixels = NULL;
-    ffd_status status = check_size(of, budget, error);
+    if (budget) {
+        d.budget = *budget;
+        d.means.budget = &d.budget;
+    }
+    ffd_status status = check_size(of, d.means.budget, error);
     if (status)
         return status;
-    drawing d = {.of = of, .layout = ffd_layout_make(of), .means = {thread_count(of, budget), budget}};
+    d.layout = ffd_layout_make(of);
+    d.means.threads = thread_count(of, d.means.budget);
     ffd_linear_fill(&d.tables);
     d.seen = find_bounds(of);
     status = make(&d, error);

@@ -16,6 +16,8 @@
 #define PICTURE_MOST_SIDE 32767
 #define PICTURE_MOST_PIXELS ((uint64_t)1 << 27)
 
+/* Returns about how many bytes drawing takes, with panels of so many vertices and triangles. */
+uint64_t ffd_picture_bytes(uint64_t pixels, uint64_t vertices, uint64_t triangles);
 /* Draws a picture. *pixels: sRGB bytes red, green, blue, rows from the top; free with ffd_free. budget:
    limits the memory for drawing; may be NULL. Errors: FFD_E_ARGUMENT (the size), FFD_E_MEMORY,
    FFD_E_LIMIT. */

@@ -125,6 +125,9 @@ static ffd_status check(ffd_embedding_desc *desc, ffd_error *error)
         return ffd_fail(error, FFD_E_ARGUMENT, "%d is not a value of ffd_outside", (int)desc->outside);
     if (!(desc->falloff >= 0 && isfinite(desc->falloff)))
         return ffd_fail(error, FFD_E_ARGUMENT, "falloff %g is not 0 or more", desc->falloff);
+    if (desc->falloff > 0 && desc->outside != FFD_OUTSIDE_EXTEND)
+        return ffd_fail(error, FFD_E_ARGUMENT, "falloff %g needs outside \"extend\" (FFD_OUTSIDE_EXTEND)",
+                        desc->falloff);
     if (!(desc->snap >= 0 && isfinite(desc->snap)))
         return ffd_fail(error, FFD_E_ARGUMENT, "snap %g is not 0 or more", desc->snap);
     if (desc->points.count > UINT32_MAX)

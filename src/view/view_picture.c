@@ -16,7 +16,9 @@
 
 /* Bytes per vertex: position and colour. */
 #define VERTEX_BYTES (3 * sizeof(double) + 4)
-/* Meshes in a panel: the ordinary triangles, and the flipped ones. */
+/* Bytes per triangle: a material index. */
+#define TRIANGLE_BYTES 4
+/* Meshes in a panel: the ordinary triangles, and the flipped ones if there are any. */
 #define MESHES 2
 
 /* Size of a caption in bytes. */
@@ -35,6 +37,7 @@ typedef struct step {
 typedef struct picture_work {
     const view_scene *scene;
     const view_picture_options *options;
+    memory_budget budget; /* what is left of that of the options: all that is held is taken from it */
     view_palette palette;
     view_surface surface;
     uint8_t *used;           /* of each vertex: whether an element uses it; NULL: all are used */
@@ -300,7 +303,7 @@ static ffd_status make_step(void *context, size_t number, ffd_error *error)
         say_which_are_left_out(w);
     picture_panel *const panel = &w->panels[number];
     panel->meshes = s->meshes;
-    panel->mesh_count = w->scene->vertex_count ? MESHES : 0;
+    panel->mesh_count = !w->scene->vertex_count ? 0 : s->meshes[1].triangle_count ? MESHES : 1;
     panel->cages = s->cages.list;
     panel->cage_count = s->cages.count;
     return status;
@@ -346,6 +349,12 @@ static void find_seen(picture_work *w)
                      beyond, points, ffd_plural(beyond, "is", "are"));
 }
 
+static uint64_t pixel_count(const view_picture_options *options)
+{
+    return (uint64_t)width_of(options) * (options->frames ? options->frames : 1) * height_of(options) *
+           (options->rows ? options->rows : 1);
+}
+
 /* Makes everything that the steps share. */
 static ffd_status prepare(picture_work *w)
 {
@@ -355,10 +364,15 @@ static ffd_status prepare(picture_work *w)
     w->step_count = count_steps(scene, options);
     if (!ffd_camera_from(options->camera, &w->camera))
         ffd_camera_parse("iso", &w->camera);
-    ffd_status status = ffd_budget_check(options->budget, scene->vertex_count, VERTEX_BYTES, w->error);
+    w->budget = *options->budget;
+    const uint64_t drawing =
+        ffd_picture_bytes(pixel_count(options), scene->vertex_count, scene->triangle_count);
+    ffd_status status = ffd_budget_take(&w->budget, scene->vertex_count, VERTEX_BYTES, w->error);
     if (!status)
-        status =
-            ffd_view_surface_make(scene, has_texture, options->budget, options->log, &w->surface, w->error);
+        status = ffd_budget_take(&w->budget, scene->triangle_count, TRIANGLE_BYTES, w->error);
+    if (!status)
+        status = ffd_view_surface_make(scene, has_texture, &w->budget, drawing, options->log, &w->surface,
+                                       w->error);
     if (status)
         return status;
     w->twins = ffd_alloc(scene->vertex_count, sizeof *w->twins);
@@ -410,7 +424,7 @@ static ffd_status draw(picture_work *w, file_output *output)
                         .context = w,
                         .threads = options->threads};
     uint8_t *pixels = NULL;
-    ffd_status status = ffd_picture_draw(&of, options->budget, &pixels, w->error);
+    ffd_status status = ffd_picture_draw(&of, &w->budget, &pixels, w->error);
     free_step(w);
     if (!status)
         status = ffd_png_write(pixels, of.width, of.height, append, output, w->error);

@@ -9,15 +9,17 @@
 static const double grey[3] = {0.47, 0.49, 0.52}, paper[3] = {0.72, 0.72, 0.73};
 #define WHITE 0.9
 
-/* Bytes per triangle. */
-#define TRIANGLE_BYTES (4 * sizeof(uint32_t) + 6 * sizeof(float))
+/* Bytes per triangle, and of its texture coordinates. */
+#define TRIANGLE_BYTES (4 * sizeof(uint32_t))
+#define TEXCOORD_BYTES (6 * sizeof(float))
 
-static ffd_status decode(const mesh_image *from, const memory_budget *budget, texture *to, ffd_error *error)
+/* All textures are in memory at the same time. */
+static ffd_status decode(const mesh_image *from, memory_budget *budget, texture *to, ffd_error *error)
 {
     image decoded = {0};
     ffd_status status = ffd_image_decode(from->bytes, from->size, budget, &decoded, error);
     if (!status)
-        status = ffd_budget_check(budget, ffd_texture_size(decoded.width, decoded.height), 1, error);
+        status = ffd_budget_take(budget, ffd_texture_size(decoded.width, decoded.height), 1, error);
     if (!status)
         status = ffd_texture_make(&decoded, to, error);
     if (status)
@@ -27,7 +29,7 @@ static ffd_status decode(const mesh_image *from, const memory_budget *budget, te
 
 /* An image that cannot be decoded is logged, and its material is drawn grey; running out of memory is an
    error. */
-static ffd_status decode_all(const mesh_materials *from, const memory_budget *budget, const mesh_log *log,
+static ffd_status decode_all(const mesh_materials *from, memory_budget *budget, const mesh_log *log,
                              view_surface *s, ffd_error *error)
 {
     char first[300] = "";
@@ -111,23 +113,29 @@ static void count_triangles(const view_scene *scene, view_surface *s)
     s->plain_count = scene->triangle_count - s->flipped_count;
 }
 
-ffd_status ffd_view_surface_make(const view_scene *scene, bool textured, const memory_budget *budget,
-                                 const mesh_log *log, view_surface *s, ffd_error *error)
+ffd_status ffd_view_surface_make(const view_scene *scene, bool textured, memory_budget *budget,
+                                 uint64_t reserve, const mesh_log *log, view_surface *s, ffd_error *error)
 {
     const size_t count = scene->triangle_count;
+    const bool has_texcoords = textured && scene->texcoords;
     *s = (view_surface){0};
-    ffd_status status = ffd_budget_check(budget, count, TRIANGLE_BYTES, error);
+    ffd_status status =
+        ffd_budget_take(budget, count, TRIANGLE_BYTES + (has_texcoords ? TEXCOORD_BYTES : 0), error);
     if (status)
         return status;
     count_triangles(scene, s);
     s->triangles = ffd_alloc(count, 3 * sizeof *s->triangles);
     s->materials = ffd_alloc(count, sizeof *s->materials);
-    s->texcoords = textured && scene->texcoords ? ffd_alloc(count, 6 * sizeof *s->texcoords) : NULL;
-    if (!s->triangles || !s->materials || (textured && scene->texcoords && !s->texcoords))
+    s->texcoords = has_texcoords ? ffd_alloc(count, 6 * sizeof *s->texcoords) : NULL;
+    if (!s->triangles || !s->materials || (has_texcoords && !s->texcoords))
         return ffd_fail_memory(error);
     fill_triangles(scene, s);
-    if (textured)
-        status = decode_all(&scene->materials, budget, log, s, error);
+    if (textured) {
+        memory_budget rest = *budget;
+        rest.taken += reserve; /* more than there is: then no texture fits */
+        status = decode_all(&scene->materials, &rest, log, s, error);
+        budget->taken = rest.taken - reserve;
+    }
     return status ? status : fill_materials(scene, s, error);
 }
 

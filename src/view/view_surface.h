@@ -18,10 +18,12 @@ typedef struct view_surface {
     size_t list_count, texture_count;
 } view_surface;
 
-/* Makes the surface. textured: decode the images; one that cannot be decoded is logged, and its materials are
-   drawn grey. Errors: FFD_E_LIMIT (the budget), FFD_E_MEMORY. Call ffd_view_surface_free in every case. */
-ffd_status ffd_view_surface_make(const view_scene *scene, bool textured, const memory_budget *budget,
-                                 const mesh_log *log, view_surface *surface, ffd_error *error);
+/* Makes the surface, and takes its memory from the budget. textured: decode the images, as long as `reserve`
+   bytes are left; one that cannot be decoded or does not fit is logged, and its materials are drawn grey.
+   Errors: FFD_E_LIMIT (the budget), FFD_E_MEMORY. Call ffd_view_surface_free in every case. */
+ffd_status ffd_view_surface_make(const view_scene *scene, bool textured, memory_budget *budget,
+                                 uint64_t reserve, const mesh_log *log, view_surface *surface,
+                                 ffd_error *error);
 /* Frees the arrays; leaves an empty surface. */
 void ffd_view_surface_free(view_surface *surface);
 

@@ -313,6 +313,9 @@ typedef struct ffd_rig_result {
     double largest_lag;
     char worst[80];
     uint64_t lagging_skins, lagging_pivots, lagging_sockets;
+    uint64_t lagging_joints;
+    uint64_t unselected;
+    double unselected_by;
 } ffd_rig_result;
 typedef struct ffd_job_result {
     size_t struct_size;
@@ -366,7 +369,7 @@ typedef struct ffd_job_result {
     ffd_behind behind[FFD_BEHIND_KIND_COUNT];
     ffd_behind behind_room[5];
     ffd_rig_result rig;
-    uint64_t rig_room[8];
+    uint64_t rig_room[5];
     ffd_flaw flaws[8];
     size_t flaw_count;
     uint64_t indices_left;
@@ -379,6 +382,8 @@ typedef struct ffd_job_result {
     double area_before, area_after;
     double volume_before, volume_after;
     uint64_t bytes_left;
+    uint64_t base_outside;
+    uint64_t bounds_left;
 } ffd_job_result;
 ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);
 ffd_status ffd_check_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Names that lead to the same file: nothing is deformed twice, and no output replaces an input or another output."""
+import json
 import os
 import resource
 import stat
 
-from harness import CUBE, CUBE_CORNERS, IO, NO, USAGE, case, check, equal, gltf_json, lattice, main
+from harness import CUBE, CUBE_CORNERS, INVALID, IO, NO, USAGE, case, check, equal, gltf_json, lattice, main
 
 UP = lattice(moves=[{"by": [0, 0, 1]}])
 
@@ -17,16 +18,25 @@ def start(run):
 
 
 @case
-def one_file_is_deformed_once_in_place(run):
-    once = start(run)
-    run.ffd("deform", "a.obj", "./a.obj", "--in-place", "-l", "l.json", code=NO,
-            err="./a.obj: was written by this run already, under this name or another")
-    equal(run.read("a.obj"), once)
+def one_file_under_two_names_is_refused_before_any_work(run):
+    start(run)
+    run.ffd("deform", "a.obj", "./a.obj", "--in-place", "-l", "l.json", code=INVALID,
+            err="./a.obj: and a.obj would both write one file")
     run.write("b.obj", CUBE)
     os.symlink("b.obj", run.path("c.obj"))
-    run.ffd("deform", "b.obj", "c.obj", "--in-place", "-l", "l.json", code=NO,
-            err="c.obj: was written by this run already, under this name or another")
-    equal(run.read("b.obj"), once)
+    run.ffd("deform", "a.obj", "b.obj", "c.obj", "--in-place", "-l", "l.json", code=INVALID,
+            err="c.obj: and b.obj would both write one file")
+    equal((run.text("a.obj"), run.text("b.obj")), (CUBE, CUBE))
+
+
+@case
+def one_file_is_deformed_once_in_place(run):
+    """Two hard links are two files once one of them was replaced."""
+    once = start(run)
+    run.write("b.obj", CUBE)
+    os.link(run.path("b.obj"), run.path("c.obj"))
+    run.ffd("deform", "b.obj", "c.obj", "--in-place", "-l", "l.json")
+    equal((run.read("b.obj"), run.read("c.obj")), (once, once))
 
 
 @case
@@ -41,7 +51,7 @@ def what_stays_as_it_is_was_written_too(run):
 
 @case
 def no_two_outputs_share_a_buffer(run):
-    """m.gltf has two buffers, so its second is m-1.bin, which m-1.gltf wants for its first."""
+    """m.gltf has two buffers, so its second is m-1.bin, which m-1.gltf wants for its first: it gets another."""
     run.write("l.json", UP)
     run.folder_of("k")
     for name, buffers in (("m", 2), ("m-1", 1)):
@@ -59,10 +69,12 @@ def no_two_outputs_share_a_buffer(run):
     run.folder_of("o")
     run.folder_of("single")
     run.ffd("deform", "k/m.gltf", "single/m.gltf", "-l", "l.json")
-    run.ffd("deform", "k/m.gltf", "k/m-1.gltf", "--out-dir", "o", "--force", "-l", "l.json", code=NO,
-            err="o/m-1.bin: was written by this run already, under this name or another")
-    for name in ("m.gltf", "m.bin", "m-1.bin"):
-        equal(run.read("o/" + name), run.read("single/" + name), name)
+    for _ in "ab":
+        run.ffd("deform", "k/m.gltf", "k/m-1.gltf", "--out-dir", "o", "--force", "-l", "l.json", err=lambda said: None)
+        for name in ("m.gltf", "m.bin", "m-1.bin"):
+            equal(run.read("o/" + name), run.read("single/" + name), name)
+        equal((json.loads(run.text("o/m-1.gltf"))["buffers"][0]["uri"], run.names("o")),
+              ("m-1-1.bin", ["m-1-1.bin", "m-1.bin", "m-1.gltf", "m.bin", "m.gltf"]))
 
 
 @case

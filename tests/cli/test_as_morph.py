@@ -6,7 +6,8 @@ import re
 import struct
 
 from gltf_build import SHEAR, SHIFT, Scene, vectors
-from harness import (CUBE, INVALID, NO, USAGE, case, check, equal, glb_split, gltf_vectors, lattice, main, near)
+from gltf_reader import Gltf
+from harness import (CUBE, INVALID, LIMIT, NO, USAGE, case, check, equal, glb_split, gltf_vectors, lattice, main, near)
 
 POINTS = [[1.0, 2.0, 0.0], [2.0, -4.0, 1.0]]
 NORMALS = [[0.6000000238418579, 0.800000011920929, 0.0]] * 2
@@ -230,6 +231,175 @@ def other_targets_and_their_names_stay(run):
     equal(found["extras"], {"targetNames": ["a", "bent"]})
     found = json.loads(json.dumps(glb_split(morphed(run, plain(), name='b"\\\u00e4'))[0]))["meshes"][0]
     equal(found["extras"]["targetNames"], ['b"\\\u00e4'])
+
+
+def unequal(counts, names=None):
+    """A mesh of primitives with so many targets, target t of which moves all by t along y; weights of 0.5."""
+    scene = plain()
+    attributes = scene.asset["meshes"][0]["primitives"][0]["attributes"]
+    scene.asset["meshes"][0]["primitives"] = [
+        {"attributes": {"POSITION": attributes["POSITION"] if p == 0 else scene.add(POINTS, bounds=True)}, "mode": 0,
+         **({"targets": [{"POSITION": scene.add([[0.0, float(t + 1), 0.0]] * 2, bounds=True)} for t in range(count)]} if count else {})}
+        for p, count in enumerate(counts)]
+    scene.asset["meshes"][0]["weights"] = [0.5] * max(counts)
+    if names:
+        scene.asset["meshes"][0]["extras"] = {"targetNames": names}
+    return scene
+
+
+def offsets_of(run, name, mesh=0):
+    """Of each primitive, of each target, how far the first vertex moves."""
+    gltf = Gltf(run.path(name))
+    return [[list(gltf.decoded(target["POSITION"])[0]) for target in primitive.get("targets", [])]
+            for primitive in gltf.asset["meshes"][mesh]["primitives"]]
+
+
+@case
+def a_new_target_has_one_number_in_all_primitives(run):
+    """Also where they have not as many targets: targets of zeros fill the gaps, and the new one has the weight 0."""
+    told_of = re.compile("has (0 morph targets|1 morph target), but another one of its mesh has [12]")
+    for counts in ([1, 0], [0, 2], [1, 2, 2], [2, 1, 0]):
+        most = max(counts)
+        old = [[[0, t + 1, 0] if t < count else [0, 0, 0] for t in range(most)] for count in counts]
+        morphed(run, unequal(counts), err=told_of, box=SHIFT)
+        equal(offsets_of(run, "out.glb"), [targets + [[1, 0, 0]] for targets in old], str(counts))
+        equal(Gltf(run.path("out.glb")).asset["meshes"][0]["weights"], [0.5] * most + [0], str(counts))
+        run.ffd("deform", "in.glb", "out.glb", "--force", "--morph", "one=l.json", "--morph", "two=l.json", err=told_of)
+        equal(offsets_of(run, "out.glb"), [targets + [[1, 0, 0]] * 2 for targets in old], f"two targets, {counts}")
+        # What is filled is not deformed by the next run, and the file is sound now.
+        run.ffd("deform", "out.glb", "again.glb", "--force", "-l", "l.json", "--as-morph", "three")
+        equal(offsets_of(run, "again.glb"), [targets + [[1, 0, 0]] * 3 for targets in old], f"again, {counts}")
+    # A target that only some primitives have is replaced in all.
+    morphed(run, unequal([2, 1], names=["a", "b"]), name="b", box=SHIFT, err=lambda said: None)
+    equal(offsets_of(run, "out.glb"), [[[0, 1, 0], [1, 0, 0]]] * 2)
+    equal(Gltf(run.path("out.glb")).asset["meshes"][0]["weights"], [0.5, 0.5])
+
+
+@case
+def primitives_with_fewer_targets_than_others_are_a_flaw(run):
+    run.write("in.glb", unequal([1, 0, 2]).glb())
+    run.write("l.json", SHIFT)
+    run.ffd("deform", "in.glb", "out.glb", "-l", "l.json", "--report", "r.json", err=re.compile("has 1 morph target, but another"))
+    equal([(flaw["pointer"], flaw["count"]) for flaw in json.loads(run.text("r.json"))["jobs"][0]["flaws"]],
+          [("/meshes/0/primitives/0", 2)])
+    run.ffd("deform", "in.glb", "strict.glb", "-l", "l.json", "--strict", code=INVALID, lines=1)
+
+
+@case
+def gaps_beyond_the_memory_are_refused(run):
+    scene = plain()
+    primitive = scene.asset["meshes"][0]["primitives"][0]
+    scene.asset["meshes"][0]["primitives"] = [{**primitive, "targets": [{}] * 3000}] + [dict(primitive) for _ in range(3000)]
+    done = run_morphed(run, scene, code=LIMIT, err=lambda said: None)
+    check("memory" in done.err[-1], done.err)
+
+
+@case
+def names_that_stand_in_primitives_are_names(run):
+    """Older exporters write them there. A name at the mesh comes first, target by target."""
+    for at_mesh, at_primitives, name, place, mesh_after, primitives_after in (
+            (None, [["smile", "blink"]], "blink", 1, None, [["smile", "blink"]]),
+            (None, [["smile", "blink"]], "new", 2, ["smile", "blink", "new"], [["smile", "blink", "new"]]),
+            (None, [None, ["smile", "blink"]], "smile", 0, None, [None, ["smile", "blink"]]),
+            (None, [["smile"]], "new", 2, ["smile", "target_1", "new"], [["smile", "target_1", "new"]]),
+            (None, [["smile", "blink", "more", "yet"]], "more", 2, ["smile", "blink", "more"], [["smile", "blink", "more", "yet"]]),
+            (["a", "b"], [["smile", "blink"]], "blink", 2, ["a", "b", "blink"], [["smile", "blink", "blink"]]),
+            (["a"], [["smile", "blink"]], "blink", 1, ["a"], [["smile", "blink"]]),
+            (["a"], [["smile", "blink"]], "new", 2, ["a", "blink", "new"], [["smile", "blink", "new"]]),
+            (["a", 7], [["smile", "blink"], ["x", "y"]], "y", 2, ["a", 7, "y"], [["smile", "blink", "y"], ["x", "y", "y"]]),
+            (None, [[1, "blink"], ["x", "y"]], "x", 0, None, [[1, "blink"], ["x", "y"]])):
+        scene = unequal([2] * len(at_primitives), at_mesh)
+        for primitive, names in zip(scene.asset["meshes"][0]["primitives"], at_primitives, strict=True):
+            if names:
+                primitive["extras"] = {"targetNames": names}
+        morphed(run, scene, name=name, box=SHIFT, err=lambda said: None)
+        mesh = Gltf(run.path("out.glb")).asset["meshes"][0]
+        what = f"{at_mesh} {at_primitives} {name}"
+        equal(mesh.get("extras", {}).get("targetNames"), mesh_after, what)
+        equal([p.get("extras", {}).get("targetNames") for p in mesh["primitives"]], primitives_after, what)
+        for targets in offsets_of(run, "out.glb"):
+            equal([offset == [1, 0, 0] for offset in targets].index(True), place, what)
+
+
+@case
+def a_clip_finds_names_that_stand_in_primitives(run):
+    scene = unequal([2])
+    scene.asset["meshes"][0]["primitives"][0]["extras"] = {"targetNames": ["smile", "blink"]}
+    run.write("in.glb", scene.glb())
+    run.write("l.json", SHIFT)
+    run.ffd("deform", "in.glb", "out.glb", "--morph", "new=l.json", "--clip", "hop: 0, 1 blink=0.25 new=1")
+    asset, data = glb_split(run.read("out.glb"))
+    equal(floats(asset, data, asset["animations"][0]["samplers"][0]["output"]), [0.5, 0, 0, 0.5, 0.25, 1])
+    done = run.ffd("deform", "in.glb", "no.glb", "--morph", "new=l.json", "--clip", "hop: 0, 1 blunk=1", code=USAGE, lines=1)
+    check('nearest: "blink"' in done.err[0], done.err)
+
+
+def animated(scene, channels):
+    """Adds an animation of two keys; of each channel its target, the values of its output, and its interpolation."""
+    times = scene.add([[0.0], [1.0]], shape="SCALAR", min=[0], max=[1])
+    samplers, made = [], []
+    for target, values, *interpolation in channels:
+        if values is not None:
+            samplers.append({"input": times, "output": scene.add([[float(v)] for v in values], shape="SCALAR"),
+                             **({"interpolation": interpolation[0]} if interpolation else {})})
+        made.append({"sampler": len(samplers) - 1, "target": target if isinstance(target, dict) else {
+            "path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": target}}}})
+    scene.asset["animations"] = [{"channels": made, "samplers": samplers}]
+
+
+OF_NODE = {"node": 0, "path": "weights"}
+
+
+@case
+def stale_weights_of_an_animation_do_not_drive_the_new_target(run):
+    """As many values as there were targets once. Viewers take rows of values, one for each key."""
+    for count, channels, expected in (
+            (0, [(OF_NODE, [0, 1])], [[0, 0]]), (0, [(OF_NODE, [1, 2, 3, 4])], [[0, 0]]),
+            (0, [("/meshes/0/weights", [0, 1])], [[0, 0]]), (0, [("/nodes/0/weights", [0, 1])], [[0, 0]]),
+            (0, [("/meshes/0/weights/0", [0, 1])], [[0, 0]]), (1, [("/nodes/0/weights/1", [0, 1])], [[0, 0]]),
+            (1, [(OF_NODE, [1, 2, 3, 4])], [[1, 0, 3, 0]]), (2, [(OF_NODE, [1, 2])], [[1, 0, 0, 2, 0, 0]]),
+            (1, [(OF_NODE, list(range(12)), "CUBICSPLINE")], [[0, 0, 2, 0, 4, 0, 6, 0, 8, 0, 10, 0]]),
+            (0, [(OF_NODE, list(range(6)), "CUBICSPLINE")], [[0] * 6]),
+            (1, [("/meshes/0/weights/0", [0, 1]), ("/meshes/0/weights/1", None)], [[0, 1], [0, 0]]),
+            (1, [({"node": 0, "path": "translation"}, [0, 1]), (OF_NODE, [1, 2, 3, 4])], [[0, 1], [1, 0, 3, 0]])):
+        scene = unequal([count])
+        animated(scene, channels)
+        done = run_morphed(run, scene, box=SHIFT, err=lambda said: None)
+        stale = [line for line in done.err if "and does not drive the new one: /animations/0/channels/" in line]
+        equal(len(stale), 1, f"{count} {channels}: {done.err}")
+        gltf = Gltf(run.path("out.glb"))
+        animation = gltf.asset["animations"][0]
+        equal([[x[0] for x in gltf.decoded(animation["samplers"][channel["sampler"]]["output"])] for channel in animation["channels"]],
+              expected, f"{count} {channels}")
+
+
+@case
+def meshes_that_share_a_sampler_get_outputs_of_their_own(run):
+    """One has a target and the other none; a third one does not change, and keeps what it had."""
+    scene = unequal([1])
+    scene.asset["meshes"] += [{"primitives": [{"attributes": {"POSITION": scene.add(POINTS, bounds=True)}, "mode": 0}]},
+                              {"primitives": [{"attributes": {"POSITION": scene.add([[90.0, 0, 0]], bounds=True)}, "mode": 0,
+                                               "targets": [{}]}]}]
+    scene.asset["nodes"] += [{"mesh": 1}, {"mesh": 2}]
+    scene.asset["scenes"][0]["nodes"] += [1, 2]
+    animated(scene, [(OF_NODE, [0.25, 0.5]), ({"node": 1, "path": "weights"}, None), ({"node": 2, "path": "weights"}, None)])
+    run_morphed(run, scene, box=SHIFT, err=lambda said: None)
+    gltf = Gltf(run.path("out.glb"))
+    animation = gltf.asset["animations"][0]
+    equal([[x[0] for x in gltf.decoded(animation["samplers"][channel["sampler"]]["output"])] for channel in animation["channels"]],
+          [[0.25, 0, 0.5, 0], [0, 0], [0.25, 0.5]])
+
+
+@case
+def weights_that_are_no_rows_stay(run):
+    """Three values for two keys say nothing of two targets. Where the mesh has no targets the new one has the weight 0."""
+    for count, values, expected in ((2, [1, 2, 3], [1, 2, 3]), (0, [1, 2, 3], [0, 0])):
+        scene = unequal([count])
+        animated(scene, [(OF_NODE, values)])
+        done = run_morphed(run, scene, box=SHIFT, err=lambda said: None)
+        equal(len([line for line in done.err if "/animations/0/channels/0" in line]), 1, done.err)
+        gltf = Gltf(run.path("out.glb"))
+        equal([x[0] for x in gltf.decoded(gltf.asset["animations"][0]["samplers"][0]["output"])], expected)
 
 
 @case

@@ -10,7 +10,7 @@ import sys
 import time
 
 from batches import batch, case, check, equal, job, lattice, lines_of, main, report, start, statuses
-from harness import CUBE, FFD, NO, OK, Run, npy
+from harness import CUBE, FFD, NO, OK, SECONDS, Run, npy
 
 TRAP = os.path.abspath(sys.argv.pop(1))
 # Seconds for a job that never ends, and far more than the others need where a machine pauses.
@@ -66,6 +66,21 @@ def jobs_that_end_a_worker_fail_alone(run):
     with concurrent.futures.ThreadPoolExecutor(len(options)) as pool:
         for ended in [*map(pool.submit, [run_trapped] * len(options), folders, options, outputs)]:
             ended.result()
+
+
+@case
+def a_channel_that_fails_is_no_crash(run):
+    """The first process cannot hear a worker: the job fails for this reason, and those after it go on."""
+    start(run, [job(i) for i in range(3)])
+    log = run.path("strace.log")
+    done = subprocess.run(["strace", "-o", log, "-e", "inject=recvfrom:error=ENOMEM:when=1", FFD, "batch", "m.jsonl", "-j", "1"],
+                          cwd=run.folder, capture_output=True, check=False, timeout=SECONDS)
+    if not os.path.exists(log) or os.path.getsize(log) == 0 or b"PTRACE" in done.stderr:
+        print("strace is not allowed to run")
+        return
+    said = done.stderr.decode().splitlines()
+    equal(said[0], "ffd: m.jsonl:1: a.obj: the connection to the worker that did this job has failed: what it has made is not known")
+    check(": 2 done, 0 up to date, 1 failed" in said[1] and done.returncode == NO, said, done.returncode)
 
 
 @case

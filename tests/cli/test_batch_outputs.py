@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """ffd batch: no two jobs of a run write one file. The later one fails before it works, and names both lines."""
 
+import json
 import os
 import shutil
 
 from batches import batch, case, check, equal, job, lines_of, main, report, start
-from harness import CUBE, INVALID, PNG, gltf_json
+from harness import CUBE, INVALID, PNG, USAGE, gltf_json
 
 MODES = ([], ["--force"], ["-j1", "--force"], ["-j", "4", "--force"], ["--resume"], ["--resume"], ["--force", "--stop", "-j1"])
 
@@ -76,6 +77,9 @@ def buffers_are_outputs_too(run):
     run.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
 
     def jobs(*pairs):
+        for name in run.names():
+            if name[0] in "xyz":
+                run.remove(name)
         run.write("m.jsonl", lines_of([{**job(), "in": mesh, "out": out} for mesh, out in pairs]))
         return len(pairs)
 
@@ -84,15 +88,47 @@ def buffers_are_outputs_too(run):
     judge(run, [(3, "x-2.bin", 1)], jobs(("c.gltf", "x.gltf"), ("a.gltf", "y-2.gltf"), ("t.obj", "x-2.gltf")))
     judge(run, [(2, "y.gltf", 1)], jobs(("t.obj", "y.gltf"), ("a.gltf", "./y.gltf")))
     # One buffer each: what numbered outputs look like.
-    for name in ("z.gltf", "z-1.gltf", "z-2.gltf", "z-1-1.gltf", "z-1.obj", "z-2.glb"):
-        run.remove(name)
     equal(jobs(("a.gltf", "z.gltf"), ("a.gltf", "z-1.gltf"), ("t.obj", "z-2.gltf"), ("b.gltf", "z-2.glb"), ("a.obj", "z-1.obj"),
                ("b.gltf", "z-3.gltf")), 6)
     batch(run, "m.jsonl", "--force", done=6)
-    # The format counts, not the name; in place nothing is named anew.
+    # The format counts, whose ending the output gets.
     run.write("m.jsonl", lines_of([{**job(), "in": "b.gltf", "out": "w.gltf"},
                                    {**job(), "in": "a.gltf", "out": "w-1.glb", "options": {"output-format": "gltf"}}]))
     batch(run, "m.jsonl", "--force", done=1, failed=[r'^m\.jsonl:2: ".*w-1.bin" is written by the job of line 1 too$'])
+
+
+@case
+def outputs_get_the_ending_of_their_format(run):
+    """Of --output-format or the option of a job; names without the ending of a mesh format stay."""
+    start(run)
+    model(run, "a", 1)
+    run.folder_of("in")
+    run.folder_of("o")
+    for name in ("a.obj", "b.c.obj"):
+        run.write("in/" + name, CUBE)
+
+    def outputs(*arguments, count=2):
+        run.ffd("batch", *arguments, "--force", "-q", "--report", "r.json")
+        equal(len(report(run)), count)
+        return [entry["output"] for entry in report(run)]
+
+    for to, names in (("ply", ["o/a.ply", "o/b.c.ply"]), (".STL", ["o/a.stl", "o/b.c.stl"]), ("off", ["o/a.off", "o/b.c.off"])):
+        equal(outputs("--in", "in/*.obj", "-l", "l.json", "--out-dir", "o", "--output-format", to), names)
+        equal([json.loads(run.ffd("info", name, "--json", err=lambda said: None).text)["mesh_format"] for name in names],
+              [to.strip(".").upper()] * 2)
+    run.write("t.csv", "in\nin/a.obj\nin/b.c.obj\nin/a.obj\n")
+    equal(outputs("--csv", "t.csv", "-l", "l.json", "--out-dir", "o", "--output-format", "ply", count=3),
+          ["o/a-1.ply", "o/b.c.ply", "o/a-3.ply"])
+    run.write("m.jsonl", lines_of([{**job(), "out": name, "options": {"output-format": to}} for name, to in (
+        ("o/1.obj", "ply"), ("o/2.PLY", "ply"), ("o/3.dat", "ply"), ("o/4", "ply"), ("o/5.ply", "stl"), ("o/6.obj", False))]))
+    equal(outputs("m.jsonl", "--output-format", "off", count=6), ["o/1.ply", "o/2.PLY", "o/3.dat", "o/4", "o/5.stl", "o/6.obj"])
+    equal(run.names("o")[:6], ["1.ply", "2.PLY", "3.dat", "4", "5.stl", "6.obj"])
+    # Names that become equal.
+    shutil.copy(run.path("in/a.obj"), run.path("in/a.OBJ"))
+    run.ffd("batch", "--in", "in/*", "-l", "l.json", "--out-dir", "o", "--output-format", "glb", code=USAGE,
+            err='in/a.OBJ and in/a.obj would both be written as "a.glb"')
+    run.write("m.jsonl", lines_of([{**job(), "out": "o/7.obj"}, {**job(), "out": "o/7.stl"}]))
+    batch(run, "m.jsonl", "--output-format", "ply", done=1, failed=[r'^m\.jsonl:2: "o/7\.ply" is written by the job of line 1 too$'])
 
 
 @case

@@ -110,7 +110,7 @@ def a_changed_buffer(run):
     run.write("m.jsonl", lines_of([{"in": "in.gltf", "lattice": "l.json", "out": "out.gltf"}]))
     batch(run, "m.jsonl", "--resume", done=1)
     batch(run, "m.jsonl", "--resume", kept=1)
-    run.write("in.bin", data[:11] + bytes([data[11] ^ 1]) + data[12:])
+    run.write("in.bin", data[:11] + bytes([data[11] ^ 0x80]) + data[12:])
     batch(run, "m.jsonl", "--resume", done=1)
     batch(run, "m.jsonl", "--resume", kept=1)
     # The output's own buffer belongs to it.

@@ -10,7 +10,7 @@ import subprocess
 import time
 
 from batches import batch, case, check, equal, job, lines_of, main, start
-from harness import FFD, IO, NO, OK, SANITIZED, SECONDS
+from harness import FFD, INVALID, IO, NO, OK, SANITIZED, SECONDS
 
 
 def wait_for(run, name):
@@ -40,6 +40,36 @@ def a_manifest_is_streamed(run):
     equal(process.returncode, OK, said)
     check(said.startswith("ffd: 6 jobs in "), said)
     check(run.exists("o5.obj"), "the last line was not done")
+
+
+@case
+def a_line_without_an_end_ends_the_run(run):
+    """Of a manifest and of a table, on standard input and in a file."""
+    start(run)
+    endless = b"x" * ((1 << 26) + (1 << 21))
+    run.write("m.jsonl", lines_of([job(0)]).encode() + endless)
+    run.write("t.csv", b"H\n" + endless)
+    run.ffd("batch", "-", stdin=b"\n" + endless, code=INVALID, err=ends_with("standard input:2: the line does not end within 67108864 bytes"))
+    run.ffd("batch", "m.jsonl", code=INVALID, err=ends_with("m.jsonl:2: the line does not end within 67108864 bytes"))
+    run.ffd("batch", "--csv", "t.csv", "--in", "a.obj", "-l", "l.json", "--out-dir", ".", code=INVALID,
+            err=ends_with("t.csv:2: the line does not end within 67108864 bytes"))
+
+
+def ends_with(line):
+    """What is said, after the figures of a run that has begun."""
+    return lambda said: equal(said[-1], line)
+
+
+@case
+def folders_pipes_and_devices_are_refused_as_other_inputs_are(run):
+    start(run)
+    os.mkfifo(run.path("pipe"))
+    for name, what in (("pipe", "is a pipe, not a file (- reads standard input)"), (".", "is a folder"),
+                       ("/dev/zero", "is a device, not a file (- reads standard input)")):
+        run.ffd("batch", name, code=IO, err=f"{name}: {what}")
+        run.ffd("batch", "--csv", name, "--in", "a.obj", "-l", "l.json", "--out-dir", ".", code=IO, err=f"{name}: {what}")
+    run.ffd("batch", "none.jsonl", code=IO, err="none.jsonl: cannot be opened: No such file or directory")
+    run.ffd("batch", "/dev/null", err=lambda said: None)
 
 
 @case

@@ -279,7 +279,7 @@ def normals_follow_the_block_that_has_the_vertex(run):
               + "f 1//1 2//2 4//4\nf 3//3 5//5 4//4\n")
     run.write("a.json", lattice(low=(0, -2, -2), high=(1, 2, 2), moves=[{"matrix": [1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1]}]))
     still(run, "b.json", (1, -2, -2), (2, 2, 2))
-    run.ffd("deform", "a.obj", "out.obj", *both("a.json", "b.json"), "--blocks")
+    run.ffd("deform", "a.obj", "out.obj", *both("a.json", "b.json"), "--blocks", err=anything)
     normals = [[float(x) for x in line.split()[1:]] for line in run.text("out.obj").splitlines() if line.startswith("vn")]
     lean = [-math.sqrt(0.5), 0, math.sqrt(0.5)]
     near(normals[:5], [lean, lean, [0, 0, 1], lean, [0, 0, 1]], 1e-12)
@@ -398,7 +398,7 @@ def float_beam(run, face, left, right):
 @case
 def blocks_within_the_rounding(run):
     """Both lean by x/2, which on their common face is one displacement, in either order; and where the second lifts by
-    1/4 beside that, the two vertices there are torn from those of it."""
+    1/4 beside that, the two vertices there, which go with the first, are torn from those of the other."""
     lean = [{"matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0.5, 0, 1, 0, 0, 0, 0, 1]}]
     for face in (0.1, 0.7):
         float_beam(run, face, lean, lean)
@@ -408,7 +408,7 @@ def blocks_within_the_rounding(run):
         float_beam(run, face, lean, lean + [{"by": [0, 0, 0.25]}])
         for order in (("a.json", "b.json"), ("b.json", "a.json")):
             found = entry(run, "check", "a.ply", *both(*order), "--blocks")
-            equal([found["shared_faces"]["disagreeing"], found["tear"]["edges"]], [2, 4], f"{face} {order}")
+            equal([found["shared_faces"]["disagreeing"], found["tear"]["edges"]], [2, 2], f"{face} {order}")
             near([found["shared_faces"]["largest"], found["tear"]["largest"]], [0.25, 0.25], 1e-12)
 
 

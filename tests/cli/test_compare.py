@@ -113,7 +113,7 @@ def all_else_of_obj(run):
 def positions_of_glb_files_differ_alike(run):
     asset, data = gltf_json(CUBE_CORNERS)
     run.write("a.glb", glb(asset, data))
-    run.write("b.glb", glb(asset, data[:12] + struct.pack("<f", 1.125) + data[16:]))
+    run.write("b.glb", glb(asset, data[:12] + struct.pack("<f", 0.875) + data[16:]))
     same(run, "a.glb", "a.glb")
     differ(run, "a.glb", "b.glb", "--tolerance", "0.124")
     check("0.125" in differ(run, "a.glb", "b.glb"), "the coordinate that differs")
@@ -141,7 +141,7 @@ def a_gltf_and_a_glb_of_one_content_are_the_same(run):
     same(run, "b.gltf", "b.gltf")
     same(run, "b.gltf", "a.glb")
     run.write("c.gltf", gltf_json(CUBE_CORNERS, uri="c.bin")[0])
-    run.write("c.bin", data[:12] + struct.pack("<f", 1.125) + data[16:])
+    run.write("c.bin", data[:12] + struct.pack("<f", 0.875) + data[16:])
     for name in ("a.glb", "b.gltf"):
         differ(run, name, "c.gltf", "--tolerance", "0.124")
         same(run, name, "c.gltf", "--tolerance", "0.125")

@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import re
 
 from harness import (CUBE, CUBE_CORNERS, EMBEDDING, INVALID, IO, NO, OK, PNG, USAGE, case, check, equal, glb,
                      glb_positions, glb_split, gltf_json, gltf_vectors, lattice, main, near, obj_of, obj_vertices)
@@ -34,6 +35,92 @@ def the_documented_displacement(run):
     run.write("p.obj", obj_of(points))
     run.ffd("deform", "p.obj", "q.obj", "-l", "l.json")
     near(obj_vertices(run.text("q.obj")), [[p[0] + bump(p), p[1], p[2]] for p in points], 1e-15, "positions")
+
+
+@case
+def moves_that_move_no_vertex_are_told(run):
+    """Because they reach no control point, do nothing to those that they reach, or these act on no vertex; and why."""
+    lies = r" \(the mesh lies from -1 -1 -1 to 1 1 1\)$"
+    idle = "^a.obj: no vertex moves: the move of l.json moves no control point" + lies
+    far = {"point": [90, 50, 0], "by": [0, 0, 1], "radius": 0.5}
+    for move in ({"pull": far}, {"by": [0, 0, 0]}, {"by": [1, 0, 0], "weight": 0}, {"scale": {"factor": 1}},
+                 {"by": [1, 0, 0], "falloff": {"center": [50, 0, 0], "radius": 1}}, {"twist": {"axis": "x", "degrees": 0}}):
+        start(run, [move])
+        run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--force", err=re.compile(idle))
+        equal(run.read("b.obj"), run.read("a.obj"), str(move))
+    run.ffd("view", "a.obj", "-l", "l.json", "-o", "v.html", err=re.compile(idle))
+    run.ffd("check", "a.obj", "-l", "l.json")
+    start(run, [{"pull": far}, {"by": [0, 0, 0]}])
+    run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--force", err=re.compile("the moves of l.json move no control point"))
+    # Control points move, and act on no vertex: in a lattice of 8 x 8 x 8 cells those in one corner.
+    many = {"size": (8, 8, 8), "degree": [1, 1, 1], "low": (-7, -7, -7), "high": (7, 7, 7)}
+    start(run, [{"at": [0, 0, [0, 1]], "by": [0, 0, 1]}], **many)
+    run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--force",
+            err=re.compile("^a.obj: no vertex moves, though l.json moves 2 control points" + lies))
+    run.write("c.json", lattice(moves=[{"pull": far}]))
+    run.write("m.json", lattice(moves=MOVE))
+    run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "-l", "m.json", "-l", "c.json", "--force",
+            err="a.obj: the move of c.json moves no control point")
+    # A lattice without moves is meant to do nothing, and a mesh outside has a message of its own.
+    start(run, [])
+    run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--force")
+    start(run, MOVE, low=(5, 5, 5), high=(6, 6, 6))
+    run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--force", err=re.compile("8 of 8 vertices are not inside"))
+
+
+@case
+def a_morph_target_that_moves_nothing_is_told_with_the_reason(run):
+    """Of --as-morph and of each --morph; what moves beside it does not hide it."""
+    start(run, [{"pull": {"point": [90, 50, 0], "by": [0, 0, 1], "radius": 0.5}}])
+    run.write("m.json", lattice(moves=MOVE))
+    lies = r" \(the mesh lies from -1 -1 -1 to 1 1 1\)"
+    zeros = "no vertex moves: all offsets of the morph target are 0"
+    for options, expected in ((["-l", "l.json", "--as-morph", "far"], [f"a.obj: the move of l.json moves no control point{lies}", f"a.obj: {zeros}"]),
+                              (["--morph", "far=l.json"], [f"a.obj: the move of l.json moves no control point{lies}", f"a.obj: {zeros}"]),
+                              (["-l", "m.json", "-l", "l.json", "--as-morph", "far"], ["a.obj: the move of l.json moves no control point"])):
+        done = run.ffd("deform", "a.obj", "b.glb", *options, "--force", err=lambda said: None)
+        found = [line for line in done.err if "control point" in line or "no vertex" in line]
+        check(len(found) == len(expected) and all(re.fullmatch(e, f) for e, f in zip(expected, found)), options, done.err)
+    run.ffd("deform", "a.obj", "b.glb", "--morph", "near=m.json", "--morph", "far=l.json", "--force",
+            err=lambda said: equal(len([line for line in said if "far" in line and "moves no control point" in line]), 1, str(said)))
+    run.ffd("view", "a.obj", "-l", "l.json", "--as-morph", "far", "-o", "v.html",
+            err=re.compile("^a.obj: no vertex moves: the move of l.json moves no control point"))
+
+
+@case
+def a_row_of_a_table_that_moves_nothing_is_told(run):
+    start(run, [{"twist": {"axis": "x", "degrees": {"$": "D"}}}])
+    run.write("t.csv", "D\n0\n30\n")
+    done = run.ffd("batch", "--in", "a.obj", "--lattice", "l.json", "--csv", "t.csv", "--out-dir", ".", err=lambda said: None)
+    equal([line.split(":")[:2] for line in done.err if "no vertex moves" in line], [["t.csv", "2"]])
+
+
+@case
+def a_mesh_that_is_turned_inside_out_is_told(run):
+    """With the number of faces where they are counted, in any format, also where it is a morph target; not where it is only
+    flattened."""
+    mirror = [{"scale": {"factor": [-1, 1, 1], "about": [0, 0, 0]}}]
+    start(run, mirror)
+    for out in ("b.obj", "b.ply", "b.glb"):
+        run.ffd("deform", "a.obj", out, "-l", "l.json", "--normals", "keep",
+                err=lambda said: equal(said[0], "a.obj: the mesh turns inside out at 8 of 8 vertices: det F falls to -1, at vertex 0"))
+    done = run.ffd("deform", "a.obj", "m.glb", "--morph", "in=l.json", err=lambda said: None)
+    equal(len([line for line in done.err if "turns inside out at 8 of 8 vertices" in line]), 1)
+    faces = json.loads(run.ffd("info", "a.obj", "--json", data=True).out)["contents"]["faces"]
+    run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--force", "--report", "r.json",
+            err=re.compile(f"; {faces} of {faces} faces are turned over$"))
+    equal(json.loads(run.text("r.json"))["jobs"][0]["flipped_faces"], faces)
+    # A triangle that spans a half turn is turned over though the volume does not fold: det F does not show it.
+    run.write("t.obj", obj_of([[-1, -1, 0], [1, -1, 0], [0, 1, 0]]) + "f 1 2 3\n")
+    run.write("twist.json", lattice(size=(4, 9, 4), moves=[{"twist": {"axis": "y", "degrees": 700, "about": [0, 0, 0]}}]))
+    turned = json.loads(run.ffd("check", "t.obj", "-l", "twist.json", "--report", "-", data=True, err=lambda said: None).out)["jobs"][0]
+    done = run.ffd("deform", "t.obj", "u.obj", "-l", "twist.json", "--report", "r.json", "--force", err=lambda said: None)
+    equal(len([line for line in done.err if line.endswith(f"{turned['flipped_faces']} of 1 face is turned over")]), turned["flipped_faces"])
+    start(run, [{"scale": {"factor": [0, 1, 1]}}])
+    run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--force")
+    # In a lattice of which a part folds, the vertices in that part.
+    start(run, [{"at": [1, 0, 0], "by": [-9, 0, 0]}], size=(2, 2, 2), degree=[1, 1, 1])
+    run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--force", err=re.compile("turns inside out at [1-7] of 8 vertices"))
 
 
 @case

@@ -11,6 +11,7 @@ import os
 import re
 import shutil
 import subprocess
+import time
 
 from harness import CUBE, CUBE_CORNERS, FFD, IO, OK, SANITIZED, SECONDS, case, check, equal, gltf_json, lattice, main
 
@@ -194,6 +195,98 @@ def without_a_rename_that_replaces_nothing(run):
     for scene in SCENES if LARGE else ("in place", "new"):
         if try_scene(run, scene, [KILL, FAIL, FAIL_ON] if LARGE else [KILL], options) is None:
             return
+
+
+NO_LOCKS = ("-e", "inject=flock:error=ENOLCK")
+
+
+@case
+def without_locks(run):
+    """Lustre and NFS may have none: outputs are written all the same, and a run mends what a killed one left."""
+    if SANITIZED:
+        return
+    for scene in SCENES if LARGE else ("in place", "new"):
+        if try_scene(run, scene, [KILL, FAIL] if LARGE else [KILL], NO_LOCKS) is None:
+            return
+
+
+@case
+def all_kinds_of_outputs_are_written_without_locks(run):
+    if SANITIZED:
+        return
+    run.write("i.obj", CUBE)
+    run.write("l.json", lattice(moves=[{"at": [3, "all", "all"], "by": [0.5, 0, 0]}]))
+    run.write("jobs.jsonl", '{"in": "i.obj", "lattice": "l.json", "out": "o/i.obj"}')
+    run.folder_of("o")
+    for reason in ("ENOLCK", "ENOSYS", "EOPNOTSUPP"):
+        for _ in "ab":
+            done = strace(run, ["batch", "jobs.jsonl", "--report", "r.json", "--depfile", "d", "--journal", "j", "--force", "-q"],
+                          "-e", f"inject=flock:error={reason}")
+            if not done:
+                print("strace is not allowed to run")
+                return
+            equal((done.returncode, done.stderr), (OK, b""), reason)
+            equal(run.names("o"), ["i.obj"])
+            equal(hidden(run.names()), [])
+
+
+@case
+def without_locks_an_output_that_another_run_has_begun_anew_is_not_placed(run):
+    """Two runs write one output: the first finds that its temporary file is that of the second by now."""
+    if SANITIZED:
+        return
+    run.write("i.obj", CUBE)
+    run.write("l.json", lattice(moves=[{"at": [3, "all", "all"], "by": [0.5, 0, 0]}]))
+    first = subprocess.Popen(["strace", "-f", "-o", run.path("strace.log"), *NO_LOCKS, "-e", "inject=dup:delay_enter=400000",
+                              FFD, "deform", "i.obj", "o.obj", "-l", "l.json"], cwd=run.folder, stderr=subprocess.PIPE)
+    while not (run.exists(".o.obj.ffd-tmp") and run.read(".o.obj.ffd-tmp")) and first.poll() is None:
+        time.sleep(0.001)
+    if first.poll() is not None:
+        print("strace is not allowed to run")
+        return
+    run.remove(".o.obj.ffd-tmp")
+    run.write(".o.obj.ffd-tmp", "half")
+    equal((first.communicate(timeout=SECONDS)[1], first.returncode), (b"ffd: o.obj: is being written by another run\n", IO))
+    equal((run.text(".o.obj.ffd-tmp"), run.exists("o.obj")), ("half", False))
+
+
+@case
+def whatever_call_on_a_file_fails_no_temporary_file_stays(run):
+    if SANITIZED:
+        return
+    calls = ("flock", "fstat", "newfstatat", "fchmod", "write", "dup", "close")
+    run.write("i.obj", CUBE)
+    run.write("l.json", lattice(moves=[{"at": [3, "all", "all"], "by": [0.5, 0, 0]}]))
+    arguments = ["deform", "i.obj", "o.obj", "-l", "l.json", "--report", "r.json", "--threads", "1"]
+    if not strace(run, arguments, "-e", "trace=all"):
+        print("strace is not allowed to run")
+        return
+    lines = run.text("strace.log").splitlines()
+    begun = next(i for i, line in enumerate(lines) if ".r.json.ffd-tmp" in line and "O_CREAT" in line)
+    tried = 0
+    for call in calls:
+        marked = [i >= begun for i, line in enumerate(lines) if re.match(rf"(\d+ +)?{call}\(", line)]
+        for number in (n for n, is_late in enumerate(marked, 1) if is_late):
+            for name in ("o.obj", "r.json"):
+                run.remove(name)
+            done = strace(run, arguments, "-e", f"inject={call}:error=EIO:when={number}")
+            equal(hidden(run.names()), [], f"{call} {number}: exit {done.returncode}, {done.stderr}")
+            tried += 1
+    check(tried >= 12, tried, "calls failed")
+
+
+@case
+def what_stands_in_the_place_of_a_temporary_file_is_named(run):
+    run.write("i.obj", CUBE)
+    run.write("l.json", lattice(moves=[{"at": [3, "all", "all"], "by": [0.5, 0, 0]}]))
+    path = run.path(".o.obj.ffd-tmp")
+    for kind, make, unmake in (("link", lambda p: os.symlink("nowhere", p), os.unlink), ("folder", os.mkdir, os.rmdir),
+                               ("pipe", os.mkfifo, os.unlink)):
+        make(path)
+        for arguments in (("deform", "i.obj", "o.obj", "-l", "l.json"), ("embed", "i.obj", "-l", "l.json", "-o", "o.obj")):
+            equal(plain(run, *arguments),
+                  (IO, f"ffd: o.obj: cannot be written: a {kind} named .o.obj.ffd-tmp stands where it is written first: remove that\n"))
+        unmake(path)
 
 
 @case

@@ -5,7 +5,7 @@ import math
 import os
 import random
 
-from exact_volume import ExactVolume, greville, preset
+from exact_determinant import ExactVolume, greville, preset
 from harness import NO, case, check, equal, main, repetitions
 from said import anything
 

@@ -208,9 +208,9 @@ def broken_skins_are_refused(run):
     del scene.asset["skins"][0]["joints"]
     refused(scene, "/skins/0: \"joints\" is missing")
     scene = skinned([[0, 0, 0, 0]], weights)
-    for missing in ("WEIGHTS_0", "JOINTS_0"):
-        del scene.asset["meshes"][0]["primitives"][0]["attributes"][missing]
-        refused(scene, missing + " is missing" if missing == "WEIGHTS_0" else "it has no JOINTS_0 and WEIGHTS_0")
+    scene.asset["meshes"][0]["primitives"][0]["attributes"]["JOINTS_1"] = 1
+    scene.asset["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_1"] = scene.asset["meshes"][0]["primitives"][0]["attributes"].pop("WEIGHTS_0")
+    refused(scene, "WEIGHTS_0 is missing")
     refused(skinned([[0, 0, 0, 0]], weights, joint_type=5126), "JOINTS_0 is not a VEC4 of unsigned bytes or shorts")
     scene = skinned([[0, 0, 0, 0]], [[255, 0, 0, 0]], weight_type=5121)
     del scene.asset["accessors"][2]["normalized"]
@@ -448,7 +448,7 @@ def broken_targets_are_refused(run):
         del scene.asset["accessors"][1][bound]
     run.write("in.glb", scene.glb())
     run.ffd("deform", "in.glb", "kept.glb", "-l", "l.json",
-            err=re.compile("morph targets move 1 vertex to coordinates that are not finite"))
+            err=lambda said: check(any("morph targets move 1 vertex to coordinates that are not finite" in line for line in said), said))
     equal(run.read("kept.glb")[-24:], run.read("in.glb")[-24:], "the offsets")
     run.ffd("deform", "in.glb", "kept.glb", "-l", "l.json", "--fail-on", "invalid", "--force", code=NO, lines=1)
     scene = morphed([{"TANGENT": 2}], NORMAL=[[0.0, 0.0, 1.0]] * 2, TANGENT=[[1.0, 0.0, 0.0, 1.0]] * 2)

@@ -9,6 +9,7 @@ import resource
 import struct
 import subprocess
 import sys
+import zlib
 
 from harness import FFD, LIMIT, OK, case, check, equal, main
 
@@ -356,6 +357,42 @@ def short_lines_of_others(run):
     for name, commands in (("faces.ply", ALL), ("vertices.ply", EACH_WAY), ("vertices.off", EACH_WAY),
                            ("faces.off", EACH_WAY), ("facets.stl", [*EACH_WAY, "recompute", "glb"])):
         equal(run_all(run, name, of_text(name[-3:], commands), is_text=True)["deform"], OK, name)
+
+
+def png_of_zeros(side):
+    """A picture of one bit a pixel."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">2I5B", side, side, 1, 0, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(bytes((side + 7) // 8 + 1) * side)) + chunk(b"IEND", b""))
+
+
+@case
+def textures_are_taken_from_one_budget(run):
+    """Five of 161 MB, each of which fits, in a file of some kilobytes: two fit together, beside what drawing takes."""
+    image = png_of_zeros(5500)
+    corners = struct.pack("<15f", 0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1)
+    data = corners + image
+    run.write("t.glb", glb({
+        "buffers": [{"byteLength": len(data)}],
+        "bufferViews": [{"buffer": 0, "byteLength": 60, "byteStride": 20}]
+        + [{"buffer": 0, "byteOffset": 60, "byteLength": len(image)} for _ in range(5)],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+                      {"bufferView": 0, "byteOffset": 12, "componentType": 5126, "count": 3, "type": "VEC2"}],
+        "images": [{"bufferView": i + 1, "mimeType": "image/png"} for i in range(5)],
+        "textures": [{"source": i} for i in range(5)],
+        "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": i}}} for i in range(5)],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": i} for i in range(5)]}],
+        **scene([{"mesh": 0}])}, data))
+    run.write("l.json", json.dumps(LATTICE))
+    run.write("jobs.jsonl", json.dumps({"in": "t.glb", "lattice": "l.json", "out": "o.glb"}))
+    grey = "grey in the picture: 3 images, as image 2: needs more than the 400 MB of memory allowed (--memory raises this)"
+    code, peak, line = measure(run, ["view", "t.glb", "-o", "p.png", "--size", "64x48"])
+    equal((code, line), (OK, "ffd: t.glb: " + grey))
+    check(peak <= MOST_OF_VIEWS, f"{peak / 1e6:.1f} MB")
+    code, peak, line = measure(run, ["batch", "jobs.jsonl", "--view", "v", "-j", "1"])
+    check(code == OK and ": 1 done" in line, line)
+    check(peak <= MOST_OF_VIEWS, f"{peak / 1e6:.1f} MB")
 
 
 @case

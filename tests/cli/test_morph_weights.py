@@ -5,7 +5,7 @@ import json
 
 from gltf_build import SHIFT, Scene
 from gltf_reader import Gltf
-from harness import NO, case, check, equal, glb_split, gltf_vectors, lattice, main, near, npy, obj_vertices
+from harness import NO, case, check, equal, float32, glb_split, gltf_vectors, lattice, main, near, npy, obj_vertices
 from said import anything, entry, lines_with
 
 TRIANGLE = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]]
@@ -134,7 +134,8 @@ def primitives_that_share_positions_are_shown_by_their_own_targets(run):
     high = lattice(low=(-10, -10, 1.5), high=(10, 10, 10), moves=[{"by": [1, 0, 0]}])
     run.write("a.glb", two_primitives([TWO[:1], TWO[1:]], [1]).glb())
     run.write("h.json", high)
-    equal(entry(run, "check", "a.glb", "-l", "h.json")["morph_targets"], {"outside": 3, "shown_outside": 3, "invalid": 0})
+    equal(entry(run, "check", "a.glb", "-l", "h.json")["morph_targets"],
+          {"outside": 3, "shown_outside": 3, "base_outside": 6, "invalid": 0})
 
 
 @case
@@ -177,7 +178,7 @@ def gates_judge_base_target_and_what_is_shown(run):
 
 @case
 def the_report_has_what_the_gates_count(run):
-    """The lattice holds z from -1 to 1, base at 0; what gates count beside the base's vertices is in a member of its own."""
+    """The lattice holds z from -1 to 1, base at 0; what gates count beside the vertices as shown is in a member of its own."""
     run.write("l.json", lattice(low=(-9, -9, -1), high=(9, 9, 1), moves=[{"by": [1, 0, 0]}]))
     for offsets, weights, targets, shown in (([0.5], None, 0, 0), ([0.5], [1], 0, 0), ([0.5], [3], 0, 3), ([2.0], None, 3, 0),
                                              ([2.0], [1], 3, 3), ([2.0, 0.5], [0.25, 1], 3, 0), ([2.0, 3.0], [1, -1], 6, 0),
@@ -185,7 +186,7 @@ def the_report_has_what_the_gates_count(run):
         run.write("a.glb", scene([[0.0, 0.0, z] for z in offsets], weights).glb())
         for command in (["check", "a.glb"], ["deform", "a.glb", "b.glb"], ["deform", "a.glb", "b.obj"]):
             job = entry(run, *command, "-l", "l.json")
-            equal([job["outside"], job["morph_targets"]], [0, {"outside": targets, "shown_outside": shown, "invalid": 0}],
+            equal([job["outside"], job["morph_targets"]], [shown, {"outside": targets, "shown_outside": shown, "invalid": 0}],
                   f"{offsets} {weights} {command}")
     made = scene([])
     made.asset["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": made.add([[0, float("inf"), 0]] * 3)}]
@@ -206,6 +207,130 @@ def bounds_of_a_report_are_those_of_info(run):
         for command in (["check", "a.glb"], ["deform", "a.glb", "b.glb"], ["deform", "a.glb", "b.obj"]):
             found = entry(run, *command, "-l", "l.json")["bounds"]
             near([[box["min"], box["max"]] for box in (found["before"], found["after"])], [shape, shifted], 1e-6, str(command))
+
+
+@case
+def counts_and_messages_are_of_what_is_shown(run):
+    """The lattice holds z from 4 to 6: the base lies below it, and what is shown in it. The base comes beside that."""
+    run.write("l.json", lattice(low=(-9, -9, 4), high=(9, 9, 6), moves=[{"by": [1, 0, 0]}]))
+    without = "without the default weights of morph targets 3 vertices are outside the lattice (left where they are)"
+    for offset, weight, inside in ((5.0, 1, True), (10.0, 0.5, True), (2.0, 1, False)):
+        run.write("a.glb", scene([[0.0, 0.0, offset]], [weight]).glb())
+        for command in (["check", "a.glb"], ["deform", "a.glb", "b.glb"], ["deform", "a.glb", "b.obj"], ["view", "a.glb", "-o", "v.html"]):
+            done = run.ffd(*command, "-l", "l.json", *([] if command[0] == "check" else ["--force"]), err=anything)
+            equal(lines_with(done, "without the default"), [f"a.glb: {without}"] if inside else [], str(command))
+            equal(len(lines_with(done, "3 of 3 vertices are not inside: 3 outside")), 0 if inside else 1, str(command))
+            if command[0] == "view":
+                continue
+            job = entry(run, *command, "-l", "l.json")
+            equal([job["inside"], job["outside"], job["moved"], job["displacement"]["max"], job["morph_targets"]["base_outside"]],
+                  [3, 0, 3, 1, 3] if inside else [0, 3, 0, 0, 3], str(command))
+        done = run.ffd("check", "a.glb", "-l", "l.json", "--fail-on", "outside", code=NO, err=anything)
+        equal("3 of 3 vertices are outside" in done.err[0], not inside, done.err[0])
+        run.ffd("check", "a.glb", "-l", "l.json", "--outside", "error", code=5, err=anything)
+
+
+@case
+def the_base_of_other_meshes_is_not_counted_beside_what_is_shown(run):
+    """A mesh without weights beside one with them, both at z = 0, outside."""
+    run.write("l.json", lattice(low=(-9, -9, 4), high=(9, 9, 6), moves=[{"by": [1, 0, 0]}]))
+    made = scene([[0.0, 0.0, 5.0]], [1], nodes=[{"mesh": 0}, {"mesh": 1}])
+    made.asset["meshes"].append({"primitives": [{"attributes": {"POSITION": made.add(TRIANGLE, bounds=True)}}]})
+    run.write("a.glb", made.glb())
+    job = entry(run, "check", "a.glb", "-l", "l.json")
+    equal([job["inside"], job["outside"], job["morph_targets"]["base_outside"]], [3, 3, 3])
+
+
+@case
+def a_vertex_shown_has_the_rounding_of_base_and_offsets(run):
+    """1 - 0.9 as float32 is 2.4e-8 above the lattice's end at 0.1: less than these numbers are rounded by, and more than 0.1 is."""
+    run.write("l.json", lattice(low=(-9, -9, -9), high=(9, 9, 0.1), moves=[{"by": [1, 0, 0]}]))
+    run.write("a.glb", scene([[0.0, 0.0, 1.0], [0.0, 0.0, -float32(0.9)]], [1, 1]).glb())
+    for command in (["check", "a.glb"], ["deform", "a.glb", "b.glb"], ["deform", "a.glb", "b.obj"]):
+        job = entry(run, *command, "-l", "l.json")
+        equal([job["inside"], job["moved"]], [3, 3], str(command))
+
+
+GRID = [[x / 4, y / 4, 0.0] for y in range(7) for x in range(7)]
+QUADS = [[7 * y + x, 7 * y + x + 1, 7 * y + x + 8, 7 * y + x, 7 * y + x + 8, 7 * y + x + 7] for y in range(6) for x in range(6)]
+
+
+def grid(run, plain, offsets, weights):
+    """A grid in two primitives, with normals and tangents. plain: its base is the shape that the weights show of the other."""
+    made = Scene(nodes=[{"mesh": 0, "name": "Sheet"}], scene=0, scenes=[{"nodes": [0]}])
+    moves = [[[k * (i % 5) / 64 * c for c in offset] for i in range(len(GRID))] for k, offset in enumerate(offsets, 1)]
+    shown = [[x + sum(w * m[i][a] for w, m in zip(weights, moves)) for a, x in enumerate(p)] for i, p in enumerate(GRID)]
+    attributes = {"POSITION": made.add(shown if plain else GRID, bounds=True), "NORMAL": made.add([[0.0, 0.0, 1.0]] * len(GRID)),
+                  "TANGENT": made.add([[1.0, 0.0, 0.0, 1.0]] * len(GRID), shape="VEC4")}
+    halves = [[[i] for quad in part for i in quad] for part in (QUADS[:18], QUADS[18:])]
+    primitives = [{"attributes": attributes, "indices": made.add(half, 5123, "SCALAR")} for half in halves]
+    if not plain:
+        targets = [{"POSITION": made.add(m, bounds=True)} for m in moves]
+        primitives = [{**primitive, "targets": targets} for primitive in primitives]
+    made.asset["meshes"] = [{"primitives": primitives, **({} if plain else {"weights": weights})}]
+    run.write("plain.glb" if plain else "a.glb", made.glb())
+
+
+def figures(job, *left_out):
+    """What a report says of the deformation."""
+    names = ("line", "input", "output", "seconds", "picture", "row", "positions", "set", *left_out)
+    return {name: value for name, value in job.items() if name not in names}
+
+
+FOLD = [{"at": [1, [1, 2], [1, 2]], "by": [3, 0.5, 0.25]}, {"twist": {"axis": "z", "degrees": 30}}]
+TARGETS = ([0.0, 1.0, 8.0], [-2.0, 0.0, 4.0])
+
+
+@case
+def every_figure_is_that_of_the_shape_shown(run):
+    """Whole reports: of a check, of conversions, of a glTF, of a picture and of a batch, and of a glTF whose base is that shape."""
+    run.write("l.json", lattice(low=(-0.25, -0.25, -0.5), high=(1, 2, 0.5), moves=FOLD))
+    wanted = ("--fail-on", "edges=1e9,flipped=99")
+    for weights, options in (([0.5, 1], ()), ([1, 0], ("--outside", "extend", "--falloff", "0.3")), ([0.5, -1], ("--normals", "recompute")),
+                             ([1, 0.25], ("--only", "node:Sheet", "--snap", "0.1", "--normals", "keep"))):
+        grid(run, False, TARGETS, weights)
+        grid(run, True, TARGETS, weights)
+        checked = figures(entry(run, "check", "a.glb", "-l", "l.json", *options))
+        plain = figures(entry(run, "check", "plain.glb", "-l", "l.json", *options), "morph_targets")
+        edges = plain.pop("edges")
+        equal({name: checked[name] for name in plain}, plain, f"{weights} {options}: the shape alone")
+        # Where an edge leaves the lattice depends on the rounding of its ends, which is that of base and offsets together.
+        near([checked["edges"]["deviation"][name] for name in ("max", "mean")], [edges["deviation"][name] for name in ("max", "mean")],
+             1e-7, f"{weights} {options}: edges")
+        check(all(checked[name] for name in ("outside", "moved", "flipped_faces")) and checked["folds"]["folded_cells"]
+              and (checked["tear"]["edges"] > 0) == ("extend" not in options), "too little happens", checked)
+        for out in ("b.obj", "b.ply", "b.off", "b.stl", "b.glb"):
+            found = entry(run, "deform", "a.glb", out, "-l", "l.json", *options, *wanted)
+            equal(figures(found), checked, f"{weights} {options} {out}")
+        equal(figures(entry(run, "check", "a.glb", "-l", "l.json", *options, "--picture", "p.html", "--force")), checked, "a picture")
+        run.write("m.jsonl", "".join(json.dumps({"in": "a.glb", "lattice": "l.json", "out": name}) + "\n" for name in ("1.ply", "2.glb", "3.obj")))
+        run.ffd("batch", "m.jsonl", *options, *wanted, "--report", "r.json", "--force", err=anything)
+        for job in json.loads(run.read("r.json"))["jobs"]:
+            equal(figures(job), checked, f"a batch: {job['output']}")
+
+
+@case
+def gates_are_those_of_the_shape_shown_whatever_is_written(run):
+    """Each of these is violated as shown, and by neither base nor targets."""
+    high = {"low": (-9, -9, 4), "high": (9, 9, 6)}
+    for name, made, offset in (("flipped", lattice(size=(2, 2, 2), **high, moves=[{"at": [1, "all", "all"], "by": [-40, 0, 0]}]), [0.0, 0.0, 5.0]),
+                               ("tear", lattice(low=(0.6, -9, 4), high=(9, 9, 6), moves=[{"by": [0, 0, 1]}]), [0.25, 0.0, 5.0]),
+                               ("edges=0.01", lattice(**high, moves=[{"twist": {"axis": "x", "degrees": 3000}}]), [0.0, 0.0, 5.0])):
+        run.write("l.json", made)
+        run.write("a.glb", scene([offset], [1]).glb())
+        for command in (["check", "a.glb"], ["deform", "a.glb", "b.obj"], ["deform", "a.glb", "b.glb"], ["deform", "a.glb", "b.stl"]):
+            done = run.ffd(*command, "-l", "l.json", "--fail-on", name, code=NO, err=anything)
+            equal(len(lines_with(done, f"--fail-on {name.partition('=')[0]}")), 1, f"{command} {name} {done.err}")
+
+
+@case
+def normals_recomputed_beside_figures_of_the_shape_shown(run):
+    """The base's normals come from the base's faces, though the figures are of other ones."""
+    run.write("l.json", lattice(low=(-9, -9, -9), high=(9, 9, 9), moves=[{"rotate": {"axis": "x", "degrees": 90, "about": [0, 0, 0]}}]))
+    grid(run, False, ([0.0, 0.0, 8.0],), [1])
+    run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", "--normals", "recompute", "--report", "r.json", err=anything)
+    asset, data = glb_split(run.read("b.glb"))
+    near(gltf_vectors(asset, data, asset["meshes"][0]["primitives"][0]["attributes"]["NORMAL"]), [[0, -1, 0]] * len(GRID), 1e-6)
 
 
 @case
@@ -243,6 +368,9 @@ def a_lattice_round_a_mesh_holds_base_targets_and_what_is_shown(run):
         run.ffd("check", "a.glb", "-l", "l.json", "--fail-on", "outside")
         run.ffd("embed", "a.glb", "-l", "l.json", "-o", "e.npy", "--force")
         near(npy(run.read("e.npy"))[2], [[(x - a) / (b - a) for x, a, b in zip(p, low, high)] for p in TRIANGLE], 1e-9)
+    # One target, and weights that show more than it, or the other side.
+    for weight, low, high in ((2, [0, 0, 0], [5, 1, 2]), (-1, [-2, 0, -1], [3, 1, 1])):
+        near(box_round(run, scene(TWO[:1], [weight])), [low, high], 1e-6, str(weight))
 
 
 def primitives(run, name, mesh):

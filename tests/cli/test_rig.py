@@ -327,6 +327,35 @@ def only_moves_the_nodes_of_what_it_selects(run):
 
 
 @case
+def what_hangs_on_a_selected_joint_and_is_not_selected_is_told(run):
+    """A plate on a joint, one on a group below another, and one of the joint itself; and what is not left behind is not told."""
+    move = [{"by": [0, 3, 4]}]
+    left = "nodes? that --only does not select"
+    made = arm()
+    done, follow = deform(run, made, move, "--rig", "follow", "--only", "node:skinned", "--report", "r.json")
+    told(done, "1 node that --only does not select stays where it is, up to 5 from where the node that it hangs on would carry it: "
+         "plate on lower$")
+    rig = json.loads(run.text("r.json"))["jobs"][0]["rig"]
+    equal([rig["unselected"], rig["unselected_by"]], [1, 5])
+    made.asset["nodes"] += [{"name": "group", "translation": [0, 1, 0], "children": [7]}, {"name": "ring", "mesh": 1}]
+    made.asset["nodes"][3]["children"] = [6]
+    made.asset["nodes"][2]["mesh"] = 1
+    done, _ = deform(run, made, move, "--rig", "follow", "--only", "node:skinned")
+    told(done, "3 nodes that --only does not select stay where they are, up to 5 from where the nodes that they hang on")
+    for options in (("--only", "node:root", "--only", "node:skinned"), ("--only", "node:upper"), ()):
+        done, _ = deform(run, made, move, "--rig", "follow", *options)
+        not_told(done, left)
+    done, _ = deform(run, made, move, "--only", "node:skinned")
+    not_told(done, left)
+    # A plate that turns with nothing moved is left behind, too: the hand turns about itself.
+    made = arm()
+    made.asset["nodes"][4] = {"name": "plate", "mesh": 1}
+    turn = [{"rotate": {"axis": "z", "degrees": 90, "about": [0, 3, 0]}}]
+    done, _ = deform(run, made, turn, "--rig", "follow", "--only", "node:skinned")
+    told(done, "stays where it is, though the node that it hangs on would turn it: plate on lower$")
+
+
+@case
 def a_mesh_at_a_joint_that_is_not_selected_stays_where_it_is(run):
     """Its node goes along as a joint: the vertices and their morph targets are brought back."""
     made = arm()

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Skin weights that do not sum to 1 are divided by their sum, and a vertex without any follows its first joint."""
 from gltf_build import SHEAR, Scene
-from harness import case, equal, glb_split, gltf_vectors, main, near
+from harness import INVALID, case, equal, glb_split, gltf_vectors, lattice, main, near, obj_vertices
 from said import anything, entry, not_told, told
 
+STILL = lattice(low=(-10, -10, -10), high=(10, 10, 10))
 POINTS = [[0.0, 1.0, 0.0], [1.0, 2.0, 0.0], [1.0, -1.0, 1.0], [2.0, 1.0, 1.0]]
 
 
@@ -46,6 +47,71 @@ def small_deviations_are_said_with_v_and_large_ones_always(run):
     told(done, r"\b2\b", "weights", r"\bsum\b")
     done, _ = skinned(run, [[0.995, 0, 0, 0], [1.005, 0, 0, 0], [1, 0, 0, 0], [0, 1, 0, 0]], BOTH, "-v")
     told(done, r"\b2\b", "weights", r"\bsum\b")
+
+
+def parts(run, sets, *options, node=None, code=0):
+    """A primitive for each set of attributes, below a node at x = 3 with a skin whose joint is at x = -4; the vertices after."""
+    made = Scene(nodes=[{"mesh": 0, "skin": 0, "translation": [3, 0, 0]}, {"name": "b", "translation": [-4, 0, 0]}],
+                 scene=0, scenes=[{"nodes": [0, 1]}], skins=[{"joints": [1]}])
+    of = {"JOINTS": lambda: made.add([[0, 0, 0, 0]] * 4, component=5121, shape="VEC4"),
+          "WEIGHTS": lambda: made.add([[1.0, 0, 0, 0]] * 4, shape="VEC4")}
+    made.asset["meshes"] = [{"primitives": [{"mode": 0, "attributes": {
+        "POSITION": made.add(POINTS, bounds=True), **{name: of[name[:-2]]() for name in names}}} for names in sets]}]
+    made.asset["nodes"][0] |= node or {}
+    run.write("a.glb", made.glb())
+    run.write("l.json", SHEAR)
+    run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", "--force", *options, code=code, err=anything)
+    if code:
+        return None
+    asset, data = glb_split(run.read("b.glb"))
+    return [gltf_vectors(asset, data, p["attributes"]["POSITION"]) for p in asset["meshes"][0]["primitives"]]
+
+
+WHOLE, PLAIN = ("JOINTS_0", "WEIGHTS_0"), ()
+
+
+@case
+def a_primitive_without_joints_is_placed_by_its_node(run):
+    """As viewers show it, though the node has a skin; beside one that the skin moves, which its joint places."""
+    for sets, shifts, flaws in (([PLAIN], [3], 1), ([WHOLE, PLAIN], [-4, 3], 1), ([PLAIN, WHOLE, PLAIN], [3, -4, 3], 1),
+                                ([("JOINTS_0",)], [3], 1), ([("WEIGHTS_0",), WHOLE], [3, -4], 1), ([WHOLE], [-4], 0)):
+        found = parts(run, sets)
+        near(found, [sheared([shift] * 4) for shift in shifts], 1e-6, str(sets))
+        job = entry(run, "deform", "a.glb", "b.glb", "-l", "l.json")
+        equal(len(job.get("flaws", [])), flaws, str(sets))
+        run.ffd("deform", "a.glb", "strict.glb", "--force", "-l", "l.json", "--strict", code=INVALID if flaws else 0, err=anything)
+        done = run.ffd("deform", "a.glb", "b.obj", "-l", "l.json", "--force", err=anything)
+        equal(len([line for line in done.err if "without the skin" in line]), flaws, str(sets))
+        near(sorted(obj_vertices(run.text("b.obj"))), sorted(
+            [x + 0.05 * (x + shift) * y + shift, y, z] for shift in shifts for x, y, z in POINTS), 1e-5, str(sets))
+
+
+@case
+def a_last_set_with_joints_or_weights_only_is_ignored(run):
+    for more in (("JOINTS_1",), ("WEIGHTS_1",), ("JOINTS_1", "WEIGHTS_2")):
+        near(parts(run, [WHOLE + more]), [sheared([-4] * 4)], 1e-6, str(more))
+        flaws = entry(run, "deform", "a.glb", "b.glb", "-l", "l.json")["flaws"]
+        equal([flaws[0]["pointer"], flaws[0]["message"].split()[0]], [f"/meshes/0/primitives/0/attributes/{more[0]}", more[0]])
+    # One before a whole set means nothing plain.
+    equal(parts(run, [WHOLE + ("JOINTS_1", "JOINTS_2", "WEIGHTS_2")], code=INVALID), None)
+
+
+@case
+def a_node_that_places_a_primitive_follows(run):
+    """--rig follow moves the node of a primitive that its skin does not move, and the default pose is that of keep."""
+    for sets in ([PLAIN], [WHOLE, PLAIN]):
+        for node in ({}, {"name": "body", "rotation": [0, 0, 0.6, 0.8]}):
+            kept = parts(run, sets, node=node)
+            shown = []
+            for rig in ("keep", "follow"):
+                parts(run, sets, "--rig", rig, node=node)
+                run.write("still.json", STILL)
+                run.ffd("deform", "b.glb", "c.obj", "-l", "still.json", "--force", err=anything)
+                shown.append(obj_vertices(run.text("c.obj")))
+                placed = [glb_split(run.read(name))[0]["nodes"][0] for name in ("a.glb", "b.glb")]
+                equal(placed[0] == placed[1], rig == "keep", f"{sets} {node} {rig}")
+            near(shown[1], shown[0], 1e-5, f"{sets} {node}")
+            equal(len(kept), len(sets))
 
 
 @case

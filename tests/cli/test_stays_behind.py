@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What stays behind while a mesh moves is said without -v, a line a kind (joints, pivots and sockets share one), and only
 what is in reach of the lattice; and what stands for a node at a distance (MSFT_lod) goes along."""
+import json
 import re
 
 from gltf_build import SHEAR, Scene
@@ -125,6 +126,49 @@ def joints(run):
     done = deformed(run, made)
     told(done, r"the joints of 1 skin lie up to 1 off", r"\bhip\b")
     only_kind(done, "joint")
+
+
+def with_skin(run, used, nodes):
+    """The body and joints "a" and "b"; a node shows the body with the skin of joint "a", if it is used."""
+    made = scene(nodes)
+    primitive = made.asset["meshes"][0]["primitives"][0]
+    primitive["attributes"] |= {"JOINTS_0": made.add([[0, 0, 0, 0]] * 3, component=5121, shape="VEC4"),
+                                "WEIGHTS_0": made.add([[1.0, 0.0, 0.0, 0.0]] * 3, shape="VEC4")}
+    made.asset["skins"] = [{"joints": [1]}, {"joints": [2]}]
+    if used:
+        made.asset["nodes"][0]["skin"] = 0
+    return made
+
+
+@case
+def joints_of_skins_that_are_not_used_have_a_subject(run):
+    """With and without a skin that is used; they count as joints in the report, and follow."""
+    nodes = [at("a", 0), at("b", 1)]
+    told(deformed(run, with_skin(run, False, nodes)), "2 joints of skins that are not used lie up to 1 off the deformed mesh")
+    told(deformed(run, with_skin(run, True, nodes)), "the joints of 1 skin and 1 joint of a skin that is not used lie up to 1 off")
+    told(deformed(run, with_skin(run, False, [at("a", 50), at("b", 1)])),
+         "1 joint of a skin that is not used lies up to 1 off the deformed mesh", r"\(b\): see --rig$")
+    equal(entry(run, "check", "a.glb", "-l", "l.json")["rig"]["joints"], 2)
+    done = deformed(run, with_skin(run, False, nodes), "--rig", "follow")
+    not_told(done, "off the deformed mesh")
+    asset, _ = glb_split(run.read("b.glb"))
+    equal([node["translation"] for node in asset["nodes"][1:]], [[1, 0, 0], [2, 0, 0]])
+
+
+@case
+def joints_lie_off_a_morph_target(run):
+    """Of --as-morph, --morph and check; the report has it; a target that moves no joint says nothing."""
+    made = with_skin(run, True, [at("a", 0), at("b", 50)])
+    words = r"the joints of 1 skin lie up to 1 off the mesh that the morph target shows \(a\); animations will turn it about the old places$"
+    run.write("far.json", lattice(low=(0.5, -10, -10), high=(10, 10, 10), moves=[{"by": [1, 0, 0]}]))
+    told(deformed(run, made, "--as-morph", "wide"), words)
+    for command in (("check", "a.glb", "--as-morph", "w"), ("deform", "a.glb", "b.glb", "--as-morph", "w")):
+        rig = entry(run, *command, "-l", "l.json")["rig"]
+        equal([rig["joints"], rig["moved"], rig["largest_lag"], rig["worst"]], [2, 0, 1, "a"], str(command))
+        equal(entry(run, *command, "-l", "far.json")["rig"]["largest_lag"], 0)
+    done = run.ffd("deform", "a.glb", "c.glb", "--morph", "far=far.json", "--morph", "wide=l.json", "--report", "m.json", err=anything)
+    told(done, 'a.glb: morph target "wide": ' + words)
+    equal(json.loads(run.text("m.json"))["jobs"][0]["rig"]["largest_lag"], 1)
 
 
 @case

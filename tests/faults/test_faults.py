@@ -12,9 +12,9 @@ import shutil
 import struct
 
 from bspline import BoxVolume
-from exact_volume import ExactVolume, preset
+from exact_determinant import ExactVolume, preset
 from gltf_reader import Gltf
-from harness import INVALID, NO, UNSUPPORTED, case, check, equal, float32, main, near, npy, obj_vertices
+from harness import INVALID, NO, UNSUPPORTED, case, check, equal, float32, main, near, npy, obj_of, obj_vertices
 from said import anything, counts, entry, not_told, told
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -89,6 +89,165 @@ def maths_03_principal_axes(run):
     run.ffd("lattice", "new", "m.obj", "-o", "l.json", "--axes", "principal", "--margin", "0")
     run.ffd("embed", "m.obj", "-l", "l.json", "-o", "u.npy", "--status", "s.npy")
     equal(npy(run.read("s.npy"))[2], [0, 0, 0, 0])
+
+@case
+def maths3_01_steep_weights_residual(run):
+    """An iteration goes on until the promised bound holds: weights of 1e6 leave z right to what u,v,w can hold."""
+    use(run, "maths3-01-steep-weights-residual")
+    job = entry(run, "deform", "m.obj", "out.obj", "-l", "l.json")
+    counts(job, vertices=3, inside=3)
+    check(job["residual"]["max"] <= 4e-11, "the residual", job["residual"])
+    near([p[2] for p in obj_vertices(run.text("out.obj"))],
+         [0.165714284214286464, 0.960624999945092628, 0.990115997981637305], 3e-13)
+
+
+@case
+def maths3_02_steep_weights_thin_positions(run):
+    """A sheet of 1e-9: its w is known to 8e-6, and no worse with a weight of 1000."""
+    use(run, "maths3-02-steep-weights-thin-positions")
+    job = entry(run, "deform", "m.obj", "out.obj", "-l", "l.json")
+    counts(job, vertices=3, inside=3, multiple=0, singular=0)
+    near([p[2] for p in obj_vertices(run.text("out.obj"))], [0.6579805893726, 0.6469908132558, 0.6501431644502], 8e-6)
+
+
+@case
+def maths3_04_turned_box_tolerance(run):
+    """Each vertex differs from some point of the border by at most 0.918 of the tolerance in every coordinate."""
+    use(run, "maths3-04-turned-box-tolerance")
+    job = entry(run, "check", "m.obj", "-l", "l.json")
+    counts(job, vertices=6, inside=6, outside=0)
+    equal(job["tear"]["edges"], 0)
+
+
+@case
+def maths3_05_cylinder_seam_open_knots(run):
+    """No vertex on the seam of a full turn is multiple, whatever the knots along v, also where it collapses to an axis."""
+    use(run, "maths3-05-cylinder-seam-open-knots")
+    file = json.loads(run.text("l.json"))
+    counts(entry(run, "check", "m.obj", "-l", "l.json"), vertices=5, inside=5, multiple=0)
+    seam = [[r, 0, z / 4] for r in (0.55, 0.7, 0.9) for z in (-3, 0, 4)]
+    run.write("seam.obj", obj_of(seam))
+    for kind in ("open", "uniform", [0, 0.1, 0.3, 0.4, 0.6, 0.7, 0.8, 1, 1.3], "clamped"):
+        for inner in (0, 0.5):
+            file["knots"][1] = kind
+            file["rest"]["cylinder"]["radius"][0] = inner
+            run.write("s.json", file)
+            counts(entry(run, "check", "seam.obj", "-l", "s.json"), vertices=9, inside=9, multiple=0)
+
+
+def rays(*ends):
+    """A lattice of degree 1 through rays from one point of the plane z = 0 to another, of height 1."""
+    points = [[*p, z] for z in (0, 1) for ray in ends for p in ray]
+    return {"format": "ffd-lattice", "version": 1, "size": [2, len(ends), 2], "degree": [1, 1, 1], "rest": {"points": points}}
+
+
+@case
+def faces_that_overlap_in_a_plane_are_a_seam_where_the_volume_goes_on(run):
+    """Sibling of maths3-05: a full turn whose first and last ray have other radii. One that comes back overlaps itself."""
+    turned = [[[0, 1], [0, 2]], [[-1, 0], [-2, 0]], [[0, -1], [0, -2]]]
+    run.write("turn.json", rays([[1, 0], [2, 0]], *turned, [[1.25, 0], [2.25, 0]]))
+    run.write("m.obj", obj_of([[x, 0, z] for x in (1.25, 1.5, 2) for z in (0, 0.5, 1)]))
+    counts(entry(run, "check", "m.obj", "-l", "turn.json"), vertices=9, inside=9, multiple=0)
+    run.ffd("embed", "m.obj", "-l", "turn.json", "-o", "u.npy")
+    # The least u,v,w: u is less on the last ray.
+    near(npy(run.read("u.npy"))[2], [[x - 1.25, 1, z] for x in (1.25, 1.5, 2) for z in (0, 0.5, 1)], 1e-15)
+    run.write("back.json", rays([[1, 0], [2, 0]], [[1, 1], [2, 1]], [[1.25, 0], [2.25, 0]]))
+    counts(entry(run, "check", "m.obj", "-l", "back.json"), vertices=9, multiple=9)
+
+
+@case
+def maths3_10_box_weights_open_knots(run):
+    """With weights, and knots that are not clamped, the volume is not the whole box: by how much is said."""
+    use(run, "maths3-10-box-weights-open-knots")
+    # The border's control points along u: (h-1 - 1 h+1 ...) with weights 1, 2, 3 in turn, h N = 1/6, 4/6, 1/6.
+    file = json.loads(run.text("l.json"))
+    off = 0
+    for first in range(0, 64, 4):
+        h = file["weights"][first:first + 4]
+        for row, end in (((h[0], 4 * h[1], h[2]), 0), ((h[1], 4 * h[2], h[3]), 1)):
+            off = max(off, abs(row[2] - row[0]) / sum(row))
+    for a in (4, 16):
+        for first in (i for i in range(64) if i // a % 4 == 0):
+            h = file["weights"][first:first + 4 * a:a]
+            off = max(off, abs(h[2] - h[0]) / (h[0] + 4 * h[1] + h[2]), abs(h[3] - h[1]) / (h[1] + 4 * h[2] + h[3]))
+    for arguments in (("check", "m.obj", "-l", "l.json"), ("embed", "m.obj", "-l", "l.json", "-o", "u.npy")):
+        done = run.ffd(*arguments, err=anything)
+        told(done, "l.json", "not its whole box", "u, v, w", "not clamped", f"{off:.3g} off")
+    near([info(run, "l.json")["border_off"]], [off], 1e-15)
+    # Where the weights do not vary along the open direction, and where all knots are clamped, nothing is missing.
+    for knots, weights in (("open", [1 + i // 4 for i in range(64)]), ("clamped", file["weights"])):
+        along = ["open", "clamped", "clamped"] if knots == "open" else ["clamped"] * 3
+        run.write("s.json", {**file, "knots": along, "weights": weights})
+        done = run.ffd("check", "m.obj", "-l", "s.json", "--report", "r.json", "--force", err=anything)
+        not_told(done, "whole box")
+        counts(json.loads(run.read("r.json"))["jobs"][0], inside=6, outside=0)
+        check("border_off" not in info(run, "s.json"), knots)
+
+
+@case
+def cylinders_that_weights_change_are_named(run):
+    """Siblings of maths3-10: a cylinder's ends, and its radii where the weights are no product f(u,w) g(v)."""
+    run.write("m.obj", obj_of([[0.75, 0.1, 0], [0.6, 0.2, 0.3], [0.7, 0, 0.9]]))
+    cylinder = {"format": "ffd-lattice", "version": 1, "size": [3, 6, 4], "degree": [2, 2, 2],
+                "rest": {"cylinder": {"center": [0, 0, 0], "axis": "z", "radius": [0.5, 1], "height": 2}}}
+    count = 3 * 6 * 4
+    product = [(1 + i % 3 + 2 * (i // 18)) * (1 + i // 3 % 6) for i in range(count)]
+    mixed = [1 + i * i % 7 for i in range(count)]
+
+    def warned(weights, *knots):
+        run.write("l.json", {**cylinder, "knots": list(knots), "weights": weights})
+        done = run.ffd("check", "m.obj", "-l", "l.json", err=anything)
+        off = info(run, "l.json").get("border_off", 0)
+        if off:
+            told(done, "l.json", "not its whole cylinder", f"{off:.3g} off")
+        else:
+            not_told(done, "whole cylinder")
+        return off
+
+    equal(warned(product, "clamped", "closed", "clamped"), 0)
+    equal(warned(product, "clamped", "clamped", "clamped"), 0)
+    check(warned(product, "open", "closed", "clamped") > 0.01)
+    check(warned(product, "clamped", "closed", "open") > 0.01)
+    check(warned(mixed, "clamped", "closed", "clamped") > 0.01)
+    equal(warned([2] * count, "open", "open", "open"), 0)
+
+
+@case
+def a_box_round_a_mesh_that_weights_change_is_named(run):
+    run.write("m.obj", obj_of([[0, 0, 0], [1, 2, 3], [0.5, 1, 2]]))
+    run.write("l.json", {"format": "ffd-lattice", "version": 1, "size": [3, 3, 3], "degree": [2, 2, 2],
+                         "knots": ["open", "clamped", "clamped"], "rest": {"box": "mesh", "margin": 0.5},
+                         "weights": [1 + i % 3 for i in range(27)]})
+    # Along u the ends are (P0 + 2 P1)/3 and (2 P1 + 3 P2)/5 of the points at -1.5, 0.5, 2.5 and the sides -0.5, 1.5.
+    told(run.ffd("check", "m.obj", "-l", "l.json", err=anything), "l.json", "not its whole box", "along u that", "0.333 off")
+
+
+# Torn edges
+
+@case
+def maths3_11_blocks_jump_unseen(run):
+    """The blocks move their common face apart, between the vertices: two edges jump by 0.6 there, as without --blocks."""
+    use(run, "maths3-11-blocks-jump-unseen")
+    both = ("-l", "a.json", "-l", "b.json")
+    for options in (both, both + ("--blocks",)):
+        tear = entry(run, "check", "m.obj", *options)["tear"]
+        equal([tear["edges"], tear["largest"]], [2, 0.6], options)
+        run.ffd("deform", "m.obj", "out.obj", *options, "--fail-on", "tear", code=NO, err=anything)
+        check(not run.exists("out.obj"), "nothing is written")
+    told(run.ffd("deform", "m.obj", "out.obj", *both, "--blocks", err=anything), "blocks", "differently", r"\b0\.6\b")
+
+
+@case
+def maths3_12_extend_jumps_between_arms(run):
+    """Between the arms of a horseshoe, of which one moves by 1, the nearest border changes: two edges jump by 1."""
+    use(run, "maths3-12-extend-jumps-between-arms")
+    options = ("-l", "l.json", "--outside", "extend")
+    tear = entry(run, "check", "m.obj", *options)["tear"]
+    equal(tear["edges"], 2)
+    near([tear["largest"]], [1], 1e-9)
+    run.ffd("deform", "m.obj", "out.obj", *options, "--fail-on", "tear,folds", code=NO, err=anything)
+    check(not run.exists("out.obj"), "nothing is written")
+    told(run.ffd("deform", "m.obj", "out.obj", *options, err=anything), "border", r"\bstep to a neighbour is 1\b")
 
 
 # The fold proof
@@ -445,6 +604,92 @@ def wild_16_csv_semicolon(run):
     equal(done.err[0], f"sweep.csv: line 1: {said}")
     run.ffd("deform", "m.obj", "single.obj", "-l", "sweep.json", "--set", "DEGREES=30")
     equal((run.names("o"), run.read("o/a.obj")), (["a.obj"], run.read("single.obj")))
+
+
+def swept(run, name):
+    """The table of a folder is read as one with commas is; what is said of it."""
+    os.environ["XDG_CACHE_HOME"] = run.path("cache")
+    run.folder_of("o")
+    arguments = ["batch", "--csv", name, "--in", "m.obj", "-l", "sweep.json", "--out-dir", "o"]
+    done = run.ffd(*arguments, err=anything)
+    run.ffd("deform", "m.obj", "single.obj", "-l", "sweep.json", "--set", "DEGREES=30", "--force")
+    equal((run.names("o"), run.read("o/a.obj")), (["a.obj"], run.read("single.obj")))
+    said = done.err[0]
+    run.ffd(*arguments, "--strict", "--force", code=(1, INVALID), err=anything)
+    os.unlink(run.path("o/a.obj"))
+    os.rmdir(run.path("o"))
+    return said
+
+
+@case
+def wild3_22_shared_buffer_in_place(run):
+    """Two models that share a buffer are each moved once, in whatever order; one alone leaves its neighbour as it was."""
+    names = ["chair.gltf", "chair_blue.gltf"]
+    at_rest, moved = [[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[1, 0, 0], [2, 0, 0], [2, 1, 0]]
+    told = "chair.gltf: chair.bin is a buffer of chair_blue.gltf too, and stays: chair-1.bin is written in place of it"
+
+    def begin():
+        for name in run.names():
+            run.remove(name)
+        use(run, "wild3-22-shared-buffer-in-place")
+
+    def shown():
+        return [positions(run, name) for name in names]
+
+    begin()
+    run.ffd("deform", *names, "--in-place", "-l", "move.json", err=told)
+    equal(shown(), [moved, moved])
+    begin()
+    run.ffd("deform", *names[::-1], "--in-place", "-l", "move.json")
+    equal(shown(), [moved, moved])
+    begin()
+    run.ffd("deform", "chair.gltf", "--in-place", "-l", "move.json", err=told)
+    equal(shown(), [moved, at_rest])
+    run.ffd("deform", "chair.gltf", "--in-place", "-l", "move.json")
+    equal((shown(), run.names()), ([[[2, 0, 0], [3, 0, 0], [3, 1, 0]], at_rest],
+                                   ["chair-1.bin", "chair.bin", "chair.gltf", "chair_blue.gltf", "move.json"]))
+    # Another model is written over the first.
+    begin()
+    os.mkdir(run.path("new"))
+    for name in ("chair_blue.gltf", "chair.bin"):
+        shutil.move(run.path(name), run.path("new/" + name))
+        shutil.copy(run.path("new/" + name), run.path(name))
+    run.ffd("deform", "new/chair_blue.gltf", "chair.gltf", "-l", "move.json", "--force",
+            err="new/chair_blue.gltf: " + told.partition(": ")[2])
+    equal((shown(), positions(run, "new/chair_blue.gltf")), ([moved, at_rest], at_rest))
+    # And converted over it: a mesh of another format.
+    run.write("cube.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n")
+    run.write("z.gltf", run.text("chair_blue.gltf").replace("chair.bin", "cube.bin"))
+    shutil.copy(run.path("chair.bin"), run.path("cube.bin"))
+    run.ffd("deform", "cube.obj", "cube.gltf", "-l", "move.json", "--force",
+            err="cube.obj: cube.bin is a buffer of z.gltf too, and stays: cube-1.bin is written in place of it")
+    equal((positions(run, "cube.gltf"), positions(run, "z.gltf")), (moved, at_rest))
+
+
+@case
+def wild3_09_batch_to_another_format(run):
+    """The outputs of a folder that is converted have the ending of their format."""
+    use(run, "wild3-09-batch-to-another-format")
+    os.environ["XDG_CACHE_HOME"] = run.path("cache")
+    run.folder_of("out")
+    run.ffd("batch", "--in", "parts/*.obj", "-l", "twist.json", "--out-dir", "out", "--output-format", "glb", err=anything)
+    equal(run.names("out"), ["a.glb", "b.glb"])
+    equal(info(run, "out/a.glb")["mesh_format"], "glTF")
+
+
+@case
+def wild3_16_table_dialects(run):
+    """Columns that are separated by tabs, and the column without a name that pandas writes, are read; both are said."""
+    use(run, "wild3-16-table-dialects")
+    equal(swept(run, "tab.csv"), "tab.csv: line 1: the columns are separated by tabs: numbers may have a decimal comma")
+    equal(swept(run, "index.csv"), "index.csv: line 1: column 1 has no name, as the index of pandas (index=False), and is left out")
+
+
+@case
+def wild3_16b_table_blanks(run):
+    """Blanks behind the commas are no part of a name or a value."""
+    use(run, "wild3-16b-table-blanks")
+    equal(swept(run, "t.csv"), 't.csv: line 1: blanks beside "DEGREES" are left out')
 
 
 @case

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Races and hostile surroundings that once cost users their files (siege-*): what stands under a name when a run ends is
-whole, and what is not the run's own is as it was. The inputs are made here. siege-02, a run that is killed at any call, is
-tests/cli/test_file_sets.py.
+whole, and what is not the run's own is as it was. The inputs are made here. Others are in tests/cli: siege-02, a run that is
+killed at any call, and siege3-07, file systems without locks, in test_file_sets.py; siege3-06, textures beyond the memory, in
+test_memory.py; siege3-09, jobs that read what others write, and siege3-05 in a batch in test_batch_reads.py.
 
     FFD=... PYTHONPATH=tests/cli python3 tests/faults/test_siege.py siege_05_a_file_that_appears_under_the_name_of_the_output_stays
 """
@@ -13,7 +14,7 @@ import socket
 import subprocess
 import time
 
-from harness import CUBE, CUBE_CORNERS, FFD, INVALID, IO, NOBODY, SECONDS, case, check, equal, gltf_json, lattice, main
+from harness import CUBE, CUBE_CORNERS, FFD, INVALID, IO, NO, NOBODY, PNG, SECONDS, case, check, equal, gltf_json, lattice, main
 
 TWIST = lattice(low=(-1, -1, -1), high=(2, 2, 2), moves=[{"twist": {"axis": "z", "degrees": 40}}])
 
@@ -125,6 +126,70 @@ def siege_05_a_file_that_appears_under_the_name_of_the_output_stays(run):
         equal(run.text("race.obj"), "precious")
         return run.check_no_leftovers()
     check(False, "the file never appeared in time")
+
+
+def what_is_read(run):
+    """A glTF with a buffer and an image, an OBJ with a material library and a map, and a lattice round both."""
+    asset, data = gltf_json(CUBE_CORNERS, uri="m.bin")
+    asset["images"] = [{"uri": "m.png"}]
+    run.write("m.gltf", asset)
+    run.write("m.bin", data)
+    run.write("m.png", PNG)
+    run.write("k.obj", "mtllib k.mtl\n" + CUBE)
+    run.write("k.mtl", "newmtl a\nmap_Kd k.png\n")
+    run.write("k.png", PNG)
+    run.write("l.json", TWIST)
+    run.write("box.json", {**TWIST, "rest": {"box": {"meshes": ["m.gltf", "k.obj"]}, "margin": 0.1}})
+    run.write("other.obj", CUBE)
+    return {name: run.read(name) for name in run.names()}
+
+
+@case
+def siege3_04_no_output_replaces_what_is_read(run):
+    """In whatever format and by whatever option an output is written: what the input is made of stays, with --force too."""
+    kept = what_is_read(run)
+    buffer, resource = "is a buffer of the input m.gltf", "is an image or a material library of the input "
+    box = "is a file of the meshes that the box of box.json goes round"
+    outputs = [("m.bin", "m.gltf", buffer), ("m.png", "m.gltf", resource + "m.gltf"), ("k.mtl", "k.obj", resource + "k.obj"),
+               ("k.png", "k.obj", resource + "k.obj")]
+    for output, mesh, told in outputs:
+        told = f"{output}: {told} and is not overwritten"
+        for to in ("obj", "ply", "off", "stl", "glb", "gltf"):
+            run.ffd("deform", mesh, output, "-l", "l.json", "--output-format", to, "--force", code=IO, err=told)
+        run.ffd("embed", mesh, "-l", "l.json", "-o", output, "--force", code=IO, err=told)
+        run.ffd("embed", mesh, "-l", "l.json", "-o", "e.npy", "--status", output, "--force", code=IO, err=told)
+        run.ffd("lattice", "new", "other.obj", mesh, "-o", output, "--force", code=IO, err=told)
+        run.write("m.jsonl", json.dumps({"in": mesh, "lattice": "l.json", "out": output, "options": {"output-format": "obj", "force": True}}))
+        run.ffd("batch", "m.jsonl", "-q", code=NO, err=lambda said, told=told: check(told in said[0], said))
+        run.remove("m.jsonl")
+    for output in ("m.bin", "m.gltf", "k.obj"):
+        for arguments in (["deform", "other.obj", output, "--output-format", "obj"], ["embed", "other.obj", "-o", output]):
+            run.ffd(*arguments, "-l", "box.json", "--force", code=IO, err=f"{output}: {box} and is not overwritten")
+    equal({name: run.read(name) for name in run.names() if name != "cache"}, kept)
+    # What is read is not replaced where a link leads to it either; a mesh in place may stand in the box.
+    os.symlink("m.bin", run.path("link"))
+    run.ffd("deform", "m.gltf", "link", "-l", "l.json", "--output-format", "obj", "--force", code=IO,
+            err="link: is a buffer of the input m.gltf and is not overwritten")
+    run.ffd("deform", "k.obj", "--in-place", "-l", "box.json")
+
+
+@case
+def siege3_05_a_box_of_meshes_in_place_is_refused(run):
+    """The first mesh in place would change the box of the second: neither is moved. --shared-box goes round both as they were."""
+    kit = {**TWIST, "rest": {"box": {"meshes": ["a.obj", "b.obj"]}, "margin": 0.1}}
+    run.write("kit.json", kit)
+    run.write("round.json", {**TWIST, "rest": {"box": "mesh", "margin": 0.1}})
+    for name, shift in (("a.obj", 0), ("b.obj", 1.5)):
+        run.write(name, "".join(f"v {x + shift} {y} {z}\n" for x, y, z in CUBE_CORNERS))
+    kept = run.read("a.obj"), run.read("b.obj")
+    for names in (["a.obj", "b.obj"], ["b.obj", "a.obj"]):
+        run.ffd("deform", *names, "--in-place", "-l", "kit.json", code=INVALID,
+                err=lambda said: check("(for the box of kit.json)" in said[0], said))
+        equal((run.read("a.obj"), run.read("b.obj")), kept)
+    run.folder_of("apart")
+    run.ffd("deform", "a.obj", "b.obj", "--out-dir", "apart", "-l", "kit.json")
+    run.ffd("deform", "b.obj", "a.obj", "--in-place", "-l", "round.json", "--shared-box")
+    equal((run.read("a.obj"), run.read("b.obj")), (run.read("apart/a.obj"), run.read("apart/b.obj")))
 
 
 @case

@@ -136,6 +136,25 @@ def skin():
                                   "WEIGHTS_0": b.accessor([(0.25, 0.75, 0, 0)] * 8, "VEC4")}, "indices": b.indices()})
 
 
+def skin_without_positions():
+    """A second primitive that has weights only."""
+    b = skin()
+    primitives = b.asset["meshes"][0]["primitives"]
+    primitives.append({"attributes": {"WEIGHTS_0": primitives[0]["attributes"]["WEIGHTS_0"]}, "mode": 0})
+    return b
+
+
+def nul_names():
+    """Names that go on with U+0000."""
+    b = morphs()
+    primitive = b.asset["meshes"][0]["primitives"][0]
+    primitive["attributes"] |= {"NORMAL\0": primitive["attributes"].pop("NORMAL"), "POSITION\0": 1}
+    primitive["targets"][1] = {"POSITION\0": primitive["targets"][1]["POSITION"]}
+    b.asset["nodes"] = [{"mesh": 0, "name": "a\0b"}, {"mesh": 0, "translation": [3, 0, 0]}]
+    b.asset["scenes"] = [{"nodes": [0, 1]}]
+    return b
+
+
 def nodes():
     b = Builder()
     b.asset["nodes"] = [{"children": [1, 2, 3]}, {"mesh": 0, "scale": [-1, 2, 0.5]},
@@ -244,8 +263,8 @@ def flawed():
                   {"attributes": {"POSITION": 0}, "indices": 99})
 
 
-ASSETS = [plain, tangents, modes, interleaved, sparse, quantized, morphs, skin, nodes, instanced, surroundings,
-          strange, flawed, materials, animated, rigged]
+ASSETS = [plain, tangents, modes, interleaved, sparse, quantized, morphs, skin, skin_without_positions, nul_names,
+          nodes, instanced, surroundings, strange, flawed, materials, animated, rigged]
 
 
 def glb_of(asset, data):

@@ -68,7 +68,7 @@ run_two_commands() {
 
 # skips_are_due models|alone open|closed: without models something is skipped, and in a closed room; else nothing is
 skips_are_due() {
-    kinds=$(sed -n 's/^  skipped: [^:]*: \([^:]*\):.*/\1/p' "$log.out" | sort -u | grep -v 'Debian 12' | tr '\n' ' ')
+    kinds=$(sed -n 's|^  skipped: .* / [^:]*: \([^:]*\):.*|\1|p' "$log.out" | sort -u | grep -v 'Debian 12' | tr '\n' ' ')
     found="$found | skipped: ${kinds:-nothing}"
     case $1-$2-$user in
     models-open-) due= ;;

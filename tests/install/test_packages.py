@@ -114,9 +114,9 @@ def c_example(folder, environment, findings):
     stage.run("cc example.c $(pkg-config --cflags --libs ffd)", cwd=folder, env=environment)
     with open(os.path.join(folder, "box.json"), "w", encoding="utf-8") as file:
         file.write('{"format": "ffd-lattice", "version": 1, "size": [4, 4, 4], "rest": {"box": {"min": [-1, -1, -1], '
-                   '"max": [1, 1, 1]}}, "moves": [{"by": [0.5, 0, 0]}]}')
+                   '"max": [1, 3, 1]}}, "moves": [{"by": [0.5, 0, 0]}]}')
     output = stage.run("./a.out box.json", cwd=folder, env=environment)
-    if output != "0.5 0.5 0.2\n":
+    if output != "0.5 2 0.2, 0.6 2.2 0.2\n":
         findings.append(f"the C example printed {output!r}")
 
 

@@ -68,7 +68,7 @@ m("close-not-checked", "close check left out", "file, cli_full_disk, cli_output"
 m("output-not-locked", "lock left out", "file, cli_output, cli_batch_signals",
   "if (flock(fd, LOCK_EX | LOCK_NB) != 0)", "if (flock(fd, LOCK_UN) != 0)")
 m("block-overrun", "bound", "file, cli_output",
-  "size > BLOCK - output->filled ? flush(output, error)", "size > BLOCK ? flush(output, error)")
+  "size > BLOCK - output->filled ? make_room(output, error)", "size > BLOCK ? make_room(output, error)")
 m("mode-not-kept", "file mode", "file, cli_output", "old->st_mode & 0777", "old->st_mode & 0666")
 m("output-left-open", "freed resource", "file, cli_many", "if (file->fd >= 0) close(file->fd);",
   "if (file->fd >= 1000000)\n            close(file->fd);")
@@ -98,7 +98,7 @@ m("control-characters-shown", "message", "base, cli_errors",
   "if (text[0] < 0x20 || text[0] == 0x7f)", "if (text[0] < 0x20 && text[0] == 0x7f)")
 m("c1-characters-shown", "message", "cli_stays_behind, cli_tears", "text[1] >= 0x80 && text[1] <= 0x9f", "text[1] >= 0x80 && text[1] <= 0x80")
 m("cut-parts-in-a-character", "cut", "cli_tears", "ffd_name_shown(text, name + begun, capacity - begun);", "snprintf(name + begun, capacity - begun, \"%s\", text);")
-m("check-counts-other-targets", "call left out", "cli_as_morph", "job.document->keeps_base = true;", "job.document->keeps_base = false;")
+m("check-counts-other-targets", "call left out", "cli_as_morph", "job->document->keeps_base = true;", "job->document->keeps_base = false;")
 m("new-weight-behind-others", "place", "cli_as_morph", "tree->values[weights].count > targets)", "tree->values[weights].count > targets + 9)")
 m("skins-elsewhere-left", "call left out", "cli_rig", "if (shown[s] || (staying[s] && ffd_gltf_has_joint_matrices(d, skin)))", "if (shown[s])")
 m("shown-by-other-weights", "check left out", "cli_morph_weights", "same_influences(part, wanted) && shown_alike(d, part, wanted, GLTF_POSITION))", "same_influences(part, wanted))")
@@ -581,7 +581,17 @@ m("detail-below-a-detail", "check left out", "cli_stays_behind", "c < node->chil
   "c < node->child_count && d->stands_in[n] && n == 0")
 m("details-without-scenes", "check left out", "cli_stays_behind", "if (parents[n] == GLTF_NONE && !d->stands_in[n])",
   "if (parents[n] == GLTF_NONE)")
-m("details-of-a-selection", "call left out", "cli_stays_behind", "mark_details(s, n, &waiting);", "")
+m("details-of-a-selection", "call left out", "cli_stays_behind", "mark_stand_ins(s, n, &waiting);", "")
+m("shape-by-its-own-transform", "place", "cli_colliders", "if (d->collides[n]) memcpy(d->world + 12 * n, d->world + 12 * parents[n], 12 * sizeof *d->world);",
+  "if (parents[n] != GLTF_NONE && d->collides[parents[n]])\n        memcpy(d->world + 12 * n, d->world + 12 * parents[n], 12 * sizeof *d->world);")
+m("shape-that-is-seen", "left out", "cli_colliders", "d->hidden[shape] = d->collides[shape] = true;", "d->collides[shape] = true;")
+m("shapes-of-shapes", "check left out", "cli_colliders", "if (!d->collides[queue[i]]) status = add_below(", "status = add_below(")
+m("shapes-elsewhere", "left out", "cli_colliders", "d->shapes_shared += !stand_alike(d, shape, n);", "d->shapes_shared += 0;")
+m("shape-without-scenes", "condition", "cli_colliders", "d->stands_in[found] = d->stands_in[found] || !walk.collides;", "d->stands_in[found] = true;")
+m("shape-that-stays", "left out", "cli_colliders", "if (w->document->collides[n]) memcpy(w->rig->world + 12 * n, made_of(w, p), sizeof identity);",
+  "if (w->document->collides[n])\n        memcpy(w->rig->world + 12 * n, w->document->world + 12 * n, sizeof identity);")
+m("shape-with-a-place", "check left out", "cli_colliders", "if (!(s->nodes[n] & IS_SHOWN) || d->collides[n])", "if (!(s->nodes[n] & IS_SHOWN))")
+m("triggers-left", "bound", "cli_colliders", "while (walk->shapes < 2)", "while (walk->shapes < 1)")
 m("joints-of-a-selection", "operation", "cli_stays_behind", "skin >= 0 && j < d->skins[skin].joint_count",
   "skin > 0 && j < d->skins[skin].joint_count")
 m("joints-that-are-animated", "check left out", "cli_stays_behind", "if (kinds == 0 && s->nodes[n] & IS_ANIMATED)",
@@ -607,6 +617,16 @@ m("draco-clash", "check left out", "gltf_packed, draco, gltf",
   "unpacked->size != size || memcmp(unpacked->bytes, bytes, size) != 0", "unpacked->size != size")
 m("draco-too-often", "limit", "gltf_packed, draco", "#define MOST_DECODED_A_BYTE 0.25",
   "#define MOST_DECODED_A_BYTE 1e9")
+m("directions-of-draco", "left out", "gltf_mended", "if (step > 0 && has_directions(d, value, accessor))", "if (step < 0 && has_directions(d, value, accessor))")
+m("directions-not-quantized", "condition", "gltf_packed", "if (step > 0 && has_directions(d, value, accessor))", "if (has_directions(d, value, accessor))")
+m("handedness-of-draco", "left out", "gltf_mended", "v[3] = v[3] < 0 ? -1.0f : 1.0f;", "v[3] += 0;")
+m("weights-of-one-set", "bound", "gltf_mended", "for (size_t i = 0; i < 4 * of->set_count; i++) sum += of->weight[i];", "for (size_t i = 0; i < 4; i++)\n        sum += of->weight[i];")
+m("weights-about-one", "tolerance", "gltf_mended", "? fabs(sum - 1) <= SUM_ROUNDING", "? fabs(sum - 1) <= 0 * SUM_ROUNDING")
+m("weights-of-steps", "left out", "gltf_mended", "of->weight[largest] = (double)ffd_gltf_round(of->weights[largest / 4].accessor, rest);", "(void)rest;")
+m("joints-of-two-weights", "check left out", "gltf_mended", "m->partner[set->joints] == (size_t)set->weights &&", "")
+m("weights-mended-again", "check left out", "gltf_mended", "!m->done[set->weights] &&", "")
+m("bounds-before-mending", "operand", "gltf_mended", "edit_bounds(saver, unpacking->accessor, NULL, unpacking->bytes, edits);",
+  "edit_bounds(saver, unpacking->accessor, NULL, saver->document->layouts[unpacking->accessor].data, edits);")
 m("meshopt-triangles", "check left out", "meshopt, gltf_packed", "view->mode == MESHOPT_TRIANGLES && view->count % 3)",
   "view->mode == MESHOPT_TRIANGLES && view->count % 3 > 2)")
 m("glb-newer-version", "error code", "gltf, cli_broken_gltf",
@@ -644,6 +664,10 @@ m("shape-of-a-manifold", "table", "cli_gltf_follow, cli_faults", "{GLTF_INDEX_SH
 m("trigger-of-a-body", "table", "cli_gltf_follow", 'BODIES "trigger/geometry/mesh"', 'BODIES "trigger/mesh"')
 m("normals-of-silhouettes", "table", "cli_gltf_follow", 'EDGES "silhouetteNormals"', 'EDGES "normals"')
 m("indices-left-twice", "figure", "cli_gltf_follow", "if (value == last) continue;", "if (value == last + 1)\n            continue;")
+m("bounds-of-weight-0", "condition", "cli_stale_bounds", "d->shapes[shape - d->base.part_count].weight != 0 &&",
+  "d->shapes[shape - d->base.part_count].weight != 1 &&")
+m("bounds-above-a-node", "limit", "cli_stale_bounds", "for (; n != GLTF_NONE && !s->nodes[n]; n = s->document->parents[n])",
+  "for (; n != GLTF_NONE && !s->nodes[n]; n = GLTF_NONE)")
 m("lower-half-of-an-octahedron", "term left out", "meshopt", "const double outside = z < 0 ? -z : 0;",
   "const double outside = z < 0 ? 0 : 0;")
 m("largest-of-a-quaternion", "index", "meshopt", "to[(largest + 1 + a) % 4] = to_integer(", "to[(largest + 3 - a) % 4] = to_integer(")
@@ -823,9 +847,13 @@ m("obj-name-joins-lines", "format", "cli_convert", "(*c == '\\\\' && !c[1]);", "
 m("behind-out-of-reach", "check left out", "cli_stays_behind", "if (move->moves && stays)", "if (stays)")
 m("behind-a-name-cut", "operation", "cli_stays_behind", "((unsigned char)name[length] & 0xc0) == 0x80",
   "((unsigned char)name[length] & 0xc0) == 0xc0")
-m("behind-a-morph", "check left out", "cli_stays_behind",
-  "return !job->desc->as_morph && (job->check ||", "return (job->check ||")
-m("joints-of-no-file", "condition", "cli_batch_positions", "(job->check || ffd_deform_job_writes(job->desc)) &&", "(job->check || job->desc) &&")
+m("behind-a-morph", "selection", "cli_stays_behind", "job->desc->as_morph ? RIG_KINDS_OF_MORPHS : RIG_KINDS,", "RIG_KINDS,")
+m("joints-of-a-morph", "text", "cli_stays_behind", "job->desc->as_morph ? RIG_MORPHED", "job->desc->morphs ? RIG_MORPHED")
+m("joints-of-no-skin", "figure", "cli_stays_behind", "*loose += marked[n] && !joined[n];", "*loose += marked[n] && joined[n];")
+m("left-on-a-joint", "left out", "cli_rig", "if (place && is_left(w, n))", "if (place && place->stays && is_left(w, n))")
+m("skin-of-no-joints", "left out", "cli_skin_weights", "places = !ffd_gltf_is_skinned(&mesh->primitives[p]);", "places = false;")
+m("half-sets", "check left out", "cli_skin_weights", "if (is_whole(&primitive->influences[i])) return FFD_OK;", "if (!primitive) return FFD_OK;")
+m("joints-of-no-file", "condition", "cli_batch_positions", "(job->check || ffd_deform_desc_writes(job->desc)) &&", "(job->check || job->desc) &&")
 m("splats-moved", "figure", "cli_stays_behind, job", "totals->splats_moved += moved;", "totals->splats_moved = moved;")
 m("splats-in-the-scene", "left out", "cli_splats", "if (!transform.identity && !transform.singular) ffd_splat_turn_to_file",
   "if (transform.singular)\n            ffd_splat_turn_to_file")
@@ -854,13 +882,15 @@ m("status-array", "format", "cli_embed", 'ffd_npy_begin(output, "|u1"', 'ffd_npy
 m("kept-mesh-of-another-space", "check left out", "share|job_cache, job_source, cli_batch_shared",
   "a->format != b->format || a->space != b->space", "a->format != b->format")
 m("box-without-targets", "left out", "cli_morph_weights", ".bounds_shapes = true", ".bounds_shapes = false")
-m("shown-of-a-mixture", "condition", "cli_morph_weights", "shown == 1 && part->shapes[last].weight == 1 ? last : SHOWN",
-  "shown == 1 ? last : SHOWN", "return shown > 1 || !whole;", "return shown > 1 && !whole;")
-m("bounds-of-the-base", "left out", "cli_morph_weights", ".bounds_shown = true,", ".bounds_shown = false,")
-m("bounds-of-what-stays", "operand", "cli_morph_weights", "deformed ? work->tile->position + 3 * i : s->base + 3 * i",
-  "deformed ? s->base + 3 * i : work->tile->position + 3 * i")
-m("shown-outside-of-a-target", "condition", "cli_morph_weights", "work->totals->shown_outside += work->is_shown;",
-  "work->totals->shown_outside += work->shape == SHOWN;")
+m("shown-of-a-mixture", "condition", "cli_morph_weights", "!(shown == 1 && part->shapes[last].weight == 1)",
+  "!(shown == 1)", "return shown > 1 || !whole;", "return shown > 1 && !whole;")
+m("figures-of-the-base", "left out", "cli_morph_weights", "return !job->stored && !job->document->keeps_base &&",
+  "return job->stored && !job->document->keeps_base &&")
+m("written-as-stored", "condition", "cli_morph_weights", "shown.discards = !writes_shown;", "shown.discards = true;")
+m("base-outside-of-all", "condition", "cli_morph_weights", "if (other & OTHER_OUTSIDE && part->shows_shapes)",
+  "if (other & OTHER_OUTSIDE)")
+m("base-outside-left-out", "call left out", "cli_morph_weights", "shown->base_outside = stored->weighted_outside;", "")
+m("cell-without-offsets", "term left out", "cli_morph_weights", "all[a] += fabs(shape->weight) * cell[a];", "all[a] += 0 * cell[a];")
 m("report-of-targets", "figure", "cli_morph_weights", '"shown_outside", result->shown_outside',
   '"shown_outside", result->targets_outside')
 m("not-finite-unshown", "left out", "cli_boxes", "(other & OTHER_STATUS) == FFD_POINT_INVALID ||",
@@ -897,10 +927,8 @@ m("merged-exit-code", "bound", "cli_report_merge", "code >= 0 && code <= 7", "co
 m("gate-exit", "error code", "cli_fail_on", "return line.length ? ffd_fail_file(error, FFD_E_GATE,",
   "return line.length ? ffd_fail_file(error, FFD_E_INVALID,")
 m("shapes-outside", "error code", "cli_outside, cli_gltf_scene, cli_errors",
-  "if (desc->outside == FFD_OUTSIDE_ERROR && (totals->shapes_outside || totals->shown_outside)) "
-  "return ffd_fail_file(error, FFD_E_EMBEDDING,",
-  "if (desc->outside == FFD_OUTSIDE_ERROR && (totals->shapes_outside || totals->shown_outside))\n"
-  "        return ffd_fail_file(error, FFD_E_INVALID,")
+  "if (desc->outside == FFD_OUTSIDE_ERROR && stores_outside(totals)) return ffd_fail_file(error, FFD_E_EMBEDDING,",
+  "if (desc->outside == FFD_OUTSIDE_ERROR && stores_outside(totals))\n        return ffd_fail_file(error, FFD_E_INVALID,")
 m("range-of-offsets", "sign", "cli_as_morph, cli_convert", "morph ? model->morphs[morph - 1].positions[i] - model->positions[i]",
   "morph ? model->morphs[morph - 1].positions[i] + model->positions[i]", "morph ? model->morph_positions[i] - model->positions[i]",
   "morph ? model->morph_positions[i] + model->positions[i]", "less ? values[i] - less[i] : values[i];",
@@ -928,8 +956,8 @@ m("target-bytes-compressed", "condition", "cli_morphs", "if (buffer != GLTF_NONE
 m("target-bytes-sparse", "left out", "cli_morphs", "add_packed(d, sparse->values_view, sparse->values_offset, sparse->count, layout->element_size, list);", "")
 m("clip-replaced", "left out", "cli_morphs", "ffd_json_span_string_is(tree, name, w->clip->name)", "ffd_json_span_string_is(tree, name, \"\")")
 m("clip-of-a-conversion", "stride", "cli_morphs", "clip->key_count * target_count(plan, m), NULL", "clip->key_count * 1, NULL")
-m("morph-in-its-place", "operand", "cli_morphs, cli_as_morph", "ffd_gltf_target_place(&file->model.meshes[m].primitives[p], marks->named[m]);",
-  "ffd_gltf_target_place(&d->model.meshes[m].primitives[p], marks->named[m]);")
+m("morph-in-its-place", "operand", "cli_morphs, cli_as_morph", ": ffd_gltf_target_count(file, m);",
+  ": ffd_gltf_target_count(d, m);")
 m("morphs-leave-nothing-behind", "figure", "cli_splats", "if (target->behind[kind].count > all->behind[kind].count)",
   "if (target->behind[kind].count < all->behind[kind].count)")
 m("edges-of-no-target", "figure", "cli_morphs", "all->has_edges = target->has_edges && (is_first || all->has_edges);",
@@ -986,11 +1014,13 @@ m("figures-of-a-dry-run", "figure", "cli_batch_report", ".planned = task->dry &&
   ".planned = false && answer && task->dry,")
 # job: torn edges, lattices side by side
 
-m("later-borders-not-looked-at", "left out", "cli_tears", "more |= !walk->by_ends;", "more |= walk->over;")
-m("sides-go-as-their-ends", "left out", "cli_tears", "if (!outer || holds[WITHIN] || holds[BEYOND])",
-  "if (!outer && holds[WITHIN] && !holds[WITHIN])")
-m("borders-at-one-place-twice", "left out", "cli_tears", "if (takes_way[WITHIN] == inner && takes_way[BEYOND] == outer)",
-  "if (takes_way[WITHIN] == outer && takes_way[BEYOND] == inner)")
+m("cut-beside-the-jump", "condition", "cli_jumps", "const int next = halves[1].defect > halves[0].defect;",
+  "const int next = halves[1].defect < halves[0].defect;")
+m("other-half-forgotten", "left out", "tears", "if (jumps[1 - next]) let_wait(edge, &halves[1 - next]);",
+  "if (jumps[1 - next] && edge->count > PARTS)\n        let_wait(edge, &halves[1 - next]);")
+m("edges-cut-without-end", "limit", "cli_jumps", "atomic_fetch_sub(field->left, evaluations) >= evaluations",
+  "atomic_fetch_sub(field->left, evaluations) >= evaluations - (1LL << 60)")
+m("staying-lost-with-moving", "left out", "cli_jumps", "if (!status || status == FFD_E_LIMIT) fill_result(", "if (!status)\n        fill_result(")
 m("blocks-at-two-places", "left out", "cli_blocks", "bool found = distance(at[0], at[1]) <= off;",
   "bool found = distance(at[0], at[1]) >= 0;")
 m("slope-of-the-rounding", "left out", "cli_blocks", "limit += change_of(gradient, off);", "limit += change_of(gradient, 0);")
@@ -1012,15 +1042,14 @@ m("unused-as-staying", "left out", "cli_tears", "job->kept[first + v] &= ffd_par
   "job->kept[first + v] &= !part->hidden;")
 m("numbers-of-few-as-of-all", "number", "cli_tears", "torn ? ffd_faces_number(faces, count->vertex) : count->vertex;",
   "count->vertex;")
-m("marks-of-few-as-of-all", "number", "cli_tears", "job->kept[p * all.vertices + faces->numbers[v]];",
-  "job->kept[p * all.vertices + v];")
-m("hidden-of-few-as-of-all", "number", "cli_tears", "const uint32_t vertex = ffd_faces_number(work->question->faces, of_faces);",
+m("marks-of-few-as-of-all", "number", "cli_tears", "job->kept[p * vertices + faces->numbers[v]];",
+  "job->kept[p * vertices + v];")
+m("hidden-of-few-as-of-all", "number", "cli_tears", "const uint32_t vertex = ffd_faces_number(mesh->faces, of_faces);",
   "const uint32_t vertex = of_faces;")
 m("last-of-eight-marks", "limit", "mixed_faces", "while (marks->planes == 1 && marks->vertices - vertex > sizeof eight) {",
   "while (marks->planes >= 1 && marks->vertices - vertex > sizeof eight) {")
 m("vertices-before-a-word", "off by one", "mixed_faces", "set->before[w] = (uint32_t)*count;",
   "set->before[w] = (uint32_t)*count + (w > 0);")
-m("across-not-turned", "left out", "cli_tears", "walk->across[a] += turned[a];", "walk->across[a] += 0 * turned[a];")
 
 # job: areas and volumes
 
@@ -1091,6 +1120,11 @@ m("images-not-in-the-record", "check left out", "cli_batch_sweep",
   "!job->document->converted && ffd_source_is_alone(job->document);", "!job->document->converted;")
 m("hash-of-one-of-two-files", "condition", "file, cli_batch_resume",
   "output->hash && output->count == 1 && output->files[0].temporary;", "output->hash && output->count >= 1 && output->files[0].temporary;")
+m("deadline-of-one-thread", "left out", "cli_timeout", "ffd_deadline_set(self->deadline);", "ffd_deadline_set(NULL);")
+m("search-without-deadline", "left out", "cli_timeout", "size = ends ? next_slice(now, seconds) : MOST_POINTS; status = ffd_deadline_check(error);",
+  "size = ends ? next_slice(now, seconds) : MOST_POINTS;")
+m("slowness-told-again", "left out", "cli_timeout", "pace->is_told = true;", "pace->is_told = false;")
+m("stream-waited-for", "left out", "cli_timeout", "while (ffd_deadline_left() >= 0) {", "while (ffd_deadline_left() > 1 << 30) {")
 m("timeout-named-stop", "message", "cli_batch_failures, cli_batch", "worker->timed_out = !worker->stopped;",
   "worker->timed_out = worker->stopped;")
 m("memory-of-idle-workers", "clean-up left out", "cli_processors", "if (other != worker && !other->task) finish_worker(other, NULL);",
@@ -1147,7 +1181,7 @@ m("row-of-its-shard", "count", "cli_batch_positions", "job->row = source->count 
 m("row-hash-left-out", "check left out", "cli_batch_positions", "if (row && ffd_row_hash(&row->array, row->number, &parts[count++], NULL))", "if (row && count > 0 && ffd_row_hash(&row->array, row->number, &parts[count++], NULL))")
 m("array-of-a-pipe", "check left out", "cli_batch_positions", "return text && ffd_file_reads_once(text);", "return text && ffd_file_is_stream(text);")
 m("size-of-an-array", "overflow", "row_array", "(row_size(array) == 0 || array->rows <= most / row_size(array)))", "(row_size(array) == 0 || array->rows * row_size(array) <= most))")
-m("shown-positions", "state", "cli_batch_positions", "counting.deformed = job->positions;", "counting.deformed = NULL;")
+m("shown-positions", "state", "cli_batch_positions", "pass->deformed = pass->deformed ? pass->deformed : job->positions;", "")
 m("picture-not-checked-before", "check left out", "cli_batch_view", "return picture ? ffd_job_picture_check(picture, desc->force || desc->if_changed, error) : FFD_OK;",
   "return picture ? ffd_job_picture_check(picture, true, error) : FFD_OK;")
 m("missing-picture-is-skipped", "condition", "cli_batch_view", "if (has_output && (!picture || answer->has_picture))", "if (has_output)")
@@ -1240,8 +1274,8 @@ m("cage-at-rest-twice", "wrong array", "cli_view", "cage->deformed = copy_points
   "cage->deformed = copy_points(lattice->rest, lattice->count);")
 m("unmarked-instances", "message left out", "cli_view", "if (work->model.nodes_left)", "if (work->model.nodes_left > 1)")
 m("name-of-the-left", "sign", "cli_view", '{"left", {-1, 0, 0}}', '{"left", {1, 0, 0}}')
-m("picture-of-the-wrong-shape", "shape", "cli_view", "return !work->desc->as_stored && ffd_mesh_shows_shapes(document);",
-  "return !work->desc->full && ffd_mesh_shows_shapes(document);")
+m("picture-of-the-wrong-shape", "shape", "cli_view", "return !work->job.stored && ffd_mesh_shows_shapes(document);",
+  "return work->job.stored && ffd_mesh_shows_shapes(document);")
 m("unused-take-room", "mark left out", "cli_view", "if (found > 0 && found < scene->vertex_count)", "if (found > scene->vertex_count)")
 m("flipped-in-the-first-picture", "condition", "cli_view", "const size_t marked = s->share > 0 ? from->flipped_count : 0;", "const size_t marked = from->flipped_count;")
 m("flipped-triangles-first", "offset", "cli_view", "size_t plain = 0, flipped = s->plain_count;", "size_t plain = s->flipped_count, flipped = 0;")
@@ -1293,7 +1327,7 @@ m("rig-values-not-counted", "limit left out", "cli_rig", "ffd_budget_take(rig->b
   "ffd_budget_take(rig->budget, 0, size, error)")
 m("rig-left-for-the-next-job", "clean-up left out", "rig", "ffd_gltf_free_rig((gltf_document *)document); const ffd_status status = ffd_gltf_begin_results(",
   "const ffd_status status = ffd_gltf_begin_results(")
-m("rig-lag-of-cameras", "selection", "cli_stays_behind, cli_rig", "const double lag = kinds & OF_THE_RIG ? ffd_rig_lag(&rig->moves[i], diagonal) : 0;",
+m("rig-lag-of-cameras", "selection", "cli_stays_behind, cli_rig", "const double lag = kinds ? ffd_rig_lag(&rig->moves[i], diagonal) : 0;",
   "const double lag = ffd_rig_lag(&rig->moves[i], diagonal);")
 m("rig-small-lags-said", "threshold", "cli_rig", "#define LAG_SAID 1e-3", "#define LAG_SAID 1e-6")
 m("rig-by-a-morph", "check left out", "rig", "desc->rig == FFD_RIG_FOLLOW && (desc->as_morph || desc->morphs || desc->input.space == FFD_SPACE_MESH)",

@@ -162,6 +162,9 @@ class Refusals(unittest.TestCase):
         self.refused(TypeError, "threads", LATTICE.embed, points, threads=1.5)
         self.refused(TypeError, "progress", LATTICE.embed, points, progress=3)
         self.refused(ffd.ArgumentError, "falloff", LATTICE.embed, points, outside="extend", falloff=-1)
+        for outside in ("keep", "error"):
+            self.refused(ffd.ArgumentError, 'falloff 0.5 needs outside "extend"', LATTICE.embed, points, outside=outside, falloff=0.5)
+        self.refused(ffd.ArgumentError, 'needs outside "extend"', LATTICE.embed, points, falloff=0.5)
         self.refused(ValueError, "size", ffd.Lattice.around, points, size=(3, -1, 3))
         self.refused(ValueError, "three", ffd.Lattice.around, points, size=(3, 3))
         self.refused(ffd.InvalidError, "", ffd.Lattice.around, points * np.nan)

@@ -31,7 +31,7 @@ LAYERS = {
     "io/gltf/document": {"io/gltf/file", "io/gltf/model", "json", "mesh"},
     "io/gltf/decode": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/gltf/document",
-        "io/gltf/model", "mesh", "mesh/meshopt",
+        "io/gltf/model", "io/text", "mesh", "mesh/meshopt",
     },
     "io/gltf/refer": {"io/gltf/document"},
     "io/gltf/scene": {
@@ -71,13 +71,14 @@ LAYERS = {
     },
     "io/off": {"base/file", "base/memory", "base/text", "io/text", "mesh"},
     "io/ply": {
-        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/text", "mesh", "splat",
+        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/text", "mesh",
+        "mesh/resource", "splat",
     },
     "io/stl": {"base", "base/memory", "base/text", "base/vector", "io/text", "mesh"},
-    "io": {"base/file", "io/gltf", "io/obj", "io/off", "io/ply", "io/stl", "io/text", "mesh"},
+    "io": {"base", "base/file", "base/memory", "io/gltf", "io/obj", "io/off", "io/ply", "io/stl", "io/text", "mesh"},
     "io/write": {
         "base", "base/file", "base/memory", "base/text", "base/vector", "io/gltf/file", "io/stl", "json",
-        "mesh", "mesh/morph",
+        "mesh", "mesh/morph", "mesh/resource",
     },
     "view": {
         "base", "base/file", "base/memory", "base/text", "base/vector", "json", "mesh", "mesh/meshopt", "picture",
@@ -105,7 +106,7 @@ LAYERS = {
         "mesh",
     },
     "job/chain": {
-        "base", "base/file", "base/memory", "base/system", "base/vector", "deform", "embed", "embed/boundary",
+        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed", "embed/boundary",
         "embed/frame", "job/input", "lattice", "lattice/file", "mesh",
     },
     "job/pass": {
@@ -122,21 +123,22 @@ LAYERS = {
         "job", "job/chain", "job/input", "job/judge", "job/pass", "lattice/tangent", "points",
     },
     "job/view": {
-        "base", "base/file", "base/memory", "base/text", "base/vector", "job", "job/chain", "job/input", "job/judge",
+        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "job", "job/chain", "job/input", "job/judge",
         "job/pass", "job/report", "lattice", "mesh", "view",
     },
     "batch/manifest": {"base", "base/file", "base/memory", "base/system", "base/text", "json", "mesh"},
+    "batch/files": {"base/file", "base/memory", "base/text", "batch/manifest", "io"},
     "batch": {
-        "base", "base/file", "base/memory", "base/system", "base/text", "batch/manifest", "io", "io/npy", "job/chain", "job/input",
+        "base", "base/file", "base/memory", "base/system", "base/text", "batch/files", "batch/manifest", "io", "io/npy", "job/chain", "job/input",
         "job/judge", "job/report", "json", "lattice/file", "view",
     },
-    "cli": {"base", "base/file", "base/text", "batch"},
+    "cli": {"base", "base/file", "base/memory", "base/text", "batch", "job"},
     "cli/pages": {"cli"},
     "python": set(),
     "job": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io", "io/npy",
         "io/openmesh", "io/write", "job/chain", "job/input", "job/judge", "job/pass", "job/report", "job/rig", "json",
-        "lattice", "lattice/file", "mesh", "mesh/morph",
+        "lattice", "lattice/file", "mesh", "mesh/morph", "mesh/resource",
     },
 }
 

@@ -35,6 +35,8 @@ void fill(draco::PointCloud &cloud, const sample_mesh &mesh)
         mesh.texcoords);
     add(cloud, draco::GeometryAttribute::GENERIC, draco::DT_UINT16, 4, false, SAMPLE_JOINTS, mesh.joints);
     add(cloud, draco::GeometryAttribute::GENERIC, draco::DT_UINT8, 1, true, SAMPLE_FACTOR, mesh.factors);
+    add(cloud, draco::GeometryAttribute::GENERIC, draco::DT_FLOAT32, 4, false, SAMPLE_WEIGHTS, mesh.weights);
+    add(cloud, draco::GeometryAttribute::GENERIC, draco::DT_FLOAT32, 4, false, SAMPLE_TANGENT, mesh.tangents);
 }
 
 void add_metadata(draco::PointCloud &cloud)

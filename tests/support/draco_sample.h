@@ -11,7 +11,15 @@ extern "C" {
 #endif
 
 /* Ids of a sample's attributes, if its mesh has them. */
-enum { SAMPLE_POSITION = 3, SAMPLE_NORMAL = 7, SAMPLE_JOINTS = 300, SAMPLE_FACTOR = 8, SAMPLE_TEXCOORD = 9 };
+enum {
+    SAMPLE_POSITION = 3,
+    SAMPLE_NORMAL = 7,
+    SAMPLE_JOINTS = 300,
+    SAMPLE_FACTOR = 8,
+    SAMPLE_TEXCOORD = 9,
+    SAMPLE_WEIGHTS = 10,
+    SAMPLE_TANGENT = 11
+};
 
 typedef struct sample_mesh {
     size_t point_count, triangle_count;
@@ -21,6 +29,8 @@ typedef struct sample_mesh {
     const uint16_t *joints;    /* 4 a point, or NULL */
     const uint8_t *factors;    /* 1 a point, normalized, or NULL */
     const uint32_t *triangles; /* 3 each */
+    const float *weights;      /* 4 a point, or NULL */
+    const float *tangents;     /* 4 a point, or NULL */
 } sample_mesh;
 
 typedef struct sample_options {

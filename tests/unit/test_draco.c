@@ -44,8 +44,8 @@ static void make_grid(grid *g)
         g->factors[i] = (uint8_t)(3 * i);
     }
     sheet_triangles(SIDE, g->triangles);
-    g->mesh = (sample_mesh){POINTS,       TRIANGLES, g->positions, g->normals,
-                            g->texcoords, g->joints, g->factors,   g->triangles};
+    g->mesh = (sample_mesh){POINTS,    TRIANGLES,  g->positions, g->normals, g->texcoords,
+                            g->joints, g->factors, g->triangles, NULL,       NULL};
 }
 
 static const memory_budget any_room = {.most = 100000000};
@@ -345,7 +345,8 @@ static void orientations_are_limited(void **state)
     const sample_options options = {.edgebreaker = true, .bits = 10};
     size_t size, found = 0;
     make_grid(&g);
-    const sample_mesh mesh = {POINTS, TRIANGLES, g.positions, NULL, g.texcoords, NULL, NULL, g.triangles};
+    const sample_mesh mesh = {POINTS, TRIANGLES, g.positions, NULL, g.texcoords,
+                              NULL,   NULL,      g.triangles, NULL, NULL};
     unsigned char *bytes = make_draco(&mesh, &options, &size);
     assert_non_null(bytes);
     for (size_t at = 11; at + 4 <= size; at++) {

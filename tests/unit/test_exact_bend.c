@@ -191,7 +191,8 @@ static void what_would_be_no_circle_is_refused(void **state)
         {TWO_ARCS, "{\"exact\":true,\"bend\":{\"axis\":\"z\",\"toward\":\"x\",\"degrees\":9}}",
          "/moves/0/exact: unknown key \"exact\" of a move; it is one of \"bend\""},
         {TWO_ARCS, "{\"twist\":{\"axis\":\"z\",\"degrees\":9,\"exact\":true}}",
-         "/moves/0/twist/exact: unknown key \"exact\"; the nearest known one is \"axis\""},
+         "/moves/0/twist/exact: unknown key \"exact\"; known ones are \"axis\", \"degrees\", \"about\", "
+         "\"comment\", \"name\""},
     };
     for (size_t i = 0; i < COUNT(refusals); i++) {
         ffd_lattice *l;

@@ -1,16 +1,12 @@
-/* test_file_table.c - numbers for many files, and the identity of the file at a path. */
+/* test_file_table.c - numbers for many files. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 
 #include <cmocka.h>
 
-#include "../support/test_folder.h"
+#include "base/memory/file_table.h"
 #include "base/memory/memory.h"
-#include "batch/manifest/file_table.h"
-#include <limits.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 static hash128 file_of(uint64_t number)
 {
@@ -68,39 +64,11 @@ static void a_lack_of_memory_loses_nothing(void **state)
     (void)state;
 }
 
-static bool same(const char *a, const char *b)
-{
-    char first[PATH_MAX];
-    snprintf(first, sizeof first, "%s", in_folder(a));
-    const hash128 x = ffd_file_identity(first), y = ffd_file_identity(in_folder(b));
-    return ffd_hash_equal(&x, &y);
-}
-
-static void names_of_one_file(void **state)
-{
-    char target[PATH_MAX];
-    assert_int_equal(mkdir(in_folder("sub"), 0777), 0);
-    snprintf(target, sizeof target, "%s", in_folder("sub"));
-    assert_int_equal(symlink(target, in_folder("link")), 0);
-    for (int there = 0; there < 2; there++) {
-        assert_true(same("o", "./o") && same("o", "sub/../o") && same("sub/o", "link/o"));
-        assert_false(same("o", "sub/o") || same("o", "p") || same("o", "O"));
-        put_text("o", "x");
-        put_text("sub/o", "y");
-    }
-    snprintf(target, sizeof target, "%s", in_folder("o"));
-    assert_int_equal(symlink(target, in_folder("other")), 0);
-    assert_true(same("other", "o"));
-    assert_false(same("none/o", "o"));
-    (void)state;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(numbers_are_found),
         cmocka_unit_test(a_lack_of_memory_loses_nothing),
-        cmocka_unit_test(names_of_one_file),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -93,7 +93,8 @@ static char *make_text(blob *b, const char *more_buffers, const char *rest)
 
 static void add_draco(blob *b, bool edgebreaker)
 {
-    const sample_mesh mesh = {POINTS, TRIANGLES, positions, normals, NULL, joints, factors, triangles};
+    const sample_mesh mesh = {POINTS, TRIANGLES, positions, normals, NULL,
+                              joints, factors,   triangles, NULL,    NULL};
     const sample_options options = {.edgebreaker = edgebreaker, .bits = edgebreaker ? 14 : 0};
     size_t size;
     unsigned char *bytes = make_draco(&mesh, &options, &size);

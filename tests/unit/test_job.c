@@ -158,14 +158,16 @@ static ffd_status run_with_depfile(const ffd_deform_desc *desc, ffd_job_result *
     return status;
 }
 
-/* Splats under a node with two sockets, a level of detail, and a camera that is far away. */
+/* Splats under a node with two sockets, a level of detail and a collider, and a camera that is far away. */
 static void put_scene(void)
 {
     put_text(
         "a.gltf",
         "{\"asset\": {\"version\": \"2.0\"}, \"scenes\": [{\"nodes\": [0, 3, 4]}], \"nodes\": [{\"mesh\": 0, "
         "\"name\": "
-        "\"rose\", \"extensions\": {\"MSFT_lod\": {\"ids\": [1]}}}, {\"mesh\": 0, \"translation\": [9, 0, "
+        "\"rose\", \"extensions\": {\"MSFT_lod\": {\"ids\": [1]}, \"KHR_physics_rigid_bodies\": "
+        "{\"collider\": "
+        "{\"geometry\": {\"node\": 2}}}}}, {\"mesh\": 0, \"translation\": [9, 0, "
         "0]}, {}, "
         "{\"name\": \"hand\", \"translation\": [0.5, 0.5, 0]}, {\"children\": [5], \"translation\": [3, 0, "
         "0]}, "

@@ -63,6 +63,28 @@ static void characters_are_decoded(void **state)
     ffd_json_span_free(&tree);
 }
 
+/* A C string neither ends at U+0000 nor hides that it is there. */
+static void nuls_are_shown(void **state)
+{
+    (void)state;
+    json_span tree;
+    assert_int_equal(parse("{\"\\u0000a\\u0000\\u0000\":\"POSITION\\u0000\",\"POSITION\\u0000\":\"\\u0000\"}",
+                           &tree, NULL),
+                     FFD_OK);
+    const uint32_t first = ffd_json_span_first(&tree, 0), second = ffd_json_span_after(&tree, first);
+    char *const texts[] = {ffd_json_span_key(&tree, first), ffd_json_span_string(&tree, first, NULL),
+                           ffd_json_span_key(&tree, second), ffd_json_span_string(&tree, second, NULL)};
+    static const char *const expected[] = {"\xe2\x90\x80"
+                                           "a\xe2\x90\x80\xe2\x90\x80",
+                                           "POSITION\xe2\x90\x80", "POSITION\xe2\x90\x80", "\xe2\x90\x80"};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        assert_string_equal(texts[i], expected[i]);
+        ffd_free(texts[i]);
+    }
+    assert_int_equal(ffd_json_span_member(&tree, 0, "POSITION"), JSON_NONE);
+    ffd_json_span_free(&tree);
+}
+
 /* The decoded text, wherever the character occurs; NULL: it is refused. */
 static void a_character_is_seen_anywhere(void **state)
 {
@@ -338,6 +360,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(spans_are_those_of_the_text),
         cmocka_unit_test(characters_are_decoded),
+        cmocka_unit_test(nuls_are_shown),
         cmocka_unit_test(a_character_is_seen_anywhere),
         cmocka_unit_test(broken_text_is_refused_with_its_line),
         cmocka_unit_test(rules_are_kept),

@@ -491,8 +491,8 @@ static void the_budget_holds_for_creases_and_lists_too(void **state)
     const uint64_t least = budget.taken + 3 * 160 * 120 + 8 * 48 + 12 * 40;
     budget.most = least - 1;
     assert_int_equal(ffd_picture_draw(&s.picture, &budget, &pixels, &error), FFD_E_LIMIT);
-    budget.most = budget.taken + 36 * 64 - 1;
     s.picture.width = s.picture.height = 16;
+    budget.most = budget.taken + 3 * 16 * 16 + 8 * 48 + 12 * 40 + 36 * 64 - 1;
     assert_int_equal(ffd_picture_draw(&s.picture, &budget, &pixels, &error), FFD_E_LIMIT);
     budget.most++;
     assert_int_equal(ffd_picture_draw(&s.picture, &budget, &pixels, &error), FFD_OK);

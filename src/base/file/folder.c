@@ -4,6 +4,7 @@
 #include "base/file/memory_files.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include <dirent.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -47,6 +48,26 @@ void ffd_folder_unmake(char *path, size_t made)
         path[end] = 0;
         rmdir(path);
     }
+}
+
+static int compare(const void *a, const void *b)
+{
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+ffd_status ffd_folder_list(const char *path, path_list *names, ffd_error *error)
+{
+    DIR *const folder = opendir(path);
+    const struct dirent *entry;
+    const size_t before = names->count;
+    ffd_status status = FFD_OK;
+    while (folder && !status && (entry = readdir(folder)) != NULL)
+        status = ffd_paths_add(names, entry->d_name, error);
+    if (folder)
+        closedir(folder);
+    if (names->count > before)
+        qsort(names->paths + before, names->count - before, sizeof *names->paths, compare);
+    return status;
 }
 
 bool ffd_folders_differ(const char *file, const char *other)

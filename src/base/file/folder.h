@@ -4,6 +4,7 @@
 #define FFD_BASE_FILE_FOLDER_H
 
 #include "base/fail.h"
+#include "base/file/path_list.h"
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -12,6 +13,9 @@
 ffd_status ffd_folder_make(const char *path, size_t *made, ffd_error *error);
 /* Removes the folders that ffd_folder_make created, as far as they are empty. Shortens path. */
 void ffd_folder_unmake(char *path, size_t made);
+/* Adds the names of the entries of a folder, sorted by bytes; none if it cannot be read. Errors:
+   FFD_E_MEMORY. */
+ffd_status ffd_folder_list(const char *path, path_list *names, ffd_error *error);
 /* Returns the absolute path of a file or folder, with symbolic links resolved; NULL if it does not exist or
    memory runs out. Free with ffd_free. */
 char *ffd_path_resolve(const char *path);

@@ -4,8 +4,10 @@
 #include "base/file/memory_files.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -51,6 +53,20 @@ static ffd_status read_piece(int fd, const char *name, off_t offset, void *to, s
     return FFD_OK;
 }
 
+/* Waits until a stream has bytes, or the deadline. */
+static ffd_status wait_for_bytes(int fd, ffd_error *error)
+{
+    struct pollfd ready = {.fd = fd, .events = POLLIN};
+    while (ffd_deadline_left() >= 0) {
+        if (poll(&ready, 1, ffd_deadline_left()) > 0)
+            return FFD_OK;
+        const ffd_status status = ffd_deadline_check(error);
+        if (status)
+            return status;
+    }
+    return FFD_OK;
+}
+
 /* Reads files that have no size and cannot be mapped: pipes, terminals, /dev/stdin, files of /proc. */
 static ffd_status read_stream(int fd, const char *name, file_input *input, ffd_error *error)
 {
@@ -65,6 +81,8 @@ static ffd_status read_stream(int fd, const char *name, file_input *input, ffd_e
         else if (!ffd_grow((void **)&block, &capacity, size + 65536, 1))
             status = ffd_fail_file(error, FFD_E_MEMORY, name, "out of memory after %zu bytes", size);
         else
+            status = wait_for_bytes(fd, error);
+        if (!status)
             status = read_piece(fd, name, FROM_HERE, block + size, capacity - size, &got, error);
     } while (!status && got > 0);
     if (status)
@@ -174,11 +192,15 @@ const char *ffd_file_display_name(const char *path)
     return name ? name : strcmp(path, "-") == 0 ? "standard input" : path;
 }
 
-/* Refuses pipes and devices, which may block forever or never end. */
+/* Refuses folders, and pipes and devices, which may block forever or never end. */
 static ffd_status refuse_special(int fd, const char *path, ffd_error *error)
 {
     struct stat info;
-    if (ffd_file_is_stream(path) || fstat(fd, &info) != 0 || S_ISREG(info.st_mode) || S_ISDIR(info.st_mode))
+    if (fstat(fd, &info) != 0 || S_ISREG(info.st_mode))
+        return FFD_OK;
+    if (S_ISDIR(info.st_mode))
+        return ffd_fail_file(error, FFD_E_IO, path, "is a folder");
+    if (ffd_file_is_stream(path))
         return FFD_OK;
     return ffd_fail_file(error, FFD_E_IO, path, "is a %s, not a file (- reads standard input)",
                          S_ISFIFO(info.st_mode) ? "pipe" : "device");
@@ -238,22 +260,34 @@ static ffd_status load_memory(const char *path, file_input *input, ffd_error *er
     return lend(bytes, size, ffd_file_display_name(path), input, error);
 }
 
+ffd_status ffd_file_open(const char *path, int *fd, ffd_error *error)
+{
+    *fd = STDIN_FILENO;
+    if (strcmp(path, "-") == 0)
+        return FFD_OK;
+    /* O_NONBLOCK, so that opening a pipe, which is refused later, does not block. Not for inherited
+       descriptors, whose flags must not change. */
+    *fd = open(path, O_RDONLY | O_CLOEXEC | (ffd_file_is_stream(path) ? 0 : O_NONBLOCK | O_NOCTTY));
+    if (*fd < 0)
+        return fail_open(path, errno, error);
+    const ffd_status status = refuse_special(*fd, path, error);
+    if (status)
+        close(*fd);
+    return status;
+}
+
 static ffd_status load(const char *path, size_t least_mapped, file_input *input, ffd_error *error)
 {
+    int fd;
     *input = (file_input){.data = nothing};
     if (ffd_memory_has(path))
         return load_memory(path, input, error);
-    if (strcmp(path, "-") == 0)
-        return load_descriptor(STDIN_FILENO, "standard input", least_mapped, input, error);
-    /* O_NONBLOCK, so that opening a pipe, which is refused later, does not block. Not for inherited
-       descriptors, whose flags must not change. */
-    const int fd = open(path, O_RDONLY | O_CLOEXEC | (ffd_file_is_stream(path) ? 0 : O_NONBLOCK | O_NOCTTY));
-    if (fd < 0)
-        return fail_open(path, errno, error);
-    ffd_status status = refuse_special(fd, path, error);
-    if (!status)
-        status = load_descriptor(fd, path, least_mapped, input, error);
-    close(fd);
+    ffd_status status = ffd_file_open(path, &fd, error);
+    if (status)
+        return status;
+    status = load_descriptor(fd, ffd_file_display_name(path), least_mapped, input, error);
+    if (fd != STDIN_FILENO)
+        close(fd);
     return status;
 }
 

@@ -17,9 +17,12 @@ typedef struct file_input {
     uint64_t identity[2];  /* identifies a regular file that is not empty, whatever path led to it */
 } file_input;
 
+/* Opens path ("-": standard input) for reading. A folder, a pipe and a device are FFD_E_IO, except
+   /dev/stdin, /dev/fd/N and /dev/null. The caller closes *fd, unless it is STDIN_FILENO. */
+ffd_status ffd_file_open(const char *path, int *fd, ffd_error *error);
 /* Loads path ("-": standard input, also a pipe). Large regular files are mapped (mmap); mapping.h says what
-   happens if one is truncated meanwhile. Truncation of a smaller file is FFD_E_IO. A folder, a pipe and a
-   device are FFD_E_IO, except /dev/stdin, /dev/fd/N and /dev/null; an endless stream is FFD_E_LIMIT. */
+   happens if one is truncated meanwhile. Truncation of a smaller file is FFD_E_IO, an endless stream
+   FFD_E_LIMIT. Other errors: those of ffd_file_open. */
 ffd_status ffd_file_load(const char *path, file_input *input, ffd_error *error);
 /* As ffd_file_load, but maps small files too: for callers that keep many files open and must save memory. */
 ffd_status ffd_file_map(const char *path, file_input *input, ffd_error *error);

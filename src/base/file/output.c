@@ -9,6 +9,7 @@
 #include "base/file/temporary.h"
 #include "base/file/written_files.h"
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include "base/text/buffer.h"
 #include <errno.h>
 #include <fcntl.h>
@@ -268,13 +269,11 @@ static ffd_status open_beside(output_file *file, const char *path, const struct 
     if (file->fd >= 0 && !file->noted)
         return ffd_fail_memory(error);
     if (file->fd < 0) {
+        const ffd_status status = ffd_temporary_fail(reason, file->temporary, path, error);
         ffd_free(file->temporary); /* it belongs to another run */
         file->temporary = NULL;
         *busy = reason == EBUSY;
-        if (*busy)
-            return ffd_fail_file(error, FFD_E_IO, path, "is being written by another run");
-        errno = reason;
-        return ffd_fail_errno(error, path, "cannot be written");
+        return status;
     }
     /* Only root can change the owner of a file. */
     if (old && (old->st_uid != geteuid() || old->st_gid != getegid())) {
@@ -286,11 +285,19 @@ static ffd_status open_beside(output_file *file, const char *path, const struct 
     return FFD_OK;
 }
 
+/* Removes the temporary file, unless it belongs to another run by now: where there are no locks, that run has
+   taken it for a leftover. */
+static void remove_temporary(const output_file *file)
+{
+    if (!ffd_names_other(file->fd, file->temporary))
+        unlink(file->temporary);
+}
+
 /* Removes the temporary file and releases its lock. */
 static void drop_temporary(output_file *file)
 {
     ffd_cleanup_hold();
-    unlink(file->temporary);
+    remove_temporary(file);
     ffd_cleanup_strike(&file->noted);
     ffd_cleanup_release();
     close(file->fd);
@@ -401,9 +408,17 @@ ffd_status ffd_output_folder(file_output *output, const char *path, ffd_error *e
     return status;
 }
 
+/* Empties the block, in time: a file that is complete or absent is not written on after the deadline. */
+static ffd_status make_room(file_output *output, ffd_error *error)
+{
+    const output_file *const file = &output->files[output->count - 1];
+    const ffd_status status = file->temporary || file->is_memory ? ffd_deadline_check(error) : FFD_OK;
+    return status ? status : flush(output, error);
+}
+
 ffd_status ffd_output_write(file_output *output, const void *bytes, size_t size, ffd_error *error)
 {
-    const ffd_status status = size > BLOCK - output->filled ? flush(output, error) : FFD_OK;
+    const ffd_status status = size > BLOCK - output->filled ? make_room(output, error) : FFD_OK;
     if (status)
         return status;
     if (output->hash && output->count == 1)
@@ -431,6 +446,8 @@ static ffd_status check_written(const file_output *output, ffd_error *error)
         const int twin = file->temporary ? dup(file->fd) : -1;
         if (file->temporary && (twin < 0 || close(twin) != 0))
             return ffd_fail_errno(error, file->target, "cannot be written");
+        if (file->temporary && ffd_names_other(file->fd, file->temporary))
+            return ffd_fail_file(error, FFD_E_IO, file->target, "is being written by another run");
     }
     return FFD_OK;
 }
@@ -566,7 +583,7 @@ void ffd_output_destroy(file_output **output)
     for (size_t i = 0; i < (*output)->count; i++) {
         output_file *file = &(*output)->files[i];
         if (file->temporary && !file->committed)
-            unlink(file->temporary);
+            remove_temporary(file);
         ffd_cleanup_strike(&file->noted);
         if (file->fd >= 0)
             close(file->fd);

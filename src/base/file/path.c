@@ -104,6 +104,20 @@ char *ffd_path_beside(const char *path, const char *name)
     return text;
 }
 
+char *ffd_path_with_ending(const char *path, const char *ending)
+{
+    const size_t kept = (size_t)(ffd_path_ending(path) - path), length = strlen(ending);
+    const size_t dot = *ending == '.';
+    char *text = ffd_alloc(kept + length + 2, 1);
+    if (!text)
+        return NULL;
+    memcpy(text, path, kept);
+    text[kept] = '.';
+    for (size_t i = dot; i <= length; i++)
+        text[kept + 1 + i - dot] = lower(ending[i]);
+    return text;
+}
+
 char *ffd_text_copy(const char *text)
 {
     return copy_range(text, strlen(text));

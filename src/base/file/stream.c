@@ -1,7 +1,7 @@
 #include "base/file/stream.h"
+#include "base/file/input.h"
 #include "base/memory/memory.h"
 #include <errno.h>
-#include <fcntl.h>
 #include <poll.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -24,15 +24,14 @@ ffd_status ffd_stream_open(const char *path, const char *name, byte_stream **str
     *stream = ffd_alloc(1, sizeof **stream);
     if (!*stream)
         return ffd_fail_memory(error);
-    (*stream)->fd = strcmp(path, "-") == 0 ? STDIN_FILENO : open(path, O_RDONLY | O_CLOEXEC);
     (*stream)->name = name;
     (*stream)->read = (*stream)->next = (*stream)->filled = 0;
     (*stream)->ended = false;
-    if ((*stream)->fd < 0) {
-        const int reason = errno;
+    const ffd_status status = ffd_file_open(path, &(*stream)->fd, error);
+    if (status) {
         ffd_free(*stream);
         *stream = NULL;
-        return ffd_fail_file(error, FFD_E_IO, name, "cannot be read: %s", strerror(reason));
+        return status;
     }
     const bool is_file = fstat((*stream)->fd, &info) == 0 && S_ISREG(info.st_mode);
     (*stream)->size = is_file ? (uint64_t)info.st_size : 0;
@@ -70,15 +69,34 @@ static ffd_status fill(byte_stream *stream, ffd_error *error)
     return FFD_OK;
 }
 
-int ffd_stream_byte(byte_stream *stream, ffd_status *status, ffd_error *error)
+ffd_status ffd_stream_take(byte_stream *stream, const char **bytes, size_t *size, ffd_error *error)
 {
-    *status = FFD_OK;
-    if (stream->next == stream->filled && !stream->ended)
-        *status = fill(stream, error);
-    if (*status || stream->ended)
-        return -1;
-    stream->read++;
-    return stream->block[stream->next++];
+    *size = 0;
+    if (stream->next == stream->filled && !stream->ended) {
+        const ffd_status status = fill(stream, error);
+        if (status)
+            return status;
+    }
+    if (stream->ended)
+        return FFD_OK;
+    const unsigned char *const begin = stream->block + stream->next;
+    const size_t left = stream->filled - stream->next;
+    const unsigned char *const feed = memchr(begin, '\n', left);
+    *bytes = (const char *)begin;
+    *size = feed ? (size_t)(feed - begin) + 1 : left;
+    stream->next += *size;
+    stream->read += *size;
+    return FFD_OK;
+}
+
+int ffd_stream_descriptor(const byte_stream *stream)
+{
+    return stream->fd;
+}
+
+const char *ffd_stream_name(const byte_stream *stream)
+{
+    return stream->name;
 }
 
 uint64_t ffd_stream_size(const byte_stream *stream)

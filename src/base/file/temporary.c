@@ -5,6 +5,7 @@
 #include "base/memory/memory.h"
 #include <errno.h>
 #include <fcntl.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -44,10 +45,22 @@ char *ffd_temporary_name(const char *target)
     return ffd_hidden_name(target, ".ffd-tmp");
 }
 
+/* Whether a file could not be locked because its file system has no locks. */
+static atomic_bool lacks_locks;
+
+/* Whether the last call failed for this reason. */
+static bool has_no_locks(void)
+{
+    if (errno != ENOLCK && errno != ENOSYS && errno != EOPNOTSUPP)
+        return false;
+    atomic_store(&lacks_locks, true);
+    return true;
+}
+
 int ffd_lock_named(int fd, const char *path)
 {
     struct stat ours, there;
-    if (flock(fd, LOCK_EX | LOCK_NB) != 0) {
+    if (flock(fd, LOCK_EX | LOCK_NB) != 0 && !has_no_locks()) {
         errno = errno == EWOULDBLOCK ? EBUSY : errno;
         return -1;
     }
@@ -61,6 +74,13 @@ int ffd_lock_named(int fd, const char *path)
     return lstat(path, &there) == 0 && ours.st_ino == there.st_ino && ours.st_dev == there.st_dev;
 }
 
+bool ffd_names_other(int fd, const char *path)
+{
+    struct stat ours, there;
+    return atomic_load(&lacks_locks) && lstat(path, &there) == 0 && fstat(fd, &ours) == 0 &&
+           (ours.st_ino != there.st_ino || ours.st_dev != there.st_dev);
+}
+
 /* Opens the leftover of another run to lock it; for writing if possible, because some file systems require
    that for a lock. */
 static int open_left(const char *path)
@@ -68,6 +88,16 @@ static int open_left(const char *path)
     const int flags = O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
     const int fd = open(path, O_WRONLY | flags);
     return fd < 0 && errno == EACCES ? open(path, O_RDONLY | flags) : fd;
+}
+
+/* Closes a file and, unless its path is NULL, removes it. Keeps errno. */
+static void drop(int fd, const char *path)
+{
+    const int reason = errno;
+    if (path)
+        unlink(path);
+    close(fd);
+    errno = reason;
 }
 
 int ffd_temporary_open(const char *path)
@@ -83,13 +113,39 @@ int ffd_temporary_open(const char *path)
         locked = fd >= 0 ? ffd_lock_named(fd, path) : is_new || errno != ENOENT ? -1 : 0;
         if (locked > 0 && !is_new)
             locked = unlink(path);
-        if (locked <= 0 && fd >= 0) {
-            const int reason = errno;
-            close(fd);
-            errno = reason;
-        }
+        if (locked <= 0 && fd >= 0)
+            drop(fd, is_new && locked < 0 && errno != EBUSY ? path : NULL);
     } while (locked == 0);
     return locked > 0 ? fd : -1;
+}
+
+/* Returns what stands at a path that is not a regular file; NULL: one does, or nothing. */
+static const char *kind_in_the_way(const char *path)
+{
+    struct stat info;
+    if (lstat(path, &info) != 0 || S_ISREG(info.st_mode))
+        return NULL;
+    return S_ISLNK(info.st_mode)    ? "link"
+           : S_ISDIR(info.st_mode)  ? "folder"
+           : S_ISFIFO(info.st_mode) ? "pipe"
+           : S_ISSOCK(info.st_mode) ? "socket"
+                                    : "device";
+}
+
+ffd_status ffd_temporary_fail(int reason, const char *name, const char *target, ffd_error *error)
+{
+    const char *const kind = kind_in_the_way(name);
+    if (reason == EBUSY)
+        return ffd_fail_file(error, FFD_E_IO, target, "is being written by another run");
+    if (kind)
+        return ffd_fail_file(error, FFD_E_IO, target,
+                             "cannot be written: a %s named %s stands where it is written first: remove that",
+                             kind, ffd_path_name(name));
+    if (ffd_file_exists(name))
+        return ffd_fail_file(error, FFD_E_IO, target, "cannot be written: %s, left by another run: %s",
+                             ffd_path_name(name), strerror(reason));
+    errno = reason;
+    return ffd_fail_errno(error, target, "cannot be written");
 }
 
 /* For file systems without the flags of renameat2. link() never replaces a file. On file systems without hard

@@ -137,9 +137,9 @@ bool ffd_process_send(worker_process *process, const void *bytes, size_t size)
     return send_all(process->channel, bytes, size);
 }
 
-void ffd_process_wait(worker_process *const *processes, size_t count, double seconds)
+void ffd_process_wait(worker_process *const *processes, size_t count, int input, double seconds)
 {
-    struct pollfd *set = ffd_alloc(count + 1, sizeof *set);
+    struct pollfd *set = ffd_alloc(count + 2, sizeof *set);
     nfds_t used = 0;
     if (!set) {
         /* A short pause, because it is unknown which process will send something. */
@@ -149,6 +149,8 @@ void ffd_process_wait(worker_process *const *processes, size_t count, double sec
     for (size_t i = 0; i < count; i++)
         if (processes[i])
             set[used++] = (struct pollfd){.fd = processes[i]->channel, .events = POLLIN};
+    if (input >= 0)
+        set[used++] = (struct pollfd){.fd = input, .events = POLLIN};
     const int interrupts = ffd_interrupt_stream();
     if (interrupts >= 0)
         set[used++] = (struct pollfd){.fd = interrupts, .events = POLLIN};

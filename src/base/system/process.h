@@ -23,9 +23,10 @@ typedef struct process_end {
 ffd_status ffd_process_start(const char *name, worker_process **process, ffd_error *error);
 /* Sends bytes to the worker; blocks until all are sent. Returns false if the worker has ended. */
 bool ffd_process_send(worker_process *process, const void *bytes, size_t size);
-/* Waits until a process has sent something or has ended, until seconds have passed (negative: no limit), or
-   until the program is interrupted (interrupt.h). Entries may be NULL. */
-void ffd_process_wait(worker_process *const *processes, size_t count, double seconds);
+/* Waits until a process has sent something or has ended, until a descriptor can be read (negative: none),
+   until seconds have passed (negative: no limit), or until the program is interrupted (interrupt.h). Entries
+   may be NULL. */
+void ffd_process_wait(worker_process *const *processes, size_t count, int input, double seconds);
 /* Appends the bytes that can be read without blocking. Returns false at the end of the channel: the worker
    has ended or is about to. */
 bool ffd_process_receive(worker_process *process, byte_buffer *bytes);

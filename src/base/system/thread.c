@@ -1,5 +1,6 @@
 #include "base/system/thread.h"
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include "base/system/processors.h"
 #include <pthread.h>
 #include <stdatomic.h>
@@ -8,12 +9,14 @@ typedef struct worker_thread {
     void (*run)(void *work, int number);
     void *work;
     int number;
+    const deadline *deadline; /* of the calling thread */
     pthread_t thread;
 } worker_thread;
 
 static void *start(void *argument)
 {
     const worker_thread *self = argument;
+    ffd_deadline_set(self->deadline);
     self->run(self->work, self->number);
     return NULL;
 }
@@ -26,7 +29,8 @@ static void run_all(void (*run)(void *work, int number), void *work, int threads
     int started = 0;
     while (others && started < threads - 1) {
         worker_thread *next = &others[started];
-        *next = (worker_thread){.run = run, .work = work, .number = started + 1};
+        *next =
+            (worker_thread){.run = run, .work = work, .number = started + 1, .deadline = ffd_deadline_get()};
         if (pthread_create(&next->thread, NULL, start, next) != 0)
             break;
         started++;

@@ -1,5 +1,6 @@
 #include "base/text/words.h"
 #include "base/one_line.h"
+#include <stdio.h>
 #include <string.h>
 
 /* Longer words are compared by their first LONGEST letters. */
@@ -18,6 +19,12 @@ bool ffd_word_is_known(const char *word, const char *const *known, size_t count)
     return false;
 }
 
+/* Any locale's letters but ASCII's are compared as they are. */
+static char small(char c)
+{
+    return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
+}
+
 /* The optimal string alignment distance. */
 size_t ffd_word_distance(const char *a, size_t a_length, const char *b)
 {
@@ -29,9 +36,9 @@ size_t ffd_word_distance(const char *a, size_t a_length, const char *b)
         d[0][j] = j;
     for (size_t i = 1; i <= m; i++)
         for (size_t j = 1; j <= n; j++) {
-            const size_t replace = d[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
+            const size_t replace = d[i - 1][j - 1] + (small(a[i - 1]) != small(b[j - 1]));
             d[i][j] = least(replace, least(d[i - 1][j], d[i][j - 1]) + 1);
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+            if (i > 1 && j > 1 && small(a[i - 1]) == small(b[j - 2]) && small(a[i - 2]) == small(b[j - 1]))
                 d[i][j] = least(d[i][j], d[i - 2][j - 2] + 1);
         }
     return d[m][n];
@@ -52,6 +59,21 @@ const char *ffd_nearest_word(const char *word, const char *const *known, size_t 
     for (size_t i = 0; i < count; i++)
         ffd_nearest_offer(&nearest, known[i]);
     return nearest.best;
+}
+
+void ffd_words_hint(const char *word, const char *const *known, size_t count, char *text, size_t capacity)
+{
+    nearest_word nearest = {.word = word, .length = strlen(word)};
+    for (size_t i = 0; i < count; i++)
+        ffd_nearest_offer(&nearest, known[i]);
+    const size_t longest = nearest.length > strlen(nearest.best) ? nearest.length : strlen(nearest.best);
+    if (2 * nearest.distance <= longest) {
+        snprintf(text, capacity, "the nearest known one is \"%s\"", nearest.best);
+        return;
+    }
+    size_t length = (size_t)snprintf(text, capacity, count == 1 ? "the only known one is" : "known ones are");
+    for (size_t i = 0; i < count && length < capacity; i++)
+        length += (size_t)snprintf(text + length, capacity - length, "%s \"%s\"", i ? "," : "", known[i]);
 }
 
 const char *ffd_plural(uint64_t count, const char *one, const char *many)

@@ -10,7 +10,7 @@
 bool ffd_word_is_known(const char *word, const char *const *known, size_t count);
 
 /* Returns the edit distance of two words (insertions, deletions, replacements, swaps of adjacent letters).
-   Long words are compared by their first letters only. a has a_length letters. */
+   Long words are compared by their first letters only, capitals as small letters. a has a_length letters. */
 size_t ffd_word_distance(const char *a, size_t a_length, const char *b);
 
 /* Finds the known word that is most similar to a word of the user's, by edit distance. Set word and length,
@@ -28,6 +28,10 @@ void ffd_nearest_offer(nearest_word *nearest, const char *known);
 /* Returns the entry of known (count words) that is most similar to word, the first one if there are several;
    NULL if count is 0. */
 const char *ffd_nearest_word(const char *word, const char *const *known, size_t count);
+
+/* Writes what a message says of an unknown word: the known one (of count, 1 or more) that is meant, or all of
+   them where none is similar: as one half of a word of three letters is not. Truncates to capacity. */
+void ffd_words_hint(const char *word, const char *const *known, size_t count, char *text, size_t capacity);
 
 /* Returns `one` if count is 1, else `many`: "1 vertex is", "0 vertices are". */
 const char *ffd_plural(uint64_t count, const char *one, const char *many);

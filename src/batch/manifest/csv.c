@@ -2,6 +2,18 @@
 #include "json/json_chars.h"
 #include <string.h>
 
+static bool is_blank(char separator, char c)
+{
+    return (c == ' ' || c == '\t') && c != separator;
+}
+
+static size_t skip_blanks(char separator, const char *text, size_t i, size_t size)
+{
+    while (i < size && is_blank(separator, text[i]))
+        i++;
+    return i;
+}
+
 /* Reads a quoted cell that begins at the quote text[i]. Returns the index behind its closing quote; 0: there
    is none. */
 static size_t take_quoted(const char *text, size_t i, size_t size, byte_buffer *cell)
@@ -30,11 +42,13 @@ bool ffd_csv_is_open(csv_scan *scan, const char *separators, const char *text, s
         const char c = text[scan->at];
         if (scan->state == CSV_QUOTED)
             scan->state = c == '"' ? CSV_QUOTE_ENDS : CSV_QUOTED;
-        else if (c == '"' && scan->state != CSV_PLAIN && scan->state != CSV_BROKEN)
+        else if (c == '"' && (scan->state == CSV_CELL_BEGINS || scan->state == CSV_QUOTE_ENDS))
             scan->state = CSV_QUOTED; /* opening quote, or the second of a doubled one */
         else if (c && strchr(separators, c) && scan->state != CSV_BROKEN)
             scan->state = CSV_CELL_BEGINS;
-        else if (c == '"' || scan->state == CSV_QUOTE_ENDS)
+        else if (c == ' ' || c == '\t')
+            scan->state = scan->state == CSV_QUOTE_ENDS ? CSV_CELL_ENDS : scan->state;
+        else if (c == '"' || scan->state == CSV_QUOTE_ENDS || scan->state == CSV_CELL_ENDS)
             scan->state = CSV_BROKEN; /* not a valid row, whatever follows */
         else if (scan->state == CSV_CELL_BEGINS)
             scan->state = CSV_PLAIN;
@@ -44,33 +58,53 @@ bool ffd_csv_is_open(csv_scan *scan, const char *separators, const char *text, s
 
 char ffd_csv_separator(const char *text, size_t size)
 {
-    bool quoted = false, has_semicolon = false;
+    bool quoted = false;
+    size_t semicolons = 0, tabs = 0;
     for (size_t i = 0; i < size; i++) {
         quoted = quoted != (text[i] == '"');
         if (!quoted && text[i] == ',')
             return ',';
-        has_semicolon = has_semicolon || (!quoted && text[i] == ';');
+        semicolons += !quoted && text[i] == ';';
+        tabs += !quoted && text[i] == '\t';
     }
-    return has_semicolon ? ';' : ',';
+    return tabs > semicolons ? '\t' : semicolons ? ';' : ',';
+}
+
+/* Reads the cell at text[*at]; *at becomes the index of its separator, or the size. Returns false if it is
+   not valid. */
+static bool take_cell(char separator, const char *text, size_t *at, size_t size, csv_row *row)
+{
+    const size_t begin = *at, first = skip_blanks(separator, text, begin, size);
+    char way = first > begin ? CSV_HAD_BLANKS : 0;
+    size_t i = first;
+    if (first < size && text[first] == '"') {
+        const size_t end = take_quoted(text, first, size, &row->text);
+        i = end ? skip_blanks(separator, text, end, size) : 0;
+        way = (char)(way | CSV_IN_QUOTES | (i > end ? CSV_HAD_BLANKS : 0));
+        if (i == 0 || (i < size && text[i] != separator))
+            return false;
+    } else {
+        i = skip_plain(separator, text, first, size);
+        if (i < size && text[i] == '"')
+            return false;
+        size_t end = i;
+        while (end > first && is_blank(separator, text[end - 1]))
+            end--;
+        ffd_buffer_append(&row->text, text + first, end - first);
+        way = (char)(way | (end < i ? CSV_HAD_BLANKS : 0));
+    }
+    ffd_buffer_append(&row->text, "", 1);
+    ffd_buffer_append(&row->ways, &way, 1);
+    *at = i;
+    return true;
 }
 
 bool ffd_csv_split(char separator, const char *text, size_t size, csv_row *row)
 {
-    size_t i = 0;
-    row->text.size = row->count = 0;
-    for (;; i++) {
-        if (i < size && text[i] == '"') {
-            i = take_quoted(text, i, size, &row->text);
-            if (i == 0 || (i < size && text[i] != separator))
-                return false;
-        } else {
-            const size_t first = i;
-            i = skip_plain(separator, text, i, size);
-            if (i < size && text[i] == '"')
-                return false;
-            ffd_buffer_append(&row->text, text + first, i - first);
-        }
-        ffd_buffer_append(&row->text, "", 1);
+    row->text.size = row->ways.size = row->count = 0;
+    for (size_t i = 0;; i++) {
+        if (!take_cell(separator, text, &i, size, row))
+            return false;
         row->count++;
         if (i >= size)
             return true;
@@ -130,5 +164,6 @@ bool ffd_csv_number(const char *cell, bool decimal_comma, byte_buffer *json)
 void ffd_csv_free(csv_row *row)
 {
     ffd_buffer_free(&row->text);
+    ffd_buffer_free(&row->ways);
     *row = (csv_row){0};
 }

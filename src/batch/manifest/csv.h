@@ -1,4 +1,5 @@
-/* csv.h - parses rows of comma-separated values (RFC 4180), or of values separated by semicolons. */
+/* csv.h - parses rows of comma-separated values (RFC 4180), or of values separated by semicolons or tabs.
+   Blanks beside separators do not belong to a cell, except in quotes. */
 #ifndef FFD_BATCH_MANIFEST_CSV_H
 #define FFD_BATCH_MANIFEST_CSV_H
 
@@ -8,20 +9,24 @@
 
 typedef struct csv_row {
     byte_buffer text; /* the cells, each terminated by 0 */
+    byte_buffer ways; /* how each was written: csv_way */
     size_t count;
 } csv_row;
+
+/* Bits of a cell. */
+typedef enum csv_way { CSV_IN_QUOTES = 1, CSV_HAD_BLANKS = 2 } csv_way;
 
 /* State of a scan; all zeros at the start. */
 typedef struct csv_scan {
     size_t at;
-    enum { CSV_CELL_BEGINS, CSV_PLAIN, CSV_QUOTED, CSV_QUOTE_ENDS, CSV_BROKEN } state;
+    enum { CSV_CELL_BEGINS, CSV_PLAIN, CSV_QUOTED, CSV_QUOTE_ENDS, CSV_CELL_ENDS, CSV_BROKEN } state;
 } csv_scan;
 
 /* Scans text that was appended. separators: the characters that may separate cells. Returns whether the text
    ends inside quotes, so that its row continues in the next line. */
 bool ffd_csv_is_open(csv_scan *scan, const char *separators, const char *text, size_t size);
-/* Returns the separator of a table by its first row: a semicolon if it has one outside of quotes and no
-   comma. */
+/* Returns the separator of a table by its first row: a comma if it has one outside of quotes, else a
+   semicolon or a tab, of which it has more. */
 char ffd_csv_separator(const char *text, size_t size);
 /* Splits a complete row. Returns false for a quote inside an unquoted cell, or text behind a closing
    quote. */

@@ -77,40 +77,40 @@ static void add_lattices(job_description *job, const job_commons *commons)
             ffd_description_add(job, JOB_LATTICE, NULL, commons->lattices[i]);
 }
 
-/* Adds the output: the input's name in the folder of outputs. number: appended if the input has several
-   outputs (STEM-ROW.EXT); 0: not appended. */
-static void add_output(job_description *job, const char *folder, const char *input, uint64_t number)
+char *ffd_output_name(const job_commons *commons, const char *input, uint64_t number)
 {
-    char *const stem = ffd_path_stem(input);
+    char *const named = commons->ending ? ffd_path_with_ending(input, commons->ending) : ffd_text_copy(input);
+    char *const stem = named ? ffd_path_stem(named) : NULL;
     byte_buffer text = {.failed = !stem};
     if (stem && number)
-        ffd_buffer_format(&text, "%s-%" PRIu64 "%s", stem, number, ffd_path_ending(input));
-    else
-        ffd_buffer_text(&text, ffd_path_name(input));
-    char *const name = ffd_buffer_finish(&text);
+        ffd_buffer_format(&text, "%s-%" PRIu64 "%s", stem, number, ffd_path_ending(named));
+    else if (stem)
+        ffd_buffer_text(&text, ffd_path_name(named));
+    ffd_free(stem);
+    ffd_free(named);
+    return ffd_buffer_finish(&text);
+}
+
+/* Adds the output, in the folder of outputs. number: as in ffd_output_name. */
+static void add_output(const job_commons *commons, const char *input, uint64_t number, job_description *job)
+{
+    char *const name = ffd_output_name(commons, input, number);
     if (name)
-        add_path(job, JOB_OUTPUT, folder, name);
+        add_path(job, JOB_OUTPUT, commons->out_dir, name);
     else
         job->texts.failed = true;
-    ffd_free(stem);
     ffd_free(name);
 }
 
-bool ffd_column_is_ignored(const char *ignored, const char *column)
-{
-    const size_t length = strlen(column);
-    for (const char *word = ignored; word && *word; word += strcspn(word, ","), word += *word == ',')
-        if (strcspn(word, ",") == length && memcmp(word, column, length) == 0)
-            return true;
-    return false;
-}
-
 /* The columns "in", "out" and "lattice" are files; others are values of placeholders. Paths are relative to
-   the table's folder, those of outputs to --out-dir. */
-static void describe_cell(const job_commons *commons, const char *column, const char *cell,
+   the table's folder, those of outputs to --out-dir. An empty cell says nothing; but one in quotes is a
+   text. */
+static void describe_cell(const job_commons *commons, const char *column, const char *cell, char way,
                           job_description *job, csv_flaw *flaw)
 {
     const char *const out_dir = commons->out_dir;
+    if (!*cell && !(way & CSV_IN_QUOTES))
+        return;
     if (strcmp(column, "in") != 0 && strcmp(column, "out") != 0 && strcmp(column, "lattice") != 0)
         set_cell(commons, column, cell, job, flaw);
     else if (*cell && *column == 'o')
@@ -126,14 +126,14 @@ void ffd_describe_row(const job_commons *commons, const csv_row *columns, const 
     for (size_t i = 0; i < row->count; i++) {
         column = ffd_csv_next(columns, column);
         cell = ffd_csv_next(row, cell);
-        if (!ffd_column_is_ignored(commons->ignored, column))
-            describe_cell(commons, column, cell, job, flaw);
+        if (!commons->skipped[i])
+            describe_cell(commons, column, cell, row->ways.data[i], job, flaw);
     }
     if (commons->input && !ffd_description_find(job, JOB_INPUT))
         ffd_description_add(job, JOB_INPUT, NULL, commons->input);
     const char *const input = ffd_description_find(job, JOB_INPUT);
     if (commons->out_dir && input && !ffd_description_find(job, JOB_OUTPUT))
-        add_output(job, commons->out_dir, input, number);
+        add_output(commons, input, number, job);
     if (!ffd_description_find(job, JOB_LATTICE))
         add_lattices(job, commons);
 }
@@ -142,6 +142,6 @@ void ffd_describe_file(const job_commons *commons, const char *path, job_descrip
 {
     ffd_description_add(job, JOB_INPUT, NULL, path);
     if (commons->out_dir)
-        add_output(job, commons->out_dir, path, 0);
+        add_output(commons, path, 0, job);
     add_lattices(job, commons);
 }

@@ -10,11 +10,12 @@
 typedef struct job_commons {
     const char *folder;          /* of the table; "": the current one */
     const char *out_dir;         /* folder of outputs; or NULL */
+    const char *ending;          /* of outputs that the inputs name; NULL: that of the input */
     const char *input;           /* for rows without one; or NULL */
     const char *const *lattices; /* for jobs without any */
     size_t lattice_count;
     const char *const *morphs; /* lattice_count names, if each lattice makes a morph target; or NULL */
-    const char *ignored;       /* columns to ignore, "a,b"; or NULL */
+    const uint8_t *skipped;    /* of a table's columns: whether they are left out */
     bool decimal_comma;        /* numbers may have a decimal comma */
 } job_commons;
 
@@ -23,8 +24,9 @@ typedef struct csv_flaw {
     char cell[48], number[64]; /* of the first one: the original, and the number read */
 } csv_flaw;
 
-/* Whether a column is in the list of ignored ones. */
-bool ffd_column_is_ignored(const char *ignored, const char *column);
+/* Returns the name of the output of an input, which names none. number: appended if the input has several
+   outputs (STEM-ROW.EXT); 0: not appended. Free it with ffd_free; NULL: memory ran out. */
+char *ffd_output_name(const job_commons *commons, const char *input, uint64_t number);
 /* Describes a row. Its cells must be UTF-8, as many as the columns. number: of the row, for the name of an
    output without one (0: use the input's name). */
 void ffd_describe_row(const job_commons *commons, const csv_row *columns, const csv_row *row, uint64_t number,

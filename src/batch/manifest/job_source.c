@@ -2,14 +2,15 @@
 #include "base/file/glob.h"
 #include "base/file/input.h"
 #include "base/file/path.h"
+#include "base/file/place.h"
+#include "base/memory/file_table.h"
 #include "base/memory/memory.h"
 #include "base/system/interrupt.h"
 #include "base/text/words.h"
-#include "batch/manifest/csv.h"
-#include "batch/manifest/file_table.h"
 #include "batch/manifest/job_rows.h"
 #include "batch/manifest/lines.h"
 #include "batch/manifest/manifest.h"
+#include "batch/manifest/table.h"
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,28 +23,14 @@ struct job_source {
     uint64_t count;     /* jobs so far, of all shards */
     uint64_t line;      /* first line of the last job */
     line_reader reader; /* of the manifest or table */
-    csv_row columns, row;
-    char separator;       /* of the table's cells; 0: not known yet */
+    csv_table table;
     bool numbers_outputs; /* several rows may use one mesh, so outputs get the number of the row */
     file_table
-        meshes; /* number of rows that use each mesh (2: several); unknown for a stream, where all may */
-    mesh_flaws flaws; /* of the table */
-    csv_scan scan;    /* of the current row */
-    bool row_goes_on; /* the row continues in a line that has not arrived yet */
-    bool is_lost;     /* a row was too long, so the start of the next one is unknown */
-    file_list files;  /* matches of the pattern */
+        meshes;      /* number of rows that use each mesh (2: several); unknown for a stream, where all may */
+    file_list files; /* matches of the pattern */
 };
 
 /* Lines */
-
-/* Blank lines are skipped. */
-static bool is_blank(const byte_buffer *line)
-{
-    for (size_t i = 0; i < line->size; i++)
-        if (line->data[i] == 0 || !strchr(" \t\r", line->data[i]))
-            return false;
-    return true;
-}
 
 /* Whether a line consists of NUL bytes, as after a crash during writing. */
 static bool is_zeros(const byte_buffer *line)
@@ -52,28 +39,6 @@ static bool is_zeros(const byte_buffer *line)
         if (line->data[i] != 0)
             return false;
     return line->size > 0;
-}
-
-/* Skips a byte order mark, which some editors write. */
-static void skip_mark(line_reader *reader)
-{
-    byte_buffer *const line = &reader->line;
-    if (reader->number != 1 || line->size < 3 || memcmp(line->data, "\xef\xbb\xbf", 3) != 0)
-        return;
-    line->size -= 3;
-    memmove(line->data, line->data + 3, line->size + 1);
-}
-
-/* Reads the next line that is not blank. */
-static ffd_status next_line(line_reader *reader, line_state *state, ffd_error *error)
-{
-    ffd_status status;
-    do {
-        status = ffd_lines_next(reader, false, state, error);
-        if (!status && *state == LINE_READ)
-            skip_mark(reader);
-    } while (!status && *state == LINE_READ && is_blank(&reader->line));
-    return status;
 }
 
 static ffd_status read_manifest_line(job_source *source, batch_job *job)
@@ -88,33 +53,14 @@ static ffd_status read_manifest_line(job_source *source, batch_job *job)
 
 /* Tables */
 
-/* Reads a row, which may extend over several lines. */
-static ffd_status next_row(job_source *source, csv_row *row, line_state *state, bool *valid, ffd_error *error)
+/* Returns the ending that --output-format gives to outputs; NULL: none. */
+static const char *ending_of(const job_source_desc *desc)
 {
-    line_reader *const reader = &source->reader;
-    ffd_status status = FFD_OK;
-    *state = source->is_lost ? LINE_NONE : LINE_READ;
-    if (source->is_lost)
-        return FFD_OK;
-    if (!source->row_goes_on) {
-        status = next_line(reader, state, error);
-        source->line = reader->number;
-        source->scan = (csv_scan){0};
-    }
-    const char separators[] = {source->separator ? source->separator : ',', source->separator ? 0 : ';', 0};
-    while (!status && *state == LINE_READ && !reader->too_long &&
-           ffd_csv_is_open(&source->scan, separators, reader->line.data, reader->line.size))
-        status = ffd_lines_next(reader, true, state, error);
-    source->row_goes_on = *state == LINE_LATER && source->scan.at > 0;
-    if (*state == LINE_NONE && source->scan.at > 0)
-        *state = LINE_READ; /* the text ended inside quotes */
-    if (status || *state != LINE_READ)
-        return status;
-    source->is_lost = reader->too_long;
-    if (!source->separator)
-        source->separator = ffd_csv_separator(reader->line.data, reader->line.size);
-    *valid = !reader->too_long && ffd_csv_split(source->separator, reader->line.data, reader->line.size, row);
-    return row->text.failed ? ffd_fail_memory(error) : FFD_OK;
+    const char *ending = NULL;
+    for (size_t i = 0; i < desc->default_count; i++)
+        if (strcmp(desc->defaults[i].name, "output-format") == 0)
+            ending = desc->defaults[i].value;
+    return ending;
 }
 
 static job_commons list_commons(const job_source *source)
@@ -122,49 +68,20 @@ static job_commons list_commons(const job_source *source)
     const job_source_desc *const desc = &source->desc;
     return (job_commons){.folder = source->folder,
                          .out_dir = desc->out_dir,
+                         .ending = ending_of(desc),
                          .input = desc->pattern,
                          .lattices = desc->lattices,
                          .lattice_count = desc->lattice_count,
                          .morphs = desc->morphs,
-                         .ignored = desc->ignored,
-                         .decimal_comma = source->separator == ';'};
-}
-
-/* Fails the job of a row; returns false. */
-static bool refuse_row(const job_source *source, batch_job *job, const char *format, ...) FFD_PRINTF(3, 4);
-
-static bool refuse_row(const job_source *source, batch_job *job, const char *format, ...)
-{
-    char text[256];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    ffd_fail_line(&job->error, FFD_E_INVALID, source->frame.name, (size_t)job->line, "%s", text);
-    return false;
-}
-
-static bool check_row(const job_source *source, bool valid, batch_job *job)
-{
-    if (source->is_lost)
-        return refuse_row(
-            source, job,
-            "a row of more than %zu bytes, perhaps because a quote is missing: the rest is not read",
-            LINE_MOST);
-    if (!valid)
-        return refuse_row(source, job, "not a valid CSV row");
-    if (source->row.count != source->columns.count)
-        return refuse_row(source, job, "the row has %zu %s, but the table has %zu %s", source->row.count,
-                          ffd_plural(source->row.count, "cell", "cells"), source->columns.count,
-                          ffd_plural(source->columns.count, "column", "columns"));
-    return ffd_csv_is_text(&source->row) || refuse_row(source, job, "a cell is not text in UTF-8");
+                         .skipped = source->table.skipped,
+                         .decimal_comma = source->table.separator != ','};
 }
 
 /* Returns the path of a row's mesh, freed by the caller; NULL: it has none, or memory runs out. */
 static char *mesh_of(const job_source *source)
 {
     const job_commons commons = list_commons(source);
-    const csv_row *const columns = &source->columns, *const row = &source->row;
+    const csv_row *const columns = &source->table.columns, *const row = &source->table.row;
     job_description description = {0};
     csv_flaw flaw = {0};
     ffd_describe_row(&commons, columns, row, 0, &description, &flaw);
@@ -181,7 +98,7 @@ static bool is_repeated(const job_source *source)
     if (ffd_file_reads_once(source->desc.table))
         return true;
     char *const mesh = mesh_of(source);
-    const hash128 file = mesh ? ffd_file_identity(mesh) : (hash128){{0}};
+    const hash128 file = mesh ? ffd_place_of(NULL, mesh) : (hash128){{0}};
     ffd_free(mesh);
     return ffd_files_find(&source->meshes, &file, &rows) && rows > 1;
 }
@@ -190,98 +107,16 @@ static ffd_status read_row(job_source *source, bool valid, batch_job *job)
 {
     job_description description = {0};
     csv_flaw flaw = {0};
-    if (!check_row(source, valid, job))
+    if (!ffd_table_check(&source->table, valid, &job->error))
         return FFD_OK;
     const job_commons commons = list_commons(source);
     const uint64_t number = source->numbers_outputs && is_repeated(source) ? source->count : 0;
-    ffd_describe_row(&commons, &source->columns, &source->row, number, &description, &flaw);
+    ffd_describe_row(&commons, &source->table.columns, &source->table.row, number, &description, &flaw);
     if (flaw.cell[0])
-        ffd_flaw_line(&source->flaws, source->frame.name, (size_t)job->line, &job->error,
+        ffd_flaw_line(&source->table.flaws, source->frame.name, (size_t)job->line, &job->error,
                       "\"%s\" is no number in JSON, and is read as %s", flaw.cell, flaw.number);
     const ffd_status status = job->error.status ? FFD_OK : ffd_job_make(&source->frame, &description, job);
     ffd_description_free(&description);
-    return status;
-}
-
-static bool has_column(const job_source *source, const char *column)
-{
-    const char *name = NULL;
-    for (size_t i = 0; i < source->columns.count; i++) {
-        name = ffd_csv_next(&source->columns, name);
-        if (strcmp(name, column) == 0)
-            return true;
-    }
-    return false;
-}
-
-/* Refuses names of ignored columns that the table does not have. */
-static ffd_status check_ignored(const job_source *source, ffd_error *error)
-{
-    const char *word = source->desc.ignored;
-    for (size_t length; word && *word; word += length + (word[length] == ',')) {
-        char name[64];
-        length = strcspn(word, ",");
-        snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), word);
-        if (length && !has_column(source, name))
-            return ffd_fail_line(error, FFD_E_INVALID, source->frame.name, (size_t)source->line,
-                                 "the table has no column \"%s\" (--csv-ignore)", name);
-    }
-    return FFD_OK;
-}
-
-/* Whether lines end in CR alone (old Macs): then the whole table looks like one line. */
-static bool has_lone_return(const char *name)
-{
-    const char *found = strchr(name, '\r');
-    while (found && found[1] == '\n')
-        found = strchr(found + 1, '\r');
-    return found;
-}
-
-static ffd_status check_columns(const job_source *source, ffd_error *error)
-{
-    const csv_row *const columns = &source->columns;
-    const char *name = NULL;
-    if (!ffd_csv_is_text(columns))
-        return ffd_fail_line(error, FFD_E_INVALID, source->frame.name, (size_t)source->line,
-                             "the name of a column is not text in UTF-8");
-    for (size_t i = 0; i < columns->count; i++) {
-        const char *other = name = ffd_csv_next(columns, name);
-        if (has_lone_return(name))
-            return ffd_fail_line(error, FFD_E_INVALID, source->frame.name, (size_t)source->line,
-                                 "the lines end with CR alone: a table needs LF or CR LF");
-        if (!*name)
-            return ffd_fail_line(error, FFD_E_INVALID, source->frame.name, (size_t)source->line,
-                                 "column %zu of the table has no name", i + 1);
-        for (size_t k = i + 1; k < columns->count; k++) {
-            other = ffd_csv_next(columns, other);
-            if (strcmp(name, other) == 0)
-                return ffd_fail_line(error, FFD_E_INVALID, source->frame.name, (size_t)source->line,
-                                     "two columns of the table are named \"%.60s\"", name);
-        }
-    }
-    return check_ignored(source, error);
-}
-
-/* Waits for the first row, which names the columns. */
-static ffd_status read_columns(job_source *source, ffd_error *error)
-{
-    line_state state;
-    bool valid = false;
-    ffd_status status;
-    do {
-        ffd_stream_wait(source->reader.stream);
-        status = next_row(source, &source->columns, &state, &valid, error);
-    } while (!status && state == LINE_LATER && !ffd_interrupt_requested());
-    if (status || ffd_interrupt_requested())
-        return status;
-    if (state != LINE_READ || !valid)
-        return ffd_fail_line(error, FFD_E_INVALID, source->frame.name, 1,
-                             "the first row of the table must name its columns");
-    status = check_columns(source, error);
-    if (!status && source->separator == ';')
-        status = ffd_flaw_line(&source->flaws, source->frame.name, (size_t)source->line, error,
-                               "the columns are separated by semicolons: numbers may have a decimal comma");
     return status;
 }
 
@@ -297,25 +132,36 @@ static ffd_status read_file(const job_source *source, const char *path, batch_jo
     return status;
 }
 
+/* A file, and the name of its output. */
+typedef struct named_file {
+    const char *path;
+    char *name;
+} named_file;
+
 static int compare_names(const void *a, const void *b)
 {
-    return strcmp(ffd_path_name(*(const char *const *)a), ffd_path_name(*(const char *const *)b));
+    return strcmp(((const named_file *)a)->name, ((const named_file *)b)->name);
 }
 
-/* Refuses files of equal names: their outputs would overwrite each other. */
+/* Refuses files whose outputs have equal names: they would overwrite each other. */
 static ffd_status refuse_equal_names(const job_source *source, ffd_error *error)
 {
     const file_list *const files = &source->files;
-    char **const sorted = ffd_alloc(files->count, sizeof *sorted);
-    ffd_status status = FFD_OK;
-    if (!sorted)
-        return ffd_fail_memory(error);
-    memcpy(sorted, files->paths, files->count * sizeof *sorted);
-    qsort(sorted, files->count, sizeof *sorted, compare_names);
+    const job_commons commons = list_commons(source);
+    named_file *const sorted = ffd_alloc_zero(files->count, sizeof *sorted);
+    ffd_status status = sorted ? FFD_OK : ffd_fail_memory(error);
+    for (size_t i = 0; i < files->count && !status; i++) {
+        sorted[i] = (named_file){files->paths[i], ffd_output_name(&commons, files->paths[i], 0)};
+        status = sorted[i].name ? FFD_OK : ffd_fail_memory(error);
+    }
+    if (!status)
+        qsort(sorted, files->count, sizeof *sorted, compare_names);
     for (size_t i = 1; i < files->count && !status; i++)
         if (compare_names(&sorted[i - 1], &sorted[i]) == 0)
             status = ffd_fail(error, FFD_E_ARGUMENT, "%s and %s would both be written as \"%s\"",
-                              sorted[i - 1], sorted[i], ffd_path_name(sorted[i]));
+                              sorted[i - 1].path, sorted[i].path, sorted[i].name);
+    for (size_t i = 0; sorted && i < files->count; i++)
+        ffd_free(sorted[i].name);
     ffd_free(sorted);
     return status;
 }
@@ -335,8 +181,7 @@ static ffd_status find_files(job_source *source, ffd_error *error)
 static void free_source(job_source *source)
 {
     ffd_lines_close(&source->reader);
-    ffd_csv_free(&source->columns);
-    ffd_csv_free(&source->row);
+    ffd_table_free(&source->table);
     ffd_files_free(&source->meshes);
     ffd_glob_free(&source->files);
     ffd_free(source->folder);
@@ -354,9 +199,13 @@ static ffd_status open_text(job_source *source, const char *path, ffd_error *err
     return ffd_lines_open(path, source->frame.name, &source->reader, error);
 }
 
-static bool has_output_column(const job_source *source)
+static ffd_status open_table(job_source *source, ffd_error *error)
 {
-    return has_column(source, "out") && !ffd_column_is_ignored(source->desc.ignored, "out");
+    const ffd_status status = open_text(source, source->desc.table, error);
+    source->table.reader = &source->reader;
+    source->table.name = source->frame.name;
+    source->table.ignored = source->desc.ignored;
+    return status ? status : ffd_table_begin(&source->table, error);
 }
 
 static ffd_status count_row(const job_source *other, file_table *meshes, ffd_error *error)
@@ -365,7 +214,7 @@ static ffd_status count_row(const job_source *other, file_table *meshes, ffd_err
     char *const mesh = mesh_of(other);
     if (!mesh)
         return FFD_OK;
-    const hash128 file = ffd_file_identity(mesh);
+    const hash128 file = ffd_place_of(NULL, mesh);
     ffd_free(mesh);
     const bool is_known = ffd_files_find(meshes, &file, &rows);
     return is_known && rows > 1 ? FFD_OK : ffd_files_put(meshes, &file, is_known ? 2 : 1, error);
@@ -377,13 +226,10 @@ static ffd_status count_meshes(job_source *source, ffd_error *error)
     job_source other = {.desc = source->desc, .frame = source->frame};
     line_state state = LINE_READ;
     bool valid;
-    batch_job row = {0};
-    ffd_status status = open_text(&other, source->desc.table, error);
-    if (!status)
-        status = read_columns(&other, error);
+    ffd_status status = open_table(&other, error);
     while (!status && state == LINE_READ) {
-        status = next_row(&other, &other.row, &state, &valid, error);
-        if (!status && state == LINE_READ && check_row(&other, valid, &row))
+        status = ffd_table_next(&other.table, &state, &valid, error);
+        if (!status && state == LINE_READ && ffd_table_check(&other.table, valid, NULL))
             status = count_row(&other, &source->meshes, error);
     }
     free_source(&other);
@@ -396,7 +242,7 @@ ffd_status ffd_jobs_open(const job_source_desc *desc, job_source **source, ffd_e
     if (!*source)
         return ffd_fail_memory(error);
     (*source)->desc = *desc;
-    (*source)->flaws.strict = desc->strict;
+    (*source)->table.flaws.strict = desc->strict;
     (*source)->frame =
         (batch_frame){desc->pattern,  "", desc->defaults, desc->default_count, desc->resume, desc->pictures,
                       desc->positions};
@@ -404,12 +250,11 @@ ffd_status ffd_jobs_open(const job_source_desc *desc, job_source **source, ffd_e
     if (desc->manifest)
         status = open_text(*source, desc->manifest, error);
     else if (desc->table)
-        status = open_text(*source, desc->table, error);
+        status = open_table(*source, error);
     else
         status = find_files(*source, error);
-    if (!status && desc->table)
-        status = read_columns(*source, error);
-    (*source)->numbers_outputs = !status && desc->table && desc->out_dir && !has_output_column(*source);
+    (*source)->numbers_outputs =
+        !status && desc->table && desc->out_dir && !ffd_table_has(&(*source)->table, "out");
     if (!status && (*source)->numbers_outputs && !ffd_file_reads_once(desc->table))
         status = count_meshes(*source, error);
     if (status)
@@ -422,12 +267,15 @@ static ffd_status find_next(job_source *source, line_state *state, bool *valid, 
 {
     *valid = true;
     if (source->desc.manifest) {
-        const ffd_status status = next_line(&source->reader, state, error);
+        const ffd_status status = ffd_lines_next_filled(&source->reader, state, error);
         source->line = source->reader.number;
         return status;
     }
-    if (source->desc.table)
-        return next_row(source, &source->row, state, valid, error);
+    if (source->desc.table) {
+        const ffd_status status = ffd_table_next(&source->table, state, valid, error);
+        source->line = source->table.line;
+        return status;
+    }
     *state = source->count < source->files.count ? LINE_READ : LINE_NONE;
     source->line = source->count + 1;
     return FFD_OK;
@@ -503,9 +351,14 @@ double ffd_jobs_fraction(const job_source *source)
     return size ? (double)ffd_stream_position(stream) / (double)size : -1;
 }
 
+int ffd_jobs_descriptor(const job_source *source)
+{
+    return source->reader.stream ? ffd_stream_descriptor(source->reader.stream) : -1;
+}
+
 const mesh_flaws *ffd_jobs_flaws(const job_source *source)
 {
-    return &source->flaws;
+    return &source->table.flaws;
 }
 
 const char *ffd_jobs_name(const job_source *source)

@@ -41,6 +41,8 @@ ffd_status ffd_jobs_total(const job_source_desc *desc, uint64_t *total, ffd_erro
 uint64_t ffd_jobs_count(const job_source *source);
 /* Returns the fraction of the source consumed, by bytes or files, 0 to 1; negative: unknown. */
 double ffd_jobs_fraction(const job_source *source);
+/* Returns the descriptor of the manifest or table, to wait for its next line; negative: there is none. */
+int ffd_jobs_descriptor(const job_source *source);
 /* Returns the flaws of the table found so far. */
 const mesh_flaws *ffd_jobs_flaws(const job_source *source);
 /* Returns the name of the manifest, table or pattern for messages. */

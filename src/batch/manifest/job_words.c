@@ -3,6 +3,7 @@
 #include "base/memory/memory.h"
 #include "base/text/words.h"
 #include "json/json_chars.h"
+#include <ffd/job.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -304,6 +305,41 @@ static bool has_flag(const job_maker *maker, const char *name)
     return false;
 }
 
+/* Returns the value of an option, of the job or else of the batch; NULL: it is not set. */
+static const char *find_option(const job_maker *maker, const char *name)
+{
+    const job_description *const description = maker->description;
+    const char *value = NULL;
+    bool is_set = false;
+    for (size_t i = 0; i < description->count; i++)
+        if (is_option(&description->statements[i]) &&
+            strcmp(ffd_description_name(description, &description->statements[i]), name) == 0) {
+            value = description->statements[i].part == JOB_OPTION
+                        ? ffd_description_value(description, &description->statements[i])
+                        : NULL;
+            is_set = true;
+        }
+    for (size_t i = 0; i < maker->frame->default_count && !is_set; i++)
+        if (strcmp(maker->frame->defaults[i].name, name) == 0)
+            value = maker->frame->defaults[i].value;
+    return value;
+}
+
+/* Returns the name of an output: with the ending of --output-format if it has that of another mesh format.
+   Freed with ffd_free. */
+static char *name_output(const job_maker *maker, const char *output)
+{
+    const char *const ending = find_option(maker, "output-format");
+    char *const named = ending ? ffd_path_with_ending(output, ending) : NULL;
+    const bool changes = named && ffd_format_from_name(named) != FFD_FORMAT_AUTO &&
+                         ffd_format_from_name(output) != FFD_FORMAT_AUTO &&
+                         !ffd_path_has_ending(output, ffd_path_ending(named));
+    if (changes || (ending && !named))
+        return named;
+    ffd_free(named);
+    return ffd_text_copy(output);
+}
+
 static bool keep_name(job_maker *maker, const char *path, char **name)
 {
     *name = ffd_text_copy(path);
@@ -312,19 +348,28 @@ static bool keep_name(job_maker *maker, const char *path, char **name)
     return *name;
 }
 
-static bool add_files(job_maker *maker)
+/* Adds the mesh and the output, if there is one, as words and as content. */
+static bool add_meshes(job_maker *maker, const char *input, const char *output, bool in_place)
 {
     batch_job *const job = maker->job;
-    const char *const input = ffd_description_find(maker->description, JOB_INPUT);
-    const char *const output = ffd_description_find(maker->description, JOB_OUTPUT);
-    const char *const wrong_input = ffd_description_wrong(maker->description, "in");
-    const char *const wrong_output = ffd_description_wrong(maker->description, "out");
-    const bool in_place = has_flag(maker, "in-place"), has_output = output || wrong_output;
-    const bool has_row = maker->frame->positions;
-    if (!input)
-        return refuse(maker, "%s", wrong_input ? wrong_input : "\"in\" is missing");
-    if (!check_path(maker, input, "in") || !keep_name(maker, input, &job->input))
+    if (!add_file(maker, NULL, input) || (output && !add_file(maker, NULL, output)))
         return false;
+    if (output || in_place) {
+        job->target = resolve(maker->frame, output ? output : input);
+        job->words.failed = job->words.failed || !job->target;
+    }
+    add_word(&job->content, input);
+    add_word(&job->content, output ? output : "");
+    return true;
+}
+
+/* Finds the output of a job. *named: freed by the caller; NULL: it has none. */
+static bool find_output(job_maker *maker, bool in_place, char **named)
+{
+    const char *const output = ffd_description_find(maker->description, JOB_OUTPUT);
+    const char *const wrong = ffd_description_wrong(maker->description, "out");
+    const bool has_output = output || wrong, has_row = maker->frame->positions;
+    *named = NULL;
     if (!has_output && !in_place && !has_row)
         return refuse(maker, "\"out\" is missing");
     if (in_place && has_row)
@@ -336,24 +381,40 @@ static bool add_files(job_maker *maker)
                       "\"in-place\" cannot be used with --resume: a finished mesh would be deformed again");
     if (in_place && maker->frame->pictures)
         return refuse(maker, "\"in-place\" cannot be used with --view: a picture is named after \"out\"");
-    if (wrong_output)
-        return refuse(maker, "%s", wrong_output);
-    if (output && (!check_path(maker, output, "out") || !keep_name(maker, output, &job->output)))
+    if (wrong)
+        return refuse(maker, "%s", wrong);
+    if (!output)
+        return true;
+    if (!check_path(maker, output, "out"))
         return false;
-    if (!ffd_description_find(maker->description, JOB_LATTICE) &&
-        !ffd_description_find(maker->description, JOB_MORPH) &&
-        !ffd_description_wrong(maker->description, "lattice") &&
-        !ffd_description_wrong(maker->description, "morph"))
-        return refuse(maker, "\"lattice\" is missing");
-    if (!add_file(maker, NULL, input) || (output && !add_file(maker, NULL, output)))
+    *named = name_output(maker, output);
+    if (!*named)
+        ffd_fail_memory(&maker->job->error);
+    return *named && keep_name(maker, *named, &maker->job->output);
+}
+
+static bool has_lattice(const job_description *description)
+{
+    return ffd_description_find(description, JOB_LATTICE) || ffd_description_find(description, JOB_MORPH) ||
+           ffd_description_wrong(description, "lattice") || ffd_description_wrong(description, "morph");
+}
+
+static bool add_files(job_maker *maker)
+{
+    const char *const input = ffd_description_find(maker->description, JOB_INPUT);
+    const char *const wrong = ffd_description_wrong(maker->description, "in");
+    const bool in_place = has_flag(maker, "in-place");
+    char *output = NULL;
+    if (!input)
+        return refuse(maker, "%s", wrong ? wrong : "\"in\" is missing");
+    if (!check_path(maker, input, "in") || !keep_name(maker, input, &maker->job->input))
         return false;
-    if (output || in_place) {
-        job->target = resolve(maker->frame, output ? output : input);
-        job->words.failed = job->words.failed || !job->target;
-    }
-    add_word(&job->content, input);
-    add_word(&job->content, output ? output : "");
-    return add_lattices(maker) && add_morphs(maker) && add_clips(maker);
+    bool added = find_output(maker, in_place, &output);
+    if (added && !has_lattice(maker->description))
+        added = refuse(maker, "\"lattice\" is missing");
+    added = added && add_meshes(maker, input, output, in_place);
+    ffd_free(output);
+    return added && add_lattices(maker) && add_morphs(maker) && add_clips(maker);
 }
 
 static bool make_words(job_maker *maker)

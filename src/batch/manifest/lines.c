@@ -15,6 +15,7 @@ static void begin_line(line_reader *reader, bool append)
     } else {
         reader->line.size = 0;
         reader->too_long = false;
+        reader->left_out = 0;
     }
 }
 
@@ -33,20 +34,27 @@ static ffd_status end_line(line_reader *reader, ffd_error *error)
 /* Reads bytes up to the end of the line, as far as they have arrived. */
 static ffd_status take_bytes(line_reader *reader, line_state *state, ffd_error *error)
 {
-    ffd_status status;
+    const char *bytes;
+    size_t size;
     /* A line may be endless, so interrupts must be noticed. */
     while (ffd_stream_is_ready(reader->stream) && !ffd_interrupt_requested()) {
-        const int c = ffd_stream_byte(reader->stream, &status, error);
-        const char byte = (char)c;
-        if (c < 0)
+        const ffd_status status = ffd_stream_take(reader->stream, &bytes, &size, error);
+        if (status || size == 0)
             return status;
         *state = LINE_READ;
-        if (byte == '\n')
+        const bool ends = bytes[size - 1] == '\n';
+        const size_t length = size - ends;
+        const size_t room = reader->line.size < LINE_MOST ? LINE_MOST - reader->line.size : 0;
+        const size_t taken = length < room ? length : room;
+        ffd_buffer_append(&reader->line, bytes, taken);
+        reader->too_long = reader->too_long || taken < length;
+        reader->left_out += length - taken;
+        if (ends)
             return FFD_OK;
-        if (reader->line.size < LINE_MOST)
-            ffd_buffer_append(&reader->line, &byte, 1);
-        else
-            reader->too_long = true;
+        if (reader->left_out >= LINE_LOST)
+            return ffd_fail_line(error, FFD_E_INVALID, ffd_stream_name(reader->stream),
+                                 (size_t)reader->number + 1, "the line does not end within %zu bytes",
+                                 LINE_LOST);
     }
     *state = LINE_LATER;
     return FFD_OK;
@@ -63,6 +71,46 @@ ffd_status ffd_lines_next(line_reader *reader, bool append, line_state *state, f
         return status;
     reader->number += *state == LINE_READ;
     return end_line(reader, error);
+}
+
+/* Blank lines are skipped. */
+static bool is_blank(const byte_buffer *line)
+{
+    for (size_t i = 0; i < line->size; i++)
+        if (line->data[i] == 0 || !strchr(" \t\r", line->data[i]))
+            return false;
+    return true;
+}
+
+/* Skips a byte order mark, which some editors write. */
+static void skip_mark(line_reader *reader)
+{
+    byte_buffer *const line = &reader->line;
+    if (line->size < 3 || memcmp(line->data, "\xef\xbb\xbf", 3) != 0)
+        return;
+    line->size -= 3;
+    memmove(line->data, line->data + 3, line->size + 1);
+}
+
+static ffd_status check_mark(line_reader *reader, ffd_error *error)
+{
+    const byte_buffer *const line = &reader->line;
+    if (line->size >= 2 && (memcmp(line->data, "\xff\xfe", 2) == 0 || memcmp(line->data, "\xfe\xff", 2) == 0))
+        return ffd_fail_line(error, FFD_E_INVALID, ffd_stream_name(reader->stream), 1,
+                             "is text in UTF-16: it must be UTF-8");
+    skip_mark(reader);
+    return FFD_OK;
+}
+
+ffd_status ffd_lines_next_filled(line_reader *reader, line_state *state, ffd_error *error)
+{
+    ffd_status status;
+    do {
+        status = ffd_lines_next(reader, false, state, error);
+        if (!status && *state == LINE_READ && reader->number == 1)
+            status = check_mark(reader, error);
+    } while (!status && *state == LINE_READ && is_blank(&reader->line));
+    return status;
 }
 
 void ffd_lines_close(line_reader *reader)

@@ -10,6 +10,7 @@
 #include "io/gltf/morph/gltf_morph_reuse.h"
 #include "io/gltf/morph/gltf_morph_text.h"
 #include "io/gltf/morph/gltf_morph_weights.h"
+#include "io/gltf/morph/gltf_target_names.h"
 #include "io/gltf/save/gltf_save.h"
 #include "io/gltf/scene/gltf_results.h"
 #include <string.h>
@@ -90,8 +91,7 @@ typedef struct morph_marks {
     size_t *named;        /* per mesh: its own target of that name (ffd_gltf_find_target) */
     /* Per mesh: index of the new target among the mesh's targets; GLTF_NONE: it gets none. */
     size_t *places;
-    size_t *in_primitive; /* per primitive: index of the new target among the primitive's targets */
-    bool any, moved;      /* whether any mesh gets the target; whether any mesh changed */
+    bool any, moved; /* whether any mesh gets the target; whether any mesh changed */
 } morph_marks;
 
 static bool make_marks(const gltf_document *d, const gltf_morph *morph, morph_marks *marks)
@@ -102,10 +102,8 @@ static bool make_marks(const gltf_document *d, const gltf_morph *morph, morph_ma
                            .meshes = ffd_alloc_zero(count, sizeof *marks->meshes),
                            .selected = ffd_alloc_zero(count, sizeof *marks->selected),
                            .named = ffd_alloc(count, sizeof *marks->named),
-                           .places = ffd_alloc(count, sizeof *marks->places),
-                           .in_primitive = ffd_alloc(d->primitive_values.count, sizeof *marks->in_primitive)};
-    return marks->known && marks->meshes && marks->selected && marks->named && marks->places &&
-           marks->in_primitive;
+                           .places = ffd_alloc(count, sizeof *marks->places)};
+    return marks->known && marks->meshes && marks->selected && marks->named && marks->places;
 }
 
 static void free_marks(morph_marks *marks)
@@ -115,7 +113,6 @@ static void free_marks(morph_marks *marks)
     ffd_free(marks->selected);
     ffd_free(marks->named);
     ffd_free(marks->places);
-    ffd_free(marks->in_primitive);
 }
 
 /* Marks the selected meshes, and among them those that change under a node. */
@@ -136,21 +133,21 @@ static void mark_moved(const gltf_document *d, morph_marks *marks)
 /* A mesh gets the target if it changed, or if it has one of the same name, which would be out of date. If
    nothing changed at all, every selected mesh gets it. file: the document as it is now, which may have
    further targets. */
-static void mark_meshes(const gltf_document *d, const gltf_document *file, morph_marks *marks)
+static ffd_status mark_meshes(const gltf_document *d, const gltf_document *file, morph_marks *marks,
+                              ffd_error *error)
 {
     mark_moved(d, marks);
     for (size_t m = 0; m < d->model.mesh_count; m++) {
-        marks->named[m] = ffd_gltf_find_target(file, m, marks->morph->name);
+        if (!ffd_gltf_find_target(file, m, marks->morph->name, &marks->named[m]))
+            return ffd_fail_memory(error);
         marks->meshes[m] =
             marks->meshes[m] || (marks->selected[m] && (!marks->moved || marks->named[m] != GLTF_NONE));
         marks->any = marks->any || marks->meshes[m];
         marks->places[m] = !marks->meshes[m]              ? GLTF_NONE
                            : marks->named[m] != GLTF_NONE ? marks->named[m]
                                                           : ffd_gltf_target_count(file, m);
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
-            marks->in_primitive[d->first_primitive[m] + p] =
-                ffd_gltf_target_place(&file->model.meshes[m].primitives[p], marks->named[m]);
     }
+    return FFD_OK;
 }
 
 /* Lends a target's results to the primitives of the other document, or takes them back. Both documents have
@@ -166,8 +163,7 @@ static void lend_results(const gltf_document *d, const morph_marks *marks, bool 
                 to->selected = from->selected;
                 if (!marks->meshes[m] || !from->selected)
                     continue;
-                const size_t place = marks->in_primitive[d->first_primitive[m] + p];
-                const size_t shape = other->targets[to->first_target + place];
+                const size_t shape = other->targets[to->first_target + marks->places[m]];
                 for (size_t s = 0; s < GLTF_DEFORMED && shape != GLTF_NONE; s++)
                     if (other->parts[shape].streams[s].accessor != GLTF_NONE && from->part[s] != GLTF_NONE)
                         other->parts[shape].streams[s].result =
@@ -235,16 +231,18 @@ static ffd_status reopen_replaced(morph_file *file, file_input *bytes, const cha
 /* Adds one target to the file. */
 static ffd_status add_target(morph_file *file, morph_marks *marks, const mesh_log *log, ffd_error *error)
 {
-    const morph_request request = {file->source, marks->morph, marks->meshes, marks->named, log};
+    const morph_request request = {file->source, marks->morph, marks->meshes, marks->places, log};
     file_input bytes = {0};
-    mark_meshes(file->source, current(file), marks);
+    ffd_status status = mark_meshes(file->source, current(file), marks, error);
+    if (status)
+        return status;
     if (!marks->any) {
         ffd_log_line(log, FFD_LOG_WARNING, "the file has no mesh that could get the morph target");
         return FFD_OK;
     }
     if (!marks->moved)
         ffd_log_line(log, FFD_LOG_WARNING, "no vertex moves: all offsets of the morph target are 0");
-    ffd_status status = ffd_gltf_add_target(current(file), &request, &bytes, error);
+    status = ffd_gltf_add_target(current(file), &request, &bytes, error);
     if (status == FFD_OK)
         status = replaces(file->source, marks) ? reopen_replaced(file, &bytes, marks->morph->name, log, error)
                                                : reopen(file, &bytes, error);

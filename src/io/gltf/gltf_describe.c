@@ -103,8 +103,8 @@ static ffd_status describe_attributes(const gltf_document *d, json_text *json, f
 {
     size_t count = 0;
     for (size_t i = 0; i < d->primitive_values.count; i++)
-        count +=
-            d->tree.values[ffd_json_span_member(&d->tree, d->primitive_values.values[i], "attributes")].count;
+        count += ffd_json_span_count(
+            &d->tree, ffd_json_span_member(&d->tree, d->primitive_values.values[i], "attributes"));
     json_member *members = ffd_alloc(count, sizeof *members);
     if (!members)
         return ffd_fail_memory(error);
@@ -162,7 +162,8 @@ ffd_status ffd_gltf_describe(const mesh_document *document, json_text *json, ffd
         describe_count(d, counted[i], json);
     ffd_json_count(json, "primitives", d->primitive_values.count);
     ffd_json_count(json, "nodes_with_mesh_not_shown", d->nodes_outside_scene);
-    ffd_json_count(json, "nodes_with_mesh_of_coarser_detail", ffd_gltf_count_stand_ins(d));
+    ffd_json_count(json, "nodes_with_mesh_of_coarser_detail", ffd_gltf_count_stand_ins(d, false));
+    ffd_json_count(json, "nodes_with_mesh_of_colliders", ffd_gltf_count_stand_ins(d, true));
     if (d->shared_child != GLTF_NONE)
         ffd_json_count(json, "node_with_two_parents", d->shared_child);
     ffd_status status = describe_attributes(d, json, error);

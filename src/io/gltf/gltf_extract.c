@@ -38,7 +38,7 @@ static const gltf_mesh_uses *uses_of(const extractor *e, size_t mesh)
     return &e->document->mesh_uses[mesh];
 }
 
-/* Whether a node is drawn: not if it is hidden, replaces another at a distance, or has instances. */
+/* Whether a node is drawn: not if it is hidden, stands for another, or has instances. */
 static bool is_drawn(const gltf_document *d, size_t node)
 {
     return node == GLTF_NONE ||
@@ -219,7 +219,7 @@ static ffd_status add_triangles(extractor *e, const drawn *drawing)
     ffd_status status = FFD_OK;
     for (size_t t = 0; t < count && status == FFD_OK; t++) {
         uint32_t triangle[3];
-        ffd_gltf_triangle(mode, t, drawing->corners, triangle);
+        gltf_triangle(mode, t, drawing->corners, triangle);
         const int second = drawing->mirrored ? 2 : 1;
         const model_corner corners[3] = {corner_at(drawing, triangle[0]),
                                          corner_at(drawing, triangle[second]),
@@ -390,8 +390,9 @@ static uint32_t features_of(const extractor *e)
     found |= has_any(d, "animations") ? MODEL_HAS_ANIMATIONS : 0;
     found |=
         has_any(d, "cameras") || ffd_gltf_has_extension(d, 0, "KHR_lights_punctual") ? MODEL_HAS_CAMERAS : 0;
-    found |=
-        d->nodes_outside_scene > 0 || ffd_gltf_count_stand_ins(d) > 0 || d->hidden ? MODEL_HAS_HIDDEN : 0;
+    found |= d->nodes_outside_scene > 0 || ffd_gltf_count_stand_ins(d, false) > 0 || d->hidden
+                 ? MODEL_HAS_HIDDEN
+                 : 0;
     found |= d->space == FFD_SPACE_MESH && d->model.node_count > 0 ? MODEL_HAS_TRANSFORMS : 0;
     return found;
 }

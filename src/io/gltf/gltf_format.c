@@ -19,6 +19,7 @@
 #include "io/gltf/scene/gltf_mixed.h"
 #include "io/gltf/scene/gltf_names.h"
 #include "io/gltf/scene/gltf_refuse.h"
+#include "io/gltf/scene/gltf_required.h"
 #include "io/gltf/scene/gltf_results.h"
 #include "io/gltf/scene/gltf_select.h"
 #include "io/gltf/scene/gltf_shown.h"
@@ -26,11 +27,18 @@
 #include "io/gltf/scene/gltf_used.h"
 #include "io/gltf/skeleton/gltf_skeleton.h"
 #include "io/gltf/splat/gltf_splats.h"
+#include "mesh/resource/beside.h"
 #include <float.h>
 
 static ffd_status check(const mesh_document *document, ffd_error *error)
 {
     return ffd_gltf_refuse_read(ffd_gltf_of(document), error);
+}
+
+static ffd_status warn(const mesh_document *document, const mesh_log *log, ffd_error *error)
+{
+    const ffd_status status = ffd_gltf_warn_of_held(ffd_gltf_of(document), log, error);
+    return status ? status : ffd_gltf_warn_of_faults(document, log, error);
 }
 
 static void read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
@@ -89,10 +97,11 @@ const mesh_format ffd_gltf_format = {
     .list_files = ffd_gltf_list_files,
     .list_images = ffd_gltf_list_images,
     .find_resources = ffd_gltf_find_resources,
+    .find_named = ffd_gltf_find_named,
     .count_beside = ffd_gltf_count_beside,
-    .list_beside = ffd_gltf_list_beside,
+    .name_beside = ffd_beside_name,
     .check = check,
-    .warn = ffd_gltf_warn_of_faults,
+    .warn = warn,
     .check_reach = ffd_gltf_check_reach,
     .list_places = ffd_gltf_list_places,
     .place_name = ffd_gltf_place_name,

@@ -102,7 +102,7 @@ ffd_status ffd_gltf_load_image(const gltf_document *d, material_images *images, 
     char *path = NULL;
     ffd_status status = FFD_OK;
     if (ffd_json_span_member(&d->tree, value, "bufferView") == JSON_NONE)
-        status = ffd_gltf_image_path(&d->tree, value, d->path, &path, error);
+        status = ffd_gltf_file_path(&d->tree, value, d->path, &path, error);
     if (!status)
         status =
             path ? ffd_images_load(images, path, number, error) : load_inner(d, images, image, number, error);

@@ -3,8 +3,10 @@
 #include "base/memory/memory.h"
 #include "base/system/processors.h"
 #include "io/gltf/decode/gltf_check.h"
+#include "io/gltf/decode/gltf_contents.h"
 #include "io/gltf/decode/gltf_drawing.h"
 #include "io/gltf/decode/gltf_indices.h"
+#include "io/gltf/decode/gltf_stated.h"
 #include "io/gltf/model/gltf_schema.h"
 #include "io/gltf/rig/gltf_places.h"
 #include "io/gltf/rig/gltf_rig.h"
@@ -16,6 +18,7 @@
 #include "io/gltf/scene/gltf_scene.h"
 #include "io/gltf/scene/gltf_shapes.h"
 #include "io/gltf/scene/gltf_skin.h"
+#include "io/gltf/scene/gltf_skin_sets.h"
 #include "io/gltf/splat/gltf_splats.h"
 #include "json/json_parse.h"
 #include <stdlib.h>
@@ -74,7 +77,7 @@ static ffd_status find_json(gltf_document *d, ffd_format format, ffd_error *erro
 static ffd_status list_values(const gltf_document *d, const char *key, gltf_values *list, ffd_error *error)
 {
     const uint32_t array = ffd_json_span_member(&d->tree, 0, key);
-    const size_t count = array == JSON_NONE ? 0 : d->tree.values[array].count;
+    const size_t count = ffd_json_span_count(&d->tree, array);
     list->values = ffd_alloc(count, sizeof *list->values);
     if (!list->values)
         return ffd_fail_memory(error);
@@ -142,6 +145,9 @@ static ffd_status note_buffer(gltf_document *d, size_t i, ffd_error *error)
     if (status == FFD_OK && buffer->flaws & BUFFER_SHORT)
         status = ffd_gltf_flaw(d, value, error, "the buffer has %zu bytes, less than its byteLength %zu",
                                buffer->size, buffer->stated);
+    if (status == FFD_OK && buffer->flaws & BUFFER_LONG)
+        status = ffd_gltf_flaw(d, value, error, "the buffer has %zu bytes, more than its byteLength %zu",
+                               buffer->size, buffer->stated);
     return status;
 }
 
@@ -169,7 +175,8 @@ static ffd_status list_primitives(gltf_document *d, ffd_error *error)
 {
     size_t total = 0;
     for (size_t m = 0; m < d->mesh_values.count; m++)
-        total += d->tree.values[ffd_json_span_member(&d->tree, d->mesh_values.values[m], "primitives")].count;
+        total += ffd_json_span_count(&d->tree,
+                                     ffd_json_span_member(&d->tree, d->mesh_values.values[m], "primitives"));
     gltf_values *list = &d->primitive_values;
     list->values = ffd_alloc(total, sizeof *list->values);
     d->first_primitive = ffd_alloc(d->mesh_values.count, sizeof *d->first_primitive);
@@ -191,7 +198,7 @@ static ffd_status limit_objects(gltf_document *d, ffd_error *error)
     const uint32_t scenes = ffd_json_span_member(&d->tree, 0, "scenes");
     const uint64_t count = (uint64_t)d->buffer_values.count + d->view_values.count +
                            d->accessor_values.count + d->mesh_values.count + d->primitive_values.count +
-                           d->node_values.count + (scenes == JSON_NONE ? 0 : d->tree.values[scenes].count);
+                           d->node_values.count + ffd_json_span_count(&d->tree, scenes);
     const ffd_status status = ffd_budget_check(&d->base.budget, count, OBJECT_BYTES, error);
     return status ? status : ffd_budget_take(&d->base.budget, count, KEPT_OBJECT_BYTES, error);
 }
@@ -216,6 +223,25 @@ static void hide_members(const gltf_document *d, json_edits *edits)
     for (uint32_t v = scenes == JSON_NONE ? JSON_NONE : ffd_json_span_first(&d->tree, scenes); v != JSON_NONE;
          v = ffd_json_span_after(&d->tree, v))
         hide_member(d, v, "extensions", edits);
+}
+
+/* Replaces U+0000 in keys by its symbol, U+2400: tinygltf takes a key for one that ends there. */
+static void show_nuls(const gltf_document *d, json_edits *edits)
+{
+    static const char nul[] = "\\u0000";
+    const uint32_t size = sizeof nul - 1;
+    for (size_t v = 0; v < d->tree.count; v++) {
+        const uint32_t end = d->tree.values[v].key_end;
+        for (uint32_t at = d->tree.values[v].key_begin; at + size < end;) {
+            const char *const escape = memchr(d->tree.text + at, '\\', end - at);
+            if (!escape)
+                break;
+            at = (uint32_t)(escape - d->tree.text);
+            if (at + size < end && memcmp(escape, nul, size) == 0)
+                ffd_edits_format(edits, at, at + size, "\\u2400");
+            at += 2; /* past a backslash that is escaped */
+        }
+    }
 }
 
 /* Writes the JSON for tinygltf. It has only the geometry, so that tinygltf neither spends time on the rest
@@ -249,7 +275,7 @@ static ffd_status check_counts(const gltf_document *d, ffd_error *error)
                 model->mesh_count == d->mesh_values.count && model->node_count == d->node_values.count;
     for (size_t m = 0; m < model->mesh_count && same; m++) {
         const uint32_t primitives = ffd_json_span_member(&d->tree, d->mesh_values.values[m], "primitives");
-        same = model->meshes[m].primitive_count == d->tree.values[primitives].count;
+        same = model->meshes[m].primitive_count == ffd_json_span_count(&d->tree, primitives);
     }
     return same ? FFD_OK
                 : ffd_fail_file(error, FFD_E_INVALID, d->name,
@@ -269,6 +295,7 @@ static ffd_status parse_model(gltf_document *d, ffd_error *error)
         status = limit_objects(d, error);
     if (status == FFD_OK) {
         hide_members(d, &plain);
+        show_nuls(d, &plain);
         ffd_edits_sort(&plain);
         write_model_text(d, &plain, &text);
         if (ffd_edits_failed(&plain) || text.failed)
@@ -340,6 +367,7 @@ static void free_document(gltf_document *d)
     ffd_free(d->scene_ranks);
     ffd_free(d->parents);
     ffd_free(d->stands_in);
+    ffd_free(d->collides);
     ffd_free(d->selected_nodes);
     ffd_free(d->hidden);
     ffd_free(d->scene_nodes);
@@ -380,6 +408,8 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
         status = parse_model(d, error);
     if (status == FFD_OK)
         status = load_buffers(d, error);
+    if (status == FFD_OK)
+        status = ffd_gltf_check_contents(d, error);
     if (status)
         return status;
     ffd_gltf_choose_pages(d);
@@ -390,13 +420,19 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
     if (status == FFD_OK)
         status = ffd_gltf_check_indices(d, error);
     if (status == FFD_OK)
+        status = ffd_gltf_check_stated(d, error);
+    if (status == FFD_OK)
         status = ffd_gltf_check_vrm(d, error);
     if (status == FFD_OK)
         status = ffd_gltf_find_required(d, source, error);
     if (status == FFD_OK)
+        ffd_gltf_find_held(d);
+    if (status == FFD_OK)
         status = ffd_gltf_list_skins(d, error);
     if (status == FFD_OK)
         status = ffd_gltf_make_scene(d, error);
+    if (status == FFD_OK)
+        status = ffd_gltf_settle_skins(d, error);
     if (status == FFD_OK)
         status = ffd_gltf_make_parts(d, error);
     if (status == FFD_OK)

@@ -10,6 +10,7 @@ const mesh_format ffd_obj_format = {
     .open = ffd_obj_open,
     .close = ffd_obj_close,
     .find_resources = ffd_obj_find_resources,
+    .find_named = ffd_obj_find_named,
     .largest_coordinate = DBL_MAX,
     .selector_kinds =
         SELECTOR_BIT(SELECT_GROUP) | SELECTOR_BIT(SELECT_OBJECT) | SELECTOR_BIT(SELECT_MATERIAL),

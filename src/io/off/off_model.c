@@ -49,11 +49,40 @@ static ffd_status take_vertex(extractor *e, size_t i)
     return status;
 }
 
+/* Reads the colour behind a face's corners: whole numbers up to 255, or numbers up to 1, of which one has a
+   point or an exponent. Returns how many words there are; colour is set if there are 3 or 4 numbers. */
+static size_t take_colour(extractor *e, double colour[4])
+{
+    size_t words = 0, numbers = 0;
+    bool whole = true;
+    text_word word;
+    colour[3] = -1;
+    for (; ffd_off_walk_rest(&e->walk, &word); words++)
+        if (words < 4 && ffd_text_number(word, &colour[words])) {
+            uint64_t number;
+            whole = whole && ffd_text_whole(word, &number);
+            numbers++;
+        }
+    for (size_t c = 0; c < 4 && whole; c++)
+        colour[c] /= 255;
+    colour[3] = numbers == 3 ? 1 : colour[3];
+    return numbers == words ? words : SIZE_MAX;
+}
+
+static ffd_status colour_face(extractor *e, bool is_face)
+{
+    double colour[4] = {0, 0, 0, 0};
+    const size_t words = take_colour(e, colour);
+    if (words == 0 || (is_face && (words == 3 || words == 4)))
+        return words ? ffd_model_colour_face(e->model, colour, e->error) : FFD_OK;
+    e->model->features |= MODEL_HAS_MORE; /* of a line or point, or the number of a colour in a table */
+    return FFD_OK;
+}
+
 static ffd_status take_face(extractor *e)
 {
     const size_t count = ffd_off_walk_face_size(&e->walk);
     const bool texcoords = e->model->texcoord_count > 0, normals = e->model->normal_count > 0;
-    text_word word;
     /* It was checked when the file was opened: the file has changed since. */
     if (count > (size_t)(e->walk.scan.last - e->walk.scan.at))
         return ffd_file_document_changed(&e->document->file, e->error);
@@ -66,9 +95,8 @@ static ffd_status take_face(extractor *e)
         e->corners[c] =
             (model_corner){vertex, texcoords ? vertex : MODEL_NONE, normals ? vertex : MODEL_NONE};
     }
-    if (ffd_off_walk_rest(&e->walk, &word))
-        e->model->features |= MODEL_HAS_FACE_COLOURS;
-    return ffd_model_add(e->model, MODEL_FACES, e->corners, count, e->error);
+    const ffd_status status = ffd_model_add(e->model, MODEL_FACES, e->corners, count, e->error);
+    return status ? status : colour_face(e, count > 2);
 }
 
 ffd_status ffd_off_model(const mesh_document *document, mesh_model *model, ffd_error *error)

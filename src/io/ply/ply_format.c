@@ -1,5 +1,6 @@
 #include "io/ply/ply_format.h"
 #include "io/ply/ply_document.h"
+#include "io/ply/ply_textures.h"
 #include <float.h>
 
 static ffd_status check(const mesh_document *document, ffd_error *error)
@@ -18,6 +19,7 @@ const mesh_format ffd_ply_format = {
     .name = "PLY",
     .open = ffd_ply_open,
     .close = ffd_ply_close,
+    .find_resources = ffd_ply_find_textures,
     .check = check,
     .warn = ffd_ply_warn,
     .mark_used = ffd_ply_mark_used,
@@ -29,6 +31,7 @@ const mesh_format ffd_ply_format = {
     .begin_results = ffd_ply_begin_results,
     .write_positions = ffd_ply_write_positions,
     .write_normals = ffd_ply_write_normals,
+    .check_save = ffd_ply_check_save,
     .save = ffd_ply_save,
     .faces = ffd_ply_faces,
     .mixed_faces = ffd_ply_mixed_faces,

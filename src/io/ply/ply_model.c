@@ -1,6 +1,7 @@
 /* ply_model.c - a PLY file as a model, for conversions. */
 #include "base/memory/memory.h"
 #include "io/ply/ply_document.h"
+#include "io/ply/ply_textures.h"
 #include <string.h>
 
 /* What the model takes of a vertex besides its position and normal. */
@@ -11,6 +12,8 @@ typedef struct extractor {
     mesh_model *model;
     const ply_property *roles[ROLE_COUNT]; /* NULL: absent */
     const ply_property *face_texcoords;    /* the list texcoord of the faces; NULL: none */
+    const ply_property *face_colours[4];   /* red, green, blue, alpha of the faces; red NULL: none */
+    double colour[4];                      /* of the current face */
     mesh_faces faces;
     ffd_error *error;
 } extractor;
@@ -42,6 +45,13 @@ static void find_roles(extractor *e)
             e->roles[ROLE_RED + c] = found[c];
     }
     const ply_element *face = e->document->face;
+    for (size_t i = 0; face && i < sizeof colours / sizeof *colours && !e->face_colours[0]; i++) {
+        const ply_property *found[4];
+        for (size_t c = 0; c < 4; c++)
+            found[c] = find_scalar(face, colours[i][c]);
+        if (found[0] && found[1] && found[2])
+            memcpy(e->face_colours, found, sizeof found);
+    }
     const ply_property *list = face ? ffd_ply_find_property(face, "texcoord") : NULL;
     e->face_texcoords = list && list->is_list ? list : NULL;
 }
@@ -129,14 +139,36 @@ static bool take_face_texcoords(const extractor *e, ply_walk *walk, size_t face)
     return there;
 }
 
-static bool walk_face(const extractor *e, ply_walk *walk, size_t face)
+/* Returns which of the face's colours a property is; 4: none. */
+static size_t colour_of(const extractor *e, const ply_property *property)
+{
+    size_t c = 0;
+    while (c < 4 && e->face_colours[c] != property)
+        c++;
+    return c;
+}
+
+static void take_face_colour(extractor *e, ply_walk *walk, size_t c)
+{
+    const ply_type type = e->face_colours[c]->type;
+    text_word word;
+    double value;
+    if (ffd_ply_walk_value(walk, type, &word) &&
+        ffd_ply_load(e->document->header.encoding, type, word, &value))
+        e->colour[c] = value / scale_of(type);
+}
+
+static bool walk_face(extractor *e, ply_walk *walk, size_t face)
 {
     const ply_element *element = e->document->face;
     bool there = false;
     ffd_ply_walk_row(walk);
     for (size_t i = 0; i < element->property_count; i++) {
+        const size_t c = colour_of(e, &element->properties[i]);
         if (&element->properties[i] == e->face_texcoords)
             there = take_face_texcoords(e, walk, face);
+        else if (c < 4)
+            take_face_colour(e, walk, c);
         else
             ffd_ply_walk_skip(walk, &element->properties[i]);
     }
@@ -150,11 +182,14 @@ static ffd_status take_faces(extractor *e)
     size_t capacity = 0;
     ply_walk walk;
     ffd_status status = FFD_OK;
-    if (e->face_texcoords)
+    const bool walks = e->face_texcoords || e->face_colours[0];
+    if (walks)
         ffd_ply_document_walk(e->document, e->document->face, &walk);
     for (size_t face = 0; face < e->faces.face_count && status == FFD_OK; face++) {
         const size_t first = e->faces.start[face], count = e->faces.start[face + 1] - first;
-        const bool own = e->face_texcoords && face < e->document->face->count && walk_face(e, &walk, face);
+        const bool is_row = walks && face < e->document->face->count;
+        e->colour[3] = 1;
+        const bool own = is_row && walk_face(e, &walk, face);
         const bool texcoords = own || (!e->face_texcoords && e->model->texcoord_count > 0);
         if (!ffd_grow((void **)&corners, &capacity, count, sizeof *corners))
             status = ffd_fail_memory(e->error);
@@ -166,6 +201,8 @@ static ffd_status take_faces(extractor *e)
         }
         if (status == FFD_OK)
             status = ffd_model_add(e->model, MODEL_FACES, corners, count, e->error);
+        if (status == FFD_OK && is_row && e->face_colours[0] && count > 2)
+            status = ffd_model_colour_face(e->model, e->colour, e->error);
     }
     ffd_free(corners);
     return status;
@@ -217,33 +254,21 @@ static ffd_status take_edges(extractor *e)
     return status;
 }
 
-static bool is_texture_note(text_word note)
-{
-    static const char key[] = "TextureFile";
-    const size_t size = (size_t)(note.last - note.first);
-    for (size_t i = 0; i + sizeof key - 1 <= size; i++)
-        if (memcmp(note.first + i, key, sizeof key - 1) == 0)
-            return true;
-    return false;
-}
-
 /* Returns the features of the file that the model cannot hold. */
 static uint32_t features_of(const extractor *e)
 {
     const ply_document *d = e->document;
     const ply_element *edges = ffd_ply_find_edges(d);
     uint32_t found = 0;
+    text_word name;
     for (size_t i = 0; i < d->vertex->property_count; i++)
         if (d->vertex->properties[i].slot >= PLY_ROTATION_SLOT &&
             role_of(e, &d->vertex->properties[i]) == ROLE_COUNT)
             found |= MODEL_HAS_MORE;
     for (size_t i = 0; d->face && i < d->face->property_count; i++) {
         const ply_property *property = &d->face->properties[i];
-        if (property != d->face_corners && property != e->face_texcoords)
-            found |= ffd_text_is(property->name, "red") || ffd_text_is(property->name, "green") ||
-                             ffd_text_is(property->name, "blue") || ffd_text_is(property->name, "alpha")
-                         ? MODEL_HAS_FACE_COLOURS
-                         : MODEL_HAS_MORE;
+        if (property != d->face_corners && property != e->face_texcoords && colour_of(e, property) == 4)
+            found |= MODEL_HAS_MORE;
     }
     for (size_t i = 0; i < d->header.element_count; i++) {
         const ply_element *element = &d->header.elements[i];
@@ -252,7 +277,7 @@ static uint32_t features_of(const extractor *e)
             found |= MODEL_HAS_MORE;
     }
     for (size_t i = 0; i < d->header.note_count; i++)
-        found |= is_texture_note(d->header.notes[i]) ? MODEL_HAS_TEXTURES : 0;
+        found |= ffd_ply_texture_name(d->header.notes[i], &name) ? MODEL_HAS_TEXTURES : 0;
     return found;
 }
 

@@ -20,6 +20,9 @@ static ply_property *fill_slot(ply_document *d, size_t slot)
 
 static ffd_status find_positions(ply_document *d, ffd_error *error)
 {
+    if (ffd_ply_find_element(&d->header, "chunk") && ffd_ply_find_property(d->vertex, "packed_position"))
+        return ffd_fail_line(error, FFD_E_UNSUPPORTED, d->file.name, d->vertex->line,
+                             "compressed Gaussian splats (packed_position): save them uncompressed");
     for (size_t slot = 0; slot < PLY_NORMAL_SLOT; slot++)
         if (!fill_slot(d, slot))
             return ffd_fail_line(error, FFD_E_INVALID, d->file.name, d->vertex->line,

@@ -1,5 +1,6 @@
 /* ply_save.c - writes a PLY file with its results. */
 #include "io/ply/ply_save.h"
+#include "io/ply/ply_textures.h"
 
 /* Writes everything that changes, in the order of the file. Returns the number of splats whose harmonics stay
    because their types cannot hold the results. */
@@ -16,11 +17,20 @@ static size_t write_elements(const ply_document *d, file_splice *splice)
     return unturned;
 }
 
+ffd_status ffd_ply_check_save(mesh_document *document, const mesh_save_options *options, file_output *output,
+                              const mesh_log *log, ffd_error *error)
+{
+    return ffd_ply_bring_textures(&ffd_ply_of(document)->header, options, output, log, error);
+}
+
 ffd_status ffd_ply_save(mesh_document *document, const mesh_save_options *options, file_output *output,
                         const mesh_log *log, ffd_error *error)
 {
     const ply_document *d = ffd_ply_of(document);
     file_splice splice;
+    const ffd_status status = ffd_ply_bring_textures(&d->header, options, output, log, error);
+    if (status)
+        return status;
     ffd_splice_begin(&splice, &d->file, options, output, error);
     const size_t unturned = d->file.new_positions ? write_elements(d, &splice) : 0;
     if (unturned > 0)

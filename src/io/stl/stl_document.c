@@ -64,6 +64,12 @@ static ffd_status read_binary(stl_document *d, ffd_error *error)
         return refuse_facets(d, error);
     if (is_other_file(&d->file.input))
         return ffd_fail_file(error, FFD_E_INVALID, d->file.name, "is not an STL file");
+    const size_t behind = d->file.input.size - STL_START;
+    if (facets == 0 && behind >= STL_FACET)
+        return ffd_fail_file(error, FFD_E_INVALID, d->file.name,
+                             "0 facets are stated, but %zu bytes follow, which hold %zu: the count was not "
+                             "filled in",
+                             behind, behind / STL_FACET);
     d->facets = facets;
     return FFD_OK;
 }

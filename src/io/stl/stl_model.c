@@ -63,14 +63,40 @@ static ffd_status take_text(extractor *e)
     return status;
 }
 
+/* Reads a facet's colour of 5 bits each. Some programs write it with the highest bit set and red in the
+   highest bits; others, whose header has "COLOR=", with that bit not set and blue there. Returns false if the
+   facet has none. */
+static bool read_colour(const unsigned char *attribute, bool reversed, double colour[4])
+{
+    const unsigned bits = attribute[0] | (unsigned)attribute[1] << 8;
+    if ((bits >> 15 != 0) == reversed)
+        return false;
+    for (unsigned c = 0; c < 3; c++)
+        colour[c] = (bits >> 5 * (reversed ? c : 2 - c) & 31) / 31.0;
+    colour[3] = 1;
+    return true;
+}
+
+static bool has_colour_header(const unsigned char *header)
+{
+    for (size_t i = 0; i + 6 <= STL_HEADER; i++)
+        if (memcmp(header + i, "COLOR=", 6) == 0)
+            return true;
+    return false;
+}
+
 static ffd_status take_binary(extractor *e)
 {
+    const bool reversed = has_colour_header(e->document->file.input.data);
     ffd_status status = ffd_model_begin_run(e->model, NULL, NULL, NULL, e->error);
     for (size_t i = 0; i < e->document->facets && status == FFD_OK; i++) {
         const unsigned char *attribute = ffd_stl_facet(e->document, i) + STL_ATTRIBUTE;
-        if (attribute[0] || attribute[1])
-            e->model->features |= MODEL_HAS_MORE;
+        double colour[4];
         status = add_facet(e, i);
+        if (read_colour(attribute, reversed, colour))
+            status = status ? status : ffd_model_colour_face(e->model, colour, e->error);
+        else if (attribute[0] || attribute[1])
+            e->model->features |= MODEL_HAS_MORE;
     }
     return status;
 }

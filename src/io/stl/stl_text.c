@@ -1,6 +1,7 @@
 #include "io/stl/stl_text.h"
 #include "base/text/number.h"
 #include <math.h>
+#include <string.h>
 
 typedef struct text_reader {
     text_scan *scan;
@@ -70,8 +71,37 @@ static ffd_status take_corner(text_reader *r, text_word corner[3])
     return status;
 }
 
+#define NOTE(reader, text, ...)                                                                              \
+    ((text)->flaws                                                                                           \
+         ? ffd_flaw_line((text)->flaws, (reader)->name, (text)->scan.line, (reader)->error, __VA_ARGS__)     \
+         : FFD_OK)
+
+/* Takes a second word after "end", such as "solid". Returns whether it is there. */
+static bool takes_second_word(text_scan *scan, const char *second)
+{
+    text_scan ahead = *scan;
+    text_word word;
+    if (!ffd_text_word(&ahead, &word) || !ffd_text_is_any_case(word, second))
+        return false;
+    *scan = ahead;
+    return true;
+}
+
+/* Takes a keyword "end..." that may be written as two words. */
+static ffd_status take_end(text_reader *r, stl_text *text, const char *keyword)
+{
+    text_scan ahead = *r->scan;
+    text_word word;
+    if (ffd_text_find(&ahead) && ffd_text_word(&ahead, &word) && ffd_text_is_any_case(word, "end") &&
+        takes_second_word(&ahead, keyword + strlen("end"))) {
+        *r->scan = ahead;
+        return NOTE(r, text, "\"endloop\" or \"endfacet\" is written as two words");
+    }
+    return take_keyword(r, keyword);
+}
+
 /* Reads the words after "facet". */
-static ffd_status take_facet(text_reader *r, stl_facet *facet)
+static ffd_status take_facet(text_reader *r, stl_text *text, stl_facet *facet)
 {
     static const char *const before[] = {"outer", "loop"}, *const after[] = {"endloop", "endfacet"};
     ffd_status status = take_keyword(r, "normal");
@@ -82,7 +112,7 @@ static ffd_status take_facet(text_reader *r, stl_facet *facet)
     for (size_t i = 0; status == FFD_OK && i < 3; i++)
         status = take_corner(r, facet->corners + 3 * i);
     for (size_t i = 0; status == FFD_OK && i < 2; i++)
-        status = take_keyword(r, after[i]);
+        status = take_end(r, text, after[i]);
     return status;
 }
 
@@ -116,11 +146,6 @@ static ffd_status begin_solid(text_reader *r, stl_text *text)
     return FFD_OK;
 }
 
-#define NOTE(reader, text, ...)                                                                              \
-    ((text)->flaws                                                                                           \
-         ? ffd_flaw_line((text)->flaws, (reader)->name, (text)->scan.line, (reader)->error, __VA_ARGS__)     \
-         : FFD_OK)
-
 /* Skips "color" and its numbers, if they come next. *passed: whether they did. */
 static ffd_status pass_colour(text_reader *r, stl_text *text, bool *passed)
 {
@@ -136,22 +161,11 @@ static ffd_status pass_colour(text_reader *r, stl_text *text, bool *passed)
     return NOTE(r, text, "a line \"color\", which STL does not have, is kept as it is");
 }
 
-/* Takes "solid" after "end", written as two words. Returns whether it is there. */
-static bool takes_second_word(text_scan *scan)
-{
-    text_scan ahead = *scan;
-    text_word word;
-    if (!ffd_text_word(&ahead, &word) || !ffd_text_is_any_case(word, "solid"))
-        return false;
-    *scan = ahead;
-    return true;
-}
-
 /* Handles a word other than "facet": it must end the solid. */
 static ffd_status end_solid(text_reader *r, stl_text *text, text_word word)
 {
     ffd_status status = FFD_OK;
-    if (ffd_text_is_any_case(word, "end") && takes_second_word(&text->scan))
+    if (ffd_text_is_any_case(word, "end") && takes_second_word(&text->scan, "solid"))
         status = NOTE(r, text, "\"endsolid\" is written as two words");
     else if (!ffd_text_is_any_case(word, "endsolid"))
         return refuse_word(r, "facet or endsolid", word);
@@ -175,7 +189,7 @@ static ffd_status step_inside(text_reader *r, stl_text *text, stl_facet *facet, 
     facet->line = text->scan.line;
     if (ffd_text_is_any_case(word, "facet")) {
         *event = STL_AT_FACET;
-        return take_facet(r, facet);
+        return take_facet(r, text, facet);
     }
     return end_solid(r, text, word);
 }

@@ -2,30 +2,41 @@
 #include "io/text/text_scan.h"
 #include <string.h>
 
+/* Bytes of JSON text that are looked at. */
+#define TEXT_SEEN 512
+
+/* The most bytes that pad a text to a multiple of four. */
+#define MOST_PADDING 3
+
 /* Magic numbers at the start of a file. */
 static const struct {
     const char *bytes;
     size_t size;
     content_kind kind;
+    /* The range of the byte behind, where the magic number alone is too short to be sure. */
+    unsigned char least, largest;
 } magic_numbers[] = {
-    {"glTF", 4, {"a GLB file", FFD_FORMAT_GLB, true}},
-    {"\x1f\x8b", 2, {"a gzip file", FFD_FORMAT_AUTO, true}},
-    {"BZh", 3, {"a bzip2 file", FFD_FORMAT_AUTO, true}},
-    {"\3757zXZ", 5, {"an xz file", FFD_FORMAT_AUTO, true}},
-    {"\x28\xb5\x2f\xfd", 4, {"a zstd file", FFD_FORMAT_AUTO, true}},
-    {"7z\xbc\xaf\x27\x1c", 6, {"a 7z archive", FFD_FORMAT_AUTO, true}},
-    {"PK\3\4", 4, {"a ZIP archive", FFD_FORMAT_AUTO, true}},
-    {"Rar!\x1a", 5, {"a RAR archive", FFD_FORMAT_AUTO, true}},
-    {"\x89PNG", 4, {"a PNG image", FFD_FORMAT_AUTO, true}},
-    {"\xff\xd8\xff", 3, {"a JPEG image", FFD_FORMAT_AUTO, true}},
-    {"%PDF", 4, {"a PDF file", FFD_FORMAT_AUTO, true}},
-    {"BLENDER", 7, {"a Blender file", FFD_FORMAT_AUTO, true}},
-    {"Kaydara FBX Binary", 18, {"an FBX file", FFD_FORMAT_AUTO, true}},
-    {"\x93NUMPY", 6, {"a NumPy array", FFD_FORMAT_AUTO, true}},
-    {"SQLite format 3", 15, {"an SQLite database", FFD_FORMAT_AUTO, true}},
-    {"\177ELF", 4, {"a program", FFD_FORMAT_AUTO, true}},
-    {"\xff\xfe", 2, {"UTF-16 text", FFD_FORMAT_AUTO, true}},
-    {"\xfe\xff", 2, {"UTF-16 text", FFD_FORMAT_AUTO, true}},
+    {"glTF", 4, {"a GLB file", FFD_FORMAT_GLB, true, false}, 0, 255},
+    {"\x1f\x8b\x08", 3, {"a gzip file", FFD_FORMAT_AUTO, true, false}, 0, 31},
+    {"BZh", 3, {"a bzip2 file", FFD_FORMAT_AUTO, true, false}, '1', '9'},
+    {"\3757zXZ", 5, {"an xz file", FFD_FORMAT_AUTO, true, false}, 0, 255},
+    {"\x28\xb5\x2f\xfd", 4, {"a zstd file", FFD_FORMAT_AUTO, true, false}, 0, 255},
+    {"7z\xbc\xaf\x27\x1c", 6, {"a 7z archive", FFD_FORMAT_AUTO, true, false}, 0, 255},
+    {"PK\3\4", 4, {"a ZIP archive", FFD_FORMAT_AUTO, true, false}, 0, 255},
+    {"Rar!\x1a", 5, {"a RAR archive", FFD_FORMAT_AUTO, true, false}, 0, 255},
+    {"\x89PNG", 4, {"a PNG image", FFD_FORMAT_AUTO, true, false}, 0, 255},
+    {"\xff\xd8\xff", 3, {"a JPEG image", FFD_FORMAT_AUTO, true, false}, 0xc0, 0xfe},
+    {"GIF8", 4, {"a GIF image", FFD_FORMAT_AUTO, true, false}, 0, 255},
+    {"RIFF", 4, {"a RIFF file, such as a WebP image", FFD_FORMAT_AUTO, true, false}, 0, 255},
+    {"\xabKTX ", 5, {"a KTX image", FFD_FORMAT_AUTO, true, false}, 0, 255},
+    {"%PDF", 4, {"a PDF file", FFD_FORMAT_AUTO, true, false}, 0, 255},
+    {"BLENDER", 7, {"a Blender file", FFD_FORMAT_AUTO, true, false}, 0, 255},
+    {"Kaydara FBX Binary", 18, {"an FBX file", FFD_FORMAT_AUTO, true, false}, 0, 255},
+    {"\x93NUMPY", 6, {"a NumPy array", FFD_FORMAT_AUTO, true, false}, 0, 255},
+    {"SQLite format 3", 15, {"an SQLite database", FFD_FORMAT_AUTO, true, false}, 0, 255},
+    {"\177ELF", 4, {"a program", FFD_FORMAT_AUTO, true, false}, 0, 255},
+    {"\xff\xfe", 2, {"UTF-16 text", FFD_FORMAT_AUTO, true, false}, 1, 0},
+    {"\xfe\xff", 2, {"UTF-16 text", FFD_FORMAT_AUTO, true, false}, 1, 0},
 };
 
 /* First words, in lower case. A word that ends with a star matches all words with that beginning. */
@@ -35,18 +46,18 @@ static const struct {
 } first_words[] = {
     {"version",
      "https://git-lfs*",
-     {"a Git LFS pointer: the file itself is not there", FFD_FORMAT_AUTO, false}},
-    {"<!doctype*", NULL, {"an HTML page", FFD_FORMAT_AUTO, false}},
-    {"<html*", NULL, {"an HTML page", FFD_FORMAT_AUTO, false}},
-    {"<head*", NULL, {"an HTML page", FFD_FORMAT_AUTO, false}},
-    {"<?xml*", NULL, {"an XML file", FFD_FORMAT_AUTO, false}},
-    {"{*", NULL, {"JSON text", FFD_FORMAT_GLTF, false}},
-    {"ply", NULL, {"a PLY file", FFD_FORMAT_PLY, false}},
-    {"solid", NULL, {"an STL file", FFD_FORMAT_STL, false}},
-    {"off", NULL, {"an OFF file", FFD_FORMAT_OFF, false}},
-    {"v", NULL, {"an OBJ file", FFD_FORMAT_OBJ, false}},
-    {"mtllib", NULL, {"an OBJ file", FFD_FORMAT_OBJ, false}},
-    {"newmtl", NULL, {"an MTL file", FFD_FORMAT_AUTO, false}},
+     {"a Git LFS pointer: the file itself is not there", FFD_FORMAT_AUTO, false, true}},
+    {"<!doctype*", NULL, {"an HTML page", FFD_FORMAT_AUTO, false, true}},
+    {"<html*", NULL, {"an HTML page", FFD_FORMAT_AUTO, false, true}},
+    {"<head*", NULL, {"an HTML page", FFD_FORMAT_AUTO, false, true}},
+    {"<?xml*", NULL, {"an XML file", FFD_FORMAT_AUTO, false, false}},
+    {"{*", NULL, {"JSON text", FFD_FORMAT_GLTF, false, false}},
+    {"ply", NULL, {"a PLY file", FFD_FORMAT_PLY, false, false}},
+    {"solid", NULL, {"an STL file", FFD_FORMAT_STL, false, false}},
+    {"off", NULL, {"an OFF file", FFD_FORMAT_OFF, false, false}},
+    {"v", NULL, {"an OBJ file", FFD_FORMAT_OBJ, false, false}},
+    {"mtllib", NULL, {"an OBJ file", FFD_FORMAT_OBJ, false, false}},
+    {"newmtl", NULL, {"an MTL file", FFD_FORMAT_AUTO, false, false}},
 };
 
 static bool matches(text_word word, const char *pattern)
@@ -78,10 +89,60 @@ static const content_kind *kind_of_words(const void *data, size_t size)
     return NULL;
 }
 
-const content_kind *ffd_content_kind(const void *data, size_t size)
+/* Returns the index of the magic number at the start; SIZE_MAX if there is none. */
+static size_t find_magic(const unsigned char *data, size_t size)
 {
     for (size_t i = 0; i < sizeof magic_numbers / sizeof *magic_numbers; i++)
         if (size >= magic_numbers[i].size && memcmp(data, magic_numbers[i].bytes, magic_numbers[i].size) == 0)
-            return &magic_numbers[i].kind;
-    return kind_of_words(data, size);
+            return i;
+    return SIZE_MAX;
+}
+
+const content_kind *ffd_content_kind(const void *data, size_t size)
+{
+    const size_t found = find_magic(data, size);
+    return found != SIZE_MAX ? &magic_numbers[found].kind : kind_of_words(data, size);
+}
+
+/* Whether the bytes are those of UTF-8 text, as far as single bytes tell. Zeros at the end pad it. */
+static bool is_text(const unsigned char *data, size_t size)
+{
+    for (size_t padding = 0; padding < MOST_PADDING && size > 0 && data[size - 1] == 0; padding++)
+        size--;
+    for (size_t i = 0; i < size && i < TEXT_SEEN; i++)
+        if (data[i] < ' ' && data[i] != '\t' && data[i] != '\n' && data[i] != '\r')
+            return false;
+    return true;
+}
+
+/* Whether a quote or the end follows the brace of JSON text. */
+static bool is_object(const unsigned char *data, size_t size)
+{
+    const unsigned char *at = memchr(data, '{', size);
+    const unsigned char *const end = data + size;
+    do
+        at++;
+    while (at < end && (*at == ' ' || *at == '\t' || *at == '\n' || *at == '\r'));
+    return at < end && (*at == '"' || *at == '}');
+}
+
+const content_kind *ffd_content_sure_kind(const void *data, size_t size)
+{
+    const unsigned char *const bytes = data;
+    const size_t found = find_magic(bytes, size);
+    if (found != SIZE_MAX) {
+        const size_t behind = magic_numbers[found].size;
+        const unsigned char next = behind < size ? bytes[behind] : 0;
+        return next >= magic_numbers[found].least && next <= magic_numbers[found].largest
+                   ? &magic_numbers[found].kind
+                   : NULL;
+    }
+    if (!is_text(bytes, size))
+        return NULL;
+    const content_kind *const kind = kind_of_words(bytes, size);
+    if (!kind || kind->is_stand_in)
+        return kind;
+    if (kind->format == FFD_FORMAT_GLTF)
+        return is_object(bytes, size) ? kind : NULL;
+    return kind->format == FFD_FORMAT_AUTO ? kind : NULL;
 }

@@ -8,6 +8,7 @@
 #include "io/write/glb_writer.h"
 #include "io/write/write.h"
 #include "mesh/polygon_cut.h"
+#include "mesh/resource/beside.h"
 #include "mesh/srgb.h"
 #include <float.h>
 #include <inttypes.h>
@@ -108,49 +109,36 @@ static ffd_status put_stream(gltf_writer *w)
     return w->sink.status;
 }
 
-/* Returns the name of the buffer's file: the output's name with the ending .bin. The caller frees it. */
-static char *bin_name(const char *path)
+static ffd_status put_bin_file(gltf_writer *w, const mesh_save_options *options, const char *path)
 {
-    char *stem = ffd_path_stem(path);
-    byte_buffer name = {.failed = !stem};
-    if (stem)
-        ffd_buffer_text(&name, stem);
-    ffd_buffer_text(&name, ".bin");
-    ffd_free(stem);
-    return ffd_buffer_finish(&name);
-}
-
-static ffd_status put_bin_file(gltf_writer *w, const mesh_save_options *options, const char *name)
-{
-    char *folder = ffd_path_folder(options->path), *path = folder ? ffd_path_join(folder, name) : NULL;
-    if (!path)
-        w->sink.status = ffd_fail_memory(w->error);
-    else if (options->input && ffd_file_same(options->input, path))
+    if (options->input && ffd_file_same(options->input, path))
         w->sink.status =
             ffd_fail_file(w->error, FFD_E_EXISTS, path, "is the input and is not overwritten by a buffer");
     else
         w->sink.status = ffd_output_begin(w->sink.output, path, options->force, w->error);
     ffd_glb_put_content(w);
-    ffd_free(folder);
-    ffd_free(path);
     return w->sink.status;
 }
 
-static ffd_status put_files(gltf_writer *w, const mesh_save_options *options)
+static ffd_status put_files(gltf_writer *w, const mesh_save_options *options, const mesh_log *log)
 {
-    char *name = bin_name(options->path), *uri = name ? ffd_uri_encode(name) : NULL;
-    ffd_status status = uri ? FFD_OK : ffd_fail_memory(w->error);
+    beside_names names = {.options = options, .log = log};
+    char *path;
+    ffd_status status = ffd_beside_next(&names, NULL, NULL, &path, w->error);
+    char *const uri = path ? ffd_uri_encode(ffd_path_name(path)) : NULL;
+    if (status == FFD_OK)
+        status = uri ? FFD_OK : ffd_fail_memory(w->error);
     if (status == FFD_OK)
         ffd_glb_make_json(w, false, uri);
     if (status == FFD_OK && w->text.failed)
         status = ffd_fail_memory(w->error);
     if (status == FFD_OK && w->total > 0)
-        status = put_bin_file(w, options, name);
+        status = put_bin_file(w, options, path);
     if (status == FFD_OK)
         status = ffd_output_begin(w->sink.output, options->path, options->force, w->error);
     if (status == FFD_OK)
         status = ffd_output_write(w->sink.output, w->text.data, w->text.size, w->error);
-    ffd_free(name);
+    ffd_free(path);
     ffd_free(uri);
     return status;
 }
@@ -177,7 +165,7 @@ static ffd_status write(const mesh_model *model, const mesh_save_options *option
         status = ffd_output_begin(output, options->path, options->force, error);
     w->sink = (model_sink){output, error, status};
     if (status == FFD_OK)
-        status = files ? put_files(w, options) : binary ? put_glb(w, options->path) : put_stream(w);
+        status = files ? put_files(w, options, log) : binary ? put_glb(w, options->path) : put_stream(w);
     if (status == FFD_OK && w->is_far)
         tell_origin(w, log);
     if (status == FFD_OK)

@@ -9,7 +9,7 @@
 typedef struct off_plan {
     const mesh_model *model;
     vertex_values values;
-    bool byte_colours;
+    bool byte_colours, byte_face_colours, face_alpha;
     /* Whether points are written as faces of one corner; the points of a cloud are just its vertices. */
     bool points;
 } off_plan;
@@ -18,6 +18,8 @@ static ffd_status make_plan(const mesh_model *model, off_plan *plan, ffd_error *
 {
     *plan = (off_plan){.model = model,
                        .byte_colours = ffd_model_colours_fit_bytes(model),
+                       .byte_face_colours = ffd_model_face_colours_fit_bytes(model),
+                       .face_alpha = ffd_model_has_face_alpha(model),
                        .points = model->lists[MODEL_FACES].count + model->lists[MODEL_LINES].count > 0};
     return ffd_vertex_values_find(model, &plan->values, error);
 }
@@ -45,11 +47,11 @@ static void write_named(model_sink *sink, const double *values, size_t numbers, 
 
 /* Writes a colour: whole numbers up to 255, as in most files, or numbers with a decimal point, which tells
    readers that the range is 0 to 1. */
-static void write_colour(model_sink *sink, const off_plan *plan, size_t vertex)
+static void write_colour(model_sink *sink, const double *colour, size_t numbers, bool bytes)
 {
-    for (size_t c = 0; c < 4; c++) {
-        const double value = plan->model->colours[4 * vertex + c];
-        if (plan->byte_colours) {
+    for (size_t c = 0; c < numbers; c++) {
+        const double value = colour[c];
+        if (bytes) {
             ffd_sink_text(sink, " ");
             ffd_sink_count(sink, (uint64_t)floor(255 * value + 0.5));
         } else {
@@ -72,30 +74,46 @@ static void write_vertices(model_sink *sink, const off_plan *plan)
         if (plan->values.normals)
             write_named(sink, model->normals, 3, plan->values.normals[i]);
         if (model->colours)
-            write_colour(sink, plan, i);
+            write_colour(sink, model->colours + 4 * i, 4, plan->byte_colours);
         if (plan->values.texcoords)
             write_named(sink, model->texcoords, 2, plan->values.texcoords[i]);
         ffd_sink_text(sink, "\n");
     }
 }
 
-static void write_face(model_sink *sink, const model_corner *corners, size_t count)
+static void write_corners(model_sink *sink, const model_corner *corners, size_t count)
 {
     ffd_sink_count(sink, count);
     for (size_t c = 0; c < count; c++) {
         ffd_sink_text(sink, " ");
         ffd_sink_count(sink, corners[c].position);
     }
+}
+
+static void write_face(model_sink *sink, const model_corner *corners, size_t count)
+{
+    write_corners(sink, corners, count);
     ffd_sink_text(sink, "\n");
 }
 
-static void write_list(model_sink *sink, const model_list *list)
+static void write_faces(model_sink *sink, const off_plan *plan)
 {
-    for (size_t i = 0; i < list->count && sink->status == FFD_OK; i++) {
+    const model_list *const faces = &plan->model->lists[MODEL_FACES];
+    for (size_t i = 0; i < faces->count && sink->status == FFD_OK; i++) {
         size_t count;
-        const model_corner *corners = model_element(list, i, &count);
-        write_face(sink, corners, count);
+        const model_corner *corners = model_element(faces, i, &count);
+        write_corners(sink, corners, count);
+        if (plan->model->face_colours)
+            write_colour(sink, plan->model->face_colours + 4 * i, plan->face_alpha ? 4 : 3,
+                         plan->byte_face_colours);
+        ffd_sink_text(sink, "\n");
     }
+}
+
+static void write_points(model_sink *sink, const model_list *list)
+{
+    for (size_t i = 0; i < list->count && sink->status == FFD_OK; i++)
+        write_face(sink, list->corners + list->starts[i], 1);
 }
 
 static void write_lines(model_sink *sink, const model_list *list)
@@ -118,10 +136,10 @@ static ffd_status write(const mesh_model *model, const mesh_save_options *option
         sink.status = ffd_output_begin(output, options->path, options->force, error);
     write_header(&sink, &plan);
     write_vertices(&sink, &plan);
-    write_list(&sink, &model->lists[MODEL_FACES]);
+    write_faces(&sink, &plan);
     write_lines(&sink, &model->lists[MODEL_LINES]);
     if (plan.points)
-        write_list(&sink, &model->lists[MODEL_POINTS]);
+        write_points(&sink, &model->lists[MODEL_POINTS]);
     ffd_vertex_values_free(&plan.values);
     return sink.status;
 }
@@ -130,7 +148,7 @@ const model_target ffd_off_target = {
     .name = "OFF",
     .holds = MODEL_HAS_FINE_POSITIONS | MODEL_HAS_NORMALS | MODEL_HAS_POINT_NORMALS | MODEL_HAS_TEXCOORDS |
              MODEL_HAS_COLOURS | MODEL_HAS_ALPHA | MODEL_HAS_POLYGONS | MODEL_HAS_LINES | MODEL_HAS_POINTS |
-             MODEL_HAS_LOOSE,
+             MODEL_HAS_LOOSE | MODEL_HAS_FACE_COLOURS,
     .largest_coordinate = DBL_MAX,
     .write = write,
 };

@@ -13,6 +13,7 @@ typedef struct ply_plan {
     vertex_values values;
     bool corner_texcoords; /* vertices have several each: they are written with the faces */
     bool byte_colours, alpha;
+    bool byte_face_colours, face_alpha;
     size_t longest; /* the largest number of corners of a face */
     size_t edges;
 } ply_plan;
@@ -23,7 +24,9 @@ static ffd_status make_plan(const mesh_model *model, ply_plan *plan, ffd_error *
     *plan = (ply_plan){.model = model,
                        .corner_texcoords = has & MODEL_HAS_CORNER_TEXCOORDS,
                        .byte_colours = ffd_model_colours_fit_bytes(model),
-                       .alpha = has & MODEL_HAS_ALPHA};
+                       .alpha = has & MODEL_HAS_ALPHA,
+                       .byte_face_colours = ffd_model_face_colours_fit_bytes(model),
+                       .face_alpha = ffd_model_has_face_alpha(model)};
     const model_list *faces = &model->lists[MODEL_FACES], *lines = &model->lists[MODEL_LINES];
     for (size_t i = 0; i < faces->count; i++) {
         const size_t corners = faces->starts[i + 1] - faces->starts[i];
@@ -42,6 +45,14 @@ static void write_element(model_sink *sink, const char *name, size_t count)
     ffd_sink_text(sink, "\n");
 }
 
+static void write_colour_properties(model_sink *sink, bool bytes, bool alpha)
+{
+    ffd_sink_text(sink, bytes ? "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+                              : "property float red\nproperty float green\nproperty float blue\n");
+    if (alpha)
+        ffd_sink_text(sink, bytes ? "property uchar alpha\n" : "property float alpha\n");
+}
+
 static void write_header(model_sink *sink, const ply_plan *plan)
 {
     const mesh_model *model = plan->model;
@@ -54,11 +65,7 @@ static void write_header(model_sink *sink, const ply_plan *plan)
     if (plan->values.texcoords)
         ffd_sink_text(sink, "property float s\nproperty float t\n");
     if (model->colours)
-        ffd_sink_text(sink, plan->byte_colours
-                                ? "property uchar red\nproperty uchar green\nproperty uchar blue\n"
-                                : "property float red\nproperty float green\nproperty float blue\n");
-    if (plan->alpha)
-        ffd_sink_text(sink, plan->byte_colours ? "property uchar alpha\n" : "property float alpha\n");
+        write_colour_properties(sink, plan->byte_colours, plan->alpha);
     if (model->lists[MODEL_FACES].count > 0) {
         write_element(sink, "face", model->lists[MODEL_FACES].count);
         ffd_sink_text(sink, plan->longest > LARGEST_UCHAR ? "property list int " : "property list uchar ");
@@ -67,6 +74,8 @@ static void write_header(model_sink *sink, const ply_plan *plan)
         if (plan->corner_texcoords)
             ffd_sink_text(sink, 2 * plan->longest > LARGEST_UCHAR ? "property list int float texcoord\n"
                                                                   : "property list uchar float texcoord\n");
+        if (model->face_colours)
+            write_colour_properties(sink, plan->byte_face_colours, plan->face_alpha);
     }
     if (plan->edges > 0) {
         write_element(sink, "edge", plan->edges);
@@ -93,11 +102,11 @@ static void write_texcoord(model_sink *sink, const ply_plan *plan, uint32_t numb
         ffd_sink_float(sink, number == MODEL_NONE ? 0 : plan->model->texcoords[2 * (size_t)number + i]);
 }
 
-static void write_colour(model_sink *sink, const ply_plan *plan, size_t vertex)
+static void write_colour(model_sink *sink, const double *colour, bool bytes, bool alpha)
 {
-    for (size_t c = 0; c < (plan->alpha ? 4 : 3); c++) {
-        const double value = plan->model->colours[4 * vertex + c];
-        if (plan->byte_colours) {
+    for (size_t c = 0; c < (alpha ? 4 : 3); c++) {
+        const double value = colour[c];
+        if (bytes) {
             const unsigned char byte = (unsigned char)floor(255 * value + 0.5);
             ffd_sink_bytes(sink, &byte, 1);
         } else
@@ -115,7 +124,7 @@ static void write_vertices(model_sink *sink, const ply_plan *plan)
         if (plan->values.texcoords)
             write_texcoord(sink, plan, plan->values.texcoords[i]);
         if (model->colours)
-            write_colour(sink, plan, i);
+            write_colour(sink, model->colours + 4 * i, plan->byte_colours, plan->alpha);
     }
 }
 
@@ -128,6 +137,14 @@ static void write_list_count(model_sink *sink, size_t longest, size_t count)
         ffd_sink_bytes(sink, &byte, 1);
 }
 
+static void write_face_texcoords(model_sink *sink, const ply_plan *plan, const model_corner *corners,
+                                 size_t count)
+{
+    write_list_count(sink, 2 * plan->longest, 2 * count);
+    for (size_t c = 0; c < count; c++)
+        write_texcoord(sink, plan, corners[c].texcoord);
+}
+
 static void write_faces(model_sink *sink, const ply_plan *plan)
 {
     const model_list *faces = &plan->model->lists[MODEL_FACES];
@@ -137,11 +154,10 @@ static void write_faces(model_sink *sink, const ply_plan *plan)
         write_list_count(sink, plan->longest, count);
         for (size_t c = 0; c < count; c++)
             ffd_sink_u32(sink, corners[c].position);
-        if (!plan->corner_texcoords)
-            continue;
-        write_list_count(sink, 2 * plan->longest, 2 * count);
-        for (size_t c = 0; c < count; c++)
-            write_texcoord(sink, plan, corners[c].texcoord);
+        if (plan->corner_texcoords)
+            write_face_texcoords(sink, plan, corners, count);
+        if (plan->model->face_colours)
+            write_colour(sink, plan->model->face_colours + 4 * i, plan->byte_face_colours, plan->face_alpha);
     }
 }
 
@@ -182,7 +198,7 @@ const model_target ffd_ply_target = {
     /* Points are the vertices themselves. */
     .holds = MODEL_HAS_FINE_POSITIONS | MODEL_HAS_NORMALS | MODEL_HAS_POINT_NORMALS | MODEL_HAS_TEXCOORDS |
              MODEL_HAS_CORNER_TEXCOORDS | MODEL_HAS_COLOURS | MODEL_HAS_ALPHA | MODEL_HAS_POLYGONS |
-             MODEL_HAS_LINES | MODEL_HAS_POINTS | MODEL_HAS_LOOSE,
+             MODEL_HAS_LINES | MODEL_HAS_POINTS | MODEL_HAS_LOOSE | MODEL_HAS_FACE_COLOURS,
     .largest_coordinate = DBL_MAX,
     .takes_not_finite = true, /* organized scans have NaN where nothing was measured */
     .write = write,

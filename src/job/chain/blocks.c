@@ -3,11 +3,13 @@
 #include "base/vector/array_kernel.h"
 #include "deform/extension.h"
 #include "embed/locator.h"
+#include "embed/locator_border.h"
 #include "job/chain/block_faces.h"
 #include "job/chain/common_faces.h"
+#include "job/chain/marks.h"
+#include "job/chain/pace.h"
 #include "job/chain/point_outcome.h"
 #include "job/chain/point_rounding.h"
-#include "job/chain/seams.h"
 #include <float.h>
 #include <string.h>
 
@@ -50,6 +52,25 @@ static uint32_t find_next(const block_work *work, size_t i, uint32_t first)
     next_block next = {chain->boxes, p, slack, first, BLOCK_NONE};
     ffd_box_tree_visit(&chain->tree, p, slack, offer_block, &next);
     return next.found;
+}
+
+ffd_status ffd_blocks_holding(const lattice_chain *chain, const double p[3], uint32_t *block,
+                              ffd_location *location, ffd_error *error)
+{
+    double slack[3];
+    next_block next = {chain->boxes, p, slack, 0, BLOCK_NONE};
+    for (int a = 0; a < 3; a++)
+        slack[a] = chain->slack[a] + 16 * DBL_EPSILON * fabs(p[a]);
+    for (;; next.first = next.found + 1) {
+        next.found = BLOCK_NONE;
+        ffd_box_tree_visit(&chain->tree, p, slack, offer_block, &next);
+        *block = next.found;
+        if (next.found == BLOCK_NONE)
+            return FFD_OK;
+        const ffd_status status = ffd_locator_find(chain->links[next.found].locator, p, 1, location, error);
+        if (status || ffd_location_is_placed(location))
+            return status;
+    }
 }
 
 /* Bits per pass of the radix sort by block number. */
@@ -100,8 +121,6 @@ static void begin_points(const block_work *work)
         run->scratch->locations[i] =
             (ffd_location){.uvw = {NAN, NAN, NAN}, .status = run->outcomes[i].status};
         blocks->asked[i] = 0;
-        if (run->differences)
-            run->differences[i] = 0;
         if (finite)
             blocks->pending[blocks->pending_count++] = (uint32_t)i;
     }
@@ -125,15 +144,6 @@ static uint32_t ask_next(const block_work *work)
     }
     blocks->pending_count = count;
     return last;
-}
-
-/* The marks of blocks, in place of links (ffd_chain_marked). */
-enum { MARK_OUTSIDE, MARK_DISAGREES };
-
-static void mark(chain_run *run, size_t i, size_t link)
-{
-    run->kept[ffd_kept_plane(link) * CHAIN_RUN + i] |= ffd_kept_bit(link);
-    run->keeps = true;
 }
 
 static double snap_of(const block_work *work, uint32_t block)
@@ -162,10 +172,6 @@ static ffd_status compare(const block_work *work, size_t i, uint32_t other, cons
         return status;
     run->outcomes[i].disagrees = true;
     run->disagreement = larger_of(run->disagreement, length);
-    if (run->differences)
-        run->differences[i] = larger_of(run->differences[i], length);
-    if (run->kept)
-        mark(run, i, MARK_DISAGREES);
     return FFD_OK;
 }
 
@@ -196,7 +202,8 @@ static ffd_status note_location(const block_work *work, size_t i, uint32_t block
     *outcome = now;
     *owner = block;
     run->scratch->locations[i] = *location;
-    *again = ffd_faces_at(ends, location->uvw) && is_on_face(work, i, block, location->uvw);
+    *again =
+        !run->first_only && ffd_faces_at(ends, location->uvw) && is_on_face(work, i, block, location->uvw);
     return FFD_OK;
 }
 
@@ -213,7 +220,7 @@ static ffd_status look_in_block(const block_work *work, const uint32_t *points, 
     const face_ends ends = ffd_face_ends(link->lattice, ffd_faces_near(link, snap, run));
     for (size_t k = 0; k < count; k++)
         memcpy(blocks->x + 3 * k, run->x + 3 * (size_t)points[k], 3 * sizeof *blocks->x);
-    ffd_status status = ffd_locator_find(link->locator, blocks->x, count, blocks->found, error);
+    ffd_status status = ffd_pace_find(link, blocks->x, count, run->pace, blocks->found, error);
     for (size_t k = 0; k < count && !status; k++) {
         const uint32_t i = points[k];
         blocks->asked[i] = block + 1;
@@ -291,8 +298,10 @@ static bool offer_border(void *context, uint32_t block)
 {
     nearest_border *const best = context;
     boundary_point found;
-    best->status =
-        ffd_boundary_find(best->chain->links[block].border, best->p, best->reach, &found, best->error);
+    const boundary *border;
+    best->status = ffd_locator_border(best->chain->links[block].locator, &border, best->error);
+    if (!best->status)
+        best->status = ffd_boundary_find(border, best->p, best->reach, &found, best->error);
     if (best->status || !found.found)
         return !best->status;
     const bool equal = best->point.found && found.distance >= best->point.distance * (1 - EQUAL_DISTANCE);
@@ -304,22 +313,44 @@ static bool offer_border(void *context, uint32_t block)
     return true;
 }
 
+ffd_status ffd_blocks_nearest(const lattice_chain *chain, const double p[3], double reach,
+                              boundary_point *nearest, uint32_t *block, ffd_error *error)
+{
+    nearest_border best = {.chain = chain, .p = p, .reach = reach, .block = BLOCK_NONE, .error = error};
+    ffd_box_tree_visit_near(&chain->tree, p, &best.reach, offer_border, &best);
+    *nearest = best.point;
+    *block = best.block;
+    return best.status;
+}
+
 /* Displaces a point outside of all blocks like the nearest border point. */
 static ffd_status extend(const block_work *work, size_t i, ffd_error *error)
 {
+    const lattice_chain *const chain = work->chain;
     const chain_run *const run = work->run;
-    const double falloff = work->chain->outside.falloff;
-    nearest_border best = {
-        .chain = work->chain, .p = run->x + 3 * i, .reach = falloff > 0 ? falloff : HUGE_VAL, .error = error};
-    const double limit = best.reach;
-    ffd_box_tree_visit_near(&work->chain->tree, best.p, &best.reach, offer_border, &best);
-    if (best.status || !best.point.found)
-        return best.status;
-    run->outcomes[i].extended = best.point.distance < limit || !(falloff > 0);
+    const double falloff = chain->outside.falloff, reach = falloff > 0 ? falloff : HUGE_VAL;
+    boundary_point nearest;
+    uint32_t block;
+    const ffd_status status = ffd_blocks_nearest(chain, run->x + 3 * i, reach, &nearest, &block, error);
+    if (status || !nearest.found)
+        return status;
+    ffd_mark_owner(chain, run, i, block | OWNER_NEAREST);
+    ffd_mark_part(chain, block, run, i, nearest.uvw);
+    run->outcomes[i].extended = nearest.distance < reach || !(falloff > 0);
     run->outcomes[i].moved =
-        ffd_extension_displacement(work->chain->links[best.block].lattice, &best.point, falloff,
-                                   run->delta + 3 * i, run->gradient ? run->gradient + 9 * i : NULL);
+        ffd_extension_displacement(chain->links[block].lattice, &nearest, falloff, run->delta + 3 * i,
+                                   run->gradient ? run->gradient + 9 * i : NULL);
     return FFD_OK;
+}
+
+/* Notes the block of a point that is inside. */
+static void mark_inside(const block_work *work, size_t i)
+{
+    const chain_run *const run = work->run;
+    const ffd_location *const location = &run->scratch->locations[i];
+    const uint32_t owner = run->scratch->owners[i];
+    ffd_mark_owner(work->chain, run, i, owner);
+    ffd_mark_part(work->chain, owner, run, i, location->status == FFD_SINGULAR ? NULL : location->uvw);
 }
 
 /* Points outside of all blocks stay, or are extended. Lists the other points in blocks->pending. */
@@ -327,24 +358,27 @@ static ffd_status place_others(const block_work *work, ffd_error *error)
 {
     chain_run *const run = work->run;
     block_scratch *const blocks = &run->scratch->blocks;
+    const bool marks = run->kept && work->chain->marks.owners > 0;
     ffd_status status = FFD_OK;
     blocks->pending_count = 0;
     for (size_t i = 0; i < run->count && !status; i++) {
         if (run->scratch->owners[i] != BLOCK_NONE) {
             blocks->pending[blocks->pending_count++] = (uint32_t)i;
-            if (work->chain->seam_count > 0)
-                ffd_seams_mark(work->chain, run->scratch->owners[i], run, i, run->scratch->locations[i].uvw);
+            if (marks)
+                mark_inside(work, i);
             continue;
         }
         memset(run->delta + 3 * i, 0, 3 * sizeof *run->delta);
         if (run->gradient)
             memset(run->gradient + 9 * i, 0, 9 * sizeof *run->gradient);
+        ffd_mark_owner(work->chain, run, i, OWNER_NONE);
+        ffd_mark_part(work->chain, 0, run, i, NULL);
         if (run->outcomes[i].status == FFD_POINT_INVALID)
             continue;
         if (work->chain->outside.extend)
             status = extend(work, i, error);
-        else if (run->kept)
-            mark(run, i, MARK_OUTSIDE);
+        else
+            ffd_mark_kept(run, i, 0);
     }
     return status;
 }

@@ -11,4 +11,14 @@
    moves it differently (chain_run). Requires ffd_chain_boxes. */
 ffd_status ffd_blocks_apply(const lattice_chain *chain, chain_run *run, ffd_error *error);
 
+/* Finds the first block that holds p, without a rounding and a snap, and the location there. *block:
+   BLOCK_NONE if none does. Errors: FFD_E_MEMORY, FFD_E_LIMIT. */
+ffd_status ffd_blocks_holding(const lattice_chain *chain, const double p[3], uint32_t *block,
+                              ffd_location *location, ffd_error *error);
+
+/* Finds the point of any block's border that is nearest to p, within reach (ffd_boundary_find), and its
+   block; of equally near ones, to 1e-12, that of the first block. Errors: FFD_E_MEMORY. */
+ffd_status ffd_blocks_nearest(const lattice_chain *chain, const double p[3], double reach,
+                              boundary_point *nearest, uint32_t *block, ffd_error *error);
+
 #endif

@@ -18,6 +18,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+/* The most lattices, one after the other, of which marks tell parts of the volume (mark_layout). */
+#define MOST_PARTED 16
+
 /* Which points count as outside of a lattice, and how they move. */
 typedef struct chain_outside {
     bool extend;    /* move like the nearest border point; else stay */
@@ -40,6 +43,11 @@ typedef struct chain_link {
     path_list box_files;    /* files of the meshes that the lattice file names for its box */
     bool has_folds;         /* folds are known: */
     ffd_folds folds;        /* of the lattice, which was already fitted */
+    /* Set by ffd_seams_find: */
+    bool is_convex;  /* the rest volume is a box: its displacement is continuous, also as it is extended */
+    bool opens_axis; /* ffd_lattice_opens_axis */
+    bool is_still;   /* no control point is moved */
+    int parts[3];    /* into how many parts marks divide each direction (marks.h) */
 } chain_link;
 
 /* A direction of a link in which the first and the last rest face coincide, and the moves separate them. */
@@ -47,6 +55,16 @@ typedef struct chain_seam {
     size_t link;
     int direction;
 } chain_seam;
+
+/* Where the marks of a point are among planes of one byte a point. Written by marks.h. */
+typedef struct mark_layout {
+    size_t kept;   /* planes 0 .. kept - 1: bits, see KEPT_ALWAYS */
+    size_t owners; /* the first of the two planes of owners, which blocks have; 0: none */
+    size_t parts;  /* the first plane of parts, three for each of parted_count links; with blocks, for all */
+    size_t parted_count;
+    uint16_t parted[MOST_PARTED]; /* these links, ascending */
+    size_t planes;                /* of all marks */
+} mark_layout;
 
 typedef struct lattice_chain {
     chain_link *links;
@@ -59,6 +77,7 @@ typedef struct lattice_chain {
         slack[3]; /* tolerance of lookups in the tree, to which 16 eps of the point's coordinates are added */
     chain_seam *seams; /* seam_count, ascending by link; filled once all links are fitted */
     size_t seam_count;
+    mark_layout marks;    /* of the points of a pass (marks.h) */
     memory_budget memory; /* charged with the lattices */
     chain_outside outside;
     ffd_isa isa;      /* of the kernels; does not change results */
@@ -97,27 +116,6 @@ typedef struct chain_rounding {
 /* The most points in a run. */
 #define CHAIN_RUN DISPLACEMENT_BATCH
 
-/* Marks of points that do not move with the others. Bit 0: no link may move the point. Bit l + 1: link l
-   leaves the point where it is, because it is outside of the link. ffd_chain_marked describes further bits.
-   Layout: planes of 8 marks each, one byte a point. */
-#define KEPT_ALWAYS 1u
-
-/* The number of planes for this many links. */
-static inline size_t ffd_kept_planes(size_t links)
-{
-    return links / 8 + 1;
-}
-
-static inline size_t ffd_kept_plane(size_t link)
-{
-    return (link + 1) / 8;
-}
-
-static inline uint8_t ffd_kept_bit(size_t link)
-{
-    return (uint8_t)(1u << (link + 1) % 8);
-}
-
 /* The owner of a point that is in no block. */
 #define BLOCK_NONE UINT32_MAX
 
@@ -155,20 +153,24 @@ typedef struct chain_scratch {
     displacement_scratch displacement;
 } chain_scratch;
 
+struct chain_pace;
+
 /* A run of points that is sent through the chain. */
 typedef struct chain_run {
     double *x;                      /* 3 a point: replaced by the new positions */
     size_t count;                   /* at most CHAIN_RUN */
     bool located;                   /* scratch->locations already holds those of the first link */
+    bool first_only;                /* blocks: do not look up a point on a face in other blocks too */
     const chain_rounding *rounding; /* NULL: coordinates are exact */
     chain_scratch *scratch;
+    struct chain_pace *pace; /* pace.h; or NULL */
     /* Filled, one entry a point: */
     double *delta;    /* 3: displacement by all links, world units; zeros where nothing acts */
     double *gradient; /* 9: F - I of the whole deformation; or NULL */
     point_outcome *outcomes;
-    /* ffd_kept_planes planes of CHAIN_RUN bytes, or NULL. Marks of points that links leave are added. */
-    uint8_t *kept;
-    bool keeps;                           /* some marks were added */
+    uint8_t *kept; /* chain->marks.planes planes of CHAIN_RUN bytes, or NULL: bits of points that links leave
+                      are added, other marks are set */
+    bool keeps;    /* some bits were added */
     double embed_seconds, deform_seconds; /* elapsed times are added */
     /* Added: the number of points on a common face of two links, one after the other, that both move. */
     size_t moved_twice;
@@ -176,7 +178,6 @@ typedef struct chain_run {
        difference. */
     size_t disagreeing;
     double disagreement;
-    double *differences; /* filled: the difference for each point, 0 without disagreement; or NULL */
 } chain_run;
 
 #endif

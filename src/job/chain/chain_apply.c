@@ -1,14 +1,16 @@
 #include "job/chain/chain_apply.h"
 #include "base/system/clock.h"
+#include "base/system/deadline.h"
 #include "base/vector/array_kernel.h"
 #include "base/vector/vec.h"
 #include "deform/extension.h"
 #include "embed/locator.h"
 #include "job/chain/blocks.h"
 #include "job/chain/common_faces.h"
+#include "job/chain/marks.h"
+#include "job/chain/pace.h"
 #include "job/chain/point_outcome.h"
 #include "job/chain/point_rounding.h"
-#include "job/chain/seams.h"
 #include "lattice/lattice.h"
 #include <string.h>
 
@@ -50,11 +52,12 @@ static ffd_status extend(const lattice_chain *chain, size_t l, chain_run *run,
     if (run->scratch->locations[i].status == FFD_POINT_INVALID || !link->border)
         return FFD_OK;
     const double reach = link->falloff > 0 ? link->falloff : HUGE_VAL;
-    const ffd_status status = ffd_boundary_find(link->border, run->x + 3 * i, reach, &nearest, error);
+    ffd_status status = link->is_convex ? FFD_OK : ffd_deadline_check(error);
+    if (!status)
+        status = ffd_boundary_find(link->border, run->x + 3 * i, reach, &nearest, error);
     if (status || !nearest.found)
         return status;
-    if (chain->seam_count > 0)
-        ffd_seams_mark(chain, l, run, i, nearest.uvw);
+    ffd_mark_part(chain, l, run, i, nearest.uvw);
     run->outcomes[i].extended |= nearest.distance < reach || !(link->falloff > 0);
     run->scratch->moves[i] =
         (uint8_t)ffd_extension_displacement(link->lattice, &nearest, link->falloff, delta, gradient);
@@ -64,10 +67,8 @@ static ffd_status extend(const lattice_chain *chain, size_t l, chain_run *run,
 /* Marks a point as left by link l, unless the link extends to it. */
 static void mark_kept(const chain_link *link, size_t l, chain_run *run, size_t i)
 {
-    if (!run->kept || link->border || run->scratch->locations[i].status == FFD_POINT_INVALID)
-        return;
-    run->kept[ffd_kept_plane(l) * CHAIN_RUN + i] |= ffd_kept_bit(l);
-    run->keeps = true;
+    if (!link->border && run->scratch->locations[i].status != FFD_POINT_INVALID)
+        ffd_mark_kept(run, i, l);
 }
 
 /* Records the outcomes of the points in a link, and lists the points that have u,v,w there. */
@@ -75,7 +76,7 @@ static ffd_status note_locations(const lattice_chain *chain, size_t l, chain_run
                                  displacement_batch *batch, ffd_error *error)
 {
     const chain_link *const link = &chain->links[l];
-    const bool is_first = l == 0;
+    const bool is_first = l == 0, parts = run->kept && chain->marks.parted_count > 0;
     const ffd_location *const locations = run->scratch->locations;
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < run->count && !status; i++) {
@@ -90,10 +91,12 @@ static ffd_status note_locations(const lattice_chain *chain, size_t l, chain_run
             ffd_outcome_join(outcome, &run->outcomes[i]);
         if (outcome->located) {
             run->scratch->inside[batch->count++] = (uint32_t)i;
-            if (chain->seam_count > 0)
-                ffd_seams_mark(chain, l, run, i, locations[i].uvw);
+            if (parts)
+                ffd_mark_part(chain, l, run, i,
+                              locations[i].status == FFD_SINGULAR ? NULL : locations[i].uvw);
             continue;
         }
+        ffd_mark_part(chain, l, run, i, NULL);
         mark_kept(link, l, run, i);
         if (!status)
             status = extend(chain, l, run, batch, i, error);
@@ -151,8 +154,8 @@ ffd_status ffd_chain_apply(const lattice_chain *chain, size_t links, chain_run *
     for (size_t l = 0; l < links && !status; l++) {
         const double start = ffd_clock_seconds();
         if (l > 0 || !run->located)
-            status =
-                ffd_locator_find(chain->links[l].locator, run->x, run->count, run->scratch->locations, error);
+            status = ffd_pace_find(&chain->links[l], run->x, run->count, run->pace, run->scratch->locations,
+                                   error);
         const double middle = ffd_clock_seconds();
         if (!status)
             status = apply_link(chain, l, run, error);

@@ -152,14 +152,18 @@ static memory_budget budget_of(const chain_files *files)
     return ffd_budget_make(files->mesh ? files->mesh->memory : 0);
 }
 
+ffd_status ffd_chain_check_count(size_t count, ffd_error *error)
+{
+    if (count > MOST_LATTICES)
+        return ffd_fail(error, FFD_E_LIMIT, "a job has at most %d lattices, not %zu", MOST_LATTICES, count);
+    return FFD_OK;
+}
+
 static ffd_status check_count(const chain_files *files, ffd_error *error)
 {
     if (files->count == 0)
         return ffd_fail(error, FFD_E_ARGUMENT, "no lattice is given");
-    if (files->count > MOST_LATTICES)
-        return ffd_fail(error, FFD_E_LIMIT, "a job has at most %d lattices, not %zu", MOST_LATTICES,
-                        files->count);
-    return FFD_OK;
+    return ffd_chain_check_count(files->count, error);
 }
 
 ffd_status ffd_chain_load(const chain_files *files, const chain_outside *outside, ffd_isa isa,

@@ -21,6 +21,8 @@ typedef struct chain_files {
     const mesh_log *log;          /* gets warnings about meshes that lattices name; may be NULL */
 } chain_files;
 
+/* Refuses more lattices than a job may have (FFD_E_LIMIT). */
+ffd_status ffd_chain_check_count(size_t count, ffd_error *error);
 /* Loads the lattices into a chain. share: a cache, or NULL. The share must outlive the chain;
    ffd_cache_put_chain hands it what the chain has made. */
 ffd_status ffd_chain_load(const chain_files *files, const chain_outside *outside, ffd_isa isa,

@@ -13,6 +13,11 @@ ffd_status ffd_deform_desc_take(const ffd_deform_desc *callers, ffd_deform_desc 
     return ffd_struct_take(own, sizeof *own, callers, "ffd_deform_desc", error);
 }
 
+bool ffd_deform_desc_writes(const ffd_deform_desc *desc)
+{
+    return desc->in_place || desc->output || !desc->positions;
+}
+
 bool ffd_desc_has_texts(const char *const *texts, size_t count)
 {
     size_t there = 0;

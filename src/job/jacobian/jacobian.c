@@ -4,6 +4,7 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/struct_size.h"
+#include "base/system/deadline.h"
 #include "job/input/deform_desc.h"
 #include "job/input/in_memory.h"
 #include "job/input/source.h"
@@ -11,6 +12,7 @@
 #include "job/jacobian/jacobian_output.h"
 #include "job/jacobian/jacobian_product.h"
 #include "job/judge/result.h"
+#include "job/reads.h"
 #include <string.h>
 
 void ffd_jacobian_desc_init(ffd_jacobian_desc *desc, size_t size)
@@ -58,6 +60,8 @@ static ffd_status check_desc(const ffd_jacobian_desc *desc, ffd_error *error)
 {
     if (!desc->job || !desc->output)
         return ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete");
+    if (!(desc->job->timeout >= 0))
+        return ffd_fail(error, FFD_E_ARGUMENT, "the timeout %g is not a time", desc->job->timeout);
     if (desc->by != FFD_BY_POINTS && desc->by != FFD_BY_PARAMETERS)
         return ffd_fail(error, FFD_E_ARGUMENT, "%d is not a value of ffd_jacobian_by", (int)desc->by);
     if (desc->times && desc->transposed)
@@ -93,6 +97,8 @@ static ffd_status make(jacobian *j, ffd_jacobian_result *result, ffd_error *erro
     if (!status && j->desc->check)
         status = check_differences(j, &result->worst, error);
     if (!status)
+        status = ffd_deadline_check(error);
+    if (!status)
         status = is_product(j->desc) ? ffd_jacobian_multiply(j, error) : ffd_jacobian_write(j, starts, error);
     result->rows = j->rows;
     result->columns = j->columns;
@@ -111,6 +117,10 @@ static ffd_status run(const ffd_jacobian_desc *desc, ffd_jacobian_result *result
     j.job.only_positions = true;
     if (!status)
         status = ffd_deform_job_open(&j.job, &figures, &figures.error);
+    if (!status)
+        status = ffd_job_check_mesh_files(desc->output, &desc->job->input, j.job.document, &figures.error);
+    if (!status)
+        status = ffd_job_check_box_files(desc->output, &j.job.chain, desc->job->lattices, &figures.error);
     if (!status)
         status = make(&j, result, &figures.error);
     ffd_jacobian_free(&j);
@@ -150,8 +160,11 @@ ffd_status ffd_jacobian_run(const ffd_jacobian_desc *callers, ffd_jacobian_resul
     if (!status)
         status = check_desc(&desc, &own);
     const bool runs = !status;
+    deadline limit;
+    const deadline *const before = ffd_deadline_begin(&limit, runs ? job.timeout : 0);
     if (runs)
         status = run(&desc, &result, &own);
+    ffd_deadline_end(before);
     status = ffd_in_memory_judge(&memory, status, &own);
     ffd_in_memory_end(&memory);
     if (status && error)

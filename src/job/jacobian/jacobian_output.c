@@ -3,6 +3,7 @@
 #include "base/file/path.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include "base/system/thread.h"
 #include "base/text/buffer.h"
 #include "io/npy/npy.h"
@@ -43,6 +44,8 @@ static void make_tile(void *context, size_t tile, size_t first, size_t last, int
     rows_slot *const slot = &pass->slots[worker];
     const size_t each = j->blocks ? 3 : 1;
     (void)tile;
+    if (ffd_deadline_passed()) /* which the pass fails for, when the tile is finished */
+        return;
     ffd_jacobian_rows_begin(j, first, &slot->rows);
     for (size_t i = first; i < last; i++) {
         ffd_jacobian_rows_fill(j, i, &slot->rows);
@@ -61,6 +64,8 @@ static void finish_tile(void *context, size_t tile, size_t first, size_t last, i
     rows_pass *const pass = context;
     byte_buffer *const bytes = &pass->slots[worker].bytes;
     (void)tile, (void)first, (void)last;
+    if (!pass->status)
+        pass->status = ffd_deadline_check(pass->error);
     if (!pass->status && bytes->failed)
         pass->status = ffd_fail_memory(pass->error);
     else if (!pass->status && pass->zip)

@@ -1,5 +1,6 @@
 /* jacobian_prepare.c - prepares the rows: embeddings, gradients of later lattices, derivatives of moves. */
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include "base/text/buffer.h"
 #include "embed/boundary/boundary.h"
 #include "job/chain/chain_apply.h"
@@ -40,7 +41,9 @@ static ffd_status find_extended(jacobian *j, const chain_link *link, const doubl
         if (ffd_embedding_has(embedding, i) || embedding->status[i] == FFD_POINT_INVALID ||
             !vec_is_finite(before + 3 * i))
             continue;
-        status = ffd_boundary_find(link->border, before + 3 * i, reach, &nearest, error);
+        status = ffd_deadline_check(error);
+        if (!status)
+            status = ffd_boundary_find(link->border, before + 3 * i, reach, &nearest, error);
         if (status || !nearest.found)
             continue;
         status = ffd_budget_take(&j->budget, 1, sizeof *embedding->extended, error);
@@ -97,6 +100,7 @@ static ffd_status fill_embedding(jacobian *j, jacobian_link *link, ffd_error *er
     if (status)
         return status;
     mesh_pass pass = pass_of(j, link->number + 1);
+    pass.pace = &j->pace;
     pass.uvw = link->embedding->uvw;
     pass.statuses = link->embedding->status;
     status = ffd_pass_run(&pass, &totals, error);
@@ -293,6 +297,12 @@ ffd_status ffd_jacobian_prepare(jacobian *j, ffd_error *error)
         status = choose_links(j, error);
     if (!status)
         status = take_vertices(j, error);
+    j->pace = (chain_pace){.points = (double)j->count,
+                           .threads = j->job.threads,
+                           .links = j->job.chain.links,
+                           .lattices = j->job.desc->lattices,
+                           .more = " (see --timeout)",
+                           .log = j->job.log};
     for (size_t l = 0; l < j->link_count && !status; l++) {
         jacobian_link *const link = &j->links[l];
         status = fill_embedding(j, link, error);

@@ -2,6 +2,7 @@
 #include "base/file/output.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include "io/npy/npy.h"
 #include "io/npy/npy_read.h"
 #include "job/jacobian/jacobian_rows.h"
@@ -57,7 +58,7 @@ static void multiply(product *p, bool transposed)
 {
     const size_t count = p->j->count, numbers = column_numbers(p->j);
     ffd_jacobian_rows_begin(p->j, 0, &p->rows);
-    for (size_t first = 0; first < count; first += BLOCK) {
+    for (size_t first = 0; first < count && !ffd_deadline_passed(); first += BLOCK) {
         const size_t last = count - first < BLOCK ? count : first + BLOCK;
         if (transposed)
             memset(p->block, 0, numbers * sizeof *p->block);
@@ -111,9 +112,11 @@ ffd_status ffd_jacobian_multiply(const jacobian *j, ffd_error *error)
         status = ffd_fail_memory(error);
     if (!status) {
         multiply(&p, transposed);
+        status = ffd_deadline_check(error);
+    }
+    if (!status)
         status = transposed ? write(j, p.out, by_points ? columns / 3 : columns, by_points ? 3 : 0, error)
                             : write(j, p.out, j->count, 3, error);
-    }
     ffd_jacobian_rows_free(&p.rows);
     ffd_free(in);
     ffd_free(p.out);

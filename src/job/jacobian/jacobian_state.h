@@ -2,6 +2,7 @@
 #ifndef FFD_JOB_JACOBIAN_JACOBIAN_STATE_H
 #define FFD_JOB_JACOBIAN_JACOBIAN_STATE_H
 
+#include "job/chain/pace.h"
 #include "job/deform_job.h"
 #include "lattice/tangent/tangents.h"
 #include <ffd/jacobian.h>
@@ -27,6 +28,7 @@ typedef struct jacobian {
     bool blocks;      /* three rows a vertex, as coordinates mix; else one */
     size_t rows, columns;
     char **names; /* of the columns, if by parameters */
+    chain_pace pace;
 } jacobian;
 
 /* Prepares the rows. Errors: those of the job. */

@@ -17,6 +17,11 @@
 /* Gates that need the faces. */
 #define NEED_FACES (FFD_GATE_TEAR | FFD_GATE_FLIPPED | FFD_GATE_EDGES)
 
+bool ffd_figures_wanted(const deform_job *job)
+{
+    return job->check || job->desc->quality || job->desc->fail_on & (FFD_GATE_FLIPPED | FFD_GATE_EDGES);
+}
+
 /* Checks that the budget suffices for recomputing normals. */
 static ffd_status check_normals(const deform_job *job, const mesh_faces *faces, memory_budget budget,
                                 ffd_error *error)
@@ -195,12 +200,33 @@ void ffd_figures_describe_folds(const ffd_deform_desc *desc, const ffd_job_resul
                  desc->lattices[result->folds_lattice], xyz[0], xyz[1], xyz[2]);
 }
 
+/* Says how many faces are turned over, or if that is not known at how many vertices the mesh is inside out.
+   text becomes "" if there are none. */
+static void tell_turned(const deform_job *job, const ffd_job_result *result, char *text, size_t capacity)
+{
+    const pass_totals *const totals = &job->totals;
+    *text = 0;
+    if (result->has_flipped && result->flipped_faces)
+        snprintf(text, capacity, "%" PRIu64 " of %" PRIu64 " %s turned over", result->flipped_faces,
+                 result->faces, ffd_plural(result->faces, "face is", "faces are"));
+    else if (totals->inverted)
+        snprintf(text, capacity,
+                 "the mesh turns inside out at %" PRIu64 " of %" PRIu64
+                 " %s: det F falls to %g, at vertex %" PRIu64,
+                 totals->inverted, totals->vertices, ffd_plural(totals->vertices, "vertex", "vertices"),
+                 totals->det_inverted, totals->first_inverted);
+}
+
 void ffd_figures_warn(const deform_job *job, const ffd_job_result *result)
 {
-    char text[400];
+    char text[400], turned[200];
+    tell_turned(job, result, turned, sizeof turned);
     if (result->has_folds && result->folds.verdict != FFD_FOLDS_NONE) {
         ffd_figures_describe_folds(job->desc, result, text, sizeof text);
-        ffd_log_line(&job->log, FFD_LOG_WARNING, "the deformed volume %s", text);
+        ffd_log_line(&job->log, FFD_LOG_WARNING, "the deformed volume %s%s%s", text, *turned ? "; " : "",
+                     turned);
+    } else if (*turned) {
+        ffd_log_line(&job->log, FFD_LOG_WARNING, "%s", turned);
     }
     if (result->det_outside <= 0)
         ffd_log_line(&job->log, FFD_LOG_WARNING,

@@ -12,6 +12,9 @@ typedef struct figure_arrays {
     memory_budget budget;         /* the document's, to which these arrays are charged */
 } figure_arrays;
 
+/* Whether folds, flipped faces and det F are wanted. */
+bool ffd_figures_wanted(const deform_job *job);
+
 /* Reads the mesh's faces (at rest, so before the pass) and allocates the arrays, charged to arrays->budget.
    If the faces are invalid or exceed the budget, a check or a recomputation of normals fails; a deformation
    warns and goes on without these figures. */
@@ -30,7 +33,7 @@ ffd_status ffd_figures_folds(lattice_chain *chain, int threads, ffd_job_result *
 ffd_status ffd_figures_faces(const deform_job *job, figure_arrays *arrays, ffd_job_result *result,
                              ffd_error *error);
 
-/* Warns of folds and turned-over faces that no gate asks for. */
+/* Warns of folds and of faces that are turned over. */
 void ffd_figures_warn(const deform_job *job, const ffd_job_result *result);
 
 /* Describes folds, such as "folds in 3 of 27 cells, as at u,v,w = 0.5 0.5 0.5 of b.json, x,y,z = 1 2 3", or

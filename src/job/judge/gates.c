@@ -7,9 +7,26 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *what_moves(const pass_totals *totals)
+/* Says which stored shapes have vertices outside. */
+static const char *tell_stored(const pass_totals *totals)
 {
-    return totals->shapes_outside ? "morph targets move" : "the default weights of morph targets move";
+    return totals->shapes_outside ? "morph targets move vertices outside the lattice"
+                                  : "without the default weights of morph targets vertices are outside the "
+                                    "lattice";
+}
+
+/* Whether a shape that the file stores, but does not show, has vertices outside. */
+static bool stores_outside(const pass_totals *totals)
+{
+    return totals->shapes_outside || totals->base_outside;
+}
+
+/* Says why a vertex may be outside though its stored position is not. */
+static const char *as_shown(const pass_totals *totals)
+{
+    return totals->of_shown && totals->weighted_outside
+               ? ", as the default weights of morph targets show the mesh"
+               : "";
 }
 
 /* --outside error: fails if any vertex is outside, visible or not. */
@@ -25,10 +42,11 @@ static ffd_status fail_outside(const char *name, const lattice_chain *chain, con
                  totals->unshown_outside, ffd_plural(totals->unshown_outside, "is", "are"));
     return ffd_fail_file(error, FFD_E_EMBEDDING, name,
                          "%" PRIu64 " of %" PRIu64
-                         " %s %s outside the lattice%s, the first is vertex %" PRIu64 " (counted from 0)%s%s",
+                         " %s %s outside the lattice%s%s, the first is vertex %" PRIu64
+                         " (counted from 0)%s%s",
                          count, totals->vertices, ffd_plural(totals->vertices, "vertex", "vertices"),
-                         ffd_plural(count, "is", "are"), unshown, shown < other ? shown : other,
-                         *coverage ? "; " : "", coverage);
+                         ffd_plural(count, "is", "are"), as_shown(totals), unshown,
+                         shown < other ? shown : other, *coverage ? "; " : "", coverage);
 }
 
 /* An embedding may miss its mesh: a forged file can have valid hashes. */
@@ -46,13 +64,16 @@ ffd_status ffd_policies_judge(const ffd_deform_desc *desc, const char *name, con
 {
     if (totals->first_missed != UINT64_MAX)
         return fail_missed(desc->embedding, totals, error);
-    if (desc->outside == FFD_OUTSIDE_ERROR && totals->outside_all + totals->unshown_outside > 0)
+    /* If a target alone moves what is shown outside, that is the reason. */
+    const bool by_target = totals->of_shown && !totals->base_outside && totals->shapes_outside &&
+                           totals->outside_all == totals->weighted_outside && !totals->unshown_outside;
+    if (desc->outside == FFD_OUTSIDE_ERROR && totals->outside_all + totals->unshown_outside > 0 && !by_target)
         return fail_outside(name, chain, totals, error);
-    if (desc->outside == FFD_OUTSIDE_ERROR && (totals->shapes_outside || totals->shown_outside))
+    if (desc->outside == FFD_OUTSIDE_ERROR && stores_outside(totals))
         return ffd_fail_file(error, FFD_E_EMBEDDING, name,
-                             "%s vertices outside the lattice, the first is vertex %" PRIu64
-                             " (counted from 0)",
-                             what_moves(totals), totals->first_shape_outside);
+                             "%s, the first is vertex %" PRIu64 " (counted from 0)", tell_stored(totals),
+                             totals->shapes_outside ? totals->first_shape_outside
+                                                    : totals->first_base_outside);
     if (totals->first_overflow != UINT64_MAX)
         return ffd_fail_file(error, FFD_E_INVALID, name,
                              "the deformed position of vertex %" PRIu64
@@ -84,6 +105,16 @@ static void add_count(complaint *line, uint64_t count, const pass_totals *totals
              ffd_plural(totals->vertices, "vertex", "vertices"), ffd_plural(count, one, many));
     if (count)
         add(line, text, gate);
+}
+
+static void add_outside(complaint *line, const pass_totals *totals)
+{
+    char one[120], many[120];
+    snprintf(one, sizeof one, "is outside the lattice%s", as_shown(totals));
+    snprintf(many, sizeof many, "are outside the lattice%s", as_shown(totals));
+    add_count(line, totals->outside_all, totals, one, many, "outside");
+    if (stores_outside(totals))
+        add(line, tell_stored(totals), "outside");
 }
 
 /* A figure that exceeds the limit by at most this relative amount passes: the limit may come from another
@@ -134,13 +165,7 @@ ffd_status ffd_gates_judge(const ffd_deform_desc *desc, const char *name, const 
     if (desc->fail_on & FFD_GATE_OUTSIDE && totals->vertices == 0)
         add(&line, "there are no vertices", "outside");
     if (desc->fail_on & FFD_GATE_OUTSIDE)
-        add_count(&line, totals->outside_all, totals, "is outside the lattice", "are outside the lattice",
-                  "outside");
-    if (desc->fail_on & FFD_GATE_OUTSIDE && (totals->shapes_outside || totals->shown_outside)) {
-        char text[100];
-        snprintf(text, sizeof text, "%s vertices outside the lattice", what_moves(totals));
-        add(&line, text, "outside");
-    }
+        add_outside(&line, totals);
     if (desc->fail_on & FFD_GATE_MULTIPLE)
         add_count(&line, totals->multiple_any, totals, "has several u,v,w", "have several u,v,w", "multiple");
     if (desc->fail_on & FFD_GATE_SINGULAR)

@@ -15,6 +15,7 @@ typedef struct deform_job {
     bool check;          /* no output will be written; all figures are wanted */
     bool recomputes;     /* normals exist, and are to be recomputed from the deformed faces */
     bool derives;        /* set before opening: keep derivatives by placeholders */
+    bool stored;         /* set before it runs: judge the base, whatever default weights show */
     bool only_positions; /* set before opening: nothing needs normals */
     unsigned losses;     /* of mapped inputs, before this job (base/file/mapping.h) */
     int threads;
@@ -27,7 +28,8 @@ typedef struct deform_job {
     rig_places rig;           /* the document's joints, pivots, sockets and so on */
     mesh_following following; /* what --rig follow has done */
     pass_totals totals;
-    uint8_t *kept;          /* marks of vertices that stay (job/chain/chain.h); NULL: no vertices */
+    uint8_t *kept;          /* marks of the vertices (job/chain/marks.h); NULL: no vertices */
+    bool blocks_join;       /* ffd_blocks_join; false: not known */
     job_details *details;   /* to be filled, or NULL */
     double *positions;      /* 3 a vertex, like mesh_pass.deformed; NULL: not wanted */
     mesh_model base;        /* the shape before, if a conversion adds the deformation as a morph target */

@@ -82,6 +82,7 @@ static void join_tears(const ffd_job_result *target, bool is_first, ffd_job_resu
     all->tear_stays = target->tear_stays;
     all->tear_unselected = target->tear_unselected;
     all->tear_seam = target->tear_seam;
+    all->tear_cause = target->tear_cause;
 }
 
 /* Combines the figures that take extra time, where all targets have them. */
@@ -125,6 +126,13 @@ static void join_behind(const ffd_job_result *target, ffd_job_result *all)
             all->behind[kind] = target->behind[kind];
 }
 
+/* The joints that lie farthest off a target. */
+static void join_rig(const ffd_job_result *target, ffd_job_result *all)
+{
+    if (!all->rig.is_there || target->rig.largest_lag > all->rig.largest_lag)
+        all->rig = target->rig;
+}
+
 void ffd_morph_results_join(const ffd_job_result *targets, size_t count, ffd_job_result *all)
 {
     for (size_t k = 0; k < count; k++) {
@@ -135,6 +143,7 @@ void ffd_morph_results_join(const ffd_job_result *targets, size_t count, ffd_job
         join_quality(&targets[k], k, all);
         join_edges(&targets[k], k == 0, all);
         join_behind(&targets[k], all);
+        join_rig(&targets[k], all);
         join_extent(&targets[k], count == 1, all);
     }
 }

@@ -1,5 +1,6 @@
 #include "job/judge/quality_edges.h"
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include "base/system/processors.h"
 #include "base/system/thread.h"
 #include "base/vector/vec.h"
@@ -484,9 +485,10 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
     const size_t count = last - first;
     scratch->requested = 0;
     scratch->first = first;
-    for (size_t i = 0; i < count; i++)
+    result->status = ffd_deadline_check(NULL);
+    for (size_t i = 0; i < count && !result->status; i++)
         begin_edge(work, work->list.keys[first + i], &scratch->edges[i]);
-    ffd_status status = begin_samples(work, scratch, count);
+    ffd_status status = result->status ? result->status : begin_samples(work, scratch, count);
     for (int level = FIRST_LEVEL; level < LAST_LEVEL && !status; level++) {
         for (size_t i = 0; i < count && !status; i++)
             status = halve_pieces(work, scratch, i, level);
@@ -511,7 +513,11 @@ static ffd_status join_tiles(const edge_work *work, size_t tiles, edge_quality *
     double sum = 0;
     for (size_t i = 0; i < tiles; i++) {
         const edge_tile *tile = &work->tiles[i];
-        if (tile->status) /* a search can fail only for lack of memory */
+        if (tile->status == FFD_E_LIMIT)
+            return ffd_deadline_check(error)
+                       ? FFD_E_LIMIT
+                       : ffd_fail(error, FFD_E_LIMIT, "too many parts to measure edges");
+        if (tile->status)
             return ffd_fail(error, tile->status, "out of memory while measuring edges");
         if (tile->edges && (result->edges == 0 || tile->largest > result->deviation_max)) {
             result->deviation_max = tile->largest;

@@ -29,7 +29,8 @@ void ffd_result_fill(ffd_job_result *result, const pass_totals *totals, double s
     result->hidden = totals->hidden;
     result->targets_outside = totals->shapes_outside;
     result->targets_invalid = totals->shapes_invalid;
-    result->shown_outside = totals->shown_outside;
+    result->shown_outside = totals->of_shown ? totals->weighted_outside : 0;
+    result->base_outside = totals->base_outside;
     result->moved = totals->moved;
     result->residual_max = sqrt(totals->residual_square_max);
     result->residual_rms = totals->located ? sqrt(totals->residual_square_sum / (double)totals->located) : 0;
@@ -191,21 +192,26 @@ static void warn_of_unshown(const pass_totals *totals, const mesh_log *log)
                      ffd_plural(totals->hidden, "it", "them"));
 }
 
-/* Warns about morph targets, and the shape with their default weights. */
+static const char *how_outside(const lattice_chain *chain, uint64_t count)
+{
+    return !chain->outside.extend ? left_alone(count)
+                                  : ffd_plural(count, "it goes with the nearest boundary point",
+                                               "they go with the nearest boundary point");
+}
+
+/* Warns about the stored shapes: the base, if default weights show another shape, and morph targets. */
 static void warn_of_shapes(const pass_totals *totals, const lattice_chain *chain, const mesh_log *log)
 {
     if (totals->shapes_outside)
         ffd_log_line(log, FFD_LOG_WARNING, "morph targets move %" PRIu64 " %s outside the lattice (%s)",
                      totals->shapes_outside, vertices(totals->shapes_outside),
-                     !chain->outside.extend
-                         ? left_alone(totals->shapes_outside)
-                         : ffd_plural(totals->shapes_outside, "it goes with the nearest boundary point",
-                                      "they go with the nearest boundary point"));
-    if (totals->shown_outside && !totals->shapes_outside) /* else the reason was given already */
+                     how_outside(chain, totals->shapes_outside));
+    if (totals->base_outside > totals->weighted_outside) /* else it has been told of the shape shown */
         ffd_log_line(log, FFD_LOG_WARNING,
-                     "%" PRIu64 " %s %s outside the lattice as the default weights of morph targets show %s",
-                     totals->shown_outside, vertices(totals->shown_outside), are(totals->shown_outside),
-                     ffd_plural(totals->shown_outside, "it", "them"));
+                     "without the default weights of morph targets %" PRIu64
+                     " %s %s outside the lattice (%s)",
+                     totals->base_outside, vertices(totals->base_outside), are(totals->base_outside),
+                     how_outside(chain, totals->base_outside));
     if (totals->shapes_invalid)
         ffd_log_line(log, FFD_LOG_WARNING,
                      "morph targets move %" PRIu64 " %s to coordinates that are not finite (left as %s)",
@@ -231,6 +237,7 @@ void ffd_result_warn(const pass_totals *totals, const lattice_chain *chain, bool
                      const mesh_log *log)
 {
     const uint64_t others = totals->vertices - totals->counts[FFD_INSIDE] - totals->unused - totals->hidden;
+    ffd_coverage_warn(chain, log);
     if (others) {
         char list[600], coverage[600] = "";
         tell_others(totals, &chain->outside, deformed, list, sizeof list);

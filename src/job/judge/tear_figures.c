@@ -1,52 +1,97 @@
 #include "job/judge/tear_figures.h"
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include "base/text/words.h"
-#include "job/chain/seams.h"
-#include "job/judge/tear_steps.h"
+#include "base/vector/vec.h"
+#include "job/chain/block_nets.h"
+#include "job/chain/marks.h"
 #include "job/judge/tears.h"
 #include "lattice/lattice.h"
 #include "mesh/mixed_faces.h"
 #include <inttypes.h>
+#include <limits.h>
 #include <stdio.h>
 #include <string.h>
 
 /* A deformation of a larger mesh reads the faces only if the figures are asked for. */
 #define UNASKED_VERTICES ((uint64_t)5500000)
 
+/* Unasked, edges in volumes that are no boxes are cut only if that takes little beside the search for the
+   vertices: of a mesh that is coarse beside its lattice all edges may have to be, and in a lattice that
+   overlaps itself each place takes long. These evaluations are allowed: this part of those of the search, and
+   so many anyway. */
+#define SHARE_OF_SEARCH (1.0 / 8)
+#define FREE_EVALUATIONS 5e4
+
+/* Memory of the arrays for each vertex, in bytes. */
+#define ARRAY_BYTES (12 * sizeof(double))
+
 static bool is_asked_for(const deform_job *job)
 {
     return job->check || job->desc->quality || job->desc->fail_on & FFD_GATE_TEAR;
 }
 
-ffd_status ffd_tear_figures_prepare(deform_job *job, ffd_error *error)
+static size_t count_vertices(const deform_job *job)
 {
-    const uint64_t count = ffd_mesh_vertex_count(job->document);
-    if (count == 0)
-        return FFD_OK;
-    /* Zeroed pages that are never written to take no memory. */
-    job->kept = ffd_alloc_zero((size_t)count, ffd_kept_planes(ffd_chain_marked(&job->chain)));
-    return job->kept ? FFD_OK : ffd_fail_memory(error);
+    return (size_t)ffd_mesh_vertex_count(job->document);
 }
 
-static bool moves_nothing(const ffd_lattice *lattice)
+/* The ends' displacements, and their derivatives, rule out most edges outside of a volume that is no box. */
+static ffd_status make_arrays(const deform_job *job, figure_arrays *arrays, ffd_error *error)
 {
-    for (size_t i = 0; i < lattice->count; i++)
-        if (lattice->moved[i] & POINT_MOVED)
-            return false;
-    return true;
+    const size_t count = count_vertices(job);
+    if (job->chain.marks.parted_count == 0 || !job->chain.outside.extend || arrays->deformed ||
+        (!is_asked_for(job) && count > UNASKED_VERTICES) ||
+        ffd_budget_take(&arrays->budget, count, ARRAY_BYTES, NULL))
+        return FFD_OK;
+    arrays->deformed = ffd_alloc(count, 3 * sizeof *arrays->deformed);
+    arrays->gradients = ffd_alloc(count, 9 * sizeof *arrays->gradients);
+    return arrays->deformed && arrays->gradients ? FFD_OK : ffd_fail_memory(error);
+}
+
+ffd_status ffd_tear_figures_prepare(deform_job *job, figure_arrays *arrays, ffd_error *error)
+{
+    const size_t count = count_vertices(job);
+    if (count == 0)
+        return FFD_OK;
+    ffd_status status = job->chain.blocks && !is_asked_for(job)
+                            ? ffd_blocks_join(&job->chain, &job->blocks_join, error)
+                            : FFD_OK;
+    if (status)
+        return status;
+    ffd_marks_lay_out(&job->chain, !job->blocks_join || job->chain.outside.extend);
+    /* Zeroed pages that are never written to take no memory. */
+    job->kept = ffd_alloc_zero(count, job->chain.marks.planes);
+    return job->kept ? make_arrays(job, arrays, error) : ffd_fail_memory(error);
 }
 
 /* Marks all vertices as left by lattices that move nothing. */
 static void mark_left(const deform_job *job)
 {
-    const size_t vertices = (size_t)ffd_mesh_vertex_count(job->document);
+    const size_t vertices = count_vertices(job);
     for (size_t l = 0; l < job->chain.count && !job->chain.blocks; l++) {
         uint8_t *const marks = job->kept + ffd_kept_plane(l) * vertices;
-        if (!moves_nothing(job->chain.links[l].lattice))
+        if (!job->chain.links[l].is_still)
             continue;
         for (size_t v = 0; v < vertices; v++)
             marks[v] |= ffd_kept_bit(l);
     }
+}
+
+/* Whether some vertices have marks that lead to torn edges: planes is set to how many planes tell. */
+static bool may_tear(const deform_job *job, size_t *planes)
+{
+    const lattice_chain *const chain = &job->chain;
+    const pass_totals *const totals = &job->totals;
+    bool opens = chain->seam_count > 0 || totals->multiple_any > 0 || totals->extended > 0;
+    for (size_t l = 0; l < chain->count; l++)
+        opens = opens || chain->links[l].opens_axis;
+    const bool parts = chain->marks.parted_count > 0 && opens;
+    *planes = parts ? chain->marks.planes : chain->marks.owners ? chain->marks.parts : chain->marks.kept;
+    return totals->located + totals->extended > 0 &&
+           (totals->kept > 0 || parts ||
+            (chain->marks.owners && !(job->blocks_join && totals->extended == 0)) ||
+            (is_asked_for(job) && chain->count > 1));
 }
 
 /* Lists the hidden vertices, except in parts that repeat positions. *ranges is freed by the caller. */
@@ -69,10 +114,10 @@ static ffd_status list_hidden(const deform_job *job, vertex_range **ranges, size
     return FFD_OK;
 }
 
-static vertex_marks marks_of(const deform_job *job)
+/* The first planes of the marks. */
+static vertex_marks marks_of(const deform_job *job, size_t planes)
 {
-    return (vertex_marks){job->kept, ffd_kept_planes(ffd_chain_marked(&job->chain)),
-                          (size_t)ffd_mesh_vertex_count(job->document)};
+    return (vertex_marks){job->kept, planes, count_vertices(job)};
 }
 
 /* Reduces the marks to one byte a vertex: whether it stays and is visible, as in messages about vertices
@@ -80,11 +125,11 @@ static vertex_marks marks_of(const deform_job *job)
 static void mark_still(const deform_job *job)
 {
     const mesh_document *const document = job->document;
-    const vertex_marks marks = marks_of(job);
-    const size_t acting = ffd_chain_layers(&job->chain);
+    const vertex_marks bits = marks_of(job, job->chain.marks.kept);
+    const mark_planes marks = {job->kept, bits.vertices};
     size_t first = 0;
-    for (size_t v = ffd_marks_next(&marks, 0); v < marks.vertices; v = ffd_marks_next(&marks, v + 1))
-        job->kept[v] = !ffd_tear_takes_part(job->kept, marks.vertices, (uint32_t)v, acting);
+    for (size_t v = ffd_marks_next(&bits, 0); v < bits.vertices; v = ffd_marks_next(&bits, v + 1))
+        job->kept[v] = !ffd_marks_take_any(&marks, v, ffd_chain_layers(&job->chain));
     for (size_t i = 0; i < document->part_count; i++) {
         const mesh_part *const part = &document->parts[i];
         if (part->repeats_positions)
@@ -98,7 +143,7 @@ static void mark_still(const deform_job *job)
 /* Finds the name of the part that stays, and how many of its vertices do. */
 static void name_part(const deform_job *job, ffd_job_result *result)
 {
-    const vertex_marks still = {job->kept, 1, (size_t)ffd_mesh_vertex_count(job->document)};
+    const vertex_marks still = marks_of(job, 1);
     const mesh_format *const format = job->document->format;
     mark_still(job);
     if (format->name_part)
@@ -111,69 +156,79 @@ static void name_part(const deform_job *job, ffd_job_result *result)
         result->tear_stays++;
 }
 
-static void fill_result(const deform_job *job, const tear_question *question, const tear_count *count,
+/* How many evaluations the edges may take. */
+static long long most_evaluations(const deform_job *job)
+{
+    return is_asked_for(job)
+               ? LLONG_MAX
+               : (long long)(SHARE_OF_SEARCH * (double)job->totals.evaluations + FREE_EVALUATIONS);
+}
+
+/* has_all: count is of all edges. */
+static void fill_result(const deform_job *job, const mesh_faces *faces, const tear_count *count, bool has_all,
                         ffd_job_result *result)
 {
-    const bool blocks = job->chain.blocks, torn = count->edges > 0;
-    const mesh_faces *const faces = question->faces;
-    result->has_tear = true;
+    const bool torn = count->edges > 0;
+    result->has_tear = has_all;
     result->tear_edges = count->edges;
     result->tear_largest = count->largest;
     result->tear_vertex = torn ? ffd_faces_number(faces, count->vertex) : count->vertex;
-    result->tear_unselected = torn && count->mode == TEAR_UNMOVABLE;
-    result->tear_between =
-        torn && count->mode == TEAR_BORDER &&
-        ffd_tear_takes_part(question->marks, faces->vertex_count, count->vertex, question->acting);
-    result->tear_seam = torn && count->mode >= ffd_tear_seams(&job->chain);
-    result->tear_disagrees = torn && blocks && count->mode == TEAR_DISAGREES;
+    result->tear_cause = count->cause;
+    result->tear_unselected = count->cause == FFD_TEAR_UNSELECTED;
+    result->tear_between = count->cause == FFD_TEAR_LATTICES;
+    result->tear_seam = count->cause == FFD_TEAR_SEAM;
+    result->tear_disagrees = count->cause == FFD_TEAR_BLOCKS;
     if (torn)
         name_part(job, result);
 }
 
 /* marks: of the vertices of faces. */
 static ffd_status count_marked(const deform_job *job, const mesh_faces *faces, uint8_t *marks,
-                               const memory_budget *budget, ffd_job_result *result, ffd_error *error)
+                               const figure_arrays *arrays, const memory_budget *budget,
+                               ffd_job_result *result, ffd_error *error)
 {
     tear_count count;
     vertex_range *hidden = NULL;
-    tear_question question = {.faces = faces,
+    tear_question question = {.mesh = {.faces = faces,
+                                       .chain = &job->chain,
+                                       .marks = {marks, faces->vertex_count},
+                                       .stays = job->totals.kept > 0,
+                                       .passes = is_asked_for(job) && job->chain.count > 1,
+                                       .deformed = arrays->deformed,
+                                       .gradients = arrays->gradients,
+                                       .budget = budget},
                               .marks = marks,
-                              .links = ffd_chain_marked(&job->chain),
-                              .acting = ffd_chain_layers(&job->chain),
-                              .lone = ffd_tear_seams(&job->chain),
-                              .step = ffd_tear_steps_find,
-                              .context = ffd_tear_steps_make(&job->chain, job->document, faces, marks),
                               .torn = job->details ? &job->details->tears : NULL,
-                              .budget = budget};
-    ffd_status status =
-        question.context ? list_hidden(job, &hidden, &question.hidden_count, error) : ffd_fail_memory(error);
-    question.hidden = hidden;
-    if (!status)
-        status = ffd_tears_count(&question, &count, error);
-    if (!status)
-        fill_result(job, &question, &count, result);
-    ffd_tear_steps_free(question.context);
+                              .threads = job->threads,
+                              .most = most_evaluations(job)};
+    ffd_status status = list_hidden(job, &hidden, &question.mesh.hidden_count, error);
+    question.mesh.hidden = hidden;
+    if (status)
+        return status;
+    status = ffd_tears_count(&question, &count, error);
+    if (!status || status == FFD_E_LIMIT)
+        fill_result(job, faces, &count, !status, result);
     ffd_free(hidden);
     return status;
 }
 
-static ffd_status count_torn(const deform_job *job, const mesh_faces *faces, const memory_budget *budget,
-                             ffd_job_result *result, ffd_error *error)
+static ffd_status count_torn(const deform_job *job, const mesh_faces *faces, const figure_arrays *arrays,
+                             const memory_budget *budget, ffd_job_result *result, ffd_error *error)
 {
-    const vertex_marks all = marks_of(job);
-    const size_t count = faces->vertex_count;
+    const size_t planes = job->chain.marks.planes, vertices = count_vertices(job),
+                 count = faces->vertex_count;
     if (!faces->numbers)
-        return count_marked(job, faces, job->kept, budget, result, error);
-    ffd_status status = ffd_budget_check(budget, count, all.planes, error);
+        return count_marked(job, faces, job->kept, arrays, budget, result, error);
+    ffd_status status = ffd_budget_check(budget, count, planes, error);
     if (status)
         return status;
-    uint8_t *const marks = ffd_alloc(count, all.planes);
+    uint8_t *const marks = ffd_alloc(count, planes);
     if (!marks)
         return ffd_fail_memory(error);
-    for (size_t p = 0; p < all.planes; p++)
+    for (size_t p = 0; p < planes; p++)
         for (size_t v = 0; v < count; v++)
-            marks[p * count + v] = job->kept[p * all.vertices + faces->numbers[v]];
-    status = count_marked(job, faces, marks, budget, result, error);
+            marks[p * count + v] = job->kept[p * vertices + faces->numbers[v]];
+    status = count_marked(job, faces, marks, arrays, budget, result, error);
     ffd_free(marks);
     return status;
 }
@@ -182,27 +237,29 @@ static ffd_status count_torn(const deform_job *job, const mesh_faces *faces, con
    then all faces are read, not only those with mixed marks. */
 static bool some_may_not_move(const deform_job *job)
 {
-    const vertex_marks marks = marks_of(job);
+    const vertex_marks marks = marks_of(job, 1);
     unsigned any = 0;
     for (size_t v = ffd_marks_next(&marks, 0); v < marks.vertices; v = ffd_marks_next(&marks, v + 1))
         any |= job->kept[v];
     return any & KEPT_ALWAYS;
 }
 
-static ffd_status read_and_count(deform_job *job, const memory_budget *left, ffd_job_result *result,
-                                 ffd_error *error)
+/* planes: those in which the corners of faces have to differ. */
+static ffd_status read_and_count(deform_job *job, size_t planes, const figure_arrays *arrays,
+                                 ffd_job_result *result, ffd_error *error)
 {
     mesh_faces faces;
-    memory_budget budget = *left;
+    memory_budget budget = arrays->budget;
     const mesh_format *const format = job->document->format;
-    const vertex_marks marks = marks_of(job);
-    ffd_status status = some_may_not_move(job) ? format->faces(job->document, &faces, error)
-                                               : format->mixed_faces(job->document, &marks, &faces, error);
+    const vertex_marks marks = marks_of(job, planes);
+    const bool all = some_may_not_move(job) || (is_asked_for(job) && job->chain.count > 1);
+    ffd_status status = all ? format->faces(job->document, &faces, error)
+                            : format->mixed_faces(job->document, &marks, &faces, error);
     if (status)
         return status;
     status = ffd_mesh_faces_take(&faces, faces.start[faces.face_count], &budget, error);
     if (!status)
-        status = count_torn(job, &faces, &budget, result, error);
+        status = count_torn(job, &faces, arrays, &budget, result, error);
     ffd_mesh_faces_free(&faces);
     return status;
 }
@@ -210,32 +267,67 @@ static ffd_status read_and_count(deform_job *job, const memory_budget *left, ffd
 ffd_status ffd_tear_figures_find(deform_job *job, figure_arrays *arrays, ffd_job_result *result,
                                  ffd_error *error)
 {
-    const pass_totals *const totals = &job->totals;
     ffd_error own;
     char line[1024];
+    size_t planes;
     ffd_status status;
-    if (totals->kept == 0 || totals->located + totals->extended == 0) {
+    if (!may_tear(job, &planes)) {
         result->has_tear = true;
         return FFD_OK;
     }
     mark_left(job);
     if (arrays->has_faces)
-        return count_torn(job, &arrays->faces, &arrays->budget, result, error);
-    if (!is_asked_for(job) && ffd_mesh_vertex_count(job->document) > UNASKED_VERTICES)
+        return count_torn(job, &arrays->faces, arrays, &arrays->budget, result, error);
+    if (!is_asked_for(job) && count_vertices(job) > UNASKED_VERTICES)
         status =
             ffd_fail(&own, FFD_E_LIMIT, "more than %" PRIu64 " vertices (see --report)", UNASKED_VERTICES);
     else
-        status = read_and_count(job, &arrays->budget, result, &own);
+        status = read_and_count(job, planes, arrays, result, &own);
     if (status == FFD_OK)
         return FFD_OK;
-    if (job->desc->fail_on & FFD_GATE_TEAR || status == FFD_E_MEMORY) {
+    if (job->desc->fail_on & FFD_GATE_TEAR || status == FFD_E_MEMORY || ffd_deadline_passed()) {
         if (error)
             *error = own;
         return status;
     }
     ffd_error_format(&own, line, sizeof line);
-    ffd_log_line(&job->log, FFD_LOG_WARNING, "torn edges are not counted: %s", line);
+    ffd_log_line(&job->log, FFD_LOG_WARNING, "torn edges %sare not counted: %s",
+                 result->tear_edges > 0 ? "of which both ends move " : "", line);
     return FFD_OK;
+}
+
+/* What the lattices do where both ends of the edge move, and the remedy. */
+static const struct {
+    const char *text, *remedy;
+} causes[] = {
+    [FFD_TEAR_LATTICES] = {"the lattices move the two ends of edges differently",
+                           "see --blocks for lattices side by side, --outside extend, --falloff"},
+    [FFD_TEAR_BLOCKS] = {"neighbouring blocks move their common faces differently",
+                         "their control points there have to move alike"},
+    [FFD_TEAR_SEAM] = {"the two faces of a lattice's seam are moved apart",
+                       "their control points there have to move alike"},
+    [FFD_TEAR_AXIS] = {"control points at one place on a lattice's axis are moved apart",
+                       "they have to move alike"},
+    [FFD_TEAR_BORDER] = {"outside the lattice the nearest part of its border changes along edges",
+                         "see --falloff, a larger lattice"},
+    [FFD_TEAR_OVERLAP] = {"edges lead from one part of a lattice that overlaps itself to another",
+                          "two parts have one place at rest"},
+};
+
+/* The last vertex of a text about the step of an edge whose ends move. */
+static void describe_moving(const ffd_job_result *result, const char *name, char *text, size_t capacity)
+{
+    const char *what = causes[result->tear_cause].text;
+    char faces[100];
+    if (result->tear_cause == FFD_TEAR_BLOCKS && result->disagreeing) {
+        snprintf(faces, sizeof faces, "blocks move %" PRIu64 " %s on their faces differently",
+                 result->disagreeing, ffd_plural(result->disagreeing, "vertex", "vertices"));
+        what = faces;
+    }
+    snprintf(text, capacity,
+             "%s; the largest step to a neighbour is %g, at vertex %" PRIu64 "%s%s (%" PRIu64 " torn %s)",
+             what, result->tear_largest, result->tear_vertex, *name ? " of " : "", name, result->tear_edges,
+             ffd_plural(result->tear_edges, "edge", "edges"));
 }
 
 void ffd_tear_figures_describe(const ffd_job_result *result, char *text, size_t capacity)
@@ -244,27 +336,8 @@ void ffd_tear_figures_describe(const ffd_job_result *result, char *text, size_t 
     char name[201] = "";
     if (colon)
         ffd_name_shown(colon + 1, name, sizeof name);
-    if (result->tear_between) {
-        snprintf(
-            text, capacity,
-            "the lattices move the two ends of edges differently; the largest step to a neighbour is %g, "
-            "at vertex %" PRIu64 "%s%s (%" PRIu64 " torn %s)",
-            result->tear_largest, result->tear_vertex, colon ? " of " : "", name, result->tear_edges,
-            ffd_plural(result->tear_edges, "edge", "edges"));
-        return;
-    }
-    if (result->tear_disagrees) {
-        snprintf(text, capacity,
-                 "blocks move %" PRIu64 " %s on their faces differently; the largest step to a "
-                 "neighbour is %g",
-                 result->disagreeing, ffd_plural(result->disagreeing, "vertex", "vertices"),
-                 result->tear_largest);
-        return;
-    }
-    if (result->tear_seam) {
-        snprintf(text, capacity,
-                 "the two faces of a lattice's seam are moved apart; the largest step to a neighbour is %g",
-                 result->tear_largest);
+    if (result->tear_cause > FFD_TEAR_UNSELECTED) {
+        describe_moving(result, name, text, capacity);
         return;
     }
     snprintf(text, capacity, "%" PRIu64 " %s%s%s %s; the largest step to a neighbour is %g",
@@ -275,13 +348,12 @@ void ffd_tear_figures_describe(const ffd_job_result *result, char *text, size_t 
 void ffd_tear_figures_warn(const deform_job *job, const ffd_job_result *result)
 {
     char text[400];
-    const char *const remedy =
-        result->tear_disagrees || result->tear_seam ? "their control points there have to move alike"
-        : result->tear_between     ? "see --blocks for lattices side by side, --outside extend, --falloff"
-        : !result->tear_unselected ? "see --outside extend, --falloff, a larger lattice"
-        : job->desc->only_count    ? "--only does not select them"
-                                   : "the matrix of their node or skin has no inverse";
-    if (!result->has_tear || result->tear_edges == 0)
+    const char *const remedy = result->tear_cause > FFD_TEAR_UNSELECTED ? causes[result->tear_cause].remedy
+                               : result->tear_cause != FFD_TEAR_UNSELECTED
+                                   ? "see --outside extend, --falloff, a larger lattice"
+                               : job->desc->only_count ? "--only does not select them"
+                                                       : "the matrix of their node or skin has no inverse";
+    if (result->tear_edges == 0)
         return;
     ffd_tear_figures_describe(result, text, sizeof text);
     ffd_log_line(&job->log, FFD_LOG_WARNING, "%s (%s)", text, remedy);

@@ -4,12 +4,14 @@
 
 #include "job/judge/figures.h"
 
-/* Allocates job->kept, the marks for the pass. Errors: FFD_E_MEMORY. */
-ffd_status ffd_tear_figures_prepare(deform_job *job, ffd_error *error);
+/* Lays out the marks of the pass, and allocates them, job->kept. If no figures are wanted, but the
+   displacement outside may jump, also allocates arrays->deformed and arrays->gradients. Errors:
+   FFD_E_MEMORY. */
+ffd_status ffd_tear_figures_prepare(deform_job *job, figure_arrays *arrays, ffd_error *error);
 
-/* Counts the torn edges. Call it after the pass and before ffd_figures_faces. Does nothing if no vertex
-   stays, or all do. Without arrays->faces it reads the faces itself; if that fails it warns, unless a gate
-   needs the figures. */
+/* Counts the torn edges. Call it after the pass and before ffd_figures_faces. Does nothing where none can be
+   torn. Without arrays->faces it reads the faces itself; if that fails it warns, unless a gate needs the
+   figures. */
 ffd_status ffd_tear_figures_find(deform_job *job, figure_arrays *arrays, ffd_job_result *result,
                                  ffd_error *error);
 

@@ -25,10 +25,9 @@ typedef struct mesh_pass {
     bool is_located;
     bool bounds_shapes; /* fill totals.shapes: the bounds of morph targets and of the shape with default
                            weights */
-    bool bounds_shown;  /* for parts whose morph targets the pass visits: take bounds from the shape with
-                           default weights */
     bool counts_shapes; /* count morph targets too (a pass that writes always does) */
     bool write;         /* write positions to the document, after begin_results */
+    bool discards;      /* with write: compute and count the results, but leave those of the document alone */
     bool attributes;    /* write normals and tangents too */
     bool only_offsets;  /* with attributes: write those of morph targets only, not the base's */
     /* Output arrays, in the order of `ffd embed` (ffd_mesh_vertex_count), as mesh_faces numbers vertices. */
@@ -39,11 +38,12 @@ typedef struct mesh_pass {
     double *gradients; /* 9 a vertex, or NULL: F - I of the whole chain, row-major, in the lattice's space;
                           NaN likewise */
     bool determinants; /* find the range of det F for the totals */
-    /* Marks of vertices that stay (chain.h): ffd_kept_planes(ffd_chain_marked) planes of kept_stride bytes,
-       initially 0; or NULL. */
+    /* Marks of the vertices (job/chain/marks.h): chain->marks.planes planes of kept_stride bytes, initially
+       0; or NULL. */
     uint8_t *kept;
     size_t kept_stride;
     pass_bounds bounds_of;
+    struct chain_pace *pace; /* told by the calling thread; or NULL */
 } mesh_pass;
 
 #endif

@@ -1,12 +1,13 @@
 #include "job/pass/pass.h"
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include "base/system/thread.h"
 #include "base/vector/array_kernel.h"
 #include "base/vector/vec.h"
 #include "deform/attribute.h"
 #include "job/chain/chain_apply.h"
+#include "job/chain/marks.h"
 #include "job/chain/point_rounding.h"
-#include "job/chain/seams.h"
 #include "job/pass/pass_shapes.h"
 #include "job/pass/pass_splats.h"
 #include "job/pass/tile_totals.h"
@@ -35,6 +36,15 @@ static void fill_nan(double *values, size_t count)
         values[i] = NAN;
 }
 
+/* det F relative to the product of the lengths of F's rows: closer to 0 it may be the rounding of a collapse.
+ */
+#define COLLAPSE 1e-12
+
+static bool turns_over(const double f[9], double det)
+{
+    return det < 0 && det < -COLLAPSE * vec_length(f) * vec_length(f + 3) * vec_length(f + 6);
+}
+
 static void note_determinant(const double gradient[9], bool outside, size_t number, pass_totals *totals)
 {
     double f[9];
@@ -46,6 +56,13 @@ static void note_determinant(const double gradient[9], bool outside, size_t numb
     if (outside && det < totals->det_outside) {
         totals->det_outside = det;
         totals->first_det_outside = number;
+    }
+    if (outside || !turns_over(f, det))
+        return;
+    totals->inverted++;
+    if (det < totals->det_inverted) {
+        totals->det_inverted = det;
+        totals->first_inverted = number;
     }
 }
 
@@ -117,7 +134,7 @@ static void finish_positions(const part_work *work, tile_scratch *scratch, size_
         totals->moved += scratch->changed[i];
     if (unfit < count)
         totals->first_overflow = work->first_vertex + first + unfit;
-    if (pass->write)
+    if (ffd_pass_stores(pass))
         pass->document->format->write_positions(pass->document, work->part_number, first, count, scratch->raw,
                                                 scratch->changed);
 }
@@ -155,8 +172,9 @@ static void deform_normals(const part_work *work, tile_scratch *scratch, size_t 
         scratch->normals_changed[i] = selected && scratch->outcomes[i] == ATTRIBUTE_CARRIED;
         totals->normals_collapsed += selected && scratch->outcomes[i] == ATTRIBUTE_COLLAPSED;
     }
-    document->format->write_normals(document, work->part_number, from, batch.count, scratch->normals,
-                                    scratch->normals_changed);
+    if (ffd_pass_stores(work->pass))
+        document->format->write_normals(document, work->part_number, from, batch.count, scratch->normals,
+                                        scratch->normals_changed);
 }
 
 /* Deforms normals that are not one a vertex, in runs of at most a tile. */
@@ -188,7 +206,7 @@ static void deform_tangents(const part_work *work, tile_scratch *scratch, size_t
     ffd_deform_tangents(work->pass->chain->isa, &batch);
     for (size_t i = 0; i < count; i++)
         scratch->tangents_changed[i] = scratch->outcomes[i] == ATTRIBUTE_CARRIED;
-    if (work->pass->only_offsets)
+    if (work->pass->only_offsets || !ffd_pass_stores(work->pass))
         return;
     document->format->write_tangents(document, work->part_number, first, count, scratch->tangents,
                                      scratch->tangents_changed);
@@ -268,6 +286,7 @@ static void keep_locations(const part_work *work, const tile_scratch *scratch, s
 typedef struct tile_rounding {
     const part_work *work;
     const tile_scratch *scratch;
+    size_t first; /* the tile's first vertex in the part */
 } tile_rounding;
 
 static void find_rounding(const void *context, size_t point, bool is_first, const double x[3], double half[3])
@@ -279,7 +298,7 @@ static void find_rounding(const void *context, size_t point, bool is_first, cons
     memcpy(position, tile->scratch->raw + 3 * i, sizeof position);
     if (!is_first)
         ffd_vertex_in_file(&transform, x, position);
-    ffd_rounding_cell(&tile->work->part->rounding, position, half);
+    ffd_vertex_cell(tile->work->pass->document, tile->work->part_number, tile->first + i, position, half);
     ffd_vertex_rounding_place(&transform, half);
 }
 
@@ -308,24 +327,12 @@ static void mark_always(const mesh_pass *pass, size_t vertex, pass_totals *total
     totals->kept++;
 }
 
-/* Marks the vertices of a tile that are not selected, or whose transform is singular. Copies the chain's
-   marks to the caller's (keeps: there are some), and clears them. */
-static void mark_kept(const part_work *work, tile_scratch *scratch, size_t first, size_t count, bool keeps,
-                      pass_totals *totals)
+/* Adds the bits of the chosen vertices to the caller's, and clears them. */
+static void add_bits(const mesh_pass *pass, tile_scratch *scratch, size_t before, pass_totals *totals)
 {
-    const mesh_pass *const pass = work->pass;
-    const size_t before = (size_t)work->first_vertex + first;
-    const size_t planes = ffd_kept_planes(ffd_chain_marked(pass->chain));
-    if (work->part->singular || work->part->skinned)
-        for (size_t i = 0; i < count; i++)
-            if (ffd_vertex_transform_of(&scratch->transforms, i).singular)
-                mark_always(pass, before + i, totals);
-    for (size_t i = 0; i < count && !scratch->all_chosen; i++)
-        if (!ffd_part_selects(work->part, first + i))
-            mark_always(pass, before + i, totals);
-    for (size_t i = 0; i < scratch->chosen_count && keeps; i++) {
+    for (size_t i = 0; i < scratch->chosen_count; i++) {
         unsigned any = 0;
-        for (size_t p = 0; p < planes; p++) {
+        for (size_t p = 0; p < pass->chain->marks.kept; p++) {
             uint8_t *const mark = &scratch->kept[p * CHAIN_RUN + i];
             pass->kept[p * pass->kept_stride + before + ffd_tile_chosen(scratch, i)] |= *mark;
             any |= *mark;
@@ -333,6 +340,37 @@ static void mark_kept(const part_work *work, tile_scratch *scratch, size_t first
         }
         totals->kept += any != 0;
     }
+}
+
+/* Copies a plane of other marks of the chosen vertices to the caller's. */
+static void copy_plane(const mesh_pass *pass, const tile_scratch *scratch, size_t before, size_t plane)
+{
+    const uint8_t *const from = scratch->kept + plane * CHAIN_RUN;
+    uint8_t *const to = pass->kept + plane * pass->kept_stride + before;
+    if (scratch->all_chosen)
+        memcpy(to, from, scratch->chosen_count);
+    for (size_t i = 0; i < scratch->chosen_count && !scratch->all_chosen; i++)
+        to[scratch->chosen[i]] = from[i];
+}
+
+/* Marks the vertices of a tile that are not selected, or whose transform is singular. Copies the chain's
+   marks to the caller's (keeps: there are bits). */
+static void mark_kept(const part_work *work, tile_scratch *scratch, size_t first, size_t count, bool keeps,
+                      pass_totals *totals)
+{
+    const mesh_pass *const pass = work->pass;
+    const size_t before = (size_t)work->first_vertex + first;
+    if (work->part->singular || work->part->skinned)
+        for (size_t i = 0; i < count; i++)
+            if (ffd_vertex_transform_of(&scratch->transforms, i).singular)
+                mark_always(pass, before + i, totals);
+    for (size_t i = 0; i < count && !scratch->all_chosen; i++)
+        if (!ffd_part_selects(work->part, first + i))
+            mark_always(pass, before + i, totals);
+    if (keeps)
+        add_bits(pass, scratch, before, totals);
+    for (size_t p = pass->chain->marks.kept; p < pass->chain->marks.planes; p++)
+        copy_plane(pass, scratch, before, p);
 }
 
 /* Moves the results of the selected vertices back to their slots in the tile; the others get no
@@ -379,7 +417,7 @@ static ffd_status deform_points(part_work *work, tile_scratch *scratch, size_t f
 {
     const mesh_pass *pass = work->pass;
     const bool counts = !work->part->repeats_positions;
-    const tile_rounding tile_of = {work, scratch};
+    const tile_rounding tile_of = {work, scratch, first};
     const chain_rounding cells = {find_rounding, &tile_of};
     const chain_rounding *const rounding = ffd_rounding_is_none(&work->part->rounding) ? NULL : &cells;
     chain_run run = {.x = scratch->position,
@@ -387,6 +425,7 @@ static ffd_status deform_points(part_work *work, tile_scratch *scratch, size_t f
                      .located = recall(work, scratch, first, rounding, totals),
                      .rounding = rounding,
                      .scratch = &scratch->chain,
+                     .pace = scratch == work->scratch ? pass->pace : NULL,
                      .delta = scratch->delta,
                      .gradient = gradients ? scratch->gradient : NULL,
                      .outcomes = scratch->point_outcomes,
@@ -426,7 +465,9 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
     if (atomic_load(&work->stopped))
         return;
     take_points(work, scratch, first, count, totals);
-    scratch->status = deform_points(work, scratch, first, count, gradients, totals);
+    scratch->status = ffd_deadline_check(&scratch->error);
+    if (!scratch->status)
+        scratch->status = deform_points(work, scratch, first, count, gradients, totals);
     if (scratch->status) {
         atomic_store(&work->stopped, true);
         return;
@@ -556,7 +597,7 @@ static tile_scratch *make_scratch(const mesh_pass *pass, int workers)
         if (splats)
             scratch[i].splat = ffd_alloc(1, sizeof *scratch[i].splat);
         if (pass->kept)
-            scratch[i].kept = ffd_alloc_zero(ffd_kept_planes(ffd_chain_marked(pass->chain)), CHAIN_RUN);
+            scratch[i].kept = ffd_alloc_zero(pass->chain->marks.planes, CHAIN_RUN);
         if ((shapes && !scratch[i].shape) || (splats && !scratch[i].splat) ||
             (pass->kept && !scratch[i].kept)) {
             free_scratch(scratch, workers);

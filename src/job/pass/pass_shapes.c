@@ -18,7 +18,6 @@ typedef struct shape_work {
     tile_scratch *tile;
     shape_scratch *scratch;
     size_t shape, first, count;
-    bool is_shown; /* this shape is the one that the default weights show */
     pass_totals *totals;
 } shape_work;
 
@@ -188,9 +187,9 @@ static ffd_status send_moved(const shape_work *work, bool gradients, ffd_error *
         if (gradients)
             ffd_gradient_to_file(&transform, s->moved_gradient + 9 * k);
         s->gradients[i] = s->moved_gradient + 9 * k;
-        if (s->moved_outcomes[k].outside && ffd_part_shows(work->part->part, work->first + i)) {
-            work->totals->shapes_outside += work->shape != SHOWN;
-            work->totals->shown_outside += work->is_shown;
+        if (work->shape != SHOWN && s->moved_outcomes[k].outside &&
+            ffd_part_shows(work->part->part, work->first + i)) {
+            work->totals->shapes_outside++;
             note_first(&work->totals->first_shape_outside, number_of(work, i));
         }
     }
@@ -302,45 +301,16 @@ static void widen_shapes(const shape_work *work)
             ffd_bounds_widen(&work->totals->shapes, s->position + 3 * k);
 }
 
-/* Widens the box by the selected vertices of the shape: moved ones at their current position, others at rest
-   or deformed. */
-static void widen_shown(const shape_work *work, bool deformed, ffd_bounds *box)
-{
-    const shape_scratch *const s = work->scratch;
-    const mesh_part *const part = work->part->part;
-    size_t k = 0;
-    for (size_t i = 0; i < work->count && !part->hidden; i++) {
-        const bool moved = k < s->moved_count && s->moved[k] == i;
-        const vertex_transform transform = ffd_vertex_transform_of(&work->tile->transforms, i);
-        double place[3];
-        memcpy(place,
-               moved      ? s->position + 3 * k
-               : deformed ? work->tile->position + 3 * i
-                          : s->base + 3 * i,
-               sizeof place);
-        if (!moved && !deformed)
-            ffd_vertex_transform_point(&transform, place);
-        if (ffd_part_selects(part, work->first + i) && vec_is_finite(place))
-            ffd_bounds_widen(box, place);
-        k += moved;
-    }
-}
-
 /* Sends the vertices that the shape moves through the chain, and counts them. */
 static ffd_status place_shape(const shape_work *work, bool gradients, ffd_error *error)
 {
     const mesh_pass *const pass = work->part->pass;
     const mesh_document *document = pass->document;
-    const bool widens = work->is_shown && ffd_pass_bounds_shown(pass, work->part->part);
     read_position_offsets(work);
     document->format->read_positions(document, work->part->part_number, work->first, work->count,
                                      work->scratch->base);
     place_moved(work);
-    if (widens)
-        widen_shown(work, false, &work->totals->before);
     const ffd_status status = send_moved(work, gradients, error);
-    if (!status && widens)
-        widen_shown(work, true, &work->totals->after);
     if (!status && pass->bounds_shapes)
         widen_shapes(work);
     return status;
@@ -367,8 +337,9 @@ static ffd_status deform_shape(const shape_work *work, ffd_error *error)
     return FFD_OK;
 }
 
-/* Returns the target that default weights show alone and in full, or SHOWN. */
-static size_t find_shown(const mesh_part *part)
+/* Whether default weights show something else than the base and the targets. Only boxes have to go round it:
+   figures of it come from a pass of its own (mesh_document.shown). */
+static bool wants_shown(const mesh_pass *pass, const mesh_part *part)
 {
     size_t shown = 0, last = 0;
     for (size_t k = 0; k < part->shape_count; k++)
@@ -376,19 +347,16 @@ static size_t find_shown(const mesh_part *part)
             shown++;
             last = k;
         }
-    return shown == 1 && part->shapes[last].weight == 1 ? last : SHOWN;
+    return pass->bounds_shapes && part->shows_shapes && !(shown == 1 && part->shapes[last].weight == 1);
 }
 
 void ffd_tile_shapes(part_work *part, tile_scratch *scratch, size_t first, size_t count, pass_totals *totals)
 {
-    const bool shows = part->part->shows_shapes;
-    const size_t shown = find_shown(part->part);
-    for (size_t k = 0; k < part->part->shape_count && !scratch->status; k++) {
-        const shape_work work = {part, scratch, scratch->shape, k, first, count, shows && shown == k, totals};
+    shape_work work = {part, scratch, scratch->shape, 0, first, count, totals};
+    for (; work.shape < part->part->shape_count && !scratch->status; work.shape++)
         scratch->status = deform_shape(&work, &scratch->error);
-    }
-    if (!scratch->status && shows && shown == SHOWN) {
-        const shape_work work = {part, scratch, scratch->shape, SHOWN, first, count, true, totals};
+    if (!scratch->status && wants_shown(part->pass, part->part)) {
+        work.shape = SHOWN;
         scratch->status = deform_shape(&work, &scratch->error);
     }
     if (scratch->status)

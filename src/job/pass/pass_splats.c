@@ -28,6 +28,7 @@ void ffd_tile_splats(const part_work *work, tile_scratch *scratch, size_t first,
         totals->splats_flattened += outcome == SPLAT_FLATTENED;
         totals->splats_broken += outcome == SPLAT_BROKEN && scratch->changed[i];
     }
-    document->format->write_splats(document, work->part_number, first, count, tile->splats, tile->turns,
-                                   tile->changed);
+    if (ffd_pass_stores(work->pass))
+        document->format->write_splats(document, work->part_number, first, count, tile->splats, tile->turns,
+                                       tile->changed);
 }

@@ -8,11 +8,11 @@ void ffd_totals_clear(pass_totals *totals)
     memset(totals, 0, sizeof *totals);
     totals->before = totals->after = totals->shapes = ffd_bounds_empty();
     totals->first_outside = totals->first_invalid = totals->first_overflow = UINT64_MAX;
-    totals->first_shape_outside = UINT64_MAX;
+    totals->first_shape_outside = totals->first_weighted_outside = totals->first_base_outside = UINT64_MAX;
     totals->first_missed = UINT64_MAX;
     totals->first_unshown_outside = UINT64_MAX;
-    totals->first_det_outside = UINT64_MAX;
-    totals->det_min = totals->det_outside = HUGE_VAL;
+    totals->first_det_outside = totals->first_inverted = UINT64_MAX;
+    totals->det_min = totals->det_outside = totals->det_inverted = HUGE_VAL;
     totals->det_max = -HUGE_VAL;
 }
 
@@ -66,7 +66,8 @@ void ffd_totals_join(const pass_totals *tile, pass_totals *all)
         all->missed_by = tile->missed_by;
     }
     all->shapes_outside += tile->shapes_outside;
-    all->shown_outside += tile->shown_outside;
+    all->weighted_outside += tile->weighted_outside;
+    all->first_weighted_outside = least(all->first_weighted_outside, tile->first_weighted_outside);
     all->first_shape_outside = least(all->first_shape_outside, tile->first_shape_outside);
     all->shapes_invalid += tile->shapes_invalid;
     all->normals_collapsed += tile->normals_collapsed;
@@ -82,10 +83,31 @@ void ffd_totals_join(const pass_totals *tile, pass_totals *all)
         all->det_outside = tile->det_outside;
         all->first_det_outside = tile->first_det_outside;
     }
+    all->inverted += tile->inverted;
+    if (tile->det_inverted < all->det_inverted) { /* likewise */
+        all->det_inverted = tile->det_inverted;
+        all->first_inverted = tile->first_inverted;
+    }
     all->det_min = fmin(all->det_min, tile->det_min);
     all->det_max = fmax(all->det_max, tile->det_max);
     all->embed_seconds += tile->embed_seconds;
     all->deform_seconds += tile->deform_seconds;
+}
+
+void ffd_totals_add_stored(const pass_totals *stored, bool written, pass_totals *shown)
+{
+    shown->of_shown = true;
+    shown->base_outside = stored->weighted_outside;
+    shown->first_base_outside = stored->first_weighted_outside;
+    shown->shapes_outside = stored->shapes_outside;
+    shown->first_shape_outside = stored->first_shape_outside;
+    shown->shapes_invalid = stored->shapes_invalid;
+    shown->first_missed = stored->first_missed;
+    shown->missed_by = stored->missed_by;
+    if (written)
+        shown->first_overflow = least(shown->first_overflow, stored->first_overflow);
+    shown->embed_seconds += stored->embed_seconds;
+    shown->deform_seconds += stored->deform_seconds;
 }
 
 void ffd_totals_note_splats(pass_totals *totals, size_t part, uint64_t moved)

@@ -27,8 +27,12 @@ typedef struct pass_totals {
     uint64_t first_missed;        /* vertex for which an embedding's u,v,w are wrong; UINT64_MAX: none */
     double missed_by;             /* distance from the vertex to the point at u,v,w, world units */
     uint64_t shapes_outside;      /* vertices that a morph target moves to a position outside of a lattice */
-    uint64_t shown_outside;       /* likewise for the shape with default weights */
     uint64_t first_shape_outside; /* vertex number; UINT64_MAX: none */
+    /* Those of outside_all in parts whose default weights show another shape than the base. */
+    uint64_t weighted_outside, first_weighted_outside;
+    /* The same of the base, if the other figures are of the shape shown (ffd_totals_add_stored). */
+    uint64_t base_outside, first_base_outside;
+    bool of_shown;           /* they are */
     uint64_t shapes_invalid; /* finite vertices that a morph target moves to a position that is not finite */
     uint64_t extended;       /* vertices of status outside that are displaced like the border, */
     uint64_t extended_moved; /* and those of them that this moves */
@@ -44,6 +48,10 @@ typedef struct pass_totals {
     int splat_part_count;
     double det_outside;         /* the smallest det F of extended vertices, like det_min; else infinite */
     uint64_t first_det_outside; /* the first such vertex */
+    /* Vertices in a lattice with det F < 0, beyond rounding, the first of them, and their least det F;
+     * likewise. */
+    uint64_t inverted, first_inverted;
+    double det_inverted;
     double det_min, det_max; /* range of det F over non-singular vertices that a link moves, if wanted; empty:
                                 min > max */
     /* Vertices that are not simply inside and not visible (used by no face, line or point, or of hidden
@@ -61,6 +69,10 @@ void ffd_totals_clear(pass_totals *totals);
 /* Records the number of moved vertices in a part whose splats do not follow. Call it in the order of
    parts. */
 void ffd_totals_note_splats(pass_totals *totals, size_t part, uint64_t moved);
+
+/* Adds what concerns the stored shapes, base and morph targets, to the figures of the shape that default
+   weights show. written: the results of the stored ones go to the file. */
+void ffd_totals_add_stored(const pass_totals *stored, bool written, pass_totals *shown);
 
 /* Adds the figures of a tile. Tiles must be added in order. */
 void ffd_totals_join(const pass_totals *tile, pass_totals *all);

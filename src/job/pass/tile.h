@@ -49,7 +49,7 @@ typedef struct tile_scratch {
     uint8_t normals_changed[PASS_TILE], tangents_changed[PASS_TILE];
     uint32_t of_points[PASS_TILE]; /* points that normals belong to, if not one a vertex */
     uint8_t outcomes[PASS_TILE];   /* ATTRIBUTE_.. of each normal or tangent */
-    uint8_t *kept;                 /* marks of the chain, all 0 between tiles; NULL if not wanted */
+    uint8_t *kept;                 /* marks of the chain, bits 0 between tiles; NULL if not wanted */
     shape_scratch *shape;          /* NULL if the document has no morph targets */
     splat_scratch *splat;          /* NULL if no splats follow */
     ffd_status status;             /* of the first tile of this worker that failed, with its message */
@@ -81,10 +81,10 @@ static inline bool ffd_pass_takes_splats(const mesh_pass *pass, const mesh_part 
            !pass->document->keeps_base && !pass->document->converted;
 }
 
-/* Whether the bounds of a part are those of its shape with default weights instead of its vertices. */
-static inline bool ffd_pass_bounds_shown(const mesh_pass *pass, const mesh_part *part)
+/* Whether the results go to the document. */
+static inline bool ffd_pass_stores(const mesh_pass *pass)
 {
-    return pass->bounds_shown && part->shows_shapes && ffd_pass_takes_shapes(pass, part);
+    return pass->write && !pass->discards;
 }
 
 /* Returns the index in the tile of chosen vertex i. */

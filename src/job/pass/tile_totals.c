@@ -28,7 +28,7 @@ static bool widen_chosen(const part_work *work, const tile_scratch *scratch, siz
     const pass_bounds of = work->pass->bounds_of;
     const mesh_part *const part = work->part;
     ffd_bounds others = ffd_bounds_empty();
-    const bool left_out = (part->hidden && of != PASS_BOUNDS_ALL) || ffd_pass_bounds_shown(work->pass, part);
+    const bool left_out = part->hidden && of != PASS_BOUNDS_ALL;
     ffd_bounds *const wanted = left_out ? &others : box;
     if (!part->used || of != PASS_BOUNDS_SHOWN)
         return widen_all(work, scratch->position, scratch->chosen_count, wanted);
@@ -82,13 +82,17 @@ static bool note_other(const point_outcome *outcome, const double delta[3], size
     return true;
 }
 
-static void count_other(unsigned other, uint64_t number, pass_totals *totals)
+static void count_other(const mesh_part *part, unsigned other, uint64_t number, pass_totals *totals)
 {
     const unsigned status = other & OTHER_STATUS;
     totals->counts[status]++;
     if (other & OTHER_OUTSIDE) {
         totals->outside_all++;
         totals->first_outside = least(totals->first_outside, number);
+    }
+    if (other & OTHER_OUTSIDE && part->shows_shapes) {
+        totals->weighted_outside++;
+        totals->first_weighted_outside = least(totals->first_weighted_outside, number);
     }
     if (status == FFD_OUTSIDE && other & OTHER_EXTENDED) {
         totals->extended++;
@@ -119,7 +123,7 @@ void ffd_totals_count_others(const part_work *work, size_t first, size_t count, 
     for (size_t i = 0; i < count && totals->others; i++) {
         const uint64_t number = work->first_vertex + first + i;
         if (totals->others[i] && counts(work->part, first + i, totals->others[i]))
-            count_other(totals->others[i], number, totals);
+            count_other(work->part, totals->others[i], number, totals);
         else if (totals->others[i])
             count_unshown(totals->others[i], work->part->hidden, number, totals);
     }

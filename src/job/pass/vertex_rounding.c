@@ -1,6 +1,7 @@
 #include "job/pass/vertex_rounding.h"
 #include "base/lower_bound.h"
 #include "base/memory/memory.h"
+#include <math.h>
 #include <string.h>
 
 void ffd_vertex_in_file(const vertex_transform *transform, const double x[3], double position[3])
@@ -11,6 +12,29 @@ void ffd_vertex_in_file(const vertex_transform *transform, const double x[3], do
     for (int a = 0; a < 3; a++)
         position[a] -= transform->offset[a];
     mat_apply(transform->inverse, position, position);
+}
+
+void ffd_vertex_cell(const mesh_document *document, size_t part, size_t vertex, const double position[3],
+                     double half[3])
+{
+    const mesh_part *const p = &document->parts[part];
+    double stored[3], all[3] = {0, 0, 0};
+    memcpy(stored, position, sizeof stored);
+    for (size_t k = 0; k < p->shape_count && document->shown; k++) {
+        const mesh_shape *const shape = &p->shapes[k];
+        double offset[3], cell[3];
+        if (shape->weight == 0 || !shape->has[MESH_POSITIONS])
+            continue;
+        document->format->read_offsets(document, part, k, MESH_POSITIONS, vertex, 1, offset);
+        ffd_rounding_cell(&shape->rounding, offset, cell);
+        for (int a = 0; a < 3; a++) {
+            stored[a] -= shape->weight * offset[a];
+            all[a] += fabs(shape->weight) * cell[a];
+        }
+    }
+    ffd_rounding_cell(&p->rounding, stored, half);
+    for (int a = 0; a < 3; a++)
+        half[a] += all[a];
 }
 
 void ffd_vertex_rounding_place(const vertex_transform *transform, double half[3])
@@ -72,6 +96,6 @@ void ffd_vertex_rounding(const vertex_owners *owners, size_t vertex, const doubl
     document->format->read_positions(document, part, i, 1, position);
     if (x)
         ffd_vertex_in_file(&transform, x, position);
-    ffd_rounding_cell(&document->parts[part].rounding, position, half);
+    ffd_vertex_cell(document, part, i, position, half);
     ffd_vertex_rounding_place(&transform, half);
 }

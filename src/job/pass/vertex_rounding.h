@@ -7,6 +7,12 @@
 /* Transforms a point of the lattice's space to the file's; an approximation if the transform is singular. */
 void ffd_vertex_in_file(const vertex_transform *transform, const double x[3], double position[3]);
 
+/* Fills half the extents of the rounding cell of a vertex of a part at a position, in the file's space. Of a
+   position that default weights show (document->shown) it is the sum of those of the stored position and of
+   the offsets. */
+void ffd_vertex_cell(const mesh_document *document, size_t part, size_t vertex, const double position[3],
+                     double half[3]);
+
 /* Transforms half extents of a rounding cell from the file's space to the lattice's, in place. */
 void ffd_vertex_rounding_place(const vertex_transform *transform, double half[3]);
 

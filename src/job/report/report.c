@@ -215,6 +215,8 @@ static void write_left(json_text *json, const ffd_job_result *result)
         ffd_json_count(json, "indices_left", result->indices_left);
     if (result->bytes_left)
         ffd_json_count(json, "bytes_left", result->bytes_left);
+    if (result->bounds_left)
+        ffd_json_count(json, "bounds_left", result->bounds_left);
 }
 
 /* Vertices on faces that two lattices share. */
@@ -227,12 +229,15 @@ static void write_shared_faces(json_text *json, const ffd_job_result *result)
     ffd_json_end(json, '}');
 }
 
-/* Figures of morph targets that gates count separately. */
+/* Figures of stored shapes, which gates count separately; of the base only if default weights show another
+   shape. */
 static void write_targets(json_text *json, const ffd_job_result *result)
 {
     ffd_json_object(json, "morph_targets", true);
     ffd_json_count(json, "outside", result->targets_outside);
     ffd_json_count(json, "shown_outside", result->shown_outside);
+    if (result->base_outside)
+        ffd_json_count(json, "base_outside", result->base_outside);
     ffd_json_count(json, "invalid", result->targets_invalid);
     ffd_json_end(json, '}');
 }
@@ -257,6 +262,10 @@ static void write_rig(json_text *json, const ffd_rig_result *rig)
         ffd_json_count(json, "partial", rig->partial);
     if (rig->unscaled)
         ffd_json_count(json, "unscaled", rig->unscaled);
+    if (rig->unselected) {
+        ffd_json_count(json, "unselected", rig->unselected);
+        ffd_json_number(json, "unselected_by", rig->unselected_by);
+    }
     ffd_json_end(json, '}');
 }
 

@@ -9,8 +9,6 @@
 #define LAG_SAID 1e-3
 #define LAG_ROUNDING 1e-12
 
-#define OF_THE_RIG (PLACE_BIT(FFD_BEHIND_JOINT) | PLACE_BIT(FFD_BEHIND_PIVOT) | PLACE_BIT(FFD_BEHIND_SOCKET))
-
 double ffd_rig_diagonal(const ffd_bounds *box)
 {
     double sides[3];
@@ -43,14 +41,15 @@ static ffd_status name_worst(const mesh_document *document, size_t number, ffd_r
 }
 
 /* Marks the joints that lag. Returns the first place with the largest lag; SIZE_MAX: none lags. */
-static size_t measure(const rig_places *rig, double diagonal, ffd_rig_result *figures, uint8_t *lagging)
+static size_t measure(const rig_places *rig, unsigned counted, double diagonal, ffd_rig_result *figures,
+                      uint8_t *lagging)
 {
     size_t worst = SIZE_MAX;
     for (size_t i = 0; i < rig->places.count; i++) {
-        const unsigned kinds = rig->places.list[i].kinds;
-        const double lag = kinds & OF_THE_RIG ? ffd_rig_lag(&rig->moves[i], diagonal) : 0;
+        const unsigned kinds = rig->places.list[i].kinds & counted;
+        const double lag = kinds ? ffd_rig_lag(&rig->moves[i], diagonal) : 0;
         const bool is_joint = kinds & PLACE_BIT(FFD_BEHIND_JOINT);
-        figures->is_there = figures->is_there || kinds & OF_THE_RIG;
+        figures->is_there = figures->is_there || kinds;
         figures->joints += is_joint;
         figures->lagging_pivots += lag > 0 && kinds & PLACE_BIT(FFD_BEHIND_PIVOT);
         figures->lagging_sockets += lag > 0 && kinds & PLACE_BIT(FFD_BEHIND_SOCKET);
@@ -64,8 +63,8 @@ static size_t measure(const rig_places *rig, double diagonal, ffd_rig_result *fi
 }
 
 ffd_status ffd_rig_figures_find(const mesh_document *document, const rig_places *rig,
-                                const mesh_following *following, double diagonal, ffd_rig_result *figures,
-                                ffd_error *error)
+                                const mesh_following *following, unsigned kinds, double diagonal,
+                                ffd_rig_result *figures, ffd_error *error)
 {
     *figures = (ffd_rig_result){0};
     if (rig->places.count == 0)
@@ -74,19 +73,21 @@ ffd_status ffd_rig_figures_find(const mesh_document *document, const rig_places 
     if (!lagging)
         return ffd_fail_memory(error);
     ffd_status status = FFD_OK;
-    const size_t worst = measure(rig, diagonal, figures, lagging);
+    const size_t worst = measure(rig, kinds, diagonal, figures, lagging);
     figures->moved = following->written;
     figures->sheared = following->sheared;
     figures->singular = following->singular;
     figures->partial = following->partial;
     figures->unscaled = following->unscaled;
+    figures->unselected = following->unselected;
+    figures->unselected_by = following->unselected_by;
     figures->is_there =
         figures->is_there || figures->moved || figures->sheared || figures->singular || figures->partial;
     if (worst != SIZE_MAX) {
         status = name_worst(document, rig->places.list[worst].number, figures, error);
         if (status == FFD_OK)
             status = document->format->count_skins(document, &rig->places, lagging, &figures->lagging_skins,
-                                                   error);
+                                                   &figures->lagging_joints, error);
     }
     ffd_free(lagging);
     return status;
@@ -99,6 +100,8 @@ static void tell_lagging(const ffd_rig_result *figures, char *text, size_t capac
         uint64_t count;
         const char *before, *one, *many;
     } kinds[] = {{figures->lagging_skins, "the joints of ", "skin", "skins"},
+                 {figures->lagging_joints, "", "joint of a skin that is not used",
+                  "joints of skins that are not used"},
                  {figures->lagging_pivots, "", "animated pivot", "animated pivots"},
                  {figures->lagging_sockets, "", "socket", "sockets"}};
     size_t length = 0, left = 0;
@@ -117,21 +120,23 @@ static void tell_lagging(const ffd_rig_result *figures, char *text, size_t capac
     }
 }
 
-static void warn_of_lag(const ffd_rig_result *figures, const mesh_log *log)
+static void warn_of_lag(const ffd_rig_result *figures, bool morphed, const mesh_log *log)
 {
-    char lagging[200];
-    const uint64_t things = figures->lagging_pivots + figures->lagging_sockets;
+    char lagging[300];
+    const uint64_t things = figures->lagging_joints + figures->lagging_pivots + figures->lagging_sockets;
     const bool animates = figures->lagging_skins + figures->lagging_pivots > 0;
     tell_lagging(figures, lagging, sizeof lagging);
-    ffd_log_line(log, FFD_LOG_WARNING, "%s %s up to %g off the deformed mesh (%s)%s: see --rig", lagging,
+    ffd_log_line(log, FFD_LOG_WARNING, "%s %s up to %g off the %s (%s)%s%s", lagging,
                  figures->lagging_skins == 0 && things == 1 ? "lies" : "lie", figures->largest_lag,
-                 figures->worst, animates ? "; animations will turn it about the old places" : "");
+                 morphed ? "mesh that the morph target shows" : "deformed mesh", figures->worst,
+                 animates ? "; animations will turn it about the old places" : "",
+                 morphed ? "" : ": see --rig");
 }
 
-void ffd_rig_warn(const ffd_rig_result *figures, bool follows, double diagonal, const mesh_log *log)
+void ffd_rig_warn(const ffd_rig_result *figures, rig_change change, double diagonal, const mesh_log *log)
 {
-    if (!follows && figures->largest_lag > LAG_SAID * diagonal)
-        warn_of_lag(figures, log);
+    if (change != RIG_FOLLOWED && figures->largest_lag > LAG_SAID * diagonal)
+        warn_of_lag(figures, change == RIG_MORPHED, log);
     if (figures->sheared)
         ffd_log_line(
             log, FFD_LOG_WARNING, "%" PRIu64 " %s: a parent is scaled unevenly, and would shear %s",

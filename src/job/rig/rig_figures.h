@@ -8,13 +8,21 @@
    rounding. diagonal: of the scene. */
 double ffd_rig_lag(const mesh_place_move *move, double diagonal);
 
-/* Fills the figures from the places and the outcome of --rig follow. Errors: FFD_E_MEMORY. */
+/* Fills the figures from the places and the outcome of --rig follow. kinds: a set of PLACE_BIT, of the places
+   that count. Errors: FFD_E_MEMORY. */
 ffd_status ffd_rig_figures_find(const mesh_document *document, const rig_places *rig,
-                                const mesh_following *following, double diagonal, ffd_rig_result *figures,
-                                ffd_error *error);
+                                const mesh_following *following, unsigned kinds, double diagonal,
+                                ffd_rig_result *figures, ffd_error *error);
 
-/* Warns of lagging places. follows: the job used --rig follow, so any lag is left over. */
-void ffd_rig_warn(const ffd_rig_result *figures, bool follows, double diagonal, const mesh_log *log);
+/* The kinds of places that figures and warnings are about; those of a job that makes a morph target. */
+#define RIG_KINDS (PLACE_BIT(FFD_BEHIND_JOINT) | PLACE_BIT(FFD_BEHIND_PIVOT) | PLACE_BIT(FFD_BEHIND_SOCKET))
+#define RIG_KINDS_OF_MORPHS PLACE_BIT(FFD_BEHIND_JOINT)
+
+/* What the lag of a place is left from. */
+typedef enum rig_change { RIG_KEPT, RIG_FOLLOWED, RIG_MORPHED } rig_change;
+
+/* Warns of lagging places, unless they are what --rig follow could not move. */
+void ffd_rig_warn(const ffd_rig_result *figures, rig_change change, double diagonal, const mesh_log *log);
 
 /* Returns the diagonal of a box; 0 if it is empty. */
 double ffd_rig_diagonal(const ffd_bounds *box);

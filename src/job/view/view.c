@@ -5,6 +5,7 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/struct_size.h"
+#include "base/system/deadline.h"
 #include "base/text/words.h"
 #include "job/chain/chain_load.h"
 #include "job/deform_job.h"
@@ -93,7 +94,7 @@ static ffd_status check_desc(const view_work *work, ffd_error *error)
 /* Whether to show the shape with default weights of morph targets instead of the stored one. */
 static bool shows_shapes(const view_work *work, const mesh_document *document)
 {
-    return !work->desc->as_stored && ffd_mesh_shows_shapes(document);
+    return !work->job.stored && ffd_mesh_shows_shapes(document);
 }
 
 /* Reads the mesh in the shape that is shown. */
@@ -143,7 +144,7 @@ static ffd_status make_rigs(view_work *work, bool deformed, ffd_error *error)
                                  .deformed = deformed,
                                  .follows = deformed && desc->job->rig == FFD_RIG_FOLLOW,
                                  .gradients = work->details.gradients,
-                                 .shown = !desc->as_stored,
+                                 .shown = !work->job.stored,
                                  .before_name = ffd_source_name(&desc->job->input),
                                  .after_name = desc->deformed ? ffd_source_name(desc->deformed) : NULL,
                                  .animation = desc->animation,
@@ -180,6 +181,7 @@ static ffd_status check_mesh(const view_work *work, const ffd_source *source, me
 static ffd_status run_job(view_work *work, ffd_job_result *result, ffd_error *error)
 {
     deform_job *const job = &work->job;
+    job->stored = job->stored || job->desc->as_morph; /* it keeps the other targets */
     ffd_status status = ffd_deform_job_open(job, result, error);
     if (!status)
         status = check_mesh(work, &work->desc->job->input, job->document, error);
@@ -407,6 +409,7 @@ static ffd_status view(const ffd_view_desc *desc, ffd_job_result *result, ffd_er
     view_work work = {.desc = desc, .scene = {.animation = RIG_NONE}};
     ffd_error own;
     ffd_status status = ffd_deform_job_begin(&work.job, desc->job, true, result);
+    work.job.stored = desc->as_stored;
     if (!status) {
         status = run(&work, result, &own);
         if (status) {
@@ -471,8 +474,11 @@ ffd_status ffd_view_run(const ffd_view_desc *callers, ffd_job_result *callers_re
         status = ffd_deform_desc_take(desc.job, &job, &result.error);
     job.morph_results = NULL; /* only jobs that write fill these */
     desc.job = &job;
+    deadline own;
+    const deadline *const before = ffd_deadline_begin(&own, status ? 0 : job.timeout);
     if (!status)
         status = view_in_memory(&desc, &job, &result);
+    ffd_deadline_end(before);
     if (status && error)
         *error = result.error;
     result.status = status;

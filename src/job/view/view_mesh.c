@@ -143,6 +143,10 @@ ffd_status ffd_view_take_mesh(mesh_model *model, view_scene *scene, uint32_t **f
         take_lines(&t);
         take_vertices(model, scene);
         ffd_polygon_cut_warn(t.scratch.cutter.hurried, log);
+        if (model->features & MODEL_HAS_TEXTURES && scene->materials.count == 0)
+            ffd_log_line(log, FFD_LOG_WARNING, "the textures that the file names are not shown");
+        if (model->face_colours)
+            ffd_log_line(log, FFD_LOG_WARNING, "the colours of faces are not shown");
     }
     ffd_face_triangles_free(&t.scratch);
     *faces = t.faces;

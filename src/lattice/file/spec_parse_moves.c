@@ -38,14 +38,18 @@ static ffd_status read_range(json_cursor cursor, size_t size, size_t *first, siz
 /* Reads an index, an inclusive range [lo, hi], or "all". */
 static ffd_status read_indices(json_cursor cursor, size_t size, size_t *first, size_t *last)
 {
-    static const char *const names[] = {"all"};
     if (ffd_cursor_is(cursor, JSON_ARRAY))
         return read_range(cursor, size, first, last);
     if (ffd_cursor_is(cursor, JSON_STRING)) {
-        size_t index;
         *first = 0;
         *last = size - 1;
-        return ffd_json_read_word(cursor, names, COUNT_OF(names), &index);
+        if (!ffd_json_span_string_is(cursor.tree, cursor.value, "all"))
+            return ffd_cursor_fail(
+                cursor,
+                "is %s, not an index (0 is the first layer, -1 the last), a range [lo, hi] "
+                "or \"all\"",
+                ffd_json_describe(cursor).text);
+        return FFD_OK;
     }
     const ffd_status status = read_index(cursor, size, first);
     *last = *first;

@@ -51,12 +51,24 @@ static ffd_status read_placeholder(json_cursor cursor, uint32_t text, spec_place
     return status;
 }
 
-/* Makes a hash table of the parameters' names, which are distinct, for fast lookup in a file of any size. */
-static ffd_status list_names(const json_file *file, const lattice_spec *spec, intern_table *names)
+/* Makes hash tables of the names of settings and of those of parameters, which are distinct, for fast lookup
+   in a file of any size. */
+static ffd_status list_names(const json_file *file, const spec_settings *settings, const lattice_spec *spec,
+                             spec_values *values)
 {
     uint32_t number;
+    values->settings = ffd_alloc(settings->count, sizeof *values->settings);
+    if (!values->settings)
+        return ffd_fail_memory(file->error);
+    for (size_t i = 0; i < settings->count; i++) {
+        const size_t known = values->set.count;
+        if (!ffd_intern(&values->set, settings->values[i].name, strlen(settings->values[i].name), &number))
+            return ffd_fail_memory(file->error);
+        if (number == known)
+            values->settings[number] = i;
+    }
     for (size_t i = 0; i < spec->parameter_count; i++)
-        if (!ffd_intern(names, spec->parameters[i].name, strlen(spec->parameters[i].name), &number))
+        if (!ffd_intern(&values->names, spec->parameters[i].name, strlen(spec->parameters[i].name), &number))
             return ffd_fail_memory(file->error);
     return FFD_OK;
 }
@@ -72,14 +84,14 @@ static const spec_parameter *find_parameter(const char *name, const lattice_spec
 /* Returns the text of the value for a name, from a setting or else from the parameter's default; NULL if
    there is none. *number is its index in spec_values. */
 static const char *find_text(const char *name, const spec_settings *settings, const lattice_spec *spec,
-                             const spec_parameter *parameter, size_t *number)
+                             const spec_values *values, const spec_parameter *parameter, size_t *number)
 {
-    for (size_t i = 0; i < settings->count; i++)
-        if (strcmp(settings->values[i].name, name) == 0) {
-            *number = i;
-            settings->used[i] = true;
-            return settings->values[i].value;
-        }
+    uint32_t known;
+    if (ffd_intern_find(&values->set, name, strlen(name), &known)) {
+        *number = values->settings[known];
+        settings->used[*number] = true;
+        return settings->values[*number].value;
+    }
     if (!parameter || !parameter->value)
         return NULL;
     *number = settings->count + (size_t)(parameter - spec->parameters);
@@ -92,7 +104,7 @@ static ffd_status find_value(const spec_placeholder *placeholder, const spec_set
 {
     const spec_parameter *const parameter = find_parameter(placeholder->name, spec, values);
     size_t number;
-    const char *const text = find_text(placeholder->name, settings, spec, parameter, &number);
+    const char *const text = find_text(placeholder->name, settings, spec, values, parameter, &number);
     if (!text)
         return FFD_OK;
     json_setting *const value = &values->values[number];
@@ -230,7 +242,7 @@ ffd_status ffd_spec_set(json_file *file, uint32_t moves, const spec_settings *se
 {
     const json_span *const tree = file->tree;
     const uint32_t end = moves == JSON_NONE ? 0 : tree->values[moves].next;
-    ffd_status status = list_names(file, spec, &values->names);
+    ffd_status status = list_names(file, settings, spec, values);
     uint32_t first_open = JSON_NONE;
     values->count = settings->count + spec->parameter_count;
     values->values = ffd_alloc_zero(values->count, sizeof *values->values);
@@ -267,5 +279,7 @@ void ffd_spec_values_free(spec_values *values)
     ffd_free(values->origins.origins);
     ffd_intern_free(&values->open);
     ffd_intern_free(&values->names);
+    ffd_intern_free(&values->set);
+    ffd_free(values->settings);
     *values = (spec_values){0};
 }

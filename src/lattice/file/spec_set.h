@@ -23,6 +23,8 @@ typedef struct spec_values {
     spec_origins origins; /* of the placeholders, if the settings request derivatives */
     intern_table open;    /* names of placeholders without a value */
     intern_table names;   /* of the parameters, with the same numbers */
+    intern_table set;     /* distinct names of the settings */
+    size_t *settings;     /* the first setting of each of these */
 } spec_values;
 
 /* Substitutes the placeholders anywhere in moves (a value of the file's tree, or JSON_NONE) by the values of

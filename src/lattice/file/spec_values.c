@@ -104,6 +104,20 @@ ffd_status ffd_spec_read_positive(json_cursor object, const char *key, double *v
                            ffd_number_text(*value).text);
 }
 
+/* Refuses an axis with a sign, such as "-y": the word without it turns the other way. */
+static ffd_status refuse_sign(json_cursor cursor)
+{
+    static const char *const signs[] = {"-x", "-y", "-z", "-X", "-Y", "-Z"};
+    for (size_t i = 0; i < COUNT_OF(signs); i++)
+        if (ffd_json_span_string_is(cursor.tree, cursor.value, signs[i]))
+            return ffd_cursor_fail(cursor, "the axis \"%s\" has a sign; write [%s] for that direction",
+                                   signs[i],
+                                   i % 3 == 0   ? "-1, 0, 0"
+                                   : i % 3 == 1 ? "0, -1, 0"
+                                                : "0, 0, -1");
+    return FFD_OK;
+}
+
 ffd_status ffd_spec_read_axis(json_cursor object, const char *key, double axis[3])
 {
     static const char *const names[] = {"x", "y", "z"};
@@ -113,6 +127,9 @@ ffd_status ffd_spec_read_axis(json_cursor object, const char *key, double axis[3
         return status;
     if (ffd_cursor_is(cursor, JSON_STRING)) {
         size_t index;
+        status = refuse_sign(cursor);
+        if (status)
+            return status;
         status = ffd_json_read_word(cursor, names, COUNT_OF(names), &index);
         for (size_t c = 0; c < 3; c++)
             axis[c] = c == index;

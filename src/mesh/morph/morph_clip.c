@@ -222,17 +222,26 @@ static ffd_status refuse_target(const morph_clip *clip, const char *name, const 
         clip_shown, shown, best_shown);
 }
 
+/* names: of the clips before, `number` of them. */
+static ffd_status check_name(const morph_clip *clip, size_t number, intern_table *names, ffd_error *error)
+{
+    uint32_t known;
+    char shown[SHOWN];
+    if (!ffd_intern(names, clip->name, strlen(clip->name), &known))
+        return ffd_fail_memory(error);
+    if (known == number)
+        return FFD_OK;
+    ffd_name_shown(clip->name, shown, sizeof shown);
+    return ffd_fail(error, FFD_E_ARGUMENT, "--clip: two clips are called \"%s\"", shown);
+}
+
 ffd_status ffd_morph_clips_check(const morph_clip *clips, size_t count, const intern_table *known,
                                  ffd_error *error)
 {
+    intern_table names = {0};
     ffd_status status = FFD_OK;
     for (size_t c = 0; c < count && !status; c++) {
-        for (size_t i = 0; i < c; i++)
-            if (strcmp(clips[c].name, clips[i].name) == 0) {
-                char shown[SHOWN];
-                ffd_name_shown(clips[c].name, shown, sizeof shown);
-                return ffd_fail(error, FFD_E_ARGUMENT, "--clip: two clips are called \"%s\"", shown);
-            }
+        status = check_name(&clips[c], c, &names, error);
         for (uint32_t n = 0; n < clips[c].names.count && !status; n++) {
             const char *const name = ffd_intern_key(&clips[c].names, n);
             uint32_t number;
@@ -240,6 +249,7 @@ ffd_status ffd_morph_clips_check(const morph_clip *clips, size_t count, const in
                 status = refuse_target(&clips[c], name, known, error);
         }
     }
+    ffd_intern_free(&names);
     return status;
 }
 

@@ -9,27 +9,27 @@ static const char *const endings[] = {".png", ".jpg", ".jpeg", ".webp", ".avif",
 /* The signature of an image format: these bytes at an offset. */
 typedef struct image_mark {
     size_t offset, size;
-    const char *bytes;
+    const char *bytes, *media_type;
 } image_mark;
 
 static const image_mark marks[] = {
-    {0, 8, "\x89PNG\r\n\x1a\n"},
-    {0, 3, "\xff\xd8\xff"}, /* JPEG */
-    {8, 4, "WEBP"},         /* in a RIFF file */
-    {4, 8, "ftypavif"},
-    {4, 8, "ftypavis"},
-    {4, 8, "ftypmif1"}, /* AVIF with the general brand */
-    {0, 12, "\xabKTX 20\xbb\r\n\x1a\n"},
-    {0, 12, "\xabKTX 11\xbb\r\n\x1a\n"},
-    {0, 2, "sB"}, /* Basis Universal */
-    {0, 4, "DDS "},
-    {0, 2, "BM"},
-    {0, 4, "GIF8"},
-    {0, 4, "II*\0"}, /* TIFF */
-    {0, 4, "MM\0*"},
-    {0, 10, "#?RADIANCE"},
-    {0, 6, "#?RGBE"},
-    {0, 4, "v/1\x01"}, /* OpenEXR */
+    {0, 8, "\x89PNG\r\n\x1a\n", "image/png"},
+    {0, 3, "\xff\xd8\xff", "image/jpeg"}, /* JPEG */
+    {8, 4, "WEBP", "image/webp"},         /* in a RIFF file */
+    {4, 8, "ftypavif", "image/avif"},
+    {4, 8, "ftypavis", "image/avif"},
+    {4, 8, "ftypmif1", "image/avif"}, /* AVIF with the general brand */
+    {0, 12, "\xabKTX 20\xbb\r\n\x1a\n", "image/ktx2"},
+    {0, 12, "\xabKTX 11\xbb\r\n\x1a\n", "image/ktx"},
+    {0, 2, "sB", "image/x-basis"}, /* Basis Universal */
+    {0, 4, "DDS ", "image/vnd-ms.dds"},
+    {0, 2, "BM", "image/bmp"},
+    {0, 4, "GIF8", "image/gif"},
+    {0, 4, "II*\0", "image/tiff"}, /* TIFF */
+    {0, 4, "MM\0*", "image/tiff"},
+    {0, 10, "#?RADIANCE", "image/vnd.radiance"},
+    {0, 6, "#?RGBE", "image/vnd.radiance"},
+    {0, 4, "v/1\x01", "image/x-exr"}, /* OpenEXR */
 };
 
 #define COUNT_OF(array) (sizeof(array) / sizeof *(array))
@@ -58,12 +58,23 @@ static bool is_targa(const unsigned char *bytes, size_t size)
     return kind >= 1 && kind <= 3 && (bits == 8 || bits == 15 || bits == 16 || bits == 24 || bits == 32);
 }
 
-bool ffd_image_has_content(const unsigned char *bytes, size_t size)
+static const image_mark *find_mark(const unsigned char *bytes, size_t size)
 {
     for (size_t i = 0; i < COUNT_OF(marks); i++) {
         const image_mark *const mark = &marks[i];
         if (size >= mark->offset + mark->size && memcmp(bytes + mark->offset, mark->bytes, mark->size) == 0)
-            return true;
+            return mark;
     }
-    return is_targa(bytes, size);
+    return NULL;
+}
+
+bool ffd_image_has_content(const unsigned char *bytes, size_t size)
+{
+    return find_mark(bytes, size) || is_targa(bytes, size);
+}
+
+const char *ffd_image_media_type(const unsigned char *bytes, size_t size)
+{
+    const image_mark *const mark = find_mark(bytes, size);
+    return mark ? mark->media_type : "image/x-tga";
 }

@@ -16,4 +16,7 @@ bool ffd_image_is_hidden(const char *path);
    ending is common and harmless. */
 bool ffd_image_has_content(const unsigned char *bytes, size_t size);
 
+/* Returns the media type of such bytes, as "image/png". */
+const char *ffd_image_media_type(const unsigned char *bytes, size_t size);
+
 #endif

@@ -3,6 +3,7 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/text/words.h"
+#include "mesh/resource/image_tiles.h"
 #include "mesh/resource/resource_copy.h"
 #include <string.h>
 
@@ -87,6 +88,10 @@ ffd_status ffd_images_load(material_images *images, const char *path, uint32_t *
         return status;
     if (!images->folder) {
         ffd_left_add(&images->left, path, "is a file, and standard input has no folder");
+        return FFD_OK;
+    }
+    if (ffd_image_has_tiles(path)) {
+        ffd_left_add(&images->left, path, "has tiles");
         return FFD_OK;
     }
     status = ffd_resource_load(&from, &resource, &bytes, &left, &refused, error);

@@ -25,7 +25,7 @@ _INPUT_ENUMERATIONS = {"input_format": ("format", "ffd_format"), "space": ("spac
 INPUT_OPTIONS = {*_INPUT_ENUMERATIONS, "memory", "strict", "allow_extensions"}
 _SWITCHES = ("blocks", "quality", "force", "if_changed", "dry_run")
 OPTIONS = {*_ENUMERATIONS, *INPUT_OPTIONS, *_SWITCHES, "set", "falloff", "snap", "embedding", "fail_on", "as_morph", "only",
-           "clips", "threads"}
+           "clips", "threads", "timeout"}
 
 
 @contextlib.contextmanager
@@ -206,6 +206,10 @@ def _set_options(desc: Any, options: dict[str, Any], known: Collection[str]) -> 
             desc.only, desc.only_count = _texts(value, name)
         elif name == "clips":
             desc.clips, desc.clip_count = _texts(value, name)
+        elif name == "timeout":
+            desc.timeout = library.real(value, name)
+            if not desc.timeout > 0:
+                raise ValueError(f"timeout is {value!r}: it must be more than 0 seconds")
         elif name == "threads":
             desc.threads = library.integer(value, name)
         elif name == "memory":

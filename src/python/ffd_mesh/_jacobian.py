@@ -15,7 +15,7 @@ from ._errors import Error, GateError
 from ._library import lib
 from ._result import beside, plain
 
-_OPTIONS = {*INPUT_OPTIONS, "set", "outside", "falloff", "snap", "only", "threads", "isa"}
+_OPTIONS = {*INPUT_OPTIONS, "set", "outside", "falloff", "snap", "only", "threads", "isa", "timeout"}
 
 
 def _set_factor(desc: Any, name: str, lent: Any, value: Any) -> Any:

@@ -256,7 +256,8 @@ class Lattice:
         The embedding refers to points without a copy: do not change them while it is in use, or pass points= to `deform`.
 
         outside: points without u, v, w: "keep" (stay), "extend" (follow the nearest point of the border), or "error"
-        falloff: with "extend": distance, in units of the points, over which the displacement fades to 0; 0: no fading
+        falloff: with "extend": distance, in units of the points, over which the displacement fades to 0; 0: no fading.
+            Without "extend" it is refused
         snap: a point that misses the volume by at most this distance is inside, at the border
         threads: 0: all cores
         progress: called from time to time with the fraction done, 0 to 1; returning False cancels

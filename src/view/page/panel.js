@@ -267,6 +267,7 @@ function showVerdicts(scene) {
   if (scene.flippedFaces) chips.push(chip('bad', countText(scene.flippedFaces, 'flipped face')));
   if (job && job.outside) chips.push(chip('warn', `${numberText(job.outside)} outside`));
   if (job && job.invalid) chips.push(chip('bad', `${numberText(job.invalid)} not finite`));
+  if (job && job.vertices && job.moved === 0) chips.push(chip('warn', 'No vertex moves'));
   if (scene.displacementMax) chips.push(chip('', `Displacement to ${numberText(scene.displacementMax)}`));
   line.replaceChildren(...chips);
 }

@@ -237,7 +237,11 @@ static ffd_status check_shapes(const gltf_document *d, uint32_t value, int tange
 {
     ffd_status status = FFD_OK;
     for (int s = 0; s < GLTF_DEFORMED && status == FFD_OK; s++)
-        if (accessors[s] >= 0)
+        if (accessors[s] >= 0 &&
+            ffd_json_span_member(&d->tree, value, ffd_gltf_semantic_names[s]) == JSON_NONE)
+            status =
+                refuse(d, value, "", error, "tinygltf read a %s that it has not", ffd_gltf_semantic_names[s]);
+        else if (accessors[s] >= 0)
             status = check_shape(d, value, ffd_gltf_semantic_names[s], s == GLTF_TANGENT ? tangent_rows : 3,
                                  &d->model.accessors[accessors[s]], error);
     return status;
@@ -416,7 +420,7 @@ ffd_status ffd_gltf_check(gltf_document *d, ffd_error *error)
     if (status == FFD_OK)
         status = limit_zeros(d, error);
     const uint32_t skins = ffd_json_span_member(&d->tree, 0, "skins");
-    const size_t skin_count = skins == JSON_NONE ? 0 : d->tree.values[skins].count;
+    const size_t skin_count = ffd_json_span_count(&d->tree, skins);
     for (size_t i = 0; i < d->model.node_count && status == FFD_OK; i++)
         status = check_node(d, i, skin_count, error);
     return status ? status : check_scenes(d, error);

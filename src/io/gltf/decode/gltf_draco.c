@@ -1,8 +1,11 @@
 #include "io/gltf/decode/gltf_draco.h"
 #include "base/file/path.h"
+#include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include "io/gltf/decode/draco.h"
 #include "io/gltf/decode/gltf_views.h"
+#include <float.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -75,6 +78,36 @@ static void give_elements(gltf_document *d, size_t accessor, size_t stride, uint
     layout->packing = GLTF_DRACO;
 }
 
+/* Directions whose length differs more from 1 are not valid in readers' eyes. */
+#define UNIT_TOLERANCE 0.005f
+
+/* Makes decoded normals or tangents unit vectors again where their quantization was too coarse, and the
+   handedness of tangents (rows 4) 1 or -1. */
+static void mend_directions(unsigned char *bytes, size_t count, size_t stride, int rows)
+{
+    for (size_t i = 0; i < count; i++, bytes += stride) {
+        float v[4];
+        for (int c = 0; c < rows; c++)
+            v[c] = load_float(bytes + (size_t)c * sizeof *v);
+        const float length = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        if (length > 0 && fabsf(length - 1) > UNIT_TOLERANCE && length <= FLT_MAX)
+            for (int c = 0; c < 3; c++)
+                v[c] /= length;
+        if (rows == 4)
+            v[3] = v[3] < 0 ? -1.0f : 1.0f;
+        for (int c = 0; c < rows; c++)
+            store_float(bytes + (size_t)c * sizeof *v, v[c]);
+    }
+}
+
+/* Whether an attribute has directions as floats. */
+static bool has_directions(const gltf_document *d, uint32_t attribute, const gltf_accessor *accessor)
+{
+    const bool normals = accessor->rows == 3 && ffd_json_span_key_is(&d->tree, attribute, "NORMAL");
+    const bool tangents = accessor->rows == 4 && ffd_json_span_key_is(&d->tree, attribute, "TANGENT");
+    return accessor->component == GLTF_FLOAT && (normals || tangents);
+}
+
 /* Decodes one attribute (source: its id) or the indices (INDICES_SOURCE) into accessor a. value: the JSON
    value that names it. */
 static ffd_status unpack_accessor(const unpacker *u, uint32_t value, size_t a, uint64_t source)
@@ -106,9 +139,12 @@ static ffd_status unpack_accessor(const unpacker *u, uint32_t value, size_t a, u
         ffd_free(bytes);
         return fail(d, value, status, u->error, problem.message);
     }
+    const double step = source != INDICES_SOURCE ? ffd_draco_step(u->mesh, (uint32_t)source) : 0;
+    if (step > 0 && has_directions(d, value, accessor))
+        mend_directions(bytes, (size_t)accessor->count, stride, accessor->rows);
     give_elements(d, a, stride, source, u->view, bytes);
     if (source != INDICES_SOURCE)
-        d->unpacked[a].step = ffd_draco_step(u->mesh, (uint32_t)source);
+        d->unpacked[a].step = step;
     return FFD_OK;
 }
 

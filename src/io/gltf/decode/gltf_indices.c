@@ -4,6 +4,7 @@
 #include "base/system/thread.h"
 #include "io/gltf/decode/gltf_drawing.h"
 #include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/decode/gltf_restart.h"
 
 /* Elements read at a time. */
 #define BLOCK ((size_t)256)
@@ -92,7 +93,7 @@ static uint32_t largest_of(const gltf_document *d, size_t a)
 
 static ffd_status check_primitive(gltf_document *d, size_t m, size_t p, uint64_t *largest, ffd_error *error)
 {
-    const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
+    gltf_primitive *const primitive = &d->model.meshes[m].primitives[p];
     const int position = primitive->accessor[GLTF_POSITION], indices = primitive->indices;
     if (position < 0 || indices < 0 || !d->layouts[indices].readable)
         return FFD_OK;
@@ -102,11 +103,19 @@ static ffd_status check_primitive(gltf_document *d, size_t m, size_t p, uint64_t
     const uint64_t vertices = d->model.accessors[position].count;
     if (largest[indices] < vertices)
         return FFD_OK;
+    uint64_t found = largest[indices];
+    if (ffd_gltf_restarts(d, primitive)) {
+        uint32_t index;
+        const ffd_status status = ffd_gltf_unroll(d, primitive, &index, error);
+        if (status || index < vertices)
+            return status;
+        found = index;
+    }
     return ffd_gltf_drop_drawing(
         d, m, p, ffd_gltf_primitive_value(d, m, p), error,
         "there is an index %llu, but the count of vertices is %llu: what the primitive "
         "draws is not known",
-        (unsigned long long)largest[indices], (unsigned long long)vertices);
+        (unsigned long long)found, (unsigned long long)vertices);
 }
 
 ffd_status ffd_gltf_check_indices(gltf_document *d, ffd_error *error)

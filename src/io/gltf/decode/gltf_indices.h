@@ -4,8 +4,8 @@
 
 #include "io/gltf/document/gltf_document.h"
 
-/* Refuses indices that are not less than the primitive's number of vertices. Errors: FFD_E_INVALID,
-   FFD_E_MEMORY. */
+/* Notes indices that are not less than the primitive's number of vertices as a flaw; those that begin a strip
+   anew are unrolled (gltf_restart.h). Errors: FFD_E_INVALID, FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_gltf_check_indices(gltf_document *document, ffd_error *error);
 
 #endif

@@ -163,13 +163,18 @@ typedef struct gltf_document {
     size_t *scene_ranks;
     size_t nodes_in_scene;
     size_t *parents; /* per node: its parent; GLTF_NONE: none */
-    /* Per node: whether it or an ancestor replaces a node of the scene at a distance (MSFT_lod). */
+    /* Per node: whether it or an ancestor replaces a node of the scene at a distance (MSFT_lod), or it is the
+       shape of a node's collider or trigger. */
     bool *stands_in;
-    /* How often such a node also replaces a further node, at another place than its first. */
-    size_t details_shared;
+    /* Per node: whether it is such a shape. It is where that node is, which is its parent; its own transform
+       does not count. It is hidden. */
+    bool *collides;
+    /* How often such a node also replaces a further node, or is its shape, at another place than its first.
+     */
+    size_t details_shared, shapes_shared;
     /* Per node: whether a selector names it or an ancestor; NULL: no selectors of nodes. */
     bool *selected_nodes;
-    bool *hidden; /* per node: whether it or an ancestor is invisible; NULL: none is */
+    bool *hidden; /* per node: whether it or an ancestor is invisible, or it is a shape; NULL: none is */
     size_t *scene_nodes;
     size_t nodes_outside_scene; /* nodes with a mesh */
     /* A node with two parents: not valid, but the file is described as if the node had the first parent only.

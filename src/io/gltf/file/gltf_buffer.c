@@ -6,6 +6,9 @@
 #include "io/gltf/file/uri.h"
 #include <string.h>
 
+/* The most bytes that pad a BIN chunk (glTF 2.0, 4.4.3.3). */
+#define GLB_PADDING 3
+
 typedef struct loader {
     const json_span *tree;
     uint32_t value, uri; /* JSON values: the buffer and its uri */
@@ -153,10 +156,12 @@ ffd_status ffd_gltf_load_buffer(const json_span *tree, uint32_t value, const uns
     double length = 0;
     ffd_json_span_number(tree, ffd_json_span_member(tree, value, "byteLength"), &length);
     buffer->length = buffer->stated = (size_t)length;
+    size_t padding = 0;
     ffd_status status = FFD_OK;
     if (l.uri != JSON_NONE) {
         status = load_uri(&l, buffer);
     } else if (bin) {
+        padding = GLB_PADDING;
         buffer->kind = BUFFER_BIN;
         buffer->data = bin;
         buffer->size = bin_size;
@@ -165,6 +170,8 @@ ffd_status ffd_gltf_load_buffer(const json_span *tree, uint32_t value, const uns
         buffer->flaws |= BUFFER_SHORT;
         buffer->length = buffer->size;
     }
+    if (status == FFD_OK && buffer->kind != BUFFER_EMPTY && buffer->size - buffer->length > padding)
+        buffer->flaws |= BUFFER_LONG;
     if (status)
         ffd_gltf_free_buffer(buffer);
     return status;

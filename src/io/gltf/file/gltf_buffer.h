@@ -17,7 +17,8 @@ enum {
     BUFFER_ODD_MARKER = 1, /* ";base64" of a data URI in upper case, with blanks, or not last */
     BUFFER_BLANKS = 2,     /* blanks among the digits of base64 */
     BUFFER_BACKSLASH = 4,  /* a backslash for a slash in the name of its file */
-    BUFFER_SHORT = 8       /* fewer bytes than byteLength says */
+    BUFFER_SHORT = 8,      /* fewer bytes than byteLength says */
+    BUFFER_LONG = 16       /* more bytes than byteLength says and than padding takes */
 };
 
 typedef struct gltf_buffer {

@@ -9,6 +9,7 @@ static void free_mesh(gltf_mesh *mesh)
         ffd_free(mesh->primitives[i].target_accessors);
         ffd_free(mesh->primitives[i].splat_accessors);
         ffd_free(mesh->primitives[i].influences);
+        ffd_free(mesh->primitives[i].drawn);
     }
     ffd_free(mesh->primitives);
 }

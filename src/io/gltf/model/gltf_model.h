@@ -84,7 +84,23 @@ typedef struct gltf_primitive {
     gltf_influence *influences; /* for n = 0, 1, .. as long as either exists */
     size_t influence_count;
     int indices, mode;
+    /* The vertices that it draws in this mode, where the file's indices restart; NULL: the file's. Set after
+       parsing. */
+    uint32_t *drawn;
+    size_t drawn_count;
 } gltf_primitive;
+
+/* Finds the vertices of triangle t among a primitive's corners. Every second triangle of a strip is reversed
+   (glTF 2.0, 3.7.2.1). */
+static inline void gltf_triangle(int mode, size_t t, const uint32_t *corners, uint32_t triangle[3])
+{
+    const size_t first = mode == MODE_TRIANGLES ? 3 * t : mode == MODE_FAN ? 0 : t;
+    const size_t second = mode == MODE_TRIANGLES ? first + 1 : mode == MODE_FAN ? t + 1 : t + 1 + t % 2;
+    const size_t third = mode == MODE_TRIANGLES ? first + 2 : mode == MODE_FAN ? t + 2 : t + 2 - t % 2;
+    triangle[0] = corners[first];
+    triangle[1] = corners[second];
+    triangle[2] = corners[third];
+}
 
 /* Slots number the deformed attributes of a primitive: slot s is its own attribute of semantic s, slot
    GLTF_DEFORMED * (t + 1) + s that of its morph target t. The slots of splats follow. */

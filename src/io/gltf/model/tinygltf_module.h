@@ -9,7 +9,7 @@
 
 #define TINYGLTF_IDENTITY                                                                                    \
     {                                                                                                        \
-        "ffd-tinygltf.so", FFD_VERSION, 1                                                                    \
+        "ffd-tinygltf.so", FFD_VERSION, 2                                                                    \
     }
 
 typedef struct tinygltf_module {

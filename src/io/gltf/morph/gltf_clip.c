@@ -6,8 +6,8 @@
 #include "io/gltf/morph/gltf_grown.h"
 #include "io/gltf/morph/gltf_left_bytes.h"
 #include "io/gltf/morph/gltf_morph_reuse.h"
-#include "io/gltf/morph/gltf_morph_text.h"
 #include "io/gltf/morph/gltf_morph_weights.h"
+#include "io/gltf/morph/gltf_target_names.h"
 #include "io/gltf/refer/gltf_accessor_users.h"
 #include "io/gltf/save/gltf_json_insert.h"
 #include "io/gltf/scene/gltf_shapes.h"
@@ -38,24 +38,29 @@ typedef struct clip_writer {
     ffd_error *error;
 } clip_writer;
 
+/* Adds the names of the targets of a mesh. Returns false if memory runs out. */
+static bool list_names_of(const gltf_document *d, size_t mesh, intern_table *all)
+{
+    const size_t count = ffd_gltf_target_count(d, mesh);
+    uint32_t *const names = ffd_gltf_list_target_names(d, mesh);
+    bool added = names;
+    for (size_t t = 0; t < count && added; t++) {
+        char *const name = names[t] == JSON_NONE ? NULL : ffd_json_span_string(&d->tree, names[t], NULL);
+        uint32_t number;
+        if (name)
+            added = ffd_intern(all, name, strlen(name), &number);
+        ffd_free(name);
+    }
+    ffd_free(names);
+    return added;
+}
+
 /* Adds the names of the targets of all meshes. */
 static bool list_names(const gltf_document *d, intern_table *all)
 {
     bool added = true;
-    for (size_t m = 0; m < d->model.mesh_count && added; m++) {
-        const size_t count = ffd_gltf_target_count(d, m);
-        uint32_t value = ffd_json_span_first(&d->tree, ffd_gltf_target_names(d, m));
-        for (size_t t = 0; t < count && value != JSON_NONE && added; t++) {
-            char *const name = d->tree.values[value].kind == JSON_STRING
-                                   ? ffd_json_span_string(&d->tree, value, NULL)
-                                   : NULL;
-            uint32_t number;
-            if (name)
-                added = ffd_intern(all, name, strlen(name), &number);
-            ffd_free(name);
-            value = ffd_json_span_after(&d->tree, value);
-        }
-    }
+    for (size_t m = 0; m < d->model.mesh_count && added; m++)
+        added = list_names_of(d, m, all);
     return added;
 }
 
@@ -79,17 +84,6 @@ static void put_name(const char *name, byte_buffer *text)
     json_text json;
     ffd_json_begin(&json, text);
     ffd_json_string(&json, NULL, name);
-}
-
-/* Returns the name that a JSON value holds, for the caller to free; NULL: none. */
-static char *target_name(clip_writer *w, uint32_t value)
-{
-    const json_span *const tree = &w->file.saver.document->tree;
-    if (value == JSON_NONE || tree->values[value].kind != JSON_STRING)
-        return NULL;
-    char *const name = ffd_json_span_string(tree, value, NULL);
-    w->file.saver.edits.failed = w->file.saver.edits.failed || !name;
-    return name;
 }
 
 /* Adds an accessor of count floats, which the caller appends next. extra: further members. Returns its
@@ -123,16 +117,19 @@ static void add_times(clip_writer *w)
 static bool find_driven(clip_writer *w, size_t mesh, uint32_t *names, size_t count)
 {
     const gltf_document *const d = w->file.saver.document;
-    uint32_t value = ffd_json_span_first(&d->tree, ffd_gltf_target_names(d, mesh));
-    bool any = false;
+    uint32_t *const values = ffd_gltf_list_target_names(d, mesh);
+    bool any = false, failed = !values;
     for (size_t t = 0; t < count; t++) {
-        char *const name = target_name(w, value);
+        const bool named = values && values[t] != JSON_NONE;
+        char *const name = named ? ffd_json_span_string(&d->tree, values[t], NULL) : NULL;
+        failed = failed || (named && !name);
         names[t] = KEEPS;
         if (name && ffd_intern_find(&w->clip->names, name, strlen(name), &names[t]))
             any = true;
         ffd_free(name);
-        value = value == JSON_NONE ? JSON_NONE : ffd_json_span_after(&d->tree, value);
     }
+    ffd_free(values);
+    w->file.saver.edits.failed = w->file.saver.edits.failed || failed;
     /* Further targets are known by their places: extras may have no room for their names. */
     for (size_t k = 0; k < w->target_count; k++) {
         const size_t place = w->targets[k].places[mesh];

@@ -44,9 +44,10 @@ static void add_bytes(gltf_grown *w)
                       bin ? 0 : d->buffer_values.count, bin ? bin_end(d) : 0, w->data.bytes.size);
     ffd_gltf_add_elements(saver, &d->view_values, "bufferViews", &view);
     if (bin) {
-        const json_value *length =
-            &d->tree.values[ffd_json_span_member(&d->tree, d->buffer_values.values[0], "byteLength")];
-        ffd_edits_format(&saver->edits, length->begin, length->end, "%zu", bin_end(d) + w->data.bytes.size);
+        const uint32_t length = ffd_json_span_member(&d->tree, d->buffer_values.values[0], "byteLength");
+        if (length != JSON_NONE)
+            ffd_edits_format(&saver->edits, d->tree.values[length].begin, d->tree.values[length].end, "%zu",
+                             bin_end(d) + w->data.bytes.size);
     } else {
         write_buffer(w, &buffer);
         ffd_gltf_add_elements(saver, &d->buffer_values, "buffers", &buffer);

@@ -4,6 +4,7 @@
 #include "io/gltf/rig/gltf_vrm.h"
 #include "io/gltf/scene/gltf_instancing.h"
 #include "io/gltf/scene/gltf_references.h"
+#include "io/gltf/scene/gltf_skin_sets.h"
 #include <string.h>
 
 /* Marks of a node. */
@@ -204,8 +205,7 @@ static unsigned kinds_of(const survey *s, size_t n)
 /* Whether the node places a mesh of its own, or has an extension. */
 static bool has_own(const gltf_document *d, size_t n)
 {
-    const gltf_node *node = &d->model.nodes[n];
-    return (node->mesh >= 0 && node->skin < 0) ||
+    return ffd_gltf_places_mesh(d, n) ||
            ffd_json_span_member(&d->tree, d->node_values.values[n], "extensions") != JSON_NONE;
 }
 
@@ -233,11 +233,12 @@ static bool is_anchor(const survey *s, size_t n, mesh_place *place)
     const gltf_document *d = s->document;
     const unsigned parts = HAS_SELECTED | HAS_OTHERS;
     const bool chosen = s->nodes[n] & IS_CHOSEN, instanced = ffd_gltf_instanced_node(d, n);
-    if (!(s->nodes[n] & IS_SHOWN))
+    if (!(s->nodes[n] & IS_SHOWN) || d->collides[n])
         return false;
     place->kinds = kinds_of(s, n);
     const bool follows = place->kinds || has_own(d, n) || is_uneven(d, n);
-    place->partial = chosen && d->model.nodes[n].skin < 0 && (s->nodes[n] & parts) == parts;
+    place->partial = chosen && ffd_gltf_places_mesh(d, n) && (s->nodes[n] & parts) == parts;
+    place->unselected = !chosen || (ffd_gltf_places_mesh(d, n) && (s->nodes[n] & parts) == HAS_OTHERS);
     place->stays = !chosen || instanced || place->partial;
     if (!chosen)
         place->kinds = 0;
@@ -287,34 +288,39 @@ ffd_status ffd_gltf_list_places(const mesh_document *document, bool all, mesh_pl
     return status;
 }
 
-static bool has_mark(const gltf_skin *skin, const bool *marked)
+/* Whether a skin has a marked joint. joined: set for all of its joints. */
+static bool has_mark(const gltf_skin *skin, const uint8_t *marked, bool *joined)
 {
-    for (size_t j = 0; j < skin->joint_count; j++)
-        if (marked[skin->joints[j]])
-            return true;
-    return false;
+    bool has = false;
+    for (size_t j = 0; j < skin->joint_count; j++) {
+        has = has || marked[skin->joints[j]];
+        joined[skin->joints[j]] = true;
+    }
+    return has;
 }
 
 ffd_status ffd_gltf_count_skins(const mesh_document *document, const mesh_places *places,
-                                const uint8_t *marks, uint64_t *count, ffd_error *error)
+                                const uint8_t *marks, uint64_t *count, uint64_t *loose, ffd_error *error)
 {
     const gltf_document *d = ffd_gltf_of(document);
-    bool *const marked = ffd_alloc_zero(d->model.node_count, sizeof *marked);
+    uint8_t *const marked = ffd_alloc_zero(d->model.node_count, sizeof *marked);
     bool *const shown = ffd_alloc_zero(d->skin_values.count, sizeof *shown);
-    *count = 0;
-    if (marked && shown) {
-        for (size_t i = 0; i < places->count; i++)
-            marked[places->list[i].number] = marks[i];
-        for (size_t n = 0; n < d->model.node_count; n++)
-            if (d->in_scene[n] && d->model.nodes[n].mesh >= 0 && d->model.nodes[n].skin >= 0)
-                shown[d->model.nodes[n].skin] = true;
-        for (size_t i = 0; i < d->skin_values.count; i++)
-            *count += shown[i] && has_mark(&d->skins[i], marked);
-    }
-    const ffd_status status = marked && shown ? FFD_OK : ffd_fail_memory(error);
+    bool *const joined = ffd_alloc_zero(d->model.node_count, sizeof *joined);
+    const bool allocated = marked && shown && joined;
+    *count = *loose = 0;
+    for (size_t i = 0; i < places->count && allocated; i++)
+        marked[places->list[i].number] = marks[i];
+    for (size_t n = 0; n < d->model.node_count && allocated; n++)
+        if (d->in_scene[n] && d->model.nodes[n].mesh >= 0 && d->model.nodes[n].skin >= 0)
+            shown[d->model.nodes[n].skin] = true;
+    for (size_t i = 0; i < d->skin_values.count && allocated; i++)
+        *count += shown[i] && has_mark(&d->skins[i], marked, joined);
+    for (size_t n = 0; n < d->model.node_count && allocated; n++)
+        *loose += marked[n] && !joined[n];
     ffd_free(marked);
     ffd_free(shown);
-    return status;
+    ffd_free(joined);
+    return allocated ? FFD_OK : ffd_fail_memory(error);
 }
 
 char *ffd_gltf_place_name(const mesh_document *document, size_t number)

@@ -65,6 +65,10 @@ typedef struct gltf_rig {
     memory_budget *budget;       /* the document's; the contents have taken their memory from it */
     gltf_animations animations;  /* of the file, without keys */
     gltf_rig_animation *changes; /* per animation */
+    /* Of the nodes that stay, with what they place, because this is not selected: the one that is farthest
+       from where it would be; and the node that follows, the same or one above it. GLTF_NONE: there is
+       none. */
+    size_t left, left_below;
     /* Channels whose pointers lead to changed transforms in a way that is not supported. */
     size_t pointers_left;
     /* Per skin: index in contents of its inverse bind matrices; GLTF_NONE: unchanged. */

@@ -155,8 +155,11 @@ static void join_world(const node_walk *w, size_t n, const gltf_moved_node *made
 
 static void carry_along(const node_walk *w, size_t n)
 {
-    w->changed[n] = w->document->parents[n] != GLTF_NONE && w->changed[w->document->parents[n]];
-    if (w->changed[n])
+    const size_t p = w->document->parents[n];
+    w->changed[n] = p != GLTF_NONE && w->changed[p];
+    if (w->document->collides[n])
+        memcpy(w->rig->world + 12 * n, made_of(w, p), sizeof identity);
+    else if (w->changed[n])
         join_world(w, n, NULL);
     else
         memcpy(w->rig->world + 12 * n, w->document->world + 12 * n, 12 * sizeof *w->rig->world);
@@ -216,6 +219,40 @@ static bool move_node(const node_walk *w, size_t n, const target *t)
     return true;
 }
 
+/* Whether a node, or what it places, stays although it would move: it is not selected. */
+static bool is_left(const node_walk *w, size_t n)
+{
+    const mesh_place *const place = w->places[n];
+    return place->unselected && !w->singular[n] &&
+           (place->stays ? w->rig->motions[n].moved != GLTF_NONE : w->changed[n]);
+}
+
+/* Notes such a node. */
+static void note_left(const node_walk *w, size_t n)
+{
+    const mesh_place *const place = w->places[n];
+    const size_t p = w->document->parents[n];
+    double linear[9], carried[3], off[3];
+    ffd_gltf_local_matrix(&w->document->model.nodes[n], linear, carried);
+    if (place->stays)
+        ffd_point_transform(made_of(w, p), made_of(w, p) + 9, carried);
+    else
+        memcpy(carried, made_of(w, n) + 9, sizeof carried);
+    for (int a = 0; a < 3; a++)
+        off[a] = carried[a] - place->at[a];
+    double by = vec_length(off);
+    if (by <= RIG_PLACE_ROUNDING * (vec_length(carried) + vec_length(place->at)))
+        by = 0; /* it only turns */
+    w->following->unselected++;
+    if (w->rig->left != GLTF_NONE && !(by > w->following->unselected_by))
+        return;
+    w->following->unselected_by = by;
+    w->rig->left = w->rig->left_below = n;
+    while (w->rig->left_below != GLTF_NONE &&
+           (!w->places[w->rig->left_below] || w->places[w->rig->left_below]->stays))
+        w->rig->left_below = w->document->parents[w->rig->left_below];
+}
+
 static void do_node(const node_walk *w, size_t n)
 {
     const size_t p = w->document->parents[n];
@@ -234,6 +271,8 @@ static void do_node(const node_walk *w, size_t n)
     w->following->singular += place && w->singular[n] && w->moves[n]->moves;
     if (!is_tried || w->singular[n])
         carry_along(w, n);
+    if (place && is_left(w, n))
+        note_left(w, n);
     if (place)
         memcpy(w->moves[n]->became, w->rig->world + 12 * n + 9, sizeof w->moves[n]->became);
 }
@@ -274,6 +313,7 @@ ffd_status ffd_gltf_follow_nodes(const gltf_document *d, const mesh_places *plac
     const size_t count = d->model.node_count;
     node_walk w = {.document = d, .rig = rig, .following = following};
     const bool allocated = allocate(&w, count);
+    rig->left = rig->left_below = GLTF_NONE;
     for (size_t i = 0; i < places->count && allocated; i++) {
         w.places[places->list[i].number] = &places->list[i];
         w.moves[places->list[i].number] = &moves[i];

@@ -2,6 +2,7 @@
 #include "base/memory/memory.h"
 #include "base/text/words.h"
 #include "io/gltf/rig/gltf_places.h"
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -153,6 +154,31 @@ static void tell(const gltf_document *d, const gltf_rig *rig, const mesh_log *lo
                  animations, ffd_plural(animations, "animation", "animations"));
 }
 
+/* Warns of what --only does not select, and what hangs on nodes that follow. */
+static ffd_status warn_of_left(const gltf_document *d, const gltf_rig *rig, const mesh_following *following,
+                               const mesh_log *log, ffd_error *error)
+{
+    char off[60] = ", though";
+    place_group left = {0}, above = {0};
+    const uint64_t count = following->unselected;
+    if (rig->left == GLTF_NONE)
+        return FFD_OK;
+    ffd_status status = add_place(d, rig->left, &left, error);
+    if (status == FFD_OK && rig->left_below != GLTF_NONE && rig->left_below != rig->left)
+        status = add_place(d, rig->left_below, &above, error);
+    if (status)
+        return status;
+    if (following->unselected_by > 0)
+        snprintf(off, sizeof off, ", up to %g from where", following->unselected_by);
+    ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " %s%s %s %s %s: %s%s%s", count,
+                 ffd_plural(count, "node that --only does not select stays where it is",
+                            "nodes that --only does not select stay where they are"),
+                 off, ffd_plural(count, "the node that it hangs on", "the nodes that they hang on"),
+                 following->unselected_by > 0 ? "would carry" : "would turn", ffd_plural(count, "it", "them"),
+                 left.names + 2, above.count ? " on " : "", above.count ? above.names + 2 : "");
+    return FFD_OK;
+}
+
 ffd_status ffd_gltf_warn_of_rig(const gltf_document *d, const mesh_places *places, const gltf_rig *rig,
                                 const mesh_log *log, mesh_following *following, ffd_error *error)
 {
@@ -163,6 +189,9 @@ ffd_status ffd_gltf_warn_of_rig(const gltf_document *d, const mesh_places *place
     if (status)
         return status;
     tell(d, rig, log);
+    const ffd_status warned = warn_of_left(d, rig, following, log, error);
+    if (warned)
+        return warned;
     if (found.shapes.count)
         ffd_log_line(log, FFD_LOG_WARNING, "%zu physics %s%s", found.shapes.count,
                      ffd_plural(found.shapes.count, "shape goes with its node, but keeps its size",

@@ -7,6 +7,7 @@
 #include "io/gltf/scene/gltf_results.h"
 #include "io/gltf/scene/gltf_scene.h"
 #include "io/gltf/scene/gltf_skin.h"
+#include "io/gltf/scene/gltf_skin_sets.h"
 #include <float.h>
 #include <string.h>
 
@@ -106,7 +107,8 @@ static void mark_skins(const gltf_document *d, bool *shown, bool *staying)
                 continue;
             shown[skin] = true;
             for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
-                staying[skin] = staying[skin] || !ffd_gltf_instances(d, m, p)[n].selected;
+                staying[skin] = staying[skin] || (ffd_gltf_is_skinned(&d->model.meshes[m].primitives[p]) &&
+                                                  !ffd_gltf_instances(d, m, p)[n].selected);
         }
     }
 }

@@ -1,7 +1,13 @@
 #include "io/gltf/save/gltf_announce.h"
+#include "base/memory/memory.h"
 #include "base/text/words.h"
 #include "io/gltf/save/gltf_plan.h"
 #include "io/gltf/save/gltf_unpack.h"
+#include <stdlib.h>
+#include <string.h>
+
+#define NAMED 3 /* values that a message names */
+#define POINTER_SIZE 256
 
 /* Logs one line with a count. Single cases are logged as FFD_LOG_INFO where they are handled. */
 static void warn(const gltf_saver *saver, size_t count, const char *one, const char *many)
@@ -25,6 +31,12 @@ static void warn_of_rest(const gltf_saver *saver)
     warn(saver, d->details_shared,
          "use of a node by MSFT_lod is at another place than the first: the node is deformed for that one",
          "uses of nodes by MSFT_lod are at other places than the first: the nodes are deformed for that one");
+    warn(saver, d->shapes_shared,
+         "use of a node by a collider or trigger is at another place than where the node is shown or used "
+         "first: "
+         "the node is deformed for that one",
+         "uses of nodes by colliders and triggers are at other places than where the nodes are shown or used "
+         "first: the nodes are deformed for those");
     warn(saver, unused, "mesh is not used by any node: left as it is",
          "meshes are not used by any node: left as they are");
 }
@@ -64,4 +76,44 @@ void ffd_gltf_announce(const gltf_saver *saver)
     warn(saver, saver->unpacking_count - saver->unpacked_accessor_count,
          "bufferView is written uncompressed (meshopt) because its content is deformed",
          "bufferViews are written uncompressed (meshopt) because their content is deformed");
+}
+
+static int compare_values(const void *a, const void *b)
+{
+    uint32_t x, y;
+    memcpy(&x, a, sizeof x);
+    memcpy(&y, b, sizeof y);
+    return (x > y) - (x < y);
+}
+
+size_t ffd_gltf_warn_of_values(gltf_saver *saver, byte_buffer *values, const char *one, const char *many)
+{
+    const size_t size = values->size / sizeof(uint32_t);
+    size_t count = 0;
+    uint32_t last = JSON_NONE;
+    byte_buffer names = {0};
+    saver->edits.failed = saver->edits.failed || values->failed;
+    if (size == 0 || saver->edits.failed)
+        return 0;
+    qsort(values->data, size, sizeof(uint32_t), compare_values);
+    for (size_t i = 0; i < size; i++) {
+        uint32_t value;
+        char pointer[POINTER_SIZE];
+        memcpy(&value, values->data + i * sizeof value, sizeof value);
+        if (value == last)
+            continue;
+        last = value;
+        if (count++ >= NAMED)
+            continue;
+        ffd_json_span_pointer(&saver->document->tree, value, pointer, sizeof pointer);
+        ffd_buffer_format(&names, "%s%s", count > 1 ? ", " : "", pointer);
+    }
+    if (count > NAMED)
+        ffd_buffer_format(&names, " and %zu more", count - NAMED);
+    char *const text = ffd_buffer_finish(&names);
+    saver->edits.failed = saver->edits.failed || !text;
+    if (text)
+        ffd_log_line(saver->log, FFD_LOG_WARNING, "%zu %s: %s", count, ffd_plural(count, one, many), text);
+    ffd_free(text);
+    return count;
 }

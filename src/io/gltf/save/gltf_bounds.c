@@ -42,8 +42,9 @@ static const gltf_tile_bounds *tiles_of(const gltf_document *d, const gltf_versi
     return d->parts[version->order / GLTF_DEFORMED].streams[version->order % GLTF_DEFORMED].bounds;
 }
 
-/* Finds the bounds of a version, or of the original content if version is NULL. */
-static stored_bounds find_bounds(const gltf_document *d, size_t a, const gltf_version *version)
+/* Finds the bounds of a version, or, if version is NULL, of elements that are written decompressed. */
+static stored_bounds find_bounds(const gltf_document *d, size_t a, const gltf_version *version,
+                                 const unsigned char *elements)
 {
     const gltf_accessor *accessor = &d->model.accessors[a];
     const int component = version ? version->component : accessor->component;
@@ -54,7 +55,7 @@ static stored_bounds find_bounds(const gltf_document *d, size_t a, const gltf_ve
         return find_float_bounds(version->values, (size_t)accessor->count, tiles_of(d, version));
     for (size_t i = 0; i < accessor->count; i++) {
         unsigned char encoded[GLTF_LARGEST_ELEMENT];
-        const unsigned char *element = version ? encoded : ffd_gltf_element(d, a, i);
+        const unsigned char *element = version ? encoded : elements + i * d->layouts[a].stride;
         if (version)
             ffd_gltf_version_encode(d, version, i, encoded);
         for (size_t c = 0; c < numbers; c++) {
@@ -95,7 +96,8 @@ static void edit_bound(const gltf_saver *saver, uint32_t array, const double bou
     }
 }
 
-static void edit_bounds(const gltf_saver *saver, size_t a, const gltf_version *version, json_edits *edits)
+static void edit_bounds(const gltf_saver *saver, size_t a, const gltf_version *version,
+                        const unsigned char *elements, json_edits *edits)
 {
     const gltf_document *d = saver->document;
     const uint32_t accessor = d->accessor_values.values[a];
@@ -104,17 +106,18 @@ static void edit_bounds(const gltf_saver *saver, size_t a, const gltf_version *v
     const uint32_t max = ffd_json_span_member(&d->tree, accessor, "max");
     if (min == JSON_NONE && max == JSON_NONE)
         return;
-    const stored_bounds bounds = find_bounds(d, a, version);
+    const stored_bounds bounds = find_bounds(d, a, version, elements);
     edit_bound(saver, min, bounds.least, component, edits);
     edit_bound(saver, max, bounds.largest, component, edits);
 }
 
 void ffd_gltf_edit_bounds(const gltf_saver *saver, const gltf_version *version, json_edits *edits)
 {
-    edit_bounds(saver, version->accessor, version, edits);
+    edit_bounds(saver, version->accessor, version, NULL, edits);
 }
 
-void ffd_gltf_edit_original_bounds(const gltf_saver *saver, size_t accessor, json_edits *edits)
+void ffd_gltf_edit_unpacked_bounds(const gltf_saver *saver, const gltf_unpacking *unpacking,
+                                   json_edits *edits)
 {
-    edit_bounds(saver, accessor, NULL, edits);
+    edit_bounds(saver, unpacking->accessor, NULL, unpacking->bytes, edits);
 }

@@ -7,7 +7,8 @@
 /* Edits the bounds of the accessor that a version overwrites, if it has bounds. */
 void ffd_gltf_edit_bounds(const gltf_saver *saver, const gltf_version *version, json_edits *edits);
 
-/* Edits the bounds of an accessor that keeps its content. */
-void ffd_gltf_edit_original_bounds(const gltf_saver *saver, size_t accessor, json_edits *edits);
+/* Edits the bounds of an accessor that is written decompressed, and does not change else. */
+void ffd_gltf_edit_unpacked_bounds(const gltf_saver *saver, const gltf_unpacking *unpacking,
+                                   json_edits *edits);
 
 #endif

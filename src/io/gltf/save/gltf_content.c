@@ -4,6 +4,7 @@
 #include "base/memory/memory.h"
 #include "io/gltf/decode/gltf_encode.h"
 #include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/save/gltf_mend_weights.h"
 #include "io/gltf/save/gltf_plan.h"
 #include "io/gltf/save/gltf_sparse.h"
 #include "io/gltf/save/gltf_unpack.h"
@@ -188,6 +189,8 @@ static ffd_status list_appends(gltf_saver *saver, ffd_error *error)
 ffd_status ffd_gltf_make_content(gltf_saver *saver, ffd_error *error)
 {
     ffd_status status = ffd_gltf_list_unpackings(saver, error);
+    if (status == FFD_OK)
+        status = ffd_gltf_mend_weights(saver, error);
     if (status == FFD_OK)
         status = ffd_gltf_list_sparse(saver, error);
     if (status == FFD_OK)

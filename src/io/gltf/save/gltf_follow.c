@@ -3,12 +3,12 @@
 #include "base/memory/memory.h"
 #include "base/text/words.h"
 #include "io/gltf/refer/gltf_index_table.h"
+#include "io/gltf/save/gltf_announce.h"
 #include "io/gltf/save/gltf_plan.h"
 #include "json/json_text.h"
 #include <stdlib.h>
 #include <string.h>
 
-#define NAMED 3 /* values that cannot follow and are named in the message */
 #define POINTER_SIZE 256
 
 static void leave(gltf_saver *saver, uint32_t value)
@@ -189,49 +189,14 @@ static void follow_mesh(void *context, const gltf_index_place *place)
     }
 }
 
-static int compare_values(const void *a, const void *b)
-{
-    uint32_t x, y;
-    memcpy(&x, a, sizeof x);
-    memcpy(&y, b, sizeof y);
-    return (x > y) - (x < y);
-}
-
-/* Warns of values that cannot follow, each once. */
+/* Warns of values that cannot follow. */
 static void warn_of_left(gltf_saver *saver)
 {
-    const size_t size = saver->left.size / sizeof(uint32_t);
-    size_t count = 0;
-    uint32_t last = JSON_NONE;
-    byte_buffer names = {0};
-    saver->edits.failed = saver->edits.failed || saver->left.failed;
-    if (size == 0 || saver->edits.failed)
-        return;
-    qsort(saver->left.data, size, sizeof(uint32_t), compare_values);
-    for (size_t i = 0; i < size; i++) {
-        uint32_t value;
-        char pointer[POINTER_SIZE];
-        memcpy(&value, saver->left.data + i * sizeof value, sizeof value);
-        if (value == last)
-            continue;
-        last = value;
-        if (count++ >= NAMED)
-            continue;
-        ffd_json_span_pointer(&saver->document->tree, value, pointer, sizeof pointer);
-        ffd_buffer_format(&names, "%s%s", count > 1 ? ", " : "", pointer);
-    }
+    const size_t count = ffd_gltf_warn_of_values(saver, &saver->left,
+                                                 "index in an extension does not follow the deformed mesh",
+                                                 "indices in extensions do not follow the deformed meshes");
     if (saver->options->indices_left)
         *saver->options->indices_left = count;
-    if (count > NAMED)
-        ffd_buffer_format(&names, " and %zu more", count - NAMED);
-    char *text = ffd_buffer_finish(&names);
-    saver->edits.failed = saver->edits.failed || !text;
-    if (text)
-        ffd_log_line(saver->log, FFD_LOG_WARNING, "%zu %s: %s", count,
-                     ffd_plural(count, "index in an extension does not follow the deformed mesh",
-                                "indices in extensions do not follow the deformed meshes"),
-                     text);
-    ffd_free(text);
 }
 
 static void tell_repeated(const copies *c)

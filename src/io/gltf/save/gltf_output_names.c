@@ -5,22 +5,8 @@
 #include "io/gltf/file/glb.h"
 #include "io/gltf/file/uri.h"
 #include "io/gltf/save/gltf_container.h"
+#include "mesh/resource/beside.h"
 #include <string.h>
-
-/* Returns "OUT-stem.bin" for the first external buffer, "OUT-stem-1.bin" for the next, and so on. */
-static char *make_name(const char *path, size_t number)
-{
-    char *stem = ffd_path_stem(path);
-    byte_buffer name = {0};
-    if (stem)
-        ffd_buffer_text(&name, stem);
-    if (number > 0)
-        ffd_buffer_format(&name, "-%zu", number);
-    ffd_buffer_text(&name, ".bin");
-    name.failed = name.failed || !stem;
-    ffd_free(stem);
-    return ffd_buffer_finish(&name);
-}
 
 /* Refuses to replace a file of the input by the output. */
 static ffd_status refuse_own_file(const gltf_saver *saver, const char *target, ffd_error *error)
@@ -62,83 +48,66 @@ static ffd_status set_uri(gltf_saver *saver, size_t b, const char *name, ffd_err
     return ffd_edits_failed(&saver->edits) ? ffd_fail_memory(error) : FFD_OK;
 }
 
-static ffd_status give_name(gltf_saver *saver, size_t b, size_t number, ffd_error *error)
-{
-    char *name = make_name(saver->options->path, number);
-    char *target = name ? ffd_path_beside(saver->options->path, name) : NULL;
-    saver->buffers[b].target = target;
-    ffd_status status = target ? refuse_own_file(saver, target, error) : ffd_fail_memory(error);
-    if (status == FFD_OK)
-        status = ffd_output_check(target, saver->options->force, error);
-    if (status == FFD_OK)
-        status = set_uri(saver, b, name, error);
-    ffd_free(name);
-    return status;
-}
+/* A buffer of the document, whose file is asked for. */
+typedef struct named_buffer {
+    const gltf_document *document;
+    size_t number;
+} named_buffer;
 
-/* Finds whether the file belongs to buffer b and to no other buffer of the model. */
-static ffd_status is_own_file(const gltf_document *d, size_t b, const char *target, bool *own,
-                              ffd_error *error)
+/* Whether the file belongs to the buffer and to no other buffer of the model. */
+static bool is_own_file(const void *context, const char *target)
 {
-    *own = false;
+    const named_buffer *const of = context;
+    const gltf_document *const d = of->document;
+    bool own = false;
     for (size_t i = 0; i < d->buffer_values.count; i++) {
         if (d->buffers[i].kind != BUFFER_FILE)
             continue;
-        char *file = ffd_path_beside(d->path, d->buffers[i].path);
-        const bool same = file && ffd_file_same(file, target), failed = !file;
+        char *const file = ffd_path_beside(d->path, d->buffers[i].path);
+        const bool same = file && ffd_file_same(file, target), is_known = file;
         ffd_free(file);
-        if (failed)
-            return ffd_fail_memory(error);
-        if (same && i != b) {
-            *own = false;
-            return FFD_OK;
-        }
-        *own = *own || same;
+        if (!is_known || (same && i != of->number)) /* without memory it is not replaced */
+            return false;
+        own = own || same;
     }
-    return FFD_OK;
+    return own;
+}
+
+static ffd_status give_name(gltf_saver *saver, size_t b, beside_names *names, ffd_error *error)
+{
+    const named_buffer of = {saver->document, b};
+    char *target;
+    ffd_status status = ffd_beside_next(names, is_own_file, &of, &target, error);
+    if (status)
+        return status;
+    saver->buffers[b].target = target;
+    if (!saver->in_place)
+        status = refuse_own_file(saver, target, error);
+    if (!status && !saver->in_place)
+        status = ffd_output_check(target, saver->options->force, error);
+    return status ? status : set_uri(saver, b, ffd_path_name(target), error);
 }
 
 /* If the output replaces the input, an unchanged buffer keeps its file. A changed buffer gets a new name
    after the output, because other models may use the old file; the only existing file that it may replace is
    its own. */
-static ffd_status give_name_in_place(gltf_saver *saver, size_t b, size_t *number, ffd_error *error)
-{
-    const gltf_document *d = saver->document;
-    ffd_status status = FFD_OK;
-    while (saver->buffers[b].changed && !saver->buffers[b].target && status == FFD_OK) {
-        bool own = false;
-        char *name = make_name(d->path, (*number)++), *target = name ? ffd_path_beside(d->path, name) : NULL;
-        const bool exists = target && ffd_file_exists(target);
-        status = !target ? ffd_fail_memory(error) : exists ? is_own_file(d, b, target, &own, error) : FFD_OK;
-        if (status == FFD_OK && (own || !exists)) {
-            saver->buffers[b].target = target;
-            target = NULL;
-            status = set_uri(saver, b, name, error);
-        }
-        ffd_free(name);
-        ffd_free(target);
-    }
-    return status;
-}
-
 ffd_status ffd_gltf_name_buffers(gltf_saver *saver, ffd_error *error)
 {
     const gltf_document *d = saver->document;
     const bool stream = ffd_output_is_stream(saver->options->path);
-    size_t number = 0;
+    beside_names names = {.options = saver->options, .log = saver->log, .in_place = saver->in_place};
     ffd_status status = FFD_OK;
     if (!stream && !saver->in_place)
         status = refuse_own_file(saver, saver->options->path, error);
     for (size_t b = 0; b < d->buffer_values.count && status == FFD_OK; b++) {
-        if (saver->buffers[b].kind != BUFFER_FILE)
+        if (saver->buffers[b].kind != BUFFER_FILE || (saver->in_place && !saver->buffers[b].changed))
             continue;
         if (stream)
             return ffd_json_span_fail(
                 &d->tree, d->buffer_values.values[b], d->name, FFD_E_ARGUMENT, error,
                 "the buffer is a file of its own, which standard output cannot hold: give a file "
                 "name as output");
-        status = saver->in_place ? give_name_in_place(saver, b, &number, error)
-                                 : give_name(saver, b, number++, error);
+        status = give_name(saver, b, &names, error);
     }
     return status;
 }
@@ -158,16 +127,4 @@ size_t ffd_gltf_count_beside(const file_input *bytes, ffd_format from, ffd_forma
         return 0;
     return ffd_gltf_count_buffer_files(data + layout.json_begin, layout.json_size) +
            (to_text && layout.has_bin);
-}
-
-ffd_status ffd_gltf_list_beside(const char *output, size_t count, path_list *files, ffd_error *error)
-{
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < count && !status; i++) {
-        char *const name = make_name(output, i), *const path = name ? ffd_path_beside(output, name) : NULL;
-        status = path ? ffd_paths_add(files, path, error) : ffd_fail_memory(error);
-        ffd_free(name);
-        ffd_free(path);
-    }
-    return status;
 }

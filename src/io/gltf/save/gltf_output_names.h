@@ -7,8 +7,7 @@
 /* Chooses the names and edits the buffers' URIs. Errors: FFD_E_EXISTS, FFD_E_ARGUMENT, FFD_E_MEMORY. */
 ffd_status ffd_gltf_name_buffers(gltf_saver *saver, ffd_error *error);
 
-/* mesh_format's count_beside and list_beside: the files of the buffers. */
+/* mesh_format's count_beside: the files of the buffers. */
 mesh_count_beside_function ffd_gltf_count_beside;
-mesh_list_beside_function ffd_gltf_list_beside;
 
 #endif

@@ -10,11 +10,21 @@
 #include "io/gltf/save/gltf_json_insert.h"
 #include "io/gltf/save/gltf_plan.h"
 #include "io/gltf/save/gltf_sparse.h"
+#include "io/gltf/save/gltf_stale.h"
 #include "io/gltf/save/gltf_unpack.h"
 
 static const json_value *value_of(const gltf_saver *saver, uint32_t value)
 {
     return &saver->document->tree.values[value];
+}
+
+/* Replaces the number of a member, if the object has it. */
+static void replace_number(const gltf_saver *saver, uint32_t object, const char *key, size_t number,
+                           json_edits *edits)
+{
+    const uint32_t member = ffd_json_span_member(&saver->document->tree, object, key);
+    if (member != JSON_NONE)
+        ffd_edits_format(edits, value_of(saver, member)->begin, value_of(saver, member)->end, "%zu", number);
 }
 
 /* Edits the members of an object ("attributes" or a morph target) to name the accessors with the primitive's
@@ -28,9 +38,8 @@ static void edit_slots(const gltf_saver *saver, size_t mesh, size_t p, uint32_t 
         if (version == GLTF_NONE ||
             saver->plan.versions[version].output == saver->plan.versions[version].accessor)
             continue;
-        const json_value *value =
-            value_of(saver, ffd_json_span_member(&d->tree, object, ffd_gltf_semantic_names[s]));
-        ffd_edits_format(edits, value->begin, value->end, "%zu", saver->plan.versions[version].output);
+        replace_number(saver, object, ffd_gltf_semantic_names[s], saver->plan.versions[version].output,
+                       edits);
     }
 }
 
@@ -48,8 +57,7 @@ static void edit_splats(const gltf_saver *saver, size_t mesh, size_t p, uint32_t
             saver->plan.versions[version].output == saver->plan.versions[version].accessor)
             continue;
         ffd_gltf_splat_name(slot - vectors, name);
-        const json_value *value = value_of(saver, ffd_json_span_member(&d->tree, attributes, name));
-        ffd_edits_format(edits, value->begin, value->end, "%zu", saver->plan.versions[version].output);
+        replace_number(saver, attributes, name, saver->plan.versions[version].output, edits);
     }
 }
 
@@ -70,14 +78,6 @@ static void edit_attributes(const gltf_saver *saver, size_t mesh, size_t use, js
             edit_slots(saver, mesh, p, t, first, use, edits);
         }
     }
-}
-
-static void replace_number(const gltf_saver *saver, uint32_t object, const char *key, size_t number,
-                           json_edits *edits)
-{
-    const uint32_t member = ffd_json_span_member(&saver->document->tree, object, key);
-    if (member != JSON_NONE)
-        ffd_edits_format(edits, value_of(saver, member)->begin, value_of(saver, member)->end, "%zu", number);
 }
 
 /* Adds a copy of an element, with edits of its own, to the element's list. */
@@ -252,9 +252,10 @@ static void add_meshes(gltf_saver *saver)
 static void edit_data_uri(gltf_saver *saver, size_t buffer)
 {
     const gltf_document *d = saver->document;
-    const json_value *uri =
-        value_of(saver, ffd_json_span_member(&d->tree, d->buffer_values.values[buffer], "uri"));
-    const uint32_t first = uri->begin + 1, last = uri->end - 1;
+    const uint32_t uri = ffd_json_span_member(&d->tree, d->buffer_values.values[buffer], "uri");
+    if (uri == JSON_NONE)
+        return;
+    const uint32_t first = value_of(saver, uri)->begin + 1, last = value_of(saver, uri)->end - 1;
     data_uri_coding coding;
     const size_t head = ffd_data_uri_payload(d->tree.text + first, last - first, &coding);
     if (head != SIZE_MAX && coding != DATA_PLAIN) {
@@ -314,6 +315,7 @@ ffd_status ffd_gltf_make_edits(gltf_saver *saver, ffd_error *error)
     const ffd_status status = ffd_gltf_follow_meshes(saver, error);
     if (status)
         return status;
+    ffd_gltf_warn_of_stale(saver);
     edit_rig(saver);
     edit_buffers(saver);
     ffd_gltf_move_buffers(saver);

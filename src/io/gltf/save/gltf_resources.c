@@ -2,11 +2,15 @@
 #include "base/file/folder.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/text/base64.h"
 #include "io/gltf/file/glb.h"
 #include "io/gltf/file/uri.h"
+#include "io/gltf/save/gltf_output_names.h"
 #include "mesh/resource/image_file.h"
+#include "mesh/resource/left_out.h"
 #include "mesh/resource/resource_copy.h"
 #include "json/json_parse.h"
+#include <stdio.h>
 #include <string.h>
 
 /* The folders of input and output, and the images to copy. */
@@ -15,6 +19,8 @@ typedef struct resources {
     resource_copier copier;
     char *from, *to;
     resource_list copies;
+    bool embeds; /* a GLB that is made of a .gltf holds its images */
+    memory_budget budget;
 } resources;
 
 static ffd_status normalize(const char *mesh, char *name, char **path, ffd_error *error)
@@ -29,11 +35,11 @@ static ffd_status normalize(const char *mesh, char *name, char **path, ffd_error
     return *path ? FFD_OK : ffd_fail_memory(error);
 }
 
-ffd_status ffd_gltf_image_path(const json_span *tree, uint32_t image, const char *mesh, char **path,
-                               ffd_error *error)
+/* Returns the path of a file that a URI names, relative to the model's folder; NULL if it names none. */
+static ffd_status relative_path(const json_span *tree, uint32_t uri, const char *mesh, char **path,
+                                ffd_error *error)
 {
     *path = NULL;
-    const uint32_t uri = ffd_json_span_member(tree, image, "uri");
     if (uri == JSON_NONE || tree->values[uri].kind != JSON_STRING)
         return FFD_OK;
     size_t size;
@@ -51,9 +57,15 @@ ffd_status ffd_gltf_image_path(const json_span *tree, uint32_t image, const char
     return status;
 }
 
+ffd_status ffd_gltf_file_path(const json_span *tree, uint32_t value, const char *mesh, char **path,
+                              ffd_error *error)
+{
+    return relative_path(tree, ffd_json_span_member(tree, value, "uri"), mesh, path, error);
+}
+
 static ffd_status image_path(const gltf_document *d, size_t image, char **path, ffd_error *error)
 {
-    return ffd_gltf_image_path(&d->tree, d->image_values.values[image], d->path, path, error);
+    return ffd_gltf_file_path(&d->tree, d->image_values.values[image], d->path, path, error);
 }
 
 /* Adds the images of a JSON text that may be copied, with their names. */
@@ -63,7 +75,7 @@ static ffd_status find_images(const json_span *tree, const char *mesh, path_list
     uint32_t image = ffd_json_span_first(tree, ffd_json_span_member(tree, 0, "images"));
     for (; image != JSON_NONE && !status; image = ffd_json_span_after(tree, image)) {
         char *relative, *path = NULL;
-        status = ffd_gltf_image_path(tree, image, mesh, &relative, error);
+        status = ffd_gltf_file_path(tree, image, mesh, &relative, error);
         if (relative && ffd_image_has_name(relative) && !ffd_image_is_hidden(relative)) {
             path = ffd_path_beside(mesh, relative);
             status = path ? ffd_paths_add(files, path, error) : ffd_fail_memory(error);
@@ -74,24 +86,82 @@ static ffd_status find_images(const json_span *tree, const char *mesh, path_list
     return status;
 }
 
+/* Whether a JSON text may have a member "uri", perhaps with escapes: most GLB files have none. */
+static bool may_name_files(const char *text, size_t size)
+{
+    const char *const end = text + size;
+    for (const char *c = memchr(text, 'u', size); c; c = memchr(c + 1, 'u', (size_t)(end - c - 1)))
+        if ((end - c >= 4 && memcmp(c, "uri\"", 4) == 0) || (c > text && c[-1] == '\\'))
+            return true;
+    return false;
+}
+
+/* Parses the JSON text of a file that may name others. *is_model: false if it does not, or is not valid,
+   which is no error. */
+static ffd_status parse(const char *path, const file_input *bytes, json_span *tree, bool *is_model,
+                        ffd_error *error)
+{
+    glb_layout layout;
+    json_input json = {.text = (const char *)bytes->data, .size = bytes->size, .rules = JSON_ALLOW_MARK};
+    *is_model = true;
+    if (ffd_glb_is(bytes->data, bytes->size)) {
+        *is_model = !ffd_glb_parse(bytes->data, bytes->size, path, &layout, NULL);
+        json.text += *is_model ? layout.json_begin : 0;
+        json.size = *is_model ? layout.json_size : 0;
+    }
+    *is_model = *is_model && may_name_files(json.text, json.size);
+    const ffd_status parsed = *is_model ? ffd_json_parse(&json, tree, NULL) : FFD_E_INVALID;
+    *is_model = parsed == FFD_OK;
+    return parsed == FFD_E_MEMORY ? ffd_fail_memory(error) : FFD_OK;
+}
+
 ffd_status ffd_gltf_find_resources(const char *path, const file_input *bytes, path_list *files,
                                    ffd_error *error)
 {
-    glb_layout layout;
     json_span tree;
-    json_input json = {.text = (const char *)bytes->data, .size = bytes->size, .rules = JSON_ALLOW_MARK};
-    bool is_model = true;
-    if (ffd_glb_is(bytes->data, bytes->size)) {
-        is_model = !ffd_glb_parse(bytes->data, bytes->size, path, &layout, NULL);
-        json.text += is_model ? layout.json_begin : 0;
-        json.size = is_model ? layout.json_size : 0;
-    }
-    const ffd_status parsed = is_model ? ffd_json_parse(&json, &tree, NULL) : FFD_E_INVALID;
-    ffd_status status = parsed == FFD_E_MEMORY ? ffd_fail_memory(error) : FFD_OK;
-    if (!parsed) {
+    bool is_model;
+    ffd_status status = parse(path, bytes, &tree, &is_model, error);
+    if (is_model) {
         status = find_images(&tree, path, files, error);
         ffd_json_span_free(&tree);
     }
+    return status;
+}
+
+/* Adds the files that the members of an array name. */
+static ffd_status find_files(const json_span *tree, const char *array, const char *mesh, path_list *files,
+                             ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    uint32_t value = ffd_json_span_first(tree, ffd_json_span_member(tree, 0, array));
+    for (; value != JSON_NONE && !status; value = ffd_json_span_after(tree, value)) {
+        char *relative;
+        status = ffd_gltf_file_path(tree, value, mesh, &relative, error);
+        char *const path = relative ? ffd_path_beside(mesh, relative) : NULL;
+        if (path)
+            status = ffd_paths_add(files, path, error);
+        else if (relative)
+            status = ffd_fail_memory(error);
+        ffd_free(path);
+        ffd_free(relative);
+    }
+    return status;
+}
+
+ffd_status ffd_gltf_find_named(const char *path, const file_input *bytes, path_list *files, path_list *copies,
+                               ffd_error *error)
+{
+    json_span tree;
+    bool is_model;
+    ffd_status status = parse(path, bytes, &tree, &is_model, error);
+    if (!is_model)
+        return status;
+    status = find_files(&tree, "buffers", path, files, error);
+    if (!status)
+        status = find_files(&tree, "images", path, files, error);
+    if (!status && copies)
+        status = find_images(&tree, path, copies, error);
+    ffd_json_span_free(&tree);
     return status;
 }
 
@@ -129,8 +199,9 @@ static ffd_status copy_image(const resources *r, const mesh_resource *image, ffd
 static ffd_status refer_to_image(const resources *r, size_t image, const char *path, ffd_error *error)
 {
     const gltf_document *d = r->saver->document;
-    const json_value *uri =
-        &d->tree.values[ffd_json_span_member(&d->tree, d->image_values.values[image], "uri")];
+    const uint32_t uri = ffd_json_span_member(&d->tree, d->image_values.values[image], "uri");
+    if (uri == JSON_NONE)
+        return FFD_OK;
     char *from = ffd_path_resolve(r->from), *to = ffd_path_resolve(r->to);
     char *absolute = from ? ffd_path_join(from, path) : NULL;
     char *plain = absolute ? ffd_path_normalize(absolute) : NULL;
@@ -140,10 +211,57 @@ static ffd_status refer_to_image(const resources *r, size_t image, const char *p
     if (!encoded)
         status = ffd_fail_memory(error);
     else
-        ffd_edits_replace(&r->saver->edits, uri->begin + 1, uri->end - 1, encoded, strlen(encoded));
+        ffd_edits_replace(&r->saver->edits, d->tree.values[uri].begin + 1, d->tree.values[uri].end - 1,
+                          encoded, strlen(encoded));
     char *const texts[] = {from, to, absolute, plain, relative, encoded};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
         ffd_free(texts[i]);
+    return status;
+}
+
+/* Replaces the URI of an image by one that holds its bytes. */
+static ffd_status put_data_uri(resources *r, size_t image, const file_input *bytes, ffd_error *error)
+{
+    const json_span *const tree = &r->saver->document->tree;
+    const uint32_t uri = ffd_json_span_member(tree, r->saver->document->image_values.values[image], "uri");
+    const size_t size = ffd_base64_length(bytes->size);
+    const ffd_status status = ffd_budget_take(&r->budget, size, 2, error); /* here, and among the edits */
+    if (status || uri == JSON_NONE)
+        return status;
+    char *const text = ffd_alloc(size, 1);
+    if (!text)
+        return ffd_fail_memory(error);
+    ffd_base64_encode(bytes->data, bytes->size, text);
+    const uint32_t begin = tree->values[uri].begin + 1, end = tree->values[uri].end - 1;
+    ffd_edits_format(&r->saver->edits, begin, end, "data:%s;base64,",
+                     ffd_image_media_type(bytes->data, bytes->size));
+    ffd_edits_replace(&r->saver->edits, end, end, text, size);
+    ffd_free(text);
+    return FFD_OK;
+}
+
+static ffd_status embed_image(resources *r, size_t number, char *path, ffd_error *error)
+{
+    const gltf_document *d = r->saver->document;
+    const mesh_resource image = {path, &ffd_resource_image, number};
+    const char *left;
+    ffd_error refused;
+    file_input bytes = {0};
+    ffd_status status = ffd_resource_load(&r->copier, &image, &bytes, &left, &refused, error);
+    if (status)
+        return status;
+    if (refused.status)
+        return ffd_json_span_fail(&d->tree, d->image_values.values[number], d->name, FFD_E_IO, error,
+                                  "the image \"%s\" cannot be put into the output: %s; --resources reference "
+                                  "refers to it where it is",
+                                  path, refused.message);
+    if (left) {
+        ffd_log_line(r->saver->log, FFD_LOG_WARNING, "the image \"%s\" %s and is not in the output", path,
+                     left);
+        return FFD_OK;
+    }
+    status = put_data_uri(r, number, &bytes, error);
+    ffd_file_unload(&bytes);
     return status;
 }
 
@@ -153,6 +271,11 @@ static ffd_status bring_image(resources *r, size_t image, ffd_error *error)
     ffd_status status = image_path(r->saver->document, image, &path, error);
     if (status || !path)
         return status;
+    if (r->embeds) {
+        status = embed_image(r, image, path, error);
+        ffd_free(path);
+        return status;
+    }
     if (r->saver->options->resources != FFD_RESOURCES_REFERENCE)
         return ffd_resources_add(&r->copies, &ffd_resource_image, image, path, error);
     status = refer_to_image(r, image, path, error);
@@ -168,7 +291,7 @@ static ffd_status refuse_image_name(const resources *r, size_t number, bool own_
     ffd_status status = image_path(saver->document, number, &image.path, error);
     if (status || !image.path)
         return status;
-    if (!saver->in_place)
+    if (!saver->in_place && !ffd_output_is_stream(saver->options->path))
         status = ffd_resource_check_target(&r->copier, &image, own_copy, saver->options->path, error);
     for (size_t b = 0; b < saver->document->buffer_values.count && status == FFD_OK; b++)
         if (saver->buffers[b].target)
@@ -177,13 +300,81 @@ static ffd_status refuse_image_name(const resources *r, size_t number, bool own_
     return status;
 }
 
+/* Returns the extension inside which a value is; JSON_NONE: none. */
+static uint32_t extension_around(const json_span *tree, uint32_t v)
+{
+    uint32_t found = JSON_NONE;
+    for (; tree->values[v].parent != JSON_NONE; v = tree->values[v].parent) {
+        if (ffd_json_span_key_is(tree, v, "extras"))
+            return JSON_NONE;
+        if (found == JSON_NONE && ffd_json_span_key_is(tree, tree->values[v].parent, "extensions"))
+            found = v;
+    }
+    return found;
+}
+
+/* Whether a value is a string whose key is "uri" or ends with "Uri". */
+static bool is_uri(const json_span *tree, uint32_t v)
+{
+    const json_value *const value = &tree->values[v];
+    const char *const end = tree->text + value->key_end;
+    return value->kind == JSON_STRING && value->key_end - value->key_begin >= sizeof "uri" + 1 &&
+           (memcmp(end - 4, "Uri\"", 4) == 0 || ffd_json_span_key_is(tree, v, "uri"));
+}
+
+/* Lists a file that an extension names, unless the output reaches it or it is the uri of an image. */
+static ffd_status leave_file(const resources *r, uint32_t uri, uint32_t extension, left_out *left,
+                             ffd_error *error)
+{
+    const json_span *const tree = &r->saver->document->tree;
+    char *path;
+    ffd_status status = relative_path(tree, uri, r->saver->document->path, &path, error);
+    if (status || !path)
+        return status;
+    char *const name = ffd_json_span_key(tree, extension), *const there = ffd_path_join(r->to, path);
+    if (!name || !there)
+        status = ffd_fail_memory(error);
+    else if (!ffd_file_exists(there)) {
+        char why[120];
+        snprintf(why, sizeof why, "of %s", name);
+        ffd_left_add(left, path, why);
+    }
+    ffd_free(name);
+    ffd_free(there);
+    ffd_free(path);
+    return status;
+}
+
+/* Names the files that extensions name, which are neither images nor buffers: they are not copied, whatever
+   they are. */
+static ffd_status warn_of_left(const resources *r, ffd_error *error)
+{
+    const json_span *const tree = &r->saver->document->tree;
+    left_out left = {0};
+    ffd_status status = FFD_OK;
+    for (uint32_t v = 0; v < tree->count && status == FFD_OK; v++) {
+        const uint32_t extension = is_uri(tree, v) ? extension_around(tree, v) : JSON_NONE;
+        if (extension != JSON_NONE)
+            status = leave_file(r, v, extension, &left, error);
+    }
+    if (status == FFD_OK)
+        ffd_left_say(&left, "file that an extension names is not copied",
+                     "files that extensions name are not copied", r->saver->log);
+    return status;
+}
+
 ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error)
 {
     const gltf_document *d = saver->document;
-    if (ffd_file_is_stream(d->path) || ffd_output_is_stream(saver->options->path))
+    const bool copies = saver->options->resources == FFD_RESOURCES_COPY;
+    const bool embeds = copies && saver->binary && !d->binary;
+    if (ffd_file_is_stream(d->path) || (ffd_output_is_stream(saver->options->path) && !embeds))
         return FFD_OK;
-    resources r = {
-        .saver = saver, .from = ffd_path_folder(d->path), .to = ffd_path_folder(saver->options->path)};
+    resources r = {.saver = saver,
+                   .from = ffd_path_folder(d->path),
+                   .to = ffd_path_folder(saver->options->path),
+                   .embeds = embeds,
+                   .budget = d->base.budget};
     r.copier = (resource_copier){.mesh = d->path,
                                  .from = r.from,
                                  .to = r.to,
@@ -192,14 +383,16 @@ ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error)
                                  .copied = saver->options->copied};
     ffd_status status = r.from && r.to ? FFD_OK : ffd_fail_memory(error);
     const bool stay = status == FFD_OK && (saver->in_place || ffd_file_same(r.from, r.to));
-    const bool own_copies = stay || saver->options->resources == FFD_RESOURCES_COPY;
+    const bool own_copies = stay || (copies && !embeds);
     for (size_t i = 0; i < d->image_values.count && status == FFD_OK; i++)
         status = refuse_image_name(&r, i, own_copies, error);
-    for (size_t i = 0; i < d->image_values.count && status == FFD_OK && !stay; i++)
+    for (size_t i = 0; i < d->image_values.count && status == FFD_OK && (!stay || embeds); i++)
         status = bring_image(&r, i, error);
     ffd_resources_sort(&r.copies);
     for (size_t i = 0; i < r.copies.count && status == FFD_OK; i++)
         status = copy_image(&r, &r.copies.resources[i], error);
+    if (status == FFD_OK && !stay && !ffd_output_is_stream(saver->options->path))
+        status = warn_of_left(&r, error);
     ffd_resources_free(&r.copies);
     ffd_free(r.from);
     ffd_free(r.to);

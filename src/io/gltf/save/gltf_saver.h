@@ -17,7 +17,8 @@ typedef struct gltf_overwrite {
 typedef struct gltf_unpacking {
     size_t view, accessor;      /* exactly one of them is GLTF_NONE */
     bool indices;               /* whether the accessor's elements are indices */
-    const unsigned char *bytes; /* the decompressed bytes before any change; owned by the document */
+    const unsigned char *bytes; /* the decompressed bytes before any change; those of the document, or own */
+    unsigned char *own;         /* a copy of them in which something is mended; NULL: none */
     size_t size;
     size_t buffer, offset; /* where they go */
 } gltf_unpacking;

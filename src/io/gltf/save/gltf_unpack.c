@@ -129,6 +129,8 @@ ffd_status ffd_gltf_list_unpackings(gltf_saver *saver, ffd_error *error)
 
 void ffd_gltf_free_unpackings(gltf_saver *saver)
 {
+    for (size_t i = 0; i < saver->unpacking_count; i++)
+        ffd_free(saver->unpackings[i].own);
     ffd_free(saver->view_unpackings);
     ffd_free(saver->accessor_unpackings);
     ffd_free(saver->unpackings);
@@ -203,7 +205,7 @@ static void edit_accessor(gltf_saver *saver, const gltf_unpacking *unpacking, si
         set_number(&d->tree, accessor, "byteOffset", 0, &saver->edits);
     /* The stated bounds are from before the compression, which may have rounded the values. */
     if (saver->plan.in_place[unpacking->accessor] == GLTF_NONE)
-        ffd_gltf_edit_original_bounds(saver, unpacking->accessor, &saver->edits);
+        ffd_gltf_edit_unpacked_bounds(saver, unpacking, &saver->edits);
 }
 
 void ffd_gltf_edit_unpackings(gltf_saver *saver)

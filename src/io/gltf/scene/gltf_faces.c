@@ -1,6 +1,7 @@
 #include "io/gltf/scene/gltf_faces.h"
 #include "base/memory/memory.h"
 #include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/decode/gltf_restart.h"
 #include "io/gltf/scene/gltf_refuse.h"
 #include "io/gltf/scene/gltf_shown.h"
 
@@ -17,8 +18,9 @@ static drawing count_drawing(const gltf_document *d, const gltf_primitive *primi
     drawing counted = {0};
     if (primitive->accessor[GLTF_POSITION] < 0)
         return counted;
-    const int accessor = primitive->indices >= 0 ? primitive->indices : primitive->accessor[GLTF_POSITION];
-    const size_t n = (size_t)d->model.accessors[accessor].count;
+    const size_t n = primitive->indices >= 0
+                         ? ffd_gltf_drawn_count(d, primitive)
+                         : (size_t)d->model.accessors[primitive->accessor[GLTF_POSITION]].count;
     if (primitive->mode == MODE_UNKNOWN)
         return counted;
     counted.corners = n;
@@ -115,10 +117,10 @@ static ffd_status refuse_index(const gltf_document *d, size_t m, size_t p, size_
 {
     const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
     const gltf_accessor *positions = &d->model.accessors[primitive->accessor[GLTF_POSITION]];
-    double index;
-    ffd_gltf_read(d, (size_t)primitive->indices, i, 1, 1, &index);
+    uint32_t index;
+    ffd_gltf_read_drawn(d, primitive, i, 1, &index);
     return ffd_json_span_fail(&d->tree, ffd_gltf_primitive_value(d, m, p), d->name, FFD_E_INVALID, error,
-                              "index %zu is %.0f, but the count of vertices is %llu", i, index,
+                              "index %zu is %lu, but the count of vertices is %llu", i, (unsigned long)index,
                               (unsigned long long)positions->count);
 }
 
@@ -132,7 +134,7 @@ static ffd_status fill_corners(const gltf_document *d, size_t m, size_t p, size_
             corners[i] = (uint32_t)i;
         return FFD_OK;
     }
-    const uint32_t largest = ffd_gltf_read_indices(d, (size_t)primitive->indices, 0, count, corners);
+    const uint32_t largest = ffd_gltf_read_drawn(d, primitive, 0, count, corners);
     for (size_t i = 0; i < count && largest >= vertices; i++)
         if (corners[i] >= vertices)
             return refuse_index(d, m, p, i, error);
@@ -158,16 +160,6 @@ ffd_status ffd_gltf_read_corners(const gltf_document *d, size_t m, size_t p, uin
     return status;
 }
 
-void ffd_gltf_triangle(int mode, size_t t, const uint32_t *corners, uint32_t triangle[3])
-{
-    const size_t first = mode == MODE_TRIANGLES ? 3 * t : mode == MODE_FAN ? 0 : t;
-    const size_t second = mode == MODE_TRIANGLES ? first + 1 : mode == MODE_FAN ? t + 1 : t + 1 + t % 2;
-    const size_t third = mode == MODE_TRIANGLES ? first + 2 : mode == MODE_FAN ? t + 2 : t + 2 - t % 2;
-    triangle[0] = corners[first];
-    triangle[1] = corners[second];
-    triangle[2] = corners[third];
-}
-
 static ffd_status add_primitive(const gltf_document *d, size_t m, size_t p, const size_t *base, uint32_t *to,
                                 size_t *added, ffd_error *error)
 {
@@ -183,7 +175,7 @@ static ffd_status add_primitive(const gltf_document *d, size_t m, size_t p, cons
         const gltf_instance *instance = &ffd_gltf_instances(d, m, p)[n];
         for (size_t t = 0; t < counted.triangles; t++) {
             uint32_t *triangle = to + 3 * (*added)++;
-            ffd_gltf_triangle(primitive->mode, t, corners, triangle);
+            gltf_triangle(primitive->mode, t, corners, triangle);
             for (int c = 0; c < 3; c++)
                 triangle[c] += (uint32_t)base[instance->part[GLTF_POSITION]];
         }

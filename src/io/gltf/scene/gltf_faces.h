@@ -19,10 +19,6 @@ ffd_status ffd_gltf_read_corners(const gltf_document *document, size_t mesh, siz
 /* Returns the largest count of ffd_gltf_read_corners over all primitives. */
 uint64_t ffd_gltf_most_corners(const gltf_document *document);
 
-/* Finds the vertices of triangle t among a primitive's corners. Every second triangle of a strip is reversed
-   (glTF 2.0, 3.7.2.1). */
-void ffd_gltf_triangle(int mode, size_t t, const uint32_t *corners, uint32_t triangle[3]);
-
 /* mesh_format's faces and corner_normals. */
 mesh_faces_function ffd_gltf_faces;
 mesh_corner_normals_function ffd_gltf_corner_normals;

@@ -63,15 +63,14 @@ static void add_pending(const surveying *s, size_t node, size_t *waiting)
     s->pending[(*waiting)++] = node;
 }
 
-/* Adds the nodes that replace a node at a distance: they are selected with it. */
-static void add_details(const surveying *s, size_t node, size_t *waiting)
+/* Adds the nodes that stand for a node: they are selected with it. */
+static void add_stand_ins(const surveying *s, size_t node, size_t *waiting)
 {
     const gltf_document *d = s->document;
-    for (uint32_t v = ffd_gltf_first_detail(d, node); v != JSON_NONE; v = ffd_json_span_after(&d->tree, v)) {
-        const size_t detail = ffd_gltf_node(d, v);
-        if (detail != GLTF_NONE && d->stands_in[detail])
-            add_pending(s, detail, waiting);
-    }
+    gltf_stand_ins walk = ffd_gltf_stand_ins(d, node);
+    for (size_t found; (found = ffd_gltf_next_stand_in(&walk)) != GLTF_NONE;)
+        if (d->stands_in[found])
+            add_pending(s, found, waiting);
 }
 
 /* Draws the pending nodes and all their descendants. */
@@ -88,7 +87,7 @@ static ffd_status draw_pending(const surveying *s, size_t waiting)
             status = draw_mesh(s, (size_t)node->mesh, use, 1);
         for (size_t i = 0; i < node->child_count; i++)
             add_pending(s, (size_t)node->children[i], &waiting);
-        add_details(s, number, &waiting);
+        add_stand_ins(s, number, &waiting);
     }
     return status;
 }
@@ -100,7 +99,7 @@ static ffd_status draw_node(const surveying *s, size_t node)
     return draw_pending(s, waiting);
 }
 
-/* Draws a mesh for all its uses, and the nodes that replace its nodes at a distance. */
+/* Draws a mesh for all its uses, and the nodes that stand for its nodes. */
 static ffd_status draw_uses(const surveying *s, size_t mesh)
 {
     const gltf_mesh_uses *uses = &s->document->mesh_uses[mesh];
@@ -109,7 +108,7 @@ static ffd_status draw_uses(const surveying *s, size_t mesh)
     for (size_t i = 0; uses->nodes && i < uses->node_count; i++)
         s->seen[uses->nodes[i]] = s->listing->count;
     for (size_t i = 0; uses->nodes && i < uses->node_count; i++)
-        add_details(s, uses->nodes[i], &waiting);
+        add_stand_ins(s, uses->nodes[i], &waiting);
     return status ? status : draw_pending(s, waiting);
 }
 

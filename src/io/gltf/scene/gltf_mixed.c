@@ -105,7 +105,8 @@ static bool search_primitive(mixed_work *work, const size_t *first, size_t m, si
             return false;
         work->first = first[part];
         work->vertices = d->mesh_parts[part].vertex_count;
-        if (!is_uniform(work) && (primitive->mode != MODE_TRIANGLES || !search(work, triangles, all)))
+        if (!is_uniform(work) &&
+            (primitive->mode != MODE_TRIANGLES || primitive->drawn || !search(work, triangles, all)))
             return false;
     }
     return true;

@@ -4,6 +4,7 @@
 #include "base/vector/vec.h"
 #include "io/gltf/decode/gltf_rounding.h"
 #include "io/gltf/scene/gltf_shapes.h"
+#include "io/gltf/scene/gltf_skin_sets.h"
 #include <string.h>
 
 #define MOST_VERTICES ((uint64_t)UINT32_MAX - 1)
@@ -186,7 +187,7 @@ static gltf_part describe_part(const gltf_document *d, size_t mesh, size_t p, si
     }
     if (part.streams[GLTF_NORMAL].accessor == GLTF_NONE)
         part.streams[GLTF_TANGENT].accessor = GLTF_NONE; /* ignored without normals (glTF 2.0, 3.7.2.1) */
-    if (node != GLTF_NONE && d->model.nodes[node].skin >= 0) {
+    if (node != GLTF_NONE && d->model.nodes[node].skin >= 0 && ffd_gltf_is_skinned(primitive)) {
         part.skin = &d->skins[d->model.nodes[node].skin];
         part.influences = primitive->influences;
         part.influence_count = primitive->influence_count;

@@ -23,6 +23,8 @@ static const place places[GLTF_REFERENCE_COUNT] = {
                       "shapes"},
     [GLTF_OMI_COLLIDER] = {"OMI_physics_body", {"collider", "shape"}, "OMI_physics_shape", "shapes"},
     [GLTF_OMI_TRIGGER] = {"OMI_physics_body", {"trigger", "shape"}, "OMI_physics_shape", "shapes"},
+    [GLTF_COLLIDER_NODE] = {"KHR_physics_rigid_bodies", {"collider", "geometry", "node"}, NULL, "nodes"},
+    [GLTF_TRIGGER_NODE] = {"KHR_physics_rigid_bodies", {"trigger", "geometry", "node"}, NULL, "nodes"},
 };
 
 uint32_t ffd_gltf_reference(const gltf_document *d, size_t node, gltf_reference reference)

@@ -13,6 +13,8 @@ typedef enum gltf_reference {
     GLTF_TRIGGER,
     GLTF_OMI_COLLIDER,
     GLTF_OMI_TRIGGER,
+    GLTF_COLLIDER_NODE,
+    GLTF_TRIGGER_NODE,
     GLTF_REFERENCE_COUNT
 } gltf_reference;
 

@@ -46,6 +46,8 @@ static ffd_status refuse_skin(const gltf_document *d, size_t node, ffd_error *er
     ffd_status status = FFD_OK;
     for (size_t p = 0; skin && p < d->model.meshes[m].primitive_count && status == FFD_OK; p++) {
         const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
+        if (primitive->accessor[GLTF_POSITION] < 0)
+            continue; /* nothing to move, and nobody has checked its influences */
         if (skin->inverse_bind >= 0)
             status = ffd_gltf_refuse_unreadable(d, m, p, skin->inverse_bind, error);
         for (size_t i = 0; i < primitive->influence_count && status == FFD_OK; i++) {
@@ -84,11 +86,24 @@ static ffd_status refuse_newer_version(const gltf_document *d, ffd_error *error)
     return status;
 }
 
+/* Refuses geometry that an extension holds, with or without --allow-extension. */
+static ffd_status refuse_held(const gltf_document *d, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count && d->mesh_uses[m].node_count > 0; p++)
+            if (status == FFD_OK)
+                status = ffd_gltf_refuse_held(d, m, p, error);
+    return status;
+}
+
 ffd_status ffd_gltf_refuse_read(const gltf_document *d, ffd_error *error)
 {
     ffd_status status = refuse_newer_version(d, error);
     if (status == FFD_OK)
         status = refuse_shared_child(d, error);
+    if (status == FFD_OK)
+        status = refuse_held(d, error);
     if (status == FFD_OK)
         status = ffd_gltf_refuse_required(d, error);
     if (status == FFD_OK && d->skins_status) {

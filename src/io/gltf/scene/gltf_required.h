@@ -1,5 +1,5 @@
-/* gltf_required.h - decides whether a file can be deformed without knowing the extensions that it
-   requires. */
+/* gltf_required.h - decides whether a file can be deformed without knowing the extensions that it requires,
+   or that hold geometry in forms of their own, such as vendors' compressions. */
 #ifndef FFD_IO_GLTF_SCENE_GLTF_REQUIRED_H
 #define FFD_IO_GLTF_SCENE_GLTF_REQUIRED_H
 
@@ -11,5 +11,17 @@ ffd_status ffd_gltf_find_required(gltf_document *document, const ffd_source *sou
 
 /* Refuses the document if it has such an extension. Errors: FFD_E_UNSUPPORTED, FFD_E_MEMORY. */
 ffd_status ffd_gltf_refuse_required(const gltf_document *document, ffd_error *error);
+
+/* Marks positions that are not in the file's accessors as not readable: the accessor has no bytes, and an
+   extension of the primitive holds geometry, or min and max are not 0. */
+void ffd_gltf_find_held(gltf_document *document);
+
+/* Refuses a primitive whose positions an extension holds. Errors: FFD_E_UNSUPPORTED, FFD_E_MEMORY. */
+ffd_status ffd_gltf_refuse_held(const gltf_document *document, size_t mesh, size_t primitive,
+                                ffd_error *error);
+
+/* Warns of each extension of the file that holds geometry: what it holds is not deformed. Errors:
+   FFD_E_MEMORY. */
+ffd_status ffd_gltf_warn_of_held(const gltf_document *document, const mesh_log *log, ffd_error *error);
 
 #endif

@@ -1,6 +1,7 @@
 #include "io/gltf/scene/gltf_scene.h"
 #include "base/lower_bound.h"
 #include "base/memory/memory.h"
+#include "base/text/words.h"
 #include "base/vector/vec.h"
 #include "io/gltf/scene/gltf_detail.h"
 #include "io/gltf/scene/gltf_visibility.h"
@@ -200,26 +201,30 @@ static ffd_status add_scene(gltf_document *d, const size_t *parents, size_t *pen
 static void add_roots(gltf_document *d, const size_t *parents, size_t *pending)
 {
     const size_t count = d->model.node_count;
-    for (size_t n = 0; n < count; n++)
-        for (uint32_t v = ffd_gltf_first_detail(d, n); v != JSON_NONE; v = ffd_json_span_after(&d->tree, v))
-            if (ffd_gltf_node(d, v) != GLTF_NONE)
-                d->stands_in[ffd_gltf_node(d, v)] = true;
+    for (size_t n = 0; n < count; n++) {
+        gltf_stand_ins walk = ffd_gltf_stand_ins(d, n);
+        for (size_t found; (found = ffd_gltf_next_stand_in(&walk)) != GLTF_NONE;)
+            d->stands_in[found] = d->stands_in[found] || !walk.collides;
+    }
     for (size_t n = 0; n < count; n++)
         if (parents[n] == GLTF_NONE && !d->stands_in[n])
             add_subtree(d, n, parents, pending);
     memset(d->stands_in, 0, count * sizeof *d->stands_in);
 }
 
-/* Adds a node to the scene that replaces another at a distance, placed by its parent. */
+/* Adds a node to the scene that stands for another, placed by its parent. */
 static void add_stand_in(gltf_document *d, size_t n, const size_t *parents, size_t *queue, size_t *added)
 {
-    set_world_matrix(d, n, parents[n] == GLTF_NONE ? NULL : d->world + 12 * parents[n]);
+    if (d->collides[n])
+        memcpy(d->world + 12 * n, d->world + 12 * parents[n], 12 * sizeof *d->world);
+    else
+        set_world_matrix(d, n, parents[n] == GLTF_NONE ? NULL : d->world + 12 * parents[n]);
     d->in_scene[n] = d->stands_in[n] = true;
     d->scene_ranks[n] = d->nodes_in_scene++;
     queue[(*added)++] = n;
 }
 
-/* Whether two parents (GLTF_NONE: the scene itself) have equal world matrices. */
+/* Whether two nodes (GLTF_NONE: the scene itself) have equal world matrices. */
 static bool stand_alike(const gltf_document *d, size_t a, size_t b)
 {
     static const double scene[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
@@ -231,35 +236,69 @@ static bool stand_alike(const gltf_document *d, size_t a, size_t b)
     return alike;
 }
 
-/* Adds the coarser levels of detail of all nodes in the scene. Each is placed as a child of the parent of the
-   node that it replaces, whatever its own parent. No scene lists it, since it is not shown together with that
-   node. */
-static void add_details(gltf_document *d, size_t *parents, size_t *queue)
+/* Adds the shape of a node's collider or trigger, hidden. */
+static ffd_status add_shape(gltf_document *d, size_t n, size_t shape, size_t *parents, size_t *queue,
+                            size_t *added, ffd_error *error)
 {
+    if (d->in_scene[shape]) {
+        d->shapes_shared += !stand_alike(d, shape, n);
+        return FFD_OK;
+    }
+    if (!d->hidden)
+        d->hidden = ffd_alloc_zero(d->model.node_count, sizeof *d->hidden);
+    if (!d->hidden)
+        return ffd_fail_memory(error);
+    d->hidden[shape] = d->collides[shape] = true;
+    parents[shape] = n;
+    add_stand_in(d, shape, parents, queue, added);
+    return FFD_OK;
+}
+
+/* Adds a coarser level of a node. It is placed as a child of the node's parent, whatever its own parent. */
+static void add_detail(gltf_document *d, size_t n, size_t detail, size_t *parents, size_t *queue,
+                       size_t *added)
+{
+    if (!d->in_scene[detail]) {
+        parents[detail] = parents[n];
+        add_stand_in(d, detail, parents, queue, added);
+    } else if (d->stands_in[detail]) {
+        d->details_shared += !stand_alike(d, parents[detail], parents[n]);
+    }
+}
+
+/* Adds the nodes that stand for a node of the scene, and those below a node that does. */
+static ffd_status add_below(gltf_document *d, size_t n, size_t *parents, size_t *queue, size_t *added,
+                            ffd_error *error)
+{
+    const gltf_node *const node = &d->model.nodes[n];
+    gltf_stand_ins walk = ffd_gltf_stand_ins(d, n);
+    ffd_status status = FFD_OK;
+    for (size_t c = 0; c < node->child_count && d->stands_in[n]; c++) {
+        const size_t child = (size_t)node->children[c];
+        if (parents[child] == n && !d->in_scene[child])
+            add_stand_in(d, child, parents, queue, added);
+    }
+    for (size_t found; status == FFD_OK && (found = ffd_gltf_next_stand_in(&walk)) != GLTF_NONE;)
+        if (walk.collides)
+            status = add_shape(d, n, found, parents, queue, added, error);
+        else
+            add_detail(d, n, found, parents, queue, added);
+    return status;
+}
+
+/* Adds the coarser levels of detail of all nodes in the scene, and the shapes of their colliders. No scene
+   lists them, since they are not shown together with these nodes. */
+static ffd_status add_stand_ins(gltf_document *d, size_t *parents, size_t *queue, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
     size_t added = 0;
     for (size_t n = 0; n < d->model.node_count; n++)
         if (d->in_scene[n])
             queue[added++] = n;
-    for (size_t i = 0; i < added; i++) {
-        const size_t n = queue[i];
-        const gltf_node *node = &d->model.nodes[n];
-        for (size_t c = 0; c < node->child_count && d->stands_in[n]; c++) {
-            const size_t child = (size_t)node->children[c];
-            if (parents[child] == n && !d->in_scene[child])
-                add_stand_in(d, child, parents, queue, &added);
-        }
-        for (uint32_t v = ffd_gltf_first_detail(d, n); v != JSON_NONE; v = ffd_json_span_after(&d->tree, v)) {
-            const size_t detail = ffd_gltf_node(d, v);
-            if (detail == GLTF_NONE)
-                continue;
-            if (!d->in_scene[detail]) {
-                parents[detail] = parents[n];
-                add_stand_in(d, detail, parents, queue, &added);
-            } else if (d->stands_in[detail] && !stand_alike(d, parents[detail], parents[n])) {
-                d->details_shared++;
-            }
-        }
-    }
+    for (size_t i = 0; i < added && status == FFD_OK; i++)
+        if (!d->collides[queue[i]])
+            status = add_below(d, queue[i], parents, queue, &added, error);
+    return status;
 }
 
 static ffd_status refuse_infinite(const gltf_document *d, ffd_error *error)
@@ -333,6 +372,24 @@ static void count_targets(gltf_document *d)
         }
 }
 
+/* Notes primitives with fewer morph targets than others of their mesh. Viewers do not move them by a weight
+   of a target that they lack. */
+static ffd_status note_unequal_targets(gltf_document *d, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count && status == FFD_OK; p++) {
+            const size_t count = d->model.meshes[m].primitives[p].target_count;
+            if (count < d->mesh_uses[m].target_count)
+                status = ffd_gltf_flaw(d, ffd_gltf_primitive_value(d, m, p), error,
+                                       "the primitive has %zu %s, but another one of its mesh has %zu: the "
+                                       "further ones do not move it",
+                                       count, ffd_plural(count, "morph target", "morph targets"),
+                                       d->mesh_uses[m].target_count);
+        }
+    return status;
+}
+
 ffd_status ffd_gltf_make_scene(gltf_document *d, ffd_error *error)
 {
     const size_t count = d->model.node_count;
@@ -343,16 +400,18 @@ ffd_status ffd_gltf_make_scene(gltf_document *d, ffd_error *error)
     d->in_scene = ffd_alloc_zero(count, sizeof *d->in_scene);
     d->scene_ranks = ffd_alloc_zero(count, sizeof *d->scene_ranks);
     d->stands_in = ffd_alloc_zero(count, sizeof *d->stands_in);
+    d->collides = ffd_alloc_zero(count, sizeof *d->collides);
     d->mesh_uses = ffd_alloc_zero(d->model.mesh_count, sizeof *d->mesh_uses);
-    ffd_status status =
-        d->parents && pending && d->world && d->in_scene && d->stands_in && d->scene_ranks && d->mesh_uses
-            ? FFD_OK
-            : ffd_fail_memory(error);
+    ffd_status status = d->parents && pending && d->world && d->in_scene && d->stands_in && d->collides &&
+                                d->scene_ranks && d->mesh_uses
+                            ? FFD_OK
+                            : ffd_fail_memory(error);
     if (status)
         goto done;
     count_targets(d);
     find_parents(d, &twice);
-    if (twice != GLTF_NONE)
+    status = note_unequal_targets(d, error);
+    if (status == FFD_OK && twice != GLTF_NONE)
         status = ffd_gltf_flaw(d, d->node_values.values[twice], error,
                                "node %zu names the node twice as its child", d->parents[twice]);
     if (status == FFD_OK)
@@ -372,7 +431,7 @@ ffd_status ffd_gltf_make_scene(gltf_document *d, ffd_error *error)
     else
         add_roots(d, d->parents, pending);
     if (status == FFD_OK)
-        add_details(d, d->parents, pending);
+        status = add_stand_ins(d, d->parents, pending, error);
     if (status == FFD_OK)
         status = refuse_infinite(d, error);
     if (status == FFD_OK)

@@ -4,8 +4,8 @@
 
 #include "io/gltf/document/gltf_document.h"
 
-/* Fills document->world, in_scene, scene_ranks, parents, stands_in and mesh_uses. Errors: FFD_E_INVALID (a
-   cycle, a root that is a child, a matrix that is not finite), FFD_E_MEMORY. */
+/* Fills document->world, in_scene, scene_ranks, parents, stands_in, collides and mesh_uses. Errors:
+   FFD_E_INVALID (a cycle, a root that is a child, a matrix that is not finite), FFD_E_MEMORY. */
 ffd_status ffd_gltf_make_scene(gltf_document *document, ffd_error *error);
 
 /* Returns the use of a mesh by a node; uses->node_count if the scene does not show it there. */

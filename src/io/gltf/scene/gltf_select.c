@@ -49,18 +49,17 @@ static void mark_node(const selecting *s, size_t node, size_t *waiting)
     s->pending[(*waiting)++] = node;
 }
 
-/* Marks the nodes that replace a node at a distance. */
-static void mark_details(const selecting *s, size_t node, size_t *waiting)
+/* Marks the nodes that stand for a node. */
+static void mark_stand_ins(const selecting *s, size_t node, size_t *waiting)
 {
     const gltf_document *d = s->document;
-    for (uint32_t v = ffd_gltf_first_detail(d, node); v != JSON_NONE; v = ffd_json_span_after(&d->tree, v)) {
-        const size_t detail = ffd_gltf_node(d, v);
-        if (detail != GLTF_NONE && d->stands_in[detail])
-            mark_node(s, detail, waiting);
-    }
+    gltf_stand_ins walk = ffd_gltf_stand_ins(d, node);
+    for (size_t found; (found = ffd_gltf_next_stand_in(&walk)) != GLTF_NONE;)
+        if (d->stands_in[found])
+            mark_node(s, found, waiting);
 }
 
-/* Marks the descendants of the waiting nodes, and the nodes that replace any of them at a distance. */
+/* Marks the descendants of the waiting nodes, and the nodes that stand for any of them. */
 static void mark_below(const selecting *s, size_t waiting)
 {
     while (waiting > 0) {
@@ -68,18 +67,18 @@ static void mark_below(const selecting *s, size_t waiting)
         const gltf_node *node = &s->document->model.nodes[n];
         for (size_t i = 0; i < node->child_count; i++)
             mark_node(s, (size_t)node->children[i], &waiting);
-        mark_details(s, n, &waiting);
+        mark_stand_ins(s, n, &waiting);
     }
 }
 
-/* Marks a mesh, and the nodes that replace its nodes at a distance. */
+/* Marks a mesh, and the nodes that stand for its nodes. */
 static void mark_mesh(const selecting *s, size_t mesh)
 {
     const gltf_mesh_uses *uses = &s->document->mesh_uses[mesh];
     size_t waiting = 0;
     s->meshes[mesh] = true;
     for (size_t i = 0; uses->nodes && i < uses->node_count; i++)
-        mark_details(s, uses->nodes[i], &waiting);
+        mark_stand_ins(s, uses->nodes[i], &waiting);
     mark_below(s, waiting);
 }
 
@@ -217,7 +216,7 @@ ffd_status ffd_gltf_select(mesh_document *document, const mesh_selector *selecto
     gltf_document *d = (gltf_document *)document;
     selecting s = {.document = d, .selectors = selectors, .count = count};
     const uint32_t materials = array_of(d, SELECT_MATERIAL);
-    s.material_count = materials == JSON_NONE ? 0 : d->tree.values[materials].count;
+    s.material_count = ffd_json_span_count(&d->tree, materials);
     s.nodes = ffd_alloc_zero(d->model.node_count, sizeof *s.nodes);
     s.pending = ffd_alloc(d->model.node_count, sizeof *s.pending);
     s.meshes = ffd_alloc_zero(d->model.mesh_count, sizeof *s.meshes);

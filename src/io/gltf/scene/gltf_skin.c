@@ -230,9 +230,6 @@ static ffd_status check_primitive(const gltf_document *d, const gltf_skin *skin,
     ffd_status status = FFD_OK;
     if (primitive->accessor[GLTF_POSITION] < 0)
         return FFD_OK;
-    if (primitive->influence_count == 0)
-        return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_INVALID, error,
-                                  "a node uses it with a skin, but it has no JOINTS_0 and WEIGHTS_0");
     if (primitive->influence_count > MOST_SETS)
         return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_LIMIT, error,
                                   "%zu sets of joints are more than the %zu that are supported",

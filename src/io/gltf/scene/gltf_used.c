@@ -1,6 +1,6 @@
 #include "io/gltf/scene/gltf_used.h"
 #include "base/system/thread.h"
-#include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/decode/gltf_restart.h"
 #include "io/gltf/scene/gltf_refuse.h"
 #include <stdatomic.h>
 #include <string.h>
@@ -14,7 +14,7 @@ typedef struct drawn_primitive {
     gltf_document *document;
     const gltf_instance *instances;
     size_t nodes;
-    size_t indices;     /* the accessor */
+    const gltf_primitive *primitive;
     atomic_bool failed; /* set if an index is out of range */
 } drawn_primitive;
 
@@ -55,7 +55,7 @@ static void mark_run(drawn_primitive *primitive, size_t first, size_t count)
 {
     uint32_t indices[RUN];
     const uint32_t largest =
-        ffd_gltf_read_indices(primitive->document, primitive->indices, first, count, indices);
+        ffd_gltf_read_drawn(primitive->document, primitive->primitive, first, count, indices);
     for (size_t n = 0; n < primitive->nodes; n++) {
         const gltf_part *const part = part_of(primitive, n);
         if (part && largest >= vertices_of(primitive, n))
@@ -72,13 +72,15 @@ static void mark_tile(void *context, size_t tile, size_t first, size_t last, int
     (void)worker;
     for (size_t run = first; run < last && !atomic_load(&primitive->failed); run += RUN)
         mark_run(primitive, run, last - run < RUN ? last - run : RUN);
-    ffd_gltf_forget_elements(primitive->document, primitive->indices, first, last - first);
+    if (!primitive->primitive->drawn)
+        ffd_gltf_forget_elements(primitive->document, (size_t)primitive->primitive->indices, first,
+                                 last - first);
 }
 
 static ffd_status mark_indices(drawn_primitive *primitive, ffd_error *error)
 {
     gltf_document *const d = primitive->document;
-    const size_t count = (size_t)d->model.accessors[primitive->indices].count;
+    const size_t count = ffd_gltf_drawn_count(d, primitive->primitive);
     for (size_t n = 0; n < primitive->nodes; n++) {
         gltf_part *const part = part_of(primitive, n);
         const ffd_status status = part && !part->used
@@ -95,15 +97,16 @@ static ffd_status mark_indices(drawn_primitive *primitive, ffd_error *error)
 static ffd_status mark_primitive(gltf_document *d, size_t m, size_t p, ffd_error *error)
 {
     const gltf_primitive *const primitive = &d->model.meshes[m].primitives[p];
-    drawn_primitive drawn = {
-        .document = d, .instances = ffd_gltf_instances(d, m, p), .nodes = d->mesh_uses[m].node_count};
+    drawn_primitive drawn = {.document = d,
+                             .primitive = primitive,
+                             .instances = ffd_gltf_instances(d, m, p),
+                             .nodes = d->mesh_uses[m].node_count};
     if (drawn.nodes == 0 || primitive->accessor[GLTF_POSITION] < 0)
         return FFD_OK;
     const bool failed =
         primitive->indices < 0 || ffd_gltf_refuse_unreadable(d, m, p, primitive->indices, NULL);
     atomic_init(&drawn.failed, failed);
     if (!failed) {
-        drawn.indices = (size_t)primitive->indices;
         const ffd_status status = mark_indices(&drawn, error);
         if (status)
             return status;

@@ -6,16 +6,49 @@
 #include "io/obj/resource/obj_paths.h"
 #include "io/obj/resource/resource_names.h"
 #include "mesh/resource/image_file.h"
-#include "mesh/resource/resource_copy.h"
+#include "mesh/resource/image_tiles.h"
+#include "mesh/resource/resource_bring.h"
 #include <string.h>
+
+/* Maps of a library that have tiles, each of which is looked for. */
+#define TILED_MAX 256
+
+static ffd_status add_file(const resource_copier *c, resource_list *list, const char *library,
+                           const char *name, ffd_error *error)
+{
+    char *path;
+    const ffd_status status = ffd_obj_find_map(c->from, library, name, &path, error);
+    return status || !path ? status : ffd_resources_add(list, &ffd_resource_image, list->count, path, error);
+}
+
+/* Adds those tiles of a map that exist. */
+static ffd_status add_tiles(const resource_copier *c, resource_list *list, const char *library,
+                            const char *name, ffd_error *error)
+{
+    const size_t before = list->count;
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < IMAGE_TILES && status == FFD_OK; i++) {
+        char *path = NULL, *const tile = ffd_image_tile(name, i);
+        status = tile ? ffd_obj_find_map(c->from, library, tile, &path, error) : ffd_fail_memory(error);
+        ffd_free(tile);
+        char *const file = path ? ffd_path_join(c->from, path) : NULL;
+        if (path && !file)
+            status = ffd_fail_memory(error);
+        if (status == FFD_OK && path && ffd_file_exists(file))
+            status = ffd_resources_add(list, &ffd_resource_image, list->count, path, error);
+        else
+            ffd_free(path);
+        ffd_free(file);
+    }
+    return status || list->count > before ? status : add_file(c, list, library, name, error);
+}
 
 /* Adds a map of a library. */
 static ffd_status add_map(const resource_copier *c, resource_list *list, const char *library,
                           const char *name, ffd_error *error)
 {
-    char *path;
-    const ffd_status status = ffd_obj_find_map(c->from, library, name, &path, error);
-    return status || !path ? status : ffd_resources_add(list, &ffd_resource_image, list->count, path, error);
+    return ffd_image_has_tiles(name) ? add_tiles(c, list, library, name, error)
+                                     : add_file(c, list, library, name, error);
 }
 
 /* Adds the maps of a library that may be copied. */
@@ -30,8 +63,13 @@ static ffd_status add_maps(const resource_copier *c, resource_list *list, const 
     if (status || left || refused.status)
         return status;
     status = ffd_mtl_list_maps(bytes.data, bytes.size, library->path, &names, error);
-    for (uint32_t i = 0; i < names.count && !status; i++)
-        status = add_map(c, list, library->path, ffd_intern_key(&names, i), error);
+    size_t tiled = 0;
+    for (uint32_t i = 0; i < names.count && !status; i++) {
+        tiled += ffd_image_has_tiles(ffd_intern_key(&names, i));
+        status = tiled <= TILED_MAX ? add_map(c, list, library->path, ffd_intern_key(&names, i), error)
+                                    : ffd_fail_file(error, FFD_E_LIMIT, library->path,
+                                                    "names more than %d maps with tiles", TILED_MAX);
+    }
     ffd_intern_free(&names);
     ffd_file_unload(&bytes);
     return status;
@@ -61,38 +99,6 @@ static ffd_status list_all(const resource_copier *c, const file_input *input, bo
     return status;
 }
 
-/* Whether a relative path leads from the output's folder to a file, and if it leads out of the mesh's folder,
-   to that one. */
-static bool is_reached(const resource_copier *c, const char *path)
-{
-    char *const from = ffd_path_join(c->from, path), *const to = ffd_path_join(c->to, path);
-    const bool reached =
-        from && to && (ffd_path_leads_out(path) ? ffd_file_same(from, to) : ffd_file_exists(to));
-    ffd_free(from);
-    ffd_free(to);
-    return reached;
-}
-
-static ffd_status copy(const resource_copier *c, const mesh_resource *resource, ffd_error *error)
-{
-    ffd_error refused;
-    if (ffd_path_leads_out(resource->path) && is_reached(c, resource->path))
-        return FFD_OK;
-    const ffd_status status = ffd_resource_copy(c, resource, &refused, error);
-    if (!status && refused.status)
-        ffd_log_line(c->log, FFD_LOG_WARNING, "the %s \"%s\" cannot be copied: %s", resource->kind->name,
-                     resource->path, refused.message);
-    return status;
-}
-
-static void say_unreached(const resource_copier *c, const mesh_resource *library)
-{
-    if (!is_reached(c, library->path))
-        ffd_log_line(c->log, FFD_LOG_WARNING,
-                     "the output does not reach the material library \"%s\" (--resources copy copies it)",
-                     library->path);
-}
-
 /* is_stay: mesh and output are in one folder. */
 static ffd_status bring(const resource_copier *c, const file_input *input, const mesh_save_options *options,
                         bool is_stay, ffd_error *error)
@@ -100,14 +106,8 @@ static ffd_status bring(const resource_copier *c, const file_input *input, const
     const bool copies = options->resources == FFD_RESOURCES_COPY;
     resource_list list = {0};
     ffd_status status = list_all(c, input, copies || is_stay, &list, error);
-    for (size_t i = 0; i < list.count && !status; i++)
-        status = ffd_resource_check_target(c, &list.resources[i], copies || is_stay, options->path, error);
-    for (size_t i = 0; i < list.count && !status && !is_stay; i++) {
-        if (copies)
-            status = copy(c, &list.resources[i], error);
-        else
-            say_unreached(c, &list.resources[i]);
-    }
+    if (!status)
+        status = ffd_resources_bring(c, &list, copies, is_stay, options->path, error);
     ffd_resources_free(&list);
     return status;
 }
@@ -150,5 +150,15 @@ ffd_status ffd_obj_find_resources(const char *path, const file_input *bytes, pat
     }
     ffd_resources_free(&list);
     ffd_free(from);
+    return status;
+}
+
+ffd_status ffd_obj_find_named(const char *path, const file_input *bytes, path_list *files, path_list *copies,
+                              ffd_error *error)
+{
+    const size_t before = files->count;
+    ffd_status status = ffd_obj_find_resources(path, bytes, files, error);
+    for (size_t i = before; copies && i < files->count && !status; i++)
+        status = ffd_paths_add(copies, files->paths[i], error);
     return status;
 }

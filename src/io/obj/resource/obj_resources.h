@@ -15,5 +15,7 @@ ffd_status ffd_obj_bring_resources(const file_input *input, const mesh_save_opti
 
 /* mesh_format's find_resources. */
 mesh_find_resources_function ffd_obj_find_resources;
+/* mesh_format's find_named. */
+mesh_find_named_function ffd_obj_find_named;
 
 #endif

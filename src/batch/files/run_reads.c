@@ -1,0 +1,245 @@
+#include "batch/files/run_reads.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include "batch/files/look.h"
+#include <string.h>
+
+/* Notes that a job reads a file; of several the first one counts. */
+static ffd_status note(run_files *files, const hash128 *file, uint64_t line, ffd_error *error)
+{
+    uint64_t known;
+    return ffd_files_find(&files->reads, file, &known) ? FFD_OK
+                                                       : ffd_files_put(&files->reads, file, line, error);
+}
+
+/* Notes that a job reads all files of a list. *conflicts: the first of them that other jobs, or the run,
+   write. */
+static ffd_status note_all(run_files *files, const path_list *list, uint64_t line, read_conflicts *conflicts,
+                           ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    *conflicts = (read_conflicts){0};
+    for (size_t i = 0; i < list->count && !status; i++) {
+        const hash128 place = ffd_run_place(files, list->paths[i]);
+        uint64_t writer;
+        status = note(files, &place, line, error);
+        if (conflicts->count == 2 || !ffd_run_writer(files, &place, &writer) ||
+            (conflicts->count && writer == conflicts->lines[0]))
+            continue;
+        conflicts->files[conflicts->count] = i;
+        conflicts->lines[conflicts->count++] = writer;
+    }
+    return status;
+}
+
+/* One of the files that the words of a job name. */
+typedef struct named_read {
+    const char *role, *path;
+    bool may_be_own; /* the job may write it */
+} named_read;
+
+/* Returns the next of these; word NULL: the mesh, else the one after that word. path NULL: there is none. */
+static named_read next_read(const batch_job *job, const char **word)
+{
+    static const char embedding[] = "--embedding=";
+    const char *const end = job->words.data + job->words.size;
+    if (!*word) {
+        *word = job->words.data;
+        return (named_read){"the mesh ", *word, true};
+    }
+    while ((*word += strlen(*word) + 1) < end) {
+        const char *const lattice = ffd_word_lattice(*word);
+        if (lattice)
+            return (named_read){"the lattice ", lattice, true};
+        if (strncmp(*word, embedding, sizeof embedding - 1) == 0)
+            return (named_read){"the embedding ", *word + sizeof embedding - 1, false};
+    }
+    return (named_read){0};
+}
+
+ffd_status ffd_reads_check(run_files *files, batch_job *job, ffd_error *error)
+{
+    const char *word = NULL;
+    ffd_status status = FFD_OK;
+    uint64_t line;
+    for (named_read read = next_read(job, &word); read.path && !status && !job->error.status;
+         read = next_read(job, &word)) {
+        const hash128 place = ffd_run_read_place(files, read.path);
+        if (ffd_run_writer(files, &place, &line) && !(read.may_be_own && line == job->line))
+            ffd_run_refuse(files, job, read.role, read.path, line);
+        else
+            status = note(files, &place, job->line, error);
+    }
+    return status;
+}
+
+void ffd_reads_check_own(run_files *files, batch_job *job)
+{
+    const char *word = NULL;
+    uint64_t line;
+    for (named_read read = next_read(job, &word); read.path && !job->error.status;
+         read = next_read(job, &word)) {
+        const hash128 place = ffd_run_read_place(files, read.path);
+        if (ffd_files_find(&files->writes, &place, &line) && line == 0)
+            ffd_run_refuse(files, job, read.role, read.path, 0);
+    }
+}
+
+/* Lattices */
+
+static const known_lattice *find_lattice(const run_files *files, const char *path)
+{
+    uint32_t number;
+    return ffd_intern_find(&files->lattices.paths, path, strlen(path), &number)
+               ? &files->lattices.list[number]
+               : NULL;
+}
+
+/* Adds a lattice; one that is known stays as it is. *added: NULL then. */
+static ffd_status add_lattice(run_files *files, const char *path, known_lattice **added, ffd_error *error)
+{
+    known_lattices *const lattices = &files->lattices;
+    const size_t count = lattices->paths.count;
+    uint32_t number;
+    *added = NULL;
+    if (!ffd_grow((void **)&lattices->list, &lattices->capacity, count + 1, sizeof *lattices->list) ||
+        !ffd_intern(&lattices->paths, path, strlen(path), &number))
+        return ffd_fail_memory(error);
+    if (number < count)
+        return FFD_OK;
+    *added = &lattices->list[number];
+    **added = (known_lattice){0};
+    return FFD_OK;
+}
+
+bool ffd_reads_know_lattices(const run_files *files, const batch_job *job)
+{
+    const char *word = NULL;
+    for (named_read read = next_read(job, &word); read.path; read = next_read(job, &word))
+        if (ffd_word_lattice(word) && !find_lattice(files, read.path))
+            return false;
+    return true;
+}
+
+void ffd_reads_check_boxes(const run_files *files, batch_job *job)
+{
+    const char *word = NULL;
+    for (named_read read = next_read(job, &word); read.path; read = next_read(job, &word)) {
+        const known_lattice *const lattice = ffd_word_lattice(word) ? find_lattice(files, read.path) : NULL;
+        if (lattice)
+            ffd_run_refuse_conflict(files, job, "the mesh of a box, or its buffer, ", &lattice->files,
+                                    &lattice->conflicts);
+    }
+}
+
+/* Finds which jobs write the files of a lattice's box, once all are listed. */
+static ffd_status end_lattice(run_files *files, known_lattice *lattice, uint64_t line, ffd_error *error)
+{
+    if (!lattice)
+        return FFD_OK;
+    return note_all(files, &lattice->files, line, &lattice->conflicts, error);
+}
+
+/* The mesh */
+
+bool ffd_reads_know_mesh(const run_files *files, const job_kind *kind)
+{
+    const mesh_look *const look = &files->look;
+    file_stamp stamp;
+    return look->input && strcmp(look->input, kind->input) == 0 && look->from == kind->from &&
+           look->to == kind->to && ffd_file_stamp(kind->input, &stamp) &&
+           ffd_stamp_equal(&look->stamp, &stamp);
+}
+
+bool ffd_reads_need_named(run_files *files, const job_kind *kind)
+{
+    const mesh_format *const source = kind->source;
+    return source && source->find_named && (source->list_files || files->has_odd_outputs) &&
+           ffd_run_writes_near(files, kind->input);
+}
+
+void ffd_reads_check_named(const run_files *files, batch_job *job)
+{
+    ffd_run_refuse_conflict(files, job, "the buffer, image or material library ", &files->look.named,
+                            &files->look.conflicts);
+}
+
+static void begin_look(run_files *files, const job_kind *kind, size_t beside)
+{
+    mesh_look *const look = &files->look;
+    ffd_free(look->input);
+    ffd_paths_free(&look->named);
+    ffd_paths_free(&look->copies);
+    *look = (mesh_look){.from = kind->from, .to = kind->to, .beside = beside};
+    if (ffd_file_stamp(kind->input, &look->stamp))
+        look->input = ffd_text_copy(kind->input);
+}
+
+static ffd_status end_look(run_files *files, const job_kind *kind, uint64_t line, ffd_error *error)
+{
+    mesh_look *const look = &files->look;
+    ffd_status status = note_all(files, &look->named, line, &look->conflicts, error);
+    for (size_t i = 0; i < look->named.count && !status; i++)
+        status = ffd_users_add(&files->users, look->named.paths[i], kind->input, error);
+    return status;
+}
+
+/* State of reading what a worker has found. */
+typedef struct finding {
+    run_files *files;
+    const batch_job *job;
+    known_lattice *lattice; /* the last one; NULL: none, or known before */
+    const char *model;      /* the last one */
+} finding;
+
+static ffd_status take(finding *f, look_kind kind, const char *path, ffd_error *error)
+{
+    mesh_look *const look = &f->files->look;
+    ffd_status status = FFD_OK;
+    if (kind == LOOK_NAMED)
+        return ffd_paths_add(&look->named, path, error);
+    if (kind == LOOK_COPY)
+        return ffd_paths_add(&look->copies, path, error);
+    if (kind == LOOK_LATTICE) {
+        status = end_lattice(f->files, f->lattice, f->job->line, error);
+        return status ? status : add_lattice(f->files, path, &f->lattice, error);
+    }
+    if (kind == LOOK_BOX)
+        return f->lattice ? ffd_paths_add(&f->lattice->files, path, error) : FFD_OK;
+    if (kind == LOOK_MODEL)
+        f->model = path;
+    if (kind == LOOK_BUFFER && f->model)
+        status = ffd_users_add(&f->files->users, path, f->model, error);
+    return kind == LOOK_FOLDER ? ffd_run_set_survey(f->files, f->job->target, SURVEY_DONE, error) : status;
+}
+
+ffd_status ffd_reads_learn(run_files *files, const batch_job *job, const job_kind *kind, bool of_mesh,
+                           size_t beside, const byte_buffer *found, ffd_error *error)
+{
+    finding f = {.files = files, .job = job};
+    size_t at = 0;
+    look_kind entry;
+    ffd_status status = FFD_OK;
+    if (of_mesh)
+        begin_look(files, kind, beside);
+    for (const char *path = ffd_look_next(found, &at, &entry); path && !status;
+         path = ffd_look_next(found, &at, &entry))
+        status = take(&f, entry, path, error);
+    if (!status)
+        status = end_lattice(files, f.lattice, job->line, error);
+    return status || !of_mesh ? status : end_look(files, kind, job->line, error);
+}
+
+ffd_status ffd_reads_learn_nothing(run_files *files, const batch_job *job, bool of_mesh, ffd_error *error)
+{
+    const job_kind kind = ffd_job_kind(job);
+    const char *word = NULL;
+    known_lattice *added;
+    ffd_status status = FFD_OK;
+    if (of_mesh)
+        begin_look(files, &kind, 0);
+    for (named_read read = next_read(job, &word); read.path && !status; read = next_read(job, &word))
+        if (ffd_word_lattice(word))
+            status = add_lattice(files, read.path, &added, error);
+    return status;
+}

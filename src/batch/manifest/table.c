@@ -1,0 +1,240 @@
+#include "batch/manifest/table.h"
+#include "base/memory/intern.h"
+#include "base/memory/memory.h"
+#include "base/system/interrupt.h"
+#include "base/text/words.h"
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+static ffd_status next_row(csv_table *table, csv_row *row, line_state *state, bool *valid, ffd_error *error)
+{
+    line_reader *const reader = table->reader;
+    ffd_status status = FFD_OK;
+    *state = table->is_lost ? LINE_NONE : LINE_READ;
+    if (table->is_lost)
+        return FFD_OK;
+    if (!table->row_goes_on) {
+        status = ffd_lines_next_filled(reader, state, error);
+        table->line = reader->number;
+        table->scan = (csv_scan){0};
+    }
+    const char only[] = {table->separator, 0}, *const separators = table->separator ? only : ",;\t";
+    while (!status && *state == LINE_READ && !reader->too_long &&
+           ffd_csv_is_open(&table->scan, separators, reader->line.data, reader->line.size))
+        status = ffd_lines_next(reader, true, state, error);
+    table->row_goes_on = *state == LINE_LATER && table->scan.at > 0;
+    if (*state == LINE_NONE && table->scan.at > 0)
+        *state = LINE_READ; /* the text ended inside quotes */
+    if (status || *state != LINE_READ)
+        return status;
+    table->is_lost = reader->too_long;
+    if (!table->separator)
+        table->separator = ffd_csv_separator(reader->line.data, reader->line.size);
+    *valid = !reader->too_long && ffd_csv_split(table->separator, reader->line.data, reader->line.size, row);
+    return row->text.failed || row->ways.failed ? ffd_fail_memory(error) : FFD_OK;
+}
+
+ffd_status ffd_table_next(csv_table *table, line_state *state, bool *valid, ffd_error *error)
+{
+    return next_row(table, &table->row, state, valid, error);
+}
+
+/* Says what is wrong with the row; returns false. */
+static bool refuse_row(const csv_table *table, ffd_error *error, const char *format, ...) FFD_PRINTF(3, 4);
+
+static bool refuse_row(const csv_table *table, ffd_error *error, const char *format, ...)
+{
+    char text[256];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    ffd_fail_line(error, FFD_E_INVALID, table->name, (size_t)table->line, "%s", text);
+    return false;
+}
+
+/* Tells of the blanks that were left out round a text. Those round numbers change nothing. */
+static ffd_status note_blanks(csv_table *table, const csv_row *row, ffd_error *error)
+{
+    const char *cell = NULL;
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < row->count && !status; i++) {
+        cell = ffd_csv_next(row, cell);
+        if (row->ways.data[i] & CSV_HAD_BLANKS && *cell && !strchr("+-.0123456789", *cell))
+            status = ffd_flaw_line(&table->flaws, table->name, (size_t)table->line, error,
+                                   "blanks beside \"%.60s\" are left out", cell);
+    }
+    return status;
+}
+
+bool ffd_table_check(csv_table *table, bool valid, ffd_error *error)
+{
+    if (table->is_lost)
+        return refuse_row(
+            table, error,
+            "a row of more than %zu bytes, perhaps because a quote is missing: the rest is not read",
+            LINE_MOST);
+    if (!valid)
+        return refuse_row(table, error, "not a valid CSV row");
+    if (table->row.count != table->columns.count)
+        return refuse_row(table, error, "the row has %zu %s, but the table has %zu %s", table->row.count,
+                          ffd_plural(table->row.count, "cell", "cells"), table->columns.count,
+                          ffd_plural(table->columns.count, "column", "columns"));
+    if (!ffd_csv_is_text(&table->row))
+        return refuse_row(table, error, "a cell is not text in UTF-8");
+    return !note_blanks(table, &table->row, error);
+}
+
+bool ffd_table_has(const csv_table *table, const char *column)
+{
+    const char *name = NULL;
+    for (size_t i = 0; i < table->columns.count; i++) {
+        name = ffd_csv_next(&table->columns, name);
+        if (strcmp(name, column) == 0)
+            return !table->skipped[i];
+    }
+    return false;
+}
+
+/* Marks the ignored columns. names: of the columns, with their numbers, but for those without a name. */
+static ffd_status skip_ignored(csv_table *table, const intern_table *names, const size_t *numbers,
+                               ffd_error *error)
+{
+    const char *word = table->ignored;
+    uint32_t known;
+    for (size_t length; word && *word; word += length + (word[length] == ',')) {
+        length = strcspn(word, ",");
+        if (length == 0)
+            continue;
+        if (!ffd_intern_find(names, word, length, &known))
+            return ffd_fail_line(error, FFD_E_INVALID, table->name, (size_t)table->line,
+                                 "the table has no column \"%.*s\" (--csv-ignore)",
+                                 (int)(length < 60 ? length : 60), word);
+        table->skipped[numbers[known]] = true;
+    }
+    return FFD_OK;
+}
+
+/* Whether lines end in CR alone (old Macs): then the whole table looks like one line. */
+static bool has_lone_return(const char *name)
+{
+    const char *found = strchr(name, '\r');
+    while (found && found[1] == '\n')
+        found = strchr(found + 1, '\r');
+    return found;
+}
+
+static char lower(char c)
+{
+    return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
+}
+
+/* Whether a name is one of a column of files but for capitals. */
+static bool is_like_file(const char *name)
+{
+    static const char *const files[] = {"in", "out", "lattice"};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        size_t k = 0;
+        while (name[k] && lower(name[k]) == files[i][k])
+            k++;
+        if (!name[k] && !files[i][k] && strcmp(name, files[i]) != 0)
+            return true;
+    }
+    return false;
+}
+
+/* Tells what a reader of the table may have meant otherwise. */
+static ffd_status note_name(csv_table *table, const char *name, size_t number, ffd_error *error)
+{
+    const size_t line = (size_t)table->line;
+    if (!*name) {
+        table->skipped[number] = true;
+        return ffd_flaw_line(&table->flaws, table->name, line, error,
+                             "column %zu has no name, as the index of pandas (index=False), and is left out",
+                             number + 1);
+    }
+    if (number == 0 && name[0] == '#' && name[1])
+        return ffd_flaw_line(&table->flaws, table->name, line, error,
+                             "the first row names the columns, although it begins with \"%.20s\"", name);
+    return is_like_file(name) ? ffd_flaw_line(&table->flaws, table->name, line, error,
+                                              "the column \"%.20s\" sets a placeholder: files are in columns "
+                                              "\"in\", \"out\" and \"lattice\", in small letters",
+                                              name)
+                              : FFD_OK;
+}
+
+/* names: gets the names of the columns, and numbers their numbers. */
+static ffd_status check_name(csv_table *table, const char *name, size_t number, intern_table *names,
+                             size_t *numbers, ffd_error *error)
+{
+    uint32_t known;
+    const size_t before = names->count;
+    if (has_lone_return(name))
+        return ffd_fail_line(error, FFD_E_INVALID, table->name, (size_t)table->line,
+                             "the lines end with CR alone: a table needs LF or CR LF");
+    if (*name && !ffd_intern(names, name, strlen(name), &known))
+        return ffd_fail_memory(error);
+    if (*name && known < before)
+        return ffd_fail_line(error, FFD_E_INVALID, table->name, (size_t)table->line,
+                             "two columns of the table are named \"%.60s\"", name);
+    if (*name)
+        numbers[known] = number;
+    return note_name(table, name, number, error);
+}
+
+static ffd_status check_columns(csv_table *table, ffd_error *error)
+{
+    const csv_row *const columns = &table->columns;
+    const char *name = NULL;
+    intern_table names = {0};
+    if (!ffd_csv_is_text(columns))
+        return ffd_fail_line(error, FFD_E_INVALID, table->name, (size_t)table->line,
+                             "the name of a column is not text in UTF-8");
+    table->skipped = ffd_alloc_zero(columns->count, sizeof *table->skipped);
+    size_t *const numbers = ffd_alloc(columns->count, sizeof *numbers);
+    ffd_status status = table->skipped && numbers ? FFD_OK : ffd_fail_memory(error);
+    for (size_t i = 0; i < columns->count && !status; i++) {
+        name = ffd_csv_next(columns, name);
+        status = check_name(table, name, i, &names, numbers, error);
+    }
+    if (!status)
+        status = skip_ignored(table, &names, numbers, error);
+    ffd_intern_free(&names);
+    ffd_free(numbers);
+    return status ? status : note_blanks(table, columns, error);
+}
+
+static ffd_status note_separator(csv_table *table, ffd_error *error)
+{
+    if (table->separator == ',')
+        return FFD_OK;
+    return ffd_flaw_line(&table->flaws, table->name, (size_t)table->line, error,
+                         "the columns are separated by %s: numbers may have a decimal comma",
+                         table->separator == ';' ? "semicolons" : "tabs");
+}
+
+ffd_status ffd_table_begin(csv_table *table, ffd_error *error)
+{
+    line_state state;
+    bool valid = false;
+    ffd_status status;
+    do {
+        ffd_stream_wait(table->reader->stream);
+        status = next_row(table, &table->columns, &state, &valid, error);
+    } while (!status && state == LINE_LATER && !ffd_interrupt_requested());
+    if (status || ffd_interrupt_requested())
+        return status;
+    if (state != LINE_READ || !valid)
+        return ffd_fail_line(error, FFD_E_INVALID, table->name, 1,
+                             "the first row of the table must name its columns");
+    status = check_columns(table, error);
+    return status ? status : note_separator(table, error);
+}
+
+void ffd_table_free(csv_table *table)
+{
+    ffd_csv_free(&table->columns);
+    ffd_csv_free(&table->row);
+    ffd_free(table->skipped);
+}

@@ -1,0 +1,131 @@
+/* run_claims.c - claims the files of a batch's jobs, in their order. */
+#include "batch/batch_run.h"
+#include "batch/files/run_reads.h"
+
+void ffd_run_fail_task(pool_task *task)
+{
+    task->failure = task->job.error;
+    task->state = TASK_ENDED;
+    task->outcome = OUTCOME_FAILED;
+}
+
+static void find_record(batch_run *run, pool_task *task)
+{
+    byte_buffer *const figures = run->report || run->view || run->rows.report ? &task->figures : NULL;
+    job_record drawn;
+    task->has_record = ffd_journal_find(run->journal, &task->target, &task->record, figures);
+    /* A run without pictures may have made the row anew since it was drawn. */
+    task->has_drawn = task->has_record && task->picture && !task->job.output &&
+                      ffd_journal_find(run->journal, &task->picture_target, &drawn, NULL) &&
+                      ffd_hash_equal(&drawn.inputs, &task->record.inputs);
+    if (task->has_drawn)
+        task->drawn = drawn.outputs;
+}
+
+/* Names the picture of a job and claims its file, at the same time as the output. */
+static ffd_status claim_picture(batch_run *run, pool_task *task, ffd_error *error)
+{
+    hash128 file;
+    const ffd_status status = ffd_run_view_name(run->view, task, &file, error);
+    const hash_block blocks[] = {{file.bytes, sizeof file.bytes}, {task->target.bytes, sizeof file.bytes}};
+    if (!status)
+        task->picture_target = ffd_hash_blocks(blocks, 2);
+    return status ? status : ffd_claims_picture(&run->files, &task->job, &file, task->picture, error);
+}
+
+/* Claims the output of a job and checks what it reads, as far as its words say it. */
+static ffd_status claim_output(batch_run *run, pool_task *task, ffd_error *error)
+{
+    batch_job *const job = &task->job;
+    const job_kind kind = ffd_job_kind(job);
+    if (job->target && ffd_claims_output(&run->files, job, &task->target, error))
+        return FFD_E_MEMORY;
+    if (run->desc->positions)
+        task->target = ffd_run_rows_target(&run->rows, job->row, job->target ? &task->target : NULL);
+    task->needs = ffd_claims_need(&run->files, job, &kind);
+    task->state = task->needs.mesh || task->needs.lattices ? TASK_NEW
+                  : task->needs.others                     ? TASK_LOOKED
+                                                           : TASK_WAITS;
+    task->looks_only = ffd_job_count_beside(&kind) > 0;
+    if (run->view && !job->error.status && claim_picture(run, task, error))
+        return FFD_E_MEMORY;
+    if (!job->error.status && ffd_reads_check(&run->files, job, error))
+        return FFD_E_MEMORY;
+    ffd_reads_check_boxes(&run->files, job);
+    if (job->error.status)
+        ffd_run_fail_task(task);
+    else if (run->journal)
+        find_record(run, task);
+    return FFD_OK;
+}
+
+/* Sends a task to a worker, which looks through the models of the folder of its output. */
+static ffd_status ask_for_survey(batch_run *run, pool_task *task, ffd_error *error)
+{
+    task->surveys = task->needs.mesh = true;
+    task->state = TASK_NEW;
+    return ffd_run_set_survey(&run->files, task->job.target, SURVEY_ASKED, error);
+}
+
+/* Claims the files beside the output and copied with it, once they are known. */
+static ffd_status claim_others(batch_run *run, pool_task *task, ffd_error *error)
+{
+    batch_job *const job = &task->job;
+    job_kind kind = ffd_job_kind(job);
+    ffd_status status = FFD_OK;
+    if (task->has_looked)
+        status =
+            ffd_reads_learn(&run->files, job, &kind, task->needs.mesh, task->beside, &task->found, error);
+    ffd_buffer_free(&task->found);
+    task->has_looked = false;
+    kind.is_looked_at = ffd_reads_know_mesh(&run->files, &kind);
+    if (!status && ffd_claims_need_survey(&run->files, job, &kind))
+        return ask_for_survey(run, task, error);
+    if (!status)
+        status = ffd_claims_others(&run->files, job, &kind, &task->passed, error);
+    task->is_unsurveyed = ffd_claims_lack_survey(&run->files, job, &kind);
+    task->state = TASK_WAITS;
+    if (!status && job->error.status)
+        ffd_run_fail_task(task);
+    return status;
+}
+
+/* Whether a task that waits for a worker to look needs that no more, since others were looked at. */
+static bool is_known(const batch_run *run, const pool_task *task)
+{
+    if (task->state != TASK_NEW || task->surveys)
+        return false;
+    const job_kind kind = ffd_job_kind(&task->job);
+    return ffd_claims_are_ready(&run->files, &task->job, &kind, &task->needs);
+}
+
+ffd_status ffd_run_learn(batch_run *run, pool_task *task, ffd_error *error)
+{
+    const bool is_new = task->looked_in_vain && !task->is_learned;
+    task->is_learned = task->is_learned || task->looked_in_vain;
+    if (task->state == TASK_ENDED && task->surveys &&
+        ffd_run_survey(&run->files, task->job.target) == SURVEY_ASKED)
+        return ffd_run_set_survey(&run->files, task->job.target, SURVEY_FAILED, error);
+    return is_new ? ffd_reads_learn_nothing(&run->files, &task->job, task->needs.mesh, error) : FFD_OK;
+}
+
+/* No file beside an output, or copied with it, has the ending of a mesh format. So an output with one is
+   claimed at once, if those of all jobs are known; any other is claimed when the files of all earlier jobs
+   are. */
+ffd_status ffd_run_claim_tasks(batch_run *run, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    bool settled = true;
+    for (size_t i = 0; i < run->count && !status; i++) {
+        pool_task *const task = run->tasks[i];
+        if (task->looked_in_vain && !task->is_learned)
+            status = ffd_run_learn(run, task, error);
+        if (!status && task->state == TASK_ORDERED &&
+            (settled || (task->has_mesh_name && !run->files.comes_once)))
+            status = claim_output(run, task, error);
+        if (!status && settled && (task->state == TASK_LOOKED || is_known(run, task)))
+            status = claim_others(run, task, error);
+        settled = settled && ffd_task_is_settled(task);
+    }
+    return status;
+}

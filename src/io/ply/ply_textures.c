@@ -1,0 +1,104 @@
+#include "io/ply/ply_textures.h"
+#include "base/file/folder.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include "mesh/resource/image_file.h"
+#include "mesh/resource/resource_bring.h"
+#include <string.h>
+
+static bool is_blank(char c)
+{
+    return c == ' ' || c == '\t' || c == '\r';
+}
+
+bool ffd_ply_texture_name(text_word note, text_word *name)
+{
+    static const char key[] = "TextureFile";
+    const size_t length = sizeof key - 1;
+    for (const char *at = note.first; at + length < note.last; at++) {
+        if (memcmp(at, key, length) != 0 || !is_blank(at[length]))
+            continue;
+        *name = (text_word){at + length, note.last};
+        while (name->first < name->last && is_blank(*name->first))
+            name->first++;
+        while (name->last > name->first && is_blank(name->last[-1]))
+            name->last--;
+        return name->first < name->last;
+    }
+    return false;
+}
+
+/* Adds an image by its name, which counts from the mesh's folder. An absolute name is no file beside it. */
+static ffd_status add(const char *folder, text_word name, resource_list *list, ffd_error *error)
+{
+    const size_t size = (size_t)(name.last - name.first);
+    char *const text = ffd_alloc(size + 1, 1);
+    if (!text)
+        return ffd_fail_memory(error);
+    memcpy(text, name.first, size);
+    text[size] = 0;
+    bool turned;
+    ffd_status status = ffd_path_turn_slashes(text, folder, &turned, error);
+    if (status == FFD_OK && !ffd_path_is_absolute(text) && !memchr(text, 0, size)) {
+        char *const path = ffd_path_normalize(text);
+        status = path ? ffd_resources_add(list, &ffd_resource_image, list->count, path, error)
+                      : ffd_fail_memory(error);
+    }
+    ffd_free(text);
+    return status;
+}
+
+static ffd_status list_all(const ply_header *header, const char *folder, resource_list *list,
+                           ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    text_word name;
+    for (size_t i = 0; i < header->note_count && status == FFD_OK; i++)
+        if (ffd_ply_texture_name(header->notes[i], &name))
+            status = add(folder, name, list, error);
+    ffd_resources_sort(list);
+    return status;
+}
+
+ffd_status ffd_ply_bring_textures(const ply_header *header, const mesh_save_options *options,
+                                  file_output *output, const mesh_log *log, ffd_error *error)
+{
+    const char *const mesh = options->input;
+    if (!mesh || header->note_count == 0 || ffd_file_is_stream(mesh) || ffd_output_is_stream(options->path) ||
+        ffd_file_same(mesh, options->path))
+        return FFD_OK;
+    char *const from = ffd_path_folder(mesh), *const to = ffd_path_folder(options->path);
+    const resource_copier copier = {mesh, from, to, output, log, options->copied};
+    resource_list list = {0};
+    ffd_status status = from && to ? list_all(header, from, &list, error) : ffd_fail_memory(error);
+    if (status == FFD_OK)
+        status = ffd_resources_bring(&copier, &list, options->resources == FFD_RESOURCES_COPY,
+                                     ffd_file_same(from, to), options->path, error);
+    ffd_resources_free(&list);
+    ffd_free(from);
+    ffd_free(to);
+    return status;
+}
+
+ffd_status ffd_ply_find_textures(const char *path, const file_input *bytes, path_list *files,
+                                 ffd_error *error)
+{
+    ply_header header = {0};
+    resource_list list = {0};
+    const ffd_status read = ffd_ply_header_read(bytes, path, &header, NULL);
+    char *const folder = ffd_path_folder(path);
+    ffd_status status = folder && read != FFD_E_MEMORY ? FFD_OK : ffd_fail_memory(error);
+    if (!read && !status)
+        status = list_all(&header, folder, &list, error);
+    for (size_t i = 0; i < list.count && !status; i++) {
+        char *const file = ffd_path_beside(path, list.resources[i].path);
+        status = file ? FFD_OK : ffd_fail_memory(error);
+        if (!status && !ffd_path_leads_out(list.resources[i].path))
+            status = ffd_paths_add(files, file, error);
+        ffd_free(file);
+    }
+    ffd_resources_free(&list);
+    ffd_ply_header_free(&header);
+    ffd_free(folder);
+    return status;
+}

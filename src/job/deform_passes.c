@@ -1,0 +1,143 @@
+#include "job/deform_passes.h"
+#include "job/chain/job_cache.h"
+#include "job/chain/pace.h"
+#include "job/input/deform_desc.h"
+#include "job/pass/pass.h"
+#include "job/pass/recompute.h"
+#include <string.h>
+
+bool ffd_passes_judge_shown(const deform_job *job)
+{
+    return !job->stored && !job->document->keeps_base && ffd_mesh_shows_shapes(job->document);
+}
+
+bool ffd_passes_write_shown(const deform_job *job)
+{
+    return ffd_passes_judge_shown(job) && (job->check || job->document->converted);
+}
+
+/* The gate of folds also checks det F at extended vertices, and a mesh that is written must not turn inside
+   out without a word. */
+static bool wants_determinants(const deform_job *job)
+{
+    return ffd_figures_wanted(job) || ffd_deform_desc_writes(job->desc) ||
+           (job->desc->fail_on & FFD_GATE_FOLDS && job->desc->outside == FFD_OUTSIDE_EXTEND);
+}
+
+/* Hashes all that determines the locations of a mesh's vertices in a link. */
+static hash128 located_in(const chain_link *link)
+{
+    const hash128 parts[] = {link->rest, ffd_hash_doubles(&link->snap, 1)};
+    return ffd_hash(parts, sizeof parts);
+}
+
+/* Describes a pass that deforms everything, without output arrays. */
+static mesh_pass describe(const deform_job *job, chain_pace *pace)
+{
+    return (mesh_pass){.document = job->document,
+                       .chain = &job->chain,
+                       .links = job->chain.count,
+                       .threads = job->threads,
+                       .pace = pace,
+                       .write = true,
+                       .attributes = job->desc->normals != FFD_NORMALS_KEEP,
+                       .only_offsets = job->desc->normals == FFD_NORMALS_RECOMPUTE};
+}
+
+/* Lets the pass fill what the figures need. */
+static void fill_figures(const deform_job *job, const figure_arrays *figures, mesh_pass *pass)
+{
+    pass->deformed = figures->deformed;
+    pass->gradients = figures->gradients;
+    pass->statuses = job->details ? job->details->statuses : NULL;
+    pass->determinants = wants_determinants(job);
+    pass->kept = job->kept;
+    pass->kept_stride = (size_t)ffd_mesh_vertex_count(job->document);
+}
+
+static ffd_status recompute(deform_job *job, const figure_arrays *arrays, recompute_counts *counts,
+                            ffd_error *error)
+{
+    if (!job->recomputes)
+        return FFD_OK;
+    return ffd_recompute_normals(job->document, &arrays->faces, arrays->deformed, arrays->gradients, counts,
+                                 error);
+}
+
+/* Runs a pass over the shapes that the file stores, whose locations an embedding or an earlier pass may know.
+   It also gives the positions to the caller. */
+static ffd_status run_stored(deform_job *job, mesh_pass *pass, pass_totals *totals, ffd_error *error)
+{
+    const bool keeps = job->chain.count == 1 && !job->desc->embedding && !job->forgets_locations;
+    ffd_share *const share = keeps ? job->desc->share : NULL;
+    const hash128 rest = located_in(&job->chain.links[0]);
+    pass->locations =
+        ffd_cache_locations(share, job->document, job->document_is_shared, &rest, &pass->is_located);
+    pass->embedding = job->desc->embedding ? &job->embedding : NULL;
+    pass->deformed = pass->deformed ? pass->deformed : job->positions;
+    if (!pass->is_located && !job->desc->embedding)
+        ffd_cache_count_search(job->desc->share);
+    const ffd_status status = ffd_pass_run(pass, totals, error);
+    if (status)
+        return status;
+    ffd_cache_locations_filled(share);
+    if (job->positions && pass->deformed != job->positions)
+        memcpy(job->positions, pass->deformed,
+               (size_t)ffd_mesh_vertex_count(job->document) * 3 * sizeof *job->positions);
+    return FFD_OK;
+}
+
+/* Deforms base and targets, or only counts them if nothing needs their results; then the shape with default
+   weights, of which all figures are. */
+static ffd_status run_both(deform_job *job, const figure_arrays *figures, const figure_arrays *stored,
+                           chain_pace *pace, recompute_counts *counts, ffd_error *error)
+{
+    const bool writes_shown = ffd_passes_write_shown(job);
+    pass_totals of_stored;
+    mesh_pass pass = describe(job, pace), shown = describe(job, pace);
+    pass.deformed = stored->deformed;
+    pass.gradients = stored->gradients;
+    pass.write = !writes_shown;
+    pass.attributes = pass.attributes && pass.write;
+    pass.counts_shapes = true;
+    ffd_status status = run_stored(job, &pass, &of_stored, error);
+    if (!status && !writes_shown && of_stored.moved)
+        status = recompute(job, stored, counts, error);
+    if (status)
+        return status;
+    fill_figures(job, figures, &shown);
+    shown.discards = !writes_shown;
+    job->document->shown = true;
+    status = ffd_pass_run(&shown, &job->totals, error);
+    if (!status && writes_shown && job->totals.moved)
+        status = recompute(job, figures, counts, error);
+    ffd_totals_add_stored(&of_stored, pass.write, &job->totals);
+    return status;
+}
+
+static ffd_status run_one(deform_job *job, const figure_arrays *figures, chain_pace *pace,
+                          recompute_counts *counts, ffd_error *error)
+{
+    mesh_pass pass = describe(job, pace);
+    fill_figures(job, figures, &pass);
+    const ffd_status status = run_stored(job, &pass, &job->totals, error);
+    return status || !job->totals.moved ? status : recompute(job, figures, counts, error);
+}
+
+ffd_status ffd_passes_run(deform_job *job, const figure_arrays *figures, const figure_arrays *stored,
+                          ffd_error *error)
+{
+    recompute_counts counts = {0};
+    chain_pace pace = {.points = (double)ffd_mesh_vertex_count(job->document),
+                       .threads = job->threads,
+                       .links = job->chain.links,
+                       .lattices = job->desc->lattices,
+                       .more = figures->has_faces ? ", and edges longer (see --timeout)" : " (see --timeout)",
+                       .log = job->log};
+    const ffd_status status = ffd_passes_judge_shown(job)
+                                  ? run_both(job, figures, stored, &pace, &counts, error)
+                                  : run_one(job, figures, &pace, &counts, error);
+    job->totals.normals_collapsed += counts.collapsed;
+    job->totals.normals_carried = counts.carried;
+    return status;
+}

@@ -1,0 +1,154 @@
+#include "job/plan.h"
+#include "base/file/folder.h"
+#include "base/file/input.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include "io/formats.h"
+#include "job/input/source.h"
+#include "lattice/file/box_meshes.h"
+#include <string.h>
+
+/* Adds a folder and those above it, as far as they are new. */
+static ffd_status add_folders(job_plan *plan, const char *path, ffd_error *error)
+{
+    char *folder = ffd_path_folder(path);
+    char *resolved = folder ? ffd_path_resolve(folder) : NULL;
+    char *at = resolved ? resolved : folder; /* a folder that is not there holds no mesh */
+    ffd_status status = at ? FFD_OK : ffd_fail_memory(error);
+    for (bool goes_on = resolved; goes_on && !status;) {
+        const hash128 place = ffd_place_of(&plan->places, at);
+        const size_t known = plan->folders.count;
+        uint32_t number;
+        if (!ffd_intern(&plan->folders, &place, sizeof place, &number))
+            status = ffd_fail_memory(error);
+        char *const slash = strrchr(at, '/');
+        goes_on = !status && number == known && slash && at[1];
+        if (goes_on)
+            slash[slash == at] = 0;
+    }
+    ffd_free(folder);
+    ffd_free(resolved);
+    return status;
+}
+
+ffd_status ffd_plan_write(job_plan *plan, const char *input, const char *output, ffd_error *error)
+{
+    const hash128 place = ffd_place_of(&plan->places, output);
+    const size_t number = plan->inputs.count;
+    uint64_t writer;
+    if (ffd_files_find(&plan->outputs, &place, &writer))
+        return ffd_fail_file(error, FFD_E_INVALID, input, "and %s would both write one file",
+                             plan->inputs.paths[writer]);
+    plan->replaces = plan->replaces || ffd_file_exists(output);
+    ffd_status status = ffd_paths_add(&plan->inputs, input, error);
+    if (!status)
+        status = ffd_files_put(&plan->outputs, &place, number, error);
+    return status ? status : add_folders(plan, output, error);
+}
+
+/* Whether an output of the run lies in the folder of a mesh or below. */
+static bool has_outputs_below(job_plan *plan, const char *mesh)
+{
+    char *const folder = ffd_path_folder(mesh), *const resolved = folder ? ffd_path_resolve(folder) : NULL;
+    const hash128 place = resolved ? ffd_place_of(&plan->places, resolved) : (hash128){{0}};
+    uint32_t number;
+    ffd_free(folder);
+    const bool found = !resolved || ffd_intern_find(&plan->folders, &place, sizeof place, &number);
+    ffd_free(resolved);
+    return found;
+}
+
+/* of: the lattice that leads to the file; NULL: the mesh itself does. */
+static ffd_status check_file(job_plan *plan, size_t job, const char *file, const char *of, ffd_error *error)
+{
+    uint64_t writer;
+    const hash128 place = ffd_place_of(&plan->places, file);
+    if (!ffd_files_find(&plan->outputs, &place, &writer) || writer == job)
+        return FFD_OK;
+    return ffd_fail_file(error, FFD_E_INVALID, plan->inputs.paths[job],
+                         "reads %s%s%s%s, which this run writes as the output of %s: their order would count",
+                         file, of ? " (for the box of " : "", of ? of : "", of ? ")" : "",
+                         plan->inputs.paths[writer]);
+}
+
+/* Checks a file that every job reads. */
+static ffd_status check_common(job_plan *plan, const char *file, const char *of, ffd_error *error)
+{
+    uint64_t writer;
+    const hash128 place = ffd_place_of(&plan->places, file);
+    const bool is_written = ffd_files_find(&plan->outputs, &place, &writer);
+    return is_written && plan->inputs.count > 1 ? check_file(plan, writer == 0, file, of, error) : FFD_OK;
+}
+
+/* Adds a mesh and the files that it names. */
+static ffd_status list_mesh(const ffd_source *source, path_list *files, ffd_error *error)
+{
+    ffd_format format;
+    file_input bytes;
+    ffd_status status = ffd_paths_add(files, source->path, error);
+    if (status || ffd_source_format(source, &format, NULL) || !ffd_format_table(format)->list_files ||
+        ffd_file_load(source->path, &bytes, NULL))
+        return status;
+    status = ffd_format_table(format)->find_named(source->path, &bytes, files, NULL, error);
+    ffd_file_unload(&bytes);
+    return status;
+}
+
+/* Checks the files of a mesh that the box of a lattice goes round: every job reads them. */
+static ffd_status check_box(job_plan *plan, const char *lattice, const char *mesh, ffd_error *error)
+{
+    const ffd_source source = {.path = mesh};
+    path_list files = {0};
+    ffd_status status = list_mesh(&source, &files, error);
+    for (size_t i = 0; i < files.count && !status; i++)
+        status = check_common(plan, files.paths[i], lattice, error);
+    ffd_paths_free(&files);
+    return status;
+}
+
+static ffd_status check_lattice(job_plan *plan, const char *lattice, ffd_error *error)
+{
+    path_list meshes = {0};
+    file_input bytes;
+    if (ffd_file_is_stream(lattice) || ffd_file_load(lattice, &bytes, NULL))
+        return FFD_OK;
+    ffd_status status = check_common(plan, lattice, NULL, error);
+    if (!status)
+        status = ffd_lattice_box_meshes(lattice, &bytes, &meshes, error);
+    ffd_file_unload(&bytes);
+    for (size_t i = 0; i < meshes.count && !status; i++)
+        status = check_box(plan, lattice, meshes.paths[i], error);
+    ffd_paths_free(&meshes);
+    return status;
+}
+
+/* Checks the mesh of a job. What a mesh names has the ending of no mesh, but that of a buffer may be any. */
+static ffd_status check_mesh(job_plan *plan, size_t job, const ffd_source *source, ffd_error *error)
+{
+    path_list files = {0};
+    ffd_status status = has_outputs_below(plan, source->path) ? list_mesh(source, &files, error)
+                                                              : ffd_paths_add(&files, source->path, error);
+    for (size_t i = 0; i < files.count && !status; i++)
+        status = check_file(plan, job, files.paths[i], NULL, error);
+    ffd_paths_free(&files);
+    return status;
+}
+
+ffd_status ffd_plan_read(job_plan *plan, size_t number, const ffd_deform_desc *desc, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    /* A mesh of a box that is not there yet fails all jobs. */
+    for (size_t i = 0; i < desc->lattice_count && plan->replaces && !plan->has_lattices && !status; i++)
+        status = check_lattice(plan, desc->lattices[i], error);
+    plan->has_lattices = true;
+    return status ? status : check_mesh(plan, number, &desc->input, error);
+}
+
+void ffd_plan_free(job_plan *plan)
+{
+    ffd_places_free(&plan->places);
+    ffd_files_free(&plan->outputs);
+    ffd_intern_free(&plan->folders);
+    ffd_paths_free(&plan->inputs);
+    *plan = (job_plan){0};
+}

@@ -1,0 +1,88 @@
+#include "job/reads.h"
+#include "base/file/input.h"
+#include "base/file/memory_files.h"
+#include "base/file/output.h"
+#include "io/formats.h"
+#include "job/input/source.h"
+#include <string.h>
+
+/* Whether a file is there that an output would replace. */
+static bool replaces(const char *output)
+{
+    file_stamp stamp;
+    return !ffd_output_is_stream(output) && !ffd_memory_has(output) && ffd_file_stamp(output, &stamp);
+}
+
+static bool holds(const path_list *files, const char *output)
+{
+    for (size_t i = 0; i < files->count && replaces(output); i++)
+        if (ffd_file_same(files->paths[i], output))
+            return true;
+    return false;
+}
+
+/* Whether a mesh may name the file. What is copied with a mesh (images, material libraries) has not the
+   ending of one; a buffer may have any. */
+static bool may_name(const mesh_format *format, const char *output)
+{
+    return format->find_named && (format->list_files || ffd_format_from_name(output) == FFD_FORMAT_AUTO);
+}
+
+/* The files that a mesh names; resources: images and material libraries, which may be among `named`. */
+typedef struct mesh_names {
+    path_list named, resources;
+} mesh_names;
+
+static ffd_status list_by_document(const mesh_document *document, mesh_names *names, ffd_error *error)
+{
+    const mesh_format *const format = document->format;
+    const ffd_status status = format->list_files(document, &names->named, error);
+    return status || !format->list_images ? status : format->list_images(document, &names->resources, error);
+}
+
+static ffd_status list_by_bytes(const mesh_format *format, const ffd_source *source, mesh_names *names,
+                                ffd_error *error)
+{
+    file_input bytes;
+    if (ffd_file_load(source->path, &bytes, NULL)) /* opening the mesh fails too */
+        return FFD_OK;
+    const ffd_status status =
+        format->find_named(source->path, &bytes, &names->named, &names->resources, error);
+    ffd_file_unload(&bytes);
+    return status;
+}
+
+ffd_status ffd_job_check_mesh_files(const char *output, const ffd_source *source,
+                                    const mesh_document *document, ffd_error *error)
+{
+    ffd_format format;
+    mesh_names names = {0};
+    if (ffd_file_is_stream(source->path) || ffd_memory_has(source->path) ||
+        ffd_source_format(source, &format, NULL) || !may_name(ffd_format_table(format), output))
+        return FFD_OK;
+    const mesh_format *const table = ffd_format_table(format);
+    ffd_status status = FFD_OK;
+    if (document && table->list_files)
+        status = list_by_document(document, &names, error);
+    else if (replaces(output))
+        status = list_by_bytes(table, source, &names, error);
+    const bool is_resource = !status && holds(&names.resources, output);
+    if (!status && (is_resource || holds(&names.named, output)))
+        status = ffd_fail_file(error, FFD_E_EXISTS, output, "is %s of the input %s and is not overwritten",
+                               is_resource ? "an image or a material library" : "a buffer", source->path);
+    ffd_paths_free(&names.named);
+    ffd_paths_free(&names.resources);
+    return status;
+}
+
+ffd_status ffd_job_check_box_files(const char *output, const lattice_chain *chain,
+                                   const char *const *lattices, ffd_error *error)
+{
+    for (size_t i = 0; i < chain->count; i++)
+        if (holds(&chain->links[i].box_files, output))
+            return ffd_fail_file(
+                error, FFD_E_EXISTS, output,
+                "is a file of the meshes that the box of %s goes round and is not overwritten",
+                ffd_file_display_name(lattices[i]));
+    return FFD_OK;
+}

@@ -1,0 +1,89 @@
+#include "mesh/resource/beside.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include "base/text/words.h"
+
+char *ffd_beside_name(const char *output, size_t number)
+{
+    char *const stem = ffd_path_stem(output);
+    byte_buffer name = {.failed = !stem};
+    if (stem)
+        ffd_buffer_text(&name, stem);
+    if (number > 0)
+        ffd_buffer_format(&name, "-%zu", number);
+    ffd_buffer_text(&name, ".bin");
+    ffd_free(stem);
+    char *const finished = ffd_buffer_finish(&name);
+    char *const path = finished ? ffd_path_beside(output, finished) : NULL;
+    ffd_free(finished);
+    return path;
+}
+
+/* What is known of a file under a name. */
+typedef struct beside_file {
+    bool exists, is_own; /* is_own: the output names it already */
+    size_t others;       /* models that name it too */
+    path_list names;     /* of the first of these */
+} beside_file;
+
+static ffd_status look(const beside_names *names, const char *path, beside_file *file, ffd_error *error)
+{
+    const mesh_sharing *const sharing = names->options->sharing;
+    *file = (beside_file){.exists = ffd_file_exists(path)};
+    if (!sharing || !(file->exists || names->passes || sharing->is_cheap))
+        return FFD_OK;
+    return sharing->find(sharing->context, path, names->options->path, &file->others, &file->is_own,
+                         &file->names, error);
+}
+
+/* Notes that a name was passed over, and why. */
+static ffd_status pass(beside_names *names, const char *path, const beside_file *file, path_list *passed,
+                       ffd_error *error)
+{
+    byte_buffer text = {0};
+    ffd_buffer_format(&text, "%s is a buffer of", path);
+    for (size_t i = 0; i < file->names.count; i++)
+        ffd_buffer_format(&text, "%s %s", i ? "," : "", file->names.paths[i]);
+    if (file->others > file->names.count)
+        ffd_buffer_format(&text, " and %zu more", file->others - file->names.count);
+    char *const line = ffd_buffer_finish(&text);
+    const ffd_status status = line ? ffd_paths_add(passed, line, error) : ffd_fail_memory(error);
+    ffd_free(line);
+    names->passes++;
+    return status;
+}
+
+static void say_passes(const beside_names *names, const path_list *passed, const char *target)
+{
+    for (size_t i = 0; i < passed->count; i++)
+        ffd_log_line(names->log, FFD_LOG_WARNING, "%s too, and stays: %s is written in place of it",
+                     passed->paths[i], target);
+}
+
+ffd_status ffd_beside_next(beside_names *names, beside_own_function *own, const void *context, char **target,
+                           ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    path_list passed = {0};
+    bool is_own = false;
+    *target = NULL;
+    while (!*target && !status) {
+        char *path = ffd_beside_name(names->options->path, names->number++);
+        beside_file file = {0};
+        status = path ? look(names, path, &file, error) : ffd_fail_memory(error);
+        if (!status && file.others > 0) {
+            status = pass(names, path, &file, &passed, error);
+        } else if (!status) {
+            is_own = names->in_place ? own(context, path) : file.is_own;
+            const bool is_free = !file.exists || is_own || (!names->in_place && names->passes == 0);
+            *target = is_free ? path : NULL;
+            path = is_free ? NULL : path;
+        }
+        ffd_paths_free(&file.names);
+        ffd_free(path);
+    }
+    if (!status && !is_own) /* else it has that name already */
+        say_passes(names, &passed, *target);
+    ffd_paths_free(&passed);
+    return status;
+}

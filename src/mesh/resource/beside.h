@@ -1,0 +1,29 @@
+/* beside.h - the names of the files beside an output: OUT-stem.bin, OUT-stem-1.bin, and so on. */
+#ifndef FFD_MESH_RESOURCE_BESIDE_H
+#define FFD_MESH_RESOURCE_BESIDE_H
+
+#include "mesh/mesh.h"
+
+/* Returns the path of number `number` of these files, from 0; free it with ffd_free. NULL: memory ran out. */
+char *ffd_beside_name(const char *output, size_t number);
+
+/* State of naming; number and passes are 0 at the start. */
+typedef struct beside_names {
+    const mesh_save_options *options;
+    const mesh_log *log;
+    bool in_place; /* the output replaces the input */
+    size_t number; /* of the next name */
+    size_t passes; /* names that were passed over because other models name these files */
+} beside_names;
+
+/* Whether the output may replace this existing file, as its own. */
+typedef bool beside_own_function(const void *context, const char *path);
+
+/* Finds the next name: never that of a file which another model names (options->sharing), which is logged.
+   Where the output replaces the input, or a name was passed over, nothing may be there but a file of its own.
+   own, context: which files in place are that; NULL if not in place. *target: free it with ffd_free. Errors:
+   FFD_E_MEMORY, and those of options->sharing. */
+ffd_status ffd_beside_next(beside_names *names, beside_own_function *own, const void *context, char **target,
+                           ffd_error *error);
+
+#endif
