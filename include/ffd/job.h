@@ -452,9 +452,9 @@ typedef struct ffd_job_result {
                                      joint; weights that are not finite count nowhere */
     bool has_folds;               /* the proof ran: with ffd_check_run, quality and FFD_GATE_FOLDS */
     /* Of all lattices: the worst verdict (some, then unknown, then none), the sums of cells, the least
-       min_det, and the witness of the first lattice that has one. */
+       min_det and what it is relative to, and the witness of the first lattice that has one. */
     ffd_folds folds;
-    uint64_t folds_room[8]; /* reserved for members of ffd_folds in later versions, as are all members named
+    uint64_t folds_room[7]; /* reserved for members of ffd_folds in later versions, as are all members named
                                room */
     size_t folds_lattice;   /* index of the lattice of the witness, from 0 */
     bool has_flipped;       /* with ffd_check_run and quality */

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What once went wrong in silence, one folder each: embedding (maths-*), and files and situations that users of such
+"""What once went wrong in silence, one folder each: embedding (maths-*), the fold proof (maths3-*), and files and situations that users of such
 tools have reported (wild-*). Each case runs the program on the files of its folder and says what is right.
 
     FFD=... PYTHONPATH=tests/cli python3 tests/faults/test_faults.py wild_22_unused_outlier
@@ -12,6 +12,7 @@ import shutil
 import struct
 
 from bspline import BoxVolume
+from exact_determinant import ExactVolume, preset
 from gltf_reader import Gltf
 from harness import INVALID, NO, UNSUPPORTED, case, check, equal, float32, main, near, npy, obj_of, obj_vertices
 from said import anything, counts, entry, not_told, told
@@ -247,6 +248,35 @@ def maths3_12_extend_jumps_between_arms(run):
     run.ffd("deform", "m.obj", "out.obj", *options, "--fail-on", "tear,folds", code=NO, err=anything)
     check(not run.exists("out.obj"), "nothing is written")
     told(run.ffd("deform", "m.obj", "out.obj", *options, err=anything), "border", r"\bstep to a neighbour is 1\b")
+
+
+# The fold proof
+
+@case
+def maths3_07_min_det_no_bound(run):
+    """min_det is no more than the determinant at a place, by the mean at rest in 40 digits; at the witness it is not positive."""
+    use(run, "maths3-07-min-det-no-bound")
+    folds = entry(run, "check", "m.obj", "-l", "l.json")["folds"]
+    file = json.loads(run.text("l.json"))
+    knots = [preset(kind, n, d) for kind, n, d in zip(file["knots"], file["size"], file["degree"])]
+    volume = ExactVolume(file["size"], file["degree"], knots, file["deformed"]["points"], file["weights"])
+    mean = 165.4623
+    det = float(volume.determinant([0, 1741.1972197840012, -4.979537120675159])) / mean
+    near([det], [-2.6431584], 1e-6)
+    equal([folds["verdict"], folds["relative_to"]], ["some", "mean"])
+    check(1.02 * det < folds["min_det"] < det + 1e-6, folds, det)
+    there = float(volume.determinant(folds["witness"]["uvw"]))
+    check(there <= 0, folds)
+    near([folds["witness"]["det"]], [there / mean], 1e-6 * abs(there / mean))
+
+
+@case
+def maths3_09_unmoved_lattice_folds(run):
+    """What moves nothing is free of folds, whatever the weights are."""
+    use(run, "maths3-09-unmoved-lattice-folds")
+    for name in ("l.json", "l2.json"):
+        folds = entry(run, "check", "m.obj", "-l", name, "--fail-on", "folds")["folds"]
+        equal([folds["verdict"], folds["min_det"], folds["relative_to"], folds["witness"]], ["none", 1, "place", None], name)
 
 
 # 4x4 matrices, as rows.

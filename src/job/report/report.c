@@ -52,6 +52,7 @@ static void write_witness(json_text *json, const ffd_job_result *result)
 static void write_folds(json_text *json, const ffd_job_result *result)
 {
     static const char *const verdicts[] = {"none", "some", "unknown"};
+    static const char *const references[] = {"mean", "bounds", "place"};
     const ffd_folds *folds = &result->folds;
     if (!result->has_folds) {
         ffd_json_null(json, "folds");
@@ -61,6 +62,7 @@ static void write_folds(json_text *json, const ffd_job_result *result)
     ffd_json_string(json, "verdict", verdicts[folds->verdict]);
     ffd_json_count(json, "cells", folds->cells);
     ffd_json_number(json, "min_det", folds->min_det);
+    ffd_json_string(json, "relative_to", references[folds->relative_to]);
     ffd_json_count(json, "folded_cells", folds->folded_cells);
     ffd_json_count(json, "unknown_cells", folds->unknown_cells);
     write_witness(json, result);
