@@ -188,6 +188,17 @@ static void write_weights(json_text *json, const ffd_job_result *result)
     ffd_json_end(json, '}');
 }
 
+/* Only if floats change the shape. */
+static void write_precision(json_text *json, const ffd_job_result *result)
+{
+    if (!(result->precision_side > 0))
+        return;
+    ffd_json_object(json, "precision", true);
+    ffd_json_number(json, "error", result->precision_error);
+    ffd_json_number(json, "side", result->precision_side);
+    ffd_json_end(json, '}');
+}
+
 /* Only if there are flaws. */
 static void write_flaws(json_text *json, const ffd_job_result *result)
 {
@@ -343,6 +354,7 @@ static void write_figures(json_text *json, const ffd_job_result *result)
     write_deformation(json, result);
     write_edges(json, result);
     write_weights(json, result);
+    write_precision(json, result);
     write_splats(json, result);
     write_reach(json, result);
     write_behind(json, result);
