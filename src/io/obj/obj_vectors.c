@@ -25,6 +25,7 @@ typedef struct block_content {
     vectors positions, normals;
     size_t texcoords, faces, lines;
     size_t loose, loose_line; /* as in obj_scan; the line counts from the block's first, 0 */
+    obj_unknown unknown;      /* likewise */
     size_t addition;          /* offset in the file after the last `vn`; 0: none */
     obj_block_users users;
     bool names_elements, names_groups;
@@ -101,6 +102,10 @@ static ffd_status read_block(const reader *r, size_t block, block_content *conte
         const obj_keyword keyword = walk.scan.keyword;
         content->faces += keyword == OBJ_FACE;
         content->texcoords += keyword == OBJ_TEXCOORD;
+        if (keyword == OBJ_OTHER && !ffd_obj_is_known(walk.scan.name) && content->unknown.count++ == 0) {
+            content->unknown.line = walk.scan.keyword_line - line;
+            content->unknown.name = walk.scan.name;
+        }
         if (may_name_elements(keyword)) {
             content->names_elements = true;
             ffd_obj_users_look(d, r->users, &walk.scan, &content->users);
@@ -214,6 +219,12 @@ static void join_tile(void *context, size_t tile, size_t first, size_t last, int
     if (r->loose == 0)
         r->loose_line = r->line + content->loose_line;
     r->loose += content->loose;
+    if (d->unknown.count == 0) {
+        d->unknown = content->unknown;
+        d->unknown.line += r->line;
+    } else {
+        d->unknown.count += content->unknown.count;
+    }
     r->line += content->lines;
     r->faces += content->faces;
     r->vertices += content->positions.count;
