@@ -1,9 +1,9 @@
 #include "io/gltf/scene/gltf_faults.h"
 #include "base/memory/memory.h"
 #include "base/text/words.h"
+#include "io/gltf/refer/gltf_textures.h"
 #include "io/gltf/scene/gltf_references.h"
 #include "io/gltf/scene/gltf_shapes.h"
-#include "io/gltf/scene/gltf_textures.h"
 #include <stdio.h>
 #include <string.h>
 

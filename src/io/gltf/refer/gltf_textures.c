@@ -1,4 +1,4 @@
-#include "io/gltf/scene/gltf_textures.h"
+#include "io/gltf/refer/gltf_textures.h"
 #include <math.h>
 #include <string.h>
 

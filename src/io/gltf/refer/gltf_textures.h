@@ -1,6 +1,6 @@
 /* gltf_textures.h - the textures of materials (textureInfo), and the texture coordinates that they use. */
-#ifndef FFD_IO_GLTF_SCENE_GLTF_TEXTURES_H
-#define FFD_IO_GLTF_SCENE_GLTF_TEXTURES_H
+#ifndef FFD_IO_GLTF_REFER_GLTF_TEXTURES_H
+#define FFD_IO_GLTF_REFER_GLTF_TEXTURES_H
 
 #include "io/gltf/document/gltf_document.h"
 
