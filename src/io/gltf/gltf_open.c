@@ -7,6 +7,7 @@
 #include "io/gltf/decode/gltf_drawing.h"
 #include "io/gltf/decode/gltf_indices.h"
 #include "io/gltf/decode/gltf_stated.h"
+#include "io/gltf/decode/gltf_weights.h"
 #include "io/gltf/model/gltf_schema.h"
 #include "io/gltf/rig/gltf_places.h"
 #include "io/gltf/rig/gltf_rig.h"
@@ -19,7 +20,6 @@
 #include "io/gltf/scene/gltf_shapes.h"
 #include "io/gltf/scene/gltf_skin.h"
 #include "io/gltf/scene/gltf_skin_sets.h"
-#include "io/gltf/scene/gltf_weights.h"
 #include "io/gltf/splat/gltf_splats.h"
 #include "json/json_parse.h"
 #include <stdlib.h>

@@ -5,8 +5,8 @@
 #include "base/vector/vec.h"
 #include "io/gltf/decode/gltf_check.h"
 #include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/decode/gltf_weights.h"
 #include "io/gltf/scene/gltf_scene.h"
-#include "io/gltf/scene/gltf_weights.h"
 #include <stdio.h>
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* gltf_weights.h - notes skin weights that are not as the specification wants them. */
-#ifndef FFD_IO_GLTF_SCENE_GLTF_WEIGHTS_H
-#define FFD_IO_GLTF_SCENE_GLTF_WEIGHTS_H
+#ifndef FFD_IO_GLTF_DECODE_GLTF_WEIGHTS_H
+#define FFD_IO_GLTF_DECODE_GLTF_WEIGHTS_H
 
 #include "io/gltf/document/gltf_document.h"
 

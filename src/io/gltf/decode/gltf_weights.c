@@ -1,4 +1,4 @@
-#include "io/gltf/scene/gltf_weights.h"
+#include "io/gltf/decode/gltf_weights.h"
 #include "base/memory/memory.h"
 #include "io/gltf/decode/gltf_read.h"
 #include <math.h>
