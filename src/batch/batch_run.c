@@ -5,6 +5,7 @@
 #include "base/system/interrupt.h"
 #include "base/text/words.h"
 #include "batch/measure.h"
+#include "batch/own_files.h"
 #include "job/report/report_file.h"
 #include <inttypes.h>
 #include <stdio.h>
@@ -359,7 +360,9 @@ ffd_status ffd_batch_run(const batch_desc *desc, bool *failed, ffd_error *error)
 {
     batch_run run = {.desc = desc};
     ffd_progress_begin(&run.progress, desc->quiet);
-    ffd_status status = open_all(&run, error);
+    ffd_status status = ffd_batch_check_own_files(desc, error);
+    if (!status)
+        status = open_all(&run, error);
     if (!status) {
         status = run_jobs(&run, error);
         if (status)

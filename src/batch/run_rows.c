@@ -1,5 +1,4 @@
 #include "batch/run_rows.h"
-#include "base/file/folder.h"
 #include "base/file/input.h"
 #include "base/file/output.h"
 #include "base/file/place.h"
@@ -12,8 +11,7 @@
 #include <inttypes.h>
 #include <string.h>
 
-/* Returns "ALL.json" for "ALL.npy". Shards write at the same time, so each has its own. */
-static char *name_list(const batch_desc *desc)
+char *ffd_run_rows_list(const batch_desc *desc)
 {
     const job_source_desc *const jobs = &desc->jobs;
     const size_t stem = strlen(desc->positions) - strlen(".npy");
@@ -61,21 +59,10 @@ static ffd_status make_array(run_rows *rows, const batch_desc *desc, ffd_error *
     return ffd_rows_make(&rows->array, rows->replaces, &rows->made, error);
 }
 
-/* Checks that the report beside the array does not replace other files. */
-static ffd_status check_list(const run_rows *rows, const batch_desc *desc, ffd_error *error)
-{
-    if (!rows->list)
-        return ffd_fail_memory(error);
-    if (desc->report && !ffd_output_is_stream(desc->report) && ffd_paths_meet(desc->report, rows->list))
-        return ffd_fail_file(error, FFD_E_ARGUMENT, rows->list,
-                             "says what is in the rows of --positions: --report needs another name");
-    return FFD_OK;
-}
-
 ffd_status ffd_run_rows_open(run_rows *rows, const batch_desc *desc, ffd_error *error)
 {
-    rows->list = name_list(desc);
-    ffd_status status = check_list(rows, desc, error);
+    rows->list = ffd_run_rows_list(desc);
+    ffd_status status = rows->list ? FFD_OK : ffd_fail_memory(error);
     if (!status)
         status = measure(rows, desc, error);
     if (!status && rows->is_there)

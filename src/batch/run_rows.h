@@ -18,6 +18,9 @@ typedef struct run_rows {
     bool goes_on;       /* an existing array is continued */
 } run_rows;
 
+/* Returns the path of the report beside the array: "ALL.json" for "ALL.npy". Shards write at the same time,
+   so each has its own. Free with ffd_free; NULL: out of memory. */
+char *ffd_run_rows_list(const batch_desc *desc);
 /* Counts jobs and vertices and, unless it is a dry run, makes the array. Continues an existing one if the run
    resumes or is a shard; else that one stays until ffd_run_rows_place. Errors: those of the jobs and the
    workers; FFD_E_EXISTS, FFD_E_LIMIT, FFD_E_IO. */

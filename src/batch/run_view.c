@@ -19,15 +19,15 @@ struct run_view {
     view_index index;
 };
 
-static char *name_page(const run_view_desc *desc)
+char *ffd_run_view_page_of(const char *folder, uint64_t shard, uint64_t shards)
 {
     byte_buffer name = {0};
-    if (desc->shards > 1)
-        ffd_buffer_format(&name, "index-%" PRIu64 "-of-%" PRIu64 ".html", desc->shard, desc->shards);
+    if (shards > 1)
+        ffd_buffer_format(&name, "index-%" PRIu64 "-of-%" PRIu64 ".html", shard, shards);
     else
         ffd_buffer_text(&name, "index.html");
     char *const text = ffd_buffer_finish(&name);
-    char *const path = text ? ffd_path_join(desc->folder, text) : NULL;
+    char *const path = text ? ffd_path_join(folder, text) : NULL;
     ffd_free(text);
     return path;
 }
@@ -47,7 +47,7 @@ static ffd_status open_view(run_view *view, ffd_error *error)
 {
     const run_view_desc *const desc = &view->desc;
     ffd_status status = FFD_OK;
-    view->page = name_page(desc);
+    view->page = ffd_run_view_page_of(desc->folder, desc->shard, desc->shards);
     if (!view->page)
         return ffd_fail_memory(error);
     if (!desc->dry)

@@ -15,6 +15,8 @@ typedef struct run_view_desc {
 
 typedef struct run_view run_view;
 
+/* Returns the path of the page in a folder. Free with ffd_free; NULL: out of memory. */
+char *ffd_run_view_page_of(const char *folder, uint64_t shard, uint64_t shards);
 /* Begins the page, which appears once it is complete. The texts of desc must outlive the view. Errors:
    FFD_E_EXISTS, FFD_E_IO, FFD_E_MEMORY. */
 ffd_status ffd_run_view_create(const run_view_desc *desc, run_view **view, ffd_error *error);

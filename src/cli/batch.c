@@ -1,6 +1,5 @@
 /* batch.c - ffd batch: many jobs, from a manifest, a table or a pattern. */
 #include "batch/batch.h"
-#include "base/file/folder.h"
 #include "base/file/path.h"
 #include "cli/command.h"
 #include "cli/deform.h"
@@ -110,8 +109,6 @@ static const char *wrong_positions(const settings *s, const cli_words *words)
         return "--positions needs the name of a file: its rows are written as the jobs come";
     if (!ffd_path_has_ending(s->positions, ".npy"))
         return "--positions needs a name that ends in .npy";
-    if (jobs->job.embedding && ffd_paths_meet(jobs->job.embedding, s->positions))
-        return "--positions would replace the embedding";
     if (jobs->in_place)
         return "--in-place cannot be used with --positions";
     if (jobs->job.morph_count > 0)
@@ -155,9 +152,6 @@ static const char *wrong(const settings *s, const cli_words *words)
         return "--depfile cannot be used with --in-place: a file cannot depend on itself";
     if (s->dry && jobs->job.report && cli_is_stream(jobs->job.report))
         return "--dry-run and the report cannot both write to standard output";
-    if (manifest && jobs->job.report && ffd_paths_meet(jobs->job.report, words->words[0]) &&
-        !cli_is_stream(jobs->job.report))
-        return "the report would replace the manifest";
     return wrong_positions(s, words);
 }
 

@@ -4,6 +4,7 @@
 #include "io/formats.h"
 #include "io/write/write.h"
 #include "mesh/morph/morph_clip.h"
+#include <float.h>
 #include <math.h>
 
 bool ffd_conversion_needed(const mesh_document *document, ffd_format format)
@@ -93,33 +94,35 @@ static ffd_status check_range(const mesh_model *model, const model_target *targe
     return unfit == SIZE_MAX ? FFD_OK : refuse(model, target, unfit, morph, path, error);
 }
 
-/* Sets vectors that are not finite to zero. Returns their number. */
-static size_t clear_not_finite(double *vectors, size_t count, size_t numbers)
+/* Sets vectors with a number above a limit to zero, and those that are not finite unless the target takes
+   them. Returns their number. */
+static size_t clear_unfit(double *vectors, size_t count, size_t numbers, double limit,
+                          const model_target *target)
 {
     size_t cleared = 0;
     for (size_t i = 0; vectors && i < count; i++, vectors += numbers) {
-        bool finite = true;
+        bool fit = true;
         for (size_t c = 0; c < numbers; c++)
-            finite = finite && isfinite(vectors[c]);
-        cleared += !finite;
-        for (size_t c = 0; c < numbers && !finite; c++)
+            fit = fit && (isfinite(vectors[c]) ? fabs(vectors[c]) <= limit : target->takes_not_finite);
+        cleared += !fit;
+        for (size_t c = 0; c < numbers && !fit; c++)
             vectors[c] = 0;
     }
     return cleared;
 }
 
-/* Clears normals, texture coordinates and colours that are not finite: they do not change the shape, so they
-   are no reason to fail. */
+/* Clears normals, texture coordinates and colours that would not be finite in the file: they do not change
+   the shape, so they are no reason to fail. */
 static void clear_attributes(mesh_model *model, const model_target *target, const mesh_log *log)
 {
-    if (target->takes_not_finite)
-        return;
-    const size_t normals = clear_not_finite(model->normals, model->normal_count, 3),
-                 texcoords = clear_not_finite(model->texcoords, model->texcoord_count, 2),
-                 colours = clear_not_finite(model->colours, model->position_count, 4);
+    const double largest = target->float_texcoords ? (double)FLT_MAX : DBL_MAX;
+    const size_t normals = clear_unfit(model->normals, model->normal_count, 3, DBL_MAX, target),
+                 texcoords = clear_unfit(model->texcoords, model->texcoord_count, 2, largest, target),
+                 colours = clear_unfit(model->colours, model->position_count, 4, DBL_MAX, target);
     if (normals + texcoords + colours)
-        ffd_log_line(log, FFD_LOG_WARNING, "not finite, and zero in %s: %zu %s, %zu texture %s, %zu %s",
-                     target->name, normals, ffd_plural(normals, "normal", "normals"), texcoords,
+        ffd_log_line(log, FFD_LOG_WARNING,
+                     "not finite as numbers of %s, and zero: %zu %s, %zu texture %s, %zu %s", target->name,
+                     normals, ffd_plural(normals, "normal", "normals"), texcoords,
                      ffd_plural(texcoords, "coordinate", "coordinates"), colours,
                      ffd_plural(colours, "colour", "colours"));
 }
@@ -148,6 +151,17 @@ static void warn(const mesh_model *model, const model_target *target, const mesh
     ffd_model_describe_loss(model, target->holds, lost, sizeof lost);
     if (*lost)
         ffd_log_line(log, FFD_LOG_WARNING, "%s cannot hold: %s", target->name, lost);
+    if (model->other_texcoords && target->holds & MODEL_HAS_TEXCOORDS)
+        ffd_log_line(log, FFD_LOG_WARNING,
+                     "%zu %s the set of texture coordinates that %s texture uses: TEXCOORD_0 takes its place",
+                     model->other_texcoords,
+                     ffd_plural(model->other_texcoords, "primitive lacks", "primitives lack"),
+                     ffd_plural(model->other_texcoords, "its", "their"));
+    if (model->odd_texcoords && target->holds & MODEL_HAS_TEXCOORDS)
+        ffd_log_line(log, FFD_LOG_WARNING,
+                     "%zu %s texture coordinates, which are not two numbers for each corner, and %s left out",
+                     model->odd_texcoords, ffd_plural(model->odd_texcoords, "face has", "faces have"),
+                     ffd_plural(model->odd_texcoords, "is", "are"));
     if (model->position_count == 0 && model->features & MODEL_HAS_HIDDEN)
         ffd_log_line(log, FFD_LOG_WARNING, "the displayed scene is empty: the output has no vertices");
     for (size_t k = 0; k < model->morph_count; k++) {

@@ -342,7 +342,7 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, figure_arrays 
                                      !job->recomputes && !job->desc->morphs;
     if (!status)
         status = format->begin_results(job->document, attributes, attributes, error);
-    if (job->desc->normals == FFD_NORMALS_RECOMPUTE && !job->recomputes && !format->normals_of_faces)
+    if (job->desc->normals == FFD_NORMALS_RECOMPUTE && !job->recomputes && !job->document->has_face_normals)
         ffd_log_line(&job->file_log, FFD_LOG_WARNING, "has no normals to recompute");
     arrays->budget = job->document->budget;
     if (!status)

@@ -204,12 +204,13 @@ ffd_status ffd_spec_build_knots(lattice_spec *spec, ffd_lattice **lattice, ffd_e
 
 uint64_t ffd_spec_knot_bytes(const lattice_spec *spec)
 {
-    /* Knots of the lattice and of the locator, and the indices of the spans. */
-    const uint64_t each = 2 * sizeof(double) + sizeof(int);
     uint64_t bytes = 0;
-    for (int a = 0; a < 3; a++)
-        bytes += (spec->size[a] + 2 * ((uint64_t)spec->degree[a] + 1)) * each +
-                 spec->list_count[a] * sizeof(double);
+    for (int a = 0; a < 3; a++) {
+        const uint64_t order = (uint64_t)spec->degree[a] + 1;
+        /* Knots of the lattice and of the locator, the indices of the spans, and their Bezier extractions. */
+        const uint64_t each = 2 * sizeof(double) + sizeof(int) + order * order * sizeof(double);
+        bytes += (spec->size[a] + 2 * order) * each + spec->list_count[a] * sizeof(double);
+    }
     return bytes;
 }
 

@@ -361,8 +361,6 @@ typedef struct mesh_format {
        Fills became. NULL: the format has no places. Errors: FFD_E_MEMORY, FFD_E_LIMIT, and those of the
        file's content. */
     mesh_follow_function *follow;
-    bool normals_of_faces; /* faces have normals, which saving recomputes, and vertices have none */
-
     /* Restricts moving, counting and writing to what at least one of the selectors names: sets selected and
        skipped of the parts, whose indices and vertices stay. To be called at most once, before results.
        selector_kinds: the set of kinds of the format (0: select is NULL). Errors: FFD_E_ARGUMENT (a name that
@@ -470,6 +468,7 @@ struct mesh_document {
     const mesh_part *parts; /* part_count parts, which belong to the document */
     size_t part_count;
     double largest_coordinate; /* of the file's number type; 0: that of the format */
+    bool has_face_normals;     /* faces have normals, which saving computes anew */
     memory_budget budget;
     mesh_flaws flaws; /* found by open */
     /* Number of things whose faces, lines or points are unknown (the flaws say why); they are in no faces. */

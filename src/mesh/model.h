@@ -103,10 +103,12 @@ typedef struct mesh_model {
     model_list lists[MODEL_KINDS];
     model_run *runs;
     size_t run_count, run_capacity;
-    bool wants_details; /* set by the caller who needs material numbers, and: */
-    uint64_t *numbers;  /* numbers of positions in the order of `ffd embed`; NULL: they are in that order */
-    size_t nodes_left;  /* nodes that a model cannot represent (GPU instances); refused unless
-                           wants_details */
+    bool wants_details;   /* set by the caller who needs material numbers, and: */
+    uint64_t *numbers;    /* numbers of positions in the order of `ffd embed`; NULL: they are in that order */
+    size_t odd_texcoords; /* faces whose texture coordinates do not fit their corners: they are left out */
+    size_t other_texcoords; /* primitives without the set that their texture uses: TEXCOORD_0 is taken */
+    size_t nodes_left;      /* nodes that a model cannot represent (GPU instances); refused unless
+                               wants_details */
     intern_table names;
     uint32_t features;     /* set of model_feature; complete after ffd_model_finish */
     memory_budget *budget; /* memory budget of the model and of writing it, borrowed; NULL: unlimited */

@@ -3,6 +3,7 @@
 
 import json
 import os
+import re
 import shutil
 
 from batches import batch, case, check, equal, job, lines_of, main, report, start
@@ -184,6 +185,32 @@ def files_of_the_run_itself(run):
             for i, name in enumerate((r"r\.obj", r"\./d\.obj", r"j\.obj"), 1)]
     batch(run, "m.jsonl", "--force", "--report", "r.obj", "--depfile", "d.obj", "--journal", "j.obj", done=1, failed=told)
     equal([e["status"] for e in report(run, "r.obj")], ["failed"] * 3 + ["ok"])
+
+
+@case
+def files_of_the_run_are_different_files(run):
+    """Before any file is made, whatever the pair is, and whether or not its folder is there."""
+    start(run, [job(0)])
+    before = run.names()
+    for arguments, why in (("--positions A.npy --journal A.npy", "A.npy: the journal and the array of --positions have the same name"),
+                           ("--positions A.npy --journal ./A.json", "the journal and the list of the rows of --positions have"),
+                           ("--positions A.npy --report A.json", "the report and the list of the rows"),
+                           ("--view V --journal V/index.html", "the journal and the index of --view have the same name"),
+                           ("--view V --report ./V/index.html", "the report and the index of --view have the same name"),
+                           ("--view V --shard 1/2 --depfile V/index-1-of-2.html", "the depfile and the index of --view have"),
+                           ("--report R.json --journal R.json", "the report and the journal have the same name"),
+                           ("--depfile R.d --journal ./R.d", "the depfile and the journal have the same name"),
+                           ("--report x.json --depfile x.json", "the report and the depfile have the same name"),
+                           ("--report - --depfile -", "the report and the depfile cannot both go to standard output"),
+                           ("--journal m.jsonl", "the journal would replace the manifest"),
+                           ("--report ./m.jsonl", "the report would replace the manifest"),
+                           ("--depfile m.jsonl", "the depfile would replace the manifest")):
+        run.ffd("batch", "m.jsonl", "--force", *arguments.split(), code=USAGE, err=re.compile(re.escape(why)), lines=1)
+        equal(run.names(), before, arguments)
+    run.write("t.csv", "in,out\na.obj,o.obj\n")
+    run.ffd("batch", "--csv", "t.csv", "-l", "l.json", "--journal", "l.json", code=USAGE, err=re.compile("the journal would replace a lattice"))
+    run.ffd("batch", "--csv", "t.csv", "-l", "l.json", "--report", "t.csv", code=USAGE, err=re.compile("the report would replace the table"))
+    batch(run, "m.jsonl", "--view", "V", "--journal", "V/j", "--report", "V/r.json", "--depfile", "V/d", done=1)
 
 
 @case

@@ -292,7 +292,7 @@ def a_run_that_is_refused_leaves_the_array(run):
     left = set(names(run))
     for arguments, why in ((("--positions", "new.npy"), "^new.json: exists and is not a report"),
                            (("--positions", "new2.npy", "--report", "r.json"), "^r.json: exists and is not a report"),
-                           (("--positions", "new2.npy", "--report", "./new2.json"), "^new2.json: says what is in the rows of --positions"),
+                           (("--positions", "new2.npy", "--report", "./new2.json"), "the report and the list of the rows of --positions have the same name"),
                            (("--positions", "new2.npy", "--journal", "j.json"), "^j.json: is not a journal"),
                            (("--positions", "new2.npy", "--view", "v"), "^v"),
                            (("--positions", "old.npy", "--report", "r.json", "--force"), "^r.json: exists and is not a report")):

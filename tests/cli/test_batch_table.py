@@ -353,6 +353,27 @@ def semicolons_and_decimal_commas_are_understood(run):
 
 
 @case
+def dots_before_three_digits_beside_decimal_commas(run):
+    """They may stand for thousands: a warning, whichever comes first. Each column by itself."""
+    begin(run)
+    arguments = ["--csv", "t.csv", "--in", "a.obj", "-l", "p.json", "--force"]
+
+    def mixed(line, cell):
+        return f't.csv:{line}: column "H" has decimal commas, and dots before three digits, which are read as decimal points too: "{cell}"'
+
+    for cells, said in ((["0,5", "1.500"], mixed(3, "1.500")), (["1.500", "0,5"], mixed(3, "0,5")), (["0,5", "1.5"], None),
+                        (["0,5", "1.5000"], None), (["1.500", "2.250"], None), (["0,5", "2,500"], None)):
+        run.write("t.csv", "out;H\n" + "".join(f"o{i}.obj;{cell}\n" for i, cell in enumerate(cells)))
+        done = run.ffd("batch", *arguments, err=lambda lines: True)
+        equal([line for line in done.err if "dots" in line], [said.replace("t.csv:3:", "t.csv: line 3:")] if said else [], str(cells))
+        for i, cell in enumerate(cells):
+            raised(run, f"o{i}.obj", float(cell.replace(",", ".")))
+    # With commas between the cells a dot is the decimal point.
+    run.write("t.csv", "out,H\no0.obj,1.500\no1.obj,0.5\n")
+    batch(run, *arguments, done=2)
+
+
+@case
 def columns_are_left_out(run):
     begin(run)
     run.write("t.csv", "in,note,H,out,who\na.obj,first,0.5,b.obj,me\na.obj,second,0.25,c.obj,you\n")

@@ -635,6 +635,29 @@ def texture_coordinates_of_ply_are_floats(run):
 
 
 @case
+def faces_of_ply_whose_texture_coordinates_do_not_fit(run):
+    """A list that is not two numbers for each corner is left out with a warning, and leaves no coordinate that nothing
+    uses. A face with an empty list has none."""
+    run.write("still.json", STILL)
+    head = ("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face {}\n"
+            "property list uchar int vertex_indices\nproperty list uchar float texcoord\nend_header\n"
+            "0 0 0\n1 0 0\n1 1 0\n0 1 0\n")
+    good, short, none = "3 0 1 2 6 0.5 0 1 0.25 1 1\n", "3 0 2 3 4 0 0 1 1\n", "3 0 2 3 0\n"
+    for faces, coordinates, line in (
+            ([good, short], 3, "1 face has texture coordinates, which are not two numbers for each corner, and is left out"),
+            ([short, good, short], 3, "2 faces have texture coordinates, which are not two numbers for each corner, and are left out"),
+            ([short], 0, "1 face has texture coordinates, which are not two numbers for each corner, and is left out"),
+            ([none, good], 3, None)):
+        run.write("a.ply", head.format(len(faces)) + "".join(faces))
+        run.ffd("deform", "a.ply", "a.obj", "-l", "still.json", "--force", err=f"a.ply: {line}" if line else [])
+        text = run.text("a.obj").splitlines()
+        equal([line for line in text if line.startswith("vt")], ["vt 0.5 0", "vt 1 0.25", "vt 1 1"][:coordinates])
+        equal([line for line in text if line.startswith("f")],
+              ["f 1/1 2/2 3/3" if face == good else "f 1 3 4" for face in faces])
+        run.ffd("deform", "a.ply", "a.stl", "-l", "still.json", "--force", err=anything)
+
+
+@case
 def faces_of_many_corners(run):
     """PLY counts corners, and twice as many texture coordinates, by bytes as long as these suffice."""
     run.write("still.json", STILL)
@@ -783,6 +806,21 @@ def attributes_that_are_not_finite(run):
         check(not any(word in run.read(f"b.{target}") for word in (b"nan", b"inf")), target)
     equal([line for line in run.text("b.obj").splitlines() if line.startswith("vn") or line.startswith("vt")],
           ["vt 0 0", "vt 0 0", "vt 0 0", "vn 0 0 0", "vn 0 0 0", "vn 0 0 1"])
+
+
+@case
+def texture_coordinates_beyond_floats(run):
+    """PLY and glTF hold them as floats: 1e300 is no infinity there."""
+    run.write("still.json", STILL)
+    run.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 1e300 0\nvt 0.5 -1e39\nvt 0.5 0.25\nvn 0 0 1e300\nf 1/1/1 2/2/1 3/3/1\n")
+    for target, name in (("ply", "PLY"), ("glb", "glTF"), ("gltf", "glTF")):
+        run.ffd("deform", "a.obj", f"b.{target}", "-l", "still.json",
+                err=f"a.obj: not finite as numbers of {name}, and zero: 0 normals, 2 texture coordinates, 0 colours")
+        run.ffd("deform", f"b.{target}", "b.obj", "-l", "still.json", "--force", err=anything)
+        equal([line for line in run.text("b.obj").splitlines() if line.startswith("vt")],
+              ["vt 0 0", "vt 0 0", "vt 0.5 0.25"] if target == "ply" else ["vt 0 0", "vt 0 0", "vt 0.5 0.25"], target)
+    run.ffd("deform", "a.obj", "b.off", "-l", "still.json", err=[])
+    check("1e+300 0" in run.text("b.off"), run.text("b.off"))
 
 
 @case

@@ -4,7 +4,8 @@ material says (KHR_texture_transform), of any type; what stays behind is told.""
 import math
 
 from gltf_build import Scene
-from harness import case, check, equal, lattice, main, near
+from harness import INVALID, case, check, equal, lattice, main, near
+from said import anything
 
 STILL = lattice(low=(-9, -9, -9), high=(9, 9, 9), moves=[])
 CORNERS = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]  # v goes down
@@ -92,6 +93,35 @@ def transforms_are_applied(run):
         run.ffd("deform", f"a.{target}", "b.obj", "-l", "still.json", "-q", "--force")
         equal([line for line in run.text("b.obj").splitlines() if line.startswith("vt")],
               ["vt 0 1", "vt 0.5 1", "vt 0.5 0.75", "vt 0 0.75"], target)
+
+
+@case
+def values_that_gltf_does_not_allow_are_named(run):
+    """The warning names them, whatever is written; --strict refuses the first one. So is a set that is not there."""
+    place = "/materials/0/pbrMetallicRoughness/baseColorTexture"
+    inside = place + "/extensions/KHR_texture_transform"
+    for info, wheres in ((texture(transform={"scale": "x"}), [inside + "/scale"]),
+                         (texture(transform={"scale": [1]}), [inside + "/scale"]),
+                         (texture(transform={"offset": [None, 0]}), [inside + "/offset/0"]),
+                         (texture(transform={"rotation": "90", "texCoord": "1"}), [inside + "/texCoord", inside + "/rotation"]),
+                         (texture(transform=[2, 2]), [inside]), (texture("1"), [place + "/texCoord"]),
+                         (texture(1.5), [place + "/texCoord"])):
+        found, = converted(run, [base(info)], (CORNERS, OTHERS), more=True)
+        equal(found, up(CORNERS), info)
+        many = len(wheres) > 1
+        line = (f"a.glb: {len(wheres)} {'values are' if many else 'value is'} not what glTF allows there, "
+                f"and {'are' if many else 'is'} ignored: " + ", ".join(wheres))
+        for target in ("a.obj", "b.glb"):
+            told = run.ffd("deform", "a.glb", target, "-l", "still.json", "--force", err=anything).err
+            check(line in told, told, line)
+        run.ffd("deform", "a.glb", "a.obj", "-l", "still.json", "--force", "--strict", code=INVALID,
+                err=f"a.glb:{wheres[0]}: is not what glTF allows there")
+    line = "a.glb: 1 primitive lacks the set of texture coordinates that its texture uses: TEXCOORD_0 takes its place"
+    for info, sets, there in ((texture(1), (CORNERS,), True), (texture(0), (CORNERS,), False), (texture(1), (CORNERS, OTHERS), False),
+                              (texture(1), (None,), False)):
+        write(run, [base(info)], sets)
+        told = run.ffd("deform", "a.glb", "a.obj", "-l", "still.json", "--force", err=anything).err
+        equal(line in told, there, info)
 
 
 @case

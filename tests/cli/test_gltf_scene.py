@@ -201,7 +201,7 @@ def broken_skins_are_refused(run):
         run.ffd("deform", "in.glb", "mesh.glb", "--force", "-l", "l.json", "--space", "mesh", code=(OK, INVALID))
 
     run.write("l.json", SHIFT)
-    refused(skinned([[0, 2, 0, 0]], weights), "names joint 2, but the skin has only 2")
+    refused(skinned([[0, 2, 0, 0]], [[0.5, 0.5, 0, 0]]), "names joint 2, but the skin has only 2")
     scene = skinned([[0, 0, 0, 0]], weights)
     scene.asset["skins"][0]["joints"] = [1, 3]
     refused(scene, "/skins/0/joints/1: there is no node 3, only 3")

@@ -409,6 +409,34 @@ def a_conversion_deforms_the_shape_that_is_shown(run):
 
 
 @case
+def colours_and_texture_coordinates_of_a_conversion_are_those_shown(run):
+    """Under each node by its own weights, before KHR_texture_transform; a weight of 0 leaves the base's values."""
+    def floats(text, key, first, count):
+        return [[float(x) for x in line.split()[first:first + count]] for line in text.splitlines() if line.split()[0] == key]
+
+    def srgb(linear):
+        return 12.92 * linear if linear <= 0.0031308 else 1.055 * linear ** (1 / 2.4) - 0.055
+
+    made = scene([[0.0, 0.0, 0.0]], [0.5], nodes=[{"mesh": 0}, {"mesh": 0, "weights": [1]}, {"mesh": 0, "weights": [0]}])
+    made.asset["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {
+        "index": 0, "extensions": {"KHR_texture_transform": {"scale": [2, 2], "offset": [0.25, 0]}}}}}]
+    made.asset.update(textures=[{"source": 0}], images=[{"uri": "data:,"}], extensionsUsed=["KHR_texture_transform"])
+    primitive = made.asset["meshes"][0]["primitives"][0]
+    primitive["material"] = 0
+    primitive["attributes"].update(COLOR_0=made.add([[0.25, 0.0, 1.0, 1.0]] * 3, shape="VEC4"),
+                                   TEXCOORD_0=made.add([[0.0, 0.0], [0.5, 0.0], [0.5, 0.5]], shape="VEC2"))
+    primitive["targets"][0].update(COLOR_0=made.add([[0.5, 1.0, 1.0, 0.0]] * 3, shape="VEC4"),
+                                   TEXCOORD_0=made.add([[0.125, 0.25]] * 3, shape="VEC2"))
+    shown(run, made)
+    text = run.text("a.obj")
+    equal(len(floats(text, "v", 4, 3)), 9)
+    near(floats(text, "v", 4, 3), [[srgb(min(x + w * d, 1)) for x, d in zip((0.25, 0, 1), (0.5, 1, 1))] for w in (0.5, 1, 0) for _ in range(3)],
+         1e-6)
+    near(floats(text, "vt", 1, 2), [[2 * (u + 0.125 * w) + 0.25, 1 - 2 * (v + 0.25 * w)] for w in (0.5, 1, 0) for u, v in ((0, 0), (0.5, 0), (0.5, 0.5))],
+         1e-6)
+
+
+@case
 def normals_of_a_conversion_are_those_of_the_shape_shown(run):
     low, high = BOUNDS
     run.write("l.json", lattice(low=low, high=high, moves=[{"rotate": {"axis": "z", "degrees": 90, "about": [0, 0, 0]}}]))

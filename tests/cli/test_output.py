@@ -368,6 +368,22 @@ def gltf_is_complete_or_absent(run):
 
 
 @case
+def a_buffer_that_others_share_is_left_to_them_in_place(run):
+    """Also one without the output's stem: a line names who has it still. A buffer of one's own is left without a word."""
+    asset, data = gltf_json([[0, 0, 0], [1, 0, 0], [0, 1, 0]])
+    asset["buffers"] = [{"byteLength": len(data), "uri": "s.bin"}]
+    run.write("l.json", lattice(low=(-9, -9, -9), high=(9, 9, 9), moves=[{"by": [1, 0, 0]}]))
+    run.write("s.bin", data)
+    for name in ("a.gltf", "b.gltf"):
+        run.write(name, json.dumps(asset))
+    said = "a.gltf: s.bin was a buffer of b.gltf too, and stays: a.bin is written in place of it"
+    run.ffd("deform", "a.gltf", "--in-place", "-l", "l.json", err=said)
+    check(run.read("s.bin") == data and run.read("a.bin") != data, "s.bin stays")
+    run.ffd("deform", "a.gltf", "--in-place", "-l", "l.json", err=[])
+    run.ffd("deform", "b.gltf", "--in-place", "-l", "l.json", err=[])
+
+
+@case
 def gltf_in_place_keeps_a_valid_file(run):
     start(run)
     asset, data = gltf_json(CUBE_CORNERS, uri="a.bin")

@@ -293,6 +293,41 @@ def face_normals_are_those_of_the_moved_corners(run):
 
 
 @case
+def normals_that_no_command_turns_are_named(run):
+    """Those of other elements, under other names and in lists; and tangents."""
+    wide = {"low": (-10, -10, -10), "high": (10, 10, 10)}
+    run.write("turn.json", lattice(**wide, moves=[{"rotate": {"axis": "x", "degrees": 90, "about": [0, 0, 0]}}]))
+    corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
+    up = [0.0, 0.0, 1.0]
+
+    def names(*three):
+        return [("float", name) for name in three]
+
+    def parts(vertex=(), face=(), edge=()):
+        return [("vertex", names("x", "y", "z", *vertex), [c + up * (len(vertex) // 3) for c in corners]),
+                ("face", [("uchar", "int", "vertex_indices"), *face], [[[0, 1, 2], *([up] if len(face) == 1 else up[:len(face)])]]),
+                ("edge", [("int", "vertex1"), ("int", "vertex2"), *names(*edge)], [[0, 1, *up[:len(edge)]]])]
+
+    turned = ("nx", "ny", "nz")
+    other = ("normal_x", "normal_y", "normal_z")
+    for made, named in ((parts(edge=turned), "nx ny nz of edge"),
+                        (parts(face=[("uchar", "float", "normal")]), "normal of face"),
+                        (parts(other, names(*other)), "normal_x normal_y normal_z of vertex, normal_x normal_y normal_z of face"),
+                        (parts((*turned, "tx", "ty", "tz"), names(*turned)), "tx ty tz of vertex"),
+                        (parts(turned, names(*turned)), None),
+                        (parts(("tx", "ty", "s")), None)):
+        run.write("p.ply", write_ply(made, "ascii"))
+        run.ffd("deform", "p.ply", "q.ply", "-l", "turn.json", "--force",
+                err=f"p.ply: these normals and tangents stay as they are: {named}" if named else [])
+        run.ffd("deform", "p.ply", "q.ply", "-l", "turn.json", "--force", "--normals", "keep", err=[])
+    # Normals of faces are computed anew, beside vertices without any.
+    run.write("p.ply", write_ply(parts(face=names(*turned)), "ascii"))
+    run.ffd("deform", "p.ply", "q.ply", "-l", "turn.json", "--force", "--normals", "recompute", err=[])
+    face = read_ply(run.read("q.ply"))["face"][0]
+    near([face[a] for a in turned], [0, -1, 0], 1e-7)
+
+
+@case
 def facts_of_ply_files_are_right(run):
     for encoding in ENCODINGS:
         run.write("p.ply", write_ply(elements("double"), encoding, "\r\n") + b"\n\nmore")

@@ -40,6 +40,25 @@ def weights_are_divided_by_their_sum(run):
 
 
 @case
+def joints_beyond_the_skin_without_a_weight_are_plain(run):
+    """They have no say; one with a weight is refused, and so is the first one of a vertex that no joint moves."""
+    _, expected = skinned(run, [[1, 0, 0, 0]] * 4, BOTH)
+    done, found = skinned(run, [[1, 0, 0, 0]] * 4, [[0, 255, 2, 255]] * 4)
+    equal(found, expected)
+    flaw = "names joint 255 without a weight, but the skin has only 2"
+    equal([line for line in done.err if "joint" in line], [f"a.glb: /accessors/1: {flaw}"])
+    run.ffd("deform", "a.glb", "c.glb", "-l", "l.json", "--strict", code=INVALID, err=f"a.glb:/accessors/1: {flaw}")
+    for weights, joints in (([0.5, 0, 0.5, 0], [0, 1, 2, 0]), ([0, 0, 0, 0], [7, 0, 0, 0])):
+        made = Scene(nodes=[{"mesh": 0, "skin": 0}, {}, {}], scene=0, scenes=[{"nodes": [0, 1, 2]}], skins=[{"joints": [1, 2]}])
+        made.asset["meshes"] = [{"primitives": [{"mode": 0, "attributes": {
+            "POSITION": made.add(POINTS, bounds=True), "JOINTS_0": made.add([joints] * 4, component=5121, shape="VEC4"),
+            "WEIGHTS_0": made.add([weights] * 4, shape="VEC4")}}]}]
+        run.write("a.glb", made.glb())
+        run.ffd("deform", "a.glb", "c.glb", "-l", "l.json", code=INVALID,
+                err=f"a.glb:/accessors/1: names joint {max(joints)}, but the skin has only 2")
+
+
+@case
 def every_command_says_what_weights_are_not(run):
     """In one line a kind, in "flaws", and with --strict exit 4; the words are those of what happens."""
     one, inf = [1, 0, 0, 0], float("inf")

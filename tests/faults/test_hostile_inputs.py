@@ -64,8 +64,10 @@ def siege_09_millions_of_control_points_take_little_memory(run):
         for words in (["deform", "a.obj", "o.obj", "-l"], ["check", "a.obj", "-l"], ["embed", "a.obj", "-o", "e.npy", "-l"]):
             run.ffd(*words, name, code=LIMIT, err=why, **options)
     run.ffd("lattice", "new", "a.obj", "-o", "n.json", "--size", "406,406,407", code=LIMIT, err=re.compile("needs 4898 MB of memory"), **options)
-    run.write("long.json", lattice(size=(1 << 24, 2, 2)))
-    run.ffd("info", "long.json", code=LIMIT, err=re.compile("^long.json: a lattice of 16777216 by 2 by 2 "), **options)
+    # Where not even the knots fit, with what is made of them.
+    for count in (1 << 24, 4000000, 1000000):
+        run.write("long.json", lattice(size=(count, 2, 2)))
+        run.ffd("info", "long.json", code=LIMIT, err=re.compile(f"^long.json: a lattice of {count} by 2 by 2 "), **options)
     check(not run.exists("o.obj") and not run.exists("e.npy") and not run.exists("n.json"), "nothing is written")
 
 

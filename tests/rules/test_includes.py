@@ -60,7 +60,7 @@ LAYERS = {
     },
     "io/gltf": {
         "base", "base/file", "base/memory", "base/system", "base/vector", "io/gltf/decode", "io/gltf/document", "io/gltf/file",
-        "io/gltf/model", "io/gltf/morph", "io/gltf/rig", "io/gltf/save", "io/gltf/scene", "io/gltf/skeleton", "io/gltf/splat", "json", "mesh",
+        "io/gltf/model", "io/gltf/morph", "io/gltf/refer", "io/gltf/rig", "io/gltf/save", "io/gltf/scene", "io/gltf/skeleton", "io/gltf/splat", "json", "mesh",
         "mesh/resource",
     },
     "io/openmesh": {"base/memory", "base/system", "base/vector", "mesh"},

@@ -161,6 +161,15 @@ bool ffd_csv_number(const char *cell, bool decimal_comma, byte_buffer *json)
     return true;
 }
 
+csv_point ffd_csv_point(const char *cell)
+{
+    const char *const dot = strchr(cell, '.');
+    const size_t digits = dot ? count_digits(dot + 1) : 0;
+    if (strchr(cell, ','))
+        return CSV_DECIMAL_COMMA;
+    return digits == 3 && !dot[4 + strspn(dot + 4, " \t")] ? CSV_DOT_OF_THREE : (csv_point)0;
+}
+
 void ffd_csv_free(csv_row *row)
 {
     ffd_buffer_free(&row->text);

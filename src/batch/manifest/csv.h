@@ -35,6 +35,12 @@ bool ffd_csv_split(char separator, const char *text, size_t size, csv_row *row);
 bool ffd_csv_is_text(const csv_row *row);
 /* Returns the next cell; cell NULL: the first one. */
 const char *ffd_csv_next(const csv_row *row, const char *cell);
+/* How a number is written: with a decimal comma; or with a dot before three digits at its end, which may
+   stand for thousands where others have a decimal comma. */
+typedef enum csv_point { CSV_DECIMAL_COMMA = 1, CSV_DOT_OF_THREE = 2 } csv_point;
+
+/* Returns which of these a cell that is a number has; 0: none. */
+csv_point ffd_csv_point(const char *cell);
 /* Converts a number as people and programs write it (".5", "5.", "+5", "05", with decimal_comma also "0,5")
    to JSON. Returns false if the text is not a number. */
 bool ffd_csv_number(const char *cell, bool decimal_comma, byte_buffer *json);

@@ -39,12 +39,27 @@ static char *number_of(const job_commons *commons, const char *cell, csv_flaw *f
     return number;
 }
 
-/* Sets a placeholder to the value of a cell. */
-static void set_cell(const job_commons *commons, const char *column, const char *cell, job_description *job,
-                     csv_flaw *flaw)
+/* Notes how a number writes its decimals, and whether its column has two ways that contradict each other. */
+static void note_point(const job_commons *commons, size_t number, const char *column, const char *cell,
+                       csv_flaw *flaw)
+{
+    const csv_point point = ffd_csv_point(cell);
+    uint8_t *const points = &commons->points[number];
+    *points |= (uint8_t)point;
+    if (!point || *points != (CSV_DECIMAL_COMMA | CSV_DOT_OF_THREE) || flaw->mixed[0])
+        return;
+    snprintf(flaw->column, sizeof flaw->column, "%s", column);
+    snprintf(flaw->mixed, sizeof flaw->mixed, "%s", cell);
+}
+
+/* Sets a placeholder to the value of a cell of column i. */
+static void set_cell(const job_commons *commons, size_t i, const char *column, const char *cell,
+                     job_description *job, csv_flaw *flaw)
 {
     char *const number = number_of(commons, cell, flaw);
     json_setting value;
+    if (commons->decimal_comma && (number || (is_json(cell) && !strpbrk(cell, "[{\""))))
+        note_point(commons, i, column, cell, flaw);
     if (ffd_json_setting_parse(number ? number : cell, CELL_RULES, &value))
         job->texts.failed = true;
     else
@@ -105,14 +120,14 @@ static void add_output(const job_commons *commons, const char *input, uint64_t n
 /* The columns "in", "out" and "lattice" are files; others are values of placeholders. Paths are relative to
    the table's folder, those of outputs to --out-dir. An empty cell says nothing; but one in quotes is a
    text. */
-static void describe_cell(const job_commons *commons, const char *column, const char *cell, char way,
-                          job_description *job, csv_flaw *flaw)
+static void describe_cell(const job_commons *commons, size_t i, const char *column, const char *cell,
+                          char way, job_description *job, csv_flaw *flaw)
 {
     const char *const out_dir = commons->out_dir;
     if (!*cell && !(way & CSV_IN_QUOTES))
         return;
     if (strcmp(column, "in") != 0 && strcmp(column, "out") != 0 && strcmp(column, "lattice") != 0)
-        set_cell(commons, column, cell, job, flaw);
+        set_cell(commons, i, column, cell, job, flaw);
     else if (*cell && *column == 'o')
         add_path(job, JOB_OUTPUT, out_dir ? out_dir : commons->folder, cell);
     else if (*cell)
@@ -127,7 +142,7 @@ void ffd_describe_row(const job_commons *commons, const csv_row *columns, const 
         column = ffd_csv_next(columns, column);
         cell = ffd_csv_next(row, cell);
         if (!commons->skipped[i])
-            describe_cell(commons, column, cell, row->ways.data[i], job, flaw);
+            describe_cell(commons, i, column, cell, row->ways.data[i], job, flaw);
     }
     if (commons->input && !ffd_description_find(job, JOB_INPUT))
         ffd_description_add(job, JOB_INPUT, NULL, commons->input);

@@ -17,11 +17,15 @@ typedef struct job_commons {
     const char *const *morphs; /* lattice_count names, if each lattice makes a morph target; or NULL */
     const uint8_t *skipped;    /* of a table's columns: whether they are left out */
     bool decimal_comma;        /* numbers may have a decimal comma */
+    uint8_t *points;           /* of a table's columns: csv_point of their numbers so far */
 } job_commons;
 
-/* A number that is not written as in JSON. All zeros: none. */
+/* Numbers that may be read otherwise than they were meant. All zeros: none. */
 typedef struct csv_flaw {
-    char cell[48], number[64]; /* of the first one: the original, and the number read */
+    char cell[48],
+        number[64]; /* the first one that is not written as in JSON: the original, and the number read */
+    /* The first one by which its column has decimal commas and dots before three digits. */
+    char column[48], mixed[48];
 } csv_flaw;
 
 /* Returns the name of the output of an input, which names none. number: appended if the input has several

@@ -74,7 +74,8 @@ static job_commons list_commons(const job_source *source)
                          .lattice_count = desc->lattice_count,
                          .morphs = desc->morphs,
                          .skipped = source->table.skipped,
-                         .decimal_comma = source->table.separator != ','};
+                         .decimal_comma = source->table.separator != ',',
+                         .points = source->table.points};
 }
 
 /* Returns the path of a row's mesh, freed by the caller; NULL: it has none, or memory runs out. */
@@ -115,6 +116,12 @@ static ffd_status read_row(job_source *source, bool valid, batch_job *job)
     if (flaw.cell[0])
         ffd_flaw_line(&source->table.flaws, source->frame.name, (size_t)job->line, &job->error,
                       "\"%s\" is no number in JSON, and is read as %s", flaw.cell, flaw.number);
+    if (flaw.mixed[0] && !job->error.status)
+        ffd_flaw_line(
+            &source->table.flaws, source->frame.name, (size_t)job->line, &job->error,
+            "column \"%s\" has decimal commas, and dots before three digits, which are read as decimal "
+            "points too: \"%s\"",
+            flaw.column, flaw.mixed);
     const ffd_status status = job->error.status ? FFD_OK : ffd_job_make(&source->frame, &description, job);
     ffd_description_free(&description);
     return status;

@@ -193,7 +193,8 @@ static ffd_status check_columns(csv_table *table, ffd_error *error)
                              "the name of a column is not text in UTF-8");
     table->skipped = ffd_alloc_zero(columns->count, sizeof *table->skipped);
     size_t *const numbers = ffd_alloc(columns->count, sizeof *numbers);
-    ffd_status status = table->skipped && numbers ? FFD_OK : ffd_fail_memory(error);
+    table->points = ffd_alloc_zero(columns->count, sizeof *table->points);
+    ffd_status status = table->skipped && table->points && numbers ? FFD_OK : ffd_fail_memory(error);
     for (size_t i = 0; i < columns->count && !status; i++) {
         name = ffd_csv_next(columns, name);
         status = check_name(table, name, i, &names, numbers, error);
@@ -237,4 +238,5 @@ void ffd_table_free(csv_table *table)
     ffd_csv_free(&table->columns);
     ffd_csv_free(&table->row);
     ffd_free(table->skipped);
+    ffd_free(table->points);
 }

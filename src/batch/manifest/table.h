@@ -13,6 +13,7 @@ typedef struct csv_table {
     const char *ignored; /* columns to ignore, "a,b"; or NULL */
     csv_row columns, row;
     uint8_t *skipped; /* of each column: whether it is left out */
+    uint8_t *points;  /* of each column: the set of csv_point of its numbers so far */
     char separator;   /* of the cells; 0: not known yet */
     uint64_t line;    /* first line of the last row */
     mesh_flaws flaws;

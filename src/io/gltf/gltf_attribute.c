@@ -1,27 +1,15 @@
 #include "io/gltf/gltf_attribute.h"
 #include "base/vector/trig.h"
-#include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/refer/gltf_textures.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #define DEGREES_OF_RADIAN 57.29577951308232
-/* A set's number, which is part of an attribute's name, must be less. */
-#define SETS_MAX 1e6
 
 static uint32_t attributes_of(const gltf_document *d, size_t m, size_t p)
 {
     return ffd_json_span_member(&d->tree, ffd_gltf_primitive_value(d, m, p), "attributes");
-}
-
-/* Reads a whole number below limit. */
-static bool read_count(const gltf_document *d, uint32_t value, double limit, size_t *count)
-{
-    double number;
-    if (!ffd_json_span_number(&d->tree, value, &number) || !(number >= 0) || !(number < limit))
-        return false;
-    *count = (size_t)number;
-    return true;
 }
 
 size_t ffd_gltf_attribute(const gltf_document *d, size_t m, size_t p, const char *name, int least, int most)
@@ -29,7 +17,7 @@ size_t ffd_gltf_attribute(const gltf_document *d, size_t m, size_t p, const char
     const uint32_t value = ffd_json_span_member(&d->tree, attributes_of(d, m, p), name);
     const int positions = d->model.meshes[m].primitives[p].accessor[GLTF_POSITION];
     size_t a;
-    if (positions < 0 || !read_count(d, value, (double)d->model.accessor_count, &a))
+    if (positions < 0 || !ffd_gltf_read_count(d, value, (double)d->model.accessor_count, &a))
         return GLTF_NONE;
     const gltf_accessor *accessor = &d->model.accessors[a];
     const bool fits = accessor->columns == 1 && accessor->rows >= least && accessor->rows <= most &&
@@ -42,34 +30,9 @@ static uint32_t material_of(const gltf_document *d, size_t m, size_t p)
 {
     size_t material;
     const uint32_t value = ffd_json_span_member(&d->tree, ffd_gltf_primitive_value(d, m, p), "material");
-    return read_count(d, value, (double)d->material_values.count, &material)
+    return ffd_gltf_read_count(d, value, (double)d->material_values.count, &material)
                ? d->material_values.values[material]
                : JSON_NONE;
-}
-
-/* Whether a JSON value is a textureInfo: in the material and in any of its extensions it is an object
-   "...Texture" with an index. */
-static bool is_texture(const json_span *tree, uint32_t v)
-{
-    static const char ending[] = "Texture\"";
-    const json_value *value = &tree->values[v];
-    const size_t size = sizeof ending - 1;
-    return value->kind == JSON_OBJECT && value->key_end - value->key_begin > size &&
-           memcmp(tree->text + value->key_end - size, ending, size) == 0 &&
-           ffd_json_span_member(tree, v, "index") != JSON_NONE;
-}
-
-/* Returns the first texture of a material after v, one of its values or the material itself; JSON_NONE:
-   none. */
-static uint32_t next_texture(const json_span *tree, uint32_t material, uint32_t v)
-{
-    const uint32_t end = tree->values[material].next;
-    for (v++; v < end;) {
-        if (is_texture(tree, v))
-            return v;
-        v = ffd_json_span_key_is(tree, v, "extras") ? tree->values[v].next : v + 1;
-    }
-    return JSON_NONE;
 }
 
 /* Returns the base colour texture of a material, else another of its textures; JSON_NONE: none. */
@@ -83,56 +46,43 @@ static uint32_t main_texture(const gltf_document *d, uint32_t material)
     if (found == JSON_NONE)
         found = ffd_json_span_member(
             tree, ffd_gltf_extension(d, material, "KHR_materials_pbrSpecularGlossiness"), "diffuseTexture");
-    return found == JSON_NONE ? next_texture(tree, material, material) : found;
-}
-
-/* Reads a finite number; otherwise *number stays. */
-static void read_number(const json_span *tree, uint32_t value, double *number)
-{
-    double read;
-    if (ffd_json_span_number(tree, value, &read) && isfinite(read))
-        *number = read;
-}
-
-static void read_pair(const json_span *tree, uint32_t array, double pair[2])
-{
-    for (size_t i = 0; i < 2; i++)
-        read_number(tree, ffd_json_span_element(tree, array, i), &pair[i]);
+    return found == JSON_NONE ? ffd_gltf_next_texture(d, material, material) : found;
 }
 
 /* Translation times rotation times scale. A rotation is counter-clockwise if v points upwards, but in glTF v
    points downwards. */
-static void read_transform(const gltf_document *d, uint32_t transform, gltf_texcoords *texcoords)
+static void set_transform(const gltf_texture_use *use, gltf_texcoords *texcoords)
 {
-    const json_span *tree = &d->tree;
-    double offset[2] = {0, 0}, scale[2] = {1, 1}, radians = 0, sine, cosine;
-    read_pair(tree, ffd_json_span_member(tree, transform, "offset"), offset);
-    read_pair(tree, ffd_json_span_member(tree, transform, "scale"), scale);
-    read_number(tree, ffd_json_span_member(tree, transform, "rotation"), &radians);
-    ffd_sincos_degrees(fabs(radians) < 1e300 ? radians * DEGREES_OF_RADIAN : 0, &sine, &cosine);
+    const double *const scale = use->scale;
+    double sine, cosine;
+    ffd_sincos_degrees(use->radians * DEGREES_OF_RADIAN, &sine, &cosine);
     *texcoords = (gltf_texcoords){.accessor = texcoords->accessor,
-                                  .to_u = {cosine * scale[0], sine * scale[1], offset[0]},
-                                  .to_v = {-sine * scale[0], cosine * scale[1], offset[1]}};
+                                  .to_u = {cosine * scale[0], sine * scale[1], use->offset[0]},
+                                  .to_v = {-sine * scale[0], cosine * scale[1], use->offset[1]}};
 }
 
-/* Finds the texture coordinates that a texture of a primitive's material uses. */
-static void find_taken(const gltf_document *d, size_t m, size_t p, uint32_t texture, gltf_texcoords *taken)
+/* Finds the texture coordinates that a texture of a primitive's material uses. Returns the number of their
+   set. */
+static size_t find_taken(const gltf_document *d, size_t m, size_t p, uint32_t texture, gltf_texcoords *taken)
 {
-    const uint32_t transform = ffd_gltf_extension(d, texture, "KHR_texture_transform");
+    gltf_texture_use use;
     char name[32];
-    size_t set = 0;
-    if (!read_count(d, ffd_json_span_member(&d->tree, transform, "texCoord"), SETS_MAX, &set))
-        read_count(d, ffd_json_span_member(&d->tree, texture, "texCoord"), SETS_MAX, &set);
-    snprintf(name, sizeof name, "TEXCOORD_%zu", set);
+    ffd_gltf_read_texture(d, texture, &use, NULL);
+    snprintf(name, sizeof name, "TEXCOORD_%zu", use.set);
     taken->accessor = ffd_gltf_attribute(d, m, p, name, 2, 2);
-    read_transform(d, transform, taken);
+    set_transform(&use, taken);
+    return use.set;
 }
 
-void ffd_gltf_texcoords(const gltf_document *d, size_t m, size_t p, gltf_texcoords *texcoords)
+size_t ffd_gltf_texcoords(const gltf_document *d, size_t m, size_t p, gltf_texcoords *texcoords,
+                          bool *stands_in)
 {
-    find_taken(d, m, p, main_texture(d, material_of(d, m, p)), texcoords);
-    if (texcoords->accessor == GLTF_NONE)
-        find_taken(d, m, p, JSON_NONE, texcoords);
+    const size_t set = find_taken(d, m, p, main_texture(d, material_of(d, m, p)), texcoords);
+    if (texcoords->accessor != GLTF_NONE)
+        return set;
+    const size_t other = find_taken(d, m, p, JSON_NONE, texcoords);
+    *stands_in = texcoords->accessor != GLTF_NONE;
+    return other;
 }
 
 static bool has_further_set(const gltf_document *d, size_t m, size_t p, const gltf_texcoords *texcoords)
@@ -143,7 +93,7 @@ static bool has_further_set(const gltf_document *d, size_t m, size_t p, const gl
         const char *key = tree->text + tree->values[v].key_begin + 1;
         size_t a = GLTF_NONE;
         if (strncmp(key, "TEXCOORD_", 9) == 0 &&
-            (!read_count(d, v, (double)d->model.accessor_count, &a) || a != texcoords->accessor))
+            (!ffd_gltf_read_count(d, v, (double)d->model.accessor_count, &a) || a != texcoords->accessor))
             return true;
     }
     return false;
@@ -154,8 +104,8 @@ bool ffd_gltf_has_more_texcoords(const gltf_document *d, size_t m, size_t p, con
     const uint32_t material = material_of(d, m, p);
     if (has_further_set(d, m, p, texcoords))
         return true;
-    for (uint32_t v = material == JSON_NONE ? JSON_NONE : next_texture(&d->tree, material, material);
-         v != JSON_NONE; v = next_texture(&d->tree, material, v)) {
+    for (uint32_t v = material == JSON_NONE ? JSON_NONE : ffd_gltf_next_texture(d, material, material);
+         v != JSON_NONE; v = ffd_gltf_next_texture(d, material, v)) {
         gltf_texcoords taken;
         find_taken(d, m, p, v, &taken);
         if (taken.accessor != GLTF_NONE && memcmp(&taken, texcoords, sizeof taken) != 0)
@@ -164,11 +114,9 @@ bool ffd_gltf_has_more_texcoords(const gltf_document *d, size_t m, size_t p, con
     return false;
 }
 
-void ffd_gltf_read_texcoords(const gltf_document *d, const gltf_texcoords *texcoords, double *values)
+void ffd_gltf_turn_texcoords(const gltf_texcoords *texcoords, size_t count, double *values)
 {
-    const size_t count = (size_t)d->model.accessors[texcoords->accessor].count;
     const double *to_u = texcoords->to_u, *to_v = texcoords->to_v;
-    ffd_gltf_read(d, texcoords->accessor, 0, count, 2, values);
     for (size_t i = 0; i < count; i++) {
         const double u = values[2 * i], v = values[2 * i + 1];
         values[2 * i] = to_u[0] * u + to_u[1] * v + to_u[2];

@@ -21,16 +21,18 @@ typedef struct gltf_texcoords {
 _Static_assert(sizeof(gltf_texcoords) == 7 * sizeof(double), "a key has no padding");
 
 /* Finds the texture coordinates of a primitive's base colour texture, or else of another texture of its
-   material. Without a texture, or if the primitive lacks the set that it uses: TEXCOORD_0, untransformed. */
-void ffd_gltf_texcoords(const gltf_document *document, size_t mesh, size_t primitive,
-                        gltf_texcoords *texcoords);
+   material. Without a texture, or if the primitive lacks the set that it uses: TEXCOORD_0, untransformed.
+   Returns the number of the set. *stands_in: set to true where the primitive lacks the set of a texture, and
+   TEXCOORD_0 takes its place; else it stays. */
+size_t ffd_gltf_texcoords(const gltf_document *document, size_t mesh, size_t primitive,
+                          gltf_texcoords *texcoords, bool *stands_in);
 
 /* Whether the primitive has further sets, or a texture of its material uses texture coordinates other than
    these. */
 bool ffd_gltf_has_more_texcoords(const gltf_document *document, size_t mesh, size_t primitive,
                                  const gltf_texcoords *texcoords);
 
-/* Reads all texture coordinates, 2 numbers each, with v pointing upwards. */
-void ffd_gltf_read_texcoords(const gltf_document *document, const gltf_texcoords *texcoords, double *values);
+/* Turns the values of the accessor, 2 numbers each, into texture coordinates with v pointing upwards. */
+void ffd_gltf_turn_texcoords(const gltf_texcoords *texcoords, size_t count, double *values);
 
 #endif

@@ -9,14 +9,25 @@
 #include "io/gltf/scene/gltf_shown.h"
 #include "io/gltf/scene/gltf_skin.h"
 #include "mesh/srgb.h"
+#include <stdio.h>
 #include <string.h>
+
+/* Texture coordinates in the model. The bytes of the struct are a key for lookups. */
+typedef struct shown_texcoords {
+    gltf_texcoords taken;
+    /* Whose morph targets change them, which are shown with a weight, and the set's number; all GLTF_NONE: no
+       targets do. */
+    unsigned long long mesh, primitive, node, set;
+} shown_texcoords;
+
+_Static_assert(sizeof(shown_texcoords) == 11 * sizeof(double), "a key has no padding");
 
 typedef struct extractor {
     const gltf_document *document;
     mesh_model *model;
     size_t *first_position, *first_normal; /* per part */
     size_t *colours;                       /* per part: the accessor of its colours; GLTF_NONE: none yet */
-    intern_table texcoords;                /* keys: gltf_texcoords */
+    intern_table texcoords;                /* keys: shown_texcoords */
     size_t *first_texcoord;                /* per key of texcoords */
     size_t texcoords_capacity;
     ffd_error *error;
@@ -38,6 +49,13 @@ static const gltf_mesh_uses *uses_of(const extractor *e, size_t mesh)
     return &e->document->mesh_uses[mesh];
 }
 
+/* Returns the node of a use of a mesh; GLTF_NONE: none. */
+static size_t node_of(const extractor *e, size_t mesh, size_t n)
+{
+    const gltf_mesh_uses *const uses = uses_of(e, mesh);
+    return uses->nodes ? uses->nodes[n] : GLTF_NONE;
+}
+
 /* Whether a node is drawn: not if it is hidden, stands for another, or has instances. */
 static bool is_drawn(const gltf_document *d, size_t node)
 {
@@ -47,21 +65,46 @@ static bool is_drawn(const gltf_document *d, size_t node)
 
 static bool is_mesh_drawn(const extractor *e, size_t m)
 {
-    const gltf_mesh_uses *uses = uses_of(e, m);
-    for (size_t n = 0; n < uses->node_count; n++)
-        if (is_drawn(e->document, uses->nodes ? uses->nodes[n] : GLTF_NONE))
+    for (size_t n = 0; n < uses_of(e, m)->node_count; n++)
+        if (is_drawn(e->document, node_of(e, m, n)))
             return true;
     return false;
 }
 
+#define SET_NAME 32
+
+static void name_set(unsigned long long set, char name[SET_NAME])
+{
+    snprintf(name, SET_NAME, "TEXCOORD_%llu", set);
+}
+
+/* Finds the texture coordinates of a primitive under the node of a use of its mesh. */
+static shown_texcoords texcoords_of(const extractor *e, size_t m, size_t p, size_t n)
+{
+    const gltf_document *const d = e->document;
+    shown_texcoords found = {.mesh = GLTF_NONE, .primitive = GLTF_NONE, .node = GLTF_NONE, .set = GLTF_NONE};
+    char name[SET_NAME];
+    bool stands_in;
+    const size_t set = ffd_gltf_texcoords(d, m, p, &found.taken, &stands_in), node = node_of(e, m, n);
+    name_set(set, name);
+    if (found.taken.accessor == GLTF_NONE ||
+        !ffd_gltf_add_shapes(d, m, p, node, name, (size_t)d->model.accessors[found.taken.accessor].count, 2,
+                             2, NULL))
+        return found;
+    found.mesh = m;
+    found.primitive = p;
+    found.node = node;
+    found.set = set;
+    return found;
+}
+
 /* Interns the texture coordinates of a primitive, and adds new ones to *count. */
-static ffd_status add_texcoords(extractor *e, size_t m, size_t p, size_t *count)
+static ffd_status add_texcoords(extractor *e, size_t m, size_t p, size_t n, size_t *count)
 {
     const gltf_document *d = e->document;
-    gltf_texcoords texcoords;
+    const shown_texcoords texcoords = texcoords_of(e, m, p, n);
     uint32_t number;
-    ffd_gltf_texcoords(d, m, p, &texcoords);
-    if (texcoords.accessor == GLTF_NONE || *count > MODEL_VALUES_MAX)
+    if (texcoords.taken.accessor == GLTF_NONE || *count > MODEL_VALUES_MAX)
         return FFD_OK; /* too many: refused later */
     const size_t known = e->texcoords.count;
     if (!ffd_intern(&e->texcoords, &texcoords, sizeof texcoords, &number) ||
@@ -70,18 +113,17 @@ static ffd_status add_texcoords(extractor *e, size_t m, size_t p, size_t *count)
         return ffd_fail_memory(e->error);
     if (number < known)
         return FFD_OK;
-    const uint64_t own = d->model.accessors[texcoords.accessor].count;
+    const uint64_t own = d->model.accessors[texcoords.taken.accessor].count;
     e->first_texcoord[number] = *count;
     *count = own > MODEL_VALUES_MAX - *count ? MODEL_VALUES_MAX + (size_t)1 : *count + (size_t)own;
     return FFD_OK;
 }
 
 /* Returns the index of a primitive's first texture coordinate, GLTF_NONE if it has none. */
-static size_t find_texcoords(const extractor *e, size_t m, size_t p)
+static size_t find_texcoords(const extractor *e, size_t m, size_t p, size_t n)
 {
-    gltf_texcoords texcoords;
+    const shown_texcoords texcoords = texcoords_of(e, m, p, n);
     uint32_t number;
-    ffd_gltf_texcoords(e->document, m, p, &texcoords);
     return ffd_intern_find(&e->texcoords, &texcoords, sizeof texcoords, &number) ? e->first_texcoord[number]
                                                                                  : GLTF_NONE;
 }
@@ -102,9 +144,10 @@ static ffd_status count_values(extractor *e)
         normals += d->mesh_parts[i].normal_count;
     }
     for (size_t m = 0; m < d->model.mesh_count && status == FFD_OK; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count && is_mesh_drawn(e, m) && status == FFD_OK;
-             p++)
-            status = add_texcoords(e, m, p, &texcoords);
+        for (size_t n = 0; n < uses_of(e, m)->node_count; n++)
+            for (size_t p = 0; p < d->model.meshes[m].primitive_count && status == FFD_OK; p++)
+                if (is_drawn(d, node_of(e, m, n)))
+                    status = add_texcoords(e, m, p, n, &texcoords);
     return status ? status : ffd_model_make_values(e->model, positions, texcoords, normals, e->error);
 }
 
@@ -152,6 +195,23 @@ static void turn_normals(const gltf_document *d, size_t part, double *normals)
     }
 }
 
+static void fill_texcoords(const extractor *e, size_t number)
+{
+    const gltf_document *const d = e->document;
+    double *const values = e->model->texcoords + 2 * e->first_texcoord[number];
+    shown_texcoords shown;
+    memcpy(&shown, ffd_intern_key(&e->texcoords, (uint32_t)number), sizeof shown);
+    const size_t count = (size_t)d->model.accessors[shown.taken.accessor].count;
+    ffd_gltf_read(d, (size_t)shown.taken.accessor, 0, count, 2, values);
+    if (shown.set != GLTF_NONE) {
+        char name[SET_NAME];
+        name_set(shown.set, name);
+        ffd_gltf_add_shapes(d, (size_t)shown.mesh, (size_t)shown.primitive, (size_t)shown.node, name, count,
+                            2, 2, values);
+    }
+    ffd_gltf_turn_texcoords(&shown.taken, count, values);
+}
+
 static void fill_values(const extractor *e)
 {
     const gltf_document *d = e->document;
@@ -170,36 +230,40 @@ static void fill_values(const extractor *e)
             turn_normals(d, i, normals);
         }
     }
-    for (size_t i = 0; i < e->texcoords.count; i++) {
-        gltf_texcoords texcoords;
-        memcpy(&texcoords, ffd_intern_key(&e->texcoords, (uint32_t)i), sizeof texcoords);
-        ffd_gltf_read_texcoords(d, &texcoords, e->model->texcoords + 2 * e->first_texcoord[i]);
-    }
+    for (size_t i = 0; i < e->texcoords.count; i++)
+        fill_texcoords(e, i);
 }
 
 /* Reads the colours of a primitive, which are linear, and clamps them to 0 to 1 as viewers do (glTF 2.0,
    3.9.2 and 3.7.2.1). */
-static ffd_status take_colours(extractor *e, size_t m, size_t p, const drawn *drawing)
+static ffd_status take_colours(extractor *e, size_t m, size_t p, size_t n, const drawn *drawing)
 {
     const gltf_document *d = e->document;
     const size_t a = ffd_gltf_attribute(d, m, p, "COLOR_0", 3, 4);
     if (a == GLTF_NONE || a == e->colours[drawing->part])
         return FFD_OK;
     e->colours[drawing->part] = a;
-    const bool coarse =
-        d->model.accessors[a].component == GLTF_U8 && (!e->model->colours || e->model->coarse_colours);
+    const size_t count = (size_t)d->model.accessors[drawing->primitive->accessor[GLTF_POSITION]].count;
+    const size_t components = (size_t)d->model.accessors[a].rows, node = node_of(e, m, n);
+    const bool shapes = ffd_gltf_add_shapes(d, m, p, node, "COLOR_0", count, components, 4, NULL);
+    const bool coarse = d->model.accessors[a].component == GLTF_U8 && !shapes &&
+                        (!e->model->colours || e->model->coarse_colours);
     const ffd_status status = ffd_model_make_colours(e->model, e->error);
     e->model->coarse_colours = coarse;
-    const size_t count = (size_t)d->model.accessors[drawing->primitive->accessor[GLTF_POSITION]].count;
-    for (size_t i = 0; i < count && status == FFD_OK; i++) {
-        double *colour = e->model->colours + 4 * (drawing->position + i);
-        ffd_gltf_read(d, a, i, 1, (size_t)d->model.accessors[a].rows, colour);
+    if (status)
+        return status;
+    double *const colours = e->model->colours + 4 * drawing->position;
+    for (size_t i = 0; i < count; i++)
+        ffd_gltf_read(d, a, i, 1, components, colours + 4 * i);
+    ffd_gltf_add_shapes(d, m, p, node, "COLOR_0", count, components, 4, colours);
+    for (size_t i = 0; i < count; i++) {
+        double *const colour = colours + 4 * i;
         for (int c = 0; c < 4; c++)
             colour[c] = colour[c] > 0 ? lesser_of(colour[c], 1) : 0;
         for (int c = 0; c < 3; c++)
             colour[c] = ffd_srgb_from_linear(colour[c]);
     }
-    return status;
+    return FFD_OK;
 }
 
 static model_corner corner_at(const drawn *drawing, uint32_t vertex)
@@ -310,7 +374,6 @@ static bool is_mirrored(const gltf_document *d, size_t part)
 static ffd_status add_instance(extractor *e, size_t m, size_t p, size_t n)
 {
     const gltf_document *d = e->document;
-    const gltf_mesh_uses *uses = uses_of(e, m);
     const gltf_instance *instance = &ffd_gltf_instances(d, m, p)[n];
     const size_t part = instance->part[GLTF_POSITION], normals = instance->part[GLTF_NORMAL];
     if (part == GLTF_NONE)
@@ -325,13 +388,13 @@ static ffd_status add_instance(extractor *e, size_t m, size_t p, size_t n)
                      .part = part,
                      .position = e->first_position[part],
                      .normal = normals == GLTF_NONE ? GLTF_NONE : e->first_normal[normals],
-                     .texcoord = find_texcoords(e, m, p),
+                     .texcoord = find_texcoords(e, m, p, n),
                      .mirrored = is_mirrored(d, part)};
     ffd_status status = ffd_gltf_read_corners(d, m, p, &drawing.corners, &drawing.count, e->error);
     if (status == FFD_OK)
-        status = begin_run(e, m, p, uses->nodes ? uses->nodes[n] : GLTF_NONE);
+        status = begin_run(e, m, p, node_of(e, m, n));
     if (status == FFD_OK)
-        status = take_colours(e, m, p, &drawing);
+        status = take_colours(e, m, p, n, &drawing);
     if (status == FFD_OK)
         status = drawing.primitive->mode == MODE_POINTS     ? add_points(e, &drawing)
                  : drawing.primitive->mode < MODE_TRIANGLES ? add_lines(e, &drawing)
@@ -355,10 +418,13 @@ static uint32_t feature_of_attribute(const json_span *tree, uint32_t value)
                                                                                : MODEL_HAS_MORE;
 }
 
-static uint32_t features_of_primitive(const gltf_document *d, size_t m, size_t p)
+static uint32_t features_of_primitive(const extractor *e, size_t m, size_t p)
 {
+    const gltf_document *const d = e->document;
     gltf_texcoords texcoords;
-    ffd_gltf_texcoords(d, m, p, &texcoords);
+    bool stands_in = false;
+    ffd_gltf_texcoords(d, m, p, &texcoords, &stands_in);
+    e->model->other_texcoords += stands_in;
     const uint32_t attributes =
         ffd_json_span_member(&d->tree, ffd_gltf_primitive_value(d, m, p), "attributes");
     uint32_t found = d->model.meshes[m].primitives[p].target_count > 0 ? MODEL_HAS_MORPHS : 0;
@@ -381,7 +447,7 @@ static uint32_t features_of(const extractor *e)
     uint32_t found = 0;
     for (size_t m = 0; m < d->model.mesh_count; m++)
         for (size_t p = 0; p < d->model.meshes[m].primitive_count && is_mesh_drawn(e, m); p++)
-            found |= features_of_primitive(d, m, p);
+            found |= features_of_primitive(e, m, p);
     for (size_t n = 0; n < d->model.node_count; n++)
         found |= d->model.nodes[n].child_count > 0 ? MODEL_HAS_HIERARCHY : 0;
     found |= has_any(d, "materials") ? MODEL_HAS_MATERIALS : 0;
@@ -441,7 +507,7 @@ static ffd_status extract(extractor *e)
     for (size_t m = 0; m < d->model.mesh_count; m++)
         for (size_t n = 0; n < uses_of(e, m)->node_count; n++)
             for (size_t p = 0; p < d->model.meshes[m].primitive_count && status == FFD_OK; p++)
-                if (is_drawn(d, uses_of(e, m)->nodes ? uses_of(e, m)->nodes[n] : GLTF_NONE))
+                if (is_drawn(d, node_of(e, m, n)))
                     status = add_instance(e, m, p, n);
     e->model->features = features_of(e);
     return status;

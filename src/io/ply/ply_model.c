@@ -12,6 +12,7 @@ typedef struct extractor {
     mesh_model *model;
     const ply_property *roles[ROLE_COUNT]; /* NULL: absent */
     const ply_property *face_texcoords;    /* the list texcoord of the faces; NULL: none */
+    size_t taken_texcoords;                /* of the faces so far */
     const ply_property *face_colours[4];   /* red, green, blue, alpha of the faces; red NULL: none */
     double colour[4];                      /* of the current face */
     mesh_faces faces;
@@ -117,12 +118,12 @@ static ffd_status take_vertices(extractor *e)
     return status;
 }
 
-/* Takes the texture coordinates of a face's corners, a list of twice as many numbers; a list of another
-   length is ignored. Returns whether they were taken. */
-static bool take_face_texcoords(const extractor *e, ply_walk *walk, size_t face)
+/* Takes the texture coordinates of a face's corners, a list of twice as many numbers. A list of another
+   length is left out, which is counted unless it is empty. Returns whether they were taken. */
+static bool take_face_texcoords(extractor *e, ply_walk *walk, size_t face)
 {
     const ply_document *d = e->document;
-    const size_t first = e->faces.start[face], corners = e->faces.start[face + 1] - first;
+    const size_t corners = e->faces.start[face + 1] - e->faces.start[face];
     const ply_property *list = e->face_texcoords;
     text_word word;
     size_t count;
@@ -134,8 +135,10 @@ static bool take_face_texcoords(const extractor *e, ply_walk *walk, size_t face)
                           ffd_ply_load(d->header.encoding, list->type, word, &value);
         there = there && read;
         if (there)
-            e->model->texcoords[2 * first + i] = value;
+            e->model->texcoords[2 * e->taken_texcoords + i] = value;
     }
+    e->taken_texcoords += there ? corners : 0;
+    e->model->odd_texcoords += !there && count > 0;
     return there;
 }
 
@@ -187,6 +190,7 @@ static ffd_status take_faces(extractor *e)
         ffd_ply_document_walk(e->document, e->document->face, &walk);
     for (size_t face = 0; face < e->faces.face_count && status == FFD_OK; face++) {
         const size_t first = e->faces.start[face], count = e->faces.start[face + 1] - first;
+        const size_t first_texcoord = e->taken_texcoords;
         const bool is_row = walks && face < e->document->face->count;
         e->colour[3] = 1;
         const bool own = is_row && walk_face(e, &walk, face);
@@ -195,7 +199,7 @@ static ffd_status take_faces(extractor *e)
             status = ffd_fail_memory(e->error);
         for (size_t c = 0; c < count && status == FFD_OK; c++) {
             const uint32_t vertex = e->faces.corners[first + c];
-            const uint32_t texcoord = own ? (uint32_t)(first + c) : vertex;
+            const uint32_t texcoord = own ? (uint32_t)(first_texcoord + c) : vertex;
             corners[c] =
                 (model_corner){vertex, texcoords ? texcoord : MODEL_NONE, normals ? vertex : MODEL_NONE};
         }
@@ -295,6 +299,8 @@ ffd_status ffd_ply_model(const mesh_document *document, mesh_model *model, ffd_e
         status = ffd_model_begin_run(model, NULL, NULL, NULL, error);
     if (status == FFD_OK)
         status = take_faces(&e);
+    if (e.face_texcoords)
+        model->texcoord_count = e.taken_texcoords;
     if (status == FFD_OK)
         status = take_edges(&e);
     model->features |= features_of(&e);

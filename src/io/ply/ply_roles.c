@@ -82,6 +82,7 @@ static void find_face_normals(ply_document *d)
     d->has_whole_face_normals = there && whole;
     for (size_t a = 0; a < 3; a++)
         d->face_normals[a] = there && !whole ? found[a] : NULL;
+    d->file.base.has_face_normals = d->face_normals[0];
 }
 
 static void find_offsets(ply_document *d)

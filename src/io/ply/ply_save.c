@@ -38,7 +38,7 @@ ffd_status ffd_ply_save(mesh_document *document, const mesh_save_options *option
                      "%zu Gaussian splat%s spherical harmonics that are not numbers, or too large: they are "
                      "not turned",
                      unturned, unturned == 1 ? " has" : "s have");
-    if (d->file.new_positions && d->renew_normals && d->has_whole_face_normals)
-        ffd_log_line(log, FFD_LOG_WARNING, "nx ny nz of the faces are not all float or double: they stay");
+    if (d->file.new_positions && d->renew_normals)
+        ffd_ply_warn_stale(d, log);
     return ffd_splice_end(&splice);
 }

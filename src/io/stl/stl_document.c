@@ -121,6 +121,7 @@ ffd_status ffd_stl_open(file_input *input, const ffd_source *source, mesh_docume
     d->file.part.vertex_count = 3 * d->facets;
     for (size_t a = 0; a < 3; a++)
         d->file.part.rounding.is_float[a] = d->binary;
+    d->file.base.has_face_normals = true;
     d->file.base.largest_coordinate = d->binary ? FLT_MAX : DBL_MAX;
     *document = ffd_file_document_ready(&d->file, !d->binary, source);
     return FFD_OK;

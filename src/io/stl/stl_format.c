@@ -7,7 +7,6 @@ const mesh_format ffd_stl_format = {
     .name = "STL",
     .open = ffd_stl_open,
     .close = ffd_file_document_close,
-    .normals_of_faces = true,
     .largest_coordinate = DBL_MAX,
     .read_positions = ffd_stl_read_positions,
     .begin_results = ffd_stl_begin_results,

@@ -209,7 +209,13 @@ static ffd_status write_gltf(const mesh_model *model, const mesh_save_options *o
      MODEL_HAS_TEXCOORDS | MODEL_HAS_CORNER_TEXCOORDS | MODEL_HAS_COLOURS | MODEL_HAS_ALPHA |                \
      MODEL_HAS_LINES | MODEL_HAS_POINTS | MODEL_HAS_OBJECTS | MODEL_HAS_GROUPS | MODEL_HAS_MATERIAL_NAMES)
 
-const model_target ffd_glb_target = {
-    .name = "glTF", .holds = HOLDS, .largest_coordinate = FLT_MAX, .write = write_glb};
-const model_target ffd_gltf_target = {
-    .name = "glTF", .holds = HOLDS, .largest_coordinate = FLT_MAX, .write = write_gltf};
+const model_target ffd_glb_target = {.name = "glTF",
+                                     .holds = HOLDS,
+                                     .largest_coordinate = FLT_MAX,
+                                     .float_texcoords = true,
+                                     .write = write_glb};
+const model_target ffd_gltf_target = {.name = "glTF",
+                                      .holds = HOLDS,
+                                      .largest_coordinate = FLT_MAX,
+                                      .float_texcoords = true,
+                                      .write = write_gltf};

@@ -200,6 +200,7 @@ const model_target ffd_ply_target = {
              MODEL_HAS_CORNER_TEXCOORDS | MODEL_HAS_COLOURS | MODEL_HAS_ALPHA | MODEL_HAS_POLYGONS |
              MODEL_HAS_LINES | MODEL_HAS_POINTS | MODEL_HAS_LOOSE | MODEL_HAS_FACE_COLOURS,
     .largest_coordinate = DBL_MAX,
+    .float_texcoords = true,
     .takes_not_finite = true, /* organized scans have NaN where nothing was measured */
     .write = write,
 };

@@ -10,6 +10,7 @@ typedef struct model_target {
     const char *name;          /* "OBJ" */
     uint32_t holds;            /* a set of model_feature */
     double largest_coordinate; /* the largest that its numbers can hold */
+    bool float_texcoords;      /* texture coordinates are float32 */
     bool takes_not_finite;     /* whether readers of the format accept NaN and infinity */
     /* Writes the file, and other files that belong to it, into output. Logs what is stored differently from
        the model without being lost. Written positions do not exceed largest_coordinate, and are finite unless

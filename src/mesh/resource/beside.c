@@ -36,12 +36,12 @@ static ffd_status look(const beside_names *names, const char *path, beside_file 
                          &file->names, error);
 }
 
-/* Notes that a name was passed over, and why. */
-static ffd_status pass(beside_names *names, const char *path, const beside_file *file, path_list *passed,
-                       ffd_error *error)
+/* Notes that a file of other models stays. is: "is" or "was" a buffer of them. */
+static ffd_status note_users(const char *path, const char *is, const beside_file *file, path_list *passed,
+                             ffd_error *error)
 {
     byte_buffer text = {0};
-    ffd_buffer_format(&text, "%s is a buffer of", path);
+    ffd_buffer_format(&text, "%s %s a buffer of", path, is);
     for (size_t i = 0; i < file->names.count; i++)
         ffd_buffer_format(&text, "%s %s", i ? "," : "", file->names.paths[i]);
     if (file->others > file->names.count)
@@ -49,7 +49,20 @@ static ffd_status pass(beside_names *names, const char *path, const beside_file 
     char *const line = ffd_buffer_finish(&text);
     const ffd_status status = line ? ffd_paths_add(passed, line, error) : ffd_fail_memory(error);
     ffd_free(line);
-    names->passes++;
+    return status;
+}
+
+/* Notes the users of the file that the output has had so far, if it is left to them. The run may have given a
+   new file to them too. */
+static ffd_status note_old(const beside_names *names, const char *target, path_list *passed, ffd_error *error)
+{
+    beside_file file = {0};
+    if (ffd_file_same(names->old, target))
+        return FFD_OK;
+    ffd_status status = look(names, names->old, &file, error);
+    if (!status && file.others > 0)
+        status = note_users(names->old, "was", &file, passed, error);
+    ffd_paths_free(&file.names);
     return status;
 }
 
@@ -65,14 +78,16 @@ ffd_status ffd_beside_next(beside_names *names, beside_own_function *own, const 
 {
     ffd_status status = FFD_OK;
     path_list passed = {0};
-    bool is_own = false;
+    bool is_own = false, old_is_noted = !names->old;
     *target = NULL;
     while (!*target && !status) {
         char *path = ffd_beside_name(names->options->path, names->number++);
         beside_file file = {0};
         status = path ? look(names, path, &file, error) : ffd_fail_memory(error);
         if (!status && file.others > 0) {
-            status = pass(names, path, &file, &passed, error);
+            status = note_users(path, "is", &file, &passed, error);
+            names->passes++;
+            old_is_noted = old_is_noted || ffd_file_same(names->old, path);
         } else if (!status) {
             is_own = names->in_place ? own(context, path) : file.is_own;
             const bool is_free = !file.exists || is_own || (!names->in_place && names->passes == 0);
@@ -82,6 +97,8 @@ ffd_status ffd_beside_next(beside_names *names, beside_own_function *own, const 
         ffd_paths_free(&file.names);
         ffd_free(path);
     }
+    if (!status && !old_is_noted)
+        status = note_old(names, *target, &passed, error);
     if (!status && !is_own) /* else it has that name already */
         say_passes(names, &passed, *target);
     ffd_paths_free(&passed);

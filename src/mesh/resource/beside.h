@@ -11,15 +11,17 @@ char *ffd_beside_name(const char *output, size_t number);
 typedef struct beside_names {
     const mesh_save_options *options;
     const mesh_log *log;
-    bool in_place; /* the output replaces the input */
-    size_t number; /* of the next name */
-    size_t passes; /* names that were passed over because other models name these files */
+    bool in_place;   /* the output replaces the input */
+    const char *old; /* the file in place that the next name replaces for the output; NULL: none */
+    size_t number;   /* of the next name */
+    size_t passes;   /* names that were passed over because other models name these files */
 } beside_names;
 
 /* Whether the output may replace this existing file, as its own. */
 typedef bool beside_own_function(const void *context, const char *path);
 
-/* Finds the next name: never that of a file which another model names (options->sharing), which is logged.
+/* Finds the next name: never that of a file which another model names (options->sharing), which is logged,
+   and so is `old` if it stays for others.
    Where the output replaces the input, or a name was passed over, nothing may be there but a file of its own.
    own, context: which files in place are that; NULL if not in place. *target: free it with ffd_free. Errors:
    FFD_E_MEMORY, and those of options->sharing. */

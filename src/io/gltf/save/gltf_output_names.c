@@ -76,10 +76,19 @@ static bool is_own_file(const void *context, const char *target)
 static ffd_status give_name(gltf_saver *saver, size_t b, beside_names *names, ffd_error *error)
 {
     const named_buffer of = {saver->document, b};
-    char *target;
-    ffd_status status = ffd_beside_next(names, is_own_file, &of, &target, error);
-    if (status)
+    const gltf_buffer *const buffer = &saver->document->buffers[b];
+    const bool has_old = saver->in_place && buffer->kind == BUFFER_FILE;
+    char *const old = has_old ? ffd_path_beside(saver->document->path, buffer->path) : NULL;
+    char *target = NULL;
+    names->old = old;
+    ffd_status status =
+        old || !has_old ? ffd_beside_next(names, is_own_file, &of, &target, error) : ffd_fail_memory(error);
+    names->old = NULL;
+    ffd_free(old);
+    if (status) {
+        ffd_free(target);
         return status;
+    }
     saver->buffers[b].target = target;
     if (!saver->in_place)
         status = refuse_own_file(saver, target, error);

@@ -1,6 +1,7 @@
 #include "io/gltf/scene/gltf_faults.h"
 #include "base/memory/memory.h"
 #include "base/text/words.h"
+#include "io/gltf/refer/gltf_textures.h"
 #include "io/gltf/scene/gltf_references.h"
 #include "io/gltf/scene/gltf_shapes.h"
 #include <stdio.h>
@@ -12,12 +13,15 @@
 typedef struct fault_list {
     const gltf_document *document;
     size_t count;
+    uint32_t first; /* the first value that was added */
     char shown[SHOWN][160];
 } fault_list;
 
 /* Adds a value as its JSON pointer. */
 static void add_value(fault_list *list, uint32_t value)
 {
+    if (list->count == 0)
+        list->first = value;
     if (list->count < SHOWN)
         ffd_json_span_pointer(&list->document->tree, value, list->shown[list->count],
                               sizeof list->shown[list->count]);
@@ -150,6 +154,22 @@ static void check_nodes(fault_list *list)
     }
 }
 
+static void check_textures(fault_list *list)
+{
+    const gltf_document *const d = list->document;
+    for (size_t m = 0; m < d->material_values.count; m++) {
+        const uint32_t material = d->material_values.values[m];
+        for (uint32_t v = ffd_gltf_next_texture(d, material, material); v != JSON_NONE;
+             v = ffd_gltf_next_texture(d, material, v)) {
+            gltf_texture_use use;
+            gltf_texture_faults faults = {.count = 0};
+            ffd_gltf_read_texture(d, v, &use, &faults);
+            for (size_t i = 0; i < faults.count; i++)
+                add_value(list, faults.values[i]);
+        }
+    }
+}
+
 static ffd_status check_animations(fault_list *list, ffd_error *error)
 {
     const gltf_document *const d = list->document;
@@ -176,8 +196,12 @@ ffd_status ffd_gltf_warn_of_faults(const mesh_document *document, const mesh_log
     check_nodes(&list);
     if (status == FFD_OK)
         status = check_animations(&list, error);
+    check_textures(&list);
     if (status || list.count == 0)
         return status;
+    if (d->base.flaws.strict)
+        return ffd_json_span_fail(&d->tree, list.first, d->name, FFD_E_INVALID, error,
+                                  "is not what glTF allows there");
     tell(&list, places, sizeof places);
     ffd_log_line(log, FFD_LOG_WARNING, "%zu %s not what glTF allows there, and %s ignored: %s", list.count,
                  ffd_plural(list.count, "value is", "values are"), ffd_plural(list.count, "is", "are"),

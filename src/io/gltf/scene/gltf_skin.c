@@ -202,7 +202,44 @@ static size_t count_joints(const gltf_document *d, size_t accessor, size_t *larg
     return most;
 }
 
-static ffd_status check_set(const gltf_document *d, const gltf_skin *skin, uint32_t primitive,
+/* Whether a joint of an index beyond `joints` has a say: it has a weight, or its vertex may follow it because
+   it is the first one and no joint of the set has a weight. */
+static bool uses_beyond(const gltf_document *d, const gltf_influence *influence, size_t joints,
+                        bool first_set)
+{
+    const size_t named = (size_t)d->model.accessors[influence->joints].count,
+                 weighted = (size_t)d->model.accessors[influence->weights].count;
+    const size_t count = named < weighted ? named : weighted;
+    double index[4 * BLOCK], weights[4 * BLOCK];
+    for (size_t at = 0; at < count; at += BLOCK) {
+        const size_t size = count - at < BLOCK ? count - at : BLOCK;
+        ffd_gltf_read(d, (size_t)influence->joints, at, size, 4, index);
+        ffd_gltf_read(d, (size_t)influence->weights, at, size, 4, weights);
+        for (size_t i = 0; i < 4 * size; i++) {
+            const double *const of = weights + (i - i % 4);
+            const bool follows =
+                first_set && i % 4 == 0 && of[0] == 0 && of[1] == 0 && of[2] == 0 && of[3] == 0;
+            if (index[i] >= (double)joints && (weights[i] != 0 || follows))
+                return true;
+        }
+    }
+    return false;
+}
+
+/* Notes that a set names a joint beyond the skin without a weight, or refuses one that has a say. */
+static ffd_status check_beyond(gltf_document *d, const gltf_skin *skin, const gltf_influence *influence,
+                               size_t set, size_t joint, ffd_error *error)
+{
+    const uint32_t value = d->accessor_values.values[influence->joints];
+    if (!d->layouts[influence->joints].readable || !d->layouts[influence->weights].readable ||
+        uses_beyond(d, influence, skin->joint_count, set == 0))
+        return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_INVALID, error,
+                                  "names joint %zu, but the skin has only %zu", joint, skin->joint_count);
+    return ffd_gltf_flaw(d, value, error, "names joint %zu without a weight, but the skin has only %zu",
+                         joint, skin->joint_count);
+}
+
+static ffd_status check_set(gltf_document *d, const gltf_skin *skin, uint32_t primitive,
                             const gltf_influence *influence, size_t set, size_t *largest, ffd_error *error)
 {
     if (influence->joints < 0)
@@ -216,14 +253,10 @@ static ffd_status check_set(const gltf_document *d, const gltf_skin *skin, uint3
         return refuse_attribute(d, primitive, "WEIGHTS", set,
                                 "is not a VEC4 of floats or of normalized unsigned bytes or shorts", error);
     const size_t joints = count_joints(d, (size_t)influence->joints, largest);
-    if (joints > skin->joint_count)
-        return ffd_json_span_fail(&d->tree, d->accessor_values.values[influence->joints], d->name,
-                                  FFD_E_INVALID, error, "names joint %zu, but the skin has only %zu",
-                                  joints - 1, skin->joint_count);
-    return FFD_OK;
+    return joints > skin->joint_count ? check_beyond(d, skin, influence, set, joints - 1, error) : FFD_OK;
 }
 
-static ffd_status check_primitive(const gltf_document *d, const gltf_skin *skin, size_t mesh, size_t p,
+static ffd_status check_primitive(gltf_document *d, const gltf_skin *skin, size_t mesh, size_t p,
                                   size_t *largest, ffd_error *error)
 {
     const gltf_primitive *primitive = &d->model.meshes[mesh].primitives[p];
@@ -317,7 +350,8 @@ static void blend(const gltf_skin *skin, joint_weight *terms, size_t count, doub
             transform[k] += terms[i].weight / total * skin->matrices[12 * terms[i].joint + k];
 }
 
-/* The joint of a checked index; the first one if another program has changed the file since (mmap). */
+/* The joint of a checked index; the first one where it is beyond the skin and has no weight, or another
+   program has changed the file since (mmap). */
 static size_t known_joint(const gltf_skin *skin, double index)
 {
     return index < (double)skin->joint_count ? (size_t)index : 0;

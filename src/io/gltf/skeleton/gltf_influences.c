@@ -45,6 +45,8 @@ static void add_skinned(filler *f, size_t p, size_t count, size_t *starts)
             ffd_gltf_read(d, (size_t)part->influences[s].joints, i, 1, 4, joints + 4 * s);
             ffd_gltf_read(d, (size_t)part->influences[s].weights, i, 1, 4, weights + 4 * s);
         }
+        for (size_t k = 0; k < 4 * sets; k++) /* beyond the skin: without a weight */
+            joints[k] = joints[k] < (double)part->skin->joint_count ? joints[k] : 0;
         starts[i] = f->count;
         add_vertex(f, bone, joints, weights, 4 * sets);
     }
