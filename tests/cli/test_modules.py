@@ -110,7 +110,7 @@ def what_is_another_version_or_no_module_is_refused(run):
         other = file.read()
     with open(os.path.join(os.path.dirname(os.path.dirname(FFD)), "libffd.so"), "rb") as file:
         library = file.read()
-    for content, said in ((older, r"ffd-tinygltf\.so is ffd-tinygltf\.so 0\.0\.9 \(1\), and not ffd-tinygltf\.so [\d.]+ \(\d+\), which is needed for glTF$"),
+    for content, said in ((older, r"ffd-tinygltf\.so is ffd-tinygltf\.so 0\.0\.9 \(\d+\), and not ffd-tinygltf\.so [\d.]+ \(\d+\), which is needed for glTF$"),
                           (other, r"ffd-tinygltf\.so is ffd-draco\.so .*, and not ffd-tinygltf\.so"),
                           (b"not a library", r"cannot be loaded: .*ffd-tinygltf\.so: "),
                           (b"", r"cannot be loaded: .*ffd-tinygltf\.so: "),
