@@ -761,6 +761,26 @@ def ends_of_stl_in_two_words(run):
 
 
 @case
+def a_name_that_ends_in_a_backslash(run):
+    """The next line belongs to it, as the format has it: a warning leads to the line, of whatever keyword, and strict refuses it."""
+    run.write("l.json", LIFT)
+    said = "the backslash at the end of the line joins the next one to it, which seems to be a statement of its own"
+    corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n"
+    for statement in ("usemtl wood\\", "g a\\", "o C:\\", "mtllib C:\\a\\", "usemap a\\", "usemtl wood \\"):
+        for below in ("f 1 2 3", "  f 1 2 3", "l 1 2", "usemtl b", "vt 0 0"):
+            run.write("m.obj", f"{corners}{statement}\n{below}\nf 2 4 3\n")
+            run.ffd("info", "m.obj", err=[f"m.obj: line 5: {said}"])
+            run.ffd("check", "m.obj", "-l", "l.json", "--strict", code=INVALID, err=f"m.obj:5: {said}")
+    told(run.ffd("deform", "m.obj", "o.obj", "-l", "l.json", err=anything), "line 5: " + said)
+    for text in ("g a \\\nb c\nf 1 2 3\n", "f 1 2 \\\n3\n", "g a \\\nfelt f\nf 1 2 3\n", "# C:\\\nf 1 2 3\n", "usemtl a\\ \nf 1 2 3\n"):
+        run.write("m.obj", corners + text)
+        equal(run.ffd("info", "m.obj", "--json").json["contents"]["faces"], 1)
+    lines = "".join("g a\\\nf 1 2 3\nf 2 4 3\n" for _ in range(40000))
+    run.write("m.obj", corners + lines)
+    run.ffd("info", "m.obj", err=[f"m.obj: line 5: {said} (the first of 40000 such)"])
+
+
+@case
 def an_stl_whose_count_was_not_filled_in(run):
     """A binary STL of 0 facets with facets behind is refused; one that is empty is not."""
     facet = struct.pack("<12fH", 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0)
