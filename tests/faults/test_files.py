@@ -13,7 +13,7 @@ import shutil
 import struct
 import zlib
 
-from harness import (INVALID, IO, LIMIT, PNG, UNSUPPORTED, USAGE, case, check, equal, glb, glb_split, gltf_json, gltf_vectors, lattice,
+from harness import (INVALID, IO, LIMIT, NO, PNG, UNSUPPORTED, USAGE, case, check, equal, glb, glb_split, gltf_json, gltf_vectors, lattice,
                      main, near)
 from said import anything, counts, entry, not_told, told
 
@@ -431,11 +431,12 @@ def artist_10_hints_name_what_is_meant(run):
         run.write("l.json", lattice(**members))
         run.ffd("check", "m.obj", "-l", "l.json", code=INVALID, err=f"l.json:/{at}: {why}")
     run.write("l.json", LIFT)
-    for words, why in ((["--outside", "Keep"], '--outside: "Keep" is not one of keep, extend, error'),
+    for words, why in ((["--outside", "Keep"], '--outside: "Keep" is not one of keep, extend, error (nearest: keep)'),
+                       (["--normals", "none"], '--normals: "none" is not one of transform, keep, recompute'),
                        (["--fail-on", "FOLDS"], '--fail-on: unknown gate "FOLDS" (nearest: folds)')):
         run.ffd("check", "m.obj", "-l", "l.json", *words, code=USAGE, err=why)
     run.ffd("view", "m.obj", "-o", "v.png", "--camera", "Front", code=USAGE,
-            err='--camera: "Front" is not front, back, left, right, top, iso or a direction like 1,0.5,2')
+            err='--camera: "Front" is not front, back, left, right, top, iso or a direction like 1,0.5,2 (nearest: front)')
 
 
 # Colours of faces
@@ -744,6 +745,29 @@ def wild3_15_compressed_splats_are_not_supported(run):
     why = "c.compressed.ply:10: compressed Gaussian splats (packed_position): save them uncompressed"
     for words in (["deform", "c.compressed.ply", "o.ply", "-l", "l.json"], ["check", "c.compressed.ply", "-l", "l.json"], ["info", "c.compressed.ply"]):
         run.ffd(*words, code=UNSUPPORTED, err=why)
+
+
+@case
+def other_forms_of_splats_are_named(run):
+    """The endings that programs for splats use: as an input of every command and of a batch, and as an output."""
+    run.write("l.json", LIFT)
+    run.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    for folder in ("in", "out"):
+        run.folder_of(folder)
+    run.write("in/m.obj", run.text("m.obj"))
+    for ending in (".splat", ".ksplat", ".spz", ".SOG"):
+        said = f'"{ending}" is a form of Gaussian splats that is not supported: they are read and written as uncompressed ply'
+        run.write("c" + ending, bytes(64))
+        for words in (["deform", "c" + ending, "o.ply", "-l", "l.json"], ["check", "c" + ending, "-l", "l.json"], ["info", "c" + ending],
+                      ["compare", "m.obj", "c" + ending], ["embed", "c" + ending, "-l", "l.json", "-o", "e.npy"], ["view", "c" + ending, "-l", "l.json", "-o", "v.html"]):
+            run.ffd(*words, code=USAGE, err=f"c{ending}: {said}")
+        run.ffd("deform", "m.obj", "o" + ending, "-l", "l.json", code=USAGE, err=f"o{ending}: {said}")
+        run.write("in/c" + ending, bytes(64))
+        done = run.ffd("batch", "--in", "in/*", "-l", "l.json", "--out-dir", "out", "--force", code=NO, err=anything)
+        told(done, re.escape(said))
+        check(run.exists("out/m.obj"), "the others are done")
+        run.remove("in/c" + ending)
+    run.ffd("info", "m.fbx", code=USAGE, err='m.fbx: the ending ".fbx" is not that of a mesh format (obj, gltf, glb, vrm, ply, off or stl)')
 
 
 @case
