@@ -19,6 +19,14 @@ typedef enum ffd_fold_verdict {
     FFD_FOLDS_UNKNOWN = 2 /* not decided within the limits of depth and number of boxes */
 } ffd_fold_verdict;
 
+/* What determinants are relative to. */
+typedef enum ffd_fold_reference {
+    FFD_FOLDS_TO_MEAN = 0,   /* the size of the mean of det J_P over the domain */
+    FFD_FOLDS_TO_BOUNDS = 1, /* the volume of the bounds of the control points at rest by that of the domain:
+                                the mean of det J_P is 0 to rounding, or weights differ too much to find it */
+    FFD_FOLDS_TO_PLACE = 2   /* det J_P at the same u,v,w: one affine map moves the whole lattice */
+} ffd_fold_reference;
+
 /* The result of ffd_folds_find. Set struct_size to sizeof(ffd_folds) before the call. */
 typedef struct ffd_folds {
     size_t struct_size;       /* sizeof(ffd_folds) in the caller's header */
@@ -26,27 +34,40 @@ typedef struct ffd_folds {
     uint64_t cells;           /* number of span cells of the lattice */
     uint64_t folded_cells;    /* cells in which sign * det J_Q <= 0 at some u,v,w */
     uint64_t unknown_cells;   /* cells that are not decided */
-    double min_det;           /* a lower bound of sign * det J_Q over the domain, divided by the size of the
-                                 mean of det J_P */
+    double min_det;           /* a lower bound of sign * det J_Q over the domain, divided by what relative_to
+                                 says; -DBL_MAX stands for anything below it, too */
     bool has_witness;         /* true if verdict is FFD_FOLDS_SOME; else the next four are not set */
     double witness_uvw[3];    /* in the range of the knots */
     double witness_xyz[3];    /* C_Q(witness_uvw), world units */
     double witness_rest[3];   /* C_P(witness_uvw), world units */
     double witness_det;       /* sign * det J_Q at witness_uvw, divided as min_det is; <= 0 */
+    ffd_fold_reference relative_to; /* what min_det and witness_det are relative to */
 } ffd_folds;
 
 /* Proves for each span cell that sign * det J_Q > 0 in all of it, or finds a witness of the contrary. J_Q =
    [C_u | C_v | C_w] is the Jacobian of the deformed volume, J_P that of the rest volume, and sign is the sign
    of the signed volume of the rest volume. src/maths.md 10 has the method:
-   - First J_Q is compared with its value at the centre of the cell: if Y J_Q is close enough to the identity,
-     it is regular, and the determinant keeps its sign.
+   - A box or a cylinder at rest, with any weights, whose control points do not move, or are moved by one
+     affine map of positive determinant (to rounding), has no folds, without a proof: the deformation is that
+     map. min_det is its determinant, 1 if nothing moves. With weights, given control points that are those of
+     a box are a box. All other given control points are proven, and may fold at rest already.
+   - Otherwise J_Q is compared with its value at the centre of the cell: if Y J_Q is close enough to the
+     identity, it is regular, and the determinant keeps its sign.
    - Otherwise the Bernstein coefficients of det J_Q decide (for a rational volume those of the 4 x 4
      determinant [W A; W_u A_u; W_v A_v; W_w A_w] = W^4 det J_Q). Boxes whose coefficients have both signs are
-     halved, up to 60 times in a cell (24 times if the determinant has more than 4096 coefficients), with at
-     most 2048 boxes in a cell (down to 256 for determinants with many coefficients, and fewer if very many
-     cells are undecided). The sign of a coefficient counts only if its size exceeds the bound of its rounding
-     error.
-   - A cell whose volume is 0 to rounding everywhere counts as folded, with a witness_det of 0.
+     halved. The sign of a coefficient counts only if its size exceeds the bound of its rounding error.
+   - A cell whose volume is 0 to rounding everywhere counts as folded, with a witness_det of 0. With weights
+     only if det J_Q is not positive at some place.
+   With weights the witness' u,v,w, as they are given here, were looked at with 58 digits: det J_Q is not
+   positive there, and witness_det has its digits. At most 64 witnesses are looked at.
+
+   The time is bounded for any lattice, by the number of boxes whose coefficients are computed: 64 in each
+   cell, and 2^26 in all (1 in each of more cells); then 2048 in each undecided cell, and 2^22 in all of them;
+   then 4096 for min_det. If the determinant has more than 729 coefficients, (3 degree)^3 or with weights (4
+   degree)^3, the last three are fewer in proportion, but at least 256. To each count come the boxes that wait
+   when it ends, at most 60. A cell is halved at most 60 times (24 times if the determinant has more than 4096
+   coefficients). With weights, the rest volume takes at most 2^14 parts of faces, and 256 for each of their
+   cells.
 
    Zeros of det J_P on the border of the domain (an axis, edge or face that collapses) are not folds. If the
    same control points coincide in both volumes, these zeros are exact, and det J_Q > 0 is proven everywhere
@@ -55,8 +76,7 @@ typedef struct ffd_folds {
    rest but not in the deformed volume, zeros are folds.
 
    After that, the cells with the least bounds are refined until min_det is within 1 % (or the rounding error)
-   of the least determinant found, or until a fixed number of boxes is used up. If the rest volume is flat to
-   rounding, min_det is relative to the volume of its bounding box.
+   of the least determinant found, or until the boxes are used up.
 
    The proof is local: a volume without folds may still overlap itself, as a bar does that is bent by more
    than a full turn.

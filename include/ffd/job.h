@@ -448,12 +448,13 @@ typedef struct ffd_job_result {
     uint64_t weights_off;         /* vertices whose skin weights do not sum to 1 and are divided by their
                                      sum */
     double weights_farthest;      /* the largest difference of such a sum from 1 */
-    uint64_t weights_none;        /* vertices without skin weights, which follow their first joint */
+    uint64_t weights_none;        /* vertices whose skin weights sum to 0 or less, which follow their first
+                                     joint; weights that are not finite count nowhere */
     bool has_folds;               /* the proof ran: with ffd_check_run, quality and FFD_GATE_FOLDS */
     /* Of all lattices: the worst verdict (some, then unknown, then none), the sums of cells, the least
-       min_det, and the witness of the first lattice that has one. */
+       min_det and what it is relative to, and the witness of the first lattice that has one. */
     ffd_folds folds;
-    uint64_t folds_room[8]; /* reserved for members of ffd_folds in later versions, as are all members named
+    uint64_t folds_room[7]; /* reserved for members of ffd_folds in later versions, as are all members named
                                room */
     size_t folds_lattice;   /* index of the lattice of the witness, from 0 */
     bool has_flipped;       /* with ffd_check_run and quality */
@@ -519,6 +520,9 @@ typedef struct ffd_job_result {
     uint64_t bounds_left; /* boxes and spheres in glTF extensions and extras that are named as bounds of what
                              was deformed, and stay as they were before */
     ffd_tear_cause tear_cause; /* of the torn edge with the largest step */
+    /* Results so far from the origin that float32 changes their shape: the largest rounding error, and the
+       largest side of the part that it changes most, both in the file's space. 0: none. */
+    double precision_error, precision_side;
 } ffd_job_result;
 
 /* Runs a job. It makes all checks before it writes anything; the output is complete or absent. result is

@@ -103,6 +103,9 @@ static ffd_status note_end(batch_run *run, pool_task *task, ffd_error *error)
         status = ffd_states_note(&run->meshes, task, error);
     if (!status)
         status = say_task(run, task, error);
+    uint32_t number;
+    if (!status && task->own_box && !ffd_intern(&run->boxed, &task->mesh, sizeof task->mesh, &number))
+        status = ffd_fail_memory(error);
     if (task->outcome == OUTCOME_FAILED && run->desc->stop)
         run->ending = true;
     if (run->journal && task->outcome == OUTCOME_DONE && task->has_record)

@@ -318,6 +318,20 @@ static void say_flaws(batch_run *run)
         ffd_flaws_warn(ffd_jobs_flaws(run->source), ffd_jobs_name(run->source), &log);
 }
 
+/* As `ffd deform` does of several inputs. */
+static void say_boxes(batch_run *run)
+{
+    ffd_error note;
+    if (run->desc->quiet || run->boxed.count < 2)
+        return;
+    ffd_fail_file(
+        &note, FFD_E_INVALID, ffd_jobs_name(run->source),
+        "the lattice's box was laid round each of %zu meshes by itself: parts that meet need one box round "
+        "all of them (--shared-box)",
+        run->boxed.count);
+    ffd_run_say_error(run, &note);
+}
+
 /* An empty manifest is valid, but seldom intended. */
 static void say_none(batch_run *run)
 {
@@ -361,6 +375,7 @@ ffd_status ffd_batch_run(const batch_desc *desc, bool *failed, ffd_error *error)
         if (!status && run.depfile && !run.counts.failed && !run.dropped)
             status = write_depfile(&run, error);
         say_flaws(&run);
+        say_boxes(&run);
         if (!status) {
             say_none(&run);
             say_kept_array(&run);
@@ -374,6 +389,7 @@ ffd_status ffd_batch_run(const batch_desc *desc, bool *failed, ffd_error *error)
         ffd_task_free(run.tasks[i]);
     ffd_pool_destroy(&run.pool);
     ffd_states_free(&run.meshes);
+    ffd_intern_free(&run.boxed);
     ffd_report_destroy(&run.report);
     ffd_depfile_destroy(&run.depfile);
     ffd_run_view_destroy(&run.view);

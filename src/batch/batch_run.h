@@ -4,6 +4,7 @@
 #define FFD_BATCH_BATCH_RUN_H
 
 #include "base/file/path.h"
+#include "base/memory/intern.h"
 #include "batch/batch.h"
 #include "batch/files/claims.h"
 #include "batch/journal.h"
@@ -38,6 +39,7 @@ typedef struct batch_run {
     run_files files;      /* what the jobs read and write */
     early_jobs early;
     mesh_states meshes; /* states of the meshes read so far */
+    intern_table boxed; /* names (as hashes) of the meshes round each of which a lattice's box was laid */
     uint64_t jobs;      /* number of jobs read so far */
     batch_progress progress;
     batch_counts counts;

@@ -375,6 +375,7 @@ static bool take_answer(worker_pool *pool, pool_worker *worker)
     task->has_drawn = head.has_drawn;
     task->has_picture = head.has_picture;
     task->took_row = head.took_row;
+    task->own_box = head.own_box;
     worker->retires = head.retires;
     pool->rehearsed = pool->rehearsed || head.rehearsed;
     bytes->size = 0;

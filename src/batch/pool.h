@@ -63,6 +63,7 @@ typedef struct pool_task {
     bool is_unsurveyed;       /* these are not known: the job looks by itself */
     bool was_returned;        /* a worker had ended before it could take the task */
     bool noted;               /* its end was handled (ffd_run_note_ends) */
+    bool own_box;             /* a lattice's box was laid round its mesh */
     bool took_row;            /* its row may have been written to */
     /* After the end: */
     wire_outcome outcome;

@@ -74,6 +74,7 @@ typedef struct wire_answer {
     bool rehearsed;     /* dry run: everything except writing was done */
     bool has_picture;   /* it exists, made now or before */
     bool took_row;      /* the row may be written to */
+    bool own_box;       /* a lattice's box was laid round the job's mesh */
     bool looked;        /* the look found files, and nothing else was done */
     bool goes_on;       /* the look found nothing: no more than this is said yet */
     bool retires;       /* the worker ends: send no more tasks */

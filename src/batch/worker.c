@@ -395,6 +395,7 @@ static ffd_status do_task(batch_worker *worker, const wire_task *task, const fin
     status = ffd_mapping_judge(losses, status, &result->error);
     if (!status)
         status = do_job(worker, task, *picture ? picture : NULL, row, desc, answer, result);
+    answer->own_box = result->own_box;
     return status;
 }
 

@@ -49,6 +49,8 @@ static void print_witness(const ffd_folds *folds, const char *lattice)
 
 static void print_folds(const ffd_job_result *result, const char *lattice)
 {
+    static const char *const references[] = {"its mean at rest", "the bounds of the control points at rest",
+                                             "that at rest"};
     const ffd_folds *const folds = &result->folds;
     const char *const s = folds->cells == 1 ? "" : "s";
     printf("  folds          ");
@@ -60,7 +62,7 @@ static void print_folds(const ffd_job_result *result, const char *lattice)
                folds->cells, s);
     else
         printf("some: %" PRIu64 " of %" PRIu64 " cell%s", folds->folded_cells, folds->cells, s);
-    printf("; det J is at least %g of its mean at rest", folds->min_det);
+    printf("; det J is at least %g of %s", folds->min_det, references[folds->relative_to]);
     if (result->det_outside <= 0)
         printf("; outside it det F falls to %g, at vertex %" PRIu64, result->det_outside,
                result->det_outside_vertex);

@@ -29,20 +29,53 @@
    open. */
 #define MARGIN 1024
 
+/* Returns whether the index of a coefficient is in the first two layers at an end of the domain. */
+static bool is_at_border(const bool touches[3][2], const int order[3], const int at[3])
+{
+    for (int a = 0; a < 3; a++)
+        if ((touches[a][0] && at[a] <= 1) || (touches[a][1] && at[a] >= order[a] - 2))
+            return true;
+    return false;
+}
+
+/* With weights: returns whether the control points alone make the determinant of the rest volume 0 within
+   rounding in the first two layers at an end of the domain. Else it has no zeros there with weights either,
+   and nothing is excused. */
+static bool may_have_zeros(cell_search *search)
+{
+    fold_scratch *scratch = search->scratch;
+    determinant_bounds bounds;
+    cell_form form;
+    const double *c = scratch->rest;
+    int order[3], at[3];
+    ffd_cell_form_make(search->plan, FFD_VOLUME_REST, search->index, false, scratch->rest_rows,
+                       scratch->working, &form);
+    ffd_determinant_bounds(&form, &bounds);
+    ffd_determinant_order(search->plan->order, false, order);
+    ffd_determinant_coefficients(&form, 1, scratch->working, scratch->rest);
+    search->boxes -= DETERMINANT_COST / 2;
+    for (at[2] = 0; at[2] < order[2]; at[2]++)
+        for (at[1] = 0; at[1] < order[1]; at[1]++)
+            for (at[0] = 0; at[0] < order[0]; at[0]++, c++)
+                if (fabs(*c) <= bounds.coarse && is_at_border((const bool(*)[2])search->on_border, order, at))
+                    return true;
+    return false;
+}
+
 static void make_rest(cell_search *search)
 {
     fold_scratch *scratch = search->scratch;
-    cell_form form;
     determinant_bounds bounds;
+    cell_form *form = &search->rest_form;
     ffd_cell_form_make(search->plan, FFD_VOLUME_REST, search->index, search->rational, scratch->rest_rows,
-                       scratch->working, &form);
-    ffd_determinant_bounds(&form, &bounds);
-    ffd_determinant_coefficients(&form, search->plan->volume.sign, scratch->working, scratch->rest);
+                       scratch->working, form);
+    ffd_determinant_bounds(form, &bounds);
+    ffd_determinant_coefficients(form, search->plan->volume.sign, scratch->working, scratch->rest);
     search->rest_greatest = ffd_bernstein_greatest_size(scratch->rest, ffd_bernstein_count(search->order));
     search->rest_rounding = bounds.coarse;
     search->has_exact_zeros =
         ffd_zeros_find(search->plan, search->index, search->rational, scratch->working, scratch->other);
-    search->has_rest = true;
+    search->rest = REST_MADE;
     search->boxes -= 2 * DETERMINANT_COST;
 }
 
@@ -56,20 +89,9 @@ static void restrict_to(cell_search *search, const box *part, const double *whol
 static void restrict_rest(cell_search *search, const box *part)
 {
     fold_scratch *scratch = search->scratch;
-    if (!search->has_rest)
-        make_rest(search);
     restrict_to(search, part, scratch->rest, scratch->rest_part);
     for (int volume = 0; volume < 2 && search->has_exact_zeros; volume++)
         restrict_to(search, part, scratch->other[volume], scratch->other_part[volume]);
-}
-
-/* Returns whether the index of a coefficient is in the first two layers at an end of the domain. */
-static bool is_at_border(const bool touches[3][2], const int order[3], const int at[3])
-{
-    for (int a = 0; a < 3; a++)
-        if ((touches[a][0] && at[a] <= 1) || (touches[a][1] && at[a] >= order[a] - 2))
-            return true;
-    return false;
 }
 
 static int corner_of(const int order[3], const int at[3])
@@ -117,13 +139,34 @@ static bool is_covered(const bool touches[3][2], const bool covered[FACES])
 /* The greatest magnitudes that count as 0, for coefficients of the deformed and of the rest volume. */
 typedef struct zero_bounds {
     double deformed, rest;
+    bool apply; /* false if they are those of a heavy corner of the box */
 } zero_bounds;
 
-static zero_bounds bounds_of(const cell_search *search, const box *part)
+/* With weights: the bound from the products in the box of one volume, if control points are known only to 2
+   eps of their magnitude; at most that of the whole cell. */
+static double bound_in_part(cell_search *search, const box *part, const cell_form *form, double cell,
+                            bool *is_even)
 {
-    return (zero_bounds){search->bounds.coarse + (part->rounding - search->bounds.rounding),
-                         search->rest_rounding +
-                             CELL_DEPTH * BERNSTEIN_MAX_ORDER * UNIT * search->rest_greatest};
+    size_bounds sizes;
+    ffd_sizes_bound_part(form, part->lo, part->hi, search->scratch->part_sizes, &sizes);
+    *is_even = *is_even && sizes.is_even;
+    search->boxes--;
+    const double known = ffd_sizes_products(&sizes, true);
+    const double bound = 1.01 * (known - ffd_sizes_products(&sizes, false)) +
+                         (search->relative + 1.01 * UNIT * part->halvings) * known + LEAST_ROUNDING;
+    return bound < cell ? bound : cell;
+}
+
+static zero_bounds bounds_of(cell_search *search, const box *part)
+{
+    zero_bounds bounds = {
+        search->bounds.coarse + (part->cell_rounding - search->bounds.rounding),
+        search->rest_rounding + CELL_DEPTH * BERNSTEIN_MAX_ORDER * UNIT * search->rest_greatest, true};
+    if (search->rational) {
+        bounds.deformed = bound_in_part(search, part, &search->form, bounds.deformed, &bounds.apply);
+        bounds.rest = bound_in_part(search, part, &search->rest_form, bounds.rest, &bounds.apply);
+    }
+    return bounds;
 }
 
 typedef enum coefficient_zero { ZERO_NOT, ZERO_EXACT, ZERO_ROUNDED } coefficient_zero;
@@ -135,14 +178,22 @@ static coefficient_zero zero_of(const cell_search *search, const box *part, cons
     const fold_scratch *scratch = search->scratch;
     if (search->has_exact_zeros && scratch->other_part[FFD_VOLUME_REST][i] == 0)
         return scratch->other_part[FFD_VOLUME_DEFORMED][i] == 0 ? ZERO_EXACT : ZERO_NOT;
-    return fabs(part->coefficients[i]) <= bounds->deformed && fabs(scratch->rest_part[i]) <= bounds->rest &&
-                   is_at_border(touches, search->order, at)
+    return bounds->apply && fabs(part->coefficients[i]) <= bounds->deformed &&
+                   fabs(scratch->rest_part[i]) <= bounds->rest && is_at_border(touches, search->order, at)
                ? ZERO_ROUNDED
                : ZERO_NOT;
 }
 
 void ffd_border_view(cell_search *search, const box *part, const bool touches[3][2], box_view *view)
 {
+    if (search->rest == REST_NOT_MADE) {
+        if (search->rational && !may_have_zeros(search))
+            search->rest = REST_WITHOUT_ZEROS;
+        else
+            make_rest(search);
+    }
+    if (search->rest == REST_WITHOUT_ZEROS)
+        return;
     restrict_rest(search, part);
     const int *order = search->order;
     const zero_bounds bounds = bounds_of(search, part);

@@ -36,6 +36,8 @@ static void begin(const fold_plan *plan, size_t cell, fold_scratch *scratch, cel
     ffd_cell_form_make(plan, FFD_VOLUME_DEFORMED, search->index, search->rational, scratch->rows,
                        scratch->working, &search->form);
     ffd_determinant_bounds(&search->form, &search->bounds);
+    if (search->rational)
+        search->relative = 1.01 * (4 * search->form.roundings * 0.5 * DBL_EPSILON + search->bounds.relative);
     search->unit = ffd_search_unit(plan, search->index, search->form.exponent);
     search->result.least_seen = DBL_MAX;
     search->result.lower = DBL_MAX;

@@ -16,12 +16,18 @@ typedef struct form_matrix {
 typedef struct cell_form {
     int rows; /* 3 or 4 */
     int order[FORM_ROWS][3];
-    double *row[FORM_ROWS][FORM_ROWS];    /* Bernstein coefficients of each component */
-    form_matrix greatest;                 /* greatest magnitude of a coefficient */
-    form_matrix rounding;                 /* bounds of the rounding errors of coefficients */
-    form_matrix coarse;                   /* the same if control points are known only to 2 eps of their
-                                             magnitude */
-    int exponent;                         /* det J = 2^exponent times that of the scaled cell */
+    double *row[FORM_ROWS][FORM_ROWS]; /* Bernstein coefficients of each component */
+    form_matrix greatest;              /* greatest magnitude of a coefficient */
+    form_matrix rounding;              /* bounds of the rounding errors of coefficients */
+    form_matrix coarse;                /* the same if control points are known only to 2 eps of their
+                                          magnitude */
+    int exponent;                      /* det J = 2^exponent times that of the scaled cell */
+    /* With weights: polynomials with coefficients >= 0 that bound those of a row and their rounding errors.
+       The coefficient i of A_x, A_y or A_z is at most size[0][i] in magnitude, that of W size[1][i], and they
+       are known to `roundings` times that; if control points are known only to 2 eps of their magnitude, A to
+       known[i] more. */
+    double *size[FORM_ROWS][2], *known[FORM_ROWS];
+    double roundings;
     double hull_middle[3], hull_reach[3]; /* with weights: bounds of C, in the scale of the cell */
     double least_weight, greatest_weight; /* with weights, in the scale of the cell; else 1 */
 } cell_form;

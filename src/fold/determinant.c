@@ -3,7 +3,6 @@
 #include <string.h>
 
 #define UNIT (0.5 * DBL_EPSILON)
-#define LEAST_ROUNDING 0x1p-960 /* far above the effect of underflow on a sum of products */
 
 void ffd_determinant_order(const int order[3], bool rational, int result[3])
 {
@@ -77,6 +76,7 @@ void ffd_determinant_bounds(const cell_form *form, determinant_bounds *bounds)
 {
     form_matrix sum;
     const double relative = roundings(form) * UNIT, exact = permanent(form->rows, &form->greatest);
+    bounds->relative = relative;
     add_bounds(form->rows, &form->greatest, &form->rounding, &sum);
     bounds->greatest = permanent(form->rows, &sum) * (1 + relative);
     bounds->rounding = bounds->greatest - exact;

@@ -5,10 +5,15 @@
 
 #include "fold/cell_form.h"
 
+/* Far above the effect of underflow on a sum of products. */
+#define LEAST_ROUNDING 0x1p-960
+
 typedef struct determinant_bounds {
     double rounding; /* of every coefficient; exactly 0 if rows of zeros make it so */
     double coarse;   /* the same if control points are known only to 2 eps of their magnitude */
     double greatest; /* upper bound of the magnitude of coefficients */
+    double relative; /* the part of `rounding` that comes from the expansion, relative to the sum of the
+                        products' sizes */
 } determinant_bounds;
 
 /* Bounds the coefficients of the determinant and their rounding errors from the rows of the form. */

@@ -5,22 +5,29 @@
 #include "base/struct_size.h"
 #include "base/system/deadline.h"
 #include "base/system/thread.h"
+#include "fold/affine/affine.h"
 #include "fold/cell.h"
+#include "fold/place.h"
 #include <string.h>
 
 #define TILE_CELLS 64
 
-/* Budgets in boxes: for a cell in the first round; for an undecided cell in the second round; for all
-   undecided cells together; for min_det. The last three are for cubic lattices (ffd_cell_boxes). */
+/* Budgets in boxes: for a cell in the first round, and for all cells together; for an undecided cell in the
+   second round, and for all of them together; for min_det. The last three are for cubic lattices
+   (ffd_cell_boxes). */
 #define FIRST_BOXES 64
+#define ALL_FIRST_BOXES (1L << 26)
 #define CELL_BOXES 2048
 #define ALL_BOXES (1L << 22)
 #define REFINE_BOXES 4096
 
+/* How many witnesses are looked at until one is true. */
+#define MOST_WITNESSES 64
+
 typedef struct tile_verdict {
     size_t folded, unknown;
     double lower, least_seen;
-    size_t first; /* the first folded cell; only if folded */
+    size_t first; /* the first folded cell, if possible one with a true witness; only if folded */
     cell_verdict witness;
 } tile_verdict;
 
@@ -32,8 +39,16 @@ typedef struct fold_work {
     unsigned char *verdicts; /* one for each cell */
     tile_verdict *tiles;
     size_t tile_count;
-    long boxes; /* budget of an undecided cell in the second round */
+    long first, boxes; /* budgets of a cell: in the first round; in the second one, if it is undecided */
 } fold_work;
+
+/* Returns whether the witness of a cell is to replace that of the tile. */
+static bool is_better(const tile_verdict *tile, const cell_verdict *witness, size_t cell)
+{
+    if (tile->folded == 0 || witness->is_positive != tile->witness.is_positive)
+        return tile->folded == 0 || tile->witness.is_positive;
+    return cell < tile->first;
+}
 
 static void decide(fold_work *work, size_t cell, long boxes, int worker, tile_verdict *result)
 {
@@ -49,10 +64,13 @@ static void decide(fold_work *work, size_t cell, long boxes, int worker, tile_ve
     work->verdicts[cell] = (unsigned char)verdict.verdict;
     result->least_seen = fmin(result->least_seen, verdict.least_seen);
     result->unknown += verdict.verdict == FFD_FOLDS_UNKNOWN;
-    if (verdict.verdict == FFD_FOLDS_SOME && (result->folded++ == 0 || cell < result->first)) {
+    if (verdict.verdict != FFD_FOLDS_SOME)
+        return;
+    if (is_better(result, &verdict, cell)) {
         result->first = cell;
         result->witness = verdict;
     }
+    result->folded++;
 }
 
 /* Finds the least lower bound of the cells of a tile. */
@@ -70,7 +88,7 @@ static void decide_tile(void *context, size_t tile, size_t begin, size_t end, in
     fold_work *work = context;
     work->tiles[tile] = (tile_verdict){.least_seen = DBL_MAX};
     for (size_t cell = begin; cell < end; cell++)
-        decide(work, cell, FIRST_BOXES, worker, &work->tiles[tile]);
+        decide(work, cell, work->first, worker, &work->tiles[tile]);
     find_lower(work, tile);
 }
 
@@ -87,12 +105,14 @@ static void decide_rest_of_tile(void *context, size_t tile, size_t begin, size_t
     find_lower(work, tile);
 }
 
-/* All undecided cells share a fixed number of boxes, so that the time is bounded for any lattice. The share
-   depends only on the lattice. */
+/* All cells, and all undecided ones, share a fixed number of boxes, so that the time is bounded for any
+   lattice. The shares depend only on the lattice. */
 static void decide_all(fold_work *work)
 {
     const size_t cells = work->plan.cell_count;
     size_t unknown = 0;
+    const long each = (long)(ALL_FIRST_BOXES / cells);
+    work->first = each < 1 ? 1 : each < FIRST_BOXES ? each : FIRST_BOXES;
     ffd_parallel_tiles(cells, TILE_CELLS, work->workers, decide_tile, work);
     for (size_t tile = 0; tile < work->tile_count; tile++)
         unknown += work->tiles[tile].unknown;
@@ -101,31 +121,30 @@ static void decide_all(fold_work *work)
     const long most = ffd_cell_boxes(&work->plan, CELL_BOXES);
     const size_t share = (size_t)ffd_cell_boxes(&work->plan, ALL_BOXES) / unknown;
     work->boxes = share < (size_t)most ? (long)share : most;
-    if (work->boxes > FIRST_BOXES)
+    if (work->boxes > work->first)
         ffd_parallel_tiles(cells, TILE_CELLS, work->workers, decide_rest_of_tile, work);
 }
 
-/* Returns the parameter of a point in a cell; at the end of a cell that is not the last one, the last double
-   before the knot, which belongs to the next cell. */
-static double parameter_at(const knot_vector *knots, size_t span, double t)
+/* Reports the witness of a tile. With weights it is looked at once more: the parameters are rounded, and the
+   value, of W^4 det J, is known to the bound of its rounding only. Nothing is reported if it does not fold.
+ */
+static void report_witness(const fold_work *work, const tile_verdict *tile, ffd_folds *folds)
 {
-    const double *knot = knots->t + knots->spans[span];
-    if (t < 1)
-        return knot[0] + t * (knot[1] - knot[0]);
-    const bool is_last = span + 1 == knots->span_count && !ffd_knots_closed(knots);
-    return is_last ? knot[1] : nextafter(knot[1], knot[0]);
-}
-
-static void report_witness(const fold_plan *plan, const tile_verdict *tile, ffd_folds *folds)
-{
+    const fold_plan *plan = &work->plan;
     size_t index[3];
     int span[3];
     ffd_fold_cell_at(plan, tile->first, index, span);
-    for (int a = 0; a < 3; a++)
-        folds->witness_uvw[a] = parameter_at(&plan->lattice->knots[a], index[a], tile->witness.local[a]);
+    ffd_place_parameters(plan, index, tile->witness.local, folds->witness_uvw);
+    folds->witness_det = tile->witness.value;
+    if (plan->rational) {
+        const place_determinant place =
+            ffd_place_determinant(plan, index, folds->witness_uvw, work->scratch[0]->working);
+        if (place.sign > 0)
+            return;
+        folds->witness_det = -place.size;
+    }
     ffd_lattice_evaluate(plan->lattice, FFD_VOLUME_DEFORMED, folds->witness_uvw, folds->witness_xyz, NULL);
     ffd_lattice_evaluate(plan->lattice, FFD_VOLUME_REST, folds->witness_uvw, folds->witness_rest, NULL);
-    folds->witness_det = tile->witness.value;
     folds->has_witness = true;
 }
 
@@ -133,15 +152,19 @@ static void report_witness(const fold_plan *plan, const tile_verdict *tile, ffd_
 static double join_tiles(const fold_work *work, ffd_folds *folds)
 {
     double least_seen = DBL_MAX;
+    int witnesses = 0;
     for (size_t i = 0; i < work->tile_count; i++) {
         const tile_verdict *tile = &work->tiles[i];
         folds->folded_cells += tile->folded;
         folds->unknown_cells += tile->unknown;
         least_seen = fmin(least_seen, tile->least_seen);
-        if (tile->folded > 0 && !folds->has_witness)
-            report_witness(&work->plan, tile, folds);
+        if (tile->folded > 0 && !folds->has_witness && witnesses++ < MOST_WITNESSES)
+            report_witness(work, tile, folds);
     }
-    folds->cells = work->plan.cell_count;
+    if (!folds->has_witness) { /* none that a double can name */
+        folds->unknown_cells += folds->folded_cells;
+        folds->folded_cells = 0;
+    }
     folds->verdict = folds->folded_cells    ? FFD_FOLDS_SOME
                      : folds->unknown_cells ? FFD_FOLDS_UNKNOWN
                                             : FFD_FOLDS_NONE;
@@ -210,12 +233,18 @@ static ffd_status find(const ffd_lattice *lattice, int threads, ffd_folds *folds
         return ffd_fail(error, FFD_E_ARGUMENT,
                         "the lattice has no control points yet: its box is that of a mesh");
     ffd_status status = ffd_threads_choose(threads, &threads, error);
-    if (!status)
-        status = ffd_fold_plan_make(lattice, &work.plan, error);
+    if (status)
+        return status;
+    folds->cells = lattice->knots[0].span_count * lattice->knots[1].span_count * lattice->knots[2].span_count;
+    folds->relative_to = FFD_FOLDS_TO_PLACE;
+    if (ffd_fold_is_affine(lattice, &folds->min_det))
+        return FFD_OK;
+    status = ffd_fold_plan_make(lattice, &work.plan, error);
     if (!status)
         status = allocate(&work, threads, error);
     if (status)
         goto out;
+    folds->relative_to = work.plan.volume.is_mean ? FFD_FOLDS_TO_MEAN : FFD_FOLDS_TO_BOUNDS;
     decide_all(&work);
     status = ffd_deadline_check(error);
     if (status)

@@ -8,7 +8,8 @@
 /* The signed volume of the rest lattice: the integral of det J_P over the domain. */
 typedef struct signed_volume {
     int sign;         /* sign of the computed value, -1 or 1 */
-    scaled reference; /* |volume|; if that is nearly 0, the volume of the bounds of the lattice */
+    bool is_mean;     /* false if the volume cannot be told from 0 */
+    scaled reference; /* |volume|; else the volume of the bounds of the lattice */
     double doubt;     /* bound of its relative error, < 1/2 */
 } signed_volume;
 

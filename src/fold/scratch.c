@@ -2,6 +2,7 @@
 #include "base/memory/memory.h"
 #include "fold/bernstein.h"
 #include "fold/determinant.h"
+#include "fold/sizes.h"
 #include "fold/zeros.h"
 
 static size_t larger(size_t a, size_t b)
@@ -25,12 +26,12 @@ fold_scratch *ffd_fold_scratch_create(const fold_plan *plan)
     if (!scratch)
         return NULL;
     const size_t large = ffd_bernstein_count(order), rows = ffd_cell_form_size(plan->order, plan->rational),
-                 weights = plan->rational ? ffd_bernstein_count(plan->order) : 0,
+                 sizes = plan->rational ? ffd_sizes_count(plan->order) : 0,
                  working = working_size(plan, large);
     scratch->depth = large > LARGE_CELL_COUNT ? LARGE_CELL_DEPTH : CELL_DEPTH;
     const size_t slots = (size_t)scratch->depth + 1;
     double *next = scratch->block =
-        ffd_alloc(working + 2 * rows + (slots + 6) * large + slots * weights, sizeof(double));
+        ffd_alloc(working + 2 * rows + (slots + 6) * large + (slots + 1) * sizes, sizeof(double));
     if (!next) {
         ffd_free(scratch);
         return NULL;
@@ -47,8 +48,9 @@ fold_scratch *ffd_fold_scratch_create(const fold_plan *plan)
     for (int depth = 0; depth <= scratch->depth; depth++)
         scratch->coefficients[depth] = next += large;
     next += large;
-    for (int depth = 0; depth <= scratch->depth && plan->rational; depth++, next += weights)
-        scratch->weights[depth] = next;
+    for (int depth = 0; depth <= scratch->depth; depth++, next += sizes)
+        scratch->sizes[depth] = next;
+    scratch->part_sizes = next;
     return scratch;
 }
 

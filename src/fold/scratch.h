@@ -15,14 +15,16 @@
 typedef struct fold_scratch {
     double *block;
     int depth;
-    double *working;                  /* shared by forms, determinants and restrictions, one after the
-                                         other */
-    double *rows;                     /* rows of the deformed volume's form */
-    double *rest_rows;                /* rows of the rest volume's form */
-    double *rest, *rest_part;         /* coefficients of the rest volume: of the cell, and of a box */
-    double *other[2], *other_part[2]; /* for each volume: marks of coefficients that may be other than 0
-                                         (zeros.h) */
-    double *coefficients[CELL_DEPTH + 1], *weights[CELL_DEPTH + 1]; /* for the box at each depth */
+    double *working;                      /* shared by forms, determinants and restrictions, one after the
+                                             other */
+    double *rows;                         /* rows of the deformed volume's form */
+    double *rest_rows;                    /* rows of the rest volume's form */
+    double *rest, *rest_part;             /* coefficients of the rest volume: of the cell, and of a box */
+    double *other[2], *other_part[2];     /* for each volume: marks of coefficients that may be other than 0
+                                             (zeros.h) */
+    double *coefficients[CELL_DEPTH + 1]; /* for the box at each depth */
+    double *sizes[CELL_DEPTH + 1];        /* the same, of the rows; with weights */
+    double *part_sizes;                   /* for one row of a box of either volume */
 } fold_scratch;
 
 /* Allocates scratch memory. Returns NULL if memory runs out. */

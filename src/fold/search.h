@@ -1,20 +1,28 @@
 /* search.h - the search in a cell: its result, the boxes into which it is subdivided, and bounds from their
-   coefficients. Main header of the search: declares figures.c, box.c, border.c, search.c. */
+   coefficients. Main header of the search: declares figures.c, box.c, border.c, flat.c,
+   search.c. */
 #ifndef FFD_FOLD_SEARCH_H
 #define FFD_FOLD_SEARCH_H
 
 #include "fold/cell_form.h"
 #include "fold/determinant.h"
 #include "fold/scratch.h"
+#include "fold/sizes.h"
 #include "fold/verdict.h"
 
 /* A part of the cell. Its memory is the slot of a depth. */
 typedef struct box {
     double lo[3], hi[3];
     double *coefficients; /* of sign * det J; with weights of sign * W^4 det J */
-    double *weights;      /* coefficients of W; NULL without weights */
+    row_sizes sizes;      /* with weights; row[3][1] is W */
     double rounding;      /* bound of the rounding error of each coefficient */
+    double cell_rounding; /* the same, from the sizes of the whole cell */
+    double halvings;      /* roundings of each coefficient in them */
+    bool is_even;         /* the weights hardly differ: smaller boxes do not know their coefficients better */
 } box;
+
+/* The data of the rest volume for zeros on the border, made on demand (border.c). */
+typedef enum rest_state { REST_NOT_MADE, REST_WITHOUT_ZEROS, REST_MADE } rest_state;
 
 typedef struct cell_search {
     const fold_plan *plan;
@@ -26,11 +34,13 @@ typedef struct cell_search {
                     volume */
     cell_form form;
     determinant_bounds bounds;
+    double relative;      /* with weights: the rounding error of a coefficient of the cell, relative to the
+                             products that it adds up */
     double greatest;      /* greatest magnitude of a coefficient of the whole cell */
     bool on_border[3][2]; /* whether the cell touches this end of the domain */
-    bool has_rest;        /* whether the data of the rest volume for zeros on the border exist; made on demand
-                             in border.c */
+    rest_state rest;
     bool has_exact_zeros;
+    cell_form rest_form;
     double rest_rounding, rest_greatest;
     bool refining;
     long boxes;         /* remaining budget */
@@ -81,10 +91,16 @@ double ffd_box_least(const cell_search *search, const box *part);
 /* Updates view, without the coefficients that are excused as zeros on the border. */
 void ffd_border_view(cell_search *search, const box *part, const bool touches[3][2], box_view *view);
 
+/* With weights: if a cell, all coefficients of which are 0 within rounding, is flat, records that it folds,
+   where possible with a place at which the determinant is not positive. */
+void ffd_search_flat(cell_search *search);
+
 /* Subdivides the box until it is decided, or its bound is good enough for min_det. */
 void ffd_search_box(cell_search *search, box *part, int depth);
 
 /* The coefficients of a cell take as much work as this many boxes. */
 #define DETERMINANT_COST 8
+/* So does the determinant at one place, by ffd_place_determinant. */
+#define PLACE_COST 8
 
 #endif

@@ -11,6 +11,8 @@ typedef struct cell_verdict {
     double least_seen; /* the least value computed at a point of the cell */
     double local[3];   /* FFD_FOLDS_SOME: position of the witness in [0,1]^3 of the cell */
     double value;      /* FFD_FOLDS_SOME: value at the witness, <= 0 */
+    bool is_positive; /* with weights: but its sign is positive, by little, in a cell that is flat to rounding
+                       */
 } cell_verdict;
 
 /* Returns the lower bound that is accurate enough: within 1 % of the least value found. */

@@ -7,6 +7,7 @@
 #include "lattice/build.h"
 #include "lattice/file/spec_parse.h"
 #include "lattice/lattice.h"
+#include "lattice/shape_border.h"
 #include "mesh/bounds.h"
 #include <ffd/embedding.h>
 #include <math.h>
@@ -259,6 +260,8 @@ ffd_status ffd_info_lattice(const ffd_info_desc *desc, json_text *json, ffd_erro
     ffd_info_layers(lattice, &box, json);
     if (!status && lattice->rest) {
         ffd_json_bool(json, "rational", lattice->rest_weights != NULL);
+        if (ffd_lattice_off_shape(lattice) > 0)
+            ffd_json_number(json, "border_off", ffd_lattice_off_shape(lattice));
         status = write_volume(lattice, json, error);
     } else if (!status) {
         write_unbuilt(lattice, fits, json);

@@ -113,7 +113,11 @@ static void write_beyond(const ffd_lattice *lattice, json_text *json)
     ffd_json_end(json, '}');
     ffd_json_string(
         json, "note",
-        "control points stand beyond the box that the volume covers: their knots are not clamped");
+        lattice->spec->weights
+            ? "control points stand beyond the box: their knots are not clamped. Weights that differ pull "
+              "the "
+              "volume's border away from that of the box"
+            : "control points stand beyond the box that the volume covers: their knots are not clamped");
 }
 
 void ffd_info_layers(const ffd_lattice *lattice, const ffd_bounds *box, json_text *json)

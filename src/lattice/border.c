@@ -1,8 +1,12 @@
 #include "lattice/border.h"
+#include "base/vector/vec.h"
 #include "spline/basis.h"
 #include "spline/knots.h"
 #include <float.h>
 #include <math.h>
+
+/* The control points of flat faces are in their plane to this multiple of eps. */
+#define PLANE_ROUNDINGS 64
 
 void ffd_border_face(const ffd_lattice *lattice, ffd_volume volume, int direction, int end, border_face *face)
 {
@@ -84,10 +88,109 @@ static bool faces_meet(const ffd_lattice *lattice, ffd_volume volume, int direct
     return true;
 }
 
+/* A plane: all p with normal . (p - point) = 0, to rounding. */
+typedef struct plane {
+    double point[3], normal[3], tolerance;
+} plane;
+
+static void face_corner(const border_face *face, bool across, bool along, double corner[3])
+{
+    const size_t *const size = face->lattice->size;
+    const int a = (face->direction + 1) % 3, b = (face->direction + 2) % 3;
+    size_t index[3] = {0, 0, 0};
+    double point[4];
+    index[a] = across ? size[a] - 1 : 0;
+    index[b] = along ? size[b] - 1 : 0;
+    ffd_border_point(face, index, face->points, point);
+    for (int c = 0; c < 3; c++)
+        corner[c] = point[c] / point[3];
+}
+
+/* Finds the plane through three corners of the control net of a face; positions are relative to the first
+   control point. The normal is not a unit vector. */
+static void plane_of(const border_face *face, plane *made)
+{
+    double first[3], second[3], most[3];
+    face_corner(face, false, false, made->point);
+    face_corner(face, true, false, first);
+    face_corner(face, false, true, second);
+    for (int c = 0; c < 3; c++) {
+        first[c] -= made->point[c];
+        second[c] -= made->point[c];
+    }
+    vec_cross(first, second, made->normal);
+    size_up(face->lattice, face->points, PLANE_ROUNDINGS, most);
+    made->tolerance = 0;
+    for (int c = 0; c < 3; c++)
+        made->tolerance += fabs(made->normal[c]) * most[c];
+}
+
+/* Returns whether the control points of a face are in the plane, and widens their bounds. */
+static bool is_in_plane(const border_face *face, const plane *of, double lo[3], double hi[3])
+{
+    const size_t *const size = face->lattice->size;
+    const int a = (face->direction + 1) % 3, b = (face->direction + 2) % 3;
+    size_t index[3] = {0, 0, 0};
+    for (index[a] = 0; index[a] < size[a]; index[a]++)
+        for (index[b] = 0; index[b] < size[b]; index[b]++) {
+            double point[4], off = 0;
+            ffd_border_point(face, index, face->points, point);
+            for (int c = 0; c < 3; c++) {
+                point[c] /= point[3];
+                off += of->normal[c] * (point[c] - of->point[c]);
+                lo[c] = lesser_of(lo[c], point[c]);
+                hi[c] = larger_of(hi[c], point[c]);
+            }
+            if (!(fabs(off) <= of->tolerance))
+                return false;
+        }
+    return true;
+}
+
+/* Returns how fast the volume goes through the plane at the middle of its first or last face. */
+static double speed_through(const ffd_lattice *lattice, const plane *of, int direction, int end)
+{
+    double uvw[3], point[3], jacobian[9], speed = 0;
+    for (int a = 0; a < 3; a++)
+        uvw[a] = 0.5 * ffd_knots_first(&lattice->knots[a]) + 0.5 * ffd_knots_last(&lattice->knots[a]);
+    uvw[direction] =
+        end ? ffd_knots_last(&lattice->knots[direction]) : ffd_knots_first(&lattice->knots[direction]);
+    ffd_lattice_evaluate(lattice, FFD_VOLUME_REST, uvw, point, jacobian);
+    for (int c = 0; c < 3; c++)
+        speed += of->normal[c] * jacobian[3 * c + direction];
+    return speed;
+}
+
+/* Returns whether both faces are parts of one plane that overlap, and the volume goes on from the last one to
+   the side to which it leaves the first one: a turn with faces of different radii or parameters. */
+static bool faces_share_plane(const ffd_lattice *lattice, int direction)
+{
+    border_face first, last;
+    plane of;
+    double low[2][3], high[2][3], most[3];
+    ffd_border_face(lattice, FFD_VOLUME_REST, direction, 0, &first);
+    ffd_border_face(lattice, FFD_VOLUME_REST, direction, 1, &last);
+    plane_of(&first, &of);
+    size_up(lattice, first.points, PLANE_ROUNDINGS, most);
+    for (int i = 0; i < 2; i++)
+        for (int c = 0; c < 3; c++) {
+            low[i][c] = HUGE_VAL;
+            high[i][c] = -HUGE_VAL;
+        }
+    if (!(vec_length(of.normal) > 0) || !is_in_plane(&last, &of, low[1], high[1]) ||
+        !is_in_plane(&first, &of, low[0], high[0]))
+        return false;
+    for (int c = 0; c < 3; c++)
+        if (low[0][c] > high[1][c] + most[c] || low[1][c] > high[0][c] + most[c])
+            return false;
+    return speed_through(lattice, &of, direction, 0) * speed_through(lattice, &of, direction, 1) > 0;
+}
+
 bool ffd_lattice_is_seam(const ffd_lattice *lattice, int direction)
 {
     return !ffd_knots_closed(&lattice->knots[direction]) &&
-           faces_meet(lattice, FFD_VOLUME_REST, direction, 16, false);
+           (faces_meet(lattice, FFD_VOLUME_REST, direction, 16, false) ||
+            faces_share_plane(lattice, direction));
 }
 
 bool ffd_lattice_opens_seam(const ffd_lattice *lattice, int direction)

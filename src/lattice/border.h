@@ -23,10 +23,11 @@ void ffd_border_face(const ffd_lattice *lattice, ffd_volume volume, int directio
 void ffd_border_point(const border_face *face, const size_t index[3], const double origin[3],
                       double point[4]);
 
-/* Returns whether the first and the last face of a direction that is not closed have the same control points
-   at rest, within 16 eps of their magnitude: a seam, as of a full turn that is not closed. Points on both
-   faces have one u,v,w, the least, whatever the moves are. Weights may differ: flat faces still coincide
-   then, with different parameters; curved faces meet where they cross. */
+/* Returns whether the first and the last face of a direction that is not closed are one surface at rest: a
+   seam, as of a full turn that is not closed. Points on both faces have one u,v,w, the least, whatever the
+   moves are. The faces have the same control points, within 16 eps of their magnitude (weights may differ:
+   flat faces still coincide then, with different parameters; curved faces meet where they cross), or are
+   parts of one plane that overlap, with the volume on either side. */
 bool ffd_lattice_is_seam(const ffd_lattice *lattice, int direction);
 
 /* Returns whether the moves can separate the faces of such a seam; false is certain. True if the deformed

@@ -173,7 +173,7 @@ typedef struct mesh_document mesh_document;
 /* Statistics of the weights of skinned vertices. */
 typedef struct skin_weights {
     uint64_t off;    /* vertices whose weights do not sum to 1 and are divided by their sum */
-    uint64_t none;   /* vertices whose weights are all 0, which follow their first joint */
+    uint64_t none;   /* vertices whose weights sum to 0 or less, which follow their first joint */
     double farthest; /* greatest difference from 1 of a sum other than 0 */
 } skin_weights;
 

@@ -27,7 +27,7 @@ void ffd_model_free(mesh_model *model)
 
 /* Estimated bytes for a corner, with its share of a face, and for a run with its names. */
 #define CORNER_BYTES (sizeof(model_corner) + sizeof(size_t) / 3 + 1)
-#define RUN_BYTES 96
+#define RUN_BYTES 192
 
 ffd_status ffd_model_take(mesh_model *model, uint64_t count, uint64_t size, ffd_error *error)
 {

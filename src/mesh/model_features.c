@@ -1,16 +1,13 @@
 /* model_features.c - determines the features of a model, and describes those that a format loses. */
 #include "base/memory/memory.h"
 #include "mesh/model.h"
-#include <float.h>
+#include "mesh/precision.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 /* Tolerance of 255 * colour as an integer: half a unit of the sixth decimal digit, with a margin. */
 #define BYTE_TOLERANCE 2e-4
-/* The acceptable rounding error of float32 relative to the largest side of the model: half a step of 16-bit
-   quantization, which is commonly good enough. */
-#define FLOAT_TOLERANCE 0x1p-17
 
 static bool same(const double *values, size_t numbers, uint32_t a, uint32_t b)
 {
@@ -188,32 +185,72 @@ static uint32_t features_of_colours(const mesh_model *model)
     return MODEL_HAS_COLOURS;
 }
 
-/* Returns the largest side of the bounds of finite coordinates. */
-static double largest_side(const mesh_model *model)
+/* Returns whether float32 changes the shape of a model as a whole. */
+static bool loses_shape(const mesh_model *model)
 {
-    double largest = 0;
-    for (size_t axis = 0; axis < 3; axis++) {
-        double low = INFINITY, high = -INFINITY;
-        for (size_t i = 0; i < model->position_count; i++) {
-            const double value = model->positions[3 * i + axis];
-            low = isfinite(value) ? fmin(low, value) : low;
-            high = isfinite(value) ? fmax(high, value) : high;
-        }
-        largest = fmax(largest, high - low);
+    ffd_bounds box = ffd_bounds_empty();
+    double error = 0;
+    for (size_t i = 0; i < model->position_count; i++) {
+        ffd_bounds_widen_finite(&box, model->positions + 3 * i);
+        error = larger_of(error, ffd_float_error(model->positions + 3 * i));
     }
-    return largest;
+    const double side = ffd_bounds_side(&box);
+    return side > 0 && error > SHAPE_TOLERANCE * side;
 }
 
-/* Coordinates beyond the range of float32 are refused elsewhere. */
-static uint32_t features_of_positions(const mesh_model *model)
+/* What rounding does to an object or group. */
+typedef struct part_error {
+    ffd_bounds box;
+    double error;
+} part_error;
+
+static void measure_run(const mesh_model *model, size_t run, part_error *part)
 {
-    const double tolerance = FLOAT_TOLERANCE * largest_side(model);
-    for (size_t i = 0; tolerance > 0 && i < 3 * model->position_count; i++) {
-        const double value = model->positions[i];
-        if (fabs(value) <= (double)FLT_MAX && fabs(value - (double)(float)value) > tolerance)
-            return MODEL_HAS_FINE_POSITIONS;
+    for (int k = 0; k < MODEL_KINDS; k++) {
+        const model_list *const list = &model->lists[k];
+        const size_t first = model->runs[run].first[k], end = model_run_end(model, run, (model_kind)k);
+        for (size_t c = first < end ? list->starts[first] : 0; first < end && c < list->starts[end]; c++) {
+            const double *const position = model->positions + 3 * (size_t)list->corners[c].position;
+            ffd_bounds_widen_finite(&part->box, position);
+            part->error = larger_of(part->error, ffd_float_error(position));
+        }
     }
-    return 0;
+}
+
+/* Finds whether float32 changes the shape of an object or group. A shape that is small beside its distance
+   from the origin is lost even where the model reaches from there to the origin. */
+static ffd_status find_lost_parts(const mesh_model *model, bool *lost, ffd_error *error)
+{
+    intern_table names = {0};
+    part_error *const parts = ffd_alloc(model->run_count, sizeof *parts);
+    ffd_status status = parts ? FFD_OK : ffd_fail_memory(error);
+    for (size_t r = 0; r < model->run_count && status == FFD_OK; r++) {
+        const uint32_t key[2] = {model->runs[r].object, model->runs[r].group};
+        const size_t known = names.count;
+        uint32_t number;
+        if (!ffd_intern(&names, key, sizeof key, &number)) {
+            status = ffd_fail_memory(error);
+            break;
+        }
+        if (number == known)
+            parts[number] = (part_error){.box = ffd_bounds_empty()};
+        measure_run(model, r, &parts[number]);
+    }
+    for (size_t p = 0; p < names.count && status == FFD_OK; p++) {
+        const double side = ffd_bounds_side(&parts[p].box);
+        *lost = *lost || (side > 0 && parts[p].error > PART_TOLERANCE * side);
+    }
+    ffd_intern_free(&names);
+    ffd_free(parts);
+    return status;
+}
+
+static ffd_status find_fine_positions(mesh_model *model, ffd_error *error)
+{
+    bool lost = loses_shape(model);
+    const ffd_status status = lost ? FFD_OK : find_lost_parts(model, &lost, error);
+    model->features |= lost ? MODEL_HAS_FINE_POSITIONS : 0;
+    return status;
 }
 
 ffd_status ffd_model_finish(mesh_model *model, ffd_error *error)
@@ -221,14 +258,15 @@ ffd_status ffd_model_finish(mesh_model *model, ffd_error *error)
     ffd_status status = make_cloud(model, error);
     if (status == FFD_OK)
         status = ffd_model_colour_rest(model, error);
+    if (status == FFD_OK)
+        status = find_fine_positions(model, error);
     if (status)
         return status;
     uint32_t *numbers = ffd_alloc(model->position_count, sizeof *numbers);
     if (!numbers)
         return ffd_fail_memory(error);
     scale_colours(model);
-    model->features |= features_of_corners(model) | features_of_names(model) | features_of_colours(model) |
-                       features_of_positions(model);
+    model->features |= features_of_corners(model) | features_of_names(model) | features_of_colours(model);
     model->features |= model->face_colours ? MODEL_HAS_FACE_COLOURS : 0;
     if (ffd_model_normals_by_position(model, numbers))
         model->features |= MODEL_HAS_CORNER_NORMALS;

@@ -282,6 +282,7 @@ typedef struct ffd_deform_desc {
     void *sink_user;
     ffd_positions_function positions;
     void *positions_user;
+    double timeout;
 } ffd_deform_desc;
 void ffd_deform_desc_init(ffd_deform_desc *desc, size_t size);
 ffd_status ffd_shared_box_add(ffd_shared_box *box, const ffd_deform_desc *desc, ffd_error *error);
@@ -317,6 +318,17 @@ typedef struct ffd_rig_result {
     uint64_t unselected;
     double unselected_by;
 } ffd_rig_result;
+typedef enum ffd_tear_cause {
+    FFD_TEAR_NONE = 0,
+    FFD_TEAR_STAYS,
+    FFD_TEAR_UNSELECTED,
+    FFD_TEAR_LATTICES,
+    FFD_TEAR_BLOCKS,
+    FFD_TEAR_SEAM,
+    FFD_TEAR_AXIS,
+    FFD_TEAR_BORDER,
+    FFD_TEAR_OVERLAP
+} ffd_tear_cause;
 typedef struct ffd_job_result {
     size_t struct_size;
     ffd_status status;
@@ -384,6 +396,8 @@ typedef struct ffd_job_result {
     uint64_t bytes_left;
     uint64_t base_outside;
     uint64_t bounds_left;
+    ffd_tear_cause tear_cause;
+    double precision_error, precision_side;
 } ffd_job_result;
 ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);
 ffd_status ffd_check_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);

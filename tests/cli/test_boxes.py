@@ -178,6 +178,16 @@ def without_it_one_line_warns(run):
     done = run.ffd("deform", "body.obj", "door.obj", "--out-dir", "o", "-l", "l.json", err=anything)
     told(done, r"\bbox\b", "--shared-box")
     equal(lines_with(run.ffd("deform", "body.obj", "one.obj", "-l", "l.json"), "--shared-box"), [], "a single input")
+    # So does a batch of several meshes, however its jobs are given; not one of several rows of a mesh.
+    jobs = [{"in": mesh, "lattice": "l.json", "out": f"o/{i}{mesh}"} for i, mesh in enumerate(("body.obj", "door.obj", "body.obj"))]
+    run.write("m.jsonl", lines_of(jobs))
+    run.write("m.csv", "in,lattice,out\n" + "".join("{in},{lattice},{out}\n".format(**one) for one in jobs))
+    for name, words in (("m.jsonl", ["m.jsonl"]), ("m.csv", ["--csv", "m.csv"]),
+                        ("*[yr].obj", ["--in", "*[yr].obj", "--lattice", "l.json", "--out-dir", "o"])):
+        done = run.ffd("batch", *words, "--force", err=anything)
+        told(done, f"{name}: ".replace("*", r"\*").replace("[", r"\["), "each of 2 meshes by itself", "--shared-box")
+    run.write("m.jsonl", lines_of(jobs[::2]))
+    batch(run, "m.jsonl", "--force", done=2)
 
 
 @case

@@ -163,7 +163,7 @@ def members_of_the_report(run):
     equal(list(job), ["input", "output", "status", "exit", "error", "vertices", "inside", "outside", "multiple", "singular",
                       "invalid", "unused", "hidden", "morph_targets", "moved", "shared_faces", "residual", "iterations", "folds", "flipped_faces", "tear", "volume", "area", "det", "edges", "bounds",
                       "displacement", "behind", "seconds"])
-    equal(list(job["folds"]), ["verdict", "cells", "min_det", "folded_cells", "unknown_cells", "witness"])
+    equal(list(job["folds"]), ["verdict", "cells", "min_det", "relative_to", "folded_cells", "unknown_cells", "witness"])
     equal(list(job["edges"]), ["count", "deviation"])
     equal(list(job["edges"]["deviation"]), ["max", "mean"])
     equal(list(job["seconds"]), ["read", "embed", "deform", "judge", "write"])

@@ -860,6 +860,30 @@ def far_shapes_keep_their_details_in_gltf(run):
 
 
 @case
+def far_objects_keep_their_shape_beside_one_at_the_origin(run):
+    """Each object is judged by its own size. One that floats keep stays where it is."""
+    tile = [(500000.25, 4649776.01, 120), (500000.5, 4649776.01, 120), (500000.5, 4649776.26, 120)]
+    marker = [(0, 0, 0), (1, 0, 0), (1, 1, 0)]
+    text = ["o tile\n", *("v %r %r %r\n" % p for p in tile), "f 1 2 3\n",
+            "o marker\n", *("v %r %r %r\n" % p for p in marker), "f 4 5 6\n"]
+    run.write("two.obj", "".join(text))
+    run.write("still.json", lattice(low=(0, 0, 0), high=(1e7, 1e7, 1e7), moves=[]))
+    run.ffd("deform", "two.obj", "two.gltf", "-l", "still.json", "-v", err=lambda lines: any(
+        "1 of 2 nodes have a translation, the first (500000.5, 4649776, 120)" in x for x in lines))
+    run.ffd("deform", "two.obj", "two.glb", "-l", "still.json", err=[])
+    asset, _ = glb_split(run.read("two.glb"))
+    equal([node.get("translation") for node in asset["nodes"]], [[500000.5, 4649776, 120], None])
+    run.ffd("deform", "two.glb", "back.obj", "-l", "still.json")
+    near([p for face in places(read_faces(run, "back.obj")) for p in face], tile + marker, 1e-7)
+    run.ffd("deform", "two.obj", "two.stl", "-l", "still.json",
+            err="two.obj: STL cannot hold: the precision of coordinates that far from the origin, object names")
+    # A small object of a model in its usual place is no reason.
+    run.write("near.obj", "".join(text).replace("500000", "3").replace("4649776", "2"))
+    run.ffd("deform", "near.obj", "near.glb", "-l", "still.json", err=[])
+    equal(translation_of(glb_split(run.read("near.glb"))[0]), [])
+
+
+@case
 def near_shapes_stay_at_the_origin_in_gltf(run):
     run.write("still.json", lattice(low=(-9e4, -9e4, -9e4), high=(9e4, 9e4, 9e4), moves=[]))
     for places_, wanted in (

@@ -410,4 +410,17 @@ def a_file_for_newer_readers_is_described_but_not_deformed(run):
     run.ffd("info", "m.glb")
 
 
+@case
+def numbers_of_old_windows_programs_are_named(run):
+    """Though # begins a comment elsewhere: z would be 1, or missing."""
+    for word in ("1.#QNAN", "-1.#IND", "1.#INF00", "1.#SNAN"):
+        for axis, places in (("y", f"0 {word} 0"), ("z", f"0 0 {word}")):
+            for name, text, line in (("n.obj", f"v {places}\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", 1),
+                                     ("n.off", f"OFF\n3 1 0\n{places}\n1 0 0\n0 1 0\n3 0 1 2\n", 3)):
+                run.write(name, text)
+                run.ffd("info", name, code=INVALID, err=f'{name}:{line}: coordinate {axis} of a vertex is not a number: "{word}"')
+    run.write("n.obj", "v 0 0 1.#why\nv 1 0 0.# INF\nv 0 1 0#IND\nf 1 2 3# 1.#INF\n")
+    equal(run.ffd("info", "n.obj", "--json").json["vertices"], 3)
+
+
 main()

@@ -45,6 +45,31 @@ def positions_at_any_byte(run):
     equal(list(struct.iter_unpack("<3f", glb_split(run.read("o.glb"))[1][:96])), SHIFTED, "stride 0")
 
 
+def first_of(asset, key):
+    return asset if key == "" else asset[key] if key == "asset" else asset[key][0]
+
+
+@case
+def numbers_beyond_double_where_nothing_reads_them(run):
+    start(run)
+    for key in ("", "asset", "scenes", "nodes", "meshes", "accessors", "bufferViews", "buffers"):
+        for member in ("extras", "extensions", "OTHER_member"):
+            model = Model()
+            first_of(model.asset, key)[member] = {"OTHER_range": [1e99, {"x": 1e99}]}
+            run.write("m.glb", model.glb().replace(b"1e+99", b"1e999"))
+            deform(run, err=[])
+            equal(positions(run, "o.glb"), SHIFTED, f"{key} {member}")
+            equal(run.read("o.glb").count(b"1e999"), 2, f"{key} {member}: the text stays")
+    for key, value in (("meshes/0/weights", [1e99]), ("nodes/0/weights", [1e99]),
+                       ("meshes/0/primitives/0/mode", 1e99)):
+        model = Model().morph().set(key, value)
+        uri = "data:application/octet-stream;base64," + base64.b64encode(model.data).decode()
+        run.write("m.gltf", model.text(uri).replace(b"1e+99", b"1e999"))
+        pointer, expected = (key, "a mode from 0 to 6") if key.endswith("mode") else (key + "/0", "a finite number")
+        run.ffd("deform", "m.gltf", "o.gltf", "-l", "l.json", code=INVALID,
+                err=f"m.gltf:/{pointer}: {expected} is expected, not 1e999")
+
+
 @case
 def sparse_values_at_any_byte(run):
     start(run)

@@ -13,6 +13,7 @@ COLOUR = 'a line "color", which STL does not have, is kept as it is'
 WORDS = '"endsolid" is written as two words'
 CTRL_Z = "a Ctrl-Z, the end mark of old texts, ends the file"
 MARK = 'a byte order mark is before "ply"'
+UNKNOWN = '"{}" is no statement of OBJ: it is left as it is'
 FACET = "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 1 1 0 endloop endfacet\n"
 PLY = ("ply\nformat ascii 1.0\nelement vertex 3\n" + "".join(f"property float {a}\n" for a in "xyz")
        + "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n")
@@ -23,6 +24,9 @@ FLAWS = [("m.obj", "v 0 0 \\ \n0\nv 1 \\\t \r\n0 0\nv 1 1 0 # \\ \nf 1 2 \\ \r3 
          ("m.obj", OBJ.replace("f", "usemtl a\\ \nf") + "vn 0 0 1\nf 1//-1 2//-1 \\ \n3//-1", LOOSE, 7, 1),
          ("m.obj", OBJ + "\x1a", CTRL_Z, 0, 1), ("m.obj", OBJ[:-1] + "\x1a \r\n\x1a", CTRL_Z, 0, 1),
          ("m.obj", "vn 0 0 1\n" + OBJ[:-1].replace("1 2 3", "1//-1 2//-1 3//-1") + "\x1a", CTRL_Z, 0, 1),
+         ("m.obj", "# a\n<<<<<<< HEAD\n" + OBJ + "=======\n" + OBJ + ">>>>>>> b\n", UNKNOWN.format("<<<<<<<"), 2, 3),
+         ("m.obj", OBJ + "hello there\n", UNKNOWN.format("hello"), 5, 1),
+         ("m.obj", "#\n" * 100000 + OBJ + "#\n" * 100000 + "V 1 2 3\nVN 1\n", UNKNOWN.format("V"), 200005, 2),
          ("m.stl", "solid a\ncolor 1 0 0\n COLOR .5 .5 .5 1\n" + FACET + "color 0 0 1\n" + FACET + "endsolid", COLOUR, 2, 3),
          ("m.stl", f"solid\n{FACET}End Solid a\nsolid b\n{FACET}end solid facet\n", WORDS, 3, 2),
          ("m.stl", f"solid\n{FACET}endsolid\x1a", CTRL_Z, 0, 1), ("m.stl", f"solid\n{FACET}endsolid a\r\n\x1a\r\n", CTRL_Z, 0, 1),
@@ -58,6 +62,16 @@ def flaws_of_texts_are_said_and_change_nothing_else(run):
         run.ffd("deform", name, "t" + name[1:], "-l", "turn.json", "--force", err=anything)
         run.ffd("compare", name, "t" + name[1:], "--tolerance", "99", code=(0, NO), err=anything)
         run.ffd("deform", name, "c.glb", "-l", "l.json", "--force", err=anything)
+
+
+@case
+def statements_that_are_known_are_not_mentioned(run):
+    """Those of the specification and of its older versions, and what common programs add."""
+    start(run)
+    known = ("vp mg cstype deg bmat step parm trim hole scrv sp end con s bevel c_interp d_interp lod usemap maplib shadow_obj"
+             " trace_obj ctech stech call csh bsp bzp cdc cdp res vc vw t").split()
+    run.write("m.obj", OBJ + "".join(f"{word} 1\n" for word in known))
+    run.ffd("deform", "m.obj", "o.obj", "-l", "l.json", "--strict", err=[])
 
 
 @case
@@ -99,6 +113,21 @@ def junk_is_refused(run):
             run.ffd("deform", "-", "o" + ending, "-l", "l.json", "--input-format", ending[1:], stdin=content, code=INVALID)
     run.write("m.obj", b"")
     run.ffd("deform", "m.obj", "o.glb", "-l", "l.json", code=INVALID, err="m.obj:1: the file has no content")
+
+
+@case
+def what_stands_in_for_a_lattice_or_the_jobs_is_named(run):
+    """In one line, however many lines it has."""
+    run.write("a.obj", OBJ)
+    for content, kind in JUNK[:3]:
+        for name in ("l.json", "m.jsonl", "m.csv"):
+            run.write(name, content)
+        for words, name in ((("deform", "a.obj", "o.obj", "-l", "l.json"), "l.json"), (("info", "l.json"), "l.json"),
+                            (("batch", "m.jsonl"), "m.jsonl"), (("batch", "--csv", "m.csv"), "m.csv")):
+            done = run.ffd(*words, code=INVALID)
+            check(done.err[0].startswith(name) and done.err[0].endswith("it seems to be " + kind), done.err)
+    run.write("l.json", "<?")
+    run.ffd("info", "l.json", code=INVALID, err=lambda lines: "seems" not in lines[0])
 
 
 @case

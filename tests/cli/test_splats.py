@@ -369,12 +369,18 @@ def headers_that_are_not_of_splats(run):
         equal([made[f"f_rest_{i}"] for i in range(7)], [row[f"f_rest_{i}"] for i in range(7)])
         check(made["rot_1"] != row["rot_1"], "the ellipsoids follow")
     told(run.ffd("check", "a.ply", "-l", "l.json", err=anything), r"\b7\b", "f_rest", "9, 24 or 45")
-    for missing in ("rot_2", "scale_0"):
-        names = [name for name in names_of(0) if name != missing]
+    for missing in ("rot_2", "scale_0", "rot_", "scale_"):
+        names = [name for name in names_of(0) if name != missing and not (missing.endswith("_") and name.startswith(missing))]
         rows = [{name: row[name] for name in names} for row in cloud(3, 0, "float")]
         after = read(deform(run, ply(rows), turn, warned=1))
         equal([[made[n] for n in names[3:]] for made in after], [[row[n] for n in names[3:]] for row in rows])
         told(run.ffd("check", "a.ply", "-l", "l.json", err=anything), "no " + missing, "not Gaussian splats")
+    # Scales alone may be anything.
+    rows = [{name: row[name] for name in ("x", "y", "z", "scale_0")} for row in cloud(3, 0, "float")]
+    deform(run, ply(rows), turn)
+    rows = [row | {"filter_3D": 0.5} for row in cloud(3, 0, "float")]
+    equal([made["filter_3D"] for made in read(deform(run, ply(rows), turn, warned=1))], [0.5] * 3)
+    told(run.ffd("check", "a.ply", "-l", "l.json", err=anything), "filter_3D", "stays")
     text = ply(cloud(2, 9, "float"), "ascii").decode()
     for column in (9, 19, 22):
         lines = text.splitlines()

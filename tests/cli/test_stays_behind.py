@@ -282,6 +282,17 @@ def more_kinds_of_physics_and_pivots(run):
                                  ({"OMI_physics_body": {"collider": {"shape": 0}}}, 1), ({"OMI_collider": {}}, 1)):
         made = scene([at("shell", 1, extensions=extensions)], extensions=shapes)
         equal(len(lines_with(deformed(run, made), "1 physics shape stays", "shell")), expected, str(extensions))
+    # A shape that is a mesh shown just there changes with it; one of a mesh that is shown elsewhere, or nowhere, stays.
+    for list_name, node, shape in (
+            ("OMI_physics_shape", {"OMI_physics_body": {"collider": {"shape": 0}}}, {"type": "trimesh", "trimesh": {"mesh": 0}}),
+            ("OMI_physics_shape", {"OMI_physics_body": {"trigger": {"shape": 0}}}, {"type": "convex", "convex": {"mesh": 0}}),
+            ("OMI_collider", {"OMI_collider": {"collider": 0}}, {"type": "mesh", "mesh": 0})):
+        root = {list_name: {"colliders" if list_name == "OMI_collider" else "shapes": [shape]}}
+        for place, mesh, expected in (("own", 0, 0), ("same", 0, 0), ("other", 0, 1), ("own", 1, 1)):
+            made = scene([at("same", 0), at("other", 1)], extensions=json.loads(json.dumps(root).replace('"mesh": 0', f'"mesh": {mesh}')))
+            made.asset["meshes"] += made.asset["meshes"]
+            made.asset["nodes"][("own", "same", "other").index(place)]["extensions"] = node
+            equal(len(lines_with(deformed(run, made), "1 physics shape stays")), expected, f"{node} {place} {mesh}")
     for root in ({"VRMC_springBone": {"colliders": [{"node": 1}]}}, {"VRM": {"secondaryAnimation": {"colliderGroups": [{"node": 1}]}}}):
         told(deformed(run, scene([at("shell", 1)], extensions=root)), "1 physics shape stays", "shell")
     for path, expected in (("/nodes/1/rotation", 1), ("/nodes/1/weights", 0), ("/nodes/7/rotation", 0), ("/nodes//scale", 0), ("/nodes/-1/scale", 0), ("/meshes/1/scale", 0)):

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """Where all offsets that act on a vertex are equal, its displacement is that offset to the bit; halves that differ by an
 ulp keep the mesh that they share."""
+import json
 import math
 import random
+import struct
 
 from gltf_build import Scene
 from harness import case, check, equal, glb_split, gltf_vectors, lattice, main, obj_of, obj_vertices
@@ -107,6 +109,47 @@ def a_mirrored_half_keeps_its_mesh_to_an_ulp(run):
     # A twist about x is not symmetric: the halves differ, and so do their meshes.
     box["moves"].append({"twist": {"axis": "x", "degrees": 20}})
     equal(len(scene_of(run, pair, box)[0]["meshes"]), 2)
+
+
+CORNERS = [(0, 0, 0), (0.25, 0, 0), (0.25, 0.25, 0)]
+
+
+def ply_of(kind, points):
+    head = "".join(f"property {kind} {axis}\n" for axis in "xyz")
+    return (f"ply\nformat ascii 1.0\nelement vertex 3\n{head}element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+            + "".join("%.17g %.17g %.17g\n" % tuple(p) for p in points) + "3 0 1 2\n")
+
+
+def stl_of(points):
+    return b"binary".ljust(80) + struct.pack("<I3f9fH", 1, 0, 0, 1, *(x for p in points for x in p), 0)
+
+
+def glb_of(points):
+    made = Scene(nodes=[{"mesh": 0}], scene=0, scenes=[{"nodes": [0]}])
+    made.asset["meshes"] = [{"primitives": [{"attributes": {"POSITION": made.add(points, bounds=True)}}]}]
+    return made.glb()
+
+
+@case
+def floats_that_are_carried_far(run):
+    """Where floats are too coarse for the shape, that is said and reported; not where they were so before."""
+    says = "floats cannot hold: the precision of coordinates that far from the origin (off by up to 0.25, in a shape of 0.25)"
+    far = [500000, 4649776, 0]
+
+    def losses(name, low, step, expected=()):
+        run.write("l.json", lattice(size=(2, 2, 2), degree=[1, 1, 1], low=low, high=[x + 2 for x in low], moves=[{"by": step}]))
+        words = [name, "o" + name[1:], "-l", "l.json", "--force", "--report", "r.json"]
+        run.ffd("deform", *words, err=[f"{name}: {line}" for line in expected])
+        return json.loads(run.text("r.json"))["jobs"][0].get("precision")
+
+    for name, content in (("a.ply", ply_of("float", CORNERS)), ("a.stl", stl_of(CORNERS)), ("a.glb", glb_of(CORNERS))):
+        run.write(name, content)
+        equal(losses(name, [-1] * 3, far, [says]), {"error": 0.25, "side": 0.25}, name)
+        equal(losses(name, [-1] * 3, [1, 0.1, 0]), None, f"{name}: near")
+    run.write("d.ply", ply_of("double", CORNERS))
+    equal(losses("d.ply", [-1] * 3, far), None, "doubles")
+    run.write("f.ply", ply_of("float", [[4096 + x + 0.1, y, z] for x, y, z in CORNERS]))
+    equal(losses("f.ply", [4095, -1, -1], [1e-3, 0, 0]), None, "no coarser than it was")
 
 
 main()

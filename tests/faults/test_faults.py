@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What once went wrong in silence, one folder each: embedding (maths-*), and files and situations that users of such
+"""What once went wrong in silence, one folder each: embedding (maths-*), the fold proof (maths3-*), and files and situations that users of such
 tools have reported (wild-*). Each case runs the program on the files of its folder and says what is right.
 
     FFD=... PYTHONPATH=tests/cli python3 tests/faults/test_faults.py wild_22_unused_outlier
@@ -12,8 +12,9 @@ import shutil
 import struct
 
 from bspline import BoxVolume
+from exact_determinant import ExactVolume, preset
 from gltf_reader import Gltf
-from harness import INVALID, NO, UNSUPPORTED, case, check, equal, float32, main, near, npy, obj_vertices
+from harness import INVALID, NO, UNSUPPORTED, case, check, equal, float32, main, near, npy, obj_of, obj_vertices
 from said import anything, counts, entry, not_told, told
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -89,6 +90,137 @@ def maths_03_principal_axes(run):
     run.ffd("embed", "m.obj", "-l", "l.json", "-o", "u.npy", "--status", "s.npy")
     equal(npy(run.read("s.npy"))[2], [0, 0, 0, 0])
 
+@case
+def maths3_01_steep_weights_residual(run):
+    """An iteration goes on until the promised bound holds: weights of 1e6 leave z right to what u,v,w can hold."""
+    use(run, "maths3-01-steep-weights-residual")
+    job = entry(run, "deform", "m.obj", "out.obj", "-l", "l.json")
+    counts(job, vertices=3, inside=3)
+    check(job["residual"]["max"] <= 4e-11, "the residual", job["residual"])
+    near([p[2] for p in obj_vertices(run.text("out.obj"))],
+         [0.165714284214286464, 0.960624999945092628, 0.990115997981637305], 3e-13)
+
+
+@case
+def maths3_02_steep_weights_thin_positions(run):
+    """A sheet of 1e-9: its w is known to 8e-6, and no worse with a weight of 1000."""
+    use(run, "maths3-02-steep-weights-thin-positions")
+    job = entry(run, "deform", "m.obj", "out.obj", "-l", "l.json")
+    counts(job, vertices=3, inside=3, multiple=0, singular=0)
+    near([p[2] for p in obj_vertices(run.text("out.obj"))], [0.6579805893726, 0.6469908132558, 0.6501431644502], 8e-6)
+
+
+@case
+def maths3_04_turned_box_tolerance(run):
+    """Each vertex differs from some point of the border by at most 0.918 of the tolerance in every coordinate."""
+    use(run, "maths3-04-turned-box-tolerance")
+    job = entry(run, "check", "m.obj", "-l", "l.json")
+    counts(job, vertices=6, inside=6, outside=0)
+    equal(job["tear"]["edges"], 0)
+
+
+@case
+def maths3_05_cylinder_seam_open_knots(run):
+    """No vertex on the seam of a full turn is multiple, whatever the knots along v, also where it collapses to an axis."""
+    use(run, "maths3-05-cylinder-seam-open-knots")
+    file = json.loads(run.text("l.json"))
+    counts(entry(run, "check", "m.obj", "-l", "l.json"), vertices=5, inside=5, multiple=0)
+    seam = [[r, 0, z / 4] for r in (0.55, 0.7, 0.9) for z in (-3, 0, 4)]
+    run.write("seam.obj", obj_of(seam))
+    for kind in ("open", "uniform", [0, 0.1, 0.3, 0.4, 0.6, 0.7, 0.8, 1, 1.3], "clamped"):
+        for inner in (0, 0.5):
+            file["knots"][1] = kind
+            file["rest"]["cylinder"]["radius"][0] = inner
+            run.write("s.json", file)
+            counts(entry(run, "check", "seam.obj", "-l", "s.json"), vertices=9, inside=9, multiple=0)
+
+
+def rays(*ends):
+    """A lattice of degree 1 through rays from one point of the plane z = 0 to another, of height 1."""
+    points = [[*p, z] for z in (0, 1) for ray in ends for p in ray]
+    return {"format": "ffd-lattice", "version": 1, "size": [2, len(ends), 2], "degree": [1, 1, 1], "rest": {"points": points}}
+
+
+@case
+def faces_that_overlap_in_a_plane_are_a_seam_where_the_volume_goes_on(run):
+    """Sibling of maths3-05: a full turn whose first and last ray have other radii. One that comes back overlaps itself."""
+    turned = [[[0, 1], [0, 2]], [[-1, 0], [-2, 0]], [[0, -1], [0, -2]]]
+    run.write("turn.json", rays([[1, 0], [2, 0]], *turned, [[1.25, 0], [2.25, 0]]))
+    run.write("m.obj", obj_of([[x, 0, z] for x in (1.25, 1.5, 2) for z in (0, 0.5, 1)]))
+    counts(entry(run, "check", "m.obj", "-l", "turn.json"), vertices=9, inside=9, multiple=0)
+    run.ffd("embed", "m.obj", "-l", "turn.json", "-o", "u.npy")
+    # The least u,v,w: u is less on the last ray.
+    near(npy(run.read("u.npy"))[2], [[x - 1.25, 1, z] for x in (1.25, 1.5, 2) for z in (0, 0.5, 1)], 1e-15)
+    run.write("back.json", rays([[1, 0], [2, 0]], [[1, 1], [2, 1]], [[1.25, 0], [2.25, 0]]))
+    counts(entry(run, "check", "m.obj", "-l", "back.json"), vertices=9, multiple=9)
+
+
+@case
+def maths3_10_box_weights_open_knots(run):
+    """With weights, and knots that are not clamped, the volume is not the whole box: by how much is said."""
+    use(run, "maths3-10-box-weights-open-knots")
+    # The border's control points along u: (h-1 - 1 h+1 ...) with weights 1, 2, 3 in turn, h N = 1/6, 4/6, 1/6.
+    file = json.loads(run.text("l.json"))
+    off = 0
+    for first in range(0, 64, 4):
+        h = file["weights"][first:first + 4]
+        for row, end in (((h[0], 4 * h[1], h[2]), 0), ((h[1], 4 * h[2], h[3]), 1)):
+            off = max(off, abs(row[2] - row[0]) / sum(row))
+    for a in (4, 16):
+        for first in (i for i in range(64) if i // a % 4 == 0):
+            h = file["weights"][first:first + 4 * a:a]
+            off = max(off, abs(h[2] - h[0]) / (h[0] + 4 * h[1] + h[2]), abs(h[3] - h[1]) / (h[1] + 4 * h[2] + h[3]))
+    for arguments in (("check", "m.obj", "-l", "l.json"), ("embed", "m.obj", "-l", "l.json", "-o", "u.npy")):
+        done = run.ffd(*arguments, err=anything)
+        told(done, "l.json", "not its whole box", "u, v, w", "not clamped", f"{off:.3g} off")
+    near([info(run, "l.json")["border_off"]], [off], 1e-15)
+    # Where the weights do not vary along the open direction, and where all knots are clamped, nothing is missing.
+    for knots, weights in (("open", [1 + i // 4 for i in range(64)]), ("clamped", file["weights"])):
+        along = ["open", "clamped", "clamped"] if knots == "open" else ["clamped"] * 3
+        run.write("s.json", {**file, "knots": along, "weights": weights})
+        done = run.ffd("check", "m.obj", "-l", "s.json", "--report", "r.json", "--force", err=anything)
+        not_told(done, "whole box")
+        counts(json.loads(run.read("r.json"))["jobs"][0], inside=6, outside=0)
+        check("border_off" not in info(run, "s.json"), knots)
+
+
+@case
+def cylinders_that_weights_change_are_named(run):
+    """Siblings of maths3-10: a cylinder's ends, and its radii where the weights are no product f(u,w) g(v)."""
+    run.write("m.obj", obj_of([[0.75, 0.1, 0], [0.6, 0.2, 0.3], [0.7, 0, 0.9]]))
+    cylinder = {"format": "ffd-lattice", "version": 1, "size": [3, 6, 4], "degree": [2, 2, 2],
+                "rest": {"cylinder": {"center": [0, 0, 0], "axis": "z", "radius": [0.5, 1], "height": 2}}}
+    count = 3 * 6 * 4
+    product = [(1 + i % 3 + 2 * (i // 18)) * (1 + i // 3 % 6) for i in range(count)]
+    mixed = [1 + i * i % 7 for i in range(count)]
+
+    def warned(weights, *knots):
+        run.write("l.json", {**cylinder, "knots": list(knots), "weights": weights})
+        done = run.ffd("check", "m.obj", "-l", "l.json", err=anything)
+        off = info(run, "l.json").get("border_off", 0)
+        if off:
+            told(done, "l.json", "not its whole cylinder", f"{off:.3g} off")
+        else:
+            not_told(done, "whole cylinder")
+        return off
+
+    equal(warned(product, "clamped", "closed", "clamped"), 0)
+    equal(warned(product, "clamped", "clamped", "clamped"), 0)
+    check(warned(product, "open", "closed", "clamped") > 0.01)
+    check(warned(product, "clamped", "closed", "open") > 0.01)
+    check(warned(mixed, "clamped", "closed", "clamped") > 0.01)
+    equal(warned([2] * count, "open", "open", "open"), 0)
+
+
+@case
+def a_box_round_a_mesh_that_weights_change_is_named(run):
+    run.write("m.obj", obj_of([[0, 0, 0], [1, 2, 3], [0.5, 1, 2]]))
+    run.write("l.json", {"format": "ffd-lattice", "version": 1, "size": [3, 3, 3], "degree": [2, 2, 2],
+                         "knots": ["open", "clamped", "clamped"], "rest": {"box": "mesh", "margin": 0.5},
+                         "weights": [1 + i % 3 for i in range(27)]})
+    # Along u the ends are (P0 + 2 P1)/3 and (2 P1 + 3 P2)/5 of the points at -1.5, 0.5, 2.5 and the sides -0.5, 1.5.
+    told(run.ffd("check", "m.obj", "-l", "l.json", err=anything), "l.json", "not its whole box", "along u that", "0.333 off")
+
 
 # Torn edges
 
@@ -116,6 +248,35 @@ def maths3_12_extend_jumps_between_arms(run):
     run.ffd("deform", "m.obj", "out.obj", *options, "--fail-on", "tear,folds", code=NO, err=anything)
     check(not run.exists("out.obj"), "nothing is written")
     told(run.ffd("deform", "m.obj", "out.obj", *options, err=anything), "border", r"\bstep to a neighbour is 1\b")
+
+
+# The fold proof
+
+@case
+def maths3_07_min_det_no_bound(run):
+    """min_det is no more than the determinant at a place, by the mean at rest in 40 digits; at the witness it is not positive."""
+    use(run, "maths3-07-min-det-no-bound")
+    folds = entry(run, "check", "m.obj", "-l", "l.json")["folds"]
+    file = json.loads(run.text("l.json"))
+    knots = [preset(kind, n, d) for kind, n, d in zip(file["knots"], file["size"], file["degree"])]
+    volume = ExactVolume(file["size"], file["degree"], knots, file["deformed"]["points"], file["weights"])
+    mean = 165.4623
+    det = float(volume.determinant([0, 1741.1972197840012, -4.979537120675159])) / mean
+    near([det], [-2.6431584], 1e-6)
+    equal([folds["verdict"], folds["relative_to"]], ["some", "mean"])
+    check(1.02 * det < folds["min_det"] < det + 1e-6, folds, det)
+    there = float(volume.determinant(folds["witness"]["uvw"]))
+    check(there <= 0, folds)
+    near([folds["witness"]["det"]], [there / mean], 1e-6 * abs(there / mean))
+
+
+@case
+def maths3_09_unmoved_lattice_folds(run):
+    """What moves nothing is free of folds, whatever the weights are."""
+    use(run, "maths3-09-unmoved-lattice-folds")
+    for name in ("l.json", "l2.json"):
+        folds = entry(run, "check", "m.obj", "-l", name, "--fail-on", "folds")["folds"]
+        equal([folds["verdict"], folds["min_det"], folds["relative_to"], folds["witness"]], ["none", 1, "place", None], name)
 
 
 # 4x4 matrices, as rows.

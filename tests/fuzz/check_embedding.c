@@ -2,6 +2,7 @@
 #include "check_embedding.h"
 #include "base/vector/vec.h"
 #include "embed/locator.h"
+#include "lattice/border.h"
 #include "promise.h"
 #include <ffd/deform.h>
 #include <ffd/embedding.h>
@@ -14,15 +15,14 @@ static bool is_placed(const ffd_location *location)
     return vec_is_finite(location->uvw);
 }
 
-/* 16 eps (max|P_a| + |p_a|), sizes as in the file, times the weight ratio; and those of the origins that the
-   library takes: the middle of the control points or a corner of the box. */
+/* 16 eps (max|P_a| + |p_a|), sizes as in the file, whatever the weights are; and those of the origins that
+   the library takes: the middle of the control points or a corner of the box. */
 static void tolerance_of(const probe *of, bool is_affine, const double p[3], double tolerance[3])
 {
     for (int a = 0; a < 3; a++) {
         const double extent = is_affine ? 3 * of->extent[a] : of->extent[a];
-        tolerance[a] = 16 * DBL_EPSILON *
-                       fmax(extent + fabs(p[a] - of->centre[a]), of->magnitude[a] + fabs(p[a])) *
-                       of->weight_ratio;
+        tolerance[a] =
+            16 * DBL_EPSILON * fmax(extent + fabs(p[a] - of->centre[a]), of->magnitude[a] + fabs(p[a]));
         /* The box of the file, not its rounded control points, is the map then. */
         if (is_affine)
             tolerance[a] += 4 * DBL_EPSILON * of->magnitude[a];
@@ -88,7 +88,7 @@ static bool is_exact(const probe *of, bool is_affine, const double p[3])
     tolerance_of(of, false, p, tolerance);
     for (int a = 0; a < 3; a++) {
         const double rounding = DBL_EPSILON * (is_affine ? of->magnitude[a] : fabs(p[a]));
-        if (!(rounding <= tolerance[a] / of->weight_ratio / 4))
+        if (!(rounding <= tolerance[a] / 4))
             return false;
     }
     return true;
@@ -118,11 +118,23 @@ static bool is_on_face(const probe *of, int a, double u)
     return u - of->lo[a] < 1e-6 * (of->hi[a] - of->lo[a]) || of->hi[a] - u < 1e-6 * (of->hi[a] - of->lo[a]);
 }
 
+/* Whether the roots are on the two faces of a seam, whose parameters along the faces may differ. */
+static bool is_across_seam(const probe *of, const double here[3], const double there[3])
+{
+    for (int a = 0; a < 3; a++)
+        if (is_on_face(of, a, here[a]) && is_on_face(of, a, there[a]) &&
+            fabs(here[a] - there[a]) > 0.5 * (of->hi[a] - of->lo[a]) && ffd_lattice_is_seam(of->lattice, a))
+            return true;
+    return false;
+}
+
 /* "Exactly one u,v,w" cannot be said of a point that was made from another. Faces that are one place are one
    (a bar bent to a ring). */
 static void check_only_root(const probe *of, const probe_point *point, const ffd_location *location)
 {
     double here[3], there[3];
+    if (is_across_seam(of, location->uvw, point->uvw))
+        return;
     root_spread(of, point->p, location->uvw, here);
     root_spread(of, point->p, point->uvw, there);
     for (int a = 0; a < 3; a++) {

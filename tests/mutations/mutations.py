@@ -352,10 +352,16 @@ m("zeros-of-two-coordinates", "bound", "fold, oracle folds",
   "for (size_t r = 0; r < 3; r++) if (points[3 * i + r] != points[3 * j + r]) return false; return !weights",
   "for (size_t r = 0; r < 2; r++)\n        if (points[3 * i + r] != points[3 * j + r])\n            return false;\n"
   "    return !weights")
-m("volume-of-faces", "sign", "fold, oracle folds", "const double sign = end ? 1 : -1; fill_net",
-  "const double sign = end ? -1 : 1; fill_net")
-m("witness-in-the-cell", "bound", "oracle folds", "return is_last ? knot[1] : nextafter(knot[1], knot[0]);",
-  "return is_last ? knot[0] : nextafter(knot[1], knot[0]);")
+m("volume-of-faces", "sign", "fold, oracle folds", "const double sign = end ? 1 : -1; ffd_face_net_fill",
+  "const double sign = end ? -1 : 1;\n    ffd_face_net_fill")
+m("witness-in-the-cell", "bound", "oracle folds", "uvw[a] = is_last ? knot[1] : nextafter(knot[1], knot[0]);",
+  "uvw[a] = is_last ? knot[0] : nextafter(knot[1], knot[0]);")
+m("witness-not-looked-at", "step left out", "cli_fold_exact", "if (place.sign > 0) return; folds->", "folds->")
+m("mirror-as-affine-map", "condition", "cli_fold_exact", "return loss <= 0.5 && *determinant > 0;", "return loss <= 0.5;")
+m("affine-beside-weights", "condition", "cli_fold_exact", "if (deformed[i] / rest[i] != deformed[0] / rest[0])",
+  "if (deformed[i] / rest[i] < 0)")
+m("rule-without-weights", "bound", "rational_volume", "const double room = 1 - q * weight;", "const double room = 1 + 0 * q * weight;")
+m("limbs-of-a-product", "off by one", "wide", "a->exponent + b->exponent + 1, product", "a->exponent + b->exponent, product")
 m("unknown-cells", "operation", "fold, oracle folds, cli_check", "folds->unknown_cells += tile->unknown;",
   "folds->unknown_cells += tile->folded;")
 m("weights-of-bound", "operation", "oracle folds", "/ weight / weight / weight * (1 - 1e-12)",

@@ -128,27 +128,15 @@ static void seen_from_origin(const judge *j, int i, long double p[3])
         p[a] = j->xyz[3 * i + a] - j->origin[a];
 }
 
-/* The largest ratio of any two weights: at least that of a cell. */
-static long double weight_ratio(const oracle_volume *volume)
-{
-    long double least = 1, most = 1;
-    for (size_t i = 0; volume->weights && i < oracle_count(volume); i++) {
-        least = i == 0 ? volume->weights[i] : fminl(least, volume->weights[i]);
-        most = i == 0 ? volume->weights[i] : fmaxl(most, volume->weights[i]);
-    }
-    return most / least;
-}
-
 /* src/maths.md 6.6: the largest is that of sizes as in the file; sizes from the middle of the control points
    give the least (of 16 eps 4 may be C's own rounding), at which a root is surely met. */
 static void tolerances(const judge *j, const long double p[3], long double least[3], long double largest[3])
 {
-    const long double ratio = weight_ratio(&j->volume);
     for (int a = 0; a < 3; a++) {
         const long double extent = j->hi[a] - j->lo[a], middle = (j->lo[a] + j->hi[a]) / 2;
         const long double most = fmaxl(fabsl(j->origin[a] + j->lo[a]), fabsl(j->origin[a] + j->hi[a]));
         least[a] = 12 * DBL_EPSILON * (extent / 2 + fabsl(p[a] - middle));
-        largest[a] = 16 * DBL_EPSILON * ratio * (most + fabsl(p[a] + j->origin[a]));
+        largest[a] = 16 * DBL_EPSILON * (most + fabsl(p[a] + j->origin[a]));
     }
 }
 
@@ -374,7 +362,7 @@ static bool is_far(const judge *j, const long double p[3])
     tolerances(j, p, least, largest);
     bool far = false;
     for (int a = 0; a < 3; a++)
-        far = far || largest[a] > 100 * weight_ratio(&j->volume) * least[a];
+        far = far || largest[a] > 100 * least[a];
     return far;
 }
 

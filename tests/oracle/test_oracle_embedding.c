@@ -29,38 +29,6 @@ typedef struct subject {
     bool far_knots; /* u,v,w are so large that their own rounding shows in the residual */
 } subject;
 
-static int span_of(const oracle_axis *axis, long double u)
-{
-    int found = -1;
-    for (int i = axis->degree; i < axis->n + (axis->closed ? axis->degree : 0); i++)
-        if (oracle_knot(axis, i) < oracle_knot(axis, i + 1) && (found < 0 || oracle_knot(axis, i) <= u))
-            found = i;
-    return found;
-}
-
-/* The largest ratio of weights in the cell of uvw. */
-static long double weight_ratio(const oracle_volume *volume, const long double uvw[3])
-{
-    long double least = 0, most = 0;
-    int span[3], k[3];
-    if (!volume->weights)
-        return 1;
-    for (int a = 0; a < 3; a++)
-        span[a] = span_of(&volume->axis[a], uvw[a]);
-    for (k[2] = 0; k[2] <= volume->axis[2].degree; k[2]++)
-        for (k[1] = 0; k[1] <= volume->axis[1].degree; k[1]++)
-            for (k[0] = 0; k[0] <= volume->axis[0].degree; k[0]++) {
-                size_t at = 0;
-                for (int a = 2; a >= 0; a--)
-                    at = at * (size_t)volume->axis[a].n +
-                         (size_t)((span[a] - volume->axis[a].degree + k[a]) % volume->axis[a].n);
-                const long double weight = volume->weights[at];
-                least = most == 0 ? weight : fminl(least, weight);
-                most = fmaxl(most, weight);
-            }
-    return most / least;
-}
-
 /* Parses s->json and prepares the search. The volume is the file's own box where the way is the affine closed
    form (src/maths.md 5), else the spline of the library's control points. */
 static bool open_subject(subject *x, trial *t, sample *s)
@@ -104,17 +72,15 @@ static void seen_from_origin(const subject *x, int i, long double p[3])
         p[a] = x->xyz[3 * i + a] - x->origin[a];
 }
 
-/* src/maths.md 6.6: the largest is that of sizes as in the file; sizes from the middle of the control points
-   give the least, at which a root is surely met. */
-static void tolerances(const subject *x, const long double p[3], const long double uvw[3],
-                       long double least[3], long double largest[3])
+/* src/maths.md 6.6, whatever the weights are: the largest is that of sizes as in the file; sizes from the
+   middle of the control points give the least, at which a root is surely met. */
+static void tolerances(const subject *x, const long double p[3], long double least[3], long double largest[3])
 {
-    const long double ratio = weight_ratio(&x->volume, uvw);
     for (int a = 0; a < 3; a++) {
         const long double extent = x->hi[a] - x->lo[a], middle = (x->lo[a] + x->hi[a]) / 2;
         const long double most = fmaxl(fabsl(x->origin[a] + x->lo[a]), fabsl(x->origin[a] + x->hi[a]));
-        least[a] = 16 * DBL_EPSILON * ratio * (extent / 2 + fabsl(p[a] - middle));
-        largest[a] = 16 * DBL_EPSILON * ratio * (most + fabsl(p[a] + x->origin[a]));
+        least[a] = 16 * DBL_EPSILON * (extent / 2 + fabsl(p[a] - middle));
+        largest[a] = 16 * DBL_EPSILON * (most + fabsl(p[a] + x->origin[a]));
     }
 }
 
@@ -140,7 +106,7 @@ static void check_root(const subject *x, int i, const long double root[3])
             "point %.17g %.17g %.17g: %c = %.17Lg is not in the domain", p[0], p[1], p[2], "uvw"[a], uvw[a]);
         uvw[a] = oracle_wrap(&x->s->axis[a], uvw[a]);
     }
-    tolerances(x, q, uvw, least, tol);
+    tolerances(x, q, least, tol);
     oracle_evaluate(&x->volume, uvw, point, jacobian);
     for (int a = 0; a < 3; a++) {
         const long double residual = fabsl(point[a] - q[a]);
@@ -198,7 +164,7 @@ static void check_known(const subject *x, int i)
     seen_from_origin(x, i, q);
     oracle_descend(&x->volume, q, root);
     oracle_evaluate(&x->volume, root, point, NULL);
-    tolerances(x, q, root, least, tol);
+    tolerances(x, q, least, tol);
     for (int a = 0; a < 3; a++) {
         const long double residual = fabsl(point[a] - q[a]);
         surely_inside = surely_inside && residual <= 0.75L * least[a]; /* 4 of 16 eps: C's own rounding */

@@ -225,8 +225,31 @@ static void check_witness(const subject *x, const ffd_folds *folds)
                 "determinant %g at the witness, least %g", folds->witness_det, folds->min_det);
 }
 
+/* One affine map: det J is its determinant times that at rest, everywhere. */
+static void check_affine(const subject *x, const ffd_folds *folds, tally *sum)
+{
+    const cells c = find_cells(&x->rest);
+    trial_check(x->t, x->s, folds->verdict == FFD_FOLDS_NONE && folds->min_det > 0, "verdict %d, det %g",
+                (int)folds->verdict, folds->min_det);
+    for (size_t cell = 0; cell < c.total; cell++) {
+        const long double t[3] = {0.3L, 0.45L, 0.6L};
+        long double lo[3], hi[3], uvw[3], size;
+        cell_bounds(&x->rest, &c, cell, lo, hi);
+        parameters(&x->rest, lo, hi, t, uvw);
+        const long double rest = determinant_at(&x->rest, uvw, NULL),
+                          deformed = determinant_at(&x->deformed, uvw, &size);
+        trial_check(x->t, x->s, fabsl(deformed - folds->min_det * rest) <= 1e-9L * size,
+                    "det J is %.17Lg, at rest %.17Lg, but %.17g of it", deformed, rest, folds->min_det);
+    }
+    sum->none++;
+}
+
 static void check_verdict(const subject *x, const ffd_folds *folds, tally *sum)
 {
+    if (folds->relative_to == FFD_FOLDS_TO_PLACE) {
+        check_affine(x, folds, sum);
+        return;
+    }
     least_place least = sample_least(x);
     descend(x, &least);
     const long double error = x->fineness * least.size;

@@ -153,10 +153,11 @@ class Calculus(unittest.TestCase):
 
     def test_folds_are_found_and_excluded(self):
         lattice = ffd.Lattice.box((0, 0, 0), (1, 1, 1), size=4)
-        self.assertEqual(lattice.folds().verdict, "none")
+        folds = lattice.folds()
+        self.assertEqual((folds.verdict, folds.min_det, folds.relative_to), ("none", 1, "place"))
         Q = lattice.rest.copy()
         Q[1, :, :, 0] += 2
         folds = lattice.folds(Q)
-        self.assertEqual(folds.verdict, "some")
+        self.assertEqual((folds.verdict, folds.relative_to), ("some", "mean"))
         jacobian = lattice.moved(Q).evaluate(folds.witness_uvw[None], jacobians=True)[1][0]
         self.assertLess(np.linalg.det(jacobian), 0)

@@ -95,7 +95,8 @@ LAYERS = {
     "embed/cells": {"base/memory", "base/vector", "embed/frame", "lattice", "spline"},
     "embed/direct": {"base", "base/memory", "base/vector", "embed/frame", "spline"},
     "embed": {"base", "base/memory", "base/vector", "embed/boundary", "embed/cells", "embed/direct", "embed/frame"},
-    "fold": {"base", "base/memory", "base/system", "base/vector", "embed/frame", "lattice", "spline"},
+    "fold/affine": {"base/vector", "lattice"},
+    "fold": {"base", "base/memory", "base/system", "base/vector", "embed/frame", "fold/affine", "lattice", "spline"},
     "points": {
         "base", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed", "embed/boundary", "lattice",
         "mesh", "spline",

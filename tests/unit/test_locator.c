@@ -694,6 +694,32 @@ static void the_root_with_the_sign_of_the_volume_is_taken(void **state)
     (void)state;
 }
 
+/* x goes to 1 and back to 0.1, so the volume is 0.1 whatever the weights, and the way there has its sign. A
+   weight of 100 is too steep for a rule with few nodes in each cell. */
+static void steep_weights_do_not_turn_the_volume_round(void **state)
+{
+    static const double x[3] = {0, 1, 0.1};
+    static const size_t heavy[] = {3, 6, 0, 9};
+    for (size_t i = 0; i < sizeof heavy / sizeof *heavy; i++) {
+        const lattice_kinds shape = {{KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {1, 1, 1}, {3, 2, 2}};
+        ffd_lattice *lattice = lattice_of_kinds(&shape);
+        ffd_locator *locator;
+        set_points(lattice, box_map);
+        for (size_t p = 0; p < lattice->count; p++)
+            lattice->rest[3 * p] = lattice->deformed[3 * p] = x[p % 3];
+        lattice_add_weights(lattice);
+        lattice->rest_weights[heavy[i]] = lattice->deformed_weights[heavy[i]] = i < 2 ? 100 : 1e4;
+        assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
+        assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
+        const ffd_location found = find_one(locator, 0.5, 0, 5);
+        assert_int_equal(found.status, FFD_MULTIPLE);
+        assert_true(found.uvw[0] < 0.5);
+        ffd_locator_destroy(&locator);
+        ffd_lattice_destroy(&lattice);
+    }
+    (void)state;
+}
+
 static void every_failed_allocation_is_reported(void **state)
 {
     ffd_lattice *lattice = clamped(3, 6);
@@ -820,6 +846,7 @@ int main(void)
         cmocka_unit_test(points_in_a_steep_shear_are_inside),
         cmocka_unit_test(points_of_a_symmetric_fold_are_multiple),
         cmocka_unit_test(the_root_with_the_sign_of_the_volume_is_taken),
+        cmocka_unit_test(steep_weights_do_not_turn_the_volume_round),
         cmocka_unit_test(every_failed_allocation_is_reported),
         cmocka_unit_test(every_instruction_set_gives_the_same_bits),
     };

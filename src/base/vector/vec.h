@@ -40,6 +40,13 @@ static inline double vec_length(const double a[3])
     return square > 1e-280 && square < 1e300 ? sqrt(square) : ffd_vec_length_scaled(a);
 }
 
+/* Returns the largest of the sizes of the components. */
+static inline double vec_greatest(const double v[3])
+{
+    const double x = fabs(v[0]), y = fabs(v[1]), z = fabs(v[2]);
+    return x > y ? (x > z ? x : z) : (y > z ? y : z);
+}
+
 /* out = a x b; must be neither a nor b. */
 static inline void vec_cross(const double a[3], const double b[3], double out[3])
 {

@@ -1,5 +1,6 @@
 #include "batch/manifest/lines.h"
 #include "base/system/interrupt.h"
+#include "base/text/stand_in.h"
 #include <string.h>
 
 ffd_status ffd_lines_open(const char *path, const char *name, line_reader *reader, ffd_error *error)
@@ -102,6 +103,18 @@ static ffd_status check_mark(line_reader *reader, ffd_error *error)
     return FFD_OK;
 }
 
+/* Refuses a text that stands in for another with one error, not one a line. */
+static ffd_status check_first(line_reader *reader, ffd_error *error)
+{
+    const char *const stand_in =
+        reader->has_begun ? NULL : ffd_stand_in(reader->line.data, reader->line.size);
+    reader->has_begun = true;
+    if (!stand_in)
+        return FFD_OK;
+    return ffd_fail_line(error, FFD_E_INVALID, ffd_stream_name(reader->stream), (size_t)reader->number,
+                         "has no jobs: it seems to be %s", stand_in);
+}
+
 ffd_status ffd_lines_next_filled(line_reader *reader, line_state *state, ffd_error *error)
 {
     ffd_status status;
@@ -110,7 +123,7 @@ ffd_status ffd_lines_next_filled(line_reader *reader, line_state *state, ffd_err
         if (!status && *state == LINE_READ && reader->number == 1)
             status = check_mark(reader, error);
     } while (!status && *state == LINE_READ && is_blank(&reader->line));
-    return status;
+    return status || *state != LINE_READ ? status : check_first(reader, error);
 }
 
 void ffd_lines_close(line_reader *reader)

@@ -17,6 +17,7 @@ typedef struct line_reader {
     uint64_t number;  /* of the last line, from 1 */
     byte_buffer line; /* the last line, without its line break, terminated by 0 */
     bool is_partial;  /* its rest has not arrived yet */
+    bool has_begun;   /* a line that is not blank has been read */
     bool too_long;    /* only its first LINE_MOST bytes are stored */
     size_t left_out;  /* number of the others */
 } line_reader;

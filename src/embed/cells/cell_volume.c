@@ -1,5 +1,6 @@
 #include "embed/cells/cell_volume.h"
 #include "base/vector/vec.h"
+#include "embed/frame/rational_volume.h"
 
 enum { N = BEZIER_COMPONENTS };
 
@@ -165,17 +166,17 @@ static double triple_product(const double a[3], const double b[3], const double 
    C_b, C_c] / 3 over its border, (a,b,c) cyclic, last face minus first face. Faces of closed directions
    cancel. */
 
-/* The Gauss-Legendre rule with four nodes on [0,1], which is exact for degree 7. The integrand of a face of
-   degree d has degree 3d - 1. */
+/* The Gauss-Legendre rule with four nodes on [0,1], which is exact for degree 7. Without weights the
+   integrand of a face of degree d is a polynomial of degree 3d - 1. */
 static const double rule[4][2] = {{0.06943184420297371, 0.17392742256872693},
                                   {0.33000947820757187, 0.32607257743127307},
                                   {0.66999052179242813, 0.32607257743127307},
                                   {0.93056815579702629, 0.17392742256872693}};
 
 /* Returns the number of parts of a cell in a direction to which the rule is applied. */
-static int parts_of(const cell_search *cells, int degree)
+static int parts_of(int degree)
 {
-    return 1 + degree / 4 + (cells->rational ? 2 : 0);
+    return 1 + degree / 4;
 }
 
 /* Integrates over a cell, given by its spans, of the face of direction a at `end`. */
@@ -185,8 +186,7 @@ static double face_cell(const ffd_locator *locator, int a, int end, const int sp
     double side[3], offset[3], column[3][3], value[3], sum = 0;
     for (int d = 0; d < 3; d++)
         side[d] = locator->knots[d].t[span[d] + 1] - locator->knots[d].t[span[d]];
-    const int parts_b = parts_of(locator->cells, locator->knots[b].degree),
-              parts_c = parts_of(locator->cells, locator->knots[c].degree);
+    const int parts_b = parts_of(locator->knots[b].degree), parts_c = parts_of(locator->knots[c].degree);
     offset[a] = end ? side[a] : 0;
     for (int j = 0; j < 4 * parts_c; j++)
         for (int i = 0; i < 4 * parts_b; i++) {
@@ -214,13 +214,25 @@ static double face_volume(const ffd_locator *locator, int a, int end)
     return end ? sum : -sum;
 }
 
-static double signed_volume(const ffd_locator *locator)
+static double polynomial_volume(const ffd_locator *locator)
 {
     double volume = 0;
     for (int a = 0; a < 3; a++)
         for (int end = 0; end < 2 && !ffd_knots_closed(&locator->knots[a]); end++)
             volume += face_volume(locator, a, end);
     return volume;
+}
+
+static ffd_status find_sign(const ffd_locator *locator, ffd_error *error)
+{
+    rational_volume volume = {0};
+    ffd_status status = FFD_OK;
+    if (locator->cells->rational)
+        status = ffd_rational_volume(locator->lattice, &volume, error);
+    else
+        volume.triple = polynomial_volume(locator);
+    locator->cells->volume_sign = volume.triple < 0 ? -1 : 1;
+    return status;
 }
 
 ffd_status ffd_cells_look_at_volume(const ffd_locator *locator, ffd_error *error)
@@ -237,6 +249,5 @@ ffd_status ffd_cells_look_at_volume(const ffd_locator *locator, ffd_error *error
                 "or on a line",
                 cell[0], cell[1], cell[2]);
     }
-    cells->volume_sign = signed_volume(locator) < 0 ? -1 : 1;
-    return FFD_OK;
+    return find_sign(locator, error);
 }

@@ -68,7 +68,6 @@ void ffd_cell_region(const ffd_locator *locator, const int span[3], const bezier
     memcpy(result->inverse, contraction->inverse, sizeof result->inverse);
     result->bound = contraction->bound;
     ffd_bezier_weights(box, &least, &result->greatest_weight);
-    result->weight_ratio = result->greatest_weight / least;
 }
 
 void ffd_cells_rows(const ffd_locator *locator, const int span[3], cell_rows rows, double own[CELL_NUMBERS])

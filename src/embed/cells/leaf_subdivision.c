@@ -4,6 +4,7 @@
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "embed/cells/leaf.h"
+#include "embed/cells/region_root.h"
 #include "embed/cells/tolerance_image.h"
 #include "embed/frame/face.h"
 #include <string.h>
@@ -93,7 +94,7 @@ static bool polish(point_search *search, const cell_region *region)
     sample at, best = {.weight = 1};
     for (int round = 0; round <= POLISH_ROUNDS; round++) {
         ffd_search_evaluate_in(search, region, t, &at);
-        if (ffd_search_accepts(search, &at, region->weight_ratio)) {
+        if (ffd_search_accepts(search, region, t, &at)) {
             ffd_search_record(search, region, t, &at, true);
             return true;
         }
@@ -174,7 +175,7 @@ static bool settle_by_shape(hard_search *hard, const cell_region *region, const 
                             int level)
 {
     point_search *const search = hard->search;
-    double t[3];
+    double t[3] = {0.5, 0.5, 0.5};
     sample at;
     root stall;
     if (ffd_search_region(search, region, &stall))

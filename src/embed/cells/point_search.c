@@ -22,14 +22,6 @@ void ffd_search_evaluate(point_search *search, const int span[3], const double o
     }
 }
 
-bool ffd_search_accepts(const point_search *search, const sample *at, double weight_ratio)
-{
-    double tolerance[3];
-    for (int a = 0; a < 3; a++)
-        tolerance[a] = search->aim[a] * weight_ratio;
-    return ffd_within_tolerance(at->residual, tolerance);
-}
-
 double ffd_image_of_tolerance(const double inverse[9], const double tolerance[3], double weight)
 {
     double most = 0;

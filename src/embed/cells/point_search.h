@@ -80,9 +80,6 @@ void ffd_search_judge(const point_search *search, ffd_location *location);
 /* Evaluates at offsets from the starts of the spans. */
 void ffd_search_evaluate(point_search *search, const int span[3], const double offset[3], sample *at);
 
-/* Returns whether the residual is within the aim of the search. */
-bool ffd_search_accepts(const point_search *search, const sample *at, double weight_ratio);
-
 /* Records a stalled iteration. */
 void ffd_search_note_stall(point_search *search, const root *stall);
 

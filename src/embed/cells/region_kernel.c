@@ -22,7 +22,7 @@ static ALWAYS_INLINE lanes clip_to_unit(lanes t)
 
 /* The data of the region of each lane. */
 typedef struct numbers_lanes {
-    lanes lo[3], width[3], inverse[9], bound, centre[BEZIER_COMPONENTS], greatest_weight, weight_ratio, grain;
+    lanes lo[3], width[3], inverse[9], bound, centre[BEZIER_COMPONENTS], greatest_weight, grain;
 } numbers_lanes;
 
 static ALWAYS_INLINE void take_numbers(const cell_region *const region[REGION_LANES], numbers_lanes *numbers)
@@ -39,7 +39,6 @@ static ALWAYS_INLINE void take_numbers(const cell_region *const region[REGION_LA
         for (int c = 0; c < BEZIER_COMPONENTS; c++)
             numbers->centre[c][l] = of->centre[c];
         numbers->greatest_weight[l] = of->greatest_weight;
-        numbers->weight_ratio[l] = of->weight_ratio;
         numbers->grain[l] = of->grain;
     }
 }
@@ -250,7 +249,7 @@ static ALWAYS_INLINE void find(const region_kernel_cell *cell, const int order[3
     for (int a = 0; a < 3; a++) {
         x[a] = lanes_load(result->x[a]);
         tolerance[a] = lanes_load(result->tolerance[a]);
-        accepted[a] = lanes_load(result->aim[a]) * region.weight_ratio;
+        accepted[a] = lanes_load(result->aim[a]);
         equation[a] = x[a] * region.centre[3] - region.centre[a];
     }
     for (int r = 0; r < 3; r++) {

@@ -19,7 +19,7 @@ typedef struct cell_region {
     double inverse[9];                /* Y */
     double bound;                     /* L < 1 */
     double centre[BEZIER_COMPONENTS]; /* A and W at the centre (ffd_cells_centre) */
-    double greatest_weight, weight_ratio;
+    double greatest_weight;
     double grain; /* greatest change of t by rounding u,v,w, of the three directions */
 } cell_region;
 

@@ -113,6 +113,14 @@ void ffd_roots_add(const ffd_locator *locator, root_list *list, const root *foun
         list->roots[last] = *found;
 }
 
+void ffd_roots_unite(const ffd_locator *locator, root_list *list, int kept, int other)
+{
+    join(locator, &list->roots[kept], &list->roots[other]);
+    list->count--;
+    for (int i = other; i < list->count; i++)
+        list->roots[i] = list->roots[i + 1];
+}
+
 bool ffd_roots_hold(const ffd_locator *locator, const root_list *list, const root *found)
 {
     for (int i = 0; i < list->count; i++)

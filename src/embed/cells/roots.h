@@ -25,6 +25,9 @@ typedef struct root_list {
    across the seam of a closed direction or of two coinciding faces. */
 void ffd_roots_add(const ffd_locator *locator, root_list *list, const root *found);
 
+/* Joins root `other` of the list with root `kept`, which has a lower index: they are known to be one. */
+void ffd_roots_unite(const ffd_locator *locator, root_list *list, int kept, int other);
+
 /* Returns whether the list has an equal root. */
 bool ffd_roots_hold(const ffd_locator *locator, const root_list *list, const root *found);
 

@@ -5,8 +5,12 @@
 #include "embed/cells/leaf.h"
 #include "embed/cells/leaf_subdivision.h"
 #include "embed/frame/face.h"
+#include "embed/frame/slabs.h"
+#include <float.h>
 
 #define CURVE_STEPS 2
+/* The parts of the way between two roots at whose ends the residual is looked at. */
+#define BLUR_STEPS 8
 /* The budget of a point, so that no lattice makes the search endless: visited bricks (SEARCH_BRICKS), and
    boxes of hard leaves. For degrees above 3 there are fewer boxes, in proportion to their size. */
 #define MOST_HARD_BOXES 16384
@@ -115,11 +119,59 @@ static long hard_boxes_of(const cell_search *cells)
     return points <= 64 ? MOST_HARD_BOXES : boxes < LEAST_HARD_BOXES ? LEAST_HARD_BOXES : boxes;
 }
 
+/* Returns whether there is a root within `reach` of u,v,w, with F linear. */
+static bool is_near_root(point_search *search, const double uvw[3], const double reach[3])
+{
+    double offset[3], allowed[3];
+    int span[3];
+    sample at;
+    for (int a = 0; a < 3; a++) {
+        span[a] = ffd_knots_span(&search->locator->knots[a], uvw[a]);
+        offset[a] = uvw[a] - search->locator->knots[a].t[span[a]];
+    }
+    ffd_search_evaluate(search, span, offset, &at);
+    for (int a = 0; a < 3; a++)
+        allowed[a] = at.weight * search->tolerance[a];
+    return ffd_residual_is_explained(at.equation, at.jacobian, allowed, reach);
+}
+
+/* Returns whether there are roots all along the way between two roots, by samples: then the tolerance blurs
+   one root. They may be beside the way, by less than a step of it and than the spreads. */
+static bool are_joined_by_roots(point_search *search, const root *from, const root *to)
+{
+    for (int step = 1; step < BLUR_STEPS; step++) {
+        const double share = (double)step / BLUR_STEPS;
+        double uvw[3], reach[3];
+        for (int a = 0; a < 3; a++) {
+            uvw[a] = (1 - share) * from->uvw[a] + share * to->uvw[a];
+            reach[a] = DBL_EPSILON * uvw[a] + lesser_of(fabs(to->uvw[a] - from->uvw[a]) / BLUR_STEPS,
+                                                        larger_of(from->spread[a], to->spread[a]));
+        }
+        if (!is_near_root(search, uvw, reach))
+            return false;
+    }
+    return true;
+}
+
+/* Weights make J change within what the tolerance covers of a thin lattice, so that roots in two leaves may
+   be farther apart than their spreads and still be one. */
+static void unite_blurred(point_search *search)
+{
+    root_list *const list = &search->roots;
+    for (int i = 0; i < list->count; i++)
+        for (int j = list->count - 1; j > i; j--)
+            if (are_joined_by_roots(search, &list->roots[i], &list->roots[j]))
+                ffd_roots_unite(search->locator, list, i, j);
+}
+
 static void search_bricks(point_search *search, ffd_location *location)
 {
     ffd_box_tree_visit(&search->locator->cells->brick_tree, search->x, search->slack, visit_brick, search);
-    if (!search->status)
-        ffd_search_judge(search, location);
+    if (search->status)
+        return;
+    if (search->locator->cells->rational)
+        unite_blurred(search);
+    ffd_search_judge(search, location);
 }
 
 /* Searches again, more thoroughly. The result stays if this leaves the point undecided, unless it was outside

@@ -3,9 +3,9 @@
    is queued in each, and gets its verdict when all of them are finished. Points that are not decided this way
    are searched alone (search.c), and the others get the same bits as there. */
 #include "base/memory/memory.h"
-#include "embed/cells/leaf.h"
 #include "embed/cells/packet.h"
 #include "embed/cells/region_kernel.h"
+#include "embed/cells/region_root.h"
 #include <math.h>
 #include <string.h>
 

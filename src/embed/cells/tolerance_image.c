@@ -1,7 +1,8 @@
 #include "embed/cells/tolerance_image.h"
 #include "base/vector/vec.h"
-#include "embed/cells/leaf.h"
+#include "embed/cells/region_root.h"
 #include "embed/frame/face.h"
+#include "embed/frame/slabs.h"
 #include <float.h>
 #include <string.h>
 
@@ -71,8 +72,7 @@ static bool make_image(const point_search *search, const cell_region *region, co
     for (int r = 0; r < 3; r++) {
         double size = 0;
         image->equation[r] = region->centre[r] - search->x[r] * region->centre[3];
-        image->allowance[r] = region->greatest_weight *
-                              (search->tolerance[r] * region->weight_ratio + rounding * search->aim[r]);
+        image->allowance[r] = region->greatest_weight * (search->tolerance[r] + rounding * search->aim[r]);
         for (int i = 0; i < 9; i++)
             size += fabs(region->inverse[3 * r + i / 3] * image->jacobian[i]);
         most = larger_of(most, size);
@@ -136,89 +136,19 @@ tolerance_view ffd_tolerance_view(const point_search *search, const cell_region 
 
 /* A point in both */
 
-/* All d with |row . d - middle| <= half. */
-typedef struct slab {
-    double row[3], middle, half;
-} slab;
-
-/* Makes the slabs of steps d from t: those that stay in the region, and those that lead to a root of the
-   linearisation at t. */
-static void make_slabs(const point_search *search, const cell_region *region, const double t[3],
-                       const sample *at, slab slabs[6])
-{
-    for (int a = 0; a < 3; a++) {
-        slab *const side = &slabs[a], *const end = &slabs[3 + a];
-        for (int b = 0; b < 3; b++) {
-            side->row[b] = a == b;
-            end->row[b] = at->jacobian[3 * a + b];
-        }
-        side->middle = 0.5 - t[a];
-        side->half = 0.5;
-        end->middle = -at->equation[a];
-        end->half = at->weight * search->tolerance[a] * region->weight_ratio;
-    }
-}
-
-/* The share of 1e-9 is for corners, which lie on three slabs' ends but for rounding. */
-static bool is_in_slabs(const slab slabs[6], const double d[3])
-{
-    for (int i = 0; i < 6; i++)
-        if (!(fabs(vec_dot(slabs[i].row, d) - slabs[i].middle) <= slabs[i].half * (1 + 1e-9)))
-            return false;
-    return true;
-}
-
-/* Adds the corners of the slabs' common part at which three slabs end. Returns their number. */
-static int add_corners(const slab slabs[6], const int three[3], double sum[3])
-{
-    double rows[9], inverse[9], ends[3], corner[3];
-    int count = 0;
-    for (int i = 0; i < 3; i++)
-        memcpy(rows + 3 * i, slabs[three[i]].row, sizeof slabs->row);
-    if (!mat_invert(rows, inverse))
-        return 0;
-    for (int signs = 0; signs < 8; signs++) {
-        for (int i = 0; i < 3; i++)
-            ends[i] = slabs[three[i]].middle + (signs >> i & 1 ? 1 : -1) * slabs[three[i]].half;
-        mat_apply(inverse, ends, corner);
-        if (!is_in_slabs(slabs, corner))
-            continue;
-        for (int a = 0; a < 3; a++)
-            sum[a] += corner[a];
-        count++;
-    }
-    return count;
-}
-
-/* Finds the middle of the corners of the slabs' common part. Returns false if that is empty. */
-static bool find_middle(const slab slabs[6], double middle[3])
-{
-    double sum[3] = {0, 0, 0};
-    int count = 0;
-    for (int i = 0; i < 6; i++)
-        for (int j = i + 1; j < 6; j++)
-            for (int k = j + 1; k < 6; k++)
-                count += add_corners(slabs, (const int[3]){i, j, k}, sum);
-    for (int a = 0; a < 3 && count; a++)
-        middle[a] = sum[a] / count;
-    return count;
-}
-
 bool ffd_tolerance_find(point_search *search, const cell_region *region, double t[3], sample *at)
 {
-    for (int a = 0; a < 3; a++)
-        t[a] = 0.5;
     for (int step = 0; step < FIND_STEPS; step++) {
-        slab slabs[6];
-        double d[3];
+        const step_box box = steps_in_unit_box(t);
+        double allowed[3], d[3];
         ffd_search_evaluate_in(search, region, t, at);
-        if (ffd_search_admits(search, region, t, at))
+        if (ffd_search_meets(search, region, t, at))
             return true;
-        make_slabs(search, region, t, at, slabs);
-        if (!find_middle(slabs, d))
-            return false;
         for (int a = 0; a < 3; a++)
-            t[a] = clip_to_unit(t[a] + d[a]);
+            allowed[a] = at->weight * search->tolerance[a];
+        if (!ffd_slabs_find(&box, at->equation, at->jacobian, allowed, d))
+            return false;
+        step_from(t, d, t);
     }
     return false;
 }

@@ -16,8 +16,8 @@ typedef struct tolerance_view {
 tolerance_view ffd_tolerance_view(const point_search *search, const cell_region *region,
                                   const bezier_box *box);
 
-/* Finds a root in the part of the region that the image covers. Returns whether there is one: then t meets
-   the tolerance, and *at is its sample. */
+/* Finds a root near t, in the part of the region that the image covers. Returns whether there is one: then t
+   meets the tolerance, and *at is its sample. */
 bool ffd_tolerance_find(point_search *search, const cell_region *region, double t[3], sample *at);
 
 #endif

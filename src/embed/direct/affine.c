@@ -2,6 +2,8 @@
 #include "embed/direct/affine.h"
 #include "base/vector/vec.h"
 #include "embed/frame/face.h"
+#include "embed/frame/slabs.h"
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -157,7 +159,8 @@ static void refine(const affine_map *map, const double p[3], const double tolera
 typedef struct affine_point {
     const affine_map *map;
     const double *p, *tolerance;
-    bool grains; /* allow also the change of C by rounding t */
+    double share; /* of the tolerance */
+    bool grains;  /* allow also the change of C by rounding t */
 } affine_point;
 
 static bool evaluate_on_face(void *context, const double t[3], double jacobian[9], double equation[3])
@@ -170,7 +173,7 @@ static bool evaluate_on_face(void *context, const double t[3], double jacobian[9
         double jump = 0;
         for (int a = 0; a < 3; a++)
             jump += fabs(point->map->frame[3 * r + a]) * DBL_EPSILON * fabs(t[a]);
-        allowance[r] = point->tolerance[r] + (point->grains ? jump : 0);
+        allowance[r] = point->share * (point->tolerance[r] + (point->grains ? jump : 0));
     }
     return ffd_within_tolerance(equation, allowance);
 }
@@ -195,18 +198,36 @@ static bool clip(const affine_map *map, const double p[3], const double toleranc
     return true;
 }
 
-/* Returns whether t is a root, or the closest point of a face is one; t is moved there. */
+/* Moves t to a point of the domain that meets the tolerance, if there is one: the closest point, in least
+   squares, may miss in one coordinate where another one is within the tolerance in all three. */
+static bool find_within(affine_point *point, double t[3])
+{
+    const step_box box = steps_in_unit_box(t);
+    double equation[3], jacobian[9], step[3], to[3];
+    affine_equation(point->map, point->p, t, equation);
+    if (!ffd_slabs_find(&box, equation, point->map->frame, point->tolerance, step))
+        return false;
+    step_from(t, step, to);
+    point->share = BORDER_SHARE;
+    if (!evaluate_on_face(point, to, jacobian, equation))
+        return false;
+    memcpy(t, to, sizeof to);
+    return true;
+}
+
+/* Returns whether t is a root, or the closest point of a face is one, or another point of the domain; t is
+   moved there. */
 static bool settle(affine_point *point, bool clipped, const double aim[3], const double tolerance[3],
                    double t[3])
 {
     double jacobian[9], residual[3];
-    *point = (affine_point){point->map, point->p, aim, false};
+    *point = (affine_point){point->map, point->p, aim, 1, false};
     if (evaluate_on_face(point, t, jacobian, residual) ||
         (clipped && ffd_face_settle(aim, false, evaluate_on_face, point, t)))
         return true;
-    *point = (affine_point){point->map, point->p, tolerance, true};
+    *point = (affine_point){point->map, point->p, tolerance, TOLERANCE_SHARE, true};
     return (clipped && ffd_face_settle(tolerance, true, evaluate_on_face, point, t)) ||
-           evaluate_on_face(point, t, jacobian, residual);
+           evaluate_on_face(point, t, jacobian, residual) || find_within(point, t);
 }
 
 void ffd_affine_find(const ffd_locator *locator, const double p[3], ffd_location *location)
@@ -221,9 +242,12 @@ void ffd_affine_find(const ffd_locator *locator, const double p[3], ffd_location
     refine(map, p, aim, t);
     if (!clip(map, p, tolerance, t, &clipped))
         return;
+    /* The origin is a corner of the domain, so the aim may exceed the tolerance. */
+    for (int r = 0; r < 3 && clipped; r++)
+        aim[r] = lesser_of(aim[r], TOLERANCE_SHARE * tolerance[r]);
     const bool found = settle(&point, clipped, aim, tolerance, t);
     if (!found && clipped)
-        return; /* outside: the closest point of the border misses */
+        return; /* outside: all of the domain misses */
     affine_equation(map, p, t, residual);
     location->status = found ? FFD_INSIDE : FFD_SINGULAR;
     location->unresolved = !found;

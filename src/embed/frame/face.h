@@ -11,6 +11,13 @@ static inline double clip_to_unit(double t)
     return t < 0 ? 0 : t > 1 ? 1 : t;
 }
 
+/* Sets to = t + step, clamped to the box. */
+static inline void step_from(const double t[3], const double step[3], double to[3])
+{
+    for (int a = 0; a < 3; a++)
+        to[a] = clip_to_unit(t[a] + step[a]);
+}
+
 /* Computes the Newton step -J^-1 F with Cramer's rule. Returns false if J is singular. */
 static inline bool newton_step(const double jacobian[9], const double equation[3], double step[3])
 {

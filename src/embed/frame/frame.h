@@ -63,16 +63,20 @@ static inline void ffd_locator_aim(const ffd_locator *locator, const double p[3]
         aim[a] = 16 * DBL_EPSILON * (locator->extent[a] + fabs(p[a]));
 }
 
-/* Computes the tolerance of p relative to the origin; not less than the aim. */
+/* The share of the tolerance at which a root is accepted where there may be a better one. The rest is for the
+   rounding of C itself, and of u,v,w in the range of the knots, so that the residual is within the tolerance
+   when it is computed exactly. */
+#define TOLERANCE_SHARE (15.0 / 16)
+/* The same where no root is better: on the border, as near as it comes. */
+#define BORDER_SHARE (31.0 / 32)
+
+/* Computes the tolerance of p relative to the origin. */
 static inline void ffd_locator_tolerance(const ffd_locator *locator, const double p[3], double tolerance[3])
 {
-    double xyz[3], aim[3];
+    double xyz[3];
     for (int a = 0; a < 3; a++)
         xyz[a] = p[a] + locator->origin[a];
     ffd_world_tolerance(locator, xyz, tolerance);
-    ffd_locator_aim(locator, p, aim);
-    for (int a = 0; a < 3; a++)
-        tolerance[a] = larger_of(tolerance[a], aim[a]);
 }
 
 /* Converts u,v,w of the search to the range of the lattice's knots. */

@@ -7,6 +7,7 @@
 #include "io/gltf/decode/gltf_drawing.h"
 #include "io/gltf/decode/gltf_indices.h"
 #include "io/gltf/decode/gltf_stated.h"
+#include "io/gltf/decode/gltf_weights.h"
 #include "io/gltf/model/gltf_schema.h"
 #include "io/gltf/rig/gltf_places.h"
 #include "io/gltf/rig/gltf_rig.h"
@@ -443,6 +444,8 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
         d->instancing_status = ffd_gltf_find_instanced_nodes(d, &d->instancing_error);
     if (status == FFD_OK)
         d->skins_status = ffd_gltf_prepare_skins(d, &d->skins_error);
+    if (status == FFD_OK && d->skins_status == FFD_OK)
+        status = ffd_gltf_judge_weights(d, error);
     ffd_gltf_forget(d);
     if (status == FFD_OK && d->skins_status == FFD_E_LIMIT)
         return ffd_fail(error, FFD_E_LIMIT, "%s", d->skins_error.message);

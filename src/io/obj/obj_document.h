@@ -18,6 +18,12 @@
 /* Bytes of a position or direction. */
 #define OBJ_VECTOR (3 * sizeof(double))
 
+/* Statements that are not known. */
+typedef struct obj_unknown {
+    size_t count, line; /* line: of the first one */
+    text_word name;     /* of the first one */
+} obj_unknown;
+
 typedef struct obj_document {
     /* positions: of each `v`; directions: of each `vn`, NULL: not held; new_directions: of each pair. Results
        may be where what was read was (results_replace). */
@@ -32,7 +38,8 @@ typedef struct obj_document {
     uint32_t *pair_start, *pair_normal;
     /* Where `vn` can be added so that every index keeps its meaning: an offset into the file. */
     size_t addition;
-    size_t end;        /* offset where the text ends: at a Ctrl-Z, or with the file */
+    size_t end; /* offset where the text ends: at a Ctrl-Z, or with the file */
+    obj_unknown unknown;
     obj_blocks blocks; /* of the file */
     int threads;
     /* What ffd_obj_select selected: a byte for each vertex, face and pair; and one for each `vn`, set if a

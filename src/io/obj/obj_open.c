@@ -47,6 +47,16 @@ static ffd_status check_statements(const obj_document *d, ffd_error *error)
                          "is not an OBJ file: it has no statement of one");
 }
 
+static ffd_status note_unknown(obj_document *d, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < d->unknown.count && status == FFD_OK; i++)
+        status = ffd_flaw_line(&d->file.base.flaws, d->file.name, d->unknown.line, error,
+                               "\"%.*s\" is no statement of OBJ: it is left as it is",
+                               ffd_text_display_size(d->unknown.name), d->unknown.name.first);
+    return status;
+}
+
 static void describe_part(obj_document *d)
 {
     d->file.part.vertex_count = d->vertices;
@@ -110,6 +120,8 @@ ffd_status ffd_obj_open(file_input *input, const ffd_source *source, mesh_docume
         status = read_elements(d, error);
     if (status == FFD_OK)
         status = check_statements(d, error);
+    if (status == FFD_OK)
+        status = note_unknown(d, error);
     if (status) {
         free_document(d);
         return status;

@@ -68,6 +68,20 @@ static obj_keyword keyword_of(text_word word)
     return OBJ_OTHER;
 }
 
+bool ffd_obj_is_known(text_word name)
+{
+    static const char *const others[] = {
+        "s",         "mg",    "vp",       "cstype",   "deg",  "bmat",   "step",   "curv",
+        "curv2",     "surf",  "parm",     "trim",     "hole", "scrv",   "sp",     "end",
+        "con",       "bevel", "c_interp", "d_interp", "lod",  "usemap", "maplib", "shadow_obj",
+        "trace_obj", "ctech", "stech",    "call",     "csh",  "bsp",    "bzp",    "cdc",
+        "cdp",       "res",   "fo",       "vc",       "vw",   "t"};
+    bool known = keyword_of(name) != OBJ_OTHER;
+    for (size_t i = 0; i < sizeof others / sizeof *others && !known; i++)
+        known = ffd_text_is(name, others[i]);
+    return known;
+}
+
 /* Whether a line begins with a keyword and a blank. */
 static bool is_statement(const char *at, const char *last)
 {
@@ -160,14 +174,14 @@ void ffd_obj_scan_pass_blanks(obj_scan *scan)
     }
 }
 
-static bool ends_word(const obj_scan *scan, const char *at, bool names)
+static bool ends_word(const obj_scan *scan, const char *first, const char *at, bool names)
 {
     switch (ffd_obj_class(at)) {
     case OBJ_BLANK:
     case OBJ_LINE_END:
         return true;
     case OBJ_HASH:
-        return !names;
+        return !names && !ffd_text_hash_is_of_word(first, at, scan->last);
     case OBJ_BACKSLASH:
         return continues(scan, at);
     default:
@@ -190,7 +204,7 @@ static text_word take_word(obj_scan *scan, bool names)
 {
     const char *const first = scan->at, *const last = scan->last;
     const char *at = scan->plain ? pass_ordinary(first, last) : first;
-    while (at < last && (ffd_obj_class(at) == OBJ_ORDINARY || !ends_word(scan, at, names)))
+    while (at < last && (ffd_obj_class(at) == OBJ_ORDINARY || !ends_word(scan, first, at, names)))
         at++;
     scan->at = at;
     return (text_word){first, at};

@@ -45,6 +45,10 @@ typedef struct obj_scan {
     obj_oddity joined; /* continuations by a line that seems to be a statement of its own */
 } obj_scan;
 
+/* Whether a keyword is one of the OBJ specification, of its older versions, or of a common extension: vc
+   (vertex colours), vw (weights) and t (tags of subdivision). */
+bool ffd_obj_is_known(text_word name);
+
 /* Begins a scan of these bytes, which must stay as long as it is used. */
 void ffd_obj_scan_begin(obj_scan *scan, const void *data, size_t size);
 /* Whether a text is plain (see obj_scan). */

@@ -25,6 +25,7 @@ typedef struct block_content {
     vectors positions, normals;
     size_t texcoords, faces, lines;
     obj_oddity loose, joined; /* as in obj_scan; lines count from the block's first, 0 */
+    obj_unknown unknown;      /* likewise */
     size_t addition;          /* offset in the file after the last `vn`; 0: none */
     obj_block_users users;
     bool names_elements, names_groups;
@@ -101,6 +102,10 @@ static ffd_status read_block(const reader *r, size_t block, block_content *conte
         const obj_keyword keyword = walk.scan.keyword;
         content->faces += keyword == OBJ_FACE;
         content->texcoords += keyword == OBJ_TEXCOORD;
+        if (keyword == OBJ_OTHER && !ffd_obj_is_known(walk.scan.name) && content->unknown.count++ == 0) {
+            content->unknown.line = walk.scan.keyword_line - line;
+            content->unknown.name = walk.scan.name;
+        }
         if (may_name_elements(keyword)) {
             content->names_elements = true;
             ffd_obj_users_look(d, r->users, &walk.scan, &content->users);
@@ -221,6 +226,12 @@ static void join_tile(void *context, size_t tile, size_t first, size_t last, int
     }
     add_oddity(&r->loose, &content->loose, r->line);
     add_oddity(&r->joined, &content->joined, r->line);
+    if (d->unknown.count == 0) {
+        d->unknown = content->unknown;
+        d->unknown.line += r->line;
+    } else {
+        d->unknown.count += content->unknown.count;
+    }
     r->line += content->lines;
     r->faces += content->faces;
     r->vertices += content->positions.count;

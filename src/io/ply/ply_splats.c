@@ -120,9 +120,12 @@ static void warn_of_part(const ply_document *d, const mesh_log *log)
     char there[SPLAT_NAME], missing[SPLAT_NAME];
     const size_t rotation = find_present(d, PLY_ROTATION_SLOT, PLY_SCALE_SLOT);
     const size_t scale = find_present(d, PLY_SCALE_SLOT, PLY_REST_SLOT);
-    if (rotation == PLY_SCALE_SLOT || scale == PLY_REST_SLOT)
+    const bool turns = rotation < PLY_SCALE_SLOT, has_size = scale < PLY_REST_SLOT;
+    const bool shines =
+        ffd_ply_find_property(d->vertex, "f_dc_0") || ffd_ply_find_property(d->vertex, "opacity");
+    if (turns + has_size + shines < 2 || !(turns || has_size))
         return; /* alone, they may be anything */
-    name_slot(rotation, there);
+    name_slot(turns ? rotation : scale, there);
     name_slot(find_missing(d, PLY_ROTATION_SLOT, PLY_SCALE_SLOT + 2), missing);
     ffd_log_line(log, FFD_LOG_WARNING,
                  "element vertex has %s but no %s: its vertices are points, not Gaussian splats, and their "
@@ -142,6 +145,9 @@ ffd_status ffd_ply_warn(const mesh_document *document, const mesh_log *log, ffd_
             "element vertex has %zu properties f_rest, not 9, 24 or 45 that are float or double: the "
             "spherical harmonics of its Gaussian splats are not turned",
             d->rest_count);
+    if (d->file.part.splats && ffd_ply_find_property(d->vertex, "filter_3D"))
+        ffd_log_line(log, FFD_LOG_WARNING,
+                     "the property filter_3D of its Gaussian splats, a size, stays as it is");
     return FFD_OK;
 }
 

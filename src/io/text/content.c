@@ -1,4 +1,5 @@
 #include "io/text/content.h"
+#include "base/text/stand_in.h"
 #include "io/text/text_scan.h"
 #include <string.h>
 
@@ -41,24 +42,21 @@ static const struct {
 
 /* First words, in lower case. A word that ends with a star matches all words with that beginning. */
 static const struct {
-    const char *first, *second;
+    const char *first;
     content_kind kind;
 } first_words[] = {
-    {"version",
-     "https://git-lfs*",
-     {"a Git LFS pointer: the file itself is not there", FFD_FORMAT_AUTO, false, true}},
-    {"<!doctype*", NULL, {"an HTML page", FFD_FORMAT_AUTO, false, true}},
-    {"<html*", NULL, {"an HTML page", FFD_FORMAT_AUTO, false, true}},
-    {"<head*", NULL, {"an HTML page", FFD_FORMAT_AUTO, false, true}},
-    {"<?xml*", NULL, {"an XML file", FFD_FORMAT_AUTO, false, false}},
-    {"{*", NULL, {"JSON text", FFD_FORMAT_GLTF, false, false}},
-    {"ply", NULL, {"a PLY file", FFD_FORMAT_PLY, false, false}},
-    {"solid", NULL, {"an STL file", FFD_FORMAT_STL, false, false}},
-    {"off", NULL, {"an OFF file", FFD_FORMAT_OFF, false, false}},
-    {"v", NULL, {"an OBJ file", FFD_FORMAT_OBJ, false, false}},
-    {"mtllib", NULL, {"an OBJ file", FFD_FORMAT_OBJ, false, false}},
-    {"newmtl", NULL, {"an MTL file", FFD_FORMAT_AUTO, false, false}},
+    {"<?xml*", {"an XML file", FFD_FORMAT_AUTO, false, false}},
+    {"{*", {"JSON text", FFD_FORMAT_GLTF, false, false}},
+    {"ply", {"a PLY file", FFD_FORMAT_PLY, false, false}},
+    {"solid", {"an STL file", FFD_FORMAT_STL, false, false}},
+    {"off", {"an OFF file", FFD_FORMAT_OFF, false, false}},
+    {"v", {"an OBJ file", FFD_FORMAT_OBJ, false, false}},
+    {"mtllib", {"an OBJ file", FFD_FORMAT_OBJ, false, false}},
+    {"newmtl", {"an MTL file", FFD_FORMAT_AUTO, false, false}},
 };
+
+static const content_kind stand_ins[] = {{STAND_IN_LFS, FFD_FORMAT_AUTO, false, true},
+                                         {STAND_IN_HTML, FFD_FORMAT_AUTO, false, true}};
 
 static bool matches(text_word word, const char *pattern)
 {
@@ -75,16 +73,17 @@ static bool matches(text_word word, const char *pattern)
 
 static const content_kind *kind_of_words(const void *data, size_t size)
 {
+    const char *const stand_in = ffd_stand_in(data, size);
+    for (size_t i = 0; stand_in && i < sizeof stand_ins / sizeof *stand_ins; i++)
+        if (strcmp(stand_in, stand_ins[i].name) == 0)
+            return &stand_ins[i];
     text_scan scan;
-    text_word first = {"", ""}, second = {"", ""};
+    text_word first = {"", ""};
     ffd_text_begin(&scan, data, size, true);
-    if (ffd_text_find(&scan)) {
+    if (ffd_text_find(&scan))
         ffd_text_word(&scan, &first);
-        ffd_text_word(&scan, &second);
-    }
     for (size_t i = 0; i < sizeof first_words / sizeof *first_words; i++)
-        if (matches(first, first_words[i].first) &&
-            (!first_words[i].second || matches(second, first_words[i].second)))
+        if (matches(first, first_words[i].first))
             return &first_words[i].kind;
     return NULL;
 }

@@ -39,6 +39,15 @@ size_t ffd_text_size(const void *data, size_t size)
     return text;
 }
 
+bool ffd_text_hash_is_of_word(const char *first, const char *at, const char *last)
+{
+    static const char *const marks[] = {"#QNAN", "#SNAN", "#IND", "#INF"};
+    bool found = false;
+    for (size_t i = 0; at > first && at[-1] == '.' && i < sizeof marks / sizeof *marks && !found; i++)
+        found = (size_t)(last - at) >= strlen(marks[i]) && memcmp(at, marks[i], strlen(marks[i])) == 0;
+    return found;
+}
+
 void ffd_text_begin(text_scan *scan, const void *data, size_t size, bool comments)
 {
     const char *first = data;
@@ -53,7 +62,9 @@ bool ffd_text_word(text_scan *scan, text_word *word)
     while (at < scan->last && class_of(scan, at) == BLANK)
         at++;
     word->first = at;
-    while (at < scan->last && class_of(scan, at) == ORDINARY)
+    while (at < scan->last &&
+           (class_of(scan, at) == ORDINARY ||
+            (class_of(scan, at) == HASH && ffd_text_hash_is_of_word(word->first, at, scan->last))))
         at++;
     word->last = scan->at = at;
     return word->first < word->last;

@@ -67,12 +67,13 @@ static void put_colour(gltf_writer *w, const model_corner *vertex)
     }
 }
 
-static void put_vertex(gltf_writer *w, const model_corner *vertex, int view, size_t morph)
+static void put_vertex(gltf_writer *w, const glb_primitive *primitive, const model_corner *vertex, int view,
+                       size_t morph)
 {
     float values[3] = {0, 0, 0};
     switch (view) {
     case VIEW_POSITIONS:
-        ffd_glb_position(w->model, w->origin, vertex->position, values);
+        ffd_glb_position(w->model, glb_origin(w, primitive), vertex->position, values);
         break;
     case VIEW_NORMALS:
         ffd_glb_normal(w->model, vertex->normal, values);
@@ -124,7 +125,7 @@ static bool has_view(const gltf_writer *w, const glb_primitive *primitive, int v
 static void put_vertices(gltf_writer *w, const glb_primitive *primitive, int view, size_t morph)
 {
     for (size_t v = 0; v < primitive->vertex_count; v++)
-        put_vertex(w, &w->plan.vertices[primitive->first_vertex + v], view, morph);
+        put_vertex(w, primitive, &w->plan.vertices[primitive->first_vertex + v], view, morph);
 }
 
 /* The offsets of all morph targets, one target after another. */

@@ -49,7 +49,7 @@ static void add_bounds(gltf_writer *w, const glb_primitive *primitive, int view,
         const uint32_t position = w->plan.vertices[primitive->first_vertex + i].position;
         float values[3];
         if (view == VIEW_POSITIONS)
-            ffd_glb_position(w->model, w->origin, position, values);
+            ffd_glb_position(w->model, glb_origin(w, primitive), position, values);
         else
             ffd_glb_position_offset(w->model, morph, position, values);
         for (size_t a = 0; a < 3; a++) {
@@ -228,8 +228,8 @@ static void add_nodes(gltf_writer *w)
         ffd_json_object(&w->json, NULL, true);
         add_name(w, m);
         ffd_json_count(&w->json, "mesh", m);
-        if (w->is_far)
-            ffd_json_vector(&w->json, "translation", w->origin, 3);
+        if (glb_is_far(w, m))
+            ffd_json_vector(&w->json, "translation", w->origins + 3 * (size_t)m, 3);
         ffd_json_end(&w->json, '}');
     }
     ffd_json_end(&w->json, ']');

@@ -8,7 +8,7 @@
 
 /* Bytes of a corner in the plan, and of a run with its mesh and its text. */
 #define CORNER_BYTES 40
-#define RUN_BYTES 700
+#define RUN_BYTES 780
 
 /* The state of making a plan. */
 typedef struct planner {

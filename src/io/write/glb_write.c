@@ -55,14 +55,14 @@ static ffd_status begin(gltf_writer *w, const mesh_model *model, ffd_error *erro
         status = ffd_glb_make_clips(&w->plan, &w->clips, error);
     if (status)
         return status;
-    w->is_far = ffd_glb_origin(&w->plan, w->origin);
     measure(w);
-    return FFD_OK;
+    return ffd_glb_origins(&w->plan, &w->origins, error);
 }
 
 static void end(gltf_writer *w)
 {
     ffd_buffer_free(&w->text);
+    ffd_free(w->origins);
     ffd_glb_free_clips(&w->clips);
     ffd_glb_free_plan(&w->plan);
     ffd_free(w);
@@ -143,14 +143,32 @@ static ffd_status put_files(gltf_writer *w, const mesh_save_options *options, co
     return status;
 }
 
-static void tell_origin(const gltf_writer *w, const mesh_log *log)
+static void tell_origins(const gltf_writer *w, const mesh_log *log)
 {
     char texts[3][FFD_NUMBER_CAPACITY];
+    const size_t count = w->plan.meshes.count;
+    size_t far = 0, first = 0, like_first = 0;
+    for (size_t m = 0; m < count; m++) {
+        if (!glb_is_far(w, m))
+            continue;
+        first = far++ == 0 ? m : first;
+        like_first += memcmp(w->origins + 3 * m, w->origins + 3 * first, 3 * sizeof *w->origins) == 0;
+    }
+    if (far == 0)
+        return;
     for (int a = 0; a < 3; a++)
-        texts[a][ffd_number_format(w->origin[a], texts[a])] = 0;
-    ffd_log_line(log, FFD_LOG_INFO,
-                 "details are too far from the origin for floats: the nodes have a translation, (%s, %s, %s)",
-                 texts[0], texts[1], texts[2]);
+        texts[a][ffd_number_format(w->origins[3 * first + (size_t)a], texts[a])] = 0;
+    if (like_first == count)
+        ffd_log_line(
+            log, FFD_LOG_INFO,
+            "details are too far from the origin for floats: the nodes have a translation, (%s, %s, %s)",
+            texts[0], texts[1], texts[2]);
+    else
+        ffd_log_line(
+            log, FFD_LOG_INFO,
+            "details are too far from the origin for floats: %zu of %zu nodes have a translation, the "
+            "first (%s, %s, %s)",
+            far, count, texts[0], texts[1], texts[2]);
 }
 
 static ffd_status write(const mesh_model *model, const mesh_save_options *options, file_output *output,
@@ -166,8 +184,8 @@ static ffd_status write(const mesh_model *model, const mesh_save_options *option
     w->sink = (model_sink){output, error, status};
     if (status == FFD_OK)
         status = files ? put_files(w, options, log) : binary ? put_glb(w, options->path) : put_stream(w);
-    if (status == FFD_OK && w->is_far)
-        tell_origin(w, log);
+    if (status == FFD_OK)
+        tell_origins(w, log);
     if (status == FFD_OK)
         ffd_polygon_cut_warn(w->plan.hurried_polygons, log);
     end(w);

@@ -31,8 +31,7 @@ enum {
 typedef struct gltf_writer {
     const mesh_model *model;
     glb_plan plan;
-    bool is_far;                   /* whether the nodes have a translation */
-    double origin[3];              /* that translation; else zeros */
+    double *origins;               /* 3 for each mesh: the translation of its node */
     bool byte_colours;             /* colours are sRGB bytes, which are stored as 16-bit linear numbers */
     uint16_t linear_of_bytes[256]; /* the linear number of each byte */
     size_t numbers[VIEW_COUNT];
@@ -51,6 +50,19 @@ typedef struct gltf_writer {
 static inline bool glb_has_short_indices(const glb_primitive *primitive)
 {
     return primitive->vertex_count <= GLB_SHORT_INDEX_VERTICES;
+}
+
+/* The translation of the node of a primitive. */
+static inline const double *glb_origin(const gltf_writer *w, const glb_primitive *primitive)
+{
+    return w->origins + 3 * (size_t)primitive->mesh;
+}
+
+/* Whether the node of a mesh has a translation. */
+static inline bool glb_is_far(const gltf_writer *w, size_t mesh)
+{
+    const double *const origin = w->origins + 3 * mesh;
+    return origin[0] != 0 || origin[1] != 0 || origin[2] != 0;
 }
 
 static inline size_t glb_colour_size(const gltf_writer *w)

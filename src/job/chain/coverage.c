@@ -1,5 +1,7 @@
 #include "job/chain/coverage.h"
 #include "lattice/lattice.h"
+#include "lattice/shape_border.h"
+#include "lattice/shapes.h"
 #include "lattice/spec.h"
 #include "mesh/bounds.h"
 #include <stdio.h>
@@ -7,10 +9,10 @@
 /* Samples of the domain along each direction. */
 #define SAMPLES 17
 
-static bool is_clamped(const knot_vector *knots)
+/* Returns whether the knots of a direction leave the volume short of its outermost control points. */
+static bool is_open(const knot_vector *knots)
 {
-    return knots->t[0] == ffd_knots_first(knots) &&
-           knots->t[knots->functions + (size_t)knots->degree] == ffd_knots_last(knots);
+    return !ffd_knots_closed(knots) && !ffd_shape_is_clamped(knots);
 }
 
 static bool covers_less(const ffd_lattice *lattice)
@@ -18,7 +20,7 @@ static bool covers_less(const ffd_lattice *lattice)
     if (lattice->spec->rest != SPEC_POINTS)
         return false;
     for (int a = 0; a < 3; a++)
-        if (!ffd_knots_closed(&lattice->knots[a]) && !is_clamped(&lattice->knots[a]))
+        if (is_open(&lattice->knots[a]))
             return true;
     return false;
 }
@@ -57,5 +59,36 @@ void ffd_chain_coverage(const lattice_chain *chain, char *text, size_t capacity)
             "reach: \"clamped\" knots or a rest \"box\" cover all",
             lattice->spec->name, box.min[0], box.max[0], box.min[1], box.max[1], box.min[2], box.max[2]);
         return;
+    }
+}
+
+/* Writes why weights pull the border of the volume away from its shape. */
+static void describe_cause(const ffd_lattice *lattice, char *text, size_t capacity)
+{
+    char open[8] = "";
+    int length = 0;
+    for (int a = 0; a < 3; a++)
+        if (is_open(&lattice->knots[a]))
+            length +=
+                snprintf(open + length, sizeof open - (size_t)length, "%s%c", *open ? ", " : "", "uvw"[a]);
+    if (*open)
+        snprintf(text, capacity, "weights and knots along %s that are not clamped", open);
+    else
+        snprintf(text, capacity, "weights that are no product f(u,w) g(v)");
+}
+
+void ffd_coverage_warn(const lattice_chain *chain, const mesh_log *log)
+{
+    for (size_t l = 0; l < chain->count; l++) {
+        const ffd_lattice *const lattice = chain->links[l].lattice;
+        const double off = ffd_lattice_off_shape(lattice);
+        char cause[80];
+        if (!(off > 0))
+            continue;
+        describe_cause(lattice, cause, sizeof cause);
+        ffd_log_line(log, FFD_LOG_WARNING,
+                     "the volume of %s is not its whole %s: with %s its border is up to %.3g off",
+                     lattice->spec->name, lattice->spec->rest == SPEC_CYLINDER ? "cylinder" : "box", cause,
+                     off);
     }
 }

@@ -111,6 +111,7 @@ void ffd_figures_join_folds(ffd_folds *all, const ffd_folds *next)
     all->folded_cells = before.folded_cells + next->folded_cells;
     all->unknown_cells = before.unknown_cells + next->unknown_cells;
     all->min_det = before.min_det < next->min_det ? before.min_det : next->min_det;
+    all->relative_to = before.min_det < next->min_det ? before.relative_to : next->relative_to;
 }
 
 ffd_status ffd_figures_folds(lattice_chain *chain, int threads, ffd_job_result *result, ffd_error *error)

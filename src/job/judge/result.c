@@ -61,6 +61,8 @@ void ffd_result_fill(ffd_job_result *result, const pass_totals *totals, double s
     result->weights_off = totals->weights.off;
     result->weights_farthest = totals->weights.farthest;
     result->weights_none = totals->weights.none;
+    result->precision_error = totals->lost.error;
+    result->precision_side = totals->lost.side;
     const double own = totals->embed_seconds + totals->deform_seconds;
     result->seconds_embed = own > 0 ? seconds * totals->embed_seconds / own : 0;
     result->seconds_deform = seconds - result->seconds_embed;
@@ -154,22 +156,6 @@ static void tell_others(const pass_totals *totals, const chain_outside *outside,
     }
 }
 
-/* Viewers that do not normalize weights show a visibly different shape if a sum is this far from 1. */
-#define WEIGHTS_FAR 0.01
-
-static void tell_weights(const skin_weights *weights, const mesh_log *log)
-{
-    if (weights->off)
-        ffd_log_line(log, weights->farthest > WEIGHTS_FAR ? FFD_LOG_WARNING : FFD_LOG_INFO,
-                     "the skin weights of %" PRIu64
-                     " %s do not add up to 1 (off by up to %g): they are divided by their sum",
-                     weights->off, vertices(weights->off), weights->farthest);
-    if (weights->none)
-        ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " %s no skin weights: %s first joint", weights->none,
-                     ffd_plural(weights->none, "vertex has", "vertices have"),
-                     ffd_plural(weights->none, "it follows its", "they follow their"));
-}
-
 /* Warns about vertices on common faces of lattices. */
 static void warn_of_faces(const pass_totals *totals, const mesh_log *log)
 {
@@ -237,6 +223,7 @@ void ffd_result_warn(const pass_totals *totals, const lattice_chain *chain, bool
                      const mesh_log *log)
 {
     const uint64_t others = totals->vertices - totals->counts[FFD_INSIDE] - totals->unused - totals->hidden;
+    ffd_coverage_warn(chain, log);
     if (others) {
         char list[600], coverage[600] = "";
         tell_others(totals, &chain->outside, deformed, list, sizeof list);
@@ -260,7 +247,6 @@ void ffd_result_warn(const pass_totals *totals, const lattice_chain *chain, bool
                      totals->transforms_singular,
                      ffd_plural(totals->transforms_singular, "vertex does", "vertices do"),
                      ffd_plural(totals->transforms_singular, "its", "their"));
-    tell_weights(&totals->weights, log);
     if (totals->normals_carried)
         ffd_log_line(log, FFD_LOG_WARNING,
                      "%" PRIu64 " %s no face with an area to be computed from: %s the deformation",
@@ -273,4 +259,10 @@ void ffd_result_warn(const pass_totals *totals, const lattice_chain *chain, bool
                      ffd_plural(totals->normals_collapsed, "normal is", "normals are"),
                      ffd_plural(totals->normals_collapsed, "it", "them"));
     warn_of_splats(totals, log);
+    if (totals->lost.side > 0)
+        ffd_log_line(
+            log, FFD_LOG_WARNING,
+            "floats cannot hold: the precision of coordinates that far from the origin (off by up to "
+            "%g, in a shape of %g)",
+            totals->lost.error, totals->lost.side);
 }

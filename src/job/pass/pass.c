@@ -12,6 +12,7 @@
 #include "job/pass/pass_splats.h"
 #include "job/pass/tile_totals.h"
 #include "job/pass/vertex_rounding.h"
+#include "mesh/precision.h"
 #include <ffd/deform.h>
 #include <math.h>
 #include <string.h>
@@ -122,14 +123,44 @@ static void bring_back(const part_work *work, tile_scratch *scratch, size_t coun
     }
 }
 
+/* Whether the results are rounded to floats. Those of a conversion are judged by the model that is written.
+ */
+static bool rounds(const part_work *work)
+{
+    const bool *const floats = work->part->rounding.is_float;
+    return work->pass->write && !work->pass->document->converted && floats[0] && floats[1] && floats[2];
+}
+
+/* Notes the steps of floats at rest, or the rounding of results. */
+static void note_rounding(const part_work *work, const double *raw, size_t count, bool at_rest,
+                          part_rounding *rounding)
+{
+    for (size_t i = 0; i < count; i++) {
+        double half[3];
+        if (!at_rest) {
+            ffd_bounds_widen_finite(&rounding->box, raw + 3 * i);
+            rounding->error = larger_of(rounding->error, ffd_float_error(raw + 3 * i));
+        } else if (vec_is_finite(raw + 3 * i)) {
+            ffd_rounding_cell(&work->part->rounding, raw + 3 * i, half);
+            for (int a = 0; a < 3; a++)
+                rounding->before = larger_of(rounding->before, half[a]);
+        }
+    }
+}
+
 /* Adds the displacements to a tile's positions and writes them. */
 static void finish_positions(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
                              pass_totals *totals)
 {
     const mesh_pass *pass = work->pass;
+    const bool is_rounded = rounds(work);
+    if (is_rounded)
+        note_rounding(work, scratch->raw, count, true, &totals->rounding);
     const size_t unfit = ffd_array_kernel(pass->chain->isa)
                              ->displace(scratch->delta, count, ffd_largest_coordinate(pass->document),
                                         scratch->raw, scratch->changed);
+    if (is_rounded)
+        note_rounding(work, scratch->raw, count, false, &totals->rounding);
     for (size_t i = 0; i < count && !work->part->carried; i++)
         totals->moved += scratch->changed[i];
     if (unfit < count)
@@ -542,6 +573,7 @@ static ffd_status run_part(part_work *work, pass_totals *totals, ffd_error *erro
     const ffd_status status = count_others(work, tiles, size, error);
     for (size_t i = 0; i < tiles; i++)
         ffd_totals_join(&work->tiles[i], totals);
+    ffd_totals_judge_rounding(work->tiles, tiles, work->pass->document->part_count == 1, totals);
     ffd_free(work->tiles);
     if (status)
         return status;

@@ -1,12 +1,12 @@
 #include "job/pass/pass_totals.h"
-#include "mesh/bounds.h"
+#include "mesh/precision.h"
 #include <math.h>
 #include <string.h>
 
 void ffd_totals_clear(pass_totals *totals)
 {
     memset(totals, 0, sizeof *totals);
-    totals->before = totals->after = totals->shapes = ffd_bounds_empty();
+    totals->before = totals->after = totals->shapes = totals->rounding.box = ffd_bounds_empty();
     totals->first_outside = totals->first_invalid = totals->first_overflow = UINT64_MAX;
     totals->first_shape_outside = totals->first_weighted_outside = totals->first_base_outside = UINT64_MAX;
     totals->first_missed = UINT64_MAX;
@@ -104,10 +104,35 @@ void ffd_totals_add_stored(const pass_totals *stored, bool written, pass_totals 
     shown->shapes_invalid = stored->shapes_invalid;
     shown->first_missed = stored->first_missed;
     shown->missed_by = stored->missed_by;
-    if (written)
+    if (written) {
         shown->first_overflow = least(shown->first_overflow, stored->first_overflow);
+        shown->lost = stored->lost;
+    }
     shown->embed_seconds += stored->embed_seconds;
     shown->deform_seconds += stored->deform_seconds;
+}
+
+/* A part is lost only where its floats have become coarser than they were at rest, by more than what the next
+   power of two makes of them. */
+#define COARSER 2
+
+void ffd_totals_judge_rounding(const pass_totals *tiles, size_t count, bool is_only, pass_totals *all)
+{
+    const double tolerance = is_only ? SHAPE_TOLERANCE : PART_TOLERANCE;
+    part_rounding part = {.box = ffd_bounds_empty()};
+    for (size_t i = 0; i < count; i++) {
+        const part_rounding *const tile = &tiles[i].rounding;
+        part.error = fmax(part.error, tile->error);
+        part.before = fmax(part.before, tile->before);
+        ffd_bounds_widen(&part.box, tile->box.min);
+        ffd_bounds_widen(&part.box, tile->box.max);
+    }
+    const double side = ffd_bounds_side(&part.box);
+    if (!(side > 0) || !(part.error > tolerance * side) || !(part.error > COARSER * part.before))
+        return;
+    if (all->lost.side > 0 && part.error / side <= all->lost.error / all->lost.side)
+        return;
+    all->lost = (rounding_loss){part.error, side};
 }
 
 void ffd_totals_note_splats(pass_totals *totals, size_t part, uint64_t moved)

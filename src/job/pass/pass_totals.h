@@ -6,6 +6,18 @@
 #include <ffd/embedding.h>
 #include <ffd/job.h>
 
+/* What rounding to floats does to a part, in the file's space. */
+typedef struct part_rounding {
+    ffd_bounds box; /* of the results */
+    double error;   /* the largest one of a result */
+    double before;  /* the largest half step of a coordinate at rest */
+} part_rounding;
+
+/* The part whose shape floats change most. */
+typedef struct rounding_loss {
+    double error, side; /* the largest error, and the part's largest side; zeros: none */
+} rounding_loss;
+
 typedef struct pass_totals {
     uint64_t vertices, counts[FFD_VERTEX_STATUS_COUNT], moved;
     uint64_t located; /* vertices with u,v,w in some link; residuals are over these */
@@ -38,6 +50,8 @@ typedef struct pass_totals {
     uint64_t extended_moved; /* and those of them that this moves */
     uint64_t kept;           /* vertices marked as staying; only if marks are wanted */
     uint64_t normals_collapsed, transforms_singular;
+    part_rounding rounding; /* of a tile */
+    rounding_loss lost;     /* of all parts */
     skin_weights weights;
     uint64_t normals_carried;  /* filled by recompute, not by a pass: see ffd_job_result */
     uint64_t splats_carried;   /* splats whose rotations or sizes follow, */
@@ -73,6 +87,9 @@ void ffd_totals_note_splats(pass_totals *totals, size_t part, uint64_t moved);
 /* Adds what concerns the stored shapes, base and morph targets, to the figures of the shape that default
    weights show. written: the results of the stored ones go to the file. */
 void ffd_totals_add_stored(const pass_totals *stored, bool written, pass_totals *shown);
+
+/* Judges the rounding of all tiles of a part. is_only: the document has no other. */
+void ffd_totals_judge_rounding(const pass_totals *tiles, size_t count, bool is_only, pass_totals *all);
 
 /* Adds the figures of a tile. Tiles must be added in order. */
 void ffd_totals_join(const pass_totals *tile, pass_totals *all);

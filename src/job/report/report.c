@@ -52,6 +52,7 @@ static void write_witness(json_text *json, const ffd_job_result *result)
 static void write_folds(json_text *json, const ffd_job_result *result)
 {
     static const char *const verdicts[] = {"none", "some", "unknown"};
+    static const char *const references[] = {"mean", "bounds", "place"};
     const ffd_folds *folds = &result->folds;
     if (!result->has_folds) {
         ffd_json_null(json, "folds");
@@ -61,6 +62,7 @@ static void write_folds(json_text *json, const ffd_job_result *result)
     ffd_json_string(json, "verdict", verdicts[folds->verdict]);
     ffd_json_count(json, "cells", folds->cells);
     ffd_json_number(json, "min_det", folds->min_det);
+    ffd_json_string(json, "relative_to", references[folds->relative_to]);
     ffd_json_count(json, "folded_cells", folds->folded_cells);
     ffd_json_count(json, "unknown_cells", folds->unknown_cells);
     write_witness(json, result);
@@ -183,6 +185,17 @@ static void write_weights(json_text *json, const ffd_job_result *result)
     ffd_json_count(json, "off", result->weights_off);
     ffd_json_number(json, "farthest", result->weights_farthest);
     ffd_json_count(json, "none", result->weights_none);
+    ffd_json_end(json, '}');
+}
+
+/* Only if floats change the shape. */
+static void write_precision(json_text *json, const ffd_job_result *result)
+{
+    if (!(result->precision_side > 0))
+        return;
+    ffd_json_object(json, "precision", true);
+    ffd_json_number(json, "error", result->precision_error);
+    ffd_json_number(json, "side", result->precision_side);
     ffd_json_end(json, '}');
 }
 
@@ -341,6 +354,7 @@ static void write_figures(json_text *json, const ffd_job_result *result)
     write_deformation(json, result);
     write_edges(json, result);
     write_weights(json, result);
+    write_precision(json, result);
     write_splats(json, result);
     write_reach(json, result);
     write_behind(json, result);

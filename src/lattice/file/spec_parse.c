@@ -2,6 +2,7 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/text/number.h"
+#include "base/text/stand_in.h"
 #include "lattice/file/spec_parameters.h"
 #include "lattice/file/spec_parse_moves.h"
 #include "lattice/file/spec_parse_rest.h"
@@ -310,8 +311,10 @@ ffd_status ffd_spec_parse(const char *text, size_t size, const char *name, const
     lattice_spec *result = NULL;
     *spec = NULL;
     ffd_status status = ffd_json_parse(&input, &tree, error);
-    if (status)
+    if (status) {
+        ffd_stand_in_tell(text, size, error);
         goto out;
+    }
     result = ffd_alloc_zero(1, sizeof *result);
     if (!result || !(result->name = ffd_text_copy(name))) {
         status = ffd_fail_memory(error);

@@ -54,9 +54,11 @@ class Folds:
     """The fold proof of a deformed volume (ffd/fold.h). verdict: "none", "some", or "unknown".
 
     cells, folded_cells, unknown_cells: numbers of span cells
-    min_det: a lower bound of the Jacobian determinant, relative to its mean at rest
+    min_det: a lower bound of the Jacobian determinant, relative to what `relative_to` says: "mean", the mean of the determinant
+      at rest; "bounds", the volume of the bounds of the control points at rest, where that mean is 0 to rounding; "place", the
+      determinant at rest at the same place, where one affine map moves the whole lattice
     witness_uvw, witness_xyz, witness_rest: (3,) parameters, deformed and rest position of a point that folds; witness_det: the
-      determinant there. None without such a point
+      determinant there, relative as min_det is. None without such a point
     """
 
     verdict: str
@@ -68,6 +70,7 @@ class Folds:
     witness_xyz: np.ndarray | None
     witness_rest: np.ndarray | None
     witness_det: float | None
+    relative_to: str
 
 
 def folds_of(found: Any) -> Folds:
@@ -75,7 +78,8 @@ def folds_of(found: Any) -> Folds:
     has = found.has_witness
     uvw, xyz, rest = (np.array(v) if has else None for v in (found.witness_uvw, found.witness_xyz, found.witness_rest))
     return Folds(library.NAMES["ffd_fold_verdict"][found.verdict], found.cells, found.folded_cells, found.unknown_cells,
-                 found.min_det, uvw, xyz, rest, found.witness_det if has else None)
+                 found.min_det, uvw, xyz, rest, found.witness_det if has else None,
+                 library.NAMES["ffd_fold_reference"][found.relative_to])
 
 
 def settings(values: Mapping[str, Any] | None) -> tuple[Any, int]:

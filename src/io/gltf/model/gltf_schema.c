@@ -10,11 +10,12 @@ typedef enum rule_kind {
     RULE_STRIDE,    /* 0 to 252; glTF: 4, 8, .. 252 */
     RULE_COMPONENT, /* a componentType */
     RULE_SHAPE,     /* an accessor's type */
-    RULE_MODE,      /* a primitive's mode: any number here; glTF: 0 to 6 */
+    RULE_MODE,      /* a primitive's mode: any finite number here; glTF: 0 to 6 */
     RULE_BOOL,
     RULE_STRING,
     RULE_STRINGS,
     RULE_NUMBERS,   /* an array of `count` finite numbers; count 0: any number of them */
+    RULE_FINITE,    /* any value, but an array's numbers are finite */
     RULE_INDICES,   /* an array of indices */
     RULE_INDEX_MAP, /* an object whose values are all indices */
     RULE_INDEX_MAPS,
@@ -90,14 +91,21 @@ static const rule primitive_rules[] = {{"attributes", RULE_INDEX_MAP, true, 0, N
                                        {"targets", RULE_INDEX_MAPS, false, 0, NULL},
                                        {"extensions", RULE_OBJECT, false, 0, primitive_extension_rules},
                                        {0}};
-static const rule mesh_rules[] = {
-    {"primitives", RULE_OBJECTS, true, 0, primitive_rules}, {"name", RULE_STRING, false, 0, NULL}, {0}};
-static const rule node_rules[] = {
-    {"mesh", RULE_INDEX, false, 0, NULL},          {"skin", RULE_INDEX, false, 0, NULL},
-    {"children", RULE_INDICES, false, 0, NULL},    {"matrix", RULE_NUMBERS, false, 16, NULL},
-    {"translation", RULE_NUMBERS, false, 3, NULL}, {"rotation", RULE_NUMBERS, false, 4, NULL},
-    {"scale", RULE_NUMBERS, false, 3, NULL},       {"extensions", RULE_OBJECT, false, 0, NULL},
-    {"name", RULE_STRING, false, 0, NULL},         {0}};
+static const rule mesh_rules[] = {{"primitives", RULE_OBJECTS, true, 0, primitive_rules},
+                                  {"weights", RULE_FINITE, false, 0, NULL},
+                                  {"name", RULE_STRING, false, 0, NULL},
+                                  {0}};
+static const rule node_rules[] = {{"mesh", RULE_INDEX, false, 0, NULL},
+                                  {"skin", RULE_INDEX, false, 0, NULL},
+                                  {"children", RULE_INDICES, false, 0, NULL},
+                                  {"matrix", RULE_NUMBERS, false, 16, NULL},
+                                  {"translation", RULE_NUMBERS, false, 3, NULL},
+                                  {"rotation", RULE_NUMBERS, false, 4, NULL},
+                                  {"scale", RULE_NUMBERS, false, 3, NULL},
+                                  {"weights", RULE_FINITE, false, 0, NULL},
+                                  {"extensions", RULE_OBJECT, false, 0, NULL},
+                                  {"name", RULE_STRING, false, 0, NULL},
+                                  {0}};
 static const rule skin_rules[] = {
     {"joints", RULE_INDICES, true, 0, NULL}, {"inverseBindMatrices", RULE_INDEX, false, 0, NULL}, {0}};
 static const rule scene_rules[] = {{"nodes", RULE_INDICES, false, 0, NULL}, {0}};
@@ -147,7 +155,8 @@ static ffd_status check_stride(const checker *c, uint32_t value)
 
 static ffd_status check_mode(const checker *c, uint32_t value)
 {
-    if (!is_kind(c, value, JSON_NUMBER))
+    double number;
+    if (!ffd_json_span_number(c->tree, value, &number) || !isfinite(number))
         return refuse(c, value, "a mode from 0 to 6");
     ffd_edits_format(c->plain, c->tree->values[value].begin, c->tree->values[value].end, "4");
     return FFD_OK;
@@ -264,6 +273,16 @@ static ffd_status check_numbers(const checker *c, uint32_t value, size_t count)
     return FFD_OK;
 }
 
+static ffd_status check_finite(const checker *c, uint32_t value)
+{
+    double number;
+    for (uint32_t v = is_kind(c, value, JSON_ARRAY) ? ffd_json_span_first(c->tree, value) : JSON_NONE;
+         v != JSON_NONE; v = ffd_json_span_after(c->tree, v))
+        if (ffd_json_span_number(c->tree, v, &number) && !isfinite(number))
+            return refuse(c, v, "a finite number");
+    return FFD_OK;
+}
+
 static ffd_status check_array(const checker *c, uint32_t value, const rule *element, const char *expected)
 {
     return is_kind(c, value, JSON_ARRAY) ? check_members(c, value, element) : refuse(c, value, expected);
@@ -295,6 +314,8 @@ static ffd_status check_value(const checker *c, uint32_t value, const rule *r)
         return check_array(c, value, &string, "an array of strings");
     case RULE_NUMBERS:
         return check_numbers(c, value, r->count);
+    case RULE_FINITE:
+        return check_finite(c, value);
     case RULE_INDICES:
         return check_array(c, value, &index, "an array of integers");
     case RULE_INDEX_MAP:
@@ -309,6 +330,17 @@ static ffd_status check_value(const checker *c, uint32_t value, const rule *r)
         return check_array(c, value, &object, "an array of objects");
     }
     return FFD_OK;
+}
+
+/* Hides from tinygltf, which refuses them, the numbers beyond the range of double. Those that the program
+   reads have been refused: what is left is of extras, extensions and unknown members. */
+static void hide_infinite(const checker *c)
+{
+    for (uint32_t v = 0; v < c->tree->count; v++) {
+        double number;
+        if (ffd_json_span_number(c->tree, v, &number) && !isfinite(number))
+            ffd_edits_format(c->plain, c->tree->values[v].begin, c->tree->values[v].end, "0");
+    }
 }
 
 /* Whether the text is two whole numbers with a point between. */
@@ -346,5 +378,7 @@ ffd_status ffd_gltf_check_schema(const json_span *tree, const char *name, json_e
     if (tree->values[0].kind != JSON_OBJECT)
         return ffd_fail_file(error, FFD_E_INVALID, name, "is not glTF: the JSON is not an object");
     const ffd_status status = check_object(&c, 0, root_rules);
+    if (status == FFD_OK)
+        hide_infinite(&c);
     return status ? status : check_version(&c);
 }

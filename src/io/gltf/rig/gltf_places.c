@@ -174,14 +174,41 @@ static bool refers(const gltf_document *d, size_t node, gltf_reference first, gl
     return found;
 }
 
+/* Returns the mesh that a physics shape is made of; GLTF_NONE: none. */
+static size_t mesh_of_shape(const gltf_document *d, uint32_t shape)
+{
+    static const char *const kinds[] = {"trimesh", "convex"};
+    uint32_t mesh = ffd_json_span_member(&d->tree, shape, "mesh");
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds && mesh == JSON_NONE; k++)
+        mesh = ffd_json_span_member(&d->tree, ffd_json_span_member(&d->tree, shape, kinds[k]), "mesh");
+    return ffd_gltf_index(d, mesh, d->model.mesh_count);
+}
+
+/* Whether the scene shows a mesh where a node is, and nowhere else: it is deformed as the node wants it. */
+static bool is_shown_at(const gltf_document *d, size_t mesh, size_t node)
+{
+    const gltf_mesh_uses *const uses = mesh == GLTF_NONE ? NULL : &d->mesh_uses[mesh];
+    bool alike = uses && uses->nodes && uses->node_count > 0;
+    for (size_t u = 0; alike && u < uses->node_count; u++)
+        for (size_t i = 0; i < 12; i++)
+            alike = alike && d->world[12 * uses->nodes[u] + i] == d->world[12 * node + i];
+    return alike;
+}
+
 static void mark_shapes(const survey *s)
 {
     const gltf_document *d = s->document;
     for (size_t n = 0; n < d->model.node_count; n++)
-        /* A shape made from a mesh of the scene goes along with it, and refers to no other mesh. */
-        if (refers(d, n, GLTF_COLLIDER, GLTF_OMI_TRIGGER) ||
-            ffd_gltf_has_extension(d, d->node_values.values[n], "OMI_collider"))
-            s->nodes[n] |= HAS_SHAPE;
+        /* A shape made from a mesh of the scene goes along with it. */
+        for (int i = GLTF_COLLIDER; i <= (int)GLTF_OLD_OMI_COLLIDER; i++) {
+            const gltf_reference kind = (gltf_reference)i;
+            const uint32_t value = ffd_gltf_reference(d, n, kind);
+            const bool is_old = kind == GLTF_OLD_OMI_COLLIDER &&
+                                ffd_gltf_has_extension(d, d->node_values.values[n], "OMI_collider");
+            if ((is_old || ffd_gltf_refers(d, value, kind)) &&
+                !is_shown_at(d, mesh_of_shape(d, ffd_gltf_referred(d, value, kind)), n))
+                s->nodes[n] |= HAS_SHAPE;
+        }
 }
 
 static unsigned kinds_of(const survey *s, size_t n)

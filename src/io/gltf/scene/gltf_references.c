@@ -23,6 +23,7 @@ static const place places[GLTF_REFERENCE_COUNT] = {
                       "shapes"},
     [GLTF_OMI_COLLIDER] = {"OMI_physics_body", {"collider", "shape"}, "OMI_physics_shape", "shapes"},
     [GLTF_OMI_TRIGGER] = {"OMI_physics_body", {"trigger", "shape"}, "OMI_physics_shape", "shapes"},
+    [GLTF_OLD_OMI_COLLIDER] = {"OMI_collider", {"collider"}, "OMI_collider", "colliders"},
     [GLTF_COLLIDER_NODE] = {"KHR_physics_rigid_bodies", {"collider", "geometry", "node"}, NULL, "nodes"},
     [GLTF_TRIGGER_NODE] = {"KHR_physics_rigid_bodies", {"trigger", "geometry", "node"}, NULL, "nodes"},
 };
@@ -38,13 +39,26 @@ uint32_t ffd_gltf_reference(const gltf_document *d, size_t node, gltf_reference 
     return value;
 }
 
-bool ffd_gltf_refers(const gltf_document *d, uint32_t value, gltf_reference reference)
+/* Returns the list of the elements of a kind; JSON_NONE: there is none. */
+static uint32_t list_of(const gltf_document *d, gltf_reference reference)
 {
     const place *const at = &places[reference];
     const uint32_t parent = at->list_extension ? ffd_gltf_extension(d, 0, at->list_extension) : 0;
     const uint32_t list = ffd_json_span_member(&d->tree, parent, at->list);
-    const bool is_list = list != JSON_NONE && d->tree.values[list].kind == JSON_ARRAY;
-    return is_list && ffd_gltf_index(d, value, d->tree.values[list].count) != GLTF_NONE;
+    return list != JSON_NONE && d->tree.values[list].kind == JSON_ARRAY ? list : JSON_NONE;
+}
+
+uint32_t ffd_gltf_referred(const gltf_document *d, uint32_t value, gltf_reference reference)
+{
+    const uint32_t list = list_of(d, reference);
+    const size_t index = list == JSON_NONE ? GLTF_NONE : ffd_gltf_index(d, value, d->tree.values[list].count);
+    return index == GLTF_NONE ? JSON_NONE : ffd_json_span_element(&d->tree, list, index);
+}
+
+bool ffd_gltf_refers(const gltf_document *d, uint32_t value, gltf_reference reference)
+{
+    const uint32_t list = list_of(d, reference);
+    return list != JSON_NONE && ffd_gltf_index(d, value, d->tree.values[list].count) != GLTF_NONE;
 }
 
 static bool is_transform(const char *path)

@@ -13,6 +13,7 @@ typedef enum gltf_reference {
     GLTF_TRIGGER,
     GLTF_OMI_COLLIDER,
     GLTF_OMI_TRIGGER,
+    GLTF_OLD_OMI_COLLIDER,
     GLTF_COLLIDER_NODE,
     GLTF_TRIGGER_NODE,
     GLTF_REFERENCE_COUNT
@@ -20,6 +21,9 @@ typedef enum gltf_reference {
 
 /* Returns the JSON value by which a node refers to such an element; JSON_NONE if it does not. */
 uint32_t ffd_gltf_reference(const gltf_document *document, size_t node, gltf_reference reference);
+
+/* Returns the JSON of the element that the value refers to; JSON_NONE if there is none. */
+uint32_t ffd_gltf_referred(const gltf_document *document, uint32_t value, gltf_reference reference);
 
 /* Whether the value refers to an element that exists. */
 bool ffd_gltf_refers(const gltf_document *document, uint32_t value, gltf_reference reference);

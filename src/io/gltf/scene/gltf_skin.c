@@ -5,6 +5,7 @@
 #include "base/vector/vec.h"
 #include "io/gltf/decode/gltf_check.h"
 #include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/decode/gltf_weights.h"
 #include "io/gltf/scene/gltf_scene.h"
 #include <stdio.h>
 #include <string.h>
@@ -283,17 +284,14 @@ static void sort_joint_weights(joint_weight *terms, size_t count)
         }
 }
 
-/* Sums of float weights differ from 1 by less than this. */
-#define SUM_ROUNDING 1e-6
-
 static void note_sum(double total, skin_weights *found)
 {
     const double off = fabs(total - 1);
     if (!(total > 0))
         found->none++;
-    else if (off > SUM_ROUNDING)
+    else if (off > WEIGHT_SUM_ROUNDING)
         found->off++;
-    if (total > 0 && off > found->farthest && off > SUM_ROUNDING)
+    if (total > 0 && off > found->farthest && off > WEIGHT_SUM_ROUNDING)
         found->farthest = off;
 }
 
@@ -307,7 +305,7 @@ static void blend(const gltf_skin *skin, joint_weight *terms, size_t count, doub
     sort_joint_weights(terms, count);
     for (size_t i = 0; i < count; i++)
         total += terms[i].weight;
-    if (found && !isnan(total))
+    if (found && isfinite(total))
         note_sum(total, found);
     if (!(total > 0) && !isnan(total)) {
         memcpy(transform, skin->matrices + 12 * first_joint, 12 * sizeof *transform);

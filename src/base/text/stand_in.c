@@ -1,0 +1,41 @@
+#include "base/text/stand_in.h"
+#include <ctype.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+static bool begins(const unsigned char *data, size_t size, const char *start)
+{
+    const size_t length = strlen(start);
+    bool same = size >= length;
+    for (size_t i = 0; i < length && same; i++)
+        same = tolower(data[i]) == start[i];
+    return same;
+}
+
+const char *ffd_stand_in(const void *data, size_t size)
+{
+    static const struct {
+        const char *start, *name;
+    } known[] = {{"version https://git-lfs", STAND_IN_LFS},
+                 {"<!doctype", STAND_IN_HTML},
+                 {"<html", STAND_IN_HTML},
+                 {"<head", STAND_IN_HTML}};
+    const unsigned char *at = data;
+    const size_t mark = begins(at, size, "\xef\xbb\xbf") ? 3 : 0;
+    size_t first = mark;
+    while (first < size && memchr(" \t\r\n", at[first], 4))
+        first++;
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (begins(at + first, size - first, known[i].start))
+            return known[i].name;
+    return NULL;
+}
+
+void ffd_stand_in_tell(const void *data, size_t size, ffd_error *error)
+{
+    const char *const name = error && error->status == FFD_E_INVALID ? ffd_stand_in(data, size) : NULL;
+    const size_t length = name ? strlen(error->message) : 0;
+    if (name)
+        snprintf(error->message + length, sizeof error->message - length, "; it seems to be %s", name);
+}
