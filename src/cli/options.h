@@ -77,8 +77,9 @@ bool cli_set_flag(void *settings, const cli_option *option, const char *value);
 bool cli_set_text(void *settings, const cli_option *option, const char *value);
 /* int: a number of threads. */
 bool cli_set_count(void *settings, const cli_option *option, const char *value);
-/* Writes " (nearest: WORD)" if one of an option's choices is meant by a value, else nothing. */
+/* The room for a hint. */
 #define CLI_HINT 60
+/* Writes " (nearest: WORD)" if one of an option's choices is meant by a value, else nothing. */
 void cli_hint_choice(const cli_option *option, const char *value, char hint[CLI_HINT]);
 
 /* int: index into choices. */

@@ -20,17 +20,19 @@ static inline const unsigned char *meshopt_take(meshopt_stream *from, size_t siz
     return from->at - size;
 }
 
-/* Decode a checked view without its filter into count * stride bytes: ATTRIBUTES of version 0 and 1, the
-   others of version 1. from: the bytes between the first one and the tail; what is left of them was not
-   needed. Errors, without a file name: FFD_E_INVALID; the bytes are then undefined. */
+/* Decodes a checked view of mode ATTRIBUTES, of version 0 or 1, without its filter into count * stride bytes.
+   from: the bytes between the first one and the tail; what is left of them was not needed. Errors, without a
+   file name: FFD_E_INVALID; the bytes are then undefined. */
 ffd_status ffd_meshopt_read_attributes(const meshopt_view *view, meshopt_stream *from, unsigned char *bytes,
                                        ffd_error *error);
+/* The same of mode TRIANGLES, version 1. */
 ffd_status ffd_meshopt_read_triangles(const meshopt_view *view, meshopt_stream *from, unsigned char *bytes,
                                       ffd_error *error);
+/* The same of mode INDICES, version 1. */
 ffd_status ffd_meshopt_read_indices(const meshopt_view *view, meshopt_stream *from, unsigned char *bytes,
                                     ffd_error *error);
 
-/* Decodes any such view without its filter. Errors: as above. */
+/* Decodes any of these views without its filter. Errors: the same. */
 ffd_status ffd_meshopt_read(const meshopt_view *view, unsigned char *bytes, ffd_error *error);
 
 #endif
