@@ -632,7 +632,7 @@ m("meshopt-triangles", "check left out", "meshopt, gltf_packed", "view->mode == 
 m("meshopt-wide-deltas", "table", "meshopt_streams", "widths[2][4] = {{0, 1, 2, 4}, {1, 2, 4, 8}}", "widths[2][4] = {{0, 1, 2, 4}, {0, 2, 4, 8}}")
 m("meshopt-turned-deltas", "direction", "meshopt_streams", "(delta >> turn | delta << (32 - turn) % 32)",
   "(delta << turn | delta >> (32 - turn) % 32)")
-m("meshopt-bytes-too-many", "check left out", "meshopt, meshopt_streams, cli_files", "if (status == FFD_OK && from.at < from.end)",
+m("meshopt-bytes-too-many", "check left out", "meshopt_streams", "if (status == FFD_OK && from.at < from.end)",
   "if (status == FFD_OK && from.at > from.end)")
 m("meshopt-edge-not-remembered", "check left out", "cli_files", "t->is_broken = age >= t->edge_count || t->is_broken;", "")
 m("meshopt-scale-of-a-colour", "bound", "meshopt, meshopt_streams", "const int alpha = from[3] & scale >> 1,", "const int alpha = from[3] & scale,")

@@ -125,6 +125,28 @@ static void our_decoder_alone_gives_the_same(void **state)
     }
 }
 
+/* A byte before the tail that no element needs. */
+static void bytes_that_nothing_needs_are_refused(void **state)
+{
+    (void)state;
+    sample s;
+    for (size_t at = 0; next(&at, &s);) {
+        const size_t tail = (size_t)ffd_meshopt_tail(&s.view), place = s.view.size - tail;
+        unsigned char *const longer = malloc(s.view.size + 1), *const bytes = make_room(&s.view);
+        ffd_error error = {0};
+        memcpy(longer, s.view.bytes, place);
+        longer[place] = 0;
+        memcpy(longer + place + 1, s.view.bytes + place, tail);
+        s.view.bytes = longer;
+        s.view.size++;
+        assert_int_equal(ffd_meshopt_check(&s.view, &error), FFD_OK);
+        assert_int_equal(ffd_meshopt_read(&s.view, bytes, &error), FFD_E_INVALID);
+        assert_non_null(strstr(error.message, " has 1 byte too many"));
+        free(bytes);
+        free(longer);
+    }
+}
+
 /* The samples hold all that can be in a stream, else the tests above would prove less than they say. */
 static void the_samples_hold_everything(void **state)
 {
@@ -195,6 +217,7 @@ int main(int count, char **arguments)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(streams_are_decoded_as_their_maker_decodes_them),
         cmocka_unit_test(our_decoder_alone_gives_the_same),
+        cmocka_unit_test(bytes_that_nothing_needs_are_refused),
         cmocka_unit_test(the_samples_hold_everything),
         cmocka_unit_test(broken_streams_do_no_harm),
     };

@@ -1,4 +1,5 @@
 /* meshopt_decode.c - a view by the decoder that reads it, then its filter. */
+#include "base/text/words.h"
 #include "mesh/meshopt/meshopt_filters.h"
 #include "mesh/meshopt/meshopt_library.h"
 #include "mesh/meshopt/meshopt_stream.h"
@@ -29,8 +30,9 @@ ffd_status ffd_meshopt_read(const meshopt_view *view, unsigned char *bytes, ffd_
     meshopt_stream from = {view->bytes + 1, view->bytes + view->size - ffd_meshopt_tail(view)};
     const ffd_status status = read_stream(view, &from, bytes, error);
     if (status == FFD_OK && from.at < from.end)
-        return ffd_fail(error, FFD_E_INVALID, "the compressed data of mode %s has %zu bytes too many",
-                        ffd_meshopt_mode_name(view->mode), (size_t)(from.end - from.at));
+        return ffd_fail(error, FFD_E_INVALID, "the compressed data of mode %s has %zu %s too many",
+                        ffd_meshopt_mode_name(view->mode), (size_t)(from.end - from.at),
+                        ffd_plural((uint64_t)(from.end - from.at), "byte", "bytes"));
     return status;
 }
 
