@@ -1,4 +1,5 @@
 #include "cli/command.h"
+#include "io/format_names.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,10 +22,9 @@ bool cli_knows_format(const char *path, ffd_format given)
 {
     if (given != FFD_FORMAT_AUTO || ffd_format_from_name(path) != FFD_FORMAT_AUTO)
         return true;
-    if (strcmp(path, "-") == 0)
-        cli_complain("standard input needs --input-format " CLI_FORMATS);
-    else
-        cli_complain("%s: the ending is not that of a mesh format (" CLI_FORMATS ")", path);
+    ffd_error error;
+    ffd_format_refuse_name(path, &error);
+    cli_fail(&error);
     return false;
 }
 

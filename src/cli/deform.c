@@ -4,6 +4,7 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "cli/morphs.h"
+#include "io/format_names.h"
 #include "job/plan.h"
 #include <errno.h>
 #include <stdio.h>
@@ -39,7 +40,7 @@ const cli_option cli_deform_options[] = {
      "images or materials of a mesh written elsewhere: copied, or referred to; default copy", cli_set_choice,
      AT(resources), cli_resources_names},
     {"output-format", 0, "FORMAT",
-     CLI_FORMATS "; needed for -; with --out-dir and in batch OUT gets its ending", set_output_format,
+     FORMAT_NAMES "; needed for -; with --out-dir and in batch OUT gets its ending", set_output_format,
      AT(output_format), NULL},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
@@ -266,7 +267,7 @@ static int refuse(const cli_command *command, settings *s, const cli_words *word
     if (!cli_job_knows_formats(&s->job, words, inputs))
         return EXIT_USAGE;
     if (s->output && cli_is_stream(s->output) && !s->output_format) {
-        cli_complain("standard output needs --output-format " CLI_FORMATS);
+        cli_complain("standard output needs --output-format " FORMAT_NAMES);
         return EXIT_USAGE;
     }
     if (!has_many(s))

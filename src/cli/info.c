@@ -1,6 +1,7 @@
 /* info.c - ffd info: what is in a mesh or lattice file. */
 #include "cli/command.h"
 #include "cli/values.h"
+#include "io/format_names.h"
 #include <stdio.h>
 
 typedef struct settings {
@@ -21,7 +22,7 @@ static const cli_option options[] = {
      AT(values), NULL},
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
     {"strict", 0, NULL, CLI_STRICT, cli_set_flag, AT(strict), NULL},
-    {"input-format", 0, "FORMAT", CLI_FORMATS "; needed for -", cli_set_format, AT(input_format), NULL},
+    {"input-format", 0, "FORMAT", FORMAT_NAMES "; needed for -", cli_set_format, AT(input_format), NULL},
     {"quiet", 'q', NULL, "print only errors besides the text", cli_set_flag, AT(logging.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(logging.verbose), NULL},
     {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},

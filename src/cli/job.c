@@ -1,6 +1,7 @@
 #include "cli/job.h"
 #include "base/file/folder.h"
 #include "base/text/words.h"
+#include "io/format_names.h"
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -152,7 +153,7 @@ const cli_option cli_job_options[] = {
     {"timeout", 0, "SECONDS", CLI_TIMEOUT, cli_set_positive, AT(timeout), NULL},
     {"allow-extension", 0, "NAME", CLI_ALLOW_EXTENSION, cli_add_name, AT(allowed), NULL},
     {"strict", 0, NULL, CLI_STRICT, cli_set_flag, AT(strict), NULL},
-    {"input-format", 0, "FORMAT", CLI_FORMATS "; needed for -", cli_set_format, AT(input_format), NULL},
+    {"input-format", 0, "FORMAT", FORMAT_NAMES "; needed for -", cli_set_format, AT(input_format), NULL},
     {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(logging.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(logging.verbose), NULL},
     {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},

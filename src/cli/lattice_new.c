@@ -1,6 +1,7 @@
 /* lattice_new.c - ffd lattice new: a lattice round meshes. */
 #include "cli/command.h"
 #include "cli/names.h"
+#include "io/format_names.h"
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -168,7 +169,7 @@ static const cli_option options[] = {
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
     {"allow-extension", 0, "NAME", CLI_ALLOW_EXTENSION, cli_add_name, AT(allowed), NULL},
     {"strict", 0, NULL, CLI_STRICT, cli_set_flag, AT(strict), NULL},
-    {"input-format", 0, "FORMAT", CLI_FORMATS "; needed for -", cli_set_format, AT(input_format), NULL},
+    {"input-format", 0, "FORMAT", FORMAT_NAMES "; needed for -", cli_set_format, AT(input_format), NULL},
     {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(logging.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(logging.verbose), NULL},
     {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},

@@ -2,6 +2,7 @@
 #include "base/one_line.h"
 #include "base/text/size.h"
 #include "base/text/words.h"
+#include "io/format_names.h"
 #include <errno.h>
 #include <ffd/ffd.h>
 #include <math.h>
@@ -111,6 +112,15 @@ bool cli_set_bytes(void *settings, const cli_option *option, const char *value)
     return false;
 }
 
+void cli_hint_choice(const cli_option *option, const char *value, char hint[CLI_HINT])
+{
+    size_t count = 0;
+    while (option->choices[count])
+        count++;
+    const char *const meant = ffd_word_meant(value, option->choices, count);
+    snprintf(hint, CLI_HINT, "%s%s%s", meant ? " (nearest: " : "", meant ? meant : "", meant ? ")" : "");
+}
+
 bool cli_set_choice(void *settings, const cli_option *option, const char *value)
 {
     char known[200] = "";
@@ -122,7 +132,9 @@ bool cli_set_choice(void *settings, const cli_option *option, const char *value)
         const size_t length = strlen(known);
         snprintf(known + length, sizeof known - length, "%s%s", i ? ", " : "", option->choices[i]);
     }
-    cli_complain("--%s: \"%s\" is not one of %s", option->name, value, known);
+    char hint[CLI_HINT];
+    cli_hint_choice(option, value, hint);
+    cli_complain("--%s: \"%s\" is not one of %s%s", option->name, value, known, hint);
     return false;
 }
 
@@ -132,7 +144,7 @@ bool cli_set_format(void *settings, const cli_option *option, const char *value)
     snprintf(name, sizeof name, "x.%s", value[0] == '.' ? value + 1 : value);
     const ffd_format format = strlen(value) < 16 ? ffd_format_from_name(name) : FFD_FORMAT_AUTO;
     if (format == FFD_FORMAT_AUTO) {
-        cli_complain("--%s: \"%s\" is not one of " CLI_FORMATS, option->name, value);
+        cli_complain("--%s: \"%s\" is not one of " FORMAT_NAMES, option->name, value);
         return false;
     }
     *(ffd_format *)field(settings, option) = format;

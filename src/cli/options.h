@@ -5,9 +5,6 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* The mesh formats, for help and complaints. */
-#define CLI_FORMATS "obj, gltf, glb, vrm, ply, off or stl"
-
 /* What --memory does. */
 #define CLI_MEMORY "memory for mesh and lattices, as 4G; default 100M (views: 400M) and 20 times their files"
 
@@ -80,6 +77,11 @@ bool cli_set_flag(void *settings, const cli_option *option, const char *value);
 bool cli_set_text(void *settings, const cli_option *option, const char *value);
 /* int: a number of threads. */
 bool cli_set_count(void *settings, const cli_option *option, const char *value);
+/* The room for a hint. */
+#define CLI_HINT 60
+/* Writes " (nearest: WORD)" if one of an option's choices is meant by a value, else nothing. */
+void cli_hint_choice(const cli_option *option, const char *value, char hint[CLI_HINT]);
+
 /* int: index into choices. */
 bool cli_set_choice(void *settings, const cli_option *option, const char *value);
 /* ffd_format. */

@@ -57,8 +57,10 @@ static bool set_camera(void *context, const cli_option *option, const char *valu
         }
     if (parse_direction(value, s->camera))
         return true;
-    cli_complain("--%s: \"%.100s\" is not front, back, left, right, top, iso or a direction like 1,0.5,2",
-                 option->name, value);
+    char hint[CLI_HINT];
+    cli_hint_choice(option, value, hint);
+    cli_complain("--%s: \"%.100s\" is not front, back, left, right, top, iso or a direction like 1,0.5,2%s",
+                 option->name, value, hint);
     return false;
 }
 

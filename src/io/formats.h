@@ -4,9 +4,6 @@
 
 #include "mesh/mesh.h"
 
-/* The endings of file names, for messages. */
-#define FORMAT_NAMES "obj, gltf, glb, vrm, ply, off or stl"
-
 /* Returns the table of a format; NULL for FFD_FORMAT_AUTO. */
 const mesh_format *ffd_format_table(ffd_format format);
 

@@ -4,6 +4,7 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/system/clock.h"
+#include "io/format_names.h"
 #include "io/formats.h"
 #include "job/chain/job_cache.h"
 #include "job/conversion.h"
@@ -70,9 +71,7 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
     if (options->format == FFD_FORMAT_AUTO && ffd_output_is_stream(desc->output))
         return ffd_fail(error, FFD_E_ARGUMENT, "standard output needs --output-format " FORMAT_NAMES);
     if (options->format == FFD_FORMAT_AUTO)
-        return ffd_fail_file(error, FFD_E_ARGUMENT, desc->output,
-                             "the ending \"%s\" is not that of a mesh format (" FORMAT_NAMES ")",
-                             ffd_path_ending(desc->output));
+        return ffd_format_refuse_name(desc->output, error);
     /* The output first: usually it does not exist, which is a quick answer. */
     if (!ffd_output_is_stream(desc->output) && ffd_file_same(desc->output, input))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the input (--in-place overwrites it)");

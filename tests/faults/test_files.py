@@ -13,9 +13,9 @@ import shutil
 import struct
 import zlib
 
-from harness import (INVALID, IO, LIMIT, PNG, UNSUPPORTED, USAGE, case, check, equal, glb, glb_split, gltf_json, gltf_vectors, lattice,
-                     main)
-from said import anything, not_told, told
+from harness import (INVALID, IO, LIMIT, NO, PNG, UNSUPPORTED, USAGE, case, check, equal, glb, glb_split, gltf_json, gltf_vectors, lattice,
+                     main, near)
+from said import anything, counts, entry, not_told, told
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 LIFT = lattice(moves=[{"by": [0, 0, 1]}])
@@ -431,11 +431,12 @@ def artist_10_hints_name_what_is_meant(run):
         run.write("l.json", lattice(**members))
         run.ffd("check", "m.obj", "-l", "l.json", code=INVALID, err=f"l.json:/{at}: {why}")
     run.write("l.json", LIFT)
-    for words, why in ((["--outside", "Keep"], '--outside: "Keep" is not one of keep, extend, error'),
+    for words, why in ((["--outside", "Keep"], '--outside: "Keep" is not one of keep, extend, error (nearest: keep)'),
+                       (["--normals", "none"], '--normals: "none" is not one of transform, keep, recompute'),
                        (["--fail-on", "FOLDS"], '--fail-on: unknown gate "FOLDS" (nearest: folds)')):
         run.ffd("check", "m.obj", "-l", "l.json", *words, code=USAGE, err=why)
     run.ffd("view", "m.obj", "-o", "v.png", "--camera", "Front", code=USAGE,
-            err='--camera: "Front" is not front, back, left, right, top, iso or a direction like 1,0.5,2')
+            err='--camera: "Front" is not front, back, left, right, top, iso or a direction like 1,0.5,2 (nearest: front)')
 
 
 # Colours of faces
@@ -637,6 +638,100 @@ def wild3_14_tiles_go_along(run):
     run.ffd("deform", "in/m.obj", "out/n.obj", "-l", "l.json", code=LIMIT, err=re.compile("m.mtl: names more than 256 maps with tiles"))
 
 
+# Compressed geometry
+
+KHR_MESHOPT = "wild3-10-meshopt-version-1"
+
+
+def linear(srgb):
+    return srgb / 12.92 if srgb <= 0.04045 else ((srgb + 0.055) / 1.055) ** 2.4
+
+
+def columns(text, key):
+    return [[float(x) for x in line.split()[1:]] for line in text.splitlines() if line.startswith(key + " ")]
+
+
+@case
+def wild3_10_meshopt_version_1(run):
+    """What a packer of 2025 wrote: positions and normals in version 1 of the codec, and triangles."""
+    use(run, KHR_MESHOPT)
+    facts = run.ffd("info", "packed.glb", "--json").json
+    equal([facts["contents"]["stored"]["triangles"], facts.get("flaws", [])], [242, []])
+    done = run.ffd("deform", "packed.glb", "out.glb", "-l", "twist.json", "--report", "r.json", err=anything)
+    told(done, "1 bufferView is written uncompressed")
+    counts(json.loads(run.text("r.json"))["jobs"][0], vertices=144, inside=144, moved=144)
+    asset, _ = glb_split(run.read("out.glb"))
+    check("KHR_meshopt_compression" in asset["extensionsRequired"], "what is not moved stays compressed")
+
+
+@case
+def every_mode_and_filter_of_meshopt(run):
+    """A sheet of 25 vertices at (x, y, xy), with the normals, colours and texture coordinates that belong there, an offset of x^2/8
+    as its morph target, and its border as a loop."""
+    use(run, KHR_MESHOPT)
+    run.write("l.json", lattice(low=(-1, -1, -1), high=(2, 2, 2), moves=[{"by": [0, 0, 1]}]))
+    run.ffd("deform", "every.glb", "o.obj", "-l", "l.json", err=anything)
+    text, grid = run.text("o.obj"), [(i % 5 / 4, i // 5 / 4) for i in range(25)]
+    vertices = columns(text, "v")
+    near([v[:3] for v in vertices], [[x, y, x * y + 1] for x, y in grid], 1e-9, "positions")
+    near([[linear(c) for c in v[3:]] for v in vertices], [[x, y, 1 - x] for x, y in grid], 0.02, "colours")
+    near(columns(text, "vt"), [[x, 1 - y] for x, y in grid], 1e-4, "texture coordinates")
+    near(columns(text, "vn"), [[c / (1 + x * x + y * y) ** 0.5 for c in (-y, -x, 1)] for x, y in grid], 0.015, "normals")
+    faces = [{int(corner.split("/")[0]) - 1 for corner in line.split()[1:]} for line in text.splitlines() if line.startswith("f ")]
+    expected = [{a, a + 1, a + 5} for a in range(24) if a % 5 < 4 and a < 20] + [{a + 1, a + 5, a + 6} for a in range(24) if a % 5 < 4 and a < 20]
+    equal(sorted(map(sorted, faces)), sorted(map(sorted, expected)))
+    ring = [0, 1, 2, 3, 4, 9, 14, 19, 24, 23, 22, 21, 20, 15, 10, 5]
+    found = [[int(c.split("/")[0]) - 1 for c in line.split()[1:]] for line in text.splitlines() if line.startswith("l ")]
+    equal(found, [list(pair) for pair in zip(ring, ring[1:] + ring[:1])])
+    asset, data = glb_split(run.read("every.glb"))
+    asset["meshes"][0]["weights"] = [1]
+    run.write("bent.glb", glb(asset, data))
+    run.ffd("deform", "bent.glb", "b.obj", "-l", "l.json", err=anything)
+    near([v[2] for v in columns(run.text("b.obj"), "v")], [x * y + 1 + x * x / 8 for x, y in grid], 1e-4, "the morph target")
+    told(run.ffd("deform", "every.glb", "o.glb", "-l", "l.json", err=anything), "bufferView.* written uncompressed")
+    run.ffd("deform", "every.glb", "m.glb", "--morph", "up=l.json", err=anything)
+
+
+@case
+def broken_streams_of_meshopt(run):
+    """Version 2 is refused as unsupported; what version 1 cannot hold as invalid, with what it is."""
+    use(run, KHR_MESHOPT)
+    asset, data = glb_split(run.read("every.glb"))
+    packed = [view["extensions"]["KHR_meshopt_compression"] for view in asset["bufferViews"]]
+
+    def refused(view, place, value, code, why):
+        at = packed[view].get("byteOffset", 0) + place % packed[view]["byteLength"]
+        changed = bytearray(data)
+        changed[at] = value
+        run.write("m.glb", glb(asset, bytes(changed)))
+        run.ffd("check", "m.glb", "-l", "twist.json", code=code, err=re.compile("^m.glb:/bufferViews/%d/extensions/KHR_meshopt_compression: %s$" % (view, why)))
+
+    refused(0, 0, 0xa2, UNSUPPORTED, "version 2 of the meshopt codec for ATTRIBUTES is not known, only up to 1")
+    refused(0, -1, 0x03, INVALID, "channel 2 of the compressed data has the unknown mode 0x03")
+    refused(0, -2, 0x41, INVALID, "channel 1 of the compressed data has the unknown mode 0x41")
+    refused(0, 1, 0xff, INVALID, "the compressed data of mode ATTRIBUTES (ends too early|has \\d+ bytes? too many)")
+    refused(5, 1, 0x10, INVALID, "triangle 0 of the compressed data is broken")
+    refused(5, -1, 0x01, INVALID, "the table of the compressed data of mode TRIANGLES is broken")
+    refused(6, -5, 0x80, INVALID, "index 15 of the compressed data is broken")
+
+
+@case
+def a_small_file_of_many_zeros(run):
+    """Version 1 holds a thousand bytes in one: what does not fit into the memory is refused before it is made."""
+    count = 6000000
+    data = b"\xa1" + -(-count // 256) * b"\xaa\xaa\xaa" + bytes(24)
+    packed = {"buffer": 0, "byteLength": len(data), "byteStride": 12, "mode": "ATTRIBUTES", "count": count}
+    asset = {"asset": {"version": "2.0"}, "extensionsUsed": ["KHR_meshopt_compression"], "extensionsRequired": ["KHR_meshopt_compression"],
+             "buffers": [{"byteLength": len(data)}, {"byteLength": 12 * count}], "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+             "bufferViews": [{"buffer": 1, "byteLength": 12 * count, "byteStride": 12, "extensions": {"KHR_meshopt_compression": packed}}],
+             "accessors": [{"bufferView": 0, "componentType": 5126, "count": count, "type": "VEC3", "min": [0, 0, 0], "max": [0, 0, 0]}],
+             "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "mode": 0}]}]}
+    run.write("m.glb", glb(asset, data))
+    run.write("l.json", lattice(low=(-1, -1, -1), high=(1, 1, 1), moves=[{"by": [0, 0, 1]}]))
+    run.ffd("check", "m.glb", "-l", "l.json", "--memory", "50M", code=LIMIT, err=re.compile("memory"))
+    counts(entry(run, "check", "m.glb", "-l", "l.json", "--memory", "1G"), vertices=count, inside=count)
+
+
 # Forms of files
 
 @case
@@ -653,6 +748,29 @@ def wild3_15_compressed_splats_are_not_supported(run):
 
 
 @case
+def other_forms_of_splats_are_named(run):
+    """The endings that programs for splats use: as an input of every command and of a batch, and as an output."""
+    run.write("l.json", LIFT)
+    run.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    for folder in ("in", "out"):
+        run.folder_of(folder)
+    run.write("in/m.obj", run.text("m.obj"))
+    for ending in (".splat", ".ksplat", ".spz", ".SOG"):
+        said = f'"{ending}" is a form of Gaussian splats that is not supported: they are read and written as uncompressed ply'
+        run.write("c" + ending, bytes(64))
+        for words in (["deform", "c" + ending, "o.ply", "-l", "l.json"], ["check", "c" + ending, "-l", "l.json"], ["info", "c" + ending],
+                      ["compare", "m.obj", "c" + ending], ["embed", "c" + ending, "-l", "l.json", "-o", "e.npy"], ["view", "c" + ending, "-l", "l.json", "-o", "v.html"]):
+            run.ffd(*words, code=USAGE, err=f"c{ending}: {said}")
+        run.ffd("deform", "m.obj", "o" + ending, "-l", "l.json", code=USAGE, err=f"o{ending}: {said}")
+        run.write("in/c" + ending, bytes(64))
+        done = run.ffd("batch", "--in", "in/*", "-l", "l.json", "--out-dir", "out", "--force", code=NO, err=anything)
+        told(done, re.escape(said))
+        check(run.exists("out/m.obj"), "the others are done")
+        run.remove("in/c" + ending)
+    run.ffd("info", "m.fbx", code=USAGE, err='m.fbx: the ending ".fbx" is not that of a mesh format (obj, gltf, glb, vrm, ply, off or stl)')
+
+
+@case
 def ends_of_stl_in_two_words(run):
     """"end loop" and "end facet" are read, with a warning, as "end solid" is."""
     run.write("l.json", LIFT)
@@ -664,6 +782,26 @@ def ends_of_stl_in_two_words(run):
     run.ffd("info", "m.stl", "--strict", code=INVALID, err=re.compile("two words"))
     run.write("m.stl", text.replace("end loop", "end"))
     run.ffd("info", "m.stl", code=INVALID, err=re.compile("endloop"))
+
+
+@case
+def a_name_that_ends_in_a_backslash(run):
+    """The next line belongs to it, as the format has it: a warning leads to the line, of whatever keyword, and strict refuses it."""
+    run.write("l.json", LIFT)
+    said = "the backslash at the end of the line joins the next one to it, which seems to be a statement of its own"
+    corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n"
+    for statement in ("usemtl wood\\", "g a\\", "o C:\\", "mtllib C:\\a\\", "usemap a\\", "usemtl wood \\"):
+        for below in ("f 1 2 3", "  f 1 2 3", "l 1 2", "usemtl b", "vt 0 0"):
+            run.write("m.obj", f"{corners}{statement}\n{below}\nf 2 4 3\n")
+            run.ffd("info", "m.obj", err=[f"m.obj: line 5: {said}"])
+            run.ffd("check", "m.obj", "-l", "l.json", "--strict", code=INVALID, err=f"m.obj:5: {said}")
+    told(run.ffd("deform", "m.obj", "o.obj", "-l", "l.json", err=anything), "line 5: " + said)
+    for text in ("g a \\\nb c\nf 1 2 3\n", "f 1 2 \\\n3\n", "g a \\\nfelt f\nf 1 2 3\n", "# C:\\\nf 1 2 3\n", "usemtl a\\ \nf 1 2 3\n"):
+        run.write("m.obj", corners + text)
+        equal(run.ffd("info", "m.obj", "--json").json["contents"]["faces"], 1)
+    lines = "".join("g a\\\nf 1 2 3\nf 2 4 3\n" for _ in range(40000))
+    run.write("m.obj", corners + lines)
+    run.ffd("info", "m.obj", err=[f"m.obj: line 5: {said} (the first of 40000 such)"])
 
 
 @case

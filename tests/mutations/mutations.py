@@ -128,7 +128,7 @@ m("module-without-memory", "error code", "cli_modules", "if (!has_memory(MODULE_
 m("modules-of-the-working-folder", "path", "cli_modules", "snprintf(file, LONGEST_PATH, \"%.*s\", (int)length, path);",
   "snprintf(file, LONGEST_PATH, \"%s\", \"./x\");")
 m("module-of-another-user", "check left out", "cli_modules", "return has_link && has_file;", "return has_link || file.st_size >= 0;")
-m("meshopt-without-its-module", "check left out", "cli_modules", "if (status == FFD_OK) status = ffd_meshopt_ready(&problem);", "")
+m("meshopt-without-its-module", "check left out", "cli_modules", "if (status == FFD_OK) status = ffd_meshopt_ready(view, &problem);", "")
 m("sine-of-45", "rounding", "trig", "if (size == 45)", "if (size == 46)")
 m("utf8-surrogates", "check left out", "base, json_span", "(first == 0xed && c[1] > 0x9f)",
   "(first == 0xed && c[1] > 0xbf)",
@@ -629,6 +629,13 @@ m("bounds-before-mending", "operand", "gltf_mended", "edit_bounds(saver, unpacki
   "edit_bounds(saver, unpacking->accessor, NULL, saver->document->layouts[unpacking->accessor].data, edits);")
 m("meshopt-triangles", "check left out", "meshopt, gltf_packed", "view->mode == MESHOPT_TRIANGLES && view->count % 3)",
   "view->mode == MESHOPT_TRIANGLES && view->count % 3 > 2)")
+m("meshopt-wide-deltas", "table", "meshopt_streams", "widths[2][4] = {{0, 1, 2, 4}, {1, 2, 4, 8}}", "widths[2][4] = {{0, 1, 2, 4}, {0, 2, 4, 8}}")
+m("meshopt-turned-deltas", "direction", "meshopt_streams", "(delta >> turn | delta << (32 - turn) % 32)",
+  "(delta << turn | delta >> (32 - turn) % 32)")
+m("meshopt-bytes-too-many", "check left out", "meshopt_streams", "if (status == FFD_OK && from.at < from.end)",
+  "if (status == FFD_OK && from.at > from.end)")
+m("meshopt-edge-not-remembered", "check left out", "cli_files", "t->is_broken = age >= t->edge_count || t->is_broken;", "")
+m("meshopt-scale-of-a-colour", "bound", "meshopt, meshopt_streams", "const int alpha = from[3] & scale >> 1,", "const int alpha = from[3] & scale,")
 m("glb-newer-version", "error code", "gltf, cli_broken_gltf",
   "if (version != GLB_VERSION) return ffd_fail_file(error, FFD_E_UNSUPPORTED,",
   "if (version != GLB_VERSION)\n        return ffd_fail_file(error, FFD_E_INVALID,")

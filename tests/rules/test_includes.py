@@ -132,7 +132,7 @@ LAYERS = {
         "base", "base/file", "base/memory", "base/system", "base/text", "batch/files", "batch/manifest", "io", "io/npy", "job/chain", "job/input",
         "job/judge", "job/report", "json", "lattice/file", "view",
     },
-    "cli": {"base", "base/file", "base/memory", "base/text", "batch", "job"},
+    "cli": {"base", "base/file", "base/memory", "base/text", "batch", "io", "job"},
     "cli/pages": {"cli"},
     "python": set(),
     "job": {

@@ -1,10 +1,12 @@
 /* packed_glb.c - writes a GLB with a large compressed sheet of squares, to show how much memory a few bytes
-   can ask for: packed_glb edgebreaker|sequential|meshopt SIDE FILE */
+   can ask for: packed_glb edgebreaker|sequential|meshopt|meshopt-0 SIDE FILE (meshopt-0: indices in version
+   0) */
 #include "draco_sample.h"
 #include "sheet.h"
 #include <meshoptimizer.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct sheet {
     size_t points, corners;
@@ -46,7 +48,7 @@ static packed pack_draco(const sheet *s, bool edgebreaker)
     return p;
 }
 
-static packed pack_meshopt(const sheet *s)
+static packed pack_meshopt(const sheet *s, int index_version)
 {
     const size_t points = meshopt_encodeVertexBufferBound(s->points, 12);
     const size_t corners = meshopt_encodeIndexBufferBound(s->corners, s->points);
@@ -54,6 +56,7 @@ static packed pack_meshopt(const sheet *s)
     if (!p.bytes)
         exit(1);
     p.first = meshopt_encodeVertexBuffer(p.bytes, points, s->positions, s->points, 12);
+    meshopt_encodeIndexVersion(index_version);
     p.size = p.first + meshopt_encodeIndexBuffer(p.bytes + p.first, corners, s->triangles, s->corners);
     return p;
 }
@@ -125,8 +128,8 @@ int main(int count, char **arguments)
         return 2;
     sheet s;
     make_sheet((uint32_t)strtoul(arguments[2], NULL, 10), &s);
-    const packed p = strcmp(arguments[1], "meshopt") == 0
-                         ? pack_meshopt(&s)
+    const packed p = strncmp(arguments[1], "meshopt", 7) == 0
+                         ? pack_meshopt(&s, strcmp(arguments[1], "meshopt-0") != 0)
                          : pack_draco(&s, strcmp(arguments[1], "edgebreaker") == 0);
     return p.bytes ? write_glb(arguments[3], &s, &p) : 1;
 }

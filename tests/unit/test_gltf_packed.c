@@ -546,7 +546,7 @@ static void meshopt_that_cannot_be_is_refused(void **state)
         {"\"mode\":\"ATTRIBUTES\"", "\"mode\":\"ATTRIBUTEZ\"", "/bufferViews/0/extensions/" MESHOPT "/mode",
          "only the modes ATTRIBUTES, TRIANGLES and INDICES are known", FFD_E_UNSUPPORTED},
         {"\"filter\":\"NONE\"", "\"filter\":\"NINE\"", "/bufferViews/1/extensions/" MESHOPT "/filter",
-         "only the filters NONE, OCTAHEDRAL, QUATERNION and EXPONENTIAL are known", FFD_E_UNSUPPORTED},
+         "only the filters NONE, OCTAHEDRAL, QUATERNION, EXPONENTIAL and COLOR are known", FFD_E_UNSUPPORTED},
         {"\"count\":25}}}", "\"count\":24}}}", "/bufferViews/0/extensions/" MESHOPT,
          "count 24 times byteStride 24 is not the bufferView's byteLength 600", FFD_E_INVALID},
         {"\"count\":25}}}", "\"count\":-1}}}", "/bufferViews/0/extensions/" MESHOPT "/count",

@@ -8,7 +8,8 @@
 #include "../support/draw.h"
 #include "base/memory/memory.h"
 #include "mesh/meshopt/meshopt_filters.h"
-#include "mesh/meshopt/meshopt_view.h"
+#include "mesh/meshopt/meshopt_library.h"
+#include "mesh/meshopt/meshopt_stream.h"
 #include <math.h>
 #include <meshoptimizer.h>
 #include <stdlib.h>
@@ -17,6 +18,7 @@
 #define COUNT 700
 #define CAPACITY 40000
 #define MUTATIONS 4000
+#define RUNS 150
 
 typedef struct stream {
     meshopt_view view;
@@ -67,7 +69,7 @@ static ffd_status decode(const meshopt_view *view, unsigned char **bytes, ffd_er
     const ffd_status status = ffd_meshopt_check(view, error);
     if (status)
         return status;
-    assert_true(view->count * view->stride <= 64 * (uint64_t)view->size);
+    assert_true(view->count * view->stride <= 1024 * (uint64_t)view->size);
     *bytes = ffd_alloc((size_t)view->count, (size_t)view->stride);
     assert_non_null(*bytes);
     return ffd_meshopt_decode(view, *bytes, error);
@@ -93,6 +95,60 @@ static void attributes_come_back(void **state)
         ffd_free(bytes);
         free(room);
         free(elements);
+    }
+}
+
+/* Elements of which some columns are constant, some walk in steps of up to 2^n, and some are noise. */
+static void fill_elements(draw *d, unsigned char *elements, size_t count, size_t stride)
+{
+    for (size_t b = 0; b < stride; b++) {
+        const uint32_t range = 1u << draw_number(d) % 9;
+        unsigned value = draw_number(d);
+        for (size_t i = 0; i < count; i++) {
+            value += draw_number(d) % range;
+            elements[i * stride + b] = (unsigned char)value;
+        }
+    }
+}
+
+/* Fails unless both decoders make the same elements of a stream. */
+static void compare_decoders(const meshopt_view *view)
+{
+    const size_t length = (size_t)(view->count * view->stride);
+    unsigned char *ours = malloc(length), *theirs = malloc(length);
+    ffd_error error = {0};
+    assert_int_equal(ffd_meshopt_check(view, &error), FFD_OK);
+    assert_int_equal(ffd_meshopt_library_decode(view, theirs, &error), FFD_OK);
+    if (ffd_meshopt_read(view, ours, &error))
+        fail_msg("%s", error.message);
+    assert_memory_equal(ours, theirs, length);
+    free(ours);
+    free(theirs);
+}
+
+static void our_decoder_gives_the_bytes_of_the_library(void **state)
+{
+    (void)state;
+    draw d = {draw_seed()};
+    static unsigned char elements[256 * COUNT], bytes[300 * COUNT];
+    uint32_t indices[COUNT];
+    for (int run = 0; run < RUNS; run++) {
+        const size_t stride = 4 * (1 + draw_number(&d) % 64), count = 1 + draw_number(&d) % COUNT;
+        meshopt_view view = {.count = count, .stride = stride, .bytes = bytes};
+        fill_elements(&d, elements, count, stride);
+        view.size = meshopt_encodeVertexBuffer(bytes, sizeof bytes, elements, count, stride);
+        compare_decoders(&view);
+        const size_t corners = 3 * (1 + draw_number(&d) % (COUNT / 3));
+        for (size_t i = 0; i < corners; i++)
+            indices[i] = draw_number(&d) % 20 ? (uint32_t)(i / 3 + i % 3 * (1 + draw_number(&d) % 5))
+                                              : draw_number(&d) & 0x7fffffff;
+        meshopt_encodeIndexVersion(1);
+        view = (meshopt_view){MESHOPT_TRIANGLES, MESHOPT_NONE, corners, run % 2 ? 2 : 4, .bytes = bytes};
+        view.size = meshopt_encodeIndexBuffer(bytes, sizeof bytes, indices, corners);
+        compare_decoders(&view);
+        view.mode = MESHOPT_INDICES;
+        view.size = meshopt_encodeIndexSequence(bytes, sizeof bytes, indices, corners);
+        compare_decoders(&view);
     }
 }
 
@@ -281,6 +337,62 @@ static void quaternion_filter_is_exact(void **state)
     }
 }
 
+/* The whole range of exponents that the extension allows, and all signs. */
+static void exponential_filter_is_exact(void **state)
+{
+    (void)state;
+    draw d = {10};
+    for (int i = 0; i < 20000; i++) {
+        const int exponent = i % 201 - 100;
+        const int mantissa = (int)(draw_number(&d) % (1u << (1 + i % 24))) - (1 << i % 24);
+        unsigned char bytes[4] = {(unsigned char)(mantissa & 255), (unsigned char)(mantissa >> 8 & 255),
+                                  (unsigned char)(mantissa >> 16 & 255), (unsigned char)(exponent & 255)};
+        float value;
+        ffd_meshopt_scale(bytes, 1, 4);
+        memcpy(&value, bytes, sizeof value);
+        assert_true((long double)value == ldexpl(mantissa, exponent));
+    }
+}
+
+/* The colour that KHR_meshopt_compression assigns to four integers; bits: of each, with the marker of alpha.
+ */
+static void expect_color(const int from[4], int bits, int largest, int to[4])
+{
+    const int scale = (1 << bits) - 1, alpha = from[3] - (1 << (bits - 1));
+    const int exact[4] = {from[0] + from[1] - from[2], from[0] + from[2], from[0] - from[1] - from[2],
+                          2 * alpha + alpha % 2};
+    for (int c = 0; c < 4; c++) {
+        const int value = nearest((long double)exact[c] * largest / scale);
+        to[c] = value < 0 ? 0 : value > largest ? largest : value;
+    }
+}
+
+static void color_filter_is_exact(void **state)
+{
+    (void)state;
+    draw d = {12};
+    for (int i = 0; i < 20000; i++) {
+        const int is_short = i % 2, bits = 2 + i / 2 % (is_short ? 15 : 7), scale = (1 << bits) - 1;
+        const int half = 1 << (bits - 1);
+        const int from[4] = {(int)(draw_number(&d) % (unsigned)(scale + 1)),
+                             (int)(draw_number(&d) % (unsigned)scale) - half + 1,
+                             (int)(draw_number(&d) % (unsigned)scale) - half + 1,
+                             half + (int)(draw_number(&d) % (unsigned)half)};
+        unsigned char bytes[8];
+        int expected[4];
+        for (int c = 0; c < 4; c++)
+            for (int b = 0; b <= is_short; b++)
+                bytes[(1 + is_short) * c + b] = (unsigned char)((unsigned)from[c] >> (8 * b) & 255);
+        expect_color(from, bits, is_short ? 65535 : 255, expected);
+        ffd_meshopt_mix_colors(bytes, 1, is_short ? 8 : 4);
+        for (int c = 0; c < 4; c++)
+            assert_int_equal(is_short ? bytes[2 * c] | bytes[2 * c + 1] << 8 : bytes[c], expected[c]);
+    }
+    unsigned char none[4] = {200, 3, 5, 0};
+    ffd_meshopt_mix_colors(none, 1, 4);
+    assert_true(none[0] == 0 && none[1] == 0 && none[2] == 0 && none[3] == 0);
+}
+
 /* An exponent for each element. */
 static void encode_exponents(unsigned char *elements, int bits, const float *values)
 {
@@ -382,9 +494,9 @@ static void what_cannot_be_is_refused_before_there_is_memory(void **state)
     check_refusal(&changed.view, FFD_E_INVALID, "the compressed data is not of mode ATTRIBUTES");
     changed.view = s.view;
     changed.view.bytes = changed.bytes;
-    changed.bytes[0]++;
+    changed.bytes[0] += 2;
     check_refusal(&changed.view, FFD_E_UNSUPPORTED,
-                  "version 1 of the meshopt codec for ATTRIBUTES is not known, only up to 0");
+                  "version 2 of the meshopt codec for ATTRIBUTES is not known, only up to 1");
     make_triangles(&s, 4, 1);
     s.view.count--;
     check_refusal(&s.view, FFD_E_INVALID, "count 698 is not a multiple of 3");
@@ -447,6 +559,9 @@ int main(void)
         cmocka_unit_test(quaternion_filter_gives_rotations),
         cmocka_unit_test(octahedral_filter_is_exact),
         cmocka_unit_test(quaternion_filter_is_exact),
+        cmocka_unit_test(our_decoder_gives_the_bytes_of_the_library),
+        cmocka_unit_test(exponential_filter_is_exact),
+        cmocka_unit_test(color_filter_is_exact),
         cmocka_unit_test(exponential_filter_gives_floats),
         cmocka_unit_test(exponential_filter_tells_its_steps),
         cmocka_unit_test(what_cannot_be_is_refused_before_there_is_memory),

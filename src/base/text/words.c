@@ -61,14 +61,20 @@ const char *ffd_nearest_word(const char *word, const char *const *known, size_t 
     return nearest.best;
 }
 
-void ffd_words_hint(const char *word, const char *const *known, size_t count, char *text, size_t capacity)
+const char *ffd_word_meant(const char *word, const char *const *known, size_t count)
 {
     nearest_word nearest = {.word = word, .length = strlen(word)};
     for (size_t i = 0; i < count; i++)
         ffd_nearest_offer(&nearest, known[i]);
     const size_t longest = nearest.length > strlen(nearest.best) ? nearest.length : strlen(nearest.best);
-    if (2 * nearest.distance <= longest) {
-        snprintf(text, capacity, "the nearest known one is \"%s\"", nearest.best);
+    return 2 * nearest.distance <= longest ? nearest.best : NULL;
+}
+
+void ffd_words_hint(const char *word, const char *const *known, size_t count, char *text, size_t capacity)
+{
+    const char *const meant = ffd_word_meant(word, known, count);
+    if (meant) {
+        snprintf(text, capacity, "the nearest known one is \"%s\"", meant);
         return;
     }
     size_t length = (size_t)snprintf(text, capacity, count == 1 ? "the only known one is" : "known ones are");

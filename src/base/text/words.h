@@ -29,8 +29,12 @@ void ffd_nearest_offer(nearest_word *nearest, const char *known);
    NULL if count is 0. */
 const char *ffd_nearest_word(const char *word, const char *const *known, size_t count);
 
-/* Writes what a message says of an unknown word: the known one (of count, 1 or more) that is meant, or all of
-   them where none is similar: as one half of a word of three letters is not. Truncates to capacity. */
+/* Returns the known word (of count, 1 or more) that is meant by an unknown one; NULL where none is similar:
+   as one half of a word of three letters is not. */
+const char *ffd_word_meant(const char *word, const char *const *known, size_t count);
+
+/* Writes what a message says of an unknown word: the known one that is meant, or all of them. Truncates to
+   capacity. */
 void ffd_words_hint(const char *word, const char *const *known, size_t count, char *text, size_t capacity);
 
 /* Returns `one` if count is 1, else `many`: "1 vertex is", "0 vertices are". */

@@ -48,14 +48,69 @@ static void pass_line_end(obj_scan *scan)
     scan->line++;
 }
 
+static obj_keyword keyword_of(text_word word)
+{
+    static const struct {
+        char text[8];
+        size_t size;
+        obj_keyword keyword;
+    } known[] = {
+        {"v", 1, OBJ_VERTEX},       {"f", 1, OBJ_FACE},   {"vn", 2, OBJ_NORMAL},
+        {"vt", 2, OBJ_TEXCOORD},    {"l", 1, OBJ_LINE},   {"p", 1, OBJ_POINT},
+        {"g", 1, OBJ_GROUP},        {"o", 1, OBJ_OBJECT}, {"usemtl", 6, OBJ_MATERIAL},
+        {"mtllib", 6, OBJ_LIBRARY},
+    };
+    const size_t size = (size_t)(word.last - word.first);
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (known[i].size == size && known[i].text[0] == *word.first &&
+            memcmp(known[i].text, word.first, size) == 0)
+            return known[i].keyword;
+    return OBJ_OTHER;
+}
+
+bool ffd_obj_is_known(text_word name)
+{
+    static const char *const others[] = {
+        "s",         "mg",    "vp",       "cstype",   "deg",  "bmat",   "step",   "curv",
+        "curv2",     "surf",  "parm",     "trim",     "hole", "scrv",   "sp",     "end",
+        "con",       "bevel", "c_interp", "d_interp", "lod",  "usemap", "maplib", "shadow_obj",
+        "trace_obj", "ctech", "stech",    "call",     "csh",  "bsp",    "bzp",    "cdc",
+        "cdp",       "res",   "fo",       "vc",       "vw",   "t"};
+    bool known = keyword_of(name) != OBJ_OTHER;
+    for (size_t i = 0; i < sizeof others / sizeof *others && !known; i++)
+        known = ffd_text_is(name, others[i]);
+    return known;
+}
+
+/* Whether a line begins with a keyword and a blank. */
+static bool is_statement(const char *at, const char *last)
+{
+    while (at < last && ffd_obj_class(at) == OBJ_BLANK)
+        at++;
+    text_word word = {at, at};
+    while (word.last < last && ffd_obj_class(word.last) == OBJ_ORDINARY)
+        word.last++;
+    return word.first < word.last && word.last < last && ffd_obj_class(word.last) == OBJ_BLANK &&
+           keyword_of(word) != OBJ_OTHER;
+}
+
+static void note_oddity(obj_oddity *oddity, size_t line)
+{
+    if (oddity->count++ == 0)
+        oddity->line = line;
+}
+
 static void pass_continuation(obj_scan *scan)
 {
     const char *const next = after_backslash(scan, scan->at);
-    if (next - scan->at > 1 && scan->loose++ == 0)
-        scan->loose_line = scan->line;
+    const size_t line = scan->line;
+    if (next - scan->at > 1)
+        note_oddity(&scan->loose, line);
     scan->at = next;
     if (scan->at < scan->last)
         pass_line_end(scan);
+    if (scan->inside && is_statement(scan->at, scan->last))
+        note_oddity(&scan->joined, line);
 }
 
 static void pass_comment(obj_scan *scan)
@@ -196,40 +251,6 @@ static bool take_next_line(obj_scan *scan)
     scan->at++;
     scan->line++;
     return scan->at < scan->last && take_common_keyword(scan);
-}
-
-static obj_keyword keyword_of(text_word word)
-{
-    static const struct {
-        char text[8];
-        size_t size;
-        obj_keyword keyword;
-    } known[] = {
-        {"v", 1, OBJ_VERTEX},       {"f", 1, OBJ_FACE},   {"vn", 2, OBJ_NORMAL},
-        {"vt", 2, OBJ_TEXCOORD},    {"l", 1, OBJ_LINE},   {"p", 1, OBJ_POINT},
-        {"g", 1, OBJ_GROUP},        {"o", 1, OBJ_OBJECT}, {"usemtl", 6, OBJ_MATERIAL},
-        {"mtllib", 6, OBJ_LIBRARY},
-    };
-    const size_t size = (size_t)(word.last - word.first);
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-        if (known[i].size == size && known[i].text[0] == *word.first &&
-            memcmp(known[i].text, word.first, size) == 0)
-            return known[i].keyword;
-    return OBJ_OTHER;
-}
-
-bool ffd_obj_is_known(text_word name)
-{
-    static const char *const others[] = {
-        "s",         "mg",    "vp",       "cstype",   "deg",  "bmat",   "step",   "curv",
-        "curv2",     "surf",  "parm",     "trim",     "hole", "scrv",   "sp",     "end",
-        "con",       "bevel", "c_interp", "d_interp", "lod",  "usemap", "maplib", "shadow_obj",
-        "trace_obj", "ctech", "stech",    "call",     "csh",  "bsp",    "bzp",    "cdc",
-        "cdp",       "res",   "fo",       "vc",       "vw",   "t"};
-    bool known = keyword_of(name) != OBJ_OTHER;
-    for (size_t i = 0; i < sizeof others / sizeof *others && !known; i++)
-        known = ffd_text_is(name, others[i]);
-    return known;
 }
 
 bool ffd_obj_scan_next(obj_scan *scan)

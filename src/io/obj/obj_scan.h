@@ -28,6 +28,11 @@ typedef enum obj_keyword {
     OBJ_LIBRARY
 } obj_keyword;
 
+/* Something odd that is read all the same: how often, and the line of the first time. */
+typedef struct obj_oddity {
+    size_t count, line;
+} obj_oddity;
+
 typedef struct obj_scan {
     const char *at, *last;
     size_t line;         /* of at, from 1 */
@@ -36,7 +41,8 @@ typedef struct obj_scan {
     obj_keyword keyword; /* of the statement begun last */
     text_word name;      /* the keyword as written */
     size_t keyword_line;
-    size_t loose, loose_line; /* continuations with blanks after the backslash; the line of the first */
+    obj_oddity loose;  /* continuations with blanks after the backslash */
+    obj_oddity joined; /* continuations by a line that seems to be a statement of its own */
 } obj_scan;
 
 /* Whether a keyword is one of the OBJ specification, of its older versions, or of a common extension: vc

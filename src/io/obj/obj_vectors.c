@@ -24,7 +24,7 @@ typedef struct vectors {
 typedef struct block_content {
     vectors positions, normals;
     size_t texcoords, faces, lines;
-    size_t loose, loose_line; /* as in obj_scan; the line counts from the block's first, 0 */
+    obj_oddity loose, joined; /* as in obj_scan; lines count from the block's first, 0 */
     obj_unknown unknown;      /* likewise */
     size_t addition;          /* offset in the file after the last `vn`; 0: none */
     obj_block_users users;
@@ -38,7 +38,7 @@ typedef struct reader {
     block_content *contents; /* of blocks that are not joined yet */
     /* Counts before the next block; the document gets them when no thread reads it any more. */
     size_t line, vertices, texcoords, normals, faces;
-    size_t loose, loose_line; /* as in obj_scan */
+    obj_oddity loose, joined; /* as in obj_scan */
     size_t released;          /* bytes of the file whose pages are released (ffd_file_release_until) */
     size_t failed;            /* the first block that could not be read; SIZE_MAX: none so far */
     ffd_status status;        /* of that block */
@@ -120,8 +120,8 @@ static ffd_status read_block(const reader *r, size_t block, block_content *conte
         }
     }
     content->lines = walk.scan.line - line;
-    content->loose = walk.scan.loose;
-    content->loose_line = walk.scan.loose_line - line;
+    content->loose = (obj_oddity){walk.scan.loose.count, walk.scan.loose.line - line};
+    content->joined = (obj_oddity){walk.scan.joined.count, walk.scan.joined.line - line};
     return status;
 }
 
@@ -187,6 +187,14 @@ static bool append(const vectors *from, size_t count, spill_array *to)
     return true;
 }
 
+/* line: of the first line that `more` counts from. */
+static void add_oddity(obj_oddity *sum, const obj_oddity *more, size_t line)
+{
+    if (sum->count == 0)
+        sum->line = line + more->line;
+    sum->count += more->count;
+}
+
 /* Sets the numbers of the first line and elements of the block, and takes over its content. */
 static void join_tile(void *context, size_t tile, size_t first, size_t last, int worker)
 {
@@ -216,9 +224,8 @@ static void join_tile(void *context, size_t tile, size_t first, size_t last, int
         atomic_store(&r->is_over, true);
         return;
     }
-    if (r->loose == 0)
-        r->loose_line = r->line + content->loose_line;
-    r->loose += content->loose;
+    add_oddity(&r->loose, &content->loose, r->line);
+    add_oddity(&r->joined, &content->joined, r->line);
     if (d->unknown.count == 0) {
         d->unknown = content->unknown;
         d->unknown.line += r->line;
@@ -250,9 +257,14 @@ static ffd_status note_flaws(reader *r, ffd_error *error)
 {
     obj_document *const d = r->document;
     ffd_status status = ffd_file_document_note_mark(&d->file, d->end, error);
-    for (size_t i = 0; i < r->loose && status == FFD_OK; i++)
-        status = ffd_flaw_line(&d->file.base.flaws, d->file.name, r->loose_line, error,
+    for (size_t i = 0; i < r->loose.count && status == FFD_OK; i++)
+        status = ffd_flaw_line(&d->file.base.flaws, d->file.name, r->loose.line, error,
                                "blanks follow the backslash at the end of the line: it goes on in the next");
+    for (size_t i = 0; i < r->joined.count && status == FFD_OK; i++)
+        status =
+            ffd_flaw_line(&d->file.base.flaws, d->file.name, r->joined.line, error,
+                          "the backslash at the end of the line joins the next one to it, which seems to be "
+                          "a statement of its own");
     return status;
 }
 

@@ -5,6 +5,7 @@
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
 #include "base/vector/vec.h"
+#include "io/format_names.h"
 #include "io/formats.h"
 #include "mesh/bounds.h"
 #include <string.h>
@@ -33,11 +34,7 @@ ffd_status ffd_source_format(const ffd_source *source, ffd_format *format, ffd_e
     *format = source->format != FFD_FORMAT_AUTO ? source->format : ffd_format_from_name(source->path);
     if (ffd_format_table(*format))
         return FFD_OK;
-    if (strcmp(source->path, "-") == 0)
-        return ffd_fail(error, FFD_E_ARGUMENT, "standard input needs --input-format " FORMAT_NAMES);
-    return ffd_fail_file(error, FFD_E_ARGUMENT, source->path,
-                         "the ending \"%s\" is not that of a mesh format (" FORMAT_NAMES ")",
-                         ffd_path_ending(source->path));
+    return ffd_format_refuse_name(source->path, error);
 }
 
 /* If a run has set the file aside, says so in the message: it is not lost. */

@@ -1,48 +1,44 @@
-/* meshopt_decode.c - decodes with the meshoptimizer library. */
-#include "base/little_endian.h"
+/* meshopt_decode.c - a view by the decoder that reads it, then its filter. */
+#include "base/text/words.h"
 #include "mesh/meshopt/meshopt_filters.h"
-#include "mesh/meshopt/meshopt_view.h"
-#include <meshoptimizer.h>
+#include "mesh/meshopt/meshopt_library.h"
+#include "mesh/meshopt/meshopt_stream.h"
+#include <stdbool.h>
 
-ffd_status ffd_meshopt_ready(ffd_error *error)
+ffd_status ffd_meshopt_ready(const meshopt_view *view, ffd_error *error)
 {
-    (void)error;
-    return FFD_OK;
+    /* Version 0 of indices is older than the extensions, which do not describe it. */
+    const bool is_ours = view->mode == MESHOPT_ATTRIBUTES || ffd_meshopt_version(view) > 0;
+    return is_ours ? FFD_OK : ffd_meshopt_library_ready(error);
 }
 
-static int decode(const meshopt_view *view, size_t count, size_t stride, unsigned char *bytes)
+static ffd_status read_stream(const meshopt_view *view, meshopt_stream *from, unsigned char *bytes,
+                              ffd_error *error)
 {
     switch (view->mode) {
     case MESHOPT_ATTRIBUTES:
-        return meshopt_decodeVertexBuffer(bytes, count, stride, view->bytes, view->size);
+        return ffd_meshopt_read_attributes(view, from, bytes, error);
     case MESHOPT_TRIANGLES:
-        return meshopt_decodeIndexBuffer(bytes, count, stride, view->bytes, view->size);
+        return ffd_meshopt_read_triangles(view, from, bytes, error);
     default:
-        return meshopt_decodeIndexSequence(bytes, count, stride, view->bytes, view->size);
+        return ffd_meshopt_read_indices(view, from, bytes, error);
     }
 }
 
-/* Finds the exponents before the filter is applied: a number has its exponent in the highest byte, and its
-   mantissa in the others (KHR_meshopt_compression, "Filter 3: exponential"). */
-static void find_exponents(const meshopt_view *view, size_t count, size_t stride, const unsigned char *bytes)
+ffd_status ffd_meshopt_read(const meshopt_view *view, unsigned char *bytes, ffd_error *error)
 {
-    const size_t columns = stride / 4;
-    for (size_t c = 0; c < columns; c++)
-        view->exponents[c] = INT8_MAX;
-    for (size_t i = 0; i < count * columns; i++) {
-        const uint32_t bits = load_u32(bytes + 4 * i);
-        const int8_t exponent = (int8_t)(unsigned char)(bits >> 24);
-        int8_t *const least = &view->exponents[i % columns];
-        if (bits << 8 && exponent < *least)
-            *least = exponent;
-    }
-    for (size_t c = 0; c < columns; c++)
-        if (view->exponents[c] == INT8_MAX)
-            view->exponents[c] = INT8_MIN;
+    meshopt_stream from = {view->bytes + 1, view->bytes + view->size - ffd_meshopt_tail(view)};
+    const ffd_status status = read_stream(view, &from, bytes, error);
+    if (status == FFD_OK && from.at < from.end)
+        return ffd_fail(error, FFD_E_INVALID, "the compressed data of mode %s has %zu %s too many",
+                        ffd_meshopt_mode_name(view->mode), (size_t)(from.end - from.at),
+                        ffd_plural((uint64_t)(from.end - from.at), "byte", "bytes"));
+    return status;
 }
 
-static void apply_filter(const meshopt_view *view, size_t count, size_t stride, unsigned char *bytes)
+static void apply_filter(const meshopt_view *view, unsigned char *bytes)
 {
+    const size_t count = (size_t)view->count, stride = (size_t)view->stride;
     switch (view->filter) {
     case MESHOPT_OCTAHEDRAL:
         ffd_meshopt_unfold(bytes, count, stride);
@@ -52,8 +48,11 @@ static void apply_filter(const meshopt_view *view, size_t count, size_t stride, 
         break;
     case MESHOPT_EXPONENTIAL:
         if (view->exponents)
-            find_exponents(view, count, stride, bytes);
-        meshopt_decodeFilterExp(bytes, count, stride);
+            ffd_meshopt_find_exponents(bytes, count, stride, view->exponents);
+        ffd_meshopt_scale(bytes, count, stride);
+        break;
+    case MESHOPT_COLOR:
+        ffd_meshopt_mix_colors(bytes, count, stride);
         break;
     default:
         break;
@@ -62,11 +61,11 @@ static void apply_filter(const meshopt_view *view, size_t count, size_t stride, 
 
 ffd_status ffd_meshopt_decode(const meshopt_view *view, unsigned char *bytes, ffd_error *error)
 {
-    const size_t count = (size_t)view->count, stride = (size_t)view->stride;
-    const int result = decode(view, count, stride, bytes);
-    if (result != 0)
-        return ffd_fail(error, FFD_E_INVALID, "the compressed data of mode %s is broken (%d)",
-                        ffd_meshopt_mode_name(view->mode), result);
-    apply_filter(view, count, stride, bytes);
-    return FFD_OK;
+    /* The library is quicker, and all its versions know version 0. */
+    const bool is_older = ffd_meshopt_version(view) == 0 && ffd_meshopt_library_ready(NULL) == FFD_OK;
+    const ffd_status status =
+        is_older ? ffd_meshopt_library_decode(view, bytes, error) : ffd_meshopt_read(view, bytes, error);
+    if (status == FFD_OK)
+        apply_filter(view, bytes);
+    return status;
 }

@@ -1,9 +1,11 @@
 #include "mesh/meshopt/meshopt_filters.h"
+#include "base/little_endian.h"
 #include <math.h>
-#include <stdint.h>
 
 #define LARGEST_8 127.0
 #define LARGEST_16 32767.0
+#define DOUBLE_BIAS 1023
+#define DOUBLE_MANTISSA 52 /* bits below the exponent */
 
 static int load_16(const unsigned char *bytes)
 {
@@ -77,4 +79,74 @@ void ffd_meshopt_complete_rotations(unsigned char *bytes, size_t count)
 {
     for (size_t i = 0; i < count; i++)
         complete(bytes + 8 * i);
+}
+
+void ffd_meshopt_find_exponents(const unsigned char *bytes, size_t count, size_t stride, int8_t *exponents)
+{
+    const size_t columns = stride / 4;
+    for (size_t c = 0; c < columns; c++)
+        exponents[c] = INT8_MAX;
+    for (size_t i = 0; i < count * columns; i++) {
+        const uint32_t bits = load_u32(bytes + 4 * i);
+        const int8_t exponent = (int8_t)(unsigned char)(bits >> 24);
+        int8_t *const least = &exponents[i % columns];
+        if (bits << 8 && exponent < *least)
+            *least = exponent;
+    }
+    for (size_t c = 0; c < columns; c++)
+        if (exponents[c] == INT8_MAX)
+            exponents[c] = INT8_MIN;
+}
+
+/* Returns 2^exponent of a number of 8 bits. ldexp would be ten times as slow. */
+static double power_of_two(int exponent)
+{
+    const uint64_t bits = (uint64_t)(exponent + DOUBLE_BIAS) << DOUBLE_MANTISSA;
+    double power;
+    memcpy(&power, &bits, sizeof power);
+    return power;
+}
+
+/* A double holds each of the products exactly. */
+void ffd_meshopt_scale(unsigned char *bytes, size_t count, size_t stride)
+{
+    for (size_t i = 0; i < count * (stride / 4); i++) {
+        const uint32_t bits = load_u32(bytes + 4 * i);
+        const int32_t mantissa = (int32_t)(bits & 0x7fffff) - (int32_t)(bits & 0x800000);
+        store_float(bytes + 4 * i, (float)(mantissa * power_of_two((int8_t)(unsigned char)(bits >> 24))));
+    }
+}
+
+static int limit(double value, double largest)
+{
+    return (int)(fmax(fmin(value, largest), 0) + 0.5);
+}
+
+/* Converts a colour of luma, two differences of colour, and alpha, whose highest bit tells the scale. */
+static void mix(const int from[4], double largest, int to[4])
+{
+    int scale = from[3];
+    for (int shift = 1; shift < 16; shift *= 2)
+        scale |= scale >> shift;
+    const int alpha = from[3] & scale >> 1, base = from[0] - from[2];
+    const int mixed[4] = {base + from[1], from[0] + from[2], base - from[1], alpha << 1 | (alpha & 1)};
+    for (int c = 0; c < 4; c++)
+        to[c] = scale > 0 ? limit(mixed[c] * largest / scale, largest) : 0;
+}
+
+void ffd_meshopt_mix_colors(unsigned char *bytes, size_t count, size_t stride)
+{
+    int to[4];
+    for (unsigned char *at = bytes; at < bytes + count * stride; at += stride)
+        if (stride == 4) {
+            mix((const int[4]){at[0], (int8_t)at[1], (int8_t)at[2], at[3]}, UINT8_MAX, to);
+            for (int c = 0; c < 4; c++)
+                at[c] = (unsigned char)to[c];
+        } else {
+            mix((const int[4]){load_16(at) & UINT16_MAX, load_16(at + 2), load_16(at + 4),
+                               load_16(at + 6) & UINT16_MAX},
+                UINT16_MAX, to);
+            for (int c = 0; c < 4; c++)
+                store_16(at + 2 * c, to[c]);
+        }
 }

@@ -3,13 +3,13 @@
 
 static module meshopt = {MESHOPT_IDENTITY, "meshopt", NULL};
 
-ffd_status ffd_meshopt_ready(ffd_error *error)
+ffd_status ffd_meshopt_library_ready(ffd_error *error)
 {
     const module_head *head;
     return ffd_module_load(&meshopt, &head, error);
 }
 
-ffd_status ffd_meshopt_decode(const meshopt_view *view, unsigned char *bytes, ffd_error *error)
+ffd_status ffd_meshopt_library_decode(const meshopt_view *view, unsigned char *bytes, ffd_error *error)
 {
     const module_head *head;
     const ffd_status status = ffd_module_load(&meshopt, &head, error);

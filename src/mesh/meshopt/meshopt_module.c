@@ -5,6 +5,6 @@ FFD_API extern const meshopt_module ffd_module;
 
 const meshopt_module ffd_module = {
     {MESHOPT_IDENTITY, ffd_exceptions_prepare},
-    ffd_meshopt_decode,
+    ffd_meshopt_library_decode,
     ffd_meshopt_simplify,
 };

@@ -4,13 +4,13 @@
 #define FFD_MESH_MESHOPT_MESHOPT_MODULE_H
 
 #include "base/system/module.h"
+#include "mesh/meshopt/meshopt_library.h"
 #include "mesh/meshopt/meshopt_simplify.h"
-#include "mesh/meshopt/meshopt_view.h"
 #include <ffd/version.h>
 
 #define MESHOPT_IDENTITY                                                                                     \
     {                                                                                                        \
-        "ffd-meshopt.so", FFD_VERSION, 2                                                                     \
+        "ffd-meshopt.so", FFD_VERSION, 3                                                                     \
     }
 
 typedef struct meshopt_module {

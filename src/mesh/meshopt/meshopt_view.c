@@ -6,20 +6,23 @@
 #define KIND_MASK 0xf0u
 #define VERSION_MASK 0x0fu
 
-/* A stream of attributes has, for each 64 elements, at least one byte for each byte of an element; then one
-   element, or ATTRIBUTES_TAIL bytes if that is more. */
+/* A stream of attributes has, for each 64 elements, at least one byte for each byte of an element; in version
+   1 for each block one byte for four of an element. Then comes one element, in version 1 with a byte for each
+   four of it, or ATTRIBUTES_TAIL bytes if that is more. */
 #define ELEMENTS_PER_BYTE 64
-#define ATTRIBUTES_TAIL 32
+#define ATTRIBUTES_TAIL_0 32
+#define ATTRIBUTES_TAIL_1 24
 #define LARGEST_STRIDE 256
+#define BLOCK_BYTES 8192
 #define TRIANGLES_TAIL 16
 #define INDICES_TAIL 4
 
 typedef struct mode_facts {
     const char *name;
-    unsigned char kind, newest; /* newest: the newest version that the library can read */
+    unsigned char kind, newest; /* newest: the newest version that is known */
 } mode_facts;
 
-static const mode_facts facts[] = {{"ATTRIBUTES", 0xa0, 0}, {"TRIANGLES", 0xe0, 1}, {"INDICES", 0xd0, 1}};
+static const mode_facts facts[] = {{"ATTRIBUTES", 0xa0, 1}, {"TRIANGLES", 0xe0, 1}, {"INDICES", 0xd0, 1}};
 
 static bool is_stride(const meshopt_view *view)
 {
@@ -34,6 +37,7 @@ static bool is_filter(const meshopt_view *view)
     case MESHOPT_NONE:
         return true;
     case MESHOPT_OCTAHEDRAL:
+    case MESHOPT_COLOR:
         return view->mode == MESHOPT_ATTRIBUTES && (view->stride == 4 || view->stride == 8);
     case MESHOPT_QUATERNION:
         return view->mode == MESHOPT_ATTRIBUTES && view->stride == 8;
@@ -42,17 +46,44 @@ static bool is_filter(const meshopt_view *view)
     }
 }
 
-/* Returns the least size of a stream with the elements of the view. */
-static uint64_t least_size(const meshopt_view *view)
+unsigned ffd_meshopt_version(const meshopt_view *view)
+{
+    return view->bytes[0] & VERSION_MASK;
+}
+
+size_t ffd_meshopt_block(size_t stride)
+{
+    const size_t most = BLOCK_BYTES / stride / MESHOPT_GROUP * MESHOPT_GROUP;
+    return most < MESHOPT_BLOCK ? most : MESHOPT_BLOCK;
+}
+
+uint64_t ffd_meshopt_tail(const meshopt_view *view)
+{
+    const bool is_newer = ffd_meshopt_version(view) > 0;
+    const uint64_t element = is_newer ? view->stride + view->stride / 4 : view->stride;
+    const uint64_t least = is_newer ? ATTRIBUTES_TAIL_1 : ATTRIBUTES_TAIL_0;
+    switch (view->mode) {
+    case MESHOPT_ATTRIBUTES:
+        return element < least ? least : element;
+    case MESHOPT_TRIANGLES:
+        return TRIANGLES_TAIL;
+    default:
+        return INDICES_TAIL;
+    }
+}
+
+/* Returns the least size of the elements of a view. */
+static uint64_t least_content(const meshopt_view *view)
 {
     switch (view->mode) {
     case MESHOPT_ATTRIBUTES:
-        return 1 + view->count / ELEMENTS_PER_BYTE * view->stride +
-               (view->stride < ATTRIBUTES_TAIL ? ATTRIBUTES_TAIL : view->stride);
+        return ffd_meshopt_version(view) == 0
+                   ? view->count / ELEMENTS_PER_BYTE * view->stride
+                   : view->count / ffd_meshopt_block((size_t)view->stride) * (view->stride / 4);
     case MESHOPT_TRIANGLES:
-        return 1 + view->count / 3 + TRIANGLES_TAIL;
+        return view->count / 3;
     default:
-        return 1 + view->count + INDICES_TAIL;
+        return view->count;
     }
 }
 
@@ -70,11 +101,11 @@ ffd_status ffd_meshopt_check(const meshopt_view *view, ffd_error *error)
                         (unsigned long long)view->count);
     if (view->size == 0 || (view->bytes[0] & KIND_MASK) != mode->kind)
         return ffd_fail(error, FFD_E_INVALID, "the compressed data is not of mode %s", mode->name);
-    if ((view->bytes[0] & VERSION_MASK) > mode->newest)
+    if (ffd_meshopt_version(view) > mode->newest)
         return ffd_fail(error, FFD_E_UNSUPPORTED,
                         "version %u of the meshopt codec for %s is not known, only up to %u",
-                        view->bytes[0] & VERSION_MASK, mode->name, mode->newest);
-    if (least_size(view) > view->size)
+                        ffd_meshopt_version(view), mode->name, mode->newest);
+    if (1 + least_content(view) + ffd_meshopt_tail(view) > view->size)
         return ffd_fail(error, FFD_E_INVALID, "%zu %s cannot hold %llu %s of mode %s", view->size,
                         ffd_plural(view->size, "byte", "bytes"), (unsigned long long)view->count,
                         ffd_plural(view->count, "element", "elements"), mode->name);

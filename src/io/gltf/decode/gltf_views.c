@@ -51,7 +51,7 @@ static bool find_name(const gltf_document *d, uint32_t value, const char *const 
 static ffd_status read_words(const gltf_document *d, uint32_t value, meshopt_view *view, ffd_error *error)
 {
     static const char *const modes[] = {"ATTRIBUTES", "TRIANGLES", "INDICES"};
-    static const char *const filters[] = {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"};
+    static const char *const filters[] = {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"};
     const uint32_t mode = ffd_json_span_member(&d->tree, value, "mode");
     const uint32_t filter = ffd_json_span_member(&d->tree, value, "filter");
     size_t found = 0;
@@ -61,8 +61,9 @@ static ffd_status read_words(const gltf_document *d, uint32_t value, meshopt_vie
     view->mode = (meshopt_mode)found;
     found = 0;
     if (filter != JSON_NONE && !find_name(d, filter, filters, sizeof filters / sizeof *filters, &found))
-        return ffd_json_span_fail(&d->tree, filter, d->name, FFD_E_UNSUPPORTED, error,
-                                  "only the filters NONE, OCTAHEDRAL, QUATERNION and EXPONENTIAL are known");
+        return ffd_json_span_fail(
+            &d->tree, filter, d->name, FFD_E_UNSUPPORTED, error,
+            "only the filters NONE, OCTAHEDRAL, QUATERNION, EXPONENTIAL and COLOR are known");
     view->filter = (meshopt_filter)found;
     return FFD_OK;
 }
@@ -107,7 +108,7 @@ static ffd_status read_compression(const gltf_document *d, size_t i, meshopt_vie
     ffd_error problem;
     status = ffd_meshopt_check(view, &problem);
     if (status == FFD_OK)
-        status = ffd_meshopt_ready(&problem);
+        status = ffd_meshopt_ready(view, &problem);
     if (status)
         return ffd_json_span_fail(&d->tree, value, d->name, status, error, "%s", problem.message);
     const uint64_t size = view->count * view->stride;

@@ -1,4 +1,4 @@
-/* gltf_views.h - bufferViews, and decoding those of EXT_meshopt_compression. */
+/* gltf_views.h - bufferViews, and decoding those of EXT_meshopt_compression and KHR_meshopt_compression. */
 #ifndef FFD_IO_GLTF_DECODE_GLTF_VIEWS_H
 #define FFD_IO_GLTF_DECODE_GLTF_VIEWS_H
 
