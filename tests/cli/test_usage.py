@@ -8,9 +8,9 @@ COMMANDS = ["deform", "check", "embed", "compare", "info", "view", "lattice new"
 OPTIONS = {
     "deform": {"--lattice", "--set", "--shared-box", "--out-dir", "--outside", "--falloff", "--snap", "--blocks", "--normals", "--rig", "--only", "--space", "--embedding", "--as-morph", "--fail-on",
                "--resources", "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory", "--strict", "--allow-extension",
-               "--output-format", "--morph", "--clip"},
+               "--output-format", "--morph", "--clip", "--timeout"},
     "check": {"--picture", "--lattice", "--set", "--shared-box", "--outside", "--falloff", "--snap", "--blocks", "--normals", "--rig", "--only", "--space", "--embedding", "--as-morph", "--fail-on", "--resources",
-              "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory", "--strict", "--allow-extension"},
+              "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory", "--strict", "--allow-extension", "--timeout"},
     "embed": {"--lattice", "--set", "--output", "--status", "--space", "--snap", "--threads", "--force", "--input-format", "--memory", "--strict", "--allow-extension"},
     "jacobian": {"--lattice", "--output", "--wrt", "--components", "--of", "--times", "--transposed", "--check", "--set", "--outside", "--falloff", "--snap", "--space",
                  "--only", "--threads", "--isa", "--memory", "--allow-extension", "--strict", "--input-format", "--force"},

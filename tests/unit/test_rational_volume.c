@@ -84,7 +84,8 @@ static void the_doubt_holds_for_any_weights(void **state)
         uncertain += !is_certain;
         ffd_lattice_destroy(&lattice);
     }
-    assert_true(certain > 0 && uncertain > 0);
+    if (!is_memory_checked()) /* which tries two of the nine */
+        assert_true(certain > 0 && uncertain > 0);
     (void)state;
 }
 

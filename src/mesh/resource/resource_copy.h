@@ -14,7 +14,7 @@ typedef struct resource_copier {
     const char *from, *to; /* folders of the mesh file and of the output */
     file_output *output;   /* NULL: only make the checks, copy nothing */
     const mesh_log *log;
-    path_list *copied; /* receives the paths of files that are copied or exist already; may be NULL */
+    path_list *copied; /* receives the paths of files that are loaded to be copied or embedded; may be NULL */
 } resource_copier;
 
 /* Loads a file if it may be copied. *left: NULL, or the reason why it is not copied: its name or content is
