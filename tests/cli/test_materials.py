@@ -132,8 +132,9 @@ def a_file_that_is_there_stays(run):
     equal(tree(run), ["m.mtl"])
     run.remove("out/m.mtl")
     # An output must not have the name of what goes with it, nor replace it in its own folder.
-    for out in ("out/m.mtl", "in/m.mtl", "in/t.png"):
-        deform(run, "--output-format", "obj", "--force", out=out, code=IO, err=lambda said: check("is also the path of the " in said[0], said))
+    for out, why in (("out/m.mtl", "is also the path of the "), ("in/m.mtl", "is an image or a material library of the input in/m.obj and "),
+                     ("in/t.png", "is an image or a material library of the input in/m.obj and ")):
+        deform(run, "--output-format", "obj", "--force", out=out, code=IO, err=lambda said, why=why: check(why in said[0], said))
     equal([run.text("in/m.mtl"), run.read("in/t.png")], [MTL + "map_Kd t.png\n", PNG])
     # Whoever deforms in place, or writes another format, does not need them.
     run.ffd("deform", "in/m.obj", "out/m.glb", "-l", "l.json", err=anything)

@@ -361,9 +361,9 @@ def gltf_is_complete_or_absent(run):
     asset["buffers"][0]["uri"] = "d.bin"
     run.write("m/x.gltf", asset)
     run.write("m/d.bin", data)
-    for arguments in ([], ["--force"]):
-        run.ffd("deform", "m/x.gltf", "m/d.gltf", "-l", "l.json", *arguments,
-                err="m/d.bin is a buffer of m/x.gltf too, and stays: m/d-1.bin is written in place of it")
+    run.ffd("deform", "m/x.gltf", "m/d.gltf", "-l", "l.json",
+            err="m/x.gltf: m/d.bin is a buffer of m/x.gltf too, and stays: m/d-1.bin is written in place of it")
+    run.ffd("deform", "m/x.gltf", "m/d.gltf", "-l", "l.json", "--force")
     equal(run.read("m/d.bin"), data, "the input's buffer")
     equal(json.loads(run.read("m/d.gltf"))["buffers"][0]["uri"], "d-1.bin")
 

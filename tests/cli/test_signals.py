@@ -120,13 +120,7 @@ def a_signal_ends_a_batch_and_leaves_nothing(run):
     run.write("m.jsonl", '{"in": "big.ply", "lattice": "bent.json", "out": "o.ply"}\n' * 3)
     for more in ([], ["--shared-box"], ["--report", "r.json", "--force"]):
         ends(run, "batch", "m.jsonl", *more, out=["o.ply"], codes=(NO,))
-    # A line without an end, of a manifest and of a table, and a journal that is as large as one may be.
-    for name in ("endless.jsonl", "endless.csv"):
-        run.write(name, "")
-        os.truncate(run.path(name), 1 << 40)
-    ends(run, "batch", "endless.jsonl", codes=(NO,))
-    ends(run, "batch", "--csv", "endless.csv", "--in", "a.obj", "-l", "l.json", "--out-dir", ".")
-    ends(run, "batch", "--csv", "endless.csv", "--in", "a.obj", "-l", "l.json", "--out-dir", ".", "--shared-box", codes=(NO,))
+    # A journal that is as large as one may be.
     run.write("j", b"ffd-journal 2\n\0\0" + (1 << 26).to_bytes(8, "little") + bytes(40))
     os.truncate(run.path("j"), 64 + (96 << 26))
     ends(run, "batch", "m.jsonl", "--journal", "j", "--resume")

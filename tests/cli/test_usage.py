@@ -18,7 +18,7 @@ OPTIONS = {
     "info": {"--json", "--parts", "--set", "--input-format", "--memory", "--strict"},
     "view": {"--output", "--size", "--camera", "--color", "--frames", "--animation", "--full", "--lattice", "--set", "--shared-box", "--outside", "--falloff", "--snap", "--blocks", "--normals", "--rig", "--only", "--space", "--embedding",
              "--as-morph", "--fail-on", "--resources", "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory", "--strict",
-             "--allow-extension"},
+             "--allow-extension", "--timeout"},
     "lattice new": {"--output", "--size", "--degree", "--knots", "--margin", "--spacing", "--shape", "--axis", "--axes", "--only",
                     "--force", "--input-format", "--memory", "--strict", "--allow-extension"},
     "report merge": {"--output", "--interleave", "--force"},

@@ -93,22 +93,10 @@ static const char *left_by_content(const resource_copier *c, const mesh_resource
     return resource->kind->has_content(bytes->data, bytes->size) ? NULL : resource->kind->other_content;
 }
 
-static ffd_status load(const resource_copier *c, const mesh_resource *resource, file_input *bytes,
-                       const char **left, ffd_error *refused, ffd_error *error)
-{
-    size_t most = SIZE_MAX;
-    const ffd_status status = ffd_file_load_within(c->from, resource->path, c->mesh, &most, bytes, refused);
-    if (status)
-        return status == FFD_E_MEMORY ? ffd_fail_memory(error) : FFD_OK;
-    *left = left_by_content(c, resource, bytes);
-    if (*left)
-        ffd_file_unload(bytes);
-    return FFD_OK;
-}
-
 ffd_status ffd_resource_load(const resource_copier *c, const mesh_resource *resource, file_input *bytes,
                              const char **left, ffd_error *refused, ffd_error *error)
 {
+    size_t most = SIZE_MAX;
     *refused = (ffd_error){0};
     *left = NULL;
     if (ffd_path_leads_out(resource->path)) {
@@ -119,12 +107,24 @@ ffd_status ffd_resource_load(const resource_copier *c, const mesh_resource *reso
     if (!source)
         return ffd_fail_memory(error);
     *left = left_by_name(resource, source);
-    ffd_status status = *left ? FFD_OK : load(c, resource, bytes, left, refused, error);
-    if (!status && !*left && !refused->status && c->copied) {
-        status = ffd_paths_add(c->copied, source, error);
-        if (status)
-            ffd_file_unload(bytes);
-    }
+    ffd_free(source);
+    if (*left)
+        return FFD_OK;
+    const ffd_status status = ffd_file_load_within(c->from, resource->path, c->mesh, &most, bytes, refused);
+    if (status)
+        return status == FFD_E_MEMORY ? ffd_fail_memory(error) : FFD_OK;
+    *left = left_by_content(c, resource, bytes);
+    if (*left)
+        ffd_file_unload(bytes);
+    return FFD_OK;
+}
+
+ffd_status ffd_resource_note(const resource_copier *c, const mesh_resource *resource, ffd_error *error)
+{
+    if (!c->copied)
+        return FFD_OK;
+    char *const source = ffd_path_beside(c->mesh, resource->path);
+    const ffd_status status = source ? ffd_paths_add(c->copied, source, error) : ffd_fail_memory(error);
     ffd_free(source);
     return status;
 }
@@ -133,8 +133,9 @@ static ffd_status copy_loaded(const resource_copier *c, const mesh_resource *res
                               const file_input *bytes, ffd_error *error)
 {
     char *const target = ffd_path_join(c->to, resource->path);
-    const ffd_status status =
-        target ? write_copy(c, resource->kind, target, bytes, error) : ffd_fail_memory(error);
+    ffd_status status = target ? write_copy(c, resource->kind, target, bytes, error) : ffd_fail_memory(error);
+    if (!status)
+        status = ffd_resource_note(c, resource, error);
     ffd_free(target);
     return status;
 }

@@ -14,7 +14,8 @@ typedef struct resource_copier {
     const char *from, *to; /* folders of the mesh file and of the output */
     file_output *output;   /* NULL: only make the checks, copy nothing */
     const mesh_log *log;
-    path_list *copied; /* receives the paths of files that are loaded to be copied or embedded; may be NULL */
+    path_list
+        *copied; /* receives the paths of files that are copied, embedded, or exist already; may be NULL */
 } resource_copier;
 
 /* Loads a file if it may be copied. *left: NULL, or the reason why it is not copied: its name or content is
@@ -29,6 +30,8 @@ ffd_status ffd_resource_load(const resource_copier *copier, const mesh_resource 
    FFD_E_EXISTS, FFD_E_IO, FFD_E_MEMORY. */
 ffd_status ffd_resource_copy(const resource_copier *copier, const mesh_resource *resource, ffd_error *refused,
                              ffd_error *error);
+/* Adds the path of a file that was copied or embedded to `copied`. Errors: FFD_E_MEMORY. */
+ffd_status ffd_resource_note(const resource_copier *c, const mesh_resource *resource, ffd_error *error);
 /* Checks that an output does not replace the file or, if is_copied, its copy. Errors: FFD_E_EXISTS,
    FFD_E_MEMORY. */
 ffd_status ffd_resource_check_target(const resource_copier *copier, const mesh_resource *resource,

@@ -261,6 +261,8 @@ static ffd_status embed_image(resources *r, size_t number, char *path, ffd_error
         return FFD_OK;
     }
     status = put_data_uri(r, number, &bytes, error);
+    if (!status)
+        status = ffd_resource_note(&r->copier, &image, error);
     ffd_file_unload(&bytes);
     return status;
 }
