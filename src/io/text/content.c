@@ -103,12 +103,15 @@ const content_kind *ffd_content_kind(const void *data, size_t size)
     return found != SIZE_MAX ? &magic_numbers[found].kind : kind_of_words(data, size);
 }
 
-/* Whether the bytes are those of UTF-8 text, as far as single bytes tell. Zeros at the end pad it. */
+/* Whether the first bytes are those of UTF-8 text, as far as single bytes tell. Zeros at the end pad it. The
+   end of a long file is not touched: each page of a mapped one takes memory. */
 static bool is_text(const unsigned char *data, size_t size)
 {
-    for (size_t padding = 0; padding < MOST_PADDING && size > 0 && data[size - 1] == 0; padding++)
-        size--;
-    for (size_t i = 0; i < size && i < TEXT_SEEN; i++)
+    size_t seen = size < TEXT_SEEN ? size : TEXT_SEEN;
+    for (size_t padding = 0; padding < MOST_PADDING && seen == size && size > 0 && data[size - 1] == 0;
+         padding++)
+        seen = --size;
+    for (size_t i = 0; i < seen; i++)
         if (data[i] < ' ' && data[i] != '\t' && data[i] != '\n' && data[i] != '\r')
             return false;
     return true;
