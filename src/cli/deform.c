@@ -39,9 +39,8 @@ const cli_option cli_deform_options[] = {
     {"resources", 0, "copy|reference",
      "images or materials of a mesh written elsewhere: copied, or referred to; default copy", cli_set_choice,
      AT(resources), cli_resources_names},
-    {"output-format", 0, "FORMAT",
-     FORMAT_NAMES "; for -, --out-dir, batch: OUT gets its ending", set_output_format,
-     AT(output_format), NULL},
+    {"output-format", 0, "FORMAT", FORMAT_NAMES "; for -, --out-dir, batch: OUT gets its ending",
+     set_output_format, AT(output_format), NULL},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
 
