@@ -35,6 +35,8 @@ ffd_status ffd_gltf_check_contents(const gltf_document *d, ffd_error *error)
         const gltf_buffer *const buffer = &d->buffers[i];
         const content_kind *const kind =
             buffer->data ? ffd_content_sure_kind(buffer->data, buffer->size) : NULL;
+        /* Each buffer that names one file maps it anew, and would keep the pages that were looked at. */
+        ffd_file_release_pages(&buffer->file, buffer->file.data, buffer->file.size);
         const uint32_t value = d->buffer_values.values[i], uri = ffd_json_span_member(&d->tree, value, "uri");
         if (!kind || (!kind->is_stand_in && begins_with_other(d, i, is_read)))
             continue;
