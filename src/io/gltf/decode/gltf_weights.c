@@ -80,14 +80,6 @@ static ffd_status judge_mesh(gltf_document *d, size_t mesh, bool *judged, ffd_er
     return status;
 }
 
-static bool has_skin(const gltf_document *d, const gltf_mesh_uses *uses)
-{
-    for (size_t n = 0; uses->nodes && n < uses->node_count; n++)
-        if (d->model.nodes[uses->nodes[n]].skin >= 0)
-            return true;
-    return false;
-}
-
 ffd_status ffd_gltf_judge_weights(gltf_document *d, ffd_error *error)
 {
     ffd_status status = FFD_OK;
@@ -95,7 +87,7 @@ ffd_status ffd_gltf_judge_weights(gltf_document *d, ffd_error *error)
     if (!judged)
         return ffd_fail_memory(error);
     for (size_t m = 0; m < d->model.mesh_count && status == FFD_OK; m++)
-        if (has_skin(d, &d->mesh_uses[m]))
+        if (ffd_gltf_has_skin(d, &d->mesh_uses[m]))
             status = judge_mesh(d, m, judged, error);
     ffd_free(judged);
     return status;

@@ -298,4 +298,7 @@ void ffd_gltf_splat_name(size_t attribute, char name[GLTF_SPLAT_NAME]);
 /* The names of the deformed attributes: "POSITION" and so on. */
 extern const char *const ffd_gltf_semantic_names[GLTF_DEFORMED];
 
+/* Whether one of the nodes that show a mesh has a skin. */
+bool ffd_gltf_has_skin(const gltf_document *document, const gltf_mesh_uses *uses);
+
 #endif

@@ -45,14 +45,6 @@ static ffd_status settle_sets(gltf_document *d, uint32_t value, gltf_primitive *
     return status;
 }
 
-static bool has_skin(const gltf_document *d, const gltf_mesh_uses *uses)
-{
-    for (size_t n = 0; uses->nodes && n < uses->node_count; n++)
-        if (d->model.nodes[uses->nodes[n]].skin >= 0)
-            return true;
-    return false;
-}
-
 /* Takes the skins of the nodes of a mesh away if they move none of its primitives. */
 static void settle_nodes(gltf_document *d, size_t m)
 {
@@ -69,7 +61,7 @@ ffd_status ffd_gltf_settle_skins(gltf_document *d, ffd_error *error)
     ffd_status status = FFD_OK;
     for (size_t m = 0; m < d->model.mesh_count && status == FFD_OK; m++) {
         gltf_mesh *const mesh = &d->model.meshes[m];
-        if (!has_skin(d, &d->mesh_uses[m]))
+        if (!ffd_gltf_has_skin(d, &d->mesh_uses[m]))
             continue;
         for (size_t p = 0; p < mesh->primitive_count && status == FFD_OK; p++)
             if (mesh->primitives[p].accessor[GLTF_POSITION] >= 0)
