@@ -128,6 +128,18 @@ ffd_status ffd_gltf_find_resources(const char *path, const file_input *bytes, pa
     return status;
 }
 
+/* Adds the path of a file beside the mesh, unless `relative` is NULL, and frees `relative`. */
+static ffd_status add_beside(const char *mesh, char *relative, path_list *files, ffd_error *error)
+{
+    char *const path = relative ? ffd_path_beside(mesh, relative) : NULL;
+    const ffd_status status = path       ? ffd_paths_add(files, path, error)
+                              : relative ? ffd_fail_memory(error)
+                                         : FFD_OK;
+    ffd_free(path);
+    ffd_free(relative);
+    return status;
+}
+
 /* Adds the files that the members of an array name. */
 static ffd_status find_files(const json_span *tree, const char *array, const char *mesh, path_list *files,
                              ffd_error *error)
@@ -137,13 +149,8 @@ static ffd_status find_files(const json_span *tree, const char *array, const cha
     for (; value != JSON_NONE && !status; value = ffd_json_span_after(tree, value)) {
         char *relative;
         status = ffd_gltf_file_path(tree, value, mesh, &relative, error);
-        char *const path = relative ? ffd_path_beside(mesh, relative) : NULL;
-        if (path)
-            status = ffd_paths_add(files, path, error);
-        else if (relative)
-            status = ffd_fail_memory(error);
-        ffd_free(path);
-        ffd_free(relative);
+        if (!status)
+            status = add_beside(mesh, relative, files, error);
     }
     return status;
 }
@@ -172,13 +179,8 @@ ffd_status ffd_gltf_list_images(const mesh_document *document, path_list *files,
     for (size_t i = 0; i < d->image_values.count && status == FFD_OK; i++) {
         char *relative = NULL;
         status = image_path(d, i, &relative, error);
-        char *path = relative ? ffd_path_beside(d->path, relative) : NULL;
-        if (path)
-            status = ffd_paths_add(files, path, error);
-        else if (relative)
-            status = ffd_fail_memory(error);
-        ffd_free(path);
-        ffd_free(relative);
+        if (!status)
+            status = add_beside(d->path, relative, files, error);
     }
     return status;
 }
