@@ -356,7 +356,9 @@ def edges_in_a_lattice_that_folds_are_left_out_if_nobody_asks(run):
         left = rf"^{name}: torn edges of which both ends move are not counted: .*see --report"
         (told if name == "many.obj" else not_told)(done, left)
         told(done, "stay; the largest step to a neighbour is")
-    equal(run.ffd("deform", "many.obj", "out.obj", "-l", "l.json", "--force", "-j3", err=anything).err, done.err, "of any threads")
+    threaded = run.ffd("deform", "many.obj", "out.obj", "-l", "l.json", "--force", "-j3", err=anything)
+    untimed = [[line for line in one.err if ": the search for " not in line] for one in (threaded, done)]  # a slow machine is told so
+    equal(*untimed, "of any threads")
 
 
 main()
