@@ -170,7 +170,8 @@ def maths3_10_box_weights_open_knots(run):
         for first in (i for i in range(64) if i // a % 4 == 0):
             h = file["weights"][first:first + 4 * a:a]
             off = max(off, abs(h[2] - h[0]) / (h[0] + 4 * h[1] + h[2]), abs(h[3] - h[1]) / (h[1] + 4 * h[2] + h[3]))
-    for arguments in (("check", "m.obj", "-l", "l.json"), ("embed", "m.obj", "-l", "l.json", "-o", "u.npy")):
+    for arguments in (("check", "m.obj", "-l", "l.json"), ("embed", "m.obj", "-l", "l.json", "-o", "u.npy"),
+                      ("jacobian", "m.obj", "-l", "l.json", "-o", "j.npz")):
         done = run.ffd(*arguments, err=anything)
         told(done, "l.json", "not its whole box", "u, v, w", "not clamped", f"{off:.3g} off")
     near([info(run, "l.json")["border_off"]], [off], 1e-15)
