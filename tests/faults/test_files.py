@@ -50,7 +50,8 @@ def wild3_01_a_pointer_is_no_buffer(run):
 
 @case
 def other_files_are_no_buffers(run):
-    """Pages, archives, images and JSON in place of a buffer, beside the model, in a GLB and in its second buffer."""
+    """Pages, archives, images and JSON in place of a buffer, beside the model, in a GLB and in its second buffer; as editors and
+    shells save them, with a byte order mark or in UTF-16."""
     wrong = {"an HTML page": b"\n<!DOCTYPE html><html><body>404: not found, the page is gone</body></html>",
              "JSON text": b'{"message": "Not Found", "documentation_url": "https://docs.example.org"}',
              "a gzip file": zlib.compress(bytes(range(200)), wbits=31), "a ZIP archive": b"PK\3\4\x14\0\0\0\x08\0" + bytes(60),
@@ -59,7 +60,11 @@ def other_files_are_no_buffers(run):
     run.write("l.json", LIFT)
     asset, data = gltf_json(TRIANGLE, uri="m.bin")
     run.write("m.gltf", asset)
-    for kind, content in wrong.items():
+    more = [("a Git LFS pointer", b"\xef\xbb\xbf" + POINTER), ("UTF-16 text", POINTER.decode().encode("utf-16")),
+            ("UTF-16 text", b"\xfe\xff" + POINTER.decode().encode("utf-16-be")), ("an HTML page", b"<!-- cache -->\n<HTML>" + b" " * 60),
+            ("JSON text", b'[\n  {"message": "Not Found", "status": 404}\n]'), ("an SVG image", b"<svg xmlns='http://www.w3.org/2000/svg'/>"),
+            ("a git-annex pointer", b"/annex/objects/SHA256E-s52233--" + b"0" * 64 + b".bin\n")]
+    for kind, content in [*wrong.items(), *more]:
         run.write("m.bin", content)
         run.ffd("deform", "m.gltf", "o.gltf", "-l", "l.json", code=INVALID, err=re.compile(f'/buffers/0/uri: the buffer "m.bin" seems to be {kind}'))
         short = {**asset, "buffers": [{"byteLength": len(content)}]}
@@ -68,6 +73,8 @@ def other_files_are_no_buffers(run):
         second = {**asset, "buffers": [{"byteLength": len(data)}, asset["buffers"][0]], "bufferViews": [{**asset["bufferViews"][0], "buffer": 1}]}
         run.write("s.glb", glb(second, data))
         run.ffd("info", "s.glb", code=INVALID, err=re.compile(f'/buffers/1/uri: the buffer "m.bin" seems to be {kind}'))
+    run.write("l.json", b"\xef\xbb\xbf" + POINTER)
+    run.ffd("info", "l.json", code=INVALID, err=re.compile("it seems to be a Git LFS pointer"))
 
 
 @case
@@ -83,7 +90,7 @@ def bytes_that_look_like_other_files_are_read(run):
     run.write("p.glb", glb(packed, PNG.ljust(200, b"\0") + data))
     run.ffd("deform", "p.glb", "o.glb", "-l", "l.json")
     # Colours and indices at the start.
-    for first in (b"\x1f\x8b\xff\xff", b"\xff\xd8\xff\xff", b"\xff\xfe\0\0", b"{{{\xff", b"{{{{", b"v v ", b"solid", b"off\n"):
+    for first in (b"\x1f\x8b\xff\xff", b"\xff\xd8\xff\xff", b"\xff\xfe\0\0", b"\xff\xfev\0v\0", b"{{{\xff", b"{{{{", b"[{[{", b"v v ", b"solid", b"off\n"):
         asset, data = gltf_json(TRIANGLE)
         asset["bufferViews"] += [{"buffer": 0, "byteOffset": len(data), "byteLength": 12}]
         asset["accessors"] += [{"bufferView": 1, "componentType": 5121, "normalized": True, "count": 3, "type": "VEC4"}]
