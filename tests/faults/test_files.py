@@ -611,7 +611,8 @@ def wild3_13_files_of_extensions_are_named(run):
     asset, data = gltf_json(TRIANGLE, uri="m.bin")
     asset["extensions"] = {"EXT_structural_metadata": {"schemaUri": "schema.json"},
                            "KHR_audio_emitter": {"audio": [{"uri": "a%20b.mp3"}, {"uri": "data:audio/mpeg;base64,AAAA"}, {"uri": "https://x.org/a.mp3"}]},
-                           "MPEG_media": {"media": [{"alternatives": [{"uri": "v.mp4"}, {"uri": "../v.mp4"}]}]}}
+                           "MPEG_media": {"media": [{"alternatives": [{"uri": "v.mp4"}, {"uri": "../v.mp4"}, {"uri": "./v.mp4"}]}]}}
+    asset["extensions"]["MSFT_audio_emitter"] = {"clips": [{"uri": "a%20b.mp3"}]}  # named before, and counted once
     asset["nodes"][0]["extensions"] = {"EXT_x": {"extras": {"uri": "no.txt"}, "name": "uri"}}
     asset["extras"] = {"extensions": {"X": {"uri": "no.txt"}}}
     run.write("in/m.gltf", asset)
