@@ -642,6 +642,18 @@ def wild3_14_tiles_go_along(run):
     equal(done.err, ['in/m.obj: the image "none.<UDIM>.png" is missing and was not copied'])
     equal(files_in(run, "out"), sorted([*tiles, "m.mtl", "m.obj"]))
     told(run.ffd("view", "in/m.obj", "-o", "v.png", err=anything), r'cannot be shown: "tex/s\.<UDIM>\.png" has tiles$')
+    # Other spellings, and a name that no file has.
+    for name, found in (("tex/s.<udim>.png", tiles[:3]), ("tex/s.%(UDIM)d.png", tiles[:3]), ("n_u<U>_v<V>.png", tiles[3:]), ("n_u<U>_v1.png", tiles[3:4]),
+                        ("n_u<u>_v<v>.png", ["n_u0_v1.png", "n_u1_v1.png"]), ("<UDIM>/<UDIM>.png", ["1002/1002.png"])):
+        run.write("in/m.mtl", f"newmtl a\nmap_Kd {name}\n")
+        run.write("in/1002/1002.png", PNG)
+        run.folder_of("to/x")
+        run.ffd("deform", "in/m.obj", "to/x/m.obj", "-l", "l.json", err=[])
+        equal(files_in(run, "to/x"), sorted([*found, "m.mtl", "m.obj"]), name)
+        shutil.rmtree(run.path("to"))
+    run.write("in/m.mtl", "newmtl a\nmap_Kd <UDIM>" + "<" * 100000 + ".png\n")
+    run.folder_of("to/x")
+    told(run.ffd("deform", "in/m.obj", "to/x/m.obj", "-l", "l.json", err=anything), "the image \"<UDIM><<<<")
     run.write("in/m.mtl", "newmtl a\n" + "".join(f"map_Kd {i}.<UDIM>.png\n" for i in range(300)))
     run.ffd("deform", "in/m.obj", "out/n.obj", "-l", "l.json", code=LIMIT, err=re.compile("m.mtl: names more than 256 maps with tiles"))
 
