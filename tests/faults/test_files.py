@@ -491,6 +491,21 @@ def wild3_19_colours_of_faces_are_kept(run):
                        "property uchar diffuse_green\nproperty int id\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 3 0 1 2 1 2 7\n")
     told(run.ffd("deform", "a.ply", "a.off", "-l", "l.json", err=anything), "further data of vertices and faces")
     equal(run.text("a.off").splitlines()[-1], "3 0 1 2 1 2 3")
+    # Numbers of other ranges mean what they mean for vertices.
+    for kind, colours, back, line in (("int", ["255 0 0", "0 0 200"], ["255 0 0", "0 0 200"], None),
+                                      ("float", ["255 0 0", "0 0 200"], ["255 0 0", "0 0 200"], None),
+                                      ("float", ["1.5 0 0", "0 0 1"], ["255 0 0", "0 0 255"], "above 1, and 1 in OFF: 1 colour$"),
+                                      ("float", ["nan 0 0", "0 0 1"], ["0 0 0 0", "0 0 255 255"], "not finite as numbers of OFF, and zero: .* 1 colour$")):
+        header = "".join(f"property {kind} {name}\n" for name in ("red", "green", "blue"))
+        run.write("a.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 2\n"
+                           f"property list uchar int vertex_indices\n{header}end_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
+                           f"3 0 1 2 {colours[0]}\n3 0 2 3 {colours[1]}\n")
+        done = run.ffd("deform", "a.ply", "a.off", "-l", "l.json", "--force", err=anything)
+        equal(run.text("a.off").splitlines()[-2:], [f"3 0 1 2 {back[0]}", f"3 0 2 3 {back[1]}"])
+        told(done, line) if line else equal(done.err, [])
+        not_told(run.ffd("deform", "a.ply", "a.glb", "-l", "l.json", "--force", err=anything), "above 1|not finite")
+    run.write("m.off", OFF + "3 0 1 2 300 0 0\n3 0 2 3 0 0 1\n3 1 2 3 0 0 1\n")
+    told(run.ffd("deform", "m.off", "m.ply", "-l", "l.json", "--force", err=anything), "above 1, and 1 in PLY: 1 colour")
     run.write("m.off", OFF + "3 0 1 2 7\n3 0 2 3\n3 1 2 3\n")
     told(run.ffd("deform", "m.off", "m.ply", "-l", "l.json", "--force", err=anything), "further data of vertices and faces")
 
