@@ -53,7 +53,7 @@ static const struct {
 } first_words[] = {
     {"<?xml*", {"an XML file", FFD_FORMAT_AUTO, false, false}},
     {"{*", {json, FFD_FORMAT_GLTF, false, false}},
-    {"[*", {json, FFD_FORMAT_AUTO, false, false}},
+    {"[*", {json, FFD_FORMAT_GLTF, false, false}},
     {"<svg*", {"an SVG image", FFD_FORMAT_AUTO, false, false}},
     {"ply", {"a PLY file", FFD_FORMAT_PLY, false, false}},
     {"solid", {"an STL file", FFD_FORMAT_STL, false, false}},
