@@ -4,6 +4,7 @@
 #include "base/memory/intern.h"
 #include "base/memory/memory.h"
 #include "base/text/base64.h"
+#include "base/text/words.h"
 #include "io/gltf/file/glb.h"
 #include "io/gltf/file/uri.h"
 #include "io/gltf/save/gltf_output_names.h"
@@ -259,7 +260,9 @@ static ffd_status embed_image(resources *r, size_t number, char *path, ffd_error
                                   "refers to it where it is",
                                   path, refused.message);
     if (left) {
-        ffd_log_line(r->saver->log, FFD_LOG_WARNING, "the image \"%s\" %s and is not in the output", path,
+        char shown[RESOURCE_SHOWN];
+        ffd_name_shown(path, shown, sizeof shown);
+        ffd_log_line(r->saver->log, FFD_LOG_WARNING, "the image \"%s\" %s and is not in the output", shown,
                      left);
         return FFD_OK;
     }
