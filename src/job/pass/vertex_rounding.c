@@ -19,8 +19,12 @@ void ffd_vertex_cell(const mesh_document *document, size_t part, size_t vertex, 
 {
     const mesh_part *const p = &document->parts[part];
     double stored[3], all[3] = {0, 0, 0};
+    if (!document->shown || p->shape_count == 0) {
+        ffd_rounding_cell(&p->rounding, position, half);
+        return;
+    }
     memcpy(stored, position, sizeof stored);
-    for (size_t k = 0; k < p->shape_count && document->shown; k++) {
+    for (size_t k = 0; k < p->shape_count; k++) {
         const mesh_shape *const shape = &p->shapes[k];
         double offset[3], cell[3];
         if (shape->weight == 0 || !shape->has[MESH_POSITIONS])
