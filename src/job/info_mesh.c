@@ -5,6 +5,7 @@
 #include "job/info_parts.h"
 #include "job/input/source.h"
 #include "mesh/bounds.h"
+#include <stdio.h>
 
 typedef struct vertex_facts {
     size_t vertices, normals, tangents;
@@ -33,13 +34,19 @@ static void write_vertices(const mesh_document *document, json_text *json)
     ffd_info_bounds(json, "bounds", &facts.bounds);
 }
 
-/* Says why positions are missing, or not where they are shown: what the file needs is not supported. */
+/* Says why positions are missing, or not where they are shown: what the file needs is not supported, or wrong
+   at the place that is named. */
 static ffd_status write_reason(const mesh_document *document, json_text *json, ffd_error *error)
 {
     ffd_error reason = {0};
     const ffd_status status = document->format->check ? document->format->check(document, &reason) : FFD_OK;
-    if (status == FFD_E_UNSUPPORTED)
+    if (status == FFD_E_UNSUPPORTED) {
         ffd_json_string(json, "positions_unknown", reason.message);
+    } else if (status == FFD_E_INVALID) {
+        char text[sizeof reason.pointer + sizeof reason.message + 2];
+        snprintf(text, sizeof text, "%s%s%s", reason.pointer, *reason.pointer ? ": " : "", reason.message);
+        ffd_json_string(json, "positions_unknown", text);
+    }
     return status == FFD_E_MEMORY ? ffd_fail_memory(error) : FFD_OK;
 }
 

@@ -56,6 +56,8 @@ def joints_beyond_the_skin_without_a_weight_are_plain(run):
         run.write("a.glb", made.glb())
         run.ffd("deform", "a.glb", "c.glb", "-l", "l.json", code=INVALID,
                 err=f"a.glb:/accessors/1: names joint {max(joints)}, but the skin has only 2")
+        equal(run.ffd("info", "a.glb", "--json").json["positions_unknown"],
+              f"/accessors/1: names joint {max(joints)}, but the skin has only 2")
 
 
 @case
