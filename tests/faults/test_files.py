@@ -584,17 +584,39 @@ def artist_14_a_glb_of_a_gltf_holds_its_images(run):
     run.ffd("batch", "m.jsonl", "-q", err=anything)
     equal([image_of(json.dumps(glb_split(run.read(f"all/{name}.glb"))[0]))[1] for name in ("in", "b")], [PNG + b"1", PNG + b"2"])
     equal(files_in(run, "all"), ["b.glb", "in.glb"])
-    # What is no image is not taken in, and what is outside is refused.
+    # What is no image is not taken in.
     run.write("in/tex/a.png", "echo")
     told(run.ffd("deform", "in/m.gltf", "out/t.glb", "-l", "l.json", err=anything), '"tex/a.png" does not have the content of an image and is not in the output')
-    run.write("secret.png", PNG)
-    run.write("in/m.gltf", {**asset, "images": [{"uri": "../secret.png"}]})
-    run.ffd("deform", "in/m.gltf", "out/s.glb", "-l", "l.json", code=IO, err=re.compile("cannot be put into the output: .*--resources reference"))
-    run.ffd("deform", "in/m.gltf", "out/big.glb", "-l", "l.json", "--resources", "reference")
     run.write("in/m.gltf", {**asset, "images": [{"uri": "tex/a.png"}] * 40})
     run.write("in/tex/a.png", PNG + bytes(2 << 20))
     run.ffd("deform", "in/m.gltf", "out/l.glb", "-l", "l.json", code=LIMIT, err=re.compile("memory"))
-    check(not run.exists("out/l.glb") and not run.exists("out/s.glb"), "nothing is written")
+    check(not run.exists("out/l.glb"), "nothing is written")
+
+
+@case
+def images_that_a_glb_cannot_hold_stay_uris(run):
+    """Outside of the model's folder, by name or by a link, or at an absolute address: a line names each. A .gltf says less."""
+    run.write("l.json", LIFT)
+    asset, data = gltf_json(TRIANGLE, uri="m.bin")
+    run.write("in/m.bin", data)
+    run.write("out.png", PNG + b"secret")
+    os.symlink("../out.png", run.path("in/link.png"))
+    run.folder_of("out")
+    outside, address, no_name = "is outside the model's folder and is not in the output", "is not a file beside the model and is not in the output", \
+        "has not the name of a file"
+    for uri, shown, why, as_gltf in (("../out.png", "../out.png", outside, IO), ("link.png", "link.png", outside, IO),
+                                     ("%2e%2e/out.png", "../out.png", outside, IO), ("https://x.org/a.png", "https://x.org/a.png", address, 0),
+                                     ("/a.png", "/a.png", address, 0), ("C:/a.png", "C:/a.png", address, 0), ("", "", no_name, 0),
+                                     ("a.png\0.png", r"a.png\u0000.png", no_name, 0)):
+        run.write("in/m.gltf", {**asset, "images": [{"uri": uri}]})
+        told(run.ffd("deform", "in/m.gltf", "out/m.glb", "-l", "l.json", "--force", err=anything), re.escape(f'm.gltf: the image "{shown}" {why}') + "$")
+        written = run.read("out/m.glb")
+        equal(glb_split(written)[0]["images"], [{"uri": uri}])
+        check(b"secret" not in written)
+        done = run.ffd("deform", "in/m.gltf", "out/m.gltf", "-l", "l.json", "--force", code=as_gltf, err=anything)
+        equal(len(done.err), 1 if as_gltf or why == no_name else 0, done.err)
+        done = run.ffd("deform", "in/m.gltf", "out/r.glb", "-l", "l.json", "--force", "--resources", "reference", err=anything)
+        equal(len(done.err), 1 if why == no_name else 0, done.err)
 
 
 @case
