@@ -311,6 +311,34 @@ def accessors_without_bytes_hold_zeros_or_nothing(run):
 
 
 @case
+def offsets_and_indices_without_bytes_are_not_zeros_either(run):
+    """Of a morph target and of normals: refused. Of indices: the file is deformed, what it draws is not known."""
+    run.write("l.json", LIFT)
+    deform = ["deform", "m.glb", "o.glb", "-l", "l.json", "--force"]
+
+    def shown(kind, component, *, low, high, **members):
+        asset, data = gltf_json(TRIANGLE)
+        asset["accessors"].append({"componentType": component, "count": 3, "type": kind, "min": low, "max": high})
+        asset["meshes"][0]["primitives"][0] |= members
+        run.write("m.glb", glb(asset, data))
+    positions = {"POSITION": 0}
+    for members, what in (({"targets": [{"POSITION": 1}]}, "offsets"), ({"attributes": {**positions, "NORMAL": 1}}, "normals")):
+        shown("VEC3", 5126, low=[0, 0, 0], high=[0, 5, 0], mode=0, **members)
+        for words in (deform, [*deform, "--as-morph", "a"], ["check", "m.glb", "-l", "l.json"], ["view", "m.glb", "-o", "v.png"]):
+            run.ffd(*words, code=UNSUPPORTED, err=re.compile(f"^m.glb:/accessors/1: the accessor has no bytes, but its min and max are not 0: the {what} "
+                                                             "are in a form that is not supported$"))
+        facts = run.ffd("info", "m.glb", "--json").json
+        check(f"the {what} are in a form" in facts["positions_unknown"])
+        shown("VEC3", 5126, low=[0, 0, 0], high=[0, 0, 0], mode=0, **members)
+        run.ffd(*deform)
+    for words in (["info", "m.glb"], deform, ["check", "m.glb", "-l", "l.json"]):
+        shown("SCALAR", 5123, low=[0], high=[2], mode=4, indices=1)
+        told(run.ffd(*words, err=anything), "accessor 1 has no bytes, but its max is 2: what the primitive draws is not known")
+        shown("SCALAR", 5123, low=[0], high=[0], mode=4, indices=1)
+        not_told(run.ffd(*words, err=anything), "has no bytes")
+
+
+@case
 def an_extension_beside_positions_keeps_the_old_geometry(run):
     """What a file holds twice, or beside its vertices, is deformed once: a line says which extension keeps the old one."""
     run.write("l.json", LIFT)
