@@ -148,6 +148,20 @@ static void note_rounding(const part_work *work, const double *raw, size_t count
     }
 }
 
+/* Counts the vertices that move by less than their floats can hold. */
+static void note_kept(const tile_scratch *scratch, size_t count, pass_totals *totals)
+{
+    for (size_t i = 0; i < count; i++) {
+        bool moves = false, shows = false;
+        for (size_t k = 3 * i; k < 3 * i + 3; k++) {
+            const double moved = scratch->raw[k] + scratch->delta[k];
+            moves = moves || moved != scratch->raw[k];
+            shows = shows || (float)moved != (float)scratch->raw[k];
+        }
+        totals->too_little += moves && !shows;
+    }
+}
+
 /* Adds the displacements to a tile's positions and writes them. */
 static void finish_positions(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
                              pass_totals *totals)
@@ -156,6 +170,8 @@ static void finish_positions(const part_work *work, tile_scratch *scratch, size_
     const bool is_rounded = rounds(work);
     if (is_rounded)
         note_rounding(work, scratch->raw, count, true, &totals->rounding);
+    if (is_rounded && !work->part->carried)
+        note_kept(scratch, count, totals);
     const size_t unfit = ffd_array_kernel(pass->chain->isa)
                              ->displace(scratch->delta, count, ffd_largest_coordinate(pass->document),
                                         scratch->raw, scratch->changed);

@@ -20,7 +20,8 @@ typedef struct rounding_loss {
 
 typedef struct pass_totals {
     uint64_t vertices, counts[FFD_VERTEX_STATUS_COUNT], moved;
-    uint64_t located; /* vertices with u,v,w in some link; residuals are over these */
+    uint64_t too_little; /* those that move by less than the floats of the output can hold */
+    uint64_t located;    /* vertices with u,v,w in some link; residuals are over these */
     double residual_square_max, residual_square_sum; /* relative to the lattice's diagonal */
     uint64_t evaluations;
     uint32_t evaluations_max;
