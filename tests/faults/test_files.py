@@ -248,6 +248,17 @@ def siege3_02_a_name_with_nul_is_another_name(run):
 
 
 @case
+def names_of_parts_with_nul_are_shown_whole(run):
+    """A hint does not propose the very name that is not there."""
+    run.write("l.json", LIFT)
+    run.write("m.glb", named())
+    run.write("m.obj", "g a\0b\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    for name, kind, word, nearest in (("m.glb", "node", "N", "N\u2400"), ("m.obj", "group", "a", "a\u2400b")):
+        run.ffd("check", name, "-l", "l.json", "--only", f"{kind}:{word}", code=USAGE,
+                err=f'{name}: --only: no {kind} is called "{word}" (nearest: "{nearest}")')
+
+
+@case
 def names_of_extensions_with_nul_are_not_known(run):
     """A required extension whose name has a U+0000 is not the one that its beginning names."""
     run.write("l.json", LIFT)
@@ -444,7 +455,8 @@ def artist_10_hints_name_what_is_meant(run):
     axes = 'unknown word "{}"; known ones are "x", "y", "z"'
     nearest = 'unknown word "{}"; the nearest known one is "{}"'
     for word, why in (("Y", nearest.format("Y", "y")), ("Z", nearest.format("Z", "z")), ("-y", sign.format("-y", "0, -1, 0")),
-                      ("-Z", sign.format("-Z", "0, 0, -1")), ("+x", nearest.format("+x", "x")), ("up", axes.format("up")), ("w", axes.format("w"))):
+                      ("-Z", sign.format("-Z", "0, 0, -1")), ("+x", nearest.format("+x", "x")), ("up", axes.format("up")), ("w", axes.format("w")),
+                      ("XY", axes.format("XY"))):
         for move, at in (({"twist": {"axis": word, "degrees": 90}}, "twist/axis"),
                          ({"bend": {"axis": "x" if word[-1] in "Yy" else "y", "toward": word, "degrees": 9}}, "bend/toward")):
             run.write("l.json", lattice(moves=[move]))
@@ -461,10 +473,17 @@ def artist_10_hints_name_what_is_meant(run):
     run.write("l.json", LIFT)
     for words, why in ((["--outside", "Keep"], '--outside: "Keep" is not one of keep, extend, error (nearest: keep)'),
                        (["--normals", "none"], '--normals: "none" is not one of transform, keep, recompute'),
-                       (["--fail-on", "FOLDS"], '--fail-on: unknown gate "FOLDS" (nearest: folds)')):
+                       (["--fail-on", "FOLDS"], '--fail-on: unknown gate "FOLDS" (nearest: folds)'),
+                       (["--fail-on", "quick"], '--fail-on: unknown gate "quick" (--help lists the known ones)'),
+                       (["--only", "part:a"], '--only: unknown kind "part", not node, mesh, material, group or object'),
+                       (["--widgets"], "unknown option --widgets (--help lists the known ones)")):
         run.ffd("check", "m.obj", "-l", "l.json", *words, code=USAGE, err=why)
     run.ffd("view", "m.obj", "-o", "v.png", "--camera", "Front", code=USAGE,
             err='--camera: "Front" is not front, back, left, right, top, iso or a direction like 1,0.5,2 (nearest: front)')
+    for words, why in ((["--axis", "Y"], "x, y, z or a direction like 0,1,1 (nearest: y)"), (["--axis", "up"], "x, y, z or a direction like 0,1,1"),
+                       (["--axis", "-Y"], "x, y, z or a direction like 0,1,1 (that direction is 0,-1,0)"),
+                       (["--knots", "open,Closed,open"], "three of clamped, open, uniform, closed (nearest: closed)")):
+        run.ffd("lattice", "new", "m.obj", "-o", "n.json", *words, code=USAGE, err=f'{words[0]}: "{words[1]}" is not {why}')
 
 
 # Colours of faces
