@@ -134,6 +134,28 @@ def standard_input_that_does_not_end_is_not_waited_for(run):
 
 
 @case
+def a_pipe_to_which_nobody_writes_is_not_waited_for(run):
+    """By a name of standard input, which is opened anew; a pipe to which somebody writes later is read."""
+    run.write("l.json", lattice(moves=[{"by": [0, 0, 0.1]}]))
+    os.mkfifo(run.path("pipe"))
+    for writes in (False, True):
+        read = os.open(run.path("pipe"), os.O_RDONLY | os.O_NONBLOCK)
+        job = subprocess.Popen([FFD, "deform", "/dev/stdin", "out.obj", "--input-format", "obj", "-l", "l.json", "--timeout", "30" if writes else "0.2"],
+                               cwd=run.folder, stdin=read, stderr=subprocess.PIPE, text=True)
+        try:
+            os.close(read)
+            if writes:
+                with open(run.path("pipe"), "w", encoding="ascii") as pipe:  # when it has been opened for reading
+                    pipe.write("v 1 2 3\n")
+            _, said = job.communicate(timeout=SECONDS)
+        finally:
+            job.kill()
+        equal(job.returncode, 0 if writes else LIMIT, said)
+        check(writes or re.search(f"^ffd: .*{ENDED}\n$", said), said)
+    equal(run.text("out.obj").split()[:3], ["v", "1", "2"])
+
+
+@case
 def a_time_is_more_than_nothing(run):
     run.write("l.json", lattice())
     sheet(run, "a.obj", 2, 2)

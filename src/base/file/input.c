@@ -260,14 +260,23 @@ static ffd_status load_memory(const char *path, file_input *input, ffd_error *er
     return lend(bytes, size, ffd_file_display_name(path), input, error);
 }
 
+/* Opening a pipe does not block with O_NONBLOCK: one that is no stream is refused later, and at one of a name
+   like /dev/stdin, to which nobody writes yet, wait_for_bytes looks at the deadline. Without need not for
+   inherited descriptors, whose flags must not change. */
+static int open_flags(const char *path)
+{
+    struct stat info;
+    if (!ffd_file_is_stream(path))
+        return O_NONBLOCK | O_NOCTTY;
+    return ffd_deadline_left() >= 0 && stat(path, &info) == 0 && S_ISFIFO(info.st_mode) ? O_NONBLOCK : 0;
+}
+
 ffd_status ffd_file_open(const char *path, int *fd, ffd_error *error)
 {
     *fd = STDIN_FILENO;
     if (strcmp(path, "-") == 0)
         return FFD_OK;
-    /* O_NONBLOCK, so that opening a pipe, which is refused later, does not block. Not for inherited
-       descriptors, whose flags must not change. */
-    *fd = open(path, O_RDONLY | O_CLOEXEC | (ffd_file_is_stream(path) ? 0 : O_NONBLOCK | O_NOCTTY));
+    *fd = open(path, O_RDONLY | O_CLOEXEC | open_flags(path));
     if (*fd < 0)
         return fail_open(path, errno, error);
     const ffd_status status = refuse_special(*fd, path, error);
