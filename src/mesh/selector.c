@@ -68,24 +68,10 @@ ffd_status ffd_selector_check_kind(const mesh_selector *selector, unsigned kinds
                          kind_names[selector->kind], format_name, list);
 }
 
-/* Copies the beginning of a name. A NUL character within it becomes its symbol, U+2400. */
-static void copy_name(const char *name, size_t size, char *copy, size_t capacity)
-{
-    static const char symbol[] = "\xe2\x90\x80";
-    size_t length = 0;
-    for (size_t i = 0; i < size && length + sizeof symbol < capacity; i++) {
-        const char *const put = name[i] ? name + i : symbol;
-        const size_t count = name[i] ? 1 : sizeof symbol - 1;
-        memcpy(copy + length, put, count);
-        length += count;
-    }
-    copy[length] = 0;
-}
-
 void ffd_selector_offer(selector_nearest *nearest, const char *name, size_t size)
 {
     char offered[sizeof nearest->name];
-    copy_name(name, size, offered, sizeof offered);
+    ffd_bytes_shown(name, size, offered, sizeof offered);
     const size_t distance = ffd_word_distance(nearest->selector->name, nearest->selector->size, offered);
     if (nearest->offered && distance >= nearest->distance)
         return;

@@ -107,3 +107,16 @@ void ffd_name_shown(const char *name, char *shown, size_t capacity)
     shown[length] = 0;
     ffd_make_one_line(shown, length);
 }
+
+void ffd_bytes_shown(const char *bytes, size_t size, char *shown, size_t capacity)
+{
+    static const char symbol[] = "\xe2\x90\x80";
+    size_t length = 0;
+    for (size_t i = 0; i < size && length + sizeof symbol <= capacity; i++) {
+        const char *const put = bytes[i] ? bytes + i : symbol;
+        const size_t count = bytes[i] ? 1 : sizeof symbol - 1;
+        memcpy(shown + length, put, count);
+        length += count;
+    }
+    shown[length] = 0;
+}

@@ -49,4 +49,8 @@ const char *ffd_plural(uint64_t count, const char *one, const char *many);
    UTF-8 character boundary to fit in capacity bytes with its final 0. */
 void ffd_name_shown(const char *name, char *shown, size_t capacity);
 
+/* Copies the beginning of a name of `size` bytes for a message. A NUL character becomes its symbol, U+2400.
+   capacity: at least 4. */
+void ffd_bytes_shown(const char *bytes, size_t size, char *shown, size_t capacity);
+
 #endif
