@@ -20,4 +20,13 @@ static inline void ffd_bounds_widen(ffd_bounds *box, const double point[3])
     }
 }
 
+/* Extends the bounds by others. Empty ones add nothing. */
+static inline void ffd_bounds_join(ffd_bounds *box, const ffd_bounds *other)
+{
+    for (int a = 0; a < 3; a++) {
+        box->min[a] = lesser_of(box->min[a], other->min[a]);
+        box->max[a] = larger_of(box->max[a], other->max[a]);
+    }
+}
+
 #endif

@@ -67,10 +67,8 @@ ffd_status ffd_glb_origins(const glb_plan *plan, double **origins, ffd_error *er
         boxes[m] = ffd_bounds_empty();
     for (size_t i = 0; i < plan->primitive_count; i++)
         widen(plan, &plan->primitives[i], &boxes[plan->primitives[i].mesh]);
-    for (size_t m = 0; m < count; m++) {
-        ffd_bounds_widen(&all, boxes[m].min);
-        ffd_bounds_widen(&all, boxes[m].max);
-    }
+    for (size_t m = 0; m < count; m++)
+        ffd_bounds_join(&all, &boxes[m]);
     choose(&all, zero, STEP_TOLERANCE, common);
     for (size_t m = 0; m < count; m++)
         choose(&boxes[m], common, 2 * PART_TOLERANCE, *origins + 3 * m);

@@ -78,7 +78,7 @@ void ffd_still_warn(const deform_job *job, const ffd_bounds *box)
     }
     end_group(&idle);
     end_group(&active);
-    if (still || totals->too_little == totals->moved)
+    if (still || !totals->is_visible)
         tell_bounds(box, where, sizeof where);
     if (idle.count > 0)
         ffd_log_line(&job->log, FFD_LOG_WARNING, "%s%s of %s %s no control point%s",
@@ -89,7 +89,7 @@ void ffd_still_warn(const deform_job *job, const ffd_bounds *box)
         ffd_log_line(&job->log, FFD_LOG_WARNING, "no vertex moves, though %s %s %" PRIu64 " control %s%s",
                      active.names, ffd_plural(active.count, "moves", "move"), points,
                      ffd_plural(points, "point", "points"), where);
-    if (!still && !job->desc->as_morph && totals->too_little == totals->moved)
+    if (!still && !job->desc->as_morph && !totals->is_visible)
         ffd_log_line(
             &job->log, FFD_LOG_WARNING,
             "no vertex moves in the output: its floats are too coarse for displacements of %g at most%s",

@@ -54,10 +54,7 @@ static ffd_status find_box(const lattice_chain *chain, size_t links, mesh_docume
     if (status)
         return status;
     *box = totals.after;
-    if (!is_empty(&totals.shapes)) {
-        ffd_bounds_widen(box, totals.shapes.min);
-        ffd_bounds_widen(box, totals.shapes.max);
-    }
+    ffd_bounds_join(box, &totals.shapes);
     /* Without vertices any box will do. */
     for (int a = 0; a < 3 && is_empty(box); a++) {
         box->min[a] = 0;

@@ -10,9 +10,9 @@
 #include "job/chain/point_rounding.h"
 #include "job/pass/pass_shapes.h"
 #include "job/pass/pass_splats.h"
+#include "job/pass/tile_rounding.h"
 #include "job/pass/tile_totals.h"
 #include "job/pass/vertex_rounding.h"
-#include "mesh/precision.h"
 #include <ffd/deform.h>
 #include <math.h>
 #include <string.h>
@@ -52,8 +52,8 @@ static void note_determinant(const double gradient[9], bool outside, size_t numb
     for (int i = 0; i < 9; i++)
         f[i] = gradient[i] + (i % 4 == 0 ? 1 : 0);
     const double det = mat_determinant(f);
-    totals->det_min = fmin(totals->det_min, det);
-    totals->det_max = fmax(totals->det_max, det);
+    totals->det_min = lesser_of(totals->det_min, det);
+    totals->det_max = larger_of(totals->det_max, det);
     if (outside && det < totals->det_outside) {
         totals->det_outside = det;
         totals->first_det_outside = number;
@@ -67,12 +67,27 @@ static void note_determinant(const double gradient[9], bool outside, size_t numb
     }
 }
 
+/* Finds the range of det F over a tile's vertices that a link moves (after spread). */
+static void note_determinants(const part_work *work, const tile_scratch *scratch, size_t first, size_t count,
+                              pass_totals *totals)
+{
+    const bool *const singular = work->part->skinned ? scratch->transforms.singular : NULL;
+    if (!work->pass->determinants || (!singular && work->part->singular))
+        return;
+    for (size_t i = 0; i < count; i++) {
+        const point_outcome *const outcome = &scratch->point_outcomes[i];
+        if (!(singular && singular[i]) && outcome->status != FFD_SINGULAR &&
+            (outcome->located || outcome->extended))
+            note_determinant(scratch->gradient + 9 * i, outcome->extended,
+                             (size_t)work->first_vertex + first + i, totals);
+    }
+}
+
 /* Fills the caller's arrays from a tile's results (after spread). */
-static void fill_arrays(const part_work *work, const tile_scratch *scratch, size_t first, size_t count,
-                        pass_totals *totals)
+static void fill_arrays(const part_work *work, const tile_scratch *scratch, size_t first, size_t count)
 {
     const mesh_pass *pass = work->pass;
-    if (!pass->statuses && !pass->deformed && !pass->gradients && !pass->determinants)
+    if (!pass->statuses && !pass->deformed && !pass->gradients)
         return;
     for (size_t i = 0; i < count; i++) {
         const size_t number = (size_t)work->first_vertex + first + i;
@@ -91,9 +106,6 @@ static void fill_arrays(const part_work *work, const tile_scratch *scratch, size
             if (singular)
                 fill_nan(pass->gradients + 9 * number, 9);
         }
-        if (pass->determinants && !singular && outcome->status != FFD_SINGULAR &&
-            (outcome->located || outcome->extended))
-            note_determinant(gradient, outcome->extended, number, totals);
     }
 }
 
@@ -123,60 +135,17 @@ static void bring_back(const part_work *work, tile_scratch *scratch, size_t coun
     }
 }
 
-/* Whether the results are rounded to floats. Those of a conversion are judged by the model that is written.
- */
-static bool rounds(const part_work *work)
-{
-    const bool *const floats = work->part->rounding.is_float;
-    return work->pass->write && !work->pass->document->converted && floats[0] && floats[1] && floats[2];
-}
-
-/* Notes the steps of floats at rest, or the rounding of results. */
-static void note_rounding(const part_work *work, const double *raw, size_t count, bool at_rest,
-                          part_rounding *rounding)
-{
-    for (size_t i = 0; i < count; i++) {
-        double half[3];
-        if (!at_rest) {
-            ffd_bounds_widen_finite(&rounding->box, raw + 3 * i);
-            rounding->error = larger_of(rounding->error, ffd_float_error(raw + 3 * i));
-        } else if (vec_is_finite(raw + 3 * i)) {
-            ffd_rounding_cell(&work->part->rounding, raw + 3 * i, half);
-            for (int a = 0; a < 3; a++)
-                rounding->before = larger_of(rounding->before, half[a]);
-        }
-    }
-}
-
-/* Counts the vertices that move by less than their floats can hold. */
-static void note_kept(const tile_scratch *scratch, size_t count, pass_totals *totals)
-{
-    for (size_t i = 0; i < count; i++) {
-        bool moves = false, shows = false;
-        for (size_t k = 3 * i; k < 3 * i + 3; k++) {
-            const double moved = scratch->raw[k] + scratch->delta[k];
-            moves = moves || moved != scratch->raw[k];
-            shows = shows || (float)moved != (float)scratch->raw[k];
-        }
-        totals->too_little += moves && !shows;
-    }
-}
-
 /* Adds the displacements to a tile's positions and writes them. */
 static void finish_positions(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
                              pass_totals *totals)
 {
     const mesh_pass *pass = work->pass;
-    const bool is_rounded = rounds(work);
-    if (is_rounded)
-        note_rounding(work, scratch->raw, count, true, &totals->rounding);
-    if (is_rounded && !work->part->carried)
-        note_kept(scratch, count, totals);
+    ffd_tile_rounding_at_rest(work, scratch->raw, count, &totals->rounding);
+    totals->is_visible = totals->is_visible || ffd_tile_shows(work, scratch->raw, scratch->delta, count);
     const size_t unfit = ffd_array_kernel(pass->chain->isa)
                              ->displace(scratch->delta, count, ffd_largest_coordinate(pass->document),
                                         scratch->raw, scratch->changed);
-    if (is_rounded)
-        note_rounding(work, scratch->raw, count, false, &totals->rounding);
+    ffd_tile_rounding_of_results(work, scratch->raw, count, &totals->rounding);
     for (size_t i = 0; i < count && !work->part->carried; i++)
         totals->moved += scratch->changed[i];
     if (unfit < count)
@@ -520,8 +489,10 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
         return;
     }
     spread(scratch, count);
-    if (!part->repeats_positions)
-        fill_arrays(work, scratch, first, count, totals);
+    if (!part->repeats_positions) {
+        note_determinants(work, scratch, first, count, totals);
+        fill_arrays(work, scratch, first, count);
+    }
     carry(work, scratch, count, gradients, totals);
     bring_back(work, scratch, count);
     if (!part->repeats_positions)
@@ -589,7 +560,7 @@ static ffd_status run_part(part_work *work, pass_totals *totals, ffd_error *erro
     const ffd_status status = count_others(work, tiles, size, error);
     for (size_t i = 0; i < tiles; i++)
         ffd_totals_join(&work->tiles[i], totals);
-    ffd_totals_judge_rounding(work->tiles, tiles, work->pass->document->part_count == 1, totals);
+    ffd_totals_judge_rounding(work->tiles, tiles, ffd_part_tolerance(work->pass->document), totals);
     ffd_free(work->tiles);
     if (status)
         return status;

@@ -27,7 +27,7 @@ void ffd_totals_join(const pass_totals *tile, pass_totals *all)
     for (int s = 0; s < FFD_VERTEX_STATUS_COUNT; s++)
         all->counts[s] += tile->counts[s];
     all->moved += tile->moved;
-    all->too_little += tile->too_little;
+    all->is_visible = all->is_visible || tile->is_visible;
     all->located += tile->located;
     all->residual_square_max = fmax(all->residual_square_max, tile->residual_square_max);
     all->residual_square_sum += tile->residual_square_sum;
@@ -36,16 +36,9 @@ void ffd_totals_join(const pass_totals *tile, pass_totals *all)
         tile->evaluations_max > all->evaluations_max ? tile->evaluations_max : all->evaluations_max;
     all->displacement_square_max = fmax(all->displacement_square_max, tile->displacement_square_max);
     all->displacement_square_sum += tile->displacement_square_sum;
-    if (tile->before.min[0] <= tile->before.max[0]) {
-        ffd_bounds_widen(&all->before, tile->before.min);
-        ffd_bounds_widen(&all->before, tile->before.max);
-        ffd_bounds_widen(&all->after, tile->after.min);
-        ffd_bounds_widen(&all->after, tile->after.max);
-    }
-    if (tile->shapes.min[0] <= tile->shapes.max[0]) {
-        ffd_bounds_widen(&all->shapes, tile->shapes.min);
-        ffd_bounds_widen(&all->shapes, tile->shapes.max);
-    }
+    ffd_bounds_join(&all->before, &tile->before);
+    ffd_bounds_join(&all->after, &tile->after);
+    ffd_bounds_join(&all->shapes, &tile->shapes);
     all->outside_all += tile->outside_all;
     all->multiple_any += tile->multiple_any;
     all->moved_twice += tile->moved_twice;
@@ -117,16 +110,14 @@ void ffd_totals_add_stored(const pass_totals *stored, bool written, pass_totals 
    power of two makes of them. */
 #define COARSER 2
 
-void ffd_totals_judge_rounding(const pass_totals *tiles, size_t count, bool is_only, pass_totals *all)
+void ffd_totals_judge_rounding(const pass_totals *tiles, size_t count, double tolerance, pass_totals *all)
 {
-    const double tolerance = is_only ? SHAPE_TOLERANCE : PART_TOLERANCE;
     part_rounding part = {.box = ffd_bounds_empty()};
     for (size_t i = 0; i < count; i++) {
         const part_rounding *const tile = &tiles[i].rounding;
         part.error = fmax(part.error, tile->error);
         part.before = fmax(part.before, tile->before);
-        ffd_bounds_widen(&part.box, tile->box.min);
-        ffd_bounds_widen(&part.box, tile->box.max);
+        ffd_bounds_join(&part.box, &tile->box);
     }
     const double side = ffd_bounds_side(&part.box);
     if (!(side > 0) || !(part.error > tolerance * side) || !(part.error > COARSER * part.before))

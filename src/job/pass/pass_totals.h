@@ -9,7 +9,7 @@
 /* What rounding to floats does to a part, in the file's space. */
 typedef struct part_rounding {
     ffd_bounds box; /* of the results */
-    double error;   /* the largest one of a result */
+    double error;   /* the largest one of a result; 0 if all are within the tolerance */
     double before;  /* the largest half step of a coordinate at rest */
 } part_rounding;
 
@@ -19,9 +19,9 @@ typedef struct rounding_loss {
 } rounding_loss;
 
 typedef struct pass_totals {
+    bool is_visible; /* a displacement is large enough for the floats of the output */
     uint64_t vertices, counts[FFD_VERTEX_STATUS_COUNT], moved;
-    uint64_t too_little; /* those that move by less than the floats of the output can hold */
-    uint64_t located;    /* vertices with u,v,w in some link; residuals are over these */
+    uint64_t located; /* vertices with u,v,w in some link; residuals are over these */
     double residual_square_max, residual_square_sum; /* relative to the lattice's diagonal */
     uint64_t evaluations;
     uint32_t evaluations_max;
@@ -89,8 +89,8 @@ void ffd_totals_note_splats(pass_totals *totals, size_t part, uint64_t moved);
    weights show. written: the results of the stored ones go to the file. */
 void ffd_totals_add_stored(const pass_totals *stored, bool written, pass_totals *shown);
 
-/* Judges the rounding of all tiles of a part. is_only: the document has no other. */
-void ffd_totals_judge_rounding(const pass_totals *tiles, size_t count, bool is_only, pass_totals *all);
+/* Judges the rounding of all tiles of a part. tolerance: of ffd_part_tolerance. */
+void ffd_totals_judge_rounding(const pass_totals *tiles, size_t count, double tolerance, pass_totals *all);
 
 /* Adds the figures of a tile. Tiles must be added in order. */
 void ffd_totals_join(const pass_totals *tile, pass_totals *all);

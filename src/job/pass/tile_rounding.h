@@ -1,0 +1,25 @@
+/* tile_rounding.h - what the rounding of results to floats does to a tile (mesh/precision.h). A conversion's
+   results are judged by the model that is written. */
+#ifndef FFD_JOB_PASS_TILE_ROUNDING_H
+#define FFD_JOB_PASS_TILE_ROUNDING_H
+
+#include "job/pass/tile.h"
+
+/* Returns the rounding error of a part's results, relative to its largest side, above which its shape
+ * changes.
+ */
+double ffd_part_tolerance(const mesh_document *document);
+
+/* Notes how fine the floats of a tile's positions are before it is displaced. raw: in the file's space. */
+void ffd_tile_rounding_at_rest(const part_work *work, const double *raw, size_t count,
+                               part_rounding *rounding);
+
+/* Whether floats hold a displacement of the tile (delta): the position of a vertex changes in the output.
+   True too where the results are not rounded here. raw: as above. */
+bool ffd_tile_shows(const part_work *work, const double *raw, const double *delta, size_t count);
+
+/* Notes the rounding errors of the results, if they may exceed the tolerance. */
+void ffd_tile_rounding_of_results(const part_work *work, const double *raw, size_t count,
+                                  part_rounding *rounding);
+
+#endif
