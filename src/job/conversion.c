@@ -111,6 +111,11 @@ static size_t clear_unfit(double *vectors, size_t count, size_t numbers, double 
     return cleared;
 }
 
+static bool holds(const model_target *target, uint32_t feature)
+{
+    return (target->holds & feature) != 0;
+}
+
 /* Clears normals, texture coordinates and colours that would not be finite in the file: they do not change
    the shape, so they are no reason to fail. */
 static void clear_attributes(mesh_model *model, const model_target *target, const mesh_log *log)
@@ -118,7 +123,13 @@ static void clear_attributes(mesh_model *model, const model_target *target, cons
     const double largest = target->float_texcoords ? (double)FLT_MAX : DBL_MAX;
     const size_t normals = clear_unfit(model->normals, model->normal_count, 3, DBL_MAX, target),
                  texcoords = clear_unfit(model->texcoords, model->texcoord_count, 2, largest, target),
-                 colours = clear_unfit(model->colours, model->position_count, 4, DBL_MAX, target);
+                 of_vertices = holds(target, MODEL_HAS_COLOURS)
+                                   ? clear_unfit(model->colours, model->position_count, 4, DBL_MAX, target)
+                                   : 0,
+                 of_faces = holds(target, MODEL_HAS_FACE_COLOURS)
+                                ? clear_unfit(model->face_colours, model->coloured_faces, 4, DBL_MAX, target)
+                                : 0,
+                 colours = of_vertices + of_faces;
     if (normals + texcoords + colours)
         ffd_log_line(log, FFD_LOG_WARNING,
                      "not finite as numbers of %s, and zero: %zu %s, %zu texture %s, %zu %s", target->name,
@@ -127,20 +138,30 @@ static void clear_attributes(mesh_model *model, const model_target *target, cons
                      ffd_plural(colours, "colour", "colours"));
 }
 
-/* No format can hold colours above 1. */
-static void limit_colours(mesh_model *model, const model_target *target, const mesh_log *log)
+/* Returns the number of colours that were above 1 in some of their numbers. */
+static size_t limit(double *colours, size_t count)
 {
     size_t limited = 0;
-    for (size_t i = 0; model->colours && i < model->position_count; i++) {
+    for (size_t i = 0; colours && i < count; i++) {
         bool above = false;
-        for (double *value = model->colours + 4 * i, *end = value + 4; value < end; value++)
+        for (double *value = colours + 4 * i, *end = value + 4; value < end; value++)
             if (isfinite(*value) && *value > 1) {
                 above = true;
                 *value = 1;
             }
         limited += above;
     }
-    if (limited && target->holds & MODEL_HAS_COLOURS)
+    return limited;
+}
+
+/* No format can hold colours above 1. */
+static void limit_colours(mesh_model *model, const model_target *target, const mesh_log *log)
+{
+    const size_t of_vertices = limit(model->colours, model->position_count),
+                 of_faces = limit(model->face_colours, model->coloured_faces);
+    const size_t limited = (holds(target, MODEL_HAS_COLOURS) ? of_vertices : 0) +
+                           (holds(target, MODEL_HAS_FACE_COLOURS) ? of_faces : 0);
+    if (limited)
         ffd_log_line(log, FFD_LOG_WARNING, "above 1, and 1 in %s: %zu %s", target->name, limited,
                      ffd_plural(limited, "colour", "colours"));
 }

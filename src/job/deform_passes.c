@@ -16,11 +16,10 @@ bool ffd_passes_write_shown(const deform_job *job)
     return ffd_passes_judge_shown(job) && (job->check || job->document->converted);
 }
 
-/* The gate of folds also checks det F at extended vertices, and a mesh that is written must not turn inside
-   out without a word. */
+/* The gate of folds also checks det F at extended vertices. */
 static bool wants_determinants(const deform_job *job)
 {
-    return ffd_figures_wanted(job) || ffd_deform_desc_writes(job->desc) ||
+    return ffd_figures_wanted(job) ||
            (job->desc->fail_on & FFD_GATE_FOLDS && job->desc->outside == FFD_OUTSIDE_EXTEND);
 }
 
@@ -51,6 +50,8 @@ static void fill_figures(const deform_job *job, const figure_arrays *figures, me
     pass->gradients = figures->gradients;
     pass->statuses = job->details ? job->details->statuses : NULL;
     pass->determinants = wants_determinants(job);
+    /* A mesh that is written must not turn inside out without a word. */
+    pass->inversions = ffd_deform_desc_writes(job->desc);
     pass->kept = job->kept;
     pass->kept_stride = (size_t)ffd_mesh_vertex_count(job->document);
 }

@@ -5,6 +5,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 typedef struct point_name {
     char text[96];
@@ -143,6 +144,21 @@ static ffd_status check_difference(const ffd_lattice *lattice, ffd_error *error)
     return FFD_OK;
 }
 
+/* Whether the weights move the volume: a common factor of all of them, but for its rounding, does not. */
+static bool weights_move(const ffd_lattice *lattice)
+{
+    const double *const rest = lattice->rest_weights, *const deformed = lattice->deformed_weights;
+    if (!rest || memcmp(rest, deformed, lattice->count * sizeof *rest) == 0)
+        return false;
+    const double factor = deformed[0] / rest[0];
+    if (!(factor >= DBL_MIN))
+        return true;
+    for (size_t i = 1; i < lattice->count; i++)
+        if (!(fabs(deformed[i] / rest[i] - factor) <= 4 * DBL_EPSILON * factor))
+            return true;
+    return false;
+}
+
 /* Marks the control points that are moved. */
 static void mark_moved(ffd_lattice *lattice)
 {
@@ -151,11 +167,10 @@ static void mark_moved(ffd_lattice *lattice)
         const bool moved = difference[3 * i] != 0 || difference[3 * i + 1] != 0 || difference[3 * i + 2] != 0;
         lattice->moved[i] = moved ? POINT_MOVED : 0;
     }
-    for (size_t i = 0; i < lattice->count && lattice->rest_weights; i++)
-        if (lattice->rest_weights[i] != lattice->deformed_weights[i]) {
-            lattice->weights_moved = true;
+    lattice->weights_moved = weights_move(lattice);
+    for (size_t i = 0; i < lattice->count && lattice->weights_moved; i++)
+        if (lattice->rest_weights[i] != lattice->deformed_weights[i])
             lattice->moved[i] = POINT_MOVED;
-        }
 }
 
 static bool weight_moved(const ffd_lattice *lattice, size_t point)
@@ -250,7 +265,7 @@ ffd_status ffd_lattice_finish_moved(ffd_lattice *lattice, ffd_error *error)
         lattice->moved = ffd_alloc(lattice->count, sizeof *lattice->moved);
     if (!lattice->moved)
         return ffd_fail_memory(error);
-    lattice->weights_moved = lattice->moves_alike = false;
+    lattice->moves_alike = false;
     make_inverse(lattice);
     status = check_difference(lattice, error);
     if (status)

@@ -46,7 +46,7 @@ struct ffd_lattice {
     double *rest;                            /* 3*count */
     double *deformed;                        /* 3*count */
     double *rest_weights, *deformed_weights; /* count numbers; NULL if all are 1: both or neither */
-    bool weights_moved;                      /* a deformed weight differs from its rest weight */
+    bool weights_moved;                      /* the deformed weights are not those at rest times a factor */
 
     rest_form form;
     double origin[3];   /* REST_BOX_AFFINE: C at the lower corner of the domain */

@@ -90,11 +90,11 @@ bool ffd_model_has_face_alpha(const mesh_model *model)
 
 /* Returns whether colours are from 0 to 255, which some files do not declare: all are integers, and not all
    are 0 or 1. */
-static bool are_bytes(const mesh_model *model)
+static bool are_bytes(const double *colours, size_t count)
 {
     bool large = false;
-    for (size_t i = 0; model->colours && i < 4 * model->position_count; i++) {
-        const double value = model->colours[i];
+    for (size_t i = 0; i < 4 * count; i++) {
+        const double value = colours[i];
         if (i % 4 == 3 || !isfinite(value))
             continue;
         if (value < 0 || value > 255 || floor(value) < value)
@@ -104,12 +104,12 @@ static bool are_bytes(const mesh_model *model)
     return large;
 }
 
-static void scale_colours(mesh_model *model)
+static void scale_colours(double *colours, size_t count)
 {
-    const bool bytes = are_bytes(model);
-    for (size_t i = 0; bytes && i < model->position_count; i++)
+    const bool bytes = colours && are_bytes(colours, count);
+    for (size_t i = 0; bytes && i < count; i++)
         for (size_t c = 0; c < 4; c++)
-            model->colours[4 * i + c] /= c < 3 || model->colours[4 * i + 3] > 1 ? 255 : 1;
+            colours[4 * i + c] /= c < 3 || colours[4 * i + 3] > 1 ? 255 : 1;
 }
 
 /* If nothing uses the vertices, and they are not control points, they are a point cloud. Normals are in the
@@ -256,6 +256,8 @@ static ffd_status find_fine_positions(mesh_model *model, ffd_error *error)
 ffd_status ffd_model_finish(mesh_model *model, ffd_error *error)
 {
     ffd_status status = make_cloud(model, error);
+    scale_colours(model->colours, model->position_count);
+    scale_colours(model->face_colours, model->coloured_faces);
     if (status == FFD_OK)
         status = ffd_model_colour_rest(model, error);
     if (status == FFD_OK)
@@ -265,7 +267,6 @@ ffd_status ffd_model_finish(mesh_model *model, ffd_error *error)
     uint32_t *numbers = ffd_alloc(model->position_count, sizeof *numbers);
     if (!numbers)
         return ffd_fail_memory(error);
-    scale_colours(model);
     model->features |= features_of_corners(model) | features_of_names(model) | features_of_colours(model);
     model->features |= model->face_colours ? MODEL_HAS_FACE_COLOURS : 0;
     if (ffd_model_normals_by_position(model, numbers))

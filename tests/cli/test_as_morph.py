@@ -322,6 +322,15 @@ def names_that_stand_in_primitives_are_names(run):
 
 
 @case
+def of_targets_of_one_name_the_first_is_replaced(run):
+    """And a line tells how many there are."""
+    for names, line in ((["a", "smile", "smile"], "mesh 0 has 2 morph targets of that name already: the first is replaced"),
+                        (["a", "smile", "b"], "mesh 0 has a morph target of that name already: it is replaced")):
+        morphed(run, unequal([3], names), name="smile", box=SHIFT, err=f"in.glb: {line}")
+        equal([offset == [1, 0, 0] for offset in offsets_of(run, "out.glb")[0]], [False, True, False])
+
+
+@case
 def a_clip_finds_names_that_stand_in_primitives(run):
     scene = unequal([2])
     scene.asset["meshes"][0]["primitives"][0]["extras"] = {"targetNames": ["smile", "blink"]}

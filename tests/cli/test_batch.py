@@ -70,6 +70,22 @@ def a_text_without_jobs_is_said(run):
 
 
 @case
+def json_that_is_no_json_lines_is_one_error(run):
+    """An array, a job over several lines, a table without --csv: nothing is done, whatever some of its lines are."""
+    start(run)
+    jobs = [job(i) for i in range(3)]
+    for name, text, found in (("a.json", json.dumps(jobs), "is a JSON array"), ("b.json", "\ufeff\n [\n" + lines_of(jobs) + "]", "is a JSON array"),
+                              ("c.json", json.dumps(jobs[0], indent=1), "is JSON over several lines"), ("d.json", "{\r\n\r\n}", "is JSON over several lines"),
+                              ("e.csv", "in,lattice,out\na.obj,l.json,o.obj\n" * 9, r"is no JSON \(--csv reads a table\)")):
+        run.write(name, text)
+        run.ffd("batch", name, code=INVALID, err=re.compile(rf"^{name}:[12]: {found}: a manifest has one job a line \(JSON Lines\)$"))
+        check(not run.exists(jobs[2]["out"]), name)
+    # One line that is broken is one job, and so is one behind others.
+    run.write("m.csv", lines_of([jobs[0]]) + "[\n{\n" + lines_of([jobs[1]]))
+    batch(run, "m.csv", done=2, failed=["not valid JSON"] * 2)
+
+
+@case
 def what_lines_may_look_like(run):
     start(run)
     lines = [json.dumps(job(i)) for i in range(4)]

@@ -205,21 +205,32 @@ def sets_of(run, table, *arguments, name="t.csv", code=OK):
 
 @case
 def dialects_of_tables(run):
-    """Tabs, blanks beside separators, columns without a name: each means what it does in a table with commas."""
+    """Tabs, bars, a line "sep=;", blanks beside separators, columns without a name: each means what it does in a table with commas."""
     begin(run)
     plain = [("b.obj", {"H": 0.5}), ("c.obj", {"H": 0.25})]
     for table in ("out,H\nb.obj,0.5\nc.obj,0.25\n", "out\tH\nb.obj\t0,5\nc.obj\t.25\n", "out;H\nb.obj;0,5\nc.obj;0.25\n",
                   "out , H\n b.obj ,\t0.5\nc.obj, 0.25 \n", '"out", "H"\n"b.obj" , "0.5"\n"c.obj", 0.25\n',
                   ",out,H\n0,b.obj,0.5\n1,c.obj,0.25\n", "out,H,\nb.obj,0.5,\nc.obj,0.25,\n", ",,out,H\n0,1,b.obj,0.5\n1,1,c.obj,0.25\n",
-                  "\tout\tH\n0\tb.obj\t0.5\n1\tc.obj\t0.25\n", "out\tH\n\"b.obj\"\t\"0.5\"\nc.obj\t0.25\n"):
+                  "\tout\tH\n0\tb.obj\t0.5\n1\tc.obj\t0.25\n", "out\tH\n\"b.obj\"\t\"0.5\"\nc.obj\t0.25\n",
+                  "out|H\nb.obj|0,5\nc.obj|0.25\n", "sep=;\r\nout;H\r\nb.obj;0,5\r\nc.obj;0.25\r\n", '"sep=,"\nout,H\nb.obj,0.5\nc.obj,0.25\n',
+                  "\ufeffsep=\t\nout\tH\nb.obj\t0.5\nc.obj\t0.25\n", "sep=|\nout|H\nb.obj|0.5\nc.obj|0.25\n", "sep=;\nout;H\nb.obj;0.5\nc.obj;0,25\n"):
         equal(sets_of(run, table)[0], plain, repr(table))
     equal(sets_of(run, 'out,H\n" b.obj",0.5\n')[0], [(" b.obj", {"H": 0.5})], "blanks in quotes belong to the name")
     for table, told in (("OUT,H\nb.obj,1\n", 'line 1: the column "OUT" sets a placeholder: files are in columns "in", "out" and '
                                              '"lattice", in small letters'),
                         ("# out,H\nb.obj,1\n", 'line 1: the first row names the columns, although it begins with "# out"'),
                         ("out,H\n b.obj,1\n c.obj,2\n", 'line 2: blanks beside "b.obj" are left out (the first of 2 such)'),
+                        ("sep=;\nout;H\nb.obj;1\n", 'line 1: the line names the separator: the columns are named in the next one'),
+                        ("out|H\nb.obj|1\n", 'line 1: the columns are separated by bars: numbers may have a decimal comma'),
+                        ("out,H\nb.obj,1\n,\n , \n", 'line 3: all cells of the row are empty: its job has the values of --set and the '
+                                                        'defaults (the first of 2 such)'),
                         ("out , H\nb.obj, 1\n", 'line 1: blanks beside "out" are left out (the first of 2 such)')):
         check("t.csv: " + told in sets_of(run, table, "--out-dir", ".", code=(OK, NO))[1], table)
+    # What only looks like it.
+    for table in ("sep=\nb.obj\n", "sep=:\nb.obj\n", "sep=;;\nb.obj;1;2\n"):
+        check(not [line for line in sets_of(run, table, "--out-dir", ".", code=(OK, NO))[1] if "names the separator" in line], table)
+    run.write("t.csv", "sep=;\n")
+    run.ffd("batch", "--csv", "t.csv", code=INVALID, err="t.csv:1: the first row of the table must name its columns")
     for codec in ("utf-16-le", "utf-16-be"):
         run.write("t.csv", ("\ufeffout,H\nb.obj,1\n").encode(codec))
         for arguments in (["--csv", "t.csv", "--in", "a.obj", "-l", "p.json"], ["t.csv"]):

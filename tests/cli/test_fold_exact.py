@@ -187,8 +187,9 @@ def what_is_not_one_affine_map_is_proven(run):
     equal(folds_of(run, lattice, "--fail-on", "folds", code=NO)["verdict"], "some")
     lattice.update(moves=[{"rotate": {"axis": "z", "degrees": 20}}, {"at": [1, 1, 1], "by": [1e-6, 0, 0]}])
     equal(folds_of(run, lattice)["relative_to"], "mean")
-    lattice.update(moves=[], deformed={"weights": [2 * h for h in lattice["weights"]]})
-    equal(folds_of(run, lattice)["relative_to"], "place")  # weights count by their ratios
+    for factor in (2, 3, 0.1):  # weights count by their ratios
+        lattice.update(moves=[], deformed={"weights": [factor * h for h in lattice["weights"]]})
+        equal(folds_of(run, lattice)["relative_to"], "place")
     lattice["deformed"]["weights"][1] *= 1.5
     equal(folds_of(run, lattice)["relative_to"], "mean")
 

@@ -205,6 +205,36 @@ def vertices_that_stay_between_the_arms(run):
     torn(run, 0, 0, "-l", "l.json")
 
 
+def judged(run, edges, largest, *options):
+    """What is counted where the figures are asked for."""
+    for command in (["check", "a.obj"], ["deform", "a.obj", "out.obj"]):
+        found = entry(run, *command, *options)["tear"]
+        equal([found["edges"], found["vertex"]], [edges, 1 if edges else None])
+        near([found["largest"]], [largest], 1e-9)
+    run.ffd("deform", "a.obj", "gated.obj", *options, "--force", "--fail-on", "tear", code=NO if edges else 0, err=anything)
+
+
+@case
+def what_moves_one_end_jumps_on_its_way_to_the_one_that_stays(run):
+    """The arm that moves is left at x = -1, and the end that stays lies nearer to the other one, which does not move."""
+    horseshoe(run, ARM)
+    for first, last in ((-1.5, 0.3), (-1.9, 0.9)):
+        run.write("a.obj", f"v {first} -1.5 0\nv {last} -1.5 0\nv {last} -1.2 0\nv {first} -1.2 0\nf 1 2 3 4\n")
+        judged(run, 2, 1, "-l", "l.json")
+    # From the other arm the nearest border changes nothing where both stay; all lifted: one step, that of the border.
+    run.write("a.obj", "v 1.5 -1.5 0\nv 0.3 -1.5 0\nv 0.3 -1.2 0\nv 1.5 -1.2 0\nf 1 2 3 4\n")
+    judged(run, 0, 0, "-l", "l.json")
+
+
+@case
+def from_block_to_block_and_out(run):
+    """The end that stays is beside the second block, whose far face does not move. The jump is on the common face."""
+    square(run, 0.5, 2.5)
+    fades = [{"at": [0, "all", "all"], "by": [0, 0, -0.3]}]
+    judged(run, 2, 0.6, *side_by_side(run, (0, 1, UP), (1, 2, fades)))
+    judged(run, 0, 0, *side_by_side(run, (0, 1, [{"at": [-1, "all", "all"], "by": [0, 0, -0.3]}]), (1, 2, fades)))
+
+
 @case
 def lattices_one_after_the_other_extend(run):
     """A box before or after the horseshoe moves all it extends to by 5 along z, or turns it about z."""

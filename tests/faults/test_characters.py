@@ -103,6 +103,22 @@ def wild3_20_stale_weights_channel(run):
     gltf = Gltf(run.path("out.gltf"))
     animation = gltf.asset["animations"][0]
     equal([list(row) for row in gltf.decoded(animation["samplers"][animation["channels"][0]["sampler"]]["output"])], [[0], [0]])
+    # Whatever else needs the animation goes on without such a channel: of no target, and of two for one target.
+    asset = json.loads(run.text("m.gltf"))
+    accessors, (animation,) = asset["accessors"], asset["animations"]
+    accessors += [{**accessors[1], "count": 2}, {**accessors[0], "bufferView": 1, "count": 4}]
+    del accessors[4]["min"], accessors[4]["max"], accessors[5]["min"], accessors[5]["max"]
+    animation["samplers"].append({"input": 0, "output": 4})
+    animation["channels"].append({"sampler": 1, "target": {"node": 0, "path": "translation"}})
+    run.write("none.gltf", asset)
+    asset["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": 1}]
+    animation["samplers"][0]["output"] = 5
+    run.write("wide.gltf", asset)
+    for name in ("none.gltf", "wide.gltf"):
+        for out in ("v.png", "v.html"):
+            told(run.ffd("view", name, "-o", out, "--animation", "a", "--force", err=anything), "not played: 1 channel that drives no")
+        equal(run.ffd("deform", name, "o.gltf", "-l", "twist.json", "--rig", "follow", "--force", err=anything).err, [])
+        equal(len(Gltf(run.path("o.gltf")).asset["animations"][0]["channels"]), 2, "the channel stays")
 
 
 # Skins, joints, colliders

@@ -156,6 +156,18 @@ def faces_that_overlap_in_a_plane_are_a_seam_where_the_volume_goes_on(run):
 
 
 @case
+def weights_times_a_factor_move_nothing(run):
+    """Sibling of maths3-09: deformed weights count by their ratios to those at rest."""
+    use(run, "maths3-09-unmoved-lattice-folds")
+    file = json.loads(run.text("l2.json"))
+    for rest, factor in (([1] * 64, 7), ([1 + i % 7 for i in range(64)], 0.3), (file["weights"], 3)):
+        run.write("f.json", {**file, "weights": rest, "deformed": {"weights": [factor * h for h in rest]}})
+        told(run.ffd("deform", "m.obj", "out.obj", "-l", "f.json", "--fail-on", "folds", "--force", err=anything),
+             f"the deformed weights of f.json are those at rest times {factor}: a common factor moves nothing")
+        equal(run.read("out.obj"), run.read("m.obj"))
+
+
+@case
 def maths3_10_box_weights_open_knots(run):
     """With weights, and knots that are not clamped, the volume is not the whole box: by how much is said."""
     use(run, "maths3-10-box-weights-open-knots")
@@ -170,7 +182,8 @@ def maths3_10_box_weights_open_knots(run):
         for first in (i for i in range(64) if i // a % 4 == 0):
             h = file["weights"][first:first + 4 * a:a]
             off = max(off, abs(h[2] - h[0]) / (h[0] + 4 * h[1] + h[2]), abs(h[3] - h[1]) / (h[1] + 4 * h[2] + h[3]))
-    for arguments in (("check", "m.obj", "-l", "l.json"), ("embed", "m.obj", "-l", "l.json", "-o", "u.npy")):
+    for arguments in (("check", "m.obj", "-l", "l.json"), ("embed", "m.obj", "-l", "l.json", "-o", "u.npy"),
+                      ("jacobian", "m.obj", "-l", "l.json", "-o", "j.npz")):
         done = run.ffd(*arguments, err=anything)
         told(done, "l.json", "not its whole box", "u, v, w", "not clamped", f"{off:.3g} off")
     near([info(run, "l.json")["border_off"]], [off], 1e-15)

@@ -50,7 +50,8 @@ def wild3_01_a_pointer_is_no_buffer(run):
 
 @case
 def other_files_are_no_buffers(run):
-    """Pages, archives, images and JSON in place of a buffer, beside the model, in a GLB and in its second buffer."""
+    """Pages, archives, images and JSON in place of a buffer, beside the model, in a GLB and in its second buffer; as editors and
+    shells save them, with a byte order mark or in UTF-16."""
     wrong = {"an HTML page": b"\n<!DOCTYPE html><html><body>404: not found, the page is gone</body></html>",
              "JSON text": b'{"message": "Not Found", "documentation_url": "https://docs.example.org"}',
              "a gzip file": zlib.compress(bytes(range(200)), wbits=31), "a ZIP archive": b"PK\3\4\x14\0\0\0\x08\0" + bytes(60),
@@ -59,7 +60,11 @@ def other_files_are_no_buffers(run):
     run.write("l.json", LIFT)
     asset, data = gltf_json(TRIANGLE, uri="m.bin")
     run.write("m.gltf", asset)
-    for kind, content in wrong.items():
+    more = [("a Git LFS pointer", b"\xef\xbb\xbf" + POINTER), ("UTF-16 text", POINTER.decode().encode("utf-16")),
+            ("UTF-16 text", b"\xfe\xff" + POINTER.decode().encode("utf-16-be")), ("an HTML page", b"<!-- cache -->\n<HTML>" + b" " * 60),
+            ("JSON text", b'[\n  {"message": "Not Found", "status": 404}\n]'), ("an SVG image", b"<svg xmlns='http://www.w3.org/2000/svg'/>"),
+            ("a git-annex pointer", b"/annex/objects/SHA256E-s52233--" + b"0" * 64 + b".bin\n")]
+    for kind, content in [*wrong.items(), *more]:
         run.write("m.bin", content)
         run.ffd("deform", "m.gltf", "o.gltf", "-l", "l.json", code=INVALID, err=re.compile(f'/buffers/0/uri: the buffer "m.bin" seems to be {kind}'))
         short = {**asset, "buffers": [{"byteLength": len(content)}]}
@@ -68,6 +73,8 @@ def other_files_are_no_buffers(run):
         second = {**asset, "buffers": [{"byteLength": len(data)}, asset["buffers"][0]], "bufferViews": [{**asset["bufferViews"][0], "buffer": 1}]}
         run.write("s.glb", glb(second, data))
         run.ffd("info", "s.glb", code=INVALID, err=re.compile(f'/buffers/1/uri: the buffer "m.bin" seems to be {kind}'))
+    run.write("l.json", b"\xef\xbb\xbf" + POINTER)
+    run.ffd("info", "l.json", code=INVALID, err=re.compile("it seems to be a Git LFS pointer"))
 
 
 @case
@@ -83,7 +90,7 @@ def bytes_that_look_like_other_files_are_read(run):
     run.write("p.glb", glb(packed, PNG.ljust(200, b"\0") + data))
     run.ffd("deform", "p.glb", "o.glb", "-l", "l.json")
     # Colours and indices at the start.
-    for first in (b"\x1f\x8b\xff\xff", b"\xff\xd8\xff\xff", b"\xff\xfe\0\0", b"{{{\xff", b"{{{{", b"v v ", b"solid", b"off\n"):
+    for first in (b"\x1f\x8b\xff\xff", b"\xff\xd8\xff\xff", b"\xff\xfe\0\0", b"\xff\xfev\0v\0", b"{{{\xff", b"{{{{", b"[{[{", b"v v ", b"solid", b"off\n"):
         asset, data = gltf_json(TRIANGLE)
         asset["bufferViews"] += [{"buffer": 0, "byteOffset": len(data), "byteLength": 12}]
         asset["accessors"] += [{"bufferView": 1, "componentType": 5121, "normalized": True, "count": 3, "type": "VEC4"}]
@@ -531,6 +538,21 @@ def wild3_19_colours_of_faces_are_kept(run):
                        "property uchar diffuse_green\nproperty int id\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 3 0 1 2 1 2 7\n")
     told(run.ffd("deform", "a.ply", "a.off", "-l", "l.json", err=anything), "further data of vertices and faces")
     equal(run.text("a.off").splitlines()[-1], "3 0 1 2 1 2 3")
+    # Numbers of other ranges mean what they mean for vertices.
+    for kind, colours, back, line in (("int", ["255 0 0", "0 0 200"], ["255 0 0", "0 0 200"], None),
+                                      ("float", ["255 0 0", "0 0 200"], ["255 0 0", "0 0 200"], None),
+                                      ("float", ["1.5 0 0", "0 0 1"], ["255 0 0", "0 0 255"], "above 1, and 1 in OFF: 1 colour$"),
+                                      ("float", ["nan 0 0", "0 0 1"], ["0 0 0 0", "0 0 255 255"], "not finite as numbers of OFF, and zero: .* 1 colour$")):
+        header = "".join(f"property {kind} {name}\n" for name in ("red", "green", "blue"))
+        run.write("a.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 2\n"
+                           f"property list uchar int vertex_indices\n{header}end_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
+                           f"3 0 1 2 {colours[0]}\n3 0 2 3 {colours[1]}\n")
+        done = run.ffd("deform", "a.ply", "a.off", "-l", "l.json", "--force", err=anything)
+        equal(run.text("a.off").splitlines()[-2:], [f"3 0 1 2 {back[0]}", f"3 0 2 3 {back[1]}"])
+        told(done, line) if line else equal(done.err, [])
+        not_told(run.ffd("deform", "a.ply", "a.glb", "-l", "l.json", "--force", err=anything), "above 1|not finite")
+    run.write("m.off", OFF + "3 0 1 2 300 0 0\n3 0 2 3 0 0 1\n3 1 2 3 0 0 1\n")
+    told(run.ffd("deform", "m.off", "m.ply", "-l", "l.json", "--force", err=anything), "above 1, and 1 in PLY: 1 colour")
     run.write("m.off", OFF + "3 0 1 2 7\n3 0 2 3\n3 1 2 3\n")
     told(run.ffd("deform", "m.off", "m.ply", "-l", "l.json", "--force", err=anything), "further data of vertices and faces")
 
@@ -673,7 +695,8 @@ def wild3_13_files_of_extensions_are_named(run):
     asset, data = gltf_json(TRIANGLE, uri="m.bin")
     asset["extensions"] = {"EXT_structural_metadata": {"schemaUri": "schema.json"},
                            "KHR_audio_emitter": {"audio": [{"uri": "a%20b.mp3"}, {"uri": "data:audio/mpeg;base64,AAAA"}, {"uri": "https://x.org/a.mp3"}]},
-                           "MPEG_media": {"media": [{"alternatives": [{"uri": "v.mp4"}, {"uri": "../v.mp4"}]}]}}
+                           "MPEG_media": {"media": [{"alternatives": [{"uri": "v.mp4"}, {"uri": "../v.mp4"}, {"uri": "./v.mp4"}]}]}}
+    asset["extensions"]["MSFT_audio_emitter"] = {"clips": [{"uri": "a%20b.mp3"}]}  # named before, and counted once
     asset["nodes"][0]["extensions"] = {"EXT_x": {"extras": {"uri": "no.txt"}, "name": "uri"}}
     asset["extras"] = {"extensions": {"X": {"uri": "no.txt"}}}
     run.write("in/m.gltf", asset)
@@ -703,6 +726,18 @@ def wild3_14_tiles_go_along(run):
     equal(done.err, ['in/m.obj: the image "none.<UDIM>.png" is missing and was not copied'])
     equal(files_in(run, "out"), sorted([*tiles, "m.mtl", "m.obj"]))
     told(run.ffd("view", "in/m.obj", "-o", "v.png", err=anything), r'cannot be shown: "tex/s\.<UDIM>\.png" has tiles$')
+    # Other spellings, and a name that no file has.
+    for name, found in (("tex/s.<udim>.png", tiles[:3]), ("tex/s.%(UDIM)d.png", tiles[:3]), ("n_u<U>_v<V>.png", tiles[3:]), ("n_u<U>_v1.png", tiles[3:4]),
+                        ("n_u<u>_v<v>.png", ["n_u0_v1.png", "n_u1_v1.png"]), ("<UDIM>/<UDIM>.png", ["1002/1002.png"])):
+        run.write("in/m.mtl", f"newmtl a\nmap_Kd {name}\n")
+        run.write("in/1002/1002.png", PNG)
+        run.folder_of("to/x")
+        run.ffd("deform", "in/m.obj", "to/x/m.obj", "-l", "l.json", err=[])
+        equal(files_in(run, "to/x"), sorted([*found, "m.mtl", "m.obj"]), name)
+        shutil.rmtree(run.path("to"))
+    run.write("in/m.mtl", "newmtl a\nmap_Kd <UDIM>" + "<" * 100000 + ".png\n")
+    run.folder_of("to/x")
+    told(run.ffd("deform", "in/m.obj", "to/x/m.obj", "-l", "l.json", err=anything), "the image \"<UDIM><<<<", "missing and was not copied$")
     run.write("in/m.mtl", "newmtl a\n" + "".join(f"map_Kd {i}.<UDIM>.png\n" for i in range(300)))
     run.ffd("deform", "in/m.obj", "out/n.obj", "-l", "l.json", code=LIMIT, err=re.compile("m.mtl: names more than 256 maps with tiles"))
 

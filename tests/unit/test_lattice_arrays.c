@@ -208,6 +208,34 @@ static void set_weights_move_the_volume(void **state)
     (void)state;
 }
 
+static void weights_times_a_factor_move_nothing_and_are_kept(void **state)
+{
+    double weights[18];
+    char *text;
+    size_t size;
+    ffd_lattice *lattice =
+                    make(REST ",\"weights\":[1,2,3,4,5,6,7,8,9,1,2,3,4,5,6,7,8,9]", "{\"by\":[0,0,0]}"),
+                *copy;
+    for (int i = 0; i < 18; i++)
+        weights[i] = 0.3 * (1 + i % 9);
+    assert_int_equal(ffd_lattice_set_weights(lattice, NULL, 18, weights, NULL), FFD_OK);
+    assert_false(lattice->weights_moved);
+    assert_int_equal(ffd_lattice_text(lattice, &text, &size, NULL), FFD_OK);
+    assert_int_equal(ffd_lattice_parse(text, size, "t", &copy, NULL), FFD_OK);
+    assert_memory_equal(ffd_lattice_get_weights(copy, FFD_VOLUME_DEFORMED), weights, sizeof weights);
+    ffd_free(text);
+    ffd_lattice_destroy(&copy);
+    weights[17] *= 1 + 1e-14;
+    assert_int_equal(ffd_lattice_set_weights(lattice, NULL, 18, weights, NULL), FFD_OK);
+    assert_true(lattice->weights_moved);
+    for (int i = 0; i < 18; i++) /* ratios beneath the range of doubles are no common factor */
+        weights[i] = i == 4 ? 1e-323 : 5e-324;
+    assert_int_equal(ffd_lattice_set_weights(lattice, NULL, 18, weights, NULL), FFD_OK);
+    assert_true(lattice->weights_moved);
+    ffd_lattice_destroy(&lattice);
+    (void)state;
+}
+
 static void a_failure_changes_nothing(void **state)
 {
     const size_t index[] = {3, 3, 5}, beyond = 18;
@@ -384,6 +412,7 @@ int main(void)
         cmocka_unit_test(set_points_are_those_of_a_file),
         cmocka_unit_test(set_offsets_are_used_as_they_are),
         cmocka_unit_test(set_weights_move_the_volume),
+        cmocka_unit_test(weights_times_a_factor_move_nothing_and_are_kept),
         cmocka_unit_test(a_failure_changes_nothing),
         cmocka_unit_test(weights_that_are_refused_leave_none),
         cmocka_unit_test(setting_nothing_changes_nothing),

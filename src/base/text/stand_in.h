@@ -6,6 +6,7 @@
 #include <stddef.h>
 
 #define STAND_IN_LFS "a Git LFS pointer: the file itself is not there"
+#define STAND_IN_ANNEX "a git-annex pointer: the file itself is not there"
 #define STAND_IN_HTML "an HTML page"
 
 /* Returns one of these, by the first words; NULL: the text is neither. */

@@ -59,15 +59,31 @@ bool ffd_csv_is_open(csv_scan *scan, const char *separators, const char *text, s
 char ffd_csv_separator(const char *text, size_t size)
 {
     bool quoted = false;
-    size_t semicolons = 0, tabs = 0;
+    size_t semicolons = 0, tabs = 0, bars = 0;
     for (size_t i = 0; i < size; i++) {
         quoted = quoted != (text[i] == '"');
         if (!quoted && text[i] == ',')
             return ',';
         semicolons += !quoted && text[i] == ';';
         tabs += !quoted && text[i] == '\t';
+        bars += !quoted && text[i] == '|';
     }
-    return tabs > semicolons ? '\t' : semicolons ? ';' : ',';
+    return tabs > semicolons ? '\t' : semicolons ? ';' : bars ? '|' : ',';
+}
+
+char ffd_csv_named_separator(const char *text, size_t size)
+{
+    char line[sizeof "\"sep=;\""] = "";
+    while (size > 0 && (text[size - 1] == '\n' || text[size - 1] == '\r'))
+        size--;
+    if (size >= sizeof line)
+        return 0;
+    memcpy(line, text, size);
+    const bool quoted = line[0] == '"';
+    const char *const word = line + quoted;
+    if (strncmp(word, "sep=", 4) != 0 || !word[4] || !strchr(CSV_SEPARATORS, word[4]))
+        return 0;
+    return strcmp(word + 5, quoted ? "\"" : "") == 0 ? word[4] : 0;
 }
 
 /* Reads the cell at text[*at]; *at becomes the index of its separator, or the size. Returns false if it is

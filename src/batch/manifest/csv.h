@@ -1,5 +1,5 @@
-/* csv.h - parses rows of comma-separated values (RFC 4180), or of values separated by semicolons or tabs.
-   Blanks beside separators do not belong to a cell, except in quotes. */
+/* csv.h - parses rows of comma-separated values (RFC 4180), or of values separated by semicolons, tabs or
+   bars. Blanks beside separators do not belong to a cell, except in quotes. */
 #ifndef FFD_BATCH_MANIFEST_CSV_H
 #define FFD_BATCH_MANIFEST_CSV_H
 
@@ -25,9 +25,14 @@ typedef struct csv_scan {
 /* Scans text that was appended. separators: the characters that may separate cells. Returns whether the text
    ends inside quotes, so that its row continues in the next line. */
 bool ffd_csv_is_open(csv_scan *scan, const char *separators, const char *text, size_t size);
+/* The characters that may separate cells. */
+#define CSV_SEPARATORS ",;\t|"
+
 /* Returns the separator of a table by its first row: a comma if it has one outside of quotes, else a
-   semicolon or a tab, of which it has more. */
+   semicolon or a tab, of which it has more, else a bar. */
 char ffd_csv_separator(const char *text, size_t size);
+/* Returns the separator that a line "sep=;" in front of a table names, as Excel reads it; 0: it is none. */
+char ffd_csv_named_separator(const char *text, size_t size);
 /* Splits a complete row. Returns false for a quote inside an unquoted cell, or text behind a closing
    quote. */
 bool ffd_csv_split(char separator, const char *text, size_t size, csv_row *row);

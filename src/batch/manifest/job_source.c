@@ -288,14 +288,36 @@ static ffd_status find_next(job_source *source, line_state *state, bool *valid, 
     return FFD_OK;
 }
 
-/* Likewise; a text whose only content is NUL bytes is an error. */
+/* Returns what a manifest is by its first line, if it is no JSON Lines; NULL: it may be. */
+static const char *other_manifest(const job_source *source)
+{
+    const char *const line = source->reader.line.data, *const begin = line + strspn(line, " \t");
+    if (*begin == '[')
+        return "is a JSON array";
+    if (*begin == '{' && !begin[1 + strspn(begin + 1, " \t\r")])
+        return "is JSON over several lines";
+    const char *const ending = strrchr(source->frame.name, '.');
+    const bool is_table = ending && (strcmp(ending, ".csv") == 0 || strcmp(ending, ".tsv") == 0);
+    return is_table && *begin != '{' ? "is no JSON (--csv reads a table)" : NULL;
+}
+
+/* Refuses a text that has no jobs at all with one error, not one a line. */
+static ffd_status check_first(const job_source *source, ffd_error *error)
+{
+    const char *const found = source->desc.manifest ? other_manifest(source) : NULL;
+    if (is_zeros(&source->reader.line))
+        return ffd_fail_line(error, FFD_E_INVALID, source->frame.name, (size_t)source->line,
+                             "NUL bytes, and no job before them");
+    return found ? ffd_fail_line(error, FFD_E_INVALID, source->frame.name, (size_t)source->line,
+                                 "%s: a manifest has one job a line (JSON Lines)", found)
+                 : FFD_OK;
+}
+
+/* Likewise; checks the first line. */
 static ffd_status advance(job_source *source, line_state *state, bool *valid, ffd_error *error)
 {
     const ffd_status status = find_next(source, state, valid, error);
-    if (status || *state != LINE_READ || source->count > 0 || !is_zeros(&source->reader.line))
-        return status;
-    return ffd_fail_line(error, FFD_E_INVALID, source->frame.name, (size_t)source->line,
-                         "NUL bytes, and no job before them");
+    return status || *state != LINE_READ || source->count > 0 ? status : check_first(source, error);
 }
 
 ffd_status ffd_jobs_next(job_source *source, batch_job *job, line_state *state, ffd_error *error)

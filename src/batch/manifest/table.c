@@ -19,7 +19,7 @@ static ffd_status next_row(csv_table *table, csv_row *row, line_state *state, bo
         table->line = reader->number;
         table->scan = (csv_scan){0};
     }
-    const char only[] = {table->separator, 0}, *const separators = table->separator ? only : ",;\t";
+    const char only[] = {table->separator, 0}, *const separators = table->separator ? only : CSV_SEPARATORS;
     while (!status && *state == LINE_READ && !reader->too_long &&
            ffd_csv_is_open(&table->scan, separators, reader->line.data, reader->line.size))
         status = ffd_lines_next(reader, true, state, error);
@@ -68,6 +68,19 @@ static ffd_status note_blanks(csv_table *table, const csv_row *row, ffd_error *e
     return status;
 }
 
+/* Tells of a row without a value, as spreadsheet programs leave them. */
+static ffd_status note_empty(csv_table *table, ffd_error *error)
+{
+    const csv_row *const row = &table->row;
+    bool empty = row->count > 1 && row->text.size == row->count;
+    for (size_t i = 0; i < row->count; i++)
+        empty = empty && !(row->ways.data[i] & CSV_IN_QUOTES);
+    return empty ? ffd_flaw_line(
+                       &table->flaws, table->name, (size_t)table->line, error,
+                       "all cells of the row are empty: its job has the values of --set and the defaults")
+                 : FFD_OK;
+}
+
 bool ffd_table_check(csv_table *table, bool valid, ffd_error *error)
 {
     if (table->is_lost)
@@ -83,7 +96,7 @@ bool ffd_table_check(csv_table *table, bool valid, ffd_error *error)
                           ffd_plural(table->columns.count, "column", "columns"));
     if (!ffd_csv_is_text(&table->row))
         return refuse_row(table, error, "a cell is not text in UTF-8");
-    return !note_blanks(table, &table->row, error);
+    return !note_empty(table, error) && !note_blanks(table, &table->row, error);
 }
 
 bool ffd_table_has(const csv_table *table, const char *column)
@@ -212,18 +225,44 @@ static ffd_status note_separator(csv_table *table, ffd_error *error)
         return FFD_OK;
     return ffd_flaw_line(&table->flaws, table->name, (size_t)table->line, error,
                          "the columns are separated by %s: numbers may have a decimal comma",
-                         table->separator == ';' ? "semicolons" : "tabs");
+                         table->separator == ';'    ? "semicolons"
+                         : table->separator == '\t' ? "tabs"
+                                                    : "bars");
+}
+
+/* Waits for a row in front of the jobs. */
+static ffd_status first_row(csv_table *table, line_state *state, bool *valid, ffd_error *error)
+{
+    ffd_status status;
+    do {
+        ffd_stream_wait(table->reader->stream);
+        status = next_row(table, &table->columns, state, valid, error);
+    } while (!status && *state == LINE_LATER && !ffd_interrupt_requested());
+    return status;
+}
+
+/* Takes the separator from a line that is there for a spreadsheet program, and reads the next row in its
+ * place. */
+static ffd_status pass_separator(csv_table *table, line_state *state, bool *valid, ffd_error *error)
+{
+    const byte_buffer *const line = &table->reader->line;
+    const char named = *state == LINE_READ ? ffd_csv_named_separator(line->data, line->size) : 0;
+    if (!named)
+        return FFD_OK;
+    table->separator = named;
+    const ffd_status status =
+        ffd_flaw_line(&table->flaws, table->name, (size_t)table->line, error,
+                      "the line names the separator: the columns are named in the next one");
+    return status ? status : first_row(table, state, valid, error);
 }
 
 ffd_status ffd_table_begin(csv_table *table, ffd_error *error)
 {
     line_state state;
     bool valid = false;
-    ffd_status status;
-    do {
-        ffd_stream_wait(table->reader->stream);
-        status = next_row(table, &table->columns, &state, &valid, error);
-    } while (!status && state == LINE_LATER && !ffd_interrupt_requested());
+    ffd_status status = first_row(table, &state, &valid, error);
+    if (!status && !ffd_interrupt_requested())
+        status = pass_separator(table, &state, &valid, error);
     if (status || ffd_interrupt_requested())
         return status;
     if (state != LINE_READ || !valid)

@@ -151,16 +151,6 @@ static bool is_affine_move(const scaled_points *points, double *determinant)
     return loss <= 0.5 && *determinant > 0;
 }
 
-/* Whether each weight is its weight at rest, times a common factor. */
-static bool weights_stay(const ffd_lattice *lattice)
-{
-    const double *rest = lattice->rest_weights, *deformed = lattice->deformed_weights;
-    for (size_t i = 1; lattice->weights_moved && i < lattice->count; i++)
-        if (deformed[i] / rest[i] != deformed[0] / rest[0])
-            return false;
-    return true;
-}
-
 static bool is_still(const ffd_lattice *lattice)
 {
     for (size_t c = 0; c < 3 * lattice->count; c++)
@@ -174,7 +164,7 @@ bool ffd_fold_is_affine(const ffd_lattice *lattice, double *determinant)
     const bool is_shape = lattice->spec && lattice->spec->rest != SPEC_POINTS;
     scaled_points points;
     *determinant = 1;
-    if (!(is_shape || lattice->rest_weights) || !weights_stay(lattice))
+    if (!(is_shape || lattice->rest_weights) || lattice->weights_moved)
         return false;
     ffd_scaled_points_make(lattice, &points);
     return (is_still(lattice) || is_affine_move(&points, determinant)) &&

@@ -138,7 +138,8 @@ static ffd_status mark_meshes(const gltf_document *d, const gltf_document *file,
 {
     mark_moved(d, marks);
     for (size_t m = 0; m < d->model.mesh_count; m++) {
-        if (!ffd_gltf_find_target(file, m, marks->morph->name, &marks->named[m]))
+        size_t found;
+        if (!ffd_gltf_find_target(file, m, marks->morph->name, &marks->named[m], &found))
             return ffd_fail_memory(error);
         marks->meshes[m] =
             marks->meshes[m] || (marks->selected[m] && (!marks->moved || marks->named[m] != GLTF_NONE));

@@ -9,6 +9,12 @@
 /* The most bytes that pad a text to a multiple of four. */
 #define MOST_PADDING 3
 
+/* Code units of UTF-16 that are looked at. */
+#define UTF16_SEEN 8
+
+/* Kinds that need a further look. */
+static const char json[] = "JSON text", utf16[] = "UTF-16 text";
+
 /* Magic numbers at the start of a file. */
 static const struct {
     const char *bytes;
@@ -36,8 +42,8 @@ static const struct {
     {"\x93NUMPY", 6, {"a NumPy array", FFD_FORMAT_AUTO, true, false}, 0, 255},
     {"SQLite format 3", 15, {"an SQLite database", FFD_FORMAT_AUTO, true, false}, 0, 255},
     {"\177ELF", 4, {"a program", FFD_FORMAT_AUTO, true, false}, 0, 255},
-    {"\xff\xfe", 2, {"UTF-16 text", FFD_FORMAT_AUTO, true, false}, 1, 0},
-    {"\xfe\xff", 2, {"UTF-16 text", FFD_FORMAT_AUTO, true, false}, 1, 0},
+    {"\xff\xfe", 2, {utf16, FFD_FORMAT_AUTO, true, false}, 0, 255},
+    {"\xfe\xff", 2, {utf16, FFD_FORMAT_AUTO, true, false}, 0, 255},
 };
 
 /* First words, in lower case. A word that ends with a star matches all words with that beginning. */
@@ -46,7 +52,9 @@ static const struct {
     content_kind kind;
 } first_words[] = {
     {"<?xml*", {"an XML file", FFD_FORMAT_AUTO, false, false}},
-    {"{*", {"JSON text", FFD_FORMAT_GLTF, false, false}},
+    {"{*", {json, FFD_FORMAT_GLTF, false, false}},
+    {"[*", {json, FFD_FORMAT_GLTF, false, false}},
+    {"<svg*", {"an SVG image", FFD_FORMAT_AUTO, false, false}},
     {"ply", {"a PLY file", FFD_FORMAT_PLY, false, false}},
     {"solid", {"an STL file", FFD_FORMAT_STL, false, false}},
     {"off", {"an OFF file", FFD_FORMAT_OFF, false, false}},
@@ -56,6 +64,7 @@ static const struct {
 };
 
 static const content_kind stand_ins[] = {{STAND_IN_LFS, FFD_FORMAT_AUTO, false, true},
+                                         {STAND_IN_ANNEX, FFD_FORMAT_AUTO, false, true},
                                          {STAND_IN_HTML, FFD_FORMAT_AUTO, false, true}};
 
 static bool matches(text_word word, const char *pattern)
@@ -117,15 +126,37 @@ static bool is_text(const unsigned char *data, size_t size)
     return true;
 }
 
-/* Whether a quote or the end follows the brace of JSON text. */
-static bool is_object(const unsigned char *data, size_t size)
+static bool is_blank(unsigned char byte)
 {
-    const unsigned char *at = memchr(data, '{', size);
-    const unsigned char *const end = data + size;
+    return byte == ' ' || byte == '\t' || byte == '\n' || byte == '\r';
+}
+
+/* Whether JSON text begins with an object, or with an array of objects: a quote or the end of the object
+   follows its brace. */
+static bool is_objects(const unsigned char *data, size_t size)
+{
+    const unsigned char *at = data + (ffd_text_has_mark(data, size) ? TEXT_MARK_SIZE : 0), *const end =
+                                                                                               data + size;
+    for (bool in_array = false; at < end && (is_blank(*at) || (*at == '[' && !in_array)); at++)
+        in_array = in_array || *at == '[';
+    if (at == end || *at != '{')
+        return false;
     do
         at++;
-    while (at < end && (*at == ' ' || *at == '\t' || *at == '\n' || *at == '\r'));
+    while (at < end && is_blank(*at));
     return at < end && (*at == '"' || *at == '}');
+}
+
+/* Whether text in UTF-16 follows the mark: letters of ASCII, more than numbers have by chance. */
+static bool is_utf16(const unsigned char *data, size_t size)
+{
+    const size_t low = data[0] == 0xff ? 0 : 1;
+    bool is_text = size >= 2 + 2 * UTF16_SEEN;
+    for (size_t i = 2; i < 2 + 2 * UTF16_SEEN && is_text; i += 2) {
+        const unsigned char byte = data[i + low];
+        is_text = data[i + 1 - low] == 0 && byte < 127 && (byte >= ' ' || is_blank(byte));
+    }
+    return is_text;
 }
 
 const content_kind *ffd_content_sure_kind(const void *data, size_t size)
@@ -135,6 +166,8 @@ const content_kind *ffd_content_sure_kind(const void *data, size_t size)
     if (found != SIZE_MAX) {
         const size_t behind = magic_numbers[found].size;
         const unsigned char next = behind < size ? bytes[behind] : 0;
+        if (magic_numbers[found].kind.name == utf16)
+            return is_utf16(bytes, size) ? &magic_numbers[found].kind : NULL;
         return next >= magic_numbers[found].least && next <= magic_numbers[found].largest
                    ? &magic_numbers[found].kind
                    : NULL;
@@ -144,7 +177,7 @@ const content_kind *ffd_content_sure_kind(const void *data, size_t size)
     const content_kind *const kind = kind_of_words(bytes, size);
     if (!kind || kind->is_stand_in)
         return kind;
-    if (kind->format == FFD_FORMAT_GLTF)
-        return is_object(bytes, size) ? kind : NULL;
+    if (kind->name == json)
+        return is_objects(bytes, size) ? kind : NULL;
     return kind->format == FFD_FORMAT_AUTO ? kind : NULL;
 }

@@ -6,6 +6,7 @@
 #include "job/chain/chain_apply.h"
 #include "job/chain/lattice_memory.h"
 #include "job/jacobian/jacobian_state.h"
+#include "job/judge/result.h"
 #include "job/pass/chain_fit.h"
 #include "job/pass/pass.h"
 #include "job/pass/vertex_rounding.h"
@@ -92,10 +93,9 @@ static ffd_status extend(jacobian *j, size_t number, ffd_embedding *embedding, f
     return status;
 }
 
-static ffd_status fill_embedding(jacobian *j, jacobian_link *link, ffd_error *error)
+static ffd_status fill_embedding(jacobian *j, jacobian_link *link, pass_totals *totals, ffd_error *error)
 {
     const chain_link *const of = &j->job.chain.links[link->number];
-    pass_totals totals;
     ffd_status status = ffd_embedding_make(of->lattice, j->count, &link->embedding, error);
     if (status)
         return status;
@@ -103,7 +103,7 @@ static ffd_status fill_embedding(jacobian *j, jacobian_link *link, ffd_error *er
     pass.pace = &j->pace;
     pass.uvw = link->embedding->uvw;
     pass.statuses = link->embedding->status;
-    status = ffd_pass_run(&pass, &totals, error);
+    status = ffd_pass_run(&pass, totals, error);
     return status || !of->border ? status : extend(j, link->number, link->embedding, error);
 }
 
@@ -289,6 +289,7 @@ static ffd_status take_vertices(jacobian *j, ffd_error *error)
 ffd_status ffd_jacobian_prepare(jacobian *j, ffd_error *error)
 {
     const bool by_points = j->desc->by == FFD_BY_POINTS;
+    pass_totals totals = {0};
     ffd_status status = ffd_mesh_check(j->job.document, error);
     j->count = (size_t)ffd_mesh_vertex_count(j->job.document);
     if (!status)
@@ -305,7 +306,7 @@ ffd_status ffd_jacobian_prepare(jacobian *j, ffd_error *error)
                            .log = j->job.log};
     for (size_t l = 0; l < j->link_count && !status; l++) {
         jacobian_link *const link = &j->links[l];
-        status = fill_embedding(j, link, error);
+        status = fill_embedding(j, link, &totals, error);
         if (!status)
             status = find_later(j, link, error);
         if (!status && !by_points)
@@ -315,6 +316,7 @@ ffd_status ffd_jacobian_prepare(jacobian *j, ffd_error *error)
         status = find_inverses(j, error);
     if (status)
         return status;
+    ffd_result_warn(&totals, &j->job.chain, false, &j->job.log);
     j->blocks = !by_points || j->desc->components || j->links[0].later;
     j->rows = j->blocks ? 3 * j->count : j->count;
     if (by_points)

@@ -41,6 +41,23 @@ static uint64_t count_moved(const ffd_lattice *lattice)
     return count;
 }
 
+/* Warns of deformed weights that are those at rest times a factor, for those who expect a stronger pull. */
+static void warn_of_factor(const deform_job *job)
+{
+    for (size_t l = 0; l < job->chain.count; l++) {
+        const ffd_lattice *const lattice = job->chain.links[l].lattice;
+        const double *const rest = lattice->rest_weights, *const deformed = lattice->deformed_weights;
+        char name[100];
+        if (lattice->edited || !lattice->spec->deformed_weights || !rest || lattice->weights_moved ||
+            deformed[0] == rest[0])
+            continue;
+        ffd_name_shown(lattice->spec->name, name, sizeof name);
+        ffd_log_line(&job->log, FFD_LOG_WARNING,
+                     "the deformed weights of %s are those at rest times %g: a common factor moves nothing",
+                     name, deformed[0] / rest[0]);
+    }
+}
+
 /* Writes where the mesh lies, for those who took its places for others; "" if it has no finite vertex. */
 static void tell_bounds(const ffd_bounds *box, char *text, size_t capacity)
 {
@@ -67,6 +84,7 @@ void ffd_still_warn(const deform_job *job, const ffd_bounds *box)
     uint64_t points = 0;
     if (totals->vertices == 0)
         return;
+    warn_of_factor(job);
     for (size_t l = 0; l < job->chain.count; l++) {
         const chain_link *const link = &job->chain.links[l];
         const uint64_t moved = count_moved(link->lattice);

@@ -44,7 +44,9 @@ typedef struct cut_part {
 } cut_part;
 
 typedef struct cut_edge {
-    uint32_t ends[2]; /* the first has the lesser position: equal edges have equal steps */
+    uint32_t ends[2]; /* the first has the lesser position: equal edges have equal steps; or twice the end
+                         that moves, if that goes on */
+    bool moves_last;  /* what goes on is that of the place t = 1, not of t = 0 */
     double start[3], along[3], length;
     double beside; /* of t: farther from a border than the rounding of places on it */
     cut_part part; /* what is being cut, */
@@ -140,10 +142,20 @@ bool ffd_tear_may_jump(const double along[3], const double *const delta[2], cons
     return !(find_defect(delta[0], delta[1], slope[0], slope[1], 1) <= NEGLIGIBLE * vec_length(along));
 }
 
-static void place_at(const cut_edge *edge, double t, field_place *place)
+/* What acts at a place of an edge whose one end stays: of blocks that which the place is in, or near. */
+static field_by goes_on(const tear_field *field, const cut_edge *edge, double t)
+{
+    const bool moves = edge->moves_last ? t >= 1 : t <= 0;
+    return field->chain->blocks && !moves ? FIELD_BETWEEN : FIELD_SECOND;
+}
+
+static void place_at(const tear_field *field, const cut_edge *edge, double t, field_place *place)
 {
     memcpy(place->ends, edge->ends, sizeof place->ends);
-    place->by = t <= 0 ? FIELD_FIRST : t >= 1 ? FIELD_SECOND : FIELD_BETWEEN;
+    place->by = field->continues ? goes_on(field, edge, t)
+                : t <= 0         ? FIELD_FIRST
+                : t >= 1         ? FIELD_SECOND
+                                 : FIELD_BETWEEN;
     for (int a = 0; a < 3; a++)
         place->x[a] = edge->start[a] + t * edge->along[a];
 }
@@ -207,8 +219,9 @@ static void begin_edge(const cut_work *work, uint64_t key, cut_edge *edge)
     const double *const b = work->field->faces->positions + 3 * (size_t)of_key[1];
     const int first = precedes(b, a);
     memset(edge, 0, sizeof *edge);
-    edge->ends[0] = of_key[first];
-    edge->ends[1] = of_key[1 - first];
+    edge->ends[0] = of_key[work->field->continues ? 1 : first];
+    edge->ends[1] = of_key[work->field->continues ? 1 : 1 - first];
+    edge->moves_last = !first;
     memcpy(edge->start, first ? b : a, sizeof edge->start);
     for (int c = 0; c < 3; c++)
         edge->along[c] = (first ? a : b)[c] - edge->start[c];
@@ -298,7 +311,7 @@ static ffd_status begin_ends(const cut_work *work, size_t count)
     for (size_t e = 0; e < count; e++) {
         cuts->lists[e] = (place_list){.t = {0}, .count = 1};
         for (size_t end = 0; end < 2; end++) {
-            place_at(&cuts->edges[e], (double)end, &cuts->places[2 * e + end]);
+            place_at(field, &cuts->edges[e], (double)end, &cuts->places[2 * e + end]);
             memcpy(cuts->ways[e].x[end], cuts->places[2 * e + end].x, sizeof cuts->ways[e].x[end]);
         }
         cuts->ways[e].follows = false;
@@ -350,7 +363,7 @@ static ffd_status begin_edges(const cut_work *work, size_t count)
         size_t places = 0;
         for (end = first; end < count && places + cuts->lists[end].count <= FIELD_RUN; end++)
             for (size_t i = 1; i + 1 < cuts->lists[end].count; i++)
-                place_at(&cuts->edges[end], cuts->lists[end].t[i], &cuts->places[places++]);
+                place_at(work->field, &cuts->edges[end], cuts->lists[end].t[i], &cuts->places[places++]);
         if (places > 0)
             status = ffd_tear_field_find(work->field, cuts->places, places, NULL, cuts->field, work->error);
         places = 0;
@@ -388,7 +401,7 @@ static ffd_status measure(const cut_work *work, const cut_edge *edge, cut_part *
     cut_place place[2];
     tear_step step;
     for (int i = 0; i < 2; i++)
-        place_at(edge, t[i], &pair[i]);
+        place_at(work->field, edge, t[i], &pair[i]);
     const ffd_status status =
         ffd_tear_field_compare(work->field, pair, work->cuts->field, &step.cause, work->error);
     for (int i = 0; i < 2; i++)
@@ -447,7 +460,7 @@ static ffd_status cut_all(const cut_work *work, size_t count, bool *some)
         const cut_part *const part = &cuts->edges[e].part;
         t[e] = part->low.t + (part->high.t - part->low.t) * (part->is_half ? 0.5 : FIRST_CUT);
         if (cuts->edges[e].is_cut)
-            place_at(&cuts->edges[e], t[e], &cuts->places[places++]);
+            place_at(work->field, &cuts->edges[e], t[e], &cuts->places[places++]);
     }
     *some = places > 0;
     ffd_status status =

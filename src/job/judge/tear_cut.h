@@ -1,5 +1,6 @@
-/* tear_cut.h - finds where the displacement jumps along edges of which both ends move, and how far: edges
-   are cut again and again where the displacement changes more than its derivative says. */
+/* tear_cut.h - finds where the displacement jumps along edges, and how far: edges are cut again and again
+   where the displacement changes more than its derivative says. Both ends move, or what moves one goes on to
+   the other. */
 #ifndef FFD_JOB_JUDGE_TEAR_CUT_H
 #define FFD_JOB_JUDGE_TEAR_CUT_H
 
@@ -26,8 +27,8 @@ void ffd_tear_cuts_free(tear_cuts *cuts);
 /* The scratch memory for places, which is free between calls. */
 field_scratch *ffd_tear_cuts_scratch(const tear_cuts *cuts);
 
-/* Finds the steps of at most CUT_RUN edges between vertices of faces, one end in the upper 32 bits. A step of
-   0: no jump above a quarter of what counts was found. Errors: FFD_E_MEMORY, FFD_E_LIMIT. */
+/* Finds the steps of at most CUT_RUN edges between vertices of faces, the first end in the upper 32 bits. A
+   step of 0: no jump above a quarter of what counts was found. Errors: FFD_E_MEMORY, FFD_E_LIMIT. */
 ffd_status ffd_tear_cut(const tear_field *field, const uint64_t *edges, size_t count, tear_step *steps,
                         tear_cuts *cuts, ffd_error *error);
 

@@ -25,6 +25,8 @@ typedef struct tear_mesh {
     bool stays;        /* some vertices stay */
     /* Also list edges whose ends have equal marks, and which lead through another lattice. */
     bool passes;
+    /* Also look for jumps along edges of which one end stays, on the way of what moves the other. */
+    bool continues;
     /* As in mesh_pass, of the document's vertices; NULL: not known. They rule out most edges. */
     const double *deformed, *gradients;
     const vertex_range

@@ -255,6 +255,16 @@ tear_field ffd_tear_field_make(const lattice_chain *chain, const mesh_faces *fac
     return field;
 }
 
+tear_field ffd_tear_field_continue(const tear_field *field, lattice_chain *room)
+{
+    tear_field made = *field;
+    *room = *field->chain;
+    room->outside.extend = true;
+    made.chain = room;
+    made.continues = true;
+    return made;
+}
+
 field_scratch *ffd_tear_field_scratch(void)
 {
     return ffd_alloc_zero(1, sizeof(field_scratch));

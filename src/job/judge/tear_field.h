@@ -6,6 +6,9 @@
 
 /* Makes a field that borrows all arguments. marks: of the vertices of faces. */
 tear_field ffd_tear_field_make(const lattice_chain *chain, const mesh_faces *faces, const mark_planes *marks);
+/* The same for edges of which the first end stays: what moves the second one goes on to it, as it is
+   extended. room: for the chain. */
+tear_field ffd_tear_field_continue(const tear_field *field, lattice_chain *room);
 /* Returns NULL if memory runs out. */
 field_scratch *ffd_tear_field_scratch(void);
 

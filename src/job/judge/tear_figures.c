@@ -182,6 +182,15 @@ static void fill_result(const deform_job *job, const mesh_faces *faces, const te
         name_part(job, result);
 }
 
+/* Whether the extension of the lattices may jump. That of a box does not. */
+static bool may_part(const lattice_chain *chain)
+{
+    bool parts = chain->blocks && chain->count > 1;
+    for (size_t l = 0; l < chain->count; l++)
+        parts = parts || !chain->links[l].is_convex;
+    return parts;
+}
+
 /* marks: of the vertices of faces. */
 static ffd_status count_marked(const deform_job *job, const mesh_faces *faces, uint8_t *marks,
                                const figure_arrays *arrays, const memory_budget *budget,
@@ -194,6 +203,7 @@ static ffd_status count_marked(const deform_job *job, const mesh_faces *faces, u
                                        .marks = {marks, faces->vertex_count},
                                        .stays = job->totals.kept > 0,
                                        .passes = is_asked_for(job) && job->chain.count > 1,
+                                       .continues = is_asked_for(job) && may_part(&job->chain),
                                        .deformed = arrays->deformed,
                                        .gradients = arrays->gradients,
                                        .budget = budget},

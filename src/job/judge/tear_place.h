@@ -33,6 +33,7 @@ typedef struct tear_field {
     const mesh_faces *faces;
     mark_planes marks;
     lattice_chain plain; /* of blocks: the chain without an extension and a snap */
+    bool continues;      /* the first end of an edge stays; what moves the second goes on to it */
     /* The evaluations that are left to all threads; NULL: there is no limit. Whether they suffice does not
        depend on the order in which threads take them. */
     atomic_llong *left;

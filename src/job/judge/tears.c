@@ -18,6 +18,8 @@ typedef struct tear_work {
     const tear_question *question;
     const tear_mesh *mesh;
     tear_field field;
+    tear_field continued; /* for edges of which one end stays */
+    lattice_chain room;   /* of its chain */
     tear_count *count;
     /* Of the kind at hand: */
     tear_kind kind;
@@ -32,6 +34,18 @@ static bool is_repeated(const tear_work *work, uint64_t before, uint64_t key)
     return ffd_tear_first(before) == ffd_tear_first(key) &&
            ffd_tear_alike(work->mesh, ffd_tear_second(before), ffd_tear_second(key),
                           work->mesh->chain->marks.kept);
+}
+
+/* Where what moves the other end jumps on its way to the one that stays, the larger step counts. */
+static ffd_status add_jumps(const tear_work *work, const uint64_t *keys, size_t count, tear_step *steps,
+                            tear_worker *worker)
+{
+    tear_step jumps[CUT_RUN];
+    const ffd_status status =
+        ffd_tear_cut(&work->continued, keys, count, jumps, worker->cuts, &worker->error);
+    for (size_t i = 0; i < count && !status; i++)
+        steps[i].length = larger_of(steps[i].length, jumps[i].length);
+    return status;
 }
 
 /* The step of an end that stays is the displacement that it would have by the lattices of its neighbour, as
@@ -57,7 +71,7 @@ static ffd_status find_stays(const tear_work *work, const uint64_t *keys, size_t
         steps[i].cause = work->mesh->marks.bytes[ffd_tear_first(keys[i])] & KEPT_ALWAYS ? FFD_TEAR_UNSELECTED
                                                                                         : FFD_TEAR_STAYS;
     }
-    return status;
+    return status || !work->mesh->continues ? status : add_jumps(work, keys, count, steps, worker);
 }
 
 static void run_tile(void *context, size_t tile, size_t first, size_t last, int worker)
@@ -184,6 +198,7 @@ ffd_status ffd_tears_count(const tear_question *question, tear_count *count, ffd
                       .mesh = mesh,
                       .field = ffd_tear_field_make(mesh->chain, mesh->faces, &mesh->marks),
                       .count = count};
+    work.continued = ffd_tear_field_continue(&work.field, &work.room);
     *count = (tear_count){.vertex = UINT32_MAX};
     atomic_init(&left, question->most);
     ffd_status status = join_marks(&work, error);

@@ -46,20 +46,18 @@ static bool turns_over(const double f[9], double det)
     return det < 0 && det < -COLLAPSE * vec_length(f) * vec_length(f + 3) * vec_length(f + 6);
 }
 
-static void note_determinant(const double gradient[9], bool outside, size_t number, pass_totals *totals)
+static void note_range(double det, bool outside, size_t number, pass_totals *totals)
 {
-    double f[9];
-    for (int i = 0; i < 9; i++)
-        f[i] = gradient[i] + (i % 4 == 0 ? 1 : 0);
-    const double det = mat_determinant(f);
     totals->det_min = lesser_of(totals->det_min, det);
     totals->det_max = larger_of(totals->det_max, det);
     if (outside && det < totals->det_outside) {
         totals->det_outside = det;
         totals->first_det_outside = number;
     }
-    if (outside || !turns_over(f, det))
-        return;
+}
+
+static void note_inversion(double det, size_t number, pass_totals *totals)
+{
     totals->inverted++;
     if (det < totals->det_inverted) {
         totals->det_inverted = det;
@@ -67,19 +65,32 @@ static void note_determinant(const double gradient[9], bool outside, size_t numb
     }
 }
 
-/* Finds the range of det F over a tile's vertices that a link moves (after spread). */
+/* Whether a link moves the vertex in a way that F tells. */
+static bool has_gradient(const part_work *work, const tile_scratch *scratch, size_t i)
+{
+    const point_outcome *const outcome = &scratch->point_outcomes[i];
+    const bool singular = work->part->skinned ? scratch->transforms.singular[i] : work->part->singular;
+    return !singular && outcome->status != FFD_SINGULAR && (outcome->located || outcome->extended);
+}
+
+/* Looks at det F of a tile's vertices (after spread), as far as it is wanted. */
 static void note_determinants(const part_work *work, const tile_scratch *scratch, size_t first, size_t count,
                               pass_totals *totals)
 {
-    const bool *const singular = work->part->skinned ? scratch->transforms.singular : NULL;
-    if (!work->pass->determinants || (!singular && work->part->singular))
-        return;
-    for (size_t i = 0; i < count; i++) {
-        const point_outcome *const outcome = &scratch->point_outcomes[i];
-        if (!(singular && singular[i]) && outcome->status != FFD_SINGULAR &&
-            (outcome->located || outcome->extended))
-            note_determinant(scratch->gradient + 9 * i, outcome->extended,
-                             (size_t)work->first_vertex + first + i, totals);
+    const bool has_range = work->pass->determinants;
+    for (size_t i = 0; i < count && ffd_pass_takes_determinants(work->pass); i++) {
+        double f[9];
+        for (int k = 0; k < 9; k++)
+            f[k] = scratch->gradient[9 * i + (size_t)k] + (k % 4 == 0 ? 1 : 0);
+        const double det = mat_determinant(f);
+        if ((det >= 0 && !has_range) || !has_gradient(work, scratch, i))
+            continue;
+        const size_t number = (size_t)work->first_vertex + first + i;
+        const bool outside = scratch->point_outcomes[i].extended;
+        if (has_range)
+            note_range(det, outside, number, totals);
+        if (!outside && turns_over(f, det))
+            note_inversion(det, number, totals);
     }
 }
 
@@ -475,7 +486,8 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
     const bool attributes = wanted && !part->singular && (part->normal_count || part->has_tangents);
     const bool splats = ffd_pass_takes_splats(pass, part);
     const bool gradients =
-        attributes || splats || ((pass->gradients || pass->determinants) && !part->repeats_positions);
+        attributes || splats ||
+        ((pass->gradients || ffd_pass_takes_determinants(pass)) && !part->repeats_positions);
 
     ffd_totals_clear(totals);
     if (atomic_load(&work->stopped))

@@ -81,6 +81,12 @@ static inline bool ffd_pass_takes_splats(const mesh_pass *pass, const mesh_part 
            !pass->document->keeps_base && !pass->document->converted;
 }
 
+/* Whether the pass looks at det F. */
+static inline bool ffd_pass_takes_determinants(const mesh_pass *pass)
+{
+    return pass->determinants || pass->inversions;
+}
+
 /* Whether the results go to the document. */
 static inline bool ffd_pass_stores(const mesh_pass *pass)
 {

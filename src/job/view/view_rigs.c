@@ -220,9 +220,11 @@ static void warn(const view_rigs_desc *desc, const view_scene *scene)
                      scene->animations[a].of[1] == RIG_NONE;
     }
     if (left)
-        ffd_log_line(desc->log, FFD_LOG_WARNING,
-                     "not played: %zu %s no translation, rotation, scale or weights of a node that is there",
-                     left, ffd_plural(left, "channel that drives", "channels that drive"));
+        ffd_log_line(
+            desc->log, FFD_LOG_WARNING,
+            "not played: %zu %s no translation, rotation, scale or weight for each morph target of a "
+            "node that is there",
+            left, ffd_plural(left, "channel that drives", "channels that drive"));
     if (unmatched)
         ffd_log_line(desc->log, FFD_LOG_WARNING, "%s lacks %zu of the animations: it stands still there",
                      desc->after_name, unmatched);

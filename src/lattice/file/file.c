@@ -119,6 +119,14 @@ ffd_status ffd_lattice_list_open(const char *path, const ffd_setting *values, si
     return status;
 }
 
+/* Whether the deformed weights have to be written: those at rest times a factor too, though they move
+ * nothing. */
+static bool weights_differ(const ffd_lattice *lattice)
+{
+    const double *const rest = lattice->rest_weights;
+    return rest && memcmp(rest, lattice->deformed_weights, lattice->count * sizeof *rest) != 0;
+}
+
 /* Returns a spec with the current state of an edited lattice: the result of the moves and of the caller's
    changes as offsets. Its arrays are borrowed from the lattice and its spec. */
 static lattice_spec edited_spec(const ffd_lattice *lattice)
@@ -131,7 +139,7 @@ static lattice_spec edited_spec(const ffd_lattice *lattice)
     spec.open = (intern_table){0};
     spec.deformed_points = NULL;
     spec.deformed_offsets = lattice->difference;
-    spec.deformed_weights = lattice->weights_moved ? lattice->deformed_weights : NULL;
+    spec.deformed_weights = weights_differ(lattice) ? lattice->deformed_weights : NULL;
     return spec;
 }
 

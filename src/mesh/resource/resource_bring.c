@@ -1,6 +1,7 @@
 #include "mesh/resource/resource_bring.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/text/words.h"
 
 /* Whether a relative path leads from the output's folder to a file, and if it leads out of the mesh's folder,
    to that one. */
@@ -17,21 +18,25 @@ static bool is_reached(const resource_copier *c, const char *path)
 static ffd_status copy(const resource_copier *c, const mesh_resource *resource, ffd_error *error)
 {
     ffd_error refused;
+    char shown[RESOURCE_SHOWN];
     if (ffd_path_leads_out(resource->path) && is_reached(c, resource->path))
         return FFD_OK;
     const ffd_status status = ffd_resource_copy(c, resource, &refused, error);
+    ffd_name_shown(resource->path, shown, sizeof shown);
     if (!status && refused.status)
         ffd_log_line(c->log, FFD_LOG_WARNING, "the %s \"%s\" cannot be copied: %s", resource->kind->name,
-                     resource->path, refused.message);
+                     shown, refused.message);
     return status;
 }
 
 static void say_unreached(const resource_copier *c, const mesh_resource *resource)
 {
+    char shown[RESOURCE_SHOWN];
+    ffd_name_shown(resource->path, shown, sizeof shown);
     if (!is_reached(c, resource->path))
         ffd_log_line(c->log, FFD_LOG_WARNING,
                      "the output does not reach the %s \"%s\" (--resources copy copies it)",
-                     resource->kind->name, resource->path);
+                     resource->kind->name, shown);
 }
 
 ffd_status ffd_resources_bring(const resource_copier *c, const resource_list *list, bool copies, bool is_stay,

@@ -4,6 +4,7 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/system/clock.h"
+#include "base/text/words.h"
 #include "mesh/resource/image_file.h"
 #include <string.h>
 
@@ -164,8 +165,10 @@ ffd_status ffd_resource_copy(const resource_copier *c, const mesh_resource *reso
     if (status || refused->status)
         return status;
     if (left) {
+        char shown[RESOURCE_SHOWN];
+        ffd_name_shown(resource->path, shown, sizeof shown);
         ffd_log_line(c->log, FFD_LOG_WARNING, "the %s \"%s\" %s and was not copied", resource->kind->name,
-                     resource->path, left);
+                     shown, left);
         return FFD_OK;
     }
     status = copy_loaded(c, resource, &bytes, error);

@@ -8,6 +8,9 @@
 #include "mesh/mesh_log.h"
 #include "mesh/resource/resource_list.h"
 
+/* Capacity for a path in a message, including the final 0: what follows it has room too. */
+#define RESOURCE_SHOWN 401
+
 /* Source and destination of copies. */
 typedef struct resource_copier {
     const char *mesh;      /* path of the mesh file */

@@ -31,8 +31,7 @@ static size_t accessor_of(const gltf_document *d, uint32_t sampler, const char *
     return ffd_gltf_index(d, ffd_json_span_member(&d->tree, sampler, key), d->model.accessor_count);
 }
 
-/* Takes the node and the path of a pointer like "/nodes/3/rotation". weights of a node without a mesh drive
-   nothing: the node has no morph targets. */
+/* Takes the node and the path of a pointer like "/nodes/3/rotation". */
 static void follow_pointer(const gltf_document *d, gltf_channel *channel, uint32_t value)
 {
     const char *rest = "";
@@ -87,6 +86,24 @@ static ffd_status read_path(const gltf_document *d, uint32_t target, gltf_channe
     return FFD_OK;
 }
 
+/* Whether the keys of weights hold other numbers of them than the mesh has morph targets: exporters leave
+   such channels behind when targets are removed or applied. What is no row of weights for each time is an
+   error that loading tells. */
+static bool is_left_behind(const gltf_document *d, const gltf_animation *animation,
+                           const gltf_channel *channel)
+{
+    const uint64_t targets = ffd_gltf_node_targets(d, channel->node);
+    const gltf_animation_sampler *const sampler =
+        channel->sampler == GLTF_NONE ? NULL : &animation->samplers[channel->sampler];
+    if (targets == 0 || !sampler || sampler->input == GLTF_NONE || sampler->output == GLTF_NONE)
+        return targets == 0;
+    const gltf_accessor *const output = &d->model.accessors[sampler->output];
+    const uint64_t rows = (uint64_t)d->model.accessors[sampler->input].count *
+                          (sampler->interpolation == GLTF_CUBICSPLINE ? 3 : 1);
+    return rows > 0 && output->rows == 1 && output->count > 0 && (uint64_t)output->count % rows == 0 &&
+           (uint64_t)output->count / rows != targets;
+}
+
 static ffd_status read_channel(const gltf_document *d, gltf_animation *animation, uint32_t value,
                                ffd_error *error)
 {
@@ -102,6 +119,10 @@ static ffd_status read_channel(const gltf_document *d, gltf_animation *animation
     const ffd_status status = extension == JSON_NONE ? read_path(d, target, channel, error)
                                                      : read_pointer(d, extension, channel, error);
     animation->pointer_count += channel->pointer && channel->path == GLTF_NO_PATH;
+    if (channel->path == GLTF_WEIGHTS && is_left_behind(d, animation, channel)) {
+        channel->path = GLTF_NO_PATH;
+        channel->node = GLTF_NONE;
+    }
     return status;
 }
 

@@ -144,25 +144,19 @@ static ffd_status load_sampler(gltf_document *d, gltf_animation *animation, gltf
     return status ? status : check_values(d, sampler, elements * rows, error);
 }
 
-/* Checks that the values of a channel's sampler have as many numbers as the property it drives. */
+/* Checks that the values of a channel's sampler have as many numbers as the property it drives. Channels of
+   other numbers of weights than there are morph targets drive nothing. */
 static ffd_status check_width(const gltf_document *d, const gltf_channel *channel,
                               const gltf_animation_sampler *sampler, ffd_error *error)
 {
-    static const char *const names[] = {"a translation", "a rotation", "a scale"};
-    static const size_t widths[] = {3, 4, 3};
+    static const char *const names[] = {"VEC3, for a translation", "VEC4, for a rotation",
+                                        "VEC3, for a scale", "SCALAR, for weights"};
+    static const size_t widths[] = {3, 4, 3, 1};
     const size_t rows = (size_t)d->model.accessors[sampler->output].rows;
-    if (channel->path < GLTF_WEIGHTS)
-        return rows == widths[channel->path]
-                   ? FFD_OK
-                   : refuse(d, sampler->value, "output", error, "accessor %zu is not a VEC%zu, for %s",
-                            sampler->output, widths[channel->path], names[channel->path]);
-    const size_t targets = ffd_gltf_node_targets(d, channel->node);
-    if (rows == 1 && sampler->width == targets)
-        return FFD_OK;
-    return refuse(d, sampler->value, "output", error,
-                  "accessor %zu has %zu weights for each time, and the mesh of node %zu has %zu morph %s",
-                  sampler->output, sampler->width, channel->node, targets,
-                  ffd_plural(targets, "target", "targets"));
+    return rows == widths[channel->path]
+               ? FFD_OK
+               : refuse(d, sampler->value, "output", error, "accessor %zu is not a %s", sampler->output,
+                        names[channel->path]);
 }
 
 static ffd_status load_channel(gltf_document *d, gltf_animation *animation, const gltf_channel *channel,

@@ -153,6 +153,21 @@ static void add_weights(gltf_saver *saver, uint32_t value, size_t targets, bool 
     ffd_buffer_free(&text);
 }
 
+static void tell_replaced(morph_writer *w, size_t mesh)
+{
+    size_t target, found;
+    if (!ffd_gltf_find_target(w->file.saver.document, mesh, w->request->morph->name, &target, &found))
+        w->file.saver.edits.failed = true;
+    const char *const loses = w->loses ? ", and nodes that are not selected lose its offsets, too" : "";
+    if (found > 1)
+        ffd_log_line(w->file.saver.log, FFD_LOG_WARNING,
+                     "mesh %zu has %zu morph targets of that name already: the first is replaced%s", mesh,
+                     found, loses);
+    else
+        ffd_log_line(w->file.saver.log, FFD_LOG_WARNING,
+                     "mesh %zu has a morph target of that name already: it is replaced%s", mesh, loses);
+}
+
 static void add_to_meshes(morph_writer *w)
 {
     const gltf_document *d = w->file.saver.document;
@@ -163,9 +178,7 @@ static void add_to_meshes(morph_writer *w)
         for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
             add_to_primitive(w, m, p);
         if (!w->grow[m]) {
-            ffd_log_line(w->file.saver.log, FFD_LOG_WARNING,
-                         "mesh %zu has a morph target of that name already: it is replaced%s", m,
-                         w->loses ? ", and nodes that are not selected lose its offsets, too" : "");
+            tell_replaced(w, m);
             continue;
         }
         add_weights(&w->file.saver, d->mesh_values.values[m], ffd_gltf_target_count(d, m), true);

@@ -41,14 +41,19 @@ uint32_t *ffd_gltf_list_target_names(const gltf_document *d, size_t mesh)
     return names;
 }
 
-bool ffd_gltf_find_target(const gltf_document *d, size_t mesh, const char *name, size_t *target)
+bool ffd_gltf_find_target(const gltf_document *d, size_t mesh, const char *name, size_t *target,
+                          size_t *found)
 {
     const size_t count = ffd_gltf_target_count(d, mesh);
     uint32_t *const names = ffd_gltf_list_target_names(d, mesh);
     *target = GLTF_NONE;
-    for (size_t t = 0; names && t < count && *target == GLTF_NONE; t++)
-        if (names[t] != JSON_NONE && ffd_json_span_string_is(&d->tree, names[t], name))
-            *target = t;
+    *found = 0;
+    for (size_t t = 0; names && t < count; t++) {
+        if (names[t] == JSON_NONE || !ffd_json_span_string_is(&d->tree, names[t], name))
+            continue;
+        *target = *found == 0 ? t : *target;
+        ++*found;
+    }
     ffd_free(names);
     return names;
 }

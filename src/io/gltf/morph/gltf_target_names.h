@@ -9,8 +9,10 @@
    name. The caller frees the array. NULL: memory ran out. */
 uint32_t *ffd_gltf_list_target_names(const gltf_document *document, size_t mesh);
 
-/* Finds the first target of a mesh by its name; GLTF_NONE: none. Returns false if memory runs out. */
-bool ffd_gltf_find_target(const gltf_document *document, size_t mesh, const char *name, size_t *target);
+/* Finds the first target of a mesh by its name; GLTF_NONE: none. *found: how many have it. Returns false if
+   memory runs out. */
+bool ffd_gltf_find_target(const gltf_document *document, size_t mesh, const char *name, size_t *target,
+                          size_t *found);
 
 /* Adds the name of a further target to the list of a mesh, which is made if it is missing, and to those that
    its primitives have. Targets before it that a list lacks are entered with their names, or as "target_3". */

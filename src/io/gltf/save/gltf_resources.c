@@ -1,6 +1,7 @@
 #include "io/gltf/save/gltf_resources.h"
 #include "base/file/folder.h"
 #include "base/file/path.h"
+#include "base/memory/intern.h"
 #include "base/memory/memory.h"
 #include "base/text/base64.h"
 #include "base/text/words.h"
@@ -259,7 +260,9 @@ static ffd_status embed_image(resources *r, size_t number, char *path, ffd_error
                                   "refers to it where it is",
                                   path, refused.message);
     if (left) {
-        ffd_log_line(r->saver->log, FFD_LOG_WARNING, "the image \"%s\" %s and is not in the output", path,
+        char shown[RESOURCE_SHOWN];
+        ffd_name_shown(path, shown, sizeof shown);
+        ffd_log_line(r->saver->log, FFD_LOG_WARNING, "the image \"%s\" %s and is not in the output", shown,
                      left);
         return FFD_OK;
     }
@@ -352,9 +355,10 @@ static bool is_uri(const json_span *tree, uint32_t v)
            (memcmp(end - 4, "Uri\"", 4) == 0 || ffd_json_span_key_is(tree, v, "uri"));
 }
 
-/* Lists a file that an extension names, unless the output reaches it or it is the uri of an image. */
-static ffd_status leave_file(const resources *r, uint32_t uri, uint32_t extension, left_out *left,
-                             ffd_error *error)
+/* Lists a file that an extension names, unless the output reaches it, it is the uri of an image, or it is
+   among the known ones. */
+static ffd_status leave_file(const resources *r, uint32_t uri, uint32_t extension, intern_table *known,
+                             left_out *left, ffd_error *error)
 {
     const json_span *const tree = &r->saver->document->tree;
     char *path;
@@ -362,9 +366,11 @@ static ffd_status leave_file(const resources *r, uint32_t uri, uint32_t extensio
     if (status || !path)
         return status;
     char *const name = ffd_json_span_key(tree, extension), *const there = ffd_path_join(r->to, path);
-    if (!name || !there)
+    const size_t before = known->count;
+    uint32_t number;
+    if (!name || !there || !ffd_intern(known, path, strlen(path), &number))
         status = ffd_fail_memory(error);
-    else if (!ffd_file_exists(there)) {
+    else if (known->count > before && !ffd_file_exists(there)) {
         char why[120];
         snprintf(why, sizeof why, "of %s", name);
         ffd_left_add(left, path, why);
@@ -380,13 +386,15 @@ static ffd_status leave_file(const resources *r, uint32_t uri, uint32_t extensio
 static ffd_status warn_of_left(const resources *r, ffd_error *error)
 {
     const json_span *const tree = &r->saver->document->tree;
+    intern_table known = {0};
     left_out left = {0};
     ffd_status status = FFD_OK;
     for (uint32_t v = 0; v < tree->count && status == FFD_OK; v++) {
         const uint32_t extension = is_uri(tree, v) ? extension_around(tree, v) : JSON_NONE;
         if (extension != JSON_NONE)
-            status = leave_file(r, v, extension, &left, error);
+            status = leave_file(r, v, extension, &known, &left, error);
     }
+    ffd_intern_free(&known);
     if (status == FFD_OK)
         ffd_left_say(&left, "file that an extension names is not copied",
                      "files that extensions name are not copied", r->saver->log);
