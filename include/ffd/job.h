@@ -579,9 +579,9 @@ typedef struct ffd_view_desc {
 FFD_API void ffd_view_desc_init(ffd_view_desc *desc, size_t size);
 /* Runs the job. The output is complete or absent. If a gate of the job is violated, the output is written all
    the same, and the result is FFD_E_GATE. A missing or broken image of the mesh is drawn grey in a picture,
-   with a warning. The memory budget of the mesh is at least 400 MB. result is filled in every case: if
-   lattices deform the mesh, as by ffd_check_run, for the shapes that are shown; and with picture. Returns
-   result->status. Errors: any. */
+   with a warning. The memory budget of the mesh is by default at least 400 MB. result is filled in every
+   case: if lattices deform the mesh, as by ffd_check_run, for the shapes that are shown; and with picture.
+   Returns result->status. Errors: any. */
 FFD_API ffd_status ffd_view_run(const ffd_view_desc *desc, ffd_job_result *result, ffd_error *error);
 
 /* A job of `ffd embed`: writes the u,v,w of all vertices to output (.npy version 1.0, float64, N x 3, C

@@ -186,9 +186,12 @@ static ffd_status open_journal(batch_run *run, ffd_error *error)
     return status;
 }
 
-/* Reserves the files of the run itself, so that no job writes them. */
+/* Reserves the files of the run itself, so that no job writes them: those that it writes, and where its jobs
+   come from. */
 static ffd_status claim_own(batch_run *run, ffd_error *error)
 {
+    const job_source_desc *const jobs = &run->desc->jobs;
+    const char *const origin = jobs->manifest ? jobs->manifest : jobs->table;
     const char *const own[] = {run->desc->report,  run->desc->depfile,
                                run->desc->journal, run->desc->positions,
                                run->rows.list,     run->view ? ffd_run_view_page(run->view) : NULL};
@@ -196,6 +199,8 @@ static ffd_status claim_own(batch_run *run, ffd_error *error)
     for (size_t i = 0; i < sizeof own / sizeof *own && !status; i++)
         if (own[i] && !ffd_output_is_stream(own[i]))
             status = ffd_run_reserve(&run->files, own[i], error);
+    if (origin && !status && !ffd_file_is_stream(origin))
+        status = ffd_run_keep(&run->files, origin, error);
     return status;
 }
 

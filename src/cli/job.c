@@ -77,8 +77,9 @@ static bool add_gate(cli_job *job, const cli_option *option, const char *word, s
         }
         ffd_nearest_offer(&nearest, gate_names[i]);
     }
-    cli_complain("--%s: unknown gate \"%.*s\" (nearest: %s)", option->name, (int)(length < 60 ? length : 60),
-                 word, nearest.best);
+    const char *const meant = ffd_nearest_meant(&nearest);
+    cli_complain("--%s: unknown gate \"%.*s\" (%s%s)", option->name, (int)(length < 60 ? length : 60), word,
+                 meant ? "nearest: " : "--help lists the known ones", meant ? meant : "");
     return false;
 }
 

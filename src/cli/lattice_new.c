@@ -1,8 +1,10 @@
 /* lattice_new.c - ffd lattice new: a lattice round meshes. */
+#include "base/text/words.h"
 #include "cli/command.h"
 #include "cli/names.h"
 #include "io/format_names.h"
 #include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -89,6 +91,7 @@ static bool set_knots(void *context, const cli_option *option, const char *value
                                       FFD_KNOTS_UNIFORM, FFD_KNOTS_CLOSED, FFD_KNOTS_CLOSED};
     settings *s = context;
     char part[3][32];
+    const char *meant = NULL;
     bool right = split_three(value, part);
     for (int a = 0; right && a < 3; a++) {
         right = false;
@@ -97,9 +100,12 @@ static bool set_knots(void *context, const cli_option *option, const char *value
                 s->desc.knots[a] = known[i];
                 right = true;
             }
+        meant =
+            right ? NULL : ffd_word_meant(part[a], knots_names, sizeof knots_names / sizeof *knots_names - 1);
     }
     if (!right)
-        cli_complain("--%s: \"%s\" is not three of clamped, open, uniform, closed", option->name, value);
+        cli_complain("--%s: \"%s\" is not three of clamped, open, uniform, closed%s%s%s", option->name, value,
+                     meant ? " (nearest: " : "", meant ? meant : "", meant ? ")" : "");
     return right;
 }
 
@@ -117,6 +123,20 @@ static bool set_margin(void *context, const cli_option *option, const char *valu
     return right;
 }
 
+/* What is said of a word that is no axis: with a sign it means a direction. */
+static void hint_axis(const char *value, char hint[CLI_HINT])
+{
+    static const char *const known[] = {"x", "y", "z"};
+    const char *const meant = ffd_word_meant(value, known, 3);
+    if (meant && *value == '-')
+        snprintf(hint, CLI_HINT, " (that direction is %s)",
+                 *meant == 'x'   ? "-1,0,0"
+                 : *meant == 'y' ? "0,-1,0"
+                                 : "0,0,-1");
+    else
+        snprintf(hint, CLI_HINT, "%s%s%s", meant ? " (nearest: " : "", meant ? meant : "", meant ? ")" : "");
+}
+
 static bool set_axis(void *context, const cli_option *option, const char *value)
 {
     settings *s = context;
@@ -131,8 +151,11 @@ static bool set_axis(void *context, const cli_option *option, const char *value)
     for (int a = 0; right && a < 3; a++)
         right = cli_parse_number(part[a], &s->desc.axis[a]);
     right = right && (s->desc.axis[0] != 0 || s->desc.axis[1] != 0 || s->desc.axis[2] != 0);
-    if (!right)
-        cli_complain("--%s: \"%s\" is not x, y, z or a direction like 0,1,1", option->name, value);
+    if (!right) {
+        char hint[CLI_HINT];
+        hint_axis(value, hint);
+        cli_complain("--%s: \"%s\" is not x, y, z or a direction like 0,1,1%s", option->name, value, hint);
+    }
     return right;
 }
 

@@ -198,8 +198,9 @@ static bool unknown_option(const cli_table *options, const char *name, size_t le
     cli_option_walk walk = cli_begin_walk(options);
     for (const cli_option *option; (option = cli_next_option(&walk));)
         ffd_nearest_offer(&nearest, option->name);
-    cli_complain("unknown option --%.*s (nearest: --%s)", (int)(length < 60 ? length : 60), name,
-                 nearest.best);
+    const char *const meant = ffd_nearest_meant(&nearest);
+    cli_complain("unknown option --%.*s (%s%s)", (int)(length < 60 ? length : 60), name,
+                 meant ? "nearest: --" : "--help lists the known ones", meant ? meant : "");
     return false;
 }
 

@@ -10,8 +10,8 @@
 extern "C" {
 #endif
 
-/* The budget for a picture or a page is at least this: a view holds all that a mesh shows, and a short file
-   may show many instances. */
+/* The budget for a picture or a page is at least this unless the user has set one: a view holds all that a
+   mesh shows, and a short file may show many instances. */
 #define LEAST_VIEW_MEMORY ((uint64_t)400000000)
 
 /* The memory that a document may use, in bytes. */

@@ -159,7 +159,8 @@ typedef struct mesh_following {
     uint64_t partial;  /* nodes that stay because their meshes are selected only in part */
     uint64_t unscaled; /* nodes with sizes that do not follow: physics shapes, spring bones, offsets of eyes,
                           splats */
-    uint64_t unselected;  /* nodes that stay because they are not selected, below a node that moves */
+    /* Nodes that stay because they are not selected, below a node that moves or on joints that move. */
+    uint64_t unselected;
     double unselected_by; /* the largest distance from where that node would carry one of them */
 } mesh_following;
 

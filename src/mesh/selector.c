@@ -26,8 +26,10 @@ ffd_status ffd_selector_parse(const char *text, mesh_selector *selector, ffd_err
             *selector = (mesh_selector){(selector_kind)kind, colon + 1, strlen(colon + 1)};
             return FFD_OK;
         }
-    return ffd_fail(error, FFD_E_ARGUMENT, "--only: unknown kind \"%s\" (nearest: %s)", word,
-                    ffd_nearest_word(word, kind_names, SELECTOR_KINDS));
+    const char *const meant = ffd_word_meant(word, kind_names, SELECTOR_KINDS);
+    return meant ? ffd_fail(error, FFD_E_ARGUMENT, "--only: unknown kind \"%s\" (nearest: %s)", word, meant)
+                 : ffd_fail(error, FFD_E_ARGUMENT,
+                            "--only: unknown kind \"%s\", not node, mesh, material, group or object", word);
 }
 
 bool ffd_selector_is(const mesh_selector *selector, const char *name, size_t size)
@@ -69,7 +71,7 @@ ffd_status ffd_selector_check_kind(const mesh_selector *selector, unsigned kinds
 void ffd_selector_offer(selector_nearest *nearest, const char *name, size_t size)
 {
     char offered[sizeof nearest->name];
-    snprintf(offered, sizeof offered, "%.*s", (int)(size < sizeof offered ? size : sizeof offered), name);
+    ffd_bytes_shown(name, size, offered, sizeof offered);
     const size_t distance = ffd_word_distance(nearest->selector->name, nearest->selector->size, offered);
     if (nearest->offered && distance >= nearest->distance)
         return;

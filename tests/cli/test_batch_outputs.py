@@ -181,7 +181,7 @@ def in_place_twice(run):
 @case
 def files_of_the_run_itself(run):
     start(run, [{**job(), "out": name} for name in ("r.obj", "./d.obj", "j.obj", "o.obj")])
-    told = [rf'^m\.jsonl:{i}: "{name}" is the report, the depfile, the journal, the index or the array of this run$'
+    told = [rf'^m\.jsonl:{i}: "{name}" is the manifest, the table, the report, the depfile, the journal, the index or the array of this run$'
             for i, name in enumerate((r"r\.obj", r"\./d\.obj", r"j\.obj"), 1)]
     batch(run, "m.jsonl", "--force", "--report", "r.obj", "--depfile", "d.obj", "--journal", "j.obj", done=1, failed=told)
     equal([e["status"] for e in report(run, "r.obj")], ["failed"] * 3 + ["ok"])
@@ -214,6 +214,25 @@ def files_of_the_run_are_different_files(run):
 
 
 @case
+def no_job_replaces_what_the_jobs_come_from(run):
+    """A manifest and a table, under other names too; in a dry run and with the report of another name."""
+    own = 'is the manifest, the table, the report, the depfile, the journal, the index or the array of this run$'
+    start(run)
+    force = {"options": {"output-format": "obj", "force": True}}
+    jobs = [job(1, **force), job(2, out="m.jsonl", **force), job(3, out="link", **force)]
+    os.symlink("m.jsonl", run.path("link"))
+    told = [rf'^m\.jsonl:2: "m\.jsonl" {own}', rf'^m\.jsonl:3: "link" {own}']
+    run.write("m.jsonl", lines_of(jobs))
+    batch(run, "m.jsonl", "--dry-run", done=1, failed=told, data=True)
+    batch(run, "m.jsonl", "-j", "2", done=1, failed=told)
+    equal(run.text("m.jsonl"), lines_of(jobs))
+    table = "in,lattice,out\na.obj,l.json,o.obj\na.obj,l.json,./t.csv\n"
+    run.write("t.csv", table)
+    batch(run, "--csv", "t.csv", "--output-format", "obj", "--force", done=1, failed=[rf'^t\.csv:3: "\./t\.csv" {own}'])
+    equal(run.text("t.csv"), table)
+
+
+@case
 def tables_and_patterns(run):
     start(run)
     run.write("t.csv", "in,lattice,out\na.obj,l.json,o.obj\na.obj,l.json,p.obj\na.obj,l.json,./o.obj\n")
@@ -225,7 +244,7 @@ def tables_and_patterns(run):
         run.write(f"in/b{i}.bin", run.read(f"b{i}.bin"))
     run.folder_of("out")
     done = run.ffd("batch", "--in", "in/*.gltf", "-l", "l.json", "--out-dir", "out", code=1, err=lambda said: None)
-    check(done.err[0].endswith('is written by the job of line 1 too') and "in/x" in done.err[0], done.err)
+    check(done.err[0].endswith('is written by job 1 too') and "in/x" in done.err[0], done.err)
 
 
 @case

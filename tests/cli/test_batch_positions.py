@@ -455,7 +455,7 @@ def pictures_of_rows_that_are_there_stay(run):
 @case
 def an_embedding_is_no_file_of_the_run(run):
     """Neither of one job, which fails then, nor one that the run would replace, which is refused."""
-    what = "is the report, the depfile, the journal, the index or the array of this run$"
+    what = "is the manifest, the table, the report, the depfile, the journal, the index or the array of this run$"
     start(run)
     run.folder_of("v")
     job_of = {"in": "a.obj", "lattice": "l.json"}

@@ -109,6 +109,19 @@ def one_file_has_many_names_here_too(run):
 
 
 @case
+def a_link_to_an_output_to_come_is_that_output(run):
+    """With one worker it leads to the first job's output when the second one begins, with two perhaps to nothing."""
+    for workers in "12":
+        start(run)
+        run.remove("o1.obj")
+        if not os.path.islink(run.path("early.obj")):
+            os.symlink("o1.obj", run.path("early.obj"))
+        run.write("m.jsonl", lines_of([job(1), job(2, **{"in": "early.obj"}), job(3, out="early.obj")]))
+        batch(run, "m.jsonl", "--force", "-j", workers, done=1,
+              failed=[written(2, "the mesh", r"early\.obj", 1), r'^m\.jsonl:3: "early\.obj" is written by the job of line 1 too$'])
+
+
+@case
 def a_job_in_place_reads_its_own_file_and_no_other_one_does(run):
     """A mesh in place may stand in the box of its own lattice. One that is in the box of another job stops that job."""
     kept = begin(run)

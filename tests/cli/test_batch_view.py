@@ -265,7 +265,7 @@ def no_two_jobs_have_one_picture(run):
     check(not run.exists("sub/up.obj"), "the later job works")
     # An output that would be the index.
     start(run, [{**job(), "out": "v/index.html", "options": {"output-format": "obj"}}, job(1)])
-    batch(run, "m.jsonl", "--view", "v", "--force", done=1, failed=["is the report, the depfile, the journal, the index or the array of this run"])
+    batch(run, "m.jsonl", "--view", "v", "--force", done=1, failed=["is the manifest, the table, the report, the depfile, the journal, the index or the array of this run"])
     equal(len(index(run).rows), 2)
 
 

@@ -69,6 +69,29 @@ def moves_that_move_no_vertex_are_told(run):
 
 
 @case
+def moves_that_the_floats_of_a_file_cannot_hold_are_told(run):
+    """Far from the origin a float is a multiple of 0.5 or 1: a move of 0.1 leaves the file as it was. Not where a vertex moves, nor doubles."""
+    far = [[5e6 + x, 8e6 + y, 7e6 + z] for x, y, z in CUBE_CORNERS]
+    region = {"low": (4.9e6, 7.9e6, 6.9e6), "high": (5.1e6, 8.1e6, 7.1e6)}
+    start(run, [{"by": [0.1, 0.1, 0.1]}], **region)
+
+    def ply(kind, points):
+        return f"ply\nformat ascii 1.0\nelement vertex {len(points)}\n" + "".join(f"property {kind} {a}\n" for a in "xyz") + "end_header\n" \
+            + "".join("{} {} {}\n".format(*p) for p in points)
+    told = re.compile(r"no vertex moves in the output: its floats are too coarse for displacements of 0\.173205 at most \(the mesh lies from 5e\+06 ")
+    for name, content in (("f.ply", ply("float", far)), ("f.glb", glb(*gltf_json(far)))):
+        run.write(name, content)
+        run.ffd("deform", name, "o" + name, "-l", "l.json", err=told)
+        equal(run.read("o" + name), run.read(name))
+    for name, content in (("d.ply", ply("double", far)), ("a.obj", obj_of(far))):
+        run.write(name, content)
+        run.ffd("deform", name, "o" + name, "-l", "l.json")
+    start(run, [{"at": [0, "all", "all"], "by": [0.1, 0, 0]}, {"at": [3, "all", "all"], "by": [9, 0, 0]}], **region)
+    run.ffd("deform", "f.ply", "of.ply", "-l", "l.json", "--force")
+    run.ffd("deform", "f.glb", "of.glb", "-l", "l.json", "--force", "--as-morph", "a")
+
+
+@case
 def a_morph_target_that_moves_nothing_is_told_with_the_reason(run):
     """Of --as-morph and of each --morph; what moves beside it does not hide it."""
     start(run, [{"pull": {"point": [90, 50, 0], "by": [0, 0, 1], "radius": 0.5}}])

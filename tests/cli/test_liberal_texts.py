@@ -26,6 +26,8 @@ FLAWS = [("m.obj", "v 0 0 \\ \n0\nv 1 \\\t \r\n0 0\nv 1 1 0 # \\ \nf 1 2 \\ \r3 
          ("m.obj", "vn 0 0 1\n" + OBJ[:-1].replace("1 2 3", "1//-1 2//-1 3//-1") + "\x1a", CTRL_Z, 0, 1),
          ("m.obj", "# a\n<<<<<<< HEAD\n" + OBJ + "=======\n" + OBJ + ">>>>>>> b\n", UNKNOWN.format("<<<<<<<"), 2, 3),
          ("m.obj", OBJ + "hello there\n", UNKNOWN.format("hello"), 5, 1),
+         # A block that was never written, and a NUL character in a word.
+         ("m.obj", OBJ + "\0\0\0\n", UNKNOWN.format("\u2400" * 3), 5, 1), ("m.obj", OBJ + "a\0b c\n", UNKNOWN.format("a\u2400b"), 5, 1),
          ("m.obj", "#\n" * 100000 + OBJ + "#\n" * 100000 + "V 1 2 3\nVN 1\n", UNKNOWN.format("V"), 200005, 2),
          ("m.stl", "solid a\ncolor 1 0 0\n COLOR .5 .5 .5 1\n" + FACET + "color 0 0 1\n" + FACET + "endsolid", COLOUR, 2, 3),
          ("m.stl", f"solid\n{FACET}End Solid a\nsolid b\n{FACET}end solid facet\n", WORDS, 3, 2),

@@ -390,6 +390,10 @@ def textures_are_taken_from_one_budget(run):
     code, peak, line = measure(run, ["view", "t.glb", "-o", "p.png", "--size", "64x48"])
     equal((code, line), (OK, "ffd: t.glb: " + grey))
     check(peak <= MOST_OF_VIEWS, f"{peak / 1e6:.1f} MB")
+    # What --memory says holds for pictures too, down to what any mesh of that size may take.
+    for size, grey_ones, most in (("1M", 5, 110e6), ("250M", 4, 262e6)):
+        code, peak, line = measure(run, ["view", "t.glb", "-o", "p.png", "--size", "64x48", "--force", "--memory", size])
+        check(code == OK and f"grey in the picture: {grey_ones} images" in line and peak <= most, size, code, line, f"{peak / 1e6:.1f} MB")
     code, peak, line = measure(run, ["batch", "jobs.jsonl", "--view", "v", "-j", "1"])
     check(code == OK and ": 1 done" in line, line)
     check(peak <= MOST_OF_VIEWS, f"{peak / 1e6:.1f} MB")

@@ -260,7 +260,7 @@ def what_cannot_be_selected(run):
             ("a.obj", "left", '--only: "left" is not KIND:NAME (node, mesh, material, group or object)'),
             ("a.obj", "grup:left", '--only: unknown kind "grup" (nearest: group)'),
             ("a.obj", "group:", '--only: "group:" has no name after the colon'),
-            ("a.obj", ":left", '--only: unknown kind "" (nearest: node)'),
+            ("a.obj", ":left", '--only: unknown kind "", not node, mesh, material, group or object'),
             ("a.obj", "group:lefd", 'a.obj: --only: no group is called "lefd" (nearest: "left")'),
             ("a.obj", "material:dark", 'a.obj: --only: no material is called "dark" (nearest: "red")'),
             ("a.obj", "object:first thing", 'a.obj: --only: no object is called "first thing" (nearest: "First Thing")'),

@@ -356,6 +356,38 @@ def what_hangs_on_a_selected_joint_and_is_not_selected_is_told(run):
 
 
 @case
+def a_skinned_mesh_that_is_not_selected_is_told_where_its_joints_move(run):
+    """A glove on the joints of the arm; not a rock on joints far away, nor what is weighted to none that moves."""
+    move = [{"by": [0, 3, 4]}]
+    left = "skinned mesh(es)? that --only does not select"
+
+    def dressed(weights=None):
+        made = arm()
+        made.asset["skins"].append({"joints": [7, 7]})
+        made.asset["nodes"] += [{"name": "glove", "mesh": 2, "skin": 0}, {"name": "far", "translation": [900, 0, 0]},
+                                {"name": "rock", "mesh": 0, "skin": 1}]
+        made.asset["nodes"][0]["children"] += [6, 7, 8]
+        attributes = made.asset["meshes"][0]["primitives"][0]["attributes"]
+        weights = {"WEIGHTS_0": made.add(weights, shape="VEC4")} if weights else {}
+        made.asset["meshes"].append({"primitives": [{"attributes": {**attributes, **weights}}]})
+        return made
+    done, follow = deform(run, dressed(), move, "--rig", "follow", "--only", "node:skinned", "--report", "r.json")
+    told(done, "1 skinned mesh that --only does not select stays where it is, though joints that it hangs on move, by up to 5: glove$")
+    rig = json.loads(run.text("r.json"))["jobs"][0]["rig"]
+    equal([rig["unselected"], rig["unselected_by"]], [2, 5], "the plate and the glove")
+    before = Posed(run.read("a.glb"))
+    near(follow.vertices()[6, 0], before.vertices()[6, 0], 1e-5)
+    for options in (("--only", "node:skinned", "--only", "node:glove"), ()):
+        not_told(deform(run, dressed(), move, "--rig", "follow", *options)[0], left)
+    not_told(deform(run, dressed(), move, "--rig", "keep", "--only", "node:skinned")[0], left)
+    # The lower joint moves alone, as it turns about the upper one.
+    turn = [{"rotate": {"axis": "z", "degrees": 90, "about": [0, 1, 0]}}]
+    for weights, is_told in (([[1.0, 0, 0, 0]] * 27, False), ([[0.5, 0.5, 0, 0]] * 27, True)):
+        done, _ = deform(run, dressed(weights), turn, "--rig", "follow", "--only", "node:skinned")
+        (told if is_told else not_told)(done, left)
+
+
+@case
 def a_mesh_at_a_joint_that_is_not_selected_stays_where_it_is(run):
     """Its node goes along as a joint: the vertices and their morph targets are brought back."""
     made = arm()

@@ -6,7 +6,7 @@ import re
 import subprocess
 import time
 
-from harness import FFD, LIMIT, NO, SANITIZED, SECONDS, USAGE, case, check, equal, lattice, main
+from harness import FFD, LIMIT, NO, SANITIZED, SECONDS, USAGE, case, check, equal, lattice, main, wait_until
 from said import anything, entry, not_told, told
 
 ENDED = r"took longer than 0\.2 seconds \(--timeout\)"
@@ -131,6 +131,54 @@ def standard_input_that_does_not_end_is_not_waited_for(run):
     equal(done.returncode, LIMIT, done.stderr)
     check(re.search(f"^ffd: .*{ENDED}\n$", done.stderr), done.stderr)
     equal(run.names(), ["l.json"])
+
+
+@case
+def a_pipe_to_which_nobody_writes_is_not_waited_for(run):
+    """By a name of standard input, which is opened anew. One that somebody has written to, or writes to later, is read to its end."""
+    run.write("l.json", lattice(moves=[{"by": [0, 0, 0.1]}]))
+    os.mkfifo(run.path("pipe"))
+
+    def write():
+        with open(run.path("pipe"), "w", encoding="ascii") as pipe:
+            pipe.write("v 1 2 3\n")
+    for writes in ("never", "before", "later"):
+        read = os.open(run.path("pipe"), os.O_RDONLY | os.O_NONBLOCK)
+        if writes == "before":
+            write()
+        job = subprocess.Popen([FFD, "deform", "/dev/stdin", "out.obj", "--force", "--input-format", "obj", "-l", "l.json",
+                                "--timeout", "0.2" if writes == "never" else "600"],
+                               cwd=run.folder, stdin=read, stderr=subprocess.PIPE, text=True)
+        try:
+            os.close(read)
+            if writes == "later":
+                write()
+            _, said = job.communicate(timeout=SECONDS)
+        finally:
+            job.kill()
+        equal(job.returncode, LIMIT if writes == "never" else 0, said)
+        check(writes != "never" or re.search(f"^ffd: .*{ENDED}\n$", said), said)
+        check(writes == "never" or run.text("out.obj").startswith("v 1 2 "), writes)
+
+
+@case
+def standard_input_that_does_not_wait_is_waited_for(run):
+    """A pipe whose descriptor does not block, as some programs hand it on, with a deadline and without."""
+    def sleeps(process):
+        with open(f"/proc/{process}/stat", encoding="ascii") as stat:
+            return stat.read().rpartition(") ")[2].startswith("S")
+    run.write("l.json", lattice(moves=[{"by": [0, 0, 0.1]}]))
+    for more in ([], ["--timeout", "600"]):
+        read, write = os.pipe()
+        os.set_blocking(read, False)
+        job = subprocess.Popen([FFD, "deform", "-", "out.obj", "--force", "--input-format", "obj", "-l", "l.json", *more],
+                               cwd=run.folder, stdin=read, stderr=subprocess.PIPE, text=True)
+        os.close(read)
+        with open(write, "w", encoding="ascii") as pipe:
+            wait_until(lambda: job.poll() is not None or sleeps(job.pid), "it neither waits nor ends")
+            pipe.write("v 1 2 3\n")
+        _, said = job.communicate(timeout=SECONDS)
+        equal((job.returncode, run.exists("out.obj")), (0, True), said)
 
 
 @case

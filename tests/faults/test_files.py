@@ -255,6 +255,17 @@ def siege3_02_a_name_with_nul_is_another_name(run):
 
 
 @case
+def names_of_parts_with_nul_are_shown_whole(run):
+    """A hint does not propose the very name that is not there."""
+    run.write("l.json", LIFT)
+    run.write("m.glb", named())
+    run.write("m.obj", "g a\0b\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    for name, kind, word, nearest in (("m.glb", "node", "N", "N\u2400"), ("m.obj", "group", "a", "a\u2400b")):
+        run.ffd("check", name, "-l", "l.json", "--only", f"{kind}:{word}", code=USAGE,
+                err=f'{name}: --only: no {kind} is called "{word}" (nearest: "{nearest}")')
+
+
+@case
 def names_of_extensions_with_nul_are_not_known(run):
     """A required extension whose name has a U+0000 is not the one that its beginning names."""
     run.write("l.json", LIFT)
@@ -315,6 +326,34 @@ def accessors_without_bytes_hold_zeros_or_nothing(run):
         check("min and max are not 0" in facts["positions_unknown"])
     run.write("m.glb", glb(*empty([0] * 3, [0] * 3, EXT_implicit_geometry={})))
     run.ffd(*deform, code=UNSUPPORTED, err=re.compile('the extension "EXT_implicit_geometry" holds the geometry'))
+
+
+@case
+def offsets_and_indices_without_bytes_are_not_zeros_either(run):
+    """Of a morph target and of normals: refused. Of indices: the file is deformed, what it draws is not known."""
+    run.write("l.json", LIFT)
+    deform = ["deform", "m.glb", "o.glb", "-l", "l.json", "--force"]
+
+    def shown(kind, component, *, low, high, **members):
+        asset, data = gltf_json(TRIANGLE)
+        asset["accessors"].append({"componentType": component, "count": 3, "type": kind, "min": low, "max": high})
+        asset["meshes"][0]["primitives"][0] |= members
+        run.write("m.glb", glb(asset, data))
+    positions = {"POSITION": 0}
+    for members, what in (({"targets": [{"POSITION": 1}]}, "offsets"), ({"attributes": {**positions, "NORMAL": 1}}, "normals")):
+        shown("VEC3", 5126, low=[0, 0, 0], high=[0, 5, 0], mode=0, **members)
+        for words in (deform, [*deform, "--as-morph", "a"], ["check", "m.glb", "-l", "l.json"], ["view", "m.glb", "-o", "v.png"]):
+            run.ffd(*words, code=UNSUPPORTED, err=re.compile(f"^m.glb:/accessors/1: the accessor has no bytes, but its min and max are not 0: the {what} "
+                                                             "are in a form that is not supported$"))
+        facts = run.ffd("info", "m.glb", "--json").json
+        check(f"the {what} are in a form" in facts["positions_unknown"])
+        shown("VEC3", 5126, low=[0, 0, 0], high=[0, 0, 0], mode=0, **members)
+        run.ffd(*deform)
+    for words in (["info", "m.glb"], deform, ["check", "m.glb", "-l", "l.json"]):
+        shown("SCALAR", 5123, low=[0], high=[2], mode=4, indices=1)
+        told(run.ffd(*words, err=anything), "accessor 1 has no bytes, but its max is 2: what the primitive draws is not known")
+        shown("SCALAR", 5123, low=[0], high=[0], mode=4, indices=1)
+        not_told(run.ffd(*words, err=anything), "has no bytes")
 
 
 @case
@@ -423,7 +462,8 @@ def artist_10_hints_name_what_is_meant(run):
     axes = 'unknown word "{}"; known ones are "x", "y", "z"'
     nearest = 'unknown word "{}"; the nearest known one is "{}"'
     for word, why in (("Y", nearest.format("Y", "y")), ("Z", nearest.format("Z", "z")), ("-y", sign.format("-y", "0, -1, 0")),
-                      ("-Z", sign.format("-Z", "0, 0, -1")), ("+x", nearest.format("+x", "x")), ("up", axes.format("up")), ("w", axes.format("w"))):
+                      ("-Z", sign.format("-Z", "0, 0, -1")), ("+x", nearest.format("+x", "x")), ("up", axes.format("up")), ("w", axes.format("w")),
+                      ("XY", axes.format("XY"))):
         for move, at in (({"twist": {"axis": word, "degrees": 90}}, "twist/axis"),
                          ({"bend": {"axis": "x" if word[-1] in "Yy" else "y", "toward": word, "degrees": 9}}, "bend/toward")):
             run.write("l.json", lattice(moves=[move]))
@@ -440,10 +480,17 @@ def artist_10_hints_name_what_is_meant(run):
     run.write("l.json", LIFT)
     for words, why in ((["--outside", "Keep"], '--outside: "Keep" is not one of keep, extend, error (nearest: keep)'),
                        (["--normals", "none"], '--normals: "none" is not one of transform, keep, recompute'),
-                       (["--fail-on", "FOLDS"], '--fail-on: unknown gate "FOLDS" (nearest: folds)')):
+                       (["--fail-on", "FOLDS"], '--fail-on: unknown gate "FOLDS" (nearest: folds)'),
+                       (["--fail-on", "quick"], '--fail-on: unknown gate "quick" (--help lists the known ones)'),
+                       (["--only", "part:a"], '--only: unknown kind "part", not node, mesh, material, group or object'),
+                       (["--widgets"], "unknown option --widgets (--help lists the known ones)")):
         run.ffd("check", "m.obj", "-l", "l.json", *words, code=USAGE, err=why)
     run.ffd("view", "m.obj", "-o", "v.png", "--camera", "Front", code=USAGE,
             err='--camera: "Front" is not front, back, left, right, top, iso or a direction like 1,0.5,2 (nearest: front)')
+    for words, why in ((["--axis", "Y"], "x, y, z or a direction like 0,1,1 (nearest: y)"), (["--axis", "up"], "x, y, z or a direction like 0,1,1"),
+                       (["--axis", "-Y"], "x, y, z or a direction like 0,1,1 (that direction is 0,-1,0)"),
+                       (["--knots", "open,Closed,open"], "three of clamped, open, uniform, closed (nearest: closed)")):
+        run.ffd("lattice", "new", "m.obj", "-o", "n.json", *words, code=USAGE, err=f'{words[0]}: "{words[1]}" is not {why}')
 
 
 # Colours of faces
@@ -606,17 +653,39 @@ def artist_14_a_glb_of_a_gltf_holds_its_images(run):
     run.ffd("batch", "m.jsonl", "-q", err=anything)
     equal([image_of(json.dumps(glb_split(run.read(f"all/{name}.glb"))[0]))[1] for name in ("in", "b")], [PNG + b"1", PNG + b"2"])
     equal(files_in(run, "all"), ["b.glb", "in.glb"])
-    # What is no image is not taken in, and what is outside is refused.
+    # What is no image is not taken in.
     run.write("in/tex/a.png", "echo")
     told(run.ffd("deform", "in/m.gltf", "out/t.glb", "-l", "l.json", err=anything), '"tex/a.png" does not have the content of an image and is not in the output')
-    run.write("secret.png", PNG)
-    run.write("in/m.gltf", {**asset, "images": [{"uri": "../secret.png"}]})
-    run.ffd("deform", "in/m.gltf", "out/s.glb", "-l", "l.json", code=IO, err=re.compile("cannot be put into the output: .*--resources reference"))
-    run.ffd("deform", "in/m.gltf", "out/big.glb", "-l", "l.json", "--resources", "reference")
     run.write("in/m.gltf", {**asset, "images": [{"uri": "tex/a.png"}] * 40})
     run.write("in/tex/a.png", PNG + bytes(2 << 20))
     run.ffd("deform", "in/m.gltf", "out/l.glb", "-l", "l.json", code=LIMIT, err=re.compile("memory"))
-    check(not run.exists("out/l.glb") and not run.exists("out/s.glb"), "nothing is written")
+    check(not run.exists("out/l.glb"), "nothing is written")
+
+
+@case
+def images_that_a_glb_cannot_hold_stay_uris(run):
+    """Outside of the model's folder, by name or by a link, or at an absolute address: a line names each. A .gltf says less."""
+    run.write("l.json", LIFT)
+    asset, data = gltf_json(TRIANGLE, uri="m.bin")
+    run.write("in/m.bin", data)
+    run.write("out.png", PNG + b"secret")
+    os.symlink("../out.png", run.path("in/link.png"))
+    run.folder_of("out")
+    outside, address, no_name = "is outside the model's folder and is not in the output", "is not a file beside the model and is not in the output", \
+        "has not the name of a file"
+    for uri, shown, why, as_gltf in (("../out.png", "../out.png", outside, IO), ("link.png", "link.png", outside, IO),
+                                     ("%2e%2e/out.png", "../out.png", outside, IO), ("https://x.org/a.png", "https://x.org/a.png", address, 0),
+                                     ("/a.png", "/a.png", address, 0), ("C:/a.png", "C:/a.png", address, 0), ("", "", no_name, 0),
+                                     ("a.png\0.png", r"a.png\u0000.png", no_name, 0)):
+        run.write("in/m.gltf", {**asset, "images": [{"uri": uri}]})
+        told(run.ffd("deform", "in/m.gltf", "out/m.glb", "-l", "l.json", "--force", err=anything), re.escape(f'm.gltf: the image "{shown}" {why}') + "$")
+        written = run.read("out/m.glb")
+        equal(glb_split(written)[0]["images"], [{"uri": uri}])
+        check(b"secret" not in written)
+        done = run.ffd("deform", "in/m.gltf", "out/m.gltf", "-l", "l.json", "--force", code=as_gltf, err=anything)
+        equal(len(done.err), 1 if as_gltf or why == no_name else 0, done.err)
+        done = run.ffd("deform", "in/m.gltf", "out/r.glb", "-l", "l.json", "--force", "--resources", "reference", err=anything)
+        equal(len(done.err), 1 if why == no_name else 0, done.err)
 
 
 @case

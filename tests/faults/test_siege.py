@@ -129,7 +129,7 @@ def siege_05_a_file_that_appears_under_the_name_of_the_output_stays(run):
 
 
 def what_is_read(run):
-    """A glTF with a buffer and an image, an OBJ with a material library and a map, and a lattice round both."""
+    """A glTF with a buffer and an image, an OBJ with a material library and a map, a lattice round both; a PLY with a texture."""
     asset, data = gltf_json(CUBE_CORNERS, uri="m.bin")
     asset["images"] = [{"uri": "m.png"}]
     run.write("m.gltf", asset)
@@ -138,6 +138,9 @@ def what_is_read(run):
     run.write("k.obj", "mtllib k.mtl\n" + CUBE)
     run.write("k.mtl", "newmtl a\nmap_Kd k.png\n")
     run.write("k.png", PNG)
+    run.write("p.ply", "ply\nformat ascii 1.0\ncomment TextureFile p.png\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+              "end_header\n0 0 0\n")
+    run.write("p.png", PNG)
     run.write("l.json", TWIST)
     run.write("box.json", {**TWIST, "rest": {"box": {"meshes": ["m.gltf", "k.obj"]}, "margin": 0.1}})
     run.write("other.obj", CUBE)
@@ -151,7 +154,7 @@ def siege3_04_no_output_replaces_what_is_read(run):
     buffer, resource = "is a buffer of the input m.gltf", "is an image or a material library of the input "
     box = "is a file of the meshes that the box of box.json goes round"
     outputs = [("m.bin", "m.gltf", buffer), ("m.png", "m.gltf", resource + "m.gltf"), ("k.mtl", "k.obj", resource + "k.obj"),
-               ("k.png", "k.obj", resource + "k.obj")]
+               ("k.png", "k.obj", resource + "k.obj"), ("p.png", "p.ply", resource + "p.ply")]
     for output, mesh, told in outputs:
         told = f"{output}: {told} and is not overwritten"
         for to in ("obj", "ply", "off", "stl", "glb", "gltf"):

@@ -40,6 +40,14 @@ static void names_of_one_file(void **state)
     snprintf(target, sizeof target, "%s", in_folder("o"));
     assert_int_equal(symlink(target, in_folder("other")), 0);
     assert_true(same("other", "o"));
+    /* Links to what is not there yet: a file, by way of another link, and a folder; and links in a circle. */
+    assert_int_equal(symlink("sub/later", in_folder("early")), 0);
+    assert_int_equal(symlink("early", in_folder("earlier")), 0);
+    assert_int_equal(symlink("sub/new", in_folder("folder")), 0);
+    assert_int_equal(symlink("round", in_folder("circle")), 0);
+    assert_int_equal(symlink("circle", in_folder("round")), 0);
+    assert_true(same("early", "sub/later") && same("earlier", "sub/later") && same("folder/o", "sub/new/o"));
+    assert_false(same("circle", "round"));
     assert_false(same("none/o", "o"));
     (void)state;
 }

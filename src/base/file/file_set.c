@@ -1,19 +1,16 @@
-#define _XOPEN_SOURCE 700 /* readlink */
+#define _XOPEN_SOURCE 700 /* lstat */
 #include "base/file/file_set.h"
 #include "base/file/file_set_record.h"
+#include "base/file/folder.h"
 #include "base/file/input.h"
 #include "base/file/path.h"
 #include "base/file/temporary.h"
 #include "base/memory/memory.h"
 #include <errno.h>
 #include <ffd/job.h>
-#include <limits.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-/* As many symbolic links in a row as systems follow. */
-#define MOST_LINKS 40
 
 static bool exists(const char *path)
 {
@@ -182,28 +179,10 @@ ffd_status ffd_set_place(set_file *files, size_t count, ffd_error *error)
     return status;
 }
 
-/* Resolves symbolic links in path; the target need not exist. Free with ffd_free. Returns NULL if memory runs
-   out. */
-static char *follow_links(const char *path)
-{
-    char *at = ffd_text_copy(path);
-    for (int links = 0; at && links < MOST_LINKS; links++) {
-        char link[PATH_MAX];
-        const ssize_t length = readlink(at, link, sizeof link - 1);
-        if (length < 0)
-            break;
-        link[length] = 0;
-        char *const next = ffd_path_is_absolute(link) ? ffd_text_copy(link) : ffd_path_beside(at, link);
-        ffd_free(at);
-        at = next;
-    }
-    return at;
-}
-
 ffd_status ffd_restore_output(const char *path, ffd_error *error)
 {
     set_record record = {.fd = -1};
-    char *const head = follow_links(path);
+    char *const head = ffd_path_follow(path);
     ffd_status status = head ? ffd_record_open(&record, head, error) : ffd_fail_memory(error);
     if (!status && record.fd >= 0)
         status = settle(&record, has_head(&record), error);

@@ -1,4 +1,4 @@
-#define _XOPEN_SOURCE 700 /* realpath */
+#define _XOPEN_SOURCE 700 /* realpath, readlink */
 #include "base/file/folder.h"
 #include "base/file/input.h"
 #include "base/file/memory_files.h"
@@ -6,10 +6,14 @@
 #include "base/memory/memory.h"
 #include <dirent.h>
 #include <errno.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+/* As many symbolic links in a row as systems follow. */
+#define MOST_LINKS 40
 
 /* Returns the end of the next folder's name in a path, at or after the offset `at`; 0 if there is none. */
 static size_t next_folder(const char *path, size_t at)
@@ -100,6 +104,24 @@ char *ffd_path_resolve(const char *path)
     char *copy = resolved ? ffd_text_copy(resolved) : NULL;
     free(resolved);
     return copy;
+}
+
+char *ffd_path_follow(const char *path)
+{
+    char *at = ffd_text_copy(path);
+    for (int links = 0; at && links < MOST_LINKS; links++) {
+        char link[PATH_MAX];
+        const ssize_t length = readlink(at, link, sizeof link - 1);
+        if (length < 0)
+            return at;
+        link[length] = 0;
+        char *const next = ffd_path_is_absolute(link) ? ffd_text_copy(link) : ffd_path_beside(at, link);
+        ffd_free(at);
+        at = next;
+    }
+    const bool is_circle = at != NULL;
+    ffd_free(at);
+    return is_circle ? ffd_text_copy(path) : NULL;
 }
 
 ffd_status ffd_path_turn_slashes(char *name, const char *folder, bool *turned, ffd_error *error)

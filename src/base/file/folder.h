@@ -19,6 +19,9 @@ ffd_status ffd_folder_list(const char *path, path_list *names, ffd_error *error)
 /* Returns the absolute path of a file or folder, with symbolic links resolved; NULL if it does not exist or
    memory runs out. Free with ffd_free. */
 char *ffd_path_resolve(const char *path);
+/* Returns the path that a symbolic link leads to, whether or not a file is there; a copy of the path itself
+   if it is no link, or links lead round in a circle; NULL if memory runs out. Free with ffd_free. */
+char *ffd_path_follow(const char *path);
 /* Returns whether both paths lead to the same file, which need not exist yet. Returns false if memory runs
    out. */
 bool ffd_paths_meet(const char *a, const char *b);

@@ -39,32 +39,42 @@ static const unsigned char nothing[1] = {0};
 /* An offset that stands for the descriptor's current position. */
 #define FROM_HERE ((off_t)-1)
 
-/* Reads as many bytes as a single call returns. *got is 0 at the end. */
+/* Waits until a stream has bytes or ends, or until the deadline. */
+static ffd_status wait_for_bytes(int fd, ffd_error *error)
+{
+    struct pollfd ready = {.fd = fd, .events = POLLIN};
+    ffd_status status = FFD_OK;
+    while (!status && poll(&ready, 1, ffd_deadline_left()) <= 0)
+        status = ffd_deadline_check(error);
+    return status;
+}
+
+/* Reads as many bytes as a single call returns; waits for them where the descriptor does not. *got is 0 at
+   the end. */
 static ffd_status read_piece(int fd, const char *name, off_t offset, void *to, size_t size, size_t *got,
                              ffd_error *error)
 {
     ssize_t count;
-    do
+    ffd_status status = FFD_OK;
+    do {
         count = offset == FROM_HERE ? read(fd, to, size) : pread(fd, to, size, offset);
-    while (count < 0 && errno == EINTR);
+        if (count < 0 && errno == EAGAIN)
+            status = wait_for_bytes(fd, error);
+    } while (!status && count < 0 && (errno == EINTR || errno == EAGAIN));
+    if (status)
+        return status;
     if (count < 0)
         return ffd_fail_file(error, FFD_E_IO, name, "cannot be read: %s", strerror(errno));
     *got = (size_t)count;
     return FFD_OK;
 }
 
-/* Waits until a stream has bytes, or the deadline. */
-static ffd_status wait_for_bytes(int fd, ffd_error *error)
+/* Whether to wait before bytes are read: there is a deadline, and reading would not look at it; or nobody has
+   written to a pipe yet, which looks like its end. Once it had bytes its end is its end, even if the writer
+   had gone before it was opened. */
+static bool waits_first(int fd, bool has_bytes)
 {
-    struct pollfd ready = {.fd = fd, .events = POLLIN};
-    while (ffd_deadline_left() >= 0) {
-        if (poll(&ready, 1, ffd_deadline_left()) > 0)
-            return FFD_OK;
-        const ffd_status status = ffd_deadline_check(error);
-        if (status)
-            return status;
-    }
-    return FFD_OK;
+    return ffd_deadline_left() >= 0 && !(has_bytes && (fcntl(fd, F_GETFL) & O_NONBLOCK));
 }
 
 /* Reads files that have no size and cannot be mapped: pipes, terminals, /dev/stdin, files of /proc. */
@@ -81,7 +91,7 @@ static ffd_status read_stream(int fd, const char *name, file_input *input, ffd_e
         else if (!ffd_grow((void **)&block, &capacity, size + 65536, 1))
             status = ffd_fail_file(error, FFD_E_MEMORY, name, "out of memory after %zu bytes", size);
         else
-            status = wait_for_bytes(fd, error);
+            status = waits_first(fd, size > 0) ? wait_for_bytes(fd, error) : FFD_OK;
         if (!status)
             status = read_piece(fd, name, FROM_HERE, block + size, capacity - size, &got, error);
     } while (!status && got > 0);
@@ -260,14 +270,23 @@ static ffd_status load_memory(const char *path, file_input *input, ffd_error *er
     return lend(bytes, size, ffd_file_display_name(path), input, error);
 }
 
+/* Opening a pipe does not block with O_NONBLOCK: one that is no stream is refused later, and at one of a name
+   like /dev/stdin, to which nobody writes yet, wait_for_bytes looks at the deadline. Without need not for
+   inherited descriptors, whose flags must not change. */
+static int open_flags(const char *path)
+{
+    struct stat info;
+    if (!ffd_file_is_stream(path))
+        return O_NONBLOCK | O_NOCTTY;
+    return ffd_deadline_left() >= 0 && stat(path, &info) == 0 && S_ISFIFO(info.st_mode) ? O_NONBLOCK : 0;
+}
+
 ffd_status ffd_file_open(const char *path, int *fd, ffd_error *error)
 {
     *fd = STDIN_FILENO;
     if (strcmp(path, "-") == 0)
         return FFD_OK;
-    /* O_NONBLOCK, so that opening a pipe, which is refused later, does not block. Not for inherited
-       descriptors, whose flags must not change. */
-    *fd = open(path, O_RDONLY | O_CLOEXEC | (ffd_file_is_stream(path) ? 0 : O_NONBLOCK | O_NOCTTY));
+    *fd = open(path, O_RDONLY | O_CLOEXEC | open_flags(path));
     if (*fd < 0)
         return fail_open(path, errno, error);
     const ffd_status status = refuse_special(*fd, path, error);

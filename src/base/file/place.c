@@ -10,12 +10,33 @@
 /* Folders that are remembered by device and inode, at most. */
 #define MOST_KNOWN 4096
 
-/* Resolves the folders that exist, and keeps the rest as it is written. Returns NULL if memory runs out. */
+static bool is_link(const char *path)
+{
+    struct stat info;
+    return lstat(path, &info) == 0 && S_ISLNK(info.st_mode);
+}
+
+static char *resolve(const char *path);
+
+/* Resolves what a link leads to, though it is not there yet. */
+static char *resolve_target(const char *path)
+{
+    char *const target = ffd_path_follow(path);
+    char *const resolved = target && strcmp(target, path) != 0 ? resolve(target) : NULL;
+    ffd_free(target);
+    return resolved;
+}
+
+/* Resolves the folders and links that exist, and keeps the rest as it is written. Returns NULL if memory runs
+   out. */
 static char *resolve(const char *path)
 {
     char *const whole = ffd_path_resolve(path);
     if (whole || strcmp(path, "/") == 0 || strcmp(path, ".") == 0)
         return whole;
+    char *const led = is_link(path) ? resolve_target(path) : NULL;
+    if (led)
+        return led;
     char *const folder = ffd_path_folder(path), *const above = folder ? resolve(folder) : NULL;
     char *const joined = above ? ffd_path_join(above, ffd_path_name(path)) : NULL;
     char *const plain = joined ? ffd_path_normalize(joined) : NULL;
@@ -88,16 +109,11 @@ static hash128 hash_of(const char *folder, const char *name)
     return ffd_hash_blocks(blocks, 2);
 }
 
-/* Returns the path that a link leads to; NULL: it is no link, or leads to nothing. */
-static char *follow(const char *path)
-{
-    struct stat info;
-    return lstat(path, &info) == 0 && S_ISLNK(info.st_mode) ? ffd_path_resolve(path) : NULL;
-}
-
 static hash128 find_place(file_places *places, const char *path)
 {
-    char *const target = ffd_memory_has(path) ? ffd_path_normalize(path) : follow(path);
+    char *const target = ffd_memory_has(path) ? ffd_path_normalize(path)
+                         : is_link(path)      ? resolve(path)
+                                              : NULL;
     const char *const whole = target ? target : path;
     const char *const name = ffd_path_name(whole);
     size_t length = (size_t)(name - whole);

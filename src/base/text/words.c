@@ -47,10 +47,19 @@ size_t ffd_word_distance(const char *a, size_t a_length, const char *b)
 void ffd_nearest_offer(nearest_word *nearest, const char *known)
 {
     const size_t distance = ffd_word_distance(nearest->word, nearest->length, known);
+    nearest->is_tied =
+        nearest->best && (nearest->is_tied ? distance >= nearest->distance : distance == nearest->distance);
     if (nearest->best && distance >= nearest->distance)
         return;
     nearest->best = known;
     nearest->distance = distance;
+}
+
+const char *ffd_nearest_meant(const nearest_word *nearest)
+{
+    const size_t known = strlen(nearest->best), longest = nearest->length > known ? nearest->length : known;
+    const size_t twice = 2 * nearest->distance;
+    return twice < longest || (twice == longest && !nearest->is_tied) ? nearest->best : NULL;
 }
 
 const char *ffd_nearest_word(const char *word, const char *const *known, size_t count)
@@ -66,8 +75,7 @@ const char *ffd_word_meant(const char *word, const char *const *known, size_t co
     nearest_word nearest = {.word = word, .length = strlen(word)};
     for (size_t i = 0; i < count; i++)
         ffd_nearest_offer(&nearest, known[i]);
-    const size_t longest = nearest.length > strlen(nearest.best) ? nearest.length : strlen(nearest.best);
-    return 2 * nearest.distance <= longest ? nearest.best : NULL;
+    return ffd_nearest_meant(&nearest);
 }
 
 void ffd_words_hint(const char *word, const char *const *known, size_t count, char *text, size_t capacity)
@@ -98,4 +106,17 @@ void ffd_name_shown(const char *name, char *shown, size_t capacity)
     memcpy(shown, name, length);
     shown[length] = 0;
     ffd_make_one_line(shown, length);
+}
+
+void ffd_bytes_shown(const char *bytes, size_t size, char *shown, size_t capacity)
+{
+    static const char symbol[] = "\xe2\x90\x80";
+    size_t length = 0;
+    for (size_t i = 0; i < size && length + sizeof symbol <= capacity; i++) {
+        const char *const put = bytes[i] ? bytes + i : symbol;
+        const size_t count = bytes[i] ? 1 : sizeof symbol - 1;
+        memcpy(shown + length, put, count);
+        length += count;
+    }
+    shown[length] = 0;
 }

@@ -20,17 +20,22 @@ typedef struct nearest_word {
     size_t length;
     const char *best; /* borrowed; the first one if there are several; NULL before a word is offered */
     size_t distance;
+    bool is_tied; /* others are as similar */
 } nearest_word;
 
 /* Offers a known word; keeps it if it is more similar than those before. */
 void ffd_nearest_offer(nearest_word *nearest, const char *known);
 
+/* Returns the word that is meant: the best one, if it is similar; NULL where it is not, as one half of a word
+   of three letters, or where another is as similar at that limit, as "x" and "y" are to "xy". */
+const char *ffd_nearest_meant(const nearest_word *nearest);
+
 /* Returns the entry of known (count words) that is most similar to word, the first one if there are several;
    NULL if count is 0. */
 const char *ffd_nearest_word(const char *word, const char *const *known, size_t count);
 
-/* Returns the known word (of count, 1 or more) that is meant by an unknown one; NULL where none is similar:
-   as one half of a word of three letters is not. */
+/* Returns the known word (of count, 1 or more) that is meant by an unknown one; NULL where none is similar.
+ */
 const char *ffd_word_meant(const char *word, const char *const *known, size_t count);
 
 /* Writes what a message says of an unknown word: the known one that is meant, or all of them. Truncates to
@@ -43,5 +48,9 @@ const char *ffd_plural(uint64_t count, const char *one, const char *many);
 /* Copies a name for a message of one line: control characters become '?', and the copy is truncated at a
    UTF-8 character boundary to fit in capacity bytes with its final 0. */
 void ffd_name_shown(const char *name, char *shown, size_t capacity);
+
+/* Copies the beginning of a name of `size` bytes for a message. A NUL character becomes its symbol, U+2400.
+   capacity: at least 4. */
+void ffd_bytes_shown(const char *bytes, size_t size, char *shown, size_t capacity);
 
 #endif

@@ -42,23 +42,31 @@ static void refuse(const run_files *files, batch_job *job, const char *what)
         ffd_fail_file(&job->error, FFD_E_INVALID, job->input, "%s", what);
 }
 
+/* The meshes of a pattern have no lines: they are counted as they come. */
+static const char *job_of(const run_files *files)
+{
+    return files->manifest ? "the job of line" : "job";
+}
+
 void ffd_run_refuse(const run_files *files, batch_job *job, const char *role, const char *file, uint64_t line)
 {
     char what[600];
     if (line)
-        snprintf(what, sizeof what, "%s\"%.400s\" is written by the job of line %" PRIu64 " too", role, file,
-                 line);
+        snprintf(what, sizeof what, "%s\"%.400s\" is written by %s %" PRIu64 " too", role, file,
+                 job_of(files), line);
     else
-        snprintf(what, sizeof what,
-                 "%s\"%.400s\" is the report, the depfile, the journal, the index or the array of this run",
-                 role, file);
+        snprintf(
+            what, sizeof what,
+            "%s\"%.400s\" is the manifest, the table, the report, the depfile, the journal, the index or "
+            "the array of this run",
+            role, file);
     refuse(files, job, what);
 }
 
 void ffd_run_refuse_written(const run_files *files, batch_job *job, const char *file, uint64_t line)
 {
     char what[600];
-    snprintf(what, sizeof what, "\"%.400s\" is read by the job of line %" PRIu64, file, line);
+    snprintf(what, sizeof what, "\"%.400s\" is read by %s %" PRIu64, file, job_of(files), line);
     refuse(files, job, what);
 }
 
@@ -70,10 +78,15 @@ void ffd_run_refuse_conflict(const run_files *files, batch_job *job, const char 
             ffd_run_refuse(files, job, role, list->paths[conflicts->files[i]], conflicts->lines[i]);
 }
 
-ffd_status ffd_run_reserve(run_files *files, const char *path, ffd_error *error)
+ffd_status ffd_run_keep(run_files *files, const char *path, ffd_error *error)
 {
     const hash128 file = ffd_run_place(files, path);
-    const ffd_status status = ffd_files_put(&files->writes, &file, 0, error);
+    return ffd_files_put(&files->writes, &file, 0, error);
+}
+
+ffd_status ffd_run_reserve(run_files *files, const char *path, ffd_error *error)
+{
+    const ffd_status status = ffd_run_keep(files, path, error);
     return status ? status : ffd_run_add_folder(files, path, error);
 }
 

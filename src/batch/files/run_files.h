@@ -113,7 +113,9 @@ void ffd_run_refuse_written(const run_files *files, batch_job *job, const char *
 /* Stores in a job that it reads one of these files, unless it is the job that writes it. role: as above. */
 void ffd_run_refuse_conflict(const run_files *files, batch_job *job, const char *role, const path_list *list,
                              const read_conflicts *conflicts);
-/* Reserves a file of the run itself. Errors: FFD_E_MEMORY. */
+/* Notes a file that the run itself reads, so that no job replaces it. Errors: FFD_E_MEMORY. */
+ffd_status ffd_run_keep(run_files *files, const char *path, ffd_error *error);
+/* Reserves a file that the run itself writes. Errors: FFD_E_MEMORY. */
 ffd_status ffd_run_reserve(run_files *files, const char *path, ffd_error *error);
 /* Adds the folder of an output. Errors: FFD_E_MEMORY. */
 ffd_status ffd_run_add_folder(run_files *files, const char *output, ffd_error *error);

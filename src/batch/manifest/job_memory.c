@@ -10,7 +10,7 @@ uint64_t ffd_job_memory(const batch_job *job, bool draws)
     uint64_t asked = 0;
     if (option && !ffd_size_parse(option, &asked))
         asked = 0; /* the job is refused */
-    memory_budget budget = ffd_budget_make(draws && asked < LEAST_VIEW_MEMORY ? LEAST_VIEW_MEMORY : asked);
+    memory_budget budget = ffd_budget_make(draws && asked == 0 ? LEAST_VIEW_MEMORY : asked);
     for (size_t i = 0; i < job->word_count; i++, word += strlen(word) + 1) {
         const char *const path = i == 0 ? word : ffd_word_lattice(word);
         file_stamp stamp;

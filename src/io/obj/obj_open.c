@@ -1,6 +1,7 @@
 /* obj_open.c - opens and closes an OBJ file. */
 #include "base/memory/memory.h"
 #include "base/system/processors.h"
+#include "base/text/words.h"
 #include "io/obj/obj_faces.h"
 #include "io/obj/obj_results.h"
 #include "io/obj/obj_vectors.h"
@@ -49,11 +50,14 @@ static ffd_status check_statements(const obj_document *d, ffd_error *error)
 
 static ffd_status note_unknown(obj_document *d, ffd_error *error)
 {
+    char shown[200] = "";
     ffd_status status = FFD_OK;
+    if (d->unknown.count > 0)
+        ffd_bytes_shown(d->unknown.name.first, (size_t)ffd_text_display_size(d->unknown.name), shown,
+                        sizeof shown);
     for (size_t i = 0; i < d->unknown.count && status == FFD_OK; i++)
         status = ffd_flaw_line(&d->file.base.flaws, d->file.name, d->unknown.line, error,
-                               "\"%.*s\" is no statement of OBJ: it is left as it is",
-                               ffd_text_display_size(d->unknown.name), d->unknown.name.first);
+                               "\"%s\" is no statement of OBJ: it is left as it is", shown);
     return status;
 }
 

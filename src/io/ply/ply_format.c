@@ -20,6 +20,7 @@ const mesh_format ffd_ply_format = {
     .open = ffd_ply_open,
     .close = ffd_ply_close,
     .find_resources = ffd_ply_find_textures,
+    .find_named = ffd_ply_find_named,
     .check = check,
     .warn = ffd_ply_warn,
     .mark_used = ffd_ply_mark_used,

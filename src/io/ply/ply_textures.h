@@ -14,7 +14,8 @@ bool ffd_ply_texture_name(text_word note, text_word *name);
 ffd_status ffd_ply_bring_textures(const ply_header *header, const mesh_save_options *options,
                                   file_output *output, const mesh_log *log, ffd_error *error);
 
-/* mesh_format's find_resources. */
+/* mesh_format's find_resources and find_named. */
 mesh_find_resources_function ffd_ply_find_textures;
+mesh_find_named_function ffd_ply_find_named;
 
 #endif

@@ -3,6 +3,7 @@
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -95,7 +96,7 @@ void ffd_still_warn(const deform_job *job, const ffd_bounds *box)
     }
     end_group(&idle);
     end_group(&active);
-    if (still)
+    if (still || !totals->is_visible)
         tell_bounds(box, where, sizeof where);
     if (idle.count > 0)
         ffd_log_line(&job->log, FFD_LOG_WARNING, "%s%s of %s %s no control point%s",
@@ -106,4 +107,9 @@ void ffd_still_warn(const deform_job *job, const ffd_bounds *box)
         ffd_log_line(&job->log, FFD_LOG_WARNING, "no vertex moves, though %s %s %" PRIu64 " control %s%s",
                      active.names, ffd_plural(active.count, "moves", "move"), points,
                      ffd_plural(points, "point", "points"), where);
+    if (!still && !job->desc->as_morph && !totals->is_visible)
+        ffd_log_line(
+            &job->log, FFD_LOG_WARNING,
+            "no vertex moves in the output: its floats are too coarse for displacements of %g at most%s",
+            sqrt(totals->displacement_square_max), where);
 }

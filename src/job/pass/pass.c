@@ -152,6 +152,7 @@ static void finish_positions(const part_work *work, tile_scratch *scratch, size_
 {
     const mesh_pass *pass = work->pass;
     ffd_tile_rounding_at_rest(work, scratch->raw, count, &totals->rounding);
+    totals->is_visible = totals->is_visible || ffd_tile_shows(work, scratch->raw, scratch->delta, count);
     const size_t unfit = ffd_array_kernel(pass->chain->isa)
                              ->displace(scratch->delta, count, ffd_largest_coordinate(pass->document),
                                         scratch->raw, scratch->changed);

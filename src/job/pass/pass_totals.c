@@ -27,6 +27,7 @@ void ffd_totals_join(const pass_totals *tile, pass_totals *all)
     for (int s = 0; s < FFD_VERTEX_STATUS_COUNT; s++)
         all->counts[s] += tile->counts[s];
     all->moved += tile->moved;
+    all->is_visible = all->is_visible || tile->is_visible;
     all->located += tile->located;
     all->residual_square_max = fmax(all->residual_square_max, tile->residual_square_max);
     all->residual_square_sum += tile->residual_square_sum;

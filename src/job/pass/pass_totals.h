@@ -19,6 +19,7 @@ typedef struct rounding_loss {
 } rounding_loss;
 
 typedef struct pass_totals {
+    bool is_visible; /* a displacement is large enough for the floats of the output */
     uint64_t vertices, counts[FFD_VERTEX_STATUS_COUNT], moved;
     uint64_t located; /* vertices with u,v,w in some link; residuals are over these */
     double residual_square_max, residual_square_sum; /* relative to the lattice's diagonal */

@@ -44,6 +44,15 @@ void ffd_tile_rounding_at_rest(const part_work *work, const double *raw, size_t 
     rounding->before = larger_of(rounding->before, coarsest(&work->part->rounding, &box));
 }
 
+/* Nearly always the first vertex that moves is the answer. */
+bool ffd_tile_shows(const part_work *work, const double *raw, const double *delta, size_t count)
+{
+    bool shows = !rounds(work) || work->part->carried;
+    for (size_t k = 0; k < 3 * count && !shows; k++)
+        shows = delta[k] != 0 && (float)(raw[k] + delta[k]) != (float)raw[k];
+    return shows;
+}
+
 void ffd_tile_rounding_of_results(const part_work *work, const double *raw, size_t count,
                                   part_rounding *rounding)
 {

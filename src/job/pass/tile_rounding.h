@@ -14,6 +14,10 @@ double ffd_part_tolerance(const mesh_document *document);
 void ffd_tile_rounding_at_rest(const part_work *work, const double *raw, size_t count,
                                part_rounding *rounding);
 
+/* Whether floats hold a displacement of the tile (delta): the position of a vertex changes in the output.
+   True too where the results are not rounded here. raw: as above. */
+bool ffd_tile_shows(const part_work *work, const double *raw, const double *delta, size_t count);
+
 /* Notes the rounding errors of the results, if they may exceed the tolerance. */
 void ffd_tile_rounding_of_results(const part_work *work, const double *raw, size_t count,
                                   part_rounding *rounding);

@@ -425,7 +425,7 @@ static ffd_status view(const ffd_view_desc *desc, ffd_job_result *result, ffd_er
 
 static void allow_memory(ffd_source *source)
 {
-    if (source->memory < LEAST_VIEW_MEMORY)
+    if (source->memory == 0)
         source->memory = LEAST_VIEW_MEMORY;
 }
 

@@ -76,6 +76,21 @@ static bool is_through_link(const char *folder, const char *path)
     return !same;
 }
 
+bool ffd_resource_is_outside(const resource_copier *c, const char *path)
+{
+    if (ffd_path_leads_out(path))
+        return true;
+    char *const root = ffd_path_resolve(c->from), *const joined = ffd_path_join(c->from, path);
+    char *const resolved = joined ? ffd_path_resolve(joined) : NULL;
+    char *const relative = root && resolved ? ffd_path_relative(root, resolved) : NULL;
+    const bool is_outside = relative && ffd_path_leads_out(relative);
+    ffd_free(root);
+    ffd_free(joined);
+    ffd_free(resolved);
+    ffd_free(relative);
+    return is_outside;
+}
+
 /* Returns the reason why a file in the mesh's folder is not copied, judging by its name alone; NULL: none. */
 static const char *left_by_name(const mesh_resource *resource, const char *source)
 {

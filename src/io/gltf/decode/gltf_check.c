@@ -268,6 +268,16 @@ static ffd_status check_attributes(const gltf_document *d, uint32_t object, cons
     return FFD_OK;
 }
 
+/* Whether an accessor of indices without bytes of its own states others than zeros: something unknown holds
+   them. */
+static bool states_indices_elsewhere(const gltf_document *d, uint32_t primitive, int a, double *most)
+{
+    const uint32_t max = ffd_json_span_member(&d->tree, d->accessor_values.values[a], "max");
+    return d->model.accessors[a].view < 0 && !d->model.accessors[a].sparse.present &&
+           !ffd_gltf_has_extension(d, primitive, "KHR_draco_mesh_compression") &&
+           ffd_json_span_number(&d->tree, ffd_json_span_first(&d->tree, max), most) && *most > 0;
+}
+
 /* Checks the accessor of a primitive's indices. */
 static ffd_status check_indices(gltf_document *d, size_t mesh, size_t p, uint32_t value, ffd_error *error)
 {
@@ -281,6 +291,12 @@ static ffd_status check_indices(gltf_document *d, size_t mesh, size_t p, uint32_
             "there is no accessor %d, only %zu: what the primitive draws is not known", number,
             d->model.accessor_count);
     const gltf_accessor *indices = &d->model.accessors[number];
+    double most;
+    if (states_indices_elsewhere(d, value, number, &most))
+        return ffd_gltf_drop_drawing(
+            d, mesh, p, place, error,
+            "accessor %d has no bytes, but its max is %g: what the primitive draws is not known", number,
+            most);
     if (indices->columns * indices->rows == 1 && !indices->normalized &&
         (indices->component == GLTF_U8 || indices->component == GLTF_U16 || indices->component == GLTF_U32))
         return FFD_OK;

@@ -2,6 +2,7 @@
 #include "base/memory/memory.h"
 #include "base/text/words.h"
 #include "io/gltf/rig/gltf_places.h"
+#include "io/gltf/rig/gltf_rig_left.h"
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -179,6 +180,41 @@ static ffd_status warn_of_left(const gltf_document *d, const gltf_rig *rig, cons
     return FFD_OK;
 }
 
+/* Warns of skinned nodes that --only does not select, some of whose joints have moved: the joints fit the
+   mesh that they move no more. */
+static ffd_status warn_of_left_skins(const gltf_document *d, const gltf_rig *rig, const mesh_log *log,
+                                     mesh_following *following, ffd_error *error)
+{
+    place_group left = {0};
+    double most = 0;
+    ffd_status status = FFD_OK;
+    bool *const listed = ffd_alloc_zero(d->model.node_count, sizeof *listed);
+    if (!listed)
+        return ffd_fail_memory(error);
+    for (size_t i = 0; i < d->base.part_count && status == FFD_OK; i++) {
+        double by;
+        const size_t node = d->parts[i].node;
+        status = ffd_gltf_left_by_joints(d, rig, i, &by, error);
+        if (status || !(by > 0))
+            continue;
+        most = by > most ? by : most;
+        if (!listed[node])
+            status = add_place(d, node, &left, error);
+        listed[node] = true;
+    }
+    ffd_free(listed);
+    end_group(&left);
+    following->unselected += left.count;
+    following->unselected_by = most > following->unselected_by ? most : following->unselected_by;
+    if (status == FFD_OK && left.count > 0)
+        ffd_log_line(log, FFD_LOG_WARNING, "%zu skinned %s, though joints %s on move, by up to %g%s",
+                     left.count,
+                     ffd_plural(left.count, "mesh that --only does not select stays where it is",
+                                "meshes that --only does not select stay where they are"),
+                     ffd_plural(left.count, "that it hangs", "that they hang"), most, left.names);
+    return status;
+}
+
 ffd_status ffd_gltf_warn_of_rig(const gltf_document *d, const mesh_places *places, const gltf_rig *rig,
                                 const mesh_log *log, mesh_following *following, ffd_error *error)
 {
@@ -189,7 +225,9 @@ ffd_status ffd_gltf_warn_of_rig(const gltf_document *d, const mesh_places *place
     if (status)
         return status;
     tell(d, rig, log);
-    const ffd_status warned = warn_of_left(d, rig, following, log, error);
+    ffd_status warned = warn_of_left(d, rig, following, log, error);
+    if (warned == FFD_OK)
+        warned = warn_of_left_skins(d, rig, log, following, error);
     if (warned)
         return warned;
     if (found.shapes.count)

@@ -248,10 +248,10 @@ static ffd_status embed_image(resources *r, size_t number, char *path, ffd_error
 {
     const gltf_document *d = r->saver->document;
     const mesh_resource image = {path, &ffd_resource_image, number};
-    const char *left;
-    ffd_error refused;
+    const char *left = ffd_resource_is_outside(&r->copier, path) ? "is outside the model's folder" : NULL;
+    ffd_error refused = {0};
     file_input bytes = {0};
-    ffd_status status = ffd_resource_load(&r->copier, &image, &bytes, &left, &refused, error);
+    ffd_status status = left ? FFD_OK : ffd_resource_load(&r->copier, &image, &bytes, &left, &refused, error);
     if (status)
         return status;
     if (refused.status)
@@ -273,12 +273,37 @@ static ffd_status embed_image(resources *r, size_t number, char *path, ffd_error
     return status;
 }
 
+/* Warns of a URI that names no file: its name is empty or holds a NUL character, or it is absolute, so that
+   an output which holds its images has not this one. */
+static ffd_status warn_of_uri(const resources *r, size_t image, ffd_error *error)
+{
+    const json_span *const tree = &r->saver->document->tree;
+    const uint32_t uri = ffd_json_span_member(tree, r->saver->document->image_values.values[image], "uri");
+    char *const text = uri == JSON_NONE ? NULL : ffd_json_span_string(tree, uri, NULL);
+    if (uri == JSON_NONE || !text)
+        return uri == JSON_NONE ? FFD_OK : ffd_fail_memory(error);
+    const bool is_data = ffd_uri_is_data(text), is_absolute = ffd_uri_is_absolute(text);
+    ffd_free(text);
+    if (is_data || (is_absolute && !r->embeds))
+        return FFD_OK;
+    char written[400], shown[120];
+    snprintf(written, sizeof written, "%.*s", (int)(tree->values[uri].end - tree->values[uri].begin),
+             tree->text + tree->values[uri].begin);
+    ffd_name_shown(written, shown, sizeof shown);
+    ffd_log_line(r->saver->log, FFD_LOG_WARNING, "the image %s %s", shown,
+                 is_absolute ? "is not a file beside the model and is not in the output"
+                             : "has not the name of a file");
+    return FFD_OK;
+}
+
 static ffd_status bring_image(resources *r, size_t image, ffd_error *error)
 {
     char *path;
     ffd_status status = image_path(r->saver->document, image, &path, error);
-    if (status || !path)
+    if (status)
         return status;
+    if (!path)
+        return warn_of_uri(r, image, error);
     if (r->embeds) {
         status = embed_image(r, image, path, error);
         ffd_free(path);

@@ -220,17 +220,41 @@ void ffd_gltf_find_held(gltf_document *d)
 {
     for (size_t m = 0; m < d->model.mesh_count; m++)
         for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++) {
-            const int a = d->model.meshes[m].primitives[p].accessor[GLTF_POSITION];
-            if (is_empty(d, a) && (states_other_than_zeros(d, a) || holder_of(d, m, p) != JSON_NONE))
+            const gltf_primitive *const primitive = &d->model.meshes[m].primitives[p];
+            const int a = primitive->accessor[GLTF_POSITION];
+            if (is_empty(d, a) && holder_of(d, m, p) != JSON_NONE)
                 d->layouts[a].readable = false;
+            for (size_t s = 0; s < gltf_vector_slots(primitive); s++) {
+                const int of = gltf_slot_accessor(primitive, s);
+                if (is_empty(d, of) && states_other_than_zeros(d, of))
+                    d->layouts[of].readable = false;
+            }
         }
+}
+
+/* Refuses a morph target, or a normal, that only min and max tell of. */
+static ffd_status refuse_stated(const gltf_document *d, const gltf_primitive *primitive, ffd_error *error)
+{
+    for (size_t s = 0; s < gltf_vector_slots(primitive); s++) {
+        const int a = gltf_slot_accessor(primitive, s);
+        if (s != GLTF_POSITION && is_empty(d, a) && !d->layouts[a].readable && states_other_than_zeros(d, a))
+            return ffd_json_span_fail(&d->tree, d->accessor_values.values[a], d->name, FFD_E_UNSUPPORTED,
+                                      error,
+                                      "the accessor has no bytes, but its min and max are not 0: the %s are "
+                                      "in a form that is not supported",
+                                      s >= GLTF_DEFORMED ? "offsets" : "normals");
+    }
+    return FFD_OK;
 }
 
 ffd_status ffd_gltf_refuse_held(const gltf_document *d, size_t m, size_t p, ffd_error *error)
 {
-    const int a = d->model.meshes[m].primitives[p].accessor[GLTF_POSITION];
-    if (!is_empty(d, a) || d->layouts[a].readable || ffd_gltf_draco_value(d, m, p) != JSON_NONE)
+    const gltf_primitive *const primitive = &d->model.meshes[m].primitives[p];
+    const int a = primitive->accessor[GLTF_POSITION];
+    if (ffd_gltf_draco_value(d, m, p) != JSON_NONE || a < 0)
         return FFD_OK;
+    if (!is_empty(d, a) || d->layouts[a].readable)
+        return refuse_stated(d, primitive, error);
     const uint32_t holder = holder_of(d, m, p);
     if (holder == JSON_NONE)
         return ffd_json_span_fail(&d->tree, d->accessor_values.values[a], d->name, FFD_E_UNSUPPORTED, error,

@@ -12,11 +12,12 @@ ffd_status ffd_gltf_find_required(gltf_document *document, const ffd_source *sou
 /* Refuses the document if it has such an extension. Errors: FFD_E_UNSUPPORTED, FFD_E_MEMORY. */
 ffd_status ffd_gltf_refuse_required(const gltf_document *document, ffd_error *error);
 
-/* Marks positions that are not in the file's accessors as not readable: the accessor has no bytes, and an
-   extension of the primitive holds geometry, or min and max are not 0. */
+/* Marks positions, normals and offsets of morph targets that are not in the file's accessors as not readable:
+   the accessor has no bytes, and its min and max are not 0, or (positions) an extension of the primitive
+   holds geometry. */
 void ffd_gltf_find_held(gltf_document *document);
 
-/* Refuses a primitive whose positions an extension holds. Errors: FFD_E_UNSUPPORTED, FFD_E_MEMORY. */
+/* Refuses a primitive of which an extension holds such numbers. Errors: FFD_E_UNSUPPORTED, FFD_E_MEMORY. */
 ffd_status ffd_gltf_refuse_held(const gltf_document *document, size_t mesh, size_t primitive,
                                 ffd_error *error);
 
