@@ -33,6 +33,7 @@ typedef struct view_work {
     deform_job job;
     job_details details;
     mesh_model model;
+    uint64_t model_bytes; /* what the model takes of the document's budget */
     view_scene scene;
     uint32_t *faces;      /* of each triangle: its polygon */
     mesh_document *other; /* the deformed mesh file, kept open for its animations */
@@ -105,7 +106,9 @@ static ffd_status read_model(view_work *work, ffd_error *error)
     model->budget = &document->budget;
     model->wants_details = true;
     document->shown = shows_shapes(work, document);
+    const uint64_t before = document->budget.taken;
     const ffd_status status = document->format->model(document, model, error);
+    work->model_bytes = document->budget.taken - before;
     document->shown = false;
     if (status || !document->format->list_materials)
         return status;
@@ -394,6 +397,8 @@ static ffd_status run(view_work *work, ffd_job_result *result, ffd_error *error)
         warn_of_unused(work);
     ffd_view_measure(&work->scene);
     free_sources(work); /* drawing needs memory of its own */
+    if (work->job.document)
+        work->job.document->budget.taken -= work->model_bytes;
     return write_view(work, error);
 }
 
