@@ -11,6 +11,7 @@
 #include "io/gltf/rig/gltf_rig.h"
 #include "io/gltf/rig/gltf_rig_follow.h"
 #include "io/gltf/save/gltf_output_names.h"
+#include "io/gltf/save/gltf_file_uris.h"
 #include "io/gltf/save/gltf_resources.h"
 #include "io/gltf/scene/gltf_faces.h"
 #include "io/gltf/scene/gltf_faults.h"
@@ -96,6 +97,7 @@ const mesh_format ffd_gltf_format = {
     .close = ffd_gltf_close,
     .list_files = ffd_gltf_list_files,
     .list_images = ffd_gltf_list_images,
+    .list_linked = ffd_gltf_list_linked,
     .find_resources = ffd_gltf_find_resources,
     .find_named = ffd_gltf_find_named,
     .count_beside = ffd_gltf_count_beside,

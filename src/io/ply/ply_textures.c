@@ -113,8 +113,8 @@ ffd_status ffd_ply_find_textures(const char *path, const file_input *bytes, path
     return find(path, bytes, NULL, files, error);
 }
 
-ffd_status ffd_ply_find_named(const char *path, const file_input *bytes, path_list *files, path_list *copies,
+ffd_status ffd_ply_find_named(const char *path, const file_input *bytes, const mesh_named *named,
                               ffd_error *error)
 {
-    return find(path, bytes, files, copies, error);
+    return find(path, bytes, named->files, named->copies, error);
 }

@@ -153,12 +153,12 @@ ffd_status ffd_obj_find_resources(const char *path, const file_input *bytes, pat
     return status;
 }
 
-ffd_status ffd_obj_find_named(const char *path, const file_input *bytes, path_list *files, path_list *copies,
+ffd_status ffd_obj_find_named(const char *path, const file_input *bytes, const mesh_named *named,
                               ffd_error *error)
 {
-    const size_t before = files->count;
-    ffd_status status = ffd_obj_find_resources(path, bytes, files, error);
-    for (size_t i = before; copies && i < files->count && !status; i++)
-        status = ffd_paths_add(copies, files->paths[i], error);
+    const size_t before = named->files->count;
+    ffd_status status = ffd_obj_find_resources(path, bytes, named->files, error);
+    for (size_t i = before; named->copies && i < named->files->count && !status; i++)
+        status = ffd_paths_add(named->copies, named->files->paths[i], error);
     return status;
 }
