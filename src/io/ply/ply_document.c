@@ -47,9 +47,9 @@ static ffd_status read_number(ply_document *d, const ply_walk *walk, const ply_p
     if (ffd_ply_load(d->header.encoding, property->type, word, value))
         return FFD_OK;
     return ffd_fail_line(error, FFD_E_INVALID, d->file.name, walk->line,
-                         "%.*s of vertex %" PRIu64 " (counted from 0) is not a number: \"%.*s\"",
+                         "%.*s of vertex %" PRIu64 " (counted from 0) is not a number: \"%s\"",
                          ffd_text_display_size(property->name), property->name.first, row,
-                         ffd_text_display_size(word), word.first);
+                         ffd_text_shown(word).text);
 }
 
 static ffd_status read_vertex(ply_document *d, ply_walk *walk, uint64_t row, ffd_error *error)
