@@ -21,8 +21,8 @@ static bool holds(const path_list *files, const char *output)
     return false;
 }
 
-/* Whether a mesh may name the file. What is copied with a mesh (images, material libraries) has not the
-   ending of one; a buffer may have any. */
+/* Whether a mesh may name the file as one that it reads or copies. What is copied with a mesh (images,
+   material libraries) has not the ending of one; a buffer may have any. */
 static bool may_name(const mesh_format *format, const char *output)
 {
     return format->find_named && (format->list_files || ffd_format_from_name(output) == FFD_FORMAT_AUTO);
@@ -40,8 +40,6 @@ static ffd_status list_by_document(const mesh_document *document, mesh_names *na
     ffd_status status = format->list_files(document, &names->named, error);
     if (!status && format->list_images)
         status = format->list_images(document, &names->resources, error);
-    if (!status && format->list_linked)
-        status = format->list_linked(document, &names->linked, error);
     return status;
 }
 
@@ -72,15 +70,16 @@ ffd_status ffd_job_check_mesh_files(const char *output, const ffd_source *source
 {
     ffd_format format;
     mesh_names names = {0};
-    if (ffd_file_is_stream(source->path) || ffd_memory_has(source->path) ||
-        ffd_source_format(source, &format, NULL) || !may_name(ffd_format_table(format), output))
+    if (ffd_file_is_stream(source->path) || ffd_memory_has(source->path) || !replaces(output) ||
+        ffd_source_format(source, &format, NULL))
         return FFD_OK;
     const mesh_format *const table = ffd_format_table(format);
     ffd_status status = FFD_OK;
-    if (document && table->list_files)
-        status = list_by_document(document, &names, error);
-    else if (replaces(output))
-        status = list_by_bytes(table, source, &names, error);
+    if (document && table->list_linked)
+        status = table->list_linked(document, &names.linked, error);
+    if (!status && may_name(table, output))
+        status = document && table->list_files ? list_by_document(document, &names, error)
+                                               : list_by_bytes(table, source, &names, error);
     const char *const role = status ? NULL : role_of(&names, output);
     if (role)
         status =

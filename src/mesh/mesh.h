@@ -330,7 +330,8 @@ typedef struct mesh_format {
     /* Adds the referenced images in the folder of the file or below, whether they exist or not. NULL:
        none. */
     mesh_list_files_function *list_images;
-    /* Adds files that no job reads or copies, wherever they are: those of extensions. NULL: none. */
+    /* Adds files that no job reads or copies, wherever they are: those of extensions of a glTF, of call and
+       others in an OBJ. NULL: none. */
     mesh_list_files_function *list_linked;
     /* The same as list_images for images and other files that are copied with an output, by scanning the
        bytes of the file at a path without opening a document. An invalid file has none. NULL: nothing is

@@ -40,6 +40,7 @@ typedef struct obj_document {
     size_t addition;
     size_t end; /* offset where the text ends: at a Ctrl-Z, or with the file */
     obj_unknown unknown;
+    bool names_files;  /* there is a statement that ffd_obj_names_file knows */
     obj_blocks blocks; /* of the file */
     int threads;
     /* What ffd_obj_select selected: a byte for each vertex, face and pair; and one for each `vn`, set if a

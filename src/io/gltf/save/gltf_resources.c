@@ -302,37 +302,67 @@ static ffd_status leave_file(const resources *r, uint32_t uri, uint32_t extensio
     ffd_status status = ffd_gltf_uri_path(tree, uri, r->saver->document->path, &path, error);
     if (status || !path)
         return status;
-    char *const name = ffd_json_span_key(tree, extension), *const there = ffd_path_join(r->to, path);
+    char *const name = ffd_json_span_key(tree, extension);
     const size_t before = known->count;
     uint32_t number;
-    if (!name || !there || !ffd_intern(known, path, strlen(path), &number))
+    if (!name || !ffd_intern(known, path, strlen(path), &number)) {
         status = ffd_fail_memory(error);
-    else if (known->count > before && !ffd_file_exists(there)) {
+    } else if (known->count > before) {
         char why[120];
         snprintf(why, sizeof why, "of %s", name);
-        ffd_left_add(left, path, why);
+        status = ffd_left_add_unreached(left, r->to, path, why, error);
     }
     ffd_free(name);
-    ffd_free(there);
     ffd_free(path);
     return status;
 }
 
-/* Names the files that extensions name, which are neither images nor buffers: they are not copied, whatever
-   they are. */
-static ffd_status warn_of_left(const resources *r, ffd_error *error)
+/* Lists the files that extensions name, which are neither images nor buffers. */
+static ffd_status leave_linked(const resources *r, left_out *left, ffd_error *error)
 {
     const json_span *const tree = &r->saver->document->tree;
     intern_table known = {0};
-    left_out left = {0};
     ffd_status status = FFD_OK;
     uint32_t extension, v = ffd_gltf_next_linked(tree, 0, &extension);
     for (; v != JSON_NONE && status == FFD_OK; v = ffd_gltf_next_linked(tree, v + 1, &extension))
-        status = leave_file(r, v, extension, &known, &left, error);
+        status = leave_file(r, v, extension, &known, left, error);
     ffd_intern_free(&known);
+    return status;
+}
+
+/* Names them: they are not copied, whatever they are. */
+static ffd_status warn_of_left(const resources *r, ffd_error *error)
+{
+    left_out left = {0};
+    const ffd_status status = leave_linked(r, &left, error);
     if (status == FFD_OK)
         ffd_left_say(&left, "file that an extension names is not copied",
                      "files that extensions name are not copied", r->saver->log);
+    return status;
+}
+
+/* Names what goes along with a file, but not with standard input. */
+static ffd_status warn_of_stream(gltf_saver *saver, ffd_error *error)
+{
+    const gltf_document *d = saver->document;
+    const resources r = {.saver = saver, .to = ffd_path_folder(saver->options->path)};
+    left_out left = {0};
+    resource_list images = {0};
+    ffd_status status = r.to ? FFD_OK : ffd_fail_memory(error);
+    for (size_t i = 0; i < d->image_values.count && status == FFD_OK; i++) {
+        char *path;
+        status = image_path(d, i, &path, error);
+        if (path)
+            status = ffd_resources_add(&images, &ffd_resource_image, i, path, error);
+    }
+    for (size_t i = 0; i < images.count && status == FFD_OK; i++)
+        status = ffd_left_add_unreached(&left, r.to, images.resources[i].path, "of images", error);
+    ffd_resources_free(&images);
+    if (status == FFD_OK)
+        status = leave_linked(&r, &left, error);
+    if (status == FFD_OK)
+        ffd_left_say_of_stream(&left, saver->log);
+    ffd_free(r.to);
     return status;
 }
 
@@ -341,6 +371,8 @@ ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error)
     const gltf_document *d = saver->document;
     const bool copies = saver->options->resources == FFD_RESOURCES_COPY;
     const bool embeds = copies && saver->binary && !d->binary;
+    if (ffd_file_is_stream(d->path) && !ffd_output_is_stream(saver->options->path))
+        return warn_of_stream(saver, error);
     if (ffd_file_is_stream(d->path) || (ffd_output_is_stream(saver->options->path) && !embeds))
         return FFD_OK;
     resources r = {.saver = saver,

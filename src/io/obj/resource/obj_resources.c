@@ -132,6 +132,22 @@ ffd_status ffd_obj_bring_resources(const file_input *input, const mesh_save_opti
     return status;
 }
 
+ffd_status ffd_obj_leave_libraries(const file_input *input, const char *name, const char *to, left_out *left,
+                                   ffd_error *error)
+{
+    intern_table names = {0};
+    ffd_status status = ffd_obj_list_libraries(input, name, &names, error);
+    for (uint32_t i = 0; i < names.count && !status; i++) {
+        char *path;
+        status = ffd_obj_find_path(to, "", ffd_intern_key(&names, i), &path, error);
+        if (!status && path)
+            status = ffd_left_add_unreached(left, to, path, "of mtllib", error);
+        ffd_free(path);
+    }
+    ffd_intern_free(&names);
+    return status;
+}
+
 ffd_status ffd_obj_find_resources(const char *path, const file_input *bytes, path_list *files,
                                   ffd_error *error)
 {
