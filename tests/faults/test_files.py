@@ -768,6 +768,23 @@ def what_standard_input_names_is_told(run):
 
 
 @case
+def of_what_there_is_none_is_said_so(run):
+    """A number of a thing of which the file has none: "only 0" is no answer."""
+    head = "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+    asset = {"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}]}
+    mesh = {"meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}]}
+    for name, content, told_ in (
+            ("m.off", "OFF\n0 1 0\n3 0 1 2\n", "m.off:3: there is no vertex 0: the file has none"),
+            ("m.ply", head + "property list uchar int vertex_indices\nend_header\n3 0 1 2\n", "m.ply:10: face 0: there is no vertex 0: the file has none"),
+            ("m.gltf", asset, "m.gltf:/nodes/0/mesh: there is no mesh 0: the file has none"),
+            ("m.gltf", {**asset, **mesh, "nodes": [{"mesh": 0, "skin": 0}]}, "m.gltf:/nodes/0/skin: there is no skin 0: the file has none"),
+            ("m.gltf", {**asset, **mesh, "accessors": []}, "m.gltf:/meshes/0/primitives/0/attributes/POSITION: there is no accessor 0: the file has none"),
+            ("m.gltf", {"asset": {"version": "2.0"}, "scene": 2}, "m.gltf:/scene: there is no scene 2: the file has none")):
+        run.write(name, content)
+        run.ffd("info", name, code=INVALID, err=told_)
+
+
+@case
 def wild3_14_tiles_go_along(run):
     """A map whose name stands for tiles: those that exist are copied; a picture says why it is grey."""
     run.write("l.json", LIFT)
