@@ -11,7 +11,6 @@
 #include "io/gltf/rig/gltf_rig.h"
 #include "io/gltf/rig/gltf_rig_follow.h"
 #include "io/gltf/save/gltf_output_names.h"
-#include "io/gltf/save/gltf_file_uris.h"
 #include "io/gltf/save/gltf_resources.h"
 #include "io/gltf/scene/gltf_faces.h"
 #include "io/gltf/scene/gltf_faults.h"

@@ -67,6 +67,7 @@ void ffd_obj_forget_block(const obj_document *document, size_t block);
 /* The entries of the format's table. */
 mesh_open_function ffd_obj_open;
 mesh_close_function ffd_obj_close;
+mesh_list_files_function ffd_obj_list_linked;
 mesh_select_function ffd_obj_select;
 mesh_list_parts_function ffd_obj_list_parts;
 mesh_mark_used_function ffd_obj_mark_used;

@@ -1,10 +1,8 @@
 /* obj_save.c - writes an OBJ file with its results. */
-#include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
 #include "base/text/number.h"
 #include "io/obj/obj_faces.h"
-#include "io/obj/obj_linked.h"
 #include "io/obj/obj_results.h"
 #include "io/obj/obj_split.h"
 #include "io/obj/resource/obj_resources.h"
@@ -242,58 +240,13 @@ static void write_blocks(saver *s)
     ffd_free(s->texts);
 }
 
-/* Names the files of call and the like that an output in another folder does not reach. */
-static ffd_status warn_of_linked(const obj_document *d, const mesh_save_options *options, const mesh_log *log,
-                                 ffd_error *error)
-{
-    left_out left = {0};
-    if (!d->names_files || !d->file.path || ffd_output_is_stream(options->path))
-        return FFD_OK;
-    char *const from = ffd_path_folder(d->file.path), *const to = ffd_path_folder(options->path);
-    ffd_status status = from && to ? FFD_OK : ffd_fail_memory(error);
-    if (!status && !ffd_file_same(from, to))
-        status = ffd_obj_leave_linked(d, from, to, &left, error);
-    if (!status)
-        ffd_left_say(&left, "file that a statement names is not copied",
-                     "files that statements name are not copied", log);
-    ffd_free(from);
-    ffd_free(to);
-    return status;
-}
-
-/* Names what goes along with a file, but not with standard input. */
-static ffd_status warn_of_stream(const obj_document *d, const mesh_save_options *options, const mesh_log *log,
-                                 ffd_error *error)
-{
-    left_out left = {0};
-    char *const to = ffd_path_folder(options->path);
-    ffd_status status =
-        to ? ffd_obj_leave_libraries(&d->file.input, d->file.name, to, &left, error) : ffd_fail_memory(error);
-    if (!status)
-        status = ffd_obj_leave_linked(d, to, to, &left, error);
-    if (!status)
-        ffd_left_say_of_stream(&left, log);
-    ffd_free(to);
-    return status;
-}
-
-static ffd_status bring_files(const obj_document *d, const mesh_save_options *options, file_output *output,
-                              const mesh_log *log, ffd_error *error)
-{
-    const bool of_stream = options->input && ffd_file_is_stream(options->input);
-    if (of_stream)
-        return ffd_output_is_stream(options->path) ? FFD_OK : warn_of_stream(d, options, log, error);
-    const ffd_status status = ffd_obj_bring_resources(&d->file.input, options, output, log, error);
-    return status ? status : warn_of_linked(d, options, log, error);
-}
-
 ffd_status ffd_obj_save(mesh_document *document, const mesh_save_options *options, file_output *output,
                         const mesh_log *log, ffd_error *error)
 {
     const obj_document *d = ffd_obj_of(document);
     file_splice splice;
     saver s = {.document = d, .splice = &splice};
-    ffd_status status = bring_files(d, options, output, log, error);
+    ffd_status status = ffd_obj_bring_resources(&d->file.input, d->names_files, options, output, log, error);
     if (status == FFD_OK && d->file.new_directions)
         status = ffd_obj_split_normals(d, &s.split, error);
     if (status == FFD_OK) {
@@ -313,5 +266,6 @@ ffd_status ffd_obj_save(mesh_document *document, const mesh_save_options *option
 ffd_status ffd_obj_check_save(mesh_document *document, const mesh_save_options *options, file_output *output,
                               const mesh_log *log, ffd_error *error)
 {
-    return bring_files(ffd_obj_of(document), options, output, log, error);
+    const obj_document *d = ffd_obj_of(document);
+    return ffd_obj_bring_resources(&d->file.input, d->names_files, options, output, log, error);
 }

@@ -3,8 +3,8 @@
 #include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
-#include "io/obj/obj_linked.h"
 #include "io/obj/obj_number.h"
+#include "io/obj/resource/obj_linked.h"
 #include <inttypes.h>
 #include <math.h>
 #include <stdatomic.h>

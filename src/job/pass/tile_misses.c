@@ -1,5 +1,5 @@
 #include "job/pass/tile_misses.h"
-#include "embed/near_border.h"
+#include "job/chain/point_rounding.h"
 #include "lattice/lattice.h"
 
 /* A miss by this part of the rest lattice's diagonal is worth a word: the digits of a text, mostly. */
@@ -22,8 +22,8 @@ ffd_status ffd_tile_find_misses(const part_work *work, const tile_scratch *scrat
         if (scratch->point_outcomes[i].status != FFD_OUTSIDE ||
             !ffd_part_shows(work->part, first + ffd_tile_chosen(scratch, i)))
             continue;
-        status = ffd_near_border_miss(link->locator, scratch->position + 3 * i,
-                                      NEXT_TO_NOTHING * link->lattice->diagonal, &miss, &searched, error);
+        status = ffd_link_miss(link, scratch->position + 3 * i, NEXT_TO_NOTHING * link->lattice->diagonal,
+                               &miss, &searched, error);
         misses->count += miss > 0 && isfinite(miss);
         if (isfinite(miss))
             misses->largest = larger_of(misses->largest, miss);

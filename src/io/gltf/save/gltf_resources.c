@@ -6,8 +6,8 @@
 #include "base/text/base64.h"
 #include "base/text/words.h"
 #include "io/gltf/file/glb.h"
+#include "io/gltf/file/gltf_file_uris.h"
 #include "io/gltf/file/uri.h"
-#include "io/gltf/save/gltf_file_uris.h"
 #include "io/gltf/save/gltf_output_names.h"
 #include "mesh/resource/image_file.h"
 #include "mesh/resource/left_out.h"
@@ -144,6 +144,12 @@ ffd_status ffd_gltf_list_images(const mesh_document *document, path_list *files,
             status = ffd_gltf_add_beside(d->path, relative, files, error);
     }
     return status;
+}
+
+ffd_status ffd_gltf_list_linked(const mesh_document *document, path_list *files, ffd_error *error)
+{
+    const gltf_document *d = ffd_gltf_of(document);
+    return ffd_gltf_find_linked(&d->tree, d->path, files, error);
 }
 
 static ffd_status copy_image(const resources *r, const mesh_resource *image, ffd_error *error)

@@ -12,6 +12,8 @@ ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error);
 
 /* mesh_format's list_images. */
 mesh_list_files_function ffd_gltf_list_images;
+/* mesh_format's list_linked. */
+mesh_list_files_function ffd_gltf_list_linked;
 /* mesh_format's find_resources. */
 mesh_find_resources_function ffd_gltf_find_resources;
 /* mesh_format's find_named. */

@@ -1,4 +1,4 @@
-#include "io/gltf/save/gltf_file_uris.h"
+#include "io/gltf/file/gltf_file_uris.h"
 #include "base/file/folder.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
@@ -96,10 +96,4 @@ ffd_status ffd_gltf_find_linked(const json_span *tree, const char *mesh, path_li
             status = ffd_gltf_add_beside(mesh, relative, files, error);
     }
     return status;
-}
-
-ffd_status ffd_gltf_list_linked(const mesh_document *document, path_list *files, ffd_error *error)
-{
-    const gltf_document *d = ffd_gltf_of(document);
-    return ffd_gltf_find_linked(&d->tree, d->path, files, error);
 }

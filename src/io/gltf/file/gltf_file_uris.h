@@ -1,9 +1,9 @@
 /* gltf_file_uris.h - the files that URIs of a model name. */
-#ifndef FFD_IO_GLTF_SAVE_GLTF_FILE_URIS_H
-#define FFD_IO_GLTF_SAVE_GLTF_FILE_URIS_H
+#ifndef FFD_IO_GLTF_FILE_GLTF_FILE_URIS_H
+#define FFD_IO_GLTF_FILE_GLTF_FILE_URIS_H
 
 #include "base/file/path_list.h"
-#include "io/gltf/document/gltf_document.h"
+#include "json/json_span.h"
 
 /* Finds the normalized path, relative to the model, of a value that is a URI; NULL with FFD_OK: it does not
    name a file beside the model. mesh: the model's path. Errors: FFD_E_MEMORY. */
@@ -19,7 +19,4 @@ ffd_status ffd_gltf_add_beside(const char *mesh, char *relative, path_list *file
 uint32_t ffd_gltf_next_linked(const json_span *tree, uint32_t v, uint32_t *extension);
 /* Adds the files that such values name. Errors: FFD_E_MEMORY. */
 ffd_status ffd_gltf_find_linked(const json_span *tree, const char *mesh, path_list *files, ffd_error *error);
-/* mesh_format's list_linked. */
-mesh_list_files_function ffd_gltf_list_linked;
-
 #endif
