@@ -210,9 +210,10 @@ static ffd_status look_at_bytes(hash_cache *cache, const char *path, const file_
     if (table->count_beside)
         look->beside = table->count_beside(&bytes, from, to);
     /* A GLB that is made of a .gltf holds its images. */
-    path_list *copied = from == FFD_FORMAT_GLTF && to == FFD_FORMAT_GLB ? NULL : &look->copied;
+    const bool copies = from != FFD_FORMAT_GLTF || to != FFD_FORMAT_GLB;
+    const mesh_named found = {.files = &look->named, .copies = copies ? &look->copied : NULL};
     if (table->find_named)
-        status = table->find_named(path, &bytes, &look->named, copied, error);
+        status = table->find_named(path, &bytes, &found, error);
     ffd_kept_put(&cache->kept, path, stamp, &bytes);
     look->path = status ? NULL : ffd_text_copy(path);
     look->stamp = *stamp;
@@ -250,7 +251,8 @@ ffd_status ffd_cache_list_named(const ffd_source *source, path_list *named, ffd_
     if (ffd_source_format(source, &format, NULL) || !ffd_format_table(format)->list_files ||
         ffd_file_load(source->path, &bytes, NULL))
         return FFD_OK;
-    const ffd_status status = ffd_format_table(format)->find_named(source->path, &bytes, named, NULL, error);
+    const ffd_status status =
+        ffd_format_table(format)->find_named(source->path, &bytes, &(mesh_named){.files = named}, error);
     ffd_file_unload(&bytes);
     return status;
 }

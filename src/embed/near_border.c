@@ -162,3 +162,22 @@ ffd_status ffd_near_border_look_again(const ffd_locator *locator, const double x
         return FFD_OK;
     return ffd_near_border_find(locator, x, 1, &allowance, location, error);
 }
+
+ffd_status ffd_near_border_miss(const ffd_locator *locator, const double p[3], double reach, double *miss,
+                                bool *searched, ffd_error *error)
+{
+    static const double none[3];
+    const boundary *border;
+    boundary_point nearest;
+    *miss = HUGE_VAL;
+    *searched = false;
+    if (!vec_is_finite(p) || !is_near(&locator->hull, p, none, reach))
+        return FFD_OK;
+    *searched = locator->method != METHOD_AFFINE;
+    ffd_status status = ffd_locator_border(locator, &border, error);
+    if (!status)
+        status = ffd_boundary_find(border, p, reach, &nearest, error);
+    if (!status && nearest.found)
+        *miss = nearest.distance;
+    return status;
+}

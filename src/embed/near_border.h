@@ -16,4 +16,10 @@ ffd_status ffd_near_border_find(const ffd_locator *locator, const double *xyz, s
 ffd_status ffd_near_border_look_again(const ffd_locator *locator, const double x[3], const double half[3],
                                       double snap, ffd_location *location, ffd_error *error);
 
+/* Finds how far a point outside of the volume is from its border: infinite where that is more than reach. A
+   snap of this distance makes it inside. *searched: that took a search, which may be slow. Errors:
+   FFD_E_MEMORY. */
+ffd_status ffd_near_border_miss(const ffd_locator *locator, const double p[3], double reach, double *miss,
+                                bool *searched, ffd_error *error);
+
 #endif

@@ -12,7 +12,7 @@ static ffd_status add_model(const mesh_format *format, const char *path, path_li
     path_list named = {0};
     if (ffd_file_load(path, &bytes, NULL))
         return FFD_OK;
-    ffd_status status = format->find_named(path, &bytes, &named, NULL, error);
+    ffd_status status = format->find_named(path, &bytes, &(mesh_named){.files = &named}, error);
     ffd_file_unload(&bytes);
     for (size_t i = 0; i < named.count && !status; i++) {
         status = ffd_paths_add(pairs, path, error);

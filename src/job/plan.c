@@ -58,12 +58,29 @@ static bool has_outputs_below(job_plan *plan, const char *mesh)
     return found;
 }
 
+/* Finds which other job writes a file. */
+static bool find_writer(job_plan *plan, size_t job, const char *file, uint64_t *writer)
+{
+    const hash128 place = ffd_place_of(&plan->places, file);
+    return ffd_files_find(&plan->outputs, &place, writer) && *writer != job;
+}
+
+/* Checks a file that the mesh names and no job reads. */
+static ffd_status check_linked(job_plan *plan, size_t job, const char *file, ffd_error *error)
+{
+    uint64_t writer;
+    if (!find_writer(plan, job, file, &writer))
+        return FFD_OK;
+    return ffd_fail_file(error, FFD_E_INVALID, plan->inputs.paths[job],
+                         "names %s, which this run writes as the output of %s", file,
+                         plan->inputs.paths[writer]);
+}
+
 /* of: the lattice that leads to the file; NULL: the mesh itself does. */
 static ffd_status check_file(job_plan *plan, size_t job, const char *file, const char *of, ffd_error *error)
 {
     uint64_t writer;
-    const hash128 place = ffd_place_of(&plan->places, file);
-    if (!ffd_files_find(&plan->outputs, &place, &writer) || writer == job)
+    if (!find_writer(plan, job, file, &writer))
         return FFD_OK;
     return ffd_fail_file(error, FFD_E_INVALID, plan->inputs.paths[job],
                          "reads %s%s%s%s, which this run writes as the output of %s: their order would count",
@@ -80,16 +97,21 @@ static ffd_status check_common(job_plan *plan, const char *file, const char *of,
     return is_written && plan->inputs.count > 1 ? check_file(plan, writer == 0, file, of, error) : FFD_OK;
 }
 
-/* Adds a mesh and the files that it names. */
-static ffd_status list_mesh(const ffd_source *source, path_list *files, ffd_error *error)
+/* Adds a mesh and the files that it names; the first *read ones are those that a job reads or copies. */
+static ffd_status list_mesh(const ffd_source *source, path_list *files, size_t *read, ffd_error *error)
 {
     ffd_format format;
     file_input bytes;
+    path_list linked = {0};
     ffd_status status = ffd_paths_add(files, source->path, error);
+    *read = files->count;
     if (status || ffd_source_format(source, &format, NULL) || !ffd_format_table(format)->list_files ||
         ffd_file_load(source->path, &bytes, NULL))
         return status;
-    status = ffd_format_table(format)->find_named(source->path, &bytes, files, NULL, error);
+    const mesh_named named = {.files = files, .linked = &linked};
+    status = ffd_format_table(format)->find_named(source->path, &bytes, &named, error);
+    *read = files->count - linked.count;
+    ffd_paths_free(&linked);
     ffd_file_unload(&bytes);
     return status;
 }
@@ -99,8 +121,9 @@ static ffd_status check_box(job_plan *plan, const char *lattice, const char *mes
 {
     const ffd_source source = {.path = mesh};
     path_list files = {0};
-    ffd_status status = list_mesh(&source, &files, error);
-    for (size_t i = 0; i < files.count && !status; i++)
+    size_t read;
+    ffd_status status = list_mesh(&source, &files, &read, error);
+    for (size_t i = 0; i < read && !status; i++)
         status = check_common(plan, files.paths[i], lattice, error);
     ffd_paths_free(&files);
     return status;
@@ -126,10 +149,13 @@ static ffd_status check_lattice(job_plan *plan, const char *lattice, ffd_error *
 static ffd_status check_mesh(job_plan *plan, size_t job, const ffd_source *source, ffd_error *error)
 {
     path_list files = {0};
-    ffd_status status = has_outputs_below(plan, source->path) ? list_mesh(source, &files, error)
+    size_t read = 1;
+    ffd_status status = has_outputs_below(plan, source->path) ? list_mesh(source, &files, &read, error)
                                                               : ffd_paths_add(&files, source->path, error);
-    for (size_t i = 0; i < files.count && !status; i++)
+    for (size_t i = 0; i < read && !status; i++)
         status = check_file(plan, job, files.paths[i], NULL, error);
+    for (size_t i = read; i < files.count && !status; i++)
+        status = check_linked(plan, job, files.paths[i], error);
     ffd_paths_free(&files);
     return status;
 }

@@ -21,23 +21,26 @@ static bool holds(const path_list *files, const char *output)
     return false;
 }
 
-/* Whether a mesh may name the file. What is copied with a mesh (images, material libraries) has not the
-   ending of one; a buffer may have any. */
+/* Whether a mesh may name the file as one that it reads or copies. What is copied with a mesh (images,
+   material libraries) has not the ending of one; a buffer may have any. */
 static bool may_name(const mesh_format *format, const char *output)
 {
     return format->find_named && (format->list_files || ffd_format_from_name(output) == FFD_FORMAT_AUTO);
 }
 
-/* The files that a mesh names; resources: images and material libraries, which may be among `named`. */
+/* The files that a mesh names; resources: images and material libraries; linked: those that no job reads or
+   copies. Both may be among `named`. */
 typedef struct mesh_names {
-    path_list named, resources;
+    path_list named, resources, linked;
 } mesh_names;
 
 static ffd_status list_by_document(const mesh_document *document, mesh_names *names, ffd_error *error)
 {
     const mesh_format *const format = document->format;
-    const ffd_status status = format->list_files(document, &names->named, error);
-    return status || !format->list_images ? status : format->list_images(document, &names->resources, error);
+    ffd_status status = format->list_files(document, &names->named, error);
+    if (!status && format->list_images)
+        status = format->list_images(document, &names->resources, error);
+    return status;
 }
 
 static ffd_status list_by_bytes(const mesh_format *format, const ffd_source *source, mesh_names *names,
@@ -46,10 +49,20 @@ static ffd_status list_by_bytes(const mesh_format *format, const ffd_source *sou
     file_input bytes;
     if (ffd_file_load(source->path, &bytes, NULL)) /* opening the mesh fails too */
         return FFD_OK;
-    const ffd_status status =
-        format->find_named(source->path, &bytes, &names->named, &names->resources, error);
+    const mesh_named found = {&names->named, &names->resources, &names->linked};
+    const ffd_status status = format->find_named(source->path, &bytes, &found, error);
     ffd_file_unload(&bytes);
     return status;
+}
+
+/* What an output is to the input, if it would replace a file of it; NULL: nothing. */
+static const char *role_of(const mesh_names *names, const char *output)
+{
+    if (holds(&names->resources, output))
+        return "an image or a material library of the input";
+    if (holds(&names->linked, output))
+        return "a file that is named by the input";
+    return holds(&names->named, output) ? "a buffer of the input" : NULL;
 }
 
 ffd_status ffd_job_check_mesh_files(const char *output, const ffd_source *source,
@@ -57,21 +70,23 @@ ffd_status ffd_job_check_mesh_files(const char *output, const ffd_source *source
 {
     ffd_format format;
     mesh_names names = {0};
-    if (ffd_file_is_stream(source->path) || ffd_memory_has(source->path) ||
-        ffd_source_format(source, &format, NULL) || !may_name(ffd_format_table(format), output))
+    if (ffd_file_is_stream(source->path) || ffd_memory_has(source->path) || !replaces(output) ||
+        ffd_source_format(source, &format, NULL))
         return FFD_OK;
     const mesh_format *const table = ffd_format_table(format);
     ffd_status status = FFD_OK;
-    if (document && table->list_files)
-        status = list_by_document(document, &names, error);
-    else if (replaces(output))
-        status = list_by_bytes(table, source, &names, error);
-    const bool is_resource = !status && holds(&names.resources, output);
-    if (!status && (is_resource || holds(&names.named, output)))
-        status = ffd_fail_file(error, FFD_E_EXISTS, output, "is %s of the input %s and is not overwritten",
-                               is_resource ? "an image or a material library" : "a buffer", source->path);
+    if (document && table->list_linked)
+        status = table->list_linked(document, &names.linked, error);
+    if (!status && may_name(table, output))
+        status = document && table->list_files ? list_by_document(document, &names, error)
+                                               : list_by_bytes(table, source, &names, error);
+    const char *const role = status ? NULL : role_of(&names, output);
+    if (role)
+        status =
+            ffd_fail_file(error, FFD_E_EXISTS, output, "is %s %s and is not overwritten", role, source->path);
     ffd_paths_free(&names.named);
     ffd_paths_free(&names.resources);
+    ffd_paths_free(&names.linked);
     return status;
 }
 

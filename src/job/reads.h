@@ -7,7 +7,8 @@
 #include "mesh/mesh.h"
 
 /* Refuses (FFD_E_EXISTS) an output in the place of a file that a mesh names: a buffer, an image, a material
-   library. document: the open mesh; NULL: its file is read, if there is something to replace. */
+   library, a file of an extension. document: the open mesh; NULL: its file is read, if there is something to
+   replace. */
 ffd_status ffd_job_check_mesh_files(const char *output, const ffd_source *source,
                                     const mesh_document *document, ffd_error *error);
 /* The same for the meshes that the boxes of lattices go round, and their buffers. lattices: the names of the

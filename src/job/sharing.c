@@ -40,7 +40,10 @@ static ffd_status add_input(job_sharing *s, ffd_error *error)
     s->has_input = true;
     if (!s->document->format->list_files || ffd_file_is_stream(s->input))
         return FFD_OK;
-    ffd_status status = s->document->format->list_files(s->document, &files, error);
+    const mesh_format *const format = s->document->format;
+    ffd_status status = format->list_files(s->document, &files, error);
+    if (!status && format->list_linked)
+        status = format->list_linked(s->document, &files, error);
     for (size_t i = 0; i < files.count && !status; i++)
         status = ffd_users_add(&s->known->users, files.paths[i], s->input, error);
     ffd_paths_free(&files);

@@ -245,8 +245,13 @@ typedef ffd_status mesh_find_resources_function(const char *path, const file_inp
                                                 ffd_error *error);
 typedef size_t mesh_count_beside_function(const file_input *bytes, ffd_format from, ffd_format to);
 typedef char *mesh_name_beside_function(const char *output, size_t number);
-typedef ffd_status mesh_find_named_function(const char *path, const file_input *bytes, path_list *files,
-                                            path_list *copies, ffd_error *error);
+typedef struct mesh_named {
+    path_list *files;  /* every file that the mesh names */
+    path_list *copies; /* those that are copied with an output; NULL: not asked for */
+    path_list *linked; /* those that no job reads or copies; NULL: not asked for */
+} mesh_named;
+typedef ffd_status mesh_find_named_function(const char *path, const file_input *bytes,
+                                            const mesh_named *named, ffd_error *error);
 typedef ffd_status mesh_check_function(const mesh_document *document, ffd_error *error);
 typedef ffd_status mesh_warn_function(const mesh_document *document, const mesh_log *log, ffd_error *error);
 /* Results of vertices are written in ranges that begin at multiples of this. */
@@ -325,12 +330,15 @@ typedef struct mesh_format {
     /* Adds the referenced images in the folder of the file or below, whether they exist or not. NULL:
        none. */
     mesh_list_files_function *list_images;
-    /* The same for images and other files that are copied with an output, by scanning the bytes of the file
-       at a path without opening a document. An invalid file has none. NULL: nothing is copied. */
+    /* Adds files that no job reads or copies, wherever they are: those of extensions of a glTF, of call and
+       others in an OBJ. NULL: none. */
+    mesh_list_files_function *list_linked;
+    /* The same as list_images for images and other files that are copied with an output, by scanning the
+       bytes of the file at a path without opening a document. An invalid file has none. NULL: nothing is
+       copied. */
     mesh_find_resources_function *find_resources;
     /* Adds every file beside it that a mesh names, existing or not, in the same way: buffers, images,
-       material libraries and their maps; to `copies` (may be NULL) those that find_resources adds. NULL:
-       none. */
+       material libraries and their maps, files of extensions. NULL: none. */
     mesh_find_named_function *find_named;
     /* Counts the further files, without images, that saving a mesh as `to` writes, by scanning the bytes of
        the input (NULL if its format is another one). An invalid file has none. NULL: there are none. */

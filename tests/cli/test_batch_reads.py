@@ -17,10 +17,11 @@ def written(line, role, name, other):
 
 
 def begin(run):
-    """A cube; a glTF with a buffer and an image; an OBJ with a material library; a lattice with a box round two of them."""
+    """A cube; a glTF with a buffer, an image and a file of an extension; an OBJ with a material library; a lattice with a box round two of them."""
     start(run)
     asset, data = gltf_json(CUBE_CORNERS, uri="g.bin")
-    run.write("g.gltf", {**asset, "images": [{"uri": "g.png"}]})
+    run.write("g.gltf", {**asset, "images": [{"uri": "g.png"}], "extensions": {"EXT_structural_metadata": {"schemaUri": "g.schema"}}})
+    run.write("g.schema", "{}")
     run.write("g.bin", data)
     run.write("g.png", PNG)
     run.write("k.obj", "mtllib k.mtl\n" + CUBE)
@@ -72,16 +73,17 @@ def siege3_09_a_job_that_reads_the_output_of_another_fails(run):
 
 @case
 def every_file_that_is_read_counts(run):
-    """Lattices, embeddings, buffers, images, material libraries, the meshes of a box and their buffers."""
+    """Lattices, embeddings, buffers, images, files of extensions, material libraries, the meshes of a box and their buffers."""
     kept = begin(run)
     run.ffd("embed", "a.obj", "-l", "l.json", "-o", "e.npy")
     as_obj = {"output-format": "obj"}
-    others = "the buffer, image or material library"
+    others = "the buffer, image, library or other file"
     box = "the mesh of a box, or its buffer,"
     for reader, output, role in ((job(9, **{"in": "k.obj", "lattice": "l.json"}), "l.json", "the lattice"),
                                  (job(9, options={"embedding": "e.npy"}), "e.npy", "the embedding"),
                                  (job(9, **{"in": "g.gltf", "out": "n.gltf"}), "g.bin", others),
                                  (job(9, **{"in": "g.gltf", "out": "n.gltf"}), "g.png", others),
+                                 (job(9, **{"in": "g.gltf", "out": "n.gltf"}), "g.schema", others),
                                  (job(9, **{"in": "k.obj"}), "k.mtl", others),
                                  (job(9, **{"in": "k.obj", "lattice": "box.json"}), "a.obj", box),
                                  (job(9, **{"in": "k.obj", "lattice": "box.json"}), "g.bin", box)):
@@ -203,7 +205,7 @@ def models_that_share_a_buffer_are_moved_once_each(run):
 @case
 def no_buffer_of_another_model_is_written_over(run):
     """The name of an output's buffer is passed over, with a warning; the look at the folder is made whatever else is known."""
-    told = "is a buffer of n.gltf too, and stays: x-1.bin is written in place of it"
+    told = "is a file of n.gltf too, and stays: x-1.bin is written in place of it"
     for mesh in ("a.obj", "g.gltf", "g.glb"):
         for first in ([], [job(0)], [job(i) for i in range(40)]):  # by then the lattice is known
             begin(run)

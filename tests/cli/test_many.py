@@ -94,6 +94,9 @@ def no_mesh_reads_what_another_one_writes(run):
     asset, data = gltf_json(CUBE_CORNERS, uri="m.ply")
     run.write("m.gltf", asset)
     run.write("m.ply", data)
+    asset["buffers"][0]["uri"] = "n.bin"
+    run.write("n.gltf", {**asset, "extensions": {"X_scan": {"cloud": {"uri": "m.ply"}}}})
+    run.write("n.bin", data)
     run.write("l.off", LATTICES["curved.json"])
     run.folder_of("new")
     run.write("new/l.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
@@ -107,6 +110,8 @@ def no_mesh_reads_what_another_one_writes(run):
              "new/b.obj: reads a.obj (for the box of box.json), which this run writes as the output of a.obj: their order would count"),
             (["m.gltf", "new/m.ply", "--out-dir", ".", "-l", "l.json", "--force", "--input-format", "gltf"],
              "m.gltf: reads m.ply, which this run writes as the output of new/m.ply: their order would count"),
+            (["n.gltf", "new/m.ply", "--out-dir", ".", "-l", "l.json", "--force", "--input-format", "gltf"],
+             "n.gltf: names m.ply, which this run writes as the output of new/m.ply"),
             (["a.obj", "new/l.off", "--out-dir", ".", "-l", "l.off", "--force"],
              "a.obj: reads l.off, which this run writes as the output of new/l.off: their order would count")):
         run.ffd("deform", *words_, code=INVALID, err=told)

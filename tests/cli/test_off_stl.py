@@ -451,6 +451,36 @@ def vertices_that_are_not_finite(run):
 
 
 @case
+def a_nul_byte_makes_no_text_binary(run):
+    """A text STL whose size is not that of the count that its bytes would state is read as a text, which a NUL byte spoils."""
+    run.write("l.json", lattice())
+    good = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n"
+    for at, says in ((1, '1: expected solid, found "s\u2400lid"'), (9, '2: expected facet or endsolid, found "f\u2400cet"'),
+                     (15, '2: expected normal, found "n\u2400rmal"'), (21, '2: expected a number of the normal, found "\u2400"'),
+                     (46, '4: expected a coordinate, found "0\u24000"'), (56, '5: expected vertex, found "verte\u2400"')):
+        for ends in ("\n", "\r", "\r\n"):
+            text = good[:at] + "\0" + good[at + 1:]
+            refused(run, ".stl", text.replace("\n", ends), INVALID, "p.stl:" + says)
+    # A binary file that was cut stays one, whatever its header says.
+    data = bytearray(binary_stl([[[0, 0, 0], [1, 0, 0], [0, 1, 0]]] * 2, [[0, 0, 1]] * 2))[:-1]
+    for header in (b"solid a\n", b"solid facet normal", b"solid " * 13):
+        data[:80] = header.ljust(80)
+        refused(run, ".stl", bytes(data), INVALID, "p.stl: 2 facets are stated, which take 184 bytes: the file has 183")
+    # The other texts name such a byte too.
+    refused(run, ".off", "OFF\n3 1 0\n0 0 0\n1 0\0 0\n0 1 0\n3 0 1 2\n", INVALID, 'p.off:4: coordinate y of a vertex is not a number: "0\u2400"')
+    refused(run, ".off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\0\n", INVALID, 'p.off:6: a corner is not a whole number: "2\u2400"')
+    refused(run, ".ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0\0 0\n", INVALID,
+            'p.ply:8: y of vertex 0 (counted from 0) is not a number: "0\u2400"')
+    # In a name it is nothing but a byte, which stays, with a warning.
+    for text, line in ((good.replace(" a\nf", " a\0\nf"), 1), (good.replace("d a\n", "d \0\n"), 1), (good.replace("endsolid a", "endsolid \0"), 9)):
+        run.write("p.stl", text)
+        done = run.ffd("deform", "p.stl", "q.stl", "-l", "l.json", "--force", err=lambda said: None)
+        check(re.match(f"p.stl: line {line}: the name of a solid, .*\u2400.*, holds a NUL character", done.err[0]), done.err)
+        equal(run.text("q.stl"), text)
+        run.ffd("deform", "p.stl", "q.stl", "-l", "l.json", "--force", "--strict", code=INVALID, err=lambda said: None)
+
+
+@case
 def broken_stl_files_are_refused(run):
     run.write("l.json", lattice())
     good = binary_stl([[[0, 0, 0], [1, 0, 0], [0, 1, 0]]], [[0, 0, 1]])

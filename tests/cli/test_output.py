@@ -362,7 +362,7 @@ def gltf_is_complete_or_absent(run):
     run.write("m/x.gltf", asset)
     run.write("m/d.bin", data)
     run.ffd("deform", "m/x.gltf", "m/d.gltf", "-l", "l.json",
-            err="m/x.gltf: m/d.bin is a buffer of m/x.gltf too, and stays: m/d-1.bin is written in place of it")
+            err="m/x.gltf: m/d.bin is a file of m/x.gltf too, and stays: m/d-1.bin is written in place of it")
     run.ffd("deform", "m/x.gltf", "m/d.gltf", "-l", "l.json", "--force")
     equal(run.read("m/d.bin"), data, "the input's buffer")
     equal(json.loads(run.read("m/d.gltf"))["buffers"][0]["uri"], "d-1.bin")
@@ -377,7 +377,7 @@ def a_buffer_that_others_share_is_left_to_them_in_place(run):
     run.write("s.bin", data)
     for name in ("a.gltf", "b.gltf"):
         run.write(name, json.dumps(asset))
-    said = "a.gltf: s.bin was a buffer of b.gltf too, and stays: a.bin is written in place of it"
+    said = "a.gltf: s.bin was a file of b.gltf too, and stays: a.bin is written in place of it"
     run.ffd("deform", "a.gltf", "--in-place", "-l", "l.json", err=said)
     check(run.read("s.bin") == data and run.read("a.bin") != data, "s.bin stays")
     run.ffd("deform", "a.gltf", "--in-place", "-l", "l.json", err=[])

@@ -5,6 +5,7 @@ import json
 import math
 import os
 import random
+import re
 import struct
 
 from batches import lines_of, start
@@ -147,6 +148,72 @@ def other_text_is_the_double_it_reads_as(run):
         run.write("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty double x\nproperty double y\nproperty double z\n"
                   f"end_header\n{text} 0.05 0.05\n")
         counts(entry(run, "check", "a.ply", "-l", "l.json"), inside=inside, outside=1 - inside)
+
+
+def as_text(run, ending, points):
+    """Writes points as a text with the digits that they are given with."""
+    rows = [" ".join(p) for p in points]
+    head = f"ply\nformat ascii 1.0\nelement vertex {len(rows)}\nproperty double x\nproperty double y\nproperty double z\nend_header\n"
+    facets = "".join(f"facet normal 0 0 1\nouter loop\nvertex {r}\nvertex {r}\nvertex {r}\nendloop\nendfacet\n" for r in rows)
+    run.write("a" + ending, {".obj": "".join(f"v {r}\n" for r in rows), ".off": f"OFF\n{len(rows)} 0 0\n" + "\n".join(rows) + "\n",
+                             ".ply": head + "\n".join(rows) + "\n", ".stl": f"solid a\n{facets}endsolid a\n"}[ending])
+
+
+def told_miss(done, who):
+    """Returns the distance in the line of the vertices outside, as text."""
+    found = re.search(rf"; {who} the lattice by at most (\S+), see --snap\)", "\n".join(done.err))
+    check(found, who, "is not in", done.err)
+    return found.group(1)
+
+
+@case
+def a_miss_by_the_digits_of_a_text_is_said(run):
+    """0.333334 in a box that ends at 1/3: outside, but the line says by how much, so that --snap of that is enough."""
+    third = 1 / 3
+    run.write("l.json", lattice(low=(0, 0, 0), high=(third, third, third), moves=UP))
+    near_by = [["0.333334", "0.1", "0.1"], ["0.333334", "0.333334", "0.2"], ["0.1", "0.1", "-0.0000001"]]
+    inside, far, farther = ["0.1", "0.2", "0.1"], ["0.34", "0.1", "0.1"], ["0.2", "0.2", "0.5"]
+    largest = math.hypot(0.333334 - third, 0.333334 - third)
+    for ending in (".obj", ".off", ".ply", ".stl"):
+        each = 3 if ending == ".stl" else 1
+        for points, who in (([*near_by, inside, far, farther], f"{3 * each} of them miss"), ([*near_by, inside], "all miss"),
+                            ([near_by[1], inside, far], "3 of them miss" if each == 3 else "1 of them misses"),
+                            ([near_by[1], inside], "all miss" if each == 3 else "it misses")):
+            as_text(run, ending, points)
+            for words in (["check"], ["deform", "o" + ending, "--force"], ["embed", "-o", "e.npy", "--force"]):
+                command = [words[0], "a" + ending, *words[1:], "-l", "l.json"]
+                by = told_miss(run.ffd(*command, err=anything), who)
+                check(largest <= float(by) <= 1.1 * largest and float(f"{float(by):.1e}") == float(by), by, largest)
+            left = each * sum(p in (far, farther) for p in points)
+            counts(entry(run, "check", "a" + ending, "-l", "l.json", "--snap", by), inside=each * len(points) - left, outside=left)
+    # Farther away than 1e-5 of the diagonal, moved with the border, or in several lattices: nothing is said.
+    as_text(run, ".obj", [["0.33334", "0.1", "0.1"], inside])
+    quiet = [["check", "a.obj", "-l", "l.json"]]
+    as_text(run, ".ply", [*near_by, inside])
+    quiet += [["check", "a.ply", "-l", "l.json", "--outside", "extend"], ["check", "a.ply", "-l", "l.json", "-l", "l.json"]]
+    for words in quiet:
+        check("see --snap" not in "\n".join(run.ffd(*words, err=anything).err), words)
+
+
+@case
+def a_miss_of_a_curved_lattice_is_said(run):
+    """A cylinder and a curved volume: what is said is enough for --snap, whatever the number of threads."""
+    run.write("c.json", {"format": "ffd-lattice", "version": 1, "size": [4, 8, 4], "degree": [3, 3, 3], "moves": UP,
+                         "rest": {"cylinder": {"center": [0, 0, 0], "axis": "z", "radius": [0.2, 1], "height": 1}}})
+    volume = BoxVolume(LOW, HIGH, bend)
+    run.write("b.json", {**lattice(low=LOW, high=HIGH, moves=UP), "rest": {"points": [[x + d for x, d in zip(p, o)] for p, o in zip(volume.points, volume.offsets)]}})
+    for name, miss in (("c.json", 3.1e-6), ("c.json", 2.2e-5), ("b.json", 1.23e-6)):
+        angles = [0.37 * i for i in range(200)]
+        if name == "c.json":
+            points = [[(1 + miss) * math.cos(t), (1 + miss) * math.sin(t), 0.25] for t in angles]
+        else: # below the face w = 0
+            points = [[x, y, z - miss] for x, y, z in (volume.deform([i / 16, i / 20, 0]) for i in range(1, 15))]
+        run.write("a.obj", obj_of(points))
+        by = told_miss(run.ffd("check", "a.obj", "-l", name, err=anything), r"(?:all miss|at least \d+ of them miss)")
+        check(0.8 * miss < float(by) < 1.2 * miss, by, miss)
+        counts(entry(run, "check", "a.obj", "-l", name, "--snap", by), inside=len(points), outside=0)
+        for threads in ("1", "4"):
+            equal(told_miss(run.ffd("check", "a.obj", "-l", name, "-j", threads, err=anything), r"(?:all miss|at least \d+ of them miss)"), by)
 
 
 @case

@@ -709,13 +709,17 @@ def what_a_mesh_names_is_not_overwritten(run):
         "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}], "images": [{"uri": "t.png"}],
         "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0] * 3, "max": [1, 1, 0]}],
-        "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri": "b.bin.html"}]}))
+        "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri": "b.bin.html"}],
+        "extensions": {"X_media": {"posterUri": "poster.html"}}}))
+    run.write("poster.html", "<p>")
     for work, output in ((["t.obj", "-l", "l.json"], "t.png"), (["t.obj"], "./t.png"), (["t.gltf", "-l", "l.json"], "t.png"),
                          (["a.obj", "t.gltf"], "t.png"), (["t.gltf"], "b.bin.html")):
         content = run.read(output)
         run.ffd("view", *work, "-o", output, "--force", code=IO, lines=1,
                 err=re.compile(re.escape(f"{output}: is an input of this command")))
         equal(run.read(output), content, "the file that it names")
+    run.ffd("view", "t.gltf", "-o", "poster.html", "--force", code=IO, err="poster.html: is named by an input of this command")
+    equal(run.text("poster.html"), "<p>")
     run.ffd("check", "t.obj", "-l", "l.json", "--picture", "t.png", "--force", code=IO, lines=1)
 
 

@@ -639,7 +639,7 @@ def wild3_22_shared_buffer_in_place(run):
     """Two models that share a buffer are each moved once, in whatever order; one alone leaves its neighbour as it was."""
     names = ["chair.gltf", "chair_blue.gltf"]
     at_rest, moved = [[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[1, 0, 0], [2, 0, 0], [2, 1, 0]]
-    told = "chair.gltf: chair.bin is a buffer of chair_blue.gltf too, and stays: chair-1.bin is written in place of it"
+    told = "chair.gltf: chair.bin is a file of chair_blue.gltf too, and stays: chair-1.bin is written in place of it"
 
     def begin():
         for name in run.names():
@@ -650,7 +650,7 @@ def wild3_22_shared_buffer_in_place(run):
         return [positions(run, name) for name in names]
 
     begin()
-    blue = "chair_blue.gltf: chair.bin was a buffer of chair.gltf too, and stays: chair_blue.bin is written in place of it"
+    blue = "chair_blue.gltf: chair.bin was a file of chair.gltf too, and stays: chair_blue.bin is written in place of it"
     run.ffd("deform", *names, "--in-place", "-l", "move.json", err=[told, blue])
     equal(shown(), [moved, moved])
     begin()
@@ -676,7 +676,7 @@ def wild3_22_shared_buffer_in_place(run):
     run.write("z.gltf", run.text("chair_blue.gltf").replace("chair.bin", "cube.bin"))
     shutil.copy(run.path("chair.bin"), run.path("cube.bin"))
     run.ffd("deform", "cube.obj", "cube.gltf", "-l", "move.json", "--force",
-            err="cube.obj: cube.bin is a buffer of z.gltf too, and stays: cube-1.bin is written in place of it")
+            err="cube.obj: cube.bin is a file of z.gltf too, and stays: cube-1.bin is written in place of it")
     equal((positions(run, "cube.gltf"), positions(run, "z.gltf")), (moved, at_rest))
 
 

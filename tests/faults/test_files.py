@@ -713,6 +713,78 @@ def wild3_13_files_of_extensions_are_named(run):
 
 
 @case
+def files_of_obj_statements_are_named(run):
+    """call, maplib, shadow_obj and trace_obj name files: they stay, a line says so, and they are not replaced by OUT."""
+    run.write("l.json", LIFT)
+    mesh = "mtllib m.mtl\nshadow_obj my shadow.obj\ntrace_obj t.obj\nmaplib a.map b.map\ncall c.obj 1 2\ncall c.obj 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+    run.write("in/m.obj", mesh)
+    run.write("in/m.mtl", "newmtl a\n")
+    run.write("in/c.obj", "precious")
+    run.folder_of("out")
+    line = (r'm\.obj: 5 files that statements name are not copied: "c\.obj" of call, "a\.map" of maplib, "b\.map" of maplib and 2 more$')
+    for words in ([], ["--resources", "reference", "--force"]):
+        told(run.ffd("deform", "in/m.obj", "out/m.obj", *words, "-l", "l.json", err=anything), line)
+    equal(files_in(run, "out"), ["m.mtl", "m.obj"])
+    for name in ("t.obj", "b.map", "my shadow.obj", "a.map"):
+        run.write("out/" + name, "there")
+    told(run.ffd("deform", "in/m.obj", "out/m.obj", "--force", "-l", "l.json", err=anything),
+         r'm\.obj: 1 file that a statement names is not copied: "c\.obj" of call$')
+    run.ffd("deform", "in/m.obj", "in/n.obj", "-l", "l.json")
+    run.ffd("deform", "in/m.obj", "in/c.obj", "-l", "l.json", "--force", code=IO,
+            err="in/c.obj: is a file that is named by the input in/m.obj and is not overwritten")
+    equal(run.text("in/c.obj"), "precious")
+    # Other files take no notice of such words.
+    run.write("in/n.obj", "g call x.obj\n# call y.obj\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    run.ffd("deform", "in/n.obj", "out/n.obj", "-l", "l.json")
+
+
+@case
+def what_standard_input_names_is_told(run):
+    """It has no folder, so that nothing goes along: one line names the files that the output does not reach."""
+    run.write("l.json", LIFT)
+    for name in ("m.mtl", "n.mtl", "a.png"):
+        run.write(name, "beside where the program runs, which counts for nothing")
+    run.folder_of("out")
+    asset, data = gltf_json(TRIANGLE)
+    asset["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
+    asset["images"] = [{"uri": "a%20b.png"}, {"uri": "a%20b.png"}, {"uri": "data:image/png;base64,AAAA"}, {"uri": "c.jpg"}]
+    asset["extensions"] = {"EXT_structural_metadata": {"schemaUri": "s.json"}}
+    corners = "0 0 0\n1 0 0\n0 1 0\n"
+    cases = (("obj", "mtllib m.mtl\nmtllib n.mtl m.mtl\ncall x/c.obj\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+              '3 files that the mesh names are not copied, as standard input has no folder: "m.mtl" of mtllib, "n.mtl" of mtllib, "x/c.obj" of call'),
+             ("ply", "ply\nformat ascii 1.0\ncomment TextureFile a.png\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n" + corners,
+              '1 file that the mesh names is not copied, as standard input has no folder: "a.png" of TextureFile'),
+             ("gltf", json.dumps(asset), '3 files that the mesh names are not copied, as standard input has no folder: "a b.png" of images, '
+              '"c.jpg" of images, "s.json" of EXT_structural_metadata'))
+    for ending, text, said in cases:
+        words = ["deform", "-", f"out/m.{ending}", "--input-format", ending, "-l", "l.json"]
+        told(run.ffd(*words, stdin=text.encode(), err=anything), re.escape(said) + "$")
+        # To standard output nothing can go along; and what is beside the output already needs no word.
+        run.ffd("deform", "-", "-", "--input-format", ending, "--output-format", ending, "-l", "l.json", stdin=text.encode())
+    for name in ("m.mtl", "n.mtl", "x/c.obj", "a.png", "a b.png", "c.jpg", "s.json"):
+        run.write("out/" + name, "there")
+    for ending, text, _ in cases:
+        run.ffd("deform", "-", f"out/m.{ending}", "--input-format", ending, "-l", "l.json", "--force", stdin=text.encode())
+
+
+@case
+def of_what_there_is_none_is_said_so(run):
+    """A number of a thing of which the file has none: "only 0" is no answer."""
+    head = "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+    asset = {"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}]}
+    mesh = {"meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}]}
+    for name, content, told_ in (
+            ("m.off", "OFF\n0 1 0\n3 0 1 2\n", "m.off:3: there is no vertex 0: the file has none"),
+            ("m.ply", head + "property list uchar int vertex_indices\nend_header\n3 0 1 2\n", "m.ply:10: face 0: there is no vertex 0: the file has none"),
+            ("m.gltf", asset, "m.gltf:/nodes/0/mesh: there is no mesh 0: the file has none"),
+            ("m.gltf", {**asset, "meshes": [], "nodes": [{"skin": 0}]}, "m.gltf:/nodes/0/skin: there is no skin 0: the file has none"),
+            ("m.gltf", {**asset, **mesh, "accessors": []}, "m.gltf:/meshes/0/primitives/0/attributes/POSITION: there is no accessor 0: the file has none"),
+            ("m.gltf", {"asset": {"version": "2.0"}, "scene": 2}, "m.gltf:/scene: there is no scene 2: the file has none")):
+        run.write(name, content)
+        run.ffd("info", name, code=INVALID, err=told_)
+
+
+@case
 def wild3_14_tiles_go_along(run):
     """A map whose name stands for tiles: those that exist are copied; a picture says why it is grey."""
     run.write("l.json", LIFT)

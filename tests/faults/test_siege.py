@@ -132,6 +132,9 @@ def what_is_read(run):
     """A glTF with a buffer and an image, an OBJ with a material library and a map, a lattice round both; a PLY with a texture."""
     asset, data = gltf_json(CUBE_CORNERS, uri="m.bin")
     asset["images"] = [{"uri": "m.png"}]
+    asset["extensions"] = {"EXT_structural_metadata": {"schemaUri": "m.schema"}, "KHR_audio_emitter": {"audio": [{"uri": "m.mp3"}]}}
+    run.write("m.schema", "{}")
+    run.write("m.mp3", "ID3")
     run.write("m.gltf", asset)
     run.write("m.bin", data)
     run.write("m.png", PNG)
@@ -153,7 +156,8 @@ def siege3_04_no_output_replaces_what_is_read(run):
     kept = what_is_read(run)
     buffer, resource = "is a buffer of the input m.gltf", "is an image or a material library of the input "
     box = "is a file of the meshes that the box of box.json goes round"
-    outputs = [("m.bin", "m.gltf", buffer), ("m.png", "m.gltf", resource + "m.gltf"), ("k.mtl", "k.obj", resource + "k.obj"),
+    named = "is a file that is named by the input m.gltf"
+    outputs = [("m.bin", "m.gltf", buffer), ("m.schema", "m.gltf", named), ("m.mp3", "m.gltf", named), ("m.png", "m.gltf", resource + "m.gltf"), ("k.mtl", "k.obj", resource + "k.obj"),
                ("k.png", "k.obj", resource + "k.obj"), ("p.png", "p.ply", resource + "p.ply")]
     for output, mesh, told in outputs:
         told = f"{output}: {told} and is not overwritten"

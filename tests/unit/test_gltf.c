@@ -75,7 +75,7 @@ static const refusal broken_values[] = {
      "t.gltf:/nodes/0/mesh: an integer from 0 to 2147483647 is expected, not 0.5", FFD_E_INVALID},
     {"{" ASSET ",\"nodes\":[{\"mesh\":4294967296}]}",
      "t.gltf:/nodes/0/mesh: an integer from 0 to 2147483647 is expected, not 4294967296", FFD_E_INVALID},
-    {"{" ASSET ",\"nodes\":[{\"mesh\":0}]}", "t.gltf:/nodes/0/mesh: there is no mesh 0, only 0",
+    {"{" ASSET ",\"nodes\":[{\"mesh\":0}]}", "t.gltf:/nodes/0/mesh: there is no mesh 0: the file has none",
      FFD_E_INVALID},
     {"{" ASSET ",\"nodes\":[{\"scale\":[1,2]}]}", "t.gltf:/nodes/0/scale: 3 numbers are expected, not 2",
      FFD_E_INVALID},

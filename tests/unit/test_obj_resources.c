@@ -132,7 +132,7 @@ static ffd_status bring(void)
     ffd_error error = {0};
     ffd_status status = ffd_output_create(&output, &error);
     if (!status)
-        status = ffd_obj_bring_resources(&input, &options, output, NULL, &error);
+        status = ffd_obj_bring_resources(&input, true, &options, output, NULL, &error);
     if (!status)
         status = ffd_output_begin(output, options.path, false, &error);
     if (!status)

@@ -1,5 +1,6 @@
 #include "base/text/words.h"
 #include "base/one_line.h"
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -93,6 +94,16 @@ void ffd_words_hint(const char *word, const char *const *known, size_t count, ch
 const char *ffd_plural(uint64_t count, const char *one, const char *many)
 {
     return count == 1 ? one : many;
+}
+
+only_text ffd_only(uint64_t count, const char *note)
+{
+    only_text only;
+    if (count > 0)
+        snprintf(only.text, sizeof only.text, ", only %" PRIu64 "%s", count, note);
+    else
+        snprintf(only.text, sizeof only.text, ": the file has none");
+    return only;
 }
 
 void ffd_name_shown(const char *name, char *shown, size_t capacity)

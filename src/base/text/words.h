@@ -45,6 +45,12 @@ void ffd_words_hint(const char *word, const char *const *known, size_t count, ch
 /* Returns `one` if count is 1, else `many`: "1 vertex is", "0 vertices are". */
 const char *ffd_plural(uint64_t count, const char *one, const char *many);
 
+typedef struct only_text {
+    char text[80];
+} only_text;
+/* What follows "there is no node 7": ", only 5" and the note, or ": the file has none". */
+only_text ffd_only(uint64_t count, const char *note);
+
 /* Copies a name for a message of one line: control characters become '?', and the copy is truncated at a
    UTF-8 character boundary to fit in capacity bytes with its final 0. */
 void ffd_name_shown(const char *name, char *shown, size_t capacity);

@@ -160,7 +160,7 @@ bool ffd_reads_need_named(run_files *files, const job_kind *kind)
 
 void ffd_reads_check_named(const run_files *files, batch_job *job)
 {
-    ffd_run_refuse_conflict(files, job, "the buffer, image or material library ", &files->look.named,
+    ffd_run_refuse_conflict(files, job, "the buffer, image, library or other file ", &files->look.named,
                             &files->look.conflicts);
 }
 

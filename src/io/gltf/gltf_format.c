@@ -96,6 +96,7 @@ const mesh_format ffd_gltf_format = {
     .close = ffd_gltf_close,
     .list_files = ffd_gltf_list_files,
     .list_images = ffd_gltf_list_images,
+    .list_linked = ffd_gltf_list_linked,
     .find_resources = ffd_gltf_find_resources,
     .find_named = ffd_gltf_find_named,
     .count_beside = ffd_gltf_count_beside,

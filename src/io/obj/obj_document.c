@@ -1,4 +1,5 @@
 #include "io/obj/obj_document.h"
+#include "io/obj/resource/obj_linked.h"
 
 static void walk_blocks(const obj_document *d, size_t first, size_t last, obj_walk *walk)
 {
@@ -35,4 +36,11 @@ void ffd_obj_forget_block(const obj_document *d, size_t block)
 {
     const obj_block *const b = &d->blocks.list[block];
     ffd_file_release_pages(&d->file.input, (const unsigned char *)b->first, (size_t)(b->last - b->first));
+}
+
+ffd_status ffd_obj_list_linked(const mesh_document *document, path_list *files, ffd_error *error)
+{
+    const obj_document *const d = ffd_obj_of(document);
+    return d->names_files && d->file.path ? ffd_obj_find_linked(&d->file.input, d->file.path, files, error)
+                                          : FFD_OK;
 }

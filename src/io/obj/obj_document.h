@@ -40,6 +40,7 @@ typedef struct obj_document {
     size_t addition;
     size_t end; /* offset where the text ends: at a Ctrl-Z, or with the file */
     obj_unknown unknown;
+    bool names_files;  /* there is a statement that ffd_obj_names_file knows */
     obj_blocks blocks; /* of the file */
     int threads;
     /* What ffd_obj_select selected: a byte for each vertex, face and pair; and one for each `vn`, set if a
@@ -66,6 +67,7 @@ void ffd_obj_forget_block(const obj_document *document, size_t block);
 /* The entries of the format's table. */
 mesh_open_function ffd_obj_open;
 mesh_close_function ffd_obj_close;
+mesh_list_files_function ffd_obj_list_linked;
 mesh_select_function ffd_obj_select;
 mesh_list_parts_function ffd_obj_list_parts;
 mesh_mark_used_function ffd_obj_mark_used;

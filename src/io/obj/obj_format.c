@@ -11,6 +11,7 @@ const mesh_format ffd_obj_format = {
     .close = ffd_obj_close,
     .find_resources = ffd_obj_find_resources,
     .find_named = ffd_obj_find_named,
+    .list_linked = ffd_obj_list_linked,
     .largest_coordinate = DBL_MAX,
     .selector_kinds =
         SELECTOR_BIT(SELECT_GROUP) | SELECTOR_BIT(SELECT_OBJECT) | SELECTOR_BIT(SELECT_MATERIAL),

@@ -4,6 +4,7 @@
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
 #include "io/obj/obj_number.h"
+#include "io/obj/resource/obj_linked.h"
 #include <inttypes.h>
 #include <math.h>
 #include <stdatomic.h>
@@ -26,7 +27,8 @@ typedef struct block_content {
     size_t texcoords, faces, lines;
     obj_oddity loose, joined; /* as in obj_scan; lines count from the block's first, 0 */
     obj_unknown unknown;      /* likewise */
-    size_t addition;          /* offset in the file after the last `vn`; 0: none */
+    bool names_files;
+    size_t addition; /* offset in the file after the last `vn`; 0: none */
     obj_block_users users;
     bool names_elements, names_groups;
     ffd_status status;
@@ -102,6 +104,8 @@ static ffd_status read_block(const reader *r, size_t block, block_content *conte
         const obj_keyword keyword = walk.scan.keyword;
         content->faces += keyword == OBJ_FACE;
         content->texcoords += keyword == OBJ_TEXCOORD;
+        content->names_files =
+            content->names_files || (keyword == OBJ_OTHER && ffd_obj_names_file(walk.scan.name));
         if (keyword == OBJ_OTHER && !ffd_obj_is_known(walk.scan.name) && content->unknown.count++ == 0) {
             content->unknown.line = walk.scan.keyword_line - line;
             content->unknown.name = walk.scan.name;
@@ -226,6 +230,7 @@ static void join_tile(void *context, size_t tile, size_t first, size_t last, int
     }
     add_oddity(&r->loose, &content->loose, r->line);
     add_oddity(&r->joined, &content->joined, r->line);
+    d->names_files = d->names_files || content->names_files;
     if (d->unknown.count == 0) {
         d->unknown = content->unknown;
         d->unknown.line += r->line;

@@ -4,8 +4,8 @@
 static ffd_status refuse_number(const off_document *d, size_t line, const char *what, text_word word,
                                 ffd_error *error)
 {
-    return ffd_fail_line(error, FFD_E_INVALID, d->file.name, line, "%s is not a number: \"%.*s\"", what,
-                         ffd_text_display_size(word), word.first);
+    return ffd_fail_line(error, FFD_E_INVALID, d->file.name, line, "%s is not a number: \"%s\"", what,
+                         ffd_text_shown(word).text);
 }
 
 static ffd_status read_numbers(off_document *d, const off_vertex *v, size_t number, ffd_error *error)

@@ -10,13 +10,12 @@ static ffd_status refuse_corner(const off_document *d, const text_scan *scan, te
                                 ffd_error *error)
 {
     uint64_t index;
-    const int shown = ffd_text_display_size(word);
+    const text_shown shown = ffd_text_shown(word);
     if (!ffd_text_whole(word, &index))
         return ffd_fail_line(error, FFD_E_INVALID, d->file.name, scan->line,
-                             "a corner is not a whole number: \"%.*s\"", shown, word.first);
-    return ffd_fail_line(error, FFD_E_INVALID, d->file.name, scan->line,
-                         "there is no vertex %.*s, only %zu (counted from 0)", shown, word.first,
-                         d->header.vertices);
+                             "a corner is not a whole number: \"%s\"", shown.text);
+    return ffd_fail_line(error, FFD_E_INVALID, d->file.name, scan->line, "there is no vertex %s%s",
+                         shown.text, ffd_only(d->header.vertices, " (counted from 0)").text);
 }
 
 static void count_face(off_document *d, size_t corners)

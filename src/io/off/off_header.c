@@ -31,8 +31,8 @@ size_t ffd_off_header_rest_max(const off_header *header)
 
 static ffd_status refuse(header_reader *r, ffd_status status, const char *what, text_word word)
 {
-    return ffd_fail_line(r->error, status, r->name, r->scan.line, "%s \"%.*s\"", what,
-                         ffd_text_display_size(word), word.first);
+    return ffd_fail_line(r->error, status, r->name, r->scan.line, "%s \"%s\"", what,
+                         ffd_text_shown(word).text);
 }
 
 static bool is_digit(char c)
@@ -112,8 +112,7 @@ static ffd_status read_count(header_reader *r, const char *what, text_word word,
     if (ffd_text_whole(word, count))
         return FFD_OK;
     return ffd_fail_line(r->error, FFD_E_INVALID, r->name, r->scan.line,
-                         "the number of %s is not a whole number: \"%.*s\"", what,
-                         ffd_text_display_size(word), word.first);
+                         "the number of %s is not a whole number: \"%s\"", what, ffd_text_shown(word).text);
 }
 
 /* Skips the number of edges: the next word of the line, or a line with this word only. */

@@ -2,6 +2,7 @@
 #include "base/memory/memory.h"
 #include "base/system/processors.h"
 #include "base/system/thread.h"
+#include "base/text/words.h"
 #include <float.h>
 #include <inttypes.h>
 #include <math.h>
@@ -24,9 +25,10 @@ ffd_status ffd_ply_refuse_vertex(const ply_document *d, const ply_walk *walk, co
     ffd_ply_load(d->header.encoding, type, word, &value);
     const number_text number = ffd_number_text(value);
     return ffd_fail_line(error, FFD_E_INVALID, d->file.name, text ? walk->line : 0,
-                         "%s %" PRIu64 ": there is no vertex %.*s, only %zu (both counted from 0)", what, row,
+                         "%s %" PRIu64 ": there is no vertex %.*s%s", what, row,
                          text ? ffd_text_display_size(word) : (int)strlen(number.text),
-                         text ? word.first : number.text, d->file.part.vertex_count);
+                         text ? word.first : number.text,
+                         ffd_only(d->file.part.vertex_count, " (both counted from 0)").text);
 }
 
 /* Returns where the number of a slot is stored. Harmonics are not stored, but stay in the file: `nowhere`. */
@@ -47,9 +49,9 @@ static ffd_status read_number(ply_document *d, const ply_walk *walk, const ply_p
     if (ffd_ply_load(d->header.encoding, property->type, word, value))
         return FFD_OK;
     return ffd_fail_line(error, FFD_E_INVALID, d->file.name, walk->line,
-                         "%.*s of vertex %" PRIu64 " (counted from 0) is not a number: \"%.*s\"",
+                         "%.*s of vertex %" PRIu64 " (counted from 0) is not a number: \"%s\"",
                          ffd_text_display_size(property->name), property->name.first, row,
-                         ffd_text_display_size(word), word.first);
+                         ffd_text_shown(word).text);
 }
 
 static ffd_status read_vertex(ply_document *d, ply_walk *walk, uint64_t row, ffd_error *error)

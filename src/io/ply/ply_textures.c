@@ -3,6 +3,7 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "mesh/resource/image_file.h"
+#include "mesh/resource/left_out.h"
 #include "mesh/resource/resource_bring.h"
 #include <string.h>
 
@@ -60,12 +61,32 @@ static ffd_status list_all(const ply_header *header, const char *folder, resourc
     return status;
 }
 
+/* Names the textures of a mesh from standard input. */
+static ffd_status warn_of_stream(const ply_header *header, const mesh_save_options *options,
+                                 const mesh_log *log, ffd_error *error)
+{
+    resource_list list = {0};
+    left_out left = {0};
+    char *const to = ffd_path_folder(options->path);
+    ffd_status status = to ? list_all(header, to, &list, error) : ffd_fail_memory(error);
+    for (size_t i = 0; i < list.count && !status; i++)
+        status = ffd_left_add_unreached(&left, to, list.resources[i].path, "of TextureFile", error);
+    if (!status)
+        ffd_left_say_of_stream(&left, log);
+    ffd_resources_free(&list);
+    ffd_free(to);
+    return status;
+}
+
 ffd_status ffd_ply_bring_textures(const ply_header *header, const mesh_save_options *options,
                                   file_output *output, const mesh_log *log, ffd_error *error)
 {
     const char *const mesh = options->input;
-    if (!mesh || header->note_count == 0 || ffd_file_is_stream(mesh) || ffd_output_is_stream(options->path) ||
-        ffd_file_same(mesh, options->path))
+    if (!mesh || header->note_count == 0 || ffd_output_is_stream(options->path))
+        return FFD_OK;
+    if (ffd_file_is_stream(mesh))
+        return warn_of_stream(header, options, log, error);
+    if (ffd_file_same(mesh, options->path))
         return FFD_OK;
     char *const from = ffd_path_folder(mesh), *const to = ffd_path_folder(options->path);
     const resource_copier copier = {mesh, from, to, output, log, options->copied};
@@ -113,8 +134,8 @@ ffd_status ffd_ply_find_textures(const char *path, const file_input *bytes, path
     return find(path, bytes, NULL, files, error);
 }
 
-ffd_status ffd_ply_find_named(const char *path, const file_input *bytes, path_list *files, path_list *copies,
+ffd_status ffd_ply_find_named(const char *path, const file_input *bytes, const mesh_named *named,
                               ffd_error *error)
 {
-    return find(path, bytes, files, copies, error);
+    return find(path, bytes, named->files, named->copies, error);
 }

@@ -126,13 +126,13 @@ typedef struct row_checker {
 static ffd_status refuse(const row_checker *c, const char *what, const ply_property *property, text_word word)
 {
     const bool text = c->walk.header->encoding == PLY_ASCII;
-    const int shown = ffd_text_display_size(word);
+    const text_shown shown = ffd_text_shown(word);
     return ffd_fail_line(c->error, FFD_E_INVALID, c->name, text ? c->walk.line : 0,
-                         "row %" PRIu64 " (counted from 0) of element %.*s: %s%s%.*s%s%.*s%s", c->row,
+                         "row %" PRIu64 " (counted from 0) of element %.*s: %s%s%.*s%s%s%s", c->row,
                          ffd_text_display_size(c->element->name), c->element->name.first, what,
                          property ? " " : "", property ? ffd_text_display_size(property->name) : 0,
-                         property ? property->name.first : "", shown ? ": \"" : "", shown, word.first,
-                         shown ? "\"" : "");
+                         property ? property->name.first : "", shown.text[0] ? ": \"" : "", shown.text,
+                         shown.text[0] ? "\"" : "");
 }
 
 static ffd_status refuse_count(const row_checker *c, const ply_property *property, text_word word)

@@ -7,6 +7,9 @@
 #include <inttypes.h>
 #include <string.h>
 
+/* Where the first lines of a text are looked for. */
+#define FIRST_BYTES 1024
+
 /* Returns the size of a binary file with the number of facets in its header. */
 static uint64_t stated_size(const file_input *input)
 {
@@ -21,16 +24,36 @@ static bool begins_with_solid(const file_input *input)
     return ffd_text_find(&scan) && ffd_text_word(&scan, &word) && ffd_text_is_any_case(word, "solid");
 }
 
+/* Whether a line among the first ones, behind what may be a header, begins with a word of a facet: no binary
+   file has one there. */
+static bool has_text_line(const file_input *input)
+{
+    static const char *const words[] = {"facet", "outer", "vertex", "endloop", "endfacet", "endsolid"};
+    text_scan scan;
+    text_word word;
+    ffd_text_begin(&scan, input->data, input->size < FIRST_BYTES ? input->size : FIRST_BYTES, false);
+    while (ffd_text_find(&scan)) {
+        ffd_text_word(&scan, &word);
+        const bool is_behind = word.first - (const char *)input->data >= STL_START;
+        for (size_t i = 0; is_behind && i < sizeof words / sizeof *words; i++)
+            if (ffd_text_is_any_case(word, words[i]))
+                return true;
+        ffd_text_next_line(&scan);
+    }
+    return false;
+}
+
 /* Whether the file is binary. The header of a binary file may begin with "solid" too, so its size decides. If
-   bytes are missing or follow, a 0 among the first bytes decides: a text has none, and the number of facets
-   nearly always has one. */
+   bytes are missing or follow, the lines of a text decide, else a 0 among the first bytes: the number of
+   facets nearly always has one. */
 static bool is_binary(const file_input *input)
 {
     if (input->size >= STL_START && stated_size(input) == input->size)
         return true;
-    if (!begins_with_solid(input))
-        return true;
-    return memchr(input->data, 0, input->size < STL_START ? input->size : STL_START) != NULL;
+    if (has_text_line(input))
+        return false;
+    return !begins_with_solid(input) ||
+           memchr(input->data, 0, input->size < STL_START ? input->size : STL_START) != NULL;
 }
 
 static ffd_status refuse_facets(const stl_document *d, ffd_error *error)

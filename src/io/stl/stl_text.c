@@ -25,8 +25,8 @@ bool ffd_stl_text_normal(text_word word, double *value)
 
 static ffd_status refuse_word(text_reader *r, const char *expected, text_word word)
 {
-    return ffd_fail_line(r->error, FFD_E_INVALID, r->name, r->scan->line, "expected %s, found \"%.*s\"",
-                         expected, ffd_text_display_size(word), word.first);
+    return ffd_fail_line(r->error, FFD_E_INVALID, r->name, r->scan->line, "expected %s, found \"%s\"",
+                         expected, ffd_text_shown(word).text);
 }
 
 static ffd_status take_word(text_reader *r, const char *expected, text_word *word)
@@ -116,8 +116,8 @@ static ffd_status take_facet(text_reader *r, stl_text *text, stl_facet *facet)
     return status;
 }
 
-/* Takes a name, which may have any number of words. */
-static text_word take_name(text_scan *scan)
+/* Returns a name, which may have any number of words, and moves past it. */
+static text_word pass_name(text_scan *scan)
 {
     text_word name = {scan->at, scan->at}, word;
     for (bool first = true;; first = false) {
@@ -135,15 +135,23 @@ static text_word take_name(text_scan *scan)
     }
 }
 
+/* Takes the name of a solid where it begins or ends. */
+static ffd_status take_name(text_reader *r, stl_text *text, text_word *name)
+{
+    *name = pass_name(r->scan);
+    if (!memchr(name->first, 0, (size_t)(name->last - name->first)))
+        return FFD_OK;
+    return NOTE(r, text, "the name of a solid, \"%s\", holds a NUL character", ffd_text_shown(*name).text);
+}
+
 static ffd_status begin_solid(text_reader *r, stl_text *text)
 {
     const ffd_status status = take_keyword(r, "solid");
     if (status)
         return status;
-    text->name = take_name(r->scan);
     text->solids++;
     text->inside = true;
-    return FFD_OK;
+    return take_name(r, text, &text->name);
 }
 
 /* Skips "color" and its numbers, if they come next. *passed: whether they did. */
@@ -164,14 +172,14 @@ static ffd_status pass_colour(text_reader *r, stl_text *text, bool *passed)
 /* Handles a word other than "facet": it must end the solid. */
 static ffd_status end_solid(text_reader *r, stl_text *text, text_word word)
 {
+    text_word name;
     ffd_status status = FFD_OK;
     if (ffd_text_is_any_case(word, "end") && takes_second_word(&text->scan, "solid"))
         status = NOTE(r, text, "\"endsolid\" is written as two words");
     else if (!ffd_text_is_any_case(word, "endsolid"))
         return refuse_word(r, "facet or endsolid", word);
-    take_name(&text->scan);
     text->inside = false;
-    return status;
+    return status ? status : take_name(r, text, &name);
 }
 
 /* Takes the next step inside a solid: a facet, or its end. */

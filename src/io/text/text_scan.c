@@ -1,5 +1,6 @@
 #include "io/text/text_scan.h"
 #include "base/text/number.h"
+#include "base/text/words.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -160,6 +161,13 @@ int ffd_text_display_size(text_word word)
     int shown = SHOWN_MAX;
     while (shown > 0 && ((unsigned char)word.first[shown] & 0xc0) == 0x80)
         shown--;
+    return shown;
+}
+
+text_shown ffd_text_shown(text_word word)
+{
+    text_shown shown;
+    ffd_bytes_shown(word.first, (size_t)ffd_text_display_size(word), shown.text, sizeof shown.text);
     return shown;
 }
 

@@ -54,6 +54,11 @@ bool ffd_text_whole(text_word word, uint64_t *value);
 /* Returns how many bytes of a word to show in a message: long words are cut, but not within a UTF-8
    character. */
 int ffd_text_display_size(text_word word);
+typedef struct text_shown {
+    char text[128];
+} text_shown;
+/* Returns a word cut in that way, with the symbol U+2400 in the place of each NUL character. */
+text_shown ffd_text_shown(text_word word);
 
 /* Capacity for the text of ffd_text_lines. */
 #define TEXT_LINES_CAPACITY 64

@@ -12,6 +12,12 @@ ffd_status ffd_look_again(const chain_link *link, double snap, bool is_first, co
     return ffd_near_border_look_again(link->locator, x, half, snap, location, error);
 }
 
+ffd_status ffd_link_miss(const chain_link *link, const double x[3], double reach, double *miss,
+                         bool *searched, ffd_error *error)
+{
+    return ffd_near_border_miss(link->locator, x, reach, miss, searched, error);
+}
+
 bool ffd_recalled_meets(const chain_link *link, const chain_rounding *rounding, size_t point,
                         const double x[3], const ffd_location *location)
 {

@@ -21,6 +21,10 @@ static inline void ffd_rounding_find(const chain_rounding *rounding, size_t poin
 ffd_status ffd_look_again(const chain_link *link, double snap, bool is_first, const chain_run *run,
                           size_t point, const double x[3], ffd_location *location, ffd_error *error);
 
+/* Finds how far a point outside of the link's volume misses it; see ffd_near_border_miss. */
+ffd_status ffd_link_miss(const chain_link *link, const double x[3], double reach, double *miss,
+                         bool *searched, ffd_error *error);
+
 /* Whether the location of a point, which is at x as the file has it, is one that a search of the link can
    have found, where it comes from a file instead: one that is inside or multiple meets x within the tolerance
    by which it was accepted. rounding as in chain_run. */

@@ -1,10 +1,15 @@
 #include "job/judge/result.h"
+#include "base/text/number.h"
 #include "base/text/words.h"
 #include "job/chain/coverage.h"
+#include <float.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+/* Room for a number of two digits. */
+#define ROUNDED 32
 
 void ffd_result_clear(ffd_job_result *result)
 {
@@ -114,14 +119,45 @@ static void tell_kinds(const pass_totals *totals, const chain_outside *outside, 
     }
 }
 
+/* Writes the least number of two digits that is not below a distance. */
+static void round_up(double distance, char text[ROUNDED])
+{
+    const double step = fmax(pow(10, floor(log10(distance)) - 1), DBL_MIN);
+    double rounded = 0;
+    for (double above = distance; rounded < distance; above += step / 2) {
+        snprintf(text, ROUNDED, "%.1e", above);
+        ffd_number_parse(text, text + strlen(text), &rounded);
+    }
+    snprintf(text, ROUNDED, "%.2g", rounded);
+}
+
+/* Says how near the vertices are that miss the lattice by next to nothing. */
+static void tell_misses(const pass_totals *totals, char *text, size_t capacity)
+{
+    const near_misses *const misses = &totals->misses;
+    const uint64_t outside = totals->counts[FFD_OUTSIDE];
+    char who[60] = "it misses", by[ROUNDED];
+    *text = 0;
+    if (misses->count == 0)
+        return;
+    if (misses->count < outside)
+        snprintf(who, sizeof who, "%s%" PRIu64 " of them %s", misses->is_least ? "at least " : "",
+                 misses->count, ffd_plural(misses->count, "misses", "miss"));
+    else if (outside > 1)
+        snprintf(who, sizeof who, "all miss");
+    round_up(misses->largest, by);
+    snprintf(text, capacity, "; %s the lattice by at most %s, see --snap", who, by);
+}
+
 /* Describes what happened to the vertices outside. */
 static void tell_outside(const pass_totals *totals, const chain_outside *outside, bool deformed, char *text,
                          size_t capacity)
 {
-    char kinds[300] = "no u,v,w";
+    char kinds[300] = "no u,v,w", misses[120];
     if (deformed)
         tell_kinds(totals, outside, kinds, sizeof kinds);
-    snprintf(text, capacity, "%" PRIu64 " outside (%s)", totals->counts[FFD_OUTSIDE], kinds);
+    tell_misses(totals, misses, sizeof misses);
+    snprintf(text, capacity, "%" PRIu64 " outside (%s%s)", totals->counts[FFD_OUTSIDE], kinds, misses);
 }
 
 /* Says why vertices are singular, unless the search gave up, which has a message of its own. */

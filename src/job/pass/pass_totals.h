@@ -18,6 +18,13 @@ typedef struct rounding_loss {
     double error, side; /* the largest error, and the part's largest side; zeros: none */
 } rounding_loss;
 
+/* Vertices that are left outside although they miss the lattice by next to nothing. */
+typedef struct near_misses {
+    uint64_t count;
+    double largest; /* miss, world units */
+    bool is_least;  /* there may be more: not all were looked at */
+} near_misses;
+
 typedef struct pass_totals {
     bool is_visible; /* a displacement is large enough for the floats of the output */
     uint64_t vertices, counts[FFD_VERTEX_STATUS_COUNT], moved;
@@ -29,7 +36,8 @@ typedef struct pass_totals {
     ffd_bounds before, after; /* in the lattice's space */
     ffd_bounds shapes; /* likewise, of the deformed morph targets and the shape with default weights; only if
                           the pass asks for it */
-    uint64_t outside_all;  /* vertices outside of every lattice */
+    uint64_t outside_all; /* vertices outside of every lattice */
+    near_misses misses;
     uint64_t multiple_any; /* vertices with several u,v,w in some lattice */
     uint64_t moved_twice;  /* vertices on a common face of two consecutive lattices that both move them */
     uint64_t disagreeing;  /* blocks: vertices on a face that another block moves differently */

@@ -2,6 +2,7 @@
 #include "base/memory/memory.h"
 #include "base/vector/array_kernel.h"
 #include "base/vector/vec.h"
+#include "job/pass/tile_misses.h"
 #include "mesh/bounds.h"
 
 static uint64_t least(uint64_t a, uint64_t b)
@@ -193,5 +194,5 @@ ffd_status ffd_totals_count_deformed(const part_work *work, const tile_scratch *
         return ffd_fail_memory(error);
     count_displacements(work, scratch, totals);
     widen_chosen(work, scratch, first, &totals->after);
-    return FFD_OK;
+    return totals->others ? ffd_tile_find_misses(work, scratch, first, &totals->misses, error) : FFD_OK;
 }

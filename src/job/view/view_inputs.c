@@ -2,9 +2,10 @@
 #include "base/file/input.h"
 #include "base/file/path.h"
 
-static ffd_status refuse(const char *output, ffd_error *error)
+static ffd_status refuse(const char *output, bool is_linked, ffd_error *error)
 {
-    return ffd_fail_file(error, FFD_E_EXISTS, output, "is an input of this command");
+    return ffd_fail_file(error, FFD_E_EXISTS, output, "is %s of this command",
+                         is_linked ? "named by an input" : "an input");
 }
 
 ffd_status ffd_view_check_inputs(const ffd_view_desc *desc, ffd_error *error)
@@ -17,7 +18,7 @@ ffd_status ffd_view_check_inputs(const ffd_view_desc *desc, ffd_error *error)
         is_input = is_input || (inputs[i] && ffd_file_same(inputs[i], desc->output));
     for (size_t i = 0; i < job->lattice_count; i++)
         is_input = is_input || ffd_file_same(job->lattices[i], desc->output);
-    return is_input ? refuse(desc->output, error) : FFD_OK;
+    return is_input ? refuse(desc->output, false, error) : FFD_OK;
 }
 
 /* Adds the resources that are found through the mesh's own file. */
@@ -37,14 +38,19 @@ ffd_status ffd_view_check_files(const ffd_source *source, const mesh_document *d
                                 ffd_error *error)
 {
     path_list files = {0};
-    bool is_named = false;
+    bool is_named = false, is_linked = false;
     if (!ffd_file_exists(output))
         return FFD_OK;
     ffd_status status = find_resources(source, document, &files, error);
     if (!status && document->format->list_files)
         status = document->format->list_files(document, &files, error);
-    for (size_t i = 0; i < files.count && !is_named; i++)
+    const size_t read = files.count;
+    if (!status && document->format->list_linked)
+        status = document->format->list_linked(document, &files, error);
+    for (size_t i = 0; i < files.count && !is_named; i++) {
         is_named = ffd_file_same(files.paths[i], output);
+        is_linked = i >= read;
+    }
     ffd_paths_free(&files);
-    return status ? status : is_named ? refuse(output, error) : FFD_OK;
+    return status ? status : is_named ? refuse(output, is_linked, error) : FFD_OK;
 }

@@ -36,12 +36,13 @@ static ffd_status look(const beside_names *names, const char *path, beside_file 
                          &file->names, error);
 }
 
-/* Notes that a file of other models stays. is: "is" or "was" a buffer of them. */
+/* Notes that a file of other models stays: a buffer, an image, or what an extension names. is: "is" or "was"
+   a file of them. */
 static ffd_status note_users(const char *path, const char *is, const beside_file *file, path_list *passed,
                              ffd_error *error)
 {
     byte_buffer text = {0};
-    ffd_buffer_format(&text, "%s %s a buffer of", path, is);
+    ffd_buffer_format(&text, "%s %s a file of", path, is);
     for (size_t i = 0; i < file->names.count; i++)
         ffd_buffer_format(&text, "%s %s", i ? "," : "", file->names.paths[i]);
     if (file->others > file->names.count)

@@ -1,5 +1,7 @@
 #include "mesh/resource/left_out.h"
+#include "base/file/input.h"
 #include "base/file/path.h"
+#include "base/memory/memory.h"
 #include "base/text/words.h"
 #include <stdio.h>
 
@@ -14,6 +16,16 @@ void ffd_left_add(left_out *left, const char *name, const char *why)
         snprintf(left->shown[left->count], sizeof left->shown[left->count], "\"%s\" %s", shown, why);
     }
     left->count++;
+}
+
+ffd_status ffd_left_add_unreached(left_out *left, const char *to, const char *path, const char *why,
+                                  ffd_error *error)
+{
+    char *const there = ffd_path_join(to, path);
+    if (there && !ffd_file_exists(there))
+        ffd_left_add(left, path, why);
+    ffd_free(there);
+    return there ? FFD_OK : ffd_fail_memory(error);
 }
 
 void ffd_left_add_unloaded(left_out *list, const char *path, const char *left)
@@ -34,4 +46,10 @@ void ffd_left_say(const left_out *left, const char *one, const char *many, const
     if (left->count > 0)
         ffd_log_line(log, FFD_LOG_WARNING, "%zu %s: %s", left->count, ffd_plural(left->count, one, many),
                      text);
+}
+
+void ffd_left_say_of_stream(const left_out *left, const mesh_log *log)
+{
+    ffd_left_say(left, "file that the mesh names is not copied, as standard input has no folder",
+                 "files that the mesh names are not copied, as standard input has no folder", log);
 }

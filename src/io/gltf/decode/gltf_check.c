@@ -38,7 +38,7 @@ static ffd_status check_index(const gltf_document *d, uint32_t value, const char
 {
     if (index >= 0 && (size_t)index < count)
         return FFD_OK;
-    return refuse(d, value, key, error, "there is no %s %d, only %zu", what, index, count);
+    return refuse(d, value, key, error, "there is no %s %d%s", what, index, ffd_only(count, "").text);
 }
 
 /* Reads a view's stride from the JSON that tinygltf does not get. Some programs write 0 for none. */
@@ -286,10 +286,9 @@ static ffd_status check_indices(gltf_document *d, size_t mesh, size_t p, uint32_
     if (number < 0)
         return FFD_OK;
     if ((size_t)number >= d->model.accessor_count)
-        return ffd_gltf_drop_drawing(
-            d, mesh, p, place, error,
-            "there is no accessor %d, only %zu: what the primitive draws is not known", number,
-            d->model.accessor_count);
+        return ffd_gltf_drop_drawing(d, mesh, p, place, error,
+                                     "there is no accessor %d%s: what the primitive draws is not known",
+                                     number, ffd_only(d->model.accessor_count, "").text);
     const gltf_accessor *indices = &d->model.accessors[number];
     double most;
     if (states_indices_elsewhere(d, value, number, &most))

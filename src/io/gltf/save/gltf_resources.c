@@ -6,6 +6,7 @@
 #include "base/text/base64.h"
 #include "base/text/words.h"
 #include "io/gltf/file/glb.h"
+#include "io/gltf/file/gltf_file_uris.h"
 #include "io/gltf/file/uri.h"
 #include "io/gltf/save/gltf_output_names.h"
 #include "mesh/resource/image_file.h"
@@ -24,46 +25,6 @@ typedef struct resources {
     bool embeds; /* a GLB that is made of a .gltf holds its images */
     memory_budget budget;
 } resources;
-
-static ffd_status normalize(const char *mesh, char *name, char **path, ffd_error *error)
-{
-    bool turned;
-    char *folder = ffd_path_folder(mesh);
-    ffd_status status = folder ? ffd_path_turn_slashes(name, folder, &turned, error) : ffd_fail_memory(error);
-    ffd_free(folder);
-    if (status)
-        return status;
-    *path = ffd_path_normalize(name);
-    return *path ? FFD_OK : ffd_fail_memory(error);
-}
-
-/* Returns the path of a file that a URI names, relative to the model's folder; NULL if it names none. */
-static ffd_status relative_path(const json_span *tree, uint32_t uri, const char *mesh, char **path,
-                                ffd_error *error)
-{
-    *path = NULL;
-    if (uri == JSON_NONE || tree->values[uri].kind != JSON_STRING)
-        return FFD_OK;
-    size_t size;
-    char *text = ffd_json_span_string(tree, uri, &size);
-    if (!text)
-        return ffd_fail_memory(error);
-    ffd_status status = FFD_OK;
-    if (!ffd_uri_is_data(text) && !ffd_uri_is_absolute(text)) {
-        size = ffd_uri_decode(text, size);
-        text[size] = 0;
-        if (!memchr(text, 0, size) && size > 0)
-            status = normalize(mesh, text, path, error);
-    }
-    ffd_free(text);
-    return status;
-}
-
-ffd_status ffd_gltf_file_path(const json_span *tree, uint32_t value, const char *mesh, char **path,
-                              ffd_error *error)
-{
-    return relative_path(tree, ffd_json_span_member(tree, value, "uri"), mesh, path, error);
-}
 
 static ffd_status image_path(const gltf_document *d, size_t image, char **path, ffd_error *error)
 {
@@ -88,14 +49,20 @@ static ffd_status find_images(const json_span *tree, const char *mesh, path_list
     return status;
 }
 
-/* Whether a JSON text may have a member "uri", perhaps with escapes: most GLB files have none. */
-static bool may_name_files(const char *text, size_t size)
+/* Whether a JSON text has `letter` and then "ri" at the end of a string, or a character written as \u. */
+static bool has_uri(const char *text, size_t size, char letter)
 {
     const char *const end = text + size;
-    for (const char *c = memchr(text, 'u', size); c; c = memchr(c + 1, 'u', (size_t)(end - c - 1)))
-        if ((end - c >= 4 && memcmp(c, "uri\"", 4) == 0) || (c > text && c[-1] == '\\'))
+    for (const char *c = memchr(text, letter, size); c; c = memchr(c + 1, letter, (size_t)(end - c - 1)))
+        if ((end - c >= 4 && memcmp(c + 1, "ri\"", 3) == 0) || (c > text && c[-1] == '\\'))
             return true;
     return false;
+}
+
+/* Whether a JSON text may have a member "uri" or "...Uri", perhaps with escapes: most GLB files have none. */
+static bool may_name_files(const char *text, size_t size)
+{
+    return has_uri(text, size, 'u') || has_uri(text, size, 'U');
 }
 
 /* Parses the JSON text of a file that may name others. *is_model: false if it does not, or is not valid,
@@ -130,18 +97,6 @@ ffd_status ffd_gltf_find_resources(const char *path, const file_input *bytes, pa
     return status;
 }
 
-/* Adds the path of a file beside the mesh, unless `relative` is NULL, and frees `relative`. */
-static ffd_status add_beside(const char *mesh, char *relative, path_list *files, ffd_error *error)
-{
-    char *const path = relative ? ffd_path_beside(mesh, relative) : NULL;
-    const ffd_status status = path       ? ffd_paths_add(files, path, error)
-                              : relative ? ffd_fail_memory(error)
-                                         : FFD_OK;
-    ffd_free(path);
-    ffd_free(relative);
-    return status;
-}
-
 /* Adds the files that the members of an array name. */
 static ffd_status find_files(const json_span *tree, const char *array, const char *mesh, path_list *files,
                              ffd_error *error)
@@ -152,12 +107,12 @@ static ffd_status find_files(const json_span *tree, const char *array, const cha
         char *relative;
         status = ffd_gltf_file_path(tree, value, mesh, &relative, error);
         if (!status)
-            status = add_beside(mesh, relative, files, error);
+            status = ffd_gltf_add_beside(mesh, relative, files, error);
     }
     return status;
 }
 
-ffd_status ffd_gltf_find_named(const char *path, const file_input *bytes, path_list *files, path_list *copies,
+ffd_status ffd_gltf_find_named(const char *path, const file_input *bytes, const mesh_named *named,
                                ffd_error *error)
 {
     json_span tree;
@@ -165,11 +120,15 @@ ffd_status ffd_gltf_find_named(const char *path, const file_input *bytes, path_l
     ffd_status status = parse(path, bytes, &tree, &is_model, error);
     if (!is_model)
         return status;
-    status = find_files(&tree, "buffers", path, files, error);
+    status = find_files(&tree, "buffers", path, named->files, error);
     if (!status)
-        status = find_files(&tree, "images", path, files, error);
-    if (!status && copies)
-        status = find_images(&tree, path, copies, error);
+        status = find_files(&tree, "images", path, named->files, error);
+    if (!status)
+        status = ffd_gltf_find_linked(&tree, path, named->files, error);
+    if (!status && named->copies)
+        status = find_images(&tree, path, named->copies, error);
+    if (!status && named->linked)
+        status = ffd_gltf_find_linked(&tree, path, named->linked, error);
     ffd_json_span_free(&tree);
     return status;
 }
@@ -182,9 +141,15 @@ ffd_status ffd_gltf_list_images(const mesh_document *document, path_list *files,
         char *relative = NULL;
         status = image_path(d, i, &relative, error);
         if (!status)
-            status = add_beside(d->path, relative, files, error);
+            status = ffd_gltf_add_beside(d->path, relative, files, error);
     }
     return status;
+}
+
+ffd_status ffd_gltf_list_linked(const mesh_document *document, path_list *files, ffd_error *error)
+{
+    const gltf_document *d = ffd_gltf_of(document);
+    return ffd_gltf_find_linked(&d->tree, d->path, files, error);
 }
 
 static ffd_status copy_image(const resources *r, const mesh_resource *image, ffd_error *error)
@@ -333,28 +298,6 @@ static ffd_status refuse_image_name(const resources *r, size_t number, bool own_
     return status;
 }
 
-/* Returns the extension inside which a value is; JSON_NONE: none. */
-static uint32_t extension_around(const json_span *tree, uint32_t v)
-{
-    uint32_t found = JSON_NONE;
-    for (; tree->values[v].parent != JSON_NONE; v = tree->values[v].parent) {
-        if (ffd_json_span_key_is(tree, v, "extras"))
-            return JSON_NONE;
-        if (found == JSON_NONE && ffd_json_span_key_is(tree, tree->values[v].parent, "extensions"))
-            found = v;
-    }
-    return found;
-}
-
-/* Whether a value is a string whose key is "uri" or ends with "Uri". */
-static bool is_uri(const json_span *tree, uint32_t v)
-{
-    const json_value *const value = &tree->values[v];
-    const char *const end = tree->text + value->key_end;
-    return value->kind == JSON_STRING && value->key_end - value->key_begin >= sizeof "uri" + 1 &&
-           (memcmp(end - 4, "Uri\"", 4) == 0 || ffd_json_span_key_is(tree, v, "uri"));
-}
-
 /* Lists a file that an extension names, unless the output reaches it, it is the uri of an image, or it is
    among the known ones. */
 static ffd_status leave_file(const resources *r, uint32_t uri, uint32_t extension, intern_table *known,
@@ -362,42 +305,70 @@ static ffd_status leave_file(const resources *r, uint32_t uri, uint32_t extensio
 {
     const json_span *const tree = &r->saver->document->tree;
     char *path;
-    ffd_status status = relative_path(tree, uri, r->saver->document->path, &path, error);
+    ffd_status status = ffd_gltf_uri_path(tree, uri, r->saver->document->path, &path, error);
     if (status || !path)
         return status;
-    char *const name = ffd_json_span_key(tree, extension), *const there = ffd_path_join(r->to, path);
+    char *const name = ffd_json_span_key(tree, extension);
     const size_t before = known->count;
     uint32_t number;
-    if (!name || !there || !ffd_intern(known, path, strlen(path), &number))
+    if (!name || !ffd_intern(known, path, strlen(path), &number)) {
         status = ffd_fail_memory(error);
-    else if (known->count > before && !ffd_file_exists(there)) {
+    } else if (known->count > before) {
         char why[120];
         snprintf(why, sizeof why, "of %s", name);
-        ffd_left_add(left, path, why);
+        status = ffd_left_add_unreached(left, r->to, path, why, error);
     }
     ffd_free(name);
-    ffd_free(there);
     ffd_free(path);
     return status;
 }
 
-/* Names the files that extensions name, which are neither images nor buffers: they are not copied, whatever
-   they are. */
-static ffd_status warn_of_left(const resources *r, ffd_error *error)
+/* Lists the files that extensions name, which are neither images nor buffers. */
+static ffd_status leave_linked(const resources *r, left_out *left, ffd_error *error)
 {
     const json_span *const tree = &r->saver->document->tree;
     intern_table known = {0};
-    left_out left = {0};
     ffd_status status = FFD_OK;
-    for (uint32_t v = 0; v < tree->count && status == FFD_OK; v++) {
-        const uint32_t extension = is_uri(tree, v) ? extension_around(tree, v) : JSON_NONE;
-        if (extension != JSON_NONE)
-            status = leave_file(r, v, extension, &known, &left, error);
-    }
+    uint32_t extension, v = ffd_gltf_next_linked(tree, 0, &extension);
+    for (; v != JSON_NONE && status == FFD_OK; v = ffd_gltf_next_linked(tree, v + 1, &extension))
+        status = leave_file(r, v, extension, &known, left, error);
     ffd_intern_free(&known);
+    return status;
+}
+
+/* Names them: they are not copied, whatever they are. */
+static ffd_status warn_of_left(const resources *r, ffd_error *error)
+{
+    left_out left = {0};
+    const ffd_status status = leave_linked(r, &left, error);
     if (status == FFD_OK)
         ffd_left_say(&left, "file that an extension names is not copied",
                      "files that extensions name are not copied", r->saver->log);
+    return status;
+}
+
+/* Names what goes along with a file, but not with standard input. */
+static ffd_status warn_of_stream(gltf_saver *saver, ffd_error *error)
+{
+    const gltf_document *d = saver->document;
+    const resources r = {.saver = saver, .to = ffd_path_folder(saver->options->path)};
+    left_out left = {0};
+    resource_list images = {0};
+    ffd_status status = r.to ? FFD_OK : ffd_fail_memory(error);
+    for (size_t i = 0; i < d->image_values.count && status == FFD_OK; i++) {
+        char *path;
+        status = image_path(d, i, &path, error);
+        if (path)
+            status = ffd_resources_add(&images, &ffd_resource_image, i, path, error);
+    }
+    for (size_t i = 0; i < images.count && status == FFD_OK; i++)
+        status = ffd_left_add_unreached(&left, r.to, images.resources[i].path, "of images", error);
+    ffd_resources_free(&images);
+    if (status == FFD_OK)
+        status = leave_linked(&r, &left, error);
+    if (status == FFD_OK)
+        ffd_left_say_of_stream(&left, saver->log);
+    ffd_free(r.to);
     return status;
 }
 
@@ -406,6 +377,8 @@ ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error)
     const gltf_document *d = saver->document;
     const bool copies = saver->options->resources == FFD_RESOURCES_COPY;
     const bool embeds = copies && saver->binary && !d->binary;
+    if (ffd_file_is_stream(d->path) && !ffd_output_is_stream(saver->options->path))
+        return warn_of_stream(saver, error);
     if (ffd_file_is_stream(d->path) || (ffd_output_is_stream(saver->options->path) && !embeds))
         return FFD_OK;
     resources r = {.saver = saver,

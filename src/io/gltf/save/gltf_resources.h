@@ -10,13 +10,10 @@
    FFD_E_EXISTS, FFD_E_IO, FFD_E_MEMORY. */
 ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error);
 
-/* Finds the normalized path, relative to the model, of the URI of an image or buffer; NULL with FFD_OK: it
-   does not name a file beside the model. mesh: the model's path. Errors: FFD_E_MEMORY. */
-ffd_status ffd_gltf_file_path(const json_span *tree, uint32_t value, const char *mesh, char **path,
-                              ffd_error *error);
-
 /* mesh_format's list_images. */
 mesh_list_files_function ffd_gltf_list_images;
+/* mesh_format's list_linked. */
+mesh_list_files_function ffd_gltf_list_linked;
 /* mesh_format's find_resources. */
 mesh_find_resources_function ffd_gltf_find_resources;
 /* mesh_format's find_named. */

@@ -24,8 +24,8 @@ static ffd_status list_joints(const gltf_document *d, uint32_t value, gltf_skin 
         double node = 0;
         ffd_json_span_number(&d->tree, v, &node);
         if (!(node < (double)d->model.node_count))
-            return ffd_json_span_fail(&d->tree, v, d->name, FFD_E_INVALID, error,
-                                      "there is no node %.0f, only %zu", node, d->model.node_count);
+            return ffd_json_span_fail(&d->tree, v, d->name, FFD_E_INVALID, error, "there is no node %.0f%s",
+                                      node, ffd_only(d->model.node_count, "").text);
         skin->joints[skin->joint_count++] = (size_t)node;
     }
     return FFD_OK;
@@ -40,7 +40,8 @@ static ffd_status find_inverse_bind(const gltf_document *d, uint32_t value, gltf
         return FFD_OK;
     if (!(number < (double)d->model.accessor_count))
         return ffd_json_span_fail(&d->tree, member, d->name, FFD_E_INVALID, error,
-                                  "there is no accessor %.0f, only %zu", number, d->model.accessor_count);
+                                  "there is no accessor %.0f%s", number,
+                                  ffd_only(d->model.accessor_count, "").text);
     skin->inverse_bind = (int)number;
     return FFD_OK;
 }

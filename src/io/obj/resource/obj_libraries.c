@@ -1,75 +1,18 @@
 #include "io/obj/resource/obj_libraries.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
-#include "base/text/buffer.h"
 #include "io/obj/resource/mtl_file.h"
+#include "io/obj/resource/obj_statements.h"
 #include "io/obj/resource/resource_names.h"
 #include "io/text/text_scan.h"
 #include <string.h>
 
-static const char keyword[] = "mtllib";
-#define KEYWORD_SIZE (sizeof keyword - 1)
-
-/* The longest statement whose names are looked at, and the longest one that may be a single name. */
-#define STATEMENT_MAX ((size_t)1 << 20)
+/* The longest statement that may be a single name. */
 #define NAME_MAX_SIZE ((size_t)4096)
-/* Bytes of the file that are in memory at a time. */
-#define PIECE ((size_t)1 << 21)
 
 static bool is_blank(char c)
 {
     return c == ' ' || c == '\t' || c == '\v' || c == '\f';
-}
-
-static bool is_line_end(char c)
-{
-    return c == '\n' || c == '\r';
-}
-
-/* Whether the line that ends before `end` (its line end is not part of it) goes on in the next one: it ends
-   with a backslash, and not in a comment. */
-static bool is_continued(const char *first, const char *end)
-{
-    if (end == first || end[-1] != '\\')
-        return false;
-    while (end > first && !is_line_end(end[-1])) {
-        if (end[-1] == '#')
-            return false;
-        end--;
-    }
-    return true;
-}
-
-/* Whether the keyword at `at` begins a statement. */
-static bool begins_statement(const char *first, const char *at, const char *last)
-{
-    if ((size_t)(last - at) <= KEYWORD_SIZE || memcmp(at, keyword, KEYWORD_SIZE) != 0 ||
-        !is_blank(at[KEYWORD_SIZE]))
-        return false;
-    while (at > first && is_blank(at[-1]))
-        at--;
-    if (at == first)
-        return true;
-    if (!is_line_end(at[-1]))
-        return false;
-    at -= at[-1] == '\n' && at - first > 1 && at[-2] == '\r' ? 2 : 1;
-    return !is_continued(first, at);
-}
-
-/* Copies the arguments that follow the keyword, continued lines joined. Returns where the statement ends. */
-static const char *take_arguments(const char *at, const char *last, byte_buffer *text)
-{
-    for (;;) {
-        const char *const begin = at;
-        while (at < last && !is_line_end(*at))
-            at++;
-        const bool goes_on = at > begin && at < last && at[-1] == '\\';
-        ffd_buffer_append(text, begin, (size_t)(at - begin) - goes_on);
-        if (!goes_on || text->size > STATEMENT_MAX)
-            return at;
-        ffd_buffer_append(text, " ", 1);
-        at += *at == '\r' && last - at > 1 && at[1] == '\n' ? 2 : 1;
-    }
 }
 
 /* Whether a file beside the OBJ file has just this name. */
@@ -142,76 +85,20 @@ static ffd_status split(intern_table *names, const char *text, size_t size, cons
     return status;
 }
 
-/* What was found so far. */
-typedef struct found_libraries {
-    intern_table statements; /* arguments: some programs repeat a statement for every object */
-    intern_table *names;
-} found_libraries;
-
-/* Takes the names of the statement whose keyword is at *at, and moves to its end. */
-static ffd_status take_statement(found_libraries *found, const char **at, const char *last, const char *path,
-                                 ffd_error *error)
-{
-    byte_buffer text = {0};
-    ffd_status status = FFD_OK;
-    const size_t before = found->statements.count;
-    *at = take_arguments(*at + KEYWORD_SIZE, last, &text);
-    if (text.failed)
-        status = ffd_fail_memory(error);
-    else if (text.size > STATEMENT_MAX)
-        status = ffd_fail_file(error, FFD_E_LIMIT, path, "a mtllib statement has more than %zu bytes",
-                               STATEMENT_MAX);
-    else if (text.size > 0 && !memchr(text.data, 0, text.size))
-        status = ffd_obj_add_name(&found->statements, text.data, text.size, path, error);
-    if (!status && found->statements.count > before)
-        status = split(found->names, text.data, text.size, path, error);
-    ffd_buffer_free(&text);
-    return status;
-}
-
-/* The next statement that begins from `at` on, but before `end`; NULL: there is none. */
-static const char *find_statement(const char *first, const char *at, const char *end, const char *last)
-{
-    while (at < end && (at = memchr(at, keyword[0], (size_t)(end - at)))) {
-        if (begins_statement(first, at, last))
-            return at;
-        at++;
-    }
-    return NULL;
-}
-
 bool ffd_obj_names_libraries(const file_input *input)
 {
-    const char *first = (const char *)input->data;
-    const char *const last = first + ffd_text_size(first, input->size);
-    if (ffd_text_has_mark(first, input->size))
-        first += TEXT_MARK_SIZE;
-    return find_statement(first, first, last, last);
+    return ffd_obj_has_statement(input, "mtllib");
 }
 
 ffd_status ffd_obj_list_libraries(const file_input *input, const char *path, intern_table *names,
                                   ffd_error *error)
 {
-    const char *first = (const char *)input->data;
-    const char *const last = first + ffd_text_size(first, input->size);
-    found_libraries found = {.names = names};
-    size_t released = 0;
-    ffd_status status = FFD_OK;
-    if (ffd_text_has_mark(first, input->size))
-        first += TEXT_MARK_SIZE;
-    for (const char *at = first; at < last && !status;) {
-        const char *const end = (size_t)(last - at) > PIECE ? at + PIECE : last;
-        const char *statement;
-        if (input->mapped)
-            ffd_file_prefault(at, (size_t)(end - at));
-        while (!status && (statement = find_statement(first, at, end, last))) {
-            at = statement;
-            status = take_statement(&found, &at, last, path, error);
-        }
-        at = at < end ? end : at;
-        ffd_file_release_until(input, at, &released);
+    intern_table statements = {0};
+    ffd_status status = ffd_obj_list_statements(input, path, "mtllib", &statements, error);
+    for (uint32_t i = 0; i < statements.count && !status; i++) {
+        const char *const text = ffd_intern_key(&statements, i);
+        status = split(names, text, strlen(text), path, error);
     }
-    ffd_intern_free(&found.statements);
-    ffd_file_release_pages(input, input->data + released, input->size - released);
+    ffd_intern_free(&statements);
     return status;
 }

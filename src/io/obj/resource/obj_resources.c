@@ -3,10 +3,12 @@
 #include "base/memory/memory.h"
 #include "io/obj/resource/mtl_file.h"
 #include "io/obj/resource/obj_libraries.h"
+#include "io/obj/resource/obj_linked.h"
 #include "io/obj/resource/obj_paths.h"
 #include "io/obj/resource/resource_names.h"
 #include "mesh/resource/image_file.h"
 #include "mesh/resource/image_tiles.h"
+#include "mesh/resource/left_out.h"
 #include "mesh/resource/resource_bring.h"
 #include <string.h>
 
@@ -112,13 +114,62 @@ static ffd_status bring(const resource_copier *c, const file_input *input, const
     return status;
 }
 
-ffd_status ffd_obj_bring_resources(const file_input *input, const mesh_save_options *options,
-                                   file_output *output, const mesh_log *log, ffd_error *error)
+/* Adds the libraries that an output in folder `to` does not reach. name: of the mesh, for messages. */
+static ffd_status leave_libraries(const file_input *input, const char *name, const char *to, left_out *left,
+                                  ffd_error *error)
+{
+    intern_table names = {0};
+    ffd_status status = ffd_obj_list_libraries(input, name, &names, error);
+    for (uint32_t i = 0; i < names.count && !status; i++) {
+        char *path;
+        status = ffd_obj_find_path(to, "", ffd_intern_key(&names, i), &path, error);
+        if (!status && path)
+            status = ffd_left_add_unreached(left, to, path, "of mtllib", error);
+        ffd_free(path);
+    }
+    ffd_intern_free(&names);
+    return status;
+}
+
+/* Names what goes along with a file, but not with standard input. */
+static ffd_status warn_of_stream(const file_input *input, bool names_files, const mesh_save_options *options,
+                                 const mesh_log *log, ffd_error *error)
+{
+    const char *const mesh = ffd_file_display_name(options->input);
+    left_out left = {0};
+    char *const to = ffd_path_folder(options->path);
+    ffd_status status = to ? leave_libraries(input, mesh, to, &left, error) : ffd_fail_memory(error);
+    if (!status && names_files)
+        status = ffd_obj_leave_linked(input, mesh, to, to, &left, error);
+    if (!status)
+        ffd_left_say_of_stream(&left, log);
+    ffd_free(to);
+    return status;
+}
+
+/* Names the files that are not copied, whatever they are. */
+static ffd_status warn_of_linked(const resource_copier *c, const file_input *input, ffd_error *error)
+{
+    left_out left = {0};
+    const ffd_status status = ffd_obj_leave_linked(input, c->mesh, c->from, c->to, &left, error);
+    if (!status)
+        ffd_left_say(&left, "file that a statement names is not copied",
+                     "files that statements name are not copied", c->log);
+    return status;
+}
+
+ffd_status ffd_obj_bring_resources(const file_input *input, bool names_files,
+                                   const mesh_save_options *options, file_output *output, const mesh_log *log,
+                                   ffd_error *error)
 {
     const char *const mesh = options->input;
+    if (!mesh || ffd_output_is_stream(options->path))
+        return FFD_OK;
+    if (ffd_file_is_stream(mesh))
+        return warn_of_stream(input, names_files, options, log, error);
     /* To look through a file that is in memory takes less than to ask the system for folders. */
-    if (!mesh || ffd_file_is_stream(mesh) || ffd_output_is_stream(options->path) ||
-        (!input->mapped && !ffd_obj_names_libraries(input)) || ffd_file_same(mesh, options->path))
+    if ((!input->mapped && !names_files && !ffd_obj_names_libraries(input)) ||
+        ffd_file_same(mesh, options->path))
         return FFD_OK;
     char *const from = ffd_path_folder(mesh), *const to = ffd_path_folder(options->path);
     const resource_copier copier = {mesh, from, to, output, log, options->copied};
@@ -127,6 +178,8 @@ ffd_status ffd_obj_bring_resources(const file_input *input, const mesh_save_opti
     /* In its own folder an output of another ending meets none of the names. */
     if (!status && (!is_stay || ffd_mtl_has_name(options->path) || ffd_image_has_name(options->path)))
         status = bring(&copier, input, options, is_stay, error);
+    if (!status && !is_stay && names_files)
+        status = warn_of_linked(&copier, input, error);
     ffd_free(from);
     ffd_free(to);
     return status;
@@ -153,12 +206,12 @@ ffd_status ffd_obj_find_resources(const char *path, const file_input *bytes, pat
     return status;
 }
 
-ffd_status ffd_obj_find_named(const char *path, const file_input *bytes, path_list *files, path_list *copies,
+ffd_status ffd_obj_find_named(const char *path, const file_input *bytes, const mesh_named *named,
                               ffd_error *error)
 {
-    const size_t before = files->count;
-    ffd_status status = ffd_obj_find_resources(path, bytes, files, error);
-    for (size_t i = before; copies && i < files->count && !status; i++)
-        status = ffd_paths_add(copies, files->paths[i], error);
+    const size_t before = named->files->count;
+    ffd_status status = ffd_obj_find_resources(path, bytes, named->files, error);
+    for (size_t i = before; named->copies && i < named->files->count && !status; i++)
+        status = ffd_paths_add(named->copies, named->files->paths[i], error);
     return status;
 }

@@ -7,11 +7,13 @@
 
 /* Copies the libraries and maps of the file at options->input, whose bytes are `input`, to the same places
    beside the output, or says which libraries the output does not reach (FFD_RESOURCES_REFERENCE). What cannot
-   be copied is named in a warning. Refuses an output that has the name of one of them. Begins and writes
-   files of `output`, so that it comes before the output's own file. Errors: FFD_E_EXISTS, FFD_E_IO,
+   be copied is named in a warning; so is what other statements name (names_files: there are such), and all
+   that a mesh from standard input names. Refuses an output that has the name of one of them. Begins and
+   writes files of `output`, so that it comes before the output's own file. Errors: FFD_E_EXISTS, FFD_E_IO,
    FFD_E_LIMIT, FFD_E_MEMORY. */
-ffd_status ffd_obj_bring_resources(const file_input *input, const mesh_save_options *options,
-                                   file_output *output, const mesh_log *log, ffd_error *error);
+ffd_status ffd_obj_bring_resources(const file_input *input, bool names_files,
+                                   const mesh_save_options *options, file_output *output, const mesh_log *log,
+                                   ffd_error *error);
 
 /* mesh_format's find_resources. */
 mesh_find_resources_function ffd_obj_find_resources;
