@@ -49,6 +49,17 @@ def wild3_01_a_pointer_is_no_buffer(run):
 
 
 @case
+def text_is_no_floats(run):
+    """Numbers as text, or a message, in place of the positions: of any kind, and within min and max."""
+    use(run, "wild3-01-lfs-pointer-as-buffer")
+    size = json.loads(run.text("model.gltf"))["buffers"][0]["byteLength"]
+    for text in (b"0.25 1.5 -0.75\n", b"Not found; ask the administrator of this server.\r\n"):
+        run.write("model.bin", (text * size)[:size])
+        run.ffd("info", "model.gltf", code=INVALID, err=re.compile("text is where the floats of positions should be"))
+        run.ffd("deform", "model.gltf", "out.glb", "-l", "twist.json", code=INVALID, err=anything)
+
+
+@case
 def other_files_are_no_buffers(run):
     """Pages, archives, images and JSON in place of a buffer, beside the model, in a GLB and in its second buffer; as editors and
     shells save them, with a byte order mark or in UTF-16."""
