@@ -190,8 +190,8 @@ def a_replaced_target_shares_its_offsets_with_nothing(run):
         check("sparse" in asset["accessors"][own], asset["accessors"][own])
     # What is stored in whole numbers cannot stay beside floats, which is said.
     scene.asset["accessors"][own] |= {"componentType": 5122, "normalized": True}
-    for member in ("sparse", "min", "max"):  # zeros
-        del scene.asset["accessors"][own][member]
+    for key in ("sparse", "min", "max"):
+        del scene.asset["accessors"][own][key]
     done = run_morphed(run, scene, "--only", "node:two", err=lambda said: None)
     equal([line for line in done.err if "already" in line],
           ["in.glb: mesh 0 has a morph target of that name already: it is replaced, and nodes that are not selected lose its offsets, too"])
