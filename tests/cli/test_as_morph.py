@@ -401,9 +401,11 @@ def meshes_that_share_a_sampler_get_outputs_of_their_own(run):
 
 
 @case
-def weights_that_are_no_rows_stay(run):
-    """Three values for two keys say nothing of two targets. Where the mesh has no targets the new one has the weight 0."""
-    for count, values, expected in ((2, [1, 2, 3], [1, 2, 3]), (0, [1, 2, 3], [0, 0])):
+def weights_that_are_no_rows_do_not_drive_the_new_target(run):
+    """Values that are no row for each key, too few or too many: those of the targets stay in their places, and what is
+    missing becomes 0."""
+    for count, values, expected in ((2, [1, 2, 3], [1, 2, 0, 3, 0, 0]), (2, [1], [1, 0, 0]), (1, [1, 2, 3], [1, 0, 2, 0]),
+                                    (2, [1, 2, 3, 4, 5], [1, 2, 0, 3, 4, 0]), (0, [1, 2, 3], [0, 0])):
         scene = unequal([count])
         animated(scene, [(OF_NODE, values)])
         done = run_morphed(run, scene, box=SHIFT, err=lambda said: None)

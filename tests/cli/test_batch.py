@@ -41,6 +41,7 @@ def names_are_relative_to_the_manifest(run):
     equal([run.read(n) for n in ("deep/out/b.obj", "deep/out/c.obj", "d.obj")], [expected(run)] * 3)
     # Paths on standard input are relative to the folder that ffd runs in.
     batch(run, "-", done=1, stdin=lines_of([job(7)]).encode())
+    batch(run, "/dev/stdin", "--force", done=1, stdin=lines_of([job(7)]).encode())
     equal(run.read("o7.obj"), expected(run))
 
 

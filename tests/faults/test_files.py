@@ -49,6 +49,17 @@ def wild3_01_a_pointer_is_no_buffer(run):
 
 
 @case
+def text_is_no_floats(run):
+    """Numbers as text, or a message, in place of the positions: of any kind, and within min and max."""
+    use(run, "wild3-01-lfs-pointer-as-buffer")
+    size = json.loads(run.text("model.gltf"))["buffers"][0]["byteLength"]
+    for text in (b"0.25 1.5 -0.75\n", b"Not found; ask the administrator of this server.\r\n"):
+        run.write("model.bin", (text * size)[:size])
+        run.ffd("info", "model.gltf", code=INVALID, err=re.compile("text is where the floats of positions should be"))
+        run.ffd("deform", "model.gltf", "out.glb", "-l", "twist.json", code=INVALID, err=anything)
+
+
+@case
 def other_files_are_no_buffers(run):
     """Pages, archives, images and JSON in place of a buffer, beside the model, in a GLB and in its second buffer; as editors and
     shells save them, with a byte order mark or in UTF-16."""
@@ -972,6 +983,9 @@ def a_name_that_ends_in_a_backslash(run):
             run.ffd("info", "m.obj", err=[f"m.obj: line 5: {said}"])
             run.ffd("check", "m.obj", "-l", "l.json", "--strict", code=INVALID, err=f"m.obj:5: {said}")
     told(run.ffd("deform", "m.obj", "o.obj", "-l", "l.json", err=anything), "line 5: " + said)
+    run.write("m.obj", f"{corners}usemtl wood\\\nv 2 2 0\nf 1 2 5\n")
+    run.ffd("info", "m.obj", code=INVALID, err="m.obj:7: vertex index 5 is out of range: the file has 4 (the backslash at the end of "
+                                               "line 5 joins the next one to it)")
     for text in ("g a \\\nb c\nf 1 2 3\n", "f 1 2 \\\n3\n", "g a \\\nfelt f\nf 1 2 3\n", "# C:\\\nf 1 2 3\n", "usemtl a\\ \nf 1 2 3\n"):
         run.write("m.obj", corners + text)
         equal(run.ffd("info", "m.obj", "--json").json["contents"]["faces"], 1)
@@ -982,10 +996,17 @@ def a_name_that_ends_in_a_backslash(run):
 
 @case
 def an_stl_whose_count_was_not_filled_in(run):
-    """A binary STL of 0 facets with facets behind is refused; one that is empty is not."""
+    """A binary STL of 0 facets with facets behind is refused; one that is empty is not. A count that is too small is a warning."""
     facet = struct.pack("<12fH", 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0)
     run.write("m.stl", b"x".ljust(80) + struct.pack("<I", 0) + 3 * facet)
     run.ffd("info", "m.stl", code=INVALID, err="m.stl: 0 facets are stated, but 150 bytes follow, which hold 3: the count was not filled in")
+    for count, more in ((1, "1 facet is stated, but 100 bytes follow, as many as 2 more take"),
+                        (2, "2 facets are stated, but 50 bytes follow, as many as 1 more takes")):
+        run.write("m.stl", b"x".ljust(80) + struct.pack("<I", count) + 3 * facet)
+        run.ffd("info", "m.stl", err=f"m.stl: {more}: they stay as they are")
+        run.ffd("info", "m.stl", "--strict", code=INVALID, err=f"m.stl: {more}: they stay as they are")
+    run.write("m.stl", b"x".ljust(80) + struct.pack("<I", 3) + 3 * facet + b"by a writer")
+    run.ffd("info", "m.stl")
     run.write("e.stl", b"x".ljust(80) + struct.pack("<I", 0))
     equal(run.ffd("info", "e.stl", "--json").json["vertices"], 0)
 

@@ -202,8 +202,8 @@ static void tell_worker(beside_claim *claim, const char *path, const char *users
     ffd_buffer_append(claim->passed, "", 1);
 }
 
-/* Judges one name in the same way as the worker will (mesh/resource/beside.c), and claims it or passes it
- * over. */
+/* Judges a name in the same way as the worker will (mesh/resource/beside.c), and claims it or passes
+   it over. */
 static ffd_status judge_name(beside_claim *claim, beside_name *name, ffd_error *error)
 {
     batch_job *const job = claim->job;

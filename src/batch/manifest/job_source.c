@@ -198,7 +198,7 @@ static ffd_status open_text(job_source *source, const char *path, ffd_error *err
 {
     source->frame.name = ffd_file_display_name(path);
     source->folder =
-        strcmp(path, "-") == 0 || ffd_path_name(path) == path ? ffd_text_copy("") : ffd_path_folder(path);
+        ffd_file_is_stream(path) || ffd_path_name(path) == path ? ffd_text_copy("") : ffd_path_folder(path);
     if (!source->folder)
         return ffd_fail_memory(error);
     /* Files named on the command line are not relative to the table. */

@@ -241,8 +241,7 @@ static ffd_status first_row(csv_table *table, line_state *state, bool *valid, ff
     return status;
 }
 
-/* Takes the separator from a line that is there for a spreadsheet program, and reads the next row in its
- * place. */
+/* Takes the separator from a line that is there for a spreadsheet program, and reads the next row instead. */
 static ffd_status pass_separator(csv_table *table, line_state *state, bool *valid, ffd_error *error)
 {
     const byte_buffer *const line = &table->reader->line;

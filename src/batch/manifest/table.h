@@ -28,8 +28,8 @@ ffd_status ffd_table_begin(csv_table *table, ffd_error *error);
 /* Reads the next row, which may extend over several lines. *valid: its cells are in table->row. Errors:
    FFD_E_IO, FFD_E_MEMORY. */
 ffd_status ffd_table_next(csv_table *table, line_state *state, bool *valid, ffd_error *error);
-/* Whether that row is valid and has a cell for each column; adds its flaws. error: says what is wrong, at its
- * line. */
+/* Whether that row is valid and has a cell for each column; adds its flaws. error: says what is wrong, at the
+   row's line. */
 bool ffd_table_check(csv_table *table, bool valid, ffd_error *error);
 /* Whether the table has a column of this name that is not left out. */
 bool ffd_table_has(const csv_table *table, const char *column);

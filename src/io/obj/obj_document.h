@@ -38,7 +38,8 @@ typedef struct obj_document {
     uint32_t *pair_start, *pair_normal;
     /* Where `vn` can be added so that every index keeps its meaning: an offset into the file. */
     size_t addition;
-    size_t end; /* offset where the text ends: at a Ctrl-Z, or with the file */
+    size_t end;         /* offset where the text ends: at a Ctrl-Z, or with the file */
+    size_t joined_line; /* the first that a backslash joins to a statement of its own; 0: none */
     obj_unknown unknown;
     bool names_files;  /* there is a statement that ffd_obj_names_file knows */
     obj_blocks blocks; /* of the file */

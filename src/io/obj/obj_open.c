@@ -111,6 +111,16 @@ static int threads_for(const ffd_source *source, size_t size)
     return (size_t)threads < busy ? threads : (int)busy;
 }
 
+/* What a backslash took from the file can be what is missing below: leads to that line too. */
+static ffd_status lead_to_joined(const obj_document *d, ffd_status status, ffd_error *error)
+{
+    if (status != FFD_E_INVALID || !error || d->joined_line == 0 || error->line <= d->joined_line)
+        return status;
+    return ffd_fail_line(error, status, d->file.name, error->line,
+                         "%s (the backslash at the end of line %zu joins the next one to it)", error->message,
+                         d->joined_line);
+}
+
 ffd_status ffd_obj_open(file_input *input, const ffd_source *source, mesh_document **document,
                         ffd_error *error)
 {
@@ -127,6 +137,7 @@ ffd_status ffd_obj_open(file_input *input, const ffd_source *source, mesh_docume
     if (status == FFD_OK)
         status = note_unknown(d, error);
     if (status) {
+        status = lead_to_joined(d, status, error);
         free_document(d);
         return status;
     }

@@ -295,6 +295,7 @@ static ffd_status read_blocks(reader *r, ffd_error *error)
     d->texcoords = r->texcoords;
     d->normals = r->normals;
     d->faces = r->faces;
+    d->joined_line = r->joined.count > 0 ? r->joined.line : 0;
     if (r->failed != SIZE_MAX)
         return find_failure(r, error);
     d->file.positions = d->position_store.data;

@@ -94,7 +94,14 @@ static ffd_status read_binary(stl_document *d, ffd_error *error)
                              "filled in",
                              behind, behind / STL_FACET);
     d->facets = facets;
-    return FFD_OK;
+    const size_t further = behind - STL_FACET * d->facets;
+    if (further == 0 || further % STL_FACET != 0)
+        return FFD_OK;
+    return ffd_flaw_line(&d->file.base.flaws, d->file.name, 0, error,
+                         "%" PRIu32 " %s stated, but %zu bytes follow, as many as %zu more %s: they stay as "
+                         "they are",
+                         facets, ffd_plural(facets, "facet is", "facets are"), further, further / STL_FACET,
+                         ffd_plural(further / STL_FACET, "takes", "take"));
 }
 
 static ffd_status add_facet(stl_document *d, const stl_facet *facet, size_t *capacity, ffd_error *error)

@@ -158,9 +158,8 @@ static int measure_scaled(extent_work *work, const mesh_faces *faces)
     return exponent;
 }
 
-/* Returns a sum times 2^exponent: infinite if that is too large for a double, NaN if a position is not
- * finite.
- */
+/* Returns a sum times 2^exponent: infinite if that is too large for a double, NaN if one of the positions is
+   not finite. */
 static double unscaled(const exact_sum *sum, int exponent)
 {
     const double value = total(sum);

@@ -5,9 +5,8 @@
 
 #include "job/pass/tile.h"
 
-/* Returns the rounding error of a part's results, relative to its largest side, above which its shape
- * changes.
- */
+/* Returns the rounding error of a part's results above which its shape changes, relative to its largest
+   side. */
 double ffd_part_tolerance(const mesh_document *document);
 
 /* Notes how fine the floats of a tile's positions are before it is displaced. raw: in the file's space. */

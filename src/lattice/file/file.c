@@ -119,8 +119,8 @@ ffd_status ffd_lattice_list_open(const char *path, const ffd_setting *values, si
     return status;
 }
 
-/* Whether the deformed weights have to be written: those at rest times a factor too, though they move
- * nothing. */
+/* Whether the deformed weights have to be written: those at rest times a factor too, though these move
+   nothing. */
 static bool weights_differ(const ffd_lattice *lattice)
 {
     const double *const rest = lattice->rest_weights;

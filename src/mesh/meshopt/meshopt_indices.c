@@ -9,7 +9,6 @@
 #define CODE_NO_EDGE 0xf
 #define CODE_VERTEX_END 0xd /* below: a remembered vertex */
 #define CODE_BEFORE 0xd
-#define CODE_AFTER 0xe
 #define CODE_TABLE_END 0xe /* below: an entry of the table */
 #define CODE_FROM_NEXT 0xfe
 #define STORED 0xf /* an index that is written out */
@@ -93,7 +92,7 @@ static void read_at_edge(triangles *t, unsigned age, unsigned third, uint32_t co
     else if (third == STORED)
         corners[2] = read_index(t);
     else
-        corners[2] = t->last += third == CODE_AFTER ? 1 : UINT32_MAX;
+        corners[2] = t->last += third == CODE_BEFORE ? UINT32_MAX : 1;
     remember_edge(t, corners[2], corners[1]);
     remember_edge(t, corners[0], corners[2]);
     if (third == 0 || third >= CODE_VERTEX_END)

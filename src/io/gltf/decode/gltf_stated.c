@@ -15,6 +15,10 @@
 /* How often the largest number of min and max a position may be. */
 #define LARGEST_RATIO 1e15
 
+/* Positions that are looked at for text, and how few tell nothing. */
+#define TEXT_SEEN ((size_t)64)
+#define TEXT_LEAST ((size_t)3)
+
 typedef struct range {
     double min[3], max[3];
 } range;
@@ -127,6 +131,19 @@ static ffd_status compare(gltf_document *d, size_t a, const range *found, ffd_er
     return FFD_OK;
 }
 
+/* Whether each byte of the first positions is a character of a text: about one float in twenty is such by
+   chance. */
+static bool is_text(const gltf_layout *layout, size_t count)
+{
+    for (size_t i = 0; i < count && i < TEXT_SEEN; i++)
+        for (size_t b = 0; b < layout->element_size; b++) {
+            const unsigned char byte = layout->data[i * layout->stride + b];
+            if (byte >= 127 || (byte < ' ' && byte != '\t' && byte != '\n' && byte != '\r'))
+                return false;
+        }
+    return count >= TEXT_LEAST;
+}
+
 /* Checks an accessor once, however many primitives share it. Decoded numbers are rounded by their
    compression, and integers cannot be far off. */
 static ffd_status check(gltf_document *d, int a, bool *is_checked, ffd_error *error)
@@ -135,6 +152,10 @@ static ffd_status check(gltf_document *d, int a, bool *is_checked, ffd_error *er
         d->layouts[a].packing != GLTF_PLAIN || d->model.accessors[a].component != GLTF_FLOAT)
         return FFD_OK;
     is_checked[a] = true;
+    if (is_text(&d->layouts[a], (size_t)d->model.accessors[a].count))
+        return ffd_json_span_fail(&d->tree, d->accessor_values.values[a], d->name, FFD_E_INVALID, error,
+                                  "text is where the floats of positions should be: the buffer does not hold "
+                                  "the bytes of this mesh");
     const range found = range_of(d, (size_t)a);
     return compare(d, (size_t)a, &found, error);
 }

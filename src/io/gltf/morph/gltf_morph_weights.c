@@ -218,17 +218,14 @@ static bool find_rows(const gltf_saver *saver, uint32_t sampler, const wanted_ou
     const size_t keys = read_index(saver, sampler, "input", d->model.accessor_count, &input)
                             ? (size_t)d->model.accessors[input].count
                             : 0;
-    if (keys > 0 && keys <= count && count / keys % parts == 0 && count % keys == 0) {
+    const bool is_whole = keys > 0 && count % keys == 0 && count / keys % parts == 0;
+    layout->width = is_whole ? count / (keys * parts) : wanted->targets;
+    layout->fits = keys == 0 || (is_whole && layout->width == wanted->targets && !wanted->is_single);
+    if (keys > 0 && (keys <= count || row == 0))
         layout->rows = keys * parts;
-        layout->width = count / layout->rows;
-        layout->fits = layout->width == wanted->targets && !wanted->is_single;
-        return true;
-    }
-    /* Not whole rows for the keys. What drives no target has no meaning to keep. */
-    layout->rows = row ? count / row * parts : keys * parts;
-    layout->width = wanted->targets;
-    layout->fits = row;
-    return layout->rows > 0 && (!row || count % row == 0);
+    else /* those that have values: keys alone need no bytes in a file, and may be any number */
+        layout->rows = row ? count / row * parts + (count % row ? parts : 0) : 0;
+    return layout->rows > 0 && (keys > 0 || count % row == 0);
 }
 
 /* Makes an output in which the further target has the weight 0, after those of the others: as many values as
@@ -239,6 +236,7 @@ static void write_output(const weight_writer *w, const output_rows *old, wanted_
     morph_data *const data = w->data;
     const size_t kept = wanted->is_single ? 0 : old->width < wanted->targets ? old->width : wanted->targets;
     const size_t width = wanted->is_single ? 1 : wanted->targets + 1;
+    const size_t count = (size_t)d->model.accessors[old->accessor].count;
     ffd_buffer_text(&data->accessors, data->accessor_count > 0 ? ",{" : "{");
     if (kept > 0)
         ffd_buffer_format(&data->accessors, "\"bufferView\":%zu,\"byteOffset\":%zu,", d->view_values.count,
@@ -248,7 +246,7 @@ static void write_output(const weight_writer *w, const output_rows *old, wanted_
     for (size_t r = 0; r < old->rows && kept > 0 && !data->bytes.failed; r++)
         for (size_t i = 0; i < width; i++) {
             double value = 0;
-            if (i < kept)
+            if (i < kept && r * old->width + i < count) /* the last rows may lack some */
                 ffd_gltf_read(d, old->accessor, r * old->width + i, 1, 1, &value);
             ffd_buffer_float(&data->bytes, value);
         }

@@ -169,7 +169,8 @@ static bool mend_vertex(influences *of, size_t vertex)
         changes = true;
     } else if (!is_whole(of, sum)) {
         divide_weights(of, sum);
-        changes = join_weights(of) || true; /* a weight may have become 0 */
+        join_weights(of); /* a weight may have become 0 */
+        changes = true;
     }
     for (size_t s = 0; s < of->set_count && changes; s++) {
         write_four(&of->joints[s], vertex, of->joint + 4 * s);
