@@ -41,6 +41,7 @@ void ffd_totals_join(const pass_totals *tile, pass_totals *all)
     ffd_bounds_join(&all->shapes, &tile->shapes);
     all->outside_all += tile->outside_all;
     all->misses.count += tile->misses.count;
+    all->misses.looked_at += tile->misses.looked_at;
     all->misses.largest = fmax(all->misses.largest, tile->misses.largest);
     all->misses.is_least = all->misses.is_least || tile->misses.is_least;
     all->multiple_any += tile->multiple_any;
