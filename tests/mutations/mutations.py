@@ -56,7 +56,7 @@ m("killed-set-not-restored", "recovery left out", "file_set, cli_file_sets",
 m("pipe-as-module", "check left out", "cli_modules", "!S_ISREG(file.st_mode) || file.st_mode & S_IWOTH",
   "file.st_mode & S_IWOTH")
 m("copies-not-compared", "check left out", "cli_batch_outputs",
-  "if (is_copy && !is_same_copy(outputs->copied[number].source, source))", "if (is_copy && outputs->copied[number].line == 0)")
+  "if (is_copy && !is_same_copy(files->copied[number].source, source))", "if (is_copy && files->copied[number].line == 0)")
 m("record-of-others-trusted", "owner check left out", "cli_file_sets", "if (info.st_mode & 022 || info.st_nlink != 1 ||",
   "if (info.st_mode & 010000000 ||")
 m("cut-input-not-noted", "error left out", "mapping, cli_cut_inputs", "atomic_store(&mapping->is_cut, true);",
@@ -66,15 +66,15 @@ m("shorter-input-not-seen", "error left out", "mapping", "(uintmax_t)info.st_siz
 m("close-not-checked", "close check left out", "file, cli_full_disk, cli_output",
   "(twin < 0 || close(twin) != 0)", "(twin < 0 || (close(twin) != 0 && twin < 0))")
 m("output-not-locked", "lock left out", "file, cli_output, cli_batch_signals",
-  "if (flock(fd, LOCK_EX | LOCK_NB) != 0)", "if (flock(fd, LOCK_UN) != 0)")
+  "if (flock(fd, LOCK_EX | LOCK_NB) != 0 && !has_no_locks())", "if (flock(fd, LOCK_UN) != 0 && !has_no_locks())")
 m("block-overrun", "bound", "file, cli_output",
   "size > BLOCK - output->filled ? make_room(output, error)", "size > BLOCK ? make_room(output, error)")
 m("mode-not-kept", "file mode", "file, cli_output", "old->st_mode & 0777", "old->st_mode & 0666")
 m("output-left-open", "freed resource", "file, cli_many", "if (file->fd >= 0) close(file->fd);",
   "if (file->fd >= 1000000)\n            close(file->fd);")
 m("leftover-not-removed", "clean-up left out", "file, cli_output, cli_full_disk",
-  "if (file->temporary && !file->committed) unlink(file->temporary);",
-  "if (file->temporary && file->committed) unlink(file->temporary);")
+  "if (file->temporary && !file->committed) remove_temporary(file);",
+  "if (file->temporary && file->committed) remove_temporary(file);")
 m("spill-left-open", "freed resource", "spill", "munmap(array->data, array->size); close(array->file);",
   "munmap(array->data, array->size);")
 m("files-of-a-parent", "owner check left out", "cleanup", "if (entry->owner != getpid()) continue;",
@@ -125,8 +125,8 @@ m("module-of-another-version", "check left out", "cli_modules",
 m("module-of-another-name", "check left out", "cli_modules", "strcmp(found->file, wanted->file) == 0 &&", "")
 m("module-without-memory", "error code", "cli_modules", "if (!has_memory(MODULE_BYTES)) return ffd_fail_memory(error);", "",
   "if (!has_room(MODULE_BYTES)) return ffd_fail_memory(error);", "")
-m("modules-of-the-working-folder", "path", "cli_modules", "snprintf(file, LONGEST_PATH, \"%.*s\", (int)length, path);",
-  "snprintf(file, LONGEST_PATH, \"%s\", \"./x\");")
+m("modules-of-the-working-folder", "path", "cli_modules", "snprintf(tried, LONGEST_PATH, \"%s%s%s/%s\", is_absolute ? \"\" : own,",
+  "snprintf(tried, LONGEST_PATH, \"%s%s%s/%s\", is_absolute ? \"\" : \".\",")
 m("module-of-another-user", "check left out", "cli_modules", "return has_link && has_file;", "return has_link || file.st_size >= 0;")
 m("meshopt-without-its-module", "check left out", "cli_modules", "if (status == FFD_OK) status = ffd_meshopt_ready(view, &problem);", "")
 m("sine-of-45", "rounding", "trig", "if (size == 45)", "if (size == 46)")
@@ -334,7 +334,7 @@ m("stalled-point-searched-once", "condition", "border_cells",
   "location->status == FFD_SINGULAR && location->unresolved && search->blurred", "location->status == FFD_SINGULAR && search->strict")
 m("sliver-never-doubtful", "condition", "border_cells", "search->doubtful = true;", "search->doubtful = false;")
 m("further-search-leaves-by-an-estimate", "condition", "border_cells",
-  "if (search->strict || !(out > bend) ||", "if (!(out > bend) ||")
+  "if (surely ? !is_far : !(out > bend) ||", "if (!(out > bend) ||")
 m("image-without-the-tolerance", "bound", "border_cells", "if (fabs(off) > reach + rounding +", "if (fabs(off) > rounding +")
 m("plane-in-the-cell", "bound", "border_cells", "return least > reach || most < -reach;",
   "return least > 0.5 * reach || most < -0.5 * reach;")
@@ -358,7 +358,7 @@ m("witness-in-the-cell", "bound", "oracle folds", "uvw[a] = is_last ? knot[1] : 
   "uvw[a] = is_last ? knot[0] : nextafter(knot[1], knot[0]);")
 m("witness-not-looked-at", "step left out", "cli_fold_exact", "if (place.sign > 0) return; folds->", "folds->")
 m("mirror-as-affine-map", "condition", "cli_fold_exact", "return loss <= 0.5 && *determinant > 0;", "return loss <= 0.5;")
-m("affine-beside-weights", "condition", "cli_fold_exact", "if (deformed[i] / rest[i] != deformed[0] / rest[0])",
+m("affine-beside-weights", "condition", "cli_fold_exact", "if (!(fabs(deformed[i] / rest[i] - factor) <= 4 * DBL_EPSILON * factor))",
   "if (deformed[i] / rest[i] < 0)")
 m("rule-without-weights", "bound", "rational_volume", "const double room = 1 - q * weight;", "const double room = 1 + 0 * q * weight;")
 m("limbs-of-a-product", "off by one", "wide", "a->exponent + b->exponent + 1, product", "a->exponent + b->exponent, product")
@@ -376,8 +376,8 @@ m("one-corner-is-a-point", "operation", "model, cli_convert", "if (kind == MODEL
 m("triangles-are-polygons", "bound", "model, cli_convert", "faces->corner_count > 3 * faces->count",
   "faces->corner_count >= 3 * faces->count")
 m("colours-as-bytes", "tolerance", "model, cli_convert", "#define BYTE_TOLERANCE 2e-4", "#define BYTE_TOLERANCE 2e-1")
-m("fine-positions", "tolerance", "model, cli_convert", "#define FLOAT_TOLERANCE 0x1p-17",
-  "#define FLOAT_TOLERANCE 0x1p-9")
+m("fine-positions", "tolerance", "model, cli_convert", "#define SHAPE_TOLERANCE 0x1p-17",
+  "#define SHAPE_TOLERANCE 0x1p-9")
 m("boxes-cleared-from-the-near-side", "bound", "polygon_cut", "const double y = dx > 0 ? node->high[1] : node->low[1]", "const double y = dx > 0 ? node->low[1] : node->high[1]")
 m("all-corners-looked-at", "speed", "polygon_cut", "cutter->has_boxes = !is_plain;", "cutter->has_boxes = false;")
 m("polygon-seen-from-below", "sign", "polygon_cut, cli_convert", "(axis + (normal[axis] < 0 ? 2 : 1)) % 3",
@@ -494,7 +494,7 @@ m("greatest-element", "off by one", "obj_users, obj", "*greatest = *greatest > e
 m("corner-run-of-a-longer-index", "bound", "obj_users, obj", "(unsigned)normal - 1 >= 8)", "(unsigned)normal - 1 >= 9)")
 m("corner-run-without-a-slash", "check left out", "obj_users, obj, cli_obj", "text[other_slash] != '/' ||", "")
 m("first-normal-replaced", "check left out", "obj_users, obj_normals", "if (there == 0 && is_alone) {", "if (is_alone) {")
-m("libraries-not-seen", "condition", "obj_resources, cli_materials", "(!input->mapped && !ffd_obj_names_libraries(input)) ||",
+m("libraries-not-seen", "condition", "obj_resources, cli_materials", "(!input->mapped && !names_files && !ffd_obj_names_libraries(input)) ||",
   "!input->mapped ||")
 m("block-cut-in-a-line", "bound", "obj_blocks", "if (!may_continue(first, end)) return at; at--;",
   "if (!may_continue(first, end) || at < last)\n            return at;\n        at--;")
@@ -504,9 +504,8 @@ m("one-library-of-two-words", "check left out", "cli_materials", "if (is_file(pa
   "if (size > NAME_MAX_SIZE && is_file(path, text, size))\n        return ffd_obj_add_name")
 m("library-of-a-continued-line", "check left out", "obj_resources", "return !is_continued(first, at);",
   "return !is_continued(first, at) || at > first;")
-m("library-across-pieces", "bound", "obj_resources", "if (begins_statement(first, at, last)) return at;",
-  "if (begins_statement(first, at, end < last ? end : last))\n            return at;", "if (begins_statement(first, letter, last)) {",
-  "if (begins_statement(first, letter, end)) {")
+m("library-across-pieces", "bound", "obj_resources", "if (begins_statement(first, at, last, keyword)) return at;",
+  "if (begins_statement(first, at, end, keyword))\n            return at;")
 m("words-of-an-option", "wrong constant", "obj_resources, cli_materials", '{"-mm", 2, false}', '{"-mm", 1, false}')
 m("map-beside-the-mesh", "condition", "materials, cli_materials", "if (status || !*path || is_there(folder, *path)) return status;",
   "if (status || !*path || !is_there(folder, *path))\n        return status;", "if (!is_there(c, path)) status = find_path(",
@@ -522,8 +521,6 @@ m("library-that-is-reached", "message", "cli_materials", "if (ffd_path_leads_out
 m("libraries-of-an-input", "condition", "cli_materials, cli_batch_neighbours",
   "return ffd_format_table(format) == ffd_format_table(from_format) &&", "return ffd_format_table(format) != ffd_format_table(from_format) &&")
 m("many-maps", "limit", "cli_materials", "if (names->count > OBJ_RESOURCES_MAX)", "if (names->count > OBJ_RESOURCES_MAX + 1)")
-m("statements-alike", "condition", "cli_materials, obj_resources", "if (!status && found->statements.count > before)",
-  "if (!status && found->statements.count == before)")
 m("last-definition-of-a-material", "order", "materials", "d->counts = number == known; if (!d->counts)",
   "d->counts = true;\n    if (number != known)")
 m("colours-of-libraries-linear", "term left out", "materials", "has_map && is_black ? 1 : ffd_srgb_to_linear(d->diffuse[c])",
@@ -842,7 +839,7 @@ m("glb-stride", "stride", "cli_convert, validator", "{12, 12, 8, glb_colour_size
 m("alpha-is-linear", "check left out", "cli_convert", "c < 3 ? ffd_srgb_to_linear(colour[c]) : colour[c];",
   "ffd_srgb_to_linear(colour[c]);")
 m("unit-of-far-nodes", "off by one", "cli_convert, cli_faults",
-  "floor((least[a] / 2 + largest[a] / 2) / unit + 0.5)", "floor((least[a] / 2 + largest[a] / 2) / unit)")
+  "floor((box->min[a] / 2 + box->max[a] / 2) / unit + 0.5)", "floor((box->min[a] / 2 + box->max[a] / 2) / unit)")
 m("glb-mode", "constant", "cli_convert", "modes[MODEL_KINDS] = {4, 1, 0};", "modes[MODEL_KINDS] = {4, 3, 0};")
 m("glb-vertices-joined", "operation", "cli_convert",
   "if (x->texcoord != y->texcoord) return x->texcoord < y->texcoord ? -1 : 1;",
@@ -1012,8 +1009,8 @@ m("lattice-takes-no-memory", "limit", "cli_hostile_inputs", "if (ffd_budget_take
 m("lattices-of-a-job", "limit", "cli_hostile_inputs", "#define MOST_LATTICES 1024", "#define MOST_LATTICES 1025")
 m("memory-of-a-new-lattice", "check left out", "cli_hostile_inputs",
   "return ffd_lattice_memory_take(&budget, &spec, 0, error);", "return budget.most ? FFD_OK : ffd_lattice_memory_take(&budget, &spec, 0, error);")
-m("beside-a-dry-run", "check left out", "cli_materials", "return rehearse(job, &options, error);",
-  "return rehearse(job, &options, error) ? FFD_OK : FFD_OK;")
+m("beside-a-dry-run", "check left out", "cli_materials", "job->desc->dry_run ? rehearse(job, options, error) : save(",
+  "job->desc->dry_run ? (rehearse(job, options, error), FFD_OK) : save(")
 m("flaws-of-a-box", "message", "cli_boxes", "ffd_flaws_warn(&document->flaws, ffd_source_name(source), log);", "(void)log;")
 m("flaws-of-a-known-box", "message", "cli_boxes", "for (size_t i = 0; i < box->warnings.count; i++) ffd_log_line(",
   "for (size_t i = 1; i < box->warnings.count; i++)\n        ffd_log_line(")
@@ -1112,9 +1109,9 @@ m("meshes-in-turn", "policy", "cli_batch_sweep",
   "if (is_of(worker, tasks[i]) || !is_taken(pool, worker, tasks[i]))", "if (is_of(worker, tasks[i]) || !is_taken(pool, worker, tasks[i]) || count)")
 m("looks-in-any-order", "order", "cli_batch_outputs", "settled = settled && ffd_task_is_settled(task);", "")
 m("look-not-learned", "operation", "cli_batch_outputs",
-  "if (task->state == TASK_LOOKED) status = ffd_outputs_learn(", "if (0) status = ffd_outputs_learn(")
+  "ffd_status status = ffd_run_learn(run, task, error);", "ffd_status status = FFD_OK;")
 m("resources-of-a-look-left-out", "operation", "cli_batch_outputs",
-  "if (table->find_resources) status = table->find_resources(path, &bytes, &look->copied, error);", "")
+  "return ffd_paths_add(&look->copies, path, error);", "return FFD_OK;")
 m("changed-mesh-not-told", "message", "cli_batch_sweep", "if (known & TOLD || known == state)",
   "if ((known | TOLD) & TOLD || known == state)")
 m("changed-mesh-told-again", "message", "cli_batch_sweep",
@@ -1131,7 +1128,7 @@ m("deadline-of-one-thread", "left out", "cli_timeout", "ffd_deadline_set(self->d
 m("search-without-deadline", "left out", "cli_timeout", "size = ends ? next_slice(now, seconds) : MOST_POINTS; status = ffd_deadline_check(error);",
   "size = ends ? next_slice(now, seconds) : MOST_POINTS;")
 m("slowness-told-again", "left out", "cli_timeout", "pace->is_told = true;", "pace->is_told = false;")
-m("stream-waited-for", "left out", "cli_timeout", "while (ffd_deadline_left() >= 0) {", "while (ffd_deadline_left() > 1 << 30) {")
+m("stream-waited-for", "left out", "cli_timeout", "while (!status && poll(&ready, 1, ffd_deadline_left()) <= 0)", "while (!status && poll(&ready, 1, -1) <= 0)")
 m("timeout-named-stop", "message", "cli_batch_failures, cli_batch", "worker->timed_out = !worker->stopped;",
   "worker->timed_out = worker->stopped;")
 m("memory-of-idle-workers", "clean-up left out", "cli_processors", "if (other != worker && !other->task) finish_worker(other, NULL);",
@@ -1177,7 +1174,7 @@ m("picture-leads-up", "check left out", "run_view, cli_batch_view", "while (star
   "while (start && *start == '/')")
 m("picture-in-its-own-folder-only", "identity", "cli_batch_view", "ffd_path_join(view->resolved, name) : NULL;",
   "ffd_path_join(view->resolved, task->job.output) : NULL;")
-m("page-of-all-shards", "name", "run_view, cli_batch_view", "if (desc->shards > 1)", "if (desc->shards > 1000)")
+m("page-of-all-shards", "name", "run_view, cli_batch_view", "if (shards > 1) ffd_buffer_format(&name, \"index-", "if (shards > 1000)\n        ffd_buffer_format(&name, \"index-")
 m("old-picture-is-current", "check left out", "run_view, cli_batch_view", "&& !is_older(&picture, &mesh);", "&& (mesh.size || !is_older(&picture, &mesh));")
 m("older-by-seconds", "order", "run_view", "a->written[1] < b->written[1];", "a->written[1] < 0;")
 m("row-not-marked-last", "order", "row_array, cli_batch_positions", "if (!status && count > 1) status = write_vertices(array, row, file, positions, 1, count, piece, error);", "if (!status && count > 1)\n        status = write_vertices(array, row, file, positions, 2, count, piece, error);")
@@ -1204,9 +1201,9 @@ m("figures-of-no-job", "figure", "cli_batch_view", "if (is_all || !answer->has_p
 m("warnings-said-twice", "check left out", "cli_batch_view", "if (has_line(lines->data, before, line, length))", "if (has_line(lines->data, 0, line, length))")
 m("no-room-for-a-picture", "limit", "cli_batch_view", "|| stamp.size < LARGE)", "|| stamp.size < 100 * LARGE)")
 m("no-mesh-beside-a-picture", "limit", "cli_batch_view", "|| stamp.size < LARGE)", "|| stamp.size == 0)")
-m("picture-of-two-jobs", "check left out", "cli_batch_view", "if (!is_taken(outputs, file, &line))\n        return ffd_files_put(&outputs->lines, file, job->line, error); refuse(manifest, job, \"\", path, line);",
-  "if (!is_taken(outputs, file, &line) || line > 0)\n        return ffd_files_put(&outputs->lines, file, job->line, error);\n    refuse(manifest, job, \"\", path, line);")
-m("embedding-of-the-run", "left out", "cli_batch_positions", "ffd_outputs_check_embedding(&run->written, ffd_run_manifest(run), job);", "")
+m("picture-of-two-jobs", "check left out", "cli_batch_view", "if (is_taken(files, job, file, &line)) ffd_run_refuse(files, job, \"\", path, line);",
+  "if (is_taken(files, job, file, &line) && line == 0)\n        ffd_run_refuse(files, job, \"\", path, line);")
+m("embedding-of-the-run", "left out", "cli_batch_positions", "if (strncmp(*word, embedding, sizeof embedding - 1) == 0)", "if (strncmp(*word, embedding, sizeof embedding) == 0)")
 m("array-in-place-of-an-embedding", "condition", "cli_batch_positions", "(desc->force && desc->positions && ffd_file_exists(desc->positions))", "(desc->force && desc->positions && !ffd_file_exists(desc->positions))")
 m("index-as-an-output", "check left out", "cli_batch_view", "run->view ? ffd_run_view_page(run->view) : NULL};", "NULL};")
 m("index-out-of-order", "operation", "cli_batch_view", "|| run->depfile || run->view ||", "|| run->depfile ||")
@@ -1262,8 +1259,8 @@ m("color-of-what-is-not-known", "condition", "cli_view", "color == FFD_VIEW_STAT
 m("gate-without-a-page", "condition", "cli_view, view", "if (status == FFD_E_GATE) ffd_fail_name_file(&result->error, ffd_source_name(&work->desc->job->input)); else if (status) {",
   "if (status) {")
 m("gate-forgotten-by-a-page", "result left out", "cli_view, view", "status = result->status; /* of the gates */", "status = FFD_OK;")
-m("weights-of-a-picture", "shape", "cli_view", "document->shown = shows_shapes(work, document); const ffd_status status = document->format->model",
-  "document->shown = false; const ffd_status status = document->format->model")
+m("weights-of-a-picture", "shape", "cli_view", "document->shown = shows_shapes(work, document); const uint64_t before = document->budget.taken;",
+  "document->shown = false; const uint64_t before = document->budget.taken;")
 m("weights-of-a-deformed-file", "shape", "cli_view", "document->shown = shows_shapes(work, document); for (size_t i",
   "document->shown = work->desc->full; for (size_t i")
 m("numbers-of-what-is-hidden", "offset", "cli_view", "number += part->vertex_count; } return FFD_OK; } static ffd_status extract",
