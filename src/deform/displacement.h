@@ -64,6 +64,7 @@ typedef struct displacement_scratch {
     uint16_t buckets[2 * DISPLACEMENT_BATCH]; /* hash table of the cells by key */
     uint32_t sorted[DISPLACEMENT_BATCH];      /* indices of the points, cell by cell */
     double uvw[3 * DISPLACEMENT_BATCH];       /* their u,v,w */
+    bool may_turn; /* set by a batch with gradients where det F may be 0 or less; never cleared */
 } displacement_scratch;
 
 typedef struct displacement_batch {
@@ -75,6 +76,8 @@ typedef struct displacement_batch {
     size_t count;
     double *delta;    /* of point n: begins at delta[3 * n] */
     double *gradient; /* of point n: begins at gradient[9 * n]; may be NULL */
+    bool only_turns;  /* with gradient: it is wanted only for cells where det F may be 0 or less; elsewhere it
+                         is 0 */
     uint8_t *moves;   /* moves[n]: what ffd_displacement returns */
 } displacement_batch;
 

@@ -213,8 +213,9 @@ static void shift_on_knots(const ffd_lattice *lattice, const int span[3], uint8_
     }
 }
 
+/* gentle: without gradients, which are not wanted. */
 static void bend_cell(const ffd_lattice *lattice, const kernel_pair *kernel, const displacement_batch *batch,
-                      const batch_cell *of, const double *numbers, displacement_scratch *scratch)
+                      const batch_cell *of, bool gentle, const double *numbers, displacement_scratch *scratch)
 {
     const uint32_t *const which = scratch->sorted + of->first;
     kernel_cell cell;
@@ -223,11 +224,13 @@ static void bend_cell(const ffd_lattice *lattice, const kernel_pair *kernel, con
                                   .which = which,
                                   .count = of->count,
                                   .delta = batch->delta,
-                                  .gradient = batch->gradient,
+                                  .gradient = gentle ? NULL : batch->gradient,
                                   .jacobian = cell.rest.points ? scratch->jacobian : NULL};
     kernel->displace(&cell, &points);
     for (size_t k = 0; k < of->count; k++)
         batch->moves[which[k]] = 1;
+    for (size_t k = 0; k < of->count && gentle; k++)
+        memset(batch->gradient + 9 * (size_t)which[k], 0, 9 * sizeof *batch->gradient);
     for (size_t k = 0; k < of->count && cell.rest.points; k++)
         ffd_displacement_to_space(scratch->jacobian + 9 * which[k], batch->gradient + 9 * which[k]);
 }
@@ -243,10 +246,12 @@ static void displace_cell(const ffd_lattice *lattice, const kernel_pair *kernel,
     ffd_displacement_spans(lattice, of->span, span);
     for (size_t k = 0; k < of->count && motion.kind == CELL_STILL; k++)
         stay(batch, which[k]);
+    const bool gentle = batch->only_turns && motion.is_gentle;
+    scratch->may_turn = scratch->may_turn || (motion.kind == CELL_BENT && !motion.is_gentle);
     if (motion.kind == CELL_SHIFTED)
         shift_cell(ffd_displacement_shared(lattice, span, NULL), batch, which, of->count);
     if (motion.kind == CELL_BENT)
-        bend_cell(lattice, kernel, batch, of, numbers, scratch);
+        bend_cell(lattice, kernel, batch, of, gentle, numbers, scratch);
     if (motion.knots)
         shift_on_knots(lattice, span, motion.knots, scratch->uvw + 3 * (size_t)of->first, batch, which,
                        of->count);
@@ -261,6 +266,7 @@ void ffd_displacements(const ffd_lattice *lattice, ffd_isa isa, const displaceme
             batch->moves[n] = (uint8_t)ffd_displacement(lattice, uvw_of(batch, k), batch->delta + 3 * n,
                                                         batch->gradient ? batch->gradient + 9 * n : NULL);
         }
+        scratch->may_turn = true;
         return;
     }
     const kernel_pair *const kernel = &kernels[ffd_isa_resolve(isa)];

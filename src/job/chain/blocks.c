@@ -397,6 +397,7 @@ static void displace(const block_work *work)
                                 .stride = sizeof *scratch->locations,
                                 .delta = run->delta,
                                 .gradient = run->gradient,
+                                .only_turns = run->only_turns,
                                 .moves = scratch->moves};
     for (size_t k = 0; k < count; k += batch.count) {
         batch.which = sorted + k;

@@ -167,6 +167,8 @@ typedef struct chain_run {
     /* Filled, one entry a point: */
     double *delta;    /* 3: displacement by all links, world units; zeros where nothing acts */
     double *gradient; /* 9: F - I of the whole deformation; or NULL */
+    bool only_turns;  /* not filled: of a point that one link moves at most, the gradient is wanted only where
+                         det F may be 0 or less (displacement.h) */
     point_outcome *outcomes;
     uint8_t *kept; /* chain->marks.planes planes of CHAIN_RUN bytes, or NULL: bits of points that links leave
                       are added, other marks are set */

@@ -34,6 +34,7 @@ static displacement_batch begin_batch(const chain_run *run, size_t link)
                                 .gradient = !run->gradient ? NULL
                                             : link == 0    ? run->gradient
                                                            : scratch->gradient,
+                                .only_turns = run->only_turns,
                                 .moves = scratch->moves};
 }
 

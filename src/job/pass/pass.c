@@ -78,7 +78,9 @@ static void note_determinants(const part_work *work, const tile_scratch *scratch
                               pass_totals *totals)
 {
     const bool has_range = work->pass->determinants;
-    for (size_t i = 0; i < count && ffd_pass_takes_determinants(work->pass); i++) {
+    if (!has_range && !(work->pass->inversions && scratch->chain.displacement.may_turn))
+        return;
+    for (size_t i = 0; i < count; i++) {
         double f[9];
         for (int k = 0; k < 9; k++)
             f[k] = scratch->gradient[9 * i + (size_t)k] + (k % 4 == 0 ? 1 : 0);
@@ -438,12 +440,16 @@ static void take_points(part_work *work, tile_scratch *scratch, size_t first, si
         ffd_totals_count_rest(work, scratch, first, totals);
 }
 
+/* Which gradients of the deformation a tile needs. */
+typedef enum gradient_need { GRADIENTS_NONE, GRADIENTS_THAT_TURN, GRADIENTS_ALL } gradient_need;
+
 /* Sends the chosen points through the lattices. */
 static ffd_status deform_points(part_work *work, tile_scratch *scratch, size_t first, size_t count,
-                                bool gradients, pass_totals *totals)
+                                gradient_need need, pass_totals *totals)
 {
     const mesh_pass *pass = work->pass;
     const bool counts = !work->part->repeats_positions;
+    const bool is_one_step = pass->chain->count == 1 || pass->chain->blocks;
     const tile_rounding tile_of = {work, scratch, first};
     const chain_rounding cells = {find_rounding, &tile_of};
     const chain_rounding *const rounding = ffd_rounding_is_none(&work->part->rounding) ? NULL : &cells;
@@ -454,9 +460,11 @@ static ffd_status deform_points(part_work *work, tile_scratch *scratch, size_t f
                      .scratch = &scratch->chain,
                      .pace = scratch == work->scratch ? pass->pace : NULL,
                      .delta = scratch->delta,
-                     .gradient = gradients ? scratch->gradient : NULL,
+                     .gradient = need == GRADIENTS_NONE ? NULL : scratch->gradient,
+                     .only_turns = need == GRADIENTS_THAT_TURN && is_one_step,
                      .outcomes = scratch->point_outcomes,
                      .kept = counts ? scratch->kept : NULL};
+    scratch->chain.displacement.may_turn = false;
     const ffd_status status = ffd_chain_apply(pass->chain, pass->links, &run, &scratch->error);
     totals->embed_seconds = run.embed_seconds;
     totals->deform_seconds = run.deform_seconds;
@@ -485,9 +493,11 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
     const bool wanted = pass->attributes && (!pass->only_offsets || shapes);
     const bool attributes = wanted && !part->singular && (part->normal_count || part->has_tangents);
     const bool splats = ffd_pass_takes_splats(pass, part);
-    const bool gradients =
-        attributes || splats ||
-        ((pass->gradients || ffd_pass_takes_determinants(pass)) && !part->repeats_positions);
+    const bool counts = !part->repeats_positions;
+    const gradient_need need = attributes || splats || (counts && (pass->gradients || pass->determinants))
+                                   ? GRADIENTS_ALL
+                               : counts && pass->inversions ? GRADIENTS_THAT_TURN
+                                                            : GRADIENTS_NONE;
 
     ffd_totals_clear(totals);
     if (atomic_load(&work->stopped))
@@ -495,7 +505,7 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
     take_points(work, scratch, first, count, totals);
     scratch->status = ffd_deadline_check(&scratch->error);
     if (!scratch->status)
-        scratch->status = deform_points(work, scratch, first, count, gradients, totals);
+        scratch->status = deform_points(work, scratch, first, count, need, totals);
     if (scratch->status) {
         atomic_store(&work->stopped, true);
         return;
@@ -505,7 +515,7 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
         note_determinants(work, scratch, first, count, totals);
         fill_arrays(work, scratch, first, count);
     }
-    carry(work, scratch, count, gradients, totals);
+    carry(work, scratch, count, need != GRADIENTS_NONE, totals);
     bring_back(work, scratch, count);
     if (!part->repeats_positions)
         finish_positions(work, scratch, first, count, totals);
