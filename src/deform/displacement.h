@@ -64,7 +64,6 @@ typedef struct displacement_scratch {
     uint16_t buckets[2 * DISPLACEMENT_BATCH]; /* hash table of the cells by key */
     uint32_t sorted[DISPLACEMENT_BATCH];      /* indices of the points, cell by cell */
     double uvw[3 * DISPLACEMENT_BATCH];       /* their u,v,w */
-    bool may_turn; /* set by a batch with gradients where det F may be 0 or less; never cleared */
 } displacement_scratch;
 
 typedef struct displacement_batch {
@@ -78,6 +77,7 @@ typedef struct displacement_batch {
     double *gradient; /* of point n: begins at gradient[9 * n]; may be NULL */
     bool only_turns;  /* with gradient: it is wanted only for cells where det F may be 0 or less; elsewhere it
                          is 0 */
+    bool *may_turn;   /* NULL, or with gradient: becomes true if det F may be 0 or less in a cell */
     uint8_t *moves;   /* moves[n]: what ffd_displacement returns */
 } displacement_batch;
 

@@ -247,7 +247,8 @@ static void displace_cell(const ffd_lattice *lattice, const kernel_pair *kernel,
     for (size_t k = 0; k < of->count && motion.kind == CELL_STILL; k++)
         stay(batch, which[k]);
     const bool gentle = batch->only_turns && motion.is_gentle;
-    scratch->may_turn = scratch->may_turn || (motion.kind == CELL_BENT && !motion.is_gentle);
+    if (batch->may_turn && motion.kind == CELL_BENT && !motion.is_gentle)
+        *batch->may_turn = true;
     if (motion.kind == CELL_SHIFTED)
         shift_cell(ffd_displacement_shared(lattice, span, NULL), batch, which, of->count);
     if (motion.kind == CELL_BENT)
@@ -266,7 +267,8 @@ void ffd_displacements(const ffd_lattice *lattice, ffd_isa isa, const displaceme
             batch->moves[n] = (uint8_t)ffd_displacement(lattice, uvw_of(batch, k), batch->delta + 3 * n,
                                                         batch->gradient ? batch->gradient + 9 * n : NULL);
         }
-        scratch->may_turn = true;
+        if (batch->may_turn && batch->count > 0)
+            *batch->may_turn = true;
         return;
     }
     const kernel_pair *const kernel = &kernels[ffd_isa_resolve(isa)];

@@ -387,7 +387,7 @@ static ffd_status place_others(const block_work *work, ffd_error *error)
 static void displace(const block_work *work)
 {
     const lattice_chain *const chain = work->chain;
-    const chain_run *const run = work->run;
+    chain_run *const run = work->run;
     chain_scratch *const scratch = run->scratch;
     block_scratch *const blocks = &scratch->blocks;
     const size_t count = blocks->pending_count;
@@ -398,6 +398,7 @@ static void displace(const block_work *work)
                                 .delta = run->delta,
                                 .gradient = run->gradient,
                                 .only_turns = run->only_turns,
+                                .may_turn = &run->may_turn,
                                 .moves = scratch->moves};
     for (size_t k = 0; k < count; k += batch.count) {
         batch.which = sorted + k;

@@ -173,6 +173,7 @@ typedef struct chain_run {
     uint8_t *kept; /* chain->marks.planes planes of CHAIN_RUN bytes, or NULL: bits of points that links leave
                       are added, other marks are set */
     bool keeps;    /* some bits were added */
+    bool may_turn; /* becomes true if det F may be 0 or less at some points; only with gradient */
     double embed_seconds, deform_seconds; /* elapsed times are added */
     /* Added: the number of points on a common face of two links, one after the other, that both move. */
     size_t moved_twice;

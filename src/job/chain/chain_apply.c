@@ -24,7 +24,7 @@ static void compose(double gradient[9], const double next[9])
 }
 
 /* The first link writes its displacements directly to the run, later ones to scratch memory. */
-static displacement_batch begin_batch(const chain_run *run, size_t link)
+static displacement_batch begin_batch(chain_run *run, size_t link)
 {
     chain_scratch *scratch = run->scratch;
     return (displacement_batch){.uvw = scratch->locations[0].uvw,
@@ -35,6 +35,7 @@ static displacement_batch begin_batch(const chain_run *run, size_t link)
                                             : link == 0    ? run->gradient
                                                            : scratch->gradient,
                                 .only_turns = run->only_turns,
+                                .may_turn = &run->may_turn,
                                 .moves = scratch->moves};
 }
 

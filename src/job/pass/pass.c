@@ -78,7 +78,7 @@ static void note_determinants(const part_work *work, const tile_scratch *scratch
                               pass_totals *totals)
 {
     const bool has_range = work->pass->determinants;
-    if (!has_range && !(work->pass->inversions && scratch->chain.displacement.may_turn))
+    if (!has_range && !(work->pass->inversions && scratch->may_turn))
         return;
     for (size_t i = 0; i < count; i++) {
         double f[9];
@@ -464,8 +464,8 @@ static ffd_status deform_points(part_work *work, tile_scratch *scratch, size_t f
                      .only_turns = need == GRADIENTS_THAT_TURN && is_one_step,
                      .outcomes = scratch->point_outcomes,
                      .kept = counts ? scratch->kept : NULL};
-    scratch->chain.displacement.may_turn = false;
     const ffd_status status = ffd_chain_apply(pass->chain, pass->links, &run, &scratch->error);
+    scratch->may_turn = run.may_turn;
     totals->embed_seconds = run.embed_seconds;
     totals->deform_seconds = run.deform_seconds;
     if (counts) {

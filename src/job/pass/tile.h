@@ -43,6 +43,7 @@ typedef struct tile_scratch {
     double position[3 * PASS_TILE]; /* in the lattice's space, at rest, then deformed */
     double delta[3 * PASS_TILE], gradient[9 * PASS_TILE];
     point_outcome point_outcomes[PASS_TILE];
+    bool may_turn; /* det F may be 0 or less at some vertices of the tile */
     uint8_t changed[PASS_TILE];
     vertex_transforms transforms;
     double normals[3 * PASS_TILE], tangents[4 * PASS_TILE];
@@ -79,12 +80,6 @@ static inline bool ffd_pass_takes_splats(const mesh_pass *pass, const mesh_part 
 {
     return pass->write && part->has_ellipsoids && !part->singular && !part->repeats_positions &&
            !pass->document->keeps_base && !pass->document->converted;
-}
-
-/* Whether the pass looks at det F. */
-static inline bool ffd_pass_takes_determinants(const mesh_pass *pass)
-{
-    return pass->determinants || pass->inversions;
 }
 
 /* Whether the results go to the document. */
