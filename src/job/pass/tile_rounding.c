@@ -16,12 +16,15 @@ static bool rounds(const part_work *work)
     return work->pass->write && !work->pass->document->converted && floats[0] && floats[1] && floats[2];
 }
 
-static void widen_finite(const part_work *work, const double *points, size_t count, ffd_bounds *box)
+/* Returns the bounds of the finite coordinates of points. */
+static ffd_bounds bounds_of(const part_work *work, const double *points, size_t count)
 {
-    if (ffd_array_kernel(work->pass->chain->isa)->widen(points, count, box->min, box->max))
-        return;
+    ffd_bounds box = ffd_bounds_empty();
+    if (ffd_array_kernel(work->pass->chain->isa)->widen(points, count, box.min, box.max))
+        return box;
     for (size_t i = 0; i < count; i++)
-        ffd_bounds_widen_finite(box, points + 3 * i);
+        ffd_bounds_widen_finite(&box, points + 3 * i);
+    return box;
 }
 
 /* Returns the largest half side of the rounding cells in a box: floats grow coarser away from 0. */
@@ -37,10 +40,9 @@ static double coarsest(const mesh_rounding *rounding, const ffd_bounds *box)
 void ffd_tile_rounding_at_rest(const part_work *work, const double *raw, size_t count,
                                part_rounding *rounding)
 {
-    ffd_bounds box = ffd_bounds_empty();
     if (!rounds(work))
         return;
-    widen_finite(work, raw, count, &box);
+    const ffd_bounds box = bounds_of(work, raw, count);
     rounding->before = larger_of(rounding->before, coarsest(&work->part->rounding, &box));
 }
 
@@ -56,10 +58,9 @@ bool ffd_tile_shows(const part_work *work, const double *raw, const double *delt
 void ffd_tile_rounding_of_results(const part_work *work, const double *raw, size_t count,
                                   part_rounding *rounding)
 {
-    ffd_bounds box = ffd_bounds_empty();
     if (!rounds(work))
         return;
-    widen_finite(work, raw, count, &box);
+    const ffd_bounds box = bounds_of(work, raw, count);
     ffd_bounds_join(&rounding->box, &box);
     /* The part is no smaller than the tile: errors within the tile's tolerance are within the part's. */
     if (coarsest(&work->part->rounding, &box) <=
