@@ -134,9 +134,7 @@ static void round_up(double distance, char text[ROUNDED])
 /* Of a mesh that goes through the border, a few vertices lie next to it by chance: that is worth no word. */
 #define WORTH_A_WORD 10
 
-/* Says how near the vertices are that miss the lattice by next to nothing, if they are a tenth of those
- * outside.
- */
+/* Says how near the vertices are that miss the lattice by next to nothing, if they are many. */
 static void tell_misses(const pass_totals *totals, char *text, size_t capacity)
 {
     const near_misses *const misses = &totals->misses;

@@ -19,14 +19,14 @@ ffd_status ffd_tile_find_misses(const part_work *work, const tile_scratch *scrat
     int searches = 0;
     if (chain->count != 1 || work->pass->links != 1 || chain->outside.extend)
         return FFD_OK;
+    const double reach = NEXT_TO_NOTHING * link->lattice->diagonal;
     for (size_t i = 0; i < scratch->chosen_count && !status; i++) {
         double miss;
         bool searched;
         if (scratch->point_outcomes[i].status != FFD_OUTSIDE ||
             !ffd_part_shows(work->part, first + ffd_tile_chosen(scratch, i)))
             continue;
-        status = ffd_link_miss(link, scratch->position + 3 * i, NEXT_TO_NOTHING * link->lattice->diagonal,
-                               &miss, &searched, error);
+        status = ffd_link_miss(link, scratch->position + 3 * i, reach, &miss, &searched, error);
         misses->looked_at++;
         misses->count += miss > 0 && isfinite(miss);
         if (isfinite(miss))

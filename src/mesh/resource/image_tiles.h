@@ -1,7 +1,6 @@
 /* image_tiles.h - names that stand for the images of several tiles of the texture space: "skin.<UDIM>.png"
    for skin.1001.png (u and v from 0 to 1), skin.1002.png (u from 1 to 2) and so on, "<UVTILE>" for u1_v1,
-   "<U>" and
-   "<V>" for its two numbers, "<u>" and "<v>" for these counted from 0. */
+   "<U>" and "<V>" for its two numbers, "<u>" and "<v>" for these counted from 0. */
 #ifndef FFD_MESH_RESOURCE_IMAGE_TILES_H
 #define FFD_MESH_RESOURCE_IMAGE_TILES_H
 

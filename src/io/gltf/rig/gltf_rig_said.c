@@ -180,8 +180,8 @@ static ffd_status warn_of_left(const gltf_document *d, const gltf_rig *rig, cons
     return FFD_OK;
 }
 
-/* Warns of skinned nodes that --only does not select, some of whose joints have moved: the joints fit the
-   mesh that they move no more. */
+/* Warns of skinned nodes that --only does not select, some of whose joints have moved: the joints no longer
+   fit the mesh that they move. */
 static ffd_status warn_of_left_skins(const gltf_document *d, const gltf_rig *rig, const mesh_log *log,
                                      mesh_following *following, ffd_error *error)
 {
