@@ -2,11 +2,6 @@
 #include <inttypes.h>
 #include <string.h>
 
-static bool is_blank(char c)
-{
-    return c == ' ' || c == '\t' || c == '\v' || c == '\f';
-}
-
 static bool is_line_end(char c)
 {
     return c == '\n' || c == '\r';
@@ -15,12 +10,12 @@ static bool is_line_end(char c)
 /* Whether c belongs to a word. Tested for > ' ' first, which nearly all characters of words are. */
 static bool is_of_word(char c)
 {
-    return (unsigned char)c > ' ' || (!is_blank(c) && !is_line_end(c));
+    return (unsigned char)c > ' ' || (!ffd_text_is_blank(c) && !is_line_end(c));
 }
 
 static void skip_blanks(ply_walk *walk)
 {
-    while (walk->at < walk->last && is_blank(*walk->at))
+    while (walk->at < walk->last && ffd_text_is_blank(*walk->at))
         walk->at++;
 }
 
@@ -54,7 +49,7 @@ bool ffd_ply_walk_value(ply_walk *walk, ply_type type, text_word *word)
     if (walk->header->encoding != PLY_ASCII)
         return take_bytes(walk, type, word);
     const char *at = walk->at;
-    while (at < walk->last && is_blank(*at))
+    while (at < walk->last && ffd_text_is_blank(*at))
         at++;
     word->first = at;
     while (at < walk->last && is_of_word(*at))

@@ -68,4 +68,10 @@ void ffd_text_lines(size_t a, size_t b, char text[TEXT_LINES_CAPACITY]);
 /* Returns "LF", "CRLF", "CR", "mixed", or "none". */
 const char *ffd_text_line_ends(const void *data, size_t size);
 
+/* Whether a character separates words of a line. */
+static inline bool ffd_text_is_blank(char c)
+{
+    return c == ' ' || c == '\t' || c == '\v' || c == '\f';
+}
+
 #endif

@@ -10,11 +10,6 @@
 /* The longest statement that may be a single name. */
 #define NAME_MAX_SIZE ((size_t)4096)
 
-static bool is_blank(char c)
-{
-    return c == ' ' || c == '\t' || c == '\v' || c == '\f';
-}
-
 /* Whether a file beside the OBJ file has just this name. */
 static bool is_file(const char *path, const char *name, size_t size)
 {
@@ -42,7 +37,7 @@ static ffd_status add_words(intern_table *names, const name_words *name, const c
     if (last == size || is_file(path, name->first, size) || !is_file(path, name->last_word, last))
         return ffd_obj_add_name(names, name->first, size, path, error);
     const char *end = name->last_word;
-    while (is_blank(end[-1]))
+    while (ffd_text_is_blank(end[-1]))
         end--;
     const ffd_status status = ffd_obj_add_name(names, name->first, (size_t)(end - name->first), path, error);
     return status ? status : ffd_obj_add_name(names, name->last_word, last, path, error);
@@ -64,9 +59,9 @@ static ffd_status split(intern_table *names, const char *text, size_t size, cons
     text_word word;
     ffd_status status = FFD_OK;
     name_words name = {0};
-    while (size > 0 && is_blank(text[size - 1]))
+    while (size > 0 && ffd_text_is_blank(text[size - 1]))
         size--;
-    while (size > 0 && is_blank(*text)) {
+    while (size > 0 && ffd_text_is_blank(*text)) {
         text++;
         size--;
     }

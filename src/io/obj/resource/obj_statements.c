@@ -10,11 +10,6 @@
 /* Bytes of the file that are in memory at a time. */
 #define PIECE ((size_t)1 << 21)
 
-static bool is_blank(char c)
-{
-    return c == ' ' || c == '\t' || c == '\v' || c == '\f';
-}
-
 static bool is_line_end(char c)
 {
     return c == '\n' || c == '\r';
@@ -38,9 +33,9 @@ static bool is_continued(const char *first, const char *end)
 static bool begins_statement(const char *first, const char *at, const char *last, const char *keyword)
 {
     const size_t size = strlen(keyword);
-    if ((size_t)(last - at) <= size || memcmp(at, keyword, size) != 0 || !is_blank(at[size]))
+    if ((size_t)(last - at) <= size || memcmp(at, keyword, size) != 0 || !ffd_text_is_blank(at[size]))
         return false;
-    while (at > first && is_blank(at[-1]))
+    while (at > first && ffd_text_is_blank(at[-1]))
         at--;
     if (at == first)
         return true;
