@@ -683,7 +683,7 @@ def images_that_a_glb_cannot_hold_stay_uris(run):
     os.symlink("../out.png", run.path("in/link.png"))
     run.folder_of("out")
     outside, address, no_name = "is outside the model's folder and is not in the output", "is not a file beside the model and is not in the output", \
-        "has not the name of a file"
+        "is not the name of a file"
     for uri, shown, why, as_gltf in (("../out.png", "../out.png", outside, IO), ("link.png", "link.png", outside, IO),
                                      ("%2e%2e/out.png", "../out.png", outside, IO), ("https://x.org/a.png", "https://x.org/a.png", address, 0),
                                      ("/a.png", "/a.png", address, 0), ("C:/a.png", "C:/a.png", address, 0), ("", "", no_name, 0),

@@ -257,7 +257,7 @@ static ffd_status warn_of_uri(const resources *r, size_t image, ffd_error *error
     ffd_name_shown(written, shown, sizeof shown);
     ffd_log_line(r->saver->log, FFD_LOG_WARNING, "the image %s %s", shown,
                  is_absolute ? "is not a file beside the model and is not in the output"
-                             : "has not the name of a file");
+                             : "is not the name of a file");
     return FFD_OK;
 }
 
