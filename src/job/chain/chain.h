@@ -29,6 +29,12 @@ typedef struct chain_outside {
     bool snap_is_relative; /* relative to the diagonal of the rest lattice */
 } chain_outside;
 
+/* The parts into which marks divide a direction of a link (marks.h). */
+typedef struct link_parts {
+    double first, length; /* the domain */
+    int count;
+} link_parts;
+
 typedef struct chain_link {
     ffd_lattice *lattice;
     ffd_locator *locator;                  /* NULL until the lattice is fitted to the mesh */
@@ -47,7 +53,7 @@ typedef struct chain_link {
     bool is_convex;  /* the rest volume is a box: its displacement is continuous, also as it is extended */
     bool opens_axis; /* ffd_lattice_opens_axis */
     bool is_still;   /* no control point is moved */
-    int parts[3];    /* into how many parts marks divide each direction (marks.h) */
+    link_parts parts[3];
 } chain_link;
 
 /* A direction of a link in which the first and the last rest face coincide, and the moves separate them. */
