@@ -153,12 +153,12 @@ static void finish_positions(const part_work *work, tile_scratch *scratch, size_
                              pass_totals *totals)
 {
     const mesh_pass *pass = work->pass;
-    ffd_tile_rounding_at_rest(work, scratch->raw, count, &totals->rounding);
+    ffd_tile_rounding_at_rest(work, scratch, count, totals);
     totals->is_visible = totals->is_visible || ffd_tile_shows(work, scratch->raw, scratch->delta, count);
     const size_t unfit = ffd_array_kernel(pass->chain->isa)
                              ->displace(scratch->delta, count, ffd_largest_coordinate(pass->document),
                                         scratch->raw, scratch->changed);
-    ffd_tile_rounding_of_results(work, scratch->raw, count, &totals->rounding);
+    ffd_tile_rounding_of_results(work, scratch, count, totals);
     for (size_t i = 0; i < count && !work->part->carried; i++)
         totals->moved += scratch->changed[i];
     if (unfit < count)
