@@ -40,19 +40,22 @@ typedef struct batch_stretch {
 /* The size of the caches of all threads together, 3 MB, because a machine can have many threads. */
 #define KEPT_IN_ALL (2 * KEPT_NUMBERS)
 
+/* Whether det F may be 0 or less in a cell. */
+typedef enum cell_turns { TURNS_UNKNOWN, TURNS_NOWHERE, TURNS_PERHAPS } cell_turns;
+
 typedef struct kept_cells {
     int threads;                 /* number of threads that share this size; set by the owner of the scratch
                                     memory, 0 is 1 */
     const ffd_lattice *lattice;  /* the lattice of the cells; NULL: empty */
     cell_use use;                /* what the numbers are for */
-    bool finds_turns;            /* may_turn is known */
+    bool finds_turns;            /* turns is wanted */
     size_t count, numbers;       /* capacity in cells, and numbers for each cell */
     size_t keys[KEPT_CELLS];     /* 1 + the key of a batch_cell; 0: none */
     uint16_t places[KEPT_CELLS]; /* index of its numbers; assigned in ascending order, so that few pages are
                                     touched */
     uint16_t used;               /* number of used places */
     cell_motion motions[KEPT_CELLS];
-    bool may_turn[KEPT_CELLS]; /* det F may be 0 or less somewhere in the cell */
+    uint8_t turns[KEPT_CELLS]; /* cell_turns */
     double all_numbers[KEPT_NUMBERS];
 } kept_cells;
 

@@ -151,10 +151,9 @@ static void begin_cells(const ffd_lattice *lattice, cell_use use, bool finds_tur
 
 /* Returns the index in the cache of a cell, and its numbers if its displacements differ; computes them if
    they are not there. */
-static size_t find_numbers(const ffd_lattice *lattice, const cell_kernels *kernel, const batch_cell *cell,
-                           displacement_scratch *scratch, const double **numbers)
+static size_t find_numbers(const ffd_lattice *lattice, extraction_kernel *extract, const batch_cell *cell,
+                           kept_cells *kept, const double **numbers)
 {
-    kept_cells *const kept = &scratch->kept;
     const size_t slot = (cell->key * 0x9e3779b97f4a7c15u >> 40) % kept->count;
     if (kept->keys[slot] == 0)
         kept->places[slot] = kept->used++;
@@ -163,12 +162,26 @@ static size_t find_numbers(const ffd_lattice *lattice, const cell_kernels *kerne
     if (kept->keys[slot] == cell->key + 1)
         return slot;
     kept->keys[slot] = cell->key + 1;
-    kept->motions[slot] =
-        ffd_displacement_cell_points(lattice, kernel->extract, cell->span, kept->use, kept_numbers);
-    const turn_cell of = {lattice, cell->span, kernel};
-    kept->may_turn[slot] = kept->finds_turns && kept->motions[slot].kind == CELL_BENT &&
-                           !ffd_turns_nowhere(&of, kept_numbers, &scratch->turns);
+    kept->motions[slot] = ffd_displacement_cell_points(lattice, extract, cell->span, kept->use, kept_numbers);
+    kept->turns[slot] = TURNS_UNKNOWN;
     return slot;
+}
+
+/* With fewer points in a cell of a curved lattice, their gradients cost less than bounds. */
+#define FEW_POINTS 5
+
+/* Returns whether det F may be 0 or less at a point of a cell, if that is wanted. */
+static bool may_turn(const ffd_lattice *lattice, const cell_kernels *kernel, const batch_cell *of,
+                     const double *numbers, size_t slot, displacement_scratch *scratch)
+{
+    kept_cells *const kept = &scratch->kept;
+    const turn_cell cell = {lattice, of->span, kernel};
+    if (!kept->finds_turns)
+        return false;
+    if (kept->turns[slot] == TURNS_UNKNOWN && (lattice->has_uvw_by_p || of->count >= FEW_POINTS))
+        kept->turns[slot] =
+            ffd_turns_nowhere(&cell, numbers, &scratch->turns) ? TURNS_NOWHERE : TURNS_PERHAPS;
+    return kept->turns[slot] != TURNS_NOWHERE;
 }
 
 /* Stores the same displacement for all points of a cell. */
@@ -266,14 +279,14 @@ static void displace_cell(const ffd_lattice *lattice, const cell_kernels *kernel
     const uint32_t *const which = scratch->sorted + of->first;
     const double *numbers;
     int span[3];
-    const size_t slot = find_numbers(lattice, kernel, of, scratch, &numbers);
+    const size_t slot = find_numbers(lattice, kernel->extract, of, &scratch->kept, &numbers);
     const cell_motion motion = scratch->kept.motions[slot];
     ffd_displacement_spans(lattice, of->span, span);
     for (size_t k = 0; k < of->count && motion.kind == CELL_STILL; k++)
         stay(batch, which[k]);
     if (motion.kind == CELL_SHIFTED)
         shift_cell(ffd_displacement_shared(lattice, span, NULL), batch, which, of->count);
-    if (motion.kind == CELL_BENT && scratch->kept.may_turn[slot]) {
+    if (motion.kind == CELL_BENT && may_turn(lattice, kernel, of, numbers, slot, scratch)) {
         bend_and_watch(lattice, kernel, batch, of, scratch);
     } else if (motion.kind == CELL_BENT) {
         kernel_cell cell;

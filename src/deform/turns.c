@@ -228,8 +228,9 @@ static void add_box(const double *uvw, turn_run *run, turn_boxes *boxes)
     for (size_t a = 0; a < 3; a++) {
         double low = uvw[3 * (size_t)run->first + a], high = low;
         for (size_t k = run->first; k < run->end; k++) {
-            low = lesser_of(low, uvw[3 * k + a]);
-            high = larger_of(high, uvw[3 * k + a]);
+            const double u = uvw[3 * k + a];
+            low = u < low ? u : low;
+            high = u > high ? u : high;
         }
         centre[a] = (low + high) / 2;
         half[a] = (high - low) / 2;
@@ -302,8 +303,9 @@ size_t ffd_turns_find(const turn_cell *cell, const kernel_cell *fields, const ui
     turn_boxes boxes = {.count = 0};
     cell_bends bends;
     size_t made = 0;
-    find_bends(cell, fields->difference.points, scratch, &bends.difference);
-    if (fields->rest.points)
+    if (count >= FEWEST)
+        find_bends(cell, fields->difference.points, scratch, &bends.difference);
+    if (count >= FEWEST && fields->rest.points)
         find_bends(cell, fields->rest.points, scratch, &bends.rest);
     for (size_t first = 0; first < count; first = runs[made++].end) {
         runs[made] = make_run(which, first, count);

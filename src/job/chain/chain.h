@@ -54,6 +54,7 @@ typedef struct chain_link {
     bool opens_axis; /* ffd_lattice_opens_axis */
     bool is_still;   /* no control point is moved */
     link_parts parts[3];
+    size_t parts_plane; /* the first of their three planes of marks; 0: none */
 } chain_link;
 
 /* A direction of a link in which the first and the last rest face coincide, and the moves separate them. */

@@ -31,13 +31,18 @@ void ffd_marks_lay_out(lattice_chain *chain, bool owners)
     }
     marks->parts = marks->planes;
     for (size_t l = 0; l < chain->count; l++) {
+        chain_link *const link = &chain->links[l];
         for (int a = 0; a < 3; a++)
-            chain->links[l].parts[a] = make_parts(&chain->links[l].lattice->knots[a]);
-        if (chain->links[l].is_convex || marks->parted_count == (chain->blocks ? 1 : MOST_PARTED))
+            link->parts[a] = make_parts(&link->lattice->knots[a]);
+        link->parts_plane = 0;
+        if (link->is_convex || marks->parted_count == (chain->blocks ? 1 : MOST_PARTED))
             continue;
         marks->parted[marks->parted_count++] = (uint16_t)l;
+        link->parts_plane = marks->planes;
         marks->planes += 3;
     }
+    for (size_t l = 0; l < chain->count && chain->blocks && marks->parted_count > 0; l++)
+        chain->links[l].parts_plane = marks->parts;
 }
 
 void ffd_mark_kept(chain_run *run, size_t point, size_t link)
@@ -69,15 +74,12 @@ static void mark_parts(const chain_link *link, const double uvw[3], uint8_t *mar
 void ffd_mark_part(const lattice_chain *chain, size_t link, const chain_run *run, size_t point,
                    const double uvw[3])
 {
-    const mark_layout *const marks = &chain->marks;
-    size_t number = 0;
-    while (!chain->blocks && number < marks->parted_count && marks->parted[number] != link)
-        number++;
-    if (!run->kept || number >= marks->parted_count)
+    const chain_link *const of = &chain->links[link];
+    if (!run->kept || of->parts_plane == 0)
         return;
-    uint8_t *const first = run->kept + (marks->parts + 3 * number) * CHAIN_RUN + point;
-    if (uvw && !chain->links[link].is_convex)
-        mark_parts(&chain->links[link], uvw, first);
+    uint8_t *const first = run->kept + of->parts_plane * CHAIN_RUN + point;
+    if (uvw && !of->is_convex)
+        mark_parts(of, uvw, first);
     else
         first[0] = first[CHAIN_RUN] = first[2 * CHAIN_RUN] = uvw ? 0 : NO_PART;
 }
