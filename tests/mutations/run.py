@@ -15,14 +15,15 @@ The mutations are in mutations.txt, each on a line (a line that begins with a bl
     NAME: TESTS: DEFINITION: PATTERN => REPLACEMENT
 
 DEFINITION is the name of the function, the macro or the variable (a table) that is changed, in whatever file of src.
-DEFINITION@PART looks only in files whose path contains PART; only same names in several files need it. PATTERN is the
-code to replace, found once in the definition: source.py says what it may be. It is as short as possible, and spares
-what a refactoring changes (names of local variables, structs that a member is in). REPLACEMENT is empty where code is
-left out. TESTS are names of meson tests, separated by commas, that should catch the mutation, quick ones first: only
-what these need is built, they are run one by one, and the first that fails has caught it. Such a test must pass without
-any mutation too, which is looked at once a test. A mutation that does not compile, or that no test catches, is an
-error: exit status 1. One that no test can catch, as it changes nothing that the program promises (a limit of effort, a
-read within the same page), is none for the table.
+One that gets or loses a prefix (ffd_gltf_can_reuse, can_reuse) is found without a change here. DEFINITION@PART looks
+only in files whose path contains PART; only same names in several files need it. PATTERN is the code to replace, found
+once in the definition: source.py says what it may be. It is as short as possible, and spares what a refactoring changes
+(names of local variables, structs that a member is in). REPLACEMENT is empty where code is left out. TESTS are names of
+meson tests, separated by commas, that should catch the mutation, quick ones first: only what these need is built, they
+are run one by one, and the first that fails has caught it. Such a test must pass without any mutation too, which is
+looked at once a test. A mutation that does not compile, or that no test catches, is an error: exit status 1. One that
+no test can catch, as it changes nothing that the program promises (a limit of effort, a read within the same page), is
+none for the table.
 
 What --check says of a mutation that does not apply asks for a decision. Either the fault moved: name the definition
 and the code in which it can be made now. Or it died with its code: delete its line.
@@ -42,6 +43,12 @@ SHOWN = 300  # characters of what a failing test says
 TABLE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "mutations.txt")
 
 
+def is_prefixed(name, other):
+    """Is one the other with a prefix, as a function has that gets or loses its callers in other files?"""
+    short, long = sorted((name, other), key=len)
+    return "_" in short and long.endswith("_" + short)
+
+
 class Mutation:
     def __init__(self, line):
         fields = line.split(": ", 3)
@@ -54,22 +61,17 @@ class Mutation:
     def find(self, definitions):
         """Returns (the definitions of that name, the places of the change in them)."""
         name, _, part = self.definition.partition("@")
-        known = definitions.get(name, [])
+        known = definitions.get(name) or [d for other in definitions if is_prefixed(name, other)
+                                          for d in definitions[other]]
         known = [d for d in known if part in d.source.path] or known
         return known, [place for definition in known for place in self.change.find(definition)]
 
     def find_elsewhere(self, definitions):
-        """Names what may hold the code today: definitions of a name alike, or the only one that has the pattern."""
-        found = {}
-        if any(len(word) > 5 for word in self.change.literal):
-            for name, known in definitions.items():
-                places = [place for definition in known for place in self.change.find(definition)]
-                if len(places) == 1:
-                    found[name] = places[0]
-        own = self.definition.partition("@")[0]
-        alike = [name for name in found if name.endswith(own) or own.endswith(name)]
-        shown = alike or (found if len(found) == 1 else [])
-        return "".join(f"; {name} has it ({found[name]})" for name in shown)
+        """Names the only definition that has the pattern, where that is no pattern of a few signs."""
+        if all(len(word) < 6 for word in self.change.literal):
+            return ""
+        places = [place for known in definitions.values() for d in known for place in self.change.find(d)]
+        return f"; {places[0].definition.name} has it ({places[0]})" if len(places) == 1 else ""
 
     def judge(self, definitions):
         """Returns (the place, None), or (None, why there is not exactly one)."""

@@ -2,8 +2,8 @@
 
 A pattern is code of which only the tokens count, not blanks or comments. Of it, as in semgrep,
 
-    $A, $B         (a capital letter) are any operands: a name, a number, a string or brackets, with all members, indices
-                   and calls behind it. The same letter is the same code again.
+    $A, $B         (a capital letter) are any operands: a name, number, string or bracket, with all members, indices and
+                   calls behind it. The same letter is the same code again.
     $name          is an operand that ends with the member `name`, whatever it is a member of, or the variable itself
     ...            is anything in the same statement, as short as possible, with its brackets in pairs
 
