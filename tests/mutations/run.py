@@ -6,9 +6,10 @@
     run.py --table BEFORE AFTER                                 a Markdown table of two results
 
 CHECKOUT is a clone made for this: its sources are changed, and put back at the end of every mutation. BUILD is a build
-folder of it, made once by `meson setup -Dwerror=true -Dtests=enabled -Dbuildtype=debugoptimized` and built once by
-ninja: later only what a test says that it needs is. FFD_MODELS and FFD_NODE are those of tests/run.sh. A second run
-goes on where the first one stopped: what RESULTS says to be caught is done.
+folder of it, made once by `meson setup -Dtests=enabled -Dbuildtype=debugoptimized` and built once by ninja: later only
+what a test says that it needs is. Warnings are no errors there, as a mutation may leave a function unused. FFD_MODELS
+and FFD_NODE are those of tests/run.sh. A second run goes on where the first one stopped: what RESULTS says to be caught
+is done.
 
 The mutations are in mutations.txt, each on a line (a line that begins with a blank goes on with the one before):
 
@@ -163,14 +164,14 @@ class Builder:
         return run.returncode == 0, run.stdout + run.stderr
 
     def run(self, name):
-        """Whether the test passes, and what it says."""
+        """Returns what became of the test (OK, SKIP, FAIL, ...), and what it says."""
         subprocess.run(["meson", "test", "-C", self.build, "--no-rebuild", "--logbase", "mutation", name],
                        capture_output=True, text=True, check=False)
         with open(os.path.join(self.build, "meson-logs", "mutation.json"), encoding="utf-8", errors="replace") as log:
             results = [json.loads(line) for line in log if line.strip()]
         if len(results) != 1 or results[0]["name"].rpartition(" / ")[2] != name:
             sys.exit(f"{name}: meson ran {len(results)} tests")
-        return results[0]["result"] in ("OK", "SKIP"), results[0].get("stdout", "") + results[0].get("stderr", "")
+        return results[0]["result"], results[0].get("stdout", "") + results[0].get("stderr", "")
 
 
 def first_failure(said):
@@ -185,15 +186,18 @@ def first_failure(said):
 
 def find_catcher(builder, mutation):
     """Returns the test that catches the mutation that is in the sources, "BUILD" or None, and what it says."""
+    skipped = []
     for name in builder.tests_of(mutation):
         made, said = builder.make(name)
         if not made:
             errors = [line for line in said.splitlines() if "rror:" in line or "undefined reference" in line]
             return "BUILD", errors[0][:SHOWN] if errors else said[-SHOWN:]
-        passed, said = builder.run(name)
-        if not passed:
+        result, said = builder.run(name)
+        if result == "SKIP":
+            skipped.append(f"{name} is skipped")
+        elif result != "OK":
             return name, first_failure(said)
-    return None, ""
+    return None, ", ".join(skipped)
 
 
 def run_one(builder, checkout, mutation, sound):
@@ -209,7 +213,7 @@ def run_one(builder, checkout, mutation, sound):
         place.source.write(place.source.text)
     seconds = time.monotonic() - start
     if caught and caught not in sound and caught != "BUILD":
-        if not builder.make(caught)[0] or not builder.run(caught)[0]:
+        if not builder.make(caught)[0] or builder.run(caught)[0] != "OK":
             sys.exit(f"{caught} fails without any mutation")
         sound.add(caught)
     return {"name": mutation.name, "path": place.source.path, "definition": mutation.definition, "caught": caught,
