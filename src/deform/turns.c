@@ -43,7 +43,7 @@ static int sign_of(const matrix_range *range)
     for (int i = 0; i < 9; i++)
         change += fabs(cofactor[i]) * range->radius[i];
     if (!(size - change > CERTAIN * size) ||
-        !(size > ROUNDING * vec_length(m) * vec_length(m + 3) * vec_length(m + 6)))
+        !(size * size > ROUNDING * ROUNDING * vec_dot(m, m) * vec_dot(m + 3, m + 3) * vec_dot(m + 6, m + 6)))
         return 0;
     return det > 0 ? 1 : -1;
 }
