@@ -162,7 +162,7 @@ static void print_summary(const cli_job *job, const char *input, const ffd_job_r
 {
     printf("%s\n", cli_display_name(input));
     print_statuses(result);
-    print_folds(result, cli_display_name(job->lattices[result->folds_lattice]));
+    print_folds(result, cli_display_name(job->lattices[result->folds_lattice].path));
     printf("  flipped faces  %" PRIu64 " of %" PRIu64 "\n", result->flipped_faces, result->faces);
     print_tear(result);
     print_area(result);

@@ -8,7 +8,7 @@
 
 /* Set by cli_job_options. Each command's settings begin with it. */
 typedef struct cli_job {
-    const char **lattices;
+    ffd_lattice_source *lattices; /* files */
     size_t lattice_count;
     cli_values values;
     cli_names only, allowed; /* selectors; extensions */

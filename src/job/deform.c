@@ -18,6 +18,7 @@
 #include "job/report/depfile.h"
 #include "job/report/output_set.h"
 #include "job/sharing.h"
+#include "lattice/file/lattice_source.h"
 #include "mesh/resource/beside.h"
 #include <string.h>
 
@@ -75,9 +76,9 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
     /* The output first: usually it does not exist, which is a quick answer. */
     if (!ffd_output_is_stream(desc->output) && ffd_file_same(desc->output, input))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the input (--in-place overwrites it)");
-    for (size_t i = 0; i < desc->lattice_count && !ffd_output_is_stream(desc->output); i++)
-        if (ffd_file_same(desc->output, desc->lattices[i]))
-            return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is a lattice of this command");
+    if (!ffd_output_is_stream(desc->output) &&
+        ffd_job_reads_lattice(desc->lattices, desc->lattice_count, desc->output))
+        return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is a lattice of this command");
     if (desc->embedding && !ffd_output_is_stream(desc->output) &&
         ffd_file_same(desc->output, desc->embedding))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the embedding that is to be reused");
@@ -132,9 +133,10 @@ static ffd_status make_rule(const deform_job *job, path_list *inputs, byte_buffe
 {
     const ffd_deform_desc *desc = job->desc;
     ffd_status status = FFD_OK;
-    for (size_t i = 0; i < desc->lattice_count && !status; i++)
-        if (!ffd_file_is_stream(desc->lattices[i]))
-            status = ffd_paths_add(inputs, desc->lattices[i], error);
+    for (size_t i = 0; i < desc->lattice_count && !status; i++) {
+        const char *const path = ffd_lattice_file(&desc->lattices[i]);
+        status = path ? ffd_paths_add(inputs, path, error) : FFD_OK;
+    }
     if (!status && desc->embedding && !ffd_file_is_stream(desc->embedding))
         status = ffd_paths_add(inputs, desc->embedding, error);
     for (size_t i = 0; i < job->chain.count && !status; i++)

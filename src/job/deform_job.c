@@ -25,6 +25,7 @@
 #include "job/pass/pass.h"
 #include "job/report/output_set.h"
 #include "job/rig/rig_figures.h"
+#include "lattice/file/lattice_source.h"
 #include <math.h>
 #include <string.h>
 
@@ -39,7 +40,7 @@ static ffd_status check_embedding(const ffd_deform_desc *desc, ffd_error *error)
         return ffd_fail(error, FFD_E_ARGUMENT, "an embedding needs exactly one lattice, got %zu",
                         desc->lattice_count);
     if (strcmp(embedding, "-") == 0 &&
-        (strcmp(desc->input.path, "-") == 0 || strcmp(desc->lattices[0], "-") == 0))
+        (strcmp(desc->input.path, "-") == 0 || ffd_lattice_is_stream(&desc->lattices[0])))
         return ffd_fail(error, FFD_E_ARGUMENT, "standard input can be read only once");
     if (desc->written && ffd_written_holds(&desc->written->files, embedding))
         return ffd_fail_file(error, FFD_E_EXISTS, embedding,
@@ -50,7 +51,7 @@ static ffd_status check_embedding(const ffd_deform_desc *desc, ffd_error *error)
 static bool is_complete(const ffd_deform_desc *desc)
 {
     const ffd_source *const input = &desc->input;
-    return input->path && ffd_desc_has_texts(desc->lattices, desc->lattice_count) &&
+    return input->path && (desc->lattices || desc->lattice_count == 0) &&
            ffd_desc_has_texts(desc->only, desc->only_count) &&
            ffd_desc_has_texts(desc->clips, desc->clip_count) &&
            ffd_desc_has_texts(input->allow_extensions, input->allow_extension_count) &&
@@ -152,7 +153,7 @@ static ffd_status run_own(deform_job_function run, ffd_deform_desc *desc, ffd_jo
 static ffd_status run_in_memory(deform_job_function run, ffd_deform_desc *desc, ffd_job_result *result,
                                 size_t size)
 {
-    const char *const *const lattices = desc->lattices;
+    const ffd_lattice_source *const lattices = desc->lattices;
     job_memory memory = {0};
     ffd_status status = ffd_chain_check_count(desc->lattice_count, &result->error);
     if (!status)
@@ -228,8 +229,7 @@ ffd_status ffd_deform_job_load_chain(deform_job *job, const chain_outside *outsi
                                      ffd_error *error)
 {
     const ffd_deform_desc *const desc = job->desc;
-    const chain_files files = {.paths = desc->lattices,
-                               .objects = desc->lattice_objects,
+    const chain_files files = {.lattices = desc->lattices,
                                .count = desc->lattice_count,
                                .set = desc->set,
                                .set_count = desc->set_count,

@@ -18,6 +18,7 @@
 #include "job/pass/chain_fit.h"
 #include "job/pass/pass.h"
 #include "job/reads.h"
+#include "lattice/file/lattice_source.h"
 #include <math.h>
 #include <string.h>
 
@@ -65,7 +66,7 @@ static ffd_status write_files(const ffd_embed_desc *desc, const embedding *made,
 
 static ffd_status check_output(const ffd_embed_desc *desc, const char *path, ffd_error *error)
 {
-    if (ffd_file_same(path, desc->input.path) || ffd_file_same(path, desc->lattice))
+    if (ffd_file_same(path, desc->input.path) || ffd_job_reads_lattice(&desc->lattice, 1, path))
         return ffd_fail_file(error, FFD_E_EXISTS, path, "is an input of this command");
     return ffd_output_check(path, desc->force, error);
 }
@@ -104,7 +105,7 @@ static ffd_status fail_one_file(const char *output, ffd_error *error)
 
 static ffd_status check_outputs(const ffd_embed_desc *desc, ffd_error *error)
 {
-    if (!desc->input.path || !desc->lattice || !desc->output ||
+    if (!desc->input.path || !desc->lattice.path || !desc->output ||
         !ffd_desc_has_settings(desc->set, desc->set_count))
         return ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete");
     if (!(desc->snap >= 0 && isfinite(desc->snap)))
@@ -222,8 +223,7 @@ static ffd_status run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_er
 {
     const double start = ffd_clock_seconds();
     const mesh_log log = {desc->log, desc->log_user};
-    const chain_files files = {.paths = &desc->lattice,
-                               .objects = &desc->lattice_object,
+    const chain_files files = {.lattices = &desc->lattice,
                                .count = 1,
                                .set = desc->set,
                                .set_count = desc->set_count,
@@ -254,16 +254,12 @@ static ffd_status run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_er
 /* Registers data in memory under paths. */
 static ffd_status take_memory(job_memory *memory, ffd_embed_desc *desc, ffd_error *error)
 {
-    const ffd_bytes text = desc->lattice_object ? (ffd_bytes){"", 0} : desc->lattice_text;
-    ffd_status status = FFD_OK;
-    if (desc->lattice_object && desc->lattice_text.data)
-        status = ffd_fail(error, FFD_E_ARGUMENT, "the lattice is given as an object and as a text");
-    if (desc->sink && desc->output && desc->status_output && strcmp(desc->output, desc->status_output) == 0)
+    ffd_status status = ffd_in_memory_lattice(&desc->lattice, "the lattice", "lattice", error);
+    if (!status && desc->sink && desc->output && desc->status_output &&
+        strcmp(desc->output, desc->status_output) == 0)
         status = fail_one_file(desc->output, error);
     if (!status)
         status = ffd_in_memory_source(memory, &desc->input, error);
-    if (!status)
-        status = ffd_in_memory_bytes(memory, text, "lattice", &desc->lattice, error);
     if (!status)
         status = ffd_in_memory_output(memory, desc->sink, desc->sink_user, &desc->output, error);
     if (!status)

@@ -4,6 +4,7 @@
 #include "base/file/output.h"
 #include "io/formats.h"
 #include "job/input/source.h"
+#include "lattice/file/lattice_source.h"
 #include <string.h>
 
 /* Whether a file is there that an output would replace. */
@@ -65,6 +66,16 @@ static const char *role_of(const mesh_names *names, const char *output)
     return holds(&names->named, output) ? "a buffer of the input" : NULL;
 }
 
+bool ffd_job_reads_lattice(const ffd_lattice_source *lattices, size_t count, const char *path)
+{
+    for (size_t i = 0; i < count && lattices; i++) {
+        const char *const file = ffd_lattice_file(&lattices[i]);
+        if (file && ffd_file_same(file, path))
+            return true;
+    }
+    return false;
+}
+
 ffd_status ffd_job_check_mesh_files(const char *output, const ffd_source *source,
                                     const mesh_document *document, ffd_error *error)
 {
@@ -91,13 +102,13 @@ ffd_status ffd_job_check_mesh_files(const char *output, const ffd_source *source
 }
 
 ffd_status ffd_job_check_box_files(const char *output, const lattice_chain *chain,
-                                   const char *const *lattices, ffd_error *error)
+                                   const ffd_lattice_source *lattices, ffd_error *error)
 {
     for (size_t i = 0; i < chain->count; i++)
         if (holds(&chain->links[i].box_files, output))
             return ffd_fail_file(
                 error, FFD_E_EXISTS, output,
                 "is a file of the meshes that the box of %s goes round and is not overwritten",
-                ffd_file_display_name(lattices[i]));
+                ffd_lattice_name(&lattices[i]));
     return FFD_OK;
 }

@@ -25,6 +25,15 @@ typedef struct ffd_error {
 size_t ffd_error_format(const ffd_error *error, char *text, size_t capacity);
 int ffd_status_exit_code(ffd_status status);
 typedef struct ffd_lattice ffd_lattice;
+typedef struct ffd_bytes {
+    const void *data;
+    size_t size;
+} ffd_bytes;
+typedef struct ffd_lattice_source {
+    const char *path;
+    ffd_bytes text;
+    const ffd_lattice *object;
+} ffd_lattice_source;
 typedef enum ffd_volume { FFD_VOLUME_REST = 0, FFD_VOLUME_DEFORMED = 1 } ffd_volume;
 typedef enum ffd_knots {
     FFD_KNOTS_DEFAULT = 0,
@@ -144,6 +153,11 @@ typedef enum ffd_fold_verdict {
     FFD_FOLDS_SOME = 1,
     FFD_FOLDS_UNKNOWN = 2
 } ffd_fold_verdict;
+typedef enum ffd_fold_reference {
+    FFD_FOLDS_TO_MEAN = 0,
+    FFD_FOLDS_TO_BOUNDS = 1,
+    FFD_FOLDS_TO_PLACE = 2
+} ffd_fold_reference;
 typedef struct ffd_folds {
     size_t struct_size;
     ffd_fold_verdict verdict;
@@ -156,6 +170,7 @@ typedef struct ffd_folds {
     double witness_xyz[3];
     double witness_rest[3];
     double witness_det;
+    ffd_fold_reference relative_to;
 } ffd_folds;
 ffd_status ffd_folds_find(const ffd_lattice *lattice, int threads, ffd_folds *folds, ffd_error *error);
 typedef enum ffd_isa { FFD_ISA_AUTO, FFD_ISA_SCALAR, FFD_ISA_SSE2, FFD_ISA_AVX2, FFD_ISA_AVX512 } ffd_isa;
@@ -189,10 +204,6 @@ typedef void (*ffd_log_function)(void *user, ffd_log_level level, const char *li
 void ffd_cleanup_on_signals(void);
 void ffd_guard_inputs(void);
 ffd_status ffd_restore_output(const char *path, ffd_error *error);
-typedef struct ffd_bytes {
-    const void *data;
-    size_t size;
-} ffd_bytes;
 typedef ffd_status (*ffd_resolve_function)(void *user, const char *name, ffd_bytes *bytes);
 typedef ffd_status (*ffd_sink_function)(void *user, const char *name, const void *bytes, size_t size);
 typedef ffd_status (*ffd_positions_function)(void *user, const double *positions, size_t count);
@@ -238,7 +249,7 @@ typedef struct ffd_deform_desc {
     ffd_source input;
     const char *output;
     ffd_format output_format;
-    const char *const *lattices;
+    const ffd_lattice_source *lattices;
     size_t lattice_count;
     bool blocks;
     const ffd_setting *set;
@@ -275,8 +286,6 @@ typedef struct ffd_deform_desc {
     ffd_depfile *depfile;
     ffd_log_function log;
     void *log_user;
-    const ffd_lattice *const *lattice_objects;
-    const ffd_bytes *lattice_texts;
     ffd_bytes embedding_bytes;
     ffd_sink_function sink;
     void *sink_user;
@@ -358,7 +367,7 @@ typedef struct ffd_job_result {
     uint64_t weights_none;
     bool has_folds;
     ffd_folds folds;
-    uint64_t folds_room[8];
+    uint64_t folds_room[7];
     size_t folds_lattice;
     bool has_flipped;
     uint64_t faces, flipped_faces;
@@ -388,7 +397,7 @@ typedef struct ffd_job_result {
     const char *picture;
     size_t morph_count;
     const char *const *morphs;
-    const char *const *morph_lattices;
+    const ffd_lattice_source *morph_lattices;
     const struct ffd_job_result *morph_results;
     double seconds_read, seconds_embed, seconds_deform, seconds_judge, seconds_write;
     double area_before, area_after;
@@ -428,7 +437,7 @@ ffd_status ffd_view_run(const ffd_view_desc *desc, ffd_job_result *result, ffd_e
 typedef struct ffd_embed_desc {
     size_t struct_size;
     ffd_source input;
-    const char *lattice;
+    ffd_lattice_source lattice;
     const char *output;
     const char *status_output;
     double snap;
@@ -439,8 +448,6 @@ typedef struct ffd_embed_desc {
     void *log_user;
     const ffd_setting *set;
     size_t set_count;
-    const ffd_lattice *lattice_object;
-    ffd_bytes lattice_text;
     ffd_sink_function sink;
     void *sink_user;
 } ffd_embed_desc;

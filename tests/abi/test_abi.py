@@ -145,7 +145,7 @@ CASES = {
     "a function": (r"(const char \*ffd_version\(void\);)", r"\1 int ffd_more(int x);", True),
     "a member at the end of a struct with its size": (r"(\} ffd_run;)", r"double later; \1", True),
     "a number of an enumeration": (r"FFD_ISA_AVX512\b", "FFD_ISA_AVX512, FFD_ISA_LATER", True),
-    "a figure of folds, in their room": (r"(\} ffd_folds;)((?:.|\n)*folds_room)\[8\]", r"uint64_t later; \1\2[7]", True),
+    "a figure of folds, in their room": (r"(\} ffd_folds;)((?:.|\n)*folds_room)\[7\]", r"uint64_t later; \1\2[6]", True),
     "a figure of folds without room": (r"(\} ffd_folds;)", r"uint64_t later; \1", False),
     "a member within": (r"(ffd_isa isa;\s+bool \(\*progress)", r"double later; \1", False),
     "a type of the same size": (r"ptrdiff_t stride;", "size_t stride;", False),

@@ -652,7 +652,7 @@ static void embed_writes_what_belongs_to_mesh_and_lattice(void **state)
     snprintf(lattice_path, sizeof lattice_path, "%s", in_folder("l.json"));
     snprintf(output_path, sizeof output_path, "%s", in_folder("m.npy"));
     desc.input.path = mesh_path;
-    desc.lattice = lattice_path;
+    desc.lattice.path = lattice_path;
     desc.output = output_path;
     desc.threads = 3;
     assert_int_equal(ffd_embed_run(&desc, NULL, NULL), FFD_OK);

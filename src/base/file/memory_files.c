@@ -167,11 +167,19 @@ static memory_folder *make_folder(const memory_files *files, const char *name)
     return NULL;
 }
 
-static ffd_status add_folder(memory_files *files, const char *name, memory_folder **folder, ffd_error *error)
+ffd_status ffd_memory_check_name(const char *name, ffd_error *error)
 {
     const char *const last = ffd_path_name(name);
-    if (!*last || strcmp(last, ".") == 0 || strcmp(last, "..") == 0) /* such a name cannot be a file */
-        return ffd_fail(error, FFD_E_ARGUMENT, "\"%s\" is no name for a file", name);
+    return *last && strcmp(last, ".") != 0 && strcmp(last, "..") != 0
+               ? FFD_OK
+               : ffd_fail(error, FFD_E_ARGUMENT, "\"%s\" is no name for a file", name);
+}
+
+static ffd_status add_folder(memory_files *files, const char *name, memory_folder **folder, ffd_error *error)
+{
+    const ffd_status status = ffd_memory_check_name(name, error);
+    if (status)
+        return status;
     *folder = ffd_grow((void **)&files->folders, &files->folder_capacity, files->folder_count + 1,
                        sizeof(memory_folder *))
                   ? make_folder(files, name)

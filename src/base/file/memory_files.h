@@ -22,6 +22,8 @@ ffd_status ffd_memory_create(memory_files **files, ffd_error *error);
 /* Destroys the object and its paths. files and *files may be NULL. */
 void ffd_memory_destroy(memory_files **files);
 
+/* Refuses a name whose last component is not that of a file (FFD_E_ARGUMENT). */
+ffd_status ffd_memory_check_name(const char *name, ffd_error *error);
 /* Adds a file; name is for messages. resolve (may be NULL) finds further files of its folder. *path belongs
    to files. Errors: FFD_E_ARGUMENT (the last component of name is not that of a file), FFD_E_MEMORY. */
 ffd_status ffd_memory_lend(memory_files *files, const char *name, const void *bytes, size_t size,

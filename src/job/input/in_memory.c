@@ -101,31 +101,36 @@ void ffd_in_memory_log(job_memory *memory, ffd_log_function *log, void **user)
     *user = memory;
 }
 
-/* Registers lattices that are objects or texts under names of their own, so that no file is meant. */
+ffd_status ffd_in_memory_lattice(ffd_lattice_source *lattice, const char *what, const char *name,
+                                 ffd_error *error)
+{
+    const ffd_bytes text = lattice->text;
+    if (lattice->object && text.data)
+        return ffd_fail(error, FFD_E_ARGUMENT, "%s is given as an object and as a text", what);
+    const ffd_status status = check_bytes(lattice->path ? lattice->path : name, text, error);
+    if (status || (!lattice->object && !text.data))
+        return status;
+    lattice->path = lattice->path ? lattice->path : name;
+    return ffd_memory_check_name(lattice->path, error);
+}
+
+/* Names the lattices that have no path. */
 static ffd_status name_lattices(job_memory *memory, ffd_deform_desc *desc, ffd_error *error)
 {
-    static const char nothing[1] = "";
-    if ((!desc->lattice_objects && !desc->lattice_texts) || desc->lattice_count == 0)
+    if (!desc->lattices || desc->lattice_count == 0)
         return FFD_OK;
-    memory->lattices = ffd_alloc_zero(desc->lattice_count, sizeof *memory->lattices);
-    ffd_status status = memory->lattices ? FFD_OK : ffd_fail_memory(error);
+    memory->lattices = ffd_alloc(desc->lattice_count, sizeof *memory->lattices);
+    memory->names = ffd_alloc(desc->lattice_count, sizeof *memory->names);
+    ffd_status status = memory->lattices && memory->names ? FFD_OK : ffd_fail_memory(error);
     for (size_t i = 0; i < desc->lattice_count && !status; i++) {
-        const bool is_object = desc->lattice_objects && desc->lattice_objects[i];
-        ffd_bytes bytes = desc->lattice_texts ? desc->lattice_texts[i] : (ffd_bytes){0};
-        char name[40];
-        snprintf(name, sizeof name, "lattice %zu", i + 1);
-        memory->lattices[i] = desc->lattices ? desc->lattices[i] : NULL;
-        if (is_object && bytes.data)
-            status = ffd_fail(error, FFD_E_ARGUMENT, "%s is given as an object and as a text", name);
-        if (is_object)
-            bytes = (ffd_bytes){nothing, 0};
-        if (!status)
-            status = ffd_in_memory_bytes(memory, bytes, name, &memory->lattices[i], error);
-        if (!status && !memory->lattices[i])
+        char *const name = memory->names[i];
+        memory->lattices[i] = desc->lattices[i];
+        snprintf(name, sizeof memory->names[i], "lattice %zu", i + 1);
+        status = ffd_in_memory_lattice(&memory->lattices[i], name, name, error);
+        if (!status && !memory->lattices[i].path)
             status = ffd_fail(error, FFD_E_ARGUMENT, "%s is neither a file nor an object nor a text", name);
     }
     desc->lattices = memory->lattices;
-    desc->lattice_texts = NULL;
     return status;
 }
 
@@ -178,5 +183,6 @@ void ffd_in_memory_end(job_memory *memory)
     }
     ffd_memory_destroy(&memory->files);
     ffd_free(memory->lattices);
+    ffd_free(memory->names);
     *memory = (job_memory){0};
 }

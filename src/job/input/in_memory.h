@@ -9,12 +9,16 @@
 /* The resolve callback of one mesh; its memory files use it until they are freed. */
 typedef struct memory_callback memory_callback;
 
+/* Capacity for the name of a lattice without one. */
+#define LATTICE_NAME 40
+
 /* All zeros: nothing is in memory. */
 typedef struct job_memory {
     memory_files *files;
     memory_callback *callbacks;
-    const char **lattices;
-    ffd_log_function log; /* the caller's log, with its context */
+    ffd_lattice_source *lattices; /* with names, */
+    char (*names)[LATTICE_NAME];  /* of those that the caller gives none */
+    ffd_log_function log;         /* the caller's log, with its context */
     void *log_user;
 } job_memory;
 
@@ -23,6 +27,10 @@ ffd_status ffd_in_memory_source(job_memory *memory, ffd_source *source, ffd_erro
 /* If there are bytes, registers them and sets *path. Their name is *path, or `name` if that is NULL. */
 ffd_status ffd_in_memory_bytes(job_memory *memory, ffd_bytes bytes, const char *name, const char **path,
                                ffd_error *error);
+/* Checks a lattice that may be in memory, whose name is its path, or `name` if that is NULL. what: for
+   messages. */
+ffd_status ffd_in_memory_lattice(ffd_lattice_source *lattice, const char *what, const char *name,
+                                 ffd_error *error);
 /* If there is a sink, redirects an output that is not NULL to it. */
 ffd_status ffd_in_memory_output(job_memory *memory, ffd_sink_function sink, void *user, const char **output,
                                 ffd_error *error);

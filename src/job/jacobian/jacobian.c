@@ -33,9 +33,7 @@ static bool is_input(const ffd_jacobian_desc *desc)
     bool found = false;
     for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++)
         found = found || (inputs[i] && ffd_file_same(inputs[i], desc->output));
-    for (size_t i = 0; i < desc->job->lattice_count && desc->job->lattices; i++)
-        found = found || ffd_file_same(desc->job->lattices[i], desc->output);
-    return found;
+    return found || ffd_job_reads_lattice(desc->job->lattices, desc->job->lattice_count, desc->output);
 }
 
 static ffd_status check_output(const ffd_jacobian_desc *desc, ffd_error *error)

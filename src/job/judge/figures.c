@@ -197,7 +197,7 @@ void ffd_figures_describe_folds(const ffd_deform_desc *desc, const ffd_job_resul
         snprintf(text, capacity,
                  "folds in %" PRIu64 " of %" PRIu64 " %s, as at u,v,w = %g %g %g of %.100s, x,y,z = %g %g %g",
                  folds->folded_cells, folds->cells, cells, uvw[0], uvw[1], uvw[2],
-                 desc->lattices[result->folds_lattice], xyz[0], xyz[1], xyz[2]);
+                 desc->lattices[result->folds_lattice].path, xyz[0], xyz[1], xyz[2]);
 }
 
 /* Says how many faces are turned over, or if that is not known at how many vertices the mesh is inside out.

@@ -327,7 +327,7 @@ static void write_reach(json_text *json, const ffd_job_result *result)
 static void write_lattice_name(json_text *json, const ffd_job_result *result, size_t k)
 {
     char number[40];
-    const char *const name = result->morph_lattices ? result->morph_lattices[k] : NULL;
+    const char *const name = result->morph_lattices ? result->morph_lattices[k].path : NULL;
     snprintf(number, sizeof number, "lattice %zu", k + 1);
     ffd_json_string(json, "lattice", name ? name : number);
 }

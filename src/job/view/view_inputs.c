@@ -1,6 +1,7 @@
 #include "job/view/view_inputs.h"
 #include "base/file/input.h"
 #include "base/file/path.h"
+#include "job/reads.h"
 
 static ffd_status refuse(const char *output, bool is_linked, ffd_error *error)
 {
@@ -16,8 +17,7 @@ ffd_status ffd_view_check_inputs(const ffd_view_desc *desc, ffd_error *error)
     bool is_input = false;
     for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++)
         is_input = is_input || (inputs[i] && ffd_file_same(inputs[i], desc->output));
-    for (size_t i = 0; i < job->lattice_count; i++)
-        is_input = is_input || ffd_file_same(job->lattices[i], desc->output);
+    is_input = is_input || ffd_job_reads_lattice(job->lattices, job->lattice_count, desc->output);
     return is_input ? refuse(desc->output, false, error) : FFD_OK;
 }
 
