@@ -31,7 +31,7 @@ static void print_statuses(const ffd_job_result *result)
             printf("%s%" PRIu64 " %s", before, result->counts[s], names[s]);
             before = ", ";
         }
-    printf("\n  moved          %" PRIu64 ", by %g at most\n", result->moved, result->displacement_max);
+    printf("\n  moved          %" PRIu64 ", by %g at most\n", result->moved, result->displacement.max);
 }
 
 static void print_vector(const char *before, const double v[3])
@@ -41,10 +41,10 @@ static void print_vector(const char *before, const double v[3])
 
 static void print_witness(const ffd_folds *folds, const char *lattice)
 {
-    print_vector("                 at u,v,w = ", folds->witness_uvw);
-    print_vector(", x,y,z = ", folds->witness_rest);
-    print_vector(" at rest, ", folds->witness_xyz);
-    printf(" deformed, det J is %g (%s)\n", folds->witness_det, lattice);
+    print_vector("                 at u,v,w = ", folds->witness.uvw);
+    print_vector(", x,y,z = ", folds->witness.rest);
+    print_vector(" at rest, ", folds->witness.xyz);
+    printf(" deformed, det J is %g (%s)\n", folds->witness.det, lattice);
 }
 
 static void print_folds(const ffd_job_result *result, const char *lattice)
@@ -63,11 +63,11 @@ static void print_folds(const ffd_job_result *result, const char *lattice)
     else
         printf("some: %" PRIu64 " of %" PRIu64 " cell%s", folds->folded_cells, folds->cells, s);
     printf("; det J is at least %g of %s", folds->min_det, references[folds->relative_to]);
-    if (result->det_outside <= 0)
-        printf("; outside it det F falls to %g, at vertex %" PRIu64, result->det_outside,
-               result->det_outside_vertex);
+    if (result->det.outside <= 0)
+        printf("; outside it det F falls to %g, at vertex %" PRIu64, result->det.outside,
+               result->det.outside_vertex);
     printf("\n");
-    if (folds->has_witness)
+    if (folds->witness.is_there)
         print_witness(folds, lattice);
 }
 
@@ -82,23 +82,23 @@ static void print_tear_reason(const ffd_job_result *result)
         [FFD_TEAR_BORDER] = "along it the nearest part of the lattice's border changes",
         [FFD_TEAR_OVERLAP] = "it leads from one part of a lattice that overlaps itself to another",
     };
-    const uint64_t faces = result->disagreeing, stay = result->tear_stays;
-    if (result->tear_cause == FFD_TEAR_BLOCKS && faces)
+    const uint64_t faces = result->shared_faces.disagreeing, stay = result->tear.stays;
+    if (result->tear.cause == FFD_TEAR_BLOCKS && faces)
         printf("; blocks move %" PRIu64 " vert%s on their faces differently", faces,
                faces == 1 ? "ex" : "ices");
-    else if (result->tear_cause > FFD_TEAR_UNSELECTED)
-        printf("; %s", reasons[result->tear_cause]);
+    else if (result->tear.cause > FFD_TEAR_UNSELECTED)
+        printf("; %s", reasons[result->tear.cause]);
     else
         printf("; %" PRIu64 " vert%s", stay, stay == 1 ? "ex stays" : "ices stay");
 }
 
 static void print_tear(const ffd_job_result *result)
 {
-    printf("  torn edges     %" PRIu64, result->tear_edges);
-    if (result->tear_edges) {
-        printf(", the largest step is %g at vertex %" PRIu64, result->tear_largest, result->tear_vertex);
-        if (*result->tear_part)
-            printf(" of %s", result->tear_part);
+    printf("  torn edges     %" PRIu64, result->tear.edges);
+    if (result->tear.edges) {
+        printf(", the largest step is %g at vertex %" PRIu64, result->tear.largest, result->tear.vertex);
+        if (*result->tear.part)
+            printf(" of %s", result->tear.part);
         print_tear_reason(result);
     }
     printf("\n");
@@ -117,10 +117,10 @@ static void print_size(double value, const char *unknown)
 static void print_area(const ffd_job_result *result)
 {
     printf("  area           ");
-    print_size(result->area_before, "not known");
-    if (!isnan(result->area_before)) {
+    print_size(result->area.before, "not known");
+    if (!isnan(result->area.before)) {
         printf(", deformed ");
-        print_size(result->area_after, "not known");
+        print_size(result->area.after, "not known");
     }
     printf("\n");
 }
@@ -137,15 +137,15 @@ static const char *reason_of(const ffd_job_result *result, double area)
 static void print_volume(const ffd_job_result *result)
 {
     printf("  volume         ");
-    print_size(result->volume_before, reason_of(result, result->area_before));
-    if (!isnan(result->volume_before)) {
+    print_size(result->volume.before, reason_of(result, result->area.before));
+    if (!isnan(result->volume.before)) {
         printf(", deformed ");
-        print_size(result->volume_after, reason_of(result, result->area_after));
+        print_size(result->volume.after, reason_of(result, result->area.after));
     }
     printf("\n");
 }
 
-static void print_rig(const ffd_rig_result *rig)
+static void print_rig(const ffd_rig_figures *rig)
 {
     if (!rig->is_there)
         return;
@@ -162,15 +162,15 @@ static void print_summary(const cli_job *job, const char *input, const ffd_job_r
 {
     printf("%s\n", cli_display_name(input));
     print_statuses(result);
-    print_folds(result, cli_display_name(job->lattices[result->folds_lattice]));
+    print_folds(result, cli_display_name(job->lattices[result->folds.witness.lattice]));
     printf("  flipped faces  %" PRIu64 " of %" PRIu64 "\n", result->flipped_faces, result->faces);
     print_tear(result);
     print_area(result);
     print_volume(result);
-    if (result->det_min <= result->det_max)
-        printf("  det F          %g to %g at the vertices\n", result->det_min, result->det_max);
+    if (result->det.min <= result->det.max)
+        printf("  det F          %g to %g at the vertices\n", result->det.min, result->det.max);
     printf("  edges          %" PRIu64 ", %g at most from the deformed surface, %g on average\n",
-           result->edges, result->deviation_max, result->deviation_mean);
+           result->edges.count, result->edges.deviation.max, result->edges.deviation.mean);
     print_rig(&result->rig);
 }
 

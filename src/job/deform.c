@@ -312,7 +312,7 @@ static ffd_status write_output(deform_job *job, mesh_save_options *options, ffd_
     const ffd_status status = job->desc->dry_run ? rehearse(job, options, error) : save(job, options, error);
     ffd_sharing_end(&sharing);
     if (!job->desc->dry_run)
-        result->seconds_write = ffd_clock_seconds() - start;
+        result->seconds.write = ffd_clock_seconds() - start;
     return status;
 }
 

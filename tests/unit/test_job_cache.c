@@ -266,7 +266,7 @@ static void folds_and_border_are_lent_once_asked_for(void **state)
         if (job == 2)
             again = result;
         if (job > 2)
-            assert_true(result.has_folds && result.folds.cells == again.folds.cells &&
+            assert_true(result.folds.is_known && result.folds.cells == again.folds.cells &&
                         result.folds.min_det == again.folds.min_det && result.folds.cells == 1);
         ffd_cache_put_chain(share, &chain);
         ffd_chain_free(&chain);

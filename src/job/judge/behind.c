@@ -40,7 +40,7 @@ static ffd_status count_place(const mesh_document *document, const mesh_place *p
 /* Counts the places where vertices would be moved, but that have not moved along. */
 static ffd_status find_places(const deform_job *job, ffd_job_result *result, ffd_error *error)
 {
-    const double diagonal = ffd_rig_diagonal(&result->before);
+    const double diagonal = ffd_rig_diagonal(&result->bounds.before);
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < job->rig.places.count && status == FFD_OK; i++) {
         const mesh_place_move *const move = &job->rig.moves[i];

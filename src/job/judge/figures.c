@@ -101,11 +101,16 @@ static int rank(ffd_fold_verdict verdict)
     return verdict == FFD_FOLDS_SOME ? 2 : verdict == FFD_FOLDS_UNKNOWN ? 1 : 0;
 }
 
-void ffd_figures_join_folds(ffd_folds *all, const ffd_folds *next)
+void ffd_figures_join_folds(const ffd_folds *next, size_t number, ffd_folds *all)
 {
     const ffd_folds before = *all;
-    if (!all->has_witness && next->has_witness)
+    if (number == 0 || (!before.witness.is_there && next->witness.is_there)) {
         *all = *next;
+        all->witness.lattice = next->witness.is_there ? number : 0;
+    }
+    if (number == 0)
+        return;
+    all->is_known = before.is_known && next->is_known;
     all->verdict = rank(next->verdict) > rank(before.verdict) ? next->verdict : before.verdict;
     all->cells = before.cells + next->cells;
     all->folded_cells = before.folded_cells + next->folded_cells;
@@ -125,14 +130,8 @@ ffd_status ffd_figures_folds(lattice_chain *chain, int threads, ffd_job_result *
                 return status;
             link->has_folds = true;
         }
-        if (link->folds.has_witness && !result->folds.has_witness)
-            result->folds_lattice = l;
-        if (l == 0)
-            result->folds = link->folds;
-        else
-            ffd_figures_join_folds(&result->folds, &link->folds);
+        ffd_figures_join_folds(&link->folds, l, &result->folds);
     }
-    result->has_folds = true;
     return FFD_OK;
 }
 
@@ -144,10 +143,10 @@ static void measure_extent(const deform_job *job, const figure_arrays *arrays, f
         return;
     ffd_extent_measure(job->document, &arrays->faces, arrays->faces.positions, &before);
     ffd_extent_measure(job->document, &arrays->faces, arrays->deformed, &after);
-    result->area_before = before.area;
-    result->area_after = after.area;
-    result->volume_before = before.volume;
-    result->volume_after = after.volume;
+    result->area.before = before.area;
+    result->area.after = after.area;
+    result->volume.before = before.volume;
+    result->volume.after = after.volume;
 }
 
 ffd_status ffd_figures_faces(const deform_job *job, figure_arrays *arrays, ffd_job_result *result,
@@ -155,8 +154,9 @@ ffd_status ffd_figures_faces(const deform_job *job, figure_arrays *arrays, ffd_j
 {
     edge_quality edges;
     ffd_status status = FFD_OK;
-    result->det_min = job->totals.det_min;
-    result->det_max = job->totals.det_max;
+    result->det.is_known = job->totals.det_min <= job->totals.det_max;
+    result->det.min = job->totals.det_min;
+    result->det.max = job->totals.det_max;
     if (!arrays->has_faces)
         return FFD_OK;
     measure_extent(job, arrays, result);
@@ -173,10 +173,10 @@ ffd_status ffd_figures_faces(const deform_job *job, figure_arrays *arrays, ffd_j
                                &edges, error);
     if (status)
         return status;
-    result->has_edges = true;
-    result->edges = edges.edges;
-    result->deviation_max = edges.deviation_max;
-    result->deviation_mean = edges.deviation_mean;
+    result->edges.is_known = true;
+    result->edges.count = edges.edges;
+    result->edges.deviation.max = edges.deviation_max;
+    result->edges.deviation.mean = edges.deviation_mean;
     return FFD_OK;
 }
 
@@ -184,20 +184,20 @@ void ffd_figures_describe_folds(const ffd_deform_desc *desc, const ffd_job_resul
                                 size_t capacity)
 {
     const ffd_folds *folds = &result->folds;
-    const double *uvw = folds->witness_uvw, *xyz = folds->witness_xyz;
+    const double *uvw = folds->witness.uvw, *xyz = folds->witness.xyz;
     const char *const cells = ffd_plural(folds->cells, "cell", "cells");
     if (folds->verdict != FFD_FOLDS_SOME)
         snprintf(text, capacity,
                  "is not proven to be free of folds in %" PRIu64 " of %" PRIu64 " %s (least det J %g)",
                  folds->unknown_cells, folds->cells, cells, folds->min_det);
-    else if (!folds->has_witness)
+    else if (!folds->witness.is_there)
         snprintf(text, capacity, "folds in %" PRIu64 " of %" PRIu64 " %s", folds->folded_cells, folds->cells,
                  cells);
     else
         snprintf(text, capacity,
                  "folds in %" PRIu64 " of %" PRIu64 " %s, as at u,v,w = %g %g %g of %.100s, x,y,z = %g %g %g",
                  folds->folded_cells, folds->cells, cells, uvw[0], uvw[1], uvw[2],
-                 desc->lattices[result->folds_lattice], xyz[0], xyz[1], xyz[2]);
+                 desc->lattices[result->folds.witness.lattice], xyz[0], xyz[1], xyz[2]);
 }
 
 /* Says how many faces are turned over, or if that is not known at how many vertices the mesh is inside out.
@@ -221,16 +221,16 @@ void ffd_figures_warn(const deform_job *job, const ffd_job_result *result)
 {
     char text[400], turned[200];
     tell_turned(job, result, turned, sizeof turned);
-    if (result->has_folds && result->folds.verdict != FFD_FOLDS_NONE) {
+    if (result->folds.is_known && result->folds.verdict != FFD_FOLDS_NONE) {
         ffd_figures_describe_folds(job->desc, result, text, sizeof text);
         ffd_log_line(&job->log, FFD_LOG_WARNING, "the deformed volume %s%s%s", text, *turned ? "; " : "",
                      turned);
     } else if (*turned) {
         ffd_log_line(&job->log, FFD_LOG_WARNING, "%s", turned);
     }
-    if (result->det_outside <= 0)
+    if (result->det.outside <= 0)
         ffd_log_line(&job->log, FFD_LOG_WARNING,
                      "outside the lattice det F falls to %g, at vertex %" PRIu64
                      ": the mesh turns inside out there (see --falloff, a larger lattice)",
-                     result->det_outside, result->det_outside_vertex);
+                     result->det.outside, result->det.outside_vertex);
 }

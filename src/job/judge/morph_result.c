@@ -23,99 +23,88 @@ static void join_counts(const ffd_job_result *target, bool is_first, ffd_job_res
         all->unused = target->unused;
         all->hidden = target->hidden;
     }
-    all->targets_outside = more(all->targets_outside, target->targets_outside);
-    all->targets_invalid = more(all->targets_invalid, target->targets_invalid);
-    all->shown_outside = more(all->shown_outside, target->shown_outside);
+    all->morph_targets.outside = more(all->morph_targets.outside, target->morph_targets.outside);
+    all->morph_targets.invalid = more(all->morph_targets.invalid, target->morph_targets.invalid);
+    all->morph_targets.shown_outside =
+        more(all->morph_targets.shown_outside, target->morph_targets.shown_outside);
     all->moved = more(all->moved, target->moved);
     all->normals_collapsed = more(all->normals_collapsed, target->normals_collapsed);
     all->normals_carried = more(all->normals_carried, target->normals_carried);
     all->transforms_singular = target->transforms_singular;
-    all->weights_off = target->weights_off;
-    all->weights_farthest = target->weights_farthest;
-    all->weights_none = target->weights_none;
+    all->skin_weights.off = target->skin_weights.off;
+    all->skin_weights.farthest = target->skin_weights.farthest;
+    all->skin_weights.none = target->skin_weights.none;
 }
 
 static void join_numbers(const ffd_job_result *target, ffd_job_result *all)
 {
-    all->residual_max = larger(all->residual_max, target->residual_max);
-    all->residual_rms = larger(all->residual_rms, target->residual_rms);
-    all->evaluations_mean = larger(all->evaluations_mean, target->evaluations_mean);
-    if (target->evaluations_max > all->evaluations_max)
-        all->evaluations_max = target->evaluations_max;
-    all->displacement_max = larger(all->displacement_max, target->displacement_max);
-    all->displacement_rms = larger(all->displacement_rms, target->displacement_rms);
-    all->seconds_read += target->seconds_read;
-    all->seconds_embed += target->seconds_embed;
-    all->seconds_deform += target->seconds_deform;
-    all->seconds_judge += target->seconds_judge;
+    all->residual.max = larger(all->residual.max, target->residual.max);
+    all->residual.rms = larger(all->residual.rms, target->residual.rms);
+    all->iterations.mean = larger(all->iterations.mean, target->iterations.mean);
+    if (target->iterations.max > all->iterations.max)
+        all->iterations.max = target->iterations.max;
+    all->displacement.max = larger(all->displacement.max, target->displacement.max);
+    all->displacement.rms = larger(all->displacement.rms, target->displacement.rms);
+    all->seconds.read += target->seconds.read;
+    all->seconds.embed += target->seconds.embed;
+    all->seconds.deform += target->seconds.deform;
+    all->seconds.judge += target->seconds.judge;
 }
 
 static void join_bounds(const ffd_job_result *target, ffd_job_result *all)
 {
-    all->before = target->before;
-    if (!(target->after.min[0] <= target->after.max[0]))
+    all->bounds.before = target->bounds.before;
+    if (!(target->bounds.after.min[0] <= target->bounds.after.max[0]))
         return;
-    if (!(all->after.min[0] <= all->after.max[0]))
-        all->after = target->after;
-    ffd_bounds_widen(&all->after, target->after.min);
-    ffd_bounds_widen(&all->after, target->after.max);
+    if (!(all->bounds.after.min[0] <= all->bounds.after.max[0]))
+        all->bounds.after = target->bounds.after;
+    ffd_bounds_widen(&all->bounds.after, target->bounds.after.min);
+    ffd_bounds_widen(&all->bounds.after, target->bounds.after.max);
 }
 
 /* With several targets there is no single deformed shape. */
 static void join_extent(const ffd_job_result *target, bool is_only, ffd_job_result *all)
 {
-    all->area_before = target->area_before;
-    all->volume_before = target->volume_before;
-    all->area_after = is_only ? target->area_after : NAN;
-    all->volume_after = is_only ? target->volume_after : NAN;
+    all->area.before = target->area.before;
+    all->volume.before = target->volume.before;
+    all->area.after = is_only ? target->area.after : NAN;
+    all->volume.after = is_only ? target->volume.after : NAN;
 }
 
 static void join_tears(const ffd_job_result *target, bool is_first, ffd_job_result *all)
 {
-    all->has_tear = target->has_tear && (is_first || all->has_tear);
-    if (!is_first && !(target->tear_largest > all->tear_largest))
-        return;
-    all->tear_edges = target->tear_edges;
-    all->tear_largest = target->tear_largest;
-    all->tear_vertex = target->tear_vertex;
-    memcpy(all->tear_part, target->tear_part, sizeof all->tear_part);
-    all->tear_stays = target->tear_stays;
-    all->tear_unselected = target->tear_unselected;
-    all->tear_seam = target->tear_seam;
-    all->tear_cause = target->tear_cause;
+    const bool is_known = target->tear.is_known && (is_first || all->tear.is_known);
+    if (is_first || target->tear.largest > all->tear.largest)
+        all->tear = target->tear;
+    all->tear.is_known = is_known;
 }
 
 /* Combines the figures that take extra time, where all targets have them. */
 static void join_quality(const ffd_job_result *target, size_t number, ffd_job_result *all)
 {
-    const bool had_witness = all->folds.has_witness, is_first = number == 0;
-    all->has_folds = target->has_folds && (is_first || all->has_folds);
-    if (is_first)
-        all->folds = target->folds;
-    else
-        ffd_figures_join_folds(&all->folds, &target->folds);
-    if (!had_witness && all->folds.has_witness)
-        all->folds_lattice = number;
+    const bool is_first = number == 0;
+    ffd_figures_join_folds(&target->folds, number, &all->folds);
     all->has_flipped = target->has_flipped && (is_first || all->has_flipped);
     all->faces = target->faces;
     all->flipped_faces = more(all->flipped_faces, target->flipped_faces);
-    if (target->det_outside < all->det_outside) {
-        all->det_outside = target->det_outside;
-        all->det_outside_vertex = target->det_outside_vertex;
+    if (target->det.outside < all->det.outside) {
+        all->det.outside = target->det.outside;
+        all->det.outside_vertex = target->det.outside_vertex;
     }
-    if (!(target->det_min <= target->det_max))
+    if (!(target->det.min <= target->det.max))
         return;
-    const bool known = all->det_min <= all->det_max;
-    all->det_min = known && all->det_min < target->det_min ? all->det_min : target->det_min;
-    all->det_max = known && all->det_max > target->det_max ? all->det_max : target->det_max;
+    const bool known = all->det.min <= all->det.max;
+    all->det.min = known && all->det.min < target->det.min ? all->det.min : target->det.min;
+    all->det.max = known && all->det.max > target->det.max ? all->det.max : target->det.max;
+    all->det.is_known = true;
 }
 
 static void join_edges(const ffd_job_result *target, bool is_first, ffd_job_result *all)
 {
-    all->has_edges = target->has_edges && (is_first || all->has_edges);
-    all->edges = target->edges;
-    all->deviation_max = larger(all->deviation_max, target->deviation_max);
-    all->deviation_mean = larger(all->deviation_mean, target->deviation_mean);
+    all->edges.is_known = target->edges.is_known && (is_first || all->edges.is_known);
+    all->edges.count = target->edges.count;
+    all->edges.deviation.max = larger(all->edges.deviation.max, target->edges.deviation.max);
+    all->edges.deviation.mean = larger(all->edges.deviation.mean, target->edges.deviation.mean);
 }
 
 /* For each kind, the result of the first target that leaves the most behind. */

@@ -16,13 +16,13 @@ void ffd_result_clear(ffd_job_result *result)
     memset(result, 0, sizeof *result);
     result->struct_size = sizeof *result;
     for (int a = 0; a < 3; a++) {
-        result->before.min[a] = result->after.min[a] = 1; /* empty: min > max */
-        result->before.max[a] = result->after.max[a] = -1;
+        result->bounds.before.min[a] = result->bounds.after.min[a] = 1; /* empty: min > max */
+        result->bounds.before.max[a] = result->bounds.after.max[a] = -1;
     }
-    result->det_outside = HUGE_VAL;
-    result->det_min = 1;
-    result->det_max = -1;
-    result->area_before = result->area_after = result->volume_before = result->volume_after = NAN;
+    result->det.outside = HUGE_VAL;
+    result->det.min = 1;
+    result->det.max = -1;
+    result->area.before = result->area.after = result->volume.before = result->volume.after = NAN;
 }
 
 void ffd_result_fill(ffd_job_result *result, const pass_totals *totals, double seconds)
@@ -32,45 +32,45 @@ void ffd_result_fill(ffd_job_result *result, const pass_totals *totals, double s
         result->counts[s] = totals->counts[s];
     result->unused = totals->unused;
     result->hidden = totals->hidden;
-    result->targets_outside = totals->shapes_outside;
-    result->targets_invalid = totals->shapes_invalid;
-    result->shown_outside = totals->of_shown ? totals->weighted_outside : 0;
-    result->base_outside = totals->base_outside;
+    result->morph_targets.outside = totals->shapes_outside;
+    result->morph_targets.invalid = totals->shapes_invalid;
+    result->morph_targets.shown_outside = totals->of_shown ? totals->weighted_outside : 0;
+    result->morph_targets.base_outside = totals->base_outside;
     result->moved = totals->moved;
-    result->residual_max = sqrt(totals->residual_square_max);
-    result->residual_rms = totals->located ? sqrt(totals->residual_square_sum / (double)totals->located) : 0;
-    result->evaluations_mean = totals->vertices ? (double)totals->evaluations / (double)totals->vertices : 0;
-    result->evaluations_max = totals->evaluations_max;
-    result->before = totals->before;
-    result->after = totals->after;
+    result->residual.max = sqrt(totals->residual_square_max);
+    result->residual.rms = totals->located ? sqrt(totals->residual_square_sum / (double)totals->located) : 0;
+    result->iterations.mean = totals->vertices ? (double)totals->evaluations / (double)totals->vertices : 0;
+    result->iterations.max = totals->evaluations_max;
+    result->bounds.before = totals->before;
+    result->bounds.after = totals->after;
     for (int a = 0; a < 3; a++) { /* normalize zeros: which of -0 and 0 was found depends on the order */
-        result->before.min[a] += 0.0;
-        result->before.max[a] += 0.0;
-        result->after.min[a] += 0.0;
-        result->after.max[a] += 0.0;
+        result->bounds.before.min[a] += 0.0;
+        result->bounds.before.max[a] += 0.0;
+        result->bounds.after.min[a] += 0.0;
+        result->bounds.after.max[a] += 0.0;
     }
-    result->det_outside = totals->det_outside;
-    result->det_outside_vertex = totals->first_det_outside;
-    result->displacement_max = sqrt(totals->displacement_square_max);
-    result->displacement_rms =
+    result->det.outside = totals->det_outside;
+    result->det.outside_vertex = totals->first_det_outside;
+    result->displacement.max = sqrt(totals->displacement_square_max);
+    result->displacement.rms =
         totals->vertices ? sqrt(totals->displacement_square_sum / (double)totals->vertices) : 0;
-    result->moved_twice = totals->moved_twice;
-    result->disagreeing = totals->disagreeing;
-    result->disagreement = totals->disagreement;
+    result->shared_faces.moved_twice = totals->moved_twice;
+    result->shared_faces.disagreeing = totals->disagreeing;
+    result->shared_faces.largest = totals->disagreement;
     result->normals_collapsed = totals->normals_collapsed;
     result->normals_carried = totals->normals_carried;
-    result->splats_carried = totals->splats_carried;
-    result->splats_flattened = totals->splats_flattened;
-    result->splats_broken = totals->splats_broken;
+    result->splats.carried = totals->splats_carried;
+    result->splats.flattened = totals->splats_flattened;
+    result->splats.broken = totals->splats_broken;
     result->transforms_singular = totals->transforms_singular;
-    result->weights_off = totals->weights.off;
-    result->weights_farthest = totals->weights.farthest;
-    result->weights_none = totals->weights.none;
-    result->precision_error = totals->lost.error;
-    result->precision_side = totals->lost.side;
+    result->skin_weights.off = totals->weights.off;
+    result->skin_weights.farthest = totals->weights.farthest;
+    result->skin_weights.none = totals->weights.none;
+    result->precision.error = totals->lost.error;
+    result->precision.side = totals->lost.side;
     const double own = totals->embed_seconds + totals->deform_seconds;
-    result->seconds_embed = own > 0 ? seconds * totals->embed_seconds / own : 0;
-    result->seconds_deform = seconds - result->seconds_embed;
+    result->seconds.embed = own > 0 ? seconds * totals->embed_seconds / own : 0;
+    result->seconds.deform = seconds - result->seconds.embed;
 }
 
 static const char *vertices(uint64_t count)

@@ -147,13 +147,13 @@ static void name_part(const deform_job *job, ffd_job_result *result)
     const mesh_format *const format = job->document->format;
     mark_still(job);
     if (format->name_part)
-        result->tear_stays = format->name_part(job->document, result->tear_vertex, job->kept,
-                                               result->tear_part, sizeof result->tear_part);
-    if (*result->tear_part)
+        result->tear.stays = format->name_part(job->document, result->tear.vertex, job->kept,
+                                               result->tear.part, sizeof result->tear.part);
+    if (*result->tear.part)
         return;
-    result->tear_stays = 0;
+    result->tear.stays = 0;
     for (size_t v = ffd_marks_next(&still, 0); v < still.vertices; v = ffd_marks_next(&still, v + 1))
-        result->tear_stays++;
+        result->tear.stays++;
 }
 
 /* How many evaluations the edges may take. */
@@ -169,15 +169,11 @@ static void fill_result(const deform_job *job, const mesh_faces *faces, const te
                         ffd_job_result *result)
 {
     const bool torn = count->edges > 0;
-    result->has_tear = has_all;
-    result->tear_edges = count->edges;
-    result->tear_largest = count->largest;
-    result->tear_vertex = torn ? ffd_faces_number(faces, count->vertex) : count->vertex;
-    result->tear_cause = count->cause;
-    result->tear_unselected = count->cause == FFD_TEAR_UNSELECTED;
-    result->tear_between = count->cause == FFD_TEAR_LATTICES;
-    result->tear_seam = count->cause == FFD_TEAR_SEAM;
-    result->tear_disagrees = count->cause == FFD_TEAR_BLOCKS;
+    result->tear.is_known = has_all;
+    result->tear.edges = count->edges;
+    result->tear.largest = count->largest;
+    result->tear.vertex = torn ? ffd_faces_number(faces, count->vertex) : count->vertex;
+    result->tear.cause = count->cause;
     if (torn)
         name_part(job, result);
 }
@@ -282,7 +278,7 @@ ffd_status ffd_tear_figures_find(deform_job *job, figure_arrays *arrays, ffd_job
     size_t planes;
     ffd_status status;
     if (!may_tear(job, &planes)) {
-        result->has_tear = true;
+        result->tear.is_known = true;
         return FFD_OK;
     }
     mark_left(job);
@@ -302,7 +298,7 @@ ffd_status ffd_tear_figures_find(deform_job *job, figure_arrays *arrays, ffd_job
     }
     ffd_error_format(&own, line, sizeof line);
     ffd_log_line(&job->log, FFD_LOG_WARNING, "torn edges %sare not counted: %s",
-                 result->tear_edges > 0 ? "of which both ends move " : "", line);
+                 result->tear.edges > 0 ? "of which both ends move " : "", line);
     return FFD_OK;
 }
 
@@ -327,43 +323,44 @@ static const struct {
 /* The last vertex of a text about the step of an edge whose ends move. */
 static void describe_moving(const ffd_job_result *result, const char *name, char *text, size_t capacity)
 {
-    const char *what = causes[result->tear_cause].text;
+    const char *what = causes[result->tear.cause].text;
     char faces[100];
-    if (result->tear_cause == FFD_TEAR_BLOCKS && result->disagreeing) {
+    if (result->tear.cause == FFD_TEAR_BLOCKS && result->shared_faces.disagreeing) {
         snprintf(faces, sizeof faces, "blocks move %" PRIu64 " %s on their faces differently",
-                 result->disagreeing, ffd_plural(result->disagreeing, "vertex", "vertices"));
+                 result->shared_faces.disagreeing,
+                 ffd_plural(result->shared_faces.disagreeing, "vertex", "vertices"));
         what = faces;
     }
     snprintf(text, capacity,
              "%s; the largest step to a neighbour is %g, at vertex %" PRIu64 "%s%s (%" PRIu64 " torn %s)",
-             what, result->tear_largest, result->tear_vertex, *name ? " of " : "", name, result->tear_edges,
-             ffd_plural(result->tear_edges, "edge", "edges"));
+             what, result->tear.largest, result->tear.vertex, *name ? " of " : "", name, result->tear.edges,
+             ffd_plural(result->tear.edges, "edge", "edges"));
 }
 
 void ffd_tear_figures_describe(const ffd_job_result *result, char *text, size_t capacity)
 {
-    const char *const colon = strchr(result->tear_part, ':');
+    const char *const colon = strchr(result->tear.part, ':');
     char name[201] = "";
     if (colon)
         ffd_name_shown(colon + 1, name, sizeof name);
-    if (result->tear_cause > FFD_TEAR_UNSELECTED) {
+    if (result->tear.cause > FFD_TEAR_UNSELECTED) {
         describe_moving(result, name, text, capacity);
         return;
     }
     snprintf(text, capacity, "%" PRIu64 " %s%s%s %s; the largest step to a neighbour is %g",
-             result->tear_stays, ffd_plural(result->tear_stays, "vertex", "vertices"), colon ? " of " : "",
-             name, ffd_plural(result->tear_stays, "stays", "stay"), result->tear_largest);
+             result->tear.stays, ffd_plural(result->tear.stays, "vertex", "vertices"), colon ? " of " : "",
+             name, ffd_plural(result->tear.stays, "stays", "stay"), result->tear.largest);
 }
 
 void ffd_tear_figures_warn(const deform_job *job, const ffd_job_result *result)
 {
     char text[400];
-    const char *const remedy = result->tear_cause > FFD_TEAR_UNSELECTED ? causes[result->tear_cause].remedy
-                               : result->tear_cause != FFD_TEAR_UNSELECTED
+    const char *const remedy = result->tear.cause > FFD_TEAR_UNSELECTED ? causes[result->tear.cause].remedy
+                               : result->tear.cause != FFD_TEAR_UNSELECTED
                                    ? "see --outside extend, --falloff, a larger lattice"
                                : job->desc->only_count ? "--only does not select them"
                                                        : "the matrix of their node or skin has no inverse";
-    if (result->tear_edges == 0)
+    if (result->tear.edges == 0)
         return;
     ffd_tear_figures_describe(result, text, sizeof text);
     ffd_log_line(&job->log, FFD_LOG_WARNING, "%s (%s)", text, remedy);

@@ -36,16 +36,16 @@ static void write_bounds(json_text *json, const char *key, const ffd_bounds *box
 static void write_witness(json_text *json, const ffd_job_result *result)
 {
     const ffd_folds *folds = &result->folds;
-    if (!folds->has_witness) {
+    if (!folds->witness.is_there) {
         ffd_json_null(json, "witness");
         return;
     }
     ffd_json_object(json, "witness", true);
-    ffd_json_count(json, "lattice", result->folds_lattice);
-    ffd_json_vector(json, "uvw", folds->witness_uvw, 3);
-    ffd_json_vector(json, "xyz", folds->witness_xyz, 3);
-    ffd_json_vector(json, "rest", folds->witness_rest, 3);
-    ffd_json_number(json, "det", folds->witness_det);
+    ffd_json_count(json, "lattice", result->folds.witness.lattice);
+    ffd_json_vector(json, "uvw", folds->witness.uvw, 3);
+    ffd_json_vector(json, "xyz", folds->witness.xyz, 3);
+    ffd_json_vector(json, "rest", folds->witness.rest, 3);
+    ffd_json_number(json, "det", folds->witness.det);
     ffd_json_end(json, '}');
 }
 
@@ -54,7 +54,7 @@ static void write_folds(json_text *json, const ffd_job_result *result)
     static const char *const verdicts[] = {"none", "some", "unknown"};
     static const char *const references[] = {"mean", "bounds", "place"};
     const ffd_folds *folds = &result->folds;
-    if (!result->has_folds) {
+    if (!result->folds.is_known) {
         ffd_json_null(json, "folds");
         return;
     }
@@ -71,15 +71,15 @@ static void write_folds(json_text *json, const ffd_job_result *result)
 
 static void write_determinants(json_text *json, const ffd_job_result *result)
 {
-    if (!(result->det_min <= result->det_max)) {
+    if (!(result->det.min <= result->det.max)) {
         ffd_json_null(json, "det");
         return;
     }
     ffd_json_object(json, "det", true);
-    ffd_json_number(json, "min", result->det_min);
-    ffd_json_number(json, "max", result->det_max);
-    if (isfinite(result->det_outside))
-        ffd_json_number(json, "outside", result->det_outside);
+    ffd_json_number(json, "min", result->det.min);
+    ffd_json_number(json, "max", result->det.max);
+    if (isfinite(result->det.outside))
+        ffd_json_number(json, "outside", result->det.outside);
     else
         ffd_json_null(json, "outside");
     ffd_json_end(json, '}');
@@ -87,19 +87,19 @@ static void write_determinants(json_text *json, const ffd_job_result *result)
 
 static void write_tear(json_text *json, const ffd_job_result *result)
 {
-    if (!result->has_tear) {
+    if (!result->tear.is_known) {
         ffd_json_null(json, "tear");
         return;
     }
     ffd_json_object(json, "tear", true);
-    ffd_json_count(json, "edges", result->tear_edges);
-    ffd_json_number(json, "largest", result->tear_largest);
-    if (result->tear_edges)
-        ffd_json_count(json, "vertex", result->tear_vertex);
+    ffd_json_count(json, "edges", result->tear.edges);
+    ffd_json_number(json, "largest", result->tear.largest);
+    if (result->tear.edges)
+        ffd_json_count(json, "vertex", result->tear.vertex);
     else
         ffd_json_null(json, "vertex");
-    if (*result->tear_part)
-        ffd_json_string(json, "part", result->tear_part);
+    if (*result->tear.part)
+        ffd_json_string(json, "part", result->tear.part);
     else
         ffd_json_null(json, "part");
     ffd_json_end(json, '}');
@@ -127,15 +127,15 @@ static void write_extent(json_text *json, const char *key, double before, double
 
 static void write_edges(json_text *json, const ffd_job_result *result)
 {
-    if (!result->has_edges) {
+    if (!result->edges.is_known) {
         ffd_json_null(json, "edges");
         return;
     }
     ffd_json_object(json, "edges", false);
-    ffd_json_count(json, "count", result->edges);
+    ffd_json_count(json, "count", result->edges.count);
     ffd_json_object(json, "deviation", true);
-    ffd_json_number(json, "max", result->deviation_max);
-    ffd_json_number(json, "mean", result->deviation_mean);
+    ffd_json_number(json, "max", result->edges.deviation.max);
+    ffd_json_number(json, "mean", result->edges.deviation.mean);
     ffd_json_end(json, '}');
     ffd_json_end(json, '}');
 }
@@ -167,35 +167,35 @@ static void write_behind(json_text *json, const ffd_job_result *result)
 /* Only if there are splats. */
 static void write_splats(json_text *json, const ffd_job_result *result)
 {
-    if (result->splats_carried == 0 && result->splats_broken == 0)
+    if (result->splats.carried == 0 && result->splats.broken == 0)
         return;
     ffd_json_object(json, "splats", true);
-    ffd_json_count(json, "carried", result->splats_carried);
-    ffd_json_count(json, "flattened", result->splats_flattened);
-    ffd_json_count(json, "broken", result->splats_broken);
+    ffd_json_count(json, "carried", result->splats.carried);
+    ffd_json_count(json, "flattened", result->splats.flattened);
+    ffd_json_count(json, "broken", result->splats.broken);
     ffd_json_end(json, '}');
 }
 
 /* Only if weights are off. */
 static void write_weights(json_text *json, const ffd_job_result *result)
 {
-    if (result->weights_off == 0 && result->weights_none == 0)
+    if (result->skin_weights.off == 0 && result->skin_weights.none == 0)
         return;
     ffd_json_object(json, "skin_weights", true);
-    ffd_json_count(json, "off", result->weights_off);
-    ffd_json_number(json, "farthest", result->weights_farthest);
-    ffd_json_count(json, "none", result->weights_none);
+    ffd_json_count(json, "off", result->skin_weights.off);
+    ffd_json_number(json, "farthest", result->skin_weights.farthest);
+    ffd_json_count(json, "none", result->skin_weights.none);
     ffd_json_end(json, '}');
 }
 
 /* Only if floats change the shape. */
 static void write_precision(json_text *json, const ffd_job_result *result)
 {
-    if (!(result->precision_side > 0))
+    if (!(result->precision.side > 0))
         return;
     ffd_json_object(json, "precision", true);
-    ffd_json_number(json, "error", result->precision_error);
-    ffd_json_number(json, "side", result->precision_side);
+    ffd_json_number(json, "error", result->precision.error);
+    ffd_json_number(json, "side", result->precision.side);
     ffd_json_end(json, '}');
 }
 
@@ -234,9 +234,9 @@ static void write_left(json_text *json, const ffd_job_result *result)
 static void write_shared_faces(json_text *json, const ffd_job_result *result)
 {
     ffd_json_object(json, "shared_faces", true);
-    ffd_json_count(json, "moved_twice", result->moved_twice);
-    ffd_json_count(json, "disagreeing", result->disagreeing);
-    ffd_json_number(json, "largest", result->disagreement);
+    ffd_json_count(json, "moved_twice", result->shared_faces.moved_twice);
+    ffd_json_count(json, "disagreeing", result->shared_faces.disagreeing);
+    ffd_json_number(json, "largest", result->shared_faces.largest);
     ffd_json_end(json, '}');
 }
 
@@ -245,16 +245,16 @@ static void write_shared_faces(json_text *json, const ffd_job_result *result)
 static void write_targets(json_text *json, const ffd_job_result *result)
 {
     ffd_json_object(json, "morph_targets", true);
-    ffd_json_count(json, "outside", result->targets_outside);
-    ffd_json_count(json, "shown_outside", result->shown_outside);
-    if (result->base_outside)
-        ffd_json_count(json, "base_outside", result->base_outside);
-    ffd_json_count(json, "invalid", result->targets_invalid);
+    ffd_json_count(json, "outside", result->morph_targets.outside);
+    ffd_json_count(json, "shown_outside", result->morph_targets.shown_outside);
+    if (result->morph_targets.base_outside)
+        ffd_json_count(json, "base_outside", result->morph_targets.base_outside);
+    ffd_json_count(json, "invalid", result->morph_targets.invalid);
     ffd_json_end(json, '}');
 }
 
 /* Only if there are joints, pivots or sockets, or if nodes follow. */
-static void write_rig(json_text *json, const ffd_rig_result *rig)
+static void write_rig(json_text *json, const ffd_rig_figures *rig)
 {
     if (!rig->is_there)
         return;
@@ -293,12 +293,12 @@ static void write_deformation(json_text *json, const ffd_job_result *result)
     ffd_json_count(json, "moved", result->moved);
     write_shared_faces(json, result);
     ffd_json_object(json, "residual", true);
-    ffd_json_number(json, "max", result->residual_max);
-    ffd_json_number(json, "rms", result->residual_rms);
+    ffd_json_number(json, "max", result->residual.max);
+    ffd_json_number(json, "rms", result->residual.rms);
     ffd_json_end(json, '}');
     ffd_json_object(json, "iterations", true);
-    ffd_json_number(json, "mean", result->evaluations_mean);
-    ffd_json_count(json, "max", result->evaluations_max);
+    ffd_json_number(json, "mean", result->iterations.mean);
+    ffd_json_count(json, "max", result->iterations.max);
     ffd_json_end(json, '}');
     write_folds(json, result);
     if (result->has_flipped)
@@ -306,20 +306,20 @@ static void write_deformation(json_text *json, const ffd_job_result *result)
     else
         ffd_json_null(json, "flipped_faces");
     write_tear(json, result);
-    write_extent(json, "volume", result->volume_before, result->volume_after);
-    write_extent(json, "area", result->area_before, result->area_after);
+    write_extent(json, "volume", result->volume.before, result->volume.after);
+    write_extent(json, "area", result->area.before, result->area.after);
     write_determinants(json, result);
 }
 
 static void write_reach(json_text *json, const ffd_job_result *result)
 {
     ffd_json_object(json, "bounds", false);
-    write_bounds(json, "before", &result->before);
-    write_bounds(json, "after", &result->after);
+    write_bounds(json, "before", &result->bounds.before);
+    write_bounds(json, "after", &result->bounds.after);
     ffd_json_end(json, '}');
     ffd_json_object(json, "displacement", true);
-    ffd_json_number(json, "max", result->displacement_max);
-    ffd_json_number(json, "rms", result->displacement_rms);
+    ffd_json_number(json, "max", result->displacement.max);
+    ffd_json_number(json, "rms", result->displacement.rms);
     ffd_json_end(json, '}');
 }
 
@@ -327,7 +327,7 @@ static void write_reach(json_text *json, const ffd_job_result *result)
 static void write_lattice_name(json_text *json, const ffd_job_result *result, size_t k)
 {
     char number[40];
-    const char *const name = result->morph_lattices ? result->morph_lattices[k] : NULL;
+    const char *const name = result->morphs.lattices ? result->morphs.lattices[k] : NULL;
     snprintf(number, sizeof number, "lattice %zu", k + 1);
     ffd_json_string(json, "lattice", name ? name : number);
 }
@@ -335,15 +335,15 @@ static void write_lattice_name(json_text *json, const ffd_job_result *result, si
 /* Only if the job made several morph targets: the figures of each one. */
 static void write_morphs(json_text *json, const ffd_job_result *result)
 {
-    if (!result->morph_results)
+    if (!result->morphs.results)
         return;
     ffd_json_array(json, "morphs", false);
-    for (size_t k = 0; k < result->morph_count; k++) {
+    for (size_t k = 0; k < result->morphs.count; k++) {
         ffd_json_object(json, NULL, false);
-        ffd_json_string(json, "name", result->morphs[k]);
+        ffd_json_string(json, "name", result->morphs.names[k]);
         write_lattice_name(json, result, k);
-        write_deformation(json, &result->morph_results[k]);
-        write_reach(json, &result->morph_results[k]);
+        write_deformation(json, &result->morphs.results[k]);
+        write_reach(json, &result->morphs.results[k]);
         ffd_json_end(json, '}');
     }
     ffd_json_end(json, ']');
@@ -367,11 +367,11 @@ static void write_figures(json_text *json, const ffd_job_result *result)
 static void write_seconds(json_text *json, const ffd_job_result *result)
 {
     ffd_json_object(json, "seconds", true);
-    ffd_json_number(json, "read", result->seconds_read);
-    ffd_json_number(json, "embed", result->seconds_embed);
-    ffd_json_number(json, "deform", result->seconds_deform);
-    ffd_json_number(json, "judge", result->seconds_judge);
-    ffd_json_number(json, "write", result->seconds_write);
+    ffd_json_number(json, "read", result->seconds.read);
+    ffd_json_number(json, "embed", result->seconds.embed);
+    ffd_json_number(json, "deform", result->seconds.deform);
+    ffd_json_number(json, "judge", result->seconds.judge);
+    ffd_json_number(json, "write", result->seconds.write);
     ffd_json_end(json, '}');
 }
 
