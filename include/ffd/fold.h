@@ -19,6 +19,9 @@ typedef enum ffd_fold_verdict {
     FFD_FOLDS_UNKNOWN = 2 /* not decided within the limits of depth and number of boxes */
 } ffd_fold_verdict;
 
+/* Returns "none", "some" or "unknown"; NULL for another value. The string is static. Thread-safe. */
+FFD_API const char *ffd_fold_verdict_name(ffd_fold_verdict verdict);
+
 /* What determinants are relative to. */
 typedef enum ffd_fold_reference {
     FFD_FOLDS_TO_MEAN = 0,   /* the size of the mean of det J_P over the domain */
@@ -27,14 +30,17 @@ typedef enum ffd_fold_reference {
     FFD_FOLDS_TO_PLACE = 2   /* det J_P at the same u,v,w: one affine map moves the whole lattice */
 } ffd_fold_reference;
 
+/* Returns "mean", "bounds" or "place"; NULL for another value. The string is static. Thread-safe. */
+FFD_API const char *ffd_fold_reference_name(ffd_fold_reference reference);
+
 /* A place where the deformed volume folds. */
 typedef struct ffd_fold_witness {
-    bool is_there;  /* true if the verdict is FFD_FOLDS_SOME; else all other members are 0 */
-    size_t lattice; /* of a job with several lattices: its index, from 0 */
-    double uvw[3];  /* in the range of the knots */
-    double xyz[3];  /* C_Q(uvw), world units */
-    double rest[3]; /* C_P(uvw), world units */
-    double det;     /* sign * det J_Q at uvw, divided as ffd_folds.min_det is; <= 0 */
+    bool is_there;    /* true if the verdict is FFD_FOLDS_SOME; else all other members are 0 */
+    uint64_t lattice; /* of a job with several lattices: its index, from 0 */
+    double uvw[3];    /* in the range of the knots */
+    double xyz[3];    /* C_Q(uvw), world units */
+    double rest[3];   /* C_P(uvw), world units */
+    double det;       /* sign * det J_Q at uvw, divided as ffd_folds.min_det is; <= 0 */
 } ffd_fold_witness;
 
 /* The result of ffd_folds_find. Set struct_size to sizeof(ffd_folds) before the call. */

@@ -346,6 +346,10 @@ typedef enum ffd_view_color {
     FFD_VIEW_PLAIN             /* base colours and vertex colours of the mesh */
 } ffd_view_color;
 
+/* Returns "displacement", "status", "det" or "plain"; NULL for another value. The string is static.
+   Thread-safe. */
+FFD_API const char *ffd_view_color_name(ffd_view_color color);
+
 /* A job of `ffd view`: a web page or a picture that shows a mesh before and after. */
 typedef struct ffd_view_desc {
     size_t struct_size; /* sizeof(ffd_view_desc) in the caller's header */
@@ -544,6 +548,12 @@ FFD_API void ffd_lattice_new_desc_init(ffd_lattice_new_desc *desc, size_t size);
 /* Runs the job. The output is complete or absent. Errors: those of reading a mesh, of ffd_lattice_create and
    of ffd_lattice_save. */
 FFD_API ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *desc, ffd_error *error);
+
+/* Writes the figures of a result for people, as `ffd check` prints them, a line or two for each. lattice: the
+   name of the lattice result->folds.witness.lattice. *text ends with a line break and a 0 byte; the caller
+   frees it with ffd_text_free. Thread-safe. Errors: FFD_E_ARGUMENT, FFD_E_MEMORY. */
+FFD_API ffd_status ffd_job_result_text(const ffd_job_result *result, const char *lattice, char **text,
+                                       ffd_error *error);
 
 /* A report (data/schema/formats.md 2). Entries are added in the order of the jobs, and written to the file at
    once. One thread at a time. */

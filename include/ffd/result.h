@@ -8,6 +8,7 @@
 
 #include <ffd/embedding.h>
 #include <ffd/error.h>
+#include <ffd/export.h>
 #include <ffd/fold.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -152,6 +153,10 @@ typedef enum ffd_behind_kind {
     FFD_BEHIND_KIND_COUNT
 } ffd_behind_kind;
 
+/* Returns "socket", "camera", "light", "joint", "pivot", "physics_shape" or "splat"; NULL for another value.
+   The string is static. Thread-safe. */
+FFD_API const char *ffd_behind_kind_name(ffd_behind_kind kind);
+
 /* The most names that are listed for a kind. */
 #define FFD_BEHIND_NAMES 3
 /* The things of one kind that are left behind. */
@@ -268,7 +273,7 @@ typedef struct ffd_job_result {
     uint64_t bounds_left;  /* boxes and spheres in glTF extensions and extras that are named as bounds of what
                               was deformed, and stay as they were before */
     ffd_flaw flaws[FFD_FLAWS]; /* flaw_count entries, of the input */
-    size_t flaw_count;
+    uint64_t flaw_count;
     ffd_seconds seconds;
     const char *picture;          /* the output of ffd_view_run, belongs to its description; else NULL */
     bool own_box;                 /* a box "mesh" was laid round the mesh of this job */

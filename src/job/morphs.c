@@ -3,8 +3,7 @@
 #include "base/text/words.h"
 #include "job/chain/chain_load.h"
 #include "job/deform_job.h"
-#include "job/judge/morph_result.h"
-#include "job/judge/result.h"
+#include "job/figures/figure_values.h"
 #include "json/json_chars.h"
 #include <stdio.h>
 #include <string.h>
@@ -204,7 +203,7 @@ ffd_status ffd_morphs_run(deform_job *job, ffd_job_result *result, ffd_error *er
     size_t done = 0;
     const ffd_status status = run_all(job, results, &done, error);
     if (!status || status == FFD_E_GATE) {
-        ffd_morph_results_join(results, done, result);
+        ffd_results_join(results, done, result);
         result->morphs.count = done;
         result->morphs.names = desc->morphs;
         result->morphs.lattices = desc->lattices;

@@ -135,9 +135,8 @@ static void put_witness(json_text *json, const view_scene *scene)
 
 static void put_view(json_text *json, const view_page_options *options)
 {
-    static const char *const colors[] = {"displacement", "status", "det", "plain"};
     ffd_json_object(json, "view", true);
-    ffd_json_string(json, "color", colors[options->color]);
+    ffd_json_string(json, "color", ffd_view_color_name((ffd_view_color)options->color));
     ffd_json_vector(json, "camera", options->camera, 3);
     ffd_json_end(json, '}');
 }

@@ -10,7 +10,6 @@ static const uint8_t unknown_color[3] = {148, 153, 161};
 /* By ffd_vertex_status. */
 static const uint8_t status_colors[FFD_VERTEX_STATUS_COUNT][3] = {
     {74, 144, 217}, {160, 164, 170}, {240, 160, 32}, {150, 96, 210}, {214, 40, 40}};
-static const char *const status_names[] = {"inside", "outside", "multiple", "singular", "invalid"};
 
 /* viridis (van der Walt, Smith), and a diverging ramp from blue over white to red. */
 static const uint32_t sequential[] = {0x440154, 0x482878, 0x3e4989, 0x31688e, 0x26828e,
@@ -85,7 +84,8 @@ static void make_fields(const view_scene *scene, view_palette *p)
             counts[scene->statuses[v]]++;
     for (size_t s = 0; s < FFD_VERTEX_STATUS_COUNT; s++)
         if (s < 2 || counts[s] > 0) {
-            snprintf(p->texts[fields], sizeof p->texts[fields], "%s %zu", status_names[s], counts[s]);
+            snprintf(p->texts[fields], sizeof p->texts[fields], "%s %zu",
+                     ffd_vertex_status_name((ffd_vertex_status)s), counts[s]);
             p->labels[fields] = p->texts[fields];
             memcpy(p->ramp[fields++], status_colors[s], sizeof status_colors[s]);
         }

@@ -118,6 +118,7 @@ typedef enum ffd_vertex_status {
     FFD_SINGULAR = 3,
     FFD_POINT_INVALID = 4
 } ffd_vertex_status;
+const char *ffd_vertex_status_name(ffd_vertex_status status);
 typedef enum ffd_outside { FFD_OUTSIDE_KEEP = 0, FFD_OUTSIDE_EXTEND, FFD_OUTSIDE_ERROR } ffd_outside;
 typedef struct ffd_locator ffd_locator;
 typedef struct ffd_location {
@@ -144,14 +145,16 @@ typedef enum ffd_fold_verdict {
     FFD_FOLDS_SOME = 1,
     FFD_FOLDS_UNKNOWN = 2
 } ffd_fold_verdict;
+const char *ffd_fold_verdict_name(ffd_fold_verdict verdict);
 typedef enum ffd_fold_reference {
     FFD_FOLDS_TO_MEAN = 0,
     FFD_FOLDS_TO_BOUNDS = 1,
     FFD_FOLDS_TO_PLACE = 2
 } ffd_fold_reference;
+const char *ffd_fold_reference_name(ffd_fold_reference reference);
 typedef struct ffd_fold_witness {
     bool is_there;
-    size_t lattice;
+    uint64_t lattice;
     double uvw[3];
     double xyz[3];
     double rest[3];
@@ -263,6 +266,7 @@ typedef enum ffd_behind_kind {
     FFD_BEHIND_SPLAT,
     FFD_BEHIND_KIND_COUNT
 } ffd_behind_kind;
+const char *ffd_behind_kind_name(ffd_behind_kind kind);
 typedef struct ffd_behind {
     uint64_t count;
     char names[3][80];
@@ -333,7 +337,7 @@ typedef struct ffd_job_result {
     uint64_t bytes_left;
     uint64_t bounds_left;
     ffd_flaw flaws[8];
-    size_t flaw_count;
+    uint64_t flaw_count;
     ffd_seconds seconds;
     const char *picture;
     bool own_box;
@@ -469,6 +473,7 @@ typedef enum ffd_view_color {
     FFD_VIEW_DET,
     FFD_VIEW_PLAIN
 } ffd_view_color;
+const char *ffd_view_color_name(ffd_view_color color);
 typedef struct ffd_view_desc {
     size_t struct_size;
     const ffd_deform_desc *job;
@@ -581,6 +586,8 @@ typedef struct ffd_lattice_new_desc {
 } ffd_lattice_new_desc;
 void ffd_lattice_new_desc_init(ffd_lattice_new_desc *desc, size_t size);
 ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *desc, ffd_error *error);
+ffd_status ffd_job_result_text(const ffd_job_result *result, const char *lattice, char **text,
+                               ffd_error *error);
 typedef struct ffd_report ffd_report;
 ffd_status ffd_report_create(const char *path, bool stable, ffd_written *written, ffd_report **report,
                              ffd_error *error);

@@ -2,6 +2,7 @@
 #include "base/memory/memory.h"
 #include "base/text/words.h"
 #include "io/openmesh/half_edges.h"
+#include "job/figures/figure_values.h"
 #include "job/input/selection.h"
 #include "job/judge/edge_list.h"
 #include "job/judge/extent.h"
@@ -96,29 +97,6 @@ void ffd_figures_free(figure_arrays *arrays)
     *arrays = (figure_arrays){0};
 }
 
-static int rank(ffd_fold_verdict verdict)
-{
-    return verdict == FFD_FOLDS_SOME ? 2 : verdict == FFD_FOLDS_UNKNOWN ? 1 : 0;
-}
-
-void ffd_figures_join_folds(const ffd_folds *next, size_t number, ffd_folds *all)
-{
-    const ffd_folds before = *all;
-    if (number == 0 || (!before.witness.is_there && next->witness.is_there)) {
-        *all = *next;
-        all->witness.lattice = next->witness.is_there ? number : 0;
-    }
-    if (number == 0)
-        return;
-    all->is_known = before.is_known && next->is_known;
-    all->verdict = rank(next->verdict) > rank(before.verdict) ? next->verdict : before.verdict;
-    all->cells = before.cells + next->cells;
-    all->folded_cells = before.folded_cells + next->folded_cells;
-    all->unknown_cells = before.unknown_cells + next->unknown_cells;
-    all->min_det = before.min_det < next->min_det ? before.min_det : next->min_det;
-    all->relative_to = before.min_det < next->min_det ? before.relative_to : next->relative_to;
-}
-
 ffd_status ffd_figures_folds(lattice_chain *chain, int threads, ffd_job_result *result, ffd_error *error)
 {
     for (size_t l = 0; l < chain->count; l++) {
@@ -130,7 +108,7 @@ ffd_status ffd_figures_folds(lattice_chain *chain, int threads, ffd_job_result *
                 return status;
             link->has_folds = true;
         }
-        ffd_figures_join_folds(&link->folds, l, &result->folds);
+        ffd_folds_join(&link->folds, l, &result->folds);
     }
     return FFD_OK;
 }

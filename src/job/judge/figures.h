@@ -22,9 +22,6 @@ ffd_status ffd_figures_prepare(const deform_job *job, figure_arrays *arrays, ffd
 /* Frees the arrays and the faces. */
 void ffd_figures_free(figure_arrays *arrays);
 
-/* Adds the folds of volume `number`: the worse verdict, sums of cells, the first witness. */
-void ffd_figures_join_folds(const ffd_folds *next, size_t number, ffd_folds *all);
-
 /* Proves for each lattice of the chain that it does not fold, or finds folds, and combines the outcomes. */
 ffd_status ffd_figures_folds(lattice_chain *chain, int threads, ffd_job_result *result, ffd_error *error);
 

@@ -3,9 +3,9 @@
 #define FFD_JOB_JUDGE_JOB_STATE_H
 
 #include "job/chain/chain.h"
+#include "job/figures/pass_totals.h"
 #include "job/input/embedding_file.h"
 #include "job/judge/details.h"
-#include "job/pass/pass_totals.h"
 #include "job/rig/rig_places.h"
 #include "mesh/mesh.h"
 

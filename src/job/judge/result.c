@@ -11,68 +11,6 @@
 /* Room for a number of two digits. */
 #define ROUNDED 32
 
-void ffd_result_clear(ffd_job_result *result)
-{
-    memset(result, 0, sizeof *result);
-    result->struct_size = sizeof *result;
-    for (int a = 0; a < 3; a++) {
-        result->bounds.before.min[a] = result->bounds.after.min[a] = 1; /* empty: min > max */
-        result->bounds.before.max[a] = result->bounds.after.max[a] = -1;
-    }
-    result->det.outside = HUGE_VAL;
-    result->det.min = 1;
-    result->det.max = -1;
-    result->area.before = result->area.after = result->volume.before = result->volume.after = NAN;
-}
-
-void ffd_result_fill(ffd_job_result *result, const pass_totals *totals, double seconds)
-{
-    result->vertices = totals->vertices;
-    for (int s = 0; s < FFD_VERTEX_STATUS_COUNT; s++)
-        result->counts[s] = totals->counts[s];
-    result->unused = totals->unused;
-    result->hidden = totals->hidden;
-    result->morph_targets.outside = totals->shapes_outside;
-    result->morph_targets.invalid = totals->shapes_invalid;
-    result->morph_targets.shown_outside = totals->of_shown ? totals->weighted_outside : 0;
-    result->morph_targets.base_outside = totals->base_outside;
-    result->moved = totals->moved;
-    result->residual.max = sqrt(totals->residual_square_max);
-    result->residual.rms = totals->located ? sqrt(totals->residual_square_sum / (double)totals->located) : 0;
-    result->iterations.mean = totals->vertices ? (double)totals->evaluations / (double)totals->vertices : 0;
-    result->iterations.max = totals->evaluations_max;
-    result->bounds.before = totals->before;
-    result->bounds.after = totals->after;
-    for (int a = 0; a < 3; a++) { /* normalize zeros: which of -0 and 0 was found depends on the order */
-        result->bounds.before.min[a] += 0.0;
-        result->bounds.before.max[a] += 0.0;
-        result->bounds.after.min[a] += 0.0;
-        result->bounds.after.max[a] += 0.0;
-    }
-    result->det.outside = totals->det_outside;
-    result->det.outside_vertex = totals->first_det_outside;
-    result->displacement.max = sqrt(totals->displacement_square_max);
-    result->displacement.rms =
-        totals->vertices ? sqrt(totals->displacement_square_sum / (double)totals->vertices) : 0;
-    result->shared_faces.moved_twice = totals->moved_twice;
-    result->shared_faces.disagreeing = totals->disagreeing;
-    result->shared_faces.largest = totals->disagreement;
-    result->normals_collapsed = totals->normals_collapsed;
-    result->normals_carried = totals->normals_carried;
-    result->splats.carried = totals->splats_carried;
-    result->splats.flattened = totals->splats_flattened;
-    result->splats.broken = totals->splats_broken;
-    result->transforms_singular = totals->transforms_singular;
-    result->skin_weights.off = totals->weights.off;
-    result->skin_weights.farthest = totals->weights.farthest;
-    result->skin_weights.none = totals->weights.none;
-    result->precision.error = totals->lost.error;
-    result->precision.side = totals->lost.side;
-    const double own = totals->embed_seconds + totals->deform_seconds;
-    result->seconds.embed = own > 0 ? seconds * totals->embed_seconds / own : 0;
-    result->seconds.deform = seconds - result->seconds.embed;
-}
-
 static const char *vertices(uint64_t count)
 {
     return ffd_plural(count, "vertex", "vertices");
@@ -178,7 +116,6 @@ static void tell_degenerate(const pass_totals *totals, char *text, size_t capaci
 static void tell_others(const pass_totals *totals, const chain_outside *outside, bool deformed, char *text,
                         size_t capacity)
 {
-    static const char *const names[] = {"inside", "outside", "multiple", "singular", "invalid"};
     *text = 0;
     if (totals->counts[FFD_OUTSIDE])
         tell_outside(totals, outside, deformed, text, capacity);
@@ -188,8 +125,8 @@ static void tell_others(const pass_totals *totals, const chain_outside *outside,
         const bool invalid = s == FFD_POINT_INVALID, stay = deformed && invalid;
         if (count)
             snprintf(text + length, capacity - length, "%s%" PRIu64 " %s%s%s%s%s", length ? ", " : "", count,
-                     names[s], invalid ? " (not finite" : "", stay ? "; " : "", stay ? left_alone(count) : "",
-                     invalid ? ")" : "");
+                     ffd_vertex_status_name((ffd_vertex_status)s), invalid ? " (not finite" : "",
+                     stay ? "; " : "", stay ? left_alone(count) : "", invalid ? ")" : "");
         if (s == FFD_SINGULAR)
             tell_degenerate(totals, text, capacity);
     }

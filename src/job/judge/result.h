@@ -3,15 +3,8 @@
 #define FFD_JOB_JUDGE_RESULT_H
 
 #include "job/chain/chain.h"
-#include "job/pass/pass_totals.h"
+#include "job/figures/figure_values.h"
 #include "mesh/mesh.h"
-
-/* Resets all figures. */
-void ffd_result_clear(ffd_job_result *result);
-
-/* Copies the figures of a pass. seconds: wall time of the pass, which is divided in proportion to the times
-   of the threads. */
-void ffd_result_fill(ffd_job_result *result, const pass_totals *totals, double seconds);
 
 /* Copies the flaws of the input: violations of its format's specification. */
 void ffd_result_note_flaws(ffd_job_result *result, const mesh_flaws *flaws);

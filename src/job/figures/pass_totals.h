@@ -1,6 +1,6 @@
-/* pass_totals.h - the figures of a pass, accumulated tile by tile. */
-#ifndef FFD_JOB_PASS_PASS_TOTALS_H
-#define FFD_JOB_PASS_PASS_TOTALS_H
+/* pass_totals.h - the figures of a pass, accumulated tile by tile; figure_values.c clears and joins them. */
+#ifndef FFD_JOB_FIGURES_PASS_TOTALS_H
+#define FFD_JOB_FIGURES_PASS_TOTALS_H
 
 #include "mesh/mesh.h"
 #include <ffd/embedding.h>
@@ -32,7 +32,7 @@ typedef struct pass_totals {
     uint64_t located; /* vertices with u,v,w in some link; residuals are over these */
     double residual_square_max, residual_square_sum; /* relative to the lattice's diagonal */
     uint64_t evaluations;
-    uint32_t evaluations_max;
+    uint64_t evaluations_max;
     double displacement_square_max, displacement_square_sum;
     ffd_bounds before, after; /* in the lattice's space */
     ffd_bounds shapes; /* likewise, of the deformed morph targets and the shape with default weights; only if
