@@ -140,7 +140,7 @@ typedef struct ffd_bounds_figures {
     ffd_bounds before, after;
 } ffd_bounds_figures;
 
-/* What a deformation can leave behind: things that keep their place while the mesh moves. */
+/* Scene objects that do not follow: they keep their place while the mesh moves. */
 typedef enum ffd_behind_kind {
     FFD_BEHIND_SOCKET = 0, /* an empty node without children */
     FFD_BEHIND_CAMERA,

@@ -5,6 +5,7 @@
 
 #include "base/vector/isa.h"
 #include "deform/displacement_cell.h"
+#include "deform/turns.h"
 #include "lattice/lattice.h"
 #include <ffd/deform.h>
 #include <stdint.h>
@@ -39,17 +40,22 @@ typedef struct batch_stretch {
 /* The size of the caches of all threads together, 3 MB, because a machine can have many threads. */
 #define KEPT_IN_ALL (2 * KEPT_NUMBERS)
 
+/* Whether det F may be 0 or less in a cell. */
+typedef enum cell_turns { TURNS_UNKNOWN, TURNS_NOWHERE, TURNS_PERHAPS } cell_turns;
+
 typedef struct kept_cells {
     int threads;                 /* number of threads that share this size; set by the owner of the scratch
                                     memory, 0 is 1 */
     const ffd_lattice *lattice;  /* the lattice of the cells; NULL: empty */
     cell_use use;                /* what the numbers are for */
+    bool finds_turns;            /* turns is wanted */
     size_t count, numbers;       /* capacity in cells, and numbers for each cell */
     size_t keys[KEPT_CELLS];     /* 1 + the key of a batch_cell; 0: none */
     uint16_t places[KEPT_CELLS]; /* index of its numbers; assigned in ascending order, so that few pages are
                                     touched */
     uint16_t used;               /* number of used places */
     cell_motion motions[KEPT_CELLS];
+    uint8_t turns[KEPT_CELLS]; /* cell_turns */
     double all_numbers[KEPT_NUMBERS];
 } kept_cells;
 
@@ -64,7 +70,16 @@ typedef struct displacement_scratch {
     uint16_t buckets[2 * DISPLACEMENT_BATCH]; /* hash table of the cells by key */
     uint32_t sorted[DISPLACEMENT_BATCH];      /* indices of the points, cell by cell */
     double uvw[3 * DISPLACEMENT_BATCH];       /* their u,v,w */
+    double fields[2 * FIELD_NUMBERS + 1];     /* of a cell in which the displacement may turn */
+    turn_run runs[DISPLACEMENT_BATCH];
+    turn_scratch turns;
 } displacement_scratch;
+
+/* The points of a batch, or of several, at which det F may be 0 or less. */
+typedef struct turn_list {
+    uint32_t points[DISPLACEMENT_BATCH];
+    size_t count;
+} turn_list;
 
 typedef struct displacement_batch {
     const double *uvw; /* u,v,w of point 0; in the domain */
@@ -75,9 +90,8 @@ typedef struct displacement_batch {
     size_t count;
     double *delta;    /* of point n: begins at delta[3 * n] */
     double *gradient; /* of point n: begins at gradient[9 * n]; may be NULL */
-    bool only_turns;  /* with gradient: it is wanted only for cells where det F may be 0 or less; elsewhere it
-                         is 0 */
-    bool *may_turn;   /* NULL, or with gradient: becomes true if det F may be 0 or less in a cell */
+    turn_list *turns; /* NULL, or with gradient: that is wanted, and written, only where det F may be 0 or
+                         less, and these points are added here */
     uint8_t *moves;   /* moves[n]: what ffd_displacement returns */
 } displacement_batch;
 

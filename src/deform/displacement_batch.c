@@ -4,17 +4,12 @@
 
 #define NO_CELL UINT16_MAX
 
-typedef struct kernel_pair {
-    extraction_kernel *extract;
-    displacement_kernel *displace;
-} kernel_pair;
-
-static const kernel_pair kernels[] = {
-    [FFD_ISA_SCALAR] = {ffd_extraction_kernel_scalar, ffd_kernel_scalar},
+static const cell_kernels kernels[] = {
+    [FFD_ISA_SCALAR] = {ffd_extraction_kernel_scalar, ffd_kernel_scalar, ffd_slope_kernel_scalar},
 #ifdef FFD_X86
-    [FFD_ISA_SSE2] = {ffd_extraction_kernel_sse2, ffd_kernel_sse2},
-    [FFD_ISA_AVX2] = {ffd_extraction_kernel_avx2, ffd_kernel_avx2},
-    [FFD_ISA_AVX512] = {ffd_extraction_kernel_avx512, ffd_kernel_avx512},
+    [FFD_ISA_SSE2] = {ffd_extraction_kernel_sse2, ffd_kernel_sse2, ffd_slope_kernel_sse2},
+    [FFD_ISA_AVX2] = {ffd_extraction_kernel_avx2, ffd_kernel_avx2, ffd_slope_kernel_avx2},
+    [FFD_ISA_AVX512] = {ffd_extraction_kernel_avx512, ffd_kernel_avx512, ffd_slope_kernel_avx512},
 #endif
 };
 
@@ -125,7 +120,7 @@ static void sort_points(const ffd_lattice *lattice, const displacement_batch *ba
 static void stay(const displacement_batch *batch, size_t n)
 {
     memset(batch->delta + 3 * n, 0, 3 * sizeof *batch->delta);
-    if (batch->gradient)
+    if (batch->gradient && !batch->turns)
         memset(batch->gradient + 9 * n, 0, 9 * sizeof *batch->gradient);
     batch->moves[n] = 0;
 }
@@ -133,16 +128,18 @@ static void stay(const displacement_batch *batch, size_t n)
 void ffd_displacement_scratch_clear(displacement_scratch *scratch)
 {
     scratch->kept.lattice = NULL;
+    scratch->turns.order[0] = 0;
 }
 
 /* Prepares the cache for a lattice. */
-static void begin_cells(const ffd_lattice *lattice, cell_use use, kept_cells *kept)
+static void begin_cells(const ffd_lattice *lattice, cell_use use, bool finds_turns, kept_cells *kept)
 {
-    if (kept->lattice == lattice && kept->use == use)
+    if (kept->lattice == lattice && kept->use == use && kept->finds_turns == finds_turns)
         return;
     const size_t numbers = ffd_displacement_cell_numbers(lattice, use) + 1;
     kept->lattice = lattice;
     kept->use = use;
+    kept->finds_turns = finds_turns;
     kept->numbers = numbers;
     const size_t share = KEPT_IN_ALL / (size_t)(kept->threads > 2 ? kept->threads : 2);
     kept->count = share / numbers < KEPT_CELLS ? share / numbers : KEPT_CELLS;
@@ -152,22 +149,39 @@ static void begin_cells(const ffd_lattice *lattice, cell_use use, kept_cells *ke
     memset(kept->keys, 0, sizeof kept->keys);
 }
 
-/* Returns how a cell moves and, if it is not a common displacement, its numbers; computes them if they are
-   not in the cache. */
-static cell_motion find_numbers(const ffd_lattice *lattice, extraction_kernel *extract,
-                                const batch_cell *cell, kept_cells *kept, const double **numbers)
+/* Returns the index in the cache of a cell, and its numbers if its displacements differ; computes them if
+   they are not there. */
+static size_t find_numbers(const ffd_lattice *lattice, extraction_kernel *extract, const batch_cell *cell,
+                           kept_cells *kept, const double **numbers)
 {
     const size_t slot = (cell->key * 0x9e3779b97f4a7c15u >> 40) % kept->count;
     if (kept->keys[slot] == 0)
         kept->places[slot] = kept->used++;
     double *const kept_numbers = kept->all_numbers + kept->places[slot] * kept->numbers;
-    if (kept->keys[slot] != cell->key + 1) {
-        kept->keys[slot] = cell->key + 1;
-        kept->motions[slot] =
-            ffd_displacement_cell_points(lattice, extract, cell->span, kept->use, kept_numbers);
-    }
     *numbers = kept_numbers;
-    return kept->motions[slot];
+    if (kept->keys[slot] == cell->key + 1)
+        return slot;
+    kept->keys[slot] = cell->key + 1;
+    kept->motions[slot] = ffd_displacement_cell_points(lattice, extract, cell->span, kept->use, kept_numbers);
+    kept->turns[slot] = TURNS_UNKNOWN;
+    return slot;
+}
+
+/* With fewer points in a cell of a curved lattice, their gradients cost less than bounds. */
+#define FEW_POINTS 5
+
+/* Returns whether det F may be 0 or less at a point of a cell, if that is wanted. */
+static bool may_turn(const ffd_lattice *lattice, const cell_kernels *kernel, const batch_cell *of,
+                     const double *numbers, size_t slot, displacement_scratch *scratch)
+{
+    kept_cells *const kept = &scratch->kept;
+    const turn_cell cell = {lattice, of->span, kernel};
+    if (!kept->finds_turns)
+        return false;
+    if (kept->turns[slot] == TURNS_UNKNOWN && (lattice->has_uvw_by_p || of->count >= FEW_POINTS))
+        kept->turns[slot] =
+            ffd_turns_nowhere(&cell, numbers, &scratch->turns) ? TURNS_NOWHERE : TURNS_PERHAPS;
+    return kept->turns[slot] != TURNS_NOWHERE;
 }
 
 /* Stores the same displacement for all points of a cell. */
@@ -213,66 +227,99 @@ static void shift_on_knots(const ffd_lattice *lattice, const int span[3], uint8_
     }
 }
 
-/* gentle: without gradients, which are not wanted. */
-static void bend_cell(const ffd_lattice *lattice, const kernel_pair *kernel, const displacement_batch *batch,
-                      const batch_cell *of, bool gentle, const double *numbers, displacement_scratch *scratch)
+/* Displaces count points of a cell, from the first of them in the sorted order. */
+static void bend_points(const cell_kernels *kernel, const kernel_cell *cell, const displacement_batch *batch,
+                        size_t first, size_t count, bool gradients, displacement_scratch *scratch)
 {
-    const uint32_t *const which = scratch->sorted + of->first;
-    kernel_cell cell;
-    ffd_displacement_cell_begin(lattice, of->span, scratch->kept.use, numbers, &cell);
-    const kernel_points points = {.uvw = scratch->uvw + 3 * (size_t)of->first,
+    const uint32_t *const which = scratch->sorted + first;
+    const bool has_rest = gradients && cell->rest.points;
+    const kernel_points points = {.uvw = scratch->uvw + 3 * first,
                                   .which = which,
-                                  .count = of->count,
+                                  .count = count,
                                   .delta = batch->delta,
-                                  .gradient = gentle ? NULL : batch->gradient,
-                                  .jacobian = cell.rest.points ? scratch->jacobian : NULL};
-    kernel->displace(&cell, &points);
-    for (size_t k = 0; k < of->count; k++)
+                                  .gradient = gradients ? batch->gradient : NULL,
+                                  .jacobian = has_rest ? scratch->jacobian : NULL};
+    kernel->displace(cell, &points);
+    for (size_t k = 0; k < count; k++)
         batch->moves[which[k]] = 1;
-    for (size_t k = 0; k < of->count && gentle; k++)
-        memset(batch->gradient + 9 * (size_t)which[k], 0, 9 * sizeof *batch->gradient);
-    for (size_t k = 0; k < of->count && cell.rest.points; k++)
+    for (size_t k = 0; k < count && has_rest; k++)
         ffd_displacement_to_space(scratch->jacobian + 9 * which[k], batch->gradient + 9 * which[k]);
 }
 
-static void displace_cell(const ffd_lattice *lattice, const kernel_pair *kernel,
+/* Displaces the points of a cell in which the displacement may turn: computes gradients in the runs of points
+   where that is not excluded, and lists these points. */
+static void bend_and_watch(const ffd_lattice *lattice, const cell_kernels *kernel,
+                           const displacement_batch *batch, const batch_cell *of,
+                           displacement_scratch *scratch)
+{
+    const turn_cell turn = {lattice, of->span, kernel};
+    const uint32_t *const which = scratch->sorted + of->first;
+    const turn_run *const runs = scratch->runs;
+    kernel_cell cell;
+    ffd_displacement_cell_points(lattice, kernel->extract, of->span, CELL_GRADIENTS, scratch->fields);
+    ffd_displacement_cell_begin(lattice, of->span, CELL_GRADIENTS, scratch->fields, &cell);
+    const size_t count = ffd_turns_find(&turn, &cell, which, scratch->uvw + 3 * (size_t)of->first, of->count,
+                                        scratch->runs, &scratch->turns);
+    for (size_t i = 0, end; i < count; i = end) {
+        for (end = i + 1; end < count && runs[end].may_turn == runs[i].may_turn;)
+            end++;
+        const size_t first = runs[i].first, points = runs[end - 1].end - first;
+        bend_points(kernel, &cell, batch, of->first + first, points, runs[i].may_turn, scratch);
+        if (!runs[i].may_turn)
+            continue;
+        memcpy(batch->turns->points + batch->turns->count, which + first, points * sizeof *which);
+        batch->turns->count += points;
+    }
+}
+
+static void displace_cell(const ffd_lattice *lattice, const cell_kernels *kernel,
                           const displacement_batch *batch, const batch_cell *of,
                           displacement_scratch *scratch)
 {
     const uint32_t *const which = scratch->sorted + of->first;
     const double *numbers;
     int span[3];
-    const cell_motion motion = find_numbers(lattice, kernel->extract, of, &scratch->kept, &numbers);
+    const size_t slot = find_numbers(lattice, kernel->extract, of, &scratch->kept, &numbers);
+    const cell_motion motion = scratch->kept.motions[slot];
     ffd_displacement_spans(lattice, of->span, span);
     for (size_t k = 0; k < of->count && motion.kind == CELL_STILL; k++)
         stay(batch, which[k]);
-    const bool gentle = batch->only_turns && motion.is_gentle;
-    if (batch->may_turn && motion.kind == CELL_BENT && !motion.is_gentle)
-        *batch->may_turn = true;
     if (motion.kind == CELL_SHIFTED)
         shift_cell(ffd_displacement_shared(lattice, span, NULL), batch, which, of->count);
-    if (motion.kind == CELL_BENT)
-        bend_cell(lattice, kernel, batch, of, gentle, numbers, scratch);
+    if (motion.kind == CELL_BENT && may_turn(lattice, kernel, of, numbers, slot, scratch)) {
+        bend_and_watch(lattice, kernel, batch, of, scratch);
+    } else if (motion.kind == CELL_BENT) {
+        kernel_cell cell;
+        ffd_displacement_cell_begin(lattice, of->span, scratch->kept.use, numbers, &cell);
+        bend_points(kernel, &cell, batch, of->first, of->count, batch->gradient && !batch->turns, scratch);
+    }
     if (motion.knots)
         shift_on_knots(lattice, span, motion.knots, scratch->uvw + 3 * (size_t)of->first, batch, which,
                        of->count);
+}
+
+/* With weights each point is displaced alone. */
+static void displace_rational(const ffd_lattice *lattice, const displacement_batch *batch)
+{
+    for (size_t k = 0; k < batch->count; k++) {
+        const size_t n = batch->which[k];
+        batch->moves[n] = (uint8_t)ffd_displacement(lattice, uvw_of(batch, k), batch->delta + 3 * n,
+                                                    batch->gradient ? batch->gradient + 9 * n : NULL);
+        if (batch->turns && batch->moves[n])
+            batch->turns->points[batch->turns->count++] = (uint32_t)n;
+    }
 }
 
 void ffd_displacements(const ffd_lattice *lattice, ffd_isa isa, const displacement_batch *batch,
                        displacement_scratch *scratch)
 {
     if (lattice->rest_weights) {
-        for (size_t k = 0; k < batch->count; k++) {
-            const size_t n = batch->which[k];
-            batch->moves[n] = (uint8_t)ffd_displacement(lattice, uvw_of(batch, k), batch->delta + 3 * n,
-                                                        batch->gradient ? batch->gradient + 9 * n : NULL);
-        }
-        if (batch->may_turn && batch->count > 0)
-            *batch->may_turn = true;
+        displace_rational(lattice, batch);
         return;
     }
-    const kernel_pair *const kernel = &kernels[ffd_isa_resolve(isa)];
-    begin_cells(lattice, batch->gradient ? CELL_GRADIENTS : CELL_VALUES, &scratch->kept);
+    const cell_kernels *const kernel = &kernels[ffd_isa_resolve(isa)];
+    const bool gradients = batch->gradient && !batch->turns;
+    begin_cells(lattice, gradients ? CELL_GRADIENTS : CELL_VALUES, batch->turns, &scratch->kept);
     find_cells(lattice, batch, scratch);
     sort_points(lattice, batch, scratch);
     for (size_t c = 0; c < scratch->cell_count; c++)

@@ -249,8 +249,8 @@ m("cells-of-gradients", "check left out", "displacement, pass", "kept->lattice =
   "kept->lattice == lattice")
 m("alike-on-a-face", "bound", "cli_translation", "while (absent < degree && t[-absent] == t[0])",
   "while (absent + 1 < degree && t[-absent] == t[0])")
-m("kept-cell-of-another", "check left out", "displacement, deform", "if (kept->keys[slot] != cell->key + 1)",
-  "if (kept->keys[slot] == 0)")
+m("kept-cell-of-another", "check left out", "displacement, deform", "if (kept->keys[slot] == cell->key + 1)",
+  "if (kept->keys[slot] != 0)")
 m("fade-slope", "sign", "extension", "*slope = -30 * (s * s) * (rest * rest) / falloff;",
   "*slope = 30 * (s * s) * (rest * rest) / falloff;")
 m("lanes-of-tangents", "kernel", "attribute_batch", "const lanes along = lanes_dot(carried, normal);",

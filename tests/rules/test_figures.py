@@ -115,11 +115,18 @@ def against_schema(schema, node, rows, path, others=()):
 
 
 def against_page(rows):
+    """Each figure has a row in the page's table of members. The members of a group are named there, or below the table where the group
+    is."""
     section = re.search(r"^## 2\. .*?(?=^## 3\. )", tree.read(PAGE), re.S | re.M)[0]
+    first, *parts = section.split("\n### ")
     described = {}
-    for cell, text in re.findall(r"^\| (`[^|]*) \| (.*) \|$", section, re.M):
+    for cell, text in re.findall(r"^\| (`[^|]*) \| (.*) \|$", first, re.M):
         for name in re.findall(r"`([\w.]+)`", cell):
-            described[name] = text
+            described[name] = set(re.findall(r"`([\w.]+)`", text))
+    for part in parts:
+        words = set(re.findall(r"`([\w.]+)`", part))
+        for name in {word.split(".")[0] for word in words} & set(described):
+            described[name] |= {step for word in words for step in word.split(".")}
     for key in sorted(set(keys(rows)) - set(described)):
         yield f"{PAGE}: {key} has no row"
     for name in sorted(described):
@@ -129,9 +136,8 @@ def against_page(rows):
     def members(row, name):
         for member in row.members:
             path = f"{name}.{member.key}"
-            words = set(re.findall(r"`([\w.]+)`", described.get(name, "")))
-            if path not in described and member.key not in words and row.name != "bounds":
-                yield f"{PAGE}: {path} is not described in the row of {name}"
+            if path not in described and member.key not in described.get(name, ()):
+                yield f"{PAGE}: {path} is not described in the row of {name}, nor below"
             yield from members(member, path) if path in described else ()
 
     for row in rows:

@@ -86,11 +86,11 @@ static void displace_group(const double *restrict vectors, double largest, size_
                            double *restrict numbers, uint8_t *restrict changed, size_t *unfit)
 {
     int64_t fates[NUMBERS], all = 0;
-    for (size_t k = 0; k < NUMBERS; k++) {
+    for (size_t k = 0; k < NUMBERS; k++) { /* masks of whole numbers, so that compilers vectorise */
         const double sum = numbers[k] + vectors[k], moved = vectors[k] != 0 ? sum : numbers[k];
-        const int64_t is_other = (vectors[k] != 0) & (moved != numbers[k]);
-        const int64_t is_unfit = is_other & !(fabs(moved) <= largest);
-        fates[k] = is_other * OTHER | is_unfit * UNFIT;
+        const int64_t is_added = vectors[k] != 0 ? -1 : 0, is_new = moved != numbers[k] ? -1 : 0;
+        const int64_t fits = fabs(moved) <= largest ? -1 : 0;
+        fates[k] = is_added & is_new & (OTHER | (~fits & UNFIT));
         all |= fates[k];
         numbers[k] = moved;
     }
