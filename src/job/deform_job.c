@@ -11,16 +11,20 @@
 #include "job/chain/lattice_memory.h"
 #include "job/chain/overlaps.h"
 #include "job/deform_passes.h"
+#include "job/figures/figure_values.h"
 #include "job/input/deform_desc.h"
 #include "job/input/in_memory.h"
 #include "job/input/selection.h"
 #include "job/input/source.h"
 #include "job/judge/behind.h"
-#include "job/judge/figures.h"
+#include "job/judge/folds.h"
 #include "job/judge/gates.h"
 #include "job/judge/result.h"
 #include "job/judge/still.h"
-#include "job/judge/tear_figures.h"
+#include "job/judge/tears.h"
+#include "job/measure/behind.h"
+#include "job/measure/figures.h"
+#include "job/measure/tear_figures.h"
 #include "job/pass/chain_fit.h"
 #include "job/pass/pass.h"
 #include "job/report/output_set.h"
@@ -499,7 +503,8 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
     if (!status)
         ffd_result_warn(&job->totals, &job->chain, true, &job->log);
     if (!status && tells_still(job))
-        ffd_still_warn(job, &result->bounds.before);
+        ffd_still_warn(&job->totals, &job->chain, &result->bounds.before, job->desc->as_morph != NULL,
+                       !job->check, &job->log);
     if (!status)
         warn_of_left(job, result);
     if (!status && job->totals.vertices == 0)
@@ -507,8 +512,8 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
                      job->desc->only_count ? "--only selects no vertices"
                                            : "there are no vertices to deform");
     if (!status && !job->check) {
-        ffd_figures_warn(job, result);
-        ffd_tear_figures_warn(job, result);
+        ffd_folds_warn(result, &job->totals, job->desc->lattices, &job->log);
+        ffd_tears_warn(result, job->desc->only_count > 0, &job->log);
     }
     if (!status)
         status = give_positions(job, error);

@@ -10,6 +10,7 @@
 #include "job/chain/chain_load.h"
 #include "job/chain/lattice_memory.h"
 #include "job/chain/pace.h"
+#include "job/figures/figure_values.h"
 #include "job/input/deform_desc.h"
 #include "job/input/embedding_file.h"
 #include "job/input/in_memory.h"

@@ -115,7 +115,8 @@ LAYERS = {
         "lattice", "mesh",
     },
     "job/rig": {"base/memory", "base/text", "job/chain", "mesh"},
-    "job/judge": {
+    "job/judge": {"base/text", "job/chain", "job/figures", "lattice", "mesh"},
+    "job/measure": {
         "base", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed", "embed/frame", "io/openmesh",
         "job/chain", "job/figures", "job/input", "job/pass", "job/rig", "lattice", "mesh",
     },
@@ -125,7 +126,7 @@ LAYERS = {
     },
     "job/view": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "job", "job/chain", "job/figures", "job/input",
-        "job/judge", "job/pass", "job/report", "lattice", "mesh", "view",
+        "job/measure", "job/pass", "job/report", "lattice", "mesh", "view",
     },
     "batch/manifest": {"base", "base/file", "base/memory", "base/system", "base/text", "json", "mesh"},
     "batch/files": {"base/file", "base/memory", "base/text", "batch/manifest", "io"},
@@ -138,7 +139,7 @@ LAYERS = {
     "python": set(),
     "job": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io", "io/npy",
-        "io/openmesh", "io/write", "job/chain", "job/figures", "job/input", "job/judge", "job/pass", "job/report", "job/rig", "json",
+        "io/openmesh", "io/write", "job/chain", "job/figures", "job/input", "job/judge", "job/measure", "job/pass", "job/report", "job/rig", "json",
         "lattice", "lattice/file", "mesh", "mesh/morph", "mesh/resource",
     },
 }

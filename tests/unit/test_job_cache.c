@@ -12,9 +12,9 @@
 #include "job/chain/chain_load.h"
 #include "job/chain/job_cache.h"
 #include "job/deform_job.h"
+#include "job/figures/figure_values.h"
 #include "job/input/source.h"
-#include "job/judge/figures.h"
-#include "job/judge/result.h"
+#include "job/measure/figures.h"
 #include <time.h>
 
 static const char one[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",

@@ -8,7 +8,7 @@
 
 #include "../support/test_folder.h"
 #include "base/memory/memory.h"
-#include "job/judge/torn_edges.h"
+#include "job/measure/torn_edges.h"
 #include <ffd/job.h>
 #include <math.h>
 

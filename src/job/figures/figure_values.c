@@ -127,6 +127,12 @@ void ffd_result_fill(ffd_job_result *result, const pass_totals *totals, double s
     result->seconds.deform = seconds - result->seconds.embed;
 }
 
+void ffd_result_note_flaws(ffd_job_result *result, const mesh_flaws *flaws)
+{
+    memcpy(result->flaws, flaws->list, sizeof result->flaws);
+    result->flaw_count = flaws->count;
+}
+
 static int rank(ffd_fold_verdict verdict)
 {
     return verdict == FFD_FOLDS_SOME ? 2 : verdict == FFD_FOLDS_UNKNOWN ? 1 : 0;

@@ -11,6 +11,9 @@ void ffd_result_clear(ffd_job_result *result);
    of the threads. */
 void ffd_result_fill(ffd_job_result *result, const pass_totals *totals, double seconds);
 
+/* Copies the flaws of the input: violations of its format's specification. */
+void ffd_result_note_flaws(ffd_job_result *result, const mesh_flaws *flaws);
+
 /* Stores the worst figures of count targets in all, which already holds what is known of the file. */
 void ffd_results_join(const ffd_job_result *targets, size_t count, ffd_job_result *all);
 

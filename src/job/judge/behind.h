@@ -1,13 +1,9 @@
-/* behind.h - finds what stays behind when the mesh moves: sockets, cameras, lights, joints, animated pivots,
-   physics shapes, and the rotations and scales of Gaussian splats. */
+/* behind.h - says what stays behind when the mesh moves. */
 #ifndef FFD_JOB_JUDGE_BEHIND_H
 #define FFD_JOB_JUDGE_BEHIND_H
 
-#include "job/judge/job_state.h"
-
-/* Fills result->behind after the pass. A place stays behind if a vertex there would be moved. Nothing does if
-   no vertex moves, or if the deformation becomes a morph target. Errors: FFD_E_MEMORY. */
-ffd_status ffd_behind_find(const deform_job *job, ffd_job_result *result, ffd_error *error);
+#include "mesh/mesh_log.h"
+#include <ffd/job.h>
 
 /* Logs one line for each kind of thing left behind; with FFD_RIG_KEEP none for joints, pivots and sockets
    (ffd_rig_warn). */

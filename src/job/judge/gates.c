@@ -1,8 +1,8 @@
 #include "job/judge/gates.h"
 #include "base/text/words.h"
 #include "job/chain/coverage.h"
-#include "job/judge/figures.h"
-#include "job/judge/tear_figures.h"
+#include "job/judge/folds.h"
+#include "job/judge/tears.h"
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -132,7 +132,7 @@ static void add_values(complaint *line, const ffd_deform_desc *desc, const ffd_j
     char text[400];
     const double step = result->tear.largest;
     if (desc->fail_on & FFD_GATE_TEAR && result->tear.edges && is_above(step, desc->tear_most)) {
-        ffd_tear_figures_describe(result, text, sizeof text);
+        ffd_tears_describe(result, text, sizeof text);
         add(line, text, "tear");
     }
     snprintf(text, sizeof text, "%" PRIu64 " of %" PRIu64 " %s %s flipped", result->flipped_faces,
@@ -153,7 +153,7 @@ ffd_status ffd_gates_judge(const ffd_deform_desc *desc, const char *name, const 
     if (desc->fail_on & FFD_GATE_FOLDS && result->folds.verdict != FFD_FOLDS_NONE) {
         char text[400] = "the deformed volume ";
         const size_t begun = strlen(text);
-        ffd_figures_describe_folds(desc, result, text + begun, sizeof text - begun);
+        ffd_folds_describe(result, desc->lattices, text + begun, sizeof text - begun);
         add(&line, text, "folds");
     }
     if (desc->fail_on & FFD_GATE_FOLDS && result->det.outside <= 0) {

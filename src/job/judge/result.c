@@ -26,12 +26,6 @@ static const char *left_alone(uint64_t count)
     return ffd_plural(count, "left where it is", "left where they are");
 }
 
-void ffd_result_note_flaws(ffd_job_result *result, const mesh_flaws *flaws)
-{
-    memcpy(result->flaws, flaws->list, sizeof result->flaws);
-    result->flaw_count = flaws->count;
-}
-
 /* Writes the kinds, such as "2 moved with the nearest boundary point, 1 left where it is beyond the falloff";
    without numbers if only one kind occurs. */
 static void tell_kinds(const pass_totals *totals, const chain_outside *outside, char *text, size_t capacity)

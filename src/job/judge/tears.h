@@ -1,30 +1,14 @@
-/* tears.h - counts the torn edges of a mesh (src/maths.md 7.4). */
+/* tears.h - says what torn edges a deformation makes. */
 #ifndef FFD_JOB_JUDGE_TEARS_H
 #define FFD_JOB_JUDGE_TEARS_H
 
-#include "base/fail.h"
-#include "job/judge/tear_edges.h"
-#include "job/judge/torn_edges.h"
+#include "mesh/mesh_log.h"
+#include <ffd/result.h>
 
-typedef struct tear_question {
-    tear_mesh mesh;
-    /* Those of mesh, changed if some have KEPT_ALWAYS: vertices at one position get equal marks. */
-    uint8_t *marks;
-    torn_edges *torn; /* gets the edges with the largest steps, in the document's numbers; or NULL */
-    int threads;      /* never change the result */
-    long long most;   /* evaluations along edges of which both ends move; more are FFD_E_LIMIT */
-} tear_question;
-
-typedef struct tear_count {
-    uint64_t edges;  /* number of torn edges */
-    double largest;  /* largest step; 0 if none is torn */
-    uint32_t vertex; /* index in faces of that edge's staying end; of equal steps the lowest */
-    ffd_tear_cause cause;
-} tear_count;
-
-/* Counts the edges whose step exceeds 1e-3 of their length at rest. Vertices that share a position are one,
-   so an edge between two parts counts once. Errors: FFD_E_MEMORY, FFD_E_LIMIT, which leaves in count the
-   edges of which one end stays, if those could be counted. */
-ffd_status ffd_tears_count(const tear_question *question, tear_count *count, ffd_error *error);
+/* Describes torn edges, as in "36 vertices of Knight_Sword stay; the largest step to a neighbour is 0.47".
+   Requires torn edges. */
+void ffd_tears_describe(const ffd_job_result *result, char *text, size_t capacity);
+/* Warns of torn edges, and suggests a remedy. selects: only parts of the mesh are deformed. */
+void ffd_tears_warn(const ffd_job_result *result, bool selects, const mesh_log *log);
 
 #endif

@@ -2,7 +2,7 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
-#include "job/judge/quality.h"
+#include "job/measure/quality.h"
 #include "lattice/lattice.h"
 #include <math.h>
 #include <string.h>
