@@ -23,7 +23,7 @@ class Result:
     warnings: the warnings that the program would print, one string each (also logged as "ffd_mesh")
     counts: number of vertices by status: "inside", "outside", "multiple", "singular", "invalid"
     folds: a `Folds`
-    tear, det, edges, displacement, ..: groups of figures, as result.tear.largest
+    tear, det, edges, displacement, ..: groups of figures, as result.tear.largest; tear.cause is a word: "stays", "blocks", ..
     A group is None if the job did not look for it (folds, tear, det, edges) or if there is nothing (rig).
     """
 
@@ -61,7 +61,10 @@ def figures(value: Any) -> Any:
         return plain(value)
     known = getattr(value, "is_known", getattr(value, "is_there", True))
     names = (name for name, *_ in value._fields_ if name not in ("room", "is_known", "is_there"))
-    return Group(**{name: figures(getattr(value, name)) for name in names}) if known else None
+    group = Group(**{name: figures(getattr(value, name)) for name in names}) if known else None
+    if isinstance(value, declared.ffd_tear_figures) and group:
+        group.cause = library.NAMES["ffd_tear_cause"][value.cause]
+    return group
 
 
 def plain(value: Any) -> Any:
