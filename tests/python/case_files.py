@@ -68,7 +68,12 @@ class Files(unittest.TestCase):
         support.program("check", SPOT, "-l", TWIST, "--report", report)
         with open(report, encoding="utf-8") as file:
             theirs = json.load(file)["jobs"][0]
-        self.assertEqual(result.displacement.max, theirs["displacement"]["max"])
+        for group in ("displacement", "iterations", "det", "area"):
+            self.assertEqual({name: getattr(getattr(result, group), name) for name in theirs[group] if name != "outside"},
+                             {name: value for name, value in theirs[group].items() if name != "outside"})
+        self.assertEqual(result.edges.deviation.max, theirs["edges"]["deviation"]["max"])
+        self.assertEqual((result.tear.edges, result.tear.cause, result.rig), (0, "none", None))
+        self.assertIsNone(ffd.deform_file(SPOT, "ours.obj", TWIST, force=True).edges)
         with self.assertRaisesRegex(ffd.GateError, "outside") as caught:
             ffd.check_file(SPOT, part_of_spot(), fail_on=["outside", "folds", "tear=0.5"])
         self.assertGreater(caught.exception.result.counts["outside"], 0)
