@@ -48,16 +48,23 @@ typedef struct kept_cells {
                                     memory, 0 is 1 */
     const ffd_lattice *lattice;  /* the lattice of the cells; NULL: empty */
     cell_use use;                /* what the numbers are for */
-    bool finds_turns;            /* turns is wanted */
     size_t count, numbers;       /* capacity in cells, and numbers for each cell */
     size_t keys[KEPT_CELLS];     /* 1 + the key of a batch_cell; 0: none */
     uint16_t places[KEPT_CELLS]; /* index of its numbers; assigned in ascending order, so that few pages are
                                     touched */
     uint16_t used;               /* number of used places */
     cell_motion motions[KEPT_CELLS];
-    uint8_t turns[KEPT_CELLS]; /* cell_turns */
     double all_numbers[KEPT_NUMBERS];
 } kept_cells;
+
+/* A cache of cell_turns: the answers for many cells take little memory. */
+#define TURN_SLOTS ((size_t)8192)
+
+typedef struct kept_turns {
+    const ffd_lattice *lattice;   /* NULL: empty */
+    size_t count;                 /* slots in use */
+    uint64_t answers[TURN_SLOTS]; /* 4 times the key of a batch_cell, plus cell_turns */
+} kept_turns;
 
 /* Scratch memory of a thread for a batch. */
 typedef struct displacement_scratch {
@@ -72,6 +79,7 @@ typedef struct displacement_scratch {
     double uvw[3 * DISPLACEMENT_BATCH];       /* their u,v,w */
     double fields[2 * FIELD_NUMBERS + 1];     /* of a cell in which the displacement may turn */
     turn_run runs[DISPLACEMENT_BATCH];
+    kept_turns kept_turns;
     turn_scratch turns;
 } displacement_scratch;
 

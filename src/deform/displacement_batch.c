@@ -128,18 +128,18 @@ static void stay(const displacement_batch *batch, size_t n)
 void ffd_displacement_scratch_clear(displacement_scratch *scratch)
 {
     scratch->kept.lattice = NULL;
+    scratch->kept_turns.lattice = NULL;
     scratch->turns.order[0] = 0;
 }
 
 /* Prepares the cache for a lattice. */
-static void begin_cells(const ffd_lattice *lattice, cell_use use, bool finds_turns, kept_cells *kept)
+static void begin_cells(const ffd_lattice *lattice, cell_use use, kept_cells *kept)
 {
-    if (kept->lattice == lattice && kept->use == use && kept->finds_turns == finds_turns)
+    if (kept->lattice == lattice && kept->use == use)
         return;
     const size_t numbers = ffd_displacement_cell_numbers(lattice, use) + 1;
     kept->lattice = lattice;
     kept->use = use;
-    kept->finds_turns = finds_turns;
     kept->numbers = numbers;
     const size_t share = KEPT_IN_ALL / (size_t)(kept->threads > 2 ? kept->threads : 2);
     kept->count = share / numbers < KEPT_CELLS ? share / numbers : KEPT_CELLS;
@@ -149,10 +149,21 @@ static void begin_cells(const ffd_lattice *lattice, cell_use use, bool finds_tur
     memset(kept->keys, 0, sizeof kept->keys);
 }
 
-/* Returns the index in the cache of a cell, and its numbers if its displacements differ; computes them if
-   they are not there. */
-static size_t find_numbers(const ffd_lattice *lattice, extraction_kernel *extract, const batch_cell *cell,
-                           kept_cells *kept, const double **numbers)
+static void begin_turns(const ffd_lattice *lattice, kept_turns *kept)
+{
+    const knot_vector *const knots = lattice->knots;
+    const size_t cells = knots[0].span_count * knots[1].span_count * knots[2].span_count;
+    if (kept->lattice == lattice)
+        return;
+    kept->lattice = lattice;
+    kept->count = cells < TURN_SLOTS ? cells : TURN_SLOTS;
+    memset(kept->answers, 0, kept->count * sizeof *kept->answers);
+}
+
+/* Returns how a cell moves and, if its displacements differ, its numbers; computes them if they are not in
+   the cache. */
+static cell_motion find_numbers(const ffd_lattice *lattice, extraction_kernel *extract,
+                                const batch_cell *cell, kept_cells *kept, const double **numbers)
 {
     const size_t slot = (cell->key * 0x9e3779b97f4a7c15u >> 40) % kept->count;
     if (kept->keys[slot] == 0)
@@ -160,28 +171,29 @@ static size_t find_numbers(const ffd_lattice *lattice, extraction_kernel *extrac
     double *const kept_numbers = kept->all_numbers + kept->places[slot] * kept->numbers;
     *numbers = kept_numbers;
     if (kept->keys[slot] == cell->key + 1)
-        return slot;
+        return kept->motions[slot];
     kept->keys[slot] = cell->key + 1;
     kept->motions[slot] = ffd_displacement_cell_points(lattice, extract, cell->span, kept->use, kept_numbers);
-    kept->turns[slot] = TURNS_UNKNOWN;
-    return slot;
+    return kept->motions[slot];
 }
 
 /* With fewer points in a cell of a curved lattice, their gradients cost less than bounds. */
 #define FEW_POINTS 5
 
-/* Returns whether det F may be 0 or less at a point of a cell, if that is wanted. */
+/* Returns whether det F may be 0 or less at a point of a cell. */
 static bool may_turn(const ffd_lattice *lattice, const cell_kernels *kernel, const batch_cell *of,
-                     const double *numbers, size_t slot, displacement_scratch *scratch)
+                     const double *numbers, displacement_scratch *scratch)
 {
-    kept_cells *const kept = &scratch->kept;
+    uint64_t *const answer = &scratch->kept_turns.answers[of->key % scratch->kept_turns.count];
     const turn_cell cell = {lattice, of->span, kernel};
-    if (!kept->finds_turns)
-        return false;
-    if (kept->turns[slot] == TURNS_UNKNOWN && (lattice->has_uvw_by_p || of->count >= FEW_POINTS))
-        kept->turns[slot] =
-            ffd_turns_nowhere(&cell, numbers, &scratch->turns) ? TURNS_NOWHERE : TURNS_PERHAPS;
-    return kept->turns[slot] != TURNS_NOWHERE;
+    if (*answer / 4 == of->key && *answer % 4 != TURNS_UNKNOWN)
+        return *answer % 4 == TURNS_PERHAPS;
+    if (!lattice->has_uvw_by_p && of->count < FEW_POINTS)
+        return true;
+    const cell_turns turns =
+        ffd_turns_nowhere(&cell, numbers, &scratch->turns) ? TURNS_NOWHERE : TURNS_PERHAPS;
+    *answer = 4 * (uint64_t)of->key + turns;
+    return turns == TURNS_PERHAPS;
 }
 
 /* Stores the same displacement for all points of a cell. */
@@ -279,14 +291,13 @@ static void displace_cell(const ffd_lattice *lattice, const cell_kernels *kernel
     const uint32_t *const which = scratch->sorted + of->first;
     const double *numbers;
     int span[3];
-    const size_t slot = find_numbers(lattice, kernel->extract, of, &scratch->kept, &numbers);
-    const cell_motion motion = scratch->kept.motions[slot];
+    const cell_motion motion = find_numbers(lattice, kernel->extract, of, &scratch->kept, &numbers);
     ffd_displacement_spans(lattice, of->span, span);
     for (size_t k = 0; k < of->count && motion.kind == CELL_STILL; k++)
         stay(batch, which[k]);
     if (motion.kind == CELL_SHIFTED)
         shift_cell(ffd_displacement_shared(lattice, span, NULL), batch, which, of->count);
-    if (motion.kind == CELL_BENT && may_turn(lattice, kernel, of, numbers, slot, scratch)) {
+    if (motion.kind == CELL_BENT && batch->turns && may_turn(lattice, kernel, of, numbers, scratch)) {
         bend_and_watch(lattice, kernel, batch, of, scratch);
     } else if (motion.kind == CELL_BENT) {
         kernel_cell cell;
@@ -319,7 +330,9 @@ void ffd_displacements(const ffd_lattice *lattice, ffd_isa isa, const displaceme
     }
     const cell_kernels *const kernel = &kernels[ffd_isa_resolve(isa)];
     const bool gradients = batch->gradient && !batch->turns;
-    begin_cells(lattice, gradients ? CELL_GRADIENTS : CELL_VALUES, batch->turns, &scratch->kept);
+    begin_cells(lattice, gradients ? CELL_GRADIENTS : CELL_VALUES, &scratch->kept);
+    if (batch->turns)
+        begin_turns(lattice, &scratch->kept_turns);
     find_cells(lattice, batch, scratch);
     sort_points(lattice, batch, scratch);
     for (size_t c = 0; c < scratch->cell_count; c++)

@@ -43,7 +43,7 @@ static int sign_of(const matrix_range *range)
     for (int i = 0; i < 9; i++)
         change += fabs(cofactor[i]) * range->radius[i];
     if (!(size - change > CERTAIN * size) ||
-        !(size > ROUNDING * vec_length(m) * vec_length(m + 3) * vec_length(m + 6)))
+        !(size * size > ROUNDING * ROUNDING * vec_dot(m, m) * vec_dot(m + 3, m + 3) * vec_dot(m + 6, m + 6)))
         return 0;
     return det > 0 ? 1 : -1;
 }
@@ -208,7 +208,7 @@ bool ffd_turns_nowhere(const turn_cell *cell, const double *difference, turn_scr
     matrix_range slopes;
     if (!constant_rest(cell->lattice, &slopes))
         return sign_in_cell(cell, false, scratch) * sign_in_cell(cell, true, scratch) > 0;
-    const int before = sign_of(&slopes);
+    const double before = mat_determinant(slopes.centre);
     add_slopes(cell, difference, scratch, &slopes);
     return before * sign_of(&slopes) > 0;
 }
@@ -259,64 +259,97 @@ static void find_centres(const turn_cell *cell, const kernel_cell *fields, const
 }
 
 /* What is known of a cell for its boxes. */
-typedef struct cell_bends {
+typedef struct turn_search {
+    const turn_cell *cell;
+    const kernel_cell *fields;
+    const double *uvw;            /* of its points */
     field_bends difference, rest; /* rest: only if the fields have it */
-} cell_bends;
+} turn_search;
 
-static void judge_boxes(const turn_cell *cell, const kernel_cell *fields, const cell_bends *bends,
-                        const turn_boxes *boxes)
+static void judge_boxes(const turn_search *search, const turn_boxes *boxes)
 {
     double by_uvw[9 * BOXES], rest_by_uvw[9 * BOXES];
     matrix_range constant;
-    const bool is_constant = constant_rest(cell->lattice, &constant);
-    const int sign = is_constant ? sign_of(&constant) : 0;
-    find_centres(cell, fields, boxes, by_uvw, rest_by_uvw);
+    const bool is_constant = constant_rest(search->cell->lattice, &constant);
+    const double sign = is_constant ? mat_determinant(constant.centre) : 0;
+    find_centres(search->cell, search->fields, boxes, by_uvw, rest_by_uvw);
     for (size_t i = 0; i < boxes->count; i++) {
         matrix_range slopes = constant;
         if (!is_constant) {
             memcpy(slopes.centre, rest_by_uvw + 9 * i, sizeof slopes.centre);
-            add_bends(&bends->rest, boxes->half + 3 * i, &slopes);
+            add_bends(&search->rest, boxes->half + 3 * i, &slopes);
         }
-        const int before = is_constant ? sign : sign_of(&slopes);
+        const double before = is_constant ? sign : sign_of(&slopes);
         for (size_t n = 0; n < 9; n++)
             slopes.centre[n] += by_uvw[9 * i + n];
-        add_bends(&bends->difference, boxes->half + 3 * i, &slopes);
-        boxes->run[i]->may_turn = before * sign_of(&slopes) <= 0;
+        add_bends(&search->difference, boxes->half + 3 * i, &slopes);
+        boxes->run[i]->may_turn = !(before * sign_of(&slopes) > 0);
     }
 }
 
-/* The points of a run: in fewer, derivatives cost no more than the box; in more, the box is large. */
-#define FEWEST ((size_t)5)
-#define MOST ((size_t)16)
-
-static turn_run make_run(const uint32_t *which, size_t first, size_t count)
+/* Judges the runs that may turn, and have at least so many points. */
+static void judge_runs(const turn_search *search, size_t least, turn_run *runs, size_t count)
 {
-    size_t end = first + 1;
-    while (end < count && end - first < MOST && which[end] == which[end - 1] + 1)
-        end++;
-    return (turn_run){(uint32_t)first, (uint32_t)end, true};
+    turn_boxes boxes = {.count = 0};
+    for (size_t i = 0; i < count; i++) {
+        if (runs[i].may_turn && runs[i].end - runs[i].first >= least)
+            add_box(search->uvw, &runs[i], &boxes);
+        if (boxes.count == BOXES || (boxes.count > 0 && i + 1 == count)) {
+            judge_boxes(search, &boxes);
+            boxes.count = 0;
+        }
+    }
+}
+
+/* The points of a run at first; if its box is too large, of the pieces into which it is cut. In fewer than
+   FEWEST, derivatives cost no more than the box. */
+#define MOST ((size_t)16)
+#define PIECE ((size_t)4)
+#define FEWEST ((size_t)3)
+
+/* Makes runs of points with consecutive numbers from `first` on. Returns how many; stops at BOXES. */
+static size_t make_runs(const uint32_t *which, size_t first, size_t count, turn_run *runs)
+{
+    size_t made = 0, end = first;
+    for (; end < count && made < BOXES; first = end) {
+        for (end = first + 1; end < count && end - first < MOST && which[end] == which[end - 1] + 1;)
+            end++;
+        runs[made++] = (turn_run){(uint32_t)first, (uint32_t)end, true};
+    }
+    return made;
+}
+
+/* Appends the runs, of which those that may turn are cut. Returns how many that makes. */
+static size_t cut_runs(const turn_run *runs, size_t count, turn_run *cut)
+{
+    size_t made = 0;
+    for (size_t i = 0; i < count; i++) {
+        const size_t size = runs[i].may_turn ? PIECE : MOST;
+        for (size_t first = runs[i].first; first < runs[i].end; first += size) {
+            const size_t end = first + size < runs[i].end ? first + size : runs[i].end;
+            cut[made++] = (turn_run){(uint32_t)first, (uint32_t)end, runs[i].may_turn};
+        }
+    }
+    return made;
 }
 
 size_t ffd_turns_find(const turn_cell *cell, const kernel_cell *fields, const uint32_t *which,
                       const double *uvw, size_t count, turn_run *runs, turn_scratch *scratch)
 {
-    turn_boxes boxes = {.count = 0};
-    cell_bends bends;
+    turn_search search = {.cell = cell, .fields = fields, .uvw = uvw};
     size_t made = 0;
     if (count >= FEWEST)
-        find_bends(cell, fields->difference.points, scratch, &bends.difference);
+        find_bends(cell, fields->difference.points, scratch, &search.difference);
     if (count >= FEWEST && fields->rest.points)
-        find_bends(cell, fields->rest.points, scratch, &bends.rest);
-    for (size_t first = 0; first < count; first = runs[made++].end) {
-        runs[made] = make_run(which, first, count);
-        if (runs[made].end - first >= FEWEST)
-            add_box(uvw, &runs[made], &boxes);
-        if (boxes.count == BOXES) {
-            judge_boxes(cell, fields, &bends, &boxes);
-            boxes.count = 0;
-        }
+        find_bends(cell, fields->rest.points, scratch, &search.rest);
+    for (size_t first = 0; first < count;) {
+        turn_run whole[BOXES];
+        const size_t wholes = make_runs(which, first, count, whole);
+        judge_runs(&search, FEWEST, whole, wholes);
+        first = whole[wholes - 1].end;
+        const size_t cut = cut_runs(whole, wholes, runs + made);
+        judge_runs(&search, FEWEST, runs + made, cut);
+        made += cut;
     }
-    if (boxes.count > 0)
-        judge_boxes(cell, fields, &bends, &boxes);
     return made;
 }

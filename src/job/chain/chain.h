@@ -31,7 +31,7 @@ typedef struct chain_outside {
 
 /* The parts into which marks divide a direction of a link (marks.h). */
 typedef struct link_parts {
-    double first, length; /* the domain */
+    double first, scale; /* the start of the domain, and how many parts a unit has */
     int count;
 } link_parts;
 

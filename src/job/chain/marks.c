@@ -10,12 +10,10 @@
 
 static link_parts make_parts(const knot_vector *knots)
 {
-    const size_t parts = PARTS_OF_SPAN * knots->span_count;
+    const size_t wanted = PARTS_OF_SPAN * knots->span_count;
+    const int count = (int)(wanted < LEAST_PARTS ? LEAST_PARTS : wanted > MOST_PARTS ? MOST_PARTS : wanted);
     const double first = ffd_knots_first(knots);
-    return (link_parts){first, ffd_knots_last(knots) - first,
-                        (int)(parts < LEAST_PARTS  ? LEAST_PARTS
-                              : parts > MOST_PARTS ? MOST_PARTS
-                                                   : parts)};
+    return (link_parts){first, count / (ffd_knots_last(knots) - first), count};
 }
 
 void ffd_marks_lay_out(lattice_chain *chain, bool owners)
@@ -66,7 +64,7 @@ static void mark_parts(const chain_link *link, const double uvw[3], uint8_t *mar
 {
     for (size_t a = 0; a < 3; a++) {
         const link_parts *const parts = &link->parts[a];
-        const int part = (int)((uvw[a] - parts->first) / parts->length * parts->count);
+        const int part = (int)((uvw[a] - parts->first) * parts->scale);
         marks[a * CHAIN_RUN] = (uint8_t)(part < parts->count ? part : parts->count - 1);
     }
 }
