@@ -84,7 +84,7 @@ static void append_folds(byte_buffer *html, const ffd_job_result *figures)
 {
     static const int ranks[] = {[FFD_FOLDS_NONE] = 1, [FFD_FOLDS_UNKNOWN] = 2, [FFD_FOLDS_SOME] = 3};
     ffd_buffer_text(html, "<td data-label=\"Folds\" data-key=\"");
-    if (!figures || !figures->folds.is_known || !isfinite(figures->folds.min_det)) {
+    if (!figures || !figures->folds.is_known) {
         ffd_buffer_text(html, NOT_KNOWN);
         return;
     }

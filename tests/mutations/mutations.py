@@ -869,9 +869,9 @@ m("splats-of-a-turned-node", "left out", "cli_rig", "(!part->skipped || part->ca
 m("splats-turned-and-not-said", "condition", "cli_rig", "is_turned = is_turned || part->carry[k] != 0;",
   "is_turned = is_turned && part->carry[k] != 0;")
 m("report-rms", "figure", "cli_deform",
-  'ffd_json_number(json, "rms", result->residual_rms);', 'ffd_json_number(json, "rms", result->residual_max);')
-m("report-member", "member name", "cli_report_schema", '"displacement", true); ffd_json_number(json, "max"',
-  '"displacements", true); ffd_json_number(json, "max"')
+  "FIGURE(residual.rms)", '.name = "residual.rms", .result = RESULT(residual.max)')
+m("report-member", "member name", "cli_report_schema", "FIGURE(displacement.max)",
+  '.name = "displacement.most", .result = RESULT(displacement.max)')
 m("gate-of-multiple", "operation", "cli_fail_on", "if (desc->fail_on & FFD_GATE_MULTIPLE)",
   "if (desc->fail_on & FFD_GATE_SINGULAR)")
 m("folds-of-two-lattices", "operation", "job, cli_check, cli_fail_on",
@@ -895,8 +895,8 @@ m("base-outside-of-all", "condition", "cli_morph_weights", "if (other & OTHER_OU
   "if (other & OTHER_OUTSIDE)")
 m("base-outside-left-out", "call left out", "cli_morph_weights", "shown->base_outside = stored->weighted_outside;", "")
 m("cell-without-offsets", "term left out", "cli_morph_weights", "all[a] += fabs(shape->weight) * cell[a];", "all[a] += 0 * cell[a];")
-m("report-of-targets", "figure", "cli_morph_weights", '"shown_outside", result->shown_outside',
-  '"shown_outside", result->targets_outside')
+m("report-of-targets", "figure", "cli_morph_weights", "FIGURE(morph_targets.shown_outside)",
+  '.name = "morph_targets.shown_outside", .result = RESULT(morph_targets.outside)')
 m("not-finite-unshown", "left out", "cli_boxes", "(other & OTHER_STATUS) == FFD_POINT_INVALID ||",
   "(other & OTHER_STATUS) == OTHER_STATUS ||")
 m("not-finite-in-ply", "left out", "cli_convert", ".takes_not_finite = true,", ".takes_not_finite = false,")
@@ -964,10 +964,10 @@ m("morph-in-its-place", "operand", "cli_morphs, cli_as_morph", ": ffd_gltf_targe
   ": ffd_gltf_target_count(d, m);")
 m("morphs-leave-nothing-behind", "figure", "cli_splats", "if (target->behind[kind].count > all->behind[kind].count)",
   "if (target->behind[kind].count < all->behind[kind].count)")
-m("edges-of-no-target", "figure", "cli_morphs", "all->has_edges = target->has_edges && (is_first || all->has_edges);",
-  "all->has_edges = target->has_edges && (is_first && all->has_edges);")
-m("morph-worst-counts", "condition", "cli_morphs", "target->counts[FFD_INSIDE] < all->counts[FFD_INSIDE]",
-  "target->counts[FFD_INSIDE] > all->counts[FFD_INSIDE]")
+m("edges-of-no-target", "figure", "cli_morphs", "HELD_BACK(edges.is_known), TARGETS(JOIN_ALL)",
+  "HELD_BACK(edges.is_known)")
+m("morph-worst-counts", "condition", "cli_morphs", "target->counts[FFD_INSIDE] < before->counts[FFD_INSIDE]",
+  "target->counts[FFD_INSIDE] > before->counts[FFD_INSIDE]")
 m("morph-file-warned-again", "condition", "cli_morphs", "job->file_log = k == 0 ? *log : (mesh_log){0};", "job->file_log = *log;")
 m("morph-failure-unnamed", "left out", "cli_morphs", "if (count < 2 || error->status == FFD_E_MEMORY)", "if (count < 200)")
 m("morph-name-in-a-batch", "format", "cli_morphs", "if (*c == '\\'') ffd_buffer_append(text, c, 1);",
@@ -997,8 +997,8 @@ m("inside-by-an-embedding", "check left out", "cli_hostile_inputs", "(location->
   "(location->status != FFD_MULTIPLE) ||")
 m("multiple-by-an-embedding", "check left out", "cli_hostile_inputs", "(location->status != FFD_INSIDE && location->status != FFD_MULTIPLE) ||",
   "(location->status != FFD_INSIDE) ||")
-m("missed-by-a-tile", "operation", "cli_hostile_inputs", "if (tile->first_missed < all->first_missed)",
-  "if (tile->first_missed > all->first_missed)")
+m("missed-by-a-tile", "operation", "cli_hostile_inputs", "FROM(first_missed, JOIN_LEAST)",
+  "FROM(first_missed, JOIN_WITH)")
 m("missed-is-no-failure", "check left out", "cli_hostile_inputs", "if (totals->first_missed != UINT64_MAX)",
   "if (totals->first_missed == 0)")
 m("embedding-without-rounding", "term left out", "cli_snap, cli_embedding, cli_hostile_inputs",
@@ -1066,7 +1066,7 @@ m("volume-too-large-as-not-closed", "condition", "quality, cli_check", "return i
 m("volume-of-large-numbers-unscaled", "overflow", "quality", "work->scale = ldexp(1, -exponent);", "work->scale = ldexp(1, 0 * exponent);")
 m("volume-of-the-selection", "order", "cli_check", "measure_extent(job, arrays, result);\n    if (!ffd_selection_is_all(job->document))\n        status = ffd_selection_reduce(job->document, &arrays->faces, error);",
   "if (!ffd_selection_is_all(job->document))\n        status = ffd_selection_reduce(job->document, &arrays->faces, error);\n    measure_extent(job, arrays, result);")
-m("area-after-of-many-targets", "condition", "cli_morphs", "all->area_after = is_only ? target->area_after : NAN;", "all->area_after = target->area_after;")
+m("area-after-of-many-targets", "condition", "cli_morphs", "count == 1 ? *(const double *)from : NAN;", "count >= 1 ? *(const double *)from : NAN;")
 
 # batch
 
@@ -1211,12 +1211,12 @@ m("index-replaced", "check left out", "cli_batch_view", ".force = desc->force ||
 m("index-of-a-dry-run", "option left out", "cli_batch_view", ".dry = desc->pool.dry};", ".dry = false};")
 m("picture-in-place", "check left out", "cli_batch_view", "if (in_place && maker->frame->pictures)", "if (in_place && maker->frame->pictures && !has_output && output)")
 m("figures-of-skipped-jobs", "condition", "cli_batch_view", "run->report || run->view || run->rows.report ? &task->figures : NULL;", "run->report ? &task->figures : NULL;")
-m("figures-of-a-failure", "condition", "run_view, cli_batch_view", "&vertices) && vertices > 0;", "&vertices) && vertices >= 0;")
+m("figures-of-a-failure", "condition", "run_view, cli_batch_view", "entry->figures.vertices > 0 ? &entry->figures : NULL;", "&entry->figures;")
 m("address-not-escaped", "escape left out", "view_index, cli_batch_view", 'strchr("-._~/", *c);', 'strchr("-._~/:?#%&\\"", *c);')
 m("quotes-in-attributes", "escape left out", "view_index, cli_batch_view", "*c == '\"' && in_quotes", "*c == 1 && in_quotes")
-m("unknown-folds-as-none", "class", "view_index, cli_batch_view", "if (row->folds == INDEX_FOLDS_NOT_KNOWN) {", "if (row->folds > INDEX_FOLDS_SOME) {")
-m("det-sorted-up", "sign", "view_index, cli_batch_view", "ffd_buffer_number(html, -row->min_det);", "ffd_buffer_number(html, row->min_det);")
-m("skipped-counted-as-done", "count", "view_index, cli_batch_view", 'index->skipped += strcmp(row->status, "skipped") == 0;', 'index->skipped += strcmp(row->status, "skipped") < 0;')
+m("unknown-folds-as-none", "class", "view_index, cli_batch_view", "if (!figures || !figures->folds.is_known) {", "if (!figures) {")
+m("det-sorted-up", "sign", "view_index, cli_batch_view", "ffd_buffer_number(html, -folds->min_det);", "ffd_buffer_number(html, folds->min_det);")
+m("skipped-counted-as-done", "count", "view_index, cli_batch_view", "index->skipped += row->state == INDEX_SKIPPED;", "index->skipped += row->state == INDEX_FAILED;")
 
 # view
 

@@ -10,6 +10,7 @@
 #include "base/memory/memory.h"
 #include "view/index.h"
 #include "view/page_text.h"
+#include <math.h>
 
 /* Makes a page with these rows, freed by the caller. */
 static char *page_of(const char *name, const index_row *rows, size_t count)
@@ -92,14 +93,19 @@ static void rows_have_keys(void **state)
 static void what_is_not_known_has_no_key(void **state)
 {
     (void)state;
-    const index_row row = {.number = 1, .state = INDEX_FAILED};
-    const char *const page = page_of("", &row, 1);
-    expect(page, "<td class=\"picture none\">no picture</td>");
-    expect(page, "Largest displacement\" data-key=\"\">not known</td>");
-    expect(page, "Torn edges\" data-key=\"\">not known</td>");
-    expect(page, "Folds\" data-key=\"\">not known</td>");
-    expect(page, "Flipped faces\" data-key=\"\">not known</td>");
-    expect(page, "<p id=\"counts\">1 job: 0 done, 0 up to date, 1 failed</p>");
+    const ffd_job_result unknown = {.vertices = 3, .displacement = {.max = (double)NAN}};
+    const index_row rows[] = {{.number = 1, .state = INDEX_FAILED},
+                              {.number = 2, .state = INDEX_DONE, .figures = &unknown}};
+    for (size_t i = 0; i < 2; i++) {
+        const char *const page = page_of("", &rows[i], 1);
+        expect(page, "<td class=\"picture none\">no picture</td>");
+        expect(page, "Largest displacement\" data-key=\"\">not known</td>");
+        expect(page, "Torn edges\" data-key=\"\">not known</td>");
+        expect(page, "Folds\" data-key=\"\">not known</td>");
+        expect(page, "Flipped faces\" data-key=\"\">not known</td>");
+        expect(page, i == 0 ? "<p id=\"counts\">1 job: 0 done, 0 up to date, 1 failed</p>"
+                            : "<p id=\"counts\">1 job: 1 done, 0 up to date, 0 failed</p>");
+    }
 }
 
 static void names_are_text(void **state)
