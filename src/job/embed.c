@@ -15,7 +15,7 @@
 #include "job/input/embedding_file.h"
 #include "job/input/in_memory.h"
 #include "job/input/source.h"
-#include "job/judge/result.h"
+#include "job/judge/warnings.h"
 #include "job/pass/chain_fit.h"
 #include "job/pass/pass.h"
 #include "job/reads.h"

@@ -115,7 +115,7 @@ LAYERS = {
         "lattice", "mesh",
     },
     "job/rig": {"base/memory", "base/text", "job/chain", "mesh"},
-    "job/judge": {"base/text", "job/chain", "job/figures", "lattice", "mesh"},
+    "job/judge": {"base/text", "job/chain", "job/figures", "lattice"},
     "job/measure": {
         "base", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed", "embed/frame", "io/openmesh",
         "job/chain", "job/figures", "job/input", "job/pass", "job/rig", "lattice", "mesh",

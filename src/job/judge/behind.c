@@ -1,5 +1,6 @@
-#include "job/judge/behind.h"
+/* behind.c - says what stays behind when the mesh moves. */
 #include "base/text/words.h"
+#include "job/judge/warnings.h"
 #include <inttypes.h>
 #include <stdio.h>
 

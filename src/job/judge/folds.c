@@ -1,5 +1,6 @@
-#include "job/judge/folds.h"
+/* folds.c - says that the deformed volume folds, or turns faces over. */
 #include "base/text/words.h"
+#include "job/judge/warnings.h"
 #include <inttypes.h>
 #include <stdio.h>
 

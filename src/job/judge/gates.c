@@ -1,8 +1,7 @@
 #include "job/judge/gates.h"
 #include "base/text/words.h"
 #include "job/chain/coverage.h"
-#include "job/judge/folds.h"
-#include "job/judge/tears.h"
+#include "job/judge/warnings.h"
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>

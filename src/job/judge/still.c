@@ -1,5 +1,6 @@
-#include "job/judge/still.h"
+/* still.c - says why moves move nothing. */
 #include "base/text/words.h"
+#include "job/judge/warnings.h"
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
 #include <inttypes.h>

@@ -1,5 +1,6 @@
-#include "job/judge/tears.h"
+/* tears.c - says what torn edges a deformation makes. */
 #include "base/text/words.h"
+#include "job/judge/warnings.h"
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,7 +1,8 @@
-#include "job/judge/result.h"
+/* vertices.c - says what became of the vertices of a pass. */
 #include "base/text/number.h"
 #include "base/text/words.h"
 #include "job/chain/coverage.h"
+#include "job/judge/warnings.h"
 #include <float.h>
 #include <inttypes.h>
 #include <math.h>
