@@ -98,8 +98,8 @@ typedef struct displacement_batch {
     size_t count;
     double *delta;    /* of point n: begins at delta[3 * n] */
     double *gradient; /* of point n: begins at gradient[9 * n]; may be NULL */
-    turn_list *turns; /* NULL, or with gradient: that is wanted, and written, only where det F may be 0 or
-                         less, and these points are added here */
+    turn_list *turns; /* NULL, or with gradient: the points where det F may be 0 or less are added */
+    bool only_turns;  /* gradients are wanted, and written, only of those points */
     uint8_t *moves;   /* moves[n]: what ffd_displacement returns */
 } displacement_batch;
 

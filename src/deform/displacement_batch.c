@@ -120,7 +120,7 @@ static void sort_points(const ffd_lattice *lattice, const displacement_batch *ba
 static void stay(const displacement_batch *batch, size_t n)
 {
     memset(batch->delta + 3 * n, 0, 3 * sizeof *batch->delta);
-    if (batch->gradient && !batch->turns)
+    if (batch->gradient && !batch->only_turns)
         memset(batch->gradient + 9 * n, 0, 9 * sizeof *batch->gradient);
     batch->moves[n] = 0;
 }
@@ -258,8 +258,14 @@ static void bend_points(const cell_kernels *kernel, const kernel_cell *cell, con
         ffd_displacement_to_space(scratch->jacobian + 9 * which[k], batch->gradient + 9 * which[k]);
 }
 
-/* Displaces the points of a cell in which the displacement may turn: computes gradients in the runs of points
-   where that is not excluded, and lists these points. */
+static void add_turns(const displacement_batch *batch, const uint32_t *which, size_t count)
+{
+    memcpy(batch->turns->points + batch->turns->count, which, count * sizeof *which);
+    batch->turns->count += count;
+}
+
+/* Displaces the points of a cell in which the displacement may turn: computes gradients only in the runs of
+   points where that is not excluded, and lists these points. */
 static void bend_and_watch(const ffd_lattice *lattice, const cell_kernels *kernel,
                            const displacement_batch *batch, const batch_cell *of,
                            displacement_scratch *scratch)
@@ -277,11 +283,25 @@ static void bend_and_watch(const ffd_lattice *lattice, const cell_kernels *kerne
             end++;
         const size_t first = runs[i].first, points = runs[end - 1].end - first;
         bend_points(kernel, &cell, batch, of->first + first, points, runs[i].may_turn, scratch);
-        if (!runs[i].may_turn)
-            continue;
-        memcpy(batch->turns->points + batch->turns->count, which + first, points * sizeof *which);
-        batch->turns->count += points;
+        if (runs[i].may_turn)
+            add_turns(batch, which + first, points);
     }
+}
+
+/* Displaces the points of a cell whose control points have different displacements. */
+static void bend_cell(const ffd_lattice *lattice, const cell_kernels *kernel, const displacement_batch *batch,
+                      const batch_cell *of, const double *numbers, displacement_scratch *scratch)
+{
+    const bool turns = batch->turns && may_turn(lattice, kernel, of, numbers, scratch);
+    kernel_cell cell;
+    if (turns && batch->only_turns) {
+        bend_and_watch(lattice, kernel, batch, of, scratch);
+        return;
+    }
+    ffd_displacement_cell_begin(lattice, of->span, scratch->kept.use, numbers, &cell);
+    bend_points(kernel, &cell, batch, of->first, of->count, batch->gradient && !batch->only_turns, scratch);
+    if (turns)
+        add_turns(batch, scratch->sorted + of->first, of->count);
 }
 
 static void displace_cell(const ffd_lattice *lattice, const cell_kernels *kernel,
@@ -297,13 +317,8 @@ static void displace_cell(const ffd_lattice *lattice, const cell_kernels *kernel
         stay(batch, which[k]);
     if (motion.kind == CELL_SHIFTED)
         shift_cell(ffd_displacement_shared(lattice, span, NULL), batch, which, of->count);
-    if (motion.kind == CELL_BENT && batch->turns && may_turn(lattice, kernel, of, numbers, scratch)) {
-        bend_and_watch(lattice, kernel, batch, of, scratch);
-    } else if (motion.kind == CELL_BENT) {
-        kernel_cell cell;
-        ffd_displacement_cell_begin(lattice, of->span, scratch->kept.use, numbers, &cell);
-        bend_points(kernel, &cell, batch, of->first, of->count, batch->gradient && !batch->turns, scratch);
-    }
+    if (motion.kind == CELL_BENT)
+        bend_cell(lattice, kernel, batch, of, numbers, scratch);
     if (motion.knots)
         shift_on_knots(lattice, span, motion.knots, scratch->uvw + 3 * (size_t)of->first, batch, which,
                        of->count);
@@ -329,7 +344,7 @@ void ffd_displacements(const ffd_lattice *lattice, ffd_isa isa, const displaceme
         return;
     }
     const cell_kernels *const kernel = &kernels[ffd_isa_resolve(isa)];
-    const bool gradients = batch->gradient && !batch->turns;
+    const bool gradients = batch->gradient && !batch->only_turns;
     begin_cells(lattice, gradients ? CELL_GRADIENTS : CELL_VALUES, &scratch->kept);
     if (batch->turns)
         begin_turns(lattice, &scratch->kept_turns);

@@ -98,7 +98,7 @@ static bool leaves_gradient_out(const displacement_batch *batch, size_t n)
 {
     double untouched[9];
     memset(untouched, 0xff, sizeof untouched);
-    return batch->turns && memcmp(batch->gradient + 9 * n, untouched, sizeof untouched) == 0;
+    return batch->only_turns && memcmp(batch->gradient + 9 * n, untouched, sizeof untouched) == 0;
 }
 
 static double determinant_of(const double gradient[9])
@@ -153,7 +153,8 @@ static void check_batch(draw *d, const ffd_lattice *lattice, sample *s)
                                 .delta = s->delta + odd,
                                 .gradient = draw_int(d, 0, 2) ? s->gradient + 1 - odd : NULL,
                                 .moves = s->moves};
-    batch.turns = batch.gradient && draw_int(d, 0, 1) ? &s->turns : NULL;
+    batch.turns = batch.gradient && draw_int(d, 0, 2) ? &s->turns : NULL;
+    batch.only_turns = batch.turns && draw_int(d, 0, 3);
     for (size_t n = 0; n < DISPLACEMENT_BATCH; n++) {
         random_uvw(d, lattice, (double *)ffd_batch_uvw(&batch, n));
         /* Neighbours are mostly in the same cell. */

@@ -176,9 +176,9 @@ typedef struct chain_run {
     /* Filled, one entry a point: */
     double *delta;    /* 3: displacement by all links, world units; zeros where nothing acts */
     double *gradient; /* 9: F - I of the whole deformation; or NULL */
-    turn_list *turns; /* NULL, or with gradient: gradients are wanted only where det F may be 0 or less, and
-                         these points are added (displacement.h). Of several links, one after the other: the
-                         points where it is less; gradient is not filled then */
+    turn_list *turns; /* NULL, or with gradient: the points are added where det F may be 0 or less; of several
+                         links, one after the other, those where it is less */
+    bool only_turns;  /* not filled: gradients are wanted only there. Several links do not fill them then */
     point_outcome *outcomes;
     uint8_t *kept; /* chain->marks.planes planes of CHAIN_RUN bytes, or NULL: bits of points that links leave
                       are added, other marks are set */

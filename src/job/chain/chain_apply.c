@@ -24,7 +24,7 @@ static void compose(double gradient[9], const double next[9])
 }
 
 /* The first link writes its displacements directly to the run, later ones to scratch memory. Where only turns
-   are looked for among several links, each has its own. */
+   are looked for among several links, none writes its gradients to the run. */
 static displacement_batch begin_batch(chain_run *run, size_t links, size_t link)
 {
     chain_scratch *scratch = run->scratch;
@@ -36,11 +36,12 @@ static displacement_batch begin_batch(chain_run *run, size_t links, size_t link)
                                             : link == 0    ? run->gradient
                                                            : scratch->gradient,
                                 .turns = run->turns,
+                                .only_turns = run->only_turns,
                                 .moves = scratch->moves};
     if (run->turns && links > 1) {
         scratch->turns.count = 0;
-        batch.gradient = scratch->gradient;
         batch.turns = &scratch->turns;
+        batch.gradient = run->only_turns ? scratch->gradient : batch.gradient;
     }
     return batch;
 }
@@ -52,7 +53,7 @@ static ffd_status extend(const lattice_chain *chain, size_t l, chain_run *run,
     const chain_link *const link = &chain->links[l];
     boundary_point nearest;
     double *const delta = batch->delta + 3 * i;
-    double *const gradient = batch->gradient && !batch->turns ? batch->gradient + 9 * i : NULL;
+    double *const gradient = batch->gradient && !batch->only_turns ? batch->gradient + 9 * i : NULL;
     run->scratch->moves[i] = 0;
     memset(delta, 0, 3 * sizeof *delta);
     if (gradient)
@@ -117,7 +118,7 @@ static void add_link(const chain_run *run, const array_kernel *arrays)
 {
     const chain_scratch *scratch = run->scratch;
     arrays->add(scratch->delta, 3 * run->count, run->delta);
-    for (size_t i = 0; i < run->count && run->gradient && !run->turns; i++) {
+    for (size_t i = 0; i < run->count && run->gradient && !run->only_turns; i++) {
         const double *const next = scratch->gradient + 9 * i;
         if (scratch->moves[i] && run->outcomes[i].moved)
             compose(run->gradient + 9 * i, next);
@@ -127,13 +128,13 @@ static void add_link(const chain_run *run, const array_kernel *arrays)
 }
 
 /* Notes which points a link among several turns inside out. */
-static void note_turns(chain_scratch *scratch)
+static void note_turns(const double *gradients, chain_scratch *scratch)
 {
     for (size_t k = 0; k < scratch->turns.count; k++) {
         const size_t i = scratch->turns.points[k];
         double f[9];
         for (size_t n = 0; n < 9; n++)
-            f[n] = scratch->gradient[9 * i + n] + (n % 4 == 0 ? 1 : 0);
+            f[n] = gradients[9 * i + n] + (n % 4 == 0 ? 1 : 0);
         scratch->is_turned[i] ^= mat_determinant(f) < 0;
     }
 }
@@ -152,7 +153,7 @@ static ffd_status apply_link(const lattice_chain *chain, size_t links, size_t l,
         ffd_common_note(chain, l, run);
     ffd_displacements(link->lattice, chain->isa, &batch, &scratch->displacement);
     if (batch.turns == &scratch->turns)
-        note_turns(scratch);
+        note_turns(batch.gradient, scratch);
     arrays->add(batch.delta, 3 * run->count, run->x);
     if (l > 0)
         add_link(run, arrays);

@@ -81,7 +81,7 @@ static double gradient_determinant(const double gradient[9], double f[9])
     return mat_determinant(f);
 }
 
-/* Looks at det F of a tile's vertices (after spread). */
+/* Looks at det F of all vertices of a tile (after spread). */
 static void note_determinants(const part_work *work, const tile_scratch *scratch, size_t first, size_t count,
                               pass_totals *totals)
 {
@@ -92,14 +92,13 @@ static void note_determinants(const part_work *work, const tile_scratch *scratch
         const size_t number = (size_t)work->first_vertex + first + i;
         if (!has_gradient(work, scratch, outcome, i))
             continue;
-        if (work->pass->determinants)
-            note_range(det, outcome->extended, number, totals);
+        note_range(det, outcome->extended, number, totals);
         if (!outcome->extended && turns_over(f, det))
             note_inversion(det, number, totals);
     }
 }
 
-/* The same only for the vertices that turn inside out (before spread). */
+/* Counts the vertices that turn inside out, of which turns has the candidates (before spread). */
 static void note_turns(const part_work *work, const tile_scratch *scratch, size_t first, pass_totals *totals)
 {
     for (size_t k = 0; k < scratch->turns.count; k++) {
@@ -467,12 +466,26 @@ static void put_back(part_work *work, tile_scratch *scratch, size_t first, size_
     choose(work, scratch, first, count);
 }
 
-/* Which gradients of the deformation a tile needs. */
-typedef enum gradient_need { GRADIENTS_NONE, GRADIENTS_THAT_TURN, GRADIENTS_ALL } gradient_need;
+/* What a tile needs of the gradients of the deformation. */
+typedef struct gradient_need {
+    bool all;          /* those of every vertex */
+    bool determinants; /* to look at det F of every vertex */
+    bool turns;        /* to count the vertices with det F < 0 */
+} gradient_need;
+
+static gradient_need find_need(const part_work *work, bool directions)
+{
+    const mesh_pass *const pass = work->pass;
+    const bool counts = !work->part->repeats_positions;
+    const bool determinants = counts && pass->determinants;
+    return (gradient_need){.all = directions || determinants || (counts && pass->gradients),
+                           .determinants = determinants,
+                           .turns = counts && pass->inversions && !determinants};
+}
 
 /* Sends the chosen points through the lattices. */
 static ffd_status deform_points(part_work *work, tile_scratch *scratch, size_t first, size_t count,
-                                gradient_need need, pass_totals *totals)
+                                const gradient_need *need, pass_totals *totals)
 {
     const mesh_pass *pass = work->pass;
     const bool counts = !work->part->repeats_positions;
@@ -486,16 +499,18 @@ static ffd_status deform_points(part_work *work, tile_scratch *scratch, size_t f
                      .scratch = &scratch->chain,
                      .pace = scratch == work->scratch ? pass->pace : NULL,
                      .delta = scratch->delta,
-                     .gradient = need == GRADIENTS_NONE ? NULL : scratch->gradient,
-                     .turns = need == GRADIENTS_THAT_TURN ? &scratch->turns : NULL,
+                     .gradient = need->all || need->turns ? scratch->gradient : NULL,
+                     .turns = need->turns ? &scratch->turns : NULL,
+                     .only_turns = need->turns && !need->all,
                      .outcomes = scratch->point_outcomes,
                      .kept = counts ? scratch->kept : NULL};
     ffd_status status = ffd_chain_apply(pass->chain, pass->links, &run, &scratch->error);
-    if (!status && run.turns && scratch->turns.count > 0 && pass->links > 1 && !pass->chain->blocks) {
+    if (!status && run.only_turns && scratch->turns.count > 0 && pass->links > 1 && !pass->chain->blocks) {
         /* Rare: several lattices turn points inside out, whose gradients only a second run gives. */
         put_back(work, scratch, first, count);
         run.located = recall(work, scratch, first, rounding, totals);
         run.turns = NULL;
+        run.only_turns = false;
         run.pace = NULL;
         run.moved_twice = run.disagreeing = 0;
         status = ffd_chain_apply(pass->chain, pass->links, &run, &scratch->error);
@@ -528,11 +543,7 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
     const bool attributes = wanted && !part->singular && (part->normal_count || part->has_tangents);
     const bool splats = ffd_pass_takes_splats(pass, part);
     const bool counts = !part->repeats_positions;
-    const bool watches = counts && (pass->inversions || pass->determinants);
-    const gradient_need need = attributes || splats || (counts && (pass->gradients || pass->determinants))
-                                   ? GRADIENTS_ALL
-                               : watches ? GRADIENTS_THAT_TURN
-                                         : GRADIENTS_NONE;
+    const gradient_need need = find_need(work, attributes || splats);
 
     ffd_totals_clear(totals);
     scratch->turns.count = 0;
@@ -541,19 +552,19 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
     take_points(work, scratch, first, count, totals);
     scratch->status = ffd_deadline_check(&scratch->error);
     if (!scratch->status)
-        scratch->status = deform_points(work, scratch, first, count, need, totals);
+        scratch->status = deform_points(work, scratch, first, count, &need, totals);
     if (scratch->status) {
         atomic_store(&work->stopped, true);
         return;
     }
-    if (need == GRADIENTS_THAT_TURN)
+    if (need.turns)
         note_turns(work, scratch, first, totals);
     spread(scratch, count);
-    if (need == GRADIENTS_ALL && watches)
+    if (need.determinants)
         note_determinants(work, scratch, first, count, totals);
     if (counts)
         fill_arrays(work, scratch, first, count);
-    carry(work, scratch, count, need == GRADIENTS_ALL, totals);
+    carry(work, scratch, count, need.all, totals);
     bring_back(work, scratch, count);
     if (!part->repeats_positions)
         finish_positions(work, scratch, first, count, totals);
