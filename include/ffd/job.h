@@ -124,7 +124,7 @@ typedef ffd_status (*ffd_positions_function)(void *user, const double *positions
 typedef struct ffd_source {
     /* "-": standard input. With bytes it is only a name for messages, and its ending says the format if
        format is FFD_FORMAT_AUTO; NULL then stands for "mesh". FFD_E_ARGUMENT if the last component of such a
-       name, or of that of an output in memory, is empty, "." or "..". */
+       name, or of that of an output in memory, is empty, "." or "..", or if the name means a stream. */
     const char *path;
     ffd_format format; /* FFD_FORMAT_AUTO is not allowed for "-" */
     ffd_space space;   /* of the lattice; for glTF only */

@@ -26,7 +26,7 @@
 static ffd_status restore_output(const ffd_deform_desc *desc, ffd_error *error)
 {
     const char *const path = desc->in_place ? desc->input.path : desc->output;
-    return path && !ffd_output_is_stream(path) ? ffd_restore_output(path, error) : FFD_OK;
+    return path && !ffd_output_is_stream(path) && !desc->sink ? ffd_restore_output(path, error) : FFD_OK;
 }
 
 /* Refuses options that need an output file. */
@@ -45,6 +45,7 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
 {
     const char *input = desc->input.path;
     *options = (mesh_save_options){.path = desc->output,
+                                   .to_sink = desc->sink,
                                    .format = desc->output_format,
                                    .force = desc->force || desc->if_changed,
                                    .resources = desc->resources,
@@ -73,6 +74,8 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
         return ffd_fail(error, FFD_E_ARGUMENT, "standard output needs --output-format " FORMAT_NAMES);
     if (options->format == FFD_FORMAT_AUTO)
         return ffd_format_refuse_name(desc->output, error);
+    if (desc->sink)
+        return FFD_OK;
     /* The output first: usually it does not exist, which is a quick answer. */
     if (!ffd_output_is_stream(desc->output) && ffd_file_same(desc->output, input))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the input (--in-place overwrites it)");
@@ -189,6 +192,7 @@ static ffd_status save(deform_job *job, const mesh_save_options *options, ffd_er
     if (status)
         return status;
     ffd_output_record(output, ffd_written_list(job->desc->written));
+    ffd_output_redirect(output, job->desc->sink, job->desc->sink_user);
     if (job->desc->if_changed)
         ffd_output_keep_equal(output);
     if (hashed)
@@ -214,7 +218,7 @@ static ffd_status rehearse_conversion(deform_job *job, const mesh_save_options *
     const mesh_format *const to = ffd_format_table(options->format);
     beside_names names = {.options = options, .log = &job->log};
     ffd_format from;
-    if (!to->count_beside || ffd_output_is_stream(options->path))
+    if (!to->count_beside || ffd_output_is_stream(options->path) || options->to_sink)
         return FFD_OK;
     ffd_status status = ffd_source_format(&job->desc->input, &from, error);
     const size_t count = status ? 0 : to->count_beside(NULL, from, options->format);
@@ -295,7 +299,7 @@ static bool needs_only_positions(const ffd_deform_desc *desc, const mesh_save_op
 static ffd_status check_reads(const deform_job *job, const char *output, ffd_error *error)
 {
     const ffd_deform_desc *const desc = job->desc;
-    if (!ffd_deform_desc_writes(desc) || desc->in_place)
+    if (!ffd_deform_desc_writes(desc) || desc->in_place || desc->sink)
         return FFD_OK;
     const ffd_status status = ffd_job_check_mesh_files(output, &desc->input, job->document, error);
     return status ? status : ffd_job_check_box_files(output, &job->chain, desc->lattices, error);

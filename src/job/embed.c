@@ -46,6 +46,7 @@ static ffd_status write_files(const ffd_embed_desc *desc, const embedding *made,
     ffd_status status = ffd_output_create(&output, error);
     if (status)
         return status;
+    ffd_output_redirect(output, desc->sink, desc->sink_user);
     if (desc->status_output) {
         status = ffd_output_begin(output, desc->status_output, desc->force, error);
         if (!status)
@@ -111,6 +112,10 @@ static ffd_status check_outputs(const ffd_embed_desc *desc, ffd_error *error)
         return ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete");
     if (!(desc->snap >= 0 && isfinite(desc->snap)))
         return ffd_fail(error, FFD_E_ARGUMENT, "the snap %g is not a length", desc->snap);
+    if (desc->sink)
+        return desc->status_output && strcmp(desc->output, desc->status_output) == 0
+                   ? fail_one_file(desc->output, error)
+                   : FFD_OK;
     /* Restore files that a killed run had set aside. */
     ffd_status status = ffd_output_is_stream(desc->output) ? FFD_OK : ffd_restore_output(desc->output, error);
     if (!status)
@@ -127,7 +132,7 @@ static ffd_status check_reads(const ffd_embed_desc *desc, const embedding *made,
 {
     const char *const outputs[] = {desc->output, desc->status_output};
     ffd_status status = FFD_OK;
-    for (size_t i = 0; i < 2 && outputs[i] && !status; i++) {
+    for (size_t i = 0; i < 2 && outputs[i] && !desc->sink && !status; i++) {
         status = ffd_job_check_mesh_files(outputs[i], &desc->input, NULL, error);
         if (!status)
             status = ffd_job_check_box_files(outputs[i], &made->chain, &desc->lattice, error);
@@ -262,9 +267,9 @@ static ffd_status take_memory(job_memory *memory, ffd_embed_desc *desc, ffd_erro
     if (!status)
         status = ffd_in_memory_source(memory, &desc->input, error);
     if (!status)
-        status = ffd_in_memory_output(memory, desc->sink, desc->sink_user, &desc->output, error);
+        status = ffd_in_memory_output(desc->sink, desc->output, error);
     if (!status)
-        status = ffd_in_memory_output(memory, desc->sink, desc->sink_user, &desc->status_output, error);
+        status = ffd_in_memory_output(desc->sink, desc->status_output, error);
     ffd_in_memory_log(memory, &desc->log, &desc->log_user);
     return status;
 }

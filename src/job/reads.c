@@ -11,7 +11,7 @@
 static bool replaces(const char *output)
 {
     file_stamp stamp;
-    return !ffd_output_is_stream(output) && !ffd_memory_has(output) && ffd_file_stamp(output, &stamp);
+    return !ffd_output_is_stream(output) && ffd_file_stamp(output, &stamp);
 }
 
 static bool holds(const path_list *files, const char *output)

@@ -1,5 +1,4 @@
 #include "job/sharing.h"
-#include "base/file/memory_files.h"
 #include "base/file/output.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
@@ -67,7 +66,7 @@ void ffd_sharing_begin(job_sharing *sharing, const ffd_deform_desc *desc, const 
 {
     *sharing = (job_sharing){.document = document, .input = desc->input.path};
     *used = NULL;
-    if (!ffd_format_table(to)->name_beside || ffd_output_is_stream(output) || ffd_memory_has(output))
+    if (!ffd_format_table(to)->name_beside || ffd_output_is_stream(output) || desc->sink)
         return;
     sharing->known = desc->written ? &desc->written->users : &sharing->own;
     sharing->sharing = (mesh_sharing){find, sharing, sharing->known->is_complete};

@@ -204,6 +204,7 @@ typedef struct mesh_sharing {
 
 typedef struct mesh_save_options {
     const char *path; /* "-": standard output */
+    bool to_sink;     /* path is only a name: the output goes to a callback (ffd_output_redirect) */
     ffd_format format;
     bool force;
     ffd_resources resources;
@@ -219,6 +220,12 @@ typedef struct mesh_save_options {
     uint64_t *bytes_left;
     uint64_t *bounds_left; /* receives the number of bounds in extensions that no longer fit; may be NULL */
 } mesh_save_options;
+
+/* Returns whether a path of the output leads to a file of the input. */
+static inline bool ffd_save_meets(const mesh_save_options *options, const char *input, const char *output)
+{
+    return !options->to_sink && ffd_file_same(input, output);
+}
 
 /* x = linear p + offset, in place. */
 static inline void ffd_point_transform(const double linear[9], const double offset[3], double point[3])

@@ -373,6 +373,15 @@ static void one_of_both_may_be_a_file(void **state)
     assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK); /* --force is not needed */
     assert_int_equal(b.sink.files.count, 3);
     check_same(&b.sink.files, "out");
+    /* An output's name that is the path of the input means no file. */
+    clear(&b.sink.files);
+    b.desc.output = b.input;
+    assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
+    assert_int_equal(b.sink.files.count, 3);
+    clear(&b.sink.files);
+    b.desc.output = b.output;
+    assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
+    check_same(&b.sink.files, "out"); /* as before: the input is as it was */
     end(&b);
     (void)state;
 }
@@ -410,7 +419,7 @@ static void names_are_the_callers(void **state)
 /* A name that ends like a folder is refused. */
 static void names_that_are_no_files_are_refused(void **state)
 {
-    static const char *const names[] = {"", "/", ".", "..", "in/", "in/.."};
+    static const char *const names[] = {"", "/", ".", "..", "in/", "in/..", "-", "/dev/stdin"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         for (int which = 0; which < 2; which++) {
             both b;

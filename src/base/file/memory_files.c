@@ -25,7 +25,6 @@ typedef struct memory_folder {
     char *shown; /* folder of the name for messages, with a final slash */
     size_t head; /* length of the path before the file name */
     memory_resolve *resolve;
-    memory_sink *sink;
     void *user;
 } memory_folder;
 
@@ -167,19 +166,8 @@ static memory_folder *make_folder(const memory_files *files, const char *name)
     return NULL;
 }
 
-ffd_status ffd_memory_check_name(const char *name, ffd_error *error)
-{
-    const char *const last = ffd_path_name(name);
-    return *last && strcmp(last, ".") != 0 && strcmp(last, "..") != 0
-               ? FFD_OK
-               : ffd_fail(error, FFD_E_ARGUMENT, "\"%s\" is no name for a file", name);
-}
-
 static ffd_status add_folder(memory_files *files, const char *name, memory_folder **folder, ffd_error *error)
 {
-    const ffd_status status = ffd_memory_check_name(name, error);
-    if (status)
-        return status;
     *folder = ffd_grow((void **)&files->folders, &files->folder_capacity, files->folder_count + 1,
                        sizeof(memory_folder *))
                   ? make_folder(files, name)
@@ -201,19 +189,6 @@ ffd_status ffd_memory_lend(memory_files *files, const char *name, const void *by
     folder->user = user;
     *path = folder->path;
     return note(files, folder->path, (memory_bytes){bytes, size}, error);
-}
-
-ffd_status ffd_memory_take(memory_files *files, const char *name, memory_sink *sink, void *user,
-                           const char **path, ffd_error *error)
-{
-    memory_folder *folder;
-    const ffd_status status = add_folder(files, name, &folder, error);
-    if (status)
-        return status;
-    folder->sink = sink;
-    folder->user = user;
-    *path = folder->path;
-    return FFD_OK;
 }
 
 void ffd_memory_show(const memory_files *files, char *text, size_t capacity)
@@ -291,23 +266,4 @@ ffd_status ffd_memory_find(const char *path, const void **bytes, size_t *size, f
     *bytes = found.bytes;
     *size = found.bytes ? found.size : 0;
     return status;
-}
-
-ffd_status ffd_memory_begin(const char *path, char **name, ffd_error *error)
-{
-    const memory_files *const files = files_of(path);
-    const memory_folder *const folder = files ? folder_of(files, path) : NULL;
-    *name = NULL;
-    if (!folder || !folder->sink)
-        return ffd_fail_file(error, FFD_E_IO, path, "cannot be written: it is an input in memory");
-    *name = ffd_path_join(folder->shown, path + folder->head);
-    return *name ? FFD_OK : ffd_fail_memory(error);
-}
-
-ffd_status ffd_memory_give(const char *path, const char *name, const void *bytes, size_t size,
-                           ffd_error *error)
-{
-    const memory_folder *const folder = folder_of(files_of(path), path);
-    const ffd_status status = ffd_status_known(folder->sink(folder->user, name, bytes, size));
-    return status ? ffd_fail_file(error, status, name, "was not taken by the caller") : FFD_OK;
 }

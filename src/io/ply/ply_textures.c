@@ -70,7 +70,8 @@ static ffd_status warn_of_stream(const ply_header *header, const mesh_save_optio
     char *const to = ffd_path_folder(options->path);
     ffd_status status = to ? list_all(header, to, &list, error) : ffd_fail_memory(error);
     for (size_t i = 0; i < list.count && !status; i++)
-        status = ffd_left_add_unreached(&left, to, list.resources[i].path, "of TextureFile", error);
+        status = ffd_left_add_unreached(&left, options->to_sink ? NULL : to, list.resources[i].path,
+                                        "of TextureFile", error);
     if (!status)
         ffd_left_say_of_stream(&left, log);
     ffd_resources_free(&list);
@@ -86,15 +87,16 @@ ffd_status ffd_ply_bring_textures(const ply_header *header, const mesh_save_opti
         return FFD_OK;
     if (ffd_file_is_stream(mesh))
         return warn_of_stream(header, options, log, error);
-    if (ffd_file_same(mesh, options->path))
+    if (ffd_save_meets(options, mesh, options->path))
         return FFD_OK;
     char *const from = ffd_path_folder(mesh), *const to = ffd_path_folder(options->path);
-    const resource_copier copier = {mesh, from, to, output, log, options->copied};
+    const resource_copier copier = {mesh, from,           to, options->to_sink ? options->path : NULL, output,
+                                    log,  options->copied};
     resource_list list = {0};
     ffd_status status = from && to ? list_all(header, from, &list, error) : ffd_fail_memory(error);
     if (status == FFD_OK)
         status = ffd_resources_bring(&copier, &list, options->resources == FFD_RESOURCES_COPY,
-                                     ffd_file_same(from, to), options->path, error);
+                                     ffd_save_meets(options, from, to), options->path, error);
     ffd_resources_free(&list);
     ffd_free(from);
     ffd_free(to);

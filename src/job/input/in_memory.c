@@ -1,4 +1,5 @@
 #include "job/input/in_memory.h"
+#include "base/file/output.h"
 #include "base/memory/memory.h"
 #include <stdio.h>
 #include <string.h>
@@ -42,6 +43,8 @@ ffd_status ffd_in_memory_source(job_memory *memory, ffd_source *source, ffd_erro
     if (!status && source->resolve && !bytes.data)
         status =
             ffd_fail(error, FFD_E_ARGUMENT, "a resolve function is only for a mesh whose bytes are given");
+    if (!status && bytes.data)
+        status = ffd_file_check_name(name, error);
     if (status || !bytes.data)
         return status;
     status = begin(memory, error);
@@ -65,6 +68,8 @@ ffd_status ffd_in_memory_bytes(job_memory *memory, ffd_bytes bytes, const char *
                                ffd_error *error)
 {
     ffd_status status = check_bytes(*path ? *path : name, bytes, error);
+    if (!status && bytes.data && *path)
+        status = ffd_file_check_name(*path, error);
     if (status || !bytes.data)
         return status;
     status = begin(memory, error);
@@ -73,13 +78,9 @@ ffd_status ffd_in_memory_bytes(job_memory *memory, ffd_bytes bytes, const char *
                                     path, error);
 }
 
-ffd_status ffd_in_memory_output(job_memory *memory, ffd_sink_function sink, void *user, const char **output,
-                                ffd_error *error)
+ffd_status ffd_in_memory_output(ffd_sink_function sink, const char *output, ffd_error *error)
 {
-    if (!sink || !*output)
-        return FFD_OK;
-    const ffd_status status = begin(memory, error);
-    return status ? status : ffd_memory_take(memory->files, *output, sink, user, output, error);
+    return sink && output ? ffd_file_check_name(output, error) : FFD_OK;
 }
 
 static void send_line(void *user, ffd_log_level level, const char *line)
@@ -111,7 +112,7 @@ ffd_status ffd_in_memory_lattice(ffd_lattice_source *lattice, const char *what, 
     if (status || (!lattice->object && !text.data))
         return status;
     lattice->path = lattice->path ? lattice->path : name;
-    return ffd_memory_check_name(lattice->path, error);
+    return ffd_file_check_name(lattice->path, error);
 }
 
 /* Names the lattices that have no path. */
@@ -157,7 +158,7 @@ ffd_status ffd_in_memory_desc(job_memory *memory, ffd_deform_desc *desc, ffd_err
         status = ffd_in_memory_bytes(memory, desc->embedding_bytes, "embedding", &desc->embedding, error);
     desc->embedding_bytes = (ffd_bytes){0};
     if (!status)
-        status = ffd_in_memory_output(memory, desc->sink, desc->sink_user, &desc->output, error);
+        status = ffd_in_memory_output(desc->sink, desc->output, error);
     if (desc->sink)
         desc->written = NULL;
     ffd_in_memory_log(memory, &desc->log, &desc->log_user);

@@ -31,9 +31,8 @@ ffd_status ffd_in_memory_bytes(job_memory *memory, ffd_bytes bytes, const char *
    messages. */
 ffd_status ffd_in_memory_lattice(ffd_lattice_source *lattice, const char *what, const char *name,
                                  ffd_error *error);
-/* If there is a sink, redirects an output that is not NULL to it. */
-ffd_status ffd_in_memory_output(job_memory *memory, ffd_sink_function sink, void *user, const char **output,
-                                ffd_error *error);
+/* If there is a sink, checks the name of an output that is not NULL. */
+ffd_status ffd_in_memory_output(ffd_sink_function sink, const char *output, ffd_error *error);
 /* Replaces the log by one that puts the caller's names in place of the paths, and passes lines on. */
 void ffd_in_memory_log(job_memory *memory, ffd_log_function *log, void **user);
 /* Applies all of these to a job's description. Refuses options that need files. */

@@ -49,6 +49,8 @@ static ffd_status check_output(const ffd_jacobian_desc *desc, ffd_error *error)
     if (npy && !is_product(desc) && by_points)
         return ffd_fail_file(error, FFD_E_ARGUMENT, path,
                              "a matrix by control points is sparse: it is written as .npz or .mtx");
+    if (desc->job->sink)
+        return FFD_OK;
     if (is_input(desc))
         return ffd_fail_file(error, FFD_E_EXISTS, path, "is an input of this command");
     return ffd_output_check(path, desc->job->force, error);
@@ -115,9 +117,9 @@ static ffd_status run(const ffd_jacobian_desc *desc, ffd_jacobian_result *result
     j.job.only_positions = true;
     if (!status)
         status = ffd_deform_job_open(&j.job, &figures, &figures.error);
-    if (!status)
+    if (!status && !desc->job->sink)
         status = ffd_job_check_mesh_files(desc->output, &desc->job->input, j.job.document, &figures.error);
-    if (!status)
+    if (!status && !desc->job->sink)
         status = ffd_job_check_box_files(desc->output, &j.job.chain, desc->job->lattices, &figures.error);
     if (!status)
         status = make(&j, result, &figures.error);
@@ -129,7 +131,7 @@ static ffd_status run(const ffd_jacobian_desc *desc, ffd_jacobian_result *result
 static ffd_status take_memory(job_memory *memory, ffd_jacobian_desc *desc, ffd_deform_desc *job,
                               ffd_error *error)
 {
-    ffd_status status = ffd_in_memory_output(memory, job->sink, job->sink_user, &desc->output, error);
+    ffd_status status = ffd_in_memory_output(job->sink, desc->output, error);
     if (!status)
         status = ffd_in_memory_bytes(memory, desc->times_bytes, "times", &desc->times, error);
     if (!status)

@@ -80,6 +80,8 @@ static ffd_status write(const jacobian *j, const double *numbers, size_t rows, s
     file_output *output;
     ffd_status status = ffd_output_create(&output, error);
     if (!status)
+        ffd_output_redirect(output, j->desc->job->sink, j->desc->job->sink_user);
+    if (!status)
         status = ffd_output_begin(output, j->desc->output, j->desc->job->force, error);
     if (!status)
         status = ffd_npy_begin(output, "<f8", rows, columns, error);

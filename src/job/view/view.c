@@ -87,9 +87,9 @@ static ffd_status check_desc(const view_work *work, ffd_error *error)
                              "the ending \"%s\" is not that of a page or a picture (.html .htm .png)",
                              ffd_path_ending(desc->output));
     ffd_status status = ffd_view_picture_check(&picture, error);
-    if (!status)
+    if (!status && !desc->sink)
         status = ffd_view_check_inputs(desc, error);
-    return status ? status : ffd_output_check(desc->output, desc->force, error);
+    return status || desc->sink ? status : ffd_output_check(desc->output, desc->force, error);
 }
 
 /* Whether to show the shape with default weights of morph targets instead of the stored one. */
@@ -177,7 +177,8 @@ static ffd_status check_mesh(const view_work *work, const ffd_source *source, me
                              ffd_error *error)
 {
     const ffd_status status = ffd_mesh_check(document, error);
-    return status ? status : ffd_view_check_files(source, document, work->desc->output, error);
+    return status || work->desc->sink ? status
+                                      : ffd_view_check_files(source, document, work->desc->output, error);
 }
 
 /* Deforms the mesh in memory. A shape that a gate refuses is shown too; result then has the refusal. */
@@ -319,6 +320,7 @@ static ffd_status write_view(view_work *work, ffd_error *error)
     if (status)
         return status;
     ffd_output_record(output, ffd_written_list(desc->job->written));
+    ffd_output_redirect(output, desc->sink, desc->sink_user);
     status = ffd_output_begin(output, desc->output, desc->force, error);
     if (!status)
         status = is_page(desc->output) ? write_page(work, output, error) : write_picture(work, output, error);
@@ -437,7 +439,6 @@ static void allow_memory(ffd_source *source)
 /* The same for descriptions that may hold data in memory. */
 static ffd_status view_in_memory(ffd_view_desc *desc, ffd_deform_desc *job, ffd_job_result *result)
 {
-    const char *const output = desc->output;
     ffd_source deformed;
     job_memory memory = {0};
     ffd_status status = FFD_OK;
@@ -451,14 +452,12 @@ static ffd_status view_in_memory(ffd_view_desc *desc, ffd_deform_desc *job, ffd_
         status = ffd_in_memory_source(&memory, &deformed, &result->error);
     }
     if (!status)
-        status = ffd_in_memory_output(&memory, desc->sink, desc->sink_user, &desc->output, &result->error);
+        status = ffd_in_memory_output(desc->sink, desc->output, &result->error);
     if (!status)
         status = ffd_in_memory_desc(&memory, job, &result->error);
     if (!status)
         status = view(desc, result, &result->error);
     status = ffd_in_memory_judge(&memory, status, &result->error);
-    if (result->picture)
-        result->picture = output;
     ffd_in_memory_end(&memory);
     return status;
 }

@@ -162,22 +162,29 @@ ffd_status ffd_lattice_text(const ffd_lattice *lattice, char **text, size_t *siz
     return *text ? FFD_OK : ffd_fail_memory(error);
 }
 
-ffd_status ffd_lattice_save(const ffd_lattice *lattice, const char *path, bool force, ffd_error *error)
+ffd_status ffd_lattice_write(const ffd_lattice *lattice, file_output *output, const char *path, bool force,
+                             ffd_error *error)
 {
     size_t size;
     char *text;
-    file_output *output = NULL;
     ffd_status status = ffd_lattice_text(lattice, &text, &size, error);
-    if (!status)
-        status = ffd_output_create(&output, error);
     if (!status)
         status = ffd_output_begin(output, path, force, error);
     if (!status)
         status = ffd_output_write(output, text, size, error);
     if (!status)
         status = ffd_output_commit(output, error);
-    ffd_output_destroy(&output);
     ffd_free(text);
+    return status;
+}
+
+ffd_status ffd_lattice_save(const ffd_lattice *lattice, const char *path, bool force, ffd_error *error)
+{
+    file_output *output;
+    ffd_status status = ffd_output_create(&output, error);
+    if (!status)
+        status = ffd_lattice_write(lattice, output, path, force, error);
+    ffd_output_destroy(&output);
     return status;
 }
 

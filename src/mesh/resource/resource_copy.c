@@ -12,13 +12,18 @@
 #define MOST_WAITING 60.0
 #define LOOK 0.002
 
+bool ffd_resource_is_there(const resource_copier *c, const char *target)
+{
+    return !c->sink_name && ffd_file_exists(target);
+}
+
 /* Begins the file of a copy, unless it exists. If another process is writing the same copy, waits for it.
    There is no deadlock, because all processes write copies in the order of their paths. */
 static ffd_status begin_copy(const resource_copier *c, const char *target, bool *exists, ffd_error *error)
 {
     const double begin = ffd_clock_seconds();
     for (;;) {
-        *exists = ffd_file_exists(target);
+        *exists = ffd_resource_is_there(c, target);
         if (*exists)
             return FFD_OK;
         const ffd_status status = ffd_output_begin(c->output, target, false, error);
@@ -47,7 +52,7 @@ static ffd_status write_copy(const resource_copier *c, const resource_kind *kind
                              const file_input *bytes, ffd_error *error)
 {
     bool exists;
-    if (ffd_file_exists(target))
+    if (ffd_resource_is_there(c, target))
         return compare_copy(kind, target, bytes, error);
     if (!c->output)
         return FFD_OK;
@@ -148,7 +153,8 @@ ffd_status ffd_resource_note(const resource_copier *c, const mesh_resource *reso
 static ffd_status copy_loaded(const resource_copier *c, const mesh_resource *resource,
                               const file_input *bytes, ffd_error *error)
 {
-    char *const target = ffd_path_join(c->to, resource->path);
+    char *const target =
+        c->sink_name ? ffd_path_beside(c->sink_name, resource->path) : ffd_path_join(c->to, resource->path);
     ffd_status status = target ? write_copy(c, resource->kind, target, bytes, error) : ffd_fail_memory(error);
     if (!status)
         status = ffd_resource_note(c, resource, error);
@@ -176,14 +182,20 @@ ffd_status ffd_resource_copy(const resource_copier *c, const mesh_resource *reso
     return status;
 }
 
+/* Whether a path of the output leads to a file that is there. */
+static bool meets(const resource_copier *c, const char *file, const char *target)
+{
+    return !c->sink_name && ffd_file_same(file, target);
+}
+
 ffd_status ffd_resource_check_target(const resource_copier *c, const mesh_resource *resource, bool is_copied,
                                      const char *target, ffd_error *error)
 {
     char *source = ffd_path_join(c->from, resource->path), *copy = ffd_path_join(c->to, resource->path);
     ffd_status status = source && copy ? FFD_OK : ffd_fail_memory(error);
     if (!status &&
-        (ffd_file_same(source, target) ||
-         (is_copied && (strcmp(resource->path, ffd_path_name(target)) == 0 || ffd_file_same(copy, target)))))
+        (meets(c, source, target) ||
+         (is_copied && (strcmp(resource->path, ffd_path_name(target)) == 0 || meets(c, copy, target)))))
         status = ffd_fail_file(error, FFD_E_EXISTS, target,
                                "is also the path of the %s \"%s\": give the output another name",
                                resource->kind->name, resource->path);

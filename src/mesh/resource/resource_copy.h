@@ -15,6 +15,7 @@
 typedef struct resource_copier {
     const char *mesh;      /* path of the mesh file */
     const char *from, *to; /* folders of the mesh file and of the output */
+    const char *sink_name; /* the output's name, if it goes to a callback: no file is there; else NULL */
     file_output *output;   /* NULL: only make the checks, copy nothing */
     const mesh_log *log;
     path_list
@@ -27,6 +28,8 @@ typedef struct resource_copier {
    set, the file is loaded, and the caller unloads it. Errors: FFD_E_MEMORY. */
 ffd_status ffd_resource_load(const resource_copier *copier, const mesh_resource *resource, file_input *bytes,
                              const char **left, ffd_error *refused, ffd_error *error);
+/* Whether there is a file at a path of the output. */
+bool ffd_resource_is_there(const resource_copier *copier, const char *target);
 /* Whether a file that is there is outside of the mesh's folder, by its path or by links. */
 bool ffd_resource_is_outside(const resource_copier *copier, const char *path);
 /* Copies a file to the same relative path in the output's folder, as a further file of copier->output. Logs a

@@ -316,7 +316,7 @@ static ffd_status leave_file(const resources *r, uint32_t uri, uint32_t extensio
     } else if (known->count > before) {
         char why[120];
         snprintf(why, sizeof why, "of %s", name);
-        status = ffd_left_add_unreached(left, r->to, path, why, error);
+        status = ffd_left_add_unreached(left, r->saver->options->to_sink ? NULL : r->to, path, why, error);
     }
     ffd_free(name);
     ffd_free(path);
@@ -362,7 +362,8 @@ static ffd_status warn_of_stream(gltf_saver *saver, ffd_error *error)
             status = ffd_resources_add(&images, &ffd_resource_image, i, path, error);
     }
     for (size_t i = 0; i < images.count && status == FFD_OK; i++)
-        status = ffd_left_add_unreached(&left, r.to, images.resources[i].path, "of images", error);
+        status = ffd_left_add_unreached(&left, saver->options->to_sink ? NULL : r.to,
+                                        images.resources[i].path, "of images", error);
     ffd_resources_free(&images);
     if (status == FFD_OK)
         status = leave_linked(&r, &left, error);
@@ -389,11 +390,12 @@ ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error)
     r.copier = (resource_copier){.mesh = d->path,
                                  .from = r.from,
                                  .to = r.to,
+                                 .sink_name = saver->options->to_sink ? saver->options->path : NULL,
                                  .output = saver->output,
                                  .log = saver->log,
                                  .copied = saver->options->copied};
     ffd_status status = r.from && r.to ? FFD_OK : ffd_fail_memory(error);
-    const bool stay = status == FFD_OK && (saver->in_place || ffd_file_same(r.from, r.to));
+    const bool stay = status == FFD_OK && (saver->in_place || ffd_save_meets(saver->options, r.from, r.to));
     const bool own_copies = stay || (copies && !embeds);
     for (size_t i = 0; i < d->image_values.count && status == FFD_OK; i++)
         status = refuse_image_name(&r, i, own_copies, error);

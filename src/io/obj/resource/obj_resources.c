@@ -115,8 +115,8 @@ static ffd_status bring(const resource_copier *c, const file_input *input, const
 }
 
 /* Adds the libraries that an output in folder `to` does not reach. name: of the mesh, for messages. */
-static ffd_status leave_libraries(const file_input *input, const char *name, const char *to, left_out *left,
-                                  ffd_error *error)
+static ffd_status leave_libraries(const file_input *input, const char *name, const char *to, bool to_sink,
+                                  left_out *left, ffd_error *error)
 {
     intern_table names = {0};
     ffd_status status = ffd_obj_list_libraries(input, name, &names, error);
@@ -124,7 +124,7 @@ static ffd_status leave_libraries(const file_input *input, const char *name, con
         char *path;
         status = ffd_obj_find_path(to, "", ffd_intern_key(&names, i), &path, error);
         if (!status && path)
-            status = ffd_left_add_unreached(left, to, path, "of mtllib", error);
+            status = ffd_left_add_unreached(left, to_sink ? NULL : to, path, "of mtllib", error);
         ffd_free(path);
     }
     ffd_intern_free(&names);
@@ -138,9 +138,10 @@ static ffd_status warn_of_stream(const file_input *input, bool names_files, cons
     const char *const mesh = ffd_file_display_name(options->input);
     left_out left = {0};
     char *const to = ffd_path_folder(options->path);
-    ffd_status status = to ? leave_libraries(input, mesh, to, &left, error) : ffd_fail_memory(error);
+    ffd_status status =
+        to ? leave_libraries(input, mesh, to, options->to_sink, &left, error) : ffd_fail_memory(error);
     if (!status && names_files)
-        status = ffd_obj_leave_linked(input, mesh, to, to, &left, error);
+        status = ffd_obj_leave_linked(input, mesh, to, options->to_sink ? NULL : to, &left, error);
     if (!status)
         ffd_left_say_of_stream(&left, log);
     ffd_free(to);
@@ -151,7 +152,8 @@ static ffd_status warn_of_stream(const file_input *input, bool names_files, cons
 static ffd_status warn_of_linked(const resource_copier *c, const file_input *input, ffd_error *error)
 {
     left_out left = {0};
-    const ffd_status status = ffd_obj_leave_linked(input, c->mesh, c->from, c->to, &left, error);
+    const ffd_status status =
+        ffd_obj_leave_linked(input, c->mesh, c->from, c->sink_name ? NULL : c->to, &left, error);
     if (!status)
         ffd_left_say(&left, "file that a statement names is not copied",
                      "files that statements name are not copied", c->log);
@@ -169,12 +171,13 @@ ffd_status ffd_obj_bring_resources(const file_input *input, bool names_files,
         return warn_of_stream(input, names_files, options, log, error);
     /* To look through a file that is in memory takes less than to ask the system for folders. */
     if ((!input->mapped && !names_files && !ffd_obj_names_libraries(input)) ||
-        ffd_file_same(mesh, options->path))
+        ffd_save_meets(options, mesh, options->path))
         return FFD_OK;
     char *const from = ffd_path_folder(mesh), *const to = ffd_path_folder(options->path);
-    const resource_copier copier = {mesh, from, to, output, log, options->copied};
+    const resource_copier copier = {mesh, from,           to, options->to_sink ? options->path : NULL, output,
+                                    log,  options->copied};
     ffd_status status = from && to ? FFD_OK : ffd_fail_memory(error);
-    const bool is_stay = !status && ffd_file_same(from, to);
+    const bool is_stay = !status && ffd_save_meets(options, from, to);
     /* In its own folder an output of another ending meets none of the names. */
     if (!status && (!is_stay || ffd_mtl_has_name(options->path) || ffd_image_has_name(options->path)))
         status = bring(&copier, input, options, is_stay, error);
