@@ -539,8 +539,8 @@ FFD_API void ffd_lattice_new_desc_init(ffd_lattice_new_desc *desc, size_t size);
 FFD_API ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *desc, ffd_error *error);
 
 /* Writes the figures of a result for people, as `ffd check` prints them, a line or two for each. lattice: the
-   name of the lattice result->folds.witness.lattice. *text ends with a line break and a 0 byte; the caller
-   frees it with ffd_text_free. Thread-safe. Errors: FFD_E_ARGUMENT, FFD_E_MEMORY. */
+   name of the lattice result->folds.witness.lattice, or NULL. *text ends with a line break and a 0 byte; the
+   caller frees it with ffd_text_free. Thread-safe. Errors: FFD_E_ARGUMENT, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_job_result_text(const ffd_job_result *result, const char *lattice, char **text,
                                        ffd_error *error);
 
