@@ -90,14 +90,14 @@ static void put_name(const char *name, byte_buffer *text)
    number. */
 static size_t add_accessor(clip_writer *w, size_t count, const char *extra)
 {
-    morph_data *const data = &w->file.data;
-    const gltf_document *const d = w->file.saver.document;
-    ffd_buffer_format(&data->accessors,
+    gltf_grown *const file = &w->file;
+    const gltf_document *const d = w->file.document;
+    ffd_buffer_format(&file->accessors,
                       "%s{\"bufferView\":%zu,\"byteOffset\":%zu,\"componentType\":5126,\"count\":%zu,"
                       "\"type\":\"SCALAR\"%s}",
-                      data->accessor_count > 0 ? "," : "", d->view_values.count, data->bytes.size, count,
+                      file->accessor_count > 0 ? "," : "", d->view_values.count, file->bytes.size, count,
                       extra);
-    return d->model.accessor_count + data->accessor_count++;
+    return d->model.accessor_count + file->accessor_count++;
 }
 
 static void add_times(clip_writer *w)
@@ -109,14 +109,14 @@ static void add_times(clip_writer *w)
     snprintf(bounds, sizeof bounds, ",\"min\":[%s],\"max\":[%s]", least, most);
     w->input = add_accessor(w, clip->key_count, bounds);
     for (size_t k = 0; k < clip->key_count; k++)
-        ffd_buffer_float(&w->file.data.bytes, (double)clip->times[k]);
+        ffd_buffer_float(&w->file.bytes, (double)clip->times[k]);
 }
 
 /* Finds the targets of a mesh that the clip drives, and their names in the clip. Returns whether there are
    any. */
 static bool find_driven(clip_writer *w, size_t mesh, uint32_t *names, size_t count)
 {
-    const gltf_document *const d = w->file.saver.document;
+    const gltf_document *const d = w->file.document;
     uint32_t *const values = ffd_gltf_list_target_names(d, mesh);
     bool any = false, failed = !values;
     for (size_t t = 0; t < count; t++) {
@@ -129,7 +129,7 @@ static bool find_driven(clip_writer *w, size_t mesh, uint32_t *names, size_t cou
         ffd_free(name);
     }
     ffd_free(values);
-    w->file.saver.edits.failed = w->file.saver.edits.failed || failed;
+    w->file.edits.failed = w->file.edits.failed || failed;
     /* Further targets are known by their places: extras may have no room for their names. */
     for (size_t k = 0; k < w->target_count; k++) {
         const size_t place = w->targets[k].places[mesh];
@@ -166,12 +166,12 @@ static bool put_weights(clip_writer *w, const uint32_t *names, size_t count, uin
     double *const weights = ffd_alloc_zero(clip->names.count, sizeof *weights); /* of one key, by name */
     const bool done = row && weights;
     if (done)
-        find_defaults(w->file.saver.document, names, count, default_value, row);
+        find_defaults(w->file.document, names, count, default_value, row);
     for (size_t k = 0; done && k < clip->key_count; k++) {
         for (size_t i = clip->starts[k]; i < clip->starts[k + 1]; i++)
             weights[clip->weights[i].target] = clip->weights[i].weight;
         for (size_t t = 0; t < count; t++)
-            ffd_buffer_float(&w->file.data.bytes, names[t] < IS_ZERO ? weights[names[t]] : row[t]);
+            ffd_buffer_float(&w->file.bytes, names[t] < IS_ZERO ? weights[names[t]] : row[t]);
         for (size_t i = clip->starts[k]; i < clip->starts[k + 1]; i++)
             weights[clip->weights[i].target] = 0;
     }
@@ -198,7 +198,7 @@ static ffd_status add_sampler(clip_writer *w, const uint32_t *names, size_t coun
 /* Adds a channel for a node if the clip drives targets of its mesh. names: room for one per target. */
 static ffd_status add_channel(clip_writer *w, size_t node, uint32_t *names)
 {
-    const gltf_document *const d = w->file.saver.document;
+    const gltf_document *const d = w->file.document;
     if (d->model.nodes[node].mesh < 0)
         return FFD_OK;
     const size_t mesh = (size_t)d->model.nodes[node].mesh, count = ffd_gltf_target_count(d, mesh);
@@ -222,7 +222,7 @@ static ffd_status add_channel(clip_writer *w, size_t node, uint32_t *names)
 /* Returns the animation of the clip's name; JSON_NONE: none. */
 static uint32_t find_animation(const clip_writer *w, uint32_t animations)
 {
-    const json_span *const tree = &w->file.saver.document->tree;
+    const json_span *const tree = &w->file.document->tree;
     for (uint32_t v = ffd_json_span_first(tree, animations); v != JSON_NONE;
          v = ffd_json_span_after(tree, v)) {
         const uint32_t name = ffd_json_span_member(tree, v, "name");
@@ -253,21 +253,21 @@ static ffd_status warn_of_replaced(clip_writer *w, uint32_t old, const char *nam
     char left[80] = "";
     uint64_t bytes;
     w->replaced.values[w->replaced.count++] = old;
-    if (!count_own_bytes(w->file.saver.document, old, &w->replaced, &bytes))
+    if (!count_own_bytes(w->file.document, old, &w->replaced, &bytes))
         return ffd_fail_memory(w->error);
     w->bytes_left += bytes;
     if (bytes > 0)
         snprintf(left, sizeof left, "; %" PRIu64 " bytes that only it used stay in the file", bytes);
-    ffd_log_line(w->file.saver.log, FFD_LOG_WARNING, "has an animation \"%s\" already: it is replaced%s",
-                 name, left);
+    ffd_log_line(w->file.log, FFD_LOG_WARNING, "has an animation \"%s\" already: it is replaced%s", name,
+                 left);
     return FFD_OK;
 }
 
 /* Replaces the animation of the clip's name, or adds the clip to the new animations. */
 static ffd_status place_clip(clip_writer *w, uint32_t animations)
 {
-    gltf_saver *const saver = &w->file.saver;
-    const json_span *const tree = &saver->document->tree;
+    gltf_grown *const file = &w->file;
+    const json_span *const tree = &file->document->tree;
     const uint32_t old = find_animation(w, animations);
     char shown[80];
     byte_buffer text = {0};
@@ -284,12 +284,11 @@ static ffd_status place_clip(clip_writer *w, uint32_t animations)
     ffd_buffer_text(&text, "]}");
     text.failed = text.failed || w->channel_text.failed || w->sampler_text.failed;
     if (old != JSON_NONE && !text.failed)
-        ffd_edits_replace(&saver->edits, tree->values[old].begin, tree->values[old].end, text.data,
-                          text.size);
+        ffd_edits_replace(&file->edits, tree->values[old].begin, tree->values[old].end, text.data, text.size);
     else if (!text.failed)
         ffd_buffer_append(&w->added, text.data, text.size);
-    saver->edits.failed = saver->edits.failed || text.failed || w->added.failed;
-    ffd_log_line(saver->log, FFD_LOG_INFO, "animation \"%s\": %zu %s of %zu %s", shown, w->clip->key_count,
+    file->edits.failed = file->edits.failed || text.failed || w->added.failed;
+    ffd_log_line(file->log, FFD_LOG_INFO, "animation \"%s\": %zu %s of %zu %s", shown, w->clip->key_count,
                  ffd_plural(w->clip->key_count, "key", "keys"), w->channel_count,
                  ffd_plural(w->channel_count, "node", "nodes"));
     ffd_buffer_free(&text);
@@ -298,7 +297,7 @@ static ffd_status place_clip(clip_writer *w, uint32_t animations)
 
 static ffd_status add_clip(clip_writer *w, const morph_clip *clip, uint32_t *names, uint32_t animations)
 {
-    const gltf_document *const d = w->file.saver.document;
+    const gltf_document *const d = w->file.document;
     char shown[80];
     ffd_status status = FFD_OK;
     w->clip = clip;
@@ -313,14 +312,14 @@ static ffd_status add_clip(clip_writer *w, const morph_clip *clip, uint32_t *nam
     ffd_name_shown(clip->name, shown, sizeof shown);
     if (w->channel_count > 0)
         return place_clip(w, animations);
-    ffd_log_line(w->file.saver.log, FFD_LOG_WARNING,
+    ffd_log_line(w->file.log, FFD_LOG_WARNING,
                  "no node has a morph target for the animation \"%s\": it is left out", shown);
     return FFD_OK;
 }
 
 static ffd_status add_all(clip_writer *w, const morph_clip *clips, size_t count, file_input *made)
 {
-    const gltf_document *const d = w->file.saver.document;
+    const gltf_document *const d = w->file.document;
     const uint32_t animations = ffd_json_span_member(&d->tree, 0, "animations");
     size_t most = 0;
     for (size_t m = 0; m < d->model.mesh_count; m++)
@@ -332,12 +331,12 @@ static ffd_status add_all(clip_writer *w, const morph_clip *clips, size_t count,
     for (size_t c = 0; c < count && !status; c++)
         status = add_clip(w, &clips[c], names, animations);
     ffd_free(names);
-    if (status || w->file.data.accessor_count == 0)
+    if (status || w->file.accessor_count == 0)
         return status;
     if (animations == JSON_NONE)
-        ffd_gltf_add_elements(&w->file.saver, &(gltf_values){0}, "animations", &w->added);
+        ffd_gltf_add_elements(d, &(gltf_values){0}, "animations", &w->added, &w->file.edits);
     else if (w->added.size > 0)
-        ffd_gltf_insert_last(&w->file.saver, animations, &w->added);
+        ffd_gltf_insert_last(d, animations, &w->added, &w->file.edits);
     return ffd_gltf_grown_write(&w->file, made, w->error);
 }
 
@@ -345,7 +344,7 @@ ffd_status ffd_gltf_add_clips(const gltf_document *d, const morph_clip *clips, s
                               const clip_target *targets, size_t target_count, const mesh_log *log,
                               file_input *made, uint64_t *bytes_left, ffd_error *error)
 {
-    clip_writer w = {.file.saver = {.document = d, .log = log},
+    clip_writer w = {.file = {.document = d, .log = log},
                      .budget = d->base.budget,
                      .targets = targets,
                      .target_count = target_count,

@@ -18,14 +18,14 @@ static size_t bin_end(const gltf_document *d)
 
 static void write_buffer(gltf_grown *w, byte_buffer *text)
 {
-    const size_t size = w->data.bytes.size, length = ffd_base64_length(size);
+    const size_t size = w->bytes.size, length = ffd_base64_length(size);
     ffd_buffer_format(text, "{\"byteLength\":%zu,\"uri\":\"data:application/octet-stream;base64,", size);
     char *encoded = ffd_alloc(length, 1);
     if (!encoded) {
         text->failed = true;
         return;
     }
-    ffd_base64_encode((const unsigned char *)w->data.bytes.data, size, encoded);
+    ffd_base64_encode((const unsigned char *)w->bytes.data, size, encoded);
     ffd_buffer_append(text, encoded, length);
     ffd_buffer_text(text, "\"}");
     ffd_free(encoded);
@@ -34,23 +34,22 @@ static void write_buffer(gltf_grown *w, byte_buffer *text)
 /* Adds a bufferView of the new bytes: in the BIN chunk if the file has one, else in a new buffer. */
 static void add_bytes(gltf_grown *w)
 {
-    gltf_saver *saver = &w->saver;
-    const gltf_document *d = saver->document;
+    const gltf_document *d = w->document;
     const bool bin = extends_bin(d);
     byte_buffer view = {0}, buffer = {0};
-    if (w->data.bytes.size == 0)
+    if (w->bytes.size == 0)
         return;
     ffd_buffer_format(&view, "{\"buffer\":%zu,\"byteOffset\":%zu,\"byteLength\":%zu}",
-                      bin ? 0 : d->buffer_values.count, bin ? bin_end(d) : 0, w->data.bytes.size);
-    ffd_gltf_add_elements(saver, &d->view_values, "bufferViews", &view);
+                      bin ? 0 : d->buffer_values.count, bin ? bin_end(d) : 0, w->bytes.size);
+    ffd_gltf_add_elements(d, &d->view_values, "bufferViews", &view, &w->edits);
     if (bin) {
         const uint32_t length = ffd_json_span_member(&d->tree, d->buffer_values.values[0], "byteLength");
         if (length != JSON_NONE)
-            ffd_edits_format(&saver->edits, d->tree.values[length].begin, d->tree.values[length].end, "%zu",
-                             bin_end(d) + w->data.bytes.size);
+            ffd_edits_format(&w->edits, d->tree.values[length].begin, d->tree.values[length].end, "%zu",
+                             bin_end(d) + w->bytes.size);
     } else {
         write_buffer(w, &buffer);
-        ffd_gltf_add_elements(saver, &d->buffer_values, "buffers", &buffer);
+        ffd_gltf_add_elements(d, &d->buffer_values, "buffers", &buffer, &w->edits);
     }
     ffd_buffer_free(&view);
     ffd_buffer_free(&buffer);
@@ -65,8 +64,8 @@ static void pad(byte_buffer *out, const char *with)
 /* Writes the container around a new JSON text. */
 static void write_glb(const gltf_grown *w, byte_buffer *json, byte_buffer *out)
 {
-    const gltf_document *d = w->saver.document;
-    const bool grows = extends_bin(d) && w->data.bytes.size > 0;
+    const gltf_document *d = w->document;
+    const bool grows = extends_bin(d) && w->bytes.size > 0;
     pad(json, " ");
     ffd_buffer_u32(out, GLB_MAGIC);
     ffd_buffer_u32(out, GLB_VERSION);
@@ -76,12 +75,12 @@ static void write_glb(const gltf_grown *w, byte_buffer *json, byte_buffer *out)
     ffd_buffer_append(out, json->data, json->size);
     if (d->glb.has_bin) {
         const size_t kept = grows ? d->buffers[0].length : d->glb.bin_size;
-        ffd_buffer_u32(out, (uint32_t)(grows ? ffd_gltf_align(bin_end(d) + w->data.bytes.size) : kept));
+        ffd_buffer_u32(out, (uint32_t)(grows ? ffd_gltf_align(bin_end(d) + w->bytes.size) : kept));
         ffd_buffer_u32(out, GLB_CHUNK_BIN);
         ffd_buffer_append(out, d->input.data + d->glb.bin_begin, kept);
         if (grows) {
             pad(out, "");
-            ffd_buffer_append(out, w->data.bytes.data, w->data.bytes.size);
+            ffd_buffer_append(out, w->bytes.data, w->bytes.size);
             pad(out, "");
         }
     }
@@ -92,14 +91,14 @@ static void write_glb(const gltf_grown *w, byte_buffer *json, byte_buffer *out)
 
 static ffd_status write_file(gltf_grown *w, file_input *made, ffd_error *error)
 {
-    const gltf_document *d = w->saver.document;
+    const gltf_document *d = w->document;
     byte_buffer text = {0}, glb = {0}, *const file = d->binary ? &glb : &text;
     ffd_status status = FFD_OK;
-    ffd_edits_sort(&w->saver.edits);
-    ffd_edits_apply(&w->saver.edits, d->tree.text, 0, (uint32_t)d->tree.size, &text);
+    ffd_edits_sort(&w->edits);
+    ffd_edits_apply(&w->edits, d->tree.text, 0, (uint32_t)d->tree.size, &text);
     if (d->binary && !text.failed)
         write_glb(w, &text, &glb);
-    if (text.failed || glb.failed || w->data.bytes.failed)
+    if (text.failed || glb.failed || w->bytes.failed)
         status = ffd_fail_memory(error);
     else if (file->size > UINT32_MAX)
         status = ffd_fail_file(error, FFD_E_LIMIT, d->name, "would have more than 4294967295 bytes");
@@ -115,14 +114,14 @@ static ffd_status write_file(gltf_grown *w, file_input *made, ffd_error *error)
 
 ffd_status ffd_gltf_grown_write(gltf_grown *w, file_input *made, ffd_error *error)
 {
-    ffd_gltf_add_elements(&w->saver, &w->saver.document->accessor_values, "accessors", &w->data.accessors);
+    ffd_gltf_add_elements(w->document, &w->document->accessor_values, "accessors", &w->accessors, &w->edits);
     add_bytes(w);
     return write_file(w, made, error);
 }
 
 void ffd_gltf_grown_free(gltf_grown *w)
 {
-    ffd_buffer_free(&w->data.accessors);
-    ffd_buffer_free(&w->data.bytes);
-    ffd_edits_free(&w->saver.edits);
+    ffd_buffer_free(&w->accessors);
+    ffd_buffer_free(&w->bytes);
+    ffd_edits_free(&w->edits);
 }

@@ -3,19 +3,17 @@
 #ifndef FFD_IO_GLTF_MORPH_GLTF_GROWN_H
 #define FFD_IO_GLTF_MORPH_GLTF_GROWN_H
 
-#include "io/gltf/save/gltf_saver.h"
+#include "io/gltf/document/gltf_document.h"
+#include "json/json_edit.h"
 
-/* The additions to the file. */
-typedef struct morph_data {
+/* The edits of the file's JSON, and the additions to it. */
+typedef struct gltf_grown {
+    const gltf_document *document;
+    const mesh_log *log;
+    json_edits edits;
     byte_buffer accessors; /* the JSON of new accessors, with commas */
     size_t accessor_count; /* in accessors */
     byte_buffer bytes;     /* new animation data, in one new bufferView */
-} morph_data;
-
-/* saver: only its edits of the JSON are used. */
-typedef struct gltf_grown {
-    gltf_saver saver;
-    morph_data data;
 } gltf_grown;
 
 /* Makes the file; call it after all edits. The caller owns *made. Errors: FFD_E_MEMORY, FFD_E_LIMIT. */

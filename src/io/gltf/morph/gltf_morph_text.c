@@ -18,30 +18,30 @@ typedef struct morph_writer {
     bool loses;                 /* whether unselected nodes of the current mesh lose old offsets */
 } morph_writer;
 
-static bool is_array(const gltf_saver *saver, uint32_t value)
+static bool is_array(const gltf_document *d, uint32_t value)
 {
-    return value != JSON_NONE && saver->document->tree.values[value].kind == JSON_ARRAY;
+    return value != JSON_NONE && d->tree.values[value].kind == JSON_ARRAY;
 }
 
 /* Returns the new accessor of zeros for the offsets of an accessor's elements. */
 static size_t zeros_for(morph_writer *w, size_t accessor, int kind)
 {
-    const gltf_document *d = w->file.saver.document;
+    const gltf_document *d = w->file.document;
     size_t *number = &w->zeros[kind][accessor];
     if (*number != GLTF_NONE)
         return *number;
-    ffd_buffer_format(
-        &w->file.data.accessors, "%s{\"componentType\":5126,\"count\":%llu,\"type\":\"VEC3\"%s}",
-        w->file.data.accessor_count > 0 ? "," : "", (unsigned long long)d->model.accessors[accessor].count,
-        kind == ZEROS_DIRECTIONS ? "" : ",\"min\":[0,0,0],\"max\":[0,0,0]");
-    *number = d->model.accessor_count + w->file.data.accessor_count++;
+    ffd_buffer_format(&w->file.accessors, "%s{\"componentType\":5126,\"count\":%llu,\"type\":\"VEC3\"%s}",
+                      w->file.accessor_count > 0 ? "," : "",
+                      (unsigned long long)d->model.accessors[accessor].count,
+                      kind == ZEROS_DIRECTIONS ? "" : ",\"min\":[0,0,0],\"max\":[0,0,0]");
+    *number = d->model.accessor_count + w->file.accessor_count++;
     return *number;
 }
 
 /* Returns the accessor for an attribute of a target: that of the replaced target if it can be reused. */
 static size_t accessor_for(morph_writer *w, const morph_place *place)
 {
-    const gltf_document *d = w->file.saver.document;
+    const gltf_document *d = w->file.document;
     const gltf_primitive *const primitive = &d->model.meshes[place->mesh].primitives[place->primitive];
     if (place->target < primitive->target_count &&
         ffd_gltf_can_reuse(d, w->users, place, w->request->source, w->request->morph))
@@ -54,7 +54,7 @@ static size_t accessor_for(morph_writer *w, const morph_place *place)
 static bool loses_offsets(const morph_writer *w, const morph_place *place, size_t accessor)
 {
     const gltf_primitive *const primitive =
-        &w->file.saver.document->model.meshes[place->mesh].primitives[place->primitive];
+        &w->file.document->model.meshes[place->mesh].primitives[place->primitive];
     const int old = place->target < primitive->target_count
                         ? primitive->target_accessors[GLTF_DEFORMED * place->target + place->semantic]
                         : -1;
@@ -65,7 +65,7 @@ static bool loses_offsets(const morph_writer *w, const morph_place *place, size_
 /* Writes a target. It has normals and tangents only if these are deformed. */
 static void write_target(morph_writer *w, size_t mesh, size_t p, size_t target, byte_buffer *text)
 {
-    const gltf_document *d = w->file.saver.document;
+    const gltf_document *d = w->file.document;
     const gltf_primitive *const primitive = &d->model.meshes[mesh].primitives[p];
     const bool wanted[GLTF_DEFORMED] = {true, w->request->morph->normals,
                                         w->request->morph->normals && primitive->accessor[GLTF_NORMAL] >= 0};
@@ -86,13 +86,13 @@ static void write_target(morph_writer *w, size_t mesh, size_t p, size_t target, 
 
 static void replace_target(morph_writer *w, size_t mesh, size_t p, size_t target, uint32_t targets)
 {
-    const json_span *const tree = &w->file.saver.document->tree;
+    const json_span *const tree = &w->file.document->tree;
     const json_value *const value = &tree->values[ffd_json_span_element(tree, targets, target)];
     byte_buffer text = {0};
     write_target(w, mesh, p, target, &text);
     if (!text.failed)
-        ffd_edits_replace(&w->file.saver.edits, value->begin, value->end, text.data, text.size);
-    w->file.saver.edits.failed = w->file.saver.edits.failed || text.failed;
+        ffd_edits_replace(&w->file.edits, value->begin, value->end, text.data, text.size);
+    w->file.edits.failed = w->file.edits.failed || text.failed;
     ffd_buffer_free(&text);
 }
 
@@ -109,7 +109,7 @@ static void write_gap(morph_writer *w, const gltf_primitive *primitive, byte_buf
 /* The target has the same place in all primitives of a mesh, also in those with fewer targets than others. */
 static void add_to_primitive(morph_writer *w, size_t mesh, size_t p)
 {
-    const gltf_document *d = w->file.saver.document;
+    const gltf_document *d = w->file.document;
     const gltf_primitive *const primitive = &d->model.meshes[mesh].primitives[p];
     const uint32_t value = ffd_gltf_primitive_value(d, mesh, p);
     const uint32_t targets = ffd_json_span_member(&d->tree, value, "targets");
@@ -126,29 +126,30 @@ static void add_to_primitive(morph_writer *w, size_t mesh, size_t p)
     write_target(w, mesh, p, place, &text);
     if (targets == JSON_NONE)
         ffd_buffer_text(&text, "]");
-    ffd_gltf_insert_last(&w->file.saver, targets == JSON_NONE ? value : targets, &text);
+    ffd_gltf_insert_last(d, targets == JSON_NONE ? value : targets, &text, &w->file.edits);
     ffd_buffer_free(&text);
 }
 
 /* Adds a weight 0, or puts it in the place of one that no target had. targets: how many there are. make: also
    if there are no weights yet, as for a mesh; a node needs none of its own. */
-static void add_weights(gltf_saver *saver, uint32_t value, size_t targets, bool make)
+static void add_weights(gltf_grown *file, uint32_t value, size_t targets, bool make)
 {
-    const json_span *const tree = &saver->document->tree;
+    const gltf_document *const d = file->document;
+    const json_span *const tree = &d->tree;
     const uint32_t weights = ffd_json_span_member(tree, value, "weights");
     byte_buffer text = {0};
-    if (is_array(saver, weights) && tree->values[weights].count > targets) {
+    if (is_array(d, weights) && tree->values[weights].count > targets) {
         const json_value *const old = &tree->values[ffd_json_span_element(tree, weights, targets)];
-        ffd_edits_replace(&saver->edits, old->begin, old->end, "0", 1);
-    } else if (is_array(saver, weights)) {
+        ffd_edits_replace(&file->edits, old->begin, old->end, "0", 1);
+    } else if (is_array(d, weights)) {
         ffd_buffer_text(&text, "0");
-        ffd_gltf_insert_last(saver, weights, &text);
+        ffd_gltf_insert_last(d, weights, &text, &file->edits);
     } else if (weights == JSON_NONE && make) {
         ffd_buffer_text(&text, "\"weights\":[");
         for (size_t t = 0; t < targets; t++)
             ffd_buffer_text(&text, "0,");
         ffd_buffer_text(&text, "0]");
-        ffd_gltf_insert_last(saver, value, &text);
+        ffd_gltf_insert_last(d, value, &text, &file->edits);
     }
     ffd_buffer_free(&text);
 }
@@ -156,21 +157,21 @@ static void add_weights(gltf_saver *saver, uint32_t value, size_t targets, bool 
 static void tell_replaced(morph_writer *w, size_t mesh)
 {
     size_t target, found;
-    if (!ffd_gltf_find_target(w->file.saver.document, mesh, w->request->morph->name, &target, &found))
-        w->file.saver.edits.failed = true;
+    if (!ffd_gltf_find_target(w->file.document, mesh, w->request->morph->name, &target, &found))
+        w->file.edits.failed = true;
     const char *const loses = w->loses ? ", and nodes that are not selected lose its offsets, too" : "";
     if (found > 1)
-        ffd_log_line(w->file.saver.log, FFD_LOG_WARNING,
+        ffd_log_line(w->file.log, FFD_LOG_WARNING,
                      "mesh %zu has %zu morph targets of that name already: the first is replaced%s", mesh,
                      found, loses);
     else
-        ffd_log_line(w->file.saver.log, FFD_LOG_WARNING,
+        ffd_log_line(w->file.log, FFD_LOG_WARNING,
                      "mesh %zu has a morph target of that name already: it is replaced%s", mesh, loses);
 }
 
 static void add_to_meshes(morph_writer *w)
 {
-    const gltf_document *d = w->file.saver.document;
+    const gltf_document *d = w->file.document;
     for (size_t m = 0; m < d->model.mesh_count; m++) {
         if (!w->request->meshes[m])
             continue;
@@ -181,12 +182,12 @@ static void add_to_meshes(morph_writer *w)
             tell_replaced(w, m);
             continue;
         }
-        add_weights(&w->file.saver, d->mesh_values.values[m], ffd_gltf_target_count(d, m), true);
-        ffd_gltf_add_target_name(&w->file.saver, m, w->request->morph->name);
+        add_weights(&w->file, d->mesh_values.values[m], ffd_gltf_target_count(d, m), true);
+        ffd_gltf_add_target_name(&w->file, m, w->request->morph->name);
     }
     for (size_t n = 0; n < d->model.node_count; n++)
         if (d->model.nodes[n].mesh >= 0 && w->grow[d->model.nodes[n].mesh])
-            add_weights(&w->file.saver, d->node_values.values[n],
+            add_weights(&w->file, d->node_values.values[n],
                         ffd_gltf_target_count(d, (size_t)d->model.nodes[n].mesh), false);
 }
 
@@ -212,7 +213,7 @@ ffd_status ffd_gltf_add_target(const gltf_document *d, const morph_request *requ
                                ffd_error *error)
 {
     const size_t count = d->model.accessor_count;
-    morph_writer w = {.file.saver = {.document = d, .log = request->log}, .request = request};
+    morph_writer w = {.file = {.document = d, .log = request->log}, .request = request};
     ffd_status status = limit_gaps(d, request, error);
     if (status)
         return status;
@@ -229,7 +230,7 @@ ffd_status ffd_gltf_add_target(const gltf_document *d, const morph_request *requ
     }
     if (made_all) {
         add_to_meshes(&w);
-        ffd_gltf_extend_weights(&w.file.saver, w.grow, &w.file.data);
+        ffd_gltf_extend_weights(&w.file, w.grow);
         status = ffd_gltf_grown_write(&w.file, made, error);
     } else {
         status = ffd_fail_memory(error);

@@ -39,9 +39,8 @@ typedef struct channel_note {
 } channel_note;
 
 typedef struct weight_writer {
-    gltf_saver *saver;
+    gltf_grown *file;
     const bool *meshes;
-    morph_data *data;
     channel_note stale; /* their weights are not one for each morph target */
     channel_note odd;   /* likewise, and they are left as they are */
 } weight_writer;
@@ -55,11 +54,11 @@ size_t ffd_gltf_target_count(const gltf_document *d, size_t mesh)
     return count;
 }
 
-static bool read_index(const gltf_saver *saver, uint32_t object, const char *key, size_t count, size_t *index)
+static bool read_index(const gltf_grown *file, uint32_t object, const char *key, size_t count, size_t *index)
 {
     double number;
-    if (!ffd_json_span_number(&saver->document->tree,
-                              ffd_json_span_member(&saver->document->tree, object, key), &number) ||
+    if (!ffd_json_span_number(&file->document->tree, ffd_json_span_member(&file->document->tree, object, key),
+                              &number) ||
         !(number >= 0 && number < (double)count) || floor(number) < number)
         return false;
     *index = (size_t)number;
@@ -95,9 +94,9 @@ static driven follow_pointer(const gltf_document *d, const char *pointer)
     return what;
 }
 
-static driven find_target(gltf_saver *saver, uint32_t target)
+static driven find_target(gltf_grown *file, uint32_t target)
 {
-    const gltf_document *d = saver->document;
+    const gltf_document *d = file->document;
     driven what = {GLTF_NONE, GLTF_NONE};
     const uint32_t pointer =
         ffd_json_span_member(&d->tree, ffd_gltf_extension(d, target, "KHR_animation_pointer"), "pointer");
@@ -105,14 +104,14 @@ static driven find_target(gltf_saver *saver, uint32_t target)
         char *text = ffd_json_span_string(&d->tree, pointer, NULL);
         if (text)
             what = follow_pointer(d, text);
-        saver->edits.failed = saver->edits.failed || !text;
+        file->edits.failed = file->edits.failed || !text;
         ffd_free(text);
         return what;
     }
     const uint32_t path = ffd_json_span_member(&d->tree, target, "path");
     size_t node;
     if (path != JSON_NONE && ffd_json_span_string_is(&d->tree, path, "weights") &&
-        read_index(saver, target, "node", d->model.node_count, &node) && d->model.nodes[node].mesh >= 0)
+        read_index(file, target, "node", d->model.node_count, &node) && d->model.nodes[node].mesh >= 0)
         what.mesh = (size_t)d->model.nodes[node].mesh;
     return what;
 }
@@ -126,9 +125,9 @@ static void end_animation(animation *a)
     ffd_free(a->outputs);
 }
 
-static bool begin_animation(const gltf_saver *saver, uint32_t value, animation *a)
+static bool begin_animation(const gltf_grown *file, uint32_t value, animation *a)
 {
-    const json_span *tree = &saver->document->tree;
+    const json_span *tree = &file->document->tree;
     a->samplers = ffd_json_span_member(tree, value, "samplers");
     a->channels = ffd_json_span_member(tree, value, "channels");
     a->sampler_count = ffd_json_span_count(tree, a->samplers);
@@ -169,18 +168,18 @@ static size_t want_output(animation *a, size_t sampler, size_t targets, bool is_
 /* Finds the channels that drive weights of the meshes. */
 static bool find_drivers(const weight_writer *w, animation *a)
 {
-    gltf_saver *const saver = w->saver;
-    const json_span *tree = &saver->document->tree;
+    gltf_grown *const file = w->file;
+    const json_span *tree = &file->document->tree;
     size_t c = 0;
     for (uint32_t v = ffd_json_span_first(tree, a->channels); v != JSON_NONE;
          v = ffd_json_span_after(tree, v), c++) {
         size_t sampler;
         a->wanted[c] = GLTF_NONE;
-        if (!read_index(saver, v, "sampler", a->sampler_count, &sampler))
+        if (!read_index(file, v, "sampler", a->sampler_count, &sampler))
             continue;
-        const driven what = find_target(saver, ffd_json_span_member(tree, v, "target"));
+        const driven what = find_target(file, ffd_json_span_member(tree, v, "target"));
         const bool grows = what.mesh != GLTF_NONE && w->meshes[what.mesh];
-        const size_t targets = grows ? ffd_gltf_target_count(saver->document, what.mesh) : 0;
+        const size_t targets = grows ? ffd_gltf_target_count(file->document, what.mesh) : 0;
         if (grows && (what.weight == GLTF_NONE || what.weight == targets)) {
             a->wanted[c] = want_output(a, sampler, targets, what.weight != GLTF_NONE);
             if (a->wanted[c] == GLTF_NONE)
@@ -201,21 +200,21 @@ typedef struct output_rows {
 
 /* Finds the layout of the output that a sampler has, for weights of the targets. Returns false if it is
    unknown. */
-static bool find_rows(const gltf_saver *saver, uint32_t sampler, const wanted_output *wanted,
+static bool find_rows(const gltf_grown *file, uint32_t sampler, const wanted_output *wanted,
                       output_rows *layout)
 {
-    const gltf_document *d = saver->document;
+    const gltf_document *d = file->document;
     const uint32_t interpolation = ffd_json_span_member(&d->tree, sampler, "interpolation");
     const bool cubic =
         interpolation != JSON_NONE && ffd_json_span_string_is(&d->tree, interpolation, "CUBICSPLINE");
     size_t input;
-    if (!read_index(saver, sampler, "output", d->model.accessor_count, &layout->accessor))
+    if (!read_index(file, sampler, "output", d->model.accessor_count, &layout->accessor))
         return false;
     const gltf_accessor *const old = &d->model.accessors[layout->accessor];
     const size_t count = (size_t)old->count, parts = cubic ? 3 : 1, row = parts * wanted->targets;
     if (count == 0 || old->columns * old->rows != 1 || !d->layouts[layout->accessor].readable)
         return false;
-    const size_t keys = read_index(saver, sampler, "input", d->model.accessor_count, &input)
+    const size_t keys = read_index(file, sampler, "input", d->model.accessor_count, &input)
                             ? (size_t)d->model.accessors[input].count
                             : 0;
     const bool is_whole = keys > 0 && count % keys == 0 && count / keys % parts == 0;
@@ -232,31 +231,31 @@ static bool find_rows(const gltf_saver *saver, uint32_t sampler, const wanted_ou
    the old output has for them, and zeros. Zeros alone need no bytes. */
 static void write_output(const weight_writer *w, const output_rows *old, wanted_output *wanted)
 {
-    const gltf_document *d = w->saver->document;
-    morph_data *const data = w->data;
+    const gltf_document *d = w->file->document;
+    gltf_grown *const file = w->file;
     const size_t kept = wanted->is_single ? 0 : old->width < wanted->targets ? old->width : wanted->targets;
     const size_t width = wanted->is_single ? 1 : wanted->targets + 1;
     const size_t count = (size_t)d->model.accessors[old->accessor].count;
-    ffd_buffer_text(&data->accessors, data->accessor_count > 0 ? ",{" : "{");
+    ffd_buffer_text(&file->accessors, file->accessor_count > 0 ? ",{" : "{");
     if (kept > 0)
-        ffd_buffer_format(&data->accessors, "\"bufferView\":%zu,\"byteOffset\":%zu,", d->view_values.count,
-                          data->bytes.size);
-    ffd_buffer_format(&data->accessors, "\"componentType\":5126,\"count\":%zu,\"type\":\"SCALAR\"}",
+        ffd_buffer_format(&file->accessors, "\"bufferView\":%zu,\"byteOffset\":%zu,", d->view_values.count,
+                          file->bytes.size);
+    ffd_buffer_format(&file->accessors, "\"componentType\":5126,\"count\":%zu,\"type\":\"SCALAR\"}",
                       old->rows * width);
-    for (size_t r = 0; r < old->rows && kept > 0 && !data->bytes.failed; r++)
+    for (size_t r = 0; r < old->rows && kept > 0 && !file->bytes.failed; r++)
         for (size_t i = 0; i < width; i++) {
             double value = 0;
             if (i < kept && r * old->width + i < count) /* the last rows may lack some */
                 ffd_gltf_read(d, old->accessor, r * old->width + i, 1, 1, &value);
-            ffd_buffer_float(&data->bytes, value);
+            ffd_buffer_float(&file->bytes, value);
         }
-    wanted->made = d->model.accessor_count + data->accessor_count++;
+    wanted->made = d->model.accessor_count + file->accessor_count++;
 }
 
 /* Returns the first channel that has a wanted output. */
 static uint32_t first_channel(const weight_writer *w, const animation *a, size_t wanted)
 {
-    const json_span *tree = &w->saver->document->tree;
+    const json_span *tree = &w->file->document->tree;
     size_t c = 0;
     uint32_t v = ffd_json_span_first(tree, a->channels);
     while (a->wanted[c] != wanted) {
@@ -281,7 +280,7 @@ static void make_outputs(weight_writer *w, animation *a)
         for (size_t i = a->first[s]; i != GLTF_NONE; i = a->outputs[i].next) {
             wanted_output *const wanted = &a->outputs[i];
             output_rows old;
-            if (!find_rows(w->saver, a->sampler_values[s], wanted, &old)) {
+            if (!find_rows(w->file, a->sampler_values[s], wanted, &old)) {
                 a->others[s] = true;
                 note(w, a, i, &w->odd);
                 continue;
@@ -293,10 +292,10 @@ static void make_outputs(weight_writer *w, animation *a)
 }
 
 /* Appends the text of a JSON value in which one number is replaced. */
-static void copy_with_number(const gltf_saver *saver, uint32_t value, uint32_t number, size_t with,
+static void copy_with_number(const gltf_grown *file, uint32_t value, uint32_t number, size_t with,
                              byte_buffer *text)
 {
-    const json_span *tree = &saver->document->tree;
+    const json_span *tree = &file->document->tree;
     const json_value *whole = &tree->values[value], *part = &tree->values[number];
     ffd_buffer_append(text, tree->text + whole->begin, part->begin - whole->begin);
     ffd_buffer_format(text, "%zu", with);
@@ -305,9 +304,9 @@ static void copy_with_number(const gltf_saver *saver, uint32_t value, uint32_t n
 
 /* Gives samplers their new outputs: the first one to the sampler itself, unless it also drives something
    else, and the others to copies of it. */
-static void place_outputs(gltf_saver *saver, animation *a)
+static void place_outputs(gltf_grown *file, animation *a)
 {
-    const gltf_document *d = saver->document;
+    const gltf_document *d = file->document;
     byte_buffer copies = {0};
     for (size_t s = 0; s < a->sampler_count; s++) {
         const uint32_t number = ffd_json_span_member(&d->tree, a->sampler_values[s], "output");
@@ -317,24 +316,24 @@ static void place_outputs(gltf_saver *saver, animation *a)
             if (wanted->made == GLTF_NONE)
                 continue;
             if (!is_taken) {
-                ffd_edits_format(&saver->edits, d->tree.values[number].begin, d->tree.values[number].end,
+                ffd_edits_format(&file->edits, d->tree.values[number].begin, d->tree.values[number].end,
                                  "%zu", wanted->made);
                 is_taken = true;
                 continue;
             }
             ffd_buffer_text(&copies, a->copy_count > 0 ? "," : "");
-            copy_with_number(saver, a->sampler_values[s], number, wanted->made, &copies);
+            copy_with_number(file, a->sampler_values[s], number, wanted->made, &copies);
             wanted->place = a->sampler_count + a->copy_count++;
         }
     }
     if (a->copy_count > 0)
-        ffd_gltf_insert_last(saver, a->samplers, &copies);
+        ffd_gltf_insert_last(d, a->samplers, &copies, &file->edits);
     ffd_buffer_free(&copies);
 }
 
-static void redirect_channels(gltf_saver *saver, const animation *a)
+static void redirect_channels(gltf_grown *file, const animation *a)
 {
-    const json_span *tree = &saver->document->tree;
+    const json_span *tree = &file->document->tree;
     size_t c = 0;
     for (uint32_t v = ffd_json_span_first(tree, a->channels); v != JSON_NONE;
          v = ffd_json_span_after(tree, v), c++) {
@@ -342,7 +341,7 @@ static void redirect_channels(gltf_saver *saver, const animation *a)
         if (!wanted || wanted->place == wanted->sampler)
             continue;
         const json_value *number = &tree->values[ffd_json_span_member(tree, v, "sampler")];
-        ffd_edits_format(&saver->edits, number->begin, number->end, "%zu", wanted->place);
+        ffd_edits_format(&file->edits, number->begin, number->end, "%zu", wanted->place);
     }
 }
 
@@ -351,27 +350,27 @@ static void warn(const weight_writer *w, const channel_note *note, const char *o
     char pointer[160], more[40] = "";
     if (note->count == 0)
         return;
-    ffd_json_span_pointer(&w->saver->document->tree, note->first, pointer, sizeof pointer);
+    ffd_json_span_pointer(&w->file->document->tree, note->first, pointer, sizeof pointer);
     if (note->count > 1)
         snprintf(more, sizeof more, " and %zu more", note->count - 1);
-    ffd_log_line(w->saver->log, FFD_LOG_WARNING, "%zu %s: %s%s", note->count,
+    ffd_log_line(w->file->log, FFD_LOG_WARNING, "%zu %s: %s%s", note->count,
                  ffd_plural(note->count, one, many), pointer, more);
 }
 
-void ffd_gltf_extend_weights(gltf_saver *saver, const bool *meshes, morph_data *data)
+void ffd_gltf_extend_weights(gltf_grown *file, const bool *meshes)
 {
-    const json_span *tree = &saver->document->tree;
+    const json_span *tree = &file->document->tree;
     const uint32_t animations = ffd_json_span_member(tree, 0, "animations");
-    weight_writer w = {.saver = saver, .meshes = meshes, .data = data};
-    for (uint32_t v = ffd_json_span_first(tree, animations); v != JSON_NONE && !saver->edits.failed;
+    weight_writer w = {.file = file, .meshes = meshes};
+    for (uint32_t v = ffd_json_span_first(tree, animations); v != JSON_NONE && !file->edits.failed;
          v = ffd_json_span_after(tree, v)) {
         animation a = {0};
-        if (begin_animation(saver, v, &a) && find_drivers(&w, &a)) {
+        if (begin_animation(file, v, &a) && find_drivers(&w, &a)) {
             make_outputs(&w, &a);
-            place_outputs(saver, &a);
-            redirect_channels(saver, &a);
+            place_outputs(file, &a);
+            redirect_channels(file, &a);
         } else {
-            saver->edits.failed = true;
+            file->edits.failed = true;
         }
         end_animation(&a);
     }

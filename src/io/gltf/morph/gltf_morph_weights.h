@@ -8,6 +8,6 @@
 size_t ffd_gltf_target_count(const gltf_document *document, size_t mesh);
 
 /* Adds a weight 0 for the further target to all animations of the weights of these meshes and their nodes. */
-void ffd_gltf_extend_weights(gltf_saver *saver, const bool *meshes, morph_data *data);
+void ffd_gltf_extend_weights(gltf_grown *file, const bool *meshes);
 
 #endif

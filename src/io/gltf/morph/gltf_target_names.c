@@ -60,7 +60,7 @@ bool ffd_gltf_find_target(const gltf_document *d, size_t mesh, const char *name,
 
 /* The names to add. */
 typedef struct name_writer {
-    gltf_saver *saver;
+    gltf_grown *file;
     size_t mesh, count; /* count: targets before the further one */
     const uint32_t *names;
     const char *name; /* of the further target */
@@ -77,7 +77,7 @@ static void write_name(const char *name, byte_buffer *text)
 /* Writes the names of the targets from `first` on, and that of the further one. */
 static void write_names(const name_writer *w, size_t first, byte_buffer *text)
 {
-    const json_span *const tree = &w->saver->document->tree;
+    const json_span *const tree = &w->file->document->tree;
     for (size_t t = first; t < w->count; t++) {
         const json_value *const name = w->names[t] == JSON_NONE ? NULL : &tree->values[w->names[t]];
         if (name)
@@ -100,10 +100,10 @@ static void tell_named(const name_writer *w, size_t first)
         last = t;
     }
     if (count == 1)
-        ffd_log_line(w->saver->log, FFD_LOG_INFO,
+        ffd_log_line(w->file->log, FFD_LOG_INFO,
                      "the unnamed morph target of mesh %zu is now called target_%zu", w->mesh, least);
     else if (count > 1)
-        ffd_log_line(w->saver->log, FFD_LOG_INFO,
+        ffd_log_line(w->file->log, FFD_LOG_INFO,
                      "the unnamed morph targets of mesh %zu are now called target_%zu to target_%zu", w->mesh,
                      least, last);
 }
@@ -112,32 +112,32 @@ static void tell_named(const name_writer *w, size_t first)
    one. */
 static void edit_list(const name_writer *w, uint32_t list)
 {
-    gltf_saver *const saver = w->saver;
-    const json_span *const tree = &saver->document->tree;
+    gltf_grown *const file = w->file;
+    const json_span *const tree = &file->document->tree;
     const size_t named = tree->values[list].count;
     byte_buffer text = {0};
     write_names(w, named < w->count ? named : w->count, &text);
     if (named <= w->count) {
-        ffd_gltf_insert_last(saver, list, &text);
+        ffd_gltf_insert_last(file->document, list, &text, &file->edits);
     } else if (!text.failed) {
         const json_value *value = &tree->values[ffd_json_span_element(tree, list, w->count)];
-        ffd_edits_replace(&saver->edits, value->begin, value->end, text.data, text.size);
+        ffd_edits_replace(&file->edits, value->begin, value->end, text.data, text.size);
     }
-    saver->edits.failed = saver->edits.failed || text.failed;
+    file->edits.failed = file->edits.failed || text.failed;
     ffd_buffer_free(&text);
 }
 
 static void edit_mesh(const name_writer *w)
 {
-    gltf_saver *const saver = w->saver;
-    const json_span *const tree = &saver->document->tree;
-    const uint32_t value = saver->document->mesh_values.values[w->mesh];
+    gltf_grown *const file = w->file;
+    const json_span *const tree = &file->document->tree;
+    const uint32_t value = file->document->mesh_values.values[w->mesh];
     const uint32_t extras = ffd_json_span_member(tree, value, "extras");
     const uint32_t names = ffd_json_span_member(tree, extras, "targetNames");
     byte_buffer text = {0};
     if ((extras != JSON_NONE && tree->values[extras].kind != JSON_OBJECT) ||
-        (names != JSON_NONE && !is_array(saver->document, names))) {
-        ffd_log_line(saver->log, FFD_LOG_WARNING,
+        (names != JSON_NONE && !is_array(file->document, names))) {
+        ffd_log_line(file->log, FFD_LOG_WARNING,
                      "mesh %zu: its extras cannot hold the name of the morph target", w->mesh);
         return;
     }
@@ -149,16 +149,16 @@ static void edit_mesh(const name_writer *w)
     ffd_buffer_text(&text, extras == JSON_NONE ? "\"extras\":{\"targetNames\":[" : "\"targetNames\":[");
     write_names(w, 0, &text);
     ffd_buffer_text(&text, extras == JSON_NONE ? "]}" : "]");
-    ffd_gltf_insert_last(saver, extras == JSON_NONE ? value : extras, &text);
+    ffd_gltf_insert_last(file->document, extras == JSON_NONE ? value : extras, &text, &file->edits);
     ffd_buffer_free(&text);
 }
 
-void ffd_gltf_add_target_name(gltf_saver *saver, size_t mesh, const char *name)
+void ffd_gltf_add_target_name(gltf_grown *file, size_t mesh, const char *name)
 {
-    const gltf_document *const d = saver->document;
+    const gltf_document *const d = file->document;
     uint32_t *const names = ffd_gltf_list_target_names(d, mesh);
-    const name_writer w = {saver, mesh, ffd_gltf_target_count(d, mesh), names, name};
-    saver->edits.failed = saver->edits.failed || !names;
+    const name_writer w = {file, mesh, ffd_gltf_target_count(d, mesh), names, name};
+    file->edits.failed = file->edits.failed || !names;
     if (!names)
         return;
     edit_mesh(&w);

@@ -21,64 +21,60 @@ typedef struct open_list {
     bool is_new;
 } open_list;
 
-static open_list begin_list(gltf_saver *saver, const gltf_values *list, const char *key)
+static open_list begin_list(const gltf_document *d, const gltf_values *list, const char *key,
+                            json_edits *edits)
 {
-    const gltf_document *d = saver->document;
     const uint32_t array = ffd_json_span_member(&d->tree, 0, key);
     const open_list opened = {find_end(d, list, array), array == JSON_NONE};
     if (opened.is_new)
-        ffd_edits_format(&saver->edits, opened.at, opened.at, ",\"%s\":[", key);
+        ffd_edits_format(edits, opened.at, opened.at, ",\"%s\":[", key);
     else if (list->count > 0)
-        ffd_edits_format(&saver->edits, opened.at, opened.at, ",");
+        ffd_edits_format(edits, opened.at, opened.at, ",");
     return opened;
 }
 
-static void end_list(gltf_saver *saver, const open_list *opened)
+static void end_list(const open_list *opened, json_edits *edits)
 {
     if (opened->is_new)
-        ffd_edits_format(&saver->edits, opened->at, opened->at, "]");
+        ffd_edits_format(edits, opened->at, opened->at, "]");
 }
 
-void ffd_gltf_add_elements(gltf_saver *saver, const gltf_values *list, const char *key,
-                           const byte_buffer *text)
+void ffd_gltf_add_elements(const gltf_document *d, const gltf_values *list, const char *key,
+                           const byte_buffer *text, json_edits *edits)
 {
-    saver->edits.failed = saver->edits.failed || text->failed;
+    edits->failed = edits->failed || text->failed;
     if (text->size == 0 || text->failed)
         return;
-    const open_list opened = begin_list(saver, list, key);
-    ffd_edits_replace(&saver->edits, opened.at, opened.at, text->data, text->size);
-    end_list(saver, &opened);
+    const open_list opened = begin_list(d, list, key, edits);
+    ffd_edits_replace(edits, opened.at, opened.at, text->data, text->size);
+    end_list(&opened, edits);
 }
 
-void ffd_gltf_add_buffer(gltf_saver *saver)
+void ffd_gltf_add_buffer(const gltf_document *d, size_t length, bool is_data, json_edits *edits)
 {
-    const size_t number = saver->document->buffer_values.count;
-    if (saver->buffer_count == number)
-        return;
-    const open_list opened = begin_list(saver, &saver->document->buffer_values, "buffers");
-    ffd_edits_format(&saver->edits, opened.at, opened.at, "{\"byteLength\":%zu",
-                     saver->buffers[number].length);
-    if (saver->buffers[number].kind == BUFFER_DATA) {
-        ffd_edits_format(&saver->edits, opened.at, opened.at,
-                         ",\"uri\":\"data:application/octet-stream;base64,");
-        ffd_edits_buffer(&saver->edits, opened.at, opened.at, (int)number);
-        ffd_edits_format(&saver->edits, opened.at, opened.at, "\"");
+    const open_list opened = begin_list(d, &d->buffer_values, "buffers", edits);
+    ffd_edits_format(edits, opened.at, opened.at, "{\"byteLength\":%zu", length);
+    if (is_data) {
+        ffd_edits_format(edits, opened.at, opened.at, ",\"uri\":\"data:application/octet-stream;base64,");
+        ffd_edits_buffer(edits, opened.at, opened.at, (int)d->buffer_values.count);
+        ffd_edits_format(edits, opened.at, opened.at, "\"");
     }
-    ffd_edits_format(&saver->edits, opened.at, opened.at, "}");
-    end_list(saver, &opened);
+    ffd_edits_format(edits, opened.at, opened.at, "}");
+    end_list(&opened, edits);
 }
 
-void ffd_gltf_insert_last(gltf_saver *saver, uint32_t container, const byte_buffer *text)
+void ffd_gltf_insert_last(const gltf_document *d, uint32_t container, const byte_buffer *text,
+                          json_edits *edits)
 {
-    const json_span *tree = &saver->document->tree;
+    const json_span *tree = &d->tree;
     uint32_t last = JSON_NONE;
     for (uint32_t v = ffd_json_span_first(tree, container); v != JSON_NONE; v = ffd_json_span_after(tree, v))
         last = v;
     const uint32_t at = last == JSON_NONE ? tree->values[container].begin + 1 : tree->values[last].end;
-    saver->edits.failed = saver->edits.failed || text->failed;
+    edits->failed = edits->failed || text->failed;
     if (text->failed)
         return;
     if (last != JSON_NONE)
-        ffd_edits_format(&saver->edits, at, at, ",");
-    ffd_edits_replace(&saver->edits, at, at, text->data, text->size);
+        ffd_edits_format(edits, at, at, ",");
+    ffd_edits_replace(edits, at, at, text->data, text->size);
 }

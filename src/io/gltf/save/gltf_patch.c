@@ -87,7 +87,7 @@ static void add_copy(gltf_saver *saver, const gltf_values *list, const char *key
     byte_buffer text = {0};
     ffd_edits_sort(edits);
     ffd_edits_apply(edits, saver->document->tree.text, value->begin, value->end, &text);
-    ffd_gltf_add_elements(saver, list, key, &text);
+    ffd_gltf_add_elements(saver->document, list, key, &text, &saver->edits);
     saver->edits.failed = saver->edits.failed || ffd_edits_failed(edits);
     ffd_buffer_free(&text);
     ffd_edits_free(edits);
@@ -140,7 +140,7 @@ static void add_views(gltf_saver *saver)
         write_view(saver, &saver->buffers[buffer].appends[next[buffer]++], buffer, &text);
     }
     ffd_gltf_write_unpacked_views(saver, &text);
-    ffd_gltf_add_elements(saver, &d->view_values, "bufferViews", &text);
+    ffd_gltf_add_elements(d, &d->view_values, "bufferViews", &text, &saver->edits);
     ffd_buffer_free(&text);
     ffd_free(next);
 }
@@ -200,7 +200,8 @@ static void add_matrices(gltf_saver *saver, const gltf_version *version, size_t 
     byte_buffer text = {0};
     ffd_buffer_format(&text, "{\"bufferView\":%zu,\"componentType\":%d,\"count\":%zu,\"type\":\"MAT4\"}",
                       view, GLTF_FLOAT, version->count);
-    ffd_gltf_add_elements(saver, &saver->document->accessor_values, "accessors", &text);
+    ffd_gltf_add_elements(saver->document, &saver->document->accessor_values, "accessors", &text,
+                          &saver->edits);
     ffd_buffer_free(&text);
 }
 
@@ -319,7 +320,10 @@ ffd_status ffd_gltf_make_edits(gltf_saver *saver, ffd_error *error)
     edit_rig(saver);
     edit_buffers(saver);
     ffd_gltf_move_buffers(saver);
-    ffd_gltf_add_buffer(saver);
+    const size_t added = d->buffer_values.count;
+    if (saver->buffer_count > added)
+        ffd_gltf_add_buffer(d, saver->buffers[added].length, saver->buffers[added].kind == BUFFER_DATA,
+                            &saver->edits);
     ffd_gltf_drop_extensions(saver);
     return ffd_edits_failed(&saver->edits) ? ffd_fail_memory(error) : FFD_OK;
 }
