@@ -9,7 +9,7 @@
 #include "base/file/path.h"
 #include "base/text/base64.h"
 #include "io/gltf/file/uri.h"
-#include "io/gltf/model/gltf_model.h"
+#include "io/gltf/read/gltf_model.h"
 #include <stdlib.h>
 #include <unistd.h>
 

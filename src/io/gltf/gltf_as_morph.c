@@ -4,15 +4,15 @@
 #include "io/gltf/gltf_as_morph.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "io/gltf/edit/gltf_clip.h"
+#include "io/gltf/edit/gltf_left_bytes.h"
+#include "io/gltf/edit/gltf_morph_reuse.h"
+#include "io/gltf/edit/gltf_morph_text.h"
+#include "io/gltf/edit/gltf_morph_weights.h"
+#include "io/gltf/edit/gltf_target_names.h"
 #include "io/gltf/gltf_open.h"
-#include "io/gltf/morph/gltf_clip.h"
-#include "io/gltf/morph/gltf_left_bytes.h"
-#include "io/gltf/morph/gltf_morph_reuse.h"
-#include "io/gltf/morph/gltf_morph_text.h"
-#include "io/gltf/morph/gltf_morph_weights.h"
-#include "io/gltf/morph/gltf_target_names.h"
-#include "io/gltf/save/gltf_save.h"
-#include "io/gltf/scene/gltf_results.h"
+#include "io/gltf/model/gltf_results.h"
+#include "io/gltf/write/gltf_save.h"
 #include <string.h>
 
 /* Moves the results of the current target, which are complete, from the streams to document->morphs. */

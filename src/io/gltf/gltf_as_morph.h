@@ -2,7 +2,7 @@
 #ifndef FFD_IO_GLTF_GLTF_AS_MORPH_H
 #define FFD_IO_GLTF_GLTF_AS_MORPH_H
 
-#include "io/gltf/document/gltf_document.h"
+#include "io/gltf/read/gltf_document.h"
 
 /* mesh_format's keep_base: results become offsets of a further morph target of this name. */
 mesh_keep_base_function ffd_gltf_keep_base;

@@ -1,6 +1,6 @@
 #include "io/gltf/gltf_attribute.h"
 #include "base/vector/trig.h"
-#include "io/gltf/refer/gltf_textures.h"
+#include "io/gltf/read/gltf_textures.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #ifndef FFD_IO_GLTF_GLTF_ATTRIBUTE_H
 #define FFD_IO_GLTF_GLTF_ATTRIBUTE_H
 
-#include "io/gltf/document/gltf_document.h"
+#include "io/gltf/read/gltf_document.h"
 
 /* Returns the accessor of an attribute with least to most components for all of a primitive's vertices;
    GLTF_NONE if it is absent or cannot be used. */

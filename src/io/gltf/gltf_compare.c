@@ -1,9 +1,9 @@
 #include "io/gltf/gltf_compare.h"
 #include "base/memory/memory.h"
-#include "io/gltf/decode/gltf_draco.h"
-#include "io/gltf/decode/gltf_read.h"
-#include "io/gltf/decode/gltf_views.h"
 #include "io/gltf/gltf_compare_json.h"
+#include "io/gltf/read/gltf_draco.h"
+#include "io/gltf/read/gltf_read.h"
+#include "io/gltf/read/gltf_views.h"
 #include <stdio.h>
 #include <string.h>
 

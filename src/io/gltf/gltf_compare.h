@@ -2,7 +2,7 @@
 #ifndef FFD_IO_GLTF_GLTF_COMPARE_H
 #define FFD_IO_GLTF_GLTF_COMPARE_H
 
-#include "io/gltf/document/gltf_document.h"
+#include "io/gltf/read/gltf_document.h"
 
 /* mesh_format's compare. */
 mesh_compare_function ffd_gltf_compare;

@@ -2,7 +2,7 @@
 #ifndef FFD_IO_GLTF_GLTF_COMPARE_JSON_H
 #define FFD_IO_GLTF_GLTF_COMPARE_JSON_H
 
-#include "io/gltf/document/gltf_document.h"
+#include "io/gltf/read/gltf_document.h"
 #include "mesh/difference.h"
 
 /* The first number of an accessor's "min" or "max" that differs in the second file. */

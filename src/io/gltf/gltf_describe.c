@@ -1,8 +1,8 @@
 #include "io/gltf/gltf_describe.h"
 #include "base/memory/memory.h"
-#include "io/gltf/decode/gltf_draco.h"
-#include "io/gltf/scene/gltf_detail.h"
-#include "io/gltf/scene/gltf_faces.h"
+#include "io/gltf/model/gltf_detail.h"
+#include "io/gltf/model/gltf_faces.h"
+#include "io/gltf/read/gltf_draco.h"
 #include <string.h>
 
 static void describe_text(const gltf_document *d, uint32_t value, const char *key, json_text *json,

@@ -2,7 +2,7 @@
 #ifndef FFD_IO_GLTF_GLTF_DESCRIBE_H
 #define FFD_IO_GLTF_GLTF_DESCRIBE_H
 
-#include "io/gltf/document/gltf_document.h"
+#include "io/gltf/read/gltf_document.h"
 
 /* mesh_format's describe. */
 mesh_describe_function ffd_gltf_describe;

@@ -1,8 +1,8 @@
 #include "io/gltf/gltf_images.h"
 #include "base/memory/memory.h"
-#include "io/gltf/decode/gltf_views.h"
 #include "io/gltf/file/gltf_file_uris.h"
 #include "io/gltf/file/uri.h"
+#include "io/gltf/read/gltf_views.h"
 #include <stdio.h>
 
 /* An image that is not a file beside the model. */

@@ -2,7 +2,7 @@
 #ifndef FFD_IO_GLTF_GLTF_IMAGES_H
 #define FFD_IO_GLTF_GLTF_IMAGES_H
 
-#include "io/gltf/document/gltf_document.h"
+#include "io/gltf/read/gltf_document.h"
 #include "mesh/resource/material_images.h"
 
 /* Loads an image from a bufferView, a data URI or a file beside the model, unless it is loaded already. Sets

@@ -2,7 +2,7 @@
 #ifndef FFD_IO_GLTF_GLTF_OPEN_H
 #define FFD_IO_GLTF_GLTF_OPEN_H
 
-#include "io/gltf/document/gltf_document.h"
+#include "io/gltf/read/gltf_document.h"
 
 /* mesh_format's open, close and list_files. */
 mesh_open_function ffd_gltf_open;

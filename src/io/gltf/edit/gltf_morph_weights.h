@@ -1,0 +1,13 @@
+/* gltf_morph_weights.h - extends animations of the weights of morph targets. */
+#ifndef FFD_IO_GLTF_EDIT_GLTF_MORPH_WEIGHTS_H
+#define FFD_IO_GLTF_EDIT_GLTF_MORPH_WEIGHTS_H
+
+#include "io/gltf/edit/gltf_grown.h"
+
+/* Returns the number of morph targets of a mesh: the largest number in its primitives. */
+size_t ffd_gltf_target_count(const gltf_document *document, size_t mesh);
+
+/* Adds a weight 0 for the further target to all animations of the weights of these meshes and their nodes. */
+void ffd_gltf_extend_weights(gltf_grown *file, const bool *meshes);
+
+#endif

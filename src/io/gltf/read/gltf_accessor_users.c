@@ -1,0 +1,83 @@
+#include "io/gltf/read/gltf_accessor_users.h"
+#include "io/gltf/read/gltf_index_table.h"
+
+static void mark_number(const gltf_document *d, uint32_t value, bool *used)
+{
+    double number;
+    if (ffd_json_span_number(&d->tree, value, &number) && number >= 0 &&
+        number < (double)d->model.accessor_count)
+        used[(size_t)number] = true;
+}
+
+void ffd_gltf_mark_animation(const gltf_document *d, uint32_t animation, bool *used)
+{
+    const json_span *tree = &d->tree;
+    const uint32_t samplers = ffd_json_span_member(tree, animation, "samplers");
+    for (uint32_t s = ffd_json_span_first(tree, samplers); s != JSON_NONE; s = ffd_json_span_after(tree, s)) {
+        mark_number(d, ffd_json_span_member(tree, s, "input"), used);
+        mark_number(d, ffd_json_span_member(tree, s, "output"), used);
+    }
+}
+
+static void mark_skins(const gltf_document *d, bool *used)
+{
+    const uint32_t skins = ffd_json_span_member(&d->tree, 0, "skins");
+    for (uint32_t s = ffd_json_span_first(&d->tree, skins); s != JSON_NONE;
+         s = ffd_json_span_after(&d->tree, s))
+        mark_number(d, ffd_json_span_member(&d->tree, s, "inverseBindMatrices"), used);
+}
+
+/* Where the accessors that extensions name are marked. */
+typedef struct marks {
+    const gltf_document *document;
+    bool *used;
+} marks;
+
+static void mark_extension(void *context, const gltf_index_place *place)
+{
+    const marks *m = context;
+    const gltf_document *d = m->document;
+    const size_t accessor = ffd_gltf_index(d, place->value, d->model.accessor_count);
+    const bool follows = place->kind == GLTF_INDEX_SHAPE && ffd_gltf_mesh_has_slot(d, place->owner, accessor);
+    if (accessor != GLTF_NONE && !follows &&
+        (place->kind == GLTF_INDEX_ACCESSOR || place->kind == GLTF_INDEX_SHAPE))
+        m->used[accessor] = true;
+}
+
+static void mark_primitive(const gltf_primitive *primitive, bool *used)
+{
+    for (size_t i = 0; i < primitive->attribute_count; i++)
+        if (primitive->attributes[i].semantic == GLTF_OTHER)
+            used[primitive->attributes[i].accessor] = true;
+    for (size_t i = 0; i < primitive->target_attribute_count; i++)
+        if (primitive->targets[i].semantic == GLTF_OTHER)
+            used[primitive->targets[i].accessor] = true;
+    if (primitive->indices >= 0)
+        used[primitive->indices] = true;
+}
+
+static bool is_among(const gltf_values *list, uint32_t value)
+{
+    for (size_t i = 0; list && i < list->count; i++)
+        if (list->values[i] == value)
+            return true;
+    return false;
+}
+
+void ffd_gltf_mark_rig_users(const gltf_document *d, const gltf_values *but, bool *used)
+{
+    const uint32_t animations = ffd_json_span_member(&d->tree, 0, "animations");
+    for (uint32_t a = ffd_json_span_first(&d->tree, animations); a != JSON_NONE;
+         a = ffd_json_span_after(&d->tree, a))
+        if (!is_among(but, a))
+            ffd_gltf_mark_animation(d, a, used);
+    mark_skins(d, used);
+}
+
+void ffd_gltf_mark_other_users(const gltf_document *d, bool *used)
+{
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
+            mark_primitive(&d->model.meshes[m].primitives[p], used);
+    ffd_gltf_visit_indices(d, mark_extension, &(marks){d, used});
+}

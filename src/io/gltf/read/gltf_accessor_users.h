@@ -1,0 +1,18 @@
+/* gltf_accessor_users.h - finds the users of accessors. */
+#ifndef FFD_IO_GLTF_READ_GLTF_ACCESSOR_USERS_H
+#define FFD_IO_GLTF_READ_GLTF_ACCESSOR_USERS_H
+
+#include "io/gltf/read/gltf_document.h"
+
+/* Sets used[a] for each accessor a that is used by anything but a deformed attribute, a skin or an animation:
+   other attributes, indices, extensions. An accessor that an extension of a mesh names does not count if it
+   is one of the mesh's own attributes: the extension then follows the attribute. */
+void ffd_gltf_mark_other_users(const gltf_document *document, bool *used);
+
+/* Sets used[a] for the accessors of one animation. */
+void ffd_gltf_mark_animation(const gltf_document *document, uint32_t animation, bool *used);
+
+/* Sets used[a] for the accessors of skins and animations, except those animations (NULL: none). */
+void ffd_gltf_mark_rig_users(const gltf_document *document, const gltf_values *but, bool *used);
+
+#endif
