@@ -1,9 +1,10 @@
 /* gltf_anchors.c - places the vertices of a file and the offsets of its morph targets in a skeleton. */
 #include "base/memory/memory.h"
 #include "io/gltf/gltf_skeleton.h"
+#include "io/gltf/model/gltf_functions.h"
+#include "io/gltf/model/gltf_parts.h"
 #include "io/gltf/model/gltf_scene.h"
-#include "io/gltf/model/gltf_shown.h"
-#include "io/gltf/read/gltf_read.h"
+#include "io/gltf/read/gltf_elements.h"
 #include <string.h>
 
 typedef struct anchor_work {

@@ -1,18 +1,17 @@
 /* gltf_as_morph.c - stores deformations as further morph targets, or in place of targets of the same name.
    The file with targets of zeros is opened as a document of its own. This document's results become the
    results of those targets, and that document is saved. */
-#include "io/gltf/gltf_as_morph.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "io/gltf/edit/gltf_clip.h"
 #include "io/gltf/edit/gltf_left_bytes.h"
-#include "io/gltf/edit/gltf_morph_reuse.h"
 #include "io/gltf/edit/gltf_morph_text.h"
-#include "io/gltf/edit/gltf_morph_weights.h"
 #include "io/gltf/edit/gltf_target_names.h"
 #include "io/gltf/gltf_open.h"
+#include "io/gltf/model/gltf_functions.h"
 #include "io/gltf/model/gltf_results.h"
-#include "io/gltf/write/gltf_save.h"
+#include "io/gltf/read/gltf_document.h"
+#include "io/gltf/read/gltf_users.h"
 #include <string.h>
 
 /* Moves the results of the current target, which are complete, from the streams to document->morphs. */

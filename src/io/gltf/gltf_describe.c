@@ -1,7 +1,9 @@
-#include "io/gltf/gltf_describe.h"
+/* gltf_describe.c - what `ffd info` reports of a glTF file. */
 #include "base/memory/memory.h"
-#include "io/gltf/model/gltf_detail.h"
 #include "io/gltf/model/gltf_faces.h"
+#include "io/gltf/model/gltf_functions.h"
+#include "io/gltf/model/gltf_references.h"
+#include "io/gltf/read/gltf_document.h"
 #include "io/gltf/read/gltf_draco.h"
 #include <string.h>
 

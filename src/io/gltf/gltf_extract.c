@@ -1,13 +1,15 @@
-#include "io/gltf/gltf_extract.h"
+/* gltf_extract.c - reads a glTF file into a mesh_model, for conversion to other formats. */
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
-#include "io/gltf/gltf_attribute.h"
-#include "io/gltf/model/gltf_detail.h"
 #include "io/gltf/model/gltf_faces.h"
+#include "io/gltf/model/gltf_functions.h"
 #include "io/gltf/model/gltf_instancing.h"
-#include "io/gltf/model/gltf_shown.h"
+#include "io/gltf/model/gltf_parts.h"
+#include "io/gltf/model/gltf_references.h"
 #include "io/gltf/model/gltf_skin.h"
-#include "io/gltf/read/gltf_read.h"
+#include "io/gltf/read/gltf_document.h"
+#include "io/gltf/read/gltf_elements.h"
+#include "io/gltf/read/gltf_textures.h"
 #include "mesh/srgb.h"
 #include <stdio.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* gltf_skeleton.h - the animations of a glTF file in the format-independent form of mesh/rig.h.
-   gltf_anchors.c has ffd_gltf_read_anchors, gltf_influences.c ffd_gltf_make_influences, and gltf_followed.c
-   ffd_gltf_follow_transforms, ffd_gltf_follow_keys and ffd_gltf_skeleton_binds. */
+   gltf_anchors.c has ffd_gltf_read_anchors, and gltf_followed.c ffd_gltf_follow_transforms,
+   ffd_gltf_follow_keys and ffd_gltf_skeleton_binds. */
 #ifndef FFD_IO_GLTF_GLTF_SKELETON_H
 #define FFD_IO_GLTF_GLTF_SKELETON_H
 
@@ -22,10 +22,6 @@ typedef struct gltf_skeleton {
     double *skin_rest;
     uint64_t taken; /* bytes of the document's memory budget */
 } gltf_skeleton;
-
-/* mesh_format's read_skeleton and read_anchors. */
-mesh_read_skeleton_function ffd_gltf_read_skeleton;
-mesh_read_anchors_function ffd_gltf_read_anchors;
 
 /* Takes memory from the document's budget until the skeleton is freed. Errors: FFD_E_LIMIT. */
 static inline ffd_status ffd_gltf_skeleton_take(gltf_skeleton *skeleton, uint64_t count, uint64_t size,
@@ -50,8 +46,5 @@ ffd_status ffd_gltf_follow_keys(gltf_skeleton *skeleton, size_t animation, ffd_e
    unmoved: the identity for each node. Errors: FFD_E_INVALID. */
 ffd_status ffd_gltf_skeleton_binds(const gltf_skeleton *skeleton, size_t skin, const double *unmoved,
                                    double *binds, ffd_error *error);
-
-/* Fills the skeleton's influences. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
-ffd_status ffd_gltf_make_influences(gltf_skeleton *rig, ffd_error *error);
 
 #endif

@@ -6,11 +6,9 @@
 #include "io/gltf/edit/gltf_grown.h"
 #include "io/gltf/edit/gltf_json_insert.h"
 #include "io/gltf/edit/gltf_left_bytes.h"
-#include "io/gltf/edit/gltf_morph_reuse.h"
-#include "io/gltf/edit/gltf_morph_weights.h"
 #include "io/gltf/edit/gltf_target_names.h"
-#include "io/gltf/model/gltf_shapes.h"
-#include "io/gltf/read/gltf_accessor_users.h"
+#include "io/gltf/model/gltf_parts.h"
+#include "io/gltf/read/gltf_users.h"
 #include "json/json_text.h"
 #include <inttypes.h>
 #include <stdio.h>

@@ -2,9 +2,61 @@
 #include "base/memory/memory.h"
 #include "io/gltf/edit/gltf_grown.h"
 #include "io/gltf/edit/gltf_json_insert.h"
-#include "io/gltf/edit/gltf_morph_reuse.h"
 #include "io/gltf/edit/gltf_morph_weights.h"
 #include "io/gltf/edit/gltf_target_names.h"
+#include "io/gltf/read/gltf_users.h"
+
+/* An attribute of a morph target of a primitive. */
+typedef struct morph_place {
+    size_t mesh, primitive, target;
+    gltf_semantic semantic;
+} morph_place;
+
+/* Whether every selected use of the primitive has results. Where a use has none the old offsets stay, which
+   is right only for a use that is not selected. */
+static bool has_results(const gltf_document *d, const gltf_morph *morph, const morph_place *place)
+{
+    const gltf_instance *const instances = ffd_gltf_instances(d, place->mesh, place->primitive);
+    const size_t uses = d->mesh_uses[place->mesh].node_count;
+    for (size_t n = 0; n < uses; n++) {
+        const size_t part = instances[n].part[place->semantic];
+        if (instances[n].selected &&
+            (part == GLTF_NONE || !ffd_gltf_morph_result(morph, part, place->semantic)))
+            return false;
+    }
+    return uses > 0;
+}
+
+/* Whether any node that shows the primitive is not selected: it keeps the old offsets. */
+static bool is_partly_selected(const gltf_document *d, size_t mesh, size_t primitive)
+{
+    const gltf_instance *const instances = ffd_gltf_instances(d, mesh, primitive);
+    for (size_t n = 0; n < d->mesh_uses[mesh].node_count; n++)
+        if (!instances[n].selected)
+            return true;
+    return false;
+}
+
+/* Whether the new offsets of an attribute can be stored in the old accessor. It must hold floats, only these
+   offsets, in bytes of its own, and every selected use must have results in a target of source, whose
+   instances are the document's. If some uses are not selected, they keep the old offsets, and the accessor
+   may be shared: saving then gives the selected uses a new one. users: from ffd_gltf_count_users. */
+static bool can_reuse(const gltf_document *d, const unsigned char *users, const morph_place *place,
+                      const gltf_document *source, const gltf_morph *morph)
+{
+    const gltf_primitive *const primitive = &d->model.meshes[place->mesh].primitives[place->primitive];
+    const int number = primitive->target_accessors[GLTF_DEFORMED * place->target + place->semantic];
+    if (number < 0)
+        return false;
+    const gltf_accessor *const accessor = &d->model.accessors[number];
+    const gltf_layout *const layout = &d->layouts[number];
+    const bool is_own =
+        users[number] == 1 && !accessor->sparse.present && accessor->view >= 0 && layout->data;
+    return accessor->component == GLTF_FLOAT && accessor->columns == 1 && accessor->rows == 3 &&
+           (is_own || is_partly_selected(source, place->mesh, place->primitive)) &&
+           accessor->count == d->model.accessors[primitive->accessor[place->semantic]].count &&
+           layout->readable && layout->packing == GLTF_PLAIN && has_results(source, morph, place);
+}
 
 /* What accessors of zeros are for. Those of gaps are no others': equal targets would get equal results. */
 enum { ZEROS_DIRECTIONS, ZEROS_POSITIONS, ZEROS_GAP, ZEROS_KINDS };
@@ -44,7 +96,7 @@ static size_t accessor_for(morph_writer *w, const morph_place *place)
     const gltf_document *d = w->file.document;
     const gltf_primitive *const primitive = &d->model.meshes[place->mesh].primitives[place->primitive];
     if (place->target < primitive->target_count &&
-        ffd_gltf_can_reuse(d, w->users, place, w->request->source, w->request->morph))
+        can_reuse(d, w->users, place, w->request->source, w->request->morph))
         return (size_t)primitive->target_accessors[GLTF_DEFORMED * place->target + place->semantic];
     return zeros_for(w, (size_t)primitive->accessor[place->semantic],
                      place->semantic == GLTF_POSITION ? ZEROS_POSITIONS : ZEROS_DIRECTIONS);
@@ -59,7 +111,7 @@ static bool loses_offsets(const morph_writer *w, const morph_place *place, size_
                         ? primitive->target_accessors[GLTF_DEFORMED * place->target + place->semantic]
                         : -1;
     return old >= 0 && (size_t)old != accessor &&
-           ffd_gltf_is_partly_selected(w->request->source, place->mesh, place->primitive);
+           is_partly_selected(w->request->source, place->mesh, place->primitive);
 }
 
 /* Writes a target. It has normals and tangents only if these are deformed. */

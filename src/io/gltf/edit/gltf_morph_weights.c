@@ -3,8 +3,9 @@
 #include "base/text/buffer_binary.h"
 #include "base/text/words.h"
 #include "io/gltf/edit/gltf_json_insert.h"
+#include "io/gltf/edit/gltf_target_names.h"
+#include "io/gltf/read/gltf_elements.h"
 #include "io/gltf/read/gltf_index_table.h"
-#include "io/gltf/read/gltf_read.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -44,15 +45,6 @@ typedef struct weight_writer {
     channel_note stale; /* their weights are not one for each morph target */
     channel_note odd;   /* likewise, and they are left as they are */
 } weight_writer;
-
-size_t ffd_gltf_target_count(const gltf_document *d, size_t mesh)
-{
-    size_t count = 0;
-    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
-        if (d->model.meshes[mesh].primitives[p].target_count > count)
-            count = d->model.meshes[mesh].primitives[p].target_count;
-    return count;
-}
 
 static bool read_index(const gltf_grown *file, uint32_t object, const char *key, size_t count, size_t *index)
 {

@@ -4,9 +4,6 @@
 
 #include "io/gltf/edit/gltf_grown.h"
 
-/* Returns the number of morph targets of a mesh: the largest number in its primitives. */
-size_t ffd_gltf_target_count(const gltf_document *document, size_t mesh);
-
 /* Adds a weight 0 for the further target to all animations of the weights of these meshes and their nodes. */
 void ffd_gltf_extend_weights(gltf_grown *file, const bool *meshes);
 

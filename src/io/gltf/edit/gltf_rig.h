@@ -1,11 +1,13 @@
 /* gltf_rig.h - how the nodes, skins and animations of a file change to follow the deformation (src/maths.md
-   9.5). ffd_gltf_follow makes it for one deformation, saving reads it. */
+   9.5). ffd_gltf_follow (gltf_rig_follow.c) makes it for one deformation, by the steps of gltf_rig_nodes.c,
+   gltf_rig_skins.c, gltf_rig_channels.c and gltf_rig_said.c; saving reads it, by gltf_rig_edit.c. */
 #ifndef FFD_IO_GLTF_EDIT_GLTF_RIG_H
 #define FFD_IO_GLTF_EDIT_GLTF_RIG_H
 
 #include "base/memory/intern.h"
 #include "io/gltf/model/gltf_animation.h"
 #include "io/gltf/read/gltf_document.h"
+#include "json/json_edit.h"
 #include <float.h>
 
 /* Tolerances: for products of several rotation matrices, and for offsets in eps of the coordinates. */
@@ -88,5 +90,38 @@ size_t ffd_gltf_add_content(gltf_rig *rig, gltf_rig_content *content);
 
 /* Sets used[a] for each accessor a whose original content a skin or an animation has in the output. */
 void ffd_gltf_mark_rig_originals(const gltf_document *document, bool *used);
+
+/* Fills the rig's world, motions and nodes, and `became` of the moves (one per place). Errors:
+   FFD_E_MEMORY. */
+ffd_status ffd_gltf_follow_nodes(const gltf_document *document, const mesh_places *places,
+                                 mesh_place_move *moves, gltf_rig *rig, mesh_following *following,
+                                 ffd_error *error);
+
+/* Fills the rig's skin_contents and sets the parts' carry; call it after ffd_gltf_follow_nodes. Errors:
+   FFD_E_INVALID (a matrix that floats cannot hold), FFD_E_MEMORY. */
+ffd_status ffd_gltf_follow_skins(gltf_document *document, const mesh_places *places,
+                                 const mesh_place_move *moves, gltf_rig *rig, ffd_error *error);
+
+/* Fills the rig's animations and changes; call it after ffd_gltf_follow_nodes. Errors: those of loading the
+   keys of an animation that changes, FFD_E_LIMIT, FFD_E_MEMORY. */
+ffd_status ffd_gltf_follow_animations(gltf_document *document, gltf_rig *rig, ffd_error *error);
+
+/* Logs what follows (-v), and warns of what does not, with one line per kind and the first names: physics
+   shapes, spring bones and look-at offsets of VRM, rest rotations of VRM 0.x, constraints that aim, channels
+   with unsupported pointers. Sets following->unscaled, and adds to following->unselected. Errors:
+   FFD_E_MEMORY. */
+ffd_status ffd_gltf_warn_of_rig(const gltf_document *document, const mesh_places *places, const gltf_rig *rig,
+                                const mesh_log *log, mesh_following *following, ffd_error *error);
+
+/* Edits the transforms of nodes: only numbers that differ are replaced. */
+void ffd_gltf_edit_nodes(const gltf_document *document, json_edits *edits);
+
+/* Edits the skins to name the accessors of their new inverse bind matrices. outputs: the accessor of each of
+   the rig's contents. */
+void ffd_gltf_edit_skins(const gltf_document *document, const size_t *outputs, json_edits *edits);
+
+/* Adds the further samplers of animations, and edits samplers to name the accessors of their new outputs.
+   outputs: as above. */
+void ffd_gltf_edit_animations(const gltf_document *document, const size_t *outputs, json_edits *edits);
 
 #endif

@@ -1,7 +1,9 @@
-#include "io/gltf/edit/gltf_rig_channels.h"
+/* gltf_rig_channels.c - changes the animations of nodes that follow the deformation: the outputs of their
+   channels. */
 #include "base/memory/memory.h"
 #include "base/vector/polar.h"
 #include "base/vector/vec.h"
+#include "io/gltf/edit/gltf_rig.h"
 #include "io/gltf/model/gltf_scene.h"
 #include "io/gltf/read/gltf_index_table.h"
 #include <float.h>

@@ -1,5 +1,6 @@
-#include "io/gltf/edit/gltf_rig_edit.h"
+/* gltf_rig_edit.c - edits the JSON of nodes, skins and animations that follow the deformation. */
 #include "base/text/number.h"
+#include "io/gltf/edit/gltf_rig.h"
 
 /* Inserts a text after the last member of an object. */
 static void insert_members(const json_span *tree, uint32_t object, const byte_buffer *text, json_edits *edits)

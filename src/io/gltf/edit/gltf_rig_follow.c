@@ -1,9 +1,7 @@
-#include "io/gltf/edit/gltf_rig_follow.h"
+/* gltf_rig_follow.c - makes the nodes, skins and animations of a file follow the deformation. */
 #include "base/memory/memory.h"
-#include "io/gltf/edit/gltf_rig_channels.h"
-#include "io/gltf/edit/gltf_rig_nodes.h"
-#include "io/gltf/edit/gltf_rig_said.h"
-#include "io/gltf/edit/gltf_rig_skins.h"
+#include "io/gltf/edit/gltf_rig.h"
+#include "io/gltf/model/gltf_functions.h"
 
 /* Checks the memory of the arrays, which opening the file has not counted. */
 static ffd_status check_memory(const gltf_document *d, ffd_error *error)

@@ -1,7 +1,8 @@
-#include "io/gltf/edit/gltf_rig_nodes.h"
+/* gltf_rig_nodes.c - computes the transforms of nodes that follow the deformation. */
 #include "base/memory/memory.h"
 #include "base/vector/polar.h"
 #include "base/vector/vec.h"
+#include "io/gltf/edit/gltf_rig.h"
 #include "io/gltf/model/gltf_scene.h"
 #include <string.h>
 

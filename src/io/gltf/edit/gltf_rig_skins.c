@@ -1,13 +1,14 @@
-#include "io/gltf/edit/gltf_rig_skins.h"
+/* gltf_rig_skins.c - changes inverse bind matrices for joints that have moved, and sets the maps that carry
+   vertices back, so that the moved nodes and skins show them in the right place. */
 #include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include "base/vector/polar.h"
 #include "base/vector/vec.h"
+#include "io/gltf/edit/gltf_rig.h"
 #include "io/gltf/model/gltf_results.h"
 #include "io/gltf/model/gltf_scene.h"
 #include "io/gltf/model/gltf_skin.h"
-#include "io/gltf/model/gltf_skin_sets.h"
-#include "io/gltf/read/gltf_read.h"
+#include "io/gltf/read/gltf_elements.h"
 #include <float.h>
 #include <string.h>
 

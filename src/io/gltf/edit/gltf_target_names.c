@@ -1,8 +1,16 @@
 #include "io/gltf/edit/gltf_target_names.h"
 #include "base/memory/memory.h"
 #include "io/gltf/edit/gltf_json_insert.h"
-#include "io/gltf/edit/gltf_morph_weights.h"
 #include "json/json_text.h"
+
+size_t ffd_gltf_target_count(const gltf_document *d, size_t mesh)
+{
+    size_t count = 0;
+    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
+        if (d->model.meshes[mesh].primitives[p].target_count > count)
+            count = d->model.meshes[mesh].primitives[p].target_count;
+    return count;
+}
 
 static bool is_array(const gltf_document *d, uint32_t value)
 {

@@ -1,7 +1,7 @@
 /* gltf_animation.h - the animations of an open glTF file (glTF 2.0, 3.11). Each struct keeps the JSON values
    and accessors it was read from, so that they can be written anew. Any file that opens has a list of
    animations; an animation is checked only when its keys are loaded, so that a broken one stops only those
-   who use it. ffd_gltf_load_animation and ffd_gltf_unload_animation are in gltf_keys.c. */
+   who use it. */
 #ifndef FFD_IO_GLTF_MODEL_GLTF_ANIMATION_H
 #define FFD_IO_GLTF_MODEL_GLTF_ANIMATION_H
 

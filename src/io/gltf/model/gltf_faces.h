@@ -1,4 +1,4 @@
-/* gltf_faces.h - what primitives draw: triangles, lines, points. */
+/* gltf_faces.h - what primitives draw: triangles, lines, points, and their vertices. */
 #ifndef FFD_IO_GLTF_MODEL_GLTF_FACES_H
 #define FFD_IO_GLTF_MODEL_GLTF_FACES_H
 
@@ -18,9 +18,5 @@ ffd_status ffd_gltf_read_corners(const gltf_document *document, size_t mesh, siz
 
 /* Returns the largest count of ffd_gltf_read_corners over all primitives. */
 uint64_t ffd_gltf_most_corners(const gltf_document *document);
-
-/* mesh_format's faces and corner_normals. */
-mesh_faces_function ffd_gltf_faces;
-mesh_corner_normals_function ffd_gltf_corner_normals;
 
 #endif

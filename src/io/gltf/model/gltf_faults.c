@@ -1,8 +1,10 @@
-#include "io/gltf/model/gltf_faults.h"
+/* gltf_faults.c - finds values that glTF does not allow but that viewers can do without. */
 #include "base/memory/memory.h"
 #include "base/text/words.h"
+#include "io/gltf/model/gltf_functions.h"
+#include "io/gltf/model/gltf_parts.h"
 #include "io/gltf/model/gltf_references.h"
-#include "io/gltf/model/gltf_shapes.h"
+#include "io/gltf/read/gltf_document.h"
 #include "io/gltf/read/gltf_textures.h"
 #include <stdio.h>
 #include <string.h>

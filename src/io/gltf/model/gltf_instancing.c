@@ -6,8 +6,9 @@
 #include "base/memory/memory.h"
 #include "base/text/words.h"
 #include "base/vector/vec.h"
+#include "io/gltf/model/gltf_functions.h"
 #include "io/gltf/model/gltf_scene.h"
-#include "io/gltf/read/gltf_read.h"
+#include "io/gltf/read/gltf_elements.h"
 #include <math.h>
 #include <string.h>
 

@@ -11,7 +11,4 @@ ffd_status ffd_gltf_find_instanced_nodes(gltf_document *document, ffd_error *err
 /* Returns the instancing of a node; NULL if it has none. */
 gltf_instanced_node *ffd_gltf_instanced_node(const gltf_document *document, size_t node);
 
-/* mesh_format's check_reach. */
-mesh_check_reach_function ffd_gltf_check_reach;
-
 #endif

@@ -2,9 +2,8 @@
 #include "base/memory/memory.h"
 #include "base/memory/slots.h"
 #include "base/vector/vec.h"
-#include "io/gltf/model/gltf_shapes.h"
-#include "io/gltf/model/gltf_skin_sets.h"
-#include "io/gltf/read/gltf_rounding.h"
+#include "io/gltf/model/gltf_skin.h"
+#include "io/gltf/read/gltf_elements.h"
 #include <string.h>
 
 #define MOST_VERTICES ((uint64_t)UINT32_MAX - 1)

@@ -1,10 +1,13 @@
-#include "io/gltf/model/gltf_places.h"
+/* gltf_places.c - lists what a file places in the scene besides its vertices, and what else than a position
+   such a place has. */
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
+#include "io/gltf/model/gltf_functions.h"
 #include "io/gltf/model/gltf_instancing.h"
 #include "io/gltf/model/gltf_references.h"
-#include "io/gltf/model/gltf_skin_sets.h"
+#include "io/gltf/model/gltf_skin.h"
 #include "io/gltf/model/gltf_vrm.h"
+#include "io/gltf/read/gltf_document.h"
 #include <string.h>
 
 /* Marks of a node. */

@@ -1,10 +1,10 @@
 #include "io/gltf/model/gltf_results.h"
 #include "base/memory/memory.h"
 #include "base/vector/array_kernel.h"
+#include "io/gltf/model/gltf_functions.h"
+#include "io/gltf/model/gltf_parts.h"
 #include "io/gltf/model/gltf_refuse.h"
-#include "io/gltf/model/gltf_shown.h"
-#include "io/gltf/read/gltf_encode.h"
-#include "io/gltf/read/gltf_read.h"
+#include "io/gltf/read/gltf_elements.h"
 #include <string.h>
 
 static size_t tiles_of(size_t count)

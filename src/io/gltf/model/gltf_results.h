@@ -4,13 +4,6 @@
 
 #include "io/gltf/read/gltf_document.h"
 
-/* mesh_format's begin_results and write functions. */
-mesh_begin_results_function ffd_gltf_begin_results;
-mesh_write_function ffd_gltf_write_positions;
-mesh_write_function ffd_gltf_write_normals;
-mesh_write_function ffd_gltf_write_tangents;
-mesh_write_offsets_function ffd_gltf_write_offsets;
-
 /* Copies the original vectors to every tile of the results that was not written. */
 void ffd_gltf_complete_results(gltf_document *document);
 

@@ -3,10 +3,34 @@
 #include "base/memory/memory.h"
 #include "base/text/words.h"
 #include "base/vector/vec.h"
-#include "io/gltf/model/gltf_detail.h"
-#include "io/gltf/model/gltf_visibility.h"
+#include "io/gltf/model/gltf_references.h"
 #include <math.h>
 #include <string.h>
+
+static bool is_invisible(const gltf_document *d, size_t node)
+{
+    const uint32_t value = ffd_gltf_extension(d, d->node_values.values[node], "KHR_node_visibility");
+    const uint32_t visible =
+        value == JSON_NONE ? JSON_NONE : ffd_json_span_member(&d->tree, value, "visible");
+    return visible != JSON_NONE && d->tree.values[visible].kind == JSON_FALSE;
+}
+
+/* Fills document->hidden: an invisible node hides all its descendants. parents: per node; order: all nodes,
+   parents before children. Errors: FFD_E_MEMORY. */
+static ffd_status find_hidden(gltf_document *d, const size_t *parents, const size_t *order, ffd_error *error)
+{
+    for (size_t i = 0; i < d->model.node_count; i++) {
+        const size_t n = order[i], parent = parents[n];
+        if (!ffd_gltf_is_hidden(d, parent) && !is_invisible(d, n))
+            continue;
+        if (!d->hidden)
+            d->hidden = ffd_alloc_zero(d->model.node_count, sizeof *d->hidden);
+        if (!d->hidden)
+            return ffd_fail_memory(error);
+        d->hidden[n] = true;
+    }
+    return FFD_OK;
+}
 
 /* T R S, with the quaternion x,y,z,w (glTF 2.0, 3.5.3). */
 void ffd_gltf_local_matrix(const gltf_node *node, double linear[9], double offset[3])
@@ -423,7 +447,7 @@ ffd_status ffd_gltf_make_scene(gltf_document *d, ffd_error *error)
         goto done;
     }
     set_world_matrices(d, d->parents, pending);
-    status = ffd_gltf_find_hidden(d, d->parents, pending, error);
+    status = find_hidden(d, d->parents, pending, error);
     if (status)
         goto done;
     if (d->model.scene_count > 0)

@@ -1,4 +1,5 @@
-/* gltf_scene.h - finds the nodes in the displayed scene, and their world matrices. */
+/* gltf_scene.h - finds the nodes in the displayed scene, those that KHR_node_visibility hides, and their
+   world matrices. */
 #ifndef FFD_IO_GLTF_MODEL_GLTF_SCENE_H
 #define FFD_IO_GLTF_MODEL_GLTF_SCENE_H
 

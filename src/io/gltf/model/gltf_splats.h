@@ -1,5 +1,5 @@
 /* gltf_splats.h - the Gaussian splats of a glTF file (KHR_gaussian_splatting): their rotations, scales and
-   spherical harmonics, and the results of these. Declares gltf_splats.c, gltf_splat_results.c. */
+   spherical harmonics, and the results of these. */
 #ifndef FFD_IO_GLTF_MODEL_GLTF_SPLATS_H
 #define FFD_IO_GLTF_MODEL_GLTF_SPLATS_H
 
@@ -16,8 +16,5 @@ ffd_status ffd_gltf_begin_splats(gltf_document *document, ffd_error *error);
 
 /* Warns of splats whose harmonics could not be turned. */
 void ffd_gltf_warn_of_splats(const gltf_document *document, const mesh_log *log);
-
-mesh_read_splats_function ffd_gltf_read_splats;
-mesh_write_splats_function ffd_gltf_write_splats;
 
 #endif

@@ -2,7 +2,7 @@
 #include "base/text/words.h"
 #include "io/gltf/read/gltf_draco.h"
 #include "io/gltf/read/gltf_drawing.h"
-#include "io/gltf/read/gltf_read.h"
+#include "io/gltf/read/gltf_elements.h"
 #include "io/gltf/read/gltf_views.h"
 #include <math.h>
 #include <stdio.h>

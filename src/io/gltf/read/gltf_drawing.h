@@ -1,5 +1,5 @@
-/* gltf_drawing.h - what primitives draw: their modes and indices, and what to do where these are not
-   valid. */
+/* gltf_drawing.h - what primitives draw: their modes and indices, also where strips, fans and lines begin
+   anew at an index (KHR_mesh_primitive_restart), and what to do where these are not valid. */
 #ifndef FFD_IO_GLTF_READ_GLTF_DRAWING_H
 #define FFD_IO_GLTF_READ_GLTF_DRAWING_H
 
@@ -15,5 +15,16 @@ ffd_status ffd_gltf_read_drawings(gltf_document *document, ffd_error *error);
    anew. */
 ffd_status ffd_gltf_drop_drawing(gltf_document *document, size_t mesh, size_t primitive, uint32_t value,
                                  ffd_error *error, const char *format, ...) FFD_PRINTF(6, 7);
+
+/* Returns the number of vertices that a primitive with indices draws, counting repetitions. */
+size_t ffd_gltf_drawn_count(const gltf_document *document, const gltf_primitive *primitive);
+
+/* Reads vertices [first, first + count) of those. Returns the largest; 0 if count is 0. */
+uint32_t ffd_gltf_read_drawn(const gltf_document *document, const gltf_primitive *primitive, size_t first,
+                             size_t count, uint32_t *vertices);
+
+/* Notes indices that are not less than the primitive's number of vertices as a flaw; those that begin a strip
+   anew are unrolled (gltf_restart.h). Errors: FFD_E_INVALID, FFD_E_LIMIT, FFD_E_MEMORY. */
+ffd_status ffd_gltf_check_indices(gltf_document *document, ffd_error *error);
 
 #endif

@@ -1,8 +1,8 @@
-#include "io/gltf/write/gltf_announce.h"
+/* gltf_announce.c - log lines that summarize saving. */
 #include "base/memory/memory.h"
 #include "base/text/words.h"
 #include "io/gltf/write/gltf_plan.h"
-#include "io/gltf/write/gltf_unpack.h"
+#include "io/gltf/write/gltf_saver.h"
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,9 +1,9 @@
-#include "io/gltf/write/gltf_bounds.h"
+/* gltf_bounds.c - edits "min" and "max" of accessors whose content changes. */
 #include "base/text/number.h"
 #include "io/gltf/model/gltf_results.h"
-#include "io/gltf/read/gltf_encode.h"
-#include "io/gltf/read/gltf_read.h"
+#include "io/gltf/read/gltf_elements.h"
 #include "io/gltf/write/gltf_plan.h"
+#include "io/gltf/write/gltf_saver.h"
 #include <float.h>
 #include <math.h>
 

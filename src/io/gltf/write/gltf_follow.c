@@ -1,10 +1,10 @@
-#include "io/gltf/write/gltf_follow.h"
+/* gltf_follow.c - updates indices in extensions for meshes and accessors that are copied. */
 #include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include "base/text/words.h"
 #include "io/gltf/read/gltf_index_table.h"
-#include "io/gltf/write/gltf_announce.h"
 #include "io/gltf/write/gltf_plan.h"
+#include "io/gltf/write/gltf_saver.h"
 #include "json/json_text.h"
 #include <stdlib.h>
 #include <string.h>

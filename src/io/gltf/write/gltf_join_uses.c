@@ -1,6 +1,6 @@
-#include "io/gltf/write/gltf_join_uses.h"
-#include "io/gltf/read/gltf_encode.h"
-#include "io/gltf/read/gltf_read.h"
+/* gltf_join_uses.c - lets nodes share a mesh if their results differ only by rounding. */
+#include "io/gltf/read/gltf_elements.h"
+#include "io/gltf/write/gltf_plan.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

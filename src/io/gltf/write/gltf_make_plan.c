@@ -1,11 +1,8 @@
-#include "io/gltf/write/gltf_make_plan.h"
+/* gltf_make_plan.c - makes the plan of saving. */
 #include "base/memory/memory.h"
 #include "io/gltf/edit/gltf_rig.h"
-#include "io/gltf/read/gltf_accessor_users.h"
-#include "io/gltf/read/gltf_encode.h"
-#include "io/gltf/read/gltf_read.h"
-#include "io/gltf/write/gltf_join_uses.h"
-#include "io/gltf/write/gltf_overlap.h"
+#include "io/gltf/read/gltf_elements.h"
+#include "io/gltf/read/gltf_users.h"
 #include "io/gltf/write/gltf_plan.h"
 #include <stdlib.h>
 #include <string.h>

@@ -1,8 +1,8 @@
-#include "io/gltf/write/gltf_mend_weights.h"
+/* gltf_mend_weights.c - skin weights that are written decompressed. */
 #include "base/memory/memory.h"
 #include "base/text/words.h"
-#include "io/gltf/read/gltf_encode.h"
-#include "io/gltf/read/gltf_read.h"
+#include "io/gltf/read/gltf_elements.h"
+#include "io/gltf/write/gltf_saver.h"
 #include <math.h>
 #include <string.h>
 

@@ -1,6 +1,6 @@
-#include "io/gltf/write/gltf_overlap.h"
+/* gltf_overlap.c - finds bytes that several accessors share. */
 #include "base/memory/memory.h"
-#include "io/gltf/read/gltf_view_users.h"
+#include "io/gltf/read/gltf_users.h"
 #include "io/gltf/write/gltf_plan.h"
 #include <stdlib.h>
 #include <string.h>

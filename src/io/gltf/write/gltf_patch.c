@@ -1,17 +1,10 @@
-#include "io/gltf/write/gltf_patch.h"
+/* gltf_patch.c - edits the JSON as the plan and the new buffers require. */
 #include "base/memory/memory.h"
 #include "io/gltf/edit/gltf_json_insert.h"
-#include "io/gltf/edit/gltf_rig_edit.h"
-#include "io/gltf/read/gltf_read.h"
-#include "io/gltf/write/gltf_bounds.h"
-#include "io/gltf/write/gltf_container.h"
-#include "io/gltf/write/gltf_content.h"
-#include "io/gltf/write/gltf_extensions.h"
-#include "io/gltf/write/gltf_follow.h"
+#include "io/gltf/edit/gltf_rig.h"
+#include "io/gltf/read/gltf_elements.h"
 #include "io/gltf/write/gltf_plan.h"
-#include "io/gltf/write/gltf_sparse.h"
-#include "io/gltf/write/gltf_stale.h"
-#include "io/gltf/write/gltf_unpack.h"
+#include "io/gltf/write/gltf_saver.h"
 
 static const json_value *value_of(const gltf_saver *saver, uint32_t value)
 {

@@ -1,8 +1,7 @@
 #include "io/gltf/write/gltf_plan.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
-#include "io/gltf/read/gltf_encode.h"
-#include "io/gltf/read/gltf_read.h"
+#include "io/gltf/read/gltf_elements.h"
 
 /* Returns the part with the results of a slot; GLTF_NONE: no results. */
 static size_t part_of_slot(const gltf_document *d, const gltf_primitive *primitive,

@@ -1,4 +1,4 @@
-#include "io/gltf/write/gltf_resources.h"
+/* gltf_resources.c - copies or refers to the images of a file. */
 #include "base/file/folder.h"
 #include "base/file/path.h"
 #include "base/memory/intern.h"
@@ -6,9 +6,9 @@
 #include "base/text/base64.h"
 #include "base/text/words.h"
 #include "io/gltf/file/glb.h"
-#include "io/gltf/file/gltf_file_uris.h"
-#include "io/gltf/file/uri.h"
-#include "io/gltf/write/gltf_output_names.h"
+#include "io/gltf/file/gltf_uri.h"
+#include "io/gltf/model/gltf_functions.h"
+#include "io/gltf/write/gltf_saver.h"
 #include "mesh/resource/image_file.h"
 #include "mesh/resource/left_out.h"
 #include "mesh/resource/resource_copy.h"

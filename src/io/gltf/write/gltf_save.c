@@ -1,20 +1,12 @@
-#include "io/gltf/write/gltf_save.h"
+/* gltf_save.c - writes a document with its results. */
 #include "base/little_endian.h"
 #include "base/text/base64.h"
 #include "io/gltf/edit/gltf_rig.h"
+#include "io/gltf/model/gltf_functions.h"
 #include "io/gltf/model/gltf_results.h"
-#include "io/gltf/write/gltf_announce.h"
-#include "io/gltf/write/gltf_container.h"
-#include "io/gltf/write/gltf_content.h"
-#include "io/gltf/write/gltf_content_write.h"
-#include "io/gltf/write/gltf_make_plan.h"
-#include "io/gltf/write/gltf_output_names.h"
-#include "io/gltf/write/gltf_patch.h"
+#include "io/gltf/read/gltf_document.h"
 #include "io/gltf/write/gltf_plan.h"
-#include "io/gltf/write/gltf_resources.h"
 #include "io/gltf/write/gltf_saver.h"
-#include "io/gltf/write/gltf_sparse.h"
-#include "io/gltf/write/gltf_unpack.h"
 #include <inttypes.h>
 #include <string.h>
 

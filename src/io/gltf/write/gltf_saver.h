@@ -1,4 +1,7 @@
-/* gltf_saver.h - the state of saving: the plan, the new buffers, the edits of the JSON. */
+/* gltf_saver.h - the state of saving: the plan, the new buffers, the edits of the JSON; and the steps, in the
+   order of gltf_save.c: gltf_content.c (with gltf_unpack.c, gltf_mend_weights.c, gltf_sparse.c),
+   gltf_container.c, gltf_patch.c (with gltf_bounds.c, gltf_follow.c, gltf_extensions.c), gltf_resources.c,
+   gltf_announce.c. */
 #ifndef FFD_IO_GLTF_WRITE_GLTF_SAVER_H
 #define FFD_IO_GLTF_WRITE_GLTF_SAVER_H
 
@@ -67,5 +70,130 @@ typedef struct gltf_saver {
     bool binary;      /* whether the output is a GLB */
     bool in_place;    /* whether the output replaces the input */
 } gltf_saver;
+
+/* Lists saver->unpackings from the plan. Errors: FFD_E_MEMORY. */
+ffd_status ffd_gltf_list_unpackings(gltf_saver *saver, ffd_error *error);
+
+/* Frees saver's lists of unpackings. */
+void ffd_gltf_free_unpackings(gltf_saver *saver);
+
+/* Whether primitive p is written decompressed for a use of its mesh. */
+bool ffd_gltf_is_unpacked(const gltf_saver *saver, size_t mesh, size_t p, size_t use);
+
+/* Removes, and logs, the compression of the primitives that are written decompressed for a use of their
+   mesh. */
+void ffd_gltf_edit_compression(const gltf_saver *saver, size_t mesh, size_t use, json_edits *edits);
+
+/* Edits views and accessors to name the decompressed data. */
+void ffd_gltf_edit_unpackings(gltf_saver *saver);
+
+/* Appends the bufferViews of decompressed accessors to the text of a list. */
+void ffd_gltf_write_unpacked_views(const gltf_saver *saver, byte_buffer *text);
+
+/* Whether primitives were decompressed and no primitive of the output is compressed by Draco. */
+bool ffd_gltf_lost_draco(gltf_saver *saver);
+
+/* Whether views were decompressed and nothing in the output uses EXT_meshopt_compression. */
+bool ffd_gltf_lost_ext_meshopt(gltf_saver *saver);
+
+/* Whether views were decompressed and nothing in the output uses KHR_meshopt_compression. */
+bool ffd_gltf_lost_khr_meshopt(gltf_saver *saver);
+
+/* Makes weights that are written decompressed valid (glTF 2.0, 3.7.3.3), since compression has rounded them
+   and validators do not look into compressed data: those of a vertex sum to 1 in the numbers of the file, no
+   joint has two of them, and the joint of a weight of 0 is 0. Vertices where all of this holds keep their
+   bytes. Replaces the bytes of unpackings by copies. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
+ffd_status ffd_gltf_mend_weights(gltf_saver *saver, ffd_error *error);
+
+/* Makes saver->sparse: for each appended version of an accessor that the program added, the nonzero vectors,
+   if the document allows it and at least two thirds of the vectors are 0. Errors: FFD_E_LIMIT,
+   FFD_E_MEMORY. */
+ffd_status ffd_gltf_list_sparse(gltf_saver *saver, ffd_error *error);
+
+/* Writes the member "sparse" of an accessor, followed by a comma. view: the bufferView of its indices and
+   values. */
+void ffd_gltf_write_sparse(const gltf_stored_part *sparse, size_t view, byte_buffer *text);
+
+/* Frees saver->sparse. */
+void ffd_gltf_free_sparse(gltf_saver *saver);
+
+/* Makes saver->buffers from the plan, with their overwrites, appends and lengths. Errors: FFD_E_LIMIT,
+   FFD_E_MEMORY. */
+ffd_status ffd_gltf_make_content(gltf_saver *saver, ffd_error *error);
+
+/* Frees saver->buffers. */
+void ffd_gltf_free_content(gltf_saver *saver);
+
+/* Returns the buffer to which the copy of an accessor is appended. */
+size_t ffd_gltf_append_buffer(const gltf_document *document, size_t accessor);
+
+/* Returns the number of bytes of a buffer's new content. It exceeds the buffer's length if the old content
+   did and has not grown. */
+size_t ffd_gltf_content_size(const gltf_saver *saver, size_t buffer);
+
+/* Reads bytes [offset, offset + size) of the new content. */
+void ffd_gltf_content_read(const gltf_saver *saver, size_t buffer, size_t offset, size_t size,
+                           unsigned char *bytes);
+
+/* Returns how many bytes of the new content from offset on lie in memory exactly as written, in the old
+   content or in the results, and points *bytes to them. 0: use ffd_gltf_content_read. */
+size_t ffd_gltf_content_at(const gltf_saver *saver, size_t buffer, size_t offset,
+                           const unsigned char **bytes);
+
+/* Writes a buffer's new content to the output, as base64 or unchanged. Errors: FFD_E_IO, FFD_E_MEMORY. */
+ffd_status ffd_gltf_write_content(const gltf_saver *saver, size_t buffer, bool base64, ffd_error *error);
+
+/* Chooses the kind of each new buffer. If a .gltf becomes a GLB, its first buffer goes into the BIN chunk and
+   the other files become data URIs, so that the result is one file. If a GLB becomes a .gltf, its BIN chunk
+   goes into a file beside it; on standard output, into a data URI. */
+void ffd_gltf_choose_buffer_kinds(gltf_saver *saver);
+
+/* Edits the JSON of buffers whose kind changed, except the names of files. */
+void ffd_gltf_move_buffers(gltf_saver *saver);
+
+/* Adds the member "uri" to the JSON of a buffer. */
+void ffd_gltf_add_uri(gltf_saver *saver, size_t buffer, const char *uri);
+
+/* Chooses the names and edits the buffers' URIs. Errors: FFD_E_EXISTS, FFD_E_ARGUMENT, FFD_E_MEMORY. */
+ffd_status ffd_gltf_name_buffers(gltf_saver *saver, ffd_error *error);
+
+/* Edits the bounds of the accessor that a version overwrites, if it has bounds. */
+void ffd_gltf_edit_bounds(const gltf_saver *saver, const gltf_version *version, json_edits *edits);
+
+/* Edits the bounds of an accessor that is written decompressed, and does not change else. */
+void ffd_gltf_edit_unpacked_bounds(const gltf_saver *saver, const gltf_unpacking *unpacking,
+                                   json_edits *edits);
+
+/* Makes and logs these edits. Errors: FFD_E_MEMORY. */
+ffd_status ffd_gltf_make_edits(gltf_saver *saver, ffd_error *error);
+
+/* Edits the extensions of a mesh: they name the accessors that hold the mesh's content for this use. */
+void ffd_gltf_follow_accessors(gltf_saver *saver, size_t mesh, size_t use, json_edits *edits);
+
+/* Edits references to copied meshes: a node that shows a copy refers to the copy, and elements of per-mesh
+   lists are repeated for the copies. Warns of references that cannot follow, those to accessors included, so
+   call it last. Errors: FFD_E_LIMIT (the repeated elements exceed the memory budget), FFD_E_MEMORY. */
+ffd_status ffd_gltf_follow_meshes(gltf_saver *saver, ffd_error *error);
+
+/* Removes them from extensionsUsed and extensionsRequired. */
+void ffd_gltf_drop_extensions(gltf_saver *saver);
+
+/* Warns of arrays, objects and numbers in extensions and extras whose names tell that they are bounds
+   (`sceneBounds`, `boundingSphere`, `bbox_min`), where what they are of is deformed or moves: they stay as
+   they are. If memory runs out, saver->edits fail. */
+void ffd_gltf_warn_of_stale(gltf_saver *saver);
+
+/* Copies the images beside the output, or edits their URIs. A file that is not an image, is hidden, or is
+   reached through a link is not copied, with a warning. Refuses an image with the name of a file of the model
+   itself. Begins and writes files of saver->output; call it after ffd_gltf_name_buffers. Errors:
+   FFD_E_EXISTS, FFD_E_IO, FFD_E_MEMORY. */
+ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error);
+
+/* Warns of JSON values with their count, each once, and names the first three. values: uint32_t each, which
+   are sorted. Returns the count. If memory runs out, saver->edits fail. */
+size_t ffd_gltf_warn_of_values(gltf_saver *saver, byte_buffer *values, const char *one, const char *many);
+
+/* Logs what was left unchanged, copied or stored in another way. Call it after all edits. */
+void ffd_gltf_announce(const gltf_saver *saver);
 
 #endif

@@ -1,7 +1,8 @@
-#include "io/gltf/write/gltf_sparse.h"
+/* gltf_sparse.c - stores only the nonzero offsets of morph targets that are mostly 0. */
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
-#include "io/gltf/read/gltf_read.h"
+#include "io/gltf/read/gltf_elements.h"
+#include "io/gltf/write/gltf_saver.h"
 #include <string.h>
 
 #define VECTOR (3 * sizeof(float))

@@ -1,10 +1,9 @@
 /* gltf_unpack.c - writes compressed data decompressed if any of it changed. */
-#include "io/gltf/write/gltf_unpack.h"
 #include "base/memory/memory.h"
 #include "io/gltf/read/gltf_draco.h"
 #include "io/gltf/read/gltf_views.h"
-#include "io/gltf/write/gltf_bounds.h"
 #include "io/gltf/write/gltf_plan.h"
+#include "io/gltf/write/gltf_saver.h"
 
 #define DRACO "KHR_draco_mesh_compression"
 

@@ -1,8 +1,10 @@
-#include "io/gltf/read/gltf_read.h"
+#include "io/gltf/read/gltf_elements.h"
 #include "base/little_endian.h"
 #include "base/lower_bound.h"
 #include "base/vector/array_kernel.h"
 #include "io/gltf/read/gltf_views.h"
+#include "mesh/meshopt/meshopt_view.h"
+#include <math.h>
 #include <string.h>
 
 #define LARGEST_ELEMENT 64     /* a MAT4 of floats */
@@ -245,4 +247,129 @@ uint32_t ffd_gltf_read_indices(const gltf_document *d, size_t a, size_t first, s
     for (size_t i = 0; i < count; i++)
         largest = indices[i] > largest ? indices[i] : largest;
     return largest;
+}
+
+typedef struct number_range {
+    double least, largest; /* the integers' range */
+} number_range;
+
+static number_range range_of(int component)
+{
+    switch (component) {
+    case GLTF_I8:
+        return (number_range){-128, 127};
+    case GLTF_U8:
+        return (number_range){0, 255};
+    case GLTF_I16:
+        return (number_range){-32768, 32767};
+    default:
+        return (number_range){0, 65535};
+    }
+}
+
+static double scale_of(const gltf_accessor *accessor)
+{
+    return accessor->normalized ? range_of(accessor->component).largest : 1;
+}
+
+double ffd_gltf_step(const gltf_accessor *accessor)
+{
+    return 1 / scale_of(accessor);
+}
+
+float ffd_gltf_round(const gltf_accessor *accessor, double value)
+{
+    if (accessor->component == GLTF_FLOAT)
+        return (float)value;
+    const double scale = scale_of(accessor);
+    return (float)(rint(value * scale) / scale + 0.0); /* + 0.0: integers have no -0 */
+}
+
+/* Returns the integer q that a float encodes. The float nearest to q/s gives q again: its error is 2^-24
+   relative, and q is at most 65535. */
+static double integer_of(const gltf_accessor *accessor, float value)
+{
+    return rint((double)value * scale_of(accessor));
+}
+
+bool ffd_gltf_fits(const gltf_accessor *accessor, const float *values, size_t count)
+{
+    if (accessor->component == GLTF_FLOAT)
+        return true;
+    const number_range range = range_of(accessor->component);
+    const double scale = scale_of(accessor);
+    for (size_t i = 0; i < count; i++) {
+        const double integer = integer_of(accessor, values[i]);
+        const float back = (float)(integer / scale);
+        if (!(integer >= range.least && integer <= range.largest) || back < values[i] || back > values[i])
+            return false;
+    }
+    return true;
+}
+
+static void put_integer(double integer, size_t size, unsigned char *bytes)
+{
+    const uint32_t bits = (uint32_t)(int32_t)integer;
+    for (size_t i = 0; i < size; i++)
+        bytes[i] = (unsigned char)(bits >> 8 * i);
+}
+
+void ffd_gltf_encode(const gltf_accessor *accessor, int component, const unsigned char *original,
+                     const float *values, size_t components, unsigned char *element)
+{
+    const size_t count = (size_t)accessor->rows, size = ffd_gltf_component_size(accessor->component);
+    if (component == accessor->component)
+        memcpy(element, original, count * size);
+    for (size_t c = 0; c < count; c++) {
+        const unsigned char *at = original + c * size;
+        const double old = ffd_gltf_read_number(at, accessor->component, accessor->normalized);
+        const float wanted = c < components ? values[c] : (float)old;
+        if (component == GLTF_FLOAT)
+            store_float(element + 4 * c, wanted);
+        else if (wanted < (float)old || wanted > (float)old)
+            put_integer(integer_of(accessor, wanted), size, element + c * size);
+    }
+}
+
+/* The distance between neighbouring numbers of an integer type (glTF 2.0, 3.11: c / 127 and so on). */
+static double integer_step(const gltf_accessor *accessor)
+{
+    if (!accessor->normalized)
+        return 1;
+    switch (accessor->component) {
+    case GLTF_I8:
+        return 1.0 / 127;
+    case GLTF_U8:
+        return 1.0 / 255;
+    case GLTF_I16:
+        return 1.0 / 32767;
+    case GLTF_U16:
+        return 1.0 / 65535;
+    default:
+        return 1.0 / 4294967295.0;
+    }
+}
+
+/* The steps of floats that meshopt's filter EXPONENTIAL has quantized. */
+static void filter_steps(const gltf_document *d, size_t a, double step[3])
+{
+    const gltf_accessor *accessor = &d->model.accessors[a];
+    const int8_t *exponents = accessor->view >= 0 ? d->view_exponents[accessor->view] : NULL;
+    const size_t column = (size_t)(accessor->offset % d->layouts[a].stride) / 4;
+    for (size_t c = 0; exponents && !accessor->sparse.present && c < 3 && column + c < MESHOPT_COLUMNS; c++)
+        step[c] = ldexp(1, exponents[column + c]);
+}
+
+mesh_rounding ffd_gltf_rounding(const gltf_document *d, size_t a)
+{
+    const gltf_accessor *accessor = &d->model.accessors[a];
+    mesh_rounding rounding = {{false, false, false}, {0, 0, 0}};
+    const bool is_float = accessor->component == GLTF_FLOAT;
+    for (int c = 0; c < 3; c++) {
+        rounding.is_float[c] = is_float;
+        rounding.step[c] = is_float ? d->unpacked[a].step : integer_step(accessor);
+    }
+    if (is_float && d->layouts[a].packing == GLTF_MESHOPT)
+        filter_steps(d, a, rounding.step);
+    return rounding;
 }

@@ -1,4 +1,5 @@
-#include "io/gltf/read/gltf_accessor_users.h"
+#include "io/gltf/read/gltf_users.h"
+#include "base/memory/memory.h"
 #include "io/gltf/read/gltf_index_table.h"
 
 static void mark_number(const gltf_document *d, uint32_t value, bool *used)
@@ -80,4 +81,72 @@ void ffd_gltf_mark_other_users(const gltf_document *d, bool *used)
         for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
             mark_primitive(&d->model.meshes[m].primitives[p], used);
     ffd_gltf_visit_indices(d, mark_extension, &(marks){d, used});
+}
+
+/* Whether the key of a value makes it the index of a bufferView: in images, sparse and compressed data, and
+   in property tables of EXT_structural_metadata. */
+static bool names_view(const json_span *tree, uint32_t value)
+{
+    static const char *const keys[] = {"bufferView", "values", "arrayOffsets", "stringOffsets"};
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+        if (ffd_json_span_key_is(tree, value, keys[i]))
+            return true;
+    return false;
+}
+
+/* Whether the value is a member of an accessor, or of its sparse indices or values. */
+static bool is_of_accessor(const json_span *tree, uint32_t value, uint32_t accessors)
+{
+    const uint32_t above = tree->values[tree->values[value].parent].parent;
+    if (above == accessors)
+        return true;
+    return above != JSON_NONE && ffd_json_span_key_is(tree, above, "sparse") &&
+           tree->values[tree->values[above].parent].parent == accessors;
+}
+
+void ffd_gltf_mark_other_views(const gltf_document *d, bool *used)
+{
+    const json_span *const tree = &d->tree;
+    const uint32_t accessors = ffd_json_span_member(tree, 0, "accessors");
+    for (uint32_t v = 1; v < tree->count; v++) {
+        double view;
+        if (tree->values[v].kind != JSON_NUMBER || !names_view(tree, v) || is_of_accessor(tree, v, accessors))
+            continue;
+        if (ffd_json_span_number(tree, v, &view) && view >= 0 && view < (double)d->model.view_count)
+            used[(size_t)view] = true;
+    }
+}
+
+static void add_user(unsigned char *users, int accessor)
+{
+    if (accessor >= 0 && users[accessor] < 2)
+        users[accessor]++;
+}
+
+static void count_primitive(const gltf_primitive *primitive, unsigned char *users)
+{
+    const size_t slots = gltf_slot_count(primitive);
+    for (size_t slot = 0; slot < slots; slot++)
+        add_user(users, gltf_slot_accessor(primitive, slot));
+}
+
+unsigned char *ffd_gltf_count_users(const gltf_document *d, const gltf_values *but)
+{
+    const size_t count = d->model.accessor_count;
+    unsigned char *const users = ffd_alloc_zero(count, sizeof *users);
+    bool *const others = ffd_alloc_zero(count, sizeof *others);
+    if (!users || !others) {
+        ffd_free(users);
+        ffd_free(others);
+        return NULL;
+    }
+    ffd_gltf_mark_other_users(d, others);
+    ffd_gltf_mark_rig_users(d, but, others);
+    for (size_t a = 0; a < count; a++)
+        users[a] = others[a] ? 2 : 0;
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
+            count_primitive(&d->model.meshes[m].primitives[p], users);
+    ffd_free(others);
+    return users;
 }

@@ -1,6 +1,6 @@
-/* gltf_accessor_users.h - finds the users of accessors. */
-#ifndef FFD_IO_GLTF_READ_GLTF_ACCESSOR_USERS_H
-#define FFD_IO_GLTF_READ_GLTF_ACCESSOR_USERS_H
+/* gltf_users.h - finds the users of accessors and bufferViews. */
+#ifndef FFD_IO_GLTF_READ_GLTF_USERS_H
+#define FFD_IO_GLTF_READ_GLTF_USERS_H
 
 #include "io/gltf/read/gltf_document.h"
 
@@ -14,5 +14,13 @@ void ffd_gltf_mark_animation(const gltf_document *document, uint32_t animation, 
 
 /* Sets used[a] for the accessors of skins and animations, except those animations (NULL: none). */
 void ffd_gltf_mark_rig_users(const gltf_document *document, const gltf_values *but, bool *used);
+
+/* Sets used[v] for each bufferView v that is named by anything but an accessor: an image, data compressed by
+   Draco, a property table. */
+void ffd_gltf_mark_other_views(const gltf_document *document, bool *used);
+
+/* Counts the users of each accessor; 2 means two or more. `but`: animations that do not count, or NULL. The
+   caller frees the array. NULL: memory ran out. */
+unsigned char *ffd_gltf_count_users(const gltf_document *document, const gltf_values *but);
 
 #endif
