@@ -86,10 +86,10 @@ static ffd_status add_target(anchor_work *w, size_t part, size_t target, size_t 
 
 /* Returns the part to which an instance's weights apply. If primitives share it, the weights of the first one
    count. */
-static size_t take_part(anchor_work *w, const gltf_instance *instance, size_t node)
+static size_t take_part(anchor_work *w, const gltf_instance *instance)
 {
     const size_t part = instance->part[GLTF_POSITION];
-    if (!w->driven[node] || part == GLTF_NONE || w->is_done[part])
+    if (!w->driven[instance->node] || part == GLTF_NONE || w->is_done[part])
         return GLTF_NONE;
     w->is_done[part] = true;
     return part;
@@ -107,18 +107,15 @@ static ffd_status visit_targets(anchor_work *w, target_visit *visit)
     const gltf_document *const d = w->rig->document;
     ffd_status status = FFD_OK;
     memset(w->is_done, 0, d->base.part_count * sizeof *w->is_done);
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
-            for (size_t n = 0; n < d->mesh_uses[m].node_count; n++) {
-                const gltf_instance *const instance = &ffd_gltf_instances(d, m, p)[n];
-                const size_t node = d->mesh_uses[m].nodes[n], part = take_part(w, instance, node);
-                for (size_t t = 0; part != GLTF_NONE && t < d->model.meshes[m].primitives[p].target_count &&
-                                   status == FFD_OK;
-                     t++)
-                    if (has_positions(d, d->targets[instance->first_target + t]))
-                        status = visit(w, part, d->targets[instance->first_target + t],
-                                       w->rig->pose.first_weight[node] + t);
-            }
+    for (size_t i = 0; i < d->instance_count; i++) {
+        const gltf_instance *const instance = &d->instances[i];
+        const size_t *const targets = d->targets + instance->first_target;
+        const size_t part = take_part(w, instance);
+        for (size_t t = 0; part != GLTF_NONE && t < instance->primitive->target_count && status == FFD_OK;
+             t++)
+            if (has_positions(d, targets[t]))
+                status = visit(w, part, targets[t], w->rig->pose.first_weight[instance->node] + t);
+    }
     return status;
 }
 

@@ -343,14 +343,13 @@ static void note_kinds(gltf_comparer *c)
 {
     const gltf_document *d = c->a;
     memset(c->kinds, FFD_DIFFERENCE_OTHER, d->model.accessor_count);
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++) {
-            const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
-            for (size_t s = 0; s < gltf_vector_slots(primitive); s++)
-                note_kind(c, gltf_slot_accessor(primitive, s), (ffd_difference_kind)(s % GLTF_DEFORMED));
-            note_kind(c, primitive->indices, FFD_DIFFERENCE_TOPOLOGY);
-            note_texcoords(c, ffd_gltf_primitive_value(d, m, p));
-        }
+    for (size_t i = 0; i < d->model.primitive_count; i++) {
+        const gltf_primitive *primitive = &d->model.primitives[i];
+        for (size_t s = 0; s < gltf_vector_slots(primitive); s++)
+            note_kind(c, gltf_slot_accessor(primitive, s), (ffd_difference_kind)(s % GLTF_DEFORMED));
+        note_kind(c, primitive->indices, FFD_DIFFERENCE_TOPOLOGY);
+        note_texcoords(c, primitive->value);
+    }
 }
 
 /* The elements */
@@ -560,15 +559,14 @@ static void find_unpacked(const gltf_document *d, bool *is_unpacked)
 /* Unmarks Draco data that could not be decoded, so that its bytes are compared. */
 static void leave_problems(const gltf_document *d, bool *is_unpacked)
 {
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++) {
-            double view;
-            const uint32_t value =
-                ffd_json_span_member(&d->tree, ffd_gltf_draco_value(d, m, p), "bufferView");
-            if (d->draco_problems[d->first_primitive[m] + p] &&
-                ffd_json_span_number(&d->tree, value, &view) && view < (double)d->model.view_count)
-                is_unpacked[(size_t)view] = false;
-        }
+    for (size_t i = 0; i < d->model.primitive_count; i++) {
+        double view;
+        const uint32_t value =
+            ffd_json_span_member(&d->tree, ffd_gltf_draco_value(d, &d->model.primitives[i]), "bufferView");
+        if (d->draco_problems[i] && ffd_json_span_number(&d->tree, value, &view) &&
+            view < (double)d->model.view_count)
+            is_unpacked[(size_t)view] = false;
+    }
 }
 
 /* Compares the contents of two files whose JSON agrees in accessors and bufferViews. */

@@ -39,7 +39,7 @@ typedef struct clip_writer {
 /* Adds the names of the targets of a mesh. Returns false if memory runs out. */
 static bool list_names_of(const gltf_document *d, size_t mesh, intern_table *all)
 {
-    const size_t count = ffd_gltf_target_count(d, mesh);
+    const size_t count = d->mesh_uses[mesh].target_count;
     uint32_t *const names = ffd_gltf_list_target_names(d, mesh);
     bool added = names;
     for (size_t t = 0; t < count && added; t++) {
@@ -199,7 +199,7 @@ static ffd_status add_channel(clip_writer *w, size_t node, uint32_t *names)
     const gltf_document *const d = w->file.document;
     if (d->model.nodes[node].mesh < 0)
         return FFD_OK;
-    const size_t mesh = (size_t)d->model.nodes[node].mesh, count = ffd_gltf_target_count(d, mesh);
+    const size_t mesh = (size_t)d->model.nodes[node].mesh, count = d->mesh_uses[mesh].target_count;
     const bool own = ffd_gltf_weights_of(d, d->node_values.values[node]) != JSON_NONE;
     size_t sampler = own ? GLTF_NONE : w->samplers[mesh];
     if (sampler == GLTF_NONE) {
@@ -321,7 +321,7 @@ static ffd_status add_all(clip_writer *w, const morph_clip *clips, size_t count,
     const uint32_t animations = ffd_json_span_member(&d->tree, 0, "animations");
     size_t most = 0;
     for (size_t m = 0; m < d->model.mesh_count; m++)
-        most = ffd_gltf_target_count(d, m) > most ? ffd_gltf_target_count(d, m) : most;
+        most = d->mesh_uses[m].target_count > most ? d->mesh_uses[m].target_count : most;
     uint32_t *const names = ffd_alloc(most, sizeof *names);
     w->samplers = ffd_alloc(d->model.mesh_count, sizeof *w->samplers);
     w->replaced.values = ffd_alloc(count, sizeof *w->replaced.values);

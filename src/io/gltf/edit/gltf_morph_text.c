@@ -8,7 +8,8 @@
 
 /* An attribute of a morph target of a primitive. */
 typedef struct morph_place {
-    size_t mesh, primitive, target;
+    const gltf_primitive *primitive; /* of the file */
+    size_t target;
     gltf_semantic semantic;
 } morph_place;
 
@@ -16,8 +17,8 @@ typedef struct morph_place {
    is right only for a use that is not selected. */
 static bool has_results(const gltf_document *d, const gltf_morph *morph, const morph_place *place)
 {
-    const gltf_instance *const instances = ffd_gltf_instances(d, place->mesh, place->primitive);
-    const size_t uses = d->mesh_uses[place->mesh].node_count;
+    const gltf_instance *const instances = ffd_gltf_instances(d, place->primitive);
+    const size_t uses = d->mesh_uses[place->primitive->mesh].node_count;
     for (size_t n = 0; n < uses; n++) {
         const size_t part = instances[n].part[place->semantic];
         if (instances[n].selected &&
@@ -28,10 +29,10 @@ static bool has_results(const gltf_document *d, const gltf_morph *morph, const m
 }
 
 /* Whether any node that shows the primitive is not selected: it keeps the old offsets. */
-static bool is_partly_selected(const gltf_document *d, size_t mesh, size_t primitive)
+static bool is_partly_selected(const gltf_document *d, const gltf_primitive *primitive)
 {
-    const gltf_instance *const instances = ffd_gltf_instances(d, mesh, primitive);
-    for (size_t n = 0; n < d->mesh_uses[mesh].node_count; n++)
+    const gltf_instance *const instances = ffd_gltf_instances(d, primitive);
+    for (size_t n = 0; n < d->mesh_uses[primitive->mesh].node_count; n++)
         if (!instances[n].selected)
             return true;
     return false;
@@ -44,7 +45,7 @@ static bool is_partly_selected(const gltf_document *d, size_t mesh, size_t primi
 static bool can_reuse(const gltf_document *d, const unsigned char *users, const morph_place *place,
                       const gltf_document *source, const gltf_morph *morph)
 {
-    const gltf_primitive *const primitive = &d->model.meshes[place->mesh].primitives[place->primitive];
+    const gltf_primitive *const primitive = place->primitive;
     const int number = primitive->target_accessors[GLTF_DEFORMED * place->target + place->semantic];
     if (number < 0)
         return false;
@@ -53,7 +54,7 @@ static bool can_reuse(const gltf_document *d, const unsigned char *users, const 
     const bool is_own =
         users[number] == 1 && !accessor->sparse.present && accessor->view >= 0 && layout->data;
     return accessor->component == GLTF_FLOAT && accessor->columns == 1 && accessor->rows == 3 &&
-           (is_own || is_partly_selected(source, place->mesh, place->primitive)) &&
+           (is_own || is_partly_selected(source, place->primitive)) &&
            accessor->count == d->model.accessors[primitive->accessor[place->semantic]].count &&
            layout->readable && layout->packing == GLTF_PLAIN && has_results(source, morph, place);
 }
@@ -94,7 +95,7 @@ static size_t zeros_for(morph_writer *w, size_t accessor, int kind)
 static size_t accessor_for(morph_writer *w, const morph_place *place)
 {
     const gltf_document *d = w->file.document;
-    const gltf_primitive *const primitive = &d->model.meshes[place->mesh].primitives[place->primitive];
+    const gltf_primitive *const primitive = place->primitive;
     if (place->target < primitive->target_count &&
         can_reuse(d, w->users, place, w->request->source, w->request->morph))
         return (size_t)primitive->target_accessors[GLTF_DEFORMED * place->target + place->semantic];
@@ -105,26 +106,22 @@ static size_t accessor_for(morph_writer *w, const morph_place *place)
 /* Whether uses that are not selected have offsets, and lose them because the target gets another accessor. */
 static bool loses_offsets(const morph_writer *w, const morph_place *place, size_t accessor)
 {
-    const gltf_primitive *const primitive =
-        &w->file.document->model.meshes[place->mesh].primitives[place->primitive];
+    const gltf_primitive *const primitive = place->primitive;
     const int old = place->target < primitive->target_count
                         ? primitive->target_accessors[GLTF_DEFORMED * place->target + place->semantic]
                         : -1;
-    return old >= 0 && (size_t)old != accessor &&
-           is_partly_selected(w->request->source, place->mesh, place->primitive);
+    return old >= 0 && (size_t)old != accessor && is_partly_selected(w->request->source, place->primitive);
 }
 
 /* Writes a target. It has normals and tangents only if these are deformed. */
-static void write_target(morph_writer *w, size_t mesh, size_t p, size_t target, byte_buffer *text)
+static void write_target(morph_writer *w, const gltf_primitive *primitive, size_t target, byte_buffer *text)
 {
-    const gltf_document *d = w->file.document;
-    const gltf_primitive *const primitive = &d->model.meshes[mesh].primitives[p];
     const bool wanted[GLTF_DEFORMED] = {true, w->request->morph->normals,
                                         w->request->morph->normals && primitive->accessor[GLTF_NORMAL] >= 0};
     bool first = true;
     ffd_buffer_text(text, "{");
     for (size_t s = 0; s < GLTF_DEFORMED; s++) {
-        const morph_place place = {mesh, p, target, (gltf_semantic)s};
+        const morph_place place = {primitive, target, (gltf_semantic)s};
         const bool is_there = wanted[s] && primitive->accessor[s] >= 0;
         const size_t accessor = is_there ? accessor_for(w, &place) : GLTF_NONE;
         w->loses = w->loses || loses_offsets(w, &place, accessor);
@@ -136,12 +133,12 @@ static void write_target(morph_writer *w, size_t mesh, size_t p, size_t target, 
     ffd_buffer_text(text, "}");
 }
 
-static void replace_target(morph_writer *w, size_t mesh, size_t p, size_t target, uint32_t targets)
+static void replace_target(morph_writer *w, const gltf_primitive *primitive, size_t target, uint32_t targets)
 {
     const json_span *const tree = &w->file.document->tree;
     const json_value *const value = &tree->values[ffd_json_span_element(tree, targets, target)];
     byte_buffer text = {0};
-    write_target(w, mesh, p, target, &text);
+    write_target(w, primitive, target, &text);
     if (!text.failed)
         ffd_edits_replace(&w->file.edits, value->begin, value->end, text.data, text.size);
     w->file.edits.failed = w->file.edits.failed || text.failed;
@@ -159,23 +156,22 @@ static void write_gap(morph_writer *w, const gltf_primitive *primitive, byte_buf
 }
 
 /* The target has the same place in all primitives of a mesh, also in those with fewer targets than others. */
-static void add_to_primitive(morph_writer *w, size_t mesh, size_t p)
+static void add_to_primitive(morph_writer *w, const gltf_primitive *primitive)
 {
     const gltf_document *d = w->file.document;
-    const gltf_primitive *const primitive = &d->model.meshes[mesh].primitives[p];
-    const uint32_t value = ffd_gltf_primitive_value(d, mesh, p);
+    const uint32_t value = primitive->value;
     const uint32_t targets = ffd_json_span_member(&d->tree, value, "targets");
-    const size_t place = w->request->places[mesh];
+    const size_t place = w->request->places[primitive->mesh];
     byte_buffer text = {0};
     if (place < primitive->target_count) {
-        replace_target(w, mesh, p, place, targets);
+        replace_target(w, primitive, place, targets);
         return;
     }
     if (targets == JSON_NONE)
         ffd_buffer_text(&text, "\"targets\":[");
     for (size_t t = primitive->target_count; t < place; t++)
         write_gap(w, primitive, &text);
-    write_target(w, mesh, p, place, &text);
+    write_target(w, primitive, place, &text);
     if (targets == JSON_NONE)
         ffd_buffer_text(&text, "]");
     ffd_gltf_insert_last(d, targets == JSON_NONE ? value : targets, &text, &w->file.edits);
@@ -228,19 +224,19 @@ static void add_to_meshes(morph_writer *w)
         if (!w->request->meshes[m])
             continue;
         w->loses = false;
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
-            add_to_primitive(w, m, p);
+        for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, m, p));)
+            add_to_primitive(w, p);
         if (!w->grow[m]) {
             tell_replaced(w, m);
             continue;
         }
-        add_weights(&w->file, d->mesh_values.values[m], ffd_gltf_target_count(d, m), true);
+        add_weights(&w->file, d->mesh_values.values[m], d->mesh_uses[m].target_count, true);
         ffd_gltf_add_target_name(&w->file, m, w->request->morph->name);
     }
     for (size_t n = 0; n < d->model.node_count; n++)
         if (d->model.nodes[n].mesh >= 0 && w->grow[d->model.nodes[n].mesh])
             add_weights(&w->file, d->node_values.values[n],
-                        ffd_gltf_target_count(d, (size_t)d->model.nodes[n].mesh), false);
+                        d->mesh_uses[(size_t)d->model.nodes[n].mesh].target_count, false);
 }
 
 /* Memory for a target that fills a gap: its text, and what opening the file keeps of it. */
@@ -250,11 +246,11 @@ static void add_to_meshes(morph_writer *w)
 static ffd_status limit_gaps(const gltf_document *d, const morph_request *request, ffd_error *error)
 {
     uint64_t gaps = 0;
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count && request->meshes[m]; p++) {
-            const size_t count = d->model.meshes[m].primitives[p].target_count;
-            gaps += count < request->places[m] ? request->places[m] - count : 0;
-        }
+    for (size_t i = 0; i < d->model.primitive_count; i++) {
+        const gltf_primitive *const primitive = &d->model.primitives[i];
+        const size_t place = request->meshes[primitive->mesh] ? request->places[primitive->mesh] : 0;
+        gaps += primitive->target_count < place ? place - primitive->target_count : 0;
+    }
     const ffd_status status = ffd_budget_check(&d->base.budget, gaps, GAP_BYTES, error);
     if (status)
         ffd_fail_name_file(error, d->name);
@@ -272,7 +268,7 @@ ffd_status ffd_gltf_add_target(const gltf_document *d, const morph_request *requ
     w.users = ffd_gltf_count_users(d, NULL);
     w.grow = ffd_alloc(d->model.mesh_count, sizeof *w.grow);
     for (size_t m = 0; m < d->model.mesh_count && w.grow; m++)
-        w.grow[m] = request->meshes[m] && request->places[m] == ffd_gltf_target_count(d, m);
+        w.grow[m] = request->meshes[m] && request->places[m] == d->mesh_uses[m].target_count;
     bool made_all = w.users && w.grow;
     for (int i = 0; i < ZEROS_KINDS; i++) {
         w.zeros[i] = ffd_alloc(count, sizeof *w.zeros[i]);

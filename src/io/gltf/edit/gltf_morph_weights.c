@@ -171,7 +171,7 @@ static bool find_drivers(const weight_writer *w, animation *a)
             continue;
         const driven what = find_target(file, ffd_json_span_member(tree, v, "target"));
         const bool grows = what.mesh != GLTF_NONE && w->meshes[what.mesh];
-        const size_t targets = grows ? ffd_gltf_target_count(file->document, what.mesh) : 0;
+        const size_t targets = grows ? file->document->mesh_uses[what.mesh].target_count : 0;
         if (grows && (what.weight == GLTF_NONE || what.weight == targets)) {
             a->wanted[c] = want_output(a, sampler, targets, what.weight != GLTF_NONE);
             if (a->wanted[c] == GLTF_NONE)

@@ -107,9 +107,9 @@ static void mark_skins(const gltf_document *d, bool *shown, bool *staying)
             if (skin < 0)
                 continue;
             shown[skin] = true;
-            for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
-                staying[skin] = staying[skin] || (ffd_gltf_is_skinned(&d->model.meshes[m].primitives[p]) &&
-                                                  !ffd_gltf_instances(d, m, p)[n].selected);
+            for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, m, p));)
+                staying[skin] =
+                    staying[skin] || (ffd_gltf_is_skinned(p) && !ffd_gltf_instances(d, p)[n].selected);
         }
     }
 }

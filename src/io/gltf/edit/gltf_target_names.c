@@ -3,15 +3,6 @@
 #include "io/gltf/edit/gltf_json_insert.h"
 #include "json/json_text.h"
 
-size_t ffd_gltf_target_count(const gltf_document *d, size_t mesh)
-{
-    size_t count = 0;
-    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
-        if (d->model.meshes[mesh].primitives[p].target_count > count)
-            count = d->model.meshes[mesh].primitives[p].target_count;
-    return count;
-}
-
 static bool is_array(const gltf_document *d, uint32_t value)
 {
     return value != JSON_NONE && d->tree.values[value].kind == JSON_ARRAY;
@@ -37,22 +28,22 @@ static void take_names(const gltf_document *d, uint32_t list, uint32_t *names, s
 
 uint32_t *ffd_gltf_list_target_names(const gltf_document *d, size_t mesh)
 {
-    const size_t count = ffd_gltf_target_count(d, mesh);
+    const size_t count = d->mesh_uses[mesh].target_count;
     uint32_t *const names = ffd_alloc(count, sizeof *names);
     if (!names)
         return NULL;
     for (size_t t = 0; t < count; t++)
         names[t] = JSON_NONE;
     take_names(d, list_of(d, d->mesh_values.values[mesh]), names, count);
-    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
-        take_names(d, list_of(d, ffd_gltf_primitive_value(d, mesh, p)), names, count);
+    for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, mesh, p));)
+        take_names(d, list_of(d, p->value), names, count);
     return names;
 }
 
 bool ffd_gltf_find_target(const gltf_document *d, size_t mesh, const char *name, size_t *target,
                           size_t *found)
 {
-    const size_t count = ffd_gltf_target_count(d, mesh);
+    const size_t count = d->mesh_uses[mesh].target_count;
     uint32_t *const names = ffd_gltf_list_target_names(d, mesh);
     *target = GLTF_NONE;
     *found = 0;
@@ -165,13 +156,13 @@ void ffd_gltf_add_target_name(gltf_grown *file, size_t mesh, const char *name)
 {
     const gltf_document *const d = file->document;
     uint32_t *const names = ffd_gltf_list_target_names(d, mesh);
-    const name_writer w = {file, mesh, ffd_gltf_target_count(d, mesh), names, name};
+    const name_writer w = {file, mesh, d->mesh_uses[mesh].target_count, names, name};
     file->edits.failed = file->edits.failed || !names;
     if (!names)
         return;
     edit_mesh(&w);
-    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++) {
-        const uint32_t list = list_of(d, ffd_gltf_primitive_value(d, mesh, p));
+    for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, mesh, p));) {
+        const uint32_t list = list_of(d, p->value);
         if (list != JSON_NONE)
             edit_list(&w, list);
     }

@@ -5,10 +5,7 @@
 
 #include "io/gltf/edit/gltf_grown.h"
 
-/* Returns the number of morph targets of a mesh: the largest number in its primitives. */
-size_t ffd_gltf_target_count(const gltf_document *document, size_t mesh);
-
-/* Returns the JSON string that names each target of a mesh (ffd_gltf_target_count); JSON_NONE: it has no
+/* Returns the JSON string that names each target of a mesh (gltf_mesh_uses); JSON_NONE: it has no
    name. The caller frees the array. NULL: memory ran out. */
 uint32_t *ffd_gltf_list_target_names(const gltf_document *document, size_t mesh);
 

@@ -54,47 +54,45 @@ static drawing count_drawing(const gltf_document *d, const gltf_primitive *primi
 void ffd_gltf_count_drawing(const gltf_document *d, size_t mesh, size_t *triangles, size_t *lines,
                             size_t *points)
 {
-    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++) {
-        const drawing counted = count_drawing(d, &d->model.meshes[mesh].primitives[p]);
+    for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, mesh, p));) {
+        const drawing counted = count_drawing(d, p);
         *triangles += counted.triangles;
         *lines += counted.lines;
         *points += counted.points;
     }
 }
 
-size_t ffd_gltf_count_triangles(const gltf_document *d, size_t mesh, size_t primitive)
+size_t ffd_gltf_count_triangles(const gltf_document *d, const gltf_primitive *primitive)
 {
-    return count_drawing(d, &d->model.meshes[mesh].primitives[primitive]).triangles;
+    return count_drawing(d, primitive).triangles;
 }
 
-static ffd_status refuse_primitive(const gltf_document *d, size_t m, size_t p, ffd_error *error)
+static ffd_status refuse_primitive(const gltf_document *d, const gltf_primitive *primitive, ffd_error *error)
 {
-    const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
     if (primitive->accessor[GLTF_POSITION] < 0)
         return FFD_OK;
-    const ffd_status status = ffd_gltf_refuse_unreadable(d, m, p, primitive->accessor[GLTF_POSITION], error);
+    const ffd_status status =
+        ffd_gltf_refuse_unreadable(d, primitive, primitive->accessor[GLTF_POSITION], error);
     if (status || primitive->indices < 0)
         return status;
-    return ffd_gltf_refuse_unreadable(d, m, p, primitive->indices, error);
+    return ffd_gltf_refuse_unreadable(d, primitive, primitive->indices, error);
 }
 
 static ffd_status count_all(const gltf_document *d, mesh_faces *faces, ffd_error *error)
 {
     uint64_t triangles = 0, lines = 0, points = 0;
-    for (size_t m = 0; m < d->model.mesh_count; m++) {
-        const size_t nodes = d->mesh_uses[m].node_count;
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count && nodes > 0; p++) {
-            const ffd_status status = refuse_primitive(d, m, p, error);
-            if (status)
-                return status;
-            const drawing counted = count_drawing(d, &d->model.meshes[m].primitives[p]);
-            triangles += (uint64_t)counted.triangles * nodes; /* both are below 2^32 */
-            lines += (uint64_t)counted.lines * nodes;
-            points += (uint64_t)counted.points * nodes;
-            if (triangles > MOST_TRIANGLES)
-                return ffd_fail_file(error, FFD_E_LIMIT, d->name, "its scene has more than %d triangles",
-                                     MOST_TRIANGLES);
-        }
+    for (size_t i = 0; i < d->instance_count; i++) {
+        const gltf_primitive *const primitive = d->instances[i].primitive;
+        const ffd_status status = refuse_primitive(d, primitive, error);
+        if (status)
+            return status;
+        const drawing counted = count_drawing(d, primitive);
+        triangles += counted.triangles;
+        lines += counted.lines;
+        points += counted.points;
+        if (triangles > MOST_TRIANGLES)
+            return ffd_fail_file(error, FFD_E_LIMIT, d->name, "its scene has more than %d triangles",
+                                 MOST_TRIANGLES);
     }
     faces->face_count = (size_t)triangles;
     faces->lines = (size_t)lines;
@@ -118,21 +116,20 @@ static void fill_positions(const gltf_document *d, mesh_faces *faces, size_t *ba
     }
 }
 
-static ffd_status refuse_index(const gltf_document *d, size_t m, size_t p, size_t i, ffd_error *error)
+static ffd_status refuse_index(const gltf_document *d, const gltf_primitive *primitive, size_t i,
+                               ffd_error *error)
 {
-    const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
     const gltf_accessor *positions = &d->model.accessors[primitive->accessor[GLTF_POSITION]];
     uint32_t index;
     ffd_gltf_read_drawn(d, primitive, i, 1, &index);
-    return ffd_json_span_fail(&d->tree, ffd_gltf_primitive_value(d, m, p), d->name, FFD_E_INVALID, error,
+    return ffd_json_span_fail(&d->tree, primitive->value, d->name, FFD_E_INVALID, error,
                               "index %zu is %lu, but the count of vertices is %llu", i, (unsigned long)index,
                               (unsigned long long)positions->count);
 }
 
-static ffd_status fill_corners(const gltf_document *d, size_t m, size_t p, size_t count, uint32_t *corners,
-                               ffd_error *error)
+static ffd_status fill_corners(const gltf_document *d, const gltf_primitive *primitive, size_t count,
+                               uint32_t *corners, ffd_error *error)
 {
-    const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
     const uint64_t vertices = d->model.accessors[primitive->accessor[GLTF_POSITION]].count;
     if (primitive->indices < 0) {
         for (size_t i = 0; i < count; i++)
@@ -142,22 +139,22 @@ static ffd_status fill_corners(const gltf_document *d, size_t m, size_t p, size_
     const uint32_t largest = ffd_gltf_read_drawn(d, primitive, 0, count, corners);
     for (size_t i = 0; i < count && largest >= vertices; i++)
         if (corners[i] >= vertices)
-            return refuse_index(d, m, p, i, error);
+            return refuse_index(d, primitive, i, error);
     return FFD_OK;
 }
 
-ffd_status ffd_gltf_read_corners(const gltf_document *d, size_t m, size_t p, uint32_t **corners,
+ffd_status ffd_gltf_read_corners(const gltf_document *d, const gltf_primitive *primitive, uint32_t **corners,
                                  size_t *count, ffd_error *error)
 {
-    ffd_status status = refuse_primitive(d, m, p, error);
+    ffd_status status = refuse_primitive(d, primitive, error);
     *corners = NULL;
     if (status)
         return status;
-    *count = count_drawing(d, &d->model.meshes[m].primitives[p]).corners;
+    *count = count_drawing(d, primitive).corners;
     *corners = ffd_alloc(*count, sizeof **corners);
     if (!*corners)
         return ffd_fail_memory(error);
-    status = fill_corners(d, m, p, *count, *corners, error);
+    status = fill_corners(d, primitive, *count, *corners, error);
     if (status) {
         ffd_free(*corners);
         *corners = NULL;
@@ -165,19 +162,18 @@ ffd_status ffd_gltf_read_corners(const gltf_document *d, size_t m, size_t p, uin
     return status;
 }
 
-static ffd_status add_primitive(const gltf_document *d, size_t m, size_t p, const size_t *base, uint32_t *to,
-                                size_t *added, ffd_error *error)
+static ffd_status add_primitive(const gltf_document *d, const gltf_primitive *primitive, const size_t *base,
+                                uint32_t *to, size_t *added, ffd_error *error)
 {
-    const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
     const drawing counted = count_drawing(d, primitive);
-    const gltf_mesh_uses *uses = &d->mesh_uses[m];
+    const gltf_mesh_uses *uses = &d->mesh_uses[primitive->mesh];
     if (counted.triangles == 0 || uses->node_count == 0)
         return FFD_OK;
     uint32_t *corners;
     size_t count;
-    const ffd_status status = ffd_gltf_read_corners(d, m, p, &corners, &count, error);
+    const ffd_status status = ffd_gltf_read_corners(d, primitive, &corners, &count, error);
     for (size_t n = 0; n < uses->node_count && status == FFD_OK; n++) {
-        const gltf_instance *instance = &ffd_gltf_instances(d, m, p)[n];
+        const gltf_instance *instance = &ffd_gltf_instances(d, primitive)[n];
         for (size_t t = 0; t < counted.triangles; t++) {
             uint32_t *triangle = to + 3 * (*added)++;
             gltf_triangle(primitive->mode, t, corners, triangle);
@@ -192,11 +188,10 @@ static ffd_status add_primitive(const gltf_document *d, size_t m, size_t p, cons
 uint64_t ffd_gltf_most_corners(const gltf_document *d)
 {
     uint64_t most = 0;
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++) {
-            const uint64_t corners = count_drawing(d, &d->model.meshes[m].primitives[p]).corners;
-            most = corners > most ? corners : most;
-        }
+    for (size_t i = 0; i < d->model.primitive_count; i++) {
+        const uint64_t corners = count_drawing(d, &d->model.primitives[i]).corners;
+        most = corners > most ? corners : most;
+    }
     return most;
 }
 
@@ -231,9 +226,8 @@ ffd_status ffd_gltf_faces(const mesh_document *document, mesh_faces *faces, ffd_
             faces->start[i] = 3 * i;
     }
     size_t added = 0;
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count && status == FFD_OK; p++)
-            status = add_primitive(d, m, p, base, faces->corners, &added, error);
+    for (size_t i = 0; i < d->model.primitive_count && status == FFD_OK; i++)
+        status = add_primitive(d, &d->model.primitives[i], base, faces->corners, &added, error);
     ffd_free(base);
     if (status)
         ffd_mesh_faces_free(faces);
@@ -268,15 +262,13 @@ ffd_status ffd_gltf_corner_normals(const mesh_document *document, const mesh_fac
         first_normals[i] = number;
         number += d->mesh_parts[i].normal_count;
     }
-    for (size_t m = 0; m < d->model.mesh_count && status == FFD_OK; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++) {
-            const size_t count = 3 * count_drawing(d, &d->model.meshes[m].primitives[p]).triangles;
-            const gltf_mesh_uses *uses = &d->mesh_uses[m];
-            const gltf_instance *instances = ffd_gltf_instances(d, m, p);
-            for (size_t n = 0; n < uses->node_count && count > 0; n++, corner += count)
-                number_corners(&instances[n], first_vertices, first_normals, faces->corners + corner, count,
-                               normals + corner);
-        }
+    for (size_t i = 0; i < d->instance_count && status == FFD_OK; i++) {
+        const size_t count = 3 * count_drawing(d, d->instances[i].primitive).triangles;
+        if (count > 0)
+            number_corners(&d->instances[i], first_vertices, first_normals, faces->corners + corner, count,
+                           normals + corner);
+        corner += count;
+    }
     ffd_free(first_normals);
     ffd_free(first_vertices);
     return status;
@@ -371,17 +363,16 @@ static ffd_status mark_indices(drawn_primitive *primitive, ffd_error *error)
 }
 
 /* Marks the vertices that a primitive draws, in the part of each node that shows it. */
-static ffd_status mark_primitive(gltf_document *d, size_t m, size_t p, ffd_error *error)
+static ffd_status mark_primitive(gltf_document *d, const gltf_primitive *primitive, ffd_error *error)
 {
-    const gltf_primitive *const primitive = &d->model.meshes[m].primitives[p];
     drawn_primitive drawn = {.document = d,
                              .primitive = primitive,
-                             .instances = ffd_gltf_instances(d, m, p),
-                             .nodes = d->mesh_uses[m].node_count};
+                             .instances = ffd_gltf_instances(d, primitive),
+                             .nodes = d->mesh_uses[primitive->mesh].node_count};
     if (drawn.nodes == 0 || primitive->accessor[GLTF_POSITION] < 0)
         return FFD_OK;
     const bool failed =
-        primitive->indices < 0 || ffd_gltf_refuse_unreadable(d, m, p, primitive->indices, NULL);
+        primitive->indices < 0 || ffd_gltf_refuse_unreadable(d, primitive, primitive->indices, NULL);
     atomic_init(&drawn.failed, failed);
     if (!failed) {
         const ffd_status status = mark_indices(&drawn, error);
@@ -397,9 +388,8 @@ ffd_status ffd_gltf_mark_used(mesh_document *document, ffd_error *error)
 {
     gltf_document *const d = (gltf_document *)document;
     ffd_status status = FFD_OK;
-    for (size_t m = 0; m < d->model.mesh_count && !status; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count && !status; p++)
-            status = mark_primitive(d, m, p, error);
+    for (size_t i = 0; i < d->model.primitive_count && !status; i++)
+        status = mark_primitive(d, &d->model.primitives[i], error);
     for (size_t i = 0; i < d->base.part_count && !status; i++)
         if (d->parts[i].used && ffd_used_keep(document, d->mesh_parts[i].vertex_count, &d->parts[i].used))
             d->mesh_parts[i].used = d->parts[i].used;
@@ -487,18 +477,18 @@ static bool search(mixed_work *work, size_t triangles, mixed_lists *all)
 
 /* Searches a primitive under all nodes. Returns false for anything this simple search cannot handle: all
    faces must then be read. */
-static bool search_primitive(mixed_work *work, const size_t *first, size_t m, size_t p, mixed_lists *all)
+static bool search_primitive(mixed_work *work, const size_t *first, const gltf_primitive *primitive,
+                             mixed_lists *all)
 {
     const gltf_document *const d = work->document;
-    const gltf_primitive *const primitive = &d->model.meshes[m].primitives[p];
     if (primitive->accessor[GLTF_POSITION] < 0)
         return true;
-    const size_t triangles = ffd_gltf_count_triangles(d, m, p);
-    if (primitive->indices >= 0 && ffd_gltf_refuse_unreadable(d, m, p, primitive->indices, NULL))
+    const size_t triangles = ffd_gltf_count_triangles(d, primitive);
+    if (primitive->indices >= 0 && ffd_gltf_refuse_unreadable(d, primitive, primitive->indices, NULL))
         return false;
     work->indices = primitive->indices >= 0 ? (size_t)primitive->indices : GLTF_NONE;
-    for (size_t n = 0; triangles > 0 && n < d->mesh_uses[m].node_count; n++) {
-        const size_t part = ffd_gltf_instances(d, m, p)[n].part[GLTF_POSITION];
+    for (size_t n = 0; triangles > 0 && n < d->mesh_uses[primitive->mesh].node_count; n++) {
+        const size_t part = ffd_gltf_instances(d, primitive)[n].part[GLTF_POSITION];
         if (part == GLTF_NONE)
             return false;
         work->first = first[part];
@@ -530,9 +520,8 @@ static bool search_all(mixed_work *work, const size_t *first, mixed_lists *all)
 {
     const gltf_model *const model = &work->document->model;
     bool plain = true;
-    for (size_t m = 0; m < model->mesh_count && plain; m++)
-        for (size_t p = 0; p < model->meshes[m].primitive_count && plain; p++)
-            plain = search_primitive(work, first, m, p, all);
+    for (size_t i = 0; i < model->primitive_count && plain; i++)
+        plain = search_primitive(work, first, &model->primitives[i], all);
     return plain;
 }
 

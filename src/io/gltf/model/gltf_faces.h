@@ -9,11 +9,11 @@ void ffd_gltf_count_drawing(const gltf_document *document, size_t mesh, size_t *
                             size_t *points);
 
 /* Returns the number of triangles that a primitive draws for one use. */
-size_t ffd_gltf_count_triangles(const gltf_document *document, size_t mesh, size_t primitive);
+size_t ffd_gltf_count_triangles(const gltf_document *document, const gltf_primitive *primitive);
 
 /* Lists the vertices (0, 1, ..) that a primitive with positions draws, in order. The caller frees corners,
    which is NULL after a failure. Errors: FFD_E_INVALID, FFD_E_UNSUPPORTED, FFD_E_MEMORY. */
-ffd_status ffd_gltf_read_corners(const gltf_document *document, size_t mesh, size_t primitive,
+ffd_status ffd_gltf_read_corners(const gltf_document *document, const gltf_primitive *primitive,
                                  uint32_t **corners, size_t *count, ffd_error *error);
 
 /* Returns the largest count of ffd_gltf_read_corners over all primitives. */

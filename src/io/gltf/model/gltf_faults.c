@@ -62,16 +62,6 @@ static void tell(const fault_list *list, char *text, size_t capacity)
         snprintf(text + length, capacity - length, " and %zu more", list->count - SHOWN);
 }
 
-static size_t target_count(const gltf_document *d, size_t mesh)
-{
-    size_t most = 0;
-    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++) {
-        const size_t count = d->model.meshes[mesh].primitives[p].target_count;
-        most = count > most ? count : most;
-    }
-    return most;
-}
-
 /* Whether an object's default weights, if any, are one number per target. */
 static bool has_sound_weights(const gltf_document *d, uint32_t object, size_t targets)
 {
@@ -93,11 +83,11 @@ static ffd_status warn_of_weights(const gltf_document *d, const mesh_log *log, f
     fault_list list = {.document = d};
     ffd_status status = FFD_OK;
     for (size_t m = 0; m < d->model.mesh_count && status == FFD_OK; m++)
-        if (!has_sound_weights(d, d->mesh_values.values[m], target_count(d, m)))
+        if (!has_sound_weights(d, d->mesh_values.values[m], d->mesh_uses[m].target_count))
             status = add_name(&list, d->mesh_values.values[m], "mesh", m, error);
     for (size_t n = 0; n < d->model.node_count && status == FFD_OK; n++) {
         const int mesh = d->model.nodes[n].mesh;
-        if (!has_sound_weights(d, d->node_values.values[n], mesh < 0 ? 0 : target_count(d, (size_t)mesh)))
+        if (!has_sound_weights(d, d->node_values.values[n], mesh < 0 ? 0 : d->mesh_uses[mesh].target_count))
             status = add_name(&list, d->node_values.values[n], "node", n, error);
     }
     char names[sizeof list.shown + 60];

@@ -117,8 +117,8 @@ static bool is_finite(const ffd_bounds *box)
 static bool find_mesh_bounds(survey *s, size_t mesh, ffd_bounds *box)
 {
     *box = empty_bounds;
-    for (size_t p = 0; p < s->document->model.meshes[mesh].primitive_count; p++) {
-        const int accessor = s->document->model.meshes[mesh].primitives[p].accessor[GLTF_POSITION];
+    for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(s->document, mesh, p));) {
+        const int accessor = p->accessor[GLTF_POSITION];
         if (accessor < 0)
             continue;
         if (!s->document->layouts[accessor].readable)
@@ -157,8 +157,8 @@ static void skip_node(gltf_document *d, size_t node)
     gltf_mesh_uses *uses = &d->mesh_uses[mesh];
     const size_t use = ffd_gltf_find_use(uses, node);
     uses->used_outside_scene = true; /* the node keeps its mesh */
-    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
-        ffd_gltf_instances(d, mesh, p)[use].selected = false;
+    for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, mesh, p));)
+        ffd_gltf_instances(d, p)[use].selected = false;
 }
 
 static bool is_instanced(const gltf_document *d, size_t node)

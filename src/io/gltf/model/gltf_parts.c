@@ -12,7 +12,7 @@
    need for it. */
 #define INSTANCE_BYTES                                                                                       \
     (sizeof(gltf_instance) + sizeof(gltf_part) + sizeof(mesh_part) + 4 * sizeof(size_t) + SAVED_BYTES)
-#define SAVED_BYTES 400
+#define SAVED_BYTES 384
 
 /* A hash table of the parts by POSITION accessor, node, with a skin influences, and the morph targets of
    positions that default weights show. */
@@ -33,8 +33,8 @@ static ffd_status count_instances(gltf_document *d, size_t *total, ffd_error *er
         d->mesh_uses[m].first_instance = *total;
         status = ffd_budget_take(&d->base.budget, instances, INSTANCE_BYTES, error);
         *total += (size_t)instances;
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
-            targets += (uint64_t)d->model.meshes[m].primitives[p].target_count * d->mesh_uses[m].node_count;
+        for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, m, p));)
+            targets += (uint64_t)p->target_count * d->mesh_uses[m].node_count;
         /* Each is looked at, and has a number in the end. */
         if (status == FFD_OK)
             status = ffd_budget_check(&d->base.budget, targets, sizeof *d->targets, error);
@@ -173,12 +173,11 @@ static size_t add_part(gltf_document *d, const gltf_part *part, size_t repeated)
 }
 
 /* Returns the part that a primitive under a node needs. */
-static gltf_part describe_part(const gltf_document *d, size_t mesh, size_t p, size_t node)
+static gltf_part describe_part(const gltf_document *d, const gltf_primitive *primitive, size_t node)
 {
-    const gltf_primitive *const primitive = &d->model.meshes[mesh].primitives[p];
     gltf_part part = {.node = node,
                       .primitive = primitive,
-                      .first_weight = ffd_gltf_first_weight(d, mesh, node),
+                      .first_weight = ffd_gltf_first_weight(d, primitive->mesh, node),
                       .first_splat = GLTF_NONE};
     for (int s = 0; s < GLTF_DEFORMED; s++) {
         part.streams[s].accessor = readable_accessor(d, primitive, (gltf_semantic)s);
@@ -194,10 +193,13 @@ static gltf_part describe_part(const gltf_document *d, size_t mesh, size_t p, si
     return part;
 }
 
-static void add_instance(gltf_document *d, const part_table *table, size_t mesh, size_t p, size_t node,
-                         gltf_instance *instance)
+static void add_instance(gltf_document *d, const part_table *table, const gltf_primitive *primitive,
+                         size_t node)
 {
-    const gltf_part wanted = describe_part(d, mesh, p, node);
+    const gltf_part wanted = describe_part(d, primitive, node);
+    gltf_instance *const instance = &d->instances[d->instance_count++];
+    instance->primitive = primitive;
+    instance->node = node;
     for (int s = 0; s < GLTF_DEFORMED; s++)
         instance->part[s] = GLTF_NONE;
     instance->selected = true;
@@ -252,12 +254,11 @@ ffd_status ffd_gltf_make_parts(gltf_document *d, ffd_error *error)
         status = ffd_fail_memory(error);
         goto done;
     }
-    gltf_instance *instance = d->instances;
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
-            for (size_t n = 0; n < d->mesh_uses[m].node_count; n++)
-                add_instance(d, &table, m, p, d->mesh_uses[m].nodes ? d->mesh_uses[m].nodes[n] : GLTF_NONE,
-                             instance++);
+    for (size_t i = 0; i < d->model.primitive_count; i++) {
+        const gltf_mesh_uses *const uses = &d->mesh_uses[d->model.primitives[i].mesh];
+        for (size_t n = 0; n < uses->node_count; n++)
+            add_instance(d, &table, &d->model.primitives[i], uses->nodes ? uses->nodes[n] : GLTF_NONE);
+    }
     d->base.parts = d->mesh_parts;
     status = limit_vertices(d, error);
 done:

@@ -31,7 +31,7 @@ void ffd_gltf_read_shown(const gltf_document *document, size_t part, gltf_semant
    under a node (GLTF_NONE: none): those of the first `count` vertices, `components` numbers each, which begin
    every `stride` values. values NULL: adds nothing. Returns whether any target with a weight has the
    attribute; false if document->base.shown is not set. */
-bool ffd_gltf_add_shapes(const gltf_document *document, size_t mesh, size_t primitive, size_t node,
+bool ffd_gltf_add_shapes(const gltf_document *document, const gltf_primitive *primitive, size_t node,
                          const char *name, size_t count, size_t components, size_t stride, double *values);
 
 #endif

@@ -69,20 +69,16 @@ static void choose_below(const survey *s, size_t root)
     }
 }
 
-static void choose_instances(const survey *s, size_t m, size_t p)
+static void choose_instance(const survey *s, const gltf_instance *instance)
 {
     const gltf_document *d = s->document;
-    const gltf_mesh_uses *uses = &d->mesh_uses[m];
-    const gltf_instance *instances = ffd_gltf_instances(d, m, p);
-    for (size_t n = 0; n < uses->node_count; n++) {
-        s->nodes[uses->nodes[n]] |= instances[n].selected ? HAS_SELECTED : HAS_OTHERS;
-        if (!instances[n].selected)
-            continue;
-        const int skin = d->model.nodes[uses->nodes[n]].skin;
-        choose_below(s, uses->nodes[n]);
-        for (size_t j = 0; skin >= 0 && j < d->skins[skin].joint_count; j++)
-            choose_below(s, d->skins[skin].joints[j]);
-    }
+    s->nodes[instance->node] |= instance->selected ? HAS_SELECTED : HAS_OTHERS;
+    if (!instance->selected)
+        return;
+    const int skin = d->model.nodes[instance->node].skin;
+    choose_below(s, instance->node);
+    for (size_t j = 0; skin >= 0 && j < d->skins[skin].joint_count; j++)
+        choose_below(s, d->skins[skin].joints[j]);
 }
 
 static void mark_chosen(const survey *s)
@@ -91,9 +87,8 @@ static void mark_chosen(const survey *s)
     for (size_t n = 0; n < d->model.node_count; n++)
         if (!d->selected_nodes || d->selected_nodes[n])
             s->nodes[n] |= IS_CHOSEN;
-    for (size_t m = 0; m < d->model.mesh_count && d->selected_nodes; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
-            choose_instances(s, m, p);
+    for (size_t i = 0; i < d->instance_count && d->selected_nodes; i++)
+        choose_instance(s, &d->instances[i]);
 }
 
 static void mark_node(const survey *s, size_t node, uint8_t mark)

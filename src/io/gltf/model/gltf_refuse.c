@@ -195,9 +195,9 @@ static uint32_t find_holder(const gltf_document *d, uint32_t object)
     return JSON_NONE;
 }
 
-static uint32_t holder_of(const gltf_document *d, size_t m, size_t p)
+static uint32_t holder_of(const gltf_document *d, const gltf_primitive *primitive)
 {
-    return find_holder(d, ffd_gltf_primitive_value(d, m, p));
+    return find_holder(d, primitive->value);
 }
 
 /* Whether an accessor is of zeros, without bytes of its own. */
@@ -220,18 +220,17 @@ static bool states_other_than_zeros(const gltf_document *d, int a)
 
 void ffd_gltf_find_held(gltf_document *d)
 {
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++) {
-            const gltf_primitive *const primitive = &d->model.meshes[m].primitives[p];
-            const int a = primitive->accessor[GLTF_POSITION];
-            if (is_empty(d, a) && holder_of(d, m, p) != JSON_NONE)
-                d->layouts[a].readable = false;
-            for (size_t s = 0; s < gltf_vector_slots(primitive); s++) {
-                const int of = gltf_slot_accessor(primitive, s);
-                if (is_empty(d, of) && states_other_than_zeros(d, of))
-                    d->layouts[of].readable = false;
-            }
+    for (size_t i = 0; i < d->model.primitive_count; i++) {
+        const gltf_primitive *const primitive = &d->model.primitives[i];
+        const int a = primitive->accessor[GLTF_POSITION];
+        if (is_empty(d, a) && holder_of(d, primitive) != JSON_NONE)
+            d->layouts[a].readable = false;
+        for (size_t s = 0; s < gltf_vector_slots(primitive); s++) {
+            const int of = gltf_slot_accessor(primitive, s);
+            if (is_empty(d, of) && states_other_than_zeros(d, of))
+                d->layouts[of].readable = false;
         }
+    }
 }
 
 /* Refuses a morph target, or a normal, that only min and max tell of. */
@@ -250,15 +249,14 @@ static ffd_status refuse_stated(const gltf_document *d, const gltf_primitive *pr
 }
 
 /* Refuses a primitive of which an extension holds such numbers. Errors: FFD_E_UNSUPPORTED, FFD_E_MEMORY. */
-static ffd_status refuse_held_by(const gltf_document *d, size_t m, size_t p, ffd_error *error)
+static ffd_status refuse_held_by(const gltf_document *d, const gltf_primitive *primitive, ffd_error *error)
 {
-    const gltf_primitive *const primitive = &d->model.meshes[m].primitives[p];
     const int a = primitive->accessor[GLTF_POSITION];
-    if (ffd_gltf_draco_value(d, m, p) != JSON_NONE || a < 0)
+    if (ffd_gltf_draco_value(d, primitive) != JSON_NONE || a < 0)
         return FFD_OK;
     if (!is_empty(d, a) || d->layouts[a].readable)
         return refuse_stated(d, primitive, error);
-    const uint32_t holder = holder_of(d, m, p);
+    const uint32_t holder = holder_of(d, primitive);
     if (holder == JSON_NONE)
         return ffd_json_span_fail(&d->tree, d->accessor_values.values[a], d->name, FFD_E_UNSUPPORTED, error,
                                   "the accessor has no bytes, but its min and max are not 0: the positions "
@@ -296,10 +294,10 @@ static ffd_status refuse(const gltf_document *d, uint32_t value, ffd_error *erro
     return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_UNSUPPORTED, error, "%s", what);
 }
 
-ffd_status ffd_gltf_refuse_unreadable(const gltf_document *d, size_t mesh, size_t primitive, int accessor,
+ffd_status ffd_gltf_refuse_unreadable(const gltf_document *d, const gltf_primitive *primitive, int accessor,
                                       ffd_error *error)
 {
-    ffd_status status = ffd_gltf_refuse_draco(d, mesh, primitive, error);
+    ffd_status status = ffd_gltf_refuse_draco(d, primitive, error);
     if (status || d->layouts[accessor].readable)
         return status;
     const uint32_t value = d->accessor_values.values[accessor];
@@ -312,15 +310,14 @@ ffd_status ffd_gltf_refuse_unreadable(const gltf_document *d, size_t mesh, size_
     return status ? status : refuse(d, value, error, "an accessor without bytes is not supported");
 }
 
-static ffd_status refuse_primitive(const gltf_document *d, size_t m, size_t p, ffd_error *error)
+static ffd_status refuse_primitive(const gltf_document *d, const gltf_primitive *primitive, ffd_error *error)
 {
-    const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
     if (primitive->accessor[GLTF_POSITION] < 0)
         return FFD_OK;
-    ffd_status status = ffd_gltf_refuse_unreadable(d, m, p, primitive->accessor[GLTF_POSITION], error);
+    ffd_status status = ffd_gltf_refuse_unreadable(d, primitive, primitive->accessor[GLTF_POSITION], error);
     for (size_t s = GLTF_DEFORMED; s < gltf_vector_slots(primitive) && status == FFD_OK; s++)
         if (gltf_slot_accessor(primitive, s) >= 0)
-            status = ffd_gltf_refuse_unreadable(d, m, p, gltf_slot_accessor(primitive, s), error);
+            status = ffd_gltf_refuse_unreadable(d, primitive, gltf_slot_accessor(primitive, s), error);
     return status;
 }
 
@@ -330,16 +327,16 @@ static ffd_status refuse_skin(const gltf_document *d, size_t node, ffd_error *er
     const size_t m = (size_t)d->model.nodes[node].mesh;
     const gltf_skin *skin = d->model.nodes[node].skin < 0 ? NULL : &d->skins[d->model.nodes[node].skin];
     ffd_status status = FFD_OK;
-    for (size_t p = 0; skin && p < d->model.meshes[m].primitive_count && status == FFD_OK; p++) {
-        const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
+    for (const gltf_primitive *primitive = NULL;
+         skin && status == FFD_OK && (primitive = ffd_gltf_next_primitive(d, m, primitive));) {
         if (primitive->accessor[GLTF_POSITION] < 0)
             continue; /* nothing to move, and nobody has checked its influences */
         if (skin->inverse_bind >= 0)
-            status = ffd_gltf_refuse_unreadable(d, m, p, skin->inverse_bind, error);
+            status = ffd_gltf_refuse_unreadable(d, primitive, skin->inverse_bind, error);
         for (size_t i = 0; i < primitive->influence_count && status == FFD_OK; i++) {
-            status = ffd_gltf_refuse_unreadable(d, m, p, primitive->influences[i].joints, error);
+            status = ffd_gltf_refuse_unreadable(d, primitive, primitive->influences[i].joints, error);
             if (status == FFD_OK)
-                status = ffd_gltf_refuse_unreadable(d, m, p, primitive->influences[i].weights, error);
+                status = ffd_gltf_refuse_unreadable(d, primitive, primitive->influences[i].weights, error);
         }
     }
     return status;
@@ -376,10 +373,9 @@ static ffd_status refuse_newer_version(const gltf_document *d, ffd_error *error)
 static ffd_status refuse_held(const gltf_document *d, ffd_error *error)
 {
     ffd_status status = FFD_OK;
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count && d->mesh_uses[m].node_count > 0; p++)
-            if (status == FFD_OK)
-                status = refuse_held_by(d, m, p, error);
+    for (size_t i = 0; i < d->model.primitive_count && status == FFD_OK; i++)
+        if (d->mesh_uses[d->model.primitives[i].mesh].node_count > 0)
+            status = refuse_held_by(d, &d->model.primitives[i], error);
     return status;
 }
 
@@ -404,9 +400,9 @@ ffd_status ffd_gltf_refuse_read(const gltf_document *d, ffd_error *error)
     }
     for (size_t m = 0; m < d->model.mesh_count; m++) {
         const gltf_mesh_uses *uses = &d->mesh_uses[m];
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count && uses->node_count > 0 && status == FFD_OK;
-             p++)
-            status = refuse_primitive(d, m, p, error);
+        for (const gltf_primitive *p = NULL;
+             uses->node_count > 0 && status == FFD_OK && (p = ffd_gltf_next_primitive(d, m, p));)
+            status = refuse_primitive(d, p, error);
         for (size_t n = 0; uses->nodes && n < uses->node_count && status == FFD_OK; n++)
             status = refuse_skin(d, uses->nodes[n], error);
     }
@@ -416,20 +412,18 @@ ffd_status ffd_gltf_refuse_read(const gltf_document *d, ffd_error *error)
 /* Refuses accessors that cannot be read: results could be written neither in place nor into a copy. */
 ffd_status ffd_gltf_refuse_store(const gltf_document *d, bool normals, bool tangents, ffd_error *error)
 {
-    for (size_t m = 0; m < d->model.mesh_count; m++) {
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count && d->mesh_uses[m].node_count > 0; p++) {
-            const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
-            const bool wanted[GLTF_DEFORMED] = {true, normals,
-                                                tangents && primitive->accessor[GLTF_NORMAL] >= 0};
-            for (size_t s = 0; s < gltf_vector_slots(primitive) && primitive->accessor[GLTF_POSITION] >= 0;
-                 s++) {
-                const int accessor = gltf_slot_accessor(primitive, s);
-                if (!wanted[s % GLTF_DEFORMED] || accessor < 0)
-                    continue;
-                const ffd_status status = ffd_gltf_refuse_unreadable(d, m, p, accessor, error);
-                if (status)
-                    return status;
-            }
+    for (size_t i = 0; i < d->model.primitive_count; i++) {
+        const gltf_primitive *const primitive = &d->model.primitives[i];
+        const bool wanted[GLTF_DEFORMED] = {true, normals, tangents && primitive->accessor[GLTF_NORMAL] >= 0};
+        if (d->mesh_uses[primitive->mesh].node_count == 0 || primitive->accessor[GLTF_POSITION] < 0)
+            continue;
+        for (size_t s = 0; s < gltf_vector_slots(primitive); s++) {
+            const int accessor = gltf_slot_accessor(primitive, s);
+            if (!wanted[s % GLTF_DEFORMED] || accessor < 0)
+                continue;
+            const ffd_status status = ffd_gltf_refuse_unreadable(d, primitive, accessor, error);
+            if (status)
+                return status;
         }
     }
     return FFD_OK;

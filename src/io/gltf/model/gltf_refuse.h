@@ -28,7 +28,7 @@ ffd_status ffd_gltf_refuse_store(const gltf_document *document, bool normals, bo
                                  ffd_error *error);
 
 /* Refuses a primitive if this accessor cannot be read. Errors: FFD_E_UNSUPPORTED. */
-ffd_status ffd_gltf_refuse_unreadable(const gltf_document *document, size_t mesh, size_t primitive,
+ffd_status ffd_gltf_refuse_unreadable(const gltf_document *document, const gltf_primitive *primitive,
                                       int accessor, ffd_error *error);
 
 #endif

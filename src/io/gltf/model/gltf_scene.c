@@ -388,12 +388,12 @@ static void use_meshes_alone(gltf_document *d)
 
 static void count_targets(gltf_document *d)
 {
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++) {
-            const size_t count = d->model.meshes[m].primitives[p].target_count;
-            if (count > d->mesh_uses[m].target_count)
-                d->mesh_uses[m].target_count = count;
-        }
+    for (size_t i = 0; i < d->model.primitive_count; i++) {
+        const gltf_primitive *const primitive = &d->model.primitives[i];
+        gltf_mesh_uses *const uses = &d->mesh_uses[primitive->mesh];
+        if (primitive->target_count > uses->target_count)
+            uses->target_count = primitive->target_count;
+    }
 }
 
 /* Notes primitives with fewer morph targets than others of their mesh. Viewers do not move them by a weight
@@ -401,16 +401,15 @@ static void count_targets(gltf_document *d)
 static ffd_status note_unequal_targets(gltf_document *d, ffd_error *error)
 {
     ffd_status status = FFD_OK;
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count && status == FFD_OK; p++) {
-            const size_t count = d->model.meshes[m].primitives[p].target_count;
-            if (count < d->mesh_uses[m].target_count)
-                status = ffd_gltf_flaw(d, ffd_gltf_primitive_value(d, m, p), error,
-                                       "the primitive has %zu %s, but another one of its mesh has %zu: the "
-                                       "further ones do not move it",
-                                       count, ffd_plural(count, "morph target", "morph targets"),
-                                       d->mesh_uses[m].target_count);
-        }
+    for (size_t i = 0; i < d->model.primitive_count && status == FFD_OK; i++) {
+        const gltf_primitive *const primitive = &d->model.primitives[i];
+        const size_t count = primitive->target_count, most = d->mesh_uses[primitive->mesh].target_count;
+        if (count < most)
+            status = ffd_gltf_flaw(d, primitive->value, error,
+                                   "the primitive has %zu %s, but another one of its mesh has %zu: the "
+                                   "further ones do not move it",
+                                   count, ffd_plural(count, "morph target", "morph targets"), most);
+    }
     return status;
 }
 

@@ -18,18 +18,18 @@ typedef struct mesh_use {
     size_t mesh, use; /* GLTF_NONE: no use */
 } mesh_use;
 
-/* Returns the part of the positions of a primitive of the use. */
-static size_t position_part(const gltf_document *d, mesh_use at, size_t primitive)
+/* Returns the part of the positions of a primitive for a use of its mesh. */
+static size_t position_part(const gltf_document *d, const gltf_primitive *primitive, size_t use)
 {
-    return ffd_gltf_instances(d, at.mesh, primitive)[at.use].part[GLTF_POSITION];
+    return ffd_gltf_instances(d, primitive)[use].part[GLTF_POSITION];
 }
 
 static mesh_use find_use(const gltf_document *d, size_t part)
 {
     for (size_t m = 0; m < d->model.mesh_count; m++)
         for (size_t n = 0; n < d->mesh_uses[m].node_count; n++)
-            for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
-                if (position_part(d, (mesh_use){m, n}, p) == part)
+            for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, m, p));)
+                if (position_part(d, p, n) == part)
                     return (mesh_use){m, n};
     return (mesh_use){GLTF_NONE, GLTF_NONE};
 }
@@ -48,9 +48,11 @@ static uint64_t count_part(const gltf_document *d, size_t part, size_t first, ui
 static uint64_t count_use(const gltf_document *d, mesh_use at, const size_t *first, uint8_t *marks)
 {
     uint64_t count = 0;
-    for (size_t p = 0; p < d->model.meshes[at.mesh].primitive_count; p++)
-        if (position_part(d, at, p) != GLTF_NONE)
-            count += count_part(d, position_part(d, at, p), first[position_part(d, at, p)], marks);
+    for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, at.mesh, p));) {
+        const size_t part = position_part(d, p, at.use);
+        if (part != GLTF_NONE)
+            count += count_part(d, part, first[part], marks);
+    }
     return count;
 }
 
@@ -116,18 +118,19 @@ typedef struct surveying {
     ffd_error *error;
 } surveying;
 
-static ffd_status draw_primitive(const surveying *s, size_t m, size_t p, size_t first, size_t count)
+static ffd_status draw_primitive(const surveying *s, const gltf_primitive *primitive, size_t first,
+                                 size_t count)
 {
     const gltf_document *d = s->document;
-    const gltf_instance *const instances = ffd_gltf_instances(d, m, p);
+    const gltf_instance *const instances = ffd_gltf_instances(d, primitive);
     uint32_t *corners;
     size_t corner_count;
     if (count == 0 || instances[first].part[GLTF_POSITION] == GLTF_NONE)
         return FFD_OK;
-    const ffd_status status = ffd_gltf_read_corners(d, m, p, &corners, &corner_count, s->error);
+    const ffd_status status = ffd_gltf_read_corners(d, primitive, &corners, &corner_count, s->error);
     for (size_t n = first; n < first + count && status == FFD_OK; n++) {
         ffd_listing_draw(s->listing, instances[n].part[GLTF_POSITION], corners, corner_count);
-        ffd_listing_draw_faces(s->listing, ffd_gltf_count_triangles(d, m, p));
+        ffd_listing_draw_faces(s->listing, ffd_gltf_count_triangles(d, primitive));
     }
     ffd_free(corners);
     return status;
@@ -137,8 +140,9 @@ static ffd_status draw_primitive(const surveying *s, size_t m, size_t p, size_t 
 static ffd_status draw_mesh(const surveying *s, size_t m, size_t first, size_t count)
 {
     ffd_status status = FFD_OK;
-    for (size_t p = 0; p < s->document->model.meshes[m].primitive_count && status == FFD_OK; p++)
-        status = draw_primitive(s, m, p, first, count);
+    for (const gltf_primitive *p = NULL;
+         status == FFD_OK && (p = ffd_gltf_next_primitive(s->document, m, p));)
+        status = draw_primitive(s, p, first, count);
     return status;
 }
 
@@ -203,10 +207,10 @@ static ffd_status draw_material(const surveying *s, size_t material)
 {
     const gltf_document *d = s->document;
     ffd_status status = FFD_OK;
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count && status == FFD_OK; p++)
-            if (s->materials[d->first_primitive[m] + p] == material)
-                status = draw_primitive(s, m, p, 0, d->mesh_uses[m].node_count);
+    for (size_t i = 0; i < d->model.primitive_count && status == FFD_OK; i++)
+        if (s->materials[i] == material)
+            status = draw_primitive(s, &d->model.primitives[i], 0,
+                                    d->mesh_uses[d->model.primitives[i].mesh].node_count);
     return status;
 }
 
@@ -282,9 +286,9 @@ static ffd_status list_names(const surveying *s, const kind_names *k)
 static void read_materials(const surveying *s)
 {
     const gltf_document *d = s->document;
-    for (size_t i = 0; i < d->primitive_values.count; i++) {
+    for (size_t i = 0; i < d->model.primitive_count; i++) {
         double number;
-        const uint32_t member = ffd_json_span_member(&d->tree, d->primitive_values.values[i], "material");
+        const uint32_t member = ffd_json_span_member(&d->tree, d->model.primitives[i].value, "material");
         const bool has = ffd_json_span_number(&d->tree, member, &number) && number >= 0 &&
                          number < (double)d->material_values.count;
         s->materials[i] = has ? (size_t)number : GLTF_NONE;
@@ -317,7 +321,7 @@ ffd_status ffd_gltf_list_parts(const mesh_document *document, mesh_listing *list
     surveying s = {.document = d, .listing = listing, .error = error};
     s.pending = ffd_alloc(d->model.node_count, sizeof *s.pending);
     s.seen = ffd_alloc_zero(d->model.node_count, sizeof *s.seen);
-    s.materials = ffd_alloc(d->primitive_values.count, sizeof *s.materials);
+    s.materials = ffd_alloc(d->model.primitive_count, sizeof *s.materials);
     ffd_status status = FFD_OK;
     if (s.pending && s.seen && s.materials) {
         read_materials(&s);
@@ -447,12 +451,11 @@ static void mark_meshes_of_nodes(const selecting *s)
             s->meshes[model->nodes[n].mesh] = true;
 }
 
-static bool has_material(const selecting *s, size_t m, size_t p)
+static bool has_material(const selecting *s, const gltf_primitive *primitive)
 {
     const gltf_document *d = s->document;
     double number;
-    return ffd_json_span_number(&d->tree,
-                                ffd_json_span_member(&d->tree, ffd_gltf_primitive_value(d, m, p), "material"),
+    return ffd_json_span_number(&d->tree, ffd_json_span_member(&d->tree, primitive->value, "material"),
                                 &number) &&
            number >= 0 && number < (double)s->material_count && s->materials[(size_t)number];
 }
@@ -489,12 +492,12 @@ static ffd_status mark_vertices(gltf_document *d, const gltf_instance *instance,
     return FFD_OK;
 }
 
-static ffd_status select_primitive(const selecting *s, size_t m, size_t p, ffd_error *error)
+static ffd_status select_primitive(const selecting *s, const gltf_primitive *primitive, ffd_error *error)
 {
     gltf_document *d = s->document;
-    const gltf_mesh_uses *uses = &d->mesh_uses[m];
-    gltf_instance *instances = ffd_gltf_instances(d, m, p);
-    const bool everywhere = s->meshes[m] || has_material(s, m, p);
+    const gltf_mesh_uses *uses = &d->mesh_uses[primitive->mesh];
+    gltf_instance *instances = ffd_gltf_instances(d, primitive);
+    const bool everywhere = s->meshes[primitive->mesh] || has_material(s, primitive);
     bool any = false;
     for (size_t n = 0; n < uses->node_count; n++) {
         const bool wanted = everywhere || (uses->nodes && s->nodes[uses->nodes[n]]);
@@ -508,7 +511,7 @@ static ffd_status select_primitive(const selecting *s, size_t m, size_t p, ffd_e
         return FFD_OK;
     uint32_t *corners;
     size_t count;
-    ffd_status status = ffd_gltf_read_corners(d, m, p, &corners, &count, error);
+    ffd_status status = ffd_gltf_read_corners(d, primitive, &corners, &count, error);
     for (size_t n = 0; n < uses->node_count && status == FFD_OK; n++)
         if (instances[n].selected)
             status = mark_vertices(d, &instances[n], corners, count, error);
@@ -529,9 +532,8 @@ static ffd_status select_all(selecting *s, ffd_error *error)
         d->mesh_parts[i].skipped = true;
     for (size_t i = 0; i < d->instanced_node_count; i++)
         d->instanced_nodes[i].deselected = true;
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count && status == FFD_OK; p++)
-            status = select_primitive(s, m, p, error);
+    for (size_t i = 0; i < d->model.primitive_count && status == FFD_OK; i++)
+        status = select_primitive(s, &d->model.primitives[i], error);
     return status;
 }
 

@@ -48,18 +48,15 @@ static size_t find_target(target_table *table, const part_target *wanted)
 
 static ffd_status count_targets(gltf_document *d, size_t *total, ffd_error *error)
 {
-    gltf_instance *instance = d->instances;
     *total = 0;
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
-            for (size_t n = 0; n < d->mesh_uses[m].node_count; n++) {
-                const size_t count = d->model.meshes[m].primitives[p].target_count;
-                (instance++)->first_target = *total;
-                const ffd_status status = ffd_budget_take(&d->base.budget, count, TARGET_BYTES, error);
-                if (status)
-                    return status;
-                *total += count;
-            }
+    for (size_t i = 0; i < d->instance_count; i++) {
+        const size_t count = d->instances[i].primitive->target_count;
+        d->instances[i].first_target = *total;
+        const ffd_status status = ffd_budget_take(&d->base.budget, count, TARGET_BYTES, error);
+        if (status)
+            return status;
+        *total += count;
+    }
     return FFD_OK;
 }
 
@@ -73,14 +70,14 @@ static size_t part_of_targets(const gltf_instance *instance)
 
 /* Returns the number of a target. Offsets of attributes that the primitive lacks are ignored; GLTF_NONE if no
    others remain. */
-static size_t add_target(const gltf_document *d, target_table *table, const gltf_primitive *primitive,
-                         const gltf_instance *instance, const int *accessors)
+static size_t add_target(const gltf_document *d, target_table *table, const gltf_instance *instance,
+                         const int *accessors)
 {
     part_target wanted = {.part = part_of_targets(instance)};
     bool any = false;
     for (int s = 0; s < GLTF_DEFORMED; s++) {
-        const bool has = accessors[s] >= 0 && primitive->accessor[s] >= 0 && instance->part[s] != GLTF_NONE &&
-                         d->layouts[accessors[s]].readable;
+        const bool has = accessors[s] >= 0 && instance->primitive->accessor[s] >= 0 &&
+                         instance->part[s] != GLTF_NONE && d->layouts[accessors[s]].readable;
         wanted.accessors[s] = has ? (size_t)accessors[s] : GLTF_NONE;
         any = any || has;
     }
@@ -89,15 +86,12 @@ static size_t add_target(const gltf_document *d, target_table *table, const gltf
 
 static void find_targets(gltf_document *d, target_table *table)
 {
-    const gltf_instance *instance = d->instances;
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++) {
-            const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
-            for (size_t n = 0; n < d->mesh_uses[m].node_count; n++, instance++)
-                for (size_t t = 0; t < primitive->target_count; t++)
-                    d->targets[instance->first_target + t] = add_target(
-                        d, table, primitive, instance, primitive->target_accessors + GLTF_DEFORMED * t);
-        }
+    for (size_t i = 0; i < d->instance_count; i++) {
+        const gltf_instance *const instance = &d->instances[i];
+        for (size_t t = 0; t < instance->primitive->target_count; t++)
+            d->targets[instance->first_target + t] =
+                add_target(d, table, instance, instance->primitive->target_accessors + GLTF_DEFORMED * t);
+    }
 }
 
 /* Sorts the targets by part: numbers[i] becomes the new number of target i. */
@@ -188,9 +182,10 @@ bool ffd_gltf_weight(const gltf_document *d, uint32_t value, double *weight)
 }
 
 /* Adds a primitive's weights to the shapes of its part; several of its targets may be the same shape. */
-static void add_weights(gltf_document *d, const gltf_instance *instance, size_t targets, uint32_t weight)
+static void add_weights(gltf_document *d, const gltf_instance *instance)
 {
-    for (size_t t = 0; t < targets && weight != JSON_NONE;
+    uint32_t weight = ffd_gltf_first_weight(d, instance->primitive->mesh, instance->node);
+    for (size_t t = 0; t < instance->primitive->target_count && weight != JSON_NONE;
          t++, weight = ffd_json_span_after(&d->tree, weight)) {
         const size_t part = d->targets[instance->first_target + t];
         double number;
@@ -210,21 +205,16 @@ static void note_shown(gltf_document *d)
 /* Primitives that share a part are shown alike: the first one has a say. */
 static ffd_status set_weights(gltf_document *d, ffd_error *error)
 {
-    const gltf_instance *instance = d->instances;
     bool *is_set = ffd_alloc_zero(d->base.part_count, sizeof *is_set);
     if (!is_set)
         return ffd_fail_memory(error);
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
-            for (size_t n = 0; n < d->mesh_uses[m].node_count; n++, instance++) {
-                const gltf_mesh_uses *const uses = &d->mesh_uses[m];
-                const size_t part = part_of_targets(instance);
-                if (part == GLTF_NONE || is_set[part])
-                    continue;
-                is_set[part] = true;
-                add_weights(d, instance, d->model.meshes[m].primitives[p].target_count,
-                            ffd_gltf_first_weight(d, m, uses->nodes ? uses->nodes[n] : GLTF_NONE));
-            }
+    for (size_t i = 0; i < d->instance_count; i++) {
+        const size_t part = part_of_targets(&d->instances[i]);
+        if (part == GLTF_NONE || is_set[part])
+            continue;
+        is_set[part] = true;
+        add_weights(d, &d->instances[i]);
+    }
     note_shown(d);
     ffd_free(is_set);
     return FFD_OK;
@@ -313,11 +303,11 @@ static size_t find_offsets(const gltf_document *d, uint32_t target, const char *
     return fits ? a : GLTF_NONE;
 }
 
-bool ffd_gltf_add_shapes(const gltf_document *d, size_t m, size_t p, size_t node, const char *name,
-                         size_t count, size_t components, size_t stride, double *values)
+bool ffd_gltf_add_shapes(const gltf_document *d, const gltf_primitive *primitive, size_t node,
+                         const char *name, size_t count, size_t components, size_t stride, double *values)
 {
-    const uint32_t targets = ffd_json_span_member(&d->tree, ffd_gltf_primitive_value(d, m, p), "targets");
-    uint32_t weight = d->base.shown ? ffd_gltf_first_weight(d, m, node) : JSON_NONE;
+    const uint32_t targets = ffd_json_span_member(&d->tree, primitive->value, "targets");
+    uint32_t weight = d->base.shown ? ffd_gltf_first_weight(d, primitive->mesh, node) : JSON_NONE;
     bool any = false;
     for (uint32_t target = ffd_json_span_first(&d->tree, targets); target != JSON_NONE && weight != JSON_NONE;
          target = ffd_json_span_after(&d->tree, target), weight = ffd_json_span_after(&d->tree, weight)) {

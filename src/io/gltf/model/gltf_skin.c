@@ -29,7 +29,7 @@ static ffd_status note_half(gltf_document *d, uint32_t primitive, const gltf_inf
 
 /* Ends the sets of a primitive before the first one that is not whole. If a whole one follows, its meaning is
    not plain: ffd_gltf_prepare_skins refuses it. */
-static ffd_status settle_sets(gltf_document *d, uint32_t value, gltf_primitive *primitive, ffd_error *error)
+static ffd_status settle_sets(gltf_document *d, gltf_primitive *primitive, ffd_error *error)
 {
     static const gltf_influence none = {-1, -1};
     size_t whole = 0;
@@ -41,11 +41,11 @@ static ffd_status settle_sets(gltf_document *d, uint32_t value, gltf_primitive *
     const gltf_influence first = primitive->influence_count ? primitive->influences[0] : none;
     ffd_status status = FFD_OK;
     for (size_t i = whole; i < primitive->influence_count && whole > 0 && status == FFD_OK; i++)
-        status = note_half(d, value, &primitive->influences[i], i, error);
+        status = note_half(d, primitive->value, &primitive->influences[i], i, error);
     primitive->influence_count = whole;
     if (whole == 0)
         status =
-            ffd_gltf_flaw(d, value, error,
+            ffd_gltf_flaw(d, primitive->value, error,
                           "a node uses it with a skin, but it has no %s: it is placed by its node, without "
                           "the skin",
                           first.joints >= 0    ? "WEIGHTS_0"
@@ -58,8 +58,8 @@ static ffd_status settle_sets(gltf_document *d, uint32_t value, gltf_primitive *
 static void settle_nodes(gltf_document *d, size_t m)
 {
     const gltf_mesh_uses *const uses = &d->mesh_uses[m];
-    for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
-        if (ffd_gltf_is_skinned(&d->model.meshes[m].primitives[p]))
+    for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, m, p));)
+        if (ffd_gltf_is_skinned(p))
             return;
     for (size_t n = 0; n < uses->node_count; n++)
         d->model.nodes[uses->nodes[n]].skin = -1;
@@ -74,7 +74,7 @@ ffd_status ffd_gltf_settle_skins(gltf_document *d, ffd_error *error)
             continue;
         for (size_t p = 0; p < mesh->primitive_count && status == FFD_OK; p++)
             if (mesh->primitives[p].accessor[GLTF_POSITION] >= 0)
-                status = settle_sets(d, ffd_gltf_primitive_value(d, m, p), &mesh->primitives[p], error);
+                status = settle_sets(d, &mesh->primitives[p], error);
         settle_nodes(d, m);
     }
     return status;
@@ -337,11 +337,10 @@ static ffd_status check_set(gltf_document *d, const gltf_skin *skin, uint32_t pr
     return joints > skin->joint_count ? check_beyond(d, skin, influence, set, joints - 1, error) : FFD_OK;
 }
 
-static ffd_status check_primitive(gltf_document *d, const gltf_skin *skin, size_t mesh, size_t p,
+static ffd_status check_primitive(gltf_document *d, const gltf_skin *skin, const gltf_primitive *primitive,
                                   size_t *largest, ffd_error *error)
 {
-    const gltf_primitive *primitive = &d->model.meshes[mesh].primitives[p];
-    const uint32_t value = ffd_gltf_primitive_value(d, mesh, p);
+    const uint32_t value = primitive->value;
     ffd_status status = FFD_OK;
     if (primitive->accessor[GLTF_POSITION] < 0)
         return FFD_OK;
@@ -359,8 +358,8 @@ static ffd_status prepare_skin(gltf_document *d, size_t node, size_t *largest, f
     const size_t mesh = (size_t)d->model.nodes[node].mesh;
     gltf_skin *skin = &d->skins[d->model.nodes[node].skin];
     ffd_status status = skin->matrices ? FFD_OK : make_joint_matrices(d, skin, error);
-    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count && status == FFD_OK; p++)
-        status = check_primitive(d, skin, mesh, p, largest, error);
+    for (const gltf_primitive *p = NULL; status == FFD_OK && (p = ffd_gltf_next_primitive(d, mesh, p));)
+        status = check_primitive(d, skin, p, largest, error);
     return status;
 }
 

@@ -58,10 +58,9 @@ static int find_degree(const size_t *accessors)
     return degree;
 }
 
-static splat_attributes find_attributes(const gltf_document *d, size_t m, size_t p)
+static splat_attributes find_attributes(const gltf_document *d, const gltf_primitive *primitive)
 {
-    const uint32_t attributes =
-        ffd_json_span_member(&d->tree, ffd_gltf_primitive_value(d, m, p), "attributes");
+    const uint32_t attributes = ffd_json_span_member(&d->tree, primitive->value, "attributes");
     splat_attributes found = {.all_usable = true};
     for (size_t i = 0; i < GLTF_SPLAT_ATTRIBUTES; i++) {
         char name[GLTF_SPLAT_NAME];
@@ -95,10 +94,10 @@ static bool has_negative(const gltf_document *d, size_t a)
 
 /* Notes negative scales, which are logarithms as in drafts of the extension, and degrees of harmonics that
    are not complete. */
-static ffd_status find_flaws(gltf_document *d, size_t m, size_t p, splat_attributes *found, ffd_error *error)
+static ffd_status find_flaws(gltf_document *d, const gltf_primitive *primitive, splat_attributes *found,
+                             ffd_error *error)
 {
-    const uint32_t attributes =
-        ffd_json_span_member(&d->tree, ffd_gltf_primitive_value(d, m, p), "attributes");
+    const uint32_t attributes = ffd_json_span_member(&d->tree, primitive->value, "attributes");
     ffd_status status = FFD_OK;
     found->form.is_logarithmic = has_negative(d, found->accessors[GLTF_SPLAT_SCALE]);
     if (found->form.is_logarithmic)
@@ -174,24 +173,23 @@ static void mark_part(gltf_document *d, const gltf_primitive *primitive, const s
 static ffd_status mark_primitives(gltf_document *d, part_owner *owners, ffd_error *error)
 {
     ffd_status status = FFD_OK;
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++) {
-            gltf_primitive *const primitive = &d->model.meshes[m].primitives[p];
-            const gltf_instance *const instances = ffd_gltf_instances(d, m, p);
-            if (!ffd_gltf_has_extension(d, ffd_gltf_primitive_value(d, m, p), SPLATTING))
-                continue;
-            splat_attributes found = find_attributes(d, m, p);
-            if (found.all_usable && d->mesh_uses[m].node_count > 0)
-                status = find_flaws(d, m, p, &found, error);
-            if (status == FFD_OK && found.all_usable && d->mesh_uses[m].node_count > 0)
-                status = keep_accessors(d, primitive, &found, error);
-            if (status)
-                return status;
-            for (size_t n = 0; n < d->mesh_uses[m].node_count; n++)
-                if (instances[n].part[GLTF_POSITION] != GLTF_NONE)
-                    mark_part(d, primitive, &found, instances[n].part[GLTF_POSITION],
-                              &owners[instances[n].part[GLTF_POSITION]]);
-        }
+    for (size_t i = 0; i < d->model.primitive_count; i++) {
+        gltf_primitive *const primitive = &d->model.primitives[i];
+        const gltf_instance *const instances = ffd_gltf_instances(d, primitive);
+        if (!ffd_gltf_has_extension(d, primitive->value, SPLATTING))
+            continue;
+        splat_attributes found = find_attributes(d, primitive);
+        if (found.all_usable && d->mesh_uses[primitive->mesh].node_count > 0)
+            status = find_flaws(d, primitive, &found, error);
+        if (status == FFD_OK && found.all_usable && d->mesh_uses[primitive->mesh].node_count > 0)
+            status = keep_accessors(d, primitive, &found, error);
+        if (status)
+            return status;
+        for (size_t n = 0; n < d->mesh_uses[primitive->mesh].node_count; n++)
+            if (instances[n].part[GLTF_POSITION] != GLTF_NONE)
+                mark_part(d, primitive, &found, instances[n].part[GLTF_POSITION],
+                          &owners[instances[n].part[GLTF_POSITION]]);
+    }
     return FFD_OK;
 }
 
@@ -238,16 +236,11 @@ static ffd_status add_groups(gltf_document *d, const part_owner *owners, ffd_err
 /* Sets the instances' first_splat. */
 static void find_results(gltf_document *d)
 {
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++) {
-            gltf_instance *const instances = ffd_gltf_instances(d, m, p);
-            for (size_t n = 0;
-                 n < d->mesh_uses[m].node_count && d->model.meshes[m].primitives[p].splat_groups > 0; n++) {
-                const size_t part = instances[n].part[GLTF_POSITION];
-                if (part != GLTF_NONE)
-                    instances[n].first_splat = d->parts[part].first_splat;
-            }
-        }
+    for (size_t i = 0; i < d->instance_count; i++) {
+        const size_t part = d->instances[i].part[GLTF_POSITION];
+        if (part != GLTF_NONE && d->instances[i].primitive->splat_groups > 0)
+            d->instances[i].first_splat = d->parts[part].first_splat;
+    }
 }
 
 ffd_status ffd_gltf_find_splats(gltf_document *d, ffd_error *error)

@@ -279,35 +279,35 @@ static bool states_indices_elsewhere(const gltf_document *d, uint32_t primitive,
 }
 
 /* Checks the accessor of a primitive's indices. */
-static ffd_status check_indices(gltf_document *d, size_t mesh, size_t p, uint32_t value, ffd_error *error)
+static ffd_status check_indices(gltf_document *d, gltf_primitive *primitive, ffd_error *error)
 {
-    const int number = d->model.meshes[mesh].primitives[p].indices;
-    const uint32_t place = place_of(d, value, "indices");
+    const int number = primitive->indices;
+    const uint32_t place = place_of(d, primitive->value, "indices");
     if (number < 0)
         return FFD_OK;
     if ((size_t)number >= d->model.accessor_count)
-        return ffd_gltf_drop_drawing(d, mesh, p, place, error,
+        return ffd_gltf_drop_drawing(d, primitive, place, error,
                                      "there is no accessor %d%s: what the primitive draws is not known",
                                      number, ffd_only(d->model.accessor_count, "").text);
     const gltf_accessor *indices = &d->model.accessors[number];
     double most;
-    if (states_indices_elsewhere(d, value, number, &most))
+    if (states_indices_elsewhere(d, primitive->value, number, &most))
         return ffd_gltf_drop_drawing(
-            d, mesh, p, place, error,
+            d, primitive, place, error,
             "accessor %d has no bytes, but its max is %g: what the primitive draws is not known", number,
             most);
     if (indices->columns * indices->rows == 1 && !indices->normalized &&
         (indices->component == GLTF_U8 || indices->component == GLTF_U16 || indices->component == GLTF_U32))
         return FFD_OK;
-    return ffd_gltf_drop_drawing(d, mesh, p, place, error,
+    return ffd_gltf_drop_drawing(d, primitive, place, error,
                                  "accessor %d does not hold indices (SCALAR of component type 5121, 5123 or "
                                  "5125): what the primitive draws is not known",
                                  number);
 }
 
-static ffd_status check_primitive(gltf_document *d, size_t mesh, size_t p, uint32_t value, ffd_error *error)
+static ffd_status check_primitive(gltf_document *d, gltf_primitive *primitive, ffd_error *error)
 {
-    const gltf_primitive *primitive = &d->model.meshes[mesh].primitives[p];
+    const uint32_t value = primitive->value;
     const uint32_t attributes = ffd_json_span_member(&d->tree, value, "attributes");
     const uint32_t targets = ffd_json_span_member(&d->tree, value, "targets");
     uint64_t vertices = UINT64_MAX;
@@ -322,15 +322,14 @@ static ffd_status check_primitive(gltf_document *d, size_t mesh, size_t p, uint3
     for (uint32_t v = ffd_json_span_first(&d->tree, targets); v != JSON_NONE && status == FFD_OK;
          v = ffd_json_span_after(&d->tree, v), accessors += GLTF_DEFORMED)
         status = check_shapes(d, v, 3, accessors, error);
-    return status ? status : check_indices(d, mesh, p, value, error);
+    return status ? status : check_indices(d, primitive, error);
 }
 
 /* In a primitive compressed by Draco, the elements of accessors without a bufferView are in the compressed
    data. */
-static void mark_compressed(gltf_document *d, size_t mesh, size_t p, uint32_t value)
+static void mark_compressed(gltf_document *d, const gltf_primitive *primitive)
 {
-    const gltf_primitive *primitive = &d->model.meshes[mesh].primitives[p];
-    if (!ffd_gltf_has_extension(d, value, "KHR_draco_mesh_compression"))
+    if (!ffd_gltf_has_extension(d, primitive->value, "KHR_draco_mesh_compression"))
         return;
     for (size_t i = 0; i < primitive->attribute_count; i++) {
         const int accessor = primitive->attributes[i].accessor;
@@ -356,20 +355,6 @@ static ffd_status limit_zeros(const gltf_document *d, ffd_error *error)
         if (status)
             ffd_json_span_fail(&d->tree, d->accessor_values.values[i], d->name, status, error, "%s",
                                problem.message);
-    }
-    return status;
-}
-
-static ffd_status check_mesh(gltf_document *d, size_t m, ffd_error *error)
-{
-    ffd_status status = FFD_OK;
-    size_t p = 0;
-    const uint32_t primitives = ffd_json_span_member(&d->tree, d->mesh_values.values[m], "primitives");
-    for (uint32_t v = ffd_json_span_first(&d->tree, primitives); v != JSON_NONE && status == FFD_OK;
-         v = ffd_json_span_after(&d->tree, v), p++) {
-        status = check_primitive(d, m, p, v, error);
-        if (status == FFD_OK)
-            mark_compressed(d, m, p, v);
     }
     return status;
 }
@@ -428,8 +413,11 @@ ffd_status ffd_gltf_check(gltf_document *d, ffd_error *error)
         status = ffd_gltf_decode_views(d, error);
     for (size_t i = 0; i < d->model.accessor_count && status == FFD_OK; i++)
         status = check_accessor(d, i, error);
-    for (size_t i = 0; i < d->model.mesh_count && status == FFD_OK; i++)
-        status = check_mesh(d, i, error);
+    for (size_t i = 0; i < d->model.primitive_count && status == FFD_OK; i++) {
+        status = check_primitive(d, &d->model.primitives[i], error);
+        if (status == FFD_OK)
+            mark_compressed(d, &d->model.primitives[i]);
+    }
     if (status == FFD_OK)
         status = ffd_gltf_decode_draco(d, error);
     if (status == FFD_OK)

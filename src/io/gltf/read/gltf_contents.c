@@ -216,14 +216,13 @@ ffd_status ffd_gltf_check_stated(gltf_document *d, ffd_error *error)
     bool *is_checked = ffd_alloc_zero(d->model.accessor_count, sizeof *is_checked);
     if (!is_checked)
         return ffd_fail_memory(error);
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count && status == FFD_OK; p++) {
-            const gltf_primitive *const primitive = &d->model.meshes[m].primitives[p];
-            status = check(d, primitive->accessor[GLTF_POSITION], is_checked, error);
-            for (size_t t = 0; t < primitive->target_count && status == FFD_OK; t++)
-                status = check(d, primitive->target_accessors[GLTF_DEFORMED * t + GLTF_POSITION], is_checked,
-                               error);
-        }
+    for (size_t i = 0; i < d->model.primitive_count && status == FFD_OK; i++) {
+        const gltf_primitive *const primitive = &d->model.primitives[i];
+        status = check(d, primitive->accessor[GLTF_POSITION], is_checked, error);
+        for (size_t t = 0; t < primitive->target_count && status == FFD_OK; t++)
+            status =
+                check(d, primitive->target_accessors[GLTF_DEFORMED * t + GLTF_POSITION], is_checked, error);
+    }
     ffd_free(is_checked);
     return status;
 }
@@ -293,8 +292,8 @@ static bool is_readable(const gltf_document *d, const gltf_primitive *primitive)
 static ffd_status judge_mesh(gltf_document *d, size_t mesh, bool *judged, ffd_error *error)
 {
     ffd_status status = FFD_OK;
-    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count && status == FFD_OK; p++) {
-        const gltf_primitive *const primitive = &d->model.meshes[mesh].primitives[p];
+    for (const gltf_primitive *primitive = NULL;
+         status == FFD_OK && (primitive = ffd_gltf_next_primitive(d, mesh, primitive));) {
         if (!is_readable(d, primitive) || judged[primitive->influences[0].weights])
             continue;
         judged[primitive->influences[0].weights] = true;

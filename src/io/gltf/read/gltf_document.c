@@ -18,11 +18,6 @@ void ffd_gltf_splat_name(size_t attribute, char name[GLTF_SPLAT_NAME])
 
 const char *const ffd_gltf_semantic_names[GLTF_DEFORMED] = {"POSITION", "NORMAL", "TANGENT"};
 
-uint32_t ffd_gltf_primitive_value(const gltf_document *d, size_t mesh, size_t primitive)
-{
-    return d->primitive_values.values[d->first_primitive[mesh] + primitive];
-}
-
 uint32_t ffd_gltf_extension(const gltf_document *d, uint32_t value, const char *extension)
 {
     return ffd_json_span_member(&d->tree, ffd_json_span_member(&d->tree, value, "extensions"), extension);

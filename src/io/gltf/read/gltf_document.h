@@ -96,6 +96,8 @@ typedef struct gltf_instanced_node {
 
 /* A primitive under a node that uses its mesh. In mesh space each primitive has one instance. */
 typedef struct gltf_instance {
+    const gltf_primitive *primitive;
+    size_t node; /* GLTF_NONE in mesh space */
     /* Per attribute: the part that deforms it; GLTF_NONE: absent, or it cannot be read. */
     size_t part[GLTF_DEFORMED];
     size_t first_target; /* index in document->targets of its first morph target */
@@ -137,8 +139,6 @@ typedef struct gltf_document {
     char *json; /* the text of tree, if the file is mapped; else NULL: tree.text is in input */
     gltf_values buffer_values, view_values, accessor_values, mesh_values, node_values, skin_values,
         material_values, image_values, texture_values, sampler_values;
-    gltf_values primitive_values; /* of all meshes, in order */
-    size_t *first_primitive;      /* per mesh: index of its first primitive in primitive_values */
     gltf_model model;
     gltf_skin *skins; /* skin_values.count */
     /* The reason if the skins' transforms are unknown: the document can then only be described. */
@@ -152,7 +152,7 @@ typedef struct gltf_document {
     /* model.view_count: exponents of the numbers in an element (meshopt_view.h); NULL: none. */
     int8_t **view_exponents;
     gltf_unpacked *unpacked; /* model.accessor_count */
-    /* primitive_values.count: why a primitive was not decoded; NULL: no problem. */
+    /* model.primitive_count: why a primitive was not decoded; NULL: no problem. */
     char **draco_problems;
     uint64_t draco_decoded; /* points and corners of all decodings together */
 
@@ -183,7 +183,9 @@ typedef struct gltf_document {
     /* The JSON value of a required extension that prevents deforming the vertices; JSON_NONE: none. */
     uint32_t refused_extension;
     gltf_mesh_uses *mesh_uses; /* model.mesh_count */
+    /* instance_count: those of each primitive in the order of model.primitives, and of their nodes. */
     gltf_instance *instances;
+    size_t instance_count;
     /* base.part_count, then one per shape, whose streams are offsets, so that both kinds of results are
        handled alike; then splat_groups. */
     gltf_part *parts;
@@ -244,11 +246,22 @@ static inline size_t ffd_gltf_part_count(const gltf_document *document)
     return ffd_gltf_shape_end(document) + document->splat_groups;
 }
 
-/* Returns the instances of a primitive of a mesh, one for each use of the mesh. */
-static inline gltf_instance *ffd_gltf_instances(const gltf_document *document, size_t mesh, size_t primitive)
+/* Returns the primitive of a mesh after `primitive`, or the first one if that is NULL; NULL: there is none.
+ */
+static inline const gltf_primitive *ffd_gltf_next_primitive(const gltf_document *document, size_t mesh,
+                                                            const gltf_primitive *primitive)
 {
-    const gltf_mesh_uses *uses = &document->mesh_uses[mesh];
-    return document->instances + uses->first_instance + primitive * uses->node_count;
+    const gltf_mesh *const of = &document->model.meshes[mesh];
+    const gltf_primitive *const next = primitive ? primitive + 1 : of->primitives;
+    return next < of->primitives + of->primitive_count ? next : NULL;
+}
+
+/* Returns the instances of a primitive of a mesh, one for each use of the mesh. */
+static inline gltf_instance *ffd_gltf_instances(const gltf_document *document,
+                                                const gltf_primitive *primitive)
+{
+    const gltf_mesh_uses *const uses = &document->mesh_uses[primitive->mesh];
+    return document->instances + uses->first_instance + primitive->number * uses->node_count;
 }
 
 /* Whether viewers hide a node (GLTF_NONE: none) of the scene. */
@@ -262,9 +275,6 @@ static inline const float *ffd_gltf_morph_result(const gltf_morph *morph, size_t
 {
     return morph->results[part * GLTF_DEFORMED + semantic];
 }
-
-/* Returns the JSON value of a primitive of a mesh. */
-uint32_t ffd_gltf_primitive_value(const gltf_document *document, size_t mesh, size_t primitive);
 
 /* Handles a flaw at a JSON value: something wrong whose meaning is still clear. Notes it or fails with it, as
    the document's flaws say (mesh/flaws.h). */

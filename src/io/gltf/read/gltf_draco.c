@@ -17,7 +17,8 @@
 
 /* A compressed primitive, and the bufferView of its data. */
 typedef struct packed_primitive {
-    size_t view, mesh, primitive;
+    size_t view;
+    const gltf_primitive *primitive;
 } packed_primitive;
 
 /* What is needed while a primitive is decoded. */
@@ -28,14 +29,9 @@ typedef struct unpacker {
     ffd_error *error;
 } unpacker;
 
-uint32_t ffd_gltf_draco_value(const gltf_document *d, size_t mesh, size_t primitive)
+uint32_t ffd_gltf_draco_value(const gltf_document *d, const gltf_primitive *primitive)
 {
-    return ffd_gltf_extension(d, ffd_gltf_primitive_value(d, mesh, primitive), "KHR_draco_mesh_compression");
-}
-
-static const gltf_primitive *primitive_of(const gltf_document *d, const packed_primitive *packed)
-{
-    return &d->model.meshes[packed->mesh].primitives[packed->primitive];
+    return ffd_gltf_extension(d, primitive->value, "KHR_draco_mesh_compression");
 }
 
 static ffd_status fail(const gltf_document *d, uint32_t value, ffd_status status, ffd_error *error,
@@ -162,9 +158,9 @@ static size_t find_accessor(const gltf_document *d, uint32_t attributes, uint32_
 static ffd_status unpack_primitive(const unpacker *u, const packed_primitive *packed)
 {
     gltf_document *d = u->document;
-    const gltf_primitive *primitive = primitive_of(d, packed);
-    const uint32_t value = ffd_gltf_primitive_value(d, packed->mesh, packed->primitive);
-    const uint32_t draco = ffd_gltf_draco_value(d, packed->mesh, packed->primitive);
+    const gltf_primitive *primitive = packed->primitive;
+    const uint32_t value = packed->primitive->value;
+    const uint32_t draco = ffd_gltf_draco_value(d, packed->primitive);
     const uint32_t attributes = ffd_json_span_member(&d->tree, value, "attributes");
     ffd_status status = FFD_OK;
     for (uint32_t v = ffd_json_span_first(&d->tree, ffd_json_span_member(&d->tree, draco, "attributes"));
@@ -184,8 +180,8 @@ static ffd_status unpack_primitive(const unpacker *u, const packed_primitive *pa
 static ffd_status read_claim(const gltf_document *d, const packed_primitive *packed, draco_claim *claim,
                              ffd_error *error)
 {
-    const gltf_primitive *primitive = primitive_of(d, packed);
-    const uint32_t value = ffd_gltf_draco_value(d, packed->mesh, packed->primitive);
+    const gltf_primitive *primitive = packed->primitive;
+    const uint32_t value = ffd_gltf_draco_value(d, packed->primitive);
     if (packed->view >= d->model.view_count)
         return fail(d, ffd_json_span_member(&d->tree, value, "bufferView"), FFD_E_INVALID, error,
                     "the bufferView does not exist");
@@ -204,7 +200,7 @@ static ffd_status read_claim(const gltf_document *d, const packed_primitive *pac
 static ffd_status decode_mesh(gltf_document *d, const packed_primitive *packed, const draco_claim *claim,
                               draco_mesh **mesh, ffd_error *error)
 {
-    const uint32_t value = ffd_gltf_draco_value(d, packed->mesh, packed->primitive);
+    const uint32_t value = ffd_gltf_draco_value(d, packed->primitive);
     const unsigned char *bytes = ffd_gltf_view_bytes(d, packed->view);
     ffd_error problem = {0};
     if (!bytes)
@@ -241,8 +237,6 @@ static int compare_packed(const void *a, const void *b)
     const packed_primitive *x = a, *y = b;
     if (x->view != y->view)
         return x->view < y->view ? -1 : 1;
-    if (x->mesh != y->mesh)
-        return x->mesh < y->mesh ? -1 : 1;
     return (x->primitive > y->primitive) - (x->primitive < y->primitive);
 }
 
@@ -250,14 +244,13 @@ static int compare_packed(const void *a, const void *b)
 static size_t list_packed(const gltf_document *d, packed_primitive *list)
 {
     size_t count = 0;
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++) {
-            const uint32_t value = ffd_gltf_draco_value(d, m, p);
-            if (value == JSON_NONE)
-                continue;
-            const uint32_t view = ffd_json_span_member(&d->tree, value, "bufferView");
-            list[count++] = (packed_primitive){(size_t)integer(d, view), m, p};
-        }
+    for (size_t i = 0; i < d->model.primitive_count; i++) {
+        const uint32_t value = ffd_gltf_draco_value(d, &d->model.primitives[i]);
+        if (value == JSON_NONE)
+            continue;
+        const uint32_t view = ffd_json_span_member(&d->tree, value, "bufferView");
+        list[count++] = (packed_primitive){(size_t)integer(d, view), &d->model.primitives[i]};
+    }
     if (count > 0)
         qsort(list, count, sizeof *list, compare_packed);
     return count;
@@ -273,8 +266,8 @@ static void forget(gltf_document *d, size_t accessor)
    zeros. */
 static void forget_primitive(gltf_document *d, const packed_primitive *packed)
 {
-    const uint32_t value = ffd_gltf_primitive_value(d, packed->mesh, packed->primitive);
-    const uint32_t draco = ffd_gltf_draco_value(d, packed->mesh, packed->primitive);
+    const uint32_t value = packed->primitive->value;
+    const uint32_t draco = ffd_gltf_draco_value(d, packed->primitive);
     const uint32_t attributes = ffd_json_span_member(&d->tree, value, "attributes");
     for (uint32_t v = ffd_json_span_first(&d->tree, ffd_json_span_member(&d->tree, draco, "attributes"));
          v != JSON_NONE; v = ffd_json_span_after(&d->tree, v)) {
@@ -282,8 +275,8 @@ static void forget_primitive(gltf_document *d, const packed_primitive *packed)
         if (accessor != GLTF_NONE)
             forget(d, accessor);
     }
-    if (primitive_of(d, packed)->indices >= 0)
-        forget(d, (size_t)primitive_of(d, packed)->indices);
+    if (packed->primitive->indices >= 0)
+        forget(d, (size_t)packed->primitive->indices);
 }
 
 /* Keeps the message of unsupported data: it is a failure only where the data is used (gltf_refuse.c). */
@@ -293,7 +286,7 @@ static ffd_status keep_problem(gltf_document *d, const packed_primitive *packed,
     if (status == FFD_E_UNSUPPORTED) {
         forget_primitive(d, packed);
         char *words = ffd_text_copy(problem->message);
-        d->draco_problems[d->first_primitive[packed->mesh] + packed->primitive] = words;
+        d->draco_problems[packed->primitive - d->model.primitives] = words;
         return words ? FFD_OK : ffd_fail_memory(error);
     }
     if (status && error)
@@ -343,10 +336,9 @@ static bool equals_fallback(const gltf_document *d, size_t a)
 }
 
 /* Marks the accessors that a primitive reads uncompressed. */
-static void mark_plain_uses(gltf_document *d, size_t m, size_t p, bool *plain)
+static void mark_plain_uses(gltf_document *d, const gltf_primitive *primitive, bool *plain)
 {
-    const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
-    const uint32_t value = ffd_gltf_primitive_value(d, m, p), draco = ffd_gltf_draco_value(d, m, p);
+    const uint32_t value = primitive->value, draco = ffd_gltf_draco_value(d, primitive);
     const uint32_t attributes = ffd_json_span_member(&d->tree, value, "attributes");
     for (uint32_t v = ffd_json_span_first(&d->tree, attributes); v != JSON_NONE;
          v = ffd_json_span_after(&d->tree, v))
@@ -364,9 +356,8 @@ static ffd_status mark_clashes(gltf_document *d, ffd_error *error)
     bool *plain = ffd_alloc_zero(d->model.accessor_count, sizeof *plain);
     if (!plain)
         return ffd_fail_memory(error);
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
-            mark_plain_uses(d, m, p, plain);
+    for (size_t i = 0; i < d->model.primitive_count; i++)
+        mark_plain_uses(d, &d->model.primitives[i], plain);
     for (size_t a = 0; a < d->model.accessor_count; a++) {
         gltf_unpacked *unpacked = &d->unpacked[a];
         unpacked->clash = unpacked->clash || (plain[a] && unpacked->bytes && !equals_fallback(d, a));
@@ -379,8 +370,8 @@ static ffd_status mark_clashes(gltf_document *d, ffd_error *error)
 
 ffd_status ffd_gltf_decode_draco(gltf_document *d, ffd_error *error)
 {
-    packed_primitive *list = ffd_alloc(d->primitive_values.count, sizeof *list);
-    d->draco_problems = ffd_alloc_zero(d->primitive_values.count, sizeof *d->draco_problems);
+    packed_primitive *list = ffd_alloc(d->model.primitive_count, sizeof *list);
+    d->draco_problems = ffd_alloc_zero(d->model.primitive_count, sizeof *d->draco_problems);
     d->unpacked = ffd_alloc_zero(d->model.accessor_count, sizeof *d->unpacked);
     ffd_status status = list && d->draco_problems && d->unpacked ? FFD_OK : ffd_fail_memory(error);
     if (status == FFD_OK) {
@@ -393,9 +384,8 @@ ffd_status ffd_gltf_decode_draco(gltf_document *d, ffd_error *error)
     return status;
 }
 
-ffd_status ffd_gltf_refuse_draco(const gltf_document *d, size_t mesh, size_t primitive, ffd_error *error)
+ffd_status ffd_gltf_refuse_draco(const gltf_document *d, const gltf_primitive *primitive, ffd_error *error)
 {
-    const char *problem = d->draco_problems[d->first_primitive[mesh] + primitive];
-    return problem ? fail(d, ffd_gltf_draco_value(d, mesh, primitive), FFD_E_UNSUPPORTED, error, problem)
-                   : FFD_OK;
+    const char *problem = d->draco_problems[primitive - d->model.primitives];
+    return problem ? fail(d, ffd_gltf_draco_value(d, primitive), FFD_E_UNSUPPORTED, error, problem) : FFD_OK;
 }

@@ -9,11 +9,11 @@
 ffd_status ffd_gltf_decode_draco(gltf_document *document, ffd_error *error);
 
 /* Returns the JSON value of a primitive's Draco extension; JSON_NONE if the primitive is not compressed. */
-uint32_t ffd_gltf_draco_value(const gltf_document *document, size_t mesh, size_t primitive);
+uint32_t ffd_gltf_draco_value(const gltf_document *document, const gltf_primitive *primitive);
 
 /* Fails with the reason why ffd_gltf_decode_draco left a primitive undecoded; returns FFD_OK if it did
    not. */
-ffd_status ffd_gltf_refuse_draco(const gltf_document *document, size_t mesh, size_t primitive,
+ffd_status ffd_gltf_refuse_draco(const gltf_document *document, const gltf_primitive *primitive,
                                  ffd_error *error);
 
 #endif

@@ -7,15 +7,14 @@
 #include <stdio.h>
 #include <string.h>
 
-ffd_status ffd_gltf_drop_drawing(gltf_document *d, size_t m, size_t p, uint32_t value, ffd_error *error,
-                                 const char *format, ...)
+ffd_status ffd_gltf_drop_drawing(gltf_document *d, gltf_primitive *primitive, uint32_t value,
+                                 ffd_error *error, const char *format, ...)
 {
-    gltf_primitive *const primitive = &d->model.meshes[m].primitives[p];
     char message[sizeof error->message];
     va_list arguments;
     va_start(arguments, format);
     ffd_status status = FFD_OK;
-    if (ffd_gltf_has_extension(d, ffd_gltf_primitive_value(d, m, p), "KHR_draco_mesh_compression")) {
+    if (ffd_gltf_has_extension(d, primitive->value, "KHR_draco_mesh_compression")) {
         vsnprintf(message, sizeof message, format, arguments);
         status = ffd_json_span_fail(&d->tree, value, d->name, FFD_E_INVALID, error, "%s", message);
     } else {
@@ -28,10 +27,9 @@ ffd_status ffd_gltf_drop_drawing(gltf_document *d, size_t m, size_t p, uint32_t 
     return status;
 }
 
-static ffd_status read_drawing(gltf_document *d, size_t m, size_t p, ffd_error *error)
+static ffd_status read_drawing(gltf_document *d, gltf_primitive *primitive, ffd_error *error)
 {
-    gltf_primitive *const primitive = &d->model.meshes[m].primitives[p];
-    const uint32_t value = ffd_gltf_primitive_value(d, m, p);
+    const uint32_t value = primitive->value;
     const uint32_t mode = ffd_json_span_member(&d->tree, value, "mode");
     double number;
     if (ffd_json_span_number(&d->tree, ffd_json_span_member(&d->tree, value, "indices"), &number))
@@ -43,16 +41,16 @@ static ffd_status read_drawing(gltf_document *d, size_t m, size_t p, ffd_error *
         primitive->mode = (int)number;
         return FFD_OK;
     }
-    return ffd_gltf_drop_drawing(
-        d, m, p, mode, error, "a mode is from 0 to 6, not %g: what the primitive draws is not known", number);
+    return ffd_gltf_drop_drawing(d, primitive, mode, error,
+                                 "a mode is from 0 to 6, not %g: what the primitive draws is not known",
+                                 number);
 }
 
 ffd_status ffd_gltf_read_drawings(gltf_document *d, ffd_error *error)
 {
     ffd_status status = FFD_OK;
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count && status == FFD_OK; p++)
-            status = read_drawing(d, m, p, error);
+    for (size_t i = 0; i < d->model.primitive_count && status == FFD_OK; i++)
+        status = read_drawing(d, &d->model.primitives[i], error);
     return status;
 }
 
@@ -254,9 +252,9 @@ static uint32_t largest_of(const gltf_document *d, size_t a)
     return largest;
 }
 
-static ffd_status check_indices(gltf_document *d, size_t m, size_t p, uint64_t *largest, ffd_error *error)
+static ffd_status check_indices(gltf_document *d, gltf_primitive *primitive, uint64_t *largest,
+                                ffd_error *error)
 {
-    gltf_primitive *const primitive = &d->model.meshes[m].primitives[p];
     const int position = primitive->accessor[GLTF_POSITION], indices = primitive->indices;
     if (position < 0 || indices < 0 || !d->layouts[indices].readable)
         return FFD_OK;
@@ -275,7 +273,7 @@ static ffd_status check_indices(gltf_document *d, size_t m, size_t p, uint64_t *
         found = index;
     }
     return ffd_gltf_drop_drawing(
-        d, m, p, ffd_gltf_primitive_value(d, m, p), error,
+        d, primitive, primitive->value, error,
         "there is an index %llu, but the count of vertices is %llu: what the primitive "
         "draws is not known",
         (unsigned long long)found, (unsigned long long)vertices);
@@ -289,9 +287,8 @@ ffd_status ffd_gltf_check_indices(gltf_document *d, ffd_error *error)
         return ffd_fail_memory(error);
     for (size_t a = 0; a < d->model.accessor_count; a++)
         largest[a] = UINT64_MAX;
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count && status == FFD_OK; p++)
-            status = check_indices(d, m, p, largest, error);
+    for (size_t i = 0; i < d->model.primitive_count && status == FFD_OK; i++)
+        status = check_indices(d, &d->model.primitives[i], largest, error);
     ffd_free(largest);
     return status;
 }

@@ -13,8 +13,8 @@ ffd_status ffd_gltf_read_drawings(gltf_document *document, ffd_error *error);
    (document->base.unknown_drawings counts it), and its vertices are still deformed. Errors: FFD_E_INVALID, if
    flaws are refused, or if the primitive is compressed by Draco, whose indices would have to be written
    anew. */
-ffd_status ffd_gltf_drop_drawing(gltf_document *document, size_t mesh, size_t primitive, uint32_t value,
-                                 ffd_error *error, const char *format, ...) FFD_PRINTF(6, 7);
+ffd_status ffd_gltf_drop_drawing(gltf_document *document, gltf_primitive *primitive, uint32_t value,
+                                 ffd_error *error, const char *format, ...) FFD_PRINTF(5, 6);
 
 /* Returns the number of vertices that a primitive with indices draws, counting repetitions. */
 size_t ffd_gltf_drawn_count(const gltf_document *document, const gltf_primitive *primitive);

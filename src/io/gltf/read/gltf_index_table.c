@@ -143,8 +143,7 @@ void ffd_gltf_visit_mesh_indices(const gltf_document *d, size_t mesh, gltf_index
 
 bool ffd_gltf_mesh_has_slot(const gltf_document *d, size_t mesh, size_t accessor)
 {
-    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++) {
-        const gltf_primitive *primitive = &d->model.meshes[mesh].primitives[p];
+    for (const gltf_primitive *primitive = NULL; (primitive = ffd_gltf_next_primitive(d, mesh, primitive));) {
         for (size_t s = 0; s < gltf_slot_count(primitive); s++)
             if (gltf_slot_accessor(primitive, s) >= 0 && (size_t)gltf_slot_accessor(primitive, s) == accessor)
                 return true;

@@ -1,23 +1,20 @@
 #include "io/gltf/read/gltf_model.h"
 #include "base/memory/memory.h"
 
-static void free_mesh(gltf_mesh *mesh)
+static void free_primitive(gltf_primitive *primitive)
 {
-    for (size_t i = 0; mesh->primitives && i < mesh->primitive_count; i++) {
-        ffd_free(mesh->primitives[i].attributes);
-        ffd_free(mesh->primitives[i].targets);
-        ffd_free(mesh->primitives[i].target_accessors);
-        ffd_free(mesh->primitives[i].splat_accessors);
-        ffd_free(mesh->primitives[i].influences);
-        ffd_free(mesh->primitives[i].drawn);
-    }
-    ffd_free(mesh->primitives);
+    ffd_free(primitive->attributes);
+    ffd_free(primitive->targets);
+    ffd_free(primitive->target_accessors);
+    ffd_free(primitive->splat_accessors);
+    ffd_free(primitive->influences);
+    ffd_free(primitive->drawn);
 }
 
 void ffd_gltf_free_model(gltf_model *model)
 {
-    for (size_t i = 0; model->meshes && i < model->mesh_count; i++)
-        free_mesh(&model->meshes[i]);
+    for (size_t i = 0; model->primitives && i < model->primitive_count; i++)
+        free_primitive(&model->primitives[i]);
     for (size_t i = 0; model->nodes && i < model->node_count; i++)
         ffd_free(model->nodes[i].children);
     for (size_t i = 0; model->scenes && i < model->scene_count; i++)
@@ -25,6 +22,7 @@ void ffd_gltf_free_model(gltf_model *model)
     ffd_free(model->views);
     ffd_free(model->accessors);
     ffd_free(model->meshes);
+    ffd_free(model->primitives);
     ffd_free(model->nodes);
     ffd_free(model->scenes);
     *model = (gltf_model){0};

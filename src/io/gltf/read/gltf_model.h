@@ -71,6 +71,8 @@ typedef struct gltf_influence {
 } gltf_influence;
 
 typedef struct gltf_primitive {
+    size_t mesh, number;         /* it is primitive `number` of its mesh */
+    uint32_t value;              /* its JSON object. Set after parsing */
     int accessor[GLTF_DEFORMED]; /* of POSITION, NORMAL, TANGENT */
     gltf_attribute *attributes;  /* all attributes */
     size_t attribute_count;
@@ -123,7 +125,7 @@ static inline int gltf_slot_accessor(const gltf_primitive *primitive, size_t slo
 }
 
 typedef struct gltf_mesh {
-    gltf_primitive *primitives;
+    gltf_primitive *primitives; /* among those of the model */
     size_t primitive_count;
 } gltf_mesh;
 
@@ -148,6 +150,8 @@ typedef struct gltf_model {
     size_t accessor_count;
     gltf_mesh *meshes;
     size_t mesh_count;
+    gltf_primitive *primitives; /* of all meshes, in order */
+    size_t primitive_count;
     gltf_node *nodes;
     size_t node_count;
     gltf_scene *scenes;

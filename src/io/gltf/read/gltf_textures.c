@@ -100,15 +100,16 @@ void ffd_gltf_read_texture(const gltf_document *d, uint32_t texture, gltf_textur
 
 #define DEGREES_OF_RADIAN 57.29577951308232
 
-static uint32_t attributes_of(const gltf_document *d, size_t m, size_t p)
+static uint32_t attributes_of(const gltf_document *d, const gltf_primitive *primitive)
 {
-    return ffd_json_span_member(&d->tree, ffd_gltf_primitive_value(d, m, p), "attributes");
+    return ffd_json_span_member(&d->tree, primitive->value, "attributes");
 }
 
-size_t ffd_gltf_attribute(const gltf_document *d, size_t m, size_t p, const char *name, int least, int most)
+size_t ffd_gltf_attribute(const gltf_document *d, const gltf_primitive *primitive, const char *name,
+                          int least, int most)
 {
-    const uint32_t value = ffd_json_span_member(&d->tree, attributes_of(d, m, p), name);
-    const int positions = d->model.meshes[m].primitives[p].accessor[GLTF_POSITION];
+    const uint32_t value = ffd_json_span_member(&d->tree, attributes_of(d, primitive), name);
+    const int positions = primitive->accessor[GLTF_POSITION];
     size_t a;
     if (positions < 0 || !read_count(d, value, (double)d->model.accessor_count, &a))
         return GLTF_NONE;
@@ -119,10 +120,10 @@ size_t ffd_gltf_attribute(const gltf_document *d, size_t m, size_t p, const char
 }
 
 /* Returns the JSON value of a primitive's material; JSON_NONE: it has none. */
-static uint32_t material_of(const gltf_document *d, size_t m, size_t p)
+static uint32_t material_of(const gltf_document *d, const gltf_primitive *primitive)
 {
     size_t material;
-    const uint32_t value = ffd_json_span_member(&d->tree, ffd_gltf_primitive_value(d, m, p), "material");
+    const uint32_t value = ffd_json_span_member(&d->tree, primitive->value, "material");
     return read_count(d, value, (double)d->material_values.count, &material)
                ? d->material_values.values[material]
                : JSON_NONE;
@@ -156,32 +157,34 @@ static void set_transform(const gltf_texture_use *use, gltf_texcoords *texcoords
 
 /* Finds the texture coordinates that a texture of a primitive's material uses. Returns the number of their
    set. */
-static size_t find_taken(const gltf_document *d, size_t m, size_t p, uint32_t texture, gltf_texcoords *taken)
+static size_t find_taken(const gltf_document *d, const gltf_primitive *primitive, uint32_t texture,
+                         gltf_texcoords *taken)
 {
     gltf_texture_use use;
     char name[32];
     ffd_gltf_read_texture(d, texture, &use, NULL);
     snprintf(name, sizeof name, "TEXCOORD_%zu", use.set);
-    taken->accessor = ffd_gltf_attribute(d, m, p, name, 2, 2);
+    taken->accessor = ffd_gltf_attribute(d, primitive, name, 2, 2);
     set_transform(&use, taken);
     return use.set;
 }
 
-size_t ffd_gltf_texcoords(const gltf_document *d, size_t m, size_t p, gltf_texcoords *texcoords,
+size_t ffd_gltf_texcoords(const gltf_document *d, const gltf_primitive *primitive, gltf_texcoords *texcoords,
                           bool *stands_in)
 {
-    const size_t set = find_taken(d, m, p, main_texture(d, material_of(d, m, p)), texcoords);
+    const size_t set = find_taken(d, primitive, main_texture(d, material_of(d, primitive)), texcoords);
     if (texcoords->accessor != GLTF_NONE)
         return set;
-    const size_t other = find_taken(d, m, p, JSON_NONE, texcoords);
+    const size_t other = find_taken(d, primitive, JSON_NONE, texcoords);
     *stands_in = texcoords->accessor != GLTF_NONE;
     return other;
 }
 
-static bool has_further_set(const gltf_document *d, size_t m, size_t p, const gltf_texcoords *texcoords)
+static bool has_further_set(const gltf_document *d, const gltf_primitive *primitive,
+                            const gltf_texcoords *texcoords)
 {
     const json_span *tree = &d->tree;
-    for (uint32_t v = ffd_json_span_first(tree, attributes_of(d, m, p)); v != JSON_NONE;
+    for (uint32_t v = ffd_json_span_first(tree, attributes_of(d, primitive)); v != JSON_NONE;
          v = ffd_json_span_after(tree, v)) {
         const char *key = tree->text + tree->values[v].key_begin + 1;
         size_t a = GLTF_NONE;
@@ -192,15 +195,16 @@ static bool has_further_set(const gltf_document *d, size_t m, size_t p, const gl
     return false;
 }
 
-bool ffd_gltf_has_more_texcoords(const gltf_document *d, size_t m, size_t p, const gltf_texcoords *texcoords)
+bool ffd_gltf_has_more_texcoords(const gltf_document *d, const gltf_primitive *primitive,
+                                 const gltf_texcoords *texcoords)
 {
-    const uint32_t material = material_of(d, m, p);
-    if (has_further_set(d, m, p, texcoords))
+    const uint32_t material = material_of(d, primitive);
+    if (has_further_set(d, primitive, texcoords))
         return true;
     for (uint32_t v = material == JSON_NONE ? JSON_NONE : ffd_gltf_next_texture(d, material, material);
          v != JSON_NONE; v = ffd_gltf_next_texture(d, material, v)) {
         gltf_texcoords taken;
-        find_taken(d, m, p, v, &taken);
+        find_taken(d, primitive, v, &taken);
         if (taken.accessor != GLTF_NONE && memcmp(&taken, texcoords, sizeof taken) != 0)
             return true;
     }

@@ -29,7 +29,7 @@ void ffd_gltf_read_texture(const gltf_document *document, uint32_t texture, gltf
 
 /* Returns the accessor of an attribute with least to most components for all of a primitive's vertices;
    GLTF_NONE if it is absent or cannot be used. */
-size_t ffd_gltf_attribute(const gltf_document *document, size_t mesh, size_t primitive, const char *name,
+size_t ffd_gltf_attribute(const gltf_document *document, const gltf_primitive *primitive, const char *name,
                           int least, int most);
 
 /* Texture coordinates as a texture uses them: those of an accessor, transformed (KHR_texture_transform): u' =
@@ -46,12 +46,12 @@ _Static_assert(sizeof(gltf_texcoords) == 7 * sizeof(double), "a key has no paddi
    material. Without a texture, or if the primitive lacks the set that it uses: TEXCOORD_0, untransformed.
    Returns the number of the set. *stands_in: set to true where the primitive lacks the set of a texture, and
    TEXCOORD_0 takes its place; else it stays. */
-size_t ffd_gltf_texcoords(const gltf_document *document, size_t mesh, size_t primitive,
+size_t ffd_gltf_texcoords(const gltf_document *document, const gltf_primitive *primitive,
                           gltf_texcoords *texcoords, bool *stands_in);
 
 /* Whether the primitive has further sets, or a texture of its material uses texture coordinates other than
    these. */
-bool ffd_gltf_has_more_texcoords(const gltf_document *document, size_t mesh, size_t primitive,
+bool ffd_gltf_has_more_texcoords(const gltf_document *document, const gltf_primitive *primitive,
                                  const gltf_texcoords *texcoords);
 
 /* Turns the values of the accessor, 2 numbers each, into texture coordinates with v pointing upwards. */

@@ -126,11 +126,25 @@ void to_c(const tinygltf::Primitive &from, gltf_primitive &to)
     }
 }
 
-void to_c(const tinygltf::Mesh &from, gltf_mesh &to)
+void to_c(const std::vector<tinygltf::Mesh> &from, gltf_model &to)
 {
-    to.primitives = make_array<gltf_primitive>(from.primitives.size());
-    for (const auto &primitive : from.primitives)
-        to_c(primitive, to.primitives[to.primitive_count++]);
+    size_t primitives = 0;
+    for (const auto &mesh : from)
+        primitives += mesh.primitives.size();
+    to.meshes = make_array<gltf_mesh>(from.size());
+    to.primitives = make_array<gltf_primitive>(primitives);
+    for (const auto &mesh : from) {
+        gltf_mesh &made = to.meshes[to.mesh_count];
+        made.primitives = to.primitives + to.primitive_count;
+        made.primitive_count = mesh.primitives.size();
+        for (const auto &primitive : mesh.primitives) {
+            gltf_primitive &next = to.primitives[to.primitive_count++];
+            next.mesh = to.mesh_count;
+            next.number = static_cast<size_t>(&next - made.primitives);
+            to_c(primitive, next);
+        }
+        to.mesh_count++;
+    }
 }
 
 void copy_numbers(const std::vector<double> &from, size_t count, double *to)
@@ -171,9 +185,7 @@ void to_c(const tinygltf::Model &from, gltf_model &to)
     to.accessors = make_array<gltf_accessor>(from.accessors.size());
     for (const auto &accessor : from.accessors)
         to.accessors[to.accessor_count++] = to_c(accessor);
-    to.meshes = make_array<gltf_mesh>(from.meshes.size());
-    for (const auto &mesh : from.meshes)
-        to_c(mesh, to.meshes[to.mesh_count++]);
+    to_c(from.meshes, to);
     to.nodes = make_array<gltf_node>(from.nodes.size());
     for (const auto &node : from.nodes)
         to_c(node, to.nodes[to.node_count++]);

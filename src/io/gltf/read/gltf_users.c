@@ -77,9 +77,8 @@ void ffd_gltf_mark_rig_users(const gltf_document *d, const gltf_values *but, boo
 
 void ffd_gltf_mark_other_users(const gltf_document *d, bool *used)
 {
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
-            mark_primitive(&d->model.meshes[m].primitives[p], used);
+    for (size_t i = 0; i < d->model.primitive_count; i++)
+        mark_primitive(&d->model.primitives[i], used);
     ffd_gltf_visit_indices(d, mark_extension, &(marks){d, used});
 }
 
@@ -144,9 +143,8 @@ unsigned char *ffd_gltf_count_users(const gltf_document *d, const gltf_values *b
     ffd_gltf_mark_rig_users(d, but, others);
     for (size_t a = 0; a < count; a++)
         users[a] = others[a] ? 2 : 0;
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
-            count_primitive(&d->model.meshes[m].primitives[p], users);
+    for (size_t i = 0; i < d->model.primitive_count; i++)
+        count_primitive(&d->model.primitives[i], users);
     ffd_free(others);
     return users;
 }

@@ -56,9 +56,9 @@ static size_t count_unpacked(const gltf_saver *saver)
 {
     const gltf_document *d = saver->document;
     size_t count = 0;
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
-            count += ffd_gltf_is_unpacked(saver, m, p, saver->plan.base_uses[m]);
+    for (size_t i = 0; i < d->model.primitive_count; i++)
+        count += ffd_gltf_is_unpacked(saver, &d->model.primitives[i],
+                                      saver->plan.base_uses[d->model.primitives[i].mesh]);
     return count;
 }
 

@@ -23,8 +23,8 @@ static bool needs_quantization(const char *attribute, int component, bool normal
 
 /* The attributes of a primitive, or of one of its morph targets, for one use of its mesh. */
 typedef struct attribute_set {
-    size_t mesh, p, use;
-    size_t first_slot;
+    const gltf_primitive *primitive;
+    size_t use, first_slot;
     uint32_t attributes; /* a JSON value */
 } attribute_set;
 
@@ -33,8 +33,8 @@ static int output_component(const gltf_saver *saver, const attribute_set *set, c
                             const gltf_accessor *accessor)
 {
     for (size_t s = 0; s < GLTF_DEFORMED; s++) {
-        const size_t version = ffd_gltf_version_at(saver->document, &saver->plan, set->mesh, set->p,
-                                                   set->first_slot + s, set->use);
+        const size_t version =
+            ffd_gltf_version_at(saver->document, &saver->plan, set->primitive, set->first_slot + s, set->use);
         if (strcmp(attribute, ffd_gltf_semantic_names[s]) == 0 && version != GLTF_NONE)
             return saver->plan.versions[version].component;
     }
@@ -66,10 +66,10 @@ static bool are_quantized(gltf_saver *saver, const attribute_set *set)
 static bool is_quantized_mesh(gltf_saver *saver, size_t mesh, size_t use)
 {
     const gltf_document *d = saver->document;
-    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++) {
-        const uint32_t primitive = ffd_gltf_primitive_value(d, mesh, p);
-        const uint32_t targets = ffd_json_span_member(&d->tree, primitive, "targets");
-        attribute_set set = {mesh, p, use, 0, ffd_json_span_member(&d->tree, primitive, "attributes")};
+    for (const gltf_primitive *primitive = NULL; (primitive = ffd_gltf_next_primitive(d, mesh, primitive));) {
+        const uint32_t targets = ffd_json_span_member(&d->tree, primitive->value, "targets");
+        attribute_set set = {primitive, use, 0,
+                             ffd_json_span_member(&d->tree, primitive->value, "attributes")};
         if (are_quantized(saver, &set))
             return true;
         for (uint32_t t = ffd_json_span_first(&d->tree, targets); t != JSON_NONE;
@@ -162,17 +162,17 @@ typedef struct stale_search {
 } stale_search;
 
 /* Whether the positions of a primitive change for a use of its mesh, as default weights show them. */
-static bool is_primitive_moved(const gltf_saver *saver, size_t m, size_t p, size_t use)
+static bool is_primitive_moved(const gltf_saver *saver, const gltf_primitive *primitive, size_t use)
 {
     const gltf_document *const d = saver->document;
-    if (ffd_gltf_version_at(d, &saver->plan, m, p, GLTF_POSITION, use) != GLTF_NONE)
+    if (ffd_gltf_version_at(d, &saver->plan, primitive, GLTF_POSITION, use) != GLTF_NONE)
         return true;
-    const gltf_instance *const instance = &ffd_gltf_instances(d, m, p)[use];
-    for (size_t k = 0; k < d->model.meshes[m].primitives[p].target_count; k++) {
+    const gltf_instance *const instance = &ffd_gltf_instances(d, primitive)[use];
+    for (size_t k = 0; k < primitive->target_count; k++) {
         const size_t shape = d->targets[instance->first_target + k];
         const size_t slot = GLTF_DEFORMED * (k + 1) + GLTF_POSITION;
         if (shape != GLTF_NONE && d->shapes[shape - d->base.part_count].weight != 0 &&
-            ffd_gltf_version_at(d, &saver->plan, m, p, slot, use) != GLTF_NONE)
+            ffd_gltf_version_at(d, &saver->plan, primitive, slot, use) != GLTF_NONE)
             return true;
     }
     return false;
@@ -180,8 +180,8 @@ static bool is_primitive_moved(const gltf_saver *saver, size_t m, size_t p, size
 
 static bool is_moved(const gltf_saver *saver, size_t m, size_t use)
 {
-    for (size_t p = 0; p < saver->document->model.meshes[m].primitive_count; p++)
-        if (is_primitive_moved(saver, m, p, use))
+    for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(saver->document, m, p));)
+        if (is_primitive_moved(saver, p, use))
             return true;
     return false;
 }

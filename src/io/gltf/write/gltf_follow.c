@@ -27,9 +27,9 @@ typedef struct mesh_use {
 static bool is_deformed(const gltf_saver *saver, size_t mesh, size_t use)
 {
     const gltf_document *d = saver->document;
-    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
-        for (size_t s = 0; s < gltf_slot_count(&d->model.meshes[mesh].primitives[p]); s++)
-            if (ffd_gltf_version_at(d, &saver->plan, mesh, p, s, use) != GLTF_NONE)
+    for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, mesh, p));)
+        for (size_t s = 0; s < gltf_slot_count(p); s++)
+            if (ffd_gltf_version_at(d, &saver->plan, p, s, use) != GLTF_NONE)
                 return true;
     return false;
 }
@@ -41,12 +41,12 @@ static size_t output_of(const mesh_use *u, size_t accessor)
     const gltf_document *d = u->saver->document;
     const gltf_plan *plan = &u->saver->plan;
     size_t output = GLTF_NONE;
-    for (size_t p = 0; p < d->model.meshes[u->mesh].primitive_count; p++) {
-        const gltf_primitive *primitive = &d->model.meshes[u->mesh].primitives[p];
+    for (const gltf_primitive *primitive = NULL;
+         (primitive = ffd_gltf_next_primitive(d, u->mesh, primitive));) {
         for (size_t s = 0; s < gltf_slot_count(primitive); s++) {
             if (gltf_slot_accessor(primitive, s) < 0 || (size_t)gltf_slot_accessor(primitive, s) != accessor)
                 continue;
-            const size_t version = ffd_gltf_version_at(d, plan, u->mesh, p, s, u->use);
+            const size_t version = ffd_gltf_version_at(d, plan, primitive, s, u->use);
             const size_t here = version == GLTF_NONE ? accessor : plan->versions[version].output;
             if (output != GLTF_NONE && output != here)
                 return GLTF_NONE;

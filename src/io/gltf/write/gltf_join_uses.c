@@ -19,12 +19,12 @@ typedef struct slot_values {
     const gltf_version *version; /* NULL: the original content */
 } slot_values;
 
-static slot_values values_of(const gltf_document *d, const gltf_plan *plan, size_t mesh, size_t p,
+static slot_values values_of(const gltf_document *d, const gltf_plan *plan, const gltf_primitive *primitive,
                              size_t slot, size_t use)
 {
-    const size_t version = ffd_gltf_version_at(d, plan, mesh, p, slot, use);
+    const size_t version = ffd_gltf_version_at(d, plan, primitive, slot, use);
     return (slot_values){.document = d,
-                         .accessor = (size_t)gltf_slot_accessor(&d->model.meshes[mesh].primitives[p], slot),
+                         .accessor = (size_t)gltf_slot_accessor(primitive, slot),
                          .version = version == GLTF_NONE ? NULL : &plan->versions[version]};
 }
 
@@ -61,11 +61,10 @@ typedef struct shared_mesh {
 static shared_mesh describe(const gltf_document *d, const gltf_plan *plan, size_t mesh)
 {
     shared_mesh made = {d, plan, mesh, {0, 0, 0}};
-    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++) {
-        if (ffd_gltf_instances(d, mesh, p)[0].part[GLTF_POSITION] == GLTF_NONE)
+    for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, mesh, p));) {
+        if (ffd_gltf_instances(d, p)[0].part[GLTF_POSITION] == GLTF_NONE)
             continue;
-        const size_t accessor =
-            (size_t)gltf_slot_accessor(&d->model.meshes[mesh].primitives[p], GLTF_POSITION);
+        const size_t accessor = (size_t)gltf_slot_accessor(p, GLTF_POSITION);
         for (size_t i = 0; i < d->model.accessors[accessor].count; i++) {
             float at[3];
             ffd_gltf_original(d, accessor, i, 3, at);
@@ -155,26 +154,27 @@ static int component_of(const gltf_document *d, const slot_values *values)
     return values->version ? values->version->component : d->model.accessors[values->accessor].component;
 }
 
-static const mesh_part *part_of(const shared_mesh *mesh, size_t p, size_t use)
+static const mesh_part *part_of(const shared_mesh *mesh, const gltf_primitive *primitive, size_t use)
 {
-    const gltf_instance *const instance = &ffd_gltf_instances(mesh->document, mesh->number, p)[use];
+    const gltf_instance *const instance = &ffd_gltf_instances(mesh->document, primitive)[use];
     const size_t part = instance->part[GLTF_POSITION];
     return part == GLTF_NONE ? NULL : &mesh->document->mesh_parts[part];
 }
 
 /* Whether a slot has nearly the same content for two uses that have different versions of it. */
-static bool agree_in_slot(const shared_mesh *mesh, size_t p, size_t slot, const size_t use[2])
+static bool agree_in_slot(const shared_mesh *mesh, const gltf_primitive *primitive, size_t slot,
+                          const size_t use[2])
 {
     const gltf_document *const d = mesh->document;
-    const slot_values a = values_of(d, mesh->plan, mesh->number, p, slot, use[0]),
-                      b = values_of(d, mesh->plan, mesh->number, p, slot, use[1]);
+    const slot_values a = values_of(d, mesh->plan, primitive, slot, use[0]),
+                      b = values_of(d, mesh->plan, primitive, slot, use[1]);
     const gltf_accessor *const accessor = &d->model.accessors[a.accessor];
     const int component = component_of(d, &a);
-    const size_t vectors = gltf_vector_slots(&d->model.meshes[mesh->number].primitives[p]);
+    const size_t vectors = gltf_vector_slots(primitive);
     const slack allowed = {.step = component == GLTF_FLOAT ? 0 : ffd_gltf_step(accessor),
                            .along = slot % GLTF_DEFORMED != GLTF_POSITION || slot >= vectors,
                            .size = {mesh->size[0], mesh->size[1], mesh->size[2]},
-                           .placed = {part_of(mesh, p, use[0]), part_of(mesh, p, use[1])}};
+                           .placed = {part_of(mesh, primitive, use[0]), part_of(mesh, primitive, use[1])}};
     if (component != component_of(d, &b))
         return false;
     for (size_t i = 0; i < accessor->count; i++)
@@ -188,13 +188,13 @@ static bool agree_in_slot(const shared_mesh *mesh, size_t p, size_t slot, const 
 static bool agree(const shared_mesh *mesh, const size_t use[2])
 {
     const gltf_document *const d = mesh->document;
-    for (size_t p = 0; p < d->model.meshes[mesh->number].primitive_count; p++) {
-        const gltf_instance *const instances = ffd_gltf_instances(d, mesh->number, p);
+    for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, mesh->number, p));) {
+        const gltf_instance *const instances = ffd_gltf_instances(d, p);
         if (!instances[use[0]].selected || !instances[use[1]].selected)
             return false;
-        for (size_t s = 0; s < gltf_slot_count(&d->model.meshes[mesh->number].primitives[p]); s++)
-            if (ffd_gltf_version_at(d, mesh->plan, mesh->number, p, s, use[0]) !=
-                    ffd_gltf_version_at(d, mesh->plan, mesh->number, p, s, use[1]) &&
+        for (size_t s = 0; s < gltf_slot_count(p); s++)
+            if (ffd_gltf_version_at(d, mesh->plan, p, s, use[0]) !=
+                    ffd_gltf_version_at(d, mesh->plan, p, s, use[1]) &&
                 !agree_in_slot(mesh, p, s, use))
                 return false;
     }

@@ -172,9 +172,9 @@ done:
 
 static bool same_mesh(const gltf_document *d, const gltf_plan *plan, size_t mesh, size_t a, size_t b)
 {
-    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
-        for (size_t s = 0; s < gltf_slot_count(&d->model.meshes[mesh].primitives[p]); s++)
-            if (ffd_gltf_version_at(d, plan, mesh, p, s, a) != ffd_gltf_version_at(d, plan, mesh, p, s, b))
+    for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, mesh, p));)
+        for (size_t s = 0; s < gltf_slot_count(p); s++)
+            if (ffd_gltf_version_at(d, plan, p, s, a) != ffd_gltf_version_at(d, plan, p, s, b))
                 return false;
     return true;
 }
@@ -187,9 +187,9 @@ typedef struct variant {
 static uint64_t hash_mesh(const gltf_document *d, const gltf_plan *plan, size_t mesh, size_t use)
 {
     uint64_t hash = EMPTY_HASH;
-    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
-        for (size_t s = 0; s < gltf_slot_count(&d->model.meshes[mesh].primitives[p]); s++)
-            hash = mix(hash, ffd_gltf_version_at(d, plan, mesh, p, s, use));
+    for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, mesh, p));)
+        for (size_t s = 0; s < gltf_slot_count(p); s++)
+            hash = mix(hash, ffd_gltf_version_at(d, plan, p, s, use));
     return hash;
 }
 
@@ -283,10 +283,10 @@ static ffd_status split_meshes(const gltf_document *d, gltf_plan *plan, ffd_erro
    accessor a. */
 static void mark_mesh(const gltf_document *d, gltf_plan *plan, size_t mesh, size_t use, bool *original)
 {
-    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
-        for (size_t s = 0; s < gltf_slot_count(&d->model.meshes[mesh].primitives[p]); s++) {
-            const int accessor = gltf_slot_accessor(&d->model.meshes[mesh].primitives[p], s);
-            const size_t version = ffd_gltf_version_at(d, plan, mesh, p, s, use);
+    for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, mesh, p));)
+        for (size_t s = 0; s < gltf_slot_count(p); s++) {
+            const int accessor = gltf_slot_accessor(p, s);
+            const size_t version = ffd_gltf_version_at(d, plan, p, s, use);
             if (version != GLTF_NONE)
                 plan->versions[version].needed = true;
             else if (accessor >= 0)

@@ -248,12 +248,10 @@ ffd_status ffd_gltf_mend_weights(gltf_saver *saver, ffd_error *error)
     ffd_status status = m.done && m.partner ? FFD_OK : ffd_fail_memory(error);
     for (size_t i = 0; i < count && status == FFD_OK; i++)
         m.partner[i] = GLTF_NONE;
-    for (size_t i = 0; i < d->model.mesh_count && status == FFD_OK; i++)
-        for (size_t p = 0; p < d->model.meshes[i].primitive_count; p++)
-            note_partners(&m, &d->model.meshes[i].primitives[p]);
-    for (size_t i = 0; i < d->model.mesh_count && status == FFD_OK; i++)
-        for (size_t p = 0; p < d->model.meshes[i].primitive_count && status == FFD_OK; p++)
-            status = mend_primitive(&m, &d->model.meshes[i].primitives[p]);
+    for (size_t i = 0; i < d->model.primitive_count && status == FFD_OK; i++)
+        note_partners(&m, &d->model.primitives[i]);
+    for (size_t i = 0; i < d->model.primitive_count && status == FFD_OK; i++)
+        status = mend_primitive(&m, &d->model.primitives[i]);
     if (status == FFD_OK && m.mended > 0)
         ffd_log_line(saver->log, FFD_LOG_INFO,
                      "the skin weights of %zu %s, which were compressed, are written so that they sum to 1",

@@ -22,12 +22,12 @@ static void replace_number(const gltf_saver *saver, uint32_t object, const char 
 
 /* Edits the members of an object ("attributes" or a morph target) to name the accessors with the primitive's
    content for a use. first: the slot of the object's first attribute. */
-static void edit_slots(const gltf_saver *saver, size_t mesh, size_t p, uint32_t object, size_t first,
-                       size_t use, json_edits *edits)
+static void edit_slots(const gltf_saver *saver, const gltf_primitive *primitive, uint32_t object,
+                       size_t first, size_t use, json_edits *edits)
 {
     const gltf_document *d = saver->document;
     for (size_t s = 0; s < GLTF_DEFORMED; s++) {
-        const size_t version = ffd_gltf_version_at(d, &saver->plan, mesh, p, first + s, use);
+        const size_t version = ffd_gltf_version_at(d, &saver->plan, primitive, first + s, use);
         if (version == GLTF_NONE ||
             saver->plan.versions[version].output == saver->plan.versions[version].accessor)
             continue;
@@ -37,14 +37,13 @@ static void edit_slots(const gltf_saver *saver, size_t mesh, size_t p, uint32_t 
 }
 
 /* The same for the attributes of splats. */
-static void edit_splats(const gltf_saver *saver, size_t mesh, size_t p, uint32_t attributes, size_t use,
-                        json_edits *edits)
+static void edit_splats(const gltf_saver *saver, const gltf_primitive *primitive, uint32_t attributes,
+                        size_t use, json_edits *edits)
 {
     const gltf_document *d = saver->document;
-    const gltf_primitive *const primitive = &d->model.meshes[mesh].primitives[p];
     const size_t vectors = gltf_vector_slots(primitive);
     for (size_t slot = vectors; slot < gltf_slot_count(primitive); slot++) {
-        const size_t version = ffd_gltf_version_at(d, &saver->plan, mesh, p, slot, use);
+        const size_t version = ffd_gltf_version_at(d, &saver->plan, primitive, slot, use);
         char name[GLTF_SPLAT_NAME];
         if (version == GLTF_NONE ||
             saver->plan.versions[version].output == saver->plan.versions[version].accessor)
@@ -58,17 +57,16 @@ static void edit_splats(const gltf_saver *saver, size_t mesh, size_t p, uint32_t
 static void edit_attributes(const gltf_saver *saver, size_t mesh, size_t use, json_edits *edits)
 {
     const gltf_document *d = saver->document;
-    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++) {
-        const uint32_t primitive = ffd_gltf_primitive_value(d, mesh, p);
-        const uint32_t targets = ffd_json_span_member(&d->tree, primitive, "targets");
-        const uint32_t attributes = ffd_json_span_member(&d->tree, primitive, "attributes");
+    for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, mesh, p));) {
+        const uint32_t targets = ffd_json_span_member(&d->tree, p->value, "targets");
+        const uint32_t attributes = ffd_json_span_member(&d->tree, p->value, "attributes");
         size_t first = 0;
-        edit_slots(saver, mesh, p, attributes, first, use, edits);
-        edit_splats(saver, mesh, p, attributes, use, edits);
+        edit_slots(saver, p, attributes, first, use, edits);
+        edit_splats(saver, p, attributes, use, edits);
         for (uint32_t t = ffd_json_span_first(&d->tree, targets); t != JSON_NONE;
              t = ffd_json_span_after(&d->tree, t)) {
             first += GLTF_DEFORMED;
-            edit_slots(saver, mesh, p, t, first, use, edits);
+            edit_slots(saver, p, t, first, use, edits);
         }
     }
 }

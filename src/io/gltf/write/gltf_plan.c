@@ -16,16 +16,16 @@ static size_t part_of_slot(const gltf_document *d, const gltf_primitive *primiti
                                               : instance->first_splat + (slot - vectors) / GLTF_DEFORMED;
 }
 
-size_t ffd_gltf_version_at(const gltf_document *d, const gltf_plan *plan, size_t mesh, size_t p, size_t slot,
-                           size_t use)
+size_t ffd_gltf_version_at(const gltf_document *d, const gltf_plan *plan, const gltf_primitive *primitive,
+                           size_t slot, size_t use)
 {
     if (use == GLTF_NONE)
         return GLTF_NONE;
-    const gltf_instance *instance = &ffd_gltf_instances(d, mesh, p)[use];
+    const gltf_instance *instance = &ffd_gltf_instances(d, primitive)[use];
     const size_t owner = instance->part[GLTF_POSITION];
     if (!instance->selected && !(owner != GLTF_NONE && d->mesh_parts[owner].carried))
         return GLTF_NONE;
-    const size_t part = part_of_slot(d, &d->model.meshes[mesh].primitives[p], instance, slot);
+    const size_t part = part_of_slot(d, primitive, instance, slot);
     return part == GLTF_NONE ? GLTF_NONE : plan->part_versions[part * GLTF_DEFORMED + slot % GLTF_DEFORMED];
 }
 

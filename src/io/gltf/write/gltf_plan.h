@@ -64,8 +64,8 @@ void ffd_gltf_version_encode(const gltf_document *document, const gltf_version *
                              unsigned char *element);
 
 /* Returns the version of a slot of primitive p for a use of its mesh; GLTF_NONE: the original content. */
-size_t ffd_gltf_version_at(const gltf_document *document, const gltf_plan *plan, size_t mesh, size_t p,
-                           size_t slot, size_t use);
+size_t ffd_gltf_version_at(const gltf_document *document, const gltf_plan *plan,
+                           const gltf_primitive *primitive, size_t slot, size_t use);
 
 /* Frees the plan's arrays. */
 void ffd_gltf_free_plan(gltf_plan *plan);

@@ -78,7 +78,7 @@ ffd_status ffd_gltf_list_unpackings(gltf_saver *saver, ffd_error *error);
 void ffd_gltf_free_unpackings(gltf_saver *saver);
 
 /* Whether primitive p is written decompressed for a use of its mesh. */
-bool ffd_gltf_is_unpacked(const gltf_saver *saver, size_t mesh, size_t p, size_t use);
+bool ffd_gltf_is_unpacked(const gltf_saver *saver, const gltf_primitive *primitive, size_t use);
 
 /* Removes, and logs, the compression of the primitives that are written decompressed for a use of their
    mesh. */

@@ -7,26 +7,27 @@
 
 #define DRACO "KHR_draco_mesh_compression"
 
-bool ffd_gltf_is_unpacked(const gltf_saver *saver, size_t mesh, size_t p, size_t use)
+bool ffd_gltf_is_unpacked(const gltf_saver *saver, const gltf_primitive *primitive, size_t use)
 {
     const gltf_document *d = saver->document;
-    if (ffd_gltf_draco_value(d, mesh, p) == JSON_NONE)
+    if (ffd_gltf_draco_value(d, primitive) == JSON_NONE)
         return false;
     for (int s = 0; s < GLTF_DEFORMED; s++) {
-        const int accessor = d->model.meshes[mesh].primitives[p].accessor[s];
+        const int accessor = primitive->accessor[s];
         if (accessor >= 0 && d->layouts[accessor].packing == GLTF_DRACO &&
-            ffd_gltf_version_at(d, &saver->plan, mesh, p, (gltf_semantic)s, use) != GLTF_NONE)
+            ffd_gltf_version_at(d, &saver->plan, primitive, (gltf_semantic)s, use) != GLTF_NONE)
             return true;
     }
     return false;
 }
 
 /* Whether an attribute has another accessor in the output. */
-static bool is_redirected(const gltf_saver *saver, size_t mesh, size_t p, size_t use, uint32_t attribute)
+static bool is_redirected(const gltf_saver *saver, const gltf_primitive *primitive, size_t use,
+                          uint32_t attribute)
 {
     const gltf_document *d = saver->document;
     for (int s = 0; s < GLTF_DEFORMED; s++) {
-        const size_t version = ffd_gltf_version_at(d, &saver->plan, mesh, p, (gltf_semantic)s, use);
+        const size_t version = ffd_gltf_version_at(d, &saver->plan, primitive, (gltf_semantic)s, use);
         if (version != GLTF_NONE && ffd_json_span_key_is(&d->tree, attribute, ffd_gltf_semantic_names[s]))
             return saver->plan.versions[version].output != saver->plan.versions[version].accessor;
     }
@@ -64,17 +65,16 @@ static void unpack_accessor(gltf_saver *saver, size_t a, bool indices)
 }
 
 /* Lists all accessors that a primitive reads from its compressed data for one use. */
-static void unpack_primitive(gltf_saver *saver, size_t mesh, size_t p, size_t use)
+static void unpack_primitive(gltf_saver *saver, const gltf_primitive *primitive, size_t use)
 {
     const gltf_document *d = saver->document;
-    const int indices = d->model.meshes[mesh].primitives[p].indices;
-    const uint32_t attributes =
-        ffd_json_span_member(&d->tree, ffd_gltf_primitive_value(d, mesh, p), "attributes");
+    const int indices = primitive->indices;
+    const uint32_t attributes = ffd_json_span_member(&d->tree, primitive->value, "attributes");
     for (uint32_t v = ffd_json_span_first(&d->tree, attributes); v != JSON_NONE;
          v = ffd_json_span_after(&d->tree, v)) {
         double number = 0;
         ffd_json_span_number(&d->tree, v, &number);
-        if (d->layouts[(size_t)number].packing == GLTF_DRACO && !is_redirected(saver, mesh, p, use, v))
+        if (d->layouts[(size_t)number].packing == GLTF_DRACO && !is_redirected(saver, primitive, use, v))
             unpack_accessor(saver, (size_t)number, false);
     }
     if (indices >= 0 && d->layouts[indices].packing == GLTF_DRACO)
@@ -83,9 +83,9 @@ static void unpack_primitive(gltf_saver *saver, size_t mesh, size_t p, size_t us
 
 static void unpack_mesh(gltf_saver *saver, size_t mesh, size_t use)
 {
-    for (size_t p = 0; p < saver->document->model.meshes[mesh].primitive_count; p++)
-        if (ffd_gltf_is_unpacked(saver, mesh, p, use))
-            unpack_primitive(saver, mesh, p, use);
+    for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(saver->document, mesh, p));)
+        if (ffd_gltf_is_unpacked(saver, p, use))
+            unpack_primitive(saver, p, use);
 }
 
 static void unpack_view(gltf_saver *saver, size_t view)
@@ -159,14 +159,14 @@ void ffd_gltf_edit_compression(const gltf_saver *saver, size_t mesh, size_t use,
 {
     static const char *const names[] = {DRACO};
     const gltf_document *d = saver->document;
-    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++) {
-        if (!ffd_gltf_is_unpacked(saver, mesh, p, use))
+    for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, mesh, p));) {
+        if (!ffd_gltf_is_unpacked(saver, p, use))
             continue;
-        remove_extensions(&d->tree, ffd_gltf_primitive_value(d, mesh, p), names, 1, edits);
+        remove_extensions(&d->tree, p->value, names, 1, edits);
         ffd_log_line(saver->log, FFD_LOG_INFO,
                      "primitive %zu of mesh %zu is written uncompressed (it was " DRACO
                      ") because it is deformed",
-                     p, mesh);
+                     p->number, mesh);
     }
 }
 
@@ -234,8 +234,8 @@ void ffd_gltf_write_unpacked_views(const gltf_saver *saver, byte_buffer *text)
 static bool has_draco(const gltf_saver *saver, size_t mesh, size_t use)
 {
     const gltf_document *d = saver->document;
-    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
-        if (ffd_gltf_draco_value(d, mesh, p) != JSON_NONE && !ffd_gltf_is_unpacked(saver, mesh, p, use))
+    for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, mesh, p));)
+        if (ffd_gltf_draco_value(d, p) != JSON_NONE && !ffd_gltf_is_unpacked(saver, p, use))
             return true;
     return false;
 }
