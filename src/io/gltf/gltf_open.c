@@ -15,6 +15,7 @@
 #include "io/gltf/read/gltf_check.h"
 #include "io/gltf/read/gltf_contents.h"
 #include "io/gltf/read/gltf_drawing.h"
+#include "io/gltf/read/gltf_hidden.h"
 #include "io/gltf/read/gltf_schema.h"
 #include "json/json_parse.h"
 #include <stdlib.h>
@@ -188,70 +189,6 @@ static ffd_status limit_objects(gltf_document *d, ffd_error *error)
     return status ? status : ffd_budget_take(&d->base.budget, count, KEPT_OBJECT_BYTES, error);
 }
 
-/* Hides a member of each element of an array, which may be JSON_NONE. */
-static void hide_members(const gltf_document *d, uint32_t array, const char *key, json_edits *edits)
-{
-    for (uint32_t v = ffd_json_span_first(&d->tree, array); v != JSON_NONE;
-         v = ffd_json_span_after(&d->tree, v)) {
-        const uint32_t member = ffd_json_span_member(&d->tree, v, key);
-        if (member != JSON_NONE)
-            ffd_edits_format(edits, d->tree.values[member].key_begin, d->tree.values[member].key_end, "\"\"");
-    }
-}
-
-/* Hides from tinygltf what not all of its versions accept: indices whose accessor has no bufferView, which is
-   allowed for compressed and sparse accessors, and extensions of nodes and scenes, of which 2.9 refuses those
-   that it knows and that lack a member. */
-static void hide_refused(const gltf_document *d, json_edits *edits)
-{
-    for (size_t m = 0; m < d->mesh_values.count; m++)
-        hide_members(d, ffd_json_span_member(&d->tree, d->mesh_values.values[m], "primitives"), "indices",
-                     edits);
-    hide_members(d, ffd_json_span_member(&d->tree, 0, "nodes"), "extensions", edits);
-    hide_members(d, ffd_json_span_member(&d->tree, 0, "scenes"), "extensions", edits);
-}
-
-/* Replaces U+0000 in keys by its symbol, U+2400: tinygltf takes a key for one that ends there. */
-static void show_nuls(const gltf_document *d, json_edits *edits)
-{
-    static const char nul[] = "\\u0000";
-    const uint32_t size = sizeof nul - 1;
-    for (size_t v = 0; v < d->tree.count; v++) {
-        const uint32_t end = d->tree.values[v].key_end;
-        for (uint32_t at = d->tree.values[v].key_begin; at + size < end;) {
-            const char *const escape = memchr(d->tree.text + at, '\\', end - at);
-            if (!escape)
-                break;
-            at = (uint32_t)(escape - d->tree.text);
-            if (at + size < end && memcmp(escape, nul, size) == 0)
-                ffd_edits_format(edits, at, at + size, "\\u2400");
-            at += 2; /* past a backslash that is escaped */
-        }
-    }
-}
-
-/* Writes the JSON for tinygltf. It has only the geometry, so that tinygltf neither spends time on the rest
-   nor refuses the file because of it. Buffers are stubs, so that it opens no files and decodes no data.
-   Integers are plain digits. */
-static void write_model_text(const gltf_document *d, const json_edits *plain, byte_buffer *out)
-{
-    static const char *const used[] = {"asset", "bufferViews", "accessors", "meshes",
-                                       "nodes", "scenes",      "scene"};
-    ffd_buffer_text(out, "{\"buffers\":[");
-    for (size_t i = 0; i < d->buffer_values.count; i++)
-        ffd_buffer_format(out, "%s{\"byteLength\":1,\"uri\":\"data:application/octet-stream;base64,AA==\"}",
-                          i ? "," : "");
-    ffd_buffer_text(out, "]");
-    for (size_t i = 0; i < sizeof used / sizeof *used; i++) {
-        const uint32_t member = ffd_json_span_member(&d->tree, 0, used[i]);
-        if (member == JSON_NONE)
-            continue;
-        ffd_buffer_format(out, ",\"%s\":", used[i]);
-        ffd_edits_apply(plain, d->tree.text, d->tree.values[member].begin, d->tree.values[member].end, out);
-    }
-    ffd_buffer_text(out, "}");
-}
-
 /* Finds the JSON of the model's primitives. Checks that the counts agree, since the model and the JSON are
    used side by side. */
 static ffd_status join_json(gltf_document *d, ffd_error *error)
@@ -275,24 +212,18 @@ static ffd_status join_json(gltf_document *d, ffd_error *error)
 
 static ffd_status parse_model(gltf_document *d, ffd_error *error)
 {
-    json_edits plain = {0};
+    json_edits integers = {0};
     byte_buffer text = {0};
-    ffd_status status = ffd_gltf_check_schema(&d->tree, d->name, &plain, error);
+    ffd_status status = ffd_gltf_check_schema(&d->tree, d->name, &integers, error);
     if (status == FFD_OK)
         status = list_all_values(d, error);
     if (status == FFD_OK)
         status = limit_objects(d, error);
-    if (status == FFD_OK) {
-        hide_refused(d, &plain);
-        show_nuls(d, &plain);
-        ffd_edits_sort(&plain);
-        write_model_text(d, &plain, &text);
-        if (ffd_edits_failed(&plain) || text.failed)
-            status = ffd_fail_memory(error);
-        else
-            status = ffd_gltf_parse_model(text.data, text.size, d->name, &d->model, error);
-    }
-    ffd_edits_free(&plain);
+    if (status == FFD_OK)
+        status = ffd_gltf_write_shown(d, &integers, &text)
+                     ? ffd_gltf_parse_model(text.data, text.size, d->name, &d->model, error)
+                     : ffd_fail_memory(error);
+    ffd_edits_free(&integers);
     ffd_buffer_free(&text);
     if (status == FFD_OK)
         status = join_json(d, error);

@@ -1,5 +1,6 @@
 #include "io/gltf/read/gltf_schema.h"
 #include "base/memory/memory.h"
+#include "io/gltf/read/gltf_hidden.h"
 #include "io/gltf/read/gltf_model.h"
 #include <math.h>
 #include <string.h>
@@ -34,7 +35,7 @@ typedef struct rule {
 typedef struct checker {
     const json_span *tree;
     const char *name;
-    json_edits *plain;
+    json_edits *integers;
     ffd_error *error;
 } checker;
 
@@ -141,15 +142,12 @@ static bool is_kind(const checker *c, uint32_t value, json_kind kind)
     return c->tree->values[value].kind == kind;
 }
 
-/* Hides the value from tinygltf, which refuses any that is not a multiple of 4. Readers of strides take them
-   from the JSON. */
 static ffd_status check_stride(const checker *c, uint32_t value)
 {
     double number;
     if (!ffd_json_span_number(c->tree, value, &number) || !(number >= 0 && number <= 252) ||
         floor(number) != number)
         return refuse(c, value, "a multiple of 4 from 4 to 252");
-    ffd_edits_format(c->plain, c->tree->values[value].begin, c->tree->values[value].end, "4");
     return FFD_OK;
 }
 
@@ -158,22 +156,16 @@ static ffd_status check_mode(const checker *c, uint32_t value)
     double number;
     if (!ffd_json_span_number(c->tree, value, &number) || !isfinite(number))
         return refuse(c, value, "a mode from 0 to 6");
-    ffd_edits_format(c->plain, c->tree->values[value].begin, c->tree->values[value].end, "4");
     return FFD_OK;
 }
 
-/* Reads an integer of [0, largest]. An integer that is not written as plain digits is edited in c->plain. */
+/* Reads an integer of [0, largest], and shows it to tinygltf. */
 static bool read_integer(const checker *c, uint32_t value, double largest, double *number)
 {
     if (!ffd_json_span_number(c->tree, value, number) || !(*number >= 0 && *number <= largest) ||
         floor(*number) != *number)
         return false;
-    const json_value *v = &c->tree->values[value];
-    for (uint32_t i = v->begin; i < v->end; i++)
-        if (c->tree->text[i] < '0' || c->tree->text[i] > '9') {
-            ffd_edits_format(c->plain, v->begin, v->end, "%.0f", fabs(*number)); /* -0 too */
-            break;
-        }
+    ffd_gltf_show_integer(c->tree, value, *number, c->integers);
     return true;
 }
 
@@ -332,17 +324,6 @@ static ffd_status check_value(const checker *c, uint32_t value, const rule *r)
     return FFD_OK;
 }
 
-/* Hides from tinygltf, which refuses them, the numbers beyond the range of double. Those that the program
-   reads have been refused: what is left is of extras, extensions and unknown members. */
-static void hide_infinite(const checker *c)
-{
-    for (uint32_t v = 0; v < c->tree->count; v++) {
-        double number;
-        if (ffd_json_span_number(c->tree, v, &number) && !isfinite(number))
-            ffd_edits_format(c->plain, c->tree->values[v].begin, c->tree->values[v].end, "0");
-    }
-}
-
 /* Whether the text is two whole numbers with a point between. */
 static bool is_version(const char *text)
 {
@@ -372,13 +353,12 @@ static ffd_status check_version(const checker *c)
     return status;
 }
 
-ffd_status ffd_gltf_check_schema(const json_span *tree, const char *name, json_edits *plain, ffd_error *error)
+ffd_status ffd_gltf_check_schema(const json_span *tree, const char *name, json_edits *integers,
+                                 ffd_error *error)
 {
-    const checker c = {.tree = tree, .name = name, .plain = plain, .error = error};
+    const checker c = {.tree = tree, .name = name, .integers = integers, .error = error};
     if (tree->values[0].kind != JSON_OBJECT)
         return ffd_fail_file(error, FFD_E_INVALID, name, "is not glTF: the JSON is not an object");
     const ffd_status status = check_object(&c, 0, root_rules);
-    if (status == FFD_OK)
-        hide_infinite(&c);
     return status ? status : check_version(&c);
 }

@@ -7,11 +7,9 @@
 #include "json/json_edit.h"
 #include "json/json_span.h"
 
-/* Checks the values. Adds an edit to plain for each integer that is not written as plain digits ("12.0" is
-   allowed). byteStride and mode become 4 in plain: the caller reads them from the JSON. Numbers beyond the
-   range of double that nothing reads become 0. Errors: FFD_E_INVALID, FFD_E_UNSUPPORTED (another version of
-   glTF), FFD_E_LIMIT (a size beyond the largest). */
-ffd_status ffd_gltf_check_schema(const json_span *tree, const char *name, json_edits *plain,
+/* Checks the values, and edits integers for tinygltf (gltf_hidden.h). Errors: FFD_E_INVALID,
+   FFD_E_UNSUPPORTED (another version of glTF), FFD_E_LIMIT (a size beyond the largest). */
+ffd_status ffd_gltf_check_schema(const json_span *tree, const char *name, json_edits *integers,
                                  ffd_error *error);
 
 #endif
