@@ -1,6 +1,6 @@
 #!/bin/sh
-# Draws the pictures of README.md with ffd view: sh data/make_pictures.sh FFD [FOLDER]
-# They go to FOLDER; default: data/pictures. The lattices that README.md shows are taken from its text.
+# Draws the pictures of README.md and tutorial.md with ffd view: sh data/make_pictures.sh FFD [FOLDER]
+# They go to FOLDER; default: data/pictures. The lattices that these pages show are taken from their text.
 set -eu
 
 ffd=${1:?usage: make_pictures.sh FFD [FOLDER]}
@@ -12,7 +12,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 ln -s "$data/models" "$data/lattices" "$work/"
 cd "$work"
-awk '/^```json [^\/]*$/{name = $2; next} /^```/{name = ""} name != "" {print > name}' "$data/../README.md"
+awk '/^```json [^\/]*$/{name = $2; next} /^```/{name = ""} name != "" {print > name}' "$data/../README.md" "$data/tutorial.md"
 
 # draw NAME IN [OUT] [OPTION...]: a row of two, before and after
 draw() {

@@ -344,7 +344,7 @@ typedef struct ffd_bounds {
     double min[3], max[3]; /* min > max if no vertex is finite */
 } ffd_bounds;
 
-/* What a deformation can leave behind: things that keep their place while the mesh moves. */
+/* Scene objects that do not follow: they keep their place while the mesh moves. */
 typedef enum ffd_behind_kind {
     FFD_BEHIND_SOCKET = 0, /* an empty node without children */
     FFD_BEHIND_CAMERA,

@@ -76,7 +76,7 @@ typedef struct wire_answer {
     bool took_row;      /* the row may be written to */
     bool own_box;       /* a lattice's box was laid round the job's mesh */
     bool looked;        /* the look found files, and nothing else was done */
-    bool goes_on;       /* the look found nothing: no more than this is said yet */
+    bool goes_on;       /* the look found nothing: the answer has no more yet */
     bool retires;       /* the worker ends: send no more tasks */
     bool out_of_memory; /* memory ran out for the answer, so the job failed and there are no texts */
 } wire_answer;

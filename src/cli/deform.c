@@ -314,7 +314,7 @@ static const cli_example examples[] = {
      "mkdir -p bent && ffd deform cow.obj vase.obj --out-dir bent -l twist.json --report report.json"},
     {"one part of a mesh (ffd info --parts has the names)",
      "ffd deform knight.glb cape.glb -l bend.json --only node:Knight_Cape"},
-    {"a taller character, whose skeleton and animations go along",
+    {"a taller character, whose skeleton and animations follow",
      "ffd deform knight.glb taller.glb -l tall.json --rig follow"},
     {"two shapes to animate, and an animation of them",
      "ffd deform robot.glb moves.glb --morph bow=bend.json --morph turn=twist.json --clip 'hi: 0, 0.5 bow=1, "

@@ -129,7 +129,7 @@ const cli_option cli_job_options[] = {
      "glTF: the lattice is in the space of the scene, or of each mesh; default scene", cli_set_choice,
      AT(space), cli_space_names},
     {"rig", 0, "keep|follow",
-     "glTF: joints, pivots, sockets, cameras, lights, animations stay, or go along; default keep",
+     "glTF: joints, pivots, sockets, cameras, lights, animations stay, or follow; default keep",
      cli_set_choice, AT(rig), rig_names},
     {"only", 0, "KIND:NAME",
      "only this, repeatable; glTF: node (and below), mesh, material; OBJ: group, object, material",

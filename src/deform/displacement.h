@@ -5,6 +5,7 @@
 
 #include "base/vector/isa.h"
 #include "deform/displacement_cell.h"
+#include "deform/turns.h"
 #include "lattice/lattice.h"
 #include <ffd/deform.h>
 #include <stdint.h>
@@ -39,6 +40,9 @@ typedef struct batch_stretch {
 /* The size of the caches of all threads together, 3 MB, because a machine can have many threads. */
 #define KEPT_IN_ALL (2 * KEPT_NUMBERS)
 
+/* Whether det F may be 0 or less in a cell. */
+typedef enum cell_turns { TURNS_UNKNOWN, TURNS_NOWHERE, TURNS_PERHAPS } cell_turns;
+
 typedef struct kept_cells {
     int threads;                 /* number of threads that share this size; set by the owner of the scratch
                                     memory, 0 is 1 */
@@ -53,6 +57,15 @@ typedef struct kept_cells {
     double all_numbers[KEPT_NUMBERS];
 } kept_cells;
 
+/* A cache of cell_turns: the answers for many cells take little memory. */
+#define TURN_SLOTS ((size_t)8192)
+
+typedef struct kept_turns {
+    const ffd_lattice *lattice;   /* NULL: empty */
+    size_t count;                 /* slots in use */
+    uint64_t answers[TURN_SLOTS]; /* 4 times the key of a batch_cell, plus cell_turns */
+} kept_turns;
+
 /* Scratch memory of a thread for a batch. */
 typedef struct displacement_scratch {
     kept_cells kept;
@@ -64,7 +77,17 @@ typedef struct displacement_scratch {
     uint16_t buckets[2 * DISPLACEMENT_BATCH]; /* hash table of the cells by key */
     uint32_t sorted[DISPLACEMENT_BATCH];      /* indices of the points, cell by cell */
     double uvw[3 * DISPLACEMENT_BATCH];       /* their u,v,w */
+    double fields[2 * FIELD_NUMBERS + 1];     /* of a cell in which the displacement may turn */
+    turn_run runs[DISPLACEMENT_BATCH];
+    kept_turns kept_turns;
+    turn_scratch turns;
 } displacement_scratch;
+
+/* The points of a batch, or of several, at which det F may be 0 or less. */
+typedef struct turn_list {
+    uint32_t points[DISPLACEMENT_BATCH];
+    size_t count;
+} turn_list;
 
 typedef struct displacement_batch {
     const double *uvw; /* u,v,w of point 0; in the domain */
@@ -75,9 +98,8 @@ typedef struct displacement_batch {
     size_t count;
     double *delta;    /* of point n: begins at delta[3 * n] */
     double *gradient; /* of point n: begins at gradient[9 * n]; may be NULL */
-    bool only_turns;  /* with gradient: it is wanted only for cells where det F may be 0 or less; elsewhere it
-                         is 0 */
-    bool *may_turn;   /* NULL, or with gradient: becomes true if det F may be 0 or less in a cell */
+    turn_list *turns; /* NULL, or with gradient: the points where det F may be 0 or less are added */
+    bool only_turns;  /* gradients are wanted, and written, only of those points */
     uint8_t *moves;   /* moves[n]: what ffd_displacement returns */
 } displacement_batch;
 

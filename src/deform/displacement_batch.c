@@ -4,17 +4,12 @@
 
 #define NO_CELL UINT16_MAX
 
-typedef struct kernel_pair {
-    extraction_kernel *extract;
-    displacement_kernel *displace;
-} kernel_pair;
-
-static const kernel_pair kernels[] = {
-    [FFD_ISA_SCALAR] = {ffd_extraction_kernel_scalar, ffd_kernel_scalar},
+static const cell_kernels kernels[] = {
+    [FFD_ISA_SCALAR] = {ffd_extraction_kernel_scalar, ffd_kernel_scalar, ffd_slope_kernel_scalar},
 #ifdef FFD_X86
-    [FFD_ISA_SSE2] = {ffd_extraction_kernel_sse2, ffd_kernel_sse2},
-    [FFD_ISA_AVX2] = {ffd_extraction_kernel_avx2, ffd_kernel_avx2},
-    [FFD_ISA_AVX512] = {ffd_extraction_kernel_avx512, ffd_kernel_avx512},
+    [FFD_ISA_SSE2] = {ffd_extraction_kernel_sse2, ffd_kernel_sse2, ffd_slope_kernel_sse2},
+    [FFD_ISA_AVX2] = {ffd_extraction_kernel_avx2, ffd_kernel_avx2, ffd_slope_kernel_avx2},
+    [FFD_ISA_AVX512] = {ffd_extraction_kernel_avx512, ffd_kernel_avx512, ffd_slope_kernel_avx512},
 #endif
 };
 
@@ -125,7 +120,7 @@ static void sort_points(const ffd_lattice *lattice, const displacement_batch *ba
 static void stay(const displacement_batch *batch, size_t n)
 {
     memset(batch->delta + 3 * n, 0, 3 * sizeof *batch->delta);
-    if (batch->gradient)
+    if (batch->gradient && !batch->only_turns)
         memset(batch->gradient + 9 * n, 0, 9 * sizeof *batch->gradient);
     batch->moves[n] = 0;
 }
@@ -133,6 +128,8 @@ static void stay(const displacement_batch *batch, size_t n)
 void ffd_displacement_scratch_clear(displacement_scratch *scratch)
 {
     scratch->kept.lattice = NULL;
+    scratch->kept_turns.lattice = NULL;
+    scratch->turns.order[0] = 0;
 }
 
 /* Prepares the cache for a lattice. */
@@ -152,8 +149,19 @@ static void begin_cells(const ffd_lattice *lattice, cell_use use, kept_cells *ke
     memset(kept->keys, 0, sizeof kept->keys);
 }
 
-/* Returns how a cell moves and, if it is not a common displacement, its numbers; computes them if they are
-   not in the cache. */
+static void begin_turns(const ffd_lattice *lattice, kept_turns *kept)
+{
+    const knot_vector *const knots = lattice->knots;
+    const size_t cells = knots[0].span_count * knots[1].span_count * knots[2].span_count;
+    if (kept->lattice == lattice)
+        return;
+    kept->lattice = lattice;
+    kept->count = cells < TURN_SLOTS ? cells : TURN_SLOTS;
+    memset(kept->answers, 0, kept->count * sizeof *kept->answers);
+}
+
+/* Returns how a cell moves and, if its displacements differ, its numbers; computes them if they are not in
+   the cache. */
 static cell_motion find_numbers(const ffd_lattice *lattice, extraction_kernel *extract,
                                 const batch_cell *cell, kept_cells *kept, const double **numbers)
 {
@@ -161,13 +169,31 @@ static cell_motion find_numbers(const ffd_lattice *lattice, extraction_kernel *e
     if (kept->keys[slot] == 0)
         kept->places[slot] = kept->used++;
     double *const kept_numbers = kept->all_numbers + kept->places[slot] * kept->numbers;
-    if (kept->keys[slot] != cell->key + 1) {
-        kept->keys[slot] = cell->key + 1;
-        kept->motions[slot] =
-            ffd_displacement_cell_points(lattice, extract, cell->span, kept->use, kept_numbers);
-    }
     *numbers = kept_numbers;
+    if (kept->keys[slot] == cell->key + 1)
+        return kept->motions[slot];
+    kept->keys[slot] = cell->key + 1;
+    kept->motions[slot] = ffd_displacement_cell_points(lattice, extract, cell->span, kept->use, kept_numbers);
     return kept->motions[slot];
+}
+
+/* With fewer points in a cell of a curved lattice, their gradients cost less than bounds. */
+#define FEW_POINTS 5
+
+/* Returns whether det F may be 0 or less at a point of a cell. */
+static bool may_turn(const ffd_lattice *lattice, const cell_kernels *kernel, const batch_cell *of,
+                     const double *numbers, displacement_scratch *scratch)
+{
+    uint64_t *const answer = &scratch->kept_turns.answers[of->key % scratch->kept_turns.count];
+    const turn_cell cell = {lattice, of->span, kernel};
+    if (*answer / 4 == of->key && *answer % 4 != TURNS_UNKNOWN)
+        return *answer % 4 == TURNS_PERHAPS;
+    if (!lattice->has_uvw_by_p && of->count < FEW_POINTS)
+        return true;
+    const cell_turns turns =
+        ffd_turns_nowhere(&cell, numbers, &scratch->turns) ? TURNS_NOWHERE : TURNS_PERHAPS;
+    *answer = 4 * (uint64_t)of->key + turns;
+    return turns == TURNS_PERHAPS;
 }
 
 /* Stores the same displacement for all points of a cell. */
@@ -213,29 +239,72 @@ static void shift_on_knots(const ffd_lattice *lattice, const int span[3], uint8_
     }
 }
 
-/* gentle: without gradients, which are not wanted. */
-static void bend_cell(const ffd_lattice *lattice, const kernel_pair *kernel, const displacement_batch *batch,
-                      const batch_cell *of, bool gentle, const double *numbers, displacement_scratch *scratch)
+/* Displaces count points of a cell, from the first of them in the sorted order. */
+static void bend_points(const cell_kernels *kernel, const kernel_cell *cell, const displacement_batch *batch,
+                        size_t first, size_t count, bool gradients, displacement_scratch *scratch)
 {
-    const uint32_t *const which = scratch->sorted + of->first;
-    kernel_cell cell;
-    ffd_displacement_cell_begin(lattice, of->span, scratch->kept.use, numbers, &cell);
-    const kernel_points points = {.uvw = scratch->uvw + 3 * (size_t)of->first,
+    const uint32_t *const which = scratch->sorted + first;
+    const bool has_rest = gradients && cell->rest.points;
+    const kernel_points points = {.uvw = scratch->uvw + 3 * first,
                                   .which = which,
-                                  .count = of->count,
+                                  .count = count,
                                   .delta = batch->delta,
-                                  .gradient = gentle ? NULL : batch->gradient,
-                                  .jacobian = cell.rest.points ? scratch->jacobian : NULL};
-    kernel->displace(&cell, &points);
-    for (size_t k = 0; k < of->count; k++)
+                                  .gradient = gradients ? batch->gradient : NULL,
+                                  .jacobian = has_rest ? scratch->jacobian : NULL};
+    kernel->displace(cell, &points);
+    for (size_t k = 0; k < count; k++)
         batch->moves[which[k]] = 1;
-    for (size_t k = 0; k < of->count && gentle; k++)
-        memset(batch->gradient + 9 * (size_t)which[k], 0, 9 * sizeof *batch->gradient);
-    for (size_t k = 0; k < of->count && cell.rest.points; k++)
+    for (size_t k = 0; k < count && has_rest; k++)
         ffd_displacement_to_space(scratch->jacobian + 9 * which[k], batch->gradient + 9 * which[k]);
 }
 
-static void displace_cell(const ffd_lattice *lattice, const kernel_pair *kernel,
+static void add_turns(const displacement_batch *batch, const uint32_t *which, size_t count)
+{
+    memcpy(batch->turns->points + batch->turns->count, which, count * sizeof *which);
+    batch->turns->count += count;
+}
+
+/* Displaces the points of a cell in which the displacement may turn: computes gradients only in the runs of
+   points where that is not excluded, and lists these points. */
+static void bend_and_watch(const ffd_lattice *lattice, const cell_kernels *kernel,
+                           const displacement_batch *batch, const batch_cell *of,
+                           displacement_scratch *scratch)
+{
+    const turn_cell turn = {lattice, of->span, kernel};
+    const uint32_t *const which = scratch->sorted + of->first;
+    const turn_run *const runs = scratch->runs;
+    kernel_cell cell;
+    ffd_displacement_cell_points(lattice, kernel->extract, of->span, CELL_GRADIENTS, scratch->fields);
+    ffd_displacement_cell_begin(lattice, of->span, CELL_GRADIENTS, scratch->fields, &cell);
+    const size_t count = ffd_turns_find(&turn, &cell, which, scratch->uvw + 3 * (size_t)of->first, of->count,
+                                        scratch->runs, &scratch->turns);
+    for (size_t i = 0, end; i < count; i = end) {
+        for (end = i + 1; end < count && runs[end].may_turn == runs[i].may_turn;)
+            end++;
+        const size_t first = runs[i].first, points = runs[end - 1].end - first;
+        bend_points(kernel, &cell, batch, of->first + first, points, runs[i].may_turn, scratch);
+        if (runs[i].may_turn)
+            add_turns(batch, which + first, points);
+    }
+}
+
+/* Displaces the points of a cell whose control points have different displacements. */
+static void bend_cell(const ffd_lattice *lattice, const cell_kernels *kernel, const displacement_batch *batch,
+                      const batch_cell *of, const double *numbers, displacement_scratch *scratch)
+{
+    const bool turns = batch->turns && may_turn(lattice, kernel, of, numbers, scratch);
+    kernel_cell cell;
+    if (turns && batch->only_turns) {
+        bend_and_watch(lattice, kernel, batch, of, scratch);
+        return;
+    }
+    ffd_displacement_cell_begin(lattice, of->span, scratch->kept.use, numbers, &cell);
+    bend_points(kernel, &cell, batch, of->first, of->count, batch->gradient && !batch->only_turns, scratch);
+    if (turns)
+        add_turns(batch, scratch->sorted + of->first, of->count);
+}
+
+static void displace_cell(const ffd_lattice *lattice, const cell_kernels *kernel,
                           const displacement_batch *batch, const batch_cell *of,
                           displacement_scratch *scratch)
 {
@@ -246,33 +315,39 @@ static void displace_cell(const ffd_lattice *lattice, const kernel_pair *kernel,
     ffd_displacement_spans(lattice, of->span, span);
     for (size_t k = 0; k < of->count && motion.kind == CELL_STILL; k++)
         stay(batch, which[k]);
-    const bool gentle = batch->only_turns && motion.is_gentle;
-    if (batch->may_turn && motion.kind == CELL_BENT && !motion.is_gentle)
-        *batch->may_turn = true;
     if (motion.kind == CELL_SHIFTED)
         shift_cell(ffd_displacement_shared(lattice, span, NULL), batch, which, of->count);
     if (motion.kind == CELL_BENT)
-        bend_cell(lattice, kernel, batch, of, gentle, numbers, scratch);
+        bend_cell(lattice, kernel, batch, of, numbers, scratch);
     if (motion.knots)
         shift_on_knots(lattice, span, motion.knots, scratch->uvw + 3 * (size_t)of->first, batch, which,
                        of->count);
+}
+
+/* With weights each point is displaced alone. */
+static void displace_rational(const ffd_lattice *lattice, const displacement_batch *batch)
+{
+    for (size_t k = 0; k < batch->count; k++) {
+        const size_t n = batch->which[k];
+        batch->moves[n] = (uint8_t)ffd_displacement(lattice, uvw_of(batch, k), batch->delta + 3 * n,
+                                                    batch->gradient ? batch->gradient + 9 * n : NULL);
+        if (batch->turns && batch->moves[n])
+            batch->turns->points[batch->turns->count++] = (uint32_t)n;
+    }
 }
 
 void ffd_displacements(const ffd_lattice *lattice, ffd_isa isa, const displacement_batch *batch,
                        displacement_scratch *scratch)
 {
     if (lattice->rest_weights) {
-        for (size_t k = 0; k < batch->count; k++) {
-            const size_t n = batch->which[k];
-            batch->moves[n] = (uint8_t)ffd_displacement(lattice, uvw_of(batch, k), batch->delta + 3 * n,
-                                                        batch->gradient ? batch->gradient + 9 * n : NULL);
-        }
-        if (batch->may_turn && batch->count > 0)
-            *batch->may_turn = true;
+        displace_rational(lattice, batch);
         return;
     }
-    const kernel_pair *const kernel = &kernels[ffd_isa_resolve(isa)];
-    begin_cells(lattice, batch->gradient ? CELL_GRADIENTS : CELL_VALUES, &scratch->kept);
+    const cell_kernels *const kernel = &kernels[ffd_isa_resolve(isa)];
+    const bool gradients = batch->gradient && !batch->only_turns;
+    begin_cells(lattice, gradients ? CELL_GRADIENTS : CELL_VALUES, &scratch->kept);
+    if (batch->turns)
+        begin_turns(lattice, &scratch->kept_turns);
     find_cells(lattice, batch, scratch);
     sort_points(lattice, batch, scratch);
     for (size_t c = 0; c < scratch->cell_count; c++)

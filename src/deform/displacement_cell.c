@@ -256,85 +256,15 @@ size_t ffd_displacement_cell_numbers(const ffd_lattice *lattice, cell_use use)
     return (needs_rest(lattice, use) ? 2 : 1) * field_numbers(lattice, use);
 }
 
-/* A range for each entry of a vector or a matrix. */
-typedef struct entry_range {
-    double low, high;
-} entry_range;
-
-/* Fills the ranges of the derivatives of a field along a direction in a cell: those of its control points
-   hold them (Piegl and Tiller, The NURBS Book, 3.3: the derivative's control points). points: of the field, u
-   fastest; stride: of the direction, in points. */
-static void bound_slopes(const knot_vector *along, int span, const double *points, size_t count,
-                         size_t stride, entry_range of[3])
-{
-    double factors[MAX_DEGREE];
-    const size_t degree = (size_t)along->degree, whole = stride * (degree + 1);
-    for (size_t i = 0; i < degree; i++) {
-        const double *const t = along->t + span + i;
-        factors[i] = along->degree / (t[1] - t[1 - along->degree]);
-    }
-    of[0] = of[1] = of[2] = (entry_range){HUGE_VAL, -HUGE_VAL};
-    for (size_t block = 0; block < count; block += whole)
-        for (size_t n = block; n < block + whole - stride; n++)
-            for (size_t c = 0; c < 3; c++) {
-                const double step = points[3 * (n + stride) + c] - points[3 * n + c];
-                const double slope = factors[(n - block) / stride] * step;
-                of[c].low = lesser_of(of[c].low, slope);
-                of[c].high = larger_of(of[c].high, slope);
-            }
-}
-
-/* Adds a range times a factor. */
-static void add_range(const entry_range *range, double factor, entry_range *sum)
-{
-    sum->low += factor * (factor > 0 ? range->low : range->high);
-    sum->high += factor * (factor > 0 ? range->high : range->low);
-}
-
-/* Returns a lower bound of det F from the ranges of the entries of F - I: the diagonal term less the sizes of
-   the others; below 0 if an entry of the diagonal may be. */
-static double least_determinant(const entry_range entries[9])
-{
-    double size[9], least = 1;
-    for (int i = 0; i < 9; i++) {
-        const double unit = i % 4 == 0;
-        size[i] = larger_of(fabs(unit + entries[i].low), fabs(unit + entries[i].high));
-        if (unit > 0 && !(entries[i].low > -1))
-            return -1;
-        least *= unit > 0 ? 1 + entries[i].low : 1;
-    }
-    return least - size[0] * size[5] * size[7] - size[4] * size[2] * size[6] - size[8] * size[1] * size[3] -
-           size[1] * size[5] * size[6] - size[2] * size[3] * size[7];
-}
-
-/* What det F must exceed, so that rounding does not matter. */
-#define GENTLE 0.01
-
-/* points: the displacements of the control points of the cell. */
-static bool is_gentle(const ffd_lattice *lattice, const int span[3], const double *points)
-{
-    const size_t count = point_numbers(lattice) / 3;
-    entry_range slopes[3], entries[9] = {{0}};
-    size_t stride = 1;
-    for (int a = 0; a < 3 && lattice->has_uvw_by_p; a++) {
-        bound_slopes(&lattice->knots[a], span[a], points, count, stride, slopes);
-        stride *= (size_t)lattice->knots[a].degree + 1;
-        for (int i = 0; i < 9; i++)
-            add_range(&slopes[i / 3], lattice->uvw_by_p[3 * a + i % 3], &entries[i]);
-    }
-    return lattice->has_uvw_by_p && least_determinant(entries) > GENTLE;
-}
-
 cell_motion ffd_displacement_cell_points(const ffd_lattice *lattice, extraction_kernel *extract,
                                          const size_t number[3], cell_use use, double *numbers)
 {
     int span[3];
     ffd_displacement_spans(lattice, number, span);
-    cell_motion motion = motion_of(lattice, span);
+    const cell_motion motion = motion_of(lattice, span);
     if (motion.kind != CELL_BENT)
         return motion;
     ffd_lattice_cell_points(lattice, lattice->difference, span, numbers);
-    motion.is_gentle = use == CELL_GRADIENTS && is_gentle(lattice, span, numbers);
     extract_field(lattice, extract, number, use, numbers);
     if (needs_rest(lattice, use)) {
         double *const rest = numbers + field_numbers(lattice, use);

@@ -21,11 +21,9 @@ typedef enum motion_kind {
 
 /* How the points of a cell move. */
 typedef struct cell_motion {
-    uint8_t kind;   /* motion_kind */
-    uint8_t knots;  /* for other cells: the knots on which ffd_displacement_shared must be called for points.
-                       Bit 2 a: first knot in direction a; bit 2 a + 1: last knot */
-    bool is_gentle; /* det F > 0 in the whole cell: known if derivatives by position are wanted and the rest
-                       lattice is a box without weights */
+    uint8_t kind;  /* motion_kind */
+    uint8_t knots; /* for other cells: the knots on which ffd_displacement_shared must be called for points.
+                      Bit 2 a: first knot in direction a; bit 2 a + 1: last knot */
 } cell_motion;
 
 /* What is to be computed for the points of a cell. */

@@ -35,6 +35,7 @@ static bool shift_knots(ffd_locator *locator)
         const double first = ffd_knots_first(knots);
         int exponent;
         frexp(ffd_knots_last(knots) - first, &exponent);
+        locator->knot_first[a] = first;
         locator->knot_scale[a] = ldexp(1, exponent < -1000 ? 1000 : -exponent);
         locator->knots[a] = *knots;
         locator->knots[a].t = ffd_alloc(count, sizeof(double));

@@ -36,7 +36,7 @@ static ffd_status check_embedding(const ffd_deform_desc *desc, ffd_error *error)
     if (desc->blocks)
         return ffd_fail(error, FFD_E_ARGUMENT, "--embedding cannot be used with --blocks");
     if (desc->lattice_count != 1)
-        return ffd_fail(error, FFD_E_ARGUMENT, "an embedding belongs to one lattice, not to %zu",
+        return ffd_fail(error, FFD_E_ARGUMENT, "an embedding needs exactly one lattice, got %zu",
                         desc->lattice_count);
     if (strcmp(embedding, "-") == 0 &&
         (strcmp(desc->input.path, "-") == 0 || strcmp(desc->lattices[0], "-") == 0))
@@ -106,8 +106,7 @@ static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
     if (desc->falloff > 0 && desc->outside != FFD_OUTSIDE_EXTEND)
         return ffd_fail(error, FFD_E_ARGUMENT, "--falloff needs --outside extend");
     if (desc->positions && desc->morphs)
-        return ffd_fail(error, FFD_E_ARGUMENT,
-                        "positions are of one deformation, but --morph makes several targets");
+        return ffd_fail(error, FFD_E_ARGUMENT, "positions cannot be given with morphs");
     if (desc->rig == FFD_RIG_FOLLOW &&
         (desc->as_morph || desc->morphs || desc->input.space == FFD_SPACE_MESH))
         return ffd_fail(error, FFD_E_ARGUMENT, "--rig follow cannot be used with %s",
@@ -197,8 +196,8 @@ ffd_status ffd_deform_job_begin(deform_job *job, const ffd_deform_desc *desc, bo
     *job = (deform_job){.desc = desc, .check = check, .losses = ffd_mapping_losses()};
     ffd_status status = check_desc(desc, &result->error);
     if (!status && check && desc->morphs)
-        status = ffd_fail(&result->error, FFD_E_ARGUMENT,
-                          "several morph targets are made by a deformation only (--morph)");
+        status =
+            ffd_fail(&result->error, FFD_E_ARGUMENT, "morphs: only ffd_deform_run supports several targets");
     if (!status)
         status = ffd_threads_choose(desc->threads, &job->threads, &result->error);
     job->log = job->file_log = (mesh_log){desc->log, desc->log_user};

@@ -5,7 +5,7 @@
 
 #include "json/json_span.h"
 
-/* A value that readers get instead of a value of the file. */
+/* Replacement value of a placeholder. */
 typedef struct json_substitute {
     uint32_t value;        /* index in the tree of the file */
     const json_span *tree; /* its root is the replacement */

@@ -61,7 +61,7 @@ static void size_up(const ffd_lattice *lattice, const double *points, double eps
     for (int a = 0; a < 3; a++) {
         double most = 0;
         for (size_t i = 0; i < lattice->count; i++)
-            most = fmax(most, fabs(points[3 * i + (size_t)a]));
+            most = larger_of(most, fabs(points[3 * i + (size_t)a]));
         tolerance[a] = eps * DBL_EPSILON * most;
     }
 }
@@ -212,29 +212,36 @@ static bool is_one_point(const border_face *face, int along, size_t index[3], co
     return true;
 }
 
+/* The largest coordinates' rounding, at rest and deformed: how far points may be apart that are one. */
+typedef struct point_tolerance {
+    double rest[3], deformed[3];
+} point_tolerance;
+
 /* Returns whether some row of a face in a direction is one point at rest and several deformed. */
-static bool opens_row(const ffd_lattice *lattice, int direction, int end, int along)
+static bool opens_row(const ffd_lattice *lattice, int direction, int end, int along,
+                      const point_tolerance *tolerance)
 {
     const int other = 3 - direction - along;
     border_face rest, deformed;
-    double of_rest[3], of_deformed[3];
     size_t index[3] = {0, 0, 0};
     ffd_border_face(lattice, FFD_VOLUME_REST, direction, end, &rest);
     ffd_border_face(lattice, FFD_VOLUME_DEFORMED, direction, end, &deformed);
-    size_up(lattice, rest.points, 16, of_rest);
-    size_up(lattice, deformed.points, 64, of_deformed);
     for (index[other] = 0; index[other] < lattice->size[other]; index[other]++)
-        if (is_one_point(&rest, along, index, of_rest) && !is_one_point(&deformed, along, index, of_deformed))
+        if (is_one_point(&rest, along, index, tolerance->rest) &&
+            !is_one_point(&deformed, along, index, tolerance->deformed))
             return true;
     return false;
 }
 
 bool ffd_lattice_opens_axis(const ffd_lattice *lattice)
 {
+    point_tolerance tolerance;
+    size_up(lattice, lattice->rest, 16, tolerance.rest);
+    size_up(lattice, lattice->deformed, 64, tolerance.deformed);
     for (int direction = 0; direction < 3; direction++)
         for (int end = 0; end < 2 && !ffd_knots_closed(&lattice->knots[direction]); end++)
             for (int along = 0; along < 3; along++)
-                if (along != direction && opens_row(lattice, direction, end, along))
+                if (along != direction && opens_row(lattice, direction, end, along, &tolerance))
                     return true;
     return false;
 }

@@ -151,11 +151,16 @@ static void copy_cell(const ffd_lattice *lattice, const double *field, size_t co
                       double *copy)
 {
     const cell_index index = index_of_cell(lattice, span);
+    const size_t *const u = index.at[0];
+    const size_t count = (size_t)index.count[0], row = components * count;
+    const bool wraps = u[count - 1] < u[0];
     for (int k = 0; k < index.count[2]; k++)
-        for (int j = 0; j < index.count[1]; j++) {
-            const size_t start = row_start(lattice, &index, j, k);
-            for (int i = 0; i < index.count[0]; i++, copy += components)
-                memcpy(copy, field + components * (start + index.at[0][i]), components * sizeof *copy);
+        for (int j = 0; j < index.count[1]; j++, copy += row) {
+            const double *const start = field + components * row_start(lattice, &index, j, k);
+            if (!wraps)
+                memcpy(copy, start + components * u[0], row * sizeof *copy);
+            for (size_t i = 0; i < count && wraps; i++)
+                memcpy(copy + components * i, start + components * u[i], components * sizeof *copy);
         }
 }
 

@@ -1,15 +1,19 @@
-"""A manifest of many jobs, what they give in one run, and the commands of the README's section on many machines."""
+"""A manifest of many jobs, what they give in one run, and the commands of data/tutorial.md's section on many machines."""
 import functools
 import json
 import os
 import re
 import shutil
 import subprocess
+import sys
 
 from harness import FFD, check, equal, lattice
 from report_schema import faults
 
 SOURCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+sys.path.append(os.path.join(SOURCE, "tests", "readme"))
+from test_readme import blocks, pages
+
 SECONDS = 300
 
 
@@ -26,22 +30,17 @@ def environment(run):
     return dict(os.environ, PATH=tools(run) + os.pathsep + os.environ["PATH"], HOME=run.path("home"), XDG_CACHE_HOME=run.path("cache"))
 
 
-def readme_blocks():
-    with open(os.path.join(SOURCE, "README.md"), encoding="utf-8") as file:
-        return re.findall(r"^```(\S*) ?(\S*)\n(.*?)^```$", file.read(), re.M | re.S)
-
-
-def readme_commands(kind):
+def page_commands(kind):
     """The commands of the blocks ```sh KIND."""
-    found = [content for language, name, content in readme_blocks() if (language, name) == ("sh", kind)]
-    check(found, f"the README has no commands for {kind}")
+    found = [content for language, name, content in blocks(pages(SOURCE)) if (language, name) == ("sh", kind)]
+    check(found, f"the pages have no commands for {kind}")
     return "".join(found)
 
 
-def readme_folder(run, name):
-    """A copy of data/ with the files that the README shows."""
+def page_folder(run, name):
+    """A copy of data/ with the files that the pages show."""
     shutil.copytree(os.path.join(SOURCE, "data"), run.path(name))
-    for language, file, content in readme_blocks():
+    for language, file, content in blocks(pages(SOURCE)):
         if language == "json":
             run.write(f"{name}/{file}", content)
     return name

@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
-"""The shards of a manifest by GNU parallel, with the README's commands: together they give what one run gives."""
+"""The shards of a manifest by GNU parallel, with the tutorial's commands: together they give what one run gives."""
 from harness import case, equal, main
-from many import check_report, contents, environment, manifest, one_run, readme_commands, readme_folder, shell
+from many import check_report, contents, environment, manifest, one_run, page_commands, page_folder, shell
 
 JOBS = 30
-COMMANDS = readme_commands("parallel")
+COMMANDS = page_commands("parallel")
 
 
 @case
-def the_readme_s_commands(run):
-    readme_folder(run, "data")
-    readme_folder(run, "one")
+def the_tutorial_s_commands(run):
+    page_folder(run, "data")
+    page_folder(run, "one")
     run.folder_of("one/many")
     shell(run, "data", COMMANDS, environment(run))
     entries = one_run(run, "one", "many.jsonl")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The shards of a manifest as a Slurm array, by the README's commands: together they give what one run gives, also when a
+"""The shards of a manifest as a Slurm array, by the tutorial's commands: together they give what one run gives, also when a
 node dies amid its jobs and the array is submitted again."""
 import json
 import os
@@ -7,26 +7,26 @@ import subprocess
 import tempfile
 
 from harness import case, check, equal, main, wait_until
-from many import (check_report, contents, manifest, one_run, readme_commands, readme_folder, shell)
+from many import (check_report, contents, manifest, one_run, page_commands, page_folder, shell)
 from slurm import Slurm
 
 JOBS, SHARDS = 60, 4
 # Rows of vertices of a mesh; of one whose job takes long enough to be interrupted.
 SMALL, LARGE = 40, 180
 SECONDS = 120
-# The README's array, for the manifest of this test.
-ARRAY = readme_commands("slurm").replace("many.jsonl", "jobs.jsonl")
+# The tutorial's array, for the manifest of this test.
+ARRAY = page_commands("slurm").replace("many.jsonl", "jobs.jsonl")
 
 
 slurm = None  # one for all cases
 
 
 @case
-def the_readme_s_commands(run):
-    folder = readme_folder(run, "data")
-    shell(run, folder, readme_commands("slurm"), slurm.environment)
+def the_tutorial_s_commands(run):
+    folder = page_folder(run, "data")
+    shell(run, folder, page_commands("slurm"), slurm.environment)
     shards = contents(run, "data/many")
-    readme_folder(run, "one")
+    page_folder(run, "one")
     run.folder_of("one/many")
     entries = one_run(run, "one", "many.jsonl")
     equal(shards, contents(run, "one/many"))

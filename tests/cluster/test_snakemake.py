@@ -7,7 +7,7 @@ import shutil
 import subprocess
 
 from harness import CUBE, case, check, equal, gltf_json, lattice, main
-from many import SOURCE, contents, environment, readme_commands, readme_folder, shell
+from many import SOURCE, contents, environment, page_commands, page_folder, shell
 
 ARGUMENTS = ["--snakefile", "../Snakefile", "--cores", "2", "--nocolor", "--config", "meshes=in", "lattice=l.json", "out=out"]
 # Python needs a second to read Snakemake: it is read once, and each run of it is a copy of that process. Answers each
@@ -38,9 +38,9 @@ def only_behind(said):
 
 
 @case
-def the_readme_s_commands(run):
-    readme_folder(run, "data")
-    shell(run, "data", readme_commands("snakemake"), environment(run))
+def the_tutorial_s_commands(run):
+    page_folder(run, "data")
+    shell(run, "data", page_commands("snakemake"), environment(run))
     meshes = [name for name in run.names("data/models") if name.endswith((".obj", ".glb"))]
     equal([name for name in run.names("data/deformed") if name in meshes], meshes)
     check(len(meshes) > 4, "few meshes")

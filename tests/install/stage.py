@@ -9,7 +9,7 @@ import sys
 
 for other in ("rules", "readme"):
     sys.path.append(os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), other))
-from test_readme import block, blocks
+from test_readme import block, blocks, pages
 from tree import ROOT, files, finish, read, skip
 
 # From the folder of libraries.
@@ -37,8 +37,8 @@ def run(command, **more):
 
 
 def readme(name):
-    """The commands of README.md's block ```sh NAME."""
-    return block(read("README.md"), name)
+    """The commands of the pages' block ```sh NAME."""
+    return block(pages(ROOT), name)
 
 
 def copy_source(target):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The examples of data/examples are built and run as README.md says, against an installed copy of the library, and
+"""The examples of data/examples are built and run as data/tutorial.md says, against an installed copy of the library, and
 what they put out is what the program ffd makes of the same points and meshes.
 
     test_library.py BUILD-FOLDER

@@ -6,15 +6,28 @@
     run.py --table BEFORE AFTER                                 a Markdown table of two results
 
 CHECKOUT is a clone made for this: its sources are changed, and put back at the end of every mutation. BUILD is a build
-folder of it, made once by `meson setup -Dwerror=true -Dtests=enabled -Dbuildtype=debugoptimized` and built once by
-ninja: later only what a test says that it needs is. FFD_MODELS and FFD_NODE are those of tests/run.sh. A second run
-goes on where the first one stopped: what RESULTS says to be caught is done.
+folder of it, made once by `meson setup -Dtests=enabled -Dbuildtype=debugoptimized` and built once by ninja: later only
+what a test says that it needs is. Warnings are no errors there, as a mutation may leave a function unused. FFD_MODELS
+and FFD_NODE are those of tests/run.sh. A second run goes on where the first one stopped: what RESULTS says to be caught
+is done.
 
-The mutations are in mutations.py. Each is a piece of text that is found once in all of src, whatever file it is in and
-however it is laid out, so the same table serves commits whose files have other names. Each names the tests that should
-catch it, quick ones first: only what these need is built, they are run one by one, and the first that fails has caught
-it. Such a test must pass without any mutation too, which is looked at once a test. A mutation that does not compile, or
-that no test catches, is an error: exit status 1.
+The mutations are in mutations.txt, each on a line (a line that begins with a blank goes on with the one before):
+
+    NAME: TESTS: DEFINITION: PATTERN => REPLACEMENT
+
+DEFINITION is the name of the function, the macro or the variable (a table) that is changed, in whatever file of src.
+One that gets or loses a prefix (ffd_gltf_can_reuse, can_reuse) is found without a change here. DEFINITION@PART looks
+only in files whose path contains PART; only same names in several files need it. PATTERN is the code to replace, found
+once in the definition: source.py says what it may be. It is as short as possible, and spares what a refactoring changes
+(names of local variables, structs that a member is in). REPLACEMENT is empty where code is left out. TESTS are names of
+meson tests, separated by commas, that should catch the mutation, quick ones first: only what these need is built, they
+are run one by one, and the first that fails has caught it. Such a test must pass without any mutation too, which is
+looked at once a test. A mutation that does not compile, or that no test catches, is an error: exit status 1. One that
+no test can catch, as it changes nothing that the program promises (a limit of effort, a read within the same page), is
+none for the table.
+
+What --check says of a mutation that does not apply asks for a decision. Either the fault moved: name the definition
+and the code in which it can be made now. Or it died with its code: delete its line.
 """
 
 import argparse
@@ -25,82 +38,101 @@ import subprocess
 import sys
 import time
 
-from mutations import MUTATIONS
+import source
 
-SUFFIXES = (".c", ".cpp", ".h", ".py")
 SHOWN = 300  # characters of what a failing test says
+TABLE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "mutations.txt")
 
 
-class Source:
-    """A file of src, with its text without blanks and where each character of that is in the file."""
-
-    def __init__(self, root, path):
-        self.path = path
-        self.full = os.path.join(root, path)
-        with open(self.full, encoding="utf-8") as file:
-            self.text = file.read()
-        self.places = [i for i, c in enumerate(self.text) if not c.isspace()]
-        self.packed = "".join(self.text[i] for i in self.places)
-
-    def finds(self, packed):
-        at = self.packed.find(packed)
-        while at >= 0:
-            yield self.places[at], self.places[at + len(packed) - 1] + 1
-            at = self.packed.find(packed, at + 1)
-
-    def write(self, text):
-        with open(self.full, "w", encoding="utf-8") as file:
-            file.write(text)
+def is_prefixed(name, other):
+    """Is one the other with a prefix, as a function has that gets or loses its callers in other files?"""
+    short, long = sorted((name, other), key=len)
+    return "_" in short and long.endswith("_" + short)
 
 
-def read_sources(checkout):
-    paths = [os.path.relpath(os.path.join(folder, name), checkout)
-             for folder, _, names in os.walk(os.path.join(checkout, "src")) for name in names
-             if name.endswith(SUFFIXES)]
-    return [Source(checkout, path) for path in sorted(paths)]
+class Mutation:
+    def __init__(self, line):
+        fields = line.split(": ", 3)
+        if len(fields) < 4:
+            raise ValueError(f"`{line}` is not of the form NAME: TESTS: DEFINITION: PATTERN => REPLACEMENT")
+        self.name, tests, self.definition, change = fields
+        self.tests = [test.strip() for test in tests.split(",")]
+        self.change = source.Change(change)
+
+    def find(self, definitions):
+        """Returns (the definitions of that name, the places of the change in them)."""
+        name, _, part = self.definition.partition("@")
+        known = definitions.get(name) or [d for other in definitions if is_prefixed(name, other)
+                                          for d in definitions[other]]
+        known = [d for d in known if part in d.source.path] or known
+        return known, [place for definition in known for place in self.change.find(definition)]
+
+    def find_elsewhere(self, definitions):
+        """Names the only definition that has the pattern, where that is no pattern of a few signs."""
+        if all(len(word) < 6 for word in self.change.literal):
+            return ""
+        places = [place for known in definitions.values() for d in known for place in self.change.find(d)]
+        return f"; {places[0].definition.name} has it ({places[0]})" if len(places) == 1 else ""
+
+    def judge(self, definitions):
+        """Returns (the place, None), or (None, why there is not exactly one)."""
+        known, places = self.find(definitions)
+        if not known:
+            return None, f"{self.definition} is not defined any more{self.find_elsewhere(definitions)}"
+        pattern = f"`{self.change.pattern}`"
+        if not places:
+            where = ", ".join(map(str, known))
+            return None, f"{pattern} is not in {self.definition} ({where}){self.find_elsewhere(definitions)}"
+        if len(places) > 1:
+            return None, f"{pattern} is {len(places)} times in {self.definition} ({', '.join(map(str, places))})"
+        return places[0], None
 
 
-def pack(text):
-    return "".join(text.split())
+def read_table():
+    lines = []
+    with open(TABLE, encoding="utf-8") as file:
+        for line in file:
+            if line[0] == " ":
+                lines[-1] += " " + line.strip()
+            elif line[0] not in "#\n":
+                lines.append(line.strip())
+    try:
+        return [Mutation(line) for line in lines]
+    except ValueError as error:
+        sys.exit(f"{TABLE}: {error}")
 
 
-def locate(mutation, sources):
-    """Returns (source, begin, end, replacement) of the first edit that fits once, or how often each of them fits."""
-    counts = []
-    for find, replace in mutation.edits:
-        found = [(source, *place) for source in sources for place in source.finds(pack(find))]
-        if len(found) == 1:
-            return (*found[0], replace)
-        counts.append(len(found))
-    return counts
+MUTATIONS = read_table()
 
 
 def check(checkout):
-    sources = read_sources(checkout)
-    failed = 0
+    definitions = source.define_all(checkout)
+    failures = []
     folders = {}
     names = set()
+    seen = {}
     for mutation in MUTATIONS:
-        place = locate(mutation, sources)
+        place, problem = mutation.judge(definitions)
+        if place:
+            key = place.source.path, place.change()
+            if key[1] == place.source.text:
+                problem = "it changes nothing"
+            problem = f"it is the same as {seen[key]}" if key in seen else problem
+            seen[key] = mutation.name
+            folder = os.path.dirname(place.source.path)
+            folders[folder] = folders.get(folder, 0) + 1
+            print(f"{mutation.name:32} {place}")
         if mutation.name in names:
-            print(f"{mutation.name}: a second mutation of this name")
-            failed += 1
+            problem = "a second mutation of this name"
         names.add(mutation.name)
-        if isinstance(place, list):
-            print(f"{mutation.name}: its text is found {' and '.join(map(str, place))} times, not once")
-            failed += 1
-            continue
-        source, begin, end, replace = place
-        if pack(source.text[begin:end]) == pack(replace):
-            print(f"{mutation.name}: changes nothing")
-            failed += 1
-        folder = os.path.dirname(source.path)
-        folders[folder] = folders.get(folder, 0) + 1
-        print(f"{mutation.name:32} {source.path}:{source.text.count(chr(10), 0, begin) + 1}")
+        if problem:
+            failures.append(f"{mutation.name}: {problem}")
     for folder, count in sorted(folders.items()):
         print(f"{count:4} {folder}")
-    print(f"{len(MUTATIONS)} mutations, {failed} do not apply")
-    return failed == 0
+    for failure in failures:
+        print(failure)
+    print(f"{len(MUTATIONS)} mutations, {len(failures)} do not apply")
+    return not failures
 
 
 def introspect(build, what):
@@ -119,11 +151,10 @@ class Builder:
         self.targets = {target["id"]: target["filename"] for target in introspect(build, "targets")}
 
     def tests_of(self, mutation):
-        """The names of the mutation's tests that this commit has: "old name|new name" is either."""
-        names = [name for entry in mutation.tests for name in entry.split("|") if name in self.tests]
-        if not names:
-            sys.exit(f"{mutation.name}: none of its tests is there: {', '.join(mutation.tests)}")
-        return names
+        unknown = [name for name in mutation.tests if name not in self.tests]
+        if unknown:
+            sys.exit(f"{mutation.name}: there is no test {', '.join(unknown)}")
+        return mutation.tests
 
     def make(self, name):
         files = [os.path.relpath(file, self.build) for target in self.tests[name]["depends"]
@@ -133,14 +164,14 @@ class Builder:
         return run.returncode == 0, run.stdout + run.stderr
 
     def run(self, name):
-        """Whether the test passes, and what it says."""
+        """Returns what became of the test (OK, SKIP, FAIL, ...), and what it says."""
         subprocess.run(["meson", "test", "-C", self.build, "--no-rebuild", "--logbase", "mutation", name],
                        capture_output=True, text=True, check=False)
         with open(os.path.join(self.build, "meson-logs", "mutation.json"), encoding="utf-8", errors="replace") as log:
             results = [json.loads(line) for line in log if line.strip()]
         if len(results) != 1 or results[0]["name"].rpartition(" / ")[2] != name:
             sys.exit(f"{name}: meson ran {len(results)} tests")
-        return results[0]["result"] in ("OK", "SKIP"), results[0].get("stdout", "") + results[0].get("stderr", "")
+        return results[0]["result"], results[0].get("stdout", "") + results[0].get("stderr", "")
 
 
 def first_failure(said):
@@ -155,36 +186,38 @@ def first_failure(said):
 
 def find_catcher(builder, mutation):
     """Returns the test that catches the mutation that is in the sources, "BUILD" or None, and what it says."""
+    skipped = []
     for name in builder.tests_of(mutation):
         made, said = builder.make(name)
         if not made:
             errors = [line for line in said.splitlines() if "rror:" in line or "undefined reference" in line]
             return "BUILD", errors[0][:SHOWN] if errors else said[-SHOWN:]
-        passed, said = builder.run(name)
-        if not passed:
+        result, said = builder.run(name)
+        if result == "SKIP":
+            skipped.append(f"{name} is skipped")
+        elif result != "OK":
             return name, first_failure(said)
-    return None, ""
+    return None, ", ".join(skipped)
 
 
 def run_one(builder, checkout, mutation, sound):
     """sound: the tests that are known to pass without a mutation."""
-    place = locate(mutation, read_sources(checkout))
-    if isinstance(place, list):
-        sys.exit(f"{mutation.name}: its text is found {place} times")
-    source, begin, end, replace = place
+    place, problem = mutation.judge(source.define_all(checkout))
+    if not place:
+        sys.exit(f"{mutation.name}: {problem}")
     start = time.monotonic()
     try:
-        source.write(source.text[:begin] + replace + source.text[end:])
+        place.source.write(place.change())
         caught, said = find_catcher(builder, mutation)
     finally:
-        source.write(source.text)
+        place.source.write(place.source.text)
     seconds = time.monotonic() - start
     if caught and caught not in sound and caught != "BUILD":
-        if not builder.make(caught)[0] or not builder.run(caught)[0]:
+        if not builder.make(caught)[0] or builder.run(caught)[0] != "OK":
             sys.exit(f"{caught} fails without any mutation")
         sound.add(caught)
-    return {"name": mutation.name, "kind": mutation.kind, "folder": os.path.dirname(source.path), "path": source.path,
-            "caught": caught, "said": said, "seconds": round(seconds, 1)}
+    return {"name": mutation.name, "path": place.source.path, "definition": mutation.definition, "caught": caught,
+            "said": said, "seconds": round(seconds, 1)}
 
 
 def read_results(path):
@@ -231,7 +264,7 @@ def run_all(arguments):
 
 def print_table(before, after):
     results = [read_results(path) for path in (before, after)]
-    print("| mutation | folder | kind | before caught by | after caught by |")
+    print("| mutation | folder | definition | before caught by | after caught by |")
     print("| --- | --- | --- | --- | --- |")
     for mutation in MUTATIONS:
         rows = [result.get(mutation.name) for result in results]
@@ -239,7 +272,7 @@ def print_table(before, after):
         if not row:
             continue
         caught = [(r["caught"] or "nothing") if r else "not run" for r in rows]
-        cells = (mutation.name, row["folder"].removeprefix("src/"), mutation.kind, *caught)
+        cells = (mutation.name, os.path.dirname(row["path"]).removeprefix("src/"), row["definition"], *caught)
         print(f"| {' | '.join(cells)} |")
 
 

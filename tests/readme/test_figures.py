@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The figures of README.md's section "Good to know" are what the program computes.
+"""The figures of data/tutorial.md are what the program computes.
 
     test_figures.py FFD SOURCE
 """
@@ -13,6 +13,8 @@ import subprocess
 import sys
 import tempfile
 
+from test_readme import pages
+
 TWIST = {"twist": {"axis": "y", "degrees": 90}}
 SAMPLES = 1001
 STEPS = ("0.001", "0.000001")
@@ -23,8 +25,7 @@ class Place:
 
     def __init__(self, ffd, source, folder):
         self.ffd, self.source, self.folder = os.path.abspath(ffd), os.path.abspath(source), folder
-        with open(os.path.join(source, "README.md"), encoding="utf-8") as file:
-            self.readme = file.read()
+        self.pages = pages(source)
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -50,10 +51,10 @@ class Place:
             return [tuple(map(float, line.split()[1:4])) for line in file if line.startswith("v ")]
 
     def stated(self, pattern):
-        """The numbers that the README has where the pattern is."""
-        match = re.search(pattern, self.readme)
+        """The numbers that the pages have where the pattern is."""
+        match = re.search(pattern, self.pages)
         if not match:
-            sys.exit(f"README.md has no {pattern}")
+            sys.exit(f"the pages have no {pattern}")
         return match.groups()
 
 
@@ -62,7 +63,7 @@ def near(found, stated, what):
     mantissa, _, exponent = stated.partition("e")
     digits = len(mantissa.partition(".")[2]) - int(exponent or 0)
     if not abs(found - float(stated)) <= 0.51 * 10.0 ** -digits:
-        sys.exit(f"{what}: README.md says {stated}, found is {found!r}")
+        sys.exit(f"{what}: the page says {stated}, found is {found!r}")
 
 
 def turn_of_the_column(place):
@@ -87,9 +88,9 @@ def exact_corners(place):
     length = 2.0
     place.write("line.obj", "".join(f"v 0 {length * i / (SAMPLES - 1)!r} 0\n" for i in range(SAMPLES)))
     radius = length / (math.pi / 2)
-    rows = re.findall(r"^\| (\d), degree (\d)(, exact)? \| ([\de.-]+) \|$", place.readme, re.M)
+    rows = re.findall(r"^\| (\d), degree (\d)(, exact)? \| ([\de.-]+) \|$", place.pages, re.M)
     if len(rows) != 3:
-        sys.exit(f"README.md has {len(rows)} rows of exact corners")
+        sys.exit(f"the pages have {len(rows)} rows of exact corners")
     for row in rows:
         layers, degree, exact, stated = int(row[0]), int(row[1]), bool(row[2]), row[3]
         knots = [0, 0, 0, 1, 1, 2, 2, 2] if exact else "clamped"
@@ -155,7 +156,7 @@ def float32(point):
 
 def errors_of_differences(place):
     """The table of derivatives: doubles of an OBJ, and floats of an STL."""
-    sweep = re.search(r"```json sweep\.json\n(.*?)```", place.readme, re.S)[1]
+    sweep = re.search(r"```json sweep\.json\n(.*?)```", place.pages, re.S)[1]
     place.write("sweep.json", sweep)
     column = place.model("column.obj")
 

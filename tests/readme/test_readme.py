@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Runs every command of README.md and of the pages that it is continued on, and follows their links.
+"""Runs every command of README.md and of the pages that go on from it, and follows their links.
 
     test_readme.py tutorial FFD SOURCE     the commands, in a copy of data/, with the program FFD
     test_readme.py pictures FFD SOURCE     data/make_pictures.sh draws the pictures that are there
-    test_readme.py links SOURCE            links lead to files and headings
+    test_readme.py links SOURCE            links lead to files and headings, and README.md is short
 
 The build and the C example are run by tests/install/test_packages.py, in the source that a release is packed into.
 Blocks are fenced: ```sh (commands of the tutorial), ```sh build (those of the build), ```json NAME, ```csv NAME, ```ninja NAME,
@@ -19,9 +19,11 @@ import sys
 import tempfile
 import zlib
 
-PAGES = ("README.md", "data/promises.md", "data/reference.md")
+# In the order in which a reader comes to them: a page may use the files of those before it.
+PAGES = ("README.md", "data/tutorial.md", "data/promises.md", "data/reference.md")
 LINKED = PAGES + ("CONTRIBUTING.md", "data/README.md", "data/python.md", "data/schema/formats.md", "data/schema/lattice.md", "src/README.md",
                   "tests/README.md")
+MOST_WORDS = 2500
 
 INDENTED = {
     "sh data/demo.sh": "tests/golden (demo)",
@@ -45,6 +47,11 @@ def read(source, page):
         return file.read()
 
 
+def pages(source):
+    """The text of all pages whose commands are run."""
+    return "\n".join(read(source, page) for page in PAGES)
+
+
 def run(script, folder, environment):
     result = subprocess.run(["sh", "-eu", "-c", script], cwd=folder, env=environment, text=True,
                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=1500)
@@ -56,13 +63,13 @@ def run(script, folder, environment):
 def check_indented(text):
     names = {name for language, name, content in blocks(text) if language == "sh"}
     if names - {"", "build", "package", "library", "slurm", "parallel", "snakemake"}:
-        sys.exit(f"README.md has blocks of commands that no test runs: {names}")
+        sys.exit(f"the pages have blocks of commands that no test runs: {names}")
     outside = re.sub(r"^```.*?^```$", "", text, flags=re.M | re.S)
     found = [line.strip() for line in outside.splitlines() if re.match(r"^    (sh|cc|ffd|meson|python3) ", line)]
     for line in found:
         command = re.split(r"\s{2,}", line)[0]
         if command not in INDENTED:
-            sys.exit(f"README.md has a command that no test runs: {command}")
+            sys.exit(f"the pages have a command that no test runs: {command}")
     return len(found)
 
 
@@ -120,13 +127,21 @@ def pictures(ffd, source):
         for name in os.listdir(folder):
             if unpacked(os.path.join(folder, name)) != unpacked(os.path.join(kept, name)):
                 sys.exit(f"data/pictures/{name} is not what data/make_pictures.sh draws")
-    shown = set(re.findall(r"\]\(data/pictures/([^)]*)\)", read(source, "README.md")))
+    shown = set(re.findall(r"\]\((?:data/)?pictures/([^)]*)\)", pages(source)))
     if shown != set(os.listdir(kept)):
-        sys.exit(f"README.md shows {sorted(shown)}, data/pictures holds {sorted(os.listdir(kept))}")
+        sys.exit(f"the pages show {sorted(shown)}, data/pictures holds {sorted(os.listdir(kept))}")
     large = [name for name in os.listdir(kept) if os.path.getsize(os.path.join(kept, name)) > 120_000]
     if large:
         sys.exit(f"more than 120 kB: {large}")
     return len(shown)
+
+
+def words(source):
+    """Those of README.md outside of its code blocks: what stands between blanks, of links and tables too. Not too many."""
+    count = len(re.sub(r"^```.*?^```$", "", read(source, "README.md"), flags=re.M | re.S).split())
+    if count > MOST_WORDS:
+        sys.exit(f"README.md has {count} words outside of code blocks, more than {MOST_WORDS}")
+    return count
 
 
 def anchors(text):
@@ -157,12 +172,12 @@ def links(source):
 def main():
     source = os.path.abspath(sys.argv[-1])
     if sys.argv[1] == "links":
-        print(f"{links(source)} links lead somewhere")
+        print(f"{links(source)} links lead somewhere; README.md has {words(source)} words")
     elif sys.argv[1] == "pictures":
         print(f"{pictures(sys.argv[2], source)} pictures are what is drawn")
     else:
-        text = "\n".join(read(source, page) for page in PAGES)
-        print(f"{check_indented(text) + tutorial(text, sys.argv[2], source)} commands of README.md run")
+        text = pages(source)
+        print(f"{check_indented(text) + tutorial(text, sys.argv[2], source)} commands of the pages run")
 
 
 if __name__ == "__main__":

@@ -107,7 +107,7 @@ def long_functions(paths):
 
 
 def long_examples(paths):
-    """The programs of data/examples that are longer than README.md says."""
+    """The programs of data/examples that are longer than data/README.md says."""
     for path in paths:
         lines = len(tree.read(path).splitlines())
         if lines > MOST_LINES_OF_EXAMPLES:

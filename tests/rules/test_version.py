@@ -40,7 +40,7 @@ def statements(version, abi, build):
     for path in (path for path in tree.files() if re.match(DEBIAN + r"libffd\d.*\.install$", path)):
         yield path, os.path.basename(path), f"{library}.install"
         yield path, only(r"^usr/lib/\*/ffd-(.*)$", tree.read(path)), abi
-    for path in ("README.md", "data/promises.md", DEBIAN + "control"):
+    for path in ("README.md", "data/promises.md", "data/reference.md", DEBIAN + "control"):
         for name in sorted(set(re.findall(r"\blibffd(\d[\d.]*\d)\b", tree.read(path)))):
             yield path, f"libffd{name}", library
 

@@ -89,20 +89,24 @@ typedef struct sample {
     double delta[3 * DISPLACEMENT_BATCH + 1], gradient[9 * DISPLACEMENT_BATCH + 1];
     uint8_t moves[DISPLACEMENT_BATCH];
     uint32_t which[DISPLACEMENT_BATCH];
+    turn_list turns;
     displacement_scratch scratch;
 } sample;
 
-/* Whether the gradient of a point was left out, as a batch may do that is asked only where det F may be 0 or
- * less. */
-static bool leaves_gradient_out(const displacement_batch *batch, size_t n, const double gradient[9])
+/* Whether the gradient of a point was not written, as where only turns are looked for. */
+static bool leaves_gradient_out(const displacement_batch *batch, size_t n)
 {
-    static const double zeros[9] = {0};
+    double untouched[9];
+    memset(untouched, 0xff, sizeof untouched);
+    return batch->only_turns && memcmp(batch->gradient + 9 * n, untouched, sizeof untouched) == 0;
+}
+
+static double determinant_of(const double gradient[9])
+{
     double f[9];
-    if (!batch->only_turns || memcmp(batch->gradient + 9 * n, zeros, sizeof zeros) != 0)
-        return false;
     for (int i = 0; i < 9; i++)
         f[i] = gradient[i] + (i % 4 == 0);
-    return mat_determinant(f) > 0;
+    return mat_determinant(f);
 }
 
 static size_t left_out; /* gradients that are not 0 */
@@ -113,7 +117,10 @@ static void check_point(const ffd_lattice *lattice, const displacement_batch *ba
     double delta[3], gradient[9];
     const int moves =
         ffd_displacement(lattice, ffd_batch_uvw(batch, n), delta, batch->gradient ? gradient : NULL);
-    if (batch->gradient && leaves_gradient_out(batch, n, gradient)) {
+    if (batch->gradient && leaves_gradient_out(batch, n)) {
+        if (!(determinant_of(gradient) > 0))
+            fail_msg("%s: point %zu turns (det F is %g), which is not found", isa, n,
+                     determinant_of(gradient));
         left_out += gradient[0] != 0;
         memcpy(gradient, batch->gradient + 9 * n, sizeof gradient);
     }
@@ -123,25 +130,36 @@ static void check_point(const ffd_lattice *lattice, const displacement_batch *ba
                  batch->count, batch->delta[3 * n], delta[0]);
 }
 
+/* Goes along w: anywhere, or near, as between the vertices of a fine mesh. */
+static void step_from(draw *d, const ffd_lattice *lattice, const double last[3], double reach, double uvw[3])
+{
+    const double near = last[2] + reach * draw_between(d, -1, 1);
+    const double end = ffd_knots_last(&lattice->knots[2]), first = ffd_knots_first(&lattice->knots[2]);
+    memcpy(uvw, last, 2 * sizeof *uvw);
+    if (reach > 0)
+        uvw[2] = near < first ? first : near > end ? end : near;
+}
+
 /* Whole vectors of every width plus a remainder, at every alignment; u,v,w alone or in locations. */
 static void check_batch(draw *d, const ffd_lattice *lattice, sample *s)
 {
     static const size_t counts[] = {0, 1, 2, 3, 5, 7, 8, 9, 17, 64, 333, DISPLACEMENT_BATCH};
     const size_t wanted = counts[draw_int(d, 0, 11)];
     const size_t odd = (size_t)draw_int(d, 0, 1);
+    const double reach = draw_int(d, 0, 1) ? ldexp(1, -draw_int(d, 3, 20)) : 0;
     displacement_batch batch = {.uvw = s->uvw.numbers + odd,
                                 .stride = draw_int(d, 0, 1) ? 3 * sizeof(double) : sizeof(ffd_location),
                                 .which = s->which,
                                 .delta = s->delta + odd,
                                 .gradient = draw_int(d, 0, 2) ? s->gradient + 1 - odd : NULL,
                                 .moves = s->moves};
-    batch.only_turns = batch.gradient && draw_int(d, 0, 1);
+    batch.turns = batch.gradient && draw_int(d, 0, 2) ? &s->turns : NULL;
+    batch.only_turns = batch.turns && draw_int(d, 0, 3);
     for (size_t n = 0; n < DISPLACEMENT_BATCH; n++) {
         random_uvw(d, lattice, (double *)ffd_batch_uvw(&batch, n));
         /* Neighbours are mostly in the same cell. */
-        if (n > 0 && draw_int(d, 0, 3))
-            memcpy((double *)ffd_batch_uvw(&batch, n), (double *)ffd_batch_uvw(&batch, n - 1),
-                   2 * sizeof(double));
+        if (n > 0 && draw_int(d, 0, reach > 0 ? 40 : 3))
+            step_from(d, lattice, ffd_batch_uvw(&batch, n - 1), reach, (double *)ffd_batch_uvw(&batch, n));
         if (batch.count < wanted && (wanted == DISPLACEMENT_BATCH || draw_int(d, 0, 4)))
             s->which[batch.count++] = (uint32_t)n;
     }
@@ -150,6 +168,7 @@ static void check_batch(draw *d, const ffd_lattice *lattice, sample *s)
             continue;
         memset(s->delta, 0xff, sizeof s->delta);
         memset(s->gradient, 0xff, sizeof s->gradient);
+        s->turns.count = 0;
         /* With cells kept from the last batch, or without. */
         if (draw_int(d, 0, 1))
             ffd_displacement_scratch_clear(&s->scratch);

@@ -78,6 +78,48 @@ static bool widen(const double *points, size_t count, double min[3], double max[
     return true;
 }
 
+/* The same for floats. */
+#define FLOAT_GROUP ((size_t)16)
+#define FLOATS (3 * FLOAT_GROUP)
+
+typedef struct float_range {
+    float min[FLOATS], max[FLOATS], zero[FLOATS];
+} float_range;
+
+static void widen_float_group(const unsigned char *restrict from, float_range *restrict range)
+{
+    for (size_t k = 0; k < FLOATS; k++) {
+        const float value = load_float(from + 4 * k);
+        range->min[k] = value < range->min[k] ? value : range->min[k];
+        range->max[k] = value > range->max[k] ? value : range->max[k];
+        range->zero[k] += 0 * value;
+    }
+}
+
+static bool widen_floats(const unsigned char *from, size_t count, double min[3], double max[3])
+{
+    float_range range = {{0}, {0}, {0}};
+    unsigned char last[4 * FLOATS];
+    size_t first = 0;
+    if (count == 0)
+        return true;
+    for (size_t k = 0; k < FLOATS; k++)
+        range.min[k] = range.max[k] = load_float(from + 4 * (k % 3));
+    for (; first + FLOAT_GROUP <= count; first += FLOAT_GROUP)
+        widen_float_group(from + 12 * first, &range);
+    for (size_t i = 0; i < FLOAT_GROUP; i++)
+        memcpy(last + 12 * i, from + 12 * (first + i < count ? first + i : count - 1), 12);
+    widen_float_group(last, &range);
+    for (size_t k = 0; k < FLOATS; k++)
+        if (!(range.zero[k] == 0))
+            return false;
+    for (size_t k = 0; k < FLOATS; k++) {
+        min[k % 3] = lesser_of(min[k % 3], range.min[k]);
+        max[k % 3] = larger_of(max[k % 3], range.max[k]);
+    }
+    return true;
+}
+
 /* What can happen to a number: it gets another value; the value is NaN or too large. */
 enum { OTHER = 1, UNFIT = 2 };
 
@@ -86,11 +128,11 @@ static void displace_group(const double *restrict vectors, double largest, size_
                            double *restrict numbers, uint8_t *restrict changed, size_t *unfit)
 {
     int64_t fates[NUMBERS], all = 0;
-    for (size_t k = 0; k < NUMBERS; k++) {
+    for (size_t k = 0; k < NUMBERS; k++) { /* masks of whole numbers, so that compilers vectorise */
         const double sum = numbers[k] + vectors[k], moved = vectors[k] != 0 ? sum : numbers[k];
-        const int64_t is_other = (vectors[k] != 0) & (moved != numbers[k]);
-        const int64_t is_unfit = is_other & !(fabs(moved) <= largest);
-        fates[k] = is_other * OTHER | is_unfit * UNFIT;
+        const int64_t is_added = vectors[k] != 0 ? -1 : 0, is_new = moved != numbers[k] ? -1 : 0;
+        const int64_t fits = fabs(moved) <= largest ? -1 : 0;
+        fates[k] = is_added & is_new & (OTHER | (~fits & UNFIT));
         all |= fates[k];
         numbers[k] = moved;
     }
@@ -117,4 +159,5 @@ static size_t displace(const double *vectors, size_t count, double largest, doub
     return unfit;
 }
 
-const array_kernel FFD_ARRAY_KERNEL = {read_floats, read_u32, round_to_floats, add, widen, displace};
+const array_kernel FFD_ARRAY_KERNEL = {read_floats, read_u32,     round_to_floats, add,
+                                       widen,       widen_floats, displace};

@@ -20,6 +20,8 @@ typedef struct array_kernel {
     /* Extends the box by count points of 3 numbers. Returns true if all are finite; otherwise the box is
        unchanged. */
     bool (*widen)(const double *points, size_t count, double min[3], double max[3]);
+    /* The same for points of little-endian floats with any alignment. */
+    bool (*widen_floats)(const unsigned char *points, size_t count, double min[3], double max[3]);
     /* Adds a vector to each of count points of 3 numbers; a coordinate to which 0 is added keeps its bits.
        changed: count bytes, set to 1 for points whose value changes, else to 0. Returns the index of the
        first point with a changed coordinate that is NaN or greater in magnitude than `largest`; count if

@@ -54,18 +54,17 @@ bool ffd_mat_invert_scaled(const double m[9], double out[9])
 
 bool ffd_mat_is_singular(const double m[9], double *determinant)
 {
-    double column[3][3], cross[3];
-    for (int a = 0; a < 3; a++)
-        for (int r = 0; r < 3; r++)
-            column[a][r] = m[3 * r + a];
-    vec_cross(column[1], column[2], cross);
-    *determinant = vec_dot(column[0], cross);
+    /* The first column times the cross product of the others. */
+    const double x = m[4] * m[8] - m[7] * m[5], y = m[7] * m[2] - m[1] * m[8], z = m[1] * m[5] - m[4] * m[2];
+    const double det = m[0] * x + m[3] * y + m[6] * z, size = fabs(det);
     /* Sums of magnitudes are upper bounds of lengths, and need no square roots. */
-    double sizes = 32 * DBL_EPSILON;
-    for (int c = 0; c < 3; c++)
-        sizes *= fabs(column[c][0]) + fabs(column[c][1]) + fabs(column[c][2]);
-    if (fabs(*determinant) > sizes && sizes > DBL_MIN)
+    const double sizes = 32 * DBL_EPSILON * (fabs(m[0]) + fabs(m[3]) + fabs(m[6])) *
+                         (fabs(m[1]) + fabs(m[4]) + fabs(m[7])) * (fabs(m[2]) + fabs(m[5]) + fabs(m[8]));
+    *determinant = det;
+    if (size > sizes && sizes > DBL_MIN)
         return false;
-    return !(fabs(*determinant) >
-             16 * DBL_EPSILON * vec_length(column[0]) * vec_length(column[1]) * vec_length(column[2]));
+    double lengths = 16 * DBL_EPSILON;
+    for (int c = 0; c < 3; c++)
+        lengths *= vec_length((const double[3]){m[c], m[3 + c], m[6 + c]});
+    return !(size > lengths);
 }

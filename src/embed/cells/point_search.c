@@ -70,7 +70,7 @@ void ffd_search_note_stall(point_search *search, const root *stall)
 }
 
 /* Returns whether the search stalled anywhere except at a root that it has found. */
-static bool has_stalled(const point_search *search)
+static bool has_stalled(point_search *search)
 {
     for (int i = 0; i < search->stall_count; i++)
         if (!ffd_roots_hold(search->locator, &search->roots, &search->stalls[i]))
@@ -78,7 +78,7 @@ static bool has_stalled(const point_search *search)
     return false;
 }
 
-void ffd_search_judge(const point_search *search, ffd_location *location)
+void ffd_search_judge(point_search *search, ffd_location *location)
 {
     const root_list *list = &search->roots;
     const bool unresolved = search->unresolved || has_stalled(search);

@@ -75,7 +75,7 @@ bool ffd_search_set_point(point_search *search, const double p[3]);
 bool ffd_search_image_holds(const point_search *search, const cell_leaf *leaf);
 
 /* Determines the result of the point from the roots found. */
-void ffd_search_judge(const point_search *search, ffd_location *location);
+void ffd_search_judge(point_search *search, ffd_location *location);
 
 /* Evaluates at offsets from the starts of the spans. */
 void ffd_search_evaluate(point_search *search, const int span[3], const double offset[3], sample *at);

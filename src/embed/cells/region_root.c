@@ -2,6 +2,7 @@
 #include "base/vector/vec.h"
 #include "embed/frame/slabs.h"
 #include <float.h>
+#include <string.h>
 
 /* With weights: the share of the aim at which a root is accepted, for the same reason as TOLERANCE_SHARE. */
 #define AIM_SHARE 0.5
@@ -77,21 +78,19 @@ bool ffd_search_meets(const point_search *search, const cell_region *region, con
 static void find_root(const point_search *search, const cell_region *region, const double t[3],
                       const sample *at, root *found)
 {
-    double inverse[9], offset[3];
-    *found = (root){.residual = vec_length(at->residual)};
+    double offset[3];
+    found->residual = vec_length(at->residual);
     found->singular = ffd_mat_is_singular(at->jacobian, &found->determinant);
     offset_of(region, t, offset);
     for (int a = 0; a < 3; a++) {
         const knot_vector *knots = &search->locator->knots[a];
         found->uvw[a] = ffd_knots_wrap(knots, knots->t[region->span[a]] + offset[a]);
+        found->width[a] = 4 * region->width[a] * at->weight;
+        found->tolerance[a] = search->tolerance[a];
+        found->spread[a] = 0;
     }
-    if (mat_invert(at->jacobian, inverse))
-        for (int a = 0; a < 3; a++) {
-            const double *row = inverse + 3 * a;
-            found->spread[a] = 4 * region->width[a] * at->weight *
-                               (fabs(row[0]) * search->tolerance[0] + fabs(row[1]) * search->tolerance[1] +
-                                fabs(row[2]) * search->tolerance[2]);
-        }
+    memcpy(found->jacobian, at->jacobian, sizeof found->jacobian);
+    found->has_spread = false;
 }
 
 void ffd_search_record(point_search *search, const cell_region *region, const double t[3], const sample *at,
@@ -107,5 +106,6 @@ void ffd_search_stall(point_search *search, const cell_region *region, const dou
                       root *stall)
 {
     find_root(search, region, t, at, stall);
+    ffd_root_find_spread(stall);
     stall->singular = true;
 }

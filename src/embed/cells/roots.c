@@ -3,6 +3,27 @@
 /* Coordinates that differ by at most this, relative to the domain, are equal (src/maths.md 6.7). */
 #define SAME 1e-9
 
+void ffd_root_find_spread(root *of)
+{
+    double inverse[9];
+    if (of->has_spread)
+        return;
+    of->has_spread = true;
+    if (mat_invert(of->jacobian, inverse))
+        for (int a = 0; a < 3; a++) {
+            const double *row = inverse + 3 * a;
+            of->spread[a] =
+                of->width[a] * (fabs(row[0]) * of->tolerance[0] + fabs(row[1]) * of->tolerance[1] +
+                                fabs(row[2]) * of->tolerance[2]);
+        }
+}
+
+static void find_spreads(root_list *list)
+{
+    for (int i = 0; i < list->count; i++)
+        ffd_root_find_spread(&list->roots[i]);
+}
+
 static double side_of(const ffd_locator *locator, int direction)
 {
     const knot_vector *knots = &locator->knots[direction];
@@ -94,7 +115,8 @@ static void join(const ffd_locator *locator, root *kept, const root *found)
     kept->singular = singular;
 }
 
-void ffd_roots_add(const ffd_locator *locator, root_list *list, const root *found)
+/* Adds a root to a list that has some. */
+static void add_to_others(const ffd_locator *locator, root_list *list, const root *found)
 {
     for (int i = 0; i < list->count; i++)
         if (are_one(locator, &list->roots[i], found)) {
@@ -113,6 +135,18 @@ void ffd_roots_add(const ffd_locator *locator, root_list *list, const root *foun
         list->roots[last] = *found;
 }
 
+void ffd_roots_add(const ffd_locator *locator, root_list *list, const root *found)
+{
+    root own = *found;
+    if (list->count == 0) {
+        list->roots[list->count++] = own;
+        return;
+    }
+    find_spreads(list);
+    ffd_root_find_spread(&own);
+    add_to_others(locator, list, &own);
+}
+
 void ffd_roots_unite(const ffd_locator *locator, root_list *list, int kept, int other)
 {
     join(locator, &list->roots[kept], &list->roots[other]);
@@ -121,8 +155,9 @@ void ffd_roots_unite(const ffd_locator *locator, root_list *list, int kept, int 
         list->roots[i] = list->roots[i + 1];
 }
 
-bool ffd_roots_hold(const ffd_locator *locator, const root_list *list, const root *found)
+bool ffd_roots_hold(const ffd_locator *locator, root_list *list, const root *found)
 {
+    find_spreads(list);
     for (int i = 0; i < list->count; i++)
         if (are_one(locator, &list->roots[i], found))
             return true;

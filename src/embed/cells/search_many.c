@@ -270,7 +270,7 @@ static ffd_status settle_packet(many_search *many)
     ffd_status status = FFD_OK;
     ffd_packet_find_leaves(p);
     for (int i = 0; i < p->count && !status; i++) {
-        const packet_point *point = &p->points[i];
+        packet_point *const point = &p->points[i];
         if (point->alone || !wait_in_leaves(many, point))
             status = find_alone(many->locator, many->p, point->number, many->scratch, many->locations,
                                 many->error);

@@ -35,11 +35,11 @@ struct ffd_locator {
        large or small parameters would overflow or underflow. All searches use these knots; results are
        converted back. */
     knot_vector knots[3];
-    double knot_scale[3];
-    double origin[3];              /* subtracted from control points and points first */
-    double extent[3];              /* max |P_a - origin_a| over the control points */
-    bounds hull;                   /* bounds of the control points, world units */
-    struct locator_border *border; /* for points outside; made on demand */
+    double knot_first[3], knot_scale[3]; /* that start, and that power */
+    double origin[3];                    /* subtracted from control points and points first */
+    double extent[3];                    /* max |P_a - origin_a| over the control points */
+    bounds hull;                         /* bounds of the control points, world units */
+    struct locator_border *border;       /* for points outside; made on demand */
     affine_map affine;
     monotone_curve curves[3];
     struct cell_search *cells;
@@ -83,8 +83,8 @@ static inline void ffd_locator_tolerance(const ffd_locator *locator, const doubl
 static inline void ffd_locator_report(const ffd_locator *locator, const double local[3], double uvw[3])
 {
     for (int a = 0; a < 3; a++)
-        uvw[a] = ffd_knots_wrap(&locator->lattice->knots[a], ffd_knots_first(&locator->lattice->knots[a]) +
-                                                                 local[a] / locator->knot_scale[a]);
+        uvw[a] = ffd_knots_wrap(&locator->lattice->knots[a],
+                                locator->knot_first[a] + local[a] / locator->knot_scale[a]);
 }
 
 /* Returns whether |r_a| <= tol_a for each a. */

@@ -339,7 +339,7 @@ static ffd_status extend(const block_work *work, size_t i, ffd_error *error)
     run->outcomes[i].extended = nearest.distance < reach || !(falloff > 0);
     run->outcomes[i].moved =
         ffd_extension_displacement(chain->links[block].lattice, &nearest, falloff, run->delta + 3 * i,
-                                   run->gradient ? run->gradient + 9 * i : NULL);
+                                   run->gradient && !run->only_turns ? run->gradient + 9 * i : NULL);
     return FFD_OK;
 }
 
@@ -369,7 +369,7 @@ static ffd_status place_others(const block_work *work, ffd_error *error)
             continue;
         }
         memset(run->delta + 3 * i, 0, 3 * sizeof *run->delta);
-        if (run->gradient)
+        if (run->gradient && !run->only_turns)
             memset(run->gradient + 9 * i, 0, 9 * sizeof *run->gradient);
         ffd_mark_owner(work->chain, run, i, OWNER_NONE);
         ffd_mark_part(work->chain, 0, run, i, NULL);
@@ -397,8 +397,8 @@ static void displace(const block_work *work)
                                 .stride = sizeof *scratch->locations,
                                 .delta = run->delta,
                                 .gradient = run->gradient,
+                                .turns = run->turns,
                                 .only_turns = run->only_turns,
-                                .may_turn = &run->may_turn,
                                 .moves = scratch->moves};
     for (size_t k = 0; k < count; k += batch.count) {
         batch.which = sorted + k;

@@ -29,6 +29,12 @@ typedef struct chain_outside {
     bool snap_is_relative; /* relative to the diagonal of the rest lattice */
 } chain_outside;
 
+/* The parts into which marks divide a direction of a link (marks.h). */
+typedef struct link_parts {
+    double first, scale; /* the start of the domain, and how many parts a unit has */
+    int count;
+} link_parts;
+
 typedef struct chain_link {
     ffd_lattice *lattice;
     ffd_locator *locator;                  /* NULL until the lattice is fitted to the mesh */
@@ -47,7 +53,8 @@ typedef struct chain_link {
     bool is_convex;  /* the rest volume is a box: its displacement is continuous, also as it is extended */
     bool opens_axis; /* ffd_lattice_opens_axis */
     bool is_still;   /* no control point is moved */
-    int parts[3];    /* into how many parts marks divide each direction (marks.h) */
+    link_parts parts[3];
+    size_t parts_plane; /* the first of their three planes of marks; 0: none */
 } chain_link;
 
 /* A direction of a link in which the first and the last rest face coincide, and the moves separate them. */
@@ -142,7 +149,9 @@ typedef struct face_place {
 typedef struct chain_scratch {
     ffd_location locations[CHAIN_RUN]; /* in the last link; with blocks, in the point's own block */
     double delta[3 * CHAIN_RUN], gradient[9 * CHAIN_RUN];
-    uint32_t inside[CHAIN_RUN]; /* indices of the points that have u,v,w */
+    turn_list turns;              /* of a link among several */
+    uint8_t is_turned[CHAIN_RUN]; /* an odd number of links have turned the point inside out */
+    uint32_t inside[CHAIN_RUN];   /* indices of the points that have u,v,w */
     uint8_t moves[CHAIN_RUN];
     uint32_t owners[CHAIN_RUN]; /* blocks: the point's own block, or BLOCK_NONE */
     block_scratch blocks;
@@ -167,13 +176,13 @@ typedef struct chain_run {
     /* Filled, one entry a point: */
     double *delta;    /* 3: displacement by all links, world units; zeros where nothing acts */
     double *gradient; /* 9: F - I of the whole deformation; or NULL */
-    bool only_turns;  /* not filled: of a point that one link moves at most, the gradient is wanted only where
-                         det F may be 0 or less (displacement.h) */
+    turn_list *turns; /* NULL, or with gradient: the points are added where det F may be 0 or less; of several
+                         links, one after the other, those where it is less */
+    bool only_turns;  /* not filled: gradients are wanted only there. Several links do not fill them then */
     point_outcome *outcomes;
     uint8_t *kept; /* chain->marks.planes planes of CHAIN_RUN bytes, or NULL: bits of points that links leave
                       are added, other marks are set */
     bool keeps;    /* some bits were added */
-    bool may_turn; /* becomes true if det F may be 0 or less at some points; only with gradient */
     double embed_seconds, deform_seconds; /* elapsed times are added */
     /* Added: the number of points on a common face of two links, one after the other, that both move. */
     size_t moved_twice;

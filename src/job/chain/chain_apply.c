@@ -23,20 +23,27 @@ static void compose(double gradient[9], const double next[9])
         gradient[i] = gradient[i] + next[i] + product[i];
 }
 
-/* The first link writes its displacements directly to the run, later ones to scratch memory. */
-static displacement_batch begin_batch(chain_run *run, size_t link)
+/* The first link writes its displacements directly to the run, later ones to scratch memory. Where only turns
+   are looked for among several links, none writes its gradients to the run. */
+static displacement_batch begin_batch(chain_run *run, size_t links, size_t link)
 {
     chain_scratch *scratch = run->scratch;
-    return (displacement_batch){.uvw = scratch->locations[0].uvw,
+    displacement_batch batch = {.uvw = scratch->locations[0].uvw,
                                 .stride = sizeof *scratch->locations,
                                 .which = scratch->inside,
                                 .delta = link == 0 ? run->delta : scratch->delta,
                                 .gradient = !run->gradient ? NULL
                                             : link == 0    ? run->gradient
                                                            : scratch->gradient,
+                                .turns = run->turns,
                                 .only_turns = run->only_turns,
-                                .may_turn = &run->may_turn,
                                 .moves = scratch->moves};
+    if (run->turns && links > 1) {
+        scratch->turns.count = 0;
+        batch.turns = &scratch->turns;
+        batch.gradient = run->only_turns ? scratch->gradient : batch.gradient;
+    }
+    return batch;
 }
 
 /* Extends link l to a point outside of it; writes the displacement where the batch writes the others. */
@@ -46,7 +53,7 @@ static ffd_status extend(const lattice_chain *chain, size_t l, chain_run *run,
     const chain_link *const link = &chain->links[l];
     boundary_point nearest;
     double *const delta = batch->delta + 3 * i;
-    double *const gradient = batch->gradient ? batch->gradient + 9 * i : NULL;
+    double *const gradient = batch->gradient && !batch->only_turns ? batch->gradient + 9 * i : NULL;
     run->scratch->moves[i] = 0;
     memset(delta, 0, 3 * sizeof *delta);
     if (gradient)
@@ -111,7 +118,7 @@ static void add_link(const chain_run *run, const array_kernel *arrays)
 {
     const chain_scratch *scratch = run->scratch;
     arrays->add(scratch->delta, 3 * run->count, run->delta);
-    for (size_t i = 0; i < run->count && run->gradient; i++) {
+    for (size_t i = 0; i < run->count && run->gradient && !run->only_turns; i++) {
         const double *const next = scratch->gradient + 9 * i;
         if (scratch->moves[i] && run->outcomes[i].moved)
             compose(run->gradient + 9 * i, next);
@@ -120,18 +127,33 @@ static void add_link(const chain_run *run, const array_kernel *arrays)
     }
 }
 
-static ffd_status apply_link(const lattice_chain *chain, size_t l, chain_run *run, ffd_error *error)
+/* Notes which points a link among several turns inside out. */
+static void note_turns(const double *gradients, chain_scratch *scratch)
+{
+    for (size_t k = 0; k < scratch->turns.count; k++) {
+        const size_t i = scratch->turns.points[k];
+        double f[9];
+        for (size_t n = 0; n < 9; n++)
+            f[n] = gradients[9 * i + n] + (n % 4 == 0 ? 1 : 0);
+        scratch->is_turned[i] ^= mat_determinant(f) < 0;
+    }
+}
+
+static ffd_status apply_link(const lattice_chain *chain, size_t links, size_t l, chain_run *run,
+                             ffd_error *error)
 {
     const chain_link *link = &chain->links[l];
     chain_scratch *scratch = run->scratch;
     const array_kernel *const arrays = ffd_array_kernel(chain->isa);
-    displacement_batch batch = begin_batch(run, l);
+    displacement_batch batch = begin_batch(run, links, l);
     const ffd_status status = note_locations(chain, l, run, &batch, error);
     if (status)
         return status;
     if (ffd_common_wanted(chain))
         ffd_common_note(chain, l, run);
     ffd_displacements(link->lattice, chain->isa, &batch, &scratch->displacement);
+    if (batch.turns == &scratch->turns)
+        note_turns(batch.gradient, scratch);
     arrays->add(batch.delta, 3 * run->count, run->x);
     if (l > 0)
         add_link(run, arrays);
@@ -153,6 +175,8 @@ ffd_status ffd_chain_apply(const lattice_chain *chain, size_t links, chain_run *
         return ffd_blocks_apply(chain, run, error);
     if (ffd_common_wanted(chain))
         ffd_common_begin(run);
+    if (run->turns && links > 1)
+        memset(run->scratch->is_turned, 0, run->count);
     for (size_t l = 0; l < links && !status; l++) {
         const double start = ffd_clock_seconds();
         if (l > 0 || !run->located)
@@ -160,9 +184,12 @@ ffd_status ffd_chain_apply(const lattice_chain *chain, size_t links, chain_run *
                                    error);
         const double middle = ffd_clock_seconds();
         if (!status)
-            status = apply_link(chain, l, run, error);
+            status = apply_link(chain, links, l, run, error);
         run->embed_seconds += middle - start;
         run->deform_seconds += ffd_clock_seconds() - middle;
     }
+    for (size_t i = 0; run->turns && links > 1 && i < run->count; i++)
+        if (run->scratch->is_turned[i])
+            run->turns->points[run->turns->count++] = (uint32_t)i;
     return status;
 }

@@ -8,10 +8,12 @@
 /* The mark of a point whose part is not known. */
 #define NO_PART 255
 
-static int count_parts(const knot_vector *knots)
+static link_parts make_parts(const knot_vector *knots)
 {
-    const size_t parts = PARTS_OF_SPAN * knots->span_count;
-    return (int)(parts < LEAST_PARTS ? LEAST_PARTS : parts > MOST_PARTS ? MOST_PARTS : parts);
+    const size_t wanted = PARTS_OF_SPAN * knots->span_count;
+    const int count = (int)(wanted < LEAST_PARTS ? LEAST_PARTS : wanted > MOST_PARTS ? MOST_PARTS : wanted);
+    const double first = ffd_knots_first(knots);
+    return (link_parts){first, count / (ffd_knots_last(knots) - first), count};
 }
 
 void ffd_marks_lay_out(lattice_chain *chain, bool owners)
@@ -27,13 +29,18 @@ void ffd_marks_lay_out(lattice_chain *chain, bool owners)
     }
     marks->parts = marks->planes;
     for (size_t l = 0; l < chain->count; l++) {
+        chain_link *const link = &chain->links[l];
         for (int a = 0; a < 3; a++)
-            chain->links[l].parts[a] = count_parts(&chain->links[l].lattice->knots[a]);
-        if (chain->links[l].is_convex || marks->parted_count == (chain->blocks ? 1 : MOST_PARTED))
+            link->parts[a] = make_parts(&link->lattice->knots[a]);
+        link->parts_plane = 0;
+        if (link->is_convex || marks->parted_count == (chain->blocks ? 1 : MOST_PARTED))
             continue;
         marks->parted[marks->parted_count++] = (uint16_t)l;
+        link->parts_plane = marks->planes;
         marks->planes += 3;
     }
+    for (size_t l = 0; l < chain->count && chain->blocks && marks->parted_count > 0; l++)
+        chain->links[l].parts_plane = marks->parts;
 }
 
 void ffd_mark_kept(chain_run *run, size_t point, size_t link)
@@ -56,25 +63,21 @@ void ffd_mark_owner(const lattice_chain *chain, const chain_run *run, size_t poi
 static void mark_parts(const chain_link *link, const double uvw[3], uint8_t *marks)
 {
     for (size_t a = 0; a < 3; a++) {
-        const knot_vector *const knots = &link->lattice->knots[a];
-        const double first = ffd_knots_first(knots);
-        const int part = (int)((uvw[a] - first) / (ffd_knots_last(knots) - first) * link->parts[a]);
-        marks[a * CHAIN_RUN] = (uint8_t)(part < link->parts[a] ? part : link->parts[a] - 1);
+        const link_parts *const parts = &link->parts[a];
+        const int part = (int)((uvw[a] - parts->first) * parts->scale);
+        marks[a * CHAIN_RUN] = (uint8_t)(part < parts->count ? part : parts->count - 1);
     }
 }
 
 void ffd_mark_part(const lattice_chain *chain, size_t link, const chain_run *run, size_t point,
                    const double uvw[3])
 {
-    const mark_layout *const marks = &chain->marks;
-    size_t number = 0;
-    while (!chain->blocks && number < marks->parted_count && marks->parted[number] != link)
-        number++;
-    if (!run->kept || number >= marks->parted_count)
+    const chain_link *const of = &chain->links[link];
+    if (!run->kept || of->parts_plane == 0)
         return;
-    uint8_t *const first = run->kept + (marks->parts + 3 * number) * CHAIN_RUN + point;
-    if (uvw && !chain->links[link].is_convex)
-        mark_parts(&chain->links[link], uvw, first);
+    uint8_t *const first = run->kept + of->parts_plane * CHAIN_RUN + point;
+    if (uvw && !of->is_convex)
+        mark_parts(of, uvw, first);
     else
         first[0] = first[CHAIN_RUN] = first[2 * CHAIN_RUN] = uvw ? 0 : NO_PART;
 }
@@ -101,8 +104,8 @@ static bool are_neighbours(const chain_link *link, int direction, int a, int b)
     const int distance = a < b ? b - a : a - b;
     if (distance == 0 || a == NO_PART || b == NO_PART)
         return distance == 0;
-    return distance == 1 ||
-           (ffd_knots_closed(&link->lattice->knots[direction]) && distance == link->parts[direction] - 1);
+    return distance == 1 || (ffd_knots_closed(&link->lattice->knots[direction]) &&
+                             distance == link->parts[direction].count - 1);
 }
 
 bool ffd_marks_are_near(const lattice_chain *chain, const mark_planes *marks, size_t a, size_t b)

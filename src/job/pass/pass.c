@@ -59,40 +59,55 @@ static void note_range(double det, bool outside, size_t number, pass_totals *tot
 static void note_inversion(double det, size_t number, pass_totals *totals)
 {
     totals->inverted++;
-    if (det < totals->det_inverted) {
+    if (det < totals->det_inverted || (det == totals->det_inverted && number < totals->first_inverted)) {
         totals->det_inverted = det;
         totals->first_inverted = number;
     }
 }
 
-/* Whether a link moves the vertex in a way that F tells. */
-static bool has_gradient(const part_work *work, const tile_scratch *scratch, size_t i)
+/* Returns whether a link moves a vertex in a way that F tells. outcome: its own. i: its index in the tile. */
+static bool has_gradient(const part_work *work, const tile_scratch *scratch, const point_outcome *outcome,
+                         size_t i)
 {
-    const point_outcome *const outcome = &scratch->point_outcomes[i];
     const bool singular = work->part->skinned ? scratch->transforms.singular[i] : work->part->singular;
     return !singular && outcome->status != FFD_SINGULAR && (outcome->located || outcome->extended);
 }
 
-/* Looks at det F of a tile's vertices (after spread), as far as it is wanted. */
+/* Computes F = I + E and returns its determinant. */
+static double gradient_determinant(const double gradient[9], double f[9])
+{
+    for (int k = 0; k < 9; k++)
+        f[k] = gradient[k] + (k % 4 == 0 ? 1 : 0);
+    return mat_determinant(f);
+}
+
+/* Looks at det F of all vertices of a tile (after spread). */
 static void note_determinants(const part_work *work, const tile_scratch *scratch, size_t first, size_t count,
                               pass_totals *totals)
 {
-    const bool has_range = work->pass->determinants;
-    if (!has_range && !(work->pass->inversions && scratch->may_turn))
-        return;
     for (size_t i = 0; i < count; i++) {
+        const point_outcome *const outcome = &scratch->point_outcomes[i];
         double f[9];
-        for (int k = 0; k < 9; k++)
-            f[k] = scratch->gradient[9 * i + (size_t)k] + (k % 4 == 0 ? 1 : 0);
-        const double det = mat_determinant(f);
-        if ((det >= 0 && !has_range) || !has_gradient(work, scratch, i))
-            continue;
+        const double det = gradient_determinant(scratch->gradient + 9 * i, f);
         const size_t number = (size_t)work->first_vertex + first + i;
-        const bool outside = scratch->point_outcomes[i].extended;
-        if (has_range)
-            note_range(det, outside, number, totals);
-        if (!outside && turns_over(f, det))
+        if (!has_gradient(work, scratch, outcome, i))
+            continue;
+        note_range(det, outcome->extended, number, totals);
+        if (!outcome->extended && turns_over(f, det))
             note_inversion(det, number, totals);
+    }
+}
+
+/* Counts the vertices that turn inside out, of which turns has the candidates (before spread). */
+static void note_turns(const part_work *work, const tile_scratch *scratch, size_t first, pass_totals *totals)
+{
+    for (size_t k = 0; k < scratch->turns.count; k++) {
+        const size_t chosen = scratch->turns.points[k], i = ffd_tile_chosen(scratch, chosen);
+        const point_outcome *const outcome = &scratch->point_outcomes[chosen];
+        double f[9];
+        const double det = gradient_determinant(scratch->gradient + 9 * chosen, f);
+        if (!outcome->extended && turns_over(f, det) && has_gradient(work, scratch, outcome, i))
+            note_inversion(det, (size_t)work->first_vertex + first + i, totals);
     }
 }
 
@@ -153,12 +168,12 @@ static void finish_positions(const part_work *work, tile_scratch *scratch, size_
                              pass_totals *totals)
 {
     const mesh_pass *pass = work->pass;
-    ffd_tile_rounding_at_rest(work, scratch->raw, count, &totals->rounding);
+    ffd_tile_rounding_at_rest(work, scratch, count, totals);
     totals->is_visible = totals->is_visible || ffd_tile_shows(work, scratch->raw, scratch->delta, count);
     const size_t unfit = ffd_array_kernel(pass->chain->isa)
                              ->displace(scratch->delta, count, ffd_largest_coordinate(pass->document),
                                         scratch->raw, scratch->changed);
-    ffd_tile_rounding_of_results(work, scratch->raw, count, &totals->rounding);
+    ffd_tile_rounding_of_results(work, scratch, count, totals);
     for (size_t i = 0; i < count && !work->part->carried; i++)
         totals->moved += scratch->changed[i];
     if (unfit < count)
@@ -440,16 +455,40 @@ static void take_points(part_work *work, tile_scratch *scratch, size_t first, si
         ffd_totals_count_rest(work, scratch, first, totals);
 }
 
-/* Which gradients of the deformation a tile needs. */
-typedef enum gradient_need { GRADIENTS_NONE, GRADIENTS_THAT_TURN, GRADIENTS_ALL } gradient_need;
+/* Puts the points of a tile back to where they were before the chain moved them. */
+static void put_back(part_work *work, tile_scratch *scratch, size_t first, size_t count)
+{
+    memcpy(scratch->position, scratch->raw, 3 * count * sizeof(double));
+    if (work->part->skinned)
+        ffd_points_transform(scratch->transforms.transforms, count, scratch->position);
+    else
+        ffd_part_transform(work->pass->document, work->part_number, first, count, scratch->position);
+    choose(work, scratch, first, count);
+}
+
+/* What a tile needs of the gradients of the deformation. */
+typedef struct gradient_need {
+    bool all;          /* those of every vertex */
+    bool determinants; /* to look at det F of every vertex */
+    bool turns;        /* to count the vertices with det F < 0 */
+} gradient_need;
+
+static gradient_need find_need(const part_work *work, bool directions)
+{
+    const mesh_pass *const pass = work->pass;
+    const bool counts = !work->part->repeats_positions;
+    const bool determinants = counts && pass->determinants;
+    return (gradient_need){.all = directions || determinants || (counts && pass->gradients),
+                           .determinants = determinants,
+                           .turns = counts && pass->inversions && !determinants};
+}
 
 /* Sends the chosen points through the lattices. */
 static ffd_status deform_points(part_work *work, tile_scratch *scratch, size_t first, size_t count,
-                                gradient_need need, pass_totals *totals)
+                                const gradient_need *need, pass_totals *totals)
 {
     const mesh_pass *pass = work->pass;
     const bool counts = !work->part->repeats_positions;
-    const bool is_one_step = pass->chain->count == 1 || pass->chain->blocks;
     const tile_rounding tile_of = {work, scratch, first};
     const chain_rounding cells = {find_rounding, &tile_of};
     const chain_rounding *const rounding = ffd_rounding_is_none(&work->part->rounding) ? NULL : &cells;
@@ -460,12 +499,22 @@ static ffd_status deform_points(part_work *work, tile_scratch *scratch, size_t f
                      .scratch = &scratch->chain,
                      .pace = scratch == work->scratch ? pass->pace : NULL,
                      .delta = scratch->delta,
-                     .gradient = need == GRADIENTS_NONE ? NULL : scratch->gradient,
-                     .only_turns = need == GRADIENTS_THAT_TURN && is_one_step,
+                     .gradient = need->all || need->turns ? scratch->gradient : NULL,
+                     .turns = need->turns ? &scratch->turns : NULL,
+                     .only_turns = need->turns && !need->all,
                      .outcomes = scratch->point_outcomes,
                      .kept = counts ? scratch->kept : NULL};
-    const ffd_status status = ffd_chain_apply(pass->chain, pass->links, &run, &scratch->error);
-    scratch->may_turn = run.may_turn;
+    ffd_status status = ffd_chain_apply(pass->chain, pass->links, &run, &scratch->error);
+    if (!status && run.only_turns && scratch->turns.count > 0 && pass->links > 1 && !pass->chain->blocks) {
+        /* Rare: several lattices turn points inside out, whose gradients only a second run gives. */
+        put_back(work, scratch, first, count);
+        run.located = recall(work, scratch, first, rounding, totals);
+        run.turns = NULL;
+        run.only_turns = false;
+        run.pace = NULL;
+        run.moved_twice = run.disagreeing = 0;
+        status = ffd_chain_apply(pass->chain, pass->links, &run, &scratch->error);
+    }
     totals->embed_seconds = run.embed_seconds;
     totals->deform_seconds = run.deform_seconds;
     if (counts) {
@@ -494,28 +543,28 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
     const bool attributes = wanted && !part->singular && (part->normal_count || part->has_tangents);
     const bool splats = ffd_pass_takes_splats(pass, part);
     const bool counts = !part->repeats_positions;
-    const gradient_need need = attributes || splats || (counts && (pass->gradients || pass->determinants))
-                                   ? GRADIENTS_ALL
-                               : counts && pass->inversions ? GRADIENTS_THAT_TURN
-                                                            : GRADIENTS_NONE;
+    const gradient_need need = find_need(work, attributes || splats);
 
     ffd_totals_clear(totals);
+    scratch->turns.count = 0;
     if (atomic_load(&work->stopped))
         return;
     take_points(work, scratch, first, count, totals);
     scratch->status = ffd_deadline_check(&scratch->error);
     if (!scratch->status)
-        scratch->status = deform_points(work, scratch, first, count, need, totals);
+        scratch->status = deform_points(work, scratch, first, count, &need, totals);
     if (scratch->status) {
         atomic_store(&work->stopped, true);
         return;
     }
+    if (need.turns)
+        note_turns(work, scratch, first, totals);
     spread(scratch, count);
-    if (!part->repeats_positions) {
+    if (need.determinants)
         note_determinants(work, scratch, first, count, totals);
+    if (counts)
         fill_arrays(work, scratch, first, count);
-    }
-    carry(work, scratch, count, need != GRADIENTS_NONE, totals);
+    carry(work, scratch, count, need.all, totals);
     bring_back(work, scratch, count);
     if (!part->repeats_positions)
         finish_positions(work, scratch, first, count, totals);

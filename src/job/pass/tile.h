@@ -43,7 +43,7 @@ typedef struct tile_scratch {
     double position[3 * PASS_TILE]; /* in the lattice's space, at rest, then deformed */
     double delta[3 * PASS_TILE], gradient[9 * PASS_TILE];
     point_outcome point_outcomes[PASS_TILE];
-    bool may_turn; /* det F may be 0 or less at some vertices of the tile */
+    turn_list turns; /* the chosen vertices at which det F may be 0 or less, if only these are wanted */
     uint8_t changed[PASS_TILE];
     vertex_transforms transforms;
     double normals[3 * PASS_TILE], tangents[4 * PASS_TILE];

@@ -1,5 +1,5 @@
-/* resource_bring.h - what a text format names goes with its output: it is copied, or what the output does not
-   reach is said. */
+/* resource_bring.h - copies the files that a text format names beside its output, and warns about those that
+   the output does not reach. */
 #ifndef FFD_MESH_RESOURCE_RESOURCE_BRING_H
 #define FFD_MESH_RESOURCE_RESOURCE_BRING_H
 

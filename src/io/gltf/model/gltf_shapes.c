@@ -202,7 +202,7 @@ static void note_shown(gltf_document *d)
                 d->mesh_parts[i].shows_shapes || d->mesh_parts[i].shapes[s].weight != 0;
 }
 
-/* Primitives that share a part are shown alike: the first one has a say. */
+/* Primitives that share a part are shown alike: the first one decides. */
 static ffd_status set_weights(gltf_document *d, ffd_error *error)
 {
     bool *is_set = ffd_alloc_zero(d->base.part_count, sizeof *is_set);

@@ -283,7 +283,7 @@ static size_t count_joints(const gltf_document *d, size_t accessor, size_t *larg
     return most;
 }
 
-/* Whether a joint of an index beyond `joints` has a say: it has a weight, or its vertex may follow it because
+/* Whether a joint of an index beyond `joints` counts: it has a weight, or its vertex may follow it because
    it is the first one and no joint of the set has a weight. */
 static bool uses_beyond(const gltf_document *d, const gltf_influence *influence, size_t joints,
                         bool first_set)
@@ -307,7 +307,7 @@ static bool uses_beyond(const gltf_document *d, const gltf_influence *influence,
     return false;
 }
 
-/* Notes that a set names a joint beyond the skin without a weight, or refuses one that has a say. */
+/* Notes that a set names a joint beyond the skin without a weight, or refuses one that counts. */
 static ffd_status check_beyond(gltf_document *d, const gltf_skin *skin, const gltf_influence *influence,
                                size_t set, size_t joint, ffd_error *error)
 {

@@ -93,12 +93,26 @@ static void widen(range *r, const double *xyz, size_t count)
         }
 }
 
+/* Widens the range by floats that lie one after the other. Returns false if they do not, or one is not
+ * finite. */
+static bool widen_packed(const gltf_document *d, size_t a, size_t first, size_t count, range *r)
+{
+    const gltf_accessor *const accessor = &d->model.accessors[a];
+    const gltf_layout *const layout = &d->layouts[a];
+    return layout->data && accessor->component == GLTF_FLOAT && !accessor->sparse.present &&
+           layout->stride == 3 * sizeof(float) &&
+           ffd_array_kernel(FFD_ISA_AUTO)
+               ->widen_floats(layout->data + first * layout->stride, count, r->min, r->max);
+}
+
 static void search_tile(void *context, size_t tile, size_t begin, size_t end, int worker)
 {
     range_search *const search = context;
     double xyz[3 * POSITIONS];
     (void)worker;
     search->found[tile] = nothing;
+    if (widen_packed(search->document, search->accessor, begin, end - begin, &search->found[tile]))
+        return;
     for (size_t first = begin; first < end; first += POSITIONS) {
         const size_t size = end - first < POSITIONS ? end - first : POSITIONS;
         ffd_gltf_read(search->document, search->accessor, first, size, 3, xyz);

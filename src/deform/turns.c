@@ -1,0 +1,355 @@
+#include "deform/turns.h"
+#include "base/vector/vec.h"
+#include <math.h>
+#include <string.h>
+
+/* A matrix whose entries are known up to a radius. */
+typedef struct matrix_range {
+    double centre[9], radius[9];
+} matrix_range;
+
+/* Returns the permanent of m. */
+static double permanent(const double m[9])
+{
+    return m[0] * (m[4] * m[8] + m[5] * m[7]) + m[1] * (m[3] * m[8] + m[5] * m[6]) +
+           m[2] * (m[3] * m[7] + m[4] * m[6]);
+}
+
+/* Returns sum_ij |m_ij| times the permanent of r without row i and column j. */
+static double permanent_with(const double m[9], const double r[9])
+{
+    double sum = 0;
+    for (int i = 0; i < 3; i++) {
+        const double *const next = r + 3 * ((i + 1) % 3), *const last = r + 3 * ((i + 2) % 3);
+        sum += fabs(m[3 * i]) * (next[1] * last[2] + next[2] * last[1]) +
+               fabs(m[3 * i + 1]) * (next[0] * last[2] + next[2] * last[0]) +
+               fabs(m[3 * i + 2]) * (next[0] * last[1] + next[1] * last[0]);
+    }
+    return sum;
+}
+
+/* What the determinant must exceed, relative to that of the centre and to the lengths of its rows, so that
+   rounding does not matter. */
+#define CERTAIN 0.01
+#define ROUNDING 1e-9
+
+/* Returns the sign of the determinant if it is the same for all matrices of a range, else 0. The determinant
+   is expanded about the centre: det (M + E) = det M + sum cof(M)_ij E_ij + sum M_ij cof(E)_ij + det E. */
+static int sign_of(const matrix_range *range)
+{
+    double cofactor[9], change = permanent(range->radius) + permanent_with(range->centre, range->radius);
+    const double *const m = range->centre, det = mat_determinant(m), size = fabs(det);
+    mat_cofactor(m, cofactor);
+    for (int i = 0; i < 9; i++)
+        change += fabs(cofactor[i]) * range->radius[i];
+    if (!(size - change > CERTAIN * size) ||
+        !(size * size > ROUNDING * ROUNDING * vec_dot(m, m) * vec_dot(m + 3, m + 3) * vec_dot(m + 6, m + 6)))
+        return 0;
+    return det > 0 ? 1 : -1;
+}
+
+static size_t net_points(const size_t order[3])
+{
+    return order[0] * order[1] * order[2];
+}
+
+static void cell_order(const turn_cell *cell, size_t order[3])
+{
+    for (int a = 0; a < 3; a++)
+        order[a] = (size_t)cell->lattice->knots[a].degree + 1;
+}
+
+/* Returns the factors that take the binomial coefficients out of the points of a kernel_field, and leave the
+   Bezier points. */
+static const double *bezier_factors(const size_t order[3], turn_scratch *scratch)
+{
+    double factor[3][MAX_ORDER];
+    double *to = scratch->factors;
+    if (memcmp(scratch->order, order, sizeof scratch->order) == 0)
+        return scratch->factors;
+    for (int a = 0; a < 3; a++) {
+        double binomial = 1;
+        for (size_t i = 0; i < order[a]; i++) {
+            factor[a][i] = 1 / binomial;
+            binomial = binomial * (double)(order[a] - 1 - i) / (double)(i + 1);
+        }
+    }
+    for (size_t k = 0; k < order[2]; k++)
+        for (size_t j = 0; j < order[1]; j++)
+            for (size_t i = 0; i < order[0]; i++)
+                *to++ = factor[2][k] * factor[1][j] * factor[0][i];
+    memcpy(scratch->order, order, sizeof scratch->order);
+    return scratch->factors;
+}
+
+/* Computes the steps from each point of a net to the next one along direction a, and makes it shorter by
+   one. */
+static void take_steps(const double *points, int a, size_t order[3], double *steps)
+{
+    const size_t stride = a == 0 ? 3 : a == 1 ? 3 * order[0] : 3 * order[0] * order[1];
+    const size_t whole = stride * order[a], run = whole - stride, count = 3 * net_points(order);
+    for (size_t block = 0; block < count; block += whole, steps += run) {
+        const double *restrict const from = points + block, *restrict const next = from + stride;
+        for (size_t n = 0; n < run; n++)
+            steps[n] = next[n] - from[n];
+    }
+    order[a]--;
+}
+
+/* Returns degree / width of a direction. */
+static double slope_factor(const turn_cell *cell, int a)
+{
+    const knot_vector *const knots = &cell->lattice->knots[a];
+    const double *const t = knots->t + knots->spans[cell->number[a]];
+    return knots->degree / (t[1] - t[0]);
+}
+
+/* Adds the range of the derivatives of a field by u,v,w in the cell. */
+static void add_slopes(const turn_cell *cell, const double *field, turn_scratch *scratch, matrix_range *sum)
+{
+    size_t order[3];
+    step_range steps[3];
+    cell_order(cell, order);
+    cell->kernels->find_slopes(order, field, bezier_factors(order, scratch), 0, steps);
+    for (int a = 0; a < 3; a++) {
+        const double half = slope_factor(cell, a) / 2;
+        for (int r = 0; r < 3; r++) {
+            sum->centre[3 * r + a] += half * (steps[a].low[r] + steps[a].high[r]);
+            sum->radius[3 * r + a] += half * (steps[a].high[r] - steps[a].low[r]);
+        }
+    }
+}
+
+/* The greatest second derivatives of a field in a cell: entry 3 r + c of the Jacobian changes by at most
+   by[b][3 r + c] for each unit of direction b. */
+typedef struct field_bends {
+    double by[3][9];
+} field_bends;
+
+static void set_bend(const turn_cell *cell, int a, int b, const step_range *steps, field_bends *bends)
+{
+    const int degree = cell->lattice->knots[b].degree;
+    const double factor =
+        slope_factor(cell, a) * slope_factor(cell, b) * (a == b ? (degree - 1) / (double)degree : 1);
+    for (int r = 0; r < 3; r++)
+        bends->by[b][3 * r + a] = bends->by[a][3 * r + b] =
+            factor * larger_of(fabs(steps->low[r]), fabs(steps->high[r]));
+}
+
+static void find_bends(const turn_cell *cell, const double *field, turn_scratch *scratch, field_bends *bends)
+{
+    size_t whole[3];
+    const double *from = field;
+    cell_order(cell, whole);
+    const double *factor = bezier_factors(whole, scratch);
+    for (double *to = scratch->points; to < scratch->points + 3 * net_points(whole);
+         to += 3, from += 3, factor++)
+        for (int c = 0; c < 3; c++)
+            to[c] = *factor * from[c];
+    memset(bends, 0, sizeof *bends);
+    for (int a = 0; a < 3; a++) {
+        size_t order[3] = {whole[0], whole[1], whole[2]};
+        step_range steps[3];
+        take_steps(scratch->points, a, order, scratch->steps);
+        cell->kernels->find_slopes(order, scratch->steps, NULL, a, steps);
+        for (int b = a; b < 3; b++)
+            if (order[b] > 1)
+                set_bend(cell, a, b, &steps[b], bends);
+    }
+}
+
+/* Adds what the derivatives of a field change by in a box. half: its half sides. */
+static void add_bends(const field_bends *bends, const double half[3], matrix_range *sum)
+{
+    for (int n = 0; n < 9; n++)
+        sum->radius[n] += bends->by[0][n] * half[0] + bends->by[1][n] * half[1] + bends->by[2][n] * half[2];
+}
+
+/* Fills the constant derivatives of a box's rest positions. Returns false if those are not constant. */
+static bool constant_rest(const ffd_lattice *lattice, matrix_range *rest)
+{
+    memset(rest, 0, sizeof *rest);
+    return lattice->has_uvw_by_p && mat_invert(lattice->uvw_by_p, rest->centre);
+}
+
+/* Fills the field of the positions in the cell: at rest, or deformed. */
+static void make_field(const turn_cell *cell, bool deformed, turn_scratch *scratch)
+{
+    const ffd_lattice *const lattice = cell->lattice;
+    const double *extraction[3];
+    size_t order[3];
+    int span[3], degree[3];
+    cell_order(cell, order);
+    const size_t count = 3 * net_points(order);
+    ffd_displacement_spans(lattice, cell->number, span);
+    ffd_lattice_cell_points(lattice, lattice->rest, span, scratch->field);
+    if (deformed)
+        ffd_lattice_cell_points(lattice, lattice->difference, span, scratch->points);
+    for (size_t n = 0; n < count && deformed; n++)
+        scratch->field[n] += scratch->points[n];
+    for (int a = 0; a < 3; a++) {
+        degree[a] = lattice->knots[a].degree;
+        extraction[a] = lattice->knots[a].extractions + cell->number[a] * order[a] * order[a];
+    }
+    scratch->field[count] = 0;
+    cell->kernels->extract(degree, extraction, scratch->field, NULL);
+}
+
+static int sign_in_cell(const turn_cell *cell, bool deformed, turn_scratch *scratch)
+{
+    matrix_range slopes = {{0}, {0}};
+    make_field(cell, deformed, scratch);
+    add_slopes(cell, scratch->field, scratch, &slopes);
+    return sign_of(&slopes);
+}
+
+bool ffd_turns_nowhere(const turn_cell *cell, const double *difference, turn_scratch *scratch)
+{
+    matrix_range slopes;
+    if (!constant_rest(cell->lattice, &slopes))
+        return sign_in_cell(cell, false, scratch) * sign_in_cell(cell, true, scratch) > 0;
+    const double before = mat_determinant(slopes.centre);
+    add_slopes(cell, difference, scratch, &slopes);
+    return before * sign_of(&slopes) > 0;
+}
+
+/* Boxes that are looked at together. */
+#define BOXES ((size_t)32)
+
+typedef struct turn_boxes {
+    double centre[3 * BOXES], half[3 * BOXES];
+    turn_run *run[BOXES];
+    size_t count;
+} turn_boxes;
+
+static void add_box(const double *uvw, turn_run *run, turn_boxes *boxes)
+{
+    double *const centre = boxes->centre + 3 * boxes->count, *const half = boxes->half + 3 * boxes->count;
+    for (size_t a = 0; a < 3; a++) {
+        double low = uvw[3 * (size_t)run->first + a], high = low;
+        for (size_t k = run->first; k < run->end; k++) {
+            const double u = uvw[3 * k + a];
+            low = u < low ? u : low;
+            high = u > high ? u : high;
+        }
+        centre[a] = (low + high) / 2;
+        half[a] = (high - low) / 2;
+    }
+    boxes->run[boxes->count++] = run;
+}
+
+/* Finds the derivatives by u,v,w at the centres of boxes: of the displacement, and of the rest positions if
+   the fields have them. */
+static void find_centres(const turn_cell *cell, const kernel_cell *fields, const turn_boxes *boxes,
+                         double *by_uvw, double *rest_by_uvw)
+{
+    kernel_cell without_inverse = *fields;
+    double delta[3 * BOXES];
+    uint32_t which[BOXES];
+    for (size_t i = 0; i < boxes->count; i++)
+        which[i] = (uint32_t)i;
+    without_inverse.inverse = NULL;
+    const kernel_points points = {.uvw = boxes->centre,
+                                  .which = which,
+                                  .count = boxes->count,
+                                  .delta = delta,
+                                  .gradient = by_uvw,
+                                  .jacobian = fields->rest.points ? rest_by_uvw : NULL};
+    cell->kernels->displace(&without_inverse, &points);
+}
+
+/* What is known of a cell for its boxes. */
+typedef struct turn_search {
+    const turn_cell *cell;
+    const kernel_cell *fields;
+    const double *uvw;            /* of its points */
+    field_bends difference, rest; /* rest: only if the fields have it */
+} turn_search;
+
+static void judge_boxes(const turn_search *search, const turn_boxes *boxes)
+{
+    double by_uvw[9 * BOXES], rest_by_uvw[9 * BOXES];
+    matrix_range constant;
+    const bool is_constant = constant_rest(search->cell->lattice, &constant);
+    const double sign = is_constant ? mat_determinant(constant.centre) : 0;
+    find_centres(search->cell, search->fields, boxes, by_uvw, rest_by_uvw);
+    for (size_t i = 0; i < boxes->count; i++) {
+        matrix_range slopes = constant;
+        if (!is_constant) {
+            memcpy(slopes.centre, rest_by_uvw + 9 * i, sizeof slopes.centre);
+            add_bends(&search->rest, boxes->half + 3 * i, &slopes);
+        }
+        const double before = is_constant ? sign : sign_of(&slopes);
+        for (size_t n = 0; n < 9; n++)
+            slopes.centre[n] += by_uvw[9 * i + n];
+        add_bends(&search->difference, boxes->half + 3 * i, &slopes);
+        boxes->run[i]->may_turn = !(before * sign_of(&slopes) > 0);
+    }
+}
+
+/* Judges the runs that may turn, and have at least so many points. */
+static void judge_runs(const turn_search *search, size_t least, turn_run *runs, size_t count)
+{
+    turn_boxes boxes = {.count = 0};
+    for (size_t i = 0; i < count; i++) {
+        if (runs[i].may_turn && runs[i].end - runs[i].first >= least)
+            add_box(search->uvw, &runs[i], &boxes);
+        if (boxes.count == BOXES || (boxes.count > 0 && i + 1 == count)) {
+            judge_boxes(search, &boxes);
+            boxes.count = 0;
+        }
+    }
+}
+
+/* The points of a run at first; if its box is too large, of the pieces into which it is cut. In fewer than
+   FEWEST, derivatives cost no more than the box. */
+#define MOST ((size_t)16)
+#define PIECE ((size_t)4)
+#define FEWEST ((size_t)3)
+
+/* Makes runs of points with consecutive numbers from `first` on. Returns how many; stops at BOXES. */
+static size_t make_runs(const uint32_t *which, size_t first, size_t count, turn_run *runs)
+{
+    size_t made = 0, end = first;
+    for (; end < count && made < BOXES; first = end) {
+        for (end = first + 1; end < count && end - first < MOST && which[end] == which[end - 1] + 1;)
+            end++;
+        runs[made++] = (turn_run){(uint32_t)first, (uint32_t)end, true};
+    }
+    return made;
+}
+
+/* Appends the runs, of which those that may turn are cut. Returns how many that makes. */
+static size_t cut_runs(const turn_run *runs, size_t count, turn_run *cut)
+{
+    size_t made = 0;
+    for (size_t i = 0; i < count; i++) {
+        const size_t size = runs[i].may_turn ? PIECE : MOST;
+        for (size_t first = runs[i].first; first < runs[i].end; first += size) {
+            const size_t end = first + size < runs[i].end ? first + size : runs[i].end;
+            cut[made++] = (turn_run){(uint32_t)first, (uint32_t)end, runs[i].may_turn};
+        }
+    }
+    return made;
+}
+
+size_t ffd_turns_find(const turn_cell *cell, const kernel_cell *fields, const uint32_t *which,
+                      const double *uvw, size_t count, turn_run *runs, turn_scratch *scratch)
+{
+    turn_search search = {.cell = cell, .fields = fields, .uvw = uvw};
+    size_t made = 0;
+    if (count >= FEWEST)
+        find_bends(cell, fields->difference.points, scratch, &search.difference);
+    if (count >= FEWEST && fields->rest.points)
+        find_bends(cell, fields->rest.points, scratch, &search.rest);
+    for (size_t first = 0; first < count;) {
+        turn_run whole[BOXES];
+        const size_t wholes = make_runs(which, first, count, whole);
+        judge_runs(&search, FEWEST, whole, wholes);
+        first = whole[wholes - 1].end;
+        const size_t cut = cut_runs(whole, wholes, runs + made);
+        judge_runs(&search, FEWEST, runs + made, cut);
+        made += cut;
+    }
+    return made;
+}
