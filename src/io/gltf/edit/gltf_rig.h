@@ -1,6 +1,6 @@
 /* gltf_rig.h - how the nodes, skins and animations of a file change to follow the deformation (src/maths.md
    9.5). ffd_gltf_follow (gltf_rig_follow.c) makes it for one deformation, by the steps of gltf_rig_nodes.c,
-   gltf_rig_skins.c, gltf_rig_channels.c and gltf_rig_said.c; saving reads it, by gltf_rig_edit.c. */
+   gltf_rig_skins.c and gltf_rig_channels.c; saving reads it, by gltf_rig_edit.c. */
 #ifndef FFD_IO_GLTF_EDIT_GLTF_RIG_H
 #define FFD_IO_GLTF_EDIT_GLTF_RIG_H
 
@@ -105,13 +105,6 @@ ffd_status ffd_gltf_follow_skins(gltf_document *document, const mesh_places *pla
 /* Fills the rig's animations and changes; call it after ffd_gltf_follow_nodes. Errors: those of loading the
    keys of an animation that changes, FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_gltf_follow_animations(gltf_document *document, gltf_rig *rig, ffd_error *error);
-
-/* Logs what follows (-v), and warns of what does not, with one line per kind and the first names: physics
-   shapes, spring bones and look-at offsets of VRM, rest rotations of VRM 0.x, constraints that aim, channels
-   with unsupported pointers. Sets following->unscaled, and adds to following->unselected. Errors:
-   FFD_E_MEMORY. */
-ffd_status ffd_gltf_warn_of_rig(const gltf_document *document, const mesh_places *places, const gltf_rig *rig,
-                                const mesh_log *log, mesh_following *following, ffd_error *error);
 
 /* Edits the transforms of nodes: only numbers that differ are replaced. */
 void ffd_gltf_edit_nodes(const gltf_document *document, json_edits *edits);
