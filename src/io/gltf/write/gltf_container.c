@@ -32,7 +32,8 @@ void ffd_gltf_choose_buffer_kinds(gltf_saver *saver)
             saver->binary ? kind_in_glb(&d->buffers[b], b) : kind_in_text(&d->buffers[b], stream);
 }
 
-void ffd_gltf_add_uri(gltf_saver *saver, size_t buffer, const char *uri)
+/* Adds the member "uri" to the JSON of a buffer. */
+static void add_uri(gltf_saver *saver, size_t buffer, const char *uri)
 {
     const gltf_document *d = saver->document;
     const uint32_t end = d->tree.values[d->buffer_values.values[buffer]].end - 1;
@@ -108,7 +109,7 @@ static ffd_status set_uri(gltf_saver *saver, size_t b, const char *name, ffd_err
     if (!encoded)
         return ffd_fail_memory(error);
     if (uri == JSON_NONE)
-        ffd_gltf_add_uri(saver, b, encoded);
+        add_uri(saver, b, encoded);
     else
         ffd_edits_replace(&saver->edits, d->tree.values[uri].begin + 1, d->tree.values[uri].end - 1, encoded,
                           strlen(encoded));

@@ -330,8 +330,8 @@ static size_t size_of_old(const gltf_new_buffer *made)
     return made->append_count > 0 ? made->old->length : made->old->size;
 }
 
-void ffd_gltf_content_read(const gltf_saver *saver, size_t b, size_t offset, size_t size,
-                           unsigned char *bytes)
+/* Reads bytes [offset, offset + size) of the new content. */
+static void read_content(const gltf_saver *saver, size_t b, size_t offset, size_t size, unsigned char *bytes)
 {
     const gltf_new_buffer *made = &saver->buffers[b];
     const size_t kept = size_of_old(made);
@@ -352,7 +352,9 @@ static const unsigned char *values_in_place(const gltf_document *d, const gltf_o
                : NULL;
 }
 
-size_t ffd_gltf_content_at(const gltf_saver *saver, size_t b, size_t offset, const unsigned char **bytes)
+/* Returns how many bytes of the new content from offset on lie in memory exactly as written, in the old
+   content or in the results, and points *bytes to them. 0: use read_content. */
+static size_t content_at(const gltf_saver *saver, size_t b, size_t offset, const unsigned char **bytes)
 {
     const gltf_new_buffer *made = &saver->buffers[b];
     const size_t next = find_overwrite(made, offset), size = ffd_gltf_content_size(saver, b);
@@ -419,7 +421,7 @@ static bool list_stretches(const content_writer *w, size_t offset, size_t size, 
     piece->count = 0;
     for (size_t done = 0; done < size;) {
         const unsigned char *bytes;
-        const size_t there = ffd_gltf_content_at(w->saver, w->buffer, offset + done, &bytes);
+        const size_t there = content_at(w->saver, w->buffer, offset + done, &bytes);
         const size_t length = there < size - done ? there : size - done;
         if (length == 0 || piece->count == most)
             return false;
@@ -437,7 +439,7 @@ static void find_content(const content_writer *w, size_t offset, size_t size, co
     if (!piece->block)
         piece->block = ffd_alloc(w->piece_size, 1);
     if (piece->block)
-        ffd_gltf_content_read(w->saver, w->buffer, offset, size, piece->block);
+        read_content(w->saver, w->buffer, offset, size, piece->block);
     piece->stretches[0] = (content_stretch){piece->block, size};
     piece->count = piece->block != NULL;
 }

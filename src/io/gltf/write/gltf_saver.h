@@ -131,15 +131,6 @@ size_t ffd_gltf_append_buffer(const gltf_document *document, size_t accessor);
    did and has not grown. */
 size_t ffd_gltf_content_size(const gltf_saver *saver, size_t buffer);
 
-/* Reads bytes [offset, offset + size) of the new content. */
-void ffd_gltf_content_read(const gltf_saver *saver, size_t buffer, size_t offset, size_t size,
-                           unsigned char *bytes);
-
-/* Returns how many bytes of the new content from offset on lie in memory exactly as written, in the old
-   content or in the results, and points *bytes to them. 0: use ffd_gltf_content_read. */
-size_t ffd_gltf_content_at(const gltf_saver *saver, size_t buffer, size_t offset,
-                           const unsigned char **bytes);
-
 /* Writes a buffer's new content to the output, as base64 or unchanged. Errors: FFD_E_IO, FFD_E_MEMORY. */
 ffd_status ffd_gltf_write_content(const gltf_saver *saver, size_t buffer, bool base64, ffd_error *error);
 
@@ -150,9 +141,6 @@ void ffd_gltf_choose_buffer_kinds(gltf_saver *saver);
 
 /* Edits the JSON of buffers whose kind changed, except the names of files. */
 void ffd_gltf_move_buffers(gltf_saver *saver);
-
-/* Adds the member "uri" to the JSON of a buffer. */
-void ffd_gltf_add_uri(gltf_saver *saver, size_t buffer, const char *uri);
 
 /* Chooses the names and edits the buffers' URIs. Errors: FFD_E_EXISTS, FFD_E_ARGUMENT, FFD_E_MEMORY. */
 ffd_status ffd_gltf_name_buffers(gltf_saver *saver, ffd_error *error);
