@@ -4,6 +4,7 @@
 #include "cli/commands.h"
 #include "cli/deform.h"
 #include <errno.h>
+#include <ffd/program.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
