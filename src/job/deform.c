@@ -1,6 +1,5 @@
 /* deform.c - the job of `ffd deform`. */
 #include "base/file/mapping.h"
-#include "base/file/memory_files.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/system/clock.h"
@@ -11,6 +10,7 @@
 #include "job/deform_job.h"
 #include "job/figures/figure_values.h"
 #include "job/input/deform_desc.h"
+#include "job/input/in_memory.h"
 #include "job/input/shown_box.h"
 #include "job/input/source.h"
 #include "job/morphs.h"
@@ -46,6 +46,7 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
     const char *input = desc->input.path;
     *options = (mesh_save_options){.path = desc->output,
                                    .to_sink = desc->sink,
+                                   .from_memory = desc->input.bytes.data,
                                    .format = desc->output_format,
                                    .force = desc->force || desc->if_changed,
                                    .resources = desc->resources,
@@ -77,13 +78,12 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
     if (desc->sink)
         return FFD_OK;
     /* The output first: usually it does not exist, which is a quick answer. */
-    if (!ffd_output_is_stream(desc->output) && ffd_file_same(desc->output, input))
+    if (!ffd_output_is_stream(desc->output) && ffd_job_reads_mesh(&desc->input, desc->output))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the input (--in-place overwrites it)");
     if (!ffd_output_is_stream(desc->output) &&
         ffd_job_reads_lattice(desc->lattices, desc->lattice_count, desc->output))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is a lattice of this command");
-    if (desc->embedding && !ffd_output_is_stream(desc->output) &&
-        ffd_file_same(desc->output, desc->embedding))
+    if (!ffd_output_is_stream(desc->output) && ffd_job_reads_embedding(desc, desc->output))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the embedding that is to be reused");
     return ffd_output_check(desc->output, options->force, error);
 }
@@ -140,7 +140,7 @@ static ffd_status make_rule(const deform_job *job, path_list *inputs, byte_buffe
         const char *const path = ffd_lattice_file(&desc->lattices[i]);
         status = path ? ffd_paths_add(inputs, path, error) : FFD_OK;
     }
-    if (!status && desc->embedding && !ffd_file_is_stream(desc->embedding))
+    if (!status && desc->embedding && !desc->embedding_bytes.data && !ffd_file_is_stream(desc->embedding))
         status = ffd_paths_add(inputs, desc->embedding, error);
     for (size_t i = 0; i < job->chain.count && !status; i++)
         status = add_paths(inputs, &job->chain.links[i].box_files, error);
@@ -200,7 +200,7 @@ static ffd_status save(deform_job *job, const mesh_save_options *options, ffd_er
     status = write_all(job, options, output, &rule, error);
     status = ffd_mapping_judge(job->losses, status, error);
     if (!status) /* a missing resource may be the fault of a resolve callback */
-        status = ffd_memory_judge_path(job->desc->input.path, status, error);
+        status = ffd_in_memory_judge(&job->desc->input, status, error);
     if (!status)
         status = ffd_output_commit(output, error);
     if (!status && job->desc->depfile)

@@ -39,6 +39,8 @@ static ffd_status check_embedding(const ffd_deform_desc *desc, ffd_error *error)
     if (desc->lattice_count != 1)
         return ffd_fail(error, FFD_E_ARGUMENT, "an embedding needs exactly one lattice, got %zu",
                         desc->lattice_count);
+    if (desc->embedding_bytes.data)
+        return FFD_OK;
     if (strcmp(embedding, "-") == 0 &&
         (strcmp(desc->input.path, "-") == 0 || ffd_lattice_is_stream(&desc->lattices[0])))
         return ffd_fail(error, FFD_E_ARGUMENT, "standard input can be read only once");
@@ -160,10 +162,9 @@ static ffd_status run_in_memory(deform_job_function run, ffd_deform_desc *desc, 
         status = ffd_in_memory_desc(&memory, desc, &result->error);
     if (!status)
         status = run_own(run, desc, result, size, &result->error);
-    status = ffd_in_memory_judge(&memory, status, &result->error);
+    status = ffd_in_memory_end(&memory, status, &result->error);
     if (result->morphs.lattices)
         result->morphs.lattices = lattices;
-    ffd_in_memory_end(&memory);
     return status;
 }
 
@@ -212,7 +213,8 @@ static ffd_status open_mesh(deform_job *job, ffd_error *error)
     source.only_positions = job->only_positions;
     file_stamp stamp;
     file_input bytes;
-    const bool is_file = ffd_cache_holds_meshes(desc->share) && ffd_file_stamp(source.path, &stamp);
+    const bool is_file =
+        ffd_cache_holds_meshes(desc->share) && !source.bytes.data && ffd_file_stamp(source.path, &stamp);
     ffd_status status = is_file && ffd_cache_take_bytes(desc->share, source.path, &stamp, &bytes)
                             ? ffd_source_open_bytes(&source, job->threads, &bytes, &job->document, error)
                             : ffd_source_open(&source, job->threads, &job->document, error);
@@ -248,7 +250,8 @@ ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_erro
     const chain_outside outside = {desc->outside == FFD_OUTSIDE_EXTEND, desc->falloff, desc->snap,
                                    desc->snap_relative};
     const double start = ffd_clock_seconds();
-    if (desc->written && ffd_written_holds(&desc->written->files, desc->input.path))
+    if (desc->written && !desc->input.bytes.data &&
+        ffd_written_holds(&desc->written->files, desc->input.path))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->input.path,
                              "was written by this run already, under this name or another");
     ffd_status status = ffd_deform_job_load_chain(job, &outside, desc->share, error);
@@ -365,8 +368,8 @@ static ffd_status locate(deform_job *job, ffd_error *error)
     if (status || !embedding)
         return status;
     const chain_link *const link = &job->chain.links[0];
-    return ffd_embedding_reuse(embedding, job->document, link->lattice, link->snap, job->threads,
-                               &job->embedding, error);
+    return ffd_embedding_reuse(embedding, job->desc->embedding_bytes, job->document, link->lattice,
+                               link->snap, job->threads, &job->embedding, error);
 }
 
 /* Whether nodes and other places matter: conversions and arrays of positions do not contain them. */

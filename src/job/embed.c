@@ -68,7 +68,7 @@ static ffd_status write_files(const ffd_embed_desc *desc, const embedding *made,
 
 static ffd_status check_output(const ffd_embed_desc *desc, const char *path, ffd_error *error)
 {
-    if (ffd_file_same(path, desc->input.path) || ffd_job_reads_lattice(&desc->lattice, 1, path))
+    if (ffd_job_reads_mesh(&desc->input, path) || ffd_job_reads_lattice(&desc->lattice, 1, path))
         return ffd_fail_file(error, FFD_E_EXISTS, path, "is an input of this command");
     return ffd_output_check(path, desc->force, error);
 }
@@ -257,7 +257,7 @@ static ffd_status run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_er
     return status;
 }
 
-/* Registers data in memory under paths. */
+/* Names and checks data in memory. */
 static ffd_status take_memory(job_memory *memory, ffd_embed_desc *desc, ffd_error *error)
 {
     ffd_status status = ffd_in_memory_lattice(&desc->lattice, "the lattice", "lattice", error);
@@ -270,7 +270,6 @@ static ffd_status take_memory(job_memory *memory, ffd_embed_desc *desc, ffd_erro
         status = ffd_in_memory_output(desc->sink, desc->output, error);
     if (!status)
         status = ffd_in_memory_output(desc->sink, desc->status_output, error);
-    ffd_in_memory_log(memory, &desc->log, &desc->log_user);
     return status;
 }
 
@@ -288,8 +287,7 @@ ffd_status ffd_embed_run(const ffd_embed_desc *callers, ffd_job_result *callers_
     status = take_memory(&memory, &desc, &result.error);
     if (!status)
         status = run(&desc, &result, &result.error);
-    result.status = ffd_in_memory_judge(&memory, status, &result.error);
-    ffd_in_memory_end(&memory);
+    result.status = ffd_in_memory_end(&memory, status, &result.error);
     if (result.status && error)
         *error = result.error;
     if (callers_result)

@@ -130,7 +130,7 @@ static ffd_status check_desc(const ffd_lattice_new_desc *desc, ffd_error *error)
     if (desc->sink)
         return FFD_OK;
     for (size_t i = 0; i < desc->mesh_count && !ffd_output_is_stream(desc->output); i++)
-        if (ffd_file_same(desc->meshes[i].path, desc->output))
+        if (ffd_job_reads_mesh(&desc->meshes[i], desc->output))
             return ffd_fail_file(error, FFD_E_ARGUMENT, desc->output, "the lattice would replace its mesh");
     for (size_t i = 0; i < desc->mesh_count; i++) {
         const ffd_status status = ffd_job_check_mesh_files(desc->output, &desc->meshes[i], NULL, error);
@@ -156,7 +156,6 @@ static ffd_status take_memory(job_memory *memory, ffd_lattice_new_desc *desc, ff
     desc->meshes = count > 0 ? *meshes : NULL;
     if (!status)
         status = ffd_in_memory_output(desc->sink, desc->output, error);
-    ffd_in_memory_log(memory, &desc->log, &desc->log_user);
     return status;
 }
 
@@ -192,8 +191,7 @@ ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *callers, ffd_error *e
         status = create_round(desc, &lattice, error);
     if (!status)
         status = save(desc, lattice, error);
-    status = ffd_in_memory_judge(&memory, status, error);
-    ffd_in_memory_end(&memory);
+    status = ffd_in_memory_end(&memory, status, error);
     ffd_free(meshes);
     ffd_lattice_destroy(&lattice);
     return status;

@@ -1,6 +1,5 @@
 #include "job/reads.h"
 #include "base/file/input.h"
-#include "base/file/memory_files.h"
 #include "base/file/output.h"
 #include "io/formats.h"
 #include "job/input/source.h"
@@ -66,6 +65,16 @@ static const char *role_of(const mesh_names *names, const char *output)
     return holds(&names->named, output) ? "a buffer of the input" : NULL;
 }
 
+bool ffd_job_reads_mesh(const ffd_source *source, const char *path)
+{
+    return source->path && !source->bytes.data && ffd_file_same(source->path, path);
+}
+
+bool ffd_job_reads_embedding(const ffd_deform_desc *desc, const char *path)
+{
+    return desc->embedding && !desc->embedding_bytes.data && ffd_file_same(desc->embedding, path);
+}
+
 bool ffd_job_reads_lattice(const ffd_lattice_source *lattices, size_t count, const char *path)
 {
     for (size_t i = 0; i < count && lattices; i++) {
@@ -81,7 +90,7 @@ ffd_status ffd_job_check_mesh_files(const char *output, const ffd_source *source
 {
     ffd_format format;
     mesh_names names = {0};
-    if (ffd_file_is_stream(source->path) || ffd_memory_has(source->path) || !replaces(output) ||
+    if (ffd_file_is_stream(source->path) || source->bytes.data || !replaces(output) ||
         ffd_source_format(source, &format, NULL))
         return FFD_OK;
     const mesh_format *const table = ffd_format_table(format);

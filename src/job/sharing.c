@@ -37,7 +37,7 @@ static ffd_status add_input(job_sharing *s, ffd_error *error)
 {
     path_list files = {0};
     s->has_input = true;
-    if (!s->document->format->list_files || ffd_file_is_stream(s->input))
+    if (!s->document->format->list_files || ffd_file_is_stream(s->input) || s->document->folder.resolve)
         return FFD_OK;
     const mesh_format *const format = s->document->format;
     ffd_status status = format->list_files(s->document, &files, error);

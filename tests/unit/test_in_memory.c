@@ -8,7 +8,6 @@
 #include <cmocka.h>
 
 #include "../support/test_folder.h"
-#include "base/file/memory_files.h"
 #include "base/memory/memory.h"
 #include <ffd/ffd.h>
 #include <ffd/jacobian.h>
@@ -841,7 +840,6 @@ static void a_sink_that_fails_ends_the_job(void **state)
         b.sink.takes = takes;
         assert_int_equal(ffd_deform_run(&b.desc, &result, &error), takes == 1 ? FFD_E_IO : FFD_E_CANCELLED);
         assert_string_equal(error.message, "was not taken by the caller");
-        assert_null(strstr(error.file, "ffd-memory"));
         assert_int_equal(b.sink.files.count, takes);
         assert_null(find(&b.sink.files, b.output)); /* never the mesh without the files that it needs */
         end(&b);
@@ -895,6 +893,46 @@ static void truncated_bytes_fail_as_files_do(void **state)
     (void)state;
 }
 
+/* What is in memory is not taken for the file of its name: not for one that an earlier job has read or
+   written, and not for the output. */
+static void names_in_memory_mean_no_files(void **state)
+{
+    static const char other[] = "OFF\n1 0 0\n5 5 5\n";
+    both b;
+    ffd_job_result result = {.struct_size = sizeof result};
+    ffd_share *share;
+    ffd_written *written;
+    begin(&b, make_off, "head.off");
+    use_files(&b);
+    assert_int_equal(ffd_share_create(&share, NULL), FFD_OK);
+    assert_int_equal(ffd_written_create(&written, NULL), FFD_OK);
+    b.desc.share = share;
+    b.desc.written = written;
+    assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
+    assert_true(result.vertices > 1);
+    b.desc.input.bytes = (ffd_bytes){other, sizeof other - 1};
+    b.desc.output = "in/no.off"; /* and no such folder */
+    b.desc.dry_run = true;
+    b.desc.sink = take;
+    b.desc.sink_user = &b.sink;
+    assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
+    assert_int_equal(result.vertices, 1);
+    b.desc.dry_run = false;
+    b.desc.sink = NULL;
+    b.desc.input.path = b.output; /* that file was written by this run */
+    b.desc.output = b.input;
+    b.desc.force = true;
+    assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
+    assert_int_equal(result.vertices, 1);
+    b.desc.written = NULL;
+    b.desc.input.path = b.input; /* and that one is replaced, as any other */
+    assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
+    ffd_written_destroy(&written);
+    ffd_share_destroy(&share);
+    end(&b);
+    (void)state;
+}
+
 static void descriptions_that_contradict_themselves_are_refused(void **state)
 {
     both b;
@@ -936,19 +974,6 @@ static void descriptions_that_contradict_themselves_are_refused(void **state)
     assert_int_equal(ffd_deform_run(&b.desc, &result, &error), FFD_E_INVALID);
     assert_int_equal(b.sink.files.count, 0);
     end(&b);
-    (void)state;
-}
-
-static void no_name_in_a_file_leads_to_the_memory_of_a_job(void **state)
-{
-    memory_files *files;
-    assert_int_equal(ffd_memory_create(&files, NULL), FFD_OK);
-    for (int i = 0; i < 10000; i++) {
-        char path[40];
-        snprintf(path, sizeof path, "ffd-memory:%d/0/head.obj", i);
-        assert_false(ffd_memory_has(path));
-    }
-    ffd_memory_destroy(&files);
     (void)state;
 }
 
@@ -1188,8 +1213,8 @@ int main(void)
         cmocka_unit_test(truncated_bytes_fail_as_files_do),
         cmocka_unit_test(jobs_run_in_threads_and_in_callbacks),
         cmocka_unit_test(memory_may_run_out_anywhere),
+        cmocka_unit_test(names_in_memory_mean_no_files),
         cmocka_unit_test(descriptions_that_contradict_themselves_are_refused),
-        cmocka_unit_test(no_name_in_a_file_leads_to_the_memory_of_a_job),
         cmocka_unit_test(arrays_of_descriptions_are_complete),
         cmocka_unit_test(choices_that_are_none_are_refused),
         cmocka_unit_test(negative_threads_are_refused),

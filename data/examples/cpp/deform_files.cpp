@@ -19,15 +19,14 @@ template <typename Function, typename... Arguments> void call(Function *function
 }
 
 // Returns whether the mesh was written. One that fails does not stop the others.
-static bool deform(const Run &run, const ffd_lattice_source &lattice, const char *mesh,
-                   const std::filesystem::path &output)
+static bool deform(const Run &run, const char *lattice, const char *mesh, const std::filesystem::path &output)
 {
     ffd_deform_desc desc;
     ffd_deform_desc_init(&desc, sizeof desc);
     desc.input.path = mesh;
     desc.output = output.c_str();
-    desc.lattices = &lattice;
-    desc.lattice_count = 1;
+    const ffd_lattice_source source = {lattice, {}, nullptr};
+    desc.lattices = &source, desc.lattice_count = 1;
     desc.fail_on = FFD_GATE_FOLDS; // nothing is written unless the volume is proven to be free of folds
     desc.force = true;             // replaces what an earlier run wrote, ...
     desc.written = run.written;    // ... and never what this one did
@@ -45,14 +44,12 @@ try {
     if (argc < 4)
         return std::fprintf(stderr, "usage: deform_files LATTICE FOLDER MESH...\n"), 2;
     const std::filesystem::path folder = argv[2];
-    ffd_lattice_source lattice = {};
-    lattice.path = argv[1];
     Run run;
     bool ok = true;
     call(ffd_written_create, &run.written);
     call(ffd_report_create, (folder / "report.json").c_str(), false, run.written, &run.report);
     for (char **mesh = argv + 3; *mesh; mesh++)
-        ok &= deform(run, lattice, *mesh, folder / std::filesystem::path(*mesh).filename());
+        ok &= deform(run, argv[1], *mesh, folder / std::filesystem::path(*mesh).filename());
     call(ffd_report_write, run.report);
     return ok ? 0 : 1;
 } catch (const ffd_error &error) {

@@ -29,10 +29,11 @@ static bool is_product(const ffd_jacobian_desc *desc)
 /* force is for older outputs, not for what is read. */
 static bool is_input(const ffd_jacobian_desc *desc)
 {
-    const char *const inputs[] = {desc->job->input.path, desc->times, desc->transposed};
-    bool found = false;
-    for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++)
-        found = found || (inputs[i] && ffd_file_same(inputs[i], desc->output));
+    const char *const arrays[] = {desc->times_bytes.data ? NULL : desc->times,
+                                  desc->transposed_bytes.data ? NULL : desc->transposed};
+    bool found = ffd_job_reads_mesh(&desc->job->input, desc->output);
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+        found = found || (arrays[i] && ffd_file_same(arrays[i], desc->output));
     return found || ffd_job_reads_lattice(desc->job->lattices, desc->job->lattice_count, desc->output);
 }
 
@@ -127,15 +128,15 @@ static ffd_status run(const ffd_jacobian_desc *desc, ffd_jacobian_result *result
     return ffd_deform_job_end(&j.job, status, &figures, error);
 }
 
-/* Registers data in memory under paths. The job's own output is ignored. */
+/* Names and checks data in memory. The job's own output is ignored. */
 static ffd_status take_memory(job_memory *memory, ffd_jacobian_desc *desc, ffd_deform_desc *job,
                               ffd_error *error)
 {
     ffd_status status = ffd_in_memory_output(job->sink, desc->output, error);
     if (!status)
-        status = ffd_in_memory_bytes(memory, desc->times_bytes, "times", &desc->times, error);
+        status = ffd_in_memory_bytes(desc->times_bytes, "times", &desc->times, error);
     if (!status)
-        status = ffd_in_memory_bytes(memory, desc->transposed_bytes, "transposed", &desc->transposed, error);
+        status = ffd_in_memory_bytes(desc->transposed_bytes, "transposed", &desc->transposed, error);
     job->output = NULL;
     return status ? status : ffd_in_memory_desc(memory, job, error);
 }
@@ -165,8 +166,7 @@ ffd_status ffd_jacobian_run(const ffd_jacobian_desc *callers, ffd_jacobian_resul
     if (runs)
         status = run(&desc, &result, &own);
     ffd_deadline_end(before);
-    status = ffd_in_memory_judge(&memory, status, &own);
-    ffd_in_memory_end(&memory);
+    status = ffd_in_memory_end(&memory, status, &own);
     if (status && error)
         *error = own;
     if (callers_result && runs)

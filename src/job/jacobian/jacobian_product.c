@@ -103,6 +103,7 @@ ffd_status ffd_jacobian_multiply(const jacobian *j, ffd_error *error)
     double *in = NULL;
     product p = {.j = j};
     ffd_status status = ffd_npy_read(transposed ? j->desc->transposed : j->desc->times,
+                                     transposed ? j->desc->transposed_bytes : j->desc->times_bytes,
                                      transposed ? vertices : columns, &in, error);
     if (status)
         return status;

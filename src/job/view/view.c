@@ -326,7 +326,7 @@ static ffd_status write_view(view_work *work, ffd_error *error)
         status = is_page(desc->output) ? write_page(work, output, error) : write_picture(work, output, error);
     status = ffd_mapping_judge(work->job.losses, status, error);
     if (!status) /* an image that seems to be missing may have failed to load */
-        status = ffd_memory_judge_path(desc->job->input.path, status, error);
+        status = ffd_in_memory_judge(&desc->job->input, status, error);
     if (!status)
         status = ffd_output_commit(output, error);
     ffd_output_destroy(&output);
@@ -457,9 +457,7 @@ static ffd_status view_in_memory(ffd_view_desc *desc, ffd_deform_desc *job, ffd_
         status = ffd_in_memory_desc(&memory, job, &result->error);
     if (!status)
         status = view(desc, result, &result->error);
-    status = ffd_in_memory_judge(&memory, status, &result->error);
-    ffd_in_memory_end(&memory);
-    return status;
+    return ffd_in_memory_end(&memory, status, &result->error);
 }
 
 ffd_status ffd_view_run(const ffd_view_desc *callers, ffd_job_result *callers_result, ffd_error *error)

@@ -8,8 +8,8 @@
 static bool is_reached(const resource_copier *c, const char *path)
 {
     char *const from = ffd_path_join(c->from, path), *const to = ffd_path_join(c->to, path);
-    const bool reached =
-        from && to && ffd_resource_is_there(c, to) && (!ffd_path_leads_out(path) || ffd_file_same(from, to));
+    const bool reached = from && to && ffd_resource_is_there(c, to) &&
+                         (!ffd_path_leads_out(path) || (!c->mesh.resolve && ffd_file_same(from, to)));
     ffd_free(from);
     ffd_free(to);
     return reached;
