@@ -77,7 +77,6 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
         return ffd_format_refuse_name(desc->output, error);
     if (desc->sink)
         return FFD_OK;
-    /* The output first: usually it does not exist, which is a quick answer. */
     if (!ffd_output_is_stream(desc->output) && ffd_job_reads_mesh(&desc->input, desc->output))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the input (--in-place overwrites it)");
     if (!ffd_output_is_stream(desc->output) &&

@@ -65,21 +65,22 @@ static const char *role_of(const mesh_names *names, const char *output)
     return holds(&names->named, output) ? "a buffer of the input" : NULL;
 }
 
+/* Asks for the output first: usually it does not exist, which is a quick answer. */
 bool ffd_job_reads_mesh(const ffd_source *source, const char *path)
 {
-    return source->path && !source->bytes.data && ffd_file_same(source->path, path);
+    return source->path && !source->bytes.data && ffd_file_same(path, source->path);
 }
 
 bool ffd_job_reads_embedding(const ffd_deform_desc *desc, const char *path)
 {
-    return desc->embedding && !desc->embedding_bytes.data && ffd_file_same(desc->embedding, path);
+    return desc->embedding && !desc->embedding_bytes.data && ffd_file_same(path, desc->embedding);
 }
 
 bool ffd_job_reads_lattice(const ffd_lattice_source *lattices, size_t count, const char *path)
 {
     for (size_t i = 0; i < count && lattices; i++) {
         const char *const file = ffd_lattice_file(&lattices[i]);
-        if (file && ffd_file_same(file, path))
+        if (file && ffd_file_same(path, file))
             return true;
     }
     return false;

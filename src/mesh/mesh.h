@@ -487,7 +487,7 @@ struct mesh_document {
     size_t part_count;
     double largest_coordinate; /* of the file's number type; 0: that of the format */
     bool has_face_normals;     /* faces have normals, which saving computes anew */
-    file_folder folder;        /* where the names in the file lead, which is the document's own or a stream */
+    file_folder folder;        /* where the names in the file lead */
     memory_budget budget;
     mesh_flaws flaws; /* found by open */
     /* Number of things whose faces, lines or points are unknown (the flaws say why); they are in no faces. */
