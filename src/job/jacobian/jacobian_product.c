@@ -4,7 +4,6 @@
 #include "base/memory/memory.h"
 #include "base/system/deadline.h"
 #include "io/npy/npy.h"
-#include "io/npy/npy_read.h"
 #include "job/jacobian/jacobian_rows.h"
 #include <string.h>
 
