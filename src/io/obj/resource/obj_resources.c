@@ -5,7 +5,6 @@
 #include "io/obj/resource/obj_libraries.h"
 #include "io/obj/resource/obj_linked.h"
 #include "io/obj/resource/obj_paths.h"
-#include "io/obj/resource/resource_names.h"
 #include "mesh/resource/image_file.h"
 #include "mesh/resource/image_tiles.h"
 #include "mesh/resource/left_out.h"
