@@ -1,7 +1,6 @@
 /* view.c - the job of `ffd view`: makes a scene of a mesh and its deformation, or of one or two files as they
    are. */
 #include "base/file/mapping.h"
-#include "base/file/memory_files.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/struct_size.h"
