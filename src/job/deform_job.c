@@ -1,6 +1,7 @@
 #include "job/deform_job.h"
 #include "base/file/mapping.h"
 #include "base/memory/memory.h"
+#include "base/spelling.h"
 #include "base/struct_size.h"
 #include "base/system/clock.h"
 #include "base/system/deadline.h"
@@ -34,7 +35,7 @@ static ffd_status check_embedding(const ffd_deform_desc *desc, ffd_error *error)
     if (!embedding)
         return FFD_OK;
     if (desc->blocks)
-        return ffd_fail(error, FFD_E_ARGUMENT, "--embedding cannot be used with --blocks");
+        return ffd_fail(error, FFD_E_ARGUMENT, "{embedding} cannot be used with {blocks}");
     if (desc->lattice_count != 1)
         return ffd_fail(error, FFD_E_ARGUMENT, "an embedding needs exactly one lattice, got %zu",
                         desc->lattice_count);
@@ -104,15 +105,15 @@ static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
     if (!(desc->timeout >= 0))
         return ffd_fail(error, FFD_E_ARGUMENT, "the timeout %g is not a time", desc->timeout);
     if (desc->falloff > 0 && desc->outside != FFD_OUTSIDE_EXTEND)
-        return ffd_fail(error, FFD_E_ARGUMENT, "--falloff needs --outside extend");
+        return ffd_fail(error, FFD_E_ARGUMENT, "{falloff} needs {outside=extend}");
     if (desc->positions && desc->morphs)
         return ffd_fail(error, FFD_E_ARGUMENT, "positions cannot be given with morphs");
     if (desc->rig == FFD_RIG_FOLLOW &&
         (desc->as_morph || desc->morphs || desc->input.space == FFD_SPACE_MESH))
-        return ffd_fail(error, FFD_E_ARGUMENT, "--rig follow cannot be used with %s",
-                        desc->as_morph ? "--as-morph"
-                        : desc->morphs ? "--morph"
-                                       : "--space mesh");
+        return ffd_fail(error, FFD_E_ARGUMENT, "{rig=follow} cannot be used with %s",
+                        SPELLED(desc->as_morph ? "{as_morph}"
+                                : desc->morphs ? "{morphs}"
+                                               : "{input.space=mesh}"));
     if (!ffd_isa_available(desc->isa))
         return ffd_fail(error, FFD_E_ARGUMENT,
                         "this build or this processor does not support the instruction set %s",
@@ -263,7 +264,7 @@ ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_erro
         job->document->keeps_base = true;
     if (!status && desc->rig == FFD_RIG_FOLLOW && !job->document->format->follow)
         status = ffd_fail_file(error, FFD_E_ARGUMENT, ffd_source_name(&desc->input),
-                               "has no nodes that could follow: only glTF has (--rig follow)");
+                               "has no nodes that could follow: only glTF has ({rig=follow})");
     if (!status)
         ffd_result_note_flaws(result, &job->document->flaws);
     if (!status)
@@ -289,7 +290,7 @@ static ffd_status check_unknown(const deform_job *job, ffd_error *error)
     if (unknown == 0 || !(job->desc->fail_on & (FFD_GATE_TEAR | FFD_GATE_FLIPPED | FFD_GATE_EDGES)))
         return FFD_OK;
     return ffd_fail_file(error, FFD_E_GATE, ffd_source_name(&job->desc->input),
-                         "--fail-on tear, flipped and edges cannot be judged: the faces of %zu %s not known",
+                         "{fail_on} tear, flipped and edges cannot be judged: the faces of %zu %s not known",
                          unknown, unknown == 1 ? "primitive are" : "primitives are");
 }
 
@@ -504,7 +505,7 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
         warn_of_left(job, result);
     if (!status && job->totals.vertices == 0)
         ffd_log_line(&job->file_log, FFD_LOG_WARNING, "%s",
-                     job->desc->only_count ? "--only selects no vertices"
+                     job->desc->only_count ? SPELLED("{only} selects no vertices")
                                            : "there are no vertices to deform");
     if (!status && !job->check) {
         ffd_figures_warn(job, result);

@@ -18,7 +18,7 @@ static ffd_status check_name(const char *name, ffd_error *error)
     if (name && *name && ffd_utf8_is_valid(name, strlen(name)))
         return FFD_OK;
     ffd_name_shown(name ? name : "", shown, sizeof shown);
-    return ffd_fail(error, FFD_E_ARGUMENT, "--morph: \"%s\" is not the name of a morph target in UTF-8",
+    return ffd_fail(error, FFD_E_ARGUMENT, "{morphs}: \"%s\" is not the name of a morph target in UTF-8",
                     shown);
 }
 
@@ -35,7 +35,7 @@ static ffd_status check_names(const ffd_deform_desc *desc, ffd_error *error)
         if (status || number == i)
             continue;
         ffd_name_shown(desc->morphs[i], shown, sizeof shown);
-        status = ffd_fail(error, FFD_E_ARGUMENT, "--morph: two morph targets are called \"%s\"", shown);
+        status = ffd_fail(error, FFD_E_ARGUMENT, "{morphs}: two morph targets are called \"%s\"", shown);
     }
     ffd_intern_free(&names);
     return status;
@@ -45,11 +45,11 @@ static ffd_status check(const deform_job *job, ffd_error *error)
 {
     const ffd_deform_desc *const desc = job->desc;
     if (!desc->morphs)
-        return desc->clip_count == 0 ? FFD_OK : ffd_fail(error, FFD_E_ARGUMENT, "--clip needs --morph");
+        return desc->clip_count == 0 ? FFD_OK : ffd_fail(error, FFD_E_ARGUMENT, "{clips} needs {morphs}");
     if (desc->as_morph)
-        return ffd_fail(error, FFD_E_ARGUMENT, "--as-morph cannot be used with --morph");
+        return ffd_fail(error, FFD_E_ARGUMENT, "{as_morph} cannot be used with {morphs}");
     if (desc->blocks)
-        return ffd_fail(error, FFD_E_ARGUMENT, "--blocks cannot be used with --morph");
+        return ffd_fail(error, FFD_E_ARGUMENT, "{blocks} cannot be used with {morphs}");
     return check_names(desc, error);
 }
 

@@ -1,5 +1,6 @@
 #include "job/input/in_memory.h"
 #include "base/memory/memory.h"
+#include "base/spelling.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -131,13 +132,13 @@ static ffd_status name_lattices(job_memory *memory, ffd_deform_desc *desc, ffd_e
 
 static ffd_status refuse_files(const ffd_deform_desc *desc, ffd_error *error)
 {
-    const char *const what = desc->in_place                               ? "--in-place"
-                             : desc->depfile                              ? "--depfile"
-                             : desc->resources == FFD_RESOURCES_REFERENCE ? "--resources reference"
+    const char *const what = desc->in_place                               ? "{in_place}"
+                             : desc->depfile                              ? "{depfile}"
+                             : desc->resources == FFD_RESOURCES_REFERENCE ? "{resources=reference}"
                                                                           : NULL;
     if (!what || (!desc->sink && !desc->input.bytes.data))
         return FFD_OK;
-    return ffd_fail(error, FFD_E_ARGUMENT, "%s needs files: here %s in memory", what,
+    return ffd_fail(error, FFD_E_ARGUMENT, "%s needs files: here %s in memory", SPELLED(what),
                     desc->sink ? "the output is" : "the mesh is");
 }
 

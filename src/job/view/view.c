@@ -4,6 +4,7 @@
 #include "base/file/memory_files.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/spelling.h"
 #include "base/struct_size.h"
 #include "base/system/deadline.h"
 #include "base/text/words.h"
@@ -358,25 +359,26 @@ static void warn_of_unused(const view_work *work)
         const char *name;
         bool is_set;
     } settings[] = {
-        {"--set", job->set_count > 0 && job->lattice_count == 0},
-        {"--outside", job->outside != FFD_OUTSIDE_KEEP},
-        {"--snap", job->snap > 0},
-        {"--blocks", job->blocks},
-        {"--normals", job->normals != FFD_NORMALS_TRANSFORM},
-        {"--rig", job->rig != FFD_RIG_KEEP},
-        {"--as-morph", job->as_morph},
+        {"{set}", job->set_count > 0 && job->lattice_count == 0},
+        {"{outside}", job->outside != FFD_OUTSIDE_KEEP},
+        {"{snap}", job->snap > 0},
+        {"{blocks}", job->blocks},
+        {"{normals}", job->normals != FFD_NORMALS_TRANSFORM},
+        {"{rig}", job->rig != FFD_RIG_KEEP},
+        {"{as_morph}", job->as_morph},
     };
     char names[128] = "";
     for (size_t i = 0; i < sizeof settings / sizeof *settings; i++)
         if (settings[i].is_set) {
             strcat(names, *names ? ", " : "");
-            strcat(names, settings[i].name);
+            strcat(names, SPELLED(settings[i].name));
         }
     if (*names)
-        ffd_log_line(&work->job.log, FFD_LOG_WARNING,
-                     "not used, since files are shown as they are: %s (a deformation needs -l, and no "
-                     "OUT-MESH)",
-                     names);
+        ffd_log_line(
+            &work->job.log, FFD_LOG_WARNING,
+            "not used, since files are shown as they are: %s (a deformation needs {lattices}, and no "
+            "{deformed})",
+            names);
 }
 
 static ffd_status run(view_work *work, ffd_job_result *result, ffd_error *error)

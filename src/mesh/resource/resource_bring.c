@@ -35,7 +35,7 @@ static void say_unreached(const resource_copier *c, const mesh_resource *resourc
     ffd_name_shown(resource->path, shown, sizeof shown);
     if (!is_reached(c, resource->path))
         ffd_log_line(c->log, FFD_LOG_WARNING,
-                     "the output does not reach the %s \"%s\" (--resources copy copies it)",
+                     "the output does not reach the %s \"%s\" ({resources=copy} copies it)",
                      resource->kind->name, shown);
 }
 

@@ -39,7 +39,7 @@ static ffd_status compare_copy(const resource_kind *kind, const char *target, co
         return status;
     return ffd_fail_file(
         error, FFD_E_IO, target,
-        "already exists and is not the %s to be copied there (--resources reference copies none)",
+        "already exists and is not the %s to be copied there ({resources=reference} copies none)",
         kind->name);
 }
 
