@@ -26,6 +26,10 @@ typedef enum ffd_vertex_status {
 
 #define FFD_VERTEX_STATUS_COUNT 5
 
+/* Returns "inside", "outside", "multiple", "singular" or "invalid"; NULL for another value. The string is
+   static. Thread-safe. */
+FFD_API const char *ffd_vertex_status_name(ffd_vertex_status status);
+
 /* What happens to a point outside of the lattice: KEEP leaves it as it is, to the bit; EXTEND gives it the
    displacement of the nearest border point, which may fade with the distance (src/maths.md 8.2); ERROR fails
    with FFD_E_EMBEDDING. */

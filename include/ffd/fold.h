@@ -19,6 +19,9 @@ typedef enum ffd_fold_verdict {
     FFD_FOLDS_UNKNOWN = 2 /* not decided within the limits of depth and number of boxes */
 } ffd_fold_verdict;
 
+/* Returns "none", "some" or "unknown"; NULL for another value. The string is static. Thread-safe. */
+FFD_API const char *ffd_fold_verdict_name(ffd_fold_verdict verdict);
+
 /* What determinants are relative to. */
 typedef enum ffd_fold_reference {
     FFD_FOLDS_TO_MEAN = 0,   /* the size of the mean of det J_P over the domain */
@@ -27,21 +30,31 @@ typedef enum ffd_fold_reference {
     FFD_FOLDS_TO_PLACE = 2   /* det J_P at the same u,v,w: one affine map moves the whole lattice */
 } ffd_fold_reference;
 
+/* Returns "mean", "bounds" or "place"; NULL for another value. The string is static. Thread-safe. */
+FFD_API const char *ffd_fold_reference_name(ffd_fold_reference reference);
+
+/* A place where the deformed volume folds. */
+typedef struct ffd_fold_witness {
+    bool is_there;    /* true if the verdict is FFD_FOLDS_SOME; else all other members are 0 */
+    uint64_t lattice; /* of a job with several lattices: its index, from 0 */
+    double uvw[3];    /* in the range of the knots */
+    double xyz[3];    /* C_Q(uvw), world units */
+    double rest[3];   /* C_P(uvw), world units */
+    double det;       /* sign * det J_Q at uvw, divided as ffd_folds.min_det is; <= 0 */
+} ffd_fold_witness;
+
 /* The result of ffd_folds_find. Set struct_size to sizeof(ffd_folds) before the call. */
 typedef struct ffd_folds {
     size_t struct_size;       /* sizeof(ffd_folds) in the caller's header */
+    bool is_known;            /* false in the result of a job that did not look for folds */
     ffd_fold_verdict verdict; /* of all cells together */
     uint64_t cells;           /* number of span cells of the lattice */
     uint64_t folded_cells;    /* cells in which sign * det J_Q <= 0 at some u,v,w */
     uint64_t unknown_cells;   /* cells that are not decided */
     double min_det;           /* a lower bound of sign * det J_Q over the domain, divided by what relative_to
                                  says; -DBL_MAX stands for anything below it, too */
-    bool has_witness;         /* true if verdict is FFD_FOLDS_SOME; else the next four are not set */
-    double witness_uvw[3];    /* in the range of the knots */
-    double witness_xyz[3];    /* C_Q(witness_uvw), world units */
-    double witness_rest[3];   /* C_P(witness_uvw), world units */
-    double witness_det;       /* sign * det J_Q at witness_uvw, divided as min_det is; <= 0 */
-    ffd_fold_reference relative_to; /* what min_det and witness_det are relative to */
+    ffd_fold_reference relative_to; /* what min_det and witness.det are relative to */
+    ffd_fold_witness witness;
 } ffd_folds;
 
 /* Proves for each span cell that sign * det J_Q > 0 in all of it, or finds a witness of the contrary. J_Q =
@@ -56,10 +69,10 @@ typedef struct ffd_folds {
    - Otherwise the Bernstein coefficients of det J_Q decide (for a rational volume those of the 4 x 4
      determinant [W A; W_u A_u; W_v A_v; W_w A_w] = W^4 det J_Q). Boxes whose coefficients have both signs are
      halved. The sign of a coefficient counts only if its size exceeds the bound of its rounding error.
-   - A cell whose volume is 0 to rounding everywhere counts as folded, with a witness_det of 0. With weights
+   - A cell whose volume is 0 to rounding everywhere counts as folded, with a witness.det of 0. With weights
      only if det J_Q is not positive at some place.
    With weights the witness' u,v,w, as they are given here, were looked at with 58 digits: det J_Q is not
-   positive there, and witness_det has its digits. At most 64 witnesses are looked at.
+   positive there, and witness.det has its digits. At most 64 witnesses are looked at.
 
    The time is bounded for any lattice, by the number of boxes whose coefficients are computed: 64 in each
    cell, and 2^26 in all (1 in each of more cells); then 2048 in each undecided cell, and 2^22 in all of them;

@@ -11,9 +11,9 @@
 #include <ffd/embedding.h>
 #include <ffd/error.h>
 #include <ffd/export.h>
-#include <ffd/fold.h>
 #include <ffd/isa.h>
 #include <ffd/lattice.h>
+#include <ffd/result.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -158,17 +158,6 @@ typedef struct ffd_source {
     void *resolve_user;           /* passed to resolve */
     uint64_t source_room[4];      /* reserved, 0 */
 } ffd_source;
-
-/* One kind of violation of the format's specification in a mesh file, where the meaning is clear all the
-   same: viewers open the file, and every position is certain. */
-typedef struct ffd_flaw {
-    char message[256]; /* of the first one of its kind, as in ffd_error */
-    char pointer[128]; /* JSON pointer to it; "": none */
-    uint64_t line;     /* its line, from 1; 0: none */
-    uint64_t count;    /* number of violations of this kind */
-} ffd_flaw;
-/* The most kinds that are reported for a file; all further ones are counted with the last. */
-#define FFD_FLAWS 8
 
 /* Checks the syntax of a selector, as in ffd_deform_desc.only. Thread-safe. Errors: FFD_E_ARGUMENT; the
    message names the most similar kind. */
@@ -339,192 +328,6 @@ FFD_API void ffd_deform_desc_init(ffd_deform_desc *desc, size_t size);
    cannot be read twice. */
 FFD_API ffd_status ffd_shared_box_add(ffd_shared_box *box, const ffd_deform_desc *desc, ffd_error *error);
 
-/* An axis-aligned box, in world units. */
-typedef struct ffd_bounds {
-    double min[3], max[3]; /* min > max if no vertex is finite */
-} ffd_bounds;
-
-/* Scene objects that do not follow: they keep their place while the mesh moves. */
-typedef enum ffd_behind_kind {
-    FFD_BEHIND_SOCKET = 0, /* an empty node without children */
-    FFD_BEHIND_CAMERA,
-    FFD_BEHIND_LIGHT,
-    FFD_BEHIND_JOINT,
-    FFD_BEHIND_PIVOT, /* a node whose translation, rotation or scale is animated */
-    FFD_BEHIND_PHYSICS_SHAPE,
-    FFD_BEHIND_SPLAT, /* a Gaussian splat that moves, in a lattice that does more than translate, but whose
-                         rotation and scale cannot follow (compare splats_carried) */
-    FFD_BEHIND_KIND_COUNT
-} ffd_behind_kind;
-
-/* The most names that are listed for a kind. */
-#define FFD_BEHIND_NAMES 3
-/* The things of one kind that are left behind. */
-typedef struct ffd_behind {
-    uint64_t count; /* number of things of this kind that are left behind */
-    /* The first names in the order of the file (for splats: of the nodes that show them), cut to fit, with
-       control characters replaced by '?'; "": no further name. */
-    char names[FFD_BEHIND_NAMES][80];
-} ffd_behind;
-
-/* The joints, pivots and sockets of a glTF, and their lag: the distance from where a joint is in the output
-   to where the lattice moves its place in the mesh. With as_morph and morphs only joints count, and the mesh
-   is that of the morph target in full. */
-typedef struct ffd_rig_result {
-    bool is_there; /* there are joints, pivots or sockets, or other nodes follow; if false, all other members
-                      are 0 */
-    uint64_t joints;
-    uint64_t moved;     /* nodes whose transforms are changed in the output */
-    uint64_t sheared;   /* of these: nodes that rotate with their parents, because another rotation would
-                           shear them */
-    uint64_t singular;  /* nodes that stay, with their descendants, because their matrices are not
-                           invertible */
-    uint64_t partial;   /* nodes that stay because their meshes are selected only in part */
-    uint64_t unscaled;  /* nodes that follow but have sizes which do not: physics shapes, spring bones, eyes
-                           (VRM), splats */
-    double largest_lag; /* |D(x) - x'| over joints, pivots and sockets */
-    char worst[80];     /* name of the first node with this lag, in the form of ffd_behind.names; "": none */
-    uint64_t lagging_skins, lagging_pivots, lagging_sockets; /* with a lag above 0; skins: with such a
-                                                                joint */
-    uint64_t lagging_joints; /* joints with a lag that belong to no skin of the scene */
-    /* FOLLOW: nodes that stay where they are because they are not selected, though a node above them follows;
-       and the largest distance from where that node would carry one of them. */
-    uint64_t unselected;
-    double unselected_by;
-} ffd_rig_result;
-
-/* Why an edge is torn (src/maths.md 7.4). */
-typedef enum ffd_tear_cause {
-    FFD_TEAR_NONE = 0,
-    FFD_TEAR_STAYS,      /* an end is outside of the lattices, and stays */
-    FFD_TEAR_UNSELECTED, /* an end is not selected, or its matrix is not invertible */
-    FFD_TEAR_LATTICES,   /* the edge leads out of a lattice, or into another one */
-    FFD_TEAR_BLOCKS,     /* it leads from one block to another that moves the place differently */
-    FFD_TEAR_SEAM,       /* it crosses two coinciding rest faces of a lattice that are moved apart */
-    FFD_TEAR_AXIS,       /* it meets a collapsed face of a lattice that is opened */
-    FFD_TEAR_BORDER,     /* outside, where another part of the border becomes the nearest */
-    FFD_TEAR_OVERLAP     /* it leads from one part of a lattice that overlaps itself to another */
-} ffd_tear_cause;
-
-/* The result of a job: the figures of the report (data/schema/formats.md 2; src/maths.md 11). Lengths are in
-   world units unless stated otherwise. */
-typedef struct ffd_job_result {
-    size_t struct_size; /* sizeof(ffd_job_result) in the caller's header, set before the call */
-    ffd_status status;  /* what the function returned */
-    ffd_error error;    /* details of a failure */
-    uint64_t vertices;  /* selected vertices that are counted */
-    /* Vertices by ffd_vertex_status. With several lattices a vertex is outside if it is outside of all of
-       them; otherwise its status is the highest of those it has in the lattices. Of a glTF all figures are of
-       the shape that the default weights of morph targets show; if the deformation becomes a morph target
-       itself (as_morph, morphs), of the base shape. */
-    uint64_t counts[FFD_VERTEX_STATUS_COUNT];
-    /* Vertices that are not inside and not visible: in no face, line or point; of hidden nodes
-       (KHR_node_visibility). counts and gates leave them out, unless they are not finite. */
-    uint64_t unused, hidden;
-    /* glTF: vertices that a morph target moves outside of every lattice, or to coordinates that are not
-       finite, counted for each target; of counts, the vertices outside in parts whose default weights show
-       another shape than the base. The gates include them. */
-    uint64_t targets_outside, targets_invalid, shown_outside;
-    bool own_box;                      /* a box "mesh" was laid round the mesh of this job */
-    uint64_t moved;                    /* vertices whose position changes */
-    double residual_max, residual_rms; /* relative to the diagonal of the rest lattice */
-    double evaluations_mean;           /* evaluations of C for a vertex */
-    uint32_t evaluations_max;
-    ffd_bounds before, after; /* of vertices that are not hidden */
-    double displacement_max, displacement_rms;
-    /* Vertices on a face that two lattices share, and that both lattices move, one after the other. */
-    uint64_t moved_twice;
-    uint64_t disagreeing;         /* blocks: vertices on a common face that another block moves differently */
-    double disagreement;          /* the largest such difference */
-    uint64_t normals_collapsed;   /* normals that keep their direction, because the deformed surface has none
-                                     there */
-    uint64_t splats_carried;      /* Gaussian splats whose rotation, scale and harmonics follow */
-    uint64_t splats_flattened;    /* of these: splats that lose an extent, because F is not invertible
-                                     there */
-    uint64_t splats_broken;       /* splats that only move, because their rotation or scale is not finite */
-    uint64_t normals_carried;     /* RECOMPUTE: normals without a face, which are transformed instead */
-    uint64_t transforms_singular; /* vertices that stay because the matrix of their node or skin is not
-                                     invertible */
-    uint64_t weights_off;         /* vertices whose skin weights do not sum to 1 and are divided by their
-                                     sum */
-    double weights_farthest;      /* the largest difference of such a sum from 1 */
-    uint64_t weights_none;        /* vertices whose skin weights sum to 0 or less, which follow their first
-                                     joint; weights that are not finite count nowhere */
-    bool has_folds;               /* the proof ran: with ffd_check_run, quality and FFD_GATE_FOLDS */
-    /* Of all lattices: the worst verdict (some, then unknown, then none), the sums of cells, the least
-       min_det and what it is relative to, and the witness of the first lattice that has one. */
-    ffd_folds folds;
-    uint64_t folds_room[7]; /* reserved for members of ffd_folds in later versions, as are all members named
-                               room */
-    size_t folds_lattice;   /* index of the lattice of the witness, from 0 */
-    bool has_flipped;       /* with ffd_check_run and quality */
-    uint64_t faces, flipped_faces;
-    /* Torn edges: one end moves and the other stays, where the displacement does not fade; or both move, but
-       the displacement jumps between them (src/maths.md 7.4). Invisible edges do not count. Counted with
-       ffd_check_run, quality and FFD_GATE_TEAR, and in a mesh of at most 5.5 million vertices wherever some
-       edge may be torn. */
-    bool has_tear;
-    uint64_t tear_edges; /* number of torn edges */
-    double tear_largest; /* the largest step of a torn edge */
-    /* An end of that edge: the one that stays, if one does. An index from 0 in the order of `ffd
-       embed`. */
-    uint64_t tear_vertex;
-    char tear_part[256]; /* the part of that vertex: "node:NAME", "mesh:NAME", "group:NAME" or "object:NAME";
-                            "": no name */
-    uint64_t tear_stays; /* vertices that stay in that part, or in the mesh if there is no part */
-    /* That vertex stays because it is not selected, or because its matrix is not invertible. */
-    bool tear_unselected;
-    bool tear_between;   /* tear_cause is FFD_TEAR_LATTICES */
-    bool tear_seam;      /* tear_cause is FFD_TEAR_SEAM */
-    bool tear_disagrees; /* tear_cause is FFD_TEAR_BLOCKS */
-    /* With FFD_OUTSIDE_EXTEND: the least det F at vertices outside, if it is computed (ffd_check_run,
-       quality, FFD_GATE_FOLDS), and the vertex; else infinite. */
-    double det_outside;
-    uint64_t det_outside_vertex;
-    double det_min, det_max; /* of F at the vertices, with ffd_check_run and quality; min > max: none */
-    bool has_edges;          /* with ffd_check_run and FFD_GATE_EDGES */
-    uint64_t edges;          /* each counted once */
-    double deviation_max, deviation_mean;     /* distance of straight edges from the deformed surface */
-    ffd_behind behind[FFD_BEHIND_KIND_COUNT]; /* indexed by ffd_behind_kind */
-    ffd_behind behind_room[5];
-    ffd_rig_result rig;
-    uint64_t rig_room[5];
-    ffd_flaw flaws[FFD_FLAWS]; /* flaw_count entries, of the input */
-    size_t flaw_count;
-    uint64_t indices_left; /* indices in glTF extensions that still refer to meshes and accessors before the
-                              deformation */
-    const char *picture;   /* the output of ffd_view_run, belongs to its description; else NULL */
-    /* With morphs: their names, their lattices (NULL if the description has none, or an element without a
-       name), and their figures if the description has room for them: morph_count elements each (up to the one
-       that a gate refuses). The arrays belong to the description. The figures of the job are then the worst
-       of any target: the counts of the target with the fewest vertices inside, the tear of the one with the
-       largest step, the folds of all lattices, and "after" round all. */
-    size_t morph_count;
-    const char *const *morphs;
-    const char *const *morph_lattices;
-    const struct ffd_job_result *morph_results;
-    /* Wall clock time of each step. */
-    double seconds_read, seconds_embed, seconds_deform, seconds_judge, seconds_write;
-    /* With ffd_check_run and quality: the area of all visible faces, selected or not, in world space. NaN:
-       unknown. Infinite: too large for a double. With several morphs area_after and volume_after are NaN. */
-    double area_before, area_after;
-    /* The volume that these faces enclose; negative if their back sides are outside. NaN if there are no
-       faces or the surface is not closed: at some edge the numbers of faces in its two directions differ
-       (vertices at the same position count as one). */
-    double volume_before, volume_after;
-    /* Bytes of replaced morph targets and animations that remain in the glTF although nothing uses them. */
-    uint64_t bytes_left;
-    /* glTF whose default weights show another shape than the base: vertices of the base that are outside of
-       every lattice. The gates include them. */
-    uint64_t base_outside;
-    uint64_t bounds_left; /* boxes and spheres in glTF extensions and extras that are named as bounds of what
-                             was deformed, and stay as they were before */
-    ffd_tear_cause tear_cause; /* of the torn edge with the largest step */
-    /* Results so far from the origin that float32 changes their shape: the largest rounding error, and the
-       largest side of the part that it changes most, both in the file's space. 0: none. */
-    double precision_error, precision_side;
-} ffd_job_result;
-
 /* Runs a job. It makes all checks before it writes anything; the output is complete or absent. result is
    filled in every case, also after a failure. Returns result->status. Errors: any; with FFD_E_GATE the
    requested figures are complete. */
@@ -542,6 +345,10 @@ typedef enum ffd_view_color {
     FFD_VIEW_DET,              /* det F at a vertex, the factor by which volumes grow */
     FFD_VIEW_PLAIN             /* base colours and vertex colours of the mesh */
 } ffd_view_color;
+
+/* Returns "displacement", "status", "det" or "plain"; NULL for another value. The string is static.
+   Thread-safe. */
+FFD_API const char *ffd_view_color_name(ffd_view_color color);
 
 /* A job of `ffd view`: a web page or a picture that shows a mesh before and after. */
 typedef struct ffd_view_desc {
@@ -741,6 +548,12 @@ FFD_API void ffd_lattice_new_desc_init(ffd_lattice_new_desc *desc, size_t size);
 /* Runs the job. The output is complete or absent. Errors: those of reading a mesh, of ffd_lattice_create and
    of ffd_lattice_save. */
 FFD_API ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *desc, ffd_error *error);
+
+/* Writes the figures of a result for people, as `ffd check` prints them, a line or two for each. lattice: the
+   name of the lattice result->folds.witness.lattice. *text ends with a line break and a 0 byte; the caller
+   frees it with ffd_text_free. Thread-safe. Errors: FFD_E_ARGUMENT, FFD_E_MEMORY. */
+FFD_API ffd_status ffd_job_result_text(const ffd_job_result *result, const char *lattice, char **text,
+                                       ffd_error *error);
 
 /* A report (data/schema/formats.md 2). Entries are added in the order of the jobs, and written to the file at
    once. One thread at a time. */

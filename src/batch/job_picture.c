@@ -6,8 +6,8 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "job/chain/job_cache.h"
+#include "job/figures/figure_values.h"
 #include "job/input/source.h"
-#include "job/judge/result.h"
 
 /* Mesh files of at least this many bytes take too much memory to be kept while drawing. */
 #define LARGE ((uint64_t)1 << 22)

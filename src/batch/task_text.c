@@ -1,7 +1,7 @@
 #include "batch/task_text.h"
 #include "base/one_line.h"
 #include "batch/manifest/settings.h"
-#include "job/judge/result.h"
+#include "job/figures/figure_values.h"
 #include "job/report/report.h"
 #include <string.h>
 

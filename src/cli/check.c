@@ -1,8 +1,6 @@
 /* check.c - ffd check: what a deformation would do, without writing it. */
 #include "base/file/folder.h"
 #include "cli/job.h"
-#include <inttypes.h>
-#include <math.h>
 #include <stdio.h>
 
 typedef struct settings {
@@ -21,157 +19,17 @@ static const cli_option options[] = {
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
 
-static void print_statuses(const ffd_job_result *result)
+/* Prints the figures. Returns the exit code. */
+static int print_summary(const cli_job *job, const char *input, const ffd_job_result *result)
 {
-    static const char *const names[] = {"inside", "outside", "multiple", "singular", "invalid"};
-    printf("  vertices       %" PRIu64, result->vertices);
-    const char *before = ": ";
-    for (int s = 0; s < FFD_VERTEX_STATUS_COUNT; s++)
-        if (result->counts[s]) {
-            printf("%s%" PRIu64 " %s", before, result->counts[s], names[s]);
-            before = ", ";
-        }
-    printf("\n  moved          %" PRIu64 ", by %g at most\n", result->moved, result->displacement_max);
-}
-
-static void print_vector(const char *before, const double v[3])
-{
-    printf("%s%g %g %g", before, v[0], v[1], v[2]);
-}
-
-static void print_witness(const ffd_folds *folds, const char *lattice)
-{
-    print_vector("                 at u,v,w = ", folds->witness_uvw);
-    print_vector(", x,y,z = ", folds->witness_rest);
-    print_vector(" at rest, ", folds->witness_xyz);
-    printf(" deformed, det J is %g (%s)\n", folds->witness_det, lattice);
-}
-
-static void print_folds(const ffd_job_result *result, const char *lattice)
-{
-    static const char *const references[] = {"its mean at rest", "the bounds of the control points at rest",
-                                             "that at rest"};
-    const ffd_folds *const folds = &result->folds;
-    const char *const s = folds->cells == 1 ? "" : "s";
-    printf("  folds          ");
-    if (folds->verdict == FFD_FOLDS_NONE)
-        printf("none, proven in %s %" PRIu64 " cell%s inside the lattice", folds->cells == 1 ? "the" : "all",
-               folds->cells, s);
-    else if (folds->verdict == FFD_FOLDS_UNKNOWN)
-        printf("unknown: %" PRIu64 " of %" PRIu64 " cell%s could not be decided", folds->unknown_cells,
-               folds->cells, s);
-    else
-        printf("some: %" PRIu64 " of %" PRIu64 " cell%s", folds->folded_cells, folds->cells, s);
-    printf("; det J is at least %g of %s", folds->min_det, references[folds->relative_to]);
-    if (result->det_outside <= 0)
-        printf("; outside it det F falls to %g, at vertex %" PRIu64, result->det_outside,
-               result->det_outside_vertex);
-    printf("\n");
-    if (folds->has_witness)
-        print_witness(folds, lattice);
-}
-
-/* Prints why the edge with the largest step is torn. */
-static void print_tear_reason(const ffd_job_result *result)
-{
-    static const char *const reasons[] = {
-        [FFD_TEAR_LATTICES] = "the lattices move its two ends differently",
-        [FFD_TEAR_BLOCKS] = "neighbouring blocks move their common faces differently",
-        [FFD_TEAR_SEAM] = "the two faces of a lattice's seam are moved apart",
-        [FFD_TEAR_AXIS] = "control points at one place on a lattice's axis are moved apart",
-        [FFD_TEAR_BORDER] = "along it the nearest part of the lattice's border changes",
-        [FFD_TEAR_OVERLAP] = "it leads from one part of a lattice that overlaps itself to another",
-    };
-    const uint64_t faces = result->disagreeing, stay = result->tear_stays;
-    if (result->tear_cause == FFD_TEAR_BLOCKS && faces)
-        printf("; blocks move %" PRIu64 " vert%s on their faces differently", faces,
-               faces == 1 ? "ex" : "ices");
-    else if (result->tear_cause > FFD_TEAR_UNSELECTED)
-        printf("; %s", reasons[result->tear_cause]);
-    else
-        printf("; %" PRIu64 " vert%s", stay, stay == 1 ? "ex stays" : "ices stay");
-}
-
-static void print_tear(const ffd_job_result *result)
-{
-    printf("  torn edges     %" PRIu64, result->tear_edges);
-    if (result->tear_edges) {
-        printf(", the largest step is %g at vertex %" PRIu64, result->tear_largest, result->tear_vertex);
-        if (*result->tear_part)
-            printf(" of %s", result->tear_part);
-        print_tear_reason(result);
-    }
-    printf("\n");
-}
-
-static void print_size(double value, const char *unknown)
-{
-    if (isnan(value))
-        printf("%s", unknown);
-    else if (isinf(value))
-        printf("too large for a double");
-    else
-        printf("%g", value);
-}
-
-static void print_area(const ffd_job_result *result)
-{
-    printf("  area           ");
-    print_size(result->area_before, "not known");
-    if (!isnan(result->area_before)) {
-        printf(", deformed ");
-        print_size(result->area_after, "not known");
-    }
-    printf("\n");
-}
-
-/* Why there is no volume, by the area of the same faces. */
-static const char *reason_of(const ffd_job_result *result, double area)
-{
-    if (isnan(area))
-        return "not known";
-    return result->faces == 0 && fpclassify(area) == FP_ZERO ? "none: the mesh has no faces"
-                                                             : "none: the mesh is not closed";
-}
-
-static void print_volume(const ffd_job_result *result)
-{
-    printf("  volume         ");
-    print_size(result->volume_before, reason_of(result, result->area_before));
-    if (!isnan(result->volume_before)) {
-        printf(", deformed ");
-        print_size(result->volume_after, reason_of(result, result->area_after));
-    }
-    printf("\n");
-}
-
-static void print_rig(const ffd_rig_result *rig)
-{
-    if (!rig->is_there)
-        return;
-    printf("  rig            %" PRIu64 " joint%s, ", rig->joints, rig->joints == 1 ? "" : "s");
-    if (rig->moved)
-        printf("%" PRIu64 " node%s, ", rig->moved, rig->moved == 1 ? " follows" : "s follow");
-    printf("the largest lag is %g", rig->largest_lag);
-    if (*rig->worst)
-        printf(" (%s)", rig->worst);
-    printf("\n");
-}
-
-static void print_summary(const cli_job *job, const char *input, const ffd_job_result *result)
-{
-    printf("%s\n", cli_display_name(input));
-    print_statuses(result);
-    print_folds(result, cli_display_name(job->lattices[result->folds_lattice]));
-    printf("  flipped faces  %" PRIu64 " of %" PRIu64 "\n", result->flipped_faces, result->faces);
-    print_tear(result);
-    print_area(result);
-    print_volume(result);
-    if (result->det_min <= result->det_max)
-        printf("  det F          %g to %g at the vertices\n", result->det_min, result->det_max);
-    printf("  edges          %" PRIu64 ", %g at most from the deformed surface, %g on average\n",
-           result->edges, result->deviation_max, result->deviation_mean);
-    print_rig(&result->rig);
+    ffd_error error;
+    char *text = NULL;
+    const char *const lattice = job->lattices[result->folds.witness.lattice];
+    if (ffd_job_result_text(result, cli_display_name(lattice), &text, &error))
+        return cli_fail(&error);
+    printf("%s\n%s", cli_display_name(input), text);
+    ffd_text_free(text);
+    return EXIT_DONE;
 }
 
 /* Runs the check, and draws the picture if one is wanted. */
@@ -194,9 +52,11 @@ static int check(cli_job *job, const char *input, ffd_report *report)
     cli_job_describe(job, input, &desc);
     const ffd_status status = run_job((settings *)job, &desc, &result);
     const bool reported = job->report && cli_is_stream(job->report);
+    int code = EXIT_DONE;
     if ((status == FFD_OK || status == FFD_E_GATE) && !reported && !job->logging.quiet)
-        print_summary(job, input, &result);
-    return cli_job_ended(job, &result, input, NULL, report);
+        code = print_summary(job, input, &result);
+    const int own = cli_job_ended(job, &result, input, NULL, report);
+    return own ? own : code;
 }
 
 static int act(const cli_command *command, void *context, const cli_words *words)

@@ -160,7 +160,7 @@ static int deform(settings *s, const char *input, const char *output, ffd_report
     if (!ffd_deform_run(&desc, &result, NULL) && s->job.logging.verbose && !s->job.logging.quiet)
         cli_complain("%s: %llu of %llu %s moved, by %g at most", cli_display_name(input),
                      (unsigned long long)result.moved, (unsigned long long)result.vertices,
-                     result.vertices == 1 ? "vertex" : "vertices", result.displacement_max);
+                     result.vertices == 1 ? "vertex" : "vertices", result.displacement.max);
     return cli_job_ended(&s->job, &result, input, s->in_place ? input : output, report);
 }
 

@@ -134,18 +134,18 @@ static void report_witness(const fold_work *work, const tile_verdict *tile, ffd_
     size_t index[3];
     int span[3];
     ffd_fold_cell_at(plan, tile->first, index, span);
-    ffd_place_parameters(plan, index, tile->witness.local, folds->witness_uvw);
-    folds->witness_det = tile->witness.value;
+    ffd_place_parameters(plan, index, tile->witness.local, folds->witness.uvw);
+    folds->witness.det = tile->witness.value;
     if (plan->rational) {
         const place_determinant place =
-            ffd_place_determinant(plan, index, folds->witness_uvw, work->scratch[0]->working);
+            ffd_place_determinant(plan, index, folds->witness.uvw, work->scratch[0]->working);
         if (place.sign > 0)
             return;
-        folds->witness_det = -place.size;
+        folds->witness.det = -place.size;
     }
-    ffd_lattice_evaluate(plan->lattice, FFD_VOLUME_DEFORMED, folds->witness_uvw, folds->witness_xyz, NULL);
-    ffd_lattice_evaluate(plan->lattice, FFD_VOLUME_REST, folds->witness_uvw, folds->witness_rest, NULL);
-    folds->has_witness = true;
+    ffd_lattice_evaluate(plan->lattice, FFD_VOLUME_DEFORMED, folds->witness.uvw, folds->witness.xyz, NULL);
+    ffd_lattice_evaluate(plan->lattice, FFD_VOLUME_REST, folds->witness.uvw, folds->witness.rest, NULL);
+    folds->witness.is_there = true;
 }
 
 /* Combines the results of the tiles in order. Returns the least value found. */
@@ -158,10 +158,10 @@ static double join_tiles(const fold_work *work, ffd_folds *folds)
         folds->folded_cells += tile->folded;
         folds->unknown_cells += tile->unknown;
         least_seen = fmin(least_seen, tile->least_seen);
-        if (tile->folded > 0 && !folds->has_witness && witnesses++ < MOST_WITNESSES)
+        if (tile->folded > 0 && !folds->witness.is_there && witnesses++ < MOST_WITNESSES)
             report_witness(work, tile, folds);
     }
-    if (!folds->has_witness) { /* none that a double can name */
+    if (!folds->witness.is_there) { /* none that a double can name */
         folds->unknown_cells += folds->folded_cells;
         folds->folded_cells = 0;
     }
@@ -250,8 +250,8 @@ static ffd_status find(const ffd_lattice *lattice, int threads, ffd_folds *folds
     if (status)
         goto out;
     folds->min_det = refine(&work, join_tiles(&work, folds));
-    if (folds->has_witness) /* the witness' value can be below the bound by rounding */
-        folds->min_det = fmin(folds->min_det, folds->witness_det);
+    if (folds->witness.is_there) /* the witness' value can be below the bound by rounding */
+        folds->min_det = fmin(folds->min_det, folds->witness.det);
 out:
     for (int i = 0; i < work.workers; i++)
         ffd_fold_scratch_destroy(work.scratch[i]);
@@ -270,6 +270,7 @@ ffd_status ffd_folds_find(const ffd_lattice *lattice, int threads, ffd_folds *ca
     if (status)
         return status;
     status = find(lattice, threads, &folds, error);
+    folds.is_known = !status;
     ffd_struct_give(&folds, sizeof folds, callers, callers->struct_size);
     return status;
 }

@@ -10,10 +10,10 @@
 #include "job/chain/job_cache.h"
 #include "job/conversion.h"
 #include "job/deform_job.h"
+#include "job/figures/figure_values.h"
 #include "job/input/deform_desc.h"
 #include "job/input/shown_box.h"
 #include "job/input/source.h"
-#include "job/judge/result.h"
 #include "job/morphs.h"
 #include "job/reads.h"
 #include "job/report/depfile.h"
@@ -314,7 +314,7 @@ static ffd_status write_output(deform_job *job, mesh_save_options *options, ffd_
     const ffd_status status = job->desc->dry_run ? rehearse(job, options, error) : save(job, options, error);
     ffd_sharing_end(&sharing);
     if (!job->desc->dry_run)
-        result->seconds_write = ffd_clock_seconds() - start;
+        result->seconds.write = ffd_clock_seconds() - start;
     return status;
 }
 

@@ -12,16 +12,16 @@
 #include "job/chain/lattice_memory.h"
 #include "job/chain/overlaps.h"
 #include "job/deform_passes.h"
+#include "job/figures/figure_values.h"
 #include "job/input/deform_desc.h"
 #include "job/input/in_memory.h"
 #include "job/input/selection.h"
 #include "job/input/source.h"
-#include "job/judge/behind.h"
-#include "job/judge/figures.h"
 #include "job/judge/gates.h"
-#include "job/judge/result.h"
-#include "job/judge/still.h"
-#include "job/judge/tear_figures.h"
+#include "job/judge/warnings.h"
+#include "job/measure/behind.h"
+#include "job/measure/figures.h"
+#include "job/measure/tear_figures.h"
 #include "job/pass/chain_fit.h"
 #include "job/pass/pass.h"
 #include "job/report/output_set.h"
@@ -143,8 +143,8 @@ static ffd_status run_own(deform_job_function run, ffd_deform_desc *desc, ffd_jo
     const ffd_status status = run(desc, result, error);
     if (callers)
         give_morphs(desc->morph_results, desc->lattice_count, callers, size);
-    if (result->morph_results)
-        result->morph_results = callers;
+    if (result->morphs.results)
+        result->morphs.results = callers;
     ffd_free(desc->morph_results);
     return status;
 }
@@ -161,8 +161,8 @@ static ffd_status run_in_memory(deform_job_function run, ffd_deform_desc *desc, 
     if (!status)
         status = run_own(run, desc, result, size, &result->error);
     status = ffd_in_memory_judge(&memory, status, &result->error);
-    if (result->morph_lattices)
-        result->morph_lattices = lattices;
+    if (result->morphs.lattices)
+        result->morphs.lattices = lattices;
     ffd_in_memory_end(&memory);
     return status;
 }
@@ -271,7 +271,7 @@ ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_erro
         status = ffd_deadline_check(error);
     for (size_t l = 0; l < job->chain.count; l++)
         result->own_box = result->own_box || !job->chain.links[l].locator;
-    result->seconds_read = ffd_clock_seconds() - start;
+    result->seconds.read = ffd_clock_seconds() - start;
     return status;
 }
 
@@ -398,12 +398,12 @@ static ffd_status find_left(deform_job *job, ffd_job_result *result, ffd_error *
     return status ? status
                   : ffd_rig_figures_find(job->document, &job->rig, &job->following,
                                          job->desc->as_morph ? RIG_KINDS_OF_MORPHS : RIG_KINDS,
-                                         ffd_rig_diagonal(&result->before), &result->rig, error);
+                                         ffd_rig_diagonal(&result->bounds.before), &result->rig, error);
 }
 
 static void warn_of_left(const deform_job *job, const ffd_job_result *result)
 {
-    const double diagonal = ffd_rig_diagonal(&result->before);
+    const double diagonal = ffd_rig_diagonal(&result->bounds.before);
     ffd_behind_warn(result, job->desc->rig, &job->log);
     if (job->totals.moved > 0)
         ffd_rig_warn(&result->rig,
@@ -430,7 +430,7 @@ static ffd_status judge(deform_job *job, figure_arrays *arrays, ffd_job_result *
         status = check_unknown(job, error);
     if (!status)
         status = ffd_gates_judge(desc, name, &job->totals, result, error);
-    result->seconds_judge = ffd_clock_seconds() - start;
+    result->seconds.judge = ffd_clock_seconds() - start;
     return status;
 }
 
@@ -471,7 +471,7 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
     const double start = ffd_clock_seconds();
     ffd_status status = prepare(job, &arrays, &stored, error);
     const double prepared = ffd_clock_seconds();
-    result->seconds_read += prepared - start;
+    result->seconds.read += prepared - start;
     if (!status)
         status = ffd_deadline_check(error);
     if (!status)
@@ -500,7 +500,8 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
     if (!status)
         ffd_result_warn(&job->totals, &job->chain, true, &job->log);
     if (!status && tells_still(job))
-        ffd_still_warn(job, &result->before);
+        ffd_still_warn(&job->totals, &job->chain, &result->bounds.before, job->desc->as_morph != NULL,
+                       !job->check, &job->log);
     if (!status)
         warn_of_left(job, result);
     if (!status && job->totals.vertices == 0)
@@ -508,8 +509,8 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
                      job->desc->only_count ? SPELLED("{only} selects no vertices")
                                            : "there are no vertices to deform");
     if (!status && !job->check) {
-        ffd_figures_warn(job, result);
-        ffd_tear_figures_warn(job, result);
+        ffd_folds_warn(result, &job->totals, job->desc->lattices, &job->log);
+        ffd_tears_warn(result, job->desc->only_count > 0, &job->log);
     }
     if (!status)
         status = give_positions(job, error);

@@ -2,7 +2,7 @@
 #ifndef FFD_JOB_DEFORM_JOB_H
 #define FFD_JOB_DEFORM_JOB_H
 
-#include "job/judge/job_state.h"
+#include "job/measure/job_state.h"
 
 /* Runs a job. The structs have this library's sizes. */
 typedef ffd_status (*deform_job_function)(const ffd_deform_desc *desc, ffd_job_result *result,

@@ -4,8 +4,8 @@
 #ifndef FFD_JOB_DEFORM_PASSES_H
 #define FFD_JOB_DEFORM_PASSES_H
 
-#include "job/judge/figures.h"
-#include "job/judge/job_state.h"
+#include "job/measure/figures.h"
+#include "job/measure/job_state.h"
 
 /* Whether the figures are of the shape that default weights show, because it is another one than the base. */
 bool ffd_passes_judge_shown(const deform_job *job);

@@ -10,11 +10,12 @@
 #include "job/chain/chain_load.h"
 #include "job/chain/lattice_memory.h"
 #include "job/chain/pace.h"
+#include "job/figures/figure_values.h"
 #include "job/input/deform_desc.h"
 #include "job/input/embedding_file.h"
 #include "job/input/in_memory.h"
 #include "job/input/source.h"
-#include "job/judge/result.h"
+#include "job/judge/warnings.h"
 #include "job/pass/chain_fit.h"
 #include "job/pass/pass.h"
 #include "job/reads.h"
@@ -201,7 +202,7 @@ static ffd_status embed(const ffd_embed_desc *desc, embedding *made, double star
     if (status)
         return status;
     const double opened = ffd_clock_seconds();
-    result->seconds_read = opened - start;
+    result->seconds.read = opened - start;
     status = make(desc, made, threads, &log, &totals, error);
     status = ffd_mapping_judge(made->losses, status, error);
     if (status)
@@ -214,7 +215,7 @@ static ffd_status embed(const ffd_embed_desc *desc, embedding *made, double star
     if (totals.vertices == 0)
         ffd_log_line(&log, FFD_LOG_WARNING, "there are no vertices");
     status = write(desc, made, threads, error);
-    result->seconds_write = ffd_clock_seconds() - embedded;
+    result->seconds.write = ffd_clock_seconds() - embedded;
     return status;
 }
 

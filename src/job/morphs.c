@@ -3,8 +3,7 @@
 #include "base/text/words.h"
 #include "job/chain/chain_load.h"
 #include "job/deform_job.h"
-#include "job/judge/morph_result.h"
-#include "job/judge/result.h"
+#include "job/figures/figure_values.h"
 #include "json/json_chars.h"
 #include <stdio.h>
 #include <string.h>
@@ -189,7 +188,7 @@ static ffd_status run_all(deform_job *job, ffd_job_result *results, size_t *done
             ffd_log_line(&log, FFD_LOG_INFO, "morph target \"%s\": %llu of %llu %s moved, by %g at most",
                          job->desc->morphs[k], (unsigned long long)results[k].moved,
                          (unsigned long long)results[k].vertices,
-                         ffd_plural(results[k].vertices, "vertex", "vertices"), results[k].displacement_max);
+                         ffd_plural(results[k].vertices, "vertex", "vertices"), results[k].displacement.max);
     }
     return status;
 }
@@ -204,11 +203,11 @@ ffd_status ffd_morphs_run(deform_job *job, ffd_job_result *result, ffd_error *er
     size_t done = 0;
     const ffd_status status = run_all(job, results, &done, error);
     if (!status || status == FFD_E_GATE) {
-        ffd_morph_results_join(results, done, result);
-        result->morph_count = done;
-        result->morphs = desc->morphs;
-        result->morph_lattices = desc->lattices;
-        result->morph_results = desc->morph_results;
+        ffd_results_join(results, done, result);
+        result->morphs.count = done;
+        result->morphs.names = desc->morphs;
+        result->morphs.lattices = desc->lattices;
+        result->morphs.results = desc->morph_results;
     }
     ffd_free(own);
     return status;

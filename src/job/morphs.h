@@ -2,7 +2,7 @@
 #ifndef FFD_JOB_MORPHS_H
 #define FFD_JOB_MORPHS_H
 
-#include "job/judge/job_state.h"
+#include "job/measure/job_state.h"
 #include "mesh/morph/morph_clip.h"
 
 /* Refuses options that do not go with morph targets, and duplicate names (FFD_E_ARGUMENT). Parses the clips;

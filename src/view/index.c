@@ -4,11 +4,13 @@
 #include "view/page_assets.h"
 #include "view/page_text.h"
 #include <inttypes.h>
-#include <string.h>
+#include <math.h>
 
 /* Size of a job's picture in pixels: it reserves the row's height before the picture is loaded. */
 #define PICTURE_WIDTH 1600
 #define PICTURE_HEIGHT 900
+
+#define NOT_KNOWN "\">not known</td>"
 
 /* Appends a name, made fit to be shown. escape: for text, or for the value of an attribute. */
 static void append_name(byte_buffer *html, const char *name, void (*escape)(byte_buffer *, const char *))
@@ -51,71 +53,69 @@ static void append_job(byte_buffer *html, const index_row *row)
     ffd_buffer_text(html, "</td>");
 }
 
-static void append_displacement(byte_buffer *html, const index_row *row)
+static void append_displacement(byte_buffer *html, const ffd_job_result *figures)
 {
     ffd_buffer_text(html, "<td data-label=\"Largest displacement\" data-key=\"");
-    if (row->has_displacement) {
-        ffd_buffer_number(html, row->displacement);
-        ffd_buffer_format(html, "\">%g</td>", row->displacement);
-    } else {
-        ffd_buffer_text(html, "\">not known</td>");
-    }
-}
-
-static void append_tear(byte_buffer *html, const index_row *row)
-{
-    ffd_buffer_text(html, "<td data-label=\"Torn edges\" data-key=\"");
-    if (!row->has_tear) {
-        ffd_buffer_text(html, "\">not known</td>");
+    if (!figures || !isfinite(figures->displacement.max)) {
+        ffd_buffer_text(html, NOT_KNOWN);
         return;
     }
-    ffd_buffer_format(html, "%.0f ", row->torn_edges);
-    ffd_buffer_number(html, row->largest_step);
-    if (row->torn_edges > 0)
-        ffd_buffer_format(html, "\" class=\"bad\">%.0f, step to %g</td>", row->torn_edges, row->largest_step);
+    ffd_buffer_number(html, figures->displacement.max);
+    ffd_buffer_format(html, "\">%g</td>", figures->displacement.max);
+}
+
+static void append_tear(byte_buffer *html, const ffd_job_result *figures)
+{
+    ffd_buffer_text(html, "<td data-label=\"Torn edges\" data-key=\"");
+    if (!figures || !figures->tear.is_known || !isfinite(figures->tear.largest)) {
+        ffd_buffer_text(html, NOT_KNOWN);
+        return;
+    }
+    const ffd_tear_figures *const tear = &figures->tear;
+    ffd_buffer_format(html, "%" PRIu64 " ", tear->edges);
+    ffd_buffer_number(html, tear->largest);
+    if (tear->edges > 0)
+        ffd_buffer_format(html, "\" class=\"bad\">%" PRIu64 ", step to %g</td>", tear->edges, tear->largest);
     else
         ffd_buffer_text(html, "\">none</td>");
 }
 
-static void append_folds(byte_buffer *html, const index_row *row)
+static void append_folds(byte_buffer *html, const ffd_job_result *figures)
 {
+    static const int ranks[] = {[FFD_FOLDS_NONE] = 1, [FFD_FOLDS_UNKNOWN] = 2, [FFD_FOLDS_SOME] = 3};
     ffd_buffer_text(html, "<td data-label=\"Folds\" data-key=\"");
-    if (row->folds == INDEX_FOLDS_NOT_KNOWN) {
-        ffd_buffer_text(html, "\">not known</td>");
+    if (!figures || !figures->folds.is_known) {
+        ffd_buffer_text(html, NOT_KNOWN);
         return;
     }
-    ffd_buffer_format(html, "%d %.0f ", (int)row->folds, row->folded_cells);
-    ffd_buffer_number(html, -row->min_det);
-    if (row->folds == INDEX_FOLDS_SOME)
-        ffd_buffer_format(html, "\" class=\"bad\">%.0f %s, det J to %g</td>", row->folded_cells,
-                          row->folded_cells > 1 ? "cells" : "cell", row->min_det);
-    else if (row->folds == INDEX_FOLDS_UNKNOWN)
+    const ffd_folds *const folds = &figures->folds;
+    ffd_buffer_format(html, "%d %" PRIu64 " ", ranks[folds->verdict], folds->folded_cells);
+    ffd_buffer_number(html, -folds->min_det);
+    if (folds->verdict == FFD_FOLDS_SOME)
+        ffd_buffer_format(html, "\" class=\"bad\">%" PRIu64 " %s, det J to %g</td>", folds->folded_cells,
+                          ffd_plural(folds->folded_cells, "cell", "cells"), folds->min_det);
+    else if (folds->verdict == FFD_FOLDS_UNKNOWN)
         ffd_buffer_text(html, "\" class=\"warn\">undecided</td>");
     else
-        ffd_buffer_format(html, "\">none, det J at least %g</td>", row->min_det);
+        ffd_buffer_format(html, "\">none, det J at least %g</td>", folds->min_det);
 }
 
-static void append_flipped(byte_buffer *html, const index_row *row)
+static void append_flipped(byte_buffer *html, const ffd_job_result *figures)
 {
-    if (!row->has_flipped)
-        ffd_buffer_text(html, "<td data-label=\"Flipped faces\" data-key=\"\">not known</td>");
+    ffd_buffer_text(html, "<td data-label=\"Flipped faces\" data-key=\"");
+    if (!figures || !figures->has_flipped)
+        ffd_buffer_text(html, NOT_KNOWN);
     else
-        ffd_buffer_format(html, "<td data-label=\"Flipped faces\" data-key=\"%.0f\"%s>%.0f</td>",
-                          row->flipped_faces, row->flipped_faces > 0 ? " class=\"bad\"" : "",
-                          row->flipped_faces);
+        ffd_buffer_format(html, "%" PRIu64 "\"%s>%" PRIu64 "</td>", figures->flipped_faces,
+                          figures->flipped_faces > 0 ? " class=\"bad\"" : "", figures->flipped_faces);
 }
 
 static void append_state(byte_buffer *html, const index_row *row)
 {
-    const bool failed = strcmp(row->status, "failed") == 0, skipped = strcmp(row->status, "skipped") == 0;
-    ffd_buffer_format(html, "<td data-label=\"State\" data-key=\"%d\"%s>%s",
-                      failed    ? 2
-                      : skipped ? 0
-                                : 1,
-                      failed ? " class=\"bad\"" : "",
-                      failed    ? "failed"
-                      : skipped ? "up to date"
-                                : "done");
+    static const char *const words[] = {
+        [INDEX_SKIPPED] = "up to date", [INDEX_DONE] = "done", [INDEX_FAILED] = "failed"};
+    ffd_buffer_format(html, "<td data-label=\"State\" data-key=\"%d\"%s>%s", (int)row->state,
+                      row->state == INDEX_FAILED ? " class=\"bad\"" : "", words[row->state]);
     if (row->error) {
         ffd_buffer_text(html, ": <span class=\"error\">");
         append_name(html, row->error, ffd_page_html);
@@ -142,15 +142,15 @@ ffd_status ffd_index_add(view_index *index, const index_row *row, ffd_error *err
     byte_buffer html = {0};
     index->writer.error = error;
     index->jobs++;
-    index->skipped += strcmp(row->status, "skipped") == 0;
-    index->failed += strcmp(row->status, "failed") == 0;
+    index->skipped += row->state == INDEX_SKIPPED;
+    index->failed += row->state == INDEX_FAILED;
     ffd_buffer_text(&html, "<tr>");
     append_picture(&html, row);
     append_job(&html, row);
-    append_displacement(&html, row);
-    append_tear(&html, row);
-    append_folds(&html, row);
-    append_flipped(&html, row);
+    append_displacement(&html, row->figures);
+    append_tear(&html, row->figures);
+    append_folds(&html, row->figures);
+    append_flipped(&html, row->figures);
     append_state(&html, row);
     ffd_buffer_text(&html, "</tr>\n");
     ffd_page_write_buffer(&index->writer, &html);

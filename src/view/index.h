@@ -4,26 +4,21 @@
 #define FFD_VIEW_INDEX_H
 
 #include "view/page_writer.h"
+#include <ffd/result.h>
 #include <stdint.h>
 
-typedef enum index_folds {
-    INDEX_FOLDS_NOT_KNOWN,
-    INDEX_FOLDS_NONE,
-    INDEX_FOLDS_UNKNOWN, /* the proof was not conclusive */
-    INDEX_FOLDS_SOME
-} index_folds;
+/* What became of a job, in the order in which rows are sorted. */
+typedef enum index_state { INDEX_SKIPPED, INDEX_DONE, INDEX_FAILED } index_state;
 
-/* One job. Texts may hold any bytes, and are NULL where absent. Counts are those of the report. */
+/* One job. Texts may hold any bytes, and are NULL where absent. */
 typedef struct index_row {
     uint64_t number; /* line of the manifest */
     const char *input, *output;
     const char *picture;  /* relative to the page */
     const char *settings; /* "NAME=VALUE, NAME=VALUE" */
-    const char *status;   /* "ok", "skipped", "failed" */
+    index_state state;
     const char *error;
-    bool has_displacement, has_tear, has_flipped;
-    index_folds folds;
-    double displacement, torn_edges, largest_step, folded_cells, min_det, flipped_faces;
+    const ffd_job_result *figures; /* NULL: not known. A number that is not known is NaN */
 } index_row;
 
 /* A page while it is written. All zeros: no page. */

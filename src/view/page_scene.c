@@ -120,24 +120,23 @@ static void put_tears(json_text *json, const page_mesh *mesh)
 
 static void put_witness(json_text *json, const view_scene *scene)
 {
-    if (!scene->has_witness) {
+    if (!scene->witness.is_there) {
         ffd_json_null(json, "witness");
         return;
     }
     ffd_json_object(json, "witness", true);
-    ffd_json_count(json, "cage", scene->witness_cage);
-    ffd_json_vector(json, "uvw", scene->witness_uvw, 3);
-    ffd_json_vector(json, "before", scene->witness_rest, 3);
-    ffd_json_vector(json, "after", scene->witness_deformed, 3);
-    ffd_json_number(json, "det", scene->witness_det);
+    ffd_json_count(json, "cage", scene->witness.lattice);
+    ffd_json_vector(json, "uvw", scene->witness.uvw, 3);
+    ffd_json_vector(json, "before", scene->witness.rest, 3);
+    ffd_json_vector(json, "after", scene->witness.xyz, 3);
+    ffd_json_number(json, "det", scene->witness.det);
     ffd_json_end(json, '}');
 }
 
 static void put_view(json_text *json, const view_page_options *options)
 {
-    static const char *const colors[] = {"displacement", "status", "det", "plain"};
     ffd_json_object(json, "view", true);
-    ffd_json_string(json, "color", colors[options->color]);
+    ffd_json_string(json, "color", ffd_view_color_name(options->color));
     ffd_json_vector(json, "camera", options->camera, 3);
     ffd_json_end(json, '}');
 }

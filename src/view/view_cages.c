@@ -119,13 +119,13 @@ static ffd_status add_marks(const view_scene *scene, double share, const double 
     ffd_status status = FFD_OK;
     if (scene->tear_count)
         status = add_tears(scene, positions, height, c, error);
-    if (status || !scene->has_witness)
+    if (status || !scene->witness.is_there)
         return status;
     double *const point = own(c, 1, 3 * sizeof *point);
     if (!point)
         return ffd_fail_memory(error);
     for (int a = 0; a < 3; a++)
-        point[a] = scene->witness_rest[a] + share * (scene->witness_deformed[a] - scene->witness_rest[a]);
+        point[a] = scene->witness.rest[a] + share * (scene->witness.xyz[a] - scene->witness.rest[a]);
     picture_cage *const to = add(c, ffd_view_folded, height / 120.0);
     to->points = point;
     to->point_count = 1;

@@ -36,9 +36,9 @@ static void widen_by_lattices(const view_fit *fit, ffd_bounds *seen)
         ffd_camera_widen(fit->camera, scene->cages[i].deformed, count, seen);
         left -= count;
     }
-    if (scene->has_witness) {
-        ffd_camera_widen(fit->camera, scene->witness_rest, 1, seen);
-        ffd_camera_widen(fit->camera, scene->witness_deformed, 1, seen);
+    if (scene->witness.is_there) {
+        ffd_camera_widen(fit->camera, scene->witness.rest, 1, seen);
+        ffd_camera_widen(fit->camera, scene->witness.xyz, 1, seen);
     }
 }
 

@@ -10,7 +10,6 @@ static const uint8_t unknown_color[3] = {148, 153, 161};
 /* By ffd_vertex_status. */
 static const uint8_t status_colors[FFD_VERTEX_STATUS_COUNT][3] = {
     {74, 144, 217}, {160, 164, 170}, {240, 160, 32}, {150, 96, 210}, {214, 40, 40}};
-static const char *const status_names[] = {"inside", "outside", "multiple", "singular", "invalid"};
 
 /* viridis (van der Walt, Smith), and a diverging ramp from blue over white to red. */
 static const uint32_t sequential[] = {0x440154, 0x482878, 0x3e4989, 0x31688e, 0x26828e,
@@ -65,7 +64,7 @@ static void make_bar(view_palette *p, const char *title)
     for (int i = 0; i < PALETTE_LABELS; i++) {
         const double share = (double)i / (PALETTE_LABELS - 1);
         snprintf(p->texts[i], sizeof p->texts[i], "%.3g",
-                 p->color == VIEW_BY_DET ? det_at(share, p->most) : share * p->most);
+                 p->color == FFD_VIEW_DET ? det_at(share, p->most) : share * p->most);
         p->labels[i] = p->texts[i];
     }
     p->scale = (picture_scale){.title = title,
@@ -85,7 +84,8 @@ static void make_fields(const view_scene *scene, view_palette *p)
             counts[scene->statuses[v]]++;
     for (size_t s = 0; s < FFD_VERTEX_STATUS_COUNT; s++)
         if (s < 2 || counts[s] > 0) {
-            snprintf(p->texts[fields], sizeof p->texts[fields], "%s %zu", status_names[s], counts[s]);
+            snprintf(p->texts[fields], sizeof p->texts[fields], "%s %zu",
+                     ffd_vertex_status_name((ffd_vertex_status)s), counts[s]);
             p->labels[fields] = p->texts[fields];
             memcpy(p->ramp[fields++], status_colors[s], sizeof status_colors[s]);
         }
@@ -98,21 +98,21 @@ static void make_fields(const view_scene *scene, view_palette *p)
     p->has_scale = true;
 }
 
-void ffd_view_palette_make(const view_scene *scene, view_page_color color, view_palette *p)
+void ffd_view_palette_make(const view_scene *scene, ffd_view_color color, view_palette *p)
 {
     *p = (view_palette){.color = color};
-    if ((color == VIEW_BY_STATUS && !scene->statuses) || (color == VIEW_BY_DET && !scene->dets))
-        p->color = VIEW_BY_DISPLACEMENT;
-    if (p->color == VIEW_BY_DISPLACEMENT && !(scene->displacement_max > 0))
-        p->color = VIEW_BY_MATERIAL;
-    if (p->color == VIEW_BY_STATUS)
+    if ((color == FFD_VIEW_STATUS && !scene->statuses) || (color == FFD_VIEW_DET && !scene->dets))
+        p->color = FFD_VIEW_DISPLACEMENT;
+    if (p->color == FFD_VIEW_DISPLACEMENT && !(scene->displacement_max > 0))
+        p->color = FFD_VIEW_PLAIN;
+    if (p->color == FFD_VIEW_STATUS)
         make_fields(scene, p);
-    if (p->color == VIEW_BY_DISPLACEMENT) {
+    if (p->color == FFD_VIEW_DISPLACEMENT) {
         p->most = scene->displacement_max;
         make_ramp(sequential, sizeof sequential / sizeof *sequential, p->ramp);
         make_bar(p, "displacement, in units of the file");
     }
-    if (p->color == VIEW_BY_DET) {
+    if (p->color == FFD_VIEW_DET) {
         p->most = most_det(scene);
         make_ramp(diverging, sizeof diverging / sizeof *diverging, p->ramp);
         make_bar(p, "det F: volume after, relative to before");
@@ -127,10 +127,10 @@ static const uint8_t *ramp_at(const view_palette *p, double place)
 
 static const uint8_t *color_of(const view_palette *p, const view_scene *scene, size_t v, double share)
 {
-    if (p->color == VIEW_BY_STATUS)
+    if (p->color == FFD_VIEW_STATUS)
         return scene->statuses[v] < FFD_VERTEX_STATUS_COUNT ? status_colors[scene->statuses[v]]
                                                             : unknown_color;
-    if (p->color == VIEW_BY_DET) {
+    if (p->color == FFD_VIEW_DET) {
         const double det = scene->dets[v];
         return isnan(det) ? unknown_color
                : det <= 0 ? ffd_view_folded
@@ -154,7 +154,7 @@ static void fill_own(const view_scene *scene, uint8_t *colors)
 void ffd_view_palette_fill(const view_palette *palette, const view_scene *scene, double share,
                            uint8_t *colors)
 {
-    if (palette->color == VIEW_BY_MATERIAL) {
+    if (palette->color == FFD_VIEW_PLAIN) {
         fill_own(scene, colors);
         return;
     }

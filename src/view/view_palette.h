@@ -11,7 +11,7 @@
 #define PALETTE_LABELS 5
 
 typedef struct view_palette {
-    view_page_color color; /* the colouring asked for, or what replaces it where the scene lacks the data */
+    ffd_view_color color; /* the colouring asked for, or what replaces it where the scene lacks the data */
     double most; /* end of the scale: the largest displacement; or the largest of det F and 1 / det F, where
                     det F > 0 */
     uint8_t ramp[PALETTE_COLORS][3];
@@ -26,7 +26,7 @@ extern const uint8_t ffd_view_folded[3], ffd_view_torn[3];
 
 /* Makes the palette of a scene. Without the statuses or det F that were asked for, it shows displacements;
    where nothing moves, the mesh's own colours. */
-void ffd_view_palette_make(const view_scene *scene, view_page_color color, view_palette *palette);
+void ffd_view_palette_make(const view_scene *scene, ffd_view_color color, view_palette *palette);
 
 /* Fills the colour of each vertex (red, green, blue, alpha) at a share of the way from before (0) to after
    (1). */

@@ -194,10 +194,10 @@ static ffd_status place(picture_work *w, size_t number, step *s)
 static ffd_status paint(picture_work *w, step *s, view_palette *own)
 {
     const view_scene *const scene = w->scene;
-    *own = (view_palette){.color = VIEW_BY_MATERIAL};
+    *own = (view_palette){.color = FFD_VIEW_PLAIN};
     if (s->share > 0)
         *own = w->palette;
-    if (own->color == VIEW_BY_MATERIAL && !scene->colors)
+    if (own->color == FFD_VIEW_PLAIN && !scene->colors)
         return FFD_OK;
     s->colors = ffd_alloc(scene->vertex_count, 4);
     if (!s->colors)
@@ -278,7 +278,7 @@ static ffd_status make_cages(const picture_work *w, step *s, ffd_error *error)
     view_scene scene = *w->scene;
     if (w->options->rows) {
         scene.cage_count = 0;
-        scene.has_witness = false;
+        scene.witness.is_there = false;
     }
     return ffd_view_cages_make(&scene, s->share, s->positions, height_of(w->options), VIEW_PICTURE_CONTROLS,
                                &s->cages, error);
@@ -297,7 +297,7 @@ static ffd_status make_step(void *context, size_t number, ffd_error *error)
         status = paint(w, s, &own);
     if (status)
         return status;
-    make_meshes(w, s, own.color == VIEW_BY_MATERIAL);
+    make_meshes(w, s, own.color == FFD_VIEW_PLAIN);
     status = make_cages(w, s, error);
     if (!status && number == 0)
         say_which_are_left_out(w);

@@ -18,7 +18,7 @@ typedef struct view_picture_options {
     uint32_t width, height; /* of each frame, in pixels; 0: VIEW_PICTURE_WIDTH, VIEW_PICTURE_HEIGHT */
     uint32_t frames;        /* frames in a row, 2 or more; 0: before and after side by side in one frame */
     uint32_t rows; /* rows of poses of scene->animation: 2, or 1 where nothing is deformed; 0: no animation */
-    view_page_color color;
+    ffd_view_color color;
     double camera[3]; /* as in view_page_options */
     int threads;
     const memory_budget *budget; /* limits the memory for drawing */

@@ -7,6 +7,7 @@
 #include "base/fail.h"
 #include "mesh/material.h"
 #include "mesh/rig.h"
+#include <ffd/fold.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -74,10 +75,8 @@ typedef struct view_scene {
     size_t cage_count;
     view_tear *tears; /* those with the largest steps */
     size_t tear_count;
-    uint64_t tear_edges; /* the number of all torn edges */
-    bool has_witness;    /* the deformed volume folds, with this witness: */
-    double witness_rest[3], witness_deformed[3], witness_uvw[3], witness_det;
-    size_t witness_cage;
+    uint64_t tear_edges;      /* the number of all torn edges */
+    ffd_fold_witness witness; /* of a fold, if the deformed volume folds */
     double displacement_max;
     view_rig rigs[2]; /* before, after */
     view_animation *animations;

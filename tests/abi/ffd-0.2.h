@@ -118,6 +118,7 @@ typedef enum ffd_vertex_status {
     FFD_SINGULAR = 3,
     FFD_POINT_INVALID = 4
 } ffd_vertex_status;
+const char *ffd_vertex_status_name(ffd_vertex_status status);
 typedef enum ffd_outside { FFD_OUTSIDE_KEEP = 0, FFD_OUTSIDE_EXTEND, FFD_OUTSIDE_ERROR } ffd_outside;
 typedef struct ffd_locator ffd_locator;
 typedef struct ffd_location {
@@ -144,22 +145,206 @@ typedef enum ffd_fold_verdict {
     FFD_FOLDS_SOME = 1,
     FFD_FOLDS_UNKNOWN = 2
 } ffd_fold_verdict;
+const char *ffd_fold_verdict_name(ffd_fold_verdict verdict);
+typedef enum ffd_fold_reference {
+    FFD_FOLDS_TO_MEAN = 0,
+    FFD_FOLDS_TO_BOUNDS = 1,
+    FFD_FOLDS_TO_PLACE = 2
+} ffd_fold_reference;
+const char *ffd_fold_reference_name(ffd_fold_reference reference);
+typedef struct ffd_fold_witness {
+    bool is_there;
+    uint64_t lattice;
+    double uvw[3];
+    double xyz[3];
+    double rest[3];
+    double det;
+} ffd_fold_witness;
 typedef struct ffd_folds {
     size_t struct_size;
+    bool is_known;
     ffd_fold_verdict verdict;
     uint64_t cells;
     uint64_t folded_cells;
     uint64_t unknown_cells;
     double min_det;
-    bool has_witness;
-    double witness_uvw[3];
-    double witness_xyz[3];
-    double witness_rest[3];
-    double witness_det;
+    ffd_fold_reference relative_to;
+    ffd_fold_witness witness;
 } ffd_folds;
 ffd_status ffd_folds_find(const ffd_lattice *lattice, int threads, ffd_folds *folds, ffd_error *error);
 typedef enum ffd_isa { FFD_ISA_AUTO, FFD_ISA_SCALAR, FFD_ISA_SSE2, FFD_ISA_AVX2, FFD_ISA_AVX512 } ffd_isa;
 bool ffd_isa_available(ffd_isa isa);
+typedef struct ffd_bounds {
+    double min[3], max[3];
+} ffd_bounds;
+typedef struct ffd_max_rms {
+    double max, rms;
+} ffd_max_rms;
+typedef struct ffd_before_after {
+    double before, after;
+} ffd_before_after;
+typedef struct ffd_morph_target_figures {
+    uint64_t outside;
+    uint64_t shown_outside, base_outside;
+    uint64_t invalid;
+    uint64_t room[2];
+} ffd_morph_target_figures;
+typedef struct ffd_shared_face_figures {
+    uint64_t moved_twice;
+    uint64_t disagreeing;
+    double largest;
+    uint64_t room[2];
+} ffd_shared_face_figures;
+typedef struct ffd_iteration_figures {
+    double mean;
+    uint64_t max;
+} ffd_iteration_figures;
+typedef enum ffd_tear_cause {
+    FFD_TEAR_NONE = 0,
+    FFD_TEAR_STAYS,
+    FFD_TEAR_UNSELECTED,
+    FFD_TEAR_LATTICES,
+    FFD_TEAR_BLOCKS,
+    FFD_TEAR_SEAM,
+    FFD_TEAR_AXIS,
+    FFD_TEAR_BORDER,
+    FFD_TEAR_OVERLAP
+} ffd_tear_cause;
+typedef struct ffd_tear_figures {
+    bool is_known;
+    uint64_t edges;
+    double largest;
+    uint64_t vertex;
+    char part[256];
+    uint64_t stays;
+    ffd_tear_cause cause;
+    uint64_t room[4];
+} ffd_tear_figures;
+typedef struct ffd_det_figures {
+    bool is_known;
+    double min, max;
+    double outside;
+    uint64_t outside_vertex;
+    uint64_t room[2];
+} ffd_det_figures;
+typedef struct ffd_deviation {
+    double max, mean;
+} ffd_deviation;
+typedef struct ffd_edge_figures {
+    bool is_known;
+    uint64_t count;
+    ffd_deviation deviation;
+    uint64_t room[2];
+} ffd_edge_figures;
+typedef struct ffd_skin_weight_figures {
+    uint64_t off;
+    double farthest;
+    uint64_t none;
+    uint64_t room[2];
+} ffd_skin_weight_figures;
+typedef struct ffd_precision_figures {
+    double error;
+    double side;
+    uint64_t room[2];
+} ffd_precision_figures;
+typedef struct ffd_splat_figures {
+    uint64_t carried;
+    uint64_t flattened;
+    uint64_t broken;
+    uint64_t room[2];
+} ffd_splat_figures;
+typedef struct ffd_bounds_figures {
+    ffd_bounds before, after;
+} ffd_bounds_figures;
+typedef enum ffd_behind_kind {
+    FFD_BEHIND_SOCKET = 0,
+    FFD_BEHIND_CAMERA,
+    FFD_BEHIND_LIGHT,
+    FFD_BEHIND_JOINT,
+    FFD_BEHIND_PIVOT,
+    FFD_BEHIND_PHYSICS_SHAPE,
+    FFD_BEHIND_SPLAT,
+    FFD_BEHIND_KIND_COUNT
+} ffd_behind_kind;
+const char *ffd_behind_kind_name(ffd_behind_kind kind);
+typedef struct ffd_behind {
+    uint64_t count;
+    char names[3][80];
+} ffd_behind;
+typedef struct ffd_rig_figures {
+    bool is_there;
+    uint64_t joints;
+    uint64_t moved;
+    uint64_t sheared;
+    uint64_t singular;
+    uint64_t partial;
+    uint64_t unscaled;
+    double largest_lag;
+    char worst[80];
+    uint64_t lagging_skins, lagging_pivots, lagging_sockets;
+    uint64_t lagging_joints;
+    uint64_t unselected;
+    double unselected_by;
+    uint64_t room[4];
+} ffd_rig_figures;
+typedef struct ffd_flaw {
+    char message[256];
+    char pointer[128];
+    uint64_t line;
+    uint64_t count;
+} ffd_flaw;
+typedef struct ffd_morph_results {
+    size_t count;
+    const char *const *names;
+    const char *const *lattices;
+    const struct ffd_job_result *results;
+} ffd_morph_results;
+typedef struct ffd_seconds {
+    double read, embed, deform, judge, write;
+    uint64_t room[2];
+} ffd_seconds;
+typedef struct ffd_job_result {
+    size_t struct_size;
+    ffd_status status;
+    ffd_error error;
+    uint64_t vertices;
+    uint64_t counts[5];
+    uint64_t unused, hidden;
+    ffd_morph_target_figures morph_targets;
+    uint64_t moved;
+    ffd_shared_face_figures shared_faces;
+    ffd_max_rms residual;
+    ffd_iteration_figures iterations;
+    ffd_folds folds;
+    uint64_t folds_room[8];
+    bool has_flipped;
+    uint64_t faces, flipped_faces;
+    ffd_tear_figures tear;
+    ffd_before_after volume;
+    ffd_before_after area;
+    ffd_det_figures det;
+    ffd_edge_figures edges;
+    ffd_skin_weight_figures skin_weights;
+    ffd_precision_figures precision;
+    ffd_splat_figures splats;
+    ffd_bounds_figures bounds;
+    ffd_max_rms displacement;
+    ffd_behind behind[FFD_BEHIND_KIND_COUNT];
+    ffd_behind behind_room[5];
+    ffd_rig_figures rig;
+    ffd_morph_results morphs;
+    uint64_t indices_left;
+    uint64_t bytes_left;
+    uint64_t bounds_left;
+    ffd_flaw flaws[8];
+    uint64_t flaw_count;
+    ffd_seconds seconds;
+    const char *picture;
+    bool own_box;
+    uint64_t normals_collapsed;
+    uint64_t normals_carried;
+    uint64_t transforms_singular;
+} ffd_job_result;
 typedef enum ffd_format {
     FFD_FORMAT_AUTO = 0,
     FFD_FORMAT_OBJ,
@@ -211,12 +396,6 @@ typedef struct ffd_source {
     void *resolve_user;
     uint64_t source_room[4];
 } ffd_source;
-typedef struct ffd_flaw {
-    char message[256];
-    char pointer[128];
-    uint64_t line;
-    uint64_t count;
-} ffd_flaw;
 ffd_status ffd_selector_check(const char *text, ffd_error *error);
 ffd_status ffd_clip_check(const char *text, ffd_error *error);
 typedef struct ffd_written ffd_written;
@@ -286,119 +465,6 @@ typedef struct ffd_deform_desc {
 } ffd_deform_desc;
 void ffd_deform_desc_init(ffd_deform_desc *desc, size_t size);
 ffd_status ffd_shared_box_add(ffd_shared_box *box, const ffd_deform_desc *desc, ffd_error *error);
-typedef struct ffd_bounds {
-    double min[3], max[3];
-} ffd_bounds;
-typedef enum ffd_behind_kind {
-    FFD_BEHIND_SOCKET = 0,
-    FFD_BEHIND_CAMERA,
-    FFD_BEHIND_LIGHT,
-    FFD_BEHIND_JOINT,
-    FFD_BEHIND_PIVOT,
-    FFD_BEHIND_PHYSICS_SHAPE,
-    FFD_BEHIND_SPLAT,
-    FFD_BEHIND_KIND_COUNT
-} ffd_behind_kind;
-typedef struct ffd_behind {
-    uint64_t count;
-    char names[3][80];
-} ffd_behind;
-typedef struct ffd_rig_result {
-    bool is_there;
-    uint64_t joints;
-    uint64_t moved;
-    uint64_t sheared;
-    uint64_t singular;
-    uint64_t partial;
-    uint64_t unscaled;
-    double largest_lag;
-    char worst[80];
-    uint64_t lagging_skins, lagging_pivots, lagging_sockets;
-    uint64_t lagging_joints;
-    uint64_t unselected;
-    double unselected_by;
-} ffd_rig_result;
-typedef enum ffd_tear_cause {
-    FFD_TEAR_NONE = 0,
-    FFD_TEAR_STAYS,
-    FFD_TEAR_UNSELECTED,
-    FFD_TEAR_LATTICES,
-    FFD_TEAR_BLOCKS,
-    FFD_TEAR_SEAM,
-    FFD_TEAR_AXIS,
-    FFD_TEAR_BORDER,
-    FFD_TEAR_OVERLAP
-} ffd_tear_cause;
-typedef struct ffd_job_result {
-    size_t struct_size;
-    ffd_status status;
-    ffd_error error;
-    uint64_t vertices;
-    uint64_t counts[5];
-    uint64_t unused, hidden;
-    uint64_t targets_outside, targets_invalid, shown_outside;
-    bool own_box;
-    uint64_t moved;
-    double residual_max, residual_rms;
-    double evaluations_mean;
-    uint32_t evaluations_max;
-    ffd_bounds before, after;
-    double displacement_max, displacement_rms;
-    uint64_t moved_twice;
-    uint64_t disagreeing;
-    double disagreement;
-    uint64_t normals_collapsed;
-    uint64_t splats_carried;
-    uint64_t splats_flattened;
-    uint64_t splats_broken;
-    uint64_t normals_carried;
-    uint64_t transforms_singular;
-    uint64_t weights_off;
-    double weights_farthest;
-    uint64_t weights_none;
-    bool has_folds;
-    ffd_folds folds;
-    uint64_t folds_room[8];
-    size_t folds_lattice;
-    bool has_flipped;
-    uint64_t faces, flipped_faces;
-    bool has_tear;
-    uint64_t tear_edges;
-    double tear_largest;
-    uint64_t tear_vertex;
-    char tear_part[256];
-    uint64_t tear_stays;
-    bool tear_unselected;
-    bool tear_between;
-    bool tear_seam;
-    bool tear_disagrees;
-    double det_outside;
-    uint64_t det_outside_vertex;
-    double det_min, det_max;
-    bool has_edges;
-    uint64_t edges;
-    double deviation_max, deviation_mean;
-    ffd_behind behind[FFD_BEHIND_KIND_COUNT];
-    ffd_behind behind_room[5];
-    ffd_rig_result rig;
-    uint64_t rig_room[5];
-    ffd_flaw flaws[8];
-    size_t flaw_count;
-    uint64_t indices_left;
-    const char *picture;
-    size_t morph_count;
-    const char *const *morphs;
-    const char *const *morph_lattices;
-    const struct ffd_job_result *morph_results;
-    double seconds_read, seconds_embed, seconds_deform, seconds_judge, seconds_write;
-    double area_before, area_after;
-    double volume_before, volume_after;
-    uint64_t bytes_left;
-    uint64_t base_outside;
-    uint64_t bounds_left;
-    ffd_tear_cause tear_cause;
-    double precision_error, precision_side;
-} ffd_job_result;
 ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);
 ffd_status ffd_check_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);
 typedef enum ffd_view_color {
@@ -407,6 +473,7 @@ typedef enum ffd_view_color {
     FFD_VIEW_DET,
     FFD_VIEW_PLAIN
 } ffd_view_color;
+const char *ffd_view_color_name(ffd_view_color color);
 typedef struct ffd_view_desc {
     size_t struct_size;
     const ffd_deform_desc *job;
@@ -519,6 +586,8 @@ typedef struct ffd_lattice_new_desc {
 } ffd_lattice_new_desc;
 void ffd_lattice_new_desc_init(ffd_lattice_new_desc *desc, size_t size);
 ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *desc, ffd_error *error);
+ffd_status ffd_job_result_text(const ffd_job_result *result, const char *lattice, char **text,
+                               ffd_error *error);
 typedef struct ffd_report ffd_report;
 ffd_status ffd_report_create(const char *path, bool stable, ffd_written *written, ffd_report **report,
                              ffd_error *error);

@@ -72,6 +72,8 @@ def as_kept(text, kept):
             old, members = before[match[3]], [member.strip() for member in match[2].split(";")[:-1]]
             if is_sized(old):
                 members = members[:len(old)]
+            elif old[-1].startswith("uint64_t room[") and members[-1].startswith("uint64_t room["):
+                members = members[:len(old) - 1] + old[-1:]
             members = [was if "_room[" in was and names(is_now) == names(was) else is_now
                        for was, is_now in zip(old, members)] + members[len(old):]
             statement = match[1] + "".join(f"{member}; " for member in members) + "} " + match[3]
@@ -102,7 +104,7 @@ def layout(text, of, folder, name):
     lines = []
     for struct, members in structs(of).items():
         lines += [f'printf("{struct}.{member} %zu\\n", offsetof({struct}, {member}));' for part in members for member in names(part)
-                  if not member.endswith("_room")]
+                  if not member.endswith("room")]
         lines += [] if is_sized(members) else [f'printf("sizeof {struct} %zu\\n", sizeof({struct}));']
     with open(source, "w", encoding="ascii") as file:
         file.write(f"#include <stdio.h>\n{text}\nint main(void)\n{{\n" + "\n".join(lines) + "\n}\n")
@@ -146,6 +148,8 @@ CASES = {
     "a member at the end of a struct with its size": (r"(\} ffd_run;)", r"double later; \1", True),
     "a number of an enumeration": (r"FFD_ISA_AVX512\b", "FFD_ISA_AVX512, FFD_ISA_LATER", True),
     "a figure of folds, in their room": (r"(\} ffd_folds;)((?:.|\n)*folds_room)\[8\]", r"uint64_t later; \1\2[7]", True),
+    "a figure of a group, in its room": (r"uint64_t room\[2\];(\s+\} ffd_splat_figures;)", r"uint64_t later; uint64_t room[1];\1", True),
+    "a figure of a group, beside its room": (r"uint64_t room\[2\];(\s+\} ffd_splat_figures;)", r"uint64_t later; uint64_t room[2];\1", False),
     "a figure of folds without room": (r"(\} ffd_folds;)", r"uint64_t later; \1", False),
     "a member within": (r"(ffd_isa isa;\s+bool \(\*progress)", r"double later; \1", False),
     "a type of the same size": (r"ptrdiff_t stride;", "size_t stride;", False),

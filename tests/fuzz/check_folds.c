@@ -61,8 +61,8 @@ static void check_counts(const probe *of, const ffd_folds *folds)
             (unsigned long long)folds->folded_cells);
     PROMISE(folds->verdict != FFD_FOLDS_NONE || folds->unknown_cells == 0, "no folds, but unknown cells");
     PROMISE(folds->verdict != FFD_FOLDS_UNKNOWN || folds->unknown_cells > 0, "unknown, but no cell is");
-    PROMISE(folds->has_witness == (folds->verdict == FFD_FOLDS_SOME), "a witness %d of verdict %d",
-            folds->has_witness, (int)folds->verdict);
+    PROMISE(folds->witness.is_there == (folds->verdict == FFD_FOLDS_SOME), "a witness %d of verdict %d",
+            folds->witness.is_there, (int)folds->verdict);
     PROMISE(!isnan(folds->min_det), "min_det is not a number");
 }
 
@@ -83,17 +83,17 @@ static void check_place(const probe *of, ffd_volume volume, const double uvw[3],
 static void check_witness(const probe *of, const ffd_folds *folds, int sign)
 {
     determinant det;
-    const double *const uvw = folds->witness_uvw;
+    const double *const uvw = folds->witness.uvw;
     for (int a = 0; a < 3; a++)
         PROMISE(uvw[a] >= of->lo[a] && uvw[a] <= of->hi[a], "the witness's %c = %.17g is not in the domain",
                 "uvw"[a], uvw[a]);
-    PROMISE(folds->witness_det <= 0, "the witness's determinant is %g", folds->witness_det);
-    PROMISE(folds->min_det <= folds->witness_det, "least determinant %g, but %g at the witness",
-            folds->min_det, folds->witness_det);
+    PROMISE(folds->witness.det <= 0, "the witness's determinant is %g", folds->witness.det);
+    PROMISE(folds->min_det <= folds->witness.det, "least determinant %g, but %g at the witness",
+            folds->min_det, folds->witness.det);
     if (!of->is_ordinary)
         return;
-    check_place(of, FFD_VOLUME_DEFORMED, uvw, folds->witness_xyz);
-    check_place(of, FFD_VOLUME_REST, uvw, folds->witness_rest);
+    check_place(of, FFD_VOLUME_DEFORMED, uvw, folds->witness.xyz);
+    check_place(of, FFD_VOLUME_REST, uvw, folds->witness.rest);
     if (sign != 0 && determinant_at(of, FFD_VOLUME_DEFORMED, uvw, &det))
         PROMISE(sign * det.value <= det.error,
                 "a witness at %.17g, %.17g, %.17g, where the determinant is %.3Lg, rounding %.3Lg", uvw[0],
@@ -116,11 +116,11 @@ static bool is_same(const ffd_folds *a, const ffd_folds *b)
 {
     return a->verdict == b->verdict && a->cells == b->cells && a->folded_cells == b->folded_cells &&
            a->unknown_cells == b->unknown_cells && a->min_det == b->min_det &&
-           a->has_witness == b->has_witness &&
-           (!a->has_witness || (!memcmp(a->witness_uvw, b->witness_uvw, sizeof a->witness_uvw) &&
-                                !memcmp(a->witness_xyz, b->witness_xyz, sizeof a->witness_xyz) &&
-                                !memcmp(a->witness_rest, b->witness_rest, sizeof a->witness_rest) &&
-                                a->witness_det == b->witness_det));
+           a->witness.is_there == b->witness.is_there &&
+           (!a->witness.is_there || (!memcmp(a->witness.uvw, b->witness.uvw, sizeof a->witness.uvw) &&
+                                     !memcmp(a->witness.xyz, b->witness.xyz, sizeof a->witness.xyz) &&
+                                     !memcmp(a->witness.rest, b->witness.rest, sizeof a->witness.rest) &&
+                                     a->witness.det == b->witness.det));
 }
 
 void check_folds(const probe *of, const probe_point *points, size_t count)
@@ -132,7 +132,7 @@ void check_folds(const probe *of, const probe_point *points, size_t count)
     PROMISE(is_same(&folds, &again), "three threads find other folds than one");
     check_counts(of, &folds);
     const int sign = of->is_ordinary ? sign_at_rest(of, points, count) : 0;
-    if (folds.has_witness)
+    if (folds.witness.is_there)
         check_witness(of, &folds, sign);
     if (folds.verdict == FFD_FOLDS_NONE)
         check_none(of, points, count, sign);

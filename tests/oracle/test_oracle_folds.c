@@ -208,7 +208,7 @@ static void check_witness(const subject *x, const ffd_folds *folds)
 {
     long double uvw[3], size;
     for (int a = 0; a < 3; a++) {
-        uvw[a] = folds->witness_uvw[a];
+        uvw[a] = folds->witness.uvw[a];
         trial_check(x->t, x->s,
                     uvw[a] >= oracle_first(&x->deformed.axis[a]) &&
                         uvw[a] <= oracle_last(&x->deformed.axis[a]),
@@ -217,12 +217,12 @@ static void check_witness(const subject *x, const ffd_folds *folds)
     }
     const long double value = x->sign * determinant_at(&x->deformed, uvw, &size);
     /* A witness of 0 means a cell that is flat to rounding. */
-    const double error = folds->witness_det < 0 ? x->fineness : 1e-12;
+    const double error = folds->witness.det < 0 ? x->fineness : 1e-12;
     trial_check(x->t, x->s, value <= error * size,
                 "a witness at %.17Lg, %.17Lg, %.17Lg, where the determinant is %.3Lg of %.3Lg", uvw[0],
                 uvw[1], uvw[2], value, size);
-    trial_check(x->t, x->s, folds->witness_det <= 0 && folds->min_det <= folds->witness_det,
-                "determinant %g at the witness, least %g", folds->witness_det, folds->min_det);
+    trial_check(x->t, x->s, folds->witness.det <= 0 && folds->min_det <= folds->witness.det,
+                "determinant %g at the witness, least %g", folds->witness.det, folds->min_det);
 }
 
 /* One affine map: det J is its determinant times that at rest, everywhere. */
@@ -296,7 +296,7 @@ static void check_lattice(trial *t, sample *s, double fineness, tally *sum)
                     folds.verdict == again.verdict && folds.min_det == again.min_det &&
                         folds.folded_cells == again.folded_cells &&
                         folds.unknown_cells == again.unknown_cells &&
-                        !memcmp(folds.witness_uvw, again.witness_uvw, sizeof folds.witness_uvw),
+                        !memcmp(folds.witness.uvw, again.witness.uvw, sizeof folds.witness.uvw),
                     "two threads find other folds than one");
         check_verdict(&x, &folds, sum);
     }

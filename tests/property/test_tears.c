@@ -17,7 +17,7 @@
 #include "job/chain/chain_boxes.h"
 #include "job/chain/chain_load.h"
 #include "job/chain/seams.h"
-#include "job/judge/tears.h"
+#include "job/measure/tears.h"
 #include <ffd/lattice.h>
 #include <limits.h>
 #include <math.h>

@@ -68,7 +68,12 @@ class Files(unittest.TestCase):
         support.program("check", SPOT, "-l", TWIST, "--report", report)
         with open(report, encoding="utf-8") as file:
             theirs = json.load(file)["jobs"][0]
-        self.assertEqual(result.displacement_max, theirs["displacement"]["max"])
+        for group in ("displacement", "iterations", "det", "area"):
+            self.assertEqual({name: getattr(getattr(result, group), name) for name in theirs[group] if name != "outside"},
+                             {name: value for name, value in theirs[group].items() if name != "outside"})
+        self.assertEqual(result.edges.deviation.max, theirs["edges"]["deviation"]["max"])
+        self.assertEqual((result.tear.edges, result.tear.cause, result.rig), (0, "none", None))
+        self.assertIsNone(ffd.deform_file(SPOT, "ours.obj", TWIST, force=True).edges)
         with self.assertRaisesRegex(ffd.GateError, "outside") as caught:
             ffd.check_file(SPOT, part_of_spot(), fail_on=["outside", "folds", "tear=0.5"])
         self.assertGreater(caught.exception.result.counts["outside"], 0)
@@ -143,8 +148,8 @@ class Files(unittest.TestCase):
                 with open(name, "rb") as file:
                     self.assertEqual(made.data, file.read())
                 self.assertFalse(made.files)
-            self.assertEqual(ffd.check_bytes(data, TWIST, name=name).displacement_max,
-                             ffd.check_file(os.path.join(models, name), TWIST).displacement_max)
+            self.assertEqual(ffd.check_bytes(data, TWIST, name=name).displacement.max,
+                             ffd.check_file(os.path.join(models, name), TWIST).displacement.max)
 
     def test_bytes_name_other_bytes(self):
         obj = b"mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"

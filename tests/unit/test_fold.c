@@ -231,11 +231,11 @@ static void assert_same(const ffd_folds *a, const ffd_folds *b)
     assert_int_equal(a->folded_cells, b->folded_cells);
     assert_int_equal(a->unknown_cells, b->unknown_cells);
     assert_memory_equal(&a->min_det, &b->min_det, sizeof a->min_det);
-    assert_int_equal(a->has_witness, b->has_witness);
-    assert_memory_equal(a->witness_uvw, b->witness_uvw, sizeof a->witness_uvw);
-    assert_memory_equal(a->witness_xyz, b->witness_xyz, sizeof a->witness_xyz);
-    assert_memory_equal(a->witness_rest, b->witness_rest, sizeof a->witness_rest);
-    assert_memory_equal(&a->witness_det, &b->witness_det, sizeof a->witness_det);
+    assert_int_equal(a->witness.is_there, b->witness.is_there);
+    assert_memory_equal(a->witness.uvw, b->witness.uvw, sizeof a->witness.uvw);
+    assert_memory_equal(a->witness.xyz, b->witness.xyz, sizeof a->witness.xyz);
+    assert_memory_equal(a->witness.rest, b->witness.rest, sizeof a->witness.rest);
+    assert_memory_equal(&a->witness.det, &b->witness.det, sizeof a->witness.det);
 }
 
 static void check_witness(const ffd_lattice *lattice, const ffd_folds *folds, int sign)
@@ -243,15 +243,15 @@ static void check_witness(const ffd_lattice *lattice, const ffd_folds *folds, in
     double lo[3], hi[3], point[3];
     ffd_lattice_get_domain(lattice, lo, hi);
     for (int a = 0; a < 3; a++)
-        assert_true(folds->witness_uvw[a] >= lo[a] && folds->witness_uvw[a] <= hi[a]);
-    ffd_lattice_evaluate(lattice, FFD_VOLUME_DEFORMED, folds->witness_uvw, point, NULL);
-    assert_memory_equal(point, folds->witness_xyz, sizeof point);
-    ffd_lattice_evaluate(lattice, FFD_VOLUME_REST, folds->witness_uvw, point, NULL);
-    assert_memory_equal(point, folds->witness_rest, sizeof point);
-    assert_true(folds->witness_det <= 0);
-    assert_true(folds->min_det <= folds->witness_det);
-    const determinant det = determinant_at(lattice, FFD_VOLUME_DEFORMED, folds->witness_uvw);
-    if (folds->witness_det < 0) {
+        assert_true(folds->witness.uvw[a] >= lo[a] && folds->witness.uvw[a] <= hi[a]);
+    ffd_lattice_evaluate(lattice, FFD_VOLUME_DEFORMED, folds->witness.uvw, point, NULL);
+    assert_memory_equal(point, folds->witness.xyz, sizeof point);
+    ffd_lattice_evaluate(lattice, FFD_VOLUME_REST, folds->witness.uvw, point, NULL);
+    assert_memory_equal(point, folds->witness.rest, sizeof point);
+    assert_true(folds->witness.det <= 0);
+    assert_true(folds->min_det <= folds->witness.det);
+    const determinant det = determinant_at(lattice, FFD_VOLUME_DEFORMED, folds->witness.uvw);
+    if (folds->witness.det < 0) {
         assert_true(sign * det.value <= 0);
     } else {
         assert_true(sign * det.value <= 1e-12L * det.size); /* a flat cell */
@@ -274,10 +274,10 @@ static ffd_folds find(const ffd_lattice *lattice, int sign)
         cells *= lattice->knots[a].span_count;
     assert_int_equal(folds.cells, cells);
     assert_true(folds.folded_cells + folds.unknown_cells <= cells);
-    assert_int_equal(folds.has_witness, folds.verdict == FFD_FOLDS_SOME);
+    assert_int_equal(folds.witness.is_there, folds.verdict == FFD_FOLDS_SOME);
     assert_int_equal(folds.folded_cells > 0, folds.verdict == FFD_FOLDS_SOME);
     assert_int_equal(folds.unknown_cells > 0 && folds.folded_cells == 0, folds.verdict == FFD_FOLDS_UNKNOWN);
-    if (folds.has_witness)
+    if (folds.witness.is_there)
         check_witness(lattice, &folds, sign);
     return folds;
 }
@@ -375,7 +375,7 @@ static void a_kink_at_a_c0_knot_folds_one_side_only(void **state)
                      "\"moves\":[{\"at\":[2,\"all\",\"all\"],\"by\":[-2.5,0,0]}]}");
     const ffd_folds folds = assert_verdict(lattice, 1, FFD_FOLDS_SOME);
     assert_int_equal(folds.folded_cells, 1);
-    assert_true(folds.witness_uvw[0] >= 0.5);
+    assert_true(folds.witness.uvw[0] >= 0.5);
     assert_true(fabs(folds.min_det + 0.25) < 1e-2 && folds.min_det <= -0.25);
     ffd_lattice_destroy(&lattice);
 }
@@ -514,9 +514,9 @@ static void one_folded_cell_of_a_thousand_is_found(void **state)
                point 4: cells 6 and 3. */
             static const double lo[3] = {0.5, 0.6, 0.3};
             for (int a = 0; a < 3; a++)
-                assert_true(folds.witness_uvw[a] >= lo[a] - 1e-15 &&
-                            folds.witness_uvw[a] <= lo[a] + 0.1 + 1e-15);
-            assert_true(folds.witness_det < 0 && folds.witness_det > -1.1 * beyond[i]);
+                assert_true(folds.witness.uvw[a] >= lo[a] - 1e-15 &&
+                            folds.witness.uvw[a] <= lo[a] + 0.1 + 1e-15);
+            assert_true(folds.witness.det < 0 && folds.witness.det > -1.1 * beyond[i]);
             assert_true(folds.min_det <= -0.99 * beyond[i] && folds.min_det >= -1.02 * beyond[i] - 2e-12);
             ffd_lattice_destroy(&lattice);
         }
@@ -622,7 +622,7 @@ static void every_search_ends(void **state)
         finish(lattice);
         const ffd_folds folds = find(lattice, 1);
         assert_int_equal(folds.verdict, FFD_FOLDS_SOME);
-        assert_true(folds.min_det <= folds.witness_det);
+        assert_true(folds.min_det <= folds.witness.det);
         ffd_lattice_destroy(&lattice);
     }
 }
@@ -655,7 +655,7 @@ static void searches_of_mixed_sizes_end(void **state)
         if (finish_by_hand(lattice, NULL) == FFD_OK) { /* else too large to compute with */
             ffd_folds folds = {.struct_size = sizeof folds};
             assert_int_equal(ffd_folds_find(lattice, 2, &folds, NULL), FFD_OK);
-            assert_true(!folds.has_witness || folds.min_det <= folds.witness_det);
+            assert_true(!folds.witness.is_there || folds.min_det <= folds.witness.det);
             found++;
         }
         ffd_lattice_destroy(&lattice);

@@ -334,7 +334,7 @@ static void compare_jobs(void (*make)(name_list *), const char *output, size_t f
     check_same(&b.sink.files, "out");
     assert_string_equal(lines, said);
     assert_memory_equal(in_memory.counts, on_files.counts, sizeof on_files.counts);
-    assert_memory_equal(&in_memory.after, &on_files.after, sizeof on_files.after);
+    assert_memory_equal(&in_memory.bounds.after, &on_files.bounds.after, sizeof on_files.bounds.after);
     assert_int_equal(in_memory.moved, on_files.moved);
     assert_true(in_memory.moved > 0);
     end(&b);
@@ -509,8 +509,8 @@ static void several_morph_targets_are_made(void **state)
     b.desc.lattices = paths;
     b.desc.morphs = names;
     assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
-    assert_int_equal(result.morph_count, 2);
-    assert_ptr_equal(result.morph_lattices, paths);
+    assert_int_equal(result.morphs.count, 2);
+    assert_ptr_equal(result.morphs.lattices, paths);
     check_lattice_names(&b.desc, "k.json\"");
     b.desc.lattices = NULL;
     check_lattice_names(&b.desc, "\"lattice 2\"");

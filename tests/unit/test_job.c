@@ -52,7 +52,7 @@ static void refuse(const ffd_deform_desc *desc)
     assert_int_equal(result.status, FFD_E_ARGUMENT);
     assert_string_equal(error.message, result.error.message);
     assert_int_equal(ffd_check_run(desc, &result, NULL), FFD_E_ARGUMENT);
-    assert_false(result.has_folds);
+    assert_false(result.folds.is_known);
     assert_int_not_equal(access(output, F_OK), 0);
 }
 
@@ -90,32 +90,32 @@ static void costly_figures_are_there_when_asked_for(void **state)
     ffd_job_result result = {.struct_size = sizeof result};
     ffd_deform_desc desc = describe();
     assert_int_equal(ffd_deform_run(&desc, &result, NULL), FFD_OK);
-    assert_false(result.has_folds || result.has_flipped || result.has_edges);
-    assert_true(result.det_min > result.det_max);
+    assert_false(result.folds.is_known || result.has_flipped || result.edges.is_known);
+    assert_true(result.det.min > result.det.max);
 
     desc.fail_on = FFD_GATE_FOLDS;
     assert_int_equal(ffd_deform_run(&desc, &result, NULL), FFD_OK);
-    assert_true(result.has_folds && !result.has_flipped && !result.has_edges);
+    assert_true(result.folds.is_known && !result.has_flipped && !result.edges.is_known);
     assert_int_equal(result.folds.verdict, FFD_FOLDS_NONE);
 
     desc.fail_on = 0;
     desc.quality = true;
     assert_int_equal(ffd_deform_run(&desc, &result, NULL), FFD_OK);
-    assert_true(result.has_folds && result.has_flipped && !result.has_edges);
-    assert_true(result.det_min <= result.det_max);
+    assert_true(result.folds.is_known && result.has_flipped && !result.edges.is_known);
+    assert_true(result.det.min <= result.det.max);
     assert_int_equal(result.faces, 2);
 
     desc.output = NULL; /* ignored */
     desc.quality = false;
     assert_int_equal(ffd_check_run(&desc, &result, NULL), FFD_OK);
-    assert_true(result.has_folds && result.has_flipped && result.has_edges);
-    assert_int_equal(result.edges, 5);
+    assert_true(result.folds.is_known && result.has_flipped && result.edges.is_known);
+    assert_int_equal(result.edges.count, 5);
 
     desc.fail_on = FFD_GATE_FOLDS | FFD_GATE_OUTSIDE;
     assert_int_equal(ffd_check_run(&desc, &result, NULL), FFD_E_GATE);
     assert_string_equal(result.error.message, "1 of 4 vertices is outside the lattice (--fail-on outside)");
     assert_int_equal(result.counts[FFD_OUTSIDE], 1);
-    assert_true(result.has_folds && result.has_flipped && result.has_edges);
+    assert_true(result.folds.is_known && result.has_flipped && result.edges.is_known);
     (void)state;
 }
 
@@ -248,19 +248,19 @@ static void morph_targets_have_figures_of_their_own(void **state)
     desc.clips = clips;
     desc.clip_count = 1;
     assert_int_equal(ffd_deform_run(&desc, &result, NULL), FFD_OK);
-    assert_int_equal(result.morph_count, 2);
-    assert_null(result.morph_results);
-    assert_string_equal(result.morphs[1], "more");
-    assert_string_equal(result.morph_lattices[1], lattice);
+    assert_int_equal(result.morphs.count, 2);
+    assert_null(result.morphs.results);
+    assert_string_equal(result.morphs.names[1], "more");
+    assert_string_equal(result.morphs.lattices[1], lattice);
     desc.morph_results = results;
     assert_int_equal(ffd_deform_run(&desc, &result, NULL), FFD_OK);
-    assert_ptr_equal(result.morph_results, results);
+    assert_ptr_equal(result.morphs.results, results);
     desc = describe();
     assert_int_equal(ffd_check_run(&desc, &alone, NULL), FFD_OK);
     for (size_t k = 0; k < 2; k++) {
         assert_int_equal(results[k].counts[FFD_INSIDE], alone.counts[FFD_INSIDE]);
         assert_int_equal(results[k].moved, alone.moved);
-        assert_memory_equal(&results[k].displacement_max, &alone.displacement_max, sizeof(double));
+        assert_memory_equal(&results[k].displacement.max, &alone.displacement.max, sizeof(double));
     }
     assert_int_equal(result.moved, alone.moved);
     assert_int_equal(result.vertices, alone.vertices);

@@ -12,9 +12,9 @@
 #include "job/chain/chain_load.h"
 #include "job/chain/job_cache.h"
 #include "job/deform_job.h"
+#include "job/figures/figure_values.h"
 #include "job/input/source.h"
-#include "job/judge/figures.h"
-#include "job/judge/result.h"
+#include "job/measure/figures.h"
 #include <time.h>
 
 static const char one[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
@@ -266,7 +266,7 @@ static void folds_and_border_are_lent_once_asked_for(void **state)
         if (job == 2)
             again = result;
         if (job > 2)
-            assert_true(result.has_folds && result.folds.cells == again.folds.cells &&
+            assert_true(result.folds.is_known && result.folds.cells == again.folds.cells &&
                         result.folds.min_det == again.folds.min_det && result.folds.cells == 1);
         ffd_cache_put_chain(share, &chain);
         ffd_chain_free(&chain);

@@ -49,7 +49,7 @@ static void jobs_of_older_callers_run(void **state)
     strcpy(file, in_folder("l.json"));
     const char *const lattices[] = {file};
     OLDER(ffd_deform_desc, desc, offsetof(ffd_deform_desc, depfile));
-    OLDER(ffd_job_result, result, offsetof(ffd_job_result, seconds_read));
+    OLDER(ffd_job_result, result, offsetof(ffd_job_result, seconds));
     ffd_deform_desc_init(&desc.as, desc_known);
     GUARDED(desc);
     assert_int_equal(desc.as.struct_size, desc_known);
@@ -133,7 +133,7 @@ static ffd_lattice *parsed(void)
 static void folds_of_older_callers_are_found(void **state)
 {
     ffd_lattice *made = parsed();
-    OLDER(ffd_folds, folds, offsetof(ffd_folds, has_witness));
+    OLDER(ffd_folds, folds, offsetof(ffd_folds, witness));
     folds.as.struct_size = folds_known;
     assert_int_equal(ffd_folds_find(made, 1, &folds.as, NULL), FFD_OK);
     GUARDED(folds);

@@ -10,10 +10,10 @@
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "job/chain/chain_apply.h"
-#include "job/judge/edge_list.h"
-#include "job/judge/extent.h"
-#include "job/judge/quality.h"
-#include "job/judge/quality_edges.h"
+#include "job/measure/edge_list.h"
+#include "job/measure/extent.h"
+#include "job/measure/quality.h"
+#include "job/measure/quality_edges.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -109,12 +109,13 @@ static void entries_become_rows(void **state)
         FFD_OK);
     assert_string_equal(entry.row.input, "a");
     assert_null(entry.row.output);
-    assert_string_equal(entry.row.status, "failed");
+    assert_int_equal(entry.row.state, INDEX_FAILED);
     assert_string_equal(entry.row.error, "eA");
-    assert_true(entry.row.has_displacement && entry.row.has_tear && entry.row.has_flipped);
-    assert_int_equal(entry.row.folds, INDEX_FOLDS_SOME);
-    assert_true(entry.row.min_det == -2.5 && entry.row.folded_cells == 4 && entry.row.flipped_faces == 5);
-    assert_true(entry.row.torn_edges == 6 && entry.row.largest_step == 0.5 && entry.row.displacement == 1000);
+    const ffd_job_result *const read = entry.row.figures;
+    assert_true(read->has_flipped && read->folds.is_known && read->tear.is_known);
+    assert_int_equal(read->folds.verdict, FFD_FOLDS_SOME);
+    assert_true(read->folds.min_det == -2.5 && read->folds.folded_cells == 4 && read->flipped_faces == 5);
+    assert_true(read->tear.edges == 6 && read->tear.largest == 0.5 && read->displacement.max == 1000);
     ffd_index_entry_free(&entry);
 }
 
@@ -130,8 +131,10 @@ static void figures_that_are_not_there_are_not_known(void **state)
     index_entry entry;
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         assert_int_equal(read_entry(texts[i], &entry), FFD_OK);
-        assert_false(entry.row.has_displacement || entry.row.has_tear || entry.row.has_flipped);
-        assert_int_equal(entry.row.folds, INDEX_FOLDS_NOT_KNOWN);
+        const ffd_job_result *const read = entry.row.figures;
+        assert_true((read == NULL) == (i > 0));
+        assert_false(read && (read->has_flipped || read->folds.is_known || read->tear.is_known ||
+                              isfinite(read->displacement.max)));
         ffd_index_entry_free(&entry);
     }
     assert_int_equal(read_entry("{\"status\": ", &entry), FFD_E_INVALID);

@@ -8,7 +8,7 @@
 
 #include "../support/test_folder.h"
 #include "base/memory/memory.h"
-#include "job/judge/torn_edges.h"
+#include "job/measure/torn_edges.h"
 #include <ffd/job.h>
 #include <math.h>
 
@@ -112,8 +112,8 @@ static void figures_are_those_of_a_check(void **state)
     assert_int_equal(ffd_view_run(&view, &shown, NULL), FFD_OK);
     assert_int_equal(ffd_check_run(&job, &checked, NULL), FFD_OK);
     assert_int_equal(shown.vertices, checked.vertices);
-    assert_int_equal(shown.tear_edges, 2);
-    assert_int_equal(checked.tear_edges, 2);
+    assert_int_equal(shown.tear.edges, 2);
+    assert_int_equal(checked.tear.edges, 2);
     assert_int_equal(shown.moved, 4);
     assert_int_equal(access(page, F_OK), 0);
     unlink(page);

@@ -10,6 +10,7 @@
 #include "base/memory/memory.h"
 #include "view/index.h"
 #include "view/page_text.h"
+#include <math.h>
 
 /* Makes a page with these rows, freed by the caller. */
 static char *page_of(const char *name, const index_row *rows, size_t count)
@@ -40,32 +41,35 @@ static void expect(const char *page, const char *part)
         fail_msg("\"%s\" is not in the page", part);
 }
 
+static const ffd_job_result figures = {.displacement = {.max = 0.1},
+                                       .folds = {.is_known = true, .cells = 8, .min_det = 0.75},
+                                       .tear = {.is_known = true},
+                                       .has_flipped = true};
+
 static const index_row plain = {.number = 7,
                                 .input = "a.obj",
                                 .output = "o/a.obj",
                                 .picture = "o/a.obj.png",
                                 .settings = "LIFT=0.5",
-                                .status = "ok",
-                                .has_displacement = true,
-                                .has_tear = true,
-                                .has_flipped = true,
-                                .folds = INDEX_FOLDS_NONE,
-                                .displacement = 0.1,
-                                .min_det = 0.75};
+                                .state = INDEX_DONE,
+                                .figures = &figures};
 
 static void rows_have_keys(void **state)
 {
     (void)state;
     index_row rows[] = {plain, plain, plain};
-    rows[1].torn_edges = 3;
-    rows[1].largest_step = 0.25;
-    rows[1].folds = INDEX_FOLDS_SOME;
-    rows[1].folded_cells = 2;
-    rows[1].min_det = -1.5;
-    rows[1].flipped_faces = 12;
-    rows[1].status = "skipped";
-    rows[2].folds = INDEX_FOLDS_UNKNOWN;
-    rows[2].status = "failed";
+    ffd_job_result torn = figures, undecided = figures;
+    torn.tear.edges = 3;
+    torn.tear.largest = 0.25;
+    torn.folds.verdict = FFD_FOLDS_SOME;
+    torn.folds.folded_cells = 2;
+    torn.folds.min_det = -1.5;
+    torn.flipped_faces = 12;
+    rows[1].figures = &torn;
+    rows[1].state = INDEX_SKIPPED;
+    undecided.folds.verdict = FFD_FOLDS_UNKNOWN;
+    rows[2].figures = &undecided;
+    rows[2].state = INDEX_FAILED;
     rows[2].error = "too <wild> & bent";
     const char *const page = page_of("m.jsonl", rows, 3);
     expect(page, "<title>m.jsonl</title>");
@@ -89,14 +93,19 @@ static void rows_have_keys(void **state)
 static void what_is_not_known_has_no_key(void **state)
 {
     (void)state;
-    const index_row row = {.number = 1, .status = "failed"};
-    const char *const page = page_of("", &row, 1);
-    expect(page, "<td class=\"picture none\">no picture</td>");
-    expect(page, "Largest displacement\" data-key=\"\">not known</td>");
-    expect(page, "Torn edges\" data-key=\"\">not known</td>");
-    expect(page, "Folds\" data-key=\"\">not known</td>");
-    expect(page, "Flipped faces\" data-key=\"\">not known</td>");
-    expect(page, "<p id=\"counts\">1 job: 0 done, 0 up to date, 1 failed</p>");
+    const ffd_job_result unknown = {.vertices = 3, .displacement = {.max = (double)NAN}};
+    const index_row rows[] = {{.number = 1, .state = INDEX_FAILED},
+                              {.number = 2, .state = INDEX_DONE, .figures = &unknown}};
+    for (size_t i = 0; i < 2; i++) {
+        const char *const page = page_of("", &rows[i], 1);
+        expect(page, "<td class=\"picture none\">no picture</td>");
+        expect(page, "Largest displacement\" data-key=\"\">not known</td>");
+        expect(page, "Torn edges\" data-key=\"\">not known</td>");
+        expect(page, "Folds\" data-key=\"\">not known</td>");
+        expect(page, "Flipped faces\" data-key=\"\">not known</td>");
+        expect(page, i == 0 ? "<p id=\"counts\">1 job: 0 done, 0 up to date, 1 failed</p>"
+                            : "<p id=\"counts\">1 job: 1 done, 0 up to date, 0 failed</p>");
+    }
 }
 
 static void names_are_text(void **state)

@@ -427,7 +427,7 @@ static void a_page_opens_as_it_is_told(void **state)
 {
     (void)state;
     view_scene scene = hand_grid(1);
-    const view_page_options options = {.color = VIEW_BY_DET, .camera = {0, -2, 0.5}};
+    const view_page_options options = {.color = FFD_VIEW_DET, .camera = {0, -2, 0.5}};
     assert_int_equal(write_page(&scene, &options), FFD_OK);
     char *const page = read_page();
     assert_non_null(strstr(page, "\"view\": {\"color\": \"det\", \"camera\": [0, -2, 0.5]}"));

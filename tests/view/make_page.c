@@ -147,23 +147,23 @@ static void add_report(view_scene *scene)
         " %g]}, \"after\": {\"min\": [%g, %g, %g], \"max\": [%g, %g, %g]}}, \"displacement\": {\"max\": %g,"
         " \"rms\": %g}, \"behind\": [{\"kind\": \"camera\", \"count\": 2, \"names\": [\"a\", \"b\"]}]}]}",
         scene->vertex_count, inside, scene->vertex_count - inside, inside,
-        scene->has_witness ? "some" : "none", scene->has_witness ? -0.4 : 0.31, scene->has_witness ? 6 : 0,
-        (unsigned long long)scene->flipped_faces, (unsigned long long)scene->tear_edges,
-        scene->tear_count ? scene->tears[0].step : 0, scene->has_witness ? -0.4 : 0.31, low[0], low[1],
-        low[2], high[0], high[1], high[2], low[0], low[1], low[2], high[0], high[1], high[2],
-        scene->displacement_max, scene->displacement_max / 3);
+        scene->witness.is_there ? "some" : "none", scene->witness.is_there ? -0.4 : 0.31,
+        scene->witness.is_there ? 6 : 0, (unsigned long long)scene->flipped_faces,
+        (unsigned long long)scene->tear_edges, scene->tear_count ? scene->tears[0].step : 0,
+        scene->witness.is_there ? -0.4 : 0.31, low[0], low[1], low[2], high[0], high[1], high[2], low[0],
+        low[1], low[2], high[0], high[1], high[2], scene->displacement_max, scene->displacement_max / 3);
     scene->report = hand_text(text);
 }
 
 static void add_witness(view_scene *scene)
 {
-    scene->has_witness = true;
+    scene->witness.is_there = true;
     for (int a = 0; a < 3; a++) {
-        scene->witness_uvw[a] = 0.5;
-        scene->witness_rest[a] = (low[a] + high[a]) / 2;
+        scene->witness.uvw[a] = 0.5;
+        scene->witness.rest[a] = (low[a] + high[a]) / 2;
     }
-    bulge(scene->witness_rest, scene->witness_deformed);
-    scene->witness_det = hand_det(bulge, scene->witness_rest);
+    bulge(scene->witness.rest, scene->witness.xyz);
+    scene->witness.det = hand_det(bulge, scene->witness.rest);
 }
 
 static view_scene make_model(const char *kind, const char *model)

@@ -11,7 +11,7 @@
 #include "job/jacobian/jacobian_check.h"
 #include "job/jacobian/jacobian_output.h"
 #include "job/jacobian/jacobian_product.h"
-#include "job/judge/result.h"
+#include "job/judge/warnings.h"
 #include "job/reads.h"
 #include <string.h>
 

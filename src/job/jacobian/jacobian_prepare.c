@@ -6,7 +6,7 @@
 #include "job/chain/chain_apply.h"
 #include "job/chain/lattice_memory.h"
 #include "job/jacobian/jacobian_state.h"
-#include "job/judge/result.h"
+#include "job/judge/warnings.h"
 #include "job/pass/chain_fit.h"
 #include "job/pass/pass.h"
 #include "job/pass/vertex_rounding.h"

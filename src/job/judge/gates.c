@@ -1,8 +1,7 @@
 #include "job/judge/gates.h"
 #include "base/text/words.h"
 #include "job/chain/coverage.h"
-#include "job/judge/figures.h"
-#include "job/judge/tear_figures.h"
+#include "job/judge/warnings.h"
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -130,9 +129,9 @@ static bool is_above(double figure, double limit)
 static void add_values(complaint *line, const ffd_deform_desc *desc, const ffd_job_result *result)
 {
     char text[400];
-    const double step = result->tear_largest;
-    if (desc->fail_on & FFD_GATE_TEAR && result->tear_edges && is_above(step, desc->tear_most)) {
-        ffd_tear_figures_describe(result, text, sizeof text);
+    const double step = result->tear.largest;
+    if (desc->fail_on & FFD_GATE_TEAR && result->tear.edges && is_above(step, desc->tear_most)) {
+        ffd_tears_describe(result, text, sizeof text);
         add(line, text, "tear");
     }
     snprintf(text, sizeof text, "%" PRIu64 " of %" PRIu64 " %s %s flipped", result->flipped_faces,
@@ -141,8 +140,8 @@ static void add_values(complaint *line, const ffd_deform_desc *desc, const ffd_j
     if (desc->fail_on & FFD_GATE_FLIPPED && result->flipped_faces > desc->flipped_most)
         add(line, text, "flipped");
     snprintf(text, sizeof text, "straight edges lie as far as %g from the deformed surface",
-             result->deviation_max);
-    if (desc->fail_on & FFD_GATE_EDGES && is_above(result->deviation_max, desc->edges_most))
+             result->edges.deviation.max);
+    if (desc->fail_on & FFD_GATE_EDGES && is_above(result->edges.deviation.max, desc->edges_most))
         add(line, text, "edges");
 }
 
@@ -153,13 +152,13 @@ ffd_status ffd_gates_judge(const ffd_deform_desc *desc, const char *name, const 
     if (desc->fail_on & FFD_GATE_FOLDS && result->folds.verdict != FFD_FOLDS_NONE) {
         char text[400] = "the deformed volume ";
         const size_t begun = strlen(text);
-        ffd_figures_describe_folds(desc, result, text + begun, sizeof text - begun);
+        ffd_folds_describe(result, desc->lattices, text + begun, sizeof text - begun);
         add(&line, text, "folds");
     }
-    if (desc->fail_on & FFD_GATE_FOLDS && result->det_outside <= 0) {
+    if (desc->fail_on & FFD_GATE_FOLDS && result->det.outside <= 0) {
         char text[200];
         snprintf(text, sizeof text, "outside the lattice det F falls to %g, at vertex %" PRIu64,
-                 result->det_outside, result->det_outside_vertex);
+                 result->det.outside, result->det.outside_vertex);
         add(&line, text, "folds");
     }
     if (desc->fail_on & FFD_GATE_OUTSIDE && totals->vertices == 0)

@@ -3,7 +3,7 @@
 #define FFD_JOB_JUDGE_GATES_H
 
 #include "job/chain/chain.h"
-#include "job/pass/pass_totals.h"
+#include "job/figures/pass_totals.h"
 
 /* Applies the policy for vertices outside, and refuses an embedding that misses vertices. name: of the mesh.
    Errors: FFD_E_INVALID, FFD_E_EMBEDDING. */

@@ -1,5 +1,6 @@
-#include "job/judge/still.h"
+/* still.c - says why moves move nothing. */
 #include "base/text/words.h"
+#include "job/judge/warnings.h"
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
 #include <inttypes.h>
@@ -42,17 +43,17 @@ static uint64_t count_moved(const ffd_lattice *lattice)
 }
 
 /* Warns of deformed weights that are those at rest times a factor, for those who expect a stronger pull. */
-static void warn_of_factor(const deform_job *job)
+static void warn_of_factor(const lattice_chain *chain, const mesh_log *log)
 {
-    for (size_t l = 0; l < job->chain.count; l++) {
-        const ffd_lattice *const lattice = job->chain.links[l].lattice;
+    for (size_t l = 0; l < chain->count; l++) {
+        const ffd_lattice *const lattice = chain->links[l].lattice;
         const double *const rest = lattice->rest_weights, *const deformed = lattice->deformed_weights;
         char name[100];
         if (lattice->edited || !lattice->spec->deformed_weights || !rest || lattice->weights_moved ||
             deformed[0] == rest[0])
             continue;
         ffd_name_shown(lattice->spec->name, name, sizeof name);
-        ffd_log_line(&job->log, FFD_LOG_WARNING,
+        ffd_log_line(log, FFD_LOG_WARNING,
                      "the deformed weights of %s are those at rest times %g: a common factor moves nothing",
                      name, deformed[0] / rest[0]);
     }
@@ -73,20 +74,20 @@ static bool is_explained(const pass_totals *totals)
     return totals->located + totals->extended == 0 || totals->transforms_singular > 0;
 }
 
-void ffd_still_warn(const deform_job *job, const ffd_bounds *box)
+void ffd_still_warn(const pass_totals *totals, const lattice_chain *chain, const ffd_bounds *box,
+                    bool is_target, bool is_written, const mesh_log *log)
 {
-    const pass_totals *const totals = &job->totals;
     const bool still = totals->moved == 0;
     /* That a morph target has offsets of zero is told when it is saved; why is told here. */
-    const bool is_told = job->desc->as_morph && !job->check;
+    const bool is_told = is_target && is_written;
     char where[200] = "";
     lattice_group idle = {0}, active = {0};
     uint64_t points = 0;
     if (totals->vertices == 0)
         return;
-    warn_of_factor(job);
-    for (size_t l = 0; l < job->chain.count; l++) {
-        const chain_link *const link = &job->chain.links[l];
+    warn_of_factor(chain, log);
+    for (size_t l = 0; l < chain->count; l++) {
+        const chain_link *const link = &chain->links[l];
         const uint64_t moved = count_moved(link->lattice);
         if (moved > 0)
             add_lattice(link, &active);
@@ -99,17 +100,17 @@ void ffd_still_warn(const deform_job *job, const ffd_bounds *box)
     if (still || !totals->is_visible)
         tell_bounds(box, where, sizeof where);
     if (idle.count > 0)
-        ffd_log_line(&job->log, FFD_LOG_WARNING, "%s%s of %s %s no control point%s",
+        ffd_log_line(log, FFD_LOG_WARNING, "%s%s of %s %s no control point%s",
                      still && active.count == 0 && !is_told ? "no vertex moves: " : "",
                      ffd_plural(idle.moves, "the move", "the moves"), idle.names,
                      ffd_plural(idle.moves, "moves", "move"), active.count == 0 ? where : "");
     if (still && !is_told && active.count > 0 && !is_explained(totals))
-        ffd_log_line(&job->log, FFD_LOG_WARNING, "no vertex moves, though %s %s %" PRIu64 " control %s%s",
+        ffd_log_line(log, FFD_LOG_WARNING, "no vertex moves, though %s %s %" PRIu64 " control %s%s",
                      active.names, ffd_plural(active.count, "moves", "move"), points,
                      ffd_plural(points, "point", "points"), where);
-    if (!still && !job->desc->as_morph && !totals->is_visible)
+    if (!still && !is_target && !totals->is_visible)
         ffd_log_line(
-            &job->log, FFD_LOG_WARNING,
+            log, FFD_LOG_WARNING,
             "no vertex moves in the output: its floats are too coarse for displacements of %g at most%s",
             sqrt(totals->displacement_square_max), where);
 }

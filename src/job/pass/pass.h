@@ -4,8 +4,8 @@
 #ifndef FFD_JOB_PASS_PASS_H
 #define FFD_JOB_PASS_PASS_H
 
+#include "job/figures/pass_totals.h"
 #include "job/pass/mesh_pass.h"
-#include "job/pass/pass_totals.h"
 
 /* Memory per thread of a pass, and additionally, for each lattice, of the measuring of edges after it
    (quality_edges.h). */

@@ -2,8 +2,8 @@
 #ifndef FFD_JOB_PASS_TILE_H
 #define FFD_JOB_PASS_TILE_H
 
+#include "job/figures/pass_totals.h"
 #include "job/pass/mesh_pass.h"
-#include "job/pass/pass_totals.h"
 #include "job/pass/vertex_transform.h"
 #include <stdatomic.h>
 

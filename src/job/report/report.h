@@ -5,6 +5,12 @@
 #include "base/text/buffer.h"
 #include <ffd/job.h>
 
+/* The status of an entry. */
+typedef enum report_outcome { REPORT_OK, REPORT_FAILED, REPORT_SKIPPED } report_outcome;
+#define REPORT_OUTCOMES 3
+/* Returns "ok", "failed" or "skipped". */
+const char *ffd_report_outcome_name(report_outcome outcome);
+
 /* One job in a report. */
 typedef struct report_entry {
     uint64_t line;              /* of the job in its manifest; 0: none, and not written */

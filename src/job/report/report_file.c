@@ -255,16 +255,16 @@ static ffd_status take_result(const ffd_job_result *callers, ffd_job_result *res
 {
     ffd_status status = ffd_struct_take(result, sizeof *result, callers, "ffd_job_result", error);
     *morphs = NULL;
-    if (status || !result->morph_results)
+    if (status || !result->morphs.results)
         return status;
-    *morphs = ffd_alloc_zero(result->morph_count, sizeof **morphs);
+    *morphs = ffd_alloc_zero(result->morphs.count, sizeof **morphs);
     if (!*morphs)
         return ffd_fail_memory(error);
-    const char *const first = (const char *)result->morph_results;
-    for (size_t k = 0; k < result->morph_count && !status; k++)
+    const char *const first = (const char *)result->morphs.results;
+    for (size_t k = 0; k < result->morphs.count && !status; k++)
         status = ffd_struct_take(&(*morphs)[k], sizeof **morphs, first + k * callers->struct_size,
                                  "ffd_job_result", error);
-    result->morph_results = *morphs;
+    result->morphs.results = *morphs;
     return status;
 }
 

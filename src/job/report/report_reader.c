@@ -1,4 +1,5 @@
 #include "job/report/report_reader.h"
+#include "job/report/report.h"
 #include "json/json_parse.h"
 #include <stdio.h>
 #include <string.h>
@@ -112,14 +113,21 @@ static const struct {
     {"error", "a text or null", 1U << JSON_STRING | 1U << JSON_NULL},
 };
 
+static bool is_outcome(const json_span *tree, uint32_t value)
+{
+    for (int outcome = 0; outcome < REPORT_OUTCOMES; outcome++)
+        if (ffd_json_span_string_is(tree, value, ffd_report_outcome_name((report_outcome)outcome)))
+            return true;
+    return false;
+}
+
 static bool is_promised(const json_span *tree, uint32_t value, size_t which)
 {
     double code;
     if (!(promised[which].kinds >> tree->values[value].kind & 1))
         return false;
     if (strcmp(promised[which].key, "status") == 0)
-        return ffd_json_span_string_is(tree, value, "ok") || ffd_json_span_string_is(tree, value, "failed") ||
-               ffd_json_span_string_is(tree, value, "skipped");
+        return is_outcome(tree, value);
     return !ffd_json_span_number(tree, value, &code) || (code >= 0 && code <= 7 && code == (int)code);
 }
 

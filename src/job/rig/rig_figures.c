@@ -30,7 +30,7 @@ double ffd_rig_lag(const mesh_place_move *move, double diagonal)
     return lag > LAG_ROUNDING * diagonal ? lag : 0;
 }
 
-static ffd_status name_worst(const mesh_document *document, size_t number, ffd_rig_result *figures,
+static ffd_status name_worst(const mesh_document *document, size_t number, ffd_rig_figures *figures,
                              ffd_error *error)
 {
     char *name = document->format->place_name(document, number);
@@ -42,7 +42,7 @@ static ffd_status name_worst(const mesh_document *document, size_t number, ffd_r
 }
 
 /* Marks the joints that lag. Returns the first place with the largest lag; SIZE_MAX: none lags. */
-static size_t measure(const rig_places *rig, unsigned counted, double diagonal, ffd_rig_result *figures,
+static size_t measure(const rig_places *rig, unsigned counted, double diagonal, ffd_rig_figures *figures,
                       uint8_t *lagging)
 {
     size_t worst = SIZE_MAX;
@@ -65,9 +65,9 @@ static size_t measure(const rig_places *rig, unsigned counted, double diagonal, 
 
 ffd_status ffd_rig_figures_find(const mesh_document *document, const rig_places *rig,
                                 const mesh_following *following, unsigned kinds, double diagonal,
-                                ffd_rig_result *figures, ffd_error *error)
+                                ffd_rig_figures *figures, ffd_error *error)
 {
-    *figures = (ffd_rig_result){0};
+    *figures = (ffd_rig_figures){0};
     if (rig->places.count == 0)
         return FFD_OK;
     uint8_t *const lagging = ffd_alloc(rig->places.count, sizeof *lagging);
@@ -95,7 +95,7 @@ ffd_status ffd_rig_figures_find(const mesh_document *document, const rig_places 
 }
 
 /* Writes a list, such as "the joints of 1 skin, 2 animated pivots and 1 socket". */
-static void tell_lagging(const ffd_rig_result *figures, char *text, size_t capacity)
+static void tell_lagging(const ffd_rig_figures *figures, char *text, size_t capacity)
 {
     const struct {
         uint64_t count;
@@ -121,7 +121,7 @@ static void tell_lagging(const ffd_rig_result *figures, char *text, size_t capac
     }
 }
 
-static void warn_of_lag(const ffd_rig_result *figures, bool morphed, const mesh_log *log)
+static void warn_of_lag(const ffd_rig_figures *figures, bool morphed, const mesh_log *log)
 {
     char lagging[300];
     const uint64_t things = figures->lagging_joints + figures->lagging_pivots + figures->lagging_sockets;
@@ -134,7 +134,7 @@ static void warn_of_lag(const ffd_rig_result *figures, bool morphed, const mesh_
                  morphed ? "" : SPELLED(": see {rig}"));
 }
 
-void ffd_rig_warn(const ffd_rig_result *figures, rig_change change, double diagonal, const mesh_log *log)
+void ffd_rig_warn(const ffd_rig_figures *figures, rig_change change, double diagonal, const mesh_log *log)
 {
     if (change != RIG_FOLLOWED && figures->largest_lag > LAG_SAID * diagonal)
         warn_of_lag(figures, change == RIG_MORPHED, log);

@@ -12,7 +12,7 @@ double ffd_rig_lag(const mesh_place_move *move, double diagonal);
    that count. Errors: FFD_E_MEMORY. */
 ffd_status ffd_rig_figures_find(const mesh_document *document, const rig_places *rig,
                                 const mesh_following *following, unsigned kinds, double diagonal,
-                                ffd_rig_result *figures, ffd_error *error);
+                                ffd_rig_figures *figures, ffd_error *error);
 
 /* The kinds of places that figures and warnings are about; those of a job that makes a morph target. */
 #define RIG_KINDS (PLACE_BIT(FFD_BEHIND_JOINT) | PLACE_BIT(FFD_BEHIND_PIVOT) | PLACE_BIT(FFD_BEHIND_SOCKET))
@@ -22,7 +22,7 @@ ffd_status ffd_rig_figures_find(const mesh_document *document, const rig_places 
 typedef enum rig_change { RIG_KEPT, RIG_FOLLOWED, RIG_MORPHED } rig_change;
 
 /* Warns of lagging places, unless they are what --rig follow could not move. */
-void ffd_rig_warn(const ffd_rig_result *figures, rig_change change, double diagonal, const mesh_log *log);
+void ffd_rig_warn(const ffd_rig_figures *figures, rig_change change, double diagonal, const mesh_log *log);
 
 /* Returns the diagonal of a box; 0 if it is empty. */
 double ffd_rig_diagonal(const ffd_bounds *box);

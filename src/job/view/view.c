@@ -10,11 +10,11 @@
 #include "base/text/words.h"
 #include "job/chain/chain_load.h"
 #include "job/deform_job.h"
+#include "job/figures/figure_values.h"
 #include "job/input/deform_desc.h"
 #include "job/input/in_memory.h"
 #include "job/input/selection.h"
 #include "job/input/source.h"
-#include "job/judge/result.h"
 #include "job/pass/chain_fit.h"
 #include "job/report/output_set.h"
 #include "job/report/report.h"
@@ -65,7 +65,7 @@ static view_picture_options describe_picture(const view_work *work)
                                   .height = desc->height,
                                   .frames = has_poses && !desc->frames ? VIEW_POSES : desc->frames,
                                   .rows = has_poses ? has_after(desc) ? 2 : 1 : 0,
-                                  .color = (view_page_color)desc->color,
+                                  .color = desc->color,
                                   .camera = {desc->camera[0], desc->camera[1], desc->camera[2]},
                                   .threads = work->job.threads,
                                   .budget = work->job.document ? &work->job.document->budget : NULL,
@@ -300,7 +300,7 @@ static ffd_status write_page(const view_work *work, file_output *output, ffd_err
 {
     const ffd_view_desc *const desc = work->desc;
     const view_page_options options = {.full = desc->full,
-                                       .color = (view_page_color)desc->color,
+                                       .color = desc->color,
                                        .camera = {desc->camera[0], desc->camera[1], desc->camera[2]},
                                        .log = &work->job.log};
     return ffd_view_page_write(&work->scene, &options, output, error);

@@ -2,7 +2,7 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
-#include "job/judge/quality.h"
+#include "job/measure/quality.h"
 #include "lattice/lattice.h"
 #include <math.h>
 #include <string.h>
@@ -103,27 +103,14 @@ static ffd_status add_tears(const job_details *details, size_t count, view_scene
     return scene->tears ? FFD_OK : ffd_fail_memory(error);
 }
 
-static void add_witness(const ffd_job_result *result, view_scene *scene)
-{
-    const ffd_folds *const folds = &result->folds;
-    scene->has_witness = result->has_folds && folds->has_witness;
-    if (!scene->has_witness)
-        return;
-    memcpy(scene->witness_rest, folds->witness_rest, sizeof scene->witness_rest);
-    memcpy(scene->witness_deformed, folds->witness_xyz, sizeof scene->witness_deformed);
-    memcpy(scene->witness_uvw, folds->witness_uvw, sizeof scene->witness_uvw);
-    scene->witness_det = folds->witness_det;
-    scene->witness_cage = result->folds_lattice;
-}
-
 ffd_status ffd_view_add_marks(const deform_job *job, const ffd_job_result *result, const mesh_model *model,
                               const uint32_t *faces, view_scene *scene, ffd_error *error)
 {
     const job_details *const details = job->details;
     const size_t count = (size_t)ffd_mesh_vertex_count(job->document);
     scene->flipped_faces = result->flipped_faces;
-    scene->tear_edges = result->tear_edges;
-    add_witness(result, scene);
+    scene->tear_edges = result->tear.edges;
+    scene->witness = result->folds.witness;
     ffd_status status = add_statuses(details, model, scene, error);
     if (!status)
         status = add_flipped(details, model, faces, scene, error);

@@ -3,7 +3,7 @@
 #ifndef FFD_JOB_VIEW_VIEW_MARKS_H
 #define FFD_JOB_VIEW_VIEW_MARKS_H
 
-#include "job/judge/job_state.h"
+#include "job/measure/job_state.h"
 #include "view/view_scene.h"
 
 /* Fills the marks of a scene that has its mesh. faces: of each triangle the polygon in the model that the

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+from types import SimpleNamespace
 from typing import Any
 
 from . import _declarations as declared
@@ -12,12 +13,18 @@ from ._errors import Error, GateError, failure
 from ._values import Folds, folds_of
 
 
+class Group(SimpleNamespace):
+    """A group of figures: the members of its struct (ffd/result.h) as attributes."""
+
+
 class Result:
-    """The result of a job: the members of ffd_job_result (ffd/job.h) as attributes, and
+    """The result of a job: the members of ffd_job_result (ffd/result.h) as attributes, and
 
     warnings: the warnings that the program would print, one string each (also logged as "ffd_mesh")
     counts: number of vertices by status: "inside", "outside", "multiple", "singular", "invalid"
-    folds: a `Folds`; None if the job did not look for folds
+    folds: a `Folds`
+    tear, det, edges, displacement, ..: groups of figures, as result.tear.largest; tear.cause is a word: "stays", "blocks", ..
+    A group is None if the job did not look for it (folds, tear, det, edges) or if there is nothing (rig).
     """
 
     warnings: list[str]
@@ -25,24 +32,39 @@ class Result:
     folds: Folds | None
     vertices: int
     moved: int
+    tear: Any
+    displacement: Any
     behind: Any
     flaws: Any
 
     def __init__(self, found: Any, warnings: list[str]) -> None:
-        for name, kind in found._fields_:
-            if name not in ("struct_size", "status", "error", "picture") and not name.startswith("morph") \
-                    and not name.endswith("_room"):
-                self.__dict__[name] = plain(getattr(found, name))
+        for name, _ in found._fields_:
+            if name not in ("struct_size", "status", "error", "picture", "morphs") and not name.endswith("_room"):
+                self.__dict__[name] = figures(getattr(found, name))
         words = [word.removeprefix("point_") for word in library.WORDS["ffd_vertex_status"]]
         self.counts = dict(zip(words, found.counts))
         self.behind = dict(zip(library.WORDS["ffd_behind_kind"], self.behind))
         self.flaws = self.flaws[:found.flaw_count]
-        self.folds = folds_of(found.folds) if found.has_folds else None
+        self.folds = folds_of(found.folds) if found.folds.is_known else None
         self.warnings = warnings
 
     def __repr__(self) -> str:
         counts = ", ".join(f"{count} {word}" for word, count in self.counts.items() if count)
         return f"<Result: {self.vertices} vertices ({counts or 'none'}), {self.moved} moved, {len(self.warnings)} warnings>"
+
+
+def figures(value: Any) -> Any:
+    """Converts ctypes values to Python values, recursively. Structures become groups; one that is not known is None."""
+    if isinstance(value, ctypes.Array) and not isinstance(value[0], bytes):
+        return [figures(entry) for entry in value]
+    if not isinstance(value, ctypes.Structure):
+        return plain(value)
+    known = getattr(value, "is_known", getattr(value, "is_there", True))
+    names = (name for name, *_ in value._fields_ if name not in ("room", "is_known", "is_there"))
+    group = Group(**{name: figures(getattr(value, name)) for name in names}) if known else None
+    if isinstance(value, declared.ffd_tear_figures) and group:
+        group.cause = library.NAMES["ffd_tear_cause"][value.cause]
+    return group
 
 
 def plain(value: Any) -> Any:

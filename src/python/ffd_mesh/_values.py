@@ -75,10 +75,10 @@ class Folds:
 
 def folds_of(found: Any) -> Folds:
     """Folds of the library's ffd_folds."""
-    has = found.has_witness
-    uvw, xyz, rest = (np.array(v) if has else None for v in (found.witness_uvw, found.witness_xyz, found.witness_rest))
+    witness, has = found.witness, found.witness.is_there
+    uvw, xyz, rest = (np.array(v) if has else None for v in (witness.uvw, witness.xyz, witness.rest))
     return Folds(library.NAMES["ffd_fold_verdict"][found.verdict], found.cells, found.folded_cells, found.unknown_cells,
-                 found.min_det, uvw, xyz, rest, found.witness_det if has else None,
+                 found.min_det, uvw, xyz, rest, witness.det if has else None,
                  library.NAMES["ffd_fold_reference"][found.relative_to])
 
 

@@ -1,0 +1,59 @@
+/* folds.c - says that the deformed volume folds, or turns faces over. */
+#include "base/text/words.h"
+#include "job/judge/warnings.h"
+#include <inttypes.h>
+#include <stdio.h>
+
+void ffd_folds_describe(const ffd_job_result *result, const char *const *lattices, char *text,
+                        size_t capacity)
+{
+    const ffd_folds *folds = &result->folds;
+    const double *uvw = folds->witness.uvw, *xyz = folds->witness.xyz;
+    const char *const cells = ffd_plural(folds->cells, "cell", "cells");
+    if (folds->verdict != FFD_FOLDS_SOME)
+        snprintf(text, capacity,
+                 "is not proven to be free of folds in %" PRIu64 " of %" PRIu64 " %s (least det J %g)",
+                 folds->unknown_cells, folds->cells, cells, folds->min_det);
+    else if (!folds->witness.is_there)
+        snprintf(text, capacity, "folds in %" PRIu64 " of %" PRIu64 " %s", folds->folded_cells, folds->cells,
+                 cells);
+    else
+        snprintf(text, capacity,
+                 "folds in %" PRIu64 " of %" PRIu64 " %s, as at u,v,w = %g %g %g of %.100s, x,y,z = %g %g %g",
+                 folds->folded_cells, folds->cells, cells, uvw[0], uvw[1], uvw[2],
+                 lattices[result->folds.witness.lattice], xyz[0], xyz[1], xyz[2]);
+}
+
+/* Says how many faces are turned over, or if that is not known at how many vertices the mesh is inside out.
+   text becomes "" if there are none. */
+static void tell_turned(const ffd_job_result *result, const pass_totals *totals, char *text, size_t capacity)
+{
+    *text = 0;
+    if (result->has_flipped && result->flipped_faces)
+        snprintf(text, capacity, "%" PRIu64 " of %" PRIu64 " %s turned over", result->flipped_faces,
+                 result->faces, ffd_plural(result->faces, "face is", "faces are"));
+    else if (totals->inverted)
+        snprintf(text, capacity,
+                 "the mesh turns inside out at %" PRIu64 " of %" PRIu64
+                 " %s: det F falls to %g, at vertex %" PRIu64,
+                 totals->inverted, totals->vertices, ffd_plural(totals->vertices, "vertex", "vertices"),
+                 totals->det_inverted, totals->first_inverted);
+}
+
+void ffd_folds_warn(const ffd_job_result *result, const pass_totals *totals, const char *const *lattices,
+                    const mesh_log *log)
+{
+    char text[400], turned[200];
+    tell_turned(result, totals, turned, sizeof turned);
+    if (result->folds.is_known && result->folds.verdict != FFD_FOLDS_NONE) {
+        ffd_folds_describe(result, lattices, text, sizeof text);
+        ffd_log_line(log, FFD_LOG_WARNING, "the deformed volume %s%s%s", text, *turned ? "; " : "", turned);
+    } else if (*turned) {
+        ffd_log_line(log, FFD_LOG_WARNING, "%s", turned);
+    }
+    if (result->det.outside <= 0)
+        ffd_log_line(log, FFD_LOG_WARNING,
+                     "outside the lattice det F falls to %g, at vertex %" PRIu64
+                     ": the mesh turns inside out there (see --falloff, a larger lattice)",
+                     result->det.outside, result->det.outside_vertex);
+}

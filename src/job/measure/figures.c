@@ -1,0 +1,159 @@
+#include "job/measure/figures.h"
+#include "base/memory/memory.h"
+#include "base/text/words.h"
+#include "io/openmesh/half_edges.h"
+#include "job/figures/figure_values.h"
+#include "job/input/selection.h"
+#include "job/measure/edge_list.h"
+#include "job/measure/extent.h"
+#include "job/measure/quality.h"
+#include "job/measure/quality_edges.h"
+#include "job/pass/normal_groups.h"
+#include <inttypes.h>
+#include <stdio.h>
+
+/* Memory of the arrays for each vertex, in bytes. */
+#define ARRAY_BYTES (12 * sizeof(double))
+
+/* Gates that need the faces. */
+#define NEED_FACES (FFD_GATE_TEAR | FFD_GATE_FLIPPED | FFD_GATE_EDGES)
+
+bool ffd_figures_wanted(const deform_job *job)
+{
+    return job->check || job->desc->quality || job->desc->fail_on & (FFD_GATE_FLIPPED | FFD_GATE_EDGES);
+}
+
+/* Checks that the budget suffices for recomputing normals. */
+static ffd_status check_normals(const deform_job *job, const mesh_faces *faces, memory_budget budget,
+                                ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < job->document->part_count && status == FFD_OK; i++)
+        status = ffd_budget_take(&budget, job->document->parts[i].normal_count, NORMAL_BYTES, error);
+    return status ? status : ffd_budget_check(&budget, ffd_half_edge_bytes(faces), 1, error);
+}
+
+static bool wants_edges(const deform_job *job)
+{
+    return job->check || job->desc->fail_on & FFD_GATE_EDGES;
+}
+
+/* Charges the memory for the figures of these faces, and checks that the rest suffices for recomputing
+   normals, which happens earlier. */
+static ffd_status take_memory(const deform_job *job, const mesh_faces *faces, memory_budget *budget,
+                              ffd_error *error)
+{
+    const size_t corners = faces->start[faces->face_count];
+    ffd_status status = ffd_budget_take(budget, ffd_mesh_vertex_count(job->document), ARRAY_BYTES, error);
+    if (status == FFD_OK)
+        status = ffd_mesh_faces_take(faces, corners, budget, error);
+    if (status == FFD_OK && job->recomputes)
+        status = check_normals(job, faces, *budget, error);
+    if (status == FFD_OK && wants_edges(job))
+        status = ffd_budget_take(budget, corners, EDGE_LIST_BYTES, error);
+    return status;
+}
+
+static ffd_status read_faces(const deform_job *job, figure_arrays *arrays, ffd_error *error)
+{
+    ffd_error own;
+    char line[1024];
+    memory_budget budget = arrays->budget;
+    ffd_status status = job->document->format->faces(job->document, &arrays->faces, &own);
+    if (status == FFD_OK)
+        status = take_memory(job, &arrays->faces, &budget, &own);
+    arrays->has_faces = status == FFD_OK;
+    if (!status) {
+        arrays->budget = budget;
+        return FFD_OK;
+    }
+    ffd_mesh_faces_free(&arrays->faces);
+    if (job->check || job->recomputes || status == FFD_E_MEMORY || job->desc->fail_on & NEED_FACES) {
+        if (error)
+            *error = own;
+        return status;
+    }
+    ffd_error_format(&own, line, sizeof line);
+    ffd_log_line(&job->log, FFD_LOG_WARNING, "flipped faces are not counted: %s", line);
+    return FFD_OK;
+}
+
+ffd_status ffd_figures_prepare(const deform_job *job, figure_arrays *arrays, ffd_error *error)
+{
+    const size_t count = (size_t)ffd_mesh_vertex_count(job->document);
+    const ffd_status status = read_faces(job, arrays, error);
+    if (status || !arrays->has_faces)
+        return status;
+    arrays->deformed = ffd_alloc(count, 3 * sizeof *arrays->deformed);
+    arrays->gradients = ffd_alloc(count, 9 * sizeof *arrays->gradients);
+    return arrays->deformed && arrays->gradients ? FFD_OK : ffd_fail_memory(error);
+}
+
+void ffd_figures_free(figure_arrays *arrays)
+{
+    ffd_mesh_faces_free(&arrays->faces);
+    ffd_free(arrays->deformed);
+    ffd_free(arrays->gradients);
+    *arrays = (figure_arrays){0};
+}
+
+ffd_status ffd_figures_folds(lattice_chain *chain, int threads, ffd_job_result *result, ffd_error *error)
+{
+    for (size_t l = 0; l < chain->count; l++) {
+        chain_link *const link = &chain->links[l];
+        if (!link->has_folds) {
+            link->folds.struct_size = sizeof link->folds;
+            const ffd_status status = ffd_folds_find(link->lattice, threads, &link->folds, error);
+            if (status)
+                return status;
+            link->has_folds = true;
+        }
+        ffd_folds_join(&link->folds, l, &result->folds);
+    }
+    return FFD_OK;
+}
+
+/* Measures area and volume, unless some faces are unknown. */
+static void measure_extent(const deform_job *job, const figure_arrays *arrays, ffd_job_result *result)
+{
+    mesh_extent before, after;
+    if (job->document->unknown_drawings || !(job->check || job->desc->quality))
+        return;
+    ffd_extent_measure(job->document, &arrays->faces, arrays->faces.positions, &before);
+    ffd_extent_measure(job->document, &arrays->faces, arrays->deformed, &after);
+    result->area.before = before.area;
+    result->area.after = after.area;
+    result->volume.before = before.volume;
+    result->volume.after = after.volume;
+}
+
+ffd_status ffd_figures_faces(const deform_job *job, figure_arrays *arrays, ffd_job_result *result,
+                             ffd_error *error)
+{
+    edge_quality edges;
+    ffd_status status = FFD_OK;
+    result->det.is_known = job->totals.det_min <= job->totals.det_max;
+    result->det.min = job->totals.det_min;
+    result->det.max = job->totals.det_max;
+    if (!arrays->has_faces)
+        return FFD_OK;
+    measure_extent(job, arrays, result);
+    if (!ffd_selection_is_all(job->document))
+        status = ffd_selection_reduce(job->document, &arrays->faces, error);
+    if (status)
+        return status;
+    result->has_flipped = true;
+    result->faces = arrays->faces.face_count;
+    result->flipped_faces = ffd_quality_flipped(&arrays->faces, arrays->deformed, arrays->gradients);
+    if (!wants_edges(job))
+        return FFD_OK;
+    status = ffd_quality_edges(job->document, &arrays->faces, arrays->deformed, &job->chain, job->threads,
+                               &edges, error);
+    if (status)
+        return status;
+    result->edges.is_known = true;
+    result->edges.count = edges.edges;
+    result->edges.deviation.max = edges.deviation_max;
+    result->edges.deviation.mean = edges.deviation_mean;
+    return FFD_OK;
+}

@@ -1,0 +1,41 @@
+/* job_state.h - the state of `ffd deform` and `ffd check`. */
+#ifndef FFD_JOB_MEASURE_JOB_STATE_H
+#define FFD_JOB_MEASURE_JOB_STATE_H
+
+#include "job/chain/chain.h"
+#include "job/figures/pass_totals.h"
+#include "job/input/embedding_file.h"
+#include "job/measure/details.h"
+#include "job/rig/rig_places.h"
+#include "mesh/mesh.h"
+
+/* The state of a job. */
+typedef struct deform_job {
+    const ffd_deform_desc *desc;
+    bool check;          /* no output will be written; all figures are wanted */
+    bool recomputes;     /* normals exist, and are to be recomputed from the deformed faces */
+    bool derives;        /* set before opening: keep derivatives by placeholders */
+    bool stored;         /* set before it runs: judge the base, whatever default weights show */
+    bool only_positions; /* set before opening: nothing needs normals */
+    unsigned losses;     /* of mapped inputs, before this job (base/file/mapping.h) */
+    int threads;
+    mesh_log log;
+    mesh_log file_log; /* for messages about the file, not its deformation */
+    lattice_chain chain;
+    mesh_document *document;
+    bool document_is_shared;  /* it comes from the share */
+    embedding_file embedding; /* if the job reuses one */
+    rig_places rig;           /* the document's joints, pivots, sockets and so on */
+    mesh_following following; /* what --rig follow has done */
+    pass_totals totals;
+    uint8_t *kept;          /* marks of the vertices (job/chain/marks.h); NULL: no vertices */
+    bool blocks_join;       /* ffd_blocks_join; false: not known */
+    job_details *details;   /* to be filled, or NULL */
+    double *positions;      /* 3 a vertex, like mesh_pass.deformed; NULL: not wanted */
+    mesh_model base;        /* the shape before, if a conversion adds the deformation as a morph target */
+    bool forgets_locations; /* do not keep u,v,w for later passes: no memory, or no later pass */
+    morph_clip *clips;      /* clip_count animations of the weights of new morph targets */
+    size_t clip_count;
+} deform_job;
+
+#endif

@@ -1,0 +1,271 @@
+#include "job/measure/tear_field.h"
+#include "base/memory/memory.h"
+#include "base/vector/vec.h"
+#include "embed/locator_border.h"
+#include "job/chain/pace.h"
+#include "job/chain/point_outcome.h"
+#include "job/measure/tear_blocks.h"
+#include "job/measure/tear_feet.h"
+#include "lattice/lattice.h"
+#include <math.h>
+#include <string.h>
+
+/* What a link does at a place. */
+typedef enum link_action {
+    LEAVES, /* nothing */
+    HOLDS,  /* it displaces the place if it holds it */
+    EXTENDS /* it displaces the place, from the nearest border point if it does not hold it */
+} link_action;
+
+static bool takes(const tear_field *field, uint32_t vertex, size_t link)
+{
+    return !field->chain->links[link].is_still && ffd_marks_take(&field->marks, vertex, link);
+}
+
+static link_action action_of(const tear_field *field, const field_place *place, size_t link)
+{
+    const bool first = takes(field, place->ends[0], link), second = takes(field, place->ends[1], link);
+    if (place->by != FIELD_BETWEEN)
+        return (place->by == FIELD_FIRST ? first : second) ? EXTENDS : LEAVES;
+    return first && second ? EXTENDS : field->chain->links[link].is_still ? LEAVES : HOLDS;
+}
+
+/* Lists the places that a link may act on, and locates them in it. */
+static ffd_status locate(const tear_field *field, size_t link, const field_place *places, size_t count,
+                         size_t *asked, field_scratch *scratch, ffd_error *error)
+{
+    *asked = 0;
+    for (size_t i = 0; i < count; i++) {
+        scratch->actions[i] = (uint8_t)action_of(field, &places[i], link);
+        if (scratch->actions[i] == LEAVES)
+            continue;
+        memcpy(scratch->link_x + 3 * *asked, scratch->x + 3 * i, 3 * sizeof *scratch->x);
+        scratch->asked[(*asked)++] = (uint32_t)i;
+    }
+    const ffd_status status = ffd_pace_find(&field->chain->links[link], scratch->link_x, *asked, NULL,
+                                            scratch->chain.locations, error);
+    long long taken = 0;
+    for (size_t k = 0; k < *asked && !status; k++)
+        taken += scratch->chain.locations[k].evaluations;
+    return status ? status : ffd_field_take(field, taken, error);
+}
+
+/* Finds the foot of an asked place. One that the link neither holds nor extends to gets no foot. */
+static ffd_status find_foot(const tear_field *field, size_t link, size_t k, field_foot *foot,
+                            field_scratch *scratch, ffd_error *error)
+{
+    const uint32_t i = scratch->asked[k];
+    const ffd_location *const location = &scratch->chain.locations[k];
+    *foot = (field_foot){.link = link};
+    if (ffd_location_is_placed(location)) {
+        foot->found = foot->inside = true;
+        memcpy(foot->point.uvw, location->uvw, sizeof foot->point.uvw);
+        scratch->held[i] |= scratch->actions[i] == HOLDS;
+        return FFD_OK;
+    }
+    if (scratch->actions[i] != HOLDS)
+        return ffd_foot_on_border(field, link, scratch->link_x + 3 * k, foot, error);
+    scratch->actions[i] = LEAVES;
+    return FFD_OK;
+}
+
+/* Finds the displacements of the asked places by a link; those that it holds are listed in the batch. */
+static ffd_status displace(const tear_field *field, size_t link, size_t asked, displacement_batch *batch,
+                           field_scratch *scratch, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    for (size_t k = 0; k < asked && !status; k++) {
+        field_foot foot;
+        status = find_foot(field, link, k, &foot, scratch, error);
+        if (foot.inside)
+            scratch->chain.inside[batch->count++] = (uint32_t)k;
+        else
+            ffd_foot_displacement(field, &foot, batch->delta + 3 * k, batch->gradient + 9 * k);
+    }
+    if (!status)
+        ffd_displacements(field->chain->links[link].lattice, field->chain->isa, batch,
+                          &scratch->chain.displacement);
+    return status;
+}
+
+/* Notes why a link may displace the places of a pair differently. */
+static void note_cause(const tear_field *field, const field_foot feet[2], const field_scratch *scratch,
+                       ffd_tear_cause *cause)
+{
+    if (*cause)
+        return;
+    if ((scratch->actions[0] == LEAVES) != (scratch->actions[1] == LEAVES))
+        *cause = FFD_TEAR_LATTICES;
+    else
+        *cause = ffd_feet_cause(field, &feet[0], &feet[1]);
+}
+
+/* The same for a pair of places, and why they differ. */
+static ffd_status displace_pair(const tear_field *field, size_t link, size_t asked, displacement_batch *batch,
+                                ffd_tear_cause *cause, field_scratch *scratch, ffd_error *error)
+{
+    field_foot feet[2] = {{.link = link}, {.link = link}};
+    ffd_status status = FFD_OK;
+    for (size_t k = 0; k < asked && !status; k++)
+        status = find_foot(field, link, k, &feet[scratch->asked[k]], scratch, error);
+    ffd_feet_join(field, &feet[0], &feet[1]);
+    for (size_t k = 0; k < asked; k++)
+        ffd_foot_displacement(field, &feet[scratch->asked[k]], batch->delta + 3 * k, batch->gradient + 9 * k);
+    note_cause(field, feet, scratch, cause);
+    return status;
+}
+
+/* Adds the displacement by a link: F = F2 F1, written with E = F - I. */
+static void add(field_place *place, double x[3], const double delta[3], const double gradient[9])
+{
+    double product[9];
+    for (int a = 0; a < 3; a++) {
+        x[a] += delta[a];
+        place->delta[a] += delta[a];
+    }
+    mat_multiply(gradient, place->gradient, product);
+    for (int i = 0; i < 9; i++)
+        place->gradient[i] += gradient[i] + product[i];
+}
+
+/* Displaces the places by one link. cause: of a pair of places; or NULL. */
+static ffd_status apply_link(const tear_field *field, size_t link, field_place *places, size_t count,
+                             ffd_tear_cause *cause, field_scratch *scratch, ffd_error *error)
+{
+    chain_scratch *const chain = &scratch->chain;
+    displacement_batch batch = {.uvw = chain->locations[0].uvw,
+                                .stride = sizeof *chain->locations,
+                                .which = chain->inside,
+                                .delta = scratch->delta,
+                                .gradient = scratch->gradient,
+                                .moves = chain->moves};
+    size_t asked;
+    ffd_status status = locate(field, link, places, count, &asked, scratch, error);
+    if (!status)
+        status = cause ? displace_pair(field, link, asked, &batch, cause, scratch, error)
+                       : displace(field, link, asked, &batch, scratch, error);
+    for (size_t k = 0; k < asked && !status; k++)
+        add(&places[scratch->asked[k]], scratch->x + 3 * (size_t)scratch->asked[k], scratch->delta + 3 * k,
+            scratch->gradient + 9 * k);
+    return status;
+}
+
+/* cause: of a pair of places; or NULL. */
+static ffd_status apply_links(const tear_field *field, field_place *places, size_t count,
+                              const field_visitor *visitor, ffd_tear_cause *cause, field_scratch *scratch,
+                              ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < count; i++) {
+        memcpy(scratch->x + 3 * i, places[i].x, 3 * sizeof *scratch->x);
+        memset(places[i].delta, 0, sizeof places[i].delta);
+        memset(places[i].gradient, 0, sizeof places[i].gradient);
+        scratch->held[i] = false;
+    }
+    for (size_t l = 0; l < field->chain->count && !status; l++) {
+        if (visitor)
+            visitor->visit(visitor->context, l, scratch->x);
+        status = apply_link(field, l, places, count, cause, scratch, error);
+    }
+    return status;
+}
+
+/* Finds the distance of a place from the nearest of the links that move one end and not the other; HUGE_VAL:
+   there are none. */
+static ffd_status find_distance(const tear_field *field, const field_place *place, int end, double *distance,
+                                ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    *distance = HUGE_VAL;
+    for (size_t l = 0; l < field->chain->count && !status; l++) {
+        field_foot foot;
+        if (!takes(field, place->ends[end], l) || takes(field, place->ends[1 - end], l))
+            continue;
+        status = ffd_foot_on_border(field, l, place->x, &foot, error);
+        if (!status && foot.found)
+            *distance = lesser_of(*distance, foot.point.distance);
+    }
+    return status;
+}
+
+/* Lists the places in a gap between links that move one end and links that move the other, and decides whose
+   act there. */
+static ffd_status find_gaps(const tear_field *field, const field_place *places, size_t count, size_t *gaps,
+                            field_scratch *scratch, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    *gaps = 0;
+    for (size_t i = 0; i < count && !status; i++) {
+        double first, second;
+        if (places[i].by != FIELD_BETWEEN || scratch->held[i])
+            continue;
+        status = find_distance(field, &places[i], 0, &first, error);
+        if (!status)
+            status = find_distance(field, &places[i], 1, &second, error);
+        if (status || first == HUGE_VAL || second == HUGE_VAL)
+            continue;
+        scratch->in_gaps[*gaps] = places[i];
+        scratch->in_gaps[*gaps].by = first <= second ? FIELD_FIRST : FIELD_SECOND;
+        scratch->gaps[(*gaps)++] = (uint32_t)i;
+    }
+    return status;
+}
+
+/* Lattices one after the other. cause: of a pair of places; or NULL. */
+static ffd_status find_in_links(const tear_field *field, field_place *places, size_t count,
+                                const field_visitor *visitor, ffd_tear_cause *cause, field_scratch *scratch,
+                                ffd_error *error)
+{
+    size_t gaps = 0;
+    ffd_status status = apply_links(field, places, count, visitor, cause, scratch, error);
+    if (!status && field->chain->count > 1 && !field->chain->outside.extend)
+        status = find_gaps(field, places, count, &gaps, scratch, error);
+    if (status || gaps == 0)
+        return status;
+    status = apply_links(field, scratch->in_gaps, gaps, NULL, NULL, scratch, error);
+    for (size_t k = 0; k < gaps && !status; k++) {
+        field_place *const place = &places[scratch->gaps[k]];
+        memcpy(place->delta, scratch->in_gaps[k].delta, sizeof place->delta);
+        memcpy(place->gradient, scratch->in_gaps[k].gradient, sizeof place->gradient);
+    }
+    if (cause)
+        *cause = FFD_TEAR_LATTICES;
+    return status;
+}
+
+ffd_status ffd_tear_field_find(const tear_field *field, field_place *places, size_t count,
+                               const field_visitor *visitor, field_scratch *scratch, ffd_error *error)
+{
+    return field->chain->blocks ? ffd_tear_blocks_find(field, places, count, scratch, error)
+                                : find_in_links(field, places, count, visitor, NULL, scratch, error);
+}
+
+ffd_status ffd_tear_field_compare(const tear_field *field, field_place pair[2], field_scratch *scratch,
+                                  ffd_tear_cause *cause, ffd_error *error)
+{
+    *cause = FFD_TEAR_NONE;
+    return field->chain->blocks ? ffd_tear_blocks_compare(field, pair, cause, error)
+                                : find_in_links(field, pair, 2, NULL, cause, scratch, error);
+}
+
+tear_field ffd_tear_field_make(const lattice_chain *chain, const mesh_faces *faces, const mark_planes *marks)
+{
+    tear_field field = {.chain = chain, .faces = faces, .marks = *marks, .plain = *chain};
+    field.plain.outside = (chain_outside){0};
+    return field;
+}
+
+tear_field ffd_tear_field_continue(const tear_field *field, lattice_chain *room)
+{
+    tear_field made = *field;
+    *room = *field->chain;
+    room->outside.extend = true;
+    made.chain = room;
+    made.continues = true;
+    return made;
+}
+
+field_scratch *ffd_tear_field_scratch(void)
+{
+    return ffd_alloc_zero(1, sizeof(field_scratch));
+}

@@ -1,0 +1,18 @@
+/* report_figures.h - the figures of a job as members of a report's entry (data/schema/formats.md 2), as the
+   table of figures says (job/figures). */
+#ifndef FFD_JOB_REPORT_REPORT_FIGURES_H
+#define FFD_JOB_REPORT_REPORT_FIGURES_H
+
+#include "json/json_span.h"
+#include "json/json_text.h"
+#include <ffd/result.h>
+
+/* Writes all figures; stable: without times. */
+void ffd_figures_write(json_text *json, const ffd_job_result *result, bool stable);
+/* Writes null for the figures that every entry has, of a job that was not run. */
+void ffd_figures_write_unknown(json_text *json);
+/* Reads the counts, numbers and names of an entry. A number that it does not have becomes NaN. Texts and
+   arrays are left out. */
+void ffd_figures_read(const json_span *tree, uint32_t entry, ffd_job_result *result);
+
+#endif
