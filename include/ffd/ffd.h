@@ -36,6 +36,7 @@
 #include <ffd/lattice.h>
 #include <ffd/points.h>
 #include <ffd/result.h>
+#include <ffd/settings.h>
 #include <ffd/version.h>
 
 #endif

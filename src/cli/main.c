@@ -3,7 +3,7 @@
 #include "batch/worker.h"
 #include "cli/commands.h"
 #include "cli/deform.h"
-#include "cli/spelling.h"
+#include "cli/member.h"
 #include <errno.h>
 #include <signal.h>
 #include <stdio.h>

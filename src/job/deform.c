@@ -54,12 +54,9 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
         const ffd_status status = check_no_output(desc, error);
         return status ? status : ffd_source_format(&desc->input, &options->format, error);
     }
-    if (desc->depfile && (desc->in_place || (desc->output && ffd_output_is_stream(desc->output))))
+    if (desc->depfile && desc->output && ffd_output_is_stream(desc->output))
         return ffd_fail(error, FFD_E_ARGUMENT, "{depfile} needs a file name as {output}");
     if (desc->in_place) {
-        if (desc->output)
-            return ffd_fail(error, FFD_E_ARGUMENT, "{in_place} takes no output, but \"%s\" is given",
-                            desc->output);
         if (ffd_file_is_stream(input))
             return ffd_fail(error, FFD_E_ARGUMENT, "standard input cannot be overwritten in place");
         options->path = input;

@@ -40,22 +40,10 @@ static ffd_status check_names(const ffd_deform_desc *desc, ffd_error *error)
     return status;
 }
 
-static ffd_status check(const deform_job *job, ffd_error *error)
-{
-    const ffd_deform_desc *const desc = job->desc;
-    if (!desc->morphs)
-        return desc->clip_count == 0 ? FFD_OK : ffd_fail(error, FFD_E_ARGUMENT, "{clips} needs {morphs}");
-    if (desc->as_morph)
-        return ffd_fail(error, FFD_E_ARGUMENT, "{as_morph} cannot be used with {morphs}");
-    if (desc->blocks)
-        return ffd_fail(error, FFD_E_ARGUMENT, "{blocks} cannot be used with {morphs}");
-    return check_names(desc, error);
-}
-
 ffd_status ffd_morphs_begin(deform_job *job, ffd_error *error)
 {
     const ffd_deform_desc *const desc = job->desc;
-    ffd_status status = check(job, error);
+    ffd_status status = desc->morphs ? check_names(desc, error) : FFD_OK;
     if (status || desc->clip_count == 0)
         return status;
     job->clips = ffd_alloc_zero(desc->clip_count, sizeof *job->clips);

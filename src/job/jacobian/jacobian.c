@@ -60,8 +60,6 @@ static ffd_status check_desc(const ffd_jacobian_desc *desc, ffd_error *error)
 {
     if (!desc->job || !desc->output)
         return ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete");
-    if (!(desc->job->timeout >= 0))
-        return ffd_fail(error, FFD_E_ARGUMENT, "the timeout %g is not a time", desc->job->timeout);
     if (desc->by != FFD_BY_POINTS && desc->by != FFD_BY_PARAMETERS)
         return ffd_fail(error, FFD_E_ARGUMENT, "%d is not a value of ffd_jacobian_by", (int)desc->by);
     if (desc->times && desc->transposed)

@@ -14,6 +14,7 @@
 #include "job/input/deform_desc.h"
 #include "job/input/in_memory.h"
 #include "job/input/selection.h"
+#include "job/input/settings.h"
 #include "job/input/source.h"
 #include "job/pass/chain_fit.h"
 #include "job/report/output_set.h"
@@ -26,6 +27,7 @@
 #include "view/page.h"
 #include "view/view_picture.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* The state of a view. */
@@ -355,23 +357,15 @@ static void judge_color(const view_work *work)
 static void warn_of_unused(const view_work *work)
 {
     const ffd_deform_desc *const job = work->desc->job;
-    const struct {
-        const char *name;
-        bool is_set;
-    } settings[] = {
-        {"{set}", job->set_count > 0 && job->lattice_count == 0},
-        {"{outside}", job->outside != FFD_OUTSIDE_KEEP},
-        {"{snap}", job->snap > 0},
-        {"{blocks}", job->blocks},
-        {"{normals}", job->normals != FFD_NORMALS_TRANSFORM},
-        {"{rig}", job->rig != FFD_RIG_KEEP},
-        {"{as_morph}", job->as_morph},
-    };
+    static const char *const settings[] = {"set", "outside", "snap", "blocks", "normals", "rig", "as_morph"};
     char names[128] = "";
-    for (size_t i = 0; i < sizeof settings / sizeof *settings; i++)
-        if (settings[i].is_set) {
+    for (size_t i = job->lattice_count > 0; i < sizeof settings / sizeof *settings;
+         i++) /* their moves use set */
+        if (ffd_setting_is_set(job, settings[i])) {
+            char name[40];
+            snprintf(name, sizeof name, "{%s}", settings[i]);
             strcat(names, *names ? ", " : "");
-            strcat(names, SPELLED(settings[i].name));
+            strcat(names, SPELLED(name));
         }
     if (*names)
         ffd_log_line(
