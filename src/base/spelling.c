@@ -17,6 +17,11 @@ void ffd_spell_members(ffd_spell_function function)
     spell = function ? function : spell_as_in_c;
 }
 
+ffd_spell_function ffd_spelling(void)
+{
+    return spell;
+}
+
 /* Spells the member in braces at the start of a text. Returns the length that it has in the text; 0: it is
    none. */
 static size_t spell_one(const char *text, char *spelled, size_t capacity)

@@ -5,6 +5,9 @@
 
 #include <ffd/error.h>
 
+/* The function in use, for what a process loads with messages of its own. */
+ffd_spell_function ffd_spelling(void);
+
 /* Returns a text with its members spelled: the text itself if it has none, else buffer, where the text is cut
    to fit. ffd_fail and ffd_log_line spell their formats by themselves, never their arguments. */
 const char *ffd_spelled(const char *text, char *buffer, size_t capacity);

@@ -9,7 +9,7 @@
 
 #define TINYGLTF_IDENTITY                                                                                    \
     {                                                                                                        \
-        "ffd-tinygltf.so", FFD_VERSION, 2                                                                    \
+        "ffd-tinygltf.so", FFD_VERSION, 3                                                                    \
     }
 
 typedef struct tinygltf_module {
