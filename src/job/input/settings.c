@@ -85,81 +85,74 @@ const ffd_member *ffd_deform_member(size_t number)
     return number < MEMBERS ? &members[number] : NULL;
 }
 
-/* Copies a member's value. Returns whether it is neither 0 nor false nor NULL. */
-static bool take(const void *at, void *value, size_t size)
+/* The number of a choice, or of the elements of a list. */
+static size_t number_of(const ffd_deform_desc *desc, const ffd_member *member)
 {
-    static const char zeros[8];
-    memcpy(value, at, size);
-    return memcmp(value, zeros, size) != 0;
+    const char *const base = (const char *)desc;
+    size_t count;
+    int choice;
+    if (member->kind != FFD_MEMBER_LIST) {
+        memcpy(&choice, base + member->offset, sizeof choice);
+        return (size_t)choice;
+    }
+    memcpy(&count, base + member->count, sizeof count);
+    return count;
 }
 
-/* Whether a member is set; *number: of a choice, its value, of a list, how many elements it has. */
-static bool is_set(const ffd_deform_desc *desc, const ffd_member *member, size_t *number)
+static double value_of(const ffd_deform_desc *desc, const ffd_member *member)
 {
-    const char *const at = (const char *)desc + member->offset;
-    const void *pointer;
-    uint64_t bytes;
     double value;
-    bool flag;
-    int count;
-    switch (member->kind) {
-    case FFD_MEMBER_FLAG:
-        return take(at, &flag, sizeof flag);
-    case FFD_MEMBER_CHOICE:
-    case FFD_MEMBER_FORMAT:
-    case FFD_MEMBER_COUNT:
-    case FFD_MEMBER_GATES:
-        take(at, &count, sizeof count);
-        *number = (size_t)count;
-        return count != 0;
-    case FFD_MEMBER_LENGTH:
-    case FFD_MEMBER_TIME:
-        return take(at, &value, sizeof value);
-    case FFD_MEMBER_BYTES:
-        return take(at, &bytes, sizeof bytes);
-    case FFD_MEMBER_LIST:
-        return take((const char *)desc + member->count, number, sizeof *number) &&
-               take(at, &pointer, sizeof pointer);
-    case FFD_MEMBER_TEXT:
-    case FFD_MEMBER_OBJECT:
-        return take(at, &pointer, sizeof pointer);
-    }
-    return false;
+    memcpy(&value, (const char *)desc + member->offset, sizeof value);
+    return value;
+}
+
+static bool is_set(const ffd_deform_desc *desc, const ffd_member *member)
+{
+    static const size_t sizes[] = {
+        [FFD_MEMBER_FLAG] = sizeof(bool),          [FFD_MEMBER_CHOICE] = sizeof(int),
+        [FFD_MEMBER_FORMAT] = sizeof(int),         [FFD_MEMBER_COUNT] = sizeof(int),
+        [FFD_MEMBER_BYTES] = sizeof(uint64_t),     [FFD_MEMBER_GATES] = sizeof(unsigned),
+        [FFD_MEMBER_TEXT] = sizeof(const char *),  [FFD_MEMBER_LIST] = sizeof(const void *),
+        [FFD_MEMBER_OBJECT] = sizeof(const void *)};
+    static const char zeros[sizeof(uint64_t)];
+    if (member->kind == FFD_MEMBER_LENGTH || member->kind == FFD_MEMBER_TIME)
+        return value_of(desc, member) > 0;
+    return memcmp((const char *)desc + member->offset, zeros, sizes[member->kind]) != 0 &&
+           (member->kind != FFD_MEMBER_LIST || number_of(desc, member) > 0);
 }
 
 bool ffd_setting_is_set(const ffd_deform_desc *desc, const char *setting)
 {
     const size_t length = strcspn(setting, "=");
     const char *const word = setting[length] ? setting + length + 1 : NULL;
-    size_t number = 0, m = 0;
+    size_t m = 0;
     while (m < MEMBERS &&
            (strlen(members[m].name) != length || memcmp(members[m].name, setting, length) != 0))
         m++;
-    if (m == MEMBERS || !is_set(desc, &members[m], &number))
+    if (m == MEMBERS || !is_set(desc, &members[m]))
         return false;
     if (!word)
         return true;
+    const size_t number = number_of(desc, &members[m]);
     return members[m].kind == FFD_MEMBER_LIST ? number > 1 : strcmp(members[m].words[number], word) == 0;
 }
 
 static ffd_status check_range(const ffd_deform_desc *desc, const ffd_member *member, ffd_error *error)
 {
-    const char *const at = (const char *)desc + member->offset;
-    double value = 0;
-    int number = 0, words = 0;
+    size_t words = 0;
     while (member->words && member->words[words])
         words++;
-    if (words > 0)
-        take(at, &number, sizeof number);
-    if (member->kind == FFD_MEMBER_LENGTH || member->kind == FFD_MEMBER_TIME)
-        take(at, &value, sizeof value);
-    if (words > 0 && (number < 0 || number >= words))
-        return ffd_fail(error, FFD_E_ARGUMENT, "%d is not a value of %s", number, member->name);
-    if (member->kind == FFD_MEMBER_LENGTH && !(value >= 0 && isfinite(value)))
-        return ffd_fail(error, FFD_E_ARGUMENT, "the %s %g is not a length", member->name, value);
-    if (member->kind == FFD_MEMBER_TIME && !(value >= 0))
-        return ffd_fail(error, FFD_E_ARGUMENT, "the %s %g is not a time", member->name, value);
-    return FFD_OK;
+    if (words > 0 && number_of(desc, member) >= words)
+        return ffd_fail(error, FFD_E_ARGUMENT, "%d is not a value of %s", (int)number_of(desc, member),
+                        member->name);
+    if (member->kind != FFD_MEMBER_LENGTH && member->kind != FFD_MEMBER_TIME)
+        return FFD_OK;
+    const double value = value_of(desc, member);
+    const bool is_time = member->kind == FFD_MEMBER_TIME;
+    return value >= 0 && (is_time || isfinite(value))
+               ? FFD_OK
+               : ffd_fail(error, FFD_E_ARGUMENT, "the %s %g is not a %s", member->name, value,
+                          is_time ? "time" : "length");
 }
 
 /* A limit of NaN would never be exceeded. */
