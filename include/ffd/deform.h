@@ -24,20 +24,24 @@ extern "C" {
 FFD_API int ffd_displacement(const ffd_lattice *lattice, const double uvw[3], double delta[3],
                              double gradient[9]);
 
+/* What becomes of a normal or a tangent. Except for FFD_DIRECTION_CARRIED it keeps its bits. */
+typedef enum ffd_direction_outcome {
+    FFD_DIRECTION_KEPT = 0,  /* the gradient is 0, or the direction is 0 or not finite */
+    FFD_DIRECTION_CARRIED,   /* it is transformed */
+    FFD_DIRECTION_COLLAPSED, /* its image is 0 to rounding: the surface collapses */
+    FFD_DIRECTION_OUTCOMES   /* the number of outcomes */
+} ffd_direction_outcome;
+
 /* Transforms a normal to the deformed surface: result = cof(F) n / |cof(F) n| with F = I + gradient
    (src/maths.md 9.1). gradient: 9 doubles, as ffd_displacement fills them. n need not have unit length.
-   Returns 1 if result is the transformed normal. Otherwise returns 0 and copies n to result, bit for bit:
-   because gradient is 0, because n is 0 or not finite, or because cof(F) n is 0 to rounding (the surface
-   collapses). *collapsed is set to 1 in the last case, to 0 in all others; collapsed may be NULL. result may
-   be n itself. Thread-safe. */
-FFD_API int ffd_deform_normal(const double gradient[9], const double normal[3], double result[3],
-                              int *collapsed);
+   result may be n itself. Thread-safe. */
+FFD_API ffd_direction_outcome ffd_deform_normal(const double gradient[9], const double normal[3],
+                                                double result[3]);
 
 /* Transforms a tangent to the deformed surface: F t, minus its component along normal, normalised. normal:
-   the deformed unit normal, or NULL to keep that component. Return value, collapsed and result: as for
-   ffd_deform_normal. Thread-safe. */
-FFD_API int ffd_deform_tangent(const double gradient[9], const double tangent[3], const double normal[3],
-                               double result[3], int *collapsed);
+   the deformed unit normal, or NULL to keep that component. result may be t itself. Thread-safe. */
+FFD_API ffd_direction_outcome ffd_deform_tangent(const double gradient[9], const double tangent[3],
+                                                 const double normal[3], double result[3]);
 
 #ifdef __cplusplus
 }

@@ -42,16 +42,6 @@ typedef struct ffd_error {
    whole line without the 0, as snprintf does. Thread-safe. */
 FFD_API size_t ffd_error_format(const ffd_error *error, char *text, size_t capacity);
 
-/* Writes to text how a front end spells a member of a description (or an argument) in messages. member: as in
-   these headers ("falloff", "input.space"); value: its value in a word ("extend"), or NULL. In a format for
-   printf the value may be a conversion, which is to be copied. */
-typedef void (*ffd_spell_function)(const char *member, const char *value, char *text, size_t capacity);
-
-/* Makes the library's messages name members as a front end does: "--falloff needs --outside extend" by the
-   program's function; "falloff needs outside = extend" by default, and again after NULL. For programs, to be
-   called before all other functions: it holds for the whole process. */
-FFD_API void ffd_spell_members(ffd_spell_function spell);
-
 /* Returns the exit code of the program `ffd` for a status, 0 to 7 (data/schema/formats.md 1); 7 for an
    unknown status. Thread-safe. */
 FFD_API int ffd_status_exit_code(ffd_status status);

@@ -35,6 +35,7 @@
 #include <ffd/job.h>
 #include <ffd/lattice.h>
 #include <ffd/points.h>
+#include <ffd/program.h>
 #include <ffd/result.h>
 #include <ffd/settings.h>
 #include <ffd/version.h>

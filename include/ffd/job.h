@@ -75,17 +75,6 @@ typedef enum ffd_log_level { FFD_LOG_WARNING = 0, FFD_LOG_INFO, FFD_LOG_DETAIL }
 /* Receives one line without a line break, during the call only, in the thread that called the library. */
 typedef void (*ffd_log_function)(void *user, ffd_log_level level, const char *line);
 
-/* Installs handlers for those of SIGHUP, SIGINT, SIGPIPE, SIGQUIT and SIGTERM that would end the program:
-   they remove the temporary files of unfinished outputs before it ends. For programs, to be called once when
-   they start; the library never installs these handlers by itself. */
-FFD_API void ffd_cleanup_on_signals(void);
-
-/* Installs a SIGBUS handler. Large input files are mapped into memory; if another program truncates one while
-   it is read, the system raises SIGBUS. With the handler the function that reads the file fails with FFD_E_IO
-   instead. A SIGBUS with another cause is passed to the previous handler. For programs, to be called once
-   when they start. */
-FFD_API void ffd_guard_inputs(void);
-
 /* Recovers the files of an output of several files (a .gltf and its buffers) after a run that replaced them
    was killed: either restores the old files, which the run had set aside, or removes them if all new files
    are in place. ffd_deform_run and ffd_embed_run do this for their outputs. path: the .gltf, or the main file
@@ -550,8 +539,8 @@ FFD_API void ffd_lattice_new_desc_init(ffd_lattice_new_desc *desc, size_t size);
 FFD_API ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *desc, ffd_error *error);
 
 /* Writes the figures of a result for people, as `ffd check` prints them, a line or two for each. lattice: the
-   name of the lattice result->folds.witness.lattice. *text ends with a line break and a 0 byte; the caller
-   frees it with ffd_text_free. Thread-safe. Errors: FFD_E_ARGUMENT, FFD_E_MEMORY. */
+   name of the lattice result->folds.witness.lattice, or NULL. *text ends with a line break and a 0 byte; the
+   caller frees it with ffd_text_free. Thread-safe. Errors: FFD_E_ARGUMENT, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_job_result_text(const ffd_job_result *result, const char *lattice, char **text,
                                        ffd_error *error);
 

@@ -3,7 +3,7 @@
 #ifndef FFD_BASE_SPELLING_H
 #define FFD_BASE_SPELLING_H
 
-#include <ffd/error.h>
+#include <ffd/program.h>
 
 /* The function in use, for what a process loads with messages of its own. */
 ffd_spell_function ffd_spelling(void);

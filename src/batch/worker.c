@@ -20,6 +20,7 @@
 #include "job/report/depfile.h"
 #include "job/report/output_set.h"
 #include "job/report/report.h"
+#include <ffd/program.h>
 #include <inttypes.h>
 #include <string.h>
 

@@ -5,6 +5,7 @@
 #include "cli/deform.h"
 #include "cli/member.h"
 #include <errno.h>
+#include <ffd/program.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>

@@ -24,45 +24,41 @@ static void add_identity(const double gradient[9], double f[9])
         f[i] = gradient[i] + (i % 4 == 0 ? 1 : 0);
 }
 
-/* Copies v to result, sets *collapsed to `why`, and returns 0. */
-static int keep(const double v[3], double result[3], int *collapsed, int why)
+/* Copies v to result. */
+static ffd_direction_outcome keep(const double v[3], double result[3], ffd_direction_outcome why)
 {
     memmove(result, v, 3 * sizeof *result);
-    if (collapsed)
-        *collapsed = why;
-    return 0;
+    return why;
 }
 
 /* Normalises `carried` into result. Keeps `before` if the length is not more than the rounding of the summed
    terms, whose magnitude is `scale`. */
-static int normalise(const double carried[3], double scale, const double before[3], double result[3],
-                     int *collapsed)
+static ffd_direction_outcome normalise(const double carried[3], double scale, const double before[3],
+                                       double result[3])
 {
     const double length = vec_length(carried);
     if (!(length > 16 * DBL_EPSILON * scale) || length > DBL_MAX)
-        return keep(before, result, collapsed, 1);
+        return keep(before, result, FFD_DIRECTION_COLLAPSED);
     for (int a = 0; a < 3; a++)
         result[a] = carried[a] / length;
-    if (collapsed)
-        *collapsed = 0;
-    return 1;
+    return FFD_DIRECTION_CARRIED;
 }
 
-int ffd_deform_normal(const double gradient[9], const double normal[3], double result[3], int *collapsed)
+ffd_direction_outcome ffd_deform_normal(const double gradient[9], const double normal[3], double result[3])
 {
     double f[9], cofactor[9], carried[3];
     if (is_zero(gradient) || !has_direction(normal))
-        return keep(normal, result, collapsed, 0);
+        return keep(normal, result, FFD_DIRECTION_KEPT);
     add_identity(gradient, f);
     mat_cofactor(f, cofactor);
     mat_apply(cofactor, normal, carried);
     const double largest = mat_largest_entry(f);
-    return normalise(carried, largest * largest * vec_length(normal), normal, result, collapsed);
+    return normalise(carried, largest * largest * vec_length(normal), normal, result);
 }
 
 /* Transforms a tangent: F t, made perpendicular to normal unless that is NULL. */
-static int carry_tangent(const double gradient[9], const double tangent[3], const double *normal,
-                         double result[3], int *collapsed)
+static ffd_direction_outcome carry_tangent(const double gradient[9], const double tangent[3],
+                                           const double *normal, double result[3])
 {
     double f[9], carried[3];
     add_identity(gradient, f);
@@ -72,21 +68,21 @@ static int carry_tangent(const double gradient[9], const double tangent[3], cons
         for (int a = 0; a < 3; a++)
             carried[a] -= along * normal[a];
     }
-    return normalise(carried, mat_largest_entry(f) * vec_length(tangent), tangent, result, collapsed);
+    return normalise(carried, mat_largest_entry(f) * vec_length(tangent), tangent, result);
 }
 
-int ffd_deform_tangent(const double gradient[9], const double tangent[3], const double normal[3],
-                       double result[3], int *collapsed)
+ffd_direction_outcome ffd_deform_tangent(const double gradient[9], const double tangent[3],
+                                         const double normal[3], double result[3])
 {
     if (is_zero(gradient) || !has_direction(tangent))
-        return keep(tangent, result, collapsed, 0);
-    return carry_tangent(gradient, tangent, normal, result, collapsed);
+        return keep(tangent, result, FFD_DIRECTION_KEPT);
+    return carry_tangent(gradient, tangent, normal, result);
 }
 
-int ffd_tangent_of_normal(const double gradient[9], const double tangent[3], const double normal[3],
-                          double result[3])
+ffd_direction_outcome ffd_tangent_of_normal(const double gradient[9], const double tangent[3],
+                                            const double normal[3], double result[3])
 {
-    return carry_tangent(gradient, tangent, normal, result, NULL);
+    return carry_tangent(gradient, tangent, normal, result);
 }
 
 /* The kernels of an instruction set; NULL: use the functions for single directions. */
@@ -108,12 +104,7 @@ static void try_kernel(attribute_kernel *kernel, const attribute_batch *batch)
     if (kernel)
         kernel(batch);
     else
-        memset(batch->outcomes, ATTRIBUTE_OPEN, batch->count);
-}
-
-static uint8_t outcome_of(int is_carried, int collapsed)
-{
-    return is_carried ? ATTRIBUTE_CARRIED : collapsed ? ATTRIBUTE_COLLAPSED : ATTRIBUTE_KEPT;
+        memset(batch->outcomes, DIRECTION_OPEN, batch->count);
 }
 
 void ffd_deform_normals(ffd_isa isa, const attribute_batch *batch)
@@ -121,11 +112,9 @@ void ffd_deform_normals(ffd_isa isa, const attribute_batch *batch)
     try_kernel(ways[ffd_isa_resolve(isa)].normals, batch);
     for (size_t i = 0; i < batch->count; i++) {
         double *const n = batch->directions + i * batch->step;
-        int collapsed;
-        if (batch->outcomes[i] != ATTRIBUTE_OPEN)
+        if (batch->outcomes[i] != DIRECTION_OPEN)
             continue;
-        const int is_carried = ffd_deform_normal(attribute_gradient(batch, i), n, n, &collapsed);
-        batch->outcomes[i] = outcome_of(is_carried, collapsed);
+        batch->outcomes[i] = (uint8_t)ffd_deform_normal(attribute_gradient(batch, i), n, n);
     }
 }
 
@@ -135,10 +124,8 @@ void ffd_deform_tangents(ffd_isa isa, const attribute_batch *batch)
     for (size_t i = 0; i < batch->count; i++) {
         double *const t = batch->directions + i * batch->step;
         const double *const normal = batch->normals ? batch->normals + 3 * i : NULL;
-        int collapsed;
-        if (batch->outcomes[i] != ATTRIBUTE_OPEN)
+        if (batch->outcomes[i] != DIRECTION_OPEN)
             continue;
-        const int is_carried = ffd_deform_tangent(attribute_gradient(batch, i), t, normal, t, &collapsed);
-        batch->outcomes[i] = outcome_of(is_carried, collapsed);
+        batch->outcomes[i] = (uint8_t)ffd_deform_tangent(attribute_gradient(batch, i), t, normal, t);
     }
 }

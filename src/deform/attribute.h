@@ -8,14 +8,13 @@
 #include <ffd/deform.h>
 
 /* Applies ffd_deform_normal to every direction of the batch, with the same bits for all instruction sets. No
-   outcome is ATTRIBUTE_OPEN afterwards. */
+   outcome is DIRECTION_OPEN afterwards. */
 void ffd_deform_normals(ffd_isa isa, const attribute_batch *batch);
 /* The same for tangents, as ffd_deform_tangent. */
 void ffd_deform_tangents(ffd_isa isa, const attribute_batch *batch);
 
-/* As ffd_deform_tangent, for a normal that changed although the gradient may be 0. Returns 1 and writes
-   result; returns 0 and copies the tangent if it collapses. */
-int ffd_tangent_of_normal(const double gradient[9], const double tangent[3], const double normal[3],
-                          double result[3]);
+/* As ffd_deform_tangent, for a normal that changed although the gradient may be 0. */
+ffd_direction_outcome ffd_tangent_of_normal(const double gradient[9], const double tangent[3],
+                                            const double normal[3], double result[3]);
 
 #endif

@@ -60,15 +60,15 @@ static ALWAYS_INLINE void finish(const attribute_batch *batch, size_t first, mas
     lanes_store_triples(result, triples);
     for (size_t l = 0; l < FFD_LANES; l++) {
         memcpy(batch->directions + (first + l) * batch->step, triples + 3 * l, 3 * sizeof *triples);
-        batch->outcomes[first + l] = still[l]        ? ATTRIBUTE_KEPT
-                                     : is_carried[l] ? ATTRIBUTE_CARRIED
-                                                     : ATTRIBUTE_OPEN;
+        batch->outcomes[first + l] = still[l]        ? FFD_DIRECTION_KEPT
+                                     : is_carried[l] ? FFD_DIRECTION_CARRIED
+                                                     : DIRECTION_OPEN;
     }
 }
 
 static void leave_open(const attribute_batch *batch, size_t first)
 {
-    memset(batch->outcomes + first, ATTRIBUTE_OPEN, batch->count - first);
+    memset(batch->outcomes + first, DIRECTION_OPEN, batch->count - first);
 }
 
 void FFD_NORMAL_KERNEL(const attribute_batch *batch)

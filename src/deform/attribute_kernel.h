@@ -2,16 +2,12 @@
 #ifndef FFD_DEFORM_ATTRIBUTE_KERNEL_H
 #define FFD_DEFORM_ATTRIBUTE_KERNEL_H
 
+#include <ffd/deform.h>
 #include <stddef.h>
 #include <stdint.h>
 
-/* The outcome for a direction. */
-enum {
-    ATTRIBUTE_KEPT,      /* unchanged, to the bit */
-    ATTRIBUTE_CARRIED,   /* replaced by the transformed direction */
-    ATTRIBUTE_COLLAPSED, /* the result has no direction: unchanged */
-    ATTRIBUTE_OPEN       /* not decided by the kernel: use the function for a single direction */
-};
+/* The kernel has not decided on a direction: use the function for a single one. */
+#define DIRECTION_OPEN FFD_DIRECTION_OUTCOMES
 
 /* Directions, and the deformation gradients at their points. */
 typedef struct attribute_batch {
@@ -22,7 +18,7 @@ typedef struct attribute_batch {
     size_t step;
     const double *normals; /* for tangents: deformed unit normals, 3 numbers each, or NULL; for normals:
                               NULL */
-    uint8_t *outcomes;     /* one for each direction */
+    uint8_t *outcomes;     /* ffd_direction_outcome of each direction */
 } attribute_batch;
 
 /* Returns F - I at the point of direction i. */

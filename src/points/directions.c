@@ -39,8 +39,8 @@ static ffd_status carry_tile(void *context, size_t first, size_t count, int work
     else
         ffd_deform_normals(work->isa, &batch);
     for (size_t i = 0; i < count; i++) {
-        collapsed += s->outcomes[i] == ATTRIBUTE_COLLAPSED;
-        if (s->outcomes[i] == ATTRIBUTE_CARRIED || work->in.type != work->out.type)
+        collapsed += s->outcomes[i] == FFD_DIRECTION_COLLAPSED;
+        if (s->outcomes[i] == FFD_DIRECTION_CARRIED || work->in.type != work->out.type)
             ffd_span_write(&work->out, first + i, 1, s->directions + 3 * i);
         else if (work->in.data != work->out.data)
             ffd_span_copy(&work->in, &work->out, first + i);

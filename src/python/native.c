@@ -7,6 +7,7 @@
 #include <ffd/job.h>
 #include <ffd/lattice.h>
 #include <ffd/points.h>
+#include <ffd/program.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>

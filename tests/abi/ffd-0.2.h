@@ -108,9 +108,15 @@ const double *ffd_lattice_get_weights(const ffd_lattice *lattice, ffd_volume vol
 void ffd_lattice_evaluate(const ffd_lattice *lattice, ffd_volume volume, const double uvw[3], double point[3],
                           double jacobian[9]);
 int ffd_displacement(const ffd_lattice *lattice, const double uvw[3], double delta[3], double gradient[9]);
-int ffd_deform_normal(const double gradient[9], const double normal[3], double result[3], int *collapsed);
-int ffd_deform_tangent(const double gradient[9], const double tangent[3], const double normal[3],
-                       double result[3], int *collapsed);
+typedef enum ffd_direction_outcome {
+    FFD_DIRECTION_KEPT = 0,
+    FFD_DIRECTION_CARRIED,
+    FFD_DIRECTION_COLLAPSED,
+    FFD_DIRECTION_OUTCOMES
+} ffd_direction_outcome;
+ffd_direction_outcome ffd_deform_normal(const double gradient[9], const double normal[3], double result[3]);
+ffd_direction_outcome ffd_deform_tangent(const double gradient[9], const double tangent[3],
+                                         const double normal[3], double result[3]);
 typedef enum ffd_vertex_status {
     FFD_INSIDE = 0,
     FFD_OUTSIDE = 1,
@@ -371,8 +377,6 @@ typedef enum ffd_gate {
 } ffd_gate;
 typedef enum ffd_log_level { FFD_LOG_WARNING = 0, FFD_LOG_INFO, FFD_LOG_DETAIL } ffd_log_level;
 typedef void (*ffd_log_function)(void *user, ffd_log_level level, const char *line);
-void ffd_cleanup_on_signals(void);
-void ffd_guard_inputs(void);
 ffd_status ffd_restore_output(const char *path, ffd_error *error);
 typedef struct ffd_bytes {
     const void *data;
@@ -683,4 +687,6 @@ ffd_status ffd_tangents_deform(const double *gradients, ffd_span normals, ffd_sp
 ffd_status ffd_lattice_evaluate_many(const ffd_lattice *lattice, ffd_volume volume, const double *uvw,
                                      size_t count, double *xyz, double *jacobians, const ffd_run *run,
                                      ffd_error *error);
+void ffd_cleanup_on_signals(void);
+void ffd_guard_inputs(void);
 const char *ffd_version(void);

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <ffd/job.h>
+#include <ffd/program.h>
 #include <iostream>
 #include <new>
 #include <sys/mman.h>

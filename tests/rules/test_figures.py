@@ -170,8 +170,10 @@ def main():
     members = set(in_result(structs()))
     for name in sorted(members - names - NO_FIGURES):
         findings.append(f"include/ffd: ffd_job_result.{name} has no row in {TABLE}")
-    joined = set(re.findall(r"FROM\(([\w.]+)", tree.read(TABLE)))
-    for name in sorted(set(in_result(structs(), "pass_totals")) - joined - OF_PASS):
+    joined = re.findall(r"FROM\(([\w.]+)", tree.read(TABLE))
+    for name in sorted({name for name in joined if joined.count(name) > 1}):
+        findings.append(f"{TABLE}: {name} of a pass is in two rows: it is joined twice")
+    for name in sorted(set(in_result(structs(), "pass_totals")) - set(joined) - OF_PASS):
         findings.append(f"src/job/figures/pass_totals.h: {name} has no row in {TABLE}: it is neither cleared nor joined")
     schema = json.loads(tree.read(SCHEMA))
     job, morph = schema["$defs"]["job"], schema["$defs"]["morph"]

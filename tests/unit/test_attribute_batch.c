@@ -57,11 +57,9 @@ static void expect(const attribute_batch *batch, const double *directions, bool 
         const double *const gradient = batch->gradients + 9 * (batch->points ? batch->points[i] : i);
         const double *const normal = batch->normals ? batch->normals + 3 * i : NULL;
         double result[3];
-        int collapsed;
-        const int carried =
-            tangents ? ffd_deform_tangent(gradient, directions + i * batch->step, normal, result, &collapsed)
-                     : ffd_deform_normal(gradient, directions + i * batch->step, result, &collapsed);
-        const int outcome = carried ? ATTRIBUTE_CARRIED : collapsed ? ATTRIBUTE_COLLAPSED : ATTRIBUTE_KEPT;
+        const ffd_direction_outcome outcome =
+            tangents ? ffd_deform_tangent(gradient, directions + i * batch->step, normal, result)
+                     : ffd_deform_normal(gradient, directions + i * batch->step, result);
         if (outcome != batch->outcomes[i] ||
             memcmp(result, batch->directions + i * batch->step, sizeof result) != 0)
             fail_msg("direction %zu of %zu: %d %.17g %.17g %.17g, alone %d %.17g %.17g %.17g", i,

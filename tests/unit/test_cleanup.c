@@ -11,7 +11,7 @@
 #include "base/file/input.h"
 #include "base/file/output.h"
 #include <dirent.h>
-#include <ffd/job.h>
+#include <ffd/program.h>
 #include <pthread.h>
 #include <signal.h>
 #include <sys/wait.h>

@@ -12,6 +12,7 @@
 #include "job/report/report.h"
 #include "job/report/report_figures.h"
 #include "json/json_parse.h"
+#include <ffd/job.h>
 #include <math.h>
 #include <string.h>
 
@@ -21,6 +22,49 @@ static void a_figure_has_the_type_of_its_total(void **state)
     for (const figure *f = ffd_figures; f < ffd_figures + ffd_figure_count; f++)
         if (f->name && f->total.type && f->total.type != f->result.type)
             fail_msg("%s is not of the type that the pass has", f->name);
+}
+
+/* Whether values of a type can be joined so. */
+static bool can_join(figure_type type, figure_join how)
+{
+    switch (how) {
+    case JOIN_NONE:
+        return true;
+    case JOIN_SUM:
+        return type == FIGURE_COUNT || type == FIGURE_NUMBER || type == FIGURE_STATUSES;
+    case JOIN_ANY:
+    case JOIN_ALL:
+        return type == FIGURE_FLAG;
+    case JOIN_HIGHEST:
+    case JOIN_ONLY:
+        return type == FIGURE_NUMBER;
+    case JOIN_LARGEST:
+    case JOIN_LEAST:
+    case JOIN_WITH:
+        return type == FIGURE_COUNT || type == FIGURE_NUMBER;
+    case JOIN_BOUNDS:
+        return type == FIGURE_BOX;
+    case JOIN_SAME:
+        return type == FIGURE_COUNT || type == FIGURE_NUMBER || type == FIGURE_BOX;
+    case JOIN_FEWEST:
+        return type == FIGURE_COUNT || type == FIGURE_STATUSES;
+    case JOIN_BEHIND:
+        return type == FIGURE_BEHIND;
+    default:
+        return type == FIGURE_GROUP;
+    }
+}
+
+static void a_figure_is_joined_as_its_type_can_be(void **state)
+{
+    (void)state;
+    for (const figure *f = ffd_figures; f < ffd_figures + ffd_figure_count; f++) {
+        const char *const name = f->name ? f->name : "a figure of the pass";
+        if (!can_join(f->total.type, f->tiles))
+            fail_msg("%s cannot be joined so from tiles", name);
+        if (!can_join(f->result.type, f->targets))
+            fail_msg("%s cannot be joined so from morph targets", name);
+    }
 }
 
 /* Another value in each. */
@@ -93,6 +137,33 @@ static void what_is_not_known_is_null_or_absent(void **state)
     assert_false(read.has_flipped || read.rig.is_there);
     assert_true(isnan(read.volume.before) && isnan(read.tear.largest) && isnan(read.precision.side));
     assert_true(read.displacement.max == 0); /* every entry has it */
+}
+
+static void the_text_has_a_line_for_what_is_known(void **state)
+{
+    (void)state;
+    ffd_error error;
+    char *text = NULL;
+    ffd_job_result result;
+    ffd_result_clear(&result);
+    assert_int_equal(ffd_job_result_text(&result, NULL, &text, &error), FFD_OK);
+    assert_string_equal(text,
+                        "  vertices       0\n  moved          0, by 0 at most\n  area           not known\n"
+                        "  volume         not known\n");
+    ffd_text_free(text);
+    result.counts[FFD_SINGULAR] = result.vertices = 2;
+    result.tear.is_known = result.folds.is_known = result.folds.witness.is_there = true;
+    result.folds.witness.lattice = 1;
+    result.folds.verdict = FFD_FOLDS_SOME;
+    assert_int_equal(ffd_job_result_text(&result, NULL, &text, &error), FFD_OK);
+    assert_non_null(strstr(text, "  vertices       2: 2 singular\n"));
+    assert_non_null(strstr(text, "  torn edges     0\n"));
+    assert_non_null(strstr(text, "det J is 0 (lattice 2)\n"));
+    assert_null(strstr(text, "flipped"));
+    ffd_text_free(text);
+    result.struct_size = 0;
+    assert_int_equal(ffd_job_result_text(&result, NULL, &text, &error), FFD_E_ARGUMENT);
+    assert_null(text);
 }
 
 static void tiles_are_joined(void **state)
@@ -169,8 +240,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_figure_has_the_type_of_its_total),
+        cmocka_unit_test(a_figure_is_joined_as_its_type_can_be),
         cmocka_unit_test(a_report_is_read_back),
         cmocka_unit_test(what_is_not_known_is_null_or_absent),
+        cmocka_unit_test(the_text_has_a_line_for_what_is_known),
         cmocka_unit_test(tiles_are_joined),
         cmocka_unit_test(targets_are_joined),
     };

@@ -8,8 +8,8 @@
 #include "../support/gltf_file.h"
 #include "base/file/path.h"
 #include "base/text/base64.h"
-#include "io/gltf/file/uri.h"
-#include "io/gltf/model/gltf_model.h"
+#include "io/gltf/file/gltf_uri.h"
+#include "io/gltf/read/gltf_model.h"
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -267,7 +267,7 @@ static void unsupported_things_are_named(void **state)
         {"{" DATA "," ACCESSORS "," MESHES "," SCENE
          ",\"extensionsRequired\":[\"KHR_materials_x\",\"EXT_geometry\"]}",
          "t.gltf:/extensionsRequired/1: the required extension \"EXT_geometry\" is not known "
-         "(--allow-extension EXT_geometry deforms the file all the same)",
+         "(input.allow_extensions = EXT_geometry deforms the file all the same)",
          FFD_E_UNSUPPORTED},
     };
     check_refusals(cases, sizeof cases / sizeof *cases);

@@ -8,7 +8,7 @@
 #include "../support/test_folder.h"
 #include "base/file/input.h"
 #include <fcntl.h>
-#include <ffd/job.h>
+#include <ffd/program.h>
 #include <pthread.h>
 #include <signal.h>
 #include <sys/mman.h>

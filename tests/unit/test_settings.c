@@ -3,6 +3,7 @@
 #include "base/spelling.h"
 #include "cli/member.h"
 #include "job/input/settings.h"
+#include <ffd/program.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -3,7 +3,7 @@
 #include "base/file/folder.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
-#include <ffd/job.h>
+#include <ffd/program.h>
 #include <poll.h>
 #include <pthread.h>
 #include <signal.h>

@@ -3,7 +3,7 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include <errno.h>
-#include <ffd/job.h>
+#include <ffd/program.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>

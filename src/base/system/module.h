@@ -6,6 +6,7 @@
 #define FFD_BASE_SYSTEM_MODULE_H
 
 #include "base/fail.h"
+#include <ffd/program.h>
 #include <stdatomic.h>
 #include <stdint.h>
 

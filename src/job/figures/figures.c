@@ -3,48 +3,40 @@
 #include <math.h>
 #include <string.h>
 
-#define TYPE_OF(value)                                                                                       \
-    _Generic((value), bool                                                                                   \
-             : FIGURE_FLAG, uint64_t                                                                         \
-             : FIGURE_COUNT, double                                                                          \
-             : FIGURE_NUMBER, char *                                                                         \
-             : FIGURE_TEXT, double *                                                                         \
-             : FIGURE_VECTOR, ffd_bounds                                                                     \
-             : FIGURE_BOX, uint64_t *                                                                        \
-             : FIGURE_STATUSES, ffd_fold_verdict                                                             \
-             : FIGURE_VERDICT, ffd_fold_reference                                                            \
-             : FIGURE_REFERENCE, ffd_tear_cause                                                              \
-             : FIGURE_CAUSE, ffd_behind *                                                                    \
-             : FIGURE_BEHIND, ffd_flaw *                                                                     \
-             : FIGURE_FLAWS, const ffd_job_result *                                                          \
-             : FIGURE_MORPHS)
-#define MEMBER(type, member)                                                                                 \
-    {                                                                                                        \
-        TYPE_OF(((type *)0)->member), offsetof(type, member)                                                 \
-    }
+/* clang-format off */
+#define TYPE_OF(value) _Generic((value), \
+    bool: FIGURE_FLAG, \
+    uint64_t: FIGURE_COUNT, \
+    double: FIGURE_NUMBER, \
+    char *: FIGURE_TEXT, \
+    double *: FIGURE_VECTOR, \
+    ffd_bounds: FIGURE_BOX, \
+    uint64_t *: FIGURE_STATUSES, \
+    ffd_fold_verdict: FIGURE_VERDICT, \
+    ffd_fold_reference: FIGURE_REFERENCE, \
+    ffd_tear_cause: FIGURE_CAUSE, \
+    ffd_behind *: FIGURE_BEHIND, \
+    ffd_flaw *: FIGURE_FLAWS, \
+    const ffd_job_result *: FIGURE_MORPHS)
+#define MEMBER(type, member) {TYPE_OF(((type *)0)->member), offsetof(type, member)}
 #define RESULT(member) MEMBER(ffd_job_result, member)
 
 /* The parts of a row. */
 #define FIGURE(member) .name = #member, .result = RESULT(member)
 #define HELD_BACK(member) FIGURE(member), .is_held_back = true
-#define GROUP(member)                                                                                        \
-    .name = #member, .result = {FIGURE_GROUP, offsetof(ffd_job_result, member)},                             \
+#define GROUP(member) .name = #member, .result = {FIGURE_GROUP, offsetof(ffd_job_result, member)}, \
     .size = sizeof((ffd_job_result *)0)->member
+#define END {.result = {FIGURE_END, 0}}
 #define FROM(member, how) .total = MEMBER(pass_totals, member), .tiles = (how)
 #define TARGETS(how) .targets = (how)
+#define LARGEST_BY(member) .targets = JOIN_GROUP, .by = offsetof(ffd_job_result, member)
 #define NULL_UNLESS(need) .presence = FIGURE_NULL_UNLESS, .needs = {RESULT(need)}
 #define NULL_UNLESS_FINITE(a, b) .presence = FIGURE_NULL_UNLESS_FINITE, .needs = {RESULT(a), RESULT(b)}
 #define ABSENT_UNLESS(need) .presence = FIGURE_ABSENT_UNLESS, .needs = {RESULT(need)}
 #define ABSENT_UNLESS_EITHER(a, b) .presence = FIGURE_ABSENT_UNLESS, .needs = {RESULT(a), RESULT(b)}
-#define LARGEST_BY(member) .targets = JOIN_GROUP, .by = offsetof(ffd_job_result, member)
 #define OF_JOB .is_of_job = true
 #define LINES(function) .lines = (function)
-#define END                                                                                                  \
-    {                                                                                                        \
-        .result = { FIGURE_END, 0 }                                                                          \
-    }
 
-/* clang-format off */
 const figure ffd_figures[] = {
     {FIGURE(vertices), FROM(vertices, JOIN_SUM), TARGETS(JOIN_SAME)},
     {FIGURE(counts), FROM(counts, JOIN_SUM), TARGETS(JOIN_FEWEST), LINES(ffd_lines_of_statuses)},

@@ -213,8 +213,8 @@ static void deform_normals(const part_work *work, tile_scratch *scratch, size_t 
         return;
     for (size_t i = 0; i < batch.count; i++) {
         const bool selected = !part->selected_normals || part->selected_normals[from + i];
-        scratch->normals_changed[i] = selected && scratch->outcomes[i] == ATTRIBUTE_CARRIED;
-        totals->normals_collapsed += selected && scratch->outcomes[i] == ATTRIBUTE_COLLAPSED;
+        scratch->normals_changed[i] = selected && scratch->outcomes[i] == FFD_DIRECTION_CARRIED;
+        totals->normals_collapsed += selected && scratch->outcomes[i] == FFD_DIRECTION_COLLAPSED;
     }
     if (ffd_pass_stores(work->pass))
         document->format->write_normals(document, work->part_number, from, batch.count, scratch->normals,
@@ -249,7 +249,7 @@ static void deform_tangents(const part_work *work, tile_scratch *scratch, size_t
     document->format->read_tangents(document, work->part_number, first, count, scratch->tangents);
     ffd_deform_tangents(work->pass->chain->isa, &batch);
     for (size_t i = 0; i < count; i++)
-        scratch->tangents_changed[i] = scratch->outcomes[i] == ATTRIBUTE_CARRIED;
+        scratch->tangents_changed[i] = scratch->outcomes[i] == FFD_DIRECTION_CARRIED;
     if (work->pass->only_offsets || !ffd_pass_stores(work->pass))
         return;
     document->format->write_tangents(document, work->part_number, first, count, scratch->tangents,

@@ -260,7 +260,7 @@ static void deform_normals(const shape_work *work)
             n[a] = s->base[3 * i + a] + s->offsets[3 * i + a];
         if (!takes_part(work, i))
             continue;
-        ffd_deform_normal(s->gradients[i], n, n, NULL);
+        ffd_deform_normal(s->gradients[i], n, n);
         take_direction(s->base + 3 * i, work->tile->normals + 3 * i, n, s->offsets + 3 * i, &s->changed[i]);
     }
     if (has(work, MESH_NORMALS))
@@ -283,7 +283,7 @@ static void deform_tangents(const shape_work *work)
         if (!takes_part(work, i))
             continue;
         const double *n = work->part->part->normal_count ? s->normals + 3 * i : NULL;
-        ffd_deform_tangent(s->gradients[i], t, n, t, NULL);
+        ffd_deform_tangent(s->gradients[i], t, n, t);
         take_direction(base, work->tile->tangents + 4 * i, t, s->offsets + 3 * i, &s->changed[i]);
     }
     write_offsets(work, MESH_TANGENTS);

@@ -64,12 +64,11 @@ static void read_gradient(const recomputing *r, const vertex_transform *transfor
 static bool carry(const recomputing *r, const vertex_transform *transform, size_t vertex, double n[3])
 {
     double gradient[9];
-    int collapsed;
     read_gradient(r, transform, vertex, gradient);
-    const bool changed = ffd_deform_normal(gradient, n, n, &collapsed);
-    r->counts->carried += changed;
-    r->counts->collapsed += (uint64_t)collapsed;
-    return changed;
+    const ffd_direction_outcome outcome = ffd_deform_normal(gradient, n, n);
+    r->counts->carried += outcome == FFD_DIRECTION_CARRIED;
+    r->counts->collapsed += outcome == FFD_DIRECTION_COLLAPSED;
+    return outcome == FFD_DIRECTION_CARRIED;
 }
 
 /* Recomputes a normal of the part at a vertex. n: its value, in and out. Returns whether it changed. */
@@ -101,7 +100,7 @@ static void recompute_tangents(recomputing *r, size_t first, size_t count)
         if (!r->changed[i])
             continue;
         read_gradient(r, &transform, first + i, gradient);
-        r->changed[i] = (uint8_t)ffd_tangent_of_normal(gradient, t, r->normals + 3 * i, t);
+        r->changed[i] = ffd_tangent_of_normal(gradient, t, r->normals + 3 * i, t) == FFD_DIRECTION_CARRIED;
     }
     document->format->write_tangents(document, r->part, first, count, r->tangents, r->changed);
 }

@@ -3,6 +3,7 @@
 #include "job/figures/figure_values.h"
 #include "job/figures/figures.h"
 #include <ffd/job.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -80,6 +81,18 @@ static void write_flaws(json_text *json, const char *key, const ffd_job_result *
     ffd_json_end(json, ']');
 }
 
+typedef struct lattice_name {
+    char text[40];
+} lattice_name;
+
+/* Returns the name of a lattice, or one by its index, as messages have it: an object or a text may have
+   none. */
+static const char *name_of(const char *name, uint64_t index, lattice_name *by_index)
+{
+    snprintf(by_index->text, sizeof by_index->text, "lattice %" PRIu64, index + 1);
+    return name ? name : by_index->text;
+}
+
 static void write_figure(json_text *json, const figure *f, const ffd_job_result *result);
 
 /* Writes each morph target with what it does by itself. */
@@ -87,13 +100,11 @@ static void write_morphs(json_text *json, const char *key, const ffd_morph_resul
 {
     ffd_json_array(json, key, false);
     for (size_t k = 0; k < morphs->count; k++) {
-        /* As messages name it: a lattice object or text may have no name. */
-        char number[40];
+        lattice_name name;
         const char *const lattice = morphs->lattices ? morphs->lattices[k] : NULL;
-        snprintf(number, sizeof number, "lattice %zu", k + 1);
         ffd_json_object(json, NULL, false);
         ffd_json_string(json, "name", morphs->names[k]);
-        ffd_json_string(json, "lattice", lattice ? lattice : number);
+        ffd_json_string(json, "lattice", name_of(lattice, k, &name));
         for (const figure *f = ffd_figures; is_of_report(f); f = after(f))
             if (!f->is_of_job)
                 write_figure(json, f, &morphs->results[k]);
@@ -194,7 +205,9 @@ static uint64_t count_of(const json_span *tree, uint32_t object, const char *key
 {
     double number = 0;
     const uint32_t value = ffd_json_span_member(tree, object, key);
-    return value != JSON_NONE && ffd_json_span_number(tree, value, &number) ? (uint64_t)number : 0;
+    if (value == JSON_NONE || !ffd_json_span_number(tree, value, &number))
+        return 0;
+    return number > 0 && number < 0x1p64 ? (uint64_t)number : 0;
 }
 
 /* Returns the number that a name stands for; 0 if there is none. */
@@ -245,12 +258,13 @@ ffd_status ffd_job_result_text(const ffd_job_result *callers, const char *lattic
 {
     ffd_job_result result;
     byte_buffer out = {0};
-    const figure_text lines = {&result, lattice, &out};
+    lattice_name name;
     ffd_result_clear(&result);
     *text = NULL;
     const ffd_status status = ffd_struct_take(&result, sizeof result, callers, "ffd_job_result", error);
     if (status)
         return status;
+    const figure_text lines = {&result, name_of(lattice, result.folds.witness.lattice, &name), &out};
     for (const figure *f = ffd_figures; is_of_report(f); f = after(f)) {
         bool null;
         /* The lines of sizes say why they are not known. */
