@@ -177,7 +177,7 @@ static int add_address(PyObject *module, const char *name, uintptr_t address)
 /* Arguments of Python that are not called as the members are, or take no keyword. */
 static const char *const others[][2] = {
     {"input.format", "input_format="}, {"in_place", "output=None"}, {"lattice", "lattice"},
-    {"lattices", "lattices"},          {"output", "output"},        {"morphs", "a dict of lattices"},
+    {"lattices", "lattices"},          {"output", "output"},        {"morphs", "named lattices"},
 };
 
 /* An ffd_spell_function: "falloff=", "outside='extend'". */
