@@ -152,6 +152,21 @@ static void what_a_rule_allows_is_not_refused(void **state)
     }
 }
 
+static void an_embedding_in_memory_has_the_rules_of_a_file(void **state)
+{
+    (void)state;
+    static const char byte = 0;
+    ffd_deform_desc desc;
+    ffd_error error;
+    ffd_deform_desc_init(&desc, sizeof desc);
+    desc.embedding_bytes = (ffd_bytes){&byte, 1};
+    set(&desc, "lattices");
+    assert_int_equal(ffd_deform_desc_check(&desc, &error), FFD_OK);
+    desc.blocks = true;
+    assert_int_equal(ffd_deform_desc_check(&desc, &error), FFD_E_ARGUMENT);
+    assert_string_equal(error.message, "embedding works with one lattice, and not with blocks");
+}
+
 static void a_number_out_of_its_range_is_refused_with_the_member(void **state)
 {
     (void)state;
@@ -201,6 +216,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_rule_is_refused_in_the_words_of_each_front_end),
         cmocka_unit_test(what_a_rule_allows_is_not_refused),
+        cmocka_unit_test(an_embedding_in_memory_has_the_rules_of_a_file),
         cmocka_unit_test(a_number_out_of_its_range_is_refused_with_the_member),
         cmocka_unit_test(only_the_text_of_a_message_names_members),
     };
