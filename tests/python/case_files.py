@@ -127,7 +127,7 @@ class Files(unittest.TestCase):
                 ({"clips": "a: 0"}, "clips= needs named lattices"),
                 ({"falloff": -1}, "the falloff -1 is not a length"),
                 ({"only": "node"}, "only=: \"node\" is not KIND:NAME (node, mesh, material, group or object)"),
-                ({"only": "node:a"}, "only='node': a file of format OBJ has only group, object and material")):
+                ({"only": "node:a"}, "only='node': a file of format OBJ has only material, group and object")):
             with self.assertRaises(ffd.ArgumentError) as refused:
                 ffd.check_file(SPOT, lattice, **options)
             self.assertEqual(refused.exception.message, message)
