@@ -358,14 +358,14 @@ static void warn_of_unused(const view_work *work)
 {
     const ffd_deform_desc *const job = work->desc->job;
     static const char *const settings[] = {"set", "outside", "snap", "blocks", "normals", "rig", "as_morph"};
-    char names[128] = "";
-    for (size_t i = job->lattice_count > 0; i < sizeof settings / sizeof *settings;
-         i++) /* their moves use set */
+    char names[300] = "";
+    const size_t first = job->lattice_count > 0 ? 1 : 0; /* the cages of lattices are shown by set */
+    for (size_t i = first; i < sizeof settings / sizeof *settings; i++)
         if (ffd_setting_is_set(job, settings[i])) {
+            const size_t length = strlen(names);
             char name[40];
             snprintf(name, sizeof name, "{%s}", settings[i]);
-            strcat(names, *names ? ", " : "");
-            strcat(names, SPELLED(name));
+            snprintf(names + length, sizeof names - length, "%s%s", length ? ", " : "", SPELLED(name));
         }
     if (*names)
         ffd_log_line(
