@@ -3,6 +3,7 @@
 #include "base/file/memory_files.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/spelling.h"
 #include "base/system/clock.h"
 #include "io/format_names.h"
 #include "io/formats.h"
@@ -31,11 +32,12 @@ static ffd_status restore_output(const ffd_deform_desc *desc, ffd_error *error)
 /* Refuses options that need an output file. */
 static ffd_status check_no_output(const ffd_deform_desc *desc, ffd_error *error)
 {
-    const char *const what = desc->as_morph                           ? "--as-morph"
-                             : desc->depfile                          ? "--depfile"
-                             : desc->output_format != FFD_FORMAT_AUTO ? "--output-format"
+    const char *const what = desc->as_morph                           ? "{as_morph}"
+                             : desc->depfile                          ? "{depfile}"
+                             : desc->output_format != FFD_FORMAT_AUTO ? "{output_format}"
                                                                       : NULL;
-    return what ? ffd_fail(error, FFD_E_ARGUMENT, "%s needs an output: only positions are asked for", what)
+    return what ? ffd_fail(error, FFD_E_ARGUMENT, "%s needs an output: only positions are asked for",
+                           SPELLED(what))
                 : FFD_OK;
 }
 
@@ -52,12 +54,9 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
         const ffd_status status = check_no_output(desc, error);
         return status ? status : ffd_source_format(&desc->input, &options->format, error);
     }
-    if (desc->depfile && (desc->in_place || (desc->output && ffd_output_is_stream(desc->output))))
-        return ffd_fail(error, FFD_E_ARGUMENT, "--depfile needs a file name as OUT");
+    if (desc->depfile && desc->output && ffd_output_is_stream(desc->output))
+        return ffd_fail(error, FFD_E_ARGUMENT, "{depfile} needs a file name as {output}");
     if (desc->in_place) {
-        if (desc->output)
-            return ffd_fail(error, FFD_E_ARGUMENT, "--in-place takes no output, but \"%s\" is given",
-                            desc->output);
         if (ffd_file_is_stream(input))
             return ffd_fail(error, FFD_E_ARGUMENT, "standard input cannot be overwritten in place");
         options->path = input;
@@ -69,12 +68,12 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
     if (options->format == FFD_FORMAT_AUTO)
         options->format = ffd_format_from_name(desc->output);
     if (options->format == FFD_FORMAT_AUTO && ffd_output_is_stream(desc->output))
-        return ffd_fail(error, FFD_E_ARGUMENT, "standard output needs --output-format " FORMAT_NAMES);
+        return ffd_fail(error, FFD_E_ARGUMENT, "standard output needs {output_format} " FORMAT_NAMES);
     if (options->format == FFD_FORMAT_AUTO)
         return ffd_format_refuse_name(desc->output, error);
     /* The output first: usually it does not exist, which is a quick answer. */
     if (!ffd_output_is_stream(desc->output) && ffd_file_same(desc->output, input))
-        return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the input (--in-place overwrites it)");
+        return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the input ({in_place} overwrites it)");
     for (size_t i = 0; i < desc->lattice_count && !ffd_output_is_stream(desc->output); i++)
         if (ffd_file_same(desc->output, desc->lattices[i]))
             return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is a lattice of this command");
@@ -256,8 +255,8 @@ static ffd_status check_morph(const deform_job *job, const mesh_save_options *op
     if ((!job->desc->as_morph && !job->desc->morphs) || morphs)
         return FFD_OK;
     return ffd_fail_file(error, FFD_E_ARGUMENT, options->path,
-                         "cannot hold a morph target: only .gltf and .glb can (--%s)",
-                         job->desc->morphs ? "morph" : "as-morph");
+                         "cannot hold a morph target: only .gltf and .glb can (%s)",
+                         job->desc->morphs ? SPELLED("{morphs}") : SPELLED("{as_morph}"));
 }
 
 static ffd_status check_rig(const deform_job *job, const mesh_save_options *options, ffd_error *error)
@@ -265,7 +264,7 @@ static ffd_status check_rig(const deform_job *job, const mesh_save_options *opti
     if (job->desc->rig == FFD_RIG_KEEP || !ffd_conversion_needed(job->document, options->format))
         return FFD_OK;
     return ffd_fail_file(error, FFD_E_ARGUMENT, options->path,
-                         "cannot hold nodes that follow: only .gltf and .glb can (--rig follow)");
+                         "cannot hold nodes that follow: only .gltf and .glb can ({rig=follow})");
 }
 
 /* If a morph target is wanted, keeps the base shape. */

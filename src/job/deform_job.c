@@ -1,6 +1,7 @@
 #include "job/deform_job.h"
 #include "base/file/mapping.h"
 #include "base/memory/memory.h"
+#include "base/spelling.h"
 #include "base/struct_size.h"
 #include "base/system/clock.h"
 #include "base/system/deadline.h"
@@ -25,7 +26,6 @@
 #include "job/pass/chain_fit.h"
 #include "job/pass/pass.h"
 #include "job/report/output_set.h"
-#include <math.h>
 #include <string.h>
 
 static ffd_status check_embedding(const ffd_deform_desc *desc, ffd_error *error)
@@ -33,11 +33,6 @@ static ffd_status check_embedding(const ffd_deform_desc *desc, ffd_error *error)
     const char *embedding = desc->embedding;
     if (!embedding)
         return FFD_OK;
-    if (desc->blocks)
-        return ffd_fail(error, FFD_E_ARGUMENT, "--embedding cannot be used with --blocks");
-    if (desc->lattice_count != 1)
-        return ffd_fail(error, FFD_E_ARGUMENT, "an embedding needs exactly one lattice, got %zu",
-                        desc->lattice_count);
     if (strcmp(embedding, "-") == 0 &&
         (strcmp(desc->input.path, "-") == 0 || strcmp(desc->lattices[0], "-") == 0))
         return ffd_fail(error, FFD_E_ARGUMENT, "standard input can be read only once");
@@ -58,61 +53,10 @@ static bool is_complete(const ffd_deform_desc *desc)
            ffd_desc_has_settings(desc->set, desc->set_count);
 }
 
-/* An unknown enumeration number would be taken for another choice. */
-static ffd_status check_choices(const ffd_deform_desc *desc, ffd_error *error)
-{
-    const struct {
-        const char *name;
-        int number, last;
-    } choices[] = {
-        {"outside", (int)desc->outside, FFD_OUTSIDE_ERROR},
-        {"normals", (int)desc->normals, FFD_NORMALS_RECOMPUTE},
-        {"rig", (int)desc->rig, FFD_RIG_FOLLOW},
-        {"resources", (int)desc->resources, FFD_RESOURCES_REFERENCE},
-        {"space", (int)desc->input.space, FFD_SPACE_MESH},
-    };
-    for (size_t i = 0; i < sizeof choices / sizeof *choices; i++)
-        if (choices[i].number < 0 || choices[i].number > choices[i].last)
-            return ffd_fail(error, FFD_E_ARGUMENT, "%d is not a value of %s", choices[i].number,
-                            choices[i].name);
-    return FFD_OK;
-}
-
-/* A limit of NaN would never be exceeded. */
-static ffd_status check_gates(const ffd_deform_desc *desc, ffd_error *error)
-{
-    if (desc->fail_on & FFD_GATE_TEAR && isnan(desc->tear_most))
-        return ffd_fail(error, FFD_E_ARGUMENT, "the largest step of the gate tear is not a number");
-    if (desc->fail_on & FFD_GATE_EDGES && !(desc->edges_most >= 0))
-        return ffd_fail(error, FFD_E_ARGUMENT, "the gate edges has no length, but %g", desc->edges_most);
-    return FFD_OK;
-}
-
 static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
 {
     if (!is_complete(desc))
         return ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete");
-    ffd_status status = check_choices(desc, error);
-    if (!status)
-        status = check_gates(desc, error);
-    if (status)
-        return status;
-    if (!(desc->falloff >= 0 && isfinite(desc->falloff)))
-        return ffd_fail(error, FFD_E_ARGUMENT, "the falloff %g is not a length", desc->falloff);
-    if (!(desc->snap >= 0 && isfinite(desc->snap)))
-        return ffd_fail(error, FFD_E_ARGUMENT, "the snap %g is not a length", desc->snap);
-    if (!(desc->timeout >= 0))
-        return ffd_fail(error, FFD_E_ARGUMENT, "the timeout %g is not a time", desc->timeout);
-    if (desc->falloff > 0 && desc->outside != FFD_OUTSIDE_EXTEND)
-        return ffd_fail(error, FFD_E_ARGUMENT, "--falloff needs --outside extend");
-    if (desc->positions && desc->morphs)
-        return ffd_fail(error, FFD_E_ARGUMENT, "positions cannot be given with morphs");
-    if (desc->rig == FFD_RIG_FOLLOW &&
-        (desc->as_morph || desc->morphs || desc->input.space == FFD_SPACE_MESH))
-        return ffd_fail(error, FFD_E_ARGUMENT, "--rig follow cannot be used with %s",
-                        desc->as_morph ? "--as-morph"
-                        : desc->morphs ? "--morph"
-                                       : "--space mesh");
     if (!ffd_isa_available(desc->isa))
         return ffd_fail(error, FFD_E_ARGUMENT,
                         "this build or this processor does not support the instruction set %s",
@@ -263,7 +207,7 @@ ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_erro
         job->document->keeps_base = true;
     if (!status && desc->rig == FFD_RIG_FOLLOW && !job->document->format->follow)
         status = ffd_fail_file(error, FFD_E_ARGUMENT, ffd_source_name(&desc->input),
-                               "has no nodes that could follow: only glTF has (--rig follow)");
+                               "has no nodes that could follow: only glTF has ({rig=follow})");
     if (!status)
         ffd_result_note_flaws(result, &job->document->flaws);
     if (!status)
@@ -289,7 +233,7 @@ static ffd_status check_unknown(const deform_job *job, ffd_error *error)
     if (unknown == 0 || !(job->desc->fail_on & (FFD_GATE_TEAR | FFD_GATE_FLIPPED | FFD_GATE_EDGES)))
         return FFD_OK;
     return ffd_fail_file(error, FFD_E_GATE, ffd_source_name(&job->desc->input),
-                         "--fail-on tear, flipped and edges cannot be judged: the faces of %zu %s not known",
+                         "{fail_on} tear, flipped and edges cannot be judged: the faces of %zu %s not known",
                          unknown, unknown == 1 ? "primitive are" : "primitives are");
 }
 
@@ -505,7 +449,7 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
         warn_of_left(job, result);
     if (!status && job->totals.vertices == 0)
         ffd_log_line(&job->file_log, FFD_LOG_WARNING, "%s",
-                     job->desc->only_count ? "--only selects no vertices"
+                     job->desc->only_count ? SPELLED("{only} selects no vertices")
                                            : "there are no vertices to deform");
     if (!status && !job->check) {
         ffd_folds_warn(result, &job->totals, job->desc->lattices, &job->log);

@@ -133,7 +133,7 @@ ffd_status ffd_passes_run(deform_job *job, const figure_arrays *figures, const f
                        .threads = job->threads,
                        .links = job->chain.links,
                        .lattices = job->desc->lattices,
-                       .more = figures->has_faces ? ", and edges longer (see --timeout)" : " (see --timeout)",
+                       .more = figures->has_faces ? ", and edges longer (see {timeout})" : " (see {timeout})",
                        .log = job->log};
     const ffd_status status = ffd_passes_judge_shown(job)
                                   ? run_both(job, figures, stored, &pace, &counts, error)

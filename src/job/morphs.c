@@ -17,7 +17,7 @@ static ffd_status check_name(const char *name, ffd_error *error)
     if (name && *name && ffd_utf8_is_valid(name, strlen(name)))
         return FFD_OK;
     ffd_name_shown(name ? name : "", shown, sizeof shown);
-    return ffd_fail(error, FFD_E_ARGUMENT, "--morph: \"%s\" is not the name of a morph target in UTF-8",
+    return ffd_fail(error, FFD_E_ARGUMENT, "{morphs}: \"%s\" is not the name of a morph target in UTF-8",
                     shown);
 }
 
@@ -34,28 +34,16 @@ static ffd_status check_names(const ffd_deform_desc *desc, ffd_error *error)
         if (status || number == i)
             continue;
         ffd_name_shown(desc->morphs[i], shown, sizeof shown);
-        status = ffd_fail(error, FFD_E_ARGUMENT, "--morph: two morph targets are called \"%s\"", shown);
+        status = ffd_fail(error, FFD_E_ARGUMENT, "{morphs}: two morph targets are called \"%s\"", shown);
     }
     ffd_intern_free(&names);
     return status;
 }
 
-static ffd_status check(const deform_job *job, ffd_error *error)
-{
-    const ffd_deform_desc *const desc = job->desc;
-    if (!desc->morphs)
-        return desc->clip_count == 0 ? FFD_OK : ffd_fail(error, FFD_E_ARGUMENT, "--clip needs --morph");
-    if (desc->as_morph)
-        return ffd_fail(error, FFD_E_ARGUMENT, "--as-morph cannot be used with --morph");
-    if (desc->blocks)
-        return ffd_fail(error, FFD_E_ARGUMENT, "--blocks cannot be used with --morph");
-    return check_names(desc, error);
-}
-
 ffd_status ffd_morphs_begin(deform_job *job, ffd_error *error)
 {
     const ffd_deform_desc *const desc = job->desc;
-    ffd_status status = check(job, error);
+    ffd_status status = desc->morphs ? check_names(desc, error) : FFD_OK;
     if (status || desc->clip_count == 0)
         return status;
     job->clips = ffd_alloc_zero(desc->clip_count, sizeof *job->clips);
