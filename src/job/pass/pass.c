@@ -70,14 +70,6 @@ static bool has_gradient(const pass_tile *tile, const point_outcome *outcome, si
     return !singular && outcome->status != FFD_SINGULAR && (outcome->located || outcome->extended);
 }
 
-/* Computes F = I + E and returns its determinant. */
-static double gradient_determinant(const double gradient[9], double f[9])
-{
-    for (int k = 0; k < 9; k++)
-        f[k] = gradient[k] + (k % 4 == 0 ? 1 : 0);
-    return mat_determinant(f);
-}
-
 /* Looks at det F of all vertices of a tile (after spread). */
 static void note_determinants(const pass_tile *tile)
 {
@@ -85,7 +77,8 @@ static void note_determinants(const pass_tile *tile)
     for (size_t i = 0; i < tile->count; i++) {
         const point_outcome *const outcome = &base->outcomes[i];
         double f[9];
-        const double det = gradient_determinant(base->gradient + 9 * i, f);
+        mat_add_identity(base->gradient + 9 * i, f);
+        const double det = mat_determinant(f);
         const size_t number = (size_t)tile->first_number + i;
         if (!has_gradient(tile, outcome, i))
             continue;
@@ -104,7 +97,8 @@ static void note_turns(const pass_tile *tile)
         const size_t i = turns->points[k], v = ffd_tile_vertex(base, i);
         const point_outcome *const outcome = &base->outcomes[i];
         double f[9];
-        const double det = gradient_determinant(base->gradient + 9 * i, f);
+        mat_add_identity(base->gradient + 9 * i, f);
+        const double det = mat_determinant(f);
         if (!outcome->extended && turns_over(f, det) && has_gradient(tile, outcome, v))
             note_inversion(det, (size_t)tile->first_number + v, tile->totals);
     }
