@@ -1,7 +1,6 @@
 /* check_animations.c - animations that load give finite poses between their keys. */
 #include "check_animations.h"
-#include "io/gltf/animation/gltf_pose.h"
-#include "io/gltf/animation/gltf_sample.h"
+#include "io/gltf/model/gltf_pose.h"
 #include "promise.h"
 #include <math.h>
 

@@ -3,7 +3,7 @@
 #include "base/vector/vec.h"
 #include "check_animations.h"
 #include "check_changed.h"
-#include "io/gltf/document/gltf_document.h"
+#include "io/gltf/read/gltf_document.h"
 #include "job/chain/chain_load.h"
 #include "job/info_parts.h"
 #include "job/info_text.h"

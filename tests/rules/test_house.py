@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""What lets a newcomer find the way: an opening comment that says what a file is; in src also folders of at most 20
-sources, a comment above every function that an internal header declares, and which sources define these functions. A
-function of src or tests has at most 80 lines, an example of the library at most 60."""
+"""What lets a newcomer find the way: an opening comment that says what a file is; in src also a
+comment above every function that an internal header declares, and which sources define these functions. A function of
+src or tests has at most 80 lines, an example of the library at most 60."""
 
 import ast
 import collections
@@ -10,7 +10,6 @@ import re
 
 import tree
 
-MOST_SOURCES = 20
 MOST_LINES_OF_EXAMPLES = 60
 MOST_LINES_OF_FUNCTIONS = 80
 COMMENT = re.compile(r"/\*.*?\*/", re.S)
@@ -121,10 +120,6 @@ def main():
     tests = [path for path in files if path.startswith("tests/") and path.endswith(sum(OPENINGS, ()))]
     headers = {path for path in paths if path.endswith(".h")}
     findings = []
-    sources = collections.Counter(os.path.dirname(path) for path in paths if not path.endswith(".h"))
-    for folder, count in sorted(sources.items()):
-        if count > MOST_SOURCES:
-            findings.append(f"{folder}: {count} sources, more than {MOST_SOURCES}")
     defined = definitions(path for path in paths if path not in headers)
     for path in paths:
         findings += opening(path, headers)

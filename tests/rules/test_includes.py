@@ -17,8 +17,6 @@ LAYERS = {
     "base/system": {"base", "base/memory", "base/text"},
     "io/npy": {"base", "base/file", "base/memory"},
     "json": {"base", "base/memory", "base/text"},
-    "io/gltf/file": {"base", "base/file", "base/memory", "base/text", "json"},
-    "io/gltf/model": {"base", "base/memory", "base/system", "json"},
     "splat": {"base", "base/vector"},
     "mesh": {"base", "base/file", "base/memory", "base/text", "base/vector", "json", "splat"},
     "mesh/morph": {"base", "base/memory", "base/text", "json"},
@@ -28,40 +26,24 @@ LAYERS = {
     "picture": {
         "base", "base/memory", "base/system", "base/text", "base/vector", "mesh", "picture/image",
     },
-    "io/gltf/document": {"io/gltf/file", "io/gltf/model", "json", "mesh"},
-    "io/gltf/decode": {
-        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/gltf/document",
-        "io/gltf/model", "io/text", "mesh", "mesh/meshopt",
+    "io/gltf/file": {"base", "base/file", "base/memory", "base/text", "json"},
+    "io/gltf/read": {
+        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/gltf/file", "io/text",
+        "json", "mesh", "mesh/meshopt",
     },
-    "io/gltf/refer": {"io/gltf/document"},
-    "io/gltf/scene": {
-        "base", "base/memory", "base/system", "base/text", "base/vector", "io/gltf/decode", "io/gltf/document",
-        "io/gltf/refer", "mesh",
+    "io/gltf/model": {
+        "base", "base/memory", "base/system", "base/text", "base/vector", "io/gltf/read", "mesh", "splat",
     },
-    "io/gltf/animation": {
-        "base", "base/memory", "base/text", "base/vector", "io/gltf/decode", "io/gltf/document", "io/gltf/refer",
-        "io/gltf/scene",
+    "io/gltf/edit": {
+        "base", "base/memory", "base/text", "base/vector", "io/gltf/model", "io/gltf/read", "json", "mesh/morph",
     },
-    "io/gltf/skeleton": {
-        "base/memory", "base/vector", "io/gltf/animation", "io/gltf/decode", "io/gltf/rig", "io/gltf/scene", "mesh",
-    },
-    "io/gltf/rig": {
-        "base", "base/memory", "base/text", "base/vector", "io/gltf/animation", "io/gltf/decode", "io/gltf/document",
-        "io/gltf/refer", "io/gltf/scene", "json",
-    },
-    "io/gltf/splat": {"base/memory", "io/gltf/decode", "io/gltf/document", "splat"},
-    "io/gltf/save": {
-        "base", "base/file", "base/memory", "base/system", "base/text", "io/gltf/decode", "io/gltf/document",
-        "io/gltf/file", "io/gltf/refer", "io/gltf/rig", "io/gltf/scene", "json", "mesh/resource",
-    },
-    "io/gltf/morph": {
-        "base", "base/memory", "base/text", "io/gltf/decode", "io/gltf/document", "io/gltf/refer", "io/gltf/save",
-        "io/gltf/scene", "json", "mesh/morph",
+    "io/gltf/write": {
+        "base", "base/file", "base/memory", "base/system", "base/text", "io/gltf/edit", "io/gltf/file",
+        "io/gltf/model", "io/gltf/read", "json", "mesh/resource",
     },
     "io/gltf": {
-        "base", "base/file", "base/memory", "base/system", "base/vector", "io/gltf/decode", "io/gltf/document", "io/gltf/file",
-        "io/gltf/model", "io/gltf/morph", "io/gltf/refer", "io/gltf/rig", "io/gltf/save", "io/gltf/scene", "io/gltf/skeleton", "io/gltf/splat", "json", "mesh",
-        "mesh/resource",
+        "base", "base/file", "base/memory", "base/system", "base/vector", "io/gltf/edit", "io/gltf/file",
+        "io/gltf/model", "io/gltf/read", "io/gltf/write", "json", "mesh", "mesh/resource",
     },
     "io/openmesh": {"base/memory", "base/system", "base/vector", "mesh"},
     "io/text": {"base/file", "base/memory", "base/text", "mesh"},
@@ -147,8 +129,8 @@ LAYERS = {
 # <header> pattern -> folders that may include it.
 OUTSIDE = [
     (r"OpenMesh/", {"io/openmesh"}),
-    (r"tiny_gltf\.h|nlohmann/", {"io/gltf/model"}),
-    (r"draco/", {"io/gltf/decode"}),
+    (r"tiny_gltf\.h|nlohmann/", {"io/gltf/read"}),
+    (r"draco/", {"io/gltf/read"}),
     (r"meshoptimizer\.h", {"mesh/meshopt"}),
     (r"png\.h|jpeglib\.h|jerror\.h", {"picture/image"}),
     (r"Python\.h", {"python"}),

@@ -18,7 +18,7 @@ TOP = {
 }
 
 # C++ is for adapters to C++ libraries, behind a C header.
-CPP = [r"src/base/(memory/process_operators|system/exceptions)\.cpp", r"src/(io/(gltf/model|gltf/decode|openmesh)|mesh/meshopt)/\w+\.cpp"]
+CPP = [r"src/base/(memory/process_operators|system/exceptions)\.cpp", r"src/(io/(gltf/read|openmesh)|mesh/meshopt)/\w+\.cpp"]
 
 # Put together here so that this file does not hold them itself; * after a word: a whole word only.
 WORDS = ["/wo" "rk/", "/ro" "ot/", "/ho" "me/", "../sha" "red", "cla" "ude", "anthro" "pic", "open" "ai",

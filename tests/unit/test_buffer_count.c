@@ -5,7 +5,7 @@
 
 #include <cmocka.h>
 
-#include "io/gltf/file/buffer_count.h"
+#include "io/gltf/file/gltf_buffer.h"
 #include <string.h>
 
 static size_t count(const char *text)

@@ -10,9 +10,9 @@
 #include "../support/draw.h"
 #include "../support/repetitions.h"
 #include "../support/sheet.h"
-#include "io/gltf/decode/draco.h"
-#include "io/gltf/decode/draco_floats.h"
-#include "io/gltf/model/gltf_model.h"
+#include "io/gltf/read/draco.h"
+#include "io/gltf/read/draco_floats.h"
+#include "io/gltf/read/gltf_model.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

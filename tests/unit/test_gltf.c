@@ -8,8 +8,8 @@
 #include "../support/gltf_file.h"
 #include "base/file/path.h"
 #include "base/text/base64.h"
-#include "io/gltf/file/uri.h"
-#include "io/gltf/model/gltf_model.h"
+#include "io/gltf/file/gltf_uri.h"
+#include "io/gltf/read/gltf_model.h"
 #include <stdlib.h>
 #include <unistd.h>
 

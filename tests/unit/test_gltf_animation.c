@@ -7,8 +7,7 @@
 
 #include "../support/gltf_file.h"
 #include "../support/gltf_text.h"
-#include "io/gltf/animation/gltf_pose.h"
-#include "io/gltf/animation/gltf_sample.h"
+#include "io/gltf/model/gltf_pose.h"
 #include <math.h>
 
 #define H 0.70710678118654752440f /* sine of 45 degrees */

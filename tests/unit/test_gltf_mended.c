@@ -10,7 +10,7 @@
 #include "../support/gltf_file.h"
 #include "../support/test_folder.h"
 #include "base/text/base64.h"
-#include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/read/gltf_elements.h"
 #include <math.h>
 #include <meshoptimizer.h>
 

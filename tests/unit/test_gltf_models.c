@@ -11,7 +11,7 @@
 #include "../support/gltf_file.h"
 #include "../support/repetitions.h"
 #include "../support/test_folder.h"
-#include "io/gltf/document/gltf_document.h"
+#include "io/gltf/read/gltf_document.h"
 #include "mesh/difference.h"
 #include <ftw.h>
 #include <math.h>

@@ -12,7 +12,7 @@
 #include "../support/sheet.h"
 #include "../support/test_folder.h"
 #include "base/text/base64.h"
-#include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/read/gltf_elements.h"
 #include "mesh/difference.h"
 #include <meshoptimizer.h>
 

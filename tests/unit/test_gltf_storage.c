@@ -7,9 +7,8 @@
 
 #include "../support/draw.h"
 #include "../support/gltf_file.h"
-#include "io/gltf/decode/gltf_encode.h"
-#include "io/gltf/decode/gltf_read.h"
-#include "io/gltf/scene/gltf_results.h"
+#include "io/gltf/model/gltf_results.h"
+#include "io/gltf/read/gltf_elements.h"
 #include <math.h>
 #include <unistd.h>
 

@@ -1,18 +1,17 @@
 /* gltf_as_morph.c - stores deformations as further morph targets, or in place of targets of the same name.
    The file with targets of zeros is opened as a document of its own. This document's results become the
    results of those targets, and that document is saved. */
-#include "io/gltf/gltf_as_morph.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "io/gltf/edit/gltf_clip.h"
+#include "io/gltf/edit/gltf_left_bytes.h"
+#include "io/gltf/edit/gltf_morph_text.h"
+#include "io/gltf/edit/gltf_target_names.h"
 #include "io/gltf/gltf_open.h"
-#include "io/gltf/morph/gltf_clip.h"
-#include "io/gltf/morph/gltf_left_bytes.h"
-#include "io/gltf/morph/gltf_morph_reuse.h"
-#include "io/gltf/morph/gltf_morph_text.h"
-#include "io/gltf/morph/gltf_morph_weights.h"
-#include "io/gltf/morph/gltf_target_names.h"
-#include "io/gltf/save/gltf_save.h"
-#include "io/gltf/scene/gltf_results.h"
+#include "io/gltf/model/gltf_functions.h"
+#include "io/gltf/model/gltf_results.h"
+#include "io/gltf/read/gltf_document.h"
+#include "io/gltf/read/gltf_users.h"
 #include <string.h>
 
 /* Moves the results of the current target, which are complete, from the streams to document->morphs. */
@@ -118,16 +117,15 @@ static void free_marks(morph_marks *marks)
 /* Marks the selected meshes, and among them those that change under a node. */
 static void mark_moved(const gltf_document *d, morph_marks *marks)
 {
-    const gltf_instance *instance = d->instances;
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t k = 0; k < d->model.meshes[m].primitive_count * d->mesh_uses[m].node_count;
-             k++, instance++) {
-            const bool shown = instance->selected && instance->part[GLTF_POSITION] != GLTF_NONE;
-            marks->selected[m] = marks->selected[m] || shown;
-            for (size_t s = 0; s < GLTF_DEFORMED && instance->selected && !marks->meshes[m]; s++)
-                marks->meshes[m] = is_stream_moved(d, marks->morph, instance->part[s], s, marks->known);
-            marks->moved = marks->moved || marks->meshes[m];
-        }
+    for (size_t i = 0; i < d->instance_count; i++) {
+        const gltf_instance *const instance = &d->instances[i];
+        const size_t m = instance->primitive->mesh;
+        const bool shown = instance->selected && instance->part[GLTF_POSITION] != GLTF_NONE;
+        marks->selected[m] = marks->selected[m] || shown;
+        for (size_t s = 0; s < GLTF_DEFORMED && instance->selected && !marks->meshes[m]; s++)
+            marks->meshes[m] = is_stream_moved(d, marks->morph, instance->part[s], s, marks->known);
+        marks->moved = marks->moved || marks->meshes[m];
+    }
 }
 
 /* A mesh gets the target if it changed, or if it has one of the same name, which would be out of date. If
@@ -146,7 +144,7 @@ static ffd_status mark_meshes(const gltf_document *d, const gltf_document *file,
         marks->any = marks->any || marks->meshes[m];
         marks->places[m] = !marks->meshes[m]              ? GLTF_NONE
                            : marks->named[m] != GLTF_NONE ? marks->named[m]
-                                                          : ffd_gltf_target_count(file, m);
+                                                          : file->mesh_uses[m].target_count;
     }
     return FFD_OK;
 }
@@ -155,21 +153,19 @@ static ffd_status mark_meshes(const gltf_document *d, const gltf_document *file,
    the same instances in the same order. */
 static void lend_results(const gltf_document *d, const morph_marks *marks, bool back, gltf_document *other)
 {
-    size_t k = 0;
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
-            for (size_t n = 0; n < d->mesh_uses[m].node_count; n++, k++) {
-                const gltf_instance *from = &d->instances[k];
-                gltf_instance *to = &other->instances[k];
-                to->selected = from->selected;
-                if (!marks->meshes[m] || !from->selected)
-                    continue;
-                const size_t shape = other->targets[to->first_target + marks->places[m]];
-                for (size_t s = 0; s < GLTF_DEFORMED && shape != GLTF_NONE; s++)
-                    if (other->parts[shape].streams[s].accessor != GLTF_NONE && from->part[s] != GLTF_NONE)
-                        other->parts[shape].streams[s].result =
-                            back ? NULL : marks->morph->results[from->part[s] * GLTF_DEFORMED + s];
-            }
+    for (size_t i = 0; i < d->instance_count; i++) {
+        const gltf_instance *from = &d->instances[i];
+        gltf_instance *to = &other->instances[i];
+        const size_t mesh = from->primitive->mesh;
+        to->selected = from->selected;
+        if (!marks->meshes[mesh] || !from->selected)
+            continue;
+        const size_t shape = other->targets[to->first_target + marks->places[mesh]];
+        for (size_t s = 0; s < GLTF_DEFORMED && shape != GLTF_NONE; s++)
+            if (other->parts[shape].streams[s].accessor != GLTF_NONE && from->part[s] != GLTF_NONE)
+                other->parts[shape].streams[s].result =
+                    back ? NULL : marks->morph->results[from->part[s] * GLTF_DEFORMED + s];
+    }
 }
 
 /* The file, to which one target after another is added. */
@@ -288,8 +284,8 @@ static void warn_of_many(const gltf_document *d, const gltf_document *file, cons
 {
     size_t meshes = 0, most = 0;
     for (size_t m = 0; m < d->model.mesh_count; m++) {
-        const size_t count = ffd_gltf_target_count(file, m);
-        if (count <= MORPHS_PLAYED || count <= ffd_gltf_target_count(d, m))
+        const size_t count = file->mesh_uses[m].target_count;
+        if (count <= MORPHS_PLAYED || count <= d->mesh_uses[m].target_count)
             continue;
         meshes++;
         most = count > most ? count : most;

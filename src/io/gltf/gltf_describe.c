@@ -1,8 +1,10 @@
-#include "io/gltf/gltf_describe.h"
+/* gltf_describe.c - what `ffd info` reports of a glTF file. */
 #include "base/memory/memory.h"
-#include "io/gltf/decode/gltf_draco.h"
-#include "io/gltf/scene/gltf_detail.h"
-#include "io/gltf/scene/gltf_faces.h"
+#include "io/gltf/model/gltf_faces.h"
+#include "io/gltf/model/gltf_functions.h"
+#include "io/gltf/model/gltf_references.h"
+#include "io/gltf/read/gltf_document.h"
+#include "io/gltf/read/gltf_draco.h"
 #include <string.h>
 
 static void describe_text(const gltf_document *d, uint32_t value, const char *key, json_text *json,
@@ -47,9 +49,9 @@ typedef struct storage_facts {
     size_t morphed, sparse, quantized, draco, meshopt; /* numbers of primitives */
 } storage_facts;
 
-static void survey_primitive(const gltf_document *d, size_t m, size_t p, bool *seen, storage_facts *facts)
+static void survey_primitive(const gltf_document *d, const gltf_primitive *primitive, bool *seen,
+                             storage_facts *facts)
 {
-    const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
     const int positions = primitive->accessor[GLTF_POSITION];
     bool sparse = false, quantized = false, meshopt = false;
     for (int s = 0; s < GLTF_DEFORMED; s++) {
@@ -64,7 +66,7 @@ static void survey_primitive(const gltf_document *d, size_t m, size_t p, bool *s
     facts->sparse += sparse;
     facts->quantized += quantized;
     facts->meshopt += meshopt;
-    facts->draco += ffd_gltf_draco_value(d, m, p) != JSON_NONE;
+    facts->draco += ffd_gltf_draco_value(d, primitive) != JSON_NONE;
     if (positions >= 0 && !seen[positions]) {
         seen[positions] = true;
         facts->vertices += (size_t)d->model.accessors[positions].count;
@@ -80,8 +82,8 @@ static ffd_status describe_storage(const gltf_document *d, json_text *json, ffd_
     size_t triangles = 0, lines = 0, points = 0;
     for (size_t m = 0; m < d->model.mesh_count; m++) {
         ffd_gltf_count_drawing(d, m, &triangles, &lines, &points);
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
-            survey_primitive(d, m, p, seen, &facts);
+        for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, m, p));)
+            survey_primitive(d, p, seen, &facts);
     }
     ffd_free(seen);
     ffd_json_object(json, "stored", false);
@@ -102,16 +104,16 @@ static ffd_status describe_storage(const gltf_document *d, json_text *json, ffd_
 static ffd_status describe_attributes(const gltf_document *d, json_text *json, ffd_error *error)
 {
     size_t count = 0;
-    for (size_t i = 0; i < d->primitive_values.count; i++)
+    for (size_t i = 0; i < d->model.primitive_count; i++)
         count += ffd_json_span_count(
-            &d->tree, ffd_json_span_member(&d->tree, d->primitive_values.values[i], "attributes"));
+            &d->tree, ffd_json_span_member(&d->tree, d->model.primitives[i].value, "attributes"));
     json_member *members = ffd_alloc(count, sizeof *members);
     if (!members)
         return ffd_fail_memory(error);
     count = 0;
-    for (size_t i = 0; i < d->primitive_values.count; i++) {
+    for (size_t i = 0; i < d->model.primitive_count; i++) {
         const uint32_t attributes =
-            ffd_json_span_member(&d->tree, d->primitive_values.values[i], "attributes");
+            ffd_json_span_member(&d->tree, d->model.primitives[i].value, "attributes");
         for (uint32_t v = ffd_json_span_first(&d->tree, attributes); v != JSON_NONE;
              v = ffd_json_span_after(&d->tree, v))
             members[count++] = (json_member){&d->tree, v};
@@ -160,7 +162,7 @@ ffd_status ffd_gltf_describe(const mesh_document *document, json_text *json, ffd
     describe_asset(d, json, &failed);
     for (size_t i = 0; i < sizeof counted / sizeof *counted; i++)
         describe_count(d, counted[i], json);
-    ffd_json_count(json, "primitives", d->primitive_values.count);
+    ffd_json_count(json, "primitives", d->model.primitive_count);
     ffd_json_count(json, "nodes_with_mesh_not_shown", d->nodes_outside_scene);
     ffd_json_count(json, "nodes_with_mesh_of_coarser_detail", ffd_gltf_count_stand_ins(d, false));
     ffd_json_count(json, "nodes_with_mesh_of_colliders", ffd_gltf_count_stand_ins(d, true));

@@ -1,13 +1,15 @@
-#include "io/gltf/gltf_extract.h"
+/* gltf_extract.c - reads a glTF file into a mesh_model, for conversion to other formats. */
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
-#include "io/gltf/decode/gltf_read.h"
-#include "io/gltf/gltf_attribute.h"
-#include "io/gltf/scene/gltf_detail.h"
-#include "io/gltf/scene/gltf_faces.h"
-#include "io/gltf/scene/gltf_instancing.h"
-#include "io/gltf/scene/gltf_shown.h"
-#include "io/gltf/scene/gltf_skin.h"
+#include "io/gltf/model/gltf_faces.h"
+#include "io/gltf/model/gltf_functions.h"
+#include "io/gltf/model/gltf_instancing.h"
+#include "io/gltf/model/gltf_parts.h"
+#include "io/gltf/model/gltf_references.h"
+#include "io/gltf/model/gltf_skin.h"
+#include "io/gltf/read/gltf_document.h"
+#include "io/gltf/read/gltf_elements.h"
+#include "io/gltf/read/gltf_textures.h"
 #include "mesh/srgb.h"
 #include <stdio.h>
 #include <string.h>
@@ -15,12 +17,12 @@
 /* Texture coordinates in the model. The bytes of the struct are a key for lookups. */
 typedef struct shown_texcoords {
     gltf_texcoords taken;
-    /* Whose morph targets change them, which are shown with a weight, and the set's number; all GLTF_NONE: no
-       targets do. */
-    unsigned long long mesh, primitive, node, set;
+    /* The primitive whose morph targets change them, which are shown with a weight, its node, and the set's
+       number; all GLTF_NONE: no targets do. */
+    unsigned long long primitive, node, set;
 } shown_texcoords;
 
-_Static_assert(sizeof(shown_texcoords) == 11 * sizeof(double), "a key has no padding");
+_Static_assert(sizeof(shown_texcoords) == 10 * sizeof(double), "a key has no padding");
 
 typedef struct extractor {
     const gltf_document *document;
@@ -79,30 +81,30 @@ static void name_set(unsigned long long set, char name[SET_NAME])
 }
 
 /* Finds the texture coordinates of a primitive under the node of a use of its mesh. */
-static shown_texcoords texcoords_of(const extractor *e, size_t m, size_t p, size_t n)
+static shown_texcoords texcoords_of(const extractor *e, const gltf_primitive *primitive, size_t n)
 {
     const gltf_document *const d = e->document;
-    shown_texcoords found = {.mesh = GLTF_NONE, .primitive = GLTF_NONE, .node = GLTF_NONE, .set = GLTF_NONE};
+    shown_texcoords found = {.primitive = GLTF_NONE, .node = GLTF_NONE, .set = GLTF_NONE};
     char name[SET_NAME];
     bool stands_in;
-    const size_t set = ffd_gltf_texcoords(d, m, p, &found.taken, &stands_in), node = node_of(e, m, n);
+    const size_t set = ffd_gltf_texcoords(d, primitive, &found.taken, &stands_in),
+                 node = node_of(e, primitive->mesh, n);
     name_set(set, name);
     if (found.taken.accessor == GLTF_NONE ||
-        !ffd_gltf_add_shapes(d, m, p, node, name, (size_t)d->model.accessors[found.taken.accessor].count, 2,
-                             2, NULL))
+        !ffd_gltf_add_shapes(d, primitive, node, name, (size_t)d->model.accessors[found.taken.accessor].count,
+                             2, 2, NULL))
         return found;
-    found.mesh = m;
-    found.primitive = p;
+    found.primitive = (size_t)(primitive - d->model.primitives);
     found.node = node;
     found.set = set;
     return found;
 }
 
 /* Interns the texture coordinates of a primitive, and adds new ones to *count. */
-static ffd_status add_texcoords(extractor *e, size_t m, size_t p, size_t n, size_t *count)
+static ffd_status add_texcoords(extractor *e, const gltf_primitive *primitive, size_t n, size_t *count)
 {
     const gltf_document *d = e->document;
-    const shown_texcoords texcoords = texcoords_of(e, m, p, n);
+    const shown_texcoords texcoords = texcoords_of(e, primitive, n);
     uint32_t number;
     if (texcoords.taken.accessor == GLTF_NONE || *count > MODEL_VALUES_MAX)
         return FFD_OK; /* too many: refused later */
@@ -120,9 +122,9 @@ static ffd_status add_texcoords(extractor *e, size_t m, size_t p, size_t n, size
 }
 
 /* Returns the index of a primitive's first texture coordinate, GLTF_NONE if it has none. */
-static size_t find_texcoords(const extractor *e, size_t m, size_t p, size_t n)
+static size_t find_texcoords(const extractor *e, const gltf_primitive *primitive, size_t n)
 {
-    const shown_texcoords texcoords = texcoords_of(e, m, p, n);
+    const shown_texcoords texcoords = texcoords_of(e, primitive, n);
     uint32_t number;
     return ffd_intern_find(&e->texcoords, &texcoords, sizeof texcoords, &number) ? e->first_texcoord[number]
                                                                                  : GLTF_NONE;
@@ -145,9 +147,9 @@ static ffd_status count_values(extractor *e)
     }
     for (size_t m = 0; m < d->model.mesh_count && status == FFD_OK; m++)
         for (size_t n = 0; n < uses_of(e, m)->node_count; n++)
-            for (size_t p = 0; p < d->model.meshes[m].primitive_count && status == FFD_OK; p++)
+            for (const gltf_primitive *p = NULL; status == FFD_OK && (p = ffd_gltf_next_primitive(d, m, p));)
                 if (is_drawn(d, node_of(e, m, n)))
-                    status = add_texcoords(e, m, p, n, &texcoords);
+                    status = add_texcoords(e, p, n, &texcoords);
     return status ? status : ffd_model_make_values(e->model, positions, texcoords, normals, e->error);
 }
 
@@ -206,8 +208,8 @@ static void fill_texcoords(const extractor *e, size_t number)
     if (shown.set != GLTF_NONE) {
         char name[SET_NAME];
         name_set(shown.set, name);
-        ffd_gltf_add_shapes(d, (size_t)shown.mesh, (size_t)shown.primitive, (size_t)shown.node, name, count,
-                            2, 2, values);
+        ffd_gltf_add_shapes(d, &d->model.primitives[shown.primitive], (size_t)shown.node, name, count, 2, 2,
+                            values);
     }
     ffd_gltf_turn_texcoords(&shown.taken, count, values);
 }
@@ -236,16 +238,16 @@ static void fill_values(const extractor *e)
 
 /* Reads the colours of a primitive, which are linear, and clamps them to 0 to 1 as viewers do (glTF 2.0,
    3.9.2 and 3.7.2.1). */
-static ffd_status take_colours(extractor *e, size_t m, size_t p, size_t n, const drawn *drawing)
+static ffd_status take_colours(extractor *e, const gltf_primitive *primitive, size_t n, const drawn *drawing)
 {
     const gltf_document *d = e->document;
-    const size_t a = ffd_gltf_attribute(d, m, p, "COLOR_0", 3, 4);
+    const size_t a = ffd_gltf_attribute(d, primitive, "COLOR_0", 3, 4);
     if (a == GLTF_NONE || a == e->colours[drawing->part])
         return FFD_OK;
     e->colours[drawing->part] = a;
     const size_t count = (size_t)d->model.accessors[drawing->primitive->accessor[GLTF_POSITION]].count;
-    const size_t components = (size_t)d->model.accessors[a].rows, node = node_of(e, m, n);
-    const bool shapes = ffd_gltf_add_shapes(d, m, p, node, "COLOR_0", count, components, 4, NULL);
+    const size_t components = (size_t)d->model.accessors[a].rows, node = node_of(e, primitive->mesh, n);
+    const bool shapes = ffd_gltf_add_shapes(d, primitive, node, "COLOR_0", count, components, 4, NULL);
     const bool coarse = d->model.accessors[a].component == GLTF_U8 && !shapes &&
                         (!e->model->colours || e->model->coarse_colours);
     const ffd_status status = ffd_model_make_colours(e->model, e->error);
@@ -255,7 +257,7 @@ static ffd_status take_colours(extractor *e, size_t m, size_t p, size_t n, const
     double *const colours = e->model->colours + 4 * drawing->position;
     for (size_t i = 0; i < count; i++)
         ffd_gltf_read(d, a, i, 1, components, colours + 4 * i);
-    ffd_gltf_add_shapes(d, m, p, node, "COLOR_0", count, components, 4, colours);
+    ffd_gltf_add_shapes(d, primitive, node, "COLOR_0", count, components, 4, colours);
     for (size_t i = 0; i < count; i++) {
         double *const colour = colours + 4 * i;
         for (int c = 0; c < 4; c++)
@@ -344,13 +346,13 @@ static char *object_name(const gltf_document *d, size_t mesh, size_t node)
     return by_mesh ? name_of(d, &d->mesh_values, mesh, "mesh") : name_of(d, &d->node_values, node, "node");
 }
 
-static ffd_status begin_run(extractor *e, size_t m, size_t p, size_t node)
+static ffd_status begin_run(extractor *e, const gltf_primitive *primitive, size_t node)
 {
     const gltf_document *d = e->document;
     double number;
-    const bool has_material = ffd_json_span_number(
-        &d->tree, ffd_json_span_member(&d->tree, ffd_gltf_primitive_value(d, m, p), "material"), &number);
-    char *object = object_name(d, m, node);
+    const bool has_material =
+        ffd_json_span_number(&d->tree, ffd_json_span_member(&d->tree, primitive->value, "material"), &number);
+    char *object = object_name(d, primitive->mesh, node);
     char *material = has_material ? name_of(d, &d->material_values, (size_t)number, "material") : NULL;
     ffd_status status = object && (material || !has_material)
                             ? ffd_model_begin_run(e->model, object, NULL, material, e->error)
@@ -371,30 +373,29 @@ static bool is_mirrored(const gltf_document *d, size_t part)
     return mat_determinant(transform) < 0;
 }
 
-static ffd_status add_instance(extractor *e, size_t m, size_t p, size_t n)
+static ffd_status add_instance(extractor *e, const gltf_primitive *primitive, size_t n)
 {
     const gltf_document *d = e->document;
-    const gltf_instance *instance = &ffd_gltf_instances(d, m, p)[n];
+    const gltf_instance *instance = &ffd_gltf_instances(d, primitive)[n];
     const size_t part = instance->part[GLTF_POSITION], normals = instance->part[GLTF_NORMAL];
     if (part == GLTF_NONE)
         return FFD_OK;
-    if (d->model.meshes[m].primitives[p].mode == MODE_UNKNOWN && e->model->wants_details)
+    if (primitive->mode == MODE_UNKNOWN && e->model->wants_details)
         return FFD_OK;
-    if (d->model.meshes[m].primitives[p].mode == MODE_UNKNOWN)
-        return ffd_json_span_fail(&d->tree, ffd_gltf_primitive_value(d, m, p), d->name, FFD_E_INVALID,
-                                  e->error,
+    if (primitive->mode == MODE_UNKNOWN)
+        return ffd_json_span_fail(&d->tree, primitive->value, d->name, FFD_E_INVALID, e->error,
                                   "what the primitive draws is not known, so that it cannot be converted");
-    drawn drawing = {.primitive = &d->model.meshes[m].primitives[p],
+    drawn drawing = {.primitive = primitive,
                      .part = part,
                      .position = e->first_position[part],
                      .normal = normals == GLTF_NONE ? GLTF_NONE : e->first_normal[normals],
-                     .texcoord = find_texcoords(e, m, p, n),
+                     .texcoord = find_texcoords(e, primitive, n),
                      .mirrored = is_mirrored(d, part)};
-    ffd_status status = ffd_gltf_read_corners(d, m, p, &drawing.corners, &drawing.count, e->error);
+    ffd_status status = ffd_gltf_read_corners(d, primitive, &drawing.corners, &drawing.count, e->error);
     if (status == FFD_OK)
-        status = begin_run(e, m, p, node_of(e, m, n));
+        status = begin_run(e, primitive, node_of(e, primitive->mesh, n));
     if (status == FFD_OK)
-        status = take_colours(e, m, p, n, &drawing);
+        status = take_colours(e, primitive, n, &drawing);
     if (status == FFD_OK)
         status = drawing.primitive->mode == MODE_POINTS     ? add_points(e, &drawing)
                  : drawing.primitive->mode < MODE_TRIANGLES ? add_lines(e, &drawing)
@@ -418,17 +419,16 @@ static uint32_t feature_of_attribute(const json_span *tree, uint32_t value)
                                                                                : MODEL_HAS_MORE;
 }
 
-static uint32_t features_of_primitive(const extractor *e, size_t m, size_t p)
+static uint32_t features_of_primitive(const extractor *e, const gltf_primitive *primitive)
 {
     const gltf_document *const d = e->document;
     gltf_texcoords texcoords;
     bool stands_in = false;
-    ffd_gltf_texcoords(d, m, p, &texcoords, &stands_in);
+    ffd_gltf_texcoords(d, primitive, &texcoords, &stands_in);
     e->model->other_texcoords += stands_in;
-    const uint32_t attributes =
-        ffd_json_span_member(&d->tree, ffd_gltf_primitive_value(d, m, p), "attributes");
-    uint32_t found = d->model.meshes[m].primitives[p].target_count > 0 ? MODEL_HAS_MORPHS : 0;
-    found |= ffd_gltf_has_more_texcoords(d, m, p, &texcoords) ? MODEL_HAS_MORE_TEXCOORDS : 0;
+    const uint32_t attributes = ffd_json_span_member(&d->tree, primitive->value, "attributes");
+    uint32_t found = primitive->target_count > 0 ? MODEL_HAS_MORPHS : 0;
+    found |= ffd_gltf_has_more_texcoords(d, primitive, &texcoords) ? MODEL_HAS_MORE_TEXCOORDS : 0;
     for (uint32_t v = ffd_json_span_first(&d->tree, attributes); v != JSON_NONE;
          v = ffd_json_span_after(&d->tree, v))
         found |= feature_of_attribute(&d->tree, v);
@@ -445,9 +445,9 @@ static uint32_t features_of(const extractor *e)
 {
     const gltf_document *d = e->document;
     uint32_t found = 0;
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count && is_mesh_drawn(e, m); p++)
-            found |= features_of_primitive(e, m, p);
+    for (size_t i = 0; i < d->model.primitive_count; i++)
+        if (is_mesh_drawn(e, d->model.primitives[i].mesh))
+            found |= features_of_primitive(e, &d->model.primitives[i]);
     for (size_t n = 0; n < d->model.node_count; n++)
         found |= d->model.nodes[n].child_count > 0 ? MODEL_HAS_HIERARCHY : 0;
     found |= has_any(d, "materials") ? MODEL_HAS_MATERIALS : 0;
@@ -506,9 +506,9 @@ static ffd_status extract(extractor *e)
     e->model->nodes_left = d->instanced_node_count;
     for (size_t m = 0; m < d->model.mesh_count; m++)
         for (size_t n = 0; n < uses_of(e, m)->node_count; n++)
-            for (size_t p = 0; p < d->model.meshes[m].primitive_count && status == FFD_OK; p++)
+            for (const gltf_primitive *p = NULL; status == FFD_OK && (p = ffd_gltf_next_primitive(d, m, p));)
                 if (is_drawn(d, node_of(e, m, n)))
-                    status = add_instance(e, m, p, n);
+                    status = add_instance(e, p, n);
     e->model->features = features_of(e);
     return status;
 }

@@ -2,25 +2,21 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/system/processors.h"
-#include "io/gltf/decode/gltf_check.h"
-#include "io/gltf/decode/gltf_contents.h"
-#include "io/gltf/decode/gltf_drawing.h"
-#include "io/gltf/decode/gltf_indices.h"
-#include "io/gltf/decode/gltf_stated.h"
-#include "io/gltf/decode/gltf_weights.h"
-#include "io/gltf/model/gltf_schema.h"
-#include "io/gltf/rig/gltf_places.h"
-#include "io/gltf/rig/gltf_rig.h"
-#include "io/gltf/rig/gltf_vrm.h"
-#include "io/gltf/scene/gltf_instancing.h"
-#include "io/gltf/scene/gltf_parts.h"
-#include "io/gltf/scene/gltf_required.h"
-#include "io/gltf/scene/gltf_results.h"
-#include "io/gltf/scene/gltf_scene.h"
-#include "io/gltf/scene/gltf_shapes.h"
-#include "io/gltf/scene/gltf_skin.h"
-#include "io/gltf/scene/gltf_skin_sets.h"
-#include "io/gltf/splat/gltf_splats.h"
+#include "io/gltf/edit/gltf_rig.h"
+#include "io/gltf/model/gltf_functions.h"
+#include "io/gltf/model/gltf_instancing.h"
+#include "io/gltf/model/gltf_parts.h"
+#include "io/gltf/model/gltf_refuse.h"
+#include "io/gltf/model/gltf_results.h"
+#include "io/gltf/model/gltf_scene.h"
+#include "io/gltf/model/gltf_skin.h"
+#include "io/gltf/model/gltf_splats.h"
+#include "io/gltf/model/gltf_vrm.h"
+#include "io/gltf/read/gltf_check.h"
+#include "io/gltf/read/gltf_contents.h"
+#include "io/gltf/read/gltf_drawing.h"
+#include "io/gltf/read/gltf_hidden.h"
+#include "io/gltf/read/gltf_schema.h"
 #include "json/json_parse.h"
 #include <stdlib.h>
 #include <string.h>
@@ -172,25 +168,14 @@ static ffd_status load_buffers(gltf_document *d, ffd_error *error)
     return status == FFD_OK ? count_files(d, error) : status;
 }
 
-static ffd_status list_primitives(gltf_document *d, ffd_error *error)
+/* Counts the primitives that the JSON has. */
+static uint64_t count_primitives(const gltf_document *d)
 {
-    size_t total = 0;
+    uint64_t count = 0;
     for (size_t m = 0; m < d->mesh_values.count; m++)
-        total += ffd_json_span_count(&d->tree,
+        count += ffd_json_span_count(&d->tree,
                                      ffd_json_span_member(&d->tree, d->mesh_values.values[m], "primitives"));
-    gltf_values *list = &d->primitive_values;
-    list->values = ffd_alloc(total, sizeof *list->values);
-    d->first_primitive = ffd_alloc(d->mesh_values.count, sizeof *d->first_primitive);
-    if (!list->values || !d->first_primitive)
-        return ffd_fail_memory(error);
-    for (size_t m = 0; m < d->mesh_values.count; m++) {
-        const uint32_t array = ffd_json_span_member(&d->tree, d->mesh_values.values[m], "primitives");
-        d->first_primitive[m] = list->count;
-        for (uint32_t v = ffd_json_span_first(&d->tree, array); v != JSON_NONE;
-             v = ffd_json_span_after(&d->tree, v))
-            list->values[list->count++] = v;
-    }
-    return FFD_OK;
+    return count;
 }
 
 /* Limits the number of objects: one can take as few as 3 bytes of the file. */
@@ -198,85 +183,27 @@ static ffd_status limit_objects(gltf_document *d, ffd_error *error)
 {
     const uint32_t scenes = ffd_json_span_member(&d->tree, 0, "scenes");
     const uint64_t count = (uint64_t)d->buffer_values.count + d->view_values.count +
-                           d->accessor_values.count + d->mesh_values.count + d->primitive_values.count +
+                           d->accessor_values.count + d->mesh_values.count + count_primitives(d) +
                            d->node_values.count + ffd_json_span_count(&d->tree, scenes);
     const ffd_status status = ffd_budget_check(&d->base.budget, count, OBJECT_BYTES, error);
     return status ? status : ffd_budget_take(&d->base.budget, count, KEPT_OBJECT_BYTES, error);
 }
 
-static void hide_member(const gltf_document *d, uint32_t object, const char *key, json_edits *edits)
+/* Finds the JSON of the model's primitives. Checks that the counts agree, since the model and the JSON are
+   used side by side. */
+static ffd_status join_json(gltf_document *d, ffd_error *error)
 {
-    const uint32_t member = ffd_json_span_member(&d->tree, object, key);
-    if (member != JSON_NONE)
-        ffd_edits_format(edits, d->tree.values[member].key_begin, d->tree.values[member].key_end, "\"\"");
-}
-
-/* Hides from tinygltf what not all of its versions accept: indices whose accessor has no bufferView, which is
-   allowed for compressed and sparse accessors, and extensions of nodes and scenes, of which 2.9 refuses those
-   that it knows and that lack a member. */
-static void hide_members(const gltf_document *d, json_edits *edits)
-{
-    for (size_t i = 0; i < d->primitive_values.count; i++)
-        hide_member(d, d->primitive_values.values[i], "indices", edits);
-    for (size_t i = 0; i < d->node_values.count; i++)
-        hide_member(d, d->node_values.values[i], "extensions", edits);
-    const uint32_t scenes = ffd_json_span_member(&d->tree, 0, "scenes");
-    for (uint32_t v = scenes == JSON_NONE ? JSON_NONE : ffd_json_span_first(&d->tree, scenes); v != JSON_NONE;
-         v = ffd_json_span_after(&d->tree, v))
-        hide_member(d, v, "extensions", edits);
-}
-
-/* Replaces U+0000 in keys by its symbol, U+2400: tinygltf takes a key for one that ends there. */
-static void show_nuls(const gltf_document *d, json_edits *edits)
-{
-    static const char nul[] = "\\u0000";
-    const uint32_t size = sizeof nul - 1;
-    for (size_t v = 0; v < d->tree.count; v++) {
-        const uint32_t end = d->tree.values[v].key_end;
-        for (uint32_t at = d->tree.values[v].key_begin; at + size < end;) {
-            const char *const escape = memchr(d->tree.text + at, '\\', end - at);
-            if (!escape)
-                break;
-            at = (uint32_t)(escape - d->tree.text);
-            if (at + size < end && memcmp(escape, nul, size) == 0)
-                ffd_edits_format(edits, at, at + size, "\\u2400");
-            at += 2; /* past a backslash that is escaped */
-        }
-    }
-}
-
-/* Writes the JSON for tinygltf. It has only the geometry, so that tinygltf neither spends time on the rest
-   nor refuses the file because of it. Buffers are stubs, so that it opens no files and decodes no data.
-   Integers are plain digits. */
-static void write_model_text(const gltf_document *d, const json_edits *plain, byte_buffer *out)
-{
-    static const char *const used[] = {"asset", "bufferViews", "accessors", "meshes",
-                                       "nodes", "scenes",      "scene"};
-    ffd_buffer_text(out, "{\"buffers\":[");
-    for (size_t i = 0; i < d->buffer_values.count; i++)
-        ffd_buffer_format(out, "%s{\"byteLength\":1,\"uri\":\"data:application/octet-stream;base64,AA==\"}",
-                          i ? "," : "");
-    ffd_buffer_text(out, "]");
-    for (size_t i = 0; i < sizeof used / sizeof *used; i++) {
-        const uint32_t member = ffd_json_span_member(&d->tree, 0, used[i]);
-        if (member == JSON_NONE)
-            continue;
-        ffd_buffer_format(out, ",\"%s\":", used[i]);
-        ffd_edits_apply(plain, d->tree.text, d->tree.values[member].begin, d->tree.values[member].end, out);
-    }
-    ffd_buffer_text(out, "}");
-}
-
-/* Checks that the counts agree, since the model and the JSON are used side by side. */
-static ffd_status check_counts(const gltf_document *d, ffd_error *error)
-{
-    const gltf_model *model = &d->model;
+    gltf_model *const model = &d->model;
+    size_t next = 0;
     bool same = model->view_count == d->view_values.count &&
                 model->accessor_count == d->accessor_values.count &&
                 model->mesh_count == d->mesh_values.count && model->node_count == d->node_values.count;
     for (size_t m = 0; m < model->mesh_count && same; m++) {
         const uint32_t primitives = ffd_json_span_member(&d->tree, d->mesh_values.values[m], "primitives");
         same = model->meshes[m].primitive_count == ffd_json_span_count(&d->tree, primitives);
+        for (uint32_t v = ffd_json_span_first(&d->tree, primitives); v != JSON_NONE && same;
+             v = ffd_json_span_after(&d->tree, v))
+            model->primitives[next++].value = v;
     }
     return same ? FFD_OK
                 : ffd_fail_file(error, FFD_E_INVALID, d->name,
@@ -285,29 +212,21 @@ static ffd_status check_counts(const gltf_document *d, ffd_error *error)
 
 static ffd_status parse_model(gltf_document *d, ffd_error *error)
 {
-    json_edits plain = {0};
+    json_edits integers = {0};
     byte_buffer text = {0};
-    ffd_status status = ffd_gltf_check_schema(&d->tree, d->name, &plain, error);
+    ffd_status status = ffd_gltf_check_schema(&d->tree, d->name, &integers, error);
     if (status == FFD_OK)
         status = list_all_values(d, error);
     if (status == FFD_OK)
-        status = list_primitives(d, error);
-    if (status == FFD_OK)
         status = limit_objects(d, error);
-    if (status == FFD_OK) {
-        hide_members(d, &plain);
-        show_nuls(d, &plain);
-        ffd_edits_sort(&plain);
-        write_model_text(d, &plain, &text);
-        if (ffd_edits_failed(&plain) || text.failed)
-            status = ffd_fail_memory(error);
-        else
-            status = ffd_gltf_parse_model(text.data, text.size, d->name, &d->model, error);
-    }
-    ffd_edits_free(&plain);
+    if (status == FFD_OK)
+        status = ffd_gltf_write_shown(d, &integers, &text)
+                     ? ffd_gltf_parse_model(text.data, text.size, d->name, &d->model, error)
+                     : ffd_fail_memory(error);
+    ffd_edits_free(&integers);
     ffd_buffer_free(&text);
     if (status == FFD_OK)
-        status = check_counts(d, error);
+        status = join_json(d, error);
     return status ? status : ffd_gltf_read_drawings(d, error);
 }
 
@@ -319,7 +238,7 @@ static void free_decoded(gltf_document *d)
         ffd_free(d->view_exponents[i]);
     for (size_t i = 0; d->unpacked && i < d->model.accessor_count; i++)
         ffd_free(d->unpacked[i].bytes);
-    for (size_t i = 0; d->draco_problems && i < d->primitive_values.count; i++)
+    for (size_t i = 0; d->draco_problems && i < d->model.primitive_count; i++)
         ffd_free(d->draco_problems[i]);
     ffd_free(d->decoded_views);
     ffd_free(d->view_exponents);
@@ -341,10 +260,9 @@ static void free_morphs(gltf_document *d)
 
 static void free_document(gltf_document *d)
 {
-    gltf_values *const lists[] = {&d->buffer_values,   &d->view_values,     &d->accessor_values,
-                                  &d->mesh_values,     &d->node_values,     &d->skin_values,
-                                  &d->material_values, &d->image_values,    &d->texture_values,
-                                  &d->sampler_values,  &d->primitive_values};
+    gltf_values *const lists[] = {
+        &d->buffer_values, &d->view_values,     &d->accessor_values, &d->mesh_values,    &d->node_values,
+        &d->skin_values,   &d->material_values, &d->image_values,    &d->texture_values, &d->sampler_values};
     for (size_t i = 0; d->parts && i < ffd_gltf_part_count(d); i++) {
         for (int s = 0; s < GLTF_DEFORMED; s++)
             ffd_gltf_free_result(&d->parts[i].streams[s]);
@@ -360,7 +278,6 @@ static void free_document(gltf_document *d)
     ffd_gltf_free_model(&d->model);
     ffd_json_span_free(&d->tree);
     ffd_free(d->json);
-    ffd_free(d->first_primitive);
     ffd_free(d->buffers);
     ffd_free(d->layouts);
     ffd_free(d->world);

@@ -3,7 +3,7 @@
 #include "base/memory/memory.h"
 #include "base/text/number.h"
 #include "io/gltf/file/glb.h"
-#include "io/gltf/file/uri.h"
+#include "io/gltf/file/gltf_uri.h"
 #include "io/write/glb_origin.h"
 #include "io/write/glb_writer.h"
 #include "io/write/write.h"

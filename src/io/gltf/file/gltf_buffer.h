@@ -4,6 +4,7 @@
 
 #include "base/file/input.h"
 #include "json/json_span.h"
+#include <stddef.h>
 
 typedef enum gltf_buffer_kind {
     BUFFER_EMPTY, /* no bytes in this file: a placeholder for compressed data */
@@ -56,5 +57,9 @@ typedef enum data_uri_coding { DATA_PLAIN, DATA_BASE64, DATA_BASE64_ODD } data_u
    surround it and other parameters follow it. *coding is DATA_BASE64_ODD if it is not exactly ";base64" at
    the end. */
 size_t ffd_data_uri_payload(const char *uri, size_t size, data_uri_coding *coding);
+
+/* Counts the buffers of a JSON text that have a URI other than a data URI. Allocates nothing. The result for
+   invalid JSON is arbitrary. */
+size_t ffd_gltf_count_buffer_files(const char *text, size_t size);
 
 #endif

@@ -1,0 +1,21 @@
+/* gltf_target_names.h - the names of a mesh's morph targets: those in extras.targetNames of the mesh and, for
+   targets without a name there, of its primitives, where older exporters write them. */
+#ifndef FFD_IO_GLTF_EDIT_GLTF_TARGET_NAMES_H
+#define FFD_IO_GLTF_EDIT_GLTF_TARGET_NAMES_H
+
+#include "io/gltf/edit/gltf_grown.h"
+
+/* Returns the JSON string that names each target of a mesh (gltf_mesh_uses); JSON_NONE: it has no
+   name. The caller frees the array. NULL: memory ran out. */
+uint32_t *ffd_gltf_list_target_names(const gltf_document *document, size_t mesh);
+
+/* Finds the first target of a mesh by its name; GLTF_NONE: none. *found: how many have it. Returns false if
+   memory runs out. */
+bool ffd_gltf_find_target(const gltf_document *document, size_t mesh, const char *name, size_t *target,
+                          size_t *found);
+
+/* Adds the name of a further target to the list of a mesh, which is made if it is missing, and to those that
+   its primitives have. Targets before it that a list lacks are entered with their names, or as "target_3". */
+void ffd_gltf_add_target_name(gltf_grown *file, size_t mesh, const char *name);
+
+#endif

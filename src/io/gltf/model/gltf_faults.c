@@ -1,0 +1,202 @@
+/* gltf_faults.c - finds values that glTF does not allow but that viewers can do without. */
+#include "base/memory/memory.h"
+#include "base/text/words.h"
+#include "io/gltf/model/gltf_functions.h"
+#include "io/gltf/model/gltf_parts.h"
+#include "io/gltf/model/gltf_references.h"
+#include "io/gltf/read/gltf_document.h"
+#include "io/gltf/read/gltf_textures.h"
+#include <stdio.h>
+#include <string.h>
+
+#define SHOWN 3 /* faults per kind that are named */
+
+/* Faults of one kind: their number and the text about the first ones. */
+typedef struct fault_list {
+    const gltf_document *document;
+    size_t count;
+    uint32_t first; /* the first value that was added */
+    char shown[SHOWN][160];
+} fault_list;
+
+/* Adds a value as its JSON pointer. */
+static void add_value(fault_list *list, uint32_t value)
+{
+    if (list->count == 0)
+        list->first = value;
+    if (list->count < SHOWN)
+        ffd_json_span_pointer(&list->document->tree, value, list->shown[list->count],
+                              sizeof list->shown[list->count]);
+    list->count++;
+}
+
+/* Adds an element of a list as "mesh NAME", or "mesh 3" if it has no name. */
+static ffd_status add_name(fault_list *list, uint32_t value, const char *kind, size_t number,
+                           ffd_error *error)
+{
+    const json_span *const tree = &list->document->tree;
+    const uint32_t name = ffd_json_span_member(tree, value, "name");
+    char *const text = name == JSON_NONE ? NULL : ffd_json_span_string(tree, name, NULL);
+    if (name != JSON_NONE && !text)
+        return ffd_fail_memory(error);
+    if (list->count < SHOWN) {
+        char *const shown = list->shown[list->count];
+        const size_t capacity = sizeof list->shown[list->count], used = strlen(kind) + 1;
+        snprintf(shown, capacity, "%s %zu", kind, number);
+        if (text && *text)
+            ffd_name_shown(text, shown + used, capacity - used);
+    }
+    list->count++;
+    ffd_free(text);
+    return FFD_OK;
+}
+
+/* Writes "a, b, c and 2 more". */
+static void tell(const fault_list *list, char *text, size_t capacity)
+{
+    size_t length = 0;
+    for (size_t i = 0; i < SHOWN && i < list->count; i++)
+        length +=
+            (size_t)snprintf(text + length, capacity - length, "%s%s", i > 0 ? ", " : "", list->shown[i]);
+    if (list->count > SHOWN)
+        snprintf(text + length, capacity - length, " and %zu more", list->count - SHOWN);
+}
+
+/* Whether an object's default weights, if any, are one number per target. */
+static bool has_sound_weights(const gltf_document *d, uint32_t object, size_t targets)
+{
+    const uint32_t array = ffd_json_span_member(&d->tree, object, "weights");
+    double weight;
+    if (array == JSON_NONE)
+        return true;
+    if (d->tree.values[array].kind != JSON_ARRAY || d->tree.values[array].count != targets)
+        return false;
+    for (uint32_t v = ffd_json_span_first(&d->tree, array); v != JSON_NONE;
+         v = ffd_json_span_after(&d->tree, v))
+        if (!ffd_gltf_weight(d, v, &weight))
+            return false;
+    return true;
+}
+
+static ffd_status warn_of_weights(const gltf_document *d, const mesh_log *log, ffd_error *error)
+{
+    fault_list list = {.document = d};
+    ffd_status status = FFD_OK;
+    for (size_t m = 0; m < d->model.mesh_count && status == FFD_OK; m++)
+        if (!has_sound_weights(d, d->mesh_values.values[m], d->mesh_uses[m].target_count))
+            status = add_name(&list, d->mesh_values.values[m], "mesh", m, error);
+    for (size_t n = 0; n < d->model.node_count && status == FFD_OK; n++) {
+        const int mesh = d->model.nodes[n].mesh;
+        if (!has_sound_weights(d, d->node_values.values[n], mesh < 0 ? 0 : d->mesh_uses[mesh].target_count))
+            status = add_name(&list, d->node_values.values[n], "node", n, error);
+    }
+    char names[sizeof list.shown + 60];
+    if (status || list.count == 0)
+        return status;
+    tell(&list, names, sizeof names);
+    ffd_log_line(log, FFD_LOG_WARNING,
+                 "the default weights of %s are not one finite number for each morph target: a missing or "
+                 "other one counts as 0",
+                 names);
+    return FFD_OK;
+}
+
+static void check_details(fault_list *list, uint32_t node)
+{
+    const gltf_document *const d = list->document;
+    const uint32_t extension = ffd_gltf_extension(d, node, "MSFT_lod");
+    const uint32_t ids = ffd_json_span_member(&d->tree, extension, "ids");
+    if (extension == JSON_NONE)
+        return;
+    if (ids == JSON_NONE || d->tree.values[ids].kind != JSON_ARRAY) {
+        add_value(list, ids == JSON_NONE ? extension : ids);
+        return;
+    }
+    for (uint32_t v = ffd_json_span_first(&d->tree, ids); v != JSON_NONE;
+         v = ffd_json_span_after(&d->tree, v))
+        if (ffd_gltf_node(d, v) == GLTF_NONE)
+            add_value(list, v);
+}
+
+static void check_visibility(fault_list *list, uint32_t node)
+{
+    const json_span *const tree = &list->document->tree;
+    const uint32_t extension = ffd_gltf_extension(list->document, node, "KHR_node_visibility");
+    const uint32_t visible = ffd_json_span_member(tree, extension, "visible");
+    if (extension == JSON_NONE)
+        return;
+    if (tree->values[extension].kind != JSON_OBJECT)
+        add_value(list, extension);
+    else if (visible != JSON_NONE && tree->values[visible].kind != JSON_TRUE &&
+             tree->values[visible].kind != JSON_FALSE)
+        add_value(list, visible);
+}
+
+static void check_nodes(fault_list *list)
+{
+    const gltf_document *const d = list->document;
+    for (size_t n = 0; n < d->model.node_count; n++) {
+        check_details(list, d->node_values.values[n]);
+        check_visibility(list, d->node_values.values[n]);
+        for (int i = 0; i < GLTF_REFERENCE_COUNT; i++) {
+            const uint32_t value = ffd_gltf_reference(d, n, (gltf_reference)i);
+            if (value != JSON_NONE && !ffd_gltf_refers(d, value, (gltf_reference)i))
+                add_value(list, value);
+        }
+    }
+}
+
+static void check_textures(fault_list *list)
+{
+    const gltf_document *const d = list->document;
+    for (size_t m = 0; m < d->material_values.count; m++) {
+        const uint32_t material = d->material_values.values[m];
+        for (uint32_t v = ffd_gltf_next_texture(d, material, material); v != JSON_NONE;
+             v = ffd_gltf_next_texture(d, material, v)) {
+            gltf_texture_use use;
+            gltf_texture_faults faults = {.count = 0};
+            ffd_gltf_read_texture(d, v, &use, &faults);
+            for (size_t i = 0; i < faults.count; i++)
+                add_value(list, faults.values[i]);
+        }
+    }
+}
+
+static ffd_status check_animations(fault_list *list, ffd_error *error)
+{
+    const gltf_document *const d = list->document;
+    const json_span *const tree = &d->tree;
+    ffd_status status = FFD_OK;
+    for (uint32_t a = ffd_gltf_first(d, 0, "animations"); a != JSON_NONE; a = ffd_json_span_after(tree, a))
+        for (uint32_t c = ffd_gltf_first(d, a, "channels"); c != JSON_NONE && status == FFD_OK;
+             c = ffd_json_span_after(tree, c)) {
+            size_t node;
+            uint32_t fault;
+            status = ffd_gltf_animated_node(d, ffd_json_span_member(tree, c, "target"), &node, &fault, error);
+            if (status == FFD_OK && fault != JSON_NONE)
+                add_value(list, fault);
+        }
+    return status;
+}
+
+ffd_status ffd_gltf_warn_of_faults(const mesh_document *document, const mesh_log *log, ffd_error *error)
+{
+    const gltf_document *const d = ffd_gltf_of(document);
+    fault_list list = {.document = d};
+    char places[sizeof list.shown + 60];
+    ffd_status status = warn_of_weights(d, log, error);
+    check_nodes(&list);
+    if (status == FFD_OK)
+        status = check_animations(&list, error);
+    check_textures(&list);
+    if (status || list.count == 0)
+        return status;
+    if (d->base.flaws.strict)
+        return ffd_json_span_fail(&d->tree, list.first, d->name, FFD_E_INVALID, error,
+                                  "is not what glTF allows there");
+    tell(&list, places, sizeof places);
+    ffd_log_line(log, FFD_LOG_WARNING, "%zu %s not what glTF allows there, and %s ignored: %s", list.count,
+                 ffd_plural(list.count, "value is", "values are"), ffd_plural(list.count, "is", "are"),
+                 places);
+    return FFD_OK;
+}

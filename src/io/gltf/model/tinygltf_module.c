@@ -1,9 +1,0 @@
-#include "io/gltf/model/tinygltf_module.h"
-#include "base/system/exceptions.h"
-
-FFD_API extern const tinygltf_module ffd_module;
-
-const tinygltf_module ffd_module = {
-    {TINYGLTF_IDENTITY, ffd_exceptions_prepare},
-    ffd_gltf_parse_model,
-};

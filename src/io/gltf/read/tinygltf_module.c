@@ -1,0 +1,9 @@
+#include "io/gltf/read/tinygltf_module.h"
+#include "base/system/exceptions.h"
+
+FFD_API extern const tinygltf_module ffd_module;
+
+const tinygltf_module ffd_module = {
+    {TINYGLTF_IDENTITY, ffd_exceptions_prepare},
+    ffd_gltf_parse_model,
+};
