@@ -1,7 +1,11 @@
 /* batch_ends.c - handles ended jobs of a batch: prints, counts, records and reports them. */
+#include "base/little_endian.h"
 #include "base/memory/memory.h"
+#include "base/one_line.h"
 #include "batch/batch_run.h"
-#include "batch/task_text.h"
+#include "batch/manifest/settings.h"
+#include "job/figures/figure_values.h"
+#include "job/report/report.h"
 #include "job/report/report_file.h"
 #include <inttypes.h>
 #include <stdio.h>
@@ -19,6 +23,122 @@ void ffd_run_say_error(batch_run *run, const ffd_error *error)
     const size_t length = ffd_error_format(error, line, sizeof line - 1);
     memcpy(line + (length < sizeof line - 2 ? length : sizeof line - 2), "\n", 2);
     ffd_progress_print(&run->progress, line);
+}
+
+/* Appends an error and a line break. */
+static void append_error(const ffd_error *error, byte_buffer *text)
+{
+    char line[2048];
+    ffd_error_format(error, line, sizeof line);
+    ffd_buffer_text(text, line);
+    ffd_buffer_text(text, "\n");
+}
+
+/* Appends "FILE:LINE: ". */
+static void append_place(const batch_job *job, const char *manifest, byte_buffer *text)
+{
+    ffd_error place;
+    char line[2048];
+    ffd_fail_line(&place, FFD_E_INVALID, manifest, (size_t)job->line, "%s", "");
+    ffd_error_format(&place, line, sizeof line);
+    ffd_buffer_text(text, line);
+}
+
+/* Appends "NAME=VALUE, NAME=VALUE: ", with control characters replaced. */
+static void append_settings(const batch_job *job, byte_buffer *text)
+{
+    const size_t before = text->size;
+    ffd_settings_show(job->words.data, job->word_count, text);
+    if (text->size == before)
+        return;
+    ffd_make_one_line(text->data + before, text->size - before);
+    ffd_buffer_text(text, ": ");
+}
+
+/* Appends the lines of a job's log and its failure, each preceded by its place in the manifest (NULL: there
+   is none) and its values of placeholders. */
+static void append_lines(const pool_task *task, const char *manifest, byte_buffer *text)
+{
+    byte_buffer lines = {0}, lead = {0};
+    if (task->log.size)
+        ffd_buffer_append(&lines, task->log.data, task->log.size);
+    if (task->failure.status)
+        append_error(&task->failure, &lines);
+    if (lines.size == 0) {
+        text->failed = text->failed || lines.failed;
+        ffd_buffer_free(&lines);
+        return;
+    }
+    if (manifest)
+        append_place(&task->job, manifest, &lead);
+    const size_t place = lead.size;
+    append_settings(&task->job, &lead);
+    for (const char *line = lines.data, *const end = line + lines.size, *next; line < end; line = next) {
+        next = memchr(line, '\n', (size_t)(end - line));
+        next = next ? next + 1 : end;
+        /* An error of the manifest line has its place already. */
+        if (!place || (size_t)(next - line) < place || memcmp(line, lead.data, place) != 0)
+            ffd_buffer_append(text, lead.data, lead.size);
+        ffd_buffer_append(text, line, (size_t)(next - line));
+    }
+    text->failed = text->failed || lines.failed || lead.failed;
+    ffd_buffer_free(&lines);
+    ffd_buffer_free(&lead);
+}
+
+/* Appends a job's report entry, if no worker has made it. rows: as in pool_desc. */
+static void append_entry(const pool_task *task, const row_array *rows, bool stable, byte_buffer *text)
+{
+    const batch_job *const job = &task->job;
+    ffd_job_result result;
+    byte_buffer set = {0};
+    ffd_result_clear(&result);
+    result.status = task->failure.status;
+    result.error = task->failure;
+    ffd_settings_json(job->words.data, job->word_count, &set);
+    const bool skipped = task->outcome == OUTCOME_SKIPPED;
+    result.picture = task->has_picture ? task->picture : NULL;
+    const report_entry entry = {.line = job->line,
+                                .input = job->input,
+                                .output = ffd_job_output_name(job),
+                                .positions = rows ? rows->path : NULL,
+                                .row = job->row,
+                                .set = set.failed ? NULL : set.data,
+                                .result = &result,
+                                .figures = skipped && task->figures.size ? task->figures.data : NULL,
+                                .skipped = skipped,
+                                .stable = stable};
+    ffd_report_entry_text(&entry, text);
+    text->failed = text->failed || set.failed;
+    ffd_buffer_free(&set);
+}
+
+/* Bits of a state that fit into the table: its numbers have 39 bits, and one says whether a warning was
+   given. */
+#define STATE_BITS 38
+#define TOLD 1u
+
+/* Records the state of the mesh that an ended job has read, so that outputs of two states are not mixed
+   without a warning: appends one to the job's log, once for each mesh, if an earlier job has read another
+   state. Errors: FFD_E_MEMORY. */
+static ffd_status note_state(file_table *states, pool_task *task, ffd_error *error)
+{
+    uint64_t known;
+    if (!task->has_mesh_state)
+        return FFD_OK;
+    const uint64_t state = load_u64(task->mesh_state.bytes) >> (64 - STATE_BITS) << 1;
+    if (!ffd_files_find(states, &task->mesh, &known))
+        return ffd_files_put(states, &task->mesh, state, error);
+    if (known & TOLD || known == state)
+        return FFD_OK;
+    const size_t before = task->log.size;
+    ffd_buffer_format(&task->log,
+                      "%s: has changed while the run reads it: jobs before this one have read another state",
+                      task->job.input);
+    ffd_make_one_line(task->log.data + before, task->log.size - before);
+    ffd_buffer_text(&task->log, "\n");
+    return task->log.failed ? ffd_fail_memory(error)
+                            : ffd_files_put(states, &task->mesh, known | TOLD, error);
 }
 
 static const row_array *rows_of(const batch_run *run)
@@ -42,7 +162,7 @@ static void print_plan(const pool_task *task, const row_array *rows)
 static ffd_status complete_entry(const batch_run *run, pool_task *task, ffd_error *error)
 {
     if (!task->entry.size)
-        ffd_task_entry(task, rows_of(run), run->desc->pool.stable, &task->entry);
+        append_entry(task, rows_of(run), run->desc->pool.stable, &task->entry);
     return task->entry.failed ? ffd_fail_memory(error) : FFD_OK;
 }
 
@@ -62,7 +182,7 @@ static ffd_status show_task(batch_run *run, pool_task *task, ffd_error *error)
 static ffd_status say_task(batch_run *run, const pool_task *task, ffd_error *error)
 {
     byte_buffer lines = {0};
-    ffd_task_lines(task, ffd_run_manifest(run), &lines);
+    append_lines(task, ffd_run_manifest(run), &lines);
     ffd_buffer_append(&lines, "", 1);
     const ffd_status status = lines.failed ? ffd_fail_memory(error) : FFD_OK;
     if (!status)
@@ -100,7 +220,7 @@ static ffd_status note_end(batch_run *run, pool_task *task, ffd_error *error)
         clear_row(run, task);
     ffd_status status = ffd_run_learn(run, task, error);
     if (!status)
-        status = ffd_states_note(&run->meshes, task, error);
+        status = note_state(&run->meshes, task, error);
     if (!status)
         status = say_task(run, task, error);
     uint32_t number;

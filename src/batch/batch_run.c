@@ -396,7 +396,7 @@ ffd_status ffd_batch_run(const batch_desc *desc, bool *failed, ffd_error *error)
     for (size_t i = 0; i < run.count; i++)
         ffd_task_free(run.tasks[i]);
     ffd_pool_destroy(&run.pool);
-    ffd_states_free(&run.meshes);
+    ffd_files_free(&run.meshes);
     ffd_intern_free(&run.boxed);
     ffd_report_destroy(&run.report);
     ffd_depfile_destroy(&run.depfile);

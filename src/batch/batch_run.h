@@ -4,11 +4,11 @@
 #define FFD_BATCH_BATCH_RUN_H
 
 #include "base/file/path.h"
+#include "base/memory/file_table.h"
 #include "base/memory/intern.h"
 #include "batch/batch.h"
 #include "batch/files/claims.h"
 #include "batch/journal.h"
-#include "batch/mesh_states.h"
 #include "batch/progress.h"
 #include "batch/run_rows.h"
 #include "batch/run_view.h"
@@ -38,7 +38,7 @@ typedef struct batch_run {
     path_list outputs;    /* outputs that depend on box_files */
     run_files files;      /* what the jobs read and write */
     early_jobs early;
-    mesh_states meshes; /* states of the meshes read so far */
+    file_table meshes;  /* for each mesh read so far: its first state, and whether a warning was given */
     intern_table boxed; /* names (as hashes) of the meshes round each of which a lattice's box was laid */
     uint64_t jobs;      /* number of jobs read so far */
     batch_progress progress;

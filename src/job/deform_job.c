@@ -20,11 +20,11 @@
 #include "job/judge/warnings.h"
 #include "job/measure/behind.h"
 #include "job/measure/figures.h"
+#include "job/measure/rig.h"
 #include "job/measure/tear_figures.h"
 #include "job/pass/chain_fit.h"
 #include "job/pass/pass.h"
 #include "job/report/output_set.h"
-#include "job/rig/rig_figures.h"
 #include <math.h>
 #include <string.h>
 

@@ -2,9 +2,7 @@
 
    A document keeps the bytes of its file, and presents its vertices as parts. A job reads the streams of a
    part in any order, hands back results, and lets the document save: the same bytes with the results spliced
-   in.
-
-   Main header of meshes: declares faces.c, part.c. */
+   in. */
 #ifndef FFD_MESH_MESH_H
 #define FFD_MESH_MESH_H
 

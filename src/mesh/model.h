@@ -7,7 +7,7 @@
    what a model cannot hold. A target format declares the features that it supports, and a warning names the
    others.
 
-   Main header of models: declares model.c, model_features.c, model_morph.c. */
+   Main header of models: declares model.c, model_features.c. */
 #ifndef FFD_MESH_MODEL_H
 #define FFD_MESH_MODEL_H
 

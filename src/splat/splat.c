@@ -2,7 +2,6 @@
 #include "base/vector/direction.h"
 #include "base/vector/exponential.h"
 #include "base/vector/vec.h"
-#include "splat/splat_iterations.h"
 #include "splat/splat_kernel.h"
 #include <float.h>
 #include <string.h>
@@ -68,6 +67,58 @@ static void find_turn_quaternion(const double rotation[9], double q[4])
     q[0] = fabs(q[0]);
 }
 
+/* Replaces an invertible matrix by the orthogonal factor of its polar decomposition (src/maths.md 9.6). */
+static void orthogonalise(double x[9])
+{
+    bool is_near = false;
+    for (int step = 0; step < NEWTON_STEPS; step++) {
+        double cofactor[9], change = 0;
+        mat_cofactor(x, cofactor);
+        const double determinant = vec_dot(x, cofactor);
+        const double inverse_sum = mat_square_sum(cofactor) / (determinant * determinant);
+        const double scale = is_near ? 1 : sqrt(sqrt(inverse_sum / mat_square_sum(x)));
+        const double back = 1 / (determinant * scale);
+        for (int i = 0; i < 9; i++) {
+            const double next = 0.5 * (scale * x[i] + cofactor[i] * back);
+            change += (next - x[i]) * (next - x[i]);
+            x[i] = next;
+        }
+        is_near = is_near || change < NEWTON_NEAR;
+        if (change < NEWTON_ENOUGH)
+            return;
+    }
+}
+
+/* Makes two columns perpendicular by a rotation. Returns false if they are perpendicular already. */
+static bool rotate(double p[3], double q[3])
+{
+    const double a = vec_dot(p, p), b = vec_dot(q, q), off = vec_dot(p, q);
+    if (!(off * off > RIGHT * RIGHT * a * b))
+        return false;
+    const double tau = (b - a) / (2 * off);
+    const double t = (tau >= 0 ? 1 : -1) / (fabs(tau) + sqrt(1 + tau * tau));
+    const double c = 1 / sqrt(1 + t * t), s = t * c;
+    for (int k = 0; k < 3; k++) {
+        const double x = p[k], y = q[k];
+        p[k] = c * x - s * y;
+        q[k] = s * x + c * y;
+    }
+    return true;
+}
+
+/* Makes the columns of a matrix, stored one after the other, perpendicular (src/maths.md 9.6). The one-sided
+   Jacobi method (Golub & Van Loan, Matrix Computations, 8.6.3) has a high relative accuracy for small
+   singular values next to large ones. */
+static void part_columns(double columns[9])
+{
+    bool any = true;
+    for (int sweep = 0; sweep < SWEEPS && any; sweep++) {
+        any = rotate(columns, columns + 3);
+        any = rotate(columns, columns + 6) || any;
+        any = rotate(columns + 3, columns + 6) || any;
+    }
+}
+
 /* Finds an invertible matrix with the same rotation as F. Returns false if there is no rotation to be
    found. */
 static bool prepare_turn(const double gradient[9], splat_turn *turn, double f[9])
@@ -111,7 +162,7 @@ static void find_turn(const double gradient[9], splat_turn *turn)
     double f[9];
     if (!prepare_turn(gradient, turn, f))
         return;
-    ffd_splat_orthogonalise(f);
+    orthogonalise(f);
     finish_turn(f, turn);
 }
 
@@ -156,7 +207,7 @@ void ffd_splat_turn_to_file(const double frame[9], splat_turn *turn)
     const double largest = mat_largest_entry(frame);
     for (int i = 0; i < 9; i++)
         axes[i] = frame[i] / largest;
-    ffd_splat_orthogonalise(axes);
+    orthogonalise(axes);
     ffd_splat_matrix(turn->quaternion, rotation);
     mat_multiply(rotation, axes, product);
     for (int r = 0; r < 3; r++)
@@ -355,7 +406,7 @@ static void deform(const double gradient[9], const splat_turn *turn, const splat
     double nine[9], columns[3][3];
     if (!prepare_ellipsoid(gradient, form, splat, &work, nine, outcome))
         return;
-    ffd_splat_part_columns(nine);
+    part_columns(nine);
     memcpy(columns, nine, sizeof columns);
     finish_ellipsoid(&work, columns, turn, form, splat);
 }

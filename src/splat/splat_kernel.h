@@ -1,5 +1,5 @@
-/* splat_kernel.h - kernels that process several splats at a time, with the same bits as the scalar functions.
-   Used in src/splat only. */
+/* splat_kernel.h - kernels that process several splats at a time, with the same bits as the scalar functions,
+   and the constants of both. Used in src/splat only. */
 #ifndef FFD_SPLAT_SPLAT_KERNEL_H
 #define FFD_SPLAT_SPLAT_KERNEL_H
 
@@ -37,6 +37,17 @@ ellipsoid_kernel ffd_ellipsoid_kernel_sse2, ffd_ellipsoid_kernel_avx2, ffd_ellip
 /* Lower limits of scales relative to the largest, so that none of them is 0. */
 #define LEAST_LOG (-150.0)
 #define LEAST_PART 7e-66
+
+/* Limits of Newton's iteration, which converges quadratically in the end; scaling makes the first steps
+   fast. */
+#define NEWTON_STEPS 30
+#define NEWTON_NEAR 1e-2    /* after a squared change below this, no more scaling */
+#define NEWTON_ENOUGH 1e-18 /* after a squared change below this, the next change is below rounding */
+
+/* Columns whose cosine is below this count as perpendicular. It is far below the precision of a float, and
+   above the rounding of F, so that a rotation keeps the axes of splats with equal scales. */
+#define RIGHT 1e-12
+#define SWEEPS 20
 
 /* The permutations of three columns; the first two keep the last column. Those with an even index keep the
    handedness. */

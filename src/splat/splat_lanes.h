@@ -1,10 +1,9 @@
 /* splat_lanes.h - the iterations and helpers of the splat kernels, with one splat in each lane. The
-   operations are those of splat_iterations.c and splat.c in the same order. Included by the kernels only. */
+   operations are those of splat.c in the same order. Included by the kernels only. */
 #ifndef FFD_SPLAT_SPLAT_LANES_H
 #define FFD_SPLAT_SPLAT_LANES_H
 
 #include "base/vector/lanes.h"
-#include "splat/splat_iterations.h"
 #include "splat/splat_kernel.h"
 
 static ALWAYS_INLINE void cross(const lanes a[3], const lanes b[3], lanes out[3])

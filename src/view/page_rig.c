@@ -1,8 +1,96 @@
 #include "view/page_rig.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
+#include "base/text/buffer_binary.h"
 #include "view/page_text.h"
 #include <string.h>
+
+/* Appends numbers as little-endian floats. */
+static void put_floats(byte_buffer *to, const double *values, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        ffd_buffer_float(to, values[i]);
+}
+
+/* Whether all keys have the same value. A cubic spline may still move between equal keys, so it never
+   counts. */
+static bool is_still(const rig_channel *channel)
+{
+    for (size_t i = channel->width; i < channel->key_count * channel->width; i++)
+        if (channel->values[i] < channel->values[i - channel->width] ||
+            channel->values[i] > channel->values[i - channel->width])
+            return false;
+    return channel->interpolation != RIG_CUBICSPLINE;
+}
+
+/* For each accessor of times: the index of its first time in PAGE_TIMES; SIZE_MAX: not written yet. So
+   channels that share an accessor share their times. */
+typedef struct time_table {
+    size_t *places;
+    size_t count;
+} time_table;
+
+static ffd_status make_table(const mesh_skeleton *skeleton, time_table *table, ffd_error *error)
+{
+    for (size_t a = 0; a < skeleton->animation_count; a++)
+        for (size_t c = 0; c < skeleton->animations[a].channel_count; c++)
+            if (skeleton->animations[a].channels[c].input >= table->count)
+                table->count = skeleton->animations[a].channels[c].input + 1;
+    table->places = ffd_alloc(table->count, sizeof *table->places);
+    for (size_t i = 0; table->places && i < table->count; i++)
+        table->places[i] = SIZE_MAX;
+    return table->places ? FFD_OK : ffd_fail_memory(error);
+}
+
+static size_t put_times(page_rig_side *side, const rig_channel *channel, const time_table *table)
+{
+    byte_buffer *const to = &side->blocks[PAGE_TIMES];
+    size_t *const place = &table->places[channel->input];
+    if (*place == SIZE_MAX) {
+        *place = to->size / 4;
+        put_floats(to, channel->times, channel->key_count);
+    }
+    return *place;
+}
+
+static void put_channel(page_rig_side *side, const rig_channel *channel, const time_table *table)
+{
+    byte_buffer *const to = &side->blocks[PAGE_CHANNELS], *const values = &side->blocks[PAGE_VALUES];
+    const size_t keys = is_still(channel) ? 1 : channel->key_count;
+    const size_t per_key = channel->interpolation == RIG_CUBICSPLINE ? 3 : 1;
+    ffd_buffer_u32(to, (uint32_t)(channel->path == RIG_WEIGHTS ? channel->first_weight : channel->node));
+    ffd_buffer_u32(to, (uint32_t)channel->path);
+    ffd_buffer_u32(to, (uint32_t)channel->interpolation);
+    ffd_buffer_u32(to, (uint32_t)keys);
+    ffd_buffer_u32(to, (uint32_t)channel->width);
+    ffd_buffer_u32(to, (uint32_t)put_times(side, channel, table));
+    ffd_buffer_u32(to, (uint32_t)(values->size / 4));
+    put_floats(values, channel->values, keys * per_key * channel->width);
+}
+
+/* Fills PAGE_CHANNELS, PAGE_TIMES, PAGE_VALUES and first_channel with the loaded animations of a side's
+   skeleton. A channel that never changes is written with a single key. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
+static ffd_status put_keys(page_rig_side *side, ffd_error *error)
+{
+    const mesh_skeleton *const skeleton = side->from->skeleton;
+    time_table table = {0};
+    size_t count = 0;
+    side->first_channel = ffd_alloc(skeleton->animation_count + 1, sizeof *side->first_channel);
+    ffd_status status = side->first_channel ? make_table(skeleton, &table, error) : ffd_fail_memory(error);
+    for (size_t a = 0; a < skeleton->animation_count && !status; a++) {
+        const rig_animation *const animation = &skeleton->animations[a];
+        side->first_channel[a] = count;
+        for (size_t c = 0; c < animation->channel_count; c++)
+            put_channel(side, &animation->channels[c], &table);
+        count += animation->channel_count;
+    }
+    if (!status)
+        side->first_channel[skeleton->animation_count] = count;
+    if (!status && (side->blocks[PAGE_VALUES].size > UINT32_MAX || count > UINT32_MAX))
+        status = ffd_fail(error, FFD_E_LIMIT, "a page with so many keys of animations is not possible");
+    ffd_free(table.places);
+    return status;
+}
 
 #define SHARES 65535 /* what the weights of a vertex add up to in PAGE_FOLLOWS */
 
@@ -26,13 +114,13 @@ static void put_node(page_rig_side *side, const rig_node *node)
     store_u32(at, node->parent == RIG_NONE ? UINT32_MAX : (uint32_t)node->parent);
     store_u32(at + 4, (node->is_joint ? 1u : 0) | (node->has_matrix ? 2u : 0));
     if (node->has_matrix) {
-        ffd_page_floats_put(to, node->matrix, 12);
+        put_floats(to, node->matrix, 12);
         return;
     }
-    ffd_page_floats_put(to, node->translation, 3);
-    ffd_page_floats_put(to, node->rotation, 4);
-    ffd_page_floats_put(to, node->scale, 3);
-    ffd_page_floats_put(to, nothing, 2);
+    put_floats(to, node->translation, 3);
+    put_floats(to, node->rotation, 4);
+    put_floats(to, node->scale, 3);
+    put_floats(to, nothing, 2);
 }
 
 static void put_skeleton(page_rig_side *side)
@@ -44,9 +132,9 @@ static void put_skeleton(page_rig_side *side)
         unsigned char *const at = grow(&side->blocks[PAGE_BONES_OF], 4);
         if (at)
             store_u32(at, (uint32_t)s->bones[b].node);
-        ffd_page_floats_put(&side->blocks[PAGE_BINDS], s->bones[b].bind, 12);
+        put_floats(&side->blocks[PAGE_BINDS], s->bones[b].bind, 12);
     }
-    ffd_page_floats_put(&side->blocks[PAGE_WEIGHTS], s->weights, s->weight_count);
+    put_floats(&side->blocks[PAGE_WEIGHTS], s->weights, s->weight_count);
 }
 
 /* Returns the index in a side's document of a vertex of the page. */
@@ -120,7 +208,7 @@ static ffd_status put_targets(const page_mesh *mesh, page_rig_side *side, ffd_er
             if (!at)
                 continue;
             store_u32(at, vertex);
-            ffd_page_floats_put(to, offset, 3);
+            put_floats(to, offset, 3);
             side->target_offsets[t]++;
         }
     ffd_free(places);
@@ -135,8 +223,7 @@ static ffd_status put_vertices(page_rig *rig, page_rig_side *side, bool follows,
     for (size_t v = 0; v < mesh->vertex_count; v++) {
         if (follows)
             put_follow(rig, side, number_of(mesh, side, v));
-        ffd_page_floats_put(&side->blocks[PAGE_ANCHORS],
-                            side->from->anchors.points + 3 * number_of(mesh, side, v), 3);
+        put_floats(&side->blocks[PAGE_ANCHORS], side->from->anchors.points + 3 * number_of(mesh, side, v), 3);
     }
     return put_targets(mesh, side, error);
 }
@@ -155,7 +242,7 @@ static ffd_status make_side(page_rig *rig, int number, ffd_error *error)
     ffd_status status = FFD_OK;
     if (!is_lent) {
         put_skeleton(side);
-        status = ffd_page_keys_put(side, error);
+        status = put_keys(side, error);
     }
     if (!status)
         status = put_vertices(rig, side, !is_lent, error);

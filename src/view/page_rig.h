@@ -1,5 +1,4 @@
-/* page_rig.h - the animations of a page: skeletons, keys, and the bones that each of its vertices follows.
-   page_keys.c has ffd_page_keys_put and ffd_page_floats_put. */
+/* page_rig.h - the animations of a page: skeletons, keys, and the bones that each of its vertices follows. */
 #ifndef FFD_VIEW_PAGE_RIG_H
 #define FFD_VIEW_PAGE_RIG_H
 
@@ -59,12 +58,5 @@ static inline bool ffd_page_rig_is_there(const page_rig *rig)
 void ffd_page_rig_describe(const page_rig *rig, json_text *json);
 /* Writes the blocks, and empties them. */
 void ffd_page_rig_write(page_rig *rig, page_writer *w);
-
-/* Appends numbers as little-endian floats. */
-void ffd_page_floats_put(byte_buffer *to, const double *values, size_t count);
-
-/* Fills PAGE_CHANNELS, PAGE_TIMES, PAGE_VALUES and first_channel with the loaded animations of a side's
-   skeleton. A channel that never changes is written with a single key. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
-ffd_status ffd_page_keys_put(page_rig_side *side, ffd_error *error);
 
 #endif

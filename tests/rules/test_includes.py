@@ -96,11 +96,10 @@ LAYERS = {
         "base", "base/memory", "base/system", "base/vector", "deform", "io/openmesh", "job/chain", "job/figures", "job/input",
         "lattice", "mesh",
     },
-    "job/rig": {"base/memory", "base/text", "job/chain", "mesh"},
     "job/judge": {"base/text", "job/chain", "job/figures", "lattice"},
     "job/measure": {
         "base", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed", "embed/frame", "io/openmesh",
-        "job/chain", "job/figures", "job/input", "job/pass", "job/rig", "lattice", "mesh",
+        "job/chain", "job/figures", "job/input", "job/pass", "lattice", "mesh",
     },
     "job/jacobian": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed/boundary", "io/npy",
@@ -121,7 +120,7 @@ LAYERS = {
     "python": set(),
     "job": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io", "io/npy",
-        "io/openmesh", "io/write", "job/chain", "job/figures", "job/input", "job/judge", "job/measure", "job/pass", "job/report", "job/rig", "json",
+        "io/openmesh", "io/write", "job/chain", "job/figures", "job/input", "job/judge", "job/measure", "job/pass", "job/report", "json",
         "lattice", "lattice/file", "mesh", "mesh/morph", "mesh/resource",
     },
 }

@@ -18,7 +18,7 @@ STATED = (
     (LIMITS, "STL: N facets", "src/io/stl/stl_document.h", "STL_FACETS_MAX"),
     (LIMITS, "glTF: N triangles of its scene", "src/io/gltf/model/gltf_faces.c", "MOST_TRIANGLES"),
     (LIMITS, "N sets of joints", "src/io/gltf/model/gltf_skin.c", "MOST_SETS"),
-    (LIMITS, "N names, 1 MiB", "src/io/obj/resource/resource_names.h", "OBJ_RESOURCES_MAX"),
+    (LIMITS, "N names, 1 MiB", "src/io/obj/resource/obj_paths.h", "OBJ_RESOURCES_MAX"),
     (LIMITS, "N elements and properties", "src/io/ply/ply_header.h", "PLY_DECLARATIONS_MAX"),
     (LIMITS, "N pixels a side", "src/picture/image/image.h", "IMAGE_MOST_SIDE"),
     (LIMITS, "N in all; then grey", "src/picture/image/image.h", "IMAGE_MOST_PIXELS"),

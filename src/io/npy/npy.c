@@ -1,6 +1,10 @@
 #include "io/npy/npy.h"
+#include "base/file/input.h"
+#include "base/memory/memory.h"
 #include <inttypes.h>
+#include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* The header is padded so that the values start at a multiple of this (NumPy format 1.0). */
@@ -44,4 +48,120 @@ bool ffd_npy_starts(const unsigned char *data, size_t size, const char *descr, s
     char header[NPY_HEADER_CAPACITY];
     *values = ffd_npy_header(descr, rows, columns, header);
     return size >= *values && memcmp(data, header, *values) == 0;
+}
+
+/* What the header of an array says. */
+typedef struct npy_header {
+    char descr[8];
+    char shape[200];
+    uint64_t numbers;
+    size_t values; /* offset of the first value */
+} npy_header;
+
+/* Returns the text after 'KEY': in the header; NULL if there is no such key. */
+static const char *find_value(const char *text, const char *key)
+{
+    char quoted[32];
+    snprintf(quoted, sizeof quoted, "'%s':", key);
+    const char *const at = strstr(text, quoted);
+    return at ? at + strlen(quoted) + strspn(at + strlen(quoted), " ") : NULL;
+}
+
+/* Reads a shape like "(3, 4)": the product of its numbers. */
+static bool read_shape(const char *text, npy_header *header)
+{
+    header->numbers = 1;
+    for (const char *c = text + 1; *c && *c != ')';) {
+        char *end;
+        const uint64_t size = strtoull(c, &end, 10);
+        if (end == c || *c == '-' || (size > 0 && header->numbers > UINT64_MAX / size))
+            return false;
+        header->numbers *= size;
+        c = end + strspn(end, ", L");
+    }
+    const size_t length = strcspn(text, ")");
+    snprintf(header->shape, sizeof header->shape, "%.*s)", (int)(length < 150 ? length : 150), text);
+    return true;
+}
+
+/* Reads the header. Returns false if the file is not an array file, or one of an unknown version. */
+static bool read_header(const file_input *file, npy_header *header)
+{
+    char text[1024];
+    const unsigned char *const data = file->data;
+    if (file->size < 12 || memcmp(data, "\x93NUMPY", 6) != 0 || data[6] < 1 || data[6] > 3)
+        return false;
+    const size_t prefix = data[6] == 1 ? 10 : 12;
+    const size_t length =
+        data[8] | (size_t)data[9] << 8 | (data[6] == 1 ? 0 : (size_t)data[10] << 16 | (size_t)data[11] << 24);
+    if (length > file->size - prefix || length >= sizeof text)
+        return false;
+    memcpy(text, data + prefix, length);
+    text[length] = 0;
+    header->values = prefix + length;
+    const char *const descr = find_value(text, "descr"), *const order = find_value(text, "fortran_order");
+    const char *const shape = find_value(text, "shape");
+    if (!descr || *descr != '\'' || !order || strncmp(order, "False", 5) != 0 || !shape || *shape != '(')
+        return false;
+    snprintf(header->descr, sizeof header->descr, "%.*s", (int)strcspn(descr + 1, "'"), descr + 1);
+    return read_shape(shape, header);
+}
+
+static double number_at(const unsigned char *from, size_t size, bool swapped)
+{
+    unsigned char bytes[8];
+    double wide;
+    float narrow;
+    for (size_t i = 0; i < size; i++)
+        bytes[i] = from[swapped ? size - 1 - i : i];
+    if (size == sizeof wide) {
+        memcpy(&wide, bytes, sizeof wide);
+        return wide;
+    }
+    memcpy(&narrow, bytes, sizeof narrow);
+    return narrow;
+}
+
+static bool is_little_endian(void)
+{
+    const uint16_t one = 1;
+    unsigned char first;
+    memcpy(&first, &one, 1);
+    return first == 1;
+}
+
+static ffd_status read_values(const char *path, const file_input *file, size_t numbers, double **values,
+                              ffd_error *error)
+{
+    npy_header header = {.descr = ""};
+    if (!read_header(file, &header))
+        return ffd_fail_file(error, FFD_E_INVALID, path, "is not a NumPy array file (.npy) in C order");
+    const size_t size = strcmp(header.descr + 1, "f8") == 0 ? 8 : strcmp(header.descr + 1, "f4") == 0 ? 4 : 0;
+    if (!header.descr[0] || size == 0 || !strchr("<>=|", header.descr[0]))
+        return ffd_fail_file(error, FFD_E_INVALID, path, "has numbers of type %s, not float32 or float64",
+                             header.descr);
+    if (header.numbers != numbers)
+        return ffd_fail_file(error, FFD_E_INVALID, path, "has the shape %s, and %zu numbers are needed",
+                             header.shape, numbers);
+    if ((file->size - header.values) / size < numbers)
+        return ffd_fail_file(error, FFD_E_INVALID, path, "ends early: %zu numbers are needed", numbers);
+    *values = ffd_alloc(numbers, sizeof **values);
+    if (!*values)
+        return ffd_fail_memory(error);
+    const bool little = header.descr[0] == '<' || (header.descr[0] != '>' && is_little_endian());
+    for (size_t i = 0; i < numbers; i++)
+        (*values)[i] = number_at(file->data + header.values + i * size, size, little != is_little_endian());
+    return FFD_OK;
+}
+
+ffd_status ffd_npy_read(const char *path, size_t numbers, double **values, ffd_error *error)
+{
+    file_input file;
+    *values = NULL;
+    ffd_status status = ffd_file_load(path, &file, error);
+    if (status)
+        return status;
+    status = read_values(path, &file, numbers, values, error);
+    ffd_file_unload(&file);
+    return status;
 }

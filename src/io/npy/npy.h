@@ -1,8 +1,10 @@
-/* npy.h - writes NumPy's array file, version 1.0. */
+/* npy.h - NumPy's array file: writes version 1.0, reads versions 1 to 3. */
 #ifndef FFD_IO_NPY_NPY_H
 #define FFD_IO_NPY_NPY_H
 
+#include "base/fail.h"
 #include "base/file/output.h"
+#include <stddef.h>
 
 /* A capacity for every header below. */
 #define NPY_HEADER_CAPACITY 256
@@ -23,5 +25,10 @@ ffd_status ffd_npy_begin(file_output *output, const char *descr, size_t rows, si
    recognized. */
 bool ffd_npy_starts(const unsigned char *data, size_t size, const char *descr, size_t rows, size_t columns,
                     size_t *values);
+
+/* Reads an array of float32 or float64 in C order as doubles. The product of its shape must be `numbers`,
+   whatever its dimensions. The caller frees *values with ffd_free. Errors: FFD_E_INVALID for another file,
+   type, order or size, FFD_E_IO, FFD_E_MEMORY. */
+ffd_status ffd_npy_read(const char *path, size_t numbers, double **values, ffd_error *error);
 
 #endif

@@ -2,14 +2,47 @@
 
    Every `v` is a vertex, in the order of the file. The normals of a vertex are the distinct `vn` that face
    corners name together with it. Coordinates are held as numbers; all else stays in the file's bytes, which
-   are scanned again where it is needed (saving, faces, comparison). */
+   are scanned again where it is needed (saving, faces, comparison). obj_results.c has what a deformation
+   changes. */
 #ifndef FFD_IO_OBJ_OBJ_DOCUMENT_H
 #define FFD_IO_OBJ_OBJ_DOCUMENT_H
 
 #include "base/file/spill.h"
 #include "io/obj/obj_blocks.h"
-#include "io/obj/obj_walk.h"
+#include "io/obj/obj_corner.h"
 #include "io/text/file_document.h"
+
+/* A walk is a scan that knows which element each statement is, so that indices can be looked up. */
+
+/* Elements of one kind: in the whole file, and up to the current statement (which is the last of them where
+   it is one itself); seen <= total. Positive indices count in the former, negative ones in the latter. */
+typedef struct obj_count {
+    size_t total, seen;
+} obj_count;
+
+/* The caller sets the totals. */
+typedef struct obj_walk {
+    obj_scan scan;
+    obj_count vertices, texcoords, normals, faces;
+} obj_walk;
+
+/* Goes to the next statement and counts it. False at the end of the file, and at an element that is more than
+   the total: the file was changed after they were counted. */
+bool ffd_obj_walk_next(obj_walk *walk);
+
+/* The element, from 0, that an index names. Returns false if there is none. */
+bool ffd_obj_find(int64_t index, obj_count count, size_t *element);
+
+/* A corner of a face with the elements it names, from 0. */
+typedef struct obj_face_corner {
+    size_t vertex, normal;
+    bool has_normal;
+    text_word normal_text; /* the index as written */
+} obj_face_corner;
+
+/* Takes the next corner of the current face in a file whose faces are known to be valid. Returns false
+   if there is none left. */
+bool ffd_obj_walk_corner(obj_walk *walk, obj_face_corner *corner);
 
 /* Vertices and `vn` that a file may have: their numbers, and one value for none, are 32 bits. */
 #define OBJ_ELEMENTS_MAX (UINT32_MAX - 1)
@@ -86,5 +119,10 @@ mesh_corner_normals_function ffd_obj_corner_normals;
 mesh_model_function ffd_obj_model;
 mesh_describe_function ffd_obj_describe;
 mesh_compare_function ffd_obj_compare;
+
+/* Frees the results of normals, if there are any: normals are kept. */
+void ffd_obj_free_normals(obj_document *document);
+/* Releases the pages of the positions and results of count vertices if they are in a memory-mapped file. */
+void ffd_obj_forget_vectors(const obj_document *document, size_t first, size_t count);
 
 #endif

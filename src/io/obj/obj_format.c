@@ -1,6 +1,5 @@
 #include "io/obj/obj_format.h"
 #include "io/obj/obj_document.h"
-#include "io/obj/resource/obj_materials.h"
 #include "io/obj/resource/obj_resources.h"
 #include <float.h>
 

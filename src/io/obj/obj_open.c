@@ -2,8 +2,8 @@
 #include "base/memory/memory.h"
 #include "base/system/processors.h"
 #include "base/text/words.h"
+#include "io/obj/obj_document.h"
 #include "io/obj/obj_faces.h"
-#include "io/obj/obj_results.h"
 #include "io/obj/obj_vectors.h"
 #include "io/text/content.h"
 

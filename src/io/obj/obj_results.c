@@ -1,6 +1,7 @@
-#include "io/obj/obj_results.h"
+/* obj_results.c - what a deformation changes in an OBJ file. */
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
+#include "io/obj/obj_document.h"
 #include "io/text/vectors.h"
 #include <string.h>
 

@@ -1,10 +1,156 @@
 /* ply_faces.c - checks the faces of a PLY file, and passes them on. */
+#include "base/little_endian.h"
 #include "base/memory/memory.h"
-#include "io/ply/ply_plain_faces.h"
-#include "io/ply/ply_strips.h"
+#include "io/ply/ply_document.h"
+#include "io/ply/ply_walk.h"
 #include "mesh/face_filler.h"
 #include "mesh/mixed_faces.h"
 #include <string.h>
+
+/* Triangle strips: element tristrips, with a list of vertices. Each vertex makes a triangle with the two
+   before it, with every second triangle reversed; -1 begins a new strip (as in the Stanford models).
+   Degenerate triangles, which name a vertex twice, only join strips and are left out. */
+
+/* Called for each triangle. Returns false if memory ran out. */
+typedef bool ply_triangle_visitor(void *context, const uint32_t corners[3]);
+
+typedef struct strip_reader {
+    const ply_document *document;
+    ply_walk walk;
+    uint32_t last[2]; /* the two vertices before */
+    size_t length;    /* number of vertices since the strip began */
+    ply_triangle_visitor *visit;
+    void *context;
+    ffd_error *error;
+} strip_reader;
+
+/* Takes the next vertex of the strip. */
+static ffd_status add_vertex(strip_reader *r, uint32_t vertex)
+{
+    const uint32_t a = r->last[0], b = r->last[1];
+    const bool turned = r->length % 2 == 1; /* the second, the fourth, .. */
+    const uint32_t triangle[3] = {turned ? b : a, turned ? a : b, vertex};
+    const bool there = r->length >= 2 && a != b && a != vertex && b != vertex;
+    r->last[0] = b;
+    r->last[1] = vertex;
+    r->length++;
+    return !there || r->visit(r->context, triangle) ? FFD_OK : ffd_fail_memory(r->error);
+}
+
+static ffd_status read_strip(strip_reader *r, uint64_t row)
+{
+    const ply_document *d = r->document;
+    const ply_property *const list = d->strip_corners;
+    text_word word;
+    size_t count, vertex;
+    double value;
+    ffd_status status = FFD_OK;
+    r->length = 0;
+    if (!ffd_ply_walk_list(&r->walk, list, &word, &count))
+        return ffd_faces_changed(d->file.name, r->error);
+    for (size_t i = 0; i < count && status == FFD_OK; i++) {
+        ffd_ply_walk_value(&r->walk, list->type, &word);
+        if (ffd_ply_load_count(d->header.encoding, list->type, word, &vertex) &&
+            vertex < d->file.part.vertex_count)
+            status = add_vertex(r, (uint32_t)vertex);
+        else if (ffd_ply_load(d->header.encoding, list->type, word, &value) && value == -1)
+            r->length = 0;
+        else
+            status = ffd_ply_refuse_vertex(d, &r->walk, "strip", row, list->type, word, r->error);
+    }
+    return status;
+}
+
+static ffd_status read_strip_row(strip_reader *r, uint64_t row)
+{
+    const ply_element *const strips = r->document->strips;
+    ffd_status status = FFD_OK;
+    ffd_ply_walk_row(&r->walk);
+    for (size_t i = 0; i < strips->property_count && status == FFD_OK; i++) {
+        if (&strips->properties[i] == r->document->strip_corners)
+            status = read_strip(r, row);
+        else
+            ffd_ply_walk_skip(&r->walk, &strips->properties[i]);
+    }
+    return status;
+}
+
+/* Visits the triangles in the order of the file. Errors: FFD_E_INVALID for a vertex that does not exist,
+   FFD_E_MEMORY. */
+static ffd_status visit_strips(const ply_document *d, ply_triangle_visitor *visit, void *context,
+                               ffd_error *error)
+{
+    strip_reader r = {.document = d, .visit = visit, .context = context, .error = error};
+    ffd_status status = FFD_OK;
+    if (!d->strip_corners)
+        return FFD_OK;
+    ffd_ply_document_walk(d, d->strips, &r.walk);
+    for (uint64_t row = 0; row < d->strips->count && status == FFD_OK; row++)
+        status = read_strip_row(&r, row);
+    return status;
+}
+
+/* A fast path for the faces of nearly all binary files: rows with one list, whose count is a byte and whose
+   corners are 32-bit, besides numbers of fixed size. It is many times faster than reading value by value. */
+
+/* The maximum number of corners of a plain face. */
+#define PLY_PLAIN_CORNERS 255
+
+typedef struct ply_plain_faces {
+    size_t before, behind; /* bytes of a row before the list, and after it */
+    size_t limit;          /* corners must be less */
+    unsigned count_limit;  /* counts must be less */
+    bool swapped;          /* corners are big-endian */
+} ply_plain_faces;
+
+static uint32_t swap(uint32_t value)
+{
+    return value >> 24 | (value >> 8 & 0xff00) | (value << 8 & 0xff0000) | value << 24;
+}
+
+/* Reads a row and its corners. Returns false, and moves nothing, if the row is not as expected. Inline,
+   because it is called for every face. */
+static inline bool read_plain_face(const ply_plain_faces *plain, ply_walk *walk,
+                                   uint32_t corners[PLY_PLAIN_CORNERS], size_t *count)
+{
+    const unsigned char *at = (const unsigned char *)walk->at + plain->before;
+    const size_t left = (size_t)(walk->last - walk->at);
+    uint32_t largest = 0;
+    if (left <= plain->before || *at >= plain->count_limit ||
+        left - plain->before - 1 < sizeof *corners * *at + plain->behind)
+        return false;
+    *count = *at++;
+    for (size_t i = 0; i < *count; i++, at += sizeof *corners) {
+        corners[i] = plain->swapped ? swap(load_u32(at)) : load_u32(at);
+        largest = corners[i] > largest ? corners[i] : largest;
+    }
+    if (*count > 0 && largest >= plain->limit)
+        return false;
+    walk->at = (const char *)at + plain->behind;
+    return true;
+}
+
+/* Whether the faces of an element are plain. vertices: the number of vertices. */
+static bool find_plain_faces(ply_encoding encoding, const ply_element *element, const ply_property *list,
+                             size_t vertices, ply_plain_faces *plain)
+{
+    const bool is_signed = list->type == PLY_INT;
+    const size_t largest = is_signed ? (size_t)INT32_MAX + 1 : UINT32_MAX;
+    *plain = (ply_plain_faces){.limit = vertices < largest ? vertices : largest,
+                               .count_limit = list->count_type == PLY_CHAR ? 128 : 256,
+                               .swapped = encoding == PLY_BIG_ENDIAN};
+    if (encoding == PLY_ASCII || ffd_ply_type_size(list->count_type) != 1 ||
+        (list->type != PLY_INT && list->type != PLY_UINT))
+        return false;
+    for (size_t i = 0; i < element->property_count; i++) {
+        const ply_property *const property = &element->properties[i];
+        if (property != list && property->is_list)
+            return false;
+        if (property != list)
+            *(property < list ? &plain->before : &plain->behind) += ffd_ply_type_size(property->type);
+    }
+    return true;
+}
 
 typedef struct face_reader {
     const ply_document *document;
@@ -120,13 +266,13 @@ static ffd_status read_rows(face_reader *r)
     const ply_document *const d = r->document;
     ply_plain_faces plain;
     const bool is_plain =
-        ffd_ply_plain_faces(d->header.encoding, d->face, d->face_corners, d->file.part.vertex_count, &plain);
+        find_plain_faces(d->header.encoding, d->face, d->face_corners, d->file.part.vertex_count, &plain);
     ffd_status status = FFD_OK;
     ffd_ply_document_walk(d, d->face, &r->walk);
     for (uint64_t face = 0; status == FFD_OK && face < d->face->count; face++) {
         uint32_t corners[PLY_PLAIN_CORNERS];
         size_t count;
-        if (!is_plain || !ffd_ply_plain_face(&plain, &r->walk, corners, &count))
+        if (!is_plain || !read_plain_face(&plain, &r->walk, corners, &count))
             status = read_face(r, face);
         else if (!take_plain(r, corners, count))
             status = ffd_fail_memory(r->error);
@@ -139,7 +285,7 @@ static ffd_status look_at_faces(face_reader *r)
 {
     const ply_document *const d = r->document;
     const ffd_status status = d->face ? read_rows(r) : FFD_OK;
-    return status ? status : ffd_ply_visit_strips(d, take_triangle, r, r->error);
+    return status ? status : visit_strips(d, take_triangle, r, r->error);
 }
 
 static bool count_triangle(void *context, const uint32_t corners[3])
@@ -181,7 +327,7 @@ ffd_status ffd_ply_faces(const mesh_document *document, mesh_faces *faces, ffd_e
     size_t triangles = 0;
     *faces =
         (mesh_faces){.vertex_count = d->file.part.vertex_count, .lines = edges ? (size_t)edges->count : 0};
-    const ffd_status status = ffd_ply_visit_strips(d, count_triangle, &triangles, error);
+    const ffd_status status = visit_strips(d, count_triangle, &triangles, error);
     if (status)
         return status;
     faces->face_count = (d->face ? (size_t)d->face->count : 0) + triangles;

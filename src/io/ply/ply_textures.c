@@ -4,7 +4,7 @@
 #include "base/memory/memory.h"
 #include "mesh/resource/image_file.h"
 #include "mesh/resource/left_out.h"
-#include "mesh/resource/resource_bring.h"
+#include "mesh/resource/resource_copy.h"
 #include <string.h>
 
 static bool is_blank(char c)

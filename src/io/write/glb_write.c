@@ -4,15 +4,95 @@
 #include "base/text/number.h"
 #include "io/gltf/file/glb.h"
 #include "io/gltf/file/gltf_uri.h"
-#include "io/write/glb_origin.h"
+#include "io/write/glb_plan.h"
 #include "io/write/glb_writer.h"
 #include "io/write/write.h"
 #include "mesh/polygon_cut.h"
+#include "mesh/precision.h"
 #include "mesh/resource/beside.h"
 #include "mesh/srgb.h"
 #include <float.h>
 #include <inttypes.h>
 #include <string.h>
+
+/* Of the step of floats, relative to the diagonal of all. */
+#define STEP_TOLERANCE 1e-6
+
+/* Returns the exponent of the smallest power of two greater than size. */
+static int exponent_above(double size)
+{
+    int exponent;
+    frexp(size, &exponent);
+    return exponent;
+}
+
+static double farthest_from(const ffd_bounds *box, const double from[3])
+{
+    double farthest = 0;
+    for (int a = 0; a < 3; a++)
+        farthest = larger_of(farthest, larger_of(from[a] - box->min[a], box->max[a] - from[a]));
+    return farthest;
+}
+
+/* Fills the translation of what lies in a box: `common` if the step of floats at the largest coordinate
+   relative to it is at most tolerance times the diagonal, else one of its own. */
+static void choose_origin(const ffd_bounds *box, const double common[3], double tolerance, double origin[3])
+{
+    static const double zero[3] = {0, 0, 0};
+    double sides[3];
+    for (int a = 0; a < 3; a++)
+        sides[a] = box->max[a] - box->min[a];
+    memcpy(origin, common, 3 * sizeof *origin);
+    const double diagonal = vec_length(sides);
+    if (!(diagonal > 0) || !(box->min[0] <= box->max[0]) ||
+        ldexp(1, exponent_above(farthest_from(box, common)) - FLT_MANT_DIG) <= tolerance * diagonal)
+        return;
+    /* Multiples smaller than a double's step cannot be distinguished. */
+    const int step = exponent_above(farthest_from(box, zero)) - DBL_MANT_DIG,
+              above = exponent_above(diagonal);
+    const double unit = ldexp(1, above > step ? above : step);
+    for (int a = 0; a < 3; a++)
+        origin[a] = unit * floor((box->min[a] / 2 + box->max[a] / 2) / unit + 0.5) + 0.0; /* + 0.0: no -0 */
+}
+
+/* Extends the bounds by the written vertices of a primitive. */
+static void widen_box(const glb_plan *plan, const glb_primitive *primitive, ffd_bounds *box)
+{
+    for (size_t i = 0; i < primitive->vertex_count; i++)
+        ffd_bounds_widen(box, plan->model->positions +
+                                  3 * (size_t)plan->vertices[primitive->first_vertex + i].position);
+}
+
+/* Makes the translations of the nodes, 3 numbers for each mesh, relative to which positions are then stored;
+   free them with ffd_free, after an error too. All are zero if the step of floats at the largest coordinate
+   is at most 1e-6 of the diagonal. Otherwise the coordinates are multiples of a unit, the next power of two
+   above the diagonal: on each axis the multiple nearest to the middle. So parts of the same size that lie
+   side by side mostly have the same translation. A mesh whose own shape would still be lost
+   (mesh/precision.h) gets one by its own diagonal in the same way. Errors: FFD_E_MEMORY. */
+static ffd_status choose_origins(const glb_plan *plan, double **origins, ffd_error *error)
+{
+    static const double zero[3] = {0, 0, 0};
+    const size_t count = plan->meshes.count;
+    double common[3];
+    ffd_bounds all = ffd_bounds_empty();
+    ffd_bounds *const boxes = ffd_alloc(count, sizeof *boxes);
+    *origins = ffd_alloc(3 * count, sizeof **origins);
+    if (!boxes || !*origins) {
+        ffd_free(boxes);
+        return ffd_fail_memory(error);
+    }
+    for (size_t m = 0; m < count; m++)
+        boxes[m] = ffd_bounds_empty();
+    for (size_t i = 0; i < plan->primitive_count; i++)
+        widen_box(plan, &plan->primitives[i], &boxes[plan->primitives[i].mesh]);
+    for (size_t m = 0; m < count; m++)
+        ffd_bounds_join(&all, &boxes[m]);
+    choose_origin(&all, zero, STEP_TOLERANCE, common);
+    for (size_t m = 0; m < count; m++)
+        choose_origin(&boxes[m], common, 2 * PART_TOLERANCE, *origins + 3 * m);
+    ffd_free(boxes);
+    return FFD_OK;
+}
 
 static void measure(gltf_writer *w)
 {
@@ -56,7 +136,7 @@ static ffd_status begin(gltf_writer *w, const mesh_model *model, ffd_error *erro
     if (status)
         return status;
     measure(w);
-    return ffd_glb_origins(&w->plan, &w->origins, error);
+    return choose_origins(&w->plan, &w->origins, error);
 }
 
 static void end(gltf_writer *w)

@@ -1,4 +1,5 @@
 /* jacobian.c - the job of `ffd jacobian`. */
+#include "job/jacobian/jacobian.h"
 #include "base/file/input.h"
 #include "base/file/output.h"
 #include "base/file/path.h"
@@ -8,9 +9,6 @@
 #include "job/input/deform_desc.h"
 #include "job/input/in_memory.h"
 #include "job/input/source.h"
-#include "job/jacobian/jacobian_check.h"
-#include "job/jacobian/jacobian_output.h"
-#include "job/jacobian/jacobian_product.h"
 #include "job/judge/warnings.h"
 #include "job/reads.h"
 #include <string.h>

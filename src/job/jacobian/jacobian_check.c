@@ -1,11 +1,11 @@
-#include "job/jacobian/jacobian_check.h"
+/* jacobian_check.c - compares rows of the derivative with central differences. */
 #include "base/memory/memory.h"
 #include "base/text/buffer.h"
 #include "base/vector/vec.h"
 #include "deform/extension.h"
 #include "job/chain/chain_apply.h"
 #include "job/chain/chain_load.h"
-#include "job/jacobian/jacobian_rows.h"
+#include "job/jacobian/jacobian.h"
 #include "points/embedding.h"
 #include <ffd/deform.h>
 #include <math.h>

@@ -1,4 +1,4 @@
-#include "job/jacobian/jacobian_output.h"
+/* jacobian_output.c - writes the matrix. */
 #include "base/file/output.h"
 #include "base/file/path.h"
 #include "base/little_endian.h"
@@ -8,7 +8,7 @@
 #include "base/text/buffer.h"
 #include "io/npy/npy.h"
 #include "io/npy/zip_stored.h"
-#include "job/jacobian/jacobian_rows.h"
+#include "job/jacobian/jacobian.h"
 #include <stdio.h>
 #include <string.h>
 

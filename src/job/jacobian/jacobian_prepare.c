@@ -5,7 +5,7 @@
 #include "embed/boundary/boundary.h"
 #include "job/chain/chain_apply.h"
 #include "job/chain/lattice_memory.h"
-#include "job/jacobian/jacobian_state.h"
+#include "job/jacobian/jacobian.h"
 #include "job/judge/warnings.h"
 #include "job/pass/chain_fit.h"
 #include "job/pass/pass.h"

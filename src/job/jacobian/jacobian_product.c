@@ -1,11 +1,10 @@
-#include "job/jacobian/jacobian_product.h"
+/* jacobian_product.c - products with the matrix, which need not be stored. */
 #include "base/file/output.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include "base/system/deadline.h"
 #include "io/npy/npy.h"
-#include "io/npy/npy_read.h"
-#include "job/jacobian/jacobian_rows.h"
+#include "job/jacobian/jacobian.h"
 #include <string.h>
 
 /* Vertices per block. The sums of blocks are joined in order, so that the number of threads does not

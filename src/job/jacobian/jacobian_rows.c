@@ -1,6 +1,7 @@
-#include "job/jacobian/jacobian_rows.h"
+/* jacobian_rows.c - computes the rows of the matrix, vertex by vertex. */
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
+#include "job/jacobian/jacobian.h"
 #include <string.h>
 
 static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};

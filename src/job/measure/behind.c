@@ -1,7 +1,7 @@
 #include "job/measure/behind.h"
 #include "base/memory/memory.h"
 #include "base/text/words.h"
-#include "job/rig/rig_figures.h"
+#include "job/measure/rig.h"
 #include "lattice/lattice.h"
 #include <inttypes.h>
 #include <math.h>

@@ -6,7 +6,7 @@
 #include "job/figures/pass_totals.h"
 #include "job/input/embedding_file.h"
 #include "job/measure/details.h"
-#include "job/rig/rig_places.h"
+#include "job/measure/rig.h"
 #include "mesh/mesh.h"
 
 /* The state of a job. */

@@ -1,6 +1,6 @@
 #include "io/obj/resource/mtl_file.h"
 #include "base/file/path.h"
-#include "io/obj/resource/resource_names.h"
+#include "io/obj/resource/obj_paths.h"
 #include <string.h>
 
 const resource_kind ffd_resource_library = {

@@ -2,8 +2,8 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "io/obj/resource/mtl_file.h"
+#include "io/obj/resource/obj_paths.h"
 #include "io/obj/resource/obj_statements.h"
-#include "io/obj/resource/resource_names.h"
 #include "io/text/text_scan.h"
 #include <string.h>
 

@@ -3,7 +3,6 @@
 #include "base/memory/memory.h"
 #include "io/obj/resource/obj_paths.h"
 #include "io/obj/resource/obj_statements.h"
-#include "io/obj/resource/resource_names.h"
 #include <stdio.h>
 #include <string.h>
 

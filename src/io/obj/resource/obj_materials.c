@@ -1,10 +1,10 @@
-#include "io/obj/resource/obj_materials.h"
+/* obj_materials.c - the materials of the libraries that an OBJ file names. */
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "io/obj/resource/mtl_file.h"
 #include "io/obj/resource/obj_libraries.h"
 #include "io/obj/resource/obj_paths.h"
-#include "io/obj/resource/resource_names.h"
+#include "io/obj/resource/obj_resources.h"
 #include "io/text/file_document.h"
 #include "mesh/resource/material_images.h"
 #include "mesh/resource/resource_copy.h"

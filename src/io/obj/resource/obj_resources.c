@@ -5,11 +5,10 @@
 #include "io/obj/resource/obj_libraries.h"
 #include "io/obj/resource/obj_linked.h"
 #include "io/obj/resource/obj_paths.h"
-#include "io/obj/resource/resource_names.h"
 #include "mesh/resource/image_file.h"
 #include "mesh/resource/image_tiles.h"
 #include "mesh/resource/left_out.h"
-#include "mesh/resource/resource_bring.h"
+#include "mesh/resource/resource_copy.h"
 #include <string.h>
 
 /* Maps of a library that have tiles, each of which is looked for. */

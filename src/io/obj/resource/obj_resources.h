@@ -1,5 +1,5 @@
 /* obj_resources.h - the material libraries of an OBJ file and their maps, which go with an output in another
-   folder. */
+   folder; and their materials (obj_materials.c). */
 #ifndef FFD_IO_OBJ_RESOURCE_OBJ_RESOURCES_H
 #define FFD_IO_OBJ_RESOURCE_OBJ_RESOURCES_H
 
@@ -19,5 +19,9 @@ ffd_status ffd_obj_bring_resources(const file_input *input, bool names_files,
 mesh_find_resources_function ffd_obj_find_resources;
 /* mesh_format's find_named. */
 mesh_find_named_function ffd_obj_find_named;
+
+/* mesh_format's list_materials. The document begins with a file_document. Of several definitions of a name
+   the first one counts, in the order of the libraries in the mesh. */
+mesh_list_materials_function ffd_obj_list_materials;
 
 #endif

@@ -1,7 +1,7 @@
 #include "io/obj/resource/obj_statements.h"
 #include "base/memory/memory.h"
 #include "base/text/buffer.h"
-#include "io/obj/resource/resource_names.h"
+#include "io/obj/resource/obj_paths.h"
 #include "io/text/text_scan.h"
 #include <string.h>
 

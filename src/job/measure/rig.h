@@ -1,8 +1,24 @@
-/* rig_figures.h - how far joints, pivots and sockets lag behind the deformed mesh. */
-#ifndef FFD_JOB_RIG_RIG_FIGURES_H
-#define FFD_JOB_RIG_RIG_FIGURES_H
+/* rig.h - the places of a document (joints, pivots, sockets and so on): how a job's lattices move them, and
+   how far they lag behind the deformed mesh. */
+#ifndef FFD_JOB_MEASURE_RIG_H
+#define FFD_JOB_MEASURE_RIG_H
 
-#include "job/rig/rig_places.h"
+#include "job/chain/chain.h"
+#include "mesh/mesh.h"
+
+typedef struct rig_places {
+    mesh_places places;
+    mesh_place_move *moves; /* one a place */
+} rig_places;
+
+/* Lists the places (all: as in mesh_format.list_places) and sends them through the fitted chain like
+   vertices; became: filled with the new place of each. Leaves none if the format has no places. Call
+   ffd_rig_places_free also after a failure. Errors: FFD_E_MEMORY, and those of finding u,v,w. */
+ffd_status ffd_rig_places_find(const mesh_document *document, const lattice_chain *chain, bool all,
+                               rig_places *rig, ffd_error *error);
+
+/* Frees the arrays; leaves none. */
+void ffd_rig_places_free(rig_places *rig);
 
 /* Returns the distance of a place in the output from where a vertex there would be moved; 0 if it is
    rounding. diagonal: of the scene. */
