@@ -315,7 +315,7 @@ static ffd_status write_output(deform_job *job, mesh_save_options *options, ffd_
     return status;
 }
 
-static ffd_status run(deform_job *job, ffd_job_result *result, ffd_error *error)
+static ffd_status deform_and_save(deform_job *job, ffd_job_result *result, ffd_error *error)
 {
     mesh_save_options options;
     ffd_status status = restore_output(job->desc, error);
@@ -347,37 +347,31 @@ static ffd_status run(deform_job *job, ffd_job_result *result, ffd_error *error)
     return write_output(job, &options, result, error);
 }
 
-static ffd_status run_job(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
-{
-    deform_job job;
-    ffd_status status = ffd_deform_job_begin(&job, desc, false, result);
-    if (!status)
-        status = run(&job, result, &result->error);
-    ffd_morphs_end(&job);
-    return ffd_deform_job_end(&job, status, result, error);
-}
-
-/* Deforms and saves. Several morph targets share the locations of the vertices through a share of the job's
-   own. */
-static ffd_status deform(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
+/* Several morph targets share the locations of the vertices through a share of the job's own. */
+static ffd_status run_deform_job(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
 {
     ffd_share *share = NULL;
     ffd_deform_desc own = *desc;
+    deform_job job;
     if (!ffd_deform_desc_writes(desc)) /* normals are not written */
         own.normals = FFD_NORMALS_KEEP;
-    if (!desc->morphs || ffd_cache_holds_meshes(desc->share))
-        return run_job(&own, result, error);
-    if (ffd_cache_create_for_job(&share, error)) {
-        ffd_result_clear(result);
-        return result->status = ffd_fail_memory(&result->error);
+    if (desc->morphs && !ffd_cache_holds_meshes(desc->share)) {
+        if (ffd_cache_create_for_job(&share, error)) {
+            ffd_result_clear(result);
+            return result->status = ffd_fail_memory(&result->error);
+        }
+        own.share = share;
     }
-    own.share = share;
-    const ffd_status status = run_job(&own, result, error);
+    ffd_status status = ffd_deform_job_begin(&job, &own, false, result);
+    if (!status)
+        status = deform_and_save(&job, result, &result->error);
+    ffd_morphs_end(&job);
+    status = ffd_deform_job_end(&job, status, result, error);
     ffd_share_destroy(&share);
     return status;
 }
 
 ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
 {
-    return ffd_job_for_caller(deform, desc, result, error);
+    return ffd_job_for_caller(run_deform_job, desc, result, error);
 }

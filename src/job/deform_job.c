@@ -64,49 +64,32 @@ static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
     return check_embedding(desc, error);
 }
 
-/* Copies the results of morph targets to the caller's array, whose elements have size bytes each. */
-static void give_morphs(const ffd_job_result *own, size_t count, ffd_job_result *callers, size_t size)
+/* Runs a job with structs of this library's size, and with paths for what is in memory. size: of each of the
+   caller's results of morph targets. */
+static ffd_status run_own(deform_job_function run, const ffd_deform_desc *callers, ffd_job_result *result,
+                          size_t size)
 {
-    for (size_t k = 0; k < count; k++)
-        ffd_struct_give(&own[k], sizeof own[k], (char *)callers + k * size, size);
-}
-
-/* Runs a job with structs of this library's size. size: of each of the caller's results of morph targets. */
-static ffd_status run_own(deform_job_function run, ffd_deform_desc *desc, ffd_job_result *result, size_t size,
-                          ffd_error *error)
-{
-    ffd_job_result *const callers = desc->morph_results;
-    desc->morph_results = callers ? ffd_alloc_zero(desc->lattice_count, sizeof *callers) : NULL;
-    if (callers && !desc->morph_results) {
-        ffd_fail_memory(&result->error);
-        if (error)
-            *error = result->error;
-        return FFD_E_MEMORY;
-    }
-    const ffd_status status = run(desc, result, error);
-    if (callers)
-        give_morphs(desc->morph_results, desc->lattice_count, callers, size);
-    if (result->morphs.results)
-        result->morphs.results = callers;
-    ffd_free(desc->morph_results);
-    return status;
-}
-
-/* The same for a description that may hold data in memory. */
-static ffd_status run_in_memory(deform_job_function run, ffd_deform_desc *desc, ffd_job_result *result,
-                                size_t size)
-{
-    const char *const *const lattices = desc->lattices;
+    ffd_deform_desc desc = *callers;
+    ffd_job_result *morphs = NULL;
     job_memory memory = {0};
-    ffd_status status = ffd_chain_check_count(desc->lattice_count, &result->error);
+    ffd_status status = ffd_chain_check_count(desc.lattice_count, &result->error);
     if (!status)
-        status = ffd_in_memory_desc(&memory, desc, &result->error);
+        status = ffd_in_memory_desc(&memory, &desc, &result->error);
+    if (!status && callers->morph_results) {
+        desc.morph_results = morphs = ffd_alloc_zero(desc.lattice_count, sizeof *morphs);
+        status = morphs ? FFD_OK : ffd_fail_memory(&result->error);
+    }
     if (!status)
-        status = run_own(run, desc, result, size, &result->error);
+        status = run(&desc, result, &result->error);
+    for (size_t k = 0; k < desc.lattice_count && morphs; k++)
+        ffd_struct_give(&morphs[k], sizeof morphs[k], (char *)callers->morph_results + k * size, size);
     status = ffd_in_memory_judge(&memory, status, &result->error);
+    if (result->morphs.results)
+        result->morphs.results = callers->morph_results;
     if (result->morphs.lattices)
-        result->morphs.lattices = lattices;
+        result->morphs.lattices = callers->lattices;
     ffd_in_memory_end(&memory);
+    ffd_free(morphs);
     return status;
 }
 
@@ -124,7 +107,7 @@ ffd_status ffd_job_for_caller(deform_job_function run, const ffd_deform_desc *ca
     status = ffd_deform_desc_take(callers, &desc, &result.error);
     const deadline *const before = ffd_deadline_begin(&own, status ? 0 : desc.timeout);
     if (!status)
-        status = run_in_memory(run, &desc, &result, size);
+        status = run_own(run, &desc, &result, size);
     ffd_deadline_end(before);
     if (status && error)
         *error = result.error;

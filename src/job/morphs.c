@@ -118,8 +118,8 @@ static void name_target(const char *name, size_t count, ffd_error *error)
 
 /* Runs the pass for one target. Its warnings name it; warnings about the file come with the first one
    only. */
-static ffd_status run_one(deform_job *job, size_t k, const mesh_log *log, ffd_job_result *result,
-                          ffd_error *error)
+static ffd_status add_target(deform_job *job, size_t k, const mesh_log *log, ffd_job_result *result,
+                             ffd_error *error)
 {
     const ffd_deform_desc *const all = job->desc;
     const char *const name = all->morphs[k];
@@ -160,7 +160,7 @@ static bool fits_budget(const deform_job *job, size_t targets)
 }
 
 /* *done: the number of targets with figures, including one that a gate refuses. */
-static ffd_status run_all(deform_job *job, ffd_job_result *results, size_t *done, ffd_error *error)
+static ffd_status add_targets(deform_job *job, ffd_job_result *results, size_t *done, ffd_error *error)
 {
     const mesh_log log = job->log;
     const size_t count = job->desc->lattice_count;
@@ -170,7 +170,7 @@ static ffd_status run_all(deform_job *job, ffd_job_result *results, size_t *done
     if (!status)
         status = begin(job, error);
     for (size_t k = 0; k < count && !status; k++) {
-        status = run_one(job, k, &log, &results[k], error);
+        status = add_target(job, k, &log, &results[k], error);
         *done += !status || status == FFD_E_GATE;
         if (!status)
             ffd_log_line(&log, FFD_LOG_INFO, "morph target \"%s\": %llu of %llu %s moved, by %g at most",
@@ -189,7 +189,7 @@ ffd_status ffd_morphs_run(deform_job *job, ffd_job_result *result, ffd_error *er
     if (!results)
         return ffd_fail_memory(error);
     size_t done = 0;
-    const ffd_status status = run_all(job, results, &done, error);
+    const ffd_status status = add_targets(job, results, &done, error);
     if (!status || status == FFD_E_GATE) {
         ffd_results_join(results, done, result);
         result->morphs.count = done;
