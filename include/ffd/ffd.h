@@ -37,6 +37,7 @@
 #include <ffd/points.h>
 #include <ffd/program.h>
 #include <ffd/result.h>
+#include <ffd/settings.h>
 #include <ffd/version.h>
 
 #endif

@@ -1,9 +1,10 @@
-/* program.h - handlers of signals, which are those of the whole process: for programs, not for libraries that
-   use this one. The library never installs them by itself. */
+/* program.h - what holds for the whole process: handlers of signals, and how messages name settings. For
+   programs, not for libraries that use this one; the library never sets any of it by itself. */
 #ifndef FFD_PROGRAM_H
 #define FFD_PROGRAM_H
 
 #include <ffd/export.h>
+#include <stddef.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -19,6 +20,16 @@ FFD_API void ffd_cleanup_on_signals(void);
    instead. A SIGBUS with another cause is passed to the previous handler. To be called once when the
    program starts. */
 FFD_API void ffd_guard_inputs(void);
+
+/* Writes to text how a front end spells a member of a description (or an argument) in messages. member: as in
+   these headers ("falloff", "input.space"); value: its value in a word ("extend"), or NULL. In a format for
+   printf the value may be a conversion, which is to be copied. */
+typedef void (*ffd_spell_function)(const char *member, const char *value, char *text, size_t capacity);
+
+/* Makes the library's messages name members as a front end does: "--falloff needs --outside extend" by the
+   program's function; "falloff needs outside = extend" by default, and again after NULL. To be called
+   before all other functions. */
+FFD_API void ffd_spell_members(ffd_spell_function spell);
 
 #ifdef __cplusplus
 }

@@ -1,5 +1,6 @@
 #include "base/fail.h"
 #include "base/one_line.h"
+#include "base/spelling.h"
 #include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -19,7 +20,7 @@ static void fill(ffd_error *error, ffd_status status, const char *file, size_t l
 {
     /* The arguments may point into the record itself (a message that quotes an earlier one). */
     char message[sizeof error->message];
-    vsnprintf(message, sizeof message, format, arguments);
+    vsnprintf(message, sizeof message, SPELLED(format), arguments);
     char file_copy[sizeof error->file], pointer_copy[sizeof error->pointer];
     copy_text(file_copy, sizeof file_copy, file);
     copy_text(pointer_copy, sizeof pointer_copy, pointer);

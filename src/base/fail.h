@@ -1,5 +1,5 @@
 /* fail.h - fills the caller's error record (error may be NULL). Each function returns the status, so that
-   callers can write `return ffd_fail(...)`. */
+   callers can write `return ffd_fail(...)`. Formats name members in braces (base/spelling.h). */
 #ifndef FFD_BASE_FAIL_H
 #define FFD_BASE_FAIL_H
 

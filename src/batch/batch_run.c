@@ -2,6 +2,7 @@
 #include "base/file/input.h"
 #include "base/file/output.h"
 #include "base/memory/memory.h"
+#include "base/spelling.h"
 #include "base/system/interrupt.h"
 #include "base/text/words.h"
 #include "batch/measure.h"
@@ -128,7 +129,7 @@ static void say_shortage(batch_run *run)
     run->said_shortage = true;
     ffd_fail_file(&note, FFD_E_LIMIT, ffd_jobs_name(run->source),
                   "%d %s at a time on %d processors: the cgroup allows %" PRIu64
-                  " MB of memory, and %s may take %" PRIu64 " MB (--memory); -j sets the number",
+                  " MB of memory, and %s may take %" PRIu64 " MB ({input.memory}); {jobs} sets the number",
                   shortage->running, ffd_plural((uint64_t)shortage->running, "job", "jobs"),
                   shortage->processors, shortage->limit / 1000000, shortage->name,
                   shortage->needed / 1000000);
@@ -172,7 +173,7 @@ static ffd_status open_journal(batch_run *run, ffd_error *error)
     }
     ffd_status status =
         path ? ffd_journal_open(path, &run->journal, &reason)
-             : ffd_fail(&reason, FFD_E_IO, "there is no folder for the journal (--journal names one)");
+             : ffd_fail(&reason, FFD_E_IO, "there is no folder for the journal ({journal} names one)");
     ffd_free(path);
     if (!status)
         return FFD_OK;
@@ -288,7 +289,7 @@ static const char *remark_of(const batch_run *run)
     if (!run->dropped)
         return "";
     return ffd_interrupt_requested() ? "; interrupted, the other jobs were not started"
-                                     : "; the other jobs were not started (--stop)";
+                                     : "; the other jobs were not started ({stop})";
 }
 
 static void say_line(void *user, ffd_log_level level, const char *line)
@@ -333,7 +334,7 @@ static void say_boxes(batch_run *run)
     ffd_fail_file(
         &note, FFD_E_INVALID, ffd_jobs_name(run->source),
         "the lattice's box was laid round each of %zu meshes by itself: parts that meet need one box round "
-        "all of them (--shared-box)",
+        "all of them ({shared_box})",
         run->boxed.count);
     ffd_run_say_error(run, &note);
 }
@@ -390,7 +391,8 @@ ffd_status ffd_batch_run(const batch_desc *desc, bool *failed, ffd_error *error)
         }
         say_counts(&run);
         if (!status)
-            ffd_progress_end(&run.progress, &run.counts, desc->pool.dry ? "to do" : "done", remark_of(&run));
+            ffd_progress_end(&run.progress, &run.counts, desc->pool.dry ? "to do" : "done",
+                             SPELLED(remark_of(&run)));
     }
     *failed = run.counts.failed > 0 || run.dropped;
     for (size_t i = 0; i < run.count; i++)

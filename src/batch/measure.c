@@ -1,5 +1,6 @@
 #include "batch/measure.h"
 #include "base/memory/memory.h"
+#include "base/spelling.h"
 #include "base/system/interrupt.h"
 #include <string.h>
 
@@ -123,15 +124,15 @@ static ffd_status measure_all(measuring *m, ffd_error *error)
     return status;
 }
 
-/* Sends the jobs of all shards to workers. option: the reason, for messages. */
-static ffd_status measure(measuring *m, const job_source_desc *jobs, pool_desc *pool, const char *option,
+/* Sends the jobs of all shards to workers. member: the reason, for messages. */
+static ffd_status measure(measuring *m, const job_source_desc *jobs, pool_desc *pool, const char *member,
                           ffd_error *error)
 {
     job_source_desc all = *jobs;
     if (ffd_jobs_come_once(jobs))
         return ffd_fail(error, FFD_E_ARGUMENT,
                         "%s reads the jobs twice, but standard input and pipes can be read only once",
-                        option);
+                        SPELLED(member));
     all.shard = 0;
     all.shards = 1;
     ffd_status status = ffd_jobs_open(&all, &m->source, error);
@@ -157,7 +158,7 @@ ffd_status ffd_batch_measure(const job_source_desc *jobs, const pool_desc *pool,
     measurers.measure = true;
     measurers.depfile = wants_files;
     ffd_shown_box_clear(box);
-    return measure(&m, jobs, &measurers, "--shared-box", error);
+    return measure(&m, jobs, &measurers, "{shared_box}", error);
 }
 
 ffd_status ffd_batch_count_vertices(const job_source_desc *jobs, const pool_desc *pool, uint64_t *vertices,
@@ -167,7 +168,7 @@ ffd_status ffd_batch_count_vertices(const job_source_desc *jobs, const pool_desc
     pool_desc counters = *pool;
     counters.workers = 1;
     counters.count = true;
-    const ffd_status status = measure(&m, jobs, &counters, "--positions", error);
+    const ffd_status status = measure(&m, jobs, &counters, "{positions}", error);
     *vertices = m.vertices;
     *found = m.found;
     return status;

@@ -3,6 +3,7 @@
 #include "base/file/output.h"
 #include "base/file/place.h"
 #include "base/memory/memory.h"
+#include "base/spelling.h"
 #include "batch/run_rows.h"
 #include "batch/run_view.h"
 #include <string.h>
@@ -75,9 +76,9 @@ ffd_status ffd_batch_check_own_files(const batch_desc *desc, ffd_error *error)
     const own_file files[] = {{"the report", desc->report},
                               {"the depfile", desc->depfile},
                               {"the journal", desc->journal},
-                              {"the array of --positions", desc->positions},
-                              {"the list of the rows of --positions", list},
-                              {"the index of --view", page}};
+                              {SPELLED("the array of {positions}"), desc->positions},
+                              {SPELLED("the list of the rows of {positions}"), list},
+                              {SPELLED("the index of {view}"), page}};
     const bool complete = (list || !desc->positions) && (page || !desc->view);
     const ffd_status status =
         complete ? check_all(files, sizeof files / sizeof *files, desc, error) : ffd_fail_memory(error);

@@ -389,7 +389,7 @@ static void describe_failure(const worker_pool *pool, const pool_worker *worker,
 {
     const char *const name = worker->task->job.input;
     if (worker->timed_out)
-        ffd_fail_file(error, FFD_E_LIMIT, name, "took longer than %g %s (--timeout)", pool->desc.timeout,
+        ffd_fail_file(error, FFD_E_LIMIT, name, "took longer than %g %s ({timeout})", pool->desc.timeout,
                       pool->desc.timeout == 1 ? "second" : "seconds");
     else if (worker->stopped)
         ffd_fail_file(error, FFD_E_LIMIT, name, "was stopped before it ended");

@@ -202,7 +202,7 @@ ffd_status ffd_row_check(const row_array *array, const double *positions, size_t
         if (isinf((float)positions[i]) && isfinite(positions[i]))
             return ffd_fail(error, FFD_E_INVALID,
                             "the deformed position of vertex %zu is too large for the float32 numbers of %s "
-                            "(--dtype f8)",
+                            "({dtype=f8})",
                             i / 3, array->path);
     return FFD_OK;
 }

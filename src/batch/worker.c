@@ -256,7 +256,7 @@ static ffd_status take_row(const wire_task *task, const job_row *row, const ffd_
     return answer->took_row
                ? FFD_OK
                : ffd_fail_file(error, FFD_E_EXISTS, row->array.path,
-                               "row %" PRIu64 " is there already (--force replaces it, --resume goes on)",
+                               "row %" PRIu64 " is there already ({force} replaces it, {resume} goes on)",
                                row->number);
 }
 

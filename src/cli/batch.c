@@ -109,7 +109,7 @@ static const char *wrong_positions(const settings *s, const cli_words *words)
         return "--positions needs the name of a file: its rows are written as the jobs come";
     if (!ffd_path_has_ending(s->positions, ".npy"))
         return "--positions needs a name that ends in .npy";
-    if (jobs->in_place)
+    if (jobs->job.desc.in_place)
         return "--in-place cannot be used with --positions";
     if (jobs->job.morph_count > 0)
         return "--morph cannot be used with --positions: a row is of one deformation";
@@ -136,19 +136,19 @@ static const char *wrong(const settings *s, const cli_words *words)
         return "--in needs a lattice (-l FILE)";
     if (jobs->job.morph_count > 0 && jobs->job.lattice_count > jobs->job.morph_count)
         return "-l cannot be used with --morph: each --morph names its own lattice";
-    if (!manifest && !s->table && !jobs->out_dir && !jobs->in_place && !s->positions)
+    if (!manifest && !s->table && !jobs->out_dir && !jobs->job.desc.in_place && !s->positions)
         return "--in needs --out-dir, --in-place or --positions";
-    if (jobs->in_place && jobs->out_dir)
+    if (jobs->job.desc.in_place && jobs->out_dir)
         return "--in-place and --out-dir cannot be used together";
     if (s->stop && s->keep_going)
         return "--stop and --keep-going cannot be used together";
     if (jobs->job.stable && !jobs->job.report && !s->positions)
         return "--report-stable needs --report or --positions";
-    if (s->resume && jobs->in_place)
+    if (s->resume && jobs->job.desc.in_place)
         return "--in-place cannot be used with --resume: a finished mesh would be deformed again";
-    if (s->view && jobs->in_place)
+    if (s->view && jobs->job.desc.in_place)
         return "--in-place cannot be used with --view: a picture is named after OUT";
-    if (jobs->depfile_path && jobs->in_place)
+    if (jobs->depfile_path && jobs->job.desc.in_place)
         return "--depfile cannot be used with --in-place: a file cannot depend on itself";
     if (s->dry && jobs->job.report && cli_is_stream(jobs->job.report))
         return "--dry-run and the report cannot both write to standard output";
@@ -171,11 +171,11 @@ static int run_batch(const settings *s, const cli_words *words)
                                       .resume = s->resume,
                                       .pictures = s->view != NULL,
                                       .positions = s->positions != NULL,
-                                      .strict = job->strict,
+                                      .strict = job->desc.input.strict,
                                       .shard = s->shard,
                                       .shards = s->shards ? s->shards : 1},
                              .pool = {.workers = s->at_once,
-                                      .threads = job->threads,
+                                      .threads = job->desc.threads,
                                       .timeout = s->timeout,
                                       .resume = s->resume,
                                       .dry = s->dry,
@@ -188,7 +188,7 @@ static int run_batch(const settings *s, const cli_words *words)
                              .view = s->view,
                              .positions = s->positions,
                              .positions_double = s->type > 0,
-                             .force = s->jobs.force || s->jobs.if_changed,
+                             .force = job->desc.force || job->desc.if_changed,
                              .shared_box = job->shares_box,
                              .stop = s->stop,
                              .quiet = job->logging.quiet};

@@ -17,7 +17,7 @@ static bool set_output_format(void *context, const cli_option *option, const cha
 {
     settings *const s = context;
     s->output_ending = value;
-    return cli_set_format(context, option, value);
+    return cli_set_member(context, option, value);
 }
 
 #define AT(field) offsetof(settings, field)
@@ -30,17 +30,17 @@ const cli_option cli_deform_options[] = {
      cli_add_clip, 0, NULL},
     {"out-dir", 0, "DIR", "write every IN under its own name into this folder", cli_set_text, AT(out_dir),
      NULL},
-    {"in-place", 0, NULL, "overwrite IN", cli_set_flag, AT(in_place), NULL},
-    {"force", 0, NULL, "overwrite an existing output", cli_set_flag, AT(force), NULL},
+    {"in-place", 0, NULL, "overwrite IN", cli_set_member, AT(job.desc), NULL},
+    {"force", 0, NULL, "overwrite an existing output", cli_set_member, AT(job.desc), NULL},
     {"if-changed", 0, NULL, "as --force, but leave an output that would stay the same untouched",
-     cli_set_flag, AT(if_changed), NULL},
+     cli_set_member, AT(job.desc), NULL},
     {"depfile", 0, "FILE", "write what OUT was made from, for make and ninja", cli_set_text, AT(depfile_path),
      NULL},
     {"resources", 0, "copy|reference",
-     "images or materials of a mesh written elsewhere: copied, or referred to; default copy", cli_set_choice,
-     AT(resources), cli_resources_names},
+     "images or materials of a mesh written elsewhere: copied, or referred to; default copy", cli_set_member,
+     AT(job.desc), NULL},
     {"output-format", 0, "FORMAT", FORMAT_NAMES "; for -, --out-dir, batch: OUT gets its ending",
-     set_output_format, AT(output_format), NULL},
+     set_output_format, AT(job.desc), NULL},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
 
@@ -141,13 +141,8 @@ static int refuse_missing_folder(const char *folder)
 static bool describe(settings *s, const char *input, const char *output, ffd_deform_desc *desc)
 {
     cli_job_describe(&s->job, input, desc);
-    desc->output = s->in_place ? NULL : output;
-    desc->output_format = s->output_format;
-    desc->resources = (ffd_resources)s->resources;
-    desc->force = s->force;
-    desc->if_changed = s->if_changed;
+    desc->output = s->job.desc.in_place ? NULL : output;
     desc->depfile = s->depfile;
-    desc->in_place = s->in_place;
     return cli_morphs_describe(&s->job, desc);
 }
 
@@ -161,7 +156,7 @@ static int deform(settings *s, const char *input, const char *output, ffd_report
         cli_complain("%s: %llu of %llu %s moved, by %g at most", cli_display_name(input),
                      (unsigned long long)result.moved, (unsigned long long)result.vertices,
                      result.vertices == 1 ? "vertex" : "vertices", result.displacement.max);
-    return cli_job_ended(&s->job, &result, input, s->in_place ? input : output, report);
+    return cli_job_ended(&s->job, &result, input, s->job.desc.in_place ? input : output, report);
 }
 
 static int run_job(cli_job *job, const char *input, ffd_report *report)
@@ -204,7 +199,7 @@ static int refuse_conflicts(settings *s, const cli_words *inputs)
 /* Whether all words are IN; else they are IN and OUT. */
 static bool has_many(const settings *s)
 {
-    return s->in_place || s->out_dir;
+    return s->job.desc.in_place || s->out_dir;
 }
 
 static const char *wrong_words(const settings *s, const cli_words *words)
@@ -220,7 +215,7 @@ static const char *wrong_words(const settings *s, const cli_words *words)
 static const char *wrong_depfile(const settings *s, const cli_words *words)
 {
     const bool stream = cli_is_stream(s->depfile_path);
-    if (s->in_place)
+    if (s->job.desc.in_place)
         return "--depfile cannot be used with --in-place: a file cannot depend on itself";
     if (s->output && cli_is_stream(s->output))
         return "--depfile needs a file name as OUT";
@@ -238,13 +233,11 @@ static const char *wrong_outputs(const settings *s, const cli_words *words, size
     bool stream = false;
     for (size_t i = 0; i < inputs; i++)
         stream = stream || cli_is_stream(words->words[i]);
-    if (s->in_place && s->out_dir)
+    if (s->job.desc.in_place && s->out_dir)
         return "--in-place and --out-dir cannot be used together";
-    if (s->in_place && s->output_format)
-        return "--in-place keeps the format: --output-format cannot be used with it";
     if (stream && s->out_dir)
         return "standard input has no file name to keep in --out-dir";
-    if (stream && s->in_place)
+    if (stream && s->job.desc.in_place)
         return "standard input cannot be overwritten";
     if (s->job.report && cli_is_stream(s->job.report) && s->output && cli_is_stream(s->output))
         return "the mesh and the report cannot both go to standard output";
@@ -265,7 +258,7 @@ static int refuse(const cli_command *command, settings *s, const cli_words *word
         return cli_usage(command, why);
     if (!cli_job_knows_formats(&s->job, words, inputs))
         return EXIT_USAGE;
-    if (s->output && cli_is_stream(s->output) && !s->output_format) {
+    if (s->output && cli_is_stream(s->output) && !s->job.desc.output_format) {
         cli_complain("standard output needs --output-format " FORMAT_NAMES);
         return EXIT_USAGE;
     }
@@ -283,7 +276,7 @@ static int run_all(settings *s, const cli_words *words, size_t inputs)
         return cli_fail(&error);
     /* The shared box needs files that a killed run has set aside. A file that cannot be restored is reported
        by its own job. */
-    for (size_t i = 0; i < inputs && s->in_place && s->job.shares_box; i++)
+    for (size_t i = 0; i < inputs && s->job.desc.in_place && s->job.shares_box; i++)
         ffd_restore_output(words->words[i], NULL);
     int code = cli_job_run_all(&s->job, words, inputs, run_job);
     if (!code && s->depfile && ffd_depfile_write(s->depfile, &error))

@@ -10,12 +10,9 @@ typedef struct cli_deform_settings {
     const char *output; /* OUT for a single IN; NULL with several IN */
     const char *out_dir;
     const char *depfile_path;
-    ffd_depfile *depfile; /* NULL: not wanted */
-    int resources;
-    ffd_format output_format;
+    ffd_depfile *depfile;      /* NULL: not wanted */
     const char *output_ending; /* as it was given; NULL: none */
-    bool force, if_changed, in_place;
-    bool no_output; /* job of a batch: write no mesh, only positions */
+    bool no_output;            /* job of a batch: write no mesh, only positions */
 } cli_deform_settings;
 
 /* The options that only ffd deform has; cli_job_options are the others. */

@@ -17,6 +17,8 @@ typedef struct settings {
     cli_names allowed;
 } settings;
 
+static const char *const space_names[] = {"scene", "mesh", NULL}; /* in the order of ffd_space */
+
 #define AT(field) offsetof(settings, field)
 static const cli_option options[] = {
     {"lattice", 'l', "LATTICE", "lattice file; it needs no moves, and no values for placeholders in them",
@@ -28,7 +30,7 @@ static const cli_option options[] = {
     {"status", 0, "FILE.npy", "uint8 for each vertex: 0 inside, 1 outside, 2 multiple, 3 singular, 4 invalid",
      cli_set_text, AT(status), NULL},
     {"space", 0, "scene|mesh", "glTF: the space that the lattice is in; default scene", cli_set_choice,
-     AT(space), cli_space_names},
+     AT(space), space_names},
     {"snap", 0, "D|Dr", CLI_SNAP, cli_set_distance, AT(snap), NULL},
     {"threads", 'j', "N", "number of threads; never changes the output; default all usable processors",
      cli_set_count, AT(threads), NULL},

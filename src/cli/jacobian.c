@@ -48,25 +48,25 @@ static const cli_option options[] = {
      "value of the placeholder {\"$\": \"NAME\"} in the moves of a lattice; repeatable", cli_add_value,
      AT(job.values), NULL},
     {"outside", 0, "keep|extend|error",
-     "vertices outside the lattice: stay, follow its border, or fail (exit 5)", cli_set_choice,
-     AT(job.outside), cli_outside_names},
+     "vertices outside the lattice: stay, follow its border, or fail (exit 5)", cli_set_member, AT(job.desc),
+     NULL},
     {"falloff", 0, "R", "with --outside extend: the displacement fades to zero over this distance",
-     cli_set_positive, AT(job.falloff), NULL},
+     cli_set_member, AT(job.desc), NULL},
     {"snap", 0, "D|Dr", CLI_SNAP, cli_set_distance, AT(job.snap), NULL},
     {"space", 0, "scene|mesh",
-     "glTF: the lattice is in the space of the scene, or of each mesh; default scene", cli_set_choice,
-     AT(job.space), cli_space_names},
+     "glTF: the lattice is in the space of the scene, or of each mesh; default scene", cli_set_member,
+     AT(job.desc), NULL},
     {"only", 0, "KIND:NAME", "only this, repeatable, as for ffd deform", cli_add_selector, AT(job.only),
      NULL},
     {"threads", 'j', "N", "number of threads; never changes the output; default all usable processors",
-     cli_set_count, AT(job.threads), NULL},
+     cli_set_member, AT(job.desc), NULL},
     {"isa", 0, "auto|scalar|sse2|avx2|avx512", "instruction set; never changes the output; default auto",
-     cli_set_choice, AT(job.isa), cli_isa_names},
-    {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(job.memory), NULL},
-    {"timeout", 0, "SECONDS", CLI_TIMEOUT, cli_set_positive, AT(job.timeout), NULL},
+     cli_set_member, AT(job.desc), NULL},
+    {"memory", 0, "SIZE", CLI_MEMORY, cli_set_member, AT(job.desc), NULL},
+    {"timeout", 0, "SECONDS", CLI_TIMEOUT, cli_set_member, AT(job.desc), NULL},
     {"allow-extension", 0, "NAME", CLI_ALLOW_EXTENSION, cli_add_name, AT(job.allowed), NULL},
-    {"strict", 0, NULL, CLI_STRICT, cli_set_flag, AT(job.strict), NULL},
-    {"input-format", 0, "FORMAT", FORMAT_NAMES "; needed for -", cli_set_format, AT(job.input_format), NULL},
+    {"strict", 0, NULL, CLI_STRICT, cli_set_member, AT(job.desc), NULL},
+    {"input-format", 0, "FORMAT", FORMAT_NAMES "; needed for -", cli_set_member, AT(job.desc), NULL},
     {"force", 0, NULL, "overwrite an existing output", cli_set_flag, AT(force), NULL},
     {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(job.logging.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(job.logging.verbose), NULL},
@@ -110,7 +110,7 @@ static int jacobian(settings *s, const char *input)
 }
 
 /* Returns what is wrong with the options, or NULL. */
-static const char *mistake(const settings *s, const cli_words *words)
+static const char *mistake(settings *s, const cli_words *words)
 {
     if (words->count != 1)
         return "needs one IN";

@@ -13,8 +13,6 @@ bool cli_add_lattice(void *context, const cli_option *option, const char *value)
     return cli_set_text(&job->lattices[job->lattice_count++].path, option, value);
 }
 
-const char *const cli_resources_names[] = {"copy", "reference", NULL};
-
 static const char *const gate_names[] = {"folds", "outside", "multiple", "singular", "invalid", "tear",
                                          "tear=", "flipped", "flipped=", "edges=",   NULL};
 static const ffd_gate gates[] = {FFD_GATE_FOLDS,   FFD_GATE_OUTSIDE, FFD_GATE_MULTIPLE, FFD_GATE_SINGULAR,
@@ -41,15 +39,15 @@ static bool set_gate_value(cli_job *job, const cli_option *option, ffd_gate gate
                      (int)(length < 60 ? length : 60), text, counts ? "number" : "length", name);
         return false;
     }
-    const bool is_first = !(job->fail_on & (unsigned)gate);
+    const bool is_first = !(job->desc.fail_on & (unsigned)gate);
     if (gate == FFD_GATE_TEAR)
         value = text ? value : -1;
-    if (gate == FFD_GATE_TEAR && (is_first || value < job->tear_most))
-        job->tear_most = value;
-    if (gate == FFD_GATE_EDGES && (is_first || value < job->edges_most))
-        job->edges_most = value;
-    if (gate == FFD_GATE_FLIPPED && (is_first || (uint64_t)value < job->flipped_most))
-        job->flipped_most = (uint64_t)value;
+    if (gate == FFD_GATE_TEAR && (is_first || value < job->desc.tear_most))
+        job->desc.tear_most = value;
+    if (gate == FFD_GATE_EDGES && (is_first || value < job->desc.edges_most))
+        job->desc.edges_most = value;
+    if (gate == FFD_GATE_FLIPPED && (is_first || (uint64_t)value < job->desc.flipped_most))
+        job->desc.flipped_most = (uint64_t)value;
     return true;
 }
 
@@ -71,7 +69,7 @@ static bool add_gate(cli_job *job, const cli_option *option, const char *word, s
             const bool has_value = gates[i] & (FFD_GATE_TEAR | FFD_GATE_FLIPPED | FFD_GATE_EDGES);
             const bool taken =
                 !has_value || set_gate_value(job, option, gates[i], value, value ? length - size : 0);
-            job->fail_on |= (unsigned)gates[i];
+            job->desc.fail_on |= (unsigned)gates[i];
             return taken;
         }
         ffd_nearest_offer(&nearest, gate_names[i]);
@@ -95,13 +93,6 @@ static bool add_gates(void *context, const cli_option *option, const char *value
     }
 }
 
-/* In the order of the enums. */
-const char *const cli_outside_names[] = {"keep", "extend", "error", NULL};
-static const char *const normals_names[] = {"transform", "keep", "recompute", NULL};
-const char *const cli_isa_names[] = {"auto", "scalar", "sse2", "avx2", "avx512", NULL};
-static const char *const rig_names[] = {"keep", "follow", NULL};
-const char *const cli_space_names[] = {"scene", "mesh", NULL};
-
 #define AT(field) offsetof(cli_job, field)
 const cli_option cli_job_options[] = {
     {"lattice", 'l', "LATTICE", "lattice file; several act in this order, or with --blocks side by side",
@@ -113,31 +104,31 @@ const cli_option cli_job_options[] = {
      "a lattice's \"box\": \"mesh\" goes round all IN (in batch: all jobs), not round each", cli_set_flag,
      AT(shares_box), NULL},
     {"outside", 0, "keep|extend|error",
-     "vertices outside the lattice: stay, follow its border, or fail (exit 5); default keep", cli_set_choice,
-     AT(outside), cli_outside_names},
+     "vertices outside the lattice: stay, follow its border, or fail (exit 5); default keep", cli_set_member,
+     AT(desc), NULL},
     {"falloff", 0, "R", "with --outside extend: the displacement fades to zero over this distance",
-     cli_set_positive, AT(falloff), NULL},
+     cli_set_member, AT(desc), NULL},
     {"snap", 0, "D|Dr", CLI_SNAP, cli_set_distance, AT(snap), NULL},
     {"blocks", 0, NULL,
-     "all -l act on the mesh at rest, each vertex in the first that holds it; default in turn", cli_set_flag,
-     AT(blocks), NULL},
+     "all -l act on the mesh at rest, each vertex in the first that holds it; default in turn",
+     cli_set_member, AT(desc), NULL},
     {"normals", 0, "transform|recompute|keep",
-     "normals, tangents: carried along, from the deformed faces, or kept; default transform", cli_set_choice,
-     AT(normals), normals_names},
+     "normals, tangents: carried along, from the deformed faces, or kept; default transform", cli_set_member,
+     AT(desc), NULL},
     {"space", 0, "scene|mesh",
-     "glTF: the lattice is in the space of the scene, or of each mesh; default scene", cli_set_choice,
-     AT(space), cli_space_names},
+     "glTF: the lattice is in the space of the scene, or of each mesh; default scene", cli_set_member,
+     AT(desc), NULL},
     {"rig", 0, "keep|follow",
      "glTF: joints, pivots, sockets, cameras, lights, animations stay, or follow; default keep",
-     cli_set_choice, AT(rig), rig_names},
+     cli_set_member, AT(desc), NULL},
     {"only", 0, "KIND:NAME",
      "only this, repeatable; glTF: node (and below), mesh, material; OBJ: group, object, material",
      cli_add_selector, AT(only), NULL},
     {"as-morph", 0, "NAME",
      "glTF out: leave the shape; add, or replace, the morph target of this name by the deformation",
-     cli_set_text, AT(as_morph), NULL},
+     cli_set_member, AT(desc), NULL},
     {"embedding", 0, "FILE.npy", "u,v,w that ffd embed has written for this mesh and rest lattice",
-     cli_set_text, AT(embedding), NULL},
+     cli_set_member, AT(desc), NULL},
     {"fail-on", 0, "GATES",
      "exit 1 if any: folds,outside,multiple,singular,invalid,tear[=D],flipped[=N],edges=D", add_gates, 0,
      gate_names},
@@ -145,15 +136,15 @@ const cli_option cli_job_options[] = {
      NULL},
     {"report-stable", 0, NULL, "leave the seconds out of the report", cli_set_flag, AT(stable), NULL},
     {"threads", 'j', "N", "number of threads; never changes the output; default all usable processors",
-     cli_set_count, AT(threads), NULL},
+     cli_set_member, AT(desc), NULL},
     {"isa", 0, "auto|scalar|sse2|avx2|avx512",
-     "instruction set of the kernels; never changes the output; default auto", cli_set_choice, AT(isa),
-     cli_isa_names},
-    {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
-    {"timeout", 0, "SECONDS", CLI_TIMEOUT, cli_set_positive, AT(timeout), NULL},
+     "instruction set of the kernels; never changes the output; default auto", cli_set_member, AT(desc),
+     NULL},
+    {"memory", 0, "SIZE", CLI_MEMORY, cli_set_member, AT(desc), NULL},
+    {"timeout", 0, "SECONDS", CLI_TIMEOUT, cli_set_member, AT(desc), NULL},
     {"allow-extension", 0, "NAME", CLI_ALLOW_EXTENSION, cli_add_name, AT(allowed), NULL},
-    {"strict", 0, NULL, CLI_STRICT, cli_set_flag, AT(strict), NULL},
-    {"input-format", 0, "FORMAT", FORMAT_NAMES "; needed for -", cli_set_format, AT(input_format), NULL},
+    {"strict", 0, NULL, CLI_STRICT, cli_set_member, AT(desc), NULL},
+    {"input-format", 0, "FORMAT", FORMAT_NAMES "; needed for -", cli_set_member, AT(desc), NULL},
     {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(logging.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(logging.verbose), NULL},
     {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},
@@ -182,6 +173,7 @@ static void free_lists(cli_job *job)
 bool cli_job_begin(const cli_command *command, cli_job *job, int count, char **arguments, cli_words *words,
                    int *exit_code)
 {
+    ffd_deform_desc_init(&job->desc, sizeof job->desc);
     job->lattices = calloc((size_t)count + 1, sizeof *job->lattices);
     if (!job->lattices) {
         free_lists(job);
@@ -219,7 +211,7 @@ bool cli_is_stream(const char *path)
 
 static const char *wrong_streams(const cli_job *job, const cli_words *words, size_t inputs)
 {
-    size_t meshes = 0, others = job->embedding && cli_is_stream(job->embedding);
+    size_t meshes = 0, others = job->desc.embedding && cli_is_stream(job->desc.embedding);
     for (size_t i = 0; i < inputs; i++)
         meshes += cli_is_stream(words->words[i]);
     for (size_t i = 0; i < job->lattice_count; i++)
@@ -240,48 +232,28 @@ static const char *wrong_report(const cli_job *job, const cli_words *words)
     for (size_t i = 0; i < job->lattice_count; i++)
         if (ffd_paths_meet(job->report, job->lattices[i].path))
             return "the report would replace a lattice";
-    if (job->embedding && ffd_paths_meet(job->report, job->embedding))
+    if (job->desc.embedding && ffd_paths_meet(job->report, job->desc.embedding))
         return "the report would replace the embedding";
     return NULL;
 }
 
-static const char *wrong_morphs(const cli_job *job)
+const char *cli_job_option_mistake(cli_job *job, const cli_words *words, size_t inputs)
 {
-    if (job->morph_count == 0)
-        return job->clips.count ? "--clip needs --morph" : NULL;
-    if (job->lattice_count > job->morph_count)
+    ffd_deform_desc desc;
+    cli_job_describe(job, NULL, &desc);
+    if (job->morph_count > 0 && job->lattice_count > job->morph_count)
         return "-l cannot be used with --morph: each --morph names its own lattice";
-    if (job->as_morph)
-        return "--as-morph cannot be used with --morph";
-    if (job->rig == FFD_RIG_FOLLOW)
-        return "--rig follow moves the shape itself, which --morph leaves";
-    return job->blocks ? "--blocks cannot be used with --morph" : NULL;
-}
-
-const char *cli_job_option_mistake(const cli_job *job, const cli_words *words, size_t inputs)
-{
-    if (job->falloff > 0 && job->outside != FFD_OUTSIDE_EXTEND)
-        return "--falloff needs --outside extend";
-    if (job->rig == FFD_RIG_FOLLOW && job->as_morph)
-        return "--rig follow moves the shape itself, which --as-morph leaves";
-    if (job->rig == FFD_RIG_FOLLOW && job->space == FFD_SPACE_MESH)
-        return "--rig follow moves nodes, which have no place with --space mesh";
-    if (job->embedding && job->blocks)
-        return "--embedding works with one lattice, and not with --blocks";
-    if (job->embedding && job->lattice_count > 1)
-        return job->morph_count ? "--embedding works with one lattice, but several --morph are given"
-                                : "--embedding works with one lattice, but several -l are given";
-    if (job->embedding && inputs > 1)
+    if (ffd_deform_desc_check(&desc, &job->refusal))
+        return job->refusal.message;
+    if (desc.embedding && inputs > 1)
         return "--embedding works with one mesh, but several IN are given";
-    if (wrong_morphs(job))
-        return wrong_morphs(job);
     if (job->stable && !job->report)
         return "--report-stable needs --report";
     const char *why = wrong_streams(job, words, inputs);
     return why ? why : wrong_report(job, words);
 }
 
-const char *cli_job_mistake(const cli_job *job, const cli_words *words, size_t inputs)
+const char *cli_job_mistake(cli_job *job, const cli_words *words, size_t inputs)
 {
     return job->lattice_count ? cli_job_option_mistake(job, words, inputs) : "no lattice is given (-l FILE)";
 }
@@ -289,44 +261,29 @@ const char *cli_job_mistake(const cli_job *job, const cli_words *words, size_t i
 bool cli_job_knows_formats(const cli_job *job, const cli_words *words, size_t inputs)
 {
     for (size_t i = 0; i < inputs; i++)
-        if (!cli_knows_format(words->words[i], job->input_format))
+        if (!cli_knows_format(words->words[i], job->desc.input.format))
             return false;
     return true;
 }
 
 void cli_job_describe(cli_job *job, const char *input, ffd_deform_desc *desc)
 {
-    ffd_deform_desc_init(desc, sizeof *desc);
-    desc->input = (ffd_source){.path = input,
-                               .format = job->input_format,
-                               .space = (ffd_space)job->space,
-                               .memory = job->memory,
-                               .strict = job->strict,
-                               .allow_extensions = job->allowed.names,
-                               .allow_extension_count = job->allowed.count};
+    *desc = job->desc;
+    desc->input.path = input;
+    desc->input.allow_extensions = job->allowed.names;
+    desc->input.allow_extension_count = job->allowed.count;
     desc->lattices = job->lattices;
     desc->lattice_count = job->lattice_count;
+    desc->morphs = job->morph_count ? job->morphs : NULL;
+    desc->clips = job->clips.names;
+    desc->clip_count = job->clips.count;
     desc->set = job->values.set;
     desc->set_count = job->values.count;
-    desc->outside = (ffd_outside)job->outside;
-    desc->falloff = job->falloff;
     desc->snap = job->snap.value;
     desc->snap_relative = job->snap.is_relative;
-    desc->blocks = job->blocks;
-    desc->embedding = job->embedding;
-    desc->rig = (ffd_rig)job->rig;
-    desc->as_morph = job->as_morph;
-    desc->fail_on = job->fail_on;
-    desc->tear_most = job->tear_most;
-    desc->flipped_most = job->flipped_most;
-    desc->edges_most = job->edges_most;
     desc->quality = job->report != NULL;
-    desc->normals = (ffd_normals)job->normals;
     desc->only = job->only.names;
     desc->only_count = job->only.count;
-    desc->threads = job->threads;
-    desc->isa = (ffd_isa)job->isa;
-    desc->timeout = job->timeout;
     desc->written = job->written;
     desc->share = job->share;
     desc->shared_box = job->shared_box;

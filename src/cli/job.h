@@ -3,38 +3,30 @@
 #define FFD_CLI_JOB_H
 
 #include "cli/command.h"
+#include "cli/member.h"
 #include "cli/names.h"
 #include "cli/values.h"
 
 /* Set by cli_job_options. Each command's settings begin with it. */
 typedef struct cli_job {
+    ffd_deform_desc desc;         /* the options that are members; cli_job_describe adds the following */
     ffd_lattice_source *lattices; /* files */
     size_t lattice_count;
     cli_values values;
     cli_names only, allowed; /* selectors; extensions */
-    int outside, normals, space, rig;
-    double falloff, timeout; /* 0: not given */
     cli_distance snap;
-    bool blocks;
-    const char *embedding;
-    const char *as_morph;
     const char **morphs; /* morph_count names, owned: of the targets that the lattices make */
     size_t morph_count;
     intern_table morph_names;
     cli_names clips;
     ffd_job_result *morph_results; /* of the last job, morph_count entries */
-    unsigned fail_on;              /* bits of ffd_gate, with limits: */
-    double tear_most, edges_most;
-    uint64_t flipped_most;
     const char *report;
-    int threads, isa;
-    ffd_format input_format;
-    uint64_t memory;
-    bool strict, stable, shares_box;
+    bool stable, shares_box;
     bool own_box;               /* a job has used a box round its own mesh */
     ffd_shared_box *shared_box; /* of all jobs, or NULL */
     ffd_written *written;       /* files written so far */
     ffd_share *share;           /* cache of several jobs, which all have the same lattices */
+    ffd_error refusal;          /* why the library refuses the options */
     cli_logging logging;
     bool help;
 } cli_job;
@@ -44,29 +36,22 @@ extern const cli_option cli_job_options[];
 /* Setter for settings that begin with a cli_job: adds a lattice file. */
 bool cli_add_lattice(void *settings, const cli_option *option, const char *value);
 
-/* The names of ffd_outside, ffd_space and ffd_isa. */
-extern const char *const cli_outside_names[], *const cli_space_names[], *const cli_isa_names[];
-
 /* Options of ffd deform without effect on other commands. They are accepted, so that "deform" in a command
    line can be replaced by another command. */
 typedef struct cli_kept {
-    int resources;
+    ffd_deform_desc desc;
     const char *depfile;
-    bool if_changed, in_place;
 } cli_kept;
-
-/* The names of ffd_resources. */
-extern const char *const cli_resources_names[];
 
 /* Entries for these options in a command's table. at: the offset of the cli_kept in its settings. */
 #define CLI_KEPT_HELP "without effect: no mesh is written"
 #define CLI_KEPT_OPTIONS(at)                                                                                 \
-    {"in-place", 0, NULL, CLI_KEPT_HELP, cli_set_flag, (at) + offsetof(cli_kept, in_place), NULL},           \
-        {"if-changed", 0, NULL, CLI_KEPT_HELP, cli_set_flag, (at) + offsetof(cli_kept, if_changed), NULL},   \
+    {"in-place", 0, NULL, CLI_KEPT_HELP, cli_set_member, (at) + offsetof(cli_kept, desc), NULL},             \
+        {"if-changed", 0, NULL, CLI_KEPT_HELP, cli_set_member, (at) + offsetof(cli_kept, desc), NULL},       \
         {"depfile", 0, "FILE", CLI_KEPT_HELP, cli_set_text, (at) + offsetof(cli_kept, depfile), NULL},       \
     {                                                                                                        \
-        "resources", 0, "copy|reference", CLI_KEPT_HELP, cli_set_choice,                                     \
-            (at) + offsetof(cli_kept, resources), cli_resources_names                                        \
+        "resources", 0, "copy|reference", CLI_KEPT_HELP, cli_set_member, (at) + offsetof(cli_kept, desc),    \
+            NULL                                                                                             \
     }
 
 /* Parses the arguments into job, the head of the command's settings, and words. Returns true to go on;
@@ -80,9 +65,9 @@ int cli_job_run(const cli_command *command, cli_job *job, int count, char **argu
 
 /* Returns what is wrong with the options, or NULL. inputs: the number of words that are read; the others are
    written. */
-const char *cli_job_mistake(const cli_job *job, const cli_words *words, size_t inputs);
+const char *cli_job_mistake(cli_job *job, const cli_words *words, size_t inputs);
 /* The same for commands that work without a lattice. */
-const char *cli_job_option_mistake(const cli_job *job, const cli_words *words, size_t inputs);
+const char *cli_job_option_mistake(cli_job *job, const cli_words *words, size_t inputs);
 
 /* Whether the formats of all inputs are known. Complains if not. */
 bool cli_job_knows_formats(const cli_job *job, const cli_words *words, size_t inputs);

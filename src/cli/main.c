@@ -3,6 +3,7 @@
 #include "batch/worker.h"
 #include "cli/commands.h"
 #include "cli/deform.h"
+#include "cli/member.h"
 #include <errno.h>
 #include <ffd/program.h>
 #include <signal.h>
@@ -174,6 +175,7 @@ int main(int argc, char **argv)
     occupy_closed_streams();
     ignore_size_signal();
     ffd_cleanup_on_signals();
+    ffd_spell_members(cli_spell);
     static const worker_program program = {cli_deform_open, cli_deform_close};
     int code;
     if (argc == 1 && ffd_worker_is(argv[0])) {

@@ -69,13 +69,10 @@ bool cli_add_clip(void *settings, const cli_option *option, const char *value)
 
 bool cli_morphs_describe(cli_job *job, ffd_deform_desc *desc)
 {
-    desc->clips = job->clips.names;
-    desc->clip_count = job->clips.count;
     if (job->morph_count == 0)
         return true;
     if (!job->morph_results)
         job->morph_results = calloc(job->morph_count, sizeof *job->morph_results);
-    desc->morphs = job->morphs;
     desc->morph_results = job->morph_results;
     if (!job->morph_results)
         cli_complain("out of memory");

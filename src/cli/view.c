@@ -155,13 +155,13 @@ static int show(cli_job *job, const char *input, ffd_report *report)
 
 /* Without a deformation files are shown as they are. Returns the option that does not apply to that, or
    NULL. */
-static const char *mistake_of_files(const settings *s, const cli_words *words)
+static const char *mistake_of_files(settings *s, const cli_words *words)
 {
-    if (s->job.fail_on)
+    if (s->job.desc.fail_on)
         return "--fail-on judges a deformation: it needs -l, and no OUT-MESH";
     if (s->job.report)
         return "--report describes a deformation: it needs -l, and no OUT-MESH";
-    if (s->job.embedding)
+    if (s->job.desc.embedding)
         return "--embedding is for a deformation: it needs -l, and no OUT-MESH";
     return cli_job_option_mistake(&s->job, words, words->count);
 }
@@ -180,7 +180,7 @@ static const char *mistake_of_kind(const settings *s)
     return NULL;
 }
 
-static const char *mistake(const settings *s, const cli_words *words)
+static const char *mistake(settings *s, const cli_words *words)
 {
     if (words->count == 0)
         return "needs IN";

@@ -18,12 +18,6 @@ static bool has_direction(const double v[3])
     return vec_is_finite(v) && (v[0] != 0 || v[1] != 0 || v[2] != 0);
 }
 
-static void add_identity(const double gradient[9], double f[9])
-{
-    for (int i = 0; i < 9; i++)
-        f[i] = gradient[i] + (i % 4 == 0 ? 1 : 0);
-}
-
 /* Copies v to result. */
 static ffd_direction_outcome keep(const double v[3], double result[3], ffd_direction_outcome why)
 {
@@ -49,7 +43,7 @@ ffd_direction_outcome ffd_deform_normal(const double gradient[9], const double n
     double f[9], cofactor[9], carried[3];
     if (is_zero(gradient) || !has_direction(normal))
         return keep(normal, result, FFD_DIRECTION_KEPT);
-    add_identity(gradient, f);
+    mat_add_identity(gradient, f);
     mat_cofactor(f, cofactor);
     mat_apply(cofactor, normal, carried);
     const double largest = mat_largest_entry(f);
@@ -61,7 +55,7 @@ static ffd_direction_outcome carry_tangent(const double gradient[9], const doubl
                                            const double *normal, double result[3])
 {
     double f[9], carried[3];
-    add_identity(gradient, f);
+    mat_add_identity(gradient, f);
     mat_apply(f, tangent, carried);
     if (normal) {
         const double along = vec_dot(carried, normal);

@@ -114,7 +114,7 @@ static inline const double *ffd_batch_uvw(const displacement_batch *batch, size_
 void ffd_displacement_scratch_clear(displacement_scratch *scratch);
 
 /* Computes ffd_displacement for every point of the batch, with the same bits, independently of the
-   instruction set and of the other points. */
+   instruction set and of the other points. scratch: NULL for a few points, which groups would slow down. */
 void ffd_displacements(const ffd_lattice *lattice, ffd_isa isa, const displacement_batch *batch,
                        displacement_scratch *scratch);
 

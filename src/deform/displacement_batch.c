@@ -324,8 +324,8 @@ static void displace_cell(const ffd_lattice *lattice, const cell_kernels *kernel
                        of->count);
 }
 
-/* With weights each point is displaced alone. */
-static void displace_rational(const ffd_lattice *lattice, const displacement_batch *batch)
+/* Displaces each point alone. */
+static void displace_singly(const ffd_lattice *lattice, const displacement_batch *batch)
 {
     for (size_t k = 0; k < batch->count; k++) {
         const size_t n = batch->which[k];
@@ -339,8 +339,8 @@ static void displace_rational(const ffd_lattice *lattice, const displacement_bat
 void ffd_displacements(const ffd_lattice *lattice, ffd_isa isa, const displacement_batch *batch,
                        displacement_scratch *scratch)
 {
-    if (lattice->rest_weights) {
-        displace_rational(lattice, batch);
+    if (lattice->rest_weights || !scratch) {
+        displace_singly(lattice, batch);
         return;
     }
     const cell_kernels *const kernel = &kernels[ffd_isa_resolve(isa)];

@@ -3,7 +3,9 @@
 #define FFD_EMBED_LOCATOR_H
 
 #include "base/vector/isa.h"
+#include "base/vector/vec.h"
 #include <ffd/embedding.h>
+#include <stdbool.h>
 
 /* As ffd_locator_create, with the instruction set of the kernels, which does not affect results. */
 ffd_status ffd_locator_create_for(const ffd_lattice *lattice, ffd_isa isa, ffd_locator **locator,
@@ -17,6 +19,13 @@ ffd_status ffd_locator_find(const ffd_locator *locator, const double *xyz, size_
 ffd_status ffd_locator_find_near(const ffd_locator *locator, const double *xyz, size_t count,
                                  const ffd_border_allowance *allowance, ffd_location *locations,
                                  ffd_error *error);
+
+/* Whether the location has u,v,w. */
+static inline bool ffd_location_is_placed(const ffd_location *location)
+{
+    return location->status != FFD_OUTSIDE && location->status != FFD_POINT_INVALID &&
+           vec_is_finite(location->uvw);
+}
 
 /* Returns whether the two rest faces of a direction coincide (ffd_lattice_is_seam). */
 bool ffd_locator_has_seam(const ffd_locator *locator, int direction);

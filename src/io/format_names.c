@@ -16,7 +16,7 @@ ffd_status ffd_format_refuse_name(const char *path, ffd_error *error)
 {
     const char *const ending = ffd_path_ending(path);
     if (strcmp(path, "-") == 0)
-        return ffd_fail(error, FFD_E_ARGUMENT, "standard input needs --input-format " FORMAT_NAMES);
+        return ffd_fail(error, FFD_E_ARGUMENT, "standard input needs {input.format} " FORMAT_NAMES);
     if (is_of_splats(path))
         return ffd_fail_file(
             error, FFD_E_ARGUMENT, path,

@@ -1,7 +1,7 @@
 /* check.c - the job of `ffd check`. */
 #include "job/deform_job.h"
 
-static ffd_status check(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
+static ffd_status run_check_job(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
 {
     deform_job job;
     ffd_status status = ffd_deform_job_begin(&job, desc, true, result);
@@ -14,5 +14,5 @@ static ffd_status check(const ffd_deform_desc *desc, ffd_job_result *result, ffd
 
 ffd_status ffd_check_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
 {
-    return ffd_job_for_caller(check, desc, result, error);
+    return ffd_job_for_caller(run_check_job, desc, result, error);
 }

@@ -2,6 +2,7 @@
 #include "base/file/mapping.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/spelling.h"
 #include "base/system/clock.h"
 #include "io/format_names.h"
 #include "io/formats.h"
@@ -32,11 +33,12 @@ static ffd_status restore_output(const ffd_deform_desc *desc, ffd_error *error)
 /* Refuses options that need an output file. */
 static ffd_status check_no_output(const ffd_deform_desc *desc, ffd_error *error)
 {
-    const char *const what = desc->as_morph                           ? "--as-morph"
-                             : desc->depfile                          ? "--depfile"
-                             : desc->output_format != FFD_FORMAT_AUTO ? "--output-format"
+    const char *const what = desc->as_morph                           ? "{as_morph}"
+                             : desc->depfile                          ? "{depfile}"
+                             : desc->output_format != FFD_FORMAT_AUTO ? "{output_format}"
                                                                       : NULL;
-    return what ? ffd_fail(error, FFD_E_ARGUMENT, "%s needs an output: only positions are asked for", what)
+    return what ? ffd_fail(error, FFD_E_ARGUMENT, "%s needs an output: only positions are asked for",
+                           SPELLED(what))
                 : FFD_OK;
 }
 
@@ -55,12 +57,9 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
         const ffd_status status = check_no_output(desc, error);
         return status ? status : ffd_source_format(&desc->input, &options->format, error);
     }
-    if (desc->depfile && (desc->in_place || (desc->output && ffd_output_is_stream(desc->output))))
-        return ffd_fail(error, FFD_E_ARGUMENT, "--depfile needs a file name as OUT");
+    if (desc->depfile && desc->output && ffd_output_is_stream(desc->output))
+        return ffd_fail(error, FFD_E_ARGUMENT, "{depfile} needs a file name as {output}");
     if (desc->in_place) {
-        if (desc->output)
-            return ffd_fail(error, FFD_E_ARGUMENT, "--in-place takes no output, but \"%s\" is given",
-                            desc->output);
         if (ffd_file_is_stream(input))
             return ffd_fail(error, FFD_E_ARGUMENT, "standard input cannot be overwritten in place");
         options->path = input;
@@ -72,13 +71,13 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
     if (options->format == FFD_FORMAT_AUTO)
         options->format = ffd_format_from_name(desc->output);
     if (options->format == FFD_FORMAT_AUTO && ffd_output_is_stream(desc->output))
-        return ffd_fail(error, FFD_E_ARGUMENT, "standard output needs --output-format " FORMAT_NAMES);
+        return ffd_fail(error, FFD_E_ARGUMENT, "standard output needs {output_format} " FORMAT_NAMES);
     if (options->format == FFD_FORMAT_AUTO)
         return ffd_format_refuse_name(desc->output, error);
     if (desc->sink)
         return FFD_OK;
     if (!ffd_output_is_stream(desc->output) && ffd_job_reads_mesh(&desc->input, desc->output))
-        return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the input (--in-place overwrites it)");
+        return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the input ({in_place} overwrites it)");
     if (!ffd_output_is_stream(desc->output) &&
         ffd_job_reads_lattice(desc->lattices, desc->lattice_count, desc->output))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is a lattice of this command");
@@ -261,8 +260,8 @@ static ffd_status check_morph(const deform_job *job, const mesh_save_options *op
     if ((!job->desc->as_morph && !job->desc->morphs) || morphs)
         return FFD_OK;
     return ffd_fail_file(error, FFD_E_ARGUMENT, options->path,
-                         "cannot hold a morph target: only .gltf and .glb can (--%s)",
-                         job->desc->morphs ? "morph" : "as-morph");
+                         "cannot hold a morph target: only .gltf and .glb can (%s)",
+                         job->desc->morphs ? SPELLED("{morphs}") : SPELLED("{as_morph}"));
 }
 
 static ffd_status check_rig(const deform_job *job, const mesh_save_options *options, ffd_error *error)
@@ -270,7 +269,7 @@ static ffd_status check_rig(const deform_job *job, const mesh_save_options *opti
     if (job->desc->rig == FFD_RIG_KEEP || !ffd_conversion_needed(job->document, options->format))
         return FFD_OK;
     return ffd_fail_file(error, FFD_E_ARGUMENT, options->path,
-                         "cannot hold nodes that follow: only .gltf and .glb can (--rig follow)");
+                         "cannot hold nodes that follow: only .gltf and .glb can ({rig=follow})");
 }
 
 /* If a morph target is wanted, keeps the base shape. */
@@ -321,7 +320,7 @@ static ffd_status write_output(deform_job *job, mesh_save_options *options, ffd_
     return status;
 }
 
-static ffd_status run(deform_job *job, ffd_job_result *result, ffd_error *error)
+static ffd_status deform_and_save(deform_job *job, ffd_job_result *result, ffd_error *error)
 {
     mesh_save_options options;
     ffd_status status = restore_output(job->desc, error);
@@ -353,37 +352,31 @@ static ffd_status run(deform_job *job, ffd_job_result *result, ffd_error *error)
     return write_output(job, &options, result, error);
 }
 
-static ffd_status run_job(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
-{
-    deform_job job;
-    ffd_status status = ffd_deform_job_begin(&job, desc, false, result);
-    if (!status)
-        status = run(&job, result, &result->error);
-    ffd_morphs_end(&job);
-    return ffd_deform_job_end(&job, status, result, error);
-}
-
-/* Deforms and saves. Several morph targets share the locations of the vertices through a share of the job's
-   own. */
-static ffd_status deform(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
+/* Several morph targets share the locations of the vertices through a share of the job's own. */
+static ffd_status run_deform_job(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
 {
     ffd_share *share = NULL;
     ffd_deform_desc own = *desc;
+    deform_job job;
     if (!ffd_deform_desc_writes(desc)) /* normals are not written */
         own.normals = FFD_NORMALS_KEEP;
-    if (!desc->morphs || ffd_cache_holds_meshes(desc->share))
-        return run_job(&own, result, error);
-    if (ffd_cache_create_for_job(&share, error)) {
-        ffd_result_clear(result);
-        return result->status = ffd_fail_memory(&result->error);
+    if (desc->morphs && !ffd_cache_holds_meshes(desc->share)) {
+        if (ffd_cache_create_for_job(&share, error)) {
+            ffd_result_clear(result);
+            return result->status = ffd_fail_memory(&result->error);
+        }
+        own.share = share;
     }
-    own.share = share;
-    const ffd_status status = run_job(&own, result, error);
+    ffd_status status = ffd_deform_job_begin(&job, &own, false, result);
+    if (!status)
+        status = deform_and_save(&job, result, &result->error);
+    ffd_morphs_end(&job);
+    status = ffd_deform_job_end(&job, status, result, error);
     ffd_share_destroy(&share);
     return status;
 }
 
 ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
 {
-    return ffd_job_for_caller(deform, desc, result, error);
+    return ffd_job_for_caller(run_deform_job, desc, result, error);
 }

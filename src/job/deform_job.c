@@ -1,6 +1,7 @@
 #include "job/deform_job.h"
 #include "base/file/mapping.h"
 #include "base/memory/memory.h"
+#include "base/spelling.h"
 #include "base/struct_size.h"
 #include "base/system/clock.h"
 #include "base/system/deadline.h"
@@ -26,20 +27,12 @@
 #include "job/pass/pass.h"
 #include "job/report/output_set.h"
 #include "lattice/file/lattice_source.h"
-#include <math.h>
 #include <string.h>
 
 static ffd_status check_embedding(const ffd_deform_desc *desc, ffd_error *error)
 {
     const char *embedding = desc->embedding;
-    if (!embedding)
-        return FFD_OK;
-    if (desc->blocks)
-        return ffd_fail(error, FFD_E_ARGUMENT, "--embedding cannot be used with --blocks");
-    if (desc->lattice_count != 1)
-        return ffd_fail(error, FFD_E_ARGUMENT, "an embedding needs exactly one lattice, got %zu",
-                        desc->lattice_count);
-    if (desc->embedding_bytes.data)
+    if (!embedding || desc->embedding_bytes.data)
         return FFD_OK;
     if (strcmp(embedding, "-") == 0 &&
         (strcmp(desc->input.path, "-") == 0 || ffd_lattice_is_stream(&desc->lattices[0])))
@@ -61,61 +54,10 @@ static bool is_complete(const ffd_deform_desc *desc)
            ffd_desc_has_settings(desc->set, desc->set_count);
 }
 
-/* An unknown enumeration number would be taken for another choice. */
-static ffd_status check_choices(const ffd_deform_desc *desc, ffd_error *error)
-{
-    const struct {
-        const char *name;
-        int number, last;
-    } choices[] = {
-        {"outside", (int)desc->outside, FFD_OUTSIDE_ERROR},
-        {"normals", (int)desc->normals, FFD_NORMALS_RECOMPUTE},
-        {"rig", (int)desc->rig, FFD_RIG_FOLLOW},
-        {"resources", (int)desc->resources, FFD_RESOURCES_REFERENCE},
-        {"space", (int)desc->input.space, FFD_SPACE_MESH},
-    };
-    for (size_t i = 0; i < sizeof choices / sizeof *choices; i++)
-        if (choices[i].number < 0 || choices[i].number > choices[i].last)
-            return ffd_fail(error, FFD_E_ARGUMENT, "%d is not a value of %s", choices[i].number,
-                            choices[i].name);
-    return FFD_OK;
-}
-
-/* A limit of NaN would never be exceeded. */
-static ffd_status check_gates(const ffd_deform_desc *desc, ffd_error *error)
-{
-    if (desc->fail_on & FFD_GATE_TEAR && isnan(desc->tear_most))
-        return ffd_fail(error, FFD_E_ARGUMENT, "the largest step of the gate tear is not a number");
-    if (desc->fail_on & FFD_GATE_EDGES && !(desc->edges_most >= 0))
-        return ffd_fail(error, FFD_E_ARGUMENT, "the gate edges has no length, but %g", desc->edges_most);
-    return FFD_OK;
-}
-
 static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
 {
     if (!is_complete(desc))
         return ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete");
-    ffd_status status = check_choices(desc, error);
-    if (!status)
-        status = check_gates(desc, error);
-    if (status)
-        return status;
-    if (!(desc->falloff >= 0 && isfinite(desc->falloff)))
-        return ffd_fail(error, FFD_E_ARGUMENT, "the falloff %g is not a length", desc->falloff);
-    if (!(desc->snap >= 0 && isfinite(desc->snap)))
-        return ffd_fail(error, FFD_E_ARGUMENT, "the snap %g is not a length", desc->snap);
-    if (!(desc->timeout >= 0))
-        return ffd_fail(error, FFD_E_ARGUMENT, "the timeout %g is not a time", desc->timeout);
-    if (desc->falloff > 0 && desc->outside != FFD_OUTSIDE_EXTEND)
-        return ffd_fail(error, FFD_E_ARGUMENT, "--falloff needs --outside extend");
-    if (desc->positions && desc->morphs)
-        return ffd_fail(error, FFD_E_ARGUMENT, "positions cannot be given with morphs");
-    if (desc->rig == FFD_RIG_FOLLOW &&
-        (desc->as_morph || desc->morphs || desc->input.space == FFD_SPACE_MESH))
-        return ffd_fail(error, FFD_E_ARGUMENT, "--rig follow cannot be used with %s",
-                        desc->as_morph ? "--as-morph"
-                        : desc->morphs ? "--morph"
-                                       : "--space mesh");
     if (!ffd_isa_available(desc->isa))
         return ffd_fail(error, FFD_E_ARGUMENT,
                         "this build or this processor does not support the instruction set %s",
@@ -123,48 +65,31 @@ static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
     return check_embedding(desc, error);
 }
 
-/* Copies the results of morph targets to the caller's array, whose elements have size bytes each. */
-static void give_morphs(const ffd_job_result *own, size_t count, ffd_job_result *callers, size_t size)
+/* Runs a job with structs of this library's size, and with names for what is in memory. size: of each of the
+   caller's results of morph targets. */
+static ffd_status run_own(deform_job_function run, const ffd_deform_desc *callers, ffd_job_result *result,
+                          size_t size)
 {
-    for (size_t k = 0; k < count; k++)
-        ffd_struct_give(&own[k], sizeof own[k], (char *)callers + k * size, size);
-}
-
-/* Runs a job with structs of this library's size. size: of each of the caller's results of morph targets. */
-static ffd_status run_own(deform_job_function run, ffd_deform_desc *desc, ffd_job_result *result, size_t size,
-                          ffd_error *error)
-{
-    ffd_job_result *const callers = desc->morph_results;
-    desc->morph_results = callers ? ffd_alloc_zero(desc->lattice_count, sizeof *callers) : NULL;
-    if (callers && !desc->morph_results) {
-        ffd_fail_memory(&result->error);
-        if (error)
-            *error = result->error;
-        return FFD_E_MEMORY;
-    }
-    const ffd_status status = run(desc, result, error);
-    if (callers)
-        give_morphs(desc->morph_results, desc->lattice_count, callers, size);
-    if (result->morphs.results)
-        result->morphs.results = callers;
-    ffd_free(desc->morph_results);
-    return status;
-}
-
-/* The same for a description that may hold data in memory. */
-static ffd_status run_in_memory(deform_job_function run, ffd_deform_desc *desc, ffd_job_result *result,
-                                size_t size)
-{
-    const ffd_lattice_source *const lattices = desc->lattices;
+    ffd_deform_desc desc = *callers;
+    ffd_job_result *morphs = NULL;
     job_memory memory = {0};
-    ffd_status status = ffd_chain_check_count(desc->lattice_count, &result->error);
+    ffd_status status = ffd_chain_check_count(desc.lattice_count, &result->error);
     if (!status)
-        status = ffd_in_memory_desc(&memory, desc, &result->error);
+        status = ffd_in_memory_desc(&memory, &desc, &result->error);
+    if (!status && callers->morph_results) {
+        desc.morph_results = morphs = ffd_alloc_zero(desc.lattice_count, sizeof *morphs);
+        status = morphs ? FFD_OK : ffd_fail_memory(&result->error);
+    }
     if (!status)
-        status = run_own(run, desc, result, size, &result->error);
+        status = run(&desc, result, &result->error);
+    for (size_t k = 0; k < desc.lattice_count && morphs; k++)
+        ffd_struct_give(&morphs[k], sizeof morphs[k], (char *)callers->morph_results + k * size, size);
     status = ffd_in_memory_end(&memory, status, &result->error);
+    if (result->morphs.results)
+        result->morphs.results = callers->morph_results;
     if (result->morphs.lattices)
-        result->morphs.lattices = lattices;
+        result->morphs.lattices = callers->lattices;
+    ffd_free(morphs);
     return status;
 }
 
@@ -182,7 +107,7 @@ ffd_status ffd_job_for_caller(deform_job_function run, const ffd_deform_desc *ca
     status = ffd_deform_desc_take(callers, &desc, &result.error);
     const deadline *const before = ffd_deadline_begin(&own, status ? 0 : desc.timeout);
     if (!status)
-        status = run_in_memory(run, &desc, &result, size);
+        status = run_own(run, &desc, &result, size);
     ffd_deadline_end(before);
     if (status && error)
         *error = result.error;
@@ -266,7 +191,7 @@ ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_erro
         job->document->keeps_base = true;
     if (!status && desc->rig == FFD_RIG_FOLLOW && !job->document->format->follow)
         status = ffd_fail_file(error, FFD_E_ARGUMENT, ffd_source_name(&desc->input),
-                               "has no nodes that could follow: only glTF has (--rig follow)");
+                               "has no nodes that could follow: only glTF has ({rig=follow})");
     if (!status)
         ffd_result_note_flaws(result, &job->document->flaws);
     if (!status)
@@ -292,7 +217,7 @@ static ffd_status check_unknown(const deform_job *job, ffd_error *error)
     if (unknown == 0 || !(job->desc->fail_on & (FFD_GATE_TEAR | FFD_GATE_FLIPPED | FFD_GATE_EDGES)))
         return FFD_OK;
     return ffd_fail_file(error, FFD_E_GATE, ffd_source_name(&job->desc->input),
-                         "--fail-on tear, flipped and edges cannot be judged: the faces of %zu %s not known",
+                         "{fail_on} tear, flipped and edges cannot be judged: the faces of %zu %s not known",
                          unknown, unknown == 1 ? "primitive are" : "primitives are");
 }
 
@@ -508,7 +433,7 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
         warn_of_left(job, result);
     if (!status && job->totals.vertices == 0)
         ffd_log_line(&job->file_log, FFD_LOG_WARNING, "%s",
-                     job->desc->only_count ? "--only selects no vertices"
+                     job->desc->only_count ? SPELLED("{only} selects no vertices")
                                            : "there are no vertices to deform");
     if (!status && !job->check) {
         ffd_folds_warn(result, &job->totals, job->desc->lattices, &job->log);

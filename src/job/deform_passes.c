@@ -67,7 +67,7 @@ static ffd_status recompute(deform_job *job, const figure_arrays *arrays, recomp
 
 /* Runs a pass over the shapes that the file stores, whose locations an embedding or an earlier pass may know.
    It also gives the positions to the caller. */
-static ffd_status run_stored(deform_job *job, mesh_pass *pass, pass_totals *totals, ffd_error *error)
+static ffd_status pass_over_stored(deform_job *job, mesh_pass *pass, pass_totals *totals, ffd_error *error)
 {
     const bool keeps = job->chain.count == 1 && !job->desc->embedding && !job->forgets_locations;
     ffd_share *const share = keeps ? job->desc->share : NULL;
@@ -90,8 +90,8 @@ static ffd_status run_stored(deform_job *job, mesh_pass *pass, pass_totals *tota
 
 /* Deforms base and targets, or only counts them if nothing needs their results; then the shape with default
    weights, of which all figures are. */
-static ffd_status run_both(deform_job *job, const figure_arrays *figures, const figure_arrays *stored,
-                           chain_pace *pace, recompute_counts *counts, ffd_error *error)
+static ffd_status pass_over_both(deform_job *job, const figure_arrays *figures, const figure_arrays *stored,
+                                 chain_pace *pace, recompute_counts *counts, ffd_error *error)
 {
     const bool writes_shown = ffd_passes_write_shown(job);
     pass_totals of_stored;
@@ -101,7 +101,7 @@ static ffd_status run_both(deform_job *job, const figure_arrays *figures, const 
     pass.write = !writes_shown;
     pass.attributes = pass.attributes && pass.write;
     pass.counts_shapes = true;
-    ffd_status status = run_stored(job, &pass, &of_stored, error);
+    ffd_status status = pass_over_stored(job, &pass, &of_stored, error);
     if (!status && !writes_shown && of_stored.moved)
         status = recompute(job, stored, counts, error);
     if (status)
@@ -116,15 +116,6 @@ static ffd_status run_both(deform_job *job, const figure_arrays *figures, const 
     return status;
 }
 
-static ffd_status run_one(deform_job *job, const figure_arrays *figures, chain_pace *pace,
-                          recompute_counts *counts, ffd_error *error)
-{
-    mesh_pass pass = describe(job, pace);
-    fill_figures(job, figures, &pass);
-    const ffd_status status = run_stored(job, &pass, &job->totals, error);
-    return status || !job->totals.moved ? status : recompute(job, figures, counts, error);
-}
-
 ffd_status ffd_passes_run(deform_job *job, const figure_arrays *figures, const figure_arrays *stored,
                           ffd_error *error)
 {
@@ -133,11 +124,18 @@ ffd_status ffd_passes_run(deform_job *job, const figure_arrays *figures, const f
                        .threads = job->threads,
                        .links = job->chain.links,
                        .lattices = job->desc->lattices,
-                       .more = figures->has_faces ? ", and edges longer (see --timeout)" : " (see --timeout)",
+                       .more = figures->has_faces ? ", and edges longer (see {timeout})" : " (see {timeout})",
                        .log = job->log};
-    const ffd_status status = ffd_passes_judge_shown(job)
-                                  ? run_both(job, figures, stored, &pace, &counts, error)
-                                  : run_one(job, figures, &pace, &counts, error);
+    ffd_status status;
+    if (ffd_passes_judge_shown(job)) {
+        status = pass_over_both(job, figures, stored, &pace, &counts, error);
+    } else {
+        mesh_pass pass = describe(job, &pace);
+        fill_figures(job, figures, &pass);
+        status = pass_over_stored(job, &pass, &job->totals, error);
+        if (!status && job->totals.moved)
+            status = recompute(job, figures, &counts, error);
+    }
     job->totals.normals_collapsed += counts.collapsed;
     job->totals.normals_carried = counts.carried;
     return status;

@@ -26,10 +26,10 @@ static ffd_status check_desc(const ffd_info_desc *desc, bool lattice, ffd_error 
         return ffd_fail(error, FFD_E_ARGUMENT, "the description is not complete: a setting is NULL");
     if (lattice && desc->parts)
         return ffd_fail_file(error, FFD_E_ARGUMENT, ffd_source_name(&desc->file),
-                             "a lattice has no parts (--parts is for meshes)");
+                             "a lattice has no parts ({parts} is for meshes)");
     if (!lattice && desc->set_count > 0)
         return ffd_fail_file(error, FFD_E_ARGUMENT, ffd_source_name(&desc->file),
-                             "a mesh has no placeholders (--set is for lattices)");
+                             "a mesh has no placeholders ({set} is for lattices)");
     return FFD_OK;
 }
 

@@ -1,5 +1,6 @@
 #include "job/info_lattice.h"
 #include "base/memory/memory.h"
+#include "base/spelling.h"
 #include "base/vector/vec.h"
 #include "job/chain/lattice_memory.h"
 #include "job/info_box.h"
@@ -179,7 +180,7 @@ static ffd_status check_values(const ffd_info_desc *desc, const bool *used, ffd_
     for (size_t i = 0; i < desc->set_count; i++)
         if (!used[i])
             return ffd_fail_file(error, FFD_E_INVALID, desc->file.path,
-                                 "the lattice has no placeholder {\"$\": \"%.60s\"} (--set)",
+                                 "the lattice has no placeholder {\"$\": \"%.60s\"} ({set})",
                                  desc->set[i].name);
     return FFD_OK;
 }
@@ -239,8 +240,8 @@ static void write_unbuilt(const ffd_lattice *lattice, bool fits, json_text *json
     if (fits || comes) /* the rest depends on meshes that are not known */
         return;
     char reason[100];
-    snprintf(reason, sizeof reason, "the control points need %.0f MB of memory (--memory allows more)",
-             ceil(1e-6 * (double)ffd_spec_point_bytes(lattice->spec)));
+    snprintf(reason, sizeof reason, "the control points need %.0f MB of memory (%s allows more)",
+             ceil(1e-6 * (double)ffd_spec_point_bytes(lattice->spec)), SPELLED("{file.memory}"));
     ffd_json_string(json, "points_unknown", reason);
 }
 

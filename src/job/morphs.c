@@ -17,7 +17,7 @@ static ffd_status check_name(const char *name, ffd_error *error)
     if (name && *name && ffd_utf8_is_valid(name, strlen(name)))
         return FFD_OK;
     ffd_name_shown(name ? name : "", shown, sizeof shown);
-    return ffd_fail(error, FFD_E_ARGUMENT, "--morph: \"%s\" is not the name of a morph target in UTF-8",
+    return ffd_fail(error, FFD_E_ARGUMENT, "{morphs}: \"%s\" is not the name of a morph target in UTF-8",
                     shown);
 }
 
@@ -34,28 +34,16 @@ static ffd_status check_names(const ffd_deform_desc *desc, ffd_error *error)
         if (status || number == i)
             continue;
         ffd_name_shown(desc->morphs[i], shown, sizeof shown);
-        status = ffd_fail(error, FFD_E_ARGUMENT, "--morph: two morph targets are called \"%s\"", shown);
+        status = ffd_fail(error, FFD_E_ARGUMENT, "{morphs}: two morph targets are called \"%s\"", shown);
     }
     ffd_intern_free(&names);
     return status;
 }
 
-static ffd_status check(const deform_job *job, ffd_error *error)
-{
-    const ffd_deform_desc *const desc = job->desc;
-    if (!desc->morphs)
-        return desc->clip_count == 0 ? FFD_OK : ffd_fail(error, FFD_E_ARGUMENT, "--clip needs --morph");
-    if (desc->as_morph)
-        return ffd_fail(error, FFD_E_ARGUMENT, "--as-morph cannot be used with --morph");
-    if (desc->blocks)
-        return ffd_fail(error, FFD_E_ARGUMENT, "--blocks cannot be used with --morph");
-    return check_names(desc, error);
-}
-
 ffd_status ffd_morphs_begin(deform_job *job, ffd_error *error)
 {
     const ffd_deform_desc *const desc = job->desc;
-    ffd_status status = check(job, error);
+    ffd_status status = desc->morphs ? check_names(desc, error) : FFD_OK;
     if (status || desc->clip_count == 0)
         return status;
     job->clips = ffd_alloc_zero(desc->clip_count, sizeof *job->clips);
@@ -130,8 +118,8 @@ static void name_target(const char *name, size_t count, ffd_error *error)
 
 /* Runs the pass for one target. Its warnings name it; warnings about the file come with the first one
    only. */
-static ffd_status run_one(deform_job *job, size_t k, const mesh_log *log, ffd_job_result *result,
-                          ffd_error *error)
+static ffd_status add_target(deform_job *job, size_t k, const mesh_log *log, ffd_job_result *result,
+                             ffd_error *error)
 {
     const ffd_deform_desc *const all = job->desc;
     const char *const name = all->morphs[k];
@@ -171,7 +159,7 @@ static bool fits_budget(const deform_job *job, size_t targets)
 }
 
 /* *done: the number of targets with figures, including one that a gate refuses. */
-static ffd_status run_all(deform_job *job, ffd_job_result *results, size_t *done, ffd_error *error)
+static ffd_status add_targets(deform_job *job, ffd_job_result *results, size_t *done, ffd_error *error)
 {
     const mesh_log log = job->log;
     const size_t count = job->desc->lattice_count;
@@ -181,7 +169,7 @@ static ffd_status run_all(deform_job *job, ffd_job_result *results, size_t *done
     if (!status)
         status = begin(job, error);
     for (size_t k = 0; k < count && !status; k++) {
-        status = run_one(job, k, &log, &results[k], error);
+        status = add_target(job, k, &log, &results[k], error);
         *done += !status || status == FFD_E_GATE;
         if (!status)
             ffd_log_line(&log, FFD_LOG_INFO, "morph target \"%s\": %llu of %llu %s moved, by %g at most",
@@ -200,7 +188,7 @@ ffd_status ffd_morphs_run(deform_job *job, ffd_job_result *result, ffd_error *er
     if (!results)
         return ffd_fail_memory(error);
     size_t done = 0;
-    const ffd_status status = run_all(job, results, &done, error);
+    const ffd_status status = add_targets(job, results, &done, error);
     if (!status || status == FFD_E_GATE) {
         ffd_results_join(results, done, result);
         result->morphs.count = done;

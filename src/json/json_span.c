@@ -1,5 +1,6 @@
 #include "json/json_span.h"
 #include "base/memory/memory.h"
+#include "base/spelling.h"
 #include "base/text/number.h"
 #include "json/json_chars.h"
 #include <stdarg.h>
@@ -228,7 +229,7 @@ ffd_status ffd_json_span_fail(const json_span *tree, uint32_t value, const char 
     ffd_json_span_pointer(tree, value, pointer, sizeof pointer);
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(message, sizeof message, format, arguments);
+    vsnprintf(message, sizeof message, SPELLED(format), arguments);
     va_end(arguments);
     return ffd_fail_at(error, status, name, pointer, "%s", message);
 }

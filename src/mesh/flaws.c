@@ -1,4 +1,5 @@
 #include "mesh/flaws.h"
+#include "base/spelling.h"
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -32,7 +33,7 @@ ffd_status ffd_flaw_note(mesh_flaws *flaws, const char *file, size_t line, const
     char message[sizeof error->message];
     if (ffd_flaw_repeats(flaws, format))
         return FFD_OK;
-    vsnprintf(message, sizeof message, format, arguments);
+    vsnprintf(message, sizeof message, SPELLED(format), arguments);
     if (!flaws->strict) {
         add_kind(flaws, format, line, pointer, message);
         return FFD_OK;

@@ -1,4 +1,5 @@
 #include "mesh/memory_budget.h"
+#include "base/spelling.h"
 
 #define MEGABYTE ((uint64_t)1000000)
 #define LEAST (100 * MEGABYTE)
@@ -55,7 +56,7 @@ ffd_status ffd_budget_check(const memory_budget *budget, uint64_t count, uint64_
         return FFD_OK;
     return ffd_fail(error, FFD_E_LIMIT, "needs more than the %llu MB of memory %s",
                     (unsigned long long)(ffd_budget_most(budget) / MEGABYTE),
-                    ffd_budget_most(budget) < SIZE_MAX ? "allowed (--memory raises this)"
+                    ffd_budget_most(budget) < SIZE_MAX ? SPELLED("allowed ({input.memory} raises this)")
                                                        : "that a program with addresses of 32 bits holds");
 }
 

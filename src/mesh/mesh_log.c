@@ -1,4 +1,5 @@
 #include "mesh/mesh_log.h"
+#include "base/spelling.h"
 #include "base/text/words.h"
 #include <stdarg.h>
 #include <stdio.h>
@@ -10,7 +11,7 @@ void ffd_log_line(const mesh_log *log, ffd_log_level level, const char *format, 
     if (!log || !log->function)
         return;
     va_start(arguments, format);
-    vsnprintf(line, sizeof line, format, arguments);
+    vsnprintf(line, sizeof line, SPELLED(format), arguments);
     va_end(arguments);
     log->function(log->user, level, line);
 }

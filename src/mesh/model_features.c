@@ -1,5 +1,6 @@
 /* model_features.c - determines the features of a model, and describes those that a format loses. */
 #include "base/memory/memory.h"
+#include "base/spelling.h"
 #include "mesh/model.h"
 #include "mesh/precision.h"
 #include <math.h>
@@ -308,7 +309,7 @@ static const struct {
     {MODEL_HAS_TEXTURES, 0, "textures"},
     {MODEL_HAS_FREE_FORM, 0, "free-form curves and surfaces"},
     {MODEL_HAS_HIERARCHY, 0, "the node hierarchy"},
-    {MODEL_HAS_TRANSFORMS, 0, "the transforms of nodes (--space mesh)"},
+    {MODEL_HAS_TRANSFORMS, 0, "the transforms of nodes ({input.space=mesh})"},
     {MODEL_HAS_SKINS, 0, "skins"},
     {MODEL_HAS_MORPHS, 0, "morph targets"},
     {MODEL_HAS_ANIMATIONS, 0, "animations"},
@@ -329,7 +330,8 @@ void ffd_model_describe_loss(const mesh_model *model, uint32_t holds, char *text
         if (descriptions[i].feature == MODEL_HAS_MATERIALS && holds & MODEL_HAS_MATERIAL_NAMES &&
             model->features & MODEL_HAS_MATERIAL_NAMES)
             words = "materials (their names are kept)";
-        const int more = snprintf(text + length, capacity - length, "%s%s", length ? ", " : "", words);
+        const int more =
+            snprintf(text + length, capacity - length, "%s%s", length ? ", " : "", SPELLED(words));
         if (more < 0 || (size_t)more >= capacity - length)
             return;
         length += (size_t)more;

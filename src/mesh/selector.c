@@ -17,19 +17,19 @@ ffd_status ffd_selector_parse(const char *text, mesh_selector *selector, ffd_err
     char word[40];
     if (!colon)
         return ffd_fail(error, FFD_E_ARGUMENT,
-                        "--only: \"%.60s\" is not KIND:NAME (node, mesh, material, group or object)", text);
+                        "{only}: \"%.60s\" is not KIND:NAME (node, mesh, material, group or object)", text);
     snprintf(word, sizeof word, "%.*s", (int)(colon - text < 39 ? colon - text : 39), text);
     for (int kind = 0; kind < SELECTOR_KINDS; kind++)
         if (strcmp(kind_names[kind], word) == 0) {
             if (!colon[1])
-                return ffd_fail(error, FFD_E_ARGUMENT, "--only: \"%s\" has no name after the colon", text);
+                return ffd_fail(error, FFD_E_ARGUMENT, "{only}: \"%s\" has no name after the colon", text);
             *selector = (mesh_selector){(selector_kind)kind, colon + 1, strlen(colon + 1)};
             return FFD_OK;
         }
     const char *const meant = ffd_word_meant(word, kind_names, SELECTOR_KINDS);
-    return meant ? ffd_fail(error, FFD_E_ARGUMENT, "--only: unknown kind \"%s\" (nearest: %s)", word, meant)
+    return meant ? ffd_fail(error, FFD_E_ARGUMENT, "{only}: unknown kind \"%s\" (nearest: %s)", word, meant)
                  : ffd_fail(error, FFD_E_ARGUMENT,
-                            "--only: unknown kind \"%s\", not node, mesh, material, group or object", word);
+                            "{only}: unknown kind \"%s\", not node, mesh, material, group or object", word);
 }
 
 bool ffd_selector_is(const mesh_selector *selector, const char *name, size_t size)
@@ -61,10 +61,10 @@ ffd_status ffd_selector_check_kind(const mesh_selector *selector, unsigned kinds
         return FFD_OK;
     if (kinds == 0)
         return ffd_fail_file(error, FFD_E_ARGUMENT, file,
-                             "--only %s: a file of format %s is one part without names",
+                             "{only=%s}: a file of format %s is one part without names",
                              kind_names[selector->kind], format_name);
     list_kinds(kinds, list, sizeof list);
-    return ffd_fail_file(error, FFD_E_ARGUMENT, file, "--only %s: a file of format %s has only %s",
+    return ffd_fail_file(error, FFD_E_ARGUMENT, file, "{only=%s}: a file of format %s has only %s",
                          kind_names[selector->kind], format_name, list);
 }
 
@@ -85,8 +85,8 @@ ffd_status ffd_selector_unknown(const selector_nearest *nearest, const char *fil
     const char *kind = kind_names[nearest->selector->kind];
     if (!nearest->offered)
         return ffd_fail_file(error, FFD_E_ARGUMENT, file,
-                             "--only: no %s has a name here, so none is called \"%.120s\"", kind,
+                             "{only}: no %s has a name here, so none is called \"%.120s\"", kind,
                              nearest->selector->name);
-    return ffd_fail_file(error, FFD_E_ARGUMENT, file, "--only: no %s is called \"%.120s\" (nearest: \"%s\")",
+    return ffd_fail_file(error, FFD_E_ARGUMENT, file, "{only}: no %s is called \"%.120s\" (nearest: \"%s\")",
                          kind, nearest->selector->name, nearest->name);
 }

@@ -3,7 +3,6 @@
 #include "base/memory/memory.h"
 #include "base/struct_size.h"
 #include "base/text/number.h"
-#include "base/vector/vec.h"
 #include "embed/locator.h"
 #include "embed/locator_border.h"
 #include "embed/near_border.h"
@@ -37,12 +36,6 @@ typedef struct embed_work {
     extended_list *outside;  /* one for each tile */
 } embed_work;
 
-static bool is_placed(const ffd_location *location)
-{
-    return location->status != FFD_OUTSIDE && location->status != FFD_POINT_INVALID &&
-           vec_is_finite(location->uvw);
-}
-
 /* Finds the nearest border point of a point outside, and lists the point if it is within the falloff. */
 static ffd_status extend(const embed_work *work, size_t point, const double x[3], extended_list *list,
                          ffd_error *error)
@@ -68,9 +61,10 @@ static ffd_status settle_point(const embed_work *work, size_t point, const doubl
     double half[3] = {0, 0, 0};
     if (is_float)
         ffd_rounding_cell(&of_floats, x, half);
-    if (!is_placed(location) && location->status != FFD_POINT_INVALID && (is_float || work->desc->snap > 0))
+    if (!ffd_location_is_placed(location) && location->status != FFD_POINT_INVALID &&
+        (is_float || work->desc->snap > 0))
         status = ffd_near_border_look_again(work->locator, x, half, work->desc->snap, location, error);
-    const bool placed = is_placed(location);
+    const bool placed = ffd_location_is_placed(location);
     embedding->status[point] = location->status;
     for (size_t c = 0; c < 3; c++)
         embedding->uvw[3 * point + c] = placed ? location->uvw[c] : (double)NAN;

@@ -20,7 +20,7 @@ typedef struct deform_scratch {
     double *x, *delta, *gradient, *uvw; /* 3, 3, 9, 3 numbers for each point; uvw: of the listed vertices */
     uint32_t *which;
     uint8_t *moves, *changed;
-    displacement_scratch *displacement; /* NULL: displace points one by one */
+    displacement_scratch *displacement; /* NULL for few points */
 } deform_scratch;
 
 typedef struct deform_work {
@@ -108,15 +108,6 @@ static void write_tile(const deform_work *work, size_t first, size_t count, cons
                9 * sizeof *work->gradients);
 }
 
-static void displace_few(const ffd_lattice *lattice, const displacement_batch *batch)
-{
-    for (size_t k = 0; k < batch->count; k++) {
-        const size_t n = batch->which[k];
-        ffd_displacement(lattice, ffd_batch_uvw(batch, n), batch->delta + 3 * n,
-                         batch->gradient ? batch->gradient + 9 * n : NULL);
-    }
-}
-
 static ffd_status deform_tile(void *context, size_t first, size_t count, int worker, ffd_error *error)
 {
     const deform_work *const work = context;
@@ -130,10 +121,7 @@ static ffd_status deform_tile(void *context, size_t first, size_t count, int wor
                                       .gradient = work->gradients ? s->gradient : NULL,
                                       .moves = s->moves};
     read_tile(work, first, count, s);
-    if (s->displacement)
-        ffd_displacements(work->lattice, work->isa, &batch, s->displacement);
-    else
-        displace_few(work->lattice, &batch);
+    ffd_displacements(work->lattice, work->isa, &batch, s->displacement);
     if (work->embedding->extended_count > 0)
         extend(work, first, count, s);
     const double largest = work->out.type == FFD_FLOAT32 ? FLT_MAX : DBL_MAX;

@@ -7,8 +7,10 @@
 #include <ffd/job.h>
 #include <ffd/lattice.h>
 #include <ffd/points.h>
+#include <ffd/program.h>
 #include <stdbool.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Appends the pending exception to the list, and clears it. */
@@ -172,11 +174,30 @@ static int add_address(PyObject *module, const char *name, uintptr_t address)
 }
 
 /* The module's attributes are the addresses of the functions above. */
+/* Arguments of Python that are not called as the members are, or take no keyword. */
+static const char *const others[][2] = {
+    {"input.format", "input_format="}, {"in_place", "output=None"}, {"lattice", "lattice"},
+    {"lattices", "lattices"},          {"output", "output"},        {"morphs", "named lattices"},
+};
+
+/* An ffd_spell_function: "falloff=", "outside='extend'". */
+static void spell(const char *member, const char *value, char *text, size_t capacity)
+{
+    const char *const dot = strrchr(member, '.');
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (strcmp(others[i][0], member) == 0) {
+            snprintf(text, capacity, "%s", others[i][1]);
+            return;
+        }
+    snprintf(text, capacity, value ? "%s='%s'" : "%s=", dot ? dot + 1 : member, value);
+}
+
 PyMODINIT_FUNC PyInit__native(void);
 PyMODINIT_FUNC PyInit__native(void)
 {
     static PyModuleDef definition = {PyModuleDef_HEAD_INIT, .m_name = "_native", .m_doc = "The library ffd."};
     PyObject *const module = PyModule_Create(&definition);
+    ffd_spell_members(spell);
     if (!module || (add_address(module, "progress", (uintptr_t)progress) == 0 &&
                     add_address(module, "log", (uintptr_t)take_line) == 0 &&
                     add_address(module, "resolve", (uintptr_t)resolve) == 0 &&

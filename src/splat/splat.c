@@ -17,12 +17,6 @@ static bool is_usable(const double gradient[9])
     return mat_largest_entry(gradient) <= LARGEST_F;
 }
 
-static void add_identity(const double gradient[9], double f[9])
-{
-    for (int i = 0; i < 9; i++)
-        f[i] = gradient[i] + (i % 4 == 0 ? 1 : 0);
-}
-
 /* Returns whether the least singular value (the determinant divided by the product of the others) is
    negligible compared with the largest. */
 static bool is_flattening(const double f[9], const double cofactor[9])
@@ -133,7 +127,7 @@ static bool prepare_turn(const double gradient[9], splat_turn *turn, double f[9]
     *turn = (splat_turn){.quaternion = {1, 0, 0, 0}};
     if (!is_usable(gradient) || mat_largest_entry(gradient) <= STILL)
         return false;
-    add_identity(gradient, f);
+    mat_add_identity(gradient, f);
     if (mat_largest_entry(f) < LEAST_F)
         return false;
     mat_cofactor(f, cofactor);
@@ -373,7 +367,7 @@ static bool prepare_ellipsoid(const double gradient[9], const splat_form *form, 
     *outcome = SPLAT_KEPT;
     if (mat_largest_entry(gradient) <= STILL)
         return false;
-    add_identity(gradient, f);
+    mat_add_identity(gradient, f);
     mat_cofactor(f, cofactor);
     work->is_flattened = is_flattening(f, cofactor);
     work->largest = larger_of(mat_largest_entry(f), LEAST_F);

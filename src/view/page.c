@@ -1,5 +1,6 @@
 #include "view/page.h"
 #include "base/memory/memory.h"
+#include "base/spelling.h"
 #include "base/text/words.h"
 #include "view/page_assets.h"
 #include "view/page_reduce.h"
@@ -30,7 +31,7 @@ static void FFD_PRINTF(2, 3) give_notice(page_work *work, const char *format, ..
     char *const notice = page->notices[page->notice_count++];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(notice, sizeof page->notices[0], format, arguments);
+    vsnprintf(notice, sizeof page->notices[0], SPELLED(format), arguments);
     va_end(arguments);
     ffd_log_line(work->options->log, FFD_LOG_WARNING, "the page: %s", notice);
 }
@@ -55,7 +56,7 @@ static ffd_status choose_cages(page_work *work, ffd_error *error)
         left_out += !fits;
     }
     if (left_out)
-        give_notice(work, "%zu of %zu %s not drawn: more than %d control points (see --full)", left_out,
+        give_notice(work, "%zu of %zu %s not drawn: more than %d control points (see {full})", left_out,
                     scene->cage_count, ffd_plural(scene->cage_count, "lattice is", "lattices are"),
                     VIEW_PAGE_CONTROLS);
     return FFD_OK;
@@ -69,7 +70,7 @@ static void say_what_is_left_out(page_work *work, size_t used)
                     ffd_plural(mesh->not_finite, "vertex is", "vertices are"), mesh->triangles_lost,
                     ffd_plural(mesh->triangles_lost, "triangle there is", "triangles there are"));
     if (mesh->vertex_count < used)
-        give_notice(work, "%zu of %zu vertices are drawn: the mesh is simplified (see --full)",
+        give_notice(work, "%zu of %zu vertices are drawn: the mesh is simplified (see {full})",
                     mesh->vertex_count, used);
     if (work->scene->tear_edges > work->scene->tear_count)
         give_notice(work, "%zu of %" PRIu64 " torn edges are marked, those with the largest steps",

@@ -690,4 +690,28 @@ ffd_status ffd_lattice_evaluate_many(const ffd_lattice *lattice, ffd_volume volu
                                      ffd_error *error);
 void ffd_cleanup_on_signals(void);
 void ffd_guard_inputs(void);
+typedef void (*ffd_spell_function)(const char *member, const char *value, char *text, size_t capacity);
+void ffd_spell_members(ffd_spell_function spell);
+typedef enum ffd_member_kind {
+    FFD_MEMBER_FLAG = 0,
+    FFD_MEMBER_CHOICE,
+    FFD_MEMBER_FORMAT,
+    FFD_MEMBER_COUNT,
+    FFD_MEMBER_LENGTH,
+    FFD_MEMBER_TIME,
+    FFD_MEMBER_BYTES,
+    FFD_MEMBER_GATES,
+    FFD_MEMBER_TEXT,
+    FFD_MEMBER_LIST,
+    FFD_MEMBER_OBJECT
+} ffd_member_kind;
+typedef struct ffd_member {
+    const char *name;
+    ffd_member_kind kind;
+    size_t offset;
+    size_t count;
+    const char *const *words;
+} ffd_member;
+const ffd_member *ffd_deform_member(size_t number);
+ffd_status ffd_deform_desc_check(const ffd_deform_desc *desc, ffd_error *error);
 const char *ffd_version(void);

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <ffd/job.h>
+#include <ffd/program.h>
 #include <iostream>
 #include <new>
 #include <sys/mman.h>
@@ -188,9 +189,16 @@ void operator delete(void *block, std::size_t, std::align_val_t) noexcept
     unmake(block);
 }
 
+/* Notices on the page name options as the program does. */
+static void spell(const char *member, const char *, char *text, std::size_t capacity)
+{
+    std::snprintf(text, capacity, "--%s", member);
+}
+
 int main(int count, char **arguments)
 {
     ffd_error error;
+    ffd_spell_members(spell);
     if (count != 5)
         return 2;
     if (run(arguments[1], arguments[2], arguments[3], arguments[4], &error) == FFD_OK)

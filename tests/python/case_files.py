@@ -117,6 +117,28 @@ class Files(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "fail_on"):
             ffd.deform_file(SPOT, "out.obj", lattice, fail_on=["edges"])
 
+    def test_a_refusal_names_keywords_of_python(self):
+        lattice = part_of_spot()
+        for options, message in (
+                ({"falloff": 1}, "falloff= needs outside='extend'"),
+                ({"rig": "follow", "as_morph": "a"}, "rig='follow' moves the shape itself, which as_morph= leaves"),
+                ({"rig": "follow", "space": "mesh"}, "rig='follow' moves nodes, which have no place with space='mesh'"),
+                ({"embedding": b"u", "blocks": True}, "embedding= works with one lattice, and not with blocks="),
+                ({"clips": "a: 0"}, "clips= needs named lattices"),
+                ({"falloff": -1}, "the falloff -1 is not a length"),
+                ({"only": "node"}, "only=: \"node\" is not KIND:NAME (node, mesh, material, group or object)"),
+                ({"only": "node:a"}, "only='node': a file of format OBJ has only material, group and object")):
+            with self.assertRaises(ffd.ArgumentError) as refused:
+                ffd.check_file(SPOT, lattice, **options)
+            self.assertEqual(refused.exception.message, message)
+        for lattices, options, message in (
+                ({"a": lattice}, {"as_morph": "b"}, "as_morph= cannot be used with named lattices"),
+                ({"a": lattice}, {"blocks": True}, "blocks= cannot be used with named lattices"),
+                (lattice, {"output_format": "ply"}, "output=None keeps the format: output_format= cannot be used with it")):
+            with self.assertRaises(ffd.ArgumentError) as refused:
+                ffd.deform_file(SPOT, None, lattices, **options)
+            self.assertEqual(refused.exception.message, message)
+
     def test_placeholders(self):
         text = json.loads(part_of_spot().text)
         del text["deformed"]

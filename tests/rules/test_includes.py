@@ -69,7 +69,7 @@ LAYERS = {
     "job/report": {"base", "base/file", "base/memory", "base/text", "job/figures", "json"},
     "spline": {"base", "base/memory", "base/text"},
     "lattice": {"base", "base/file", "base/memory", "base/text", "base/vector", "spline"},
-    "lattice/file": {"base/file", "base/memory", "base/text", "base/vector", "json", "lattice"},
+    "lattice/file": {"base", "base/file", "base/memory", "base/text", "base/vector", "json", "lattice"},
     "lattice/tangent": {"base/memory", "base/vector", "lattice"},
     "embed/frame": {"base/memory", "base/vector", "lattice", "spline"},
     "embed/boundary": {"base", "base/memory", "base/vector", "embed/frame", "lattice", "spline"},
@@ -96,7 +96,7 @@ LAYERS = {
         "base", "base/memory", "base/system", "base/vector", "deform", "io/openmesh", "job/chain", "job/figures", "job/input",
         "lattice", "mesh",
     },
-    "job/judge": {"base/text", "job/chain", "job/figures", "lattice"},
+    "job/judge": {"base", "base/text", "job/chain", "job/figures", "lattice"},
     "job/measure": {
         "base", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed", "embed/frame", "io/openmesh",
         "job/chain", "job/figures", "job/input", "job/pass", "lattice", "mesh",

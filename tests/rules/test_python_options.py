@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What a job can be told, the Python package offers: each member of the descriptions of jobs is named in src/python/ffd_mesh, or
-below with the reason that it is not."""
+"""What a job can be told, the Python package offers: each member of the descriptions of jobs is in the table of settings, which
+the package reads, or named in src/python/ffd_mesh, or below with the reason that it is not."""
 
 import re
 
@@ -22,12 +22,18 @@ def members(name, text):
     return re.findall(r"(\w+)(?:\[[^\]]*\])?\s*[;,]", body)
 
 
+def settings():
+    """The members in the table of settings, and those with the numbers of lists."""
+    rows = re.findall(r'\{"([\w.]+)", FFD_MEMBER_\w+,\s+AT\([\w.]+\),\s+(?:AT\(([\w.]+)\)|0)', tree.read("src/job/input/settings.c"))
+    return {name.rpartition(".")[2] for row in rows for name in row if name}
+
+
 def main():
-    checked, findings = 0, []
+    checked, findings, table = 0, [], settings()
     for structure, (header, source) in STRUCTURES.items():
         text = re.sub(r"/\*.*?\*/", "", tree.read(f"include/ffd/{header}.h"), flags=re.S)
         package = "".join(tree.read(f"src/python/ffd_mesh/_{name}.py") for name in (*COMMON, source))
-        offered = set(re.findall(r"\w+", package)) | NOT_OFFERED
+        offered = set(re.findall(r"\w+", package)) | NOT_OFFERED | table
         names = [name for name in members(structure, text) if not name.endswith("_room")]
         findings += [f"{structure}.{name}: not offered by src/python/ffd_mesh" for name in names if name not in offered]
         checked += len(names)

@@ -302,7 +302,7 @@ static void memory_is_asked_for_in_proportion(void **state)
                                                 1,    0xff, 0xff, 0xff, 0xff, 4, 0, 0, 0};
     const draco_claim huge = {1u << 30, 3 * (uint64_t)0x4fffffff};
     check_refusal(edgebreaker, sizeof edgebreaker, &huge, FFD_E_LIMIT,
-                  "needs more than the 100 MB of memory allowed (--memory raises this)");
+                  "needs more than the 100 MB of memory allowed (input.memory raises this)");
 }
 
 /* A tree in which each node promises as many children as there are bytes. */

@@ -486,7 +486,7 @@ static void stale_files_are_refused(void **state)
                         "was made for another mesh: its positions, or their number type, differ");
     assert_int_equal(ffd_embedding_open(path, (ffd_bytes){0}, 3, &positions, &other, &file, &error),
                      FFD_E_INVALID);
-    assert_string_equal(error.message, "was made for another rest lattice, or with another --snap");
+    assert_string_equal(error.message, "was made for another rest lattice, or with another snap");
     assert_string_equal(error.file, path);
 }
 

@@ -357,7 +357,7 @@ static void an_output_that_appears_is_not_replaced(void **state)
             if (forced)
                 check_content("appeared.txt", "ours");
             else
-                assert_string_equal(error.message, "exists already (--force overwrites it)");
+                assert_string_equal(error.message, "exists already (force overwrites it)");
             if (!forced && !links[i])
                 check_content("appeared.txt", "somebody's");
             assert_false(ffd_file_exists(in_folder("appeared.other")));

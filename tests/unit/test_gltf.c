@@ -158,7 +158,7 @@ static const refusal broken_values[] = {
      ",\"accessors\":[{\"componentType\":5126,\"count\":9007199254740992,\"type\":\"VEC3\",\"sparse\":{"
      "\"count\":1,\"indices\":{\"bufferView\":0,\"componentType\":5121},\"values\":{\"bufferView\":0}}}]"
      "}",
-     OF_2_53("t.gltf:/accessors/0: needs more than the 100 MB of memory allowed (--memory raises this)",
+     OF_2_53("t.gltf:/accessors/0: needs more than the 100 MB of memory allowed (input.memory raises this)",
              FFD_E_LIMIT, "t.gltf:/accessors/0/count: ")},
     {"{" DATA ",\"accessors\":[{\"componentType\":5126,\"count\":1,\"type\":\"VEC3\",\"sparse\":{\"count\":1,"
      "\"indices\":{\"bufferView\":0,\"byteOffset\":14,\"componentType\":5121},\"values\":{\"bufferView\":"
@@ -267,7 +267,7 @@ static void unsupported_things_are_named(void **state)
         {"{" DATA "," ACCESSORS "," MESHES "," SCENE
          ",\"extensionsRequired\":[\"KHR_materials_x\",\"EXT_geometry\"]}",
          "t.gltf:/extensionsRequired/1: the required extension \"EXT_geometry\" is not known "
-         "(--allow-extension EXT_geometry deforms the file all the same)",
+         "(input.allow_extensions = EXT_geometry deforms the file all the same)",
          FFD_E_UNSUPPORTED},
     };
     check_refusals(cases, sizeof cases / sizeof *cases);

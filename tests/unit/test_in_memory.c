@@ -979,7 +979,7 @@ static void descriptions_that_contradict_themselves_are_refused(void **state)
 
 static void arrays_of_descriptions_are_complete(void **state)
 {
-    static const char *const none[] = {NULL};
+    static const char *const none[] = {NULL}, *const names[] = {"lifted"};
     static const ffd_setting settings[] = {{"lift", NULL}, {NULL, "1"}};
     const ffd_source nameless = {.path = NULL};
     const ffd_lattice_desc *const nothing = &(ffd_lattice_desc){.struct_size = sizeof *nothing};
@@ -992,8 +992,10 @@ static void arrays_of_descriptions_are_complete(void **state)
         b.desc = whole;
         if (wrong == 0)
             b.desc.only = none;
-        if (wrong == 1)
+        if (wrong == 1) {
             b.desc.clips = none;
+            b.desc.morphs = names;
+        }
         if (wrong == 2)
             b.desc.morphs = none;
         if (wrong >= 3 && wrong < 5)

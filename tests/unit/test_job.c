@@ -113,7 +113,7 @@ static void costly_figures_are_there_when_asked_for(void **state)
 
     desc.fail_on = FFD_GATE_FOLDS | FFD_GATE_OUTSIDE;
     assert_int_equal(ffd_check_run(&desc, &result, NULL), FFD_E_GATE);
-    assert_string_equal(result.error.message, "1 of 4 vertices is outside the lattice (--fail-on outside)");
+    assert_string_equal(result.error.message, "1 of 4 vertices is outside the lattice (fail_on = outside)");
     assert_int_equal(result.counts[FFD_OUTSIDE], 1);
     assert_true(result.folds.is_known && result.has_flipped && result.edges.is_known);
     (void)state;

@@ -534,7 +534,7 @@ static void images_count_in_the_budget(void **state)
     assert_string_equal(error.file, in_folder("m.obj"));
     assert_string_equal(error.message,
                         "the image \"large2.png\" needs more than the 100 MB of memory allowed "
-                        "(--memory raises this)");
+                        "(input.memory raises this)");
 }
 
 static void memory_may_run_out_anywhere(void **state)

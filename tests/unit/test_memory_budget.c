@@ -56,7 +56,8 @@ static void what_is_taken_is_gone(void **state)
     assert_int_equal(ffd_budget_take(&budget, MB, 12, &error), FFD_OK);
     check_left(&budget, first - 12 * MB);
     assert_int_equal(ffd_budget_take(&budget, first, 1, &error), FFD_E_LIMIT);
-    assert_string_equal(error.message, "needs more than the 100 MB of memory allowed (--memory raises this)");
+    assert_string_equal(error.message,
+                        "needs more than the 100 MB of memory allowed (input.memory raises this)");
     check_left(&budget, first - 12 * MB);
     assert_int_equal(ffd_budget_take(&budget, first - 12 * MB, 1, &error), FFD_OK);
     check_left(&budget, 0);

@@ -396,8 +396,8 @@ static void a_page_of_many_vertices_is_reduced_and_says_so(void **state)
         strstr(said, "vertices follow more than 4 joints (up to 5): animations move them by the largest"));
     assert_in_range((size_t)value_of(page, "vertices", 0), 150000, VIEW_PAGE_VERTICES);
     assert_int_equal(value_of(page, "verticesAll", 0), 461 * 461);
-    assert_non_null(strstr(said, "of 212521 vertices are drawn: the mesh is simplified (see --full)"));
-    assert_non_null(strstr(page, "of 212521 vertices are drawn: the mesh is simplified (see --full)\""));
+    assert_non_null(strstr(said, "of 212521 vertices are drawn: the mesh is simplified (see full)"));
+    assert_non_null(strstr(page, "of 212521 vertices are drawn: the mesh is simplified (see full)\""));
     ffd_free(page);
     char *const full = page_of(&scene, true);
     assert_int_equal(value_of(full, "vertices", 0), 461 * 461);

@@ -30,7 +30,7 @@ static bool is_placed(const set_entry *entry)
 static ffd_status fail_place(const char *path, ffd_error *error)
 {
     if (errno == EEXIST)
-        return ffd_fail_file(error, FFD_E_EXISTS, path, "exists already (--force overwrites it)");
+        return ffd_fail_file(error, FFD_E_EXISTS, path, "exists already ({force} overwrites it)");
     return ffd_fail_errno(error, path, "cannot be written");
 }
 

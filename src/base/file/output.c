@@ -216,7 +216,7 @@ static ffd_status check_replaceable(const char *path, const struct stat *info, f
 
 static ffd_status fail_exists(const char *path, ffd_error *error)
 {
-    return ffd_fail_file(error, FFD_E_EXISTS, path, "exists already (--force overwrites it)");
+    return ffd_fail_file(error, FFD_E_EXISTS, path, "exists already ({force} overwrites it)");
 }
 
 static ffd_status check_target(const char *path, bool force, struct stat *info, bool *exists,

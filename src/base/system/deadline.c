@@ -37,7 +37,7 @@ bool ffd_deadline_passed(void)
 
 ffd_status ffd_deadline_check(ffd_error *error)
 {
-    return ffd_deadline_passed() ? ffd_fail(error, FFD_E_LIMIT, "took longer than %g %s (--timeout)",
+    return ffd_deadline_passed() ? ffd_fail(error, FFD_E_LIMIT, "took longer than %g %s ({timeout})",
                                             current->seconds, current->seconds == 1 ? "second" : "seconds")
                                  : FFD_OK;
 }

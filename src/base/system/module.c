@@ -1,5 +1,6 @@
 #define _GNU_SOURCE /* RTLD_DEEPBIND, RTLD_DEFAULT, MAP_ANONYMOUS */
 #include "base/system/module.h"
+#include "base/spelling.h"
 #include "base/system/own_file.h"
 #include <dlfcn.h>
 #include <pthread.h>
@@ -141,8 +142,10 @@ static ffd_status open_module(const module *of, const module_head **head, ffd_er
                         is_known ? "" : "; the folder of ffd is not known, or its path is too long");
     }
     *head = dlsym(handle, MODULE_SYMBOL);
-    if (*head && is_wanted(&(*head)->identity, &of->wanted))
+    if (*head && is_wanted(&(*head)->identity, &of->wanted)) {
+        (*head)->spell_members(ffd_spelling());
         return FFD_OK;
+    }
     const ffd_status status = refuse_module(path, *head ? &(*head)->identity : NULL, of, error);
     *head = NULL;
     return status;

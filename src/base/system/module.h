@@ -6,6 +6,7 @@
 #define FFD_BASE_SYSTEM_MODULE_H
 
 #include "base/fail.h"
+#include <ffd/program.h>
 #include <stdatomic.h>
 #include <stdint.h>
 
@@ -21,6 +22,7 @@ typedef struct module_identity {
 typedef struct module_head {
     module_identity identity;
     void (*prepare)(void); /* each thread must call it while memory is available; NULL: not needed */
+    void (*spell_members)(ffd_spell_function); /* the module has messages of its own: ffd_spell_members */
 } module_head;
 
 /* A module that can be loaded. */

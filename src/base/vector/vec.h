@@ -100,6 +100,13 @@ static inline double mat_square_sum(const double m[9])
     return vec_dot(m, m) + vec_dot(m + 3, m + 3) + vec_dot(m + 6, m + 6);
 }
 
+/* Computes F = I + e, of the gradient e of a displacement. */
+static inline void mat_add_identity(const double e[9], double f[9])
+{
+    for (int i = 0; i < 9; i++)
+        f[i] = e[i] + (i % 4 == 0 ? 1 : 0);
+}
+
 static inline double mat_determinant(const double m[9])
 {
     double c[3];

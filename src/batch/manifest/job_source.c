@@ -5,6 +5,7 @@
 #include "base/file/place.h"
 #include "base/memory/file_table.h"
 #include "base/memory/memory.h"
+#include "base/spelling.h"
 #include "base/system/interrupt.h"
 #include "base/text/words.h"
 #include "batch/manifest/job_rows.h"
@@ -298,7 +299,7 @@ static const char *other_manifest(const job_source *source)
         return "is JSON over several lines";
     const char *const ending = strrchr(source->frame.name, '.');
     const bool is_table = ending && (strcmp(ending, ".csv") == 0 || strcmp(ending, ".tsv") == 0);
-    return is_table && *begin != '{' ? "is no JSON (--csv reads a table)" : NULL;
+    return is_table && *begin != '{' ? "is no JSON ({csv} reads a table)" : NULL;
 }
 
 /* Refuses a text that has no jobs at all with one error, not one a line. */
@@ -309,7 +310,7 @@ static ffd_status check_first(const job_source *source, ffd_error *error)
         return ffd_fail_line(error, FFD_E_INVALID, source->frame.name, (size_t)source->line,
                              "NUL bytes, and no job before them");
     return found ? ffd_fail_line(error, FFD_E_INVALID, source->frame.name, (size_t)source->line,
-                                 "%s: a manifest has one job a line (JSON Lines)", found)
+                                 "%s: a manifest has one job a line (JSON Lines)", SPELLED(found))
                  : FFD_OK;
 }
 

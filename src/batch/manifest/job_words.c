@@ -1,6 +1,7 @@
 #include "batch/manifest/job_words.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/spelling.h"
 #include "base/text/words.h"
 #include "json/json_chars.h"
 #include <ffd/job.h>
@@ -39,7 +40,7 @@ static bool refuse(const job_maker *maker, const char *format, ...)
     char text[256];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
+    vsnprintf(text, sizeof text, SPELLED(format), arguments);
     va_end(arguments);
     ffd_fail_line(&maker->job->error, FFD_E_INVALID, maker->frame->name, (size_t)maker->job->line, "%s",
                   text);
@@ -173,9 +174,9 @@ static bool add_morphs(job_maker *maker)
     if (ffd_description_find(description, JOB_LATTICE))
         return refuse(maker, "\"lattice\" and \"morph\" cannot be used together");
     if (maker->frame->pictures)
-        return refuse(maker, "\"morph\" cannot be used with --view: a picture shows one deformation");
+        return refuse(maker, "\"morph\" cannot be used with {view}: a picture shows one deformation");
     if (maker->frame->positions)
-        return refuse(maker, "\"morph\" cannot be used with --positions: a row is of one deformation");
+        return refuse(maker, "\"morph\" cannot be used with {positions}: a row is of one deformation");
     for (size_t i = 0; i < description->count; i++) {
         const job_statement *const statement = &description->statements[i];
         const char *const path = ffd_description_value(description, statement);
@@ -373,14 +374,14 @@ static bool find_output(job_maker *maker, bool in_place, char **named)
     if (!has_output && !in_place && !has_row)
         return refuse(maker, "\"out\" is missing");
     if (in_place && has_row)
-        return refuse(maker, "\"in-place\" cannot be used with --positions");
+        return refuse(maker, "\"in-place\" cannot be used with {positions}");
     if (has_output && in_place)
         return refuse(maker, "\"out\" cannot be used with the option \"in-place\"");
     if (in_place && maker->frame->resume)
         return refuse(maker,
-                      "\"in-place\" cannot be used with --resume: a finished mesh would be deformed again");
+                      "\"in-place\" cannot be used with {resume}: a finished mesh would be deformed again");
     if (in_place && maker->frame->pictures)
-        return refuse(maker, "\"in-place\" cannot be used with --view: a picture is named after \"out\"");
+        return refuse(maker, "\"in-place\" cannot be used with {view}: a picture is named after \"out\"");
     if (wrong)
         return refuse(maker, "%s", wrong);
     if (!output)

@@ -77,7 +77,7 @@ static ffd_status note_empty(csv_table *table, ffd_error *error)
         empty = empty && !(row->ways.data[i] & CSV_IN_QUOTES);
     return empty ? ffd_flaw_line(
                        &table->flaws, table->name, (size_t)table->line, error,
-                       "all cells of the row are empty: its job has the values of --set and the defaults")
+                       "all cells of the row are empty: its job has the values of {set} and the defaults")
                  : FFD_OK;
 }
 
@@ -122,7 +122,7 @@ static ffd_status skip_ignored(csv_table *table, const intern_table *names, cons
             continue;
         if (!ffd_intern_find(names, word, length, &known))
             return ffd_fail_line(error, FFD_E_INVALID, table->name, (size_t)table->line,
-                                 "the table has no column \"%.*s\" (--csv-ignore)",
+                                 "the table has no column \"%.*s\" ({csv_ignore})",
                                  (int)(length < 60 ? length : 60), word);
         table->skipped[numbers[known]] = true;
     }

@@ -4,7 +4,7 @@
 FFD_API extern const openmesh_module ffd_module;
 
 const openmesh_module ffd_module = {
-    {OPENMESH_IDENTITY, ffd_exceptions_prepare},
+    {OPENMESH_IDENTITY, ffd_exceptions_prepare, ffd_spell_members},
     ffd_topology_compute,
     ffd_normals_of_groups,
 };

@@ -10,7 +10,7 @@
 
 #define OPENMESH_IDENTITY                                                                                    \
     {                                                                                                        \
-        "ffd-openmesh.so", FFD_VERSION, 1                                                                    \
+        "ffd-openmesh.so", FFD_VERSION, 2                                                                    \
     }
 
 typedef struct openmesh_module {

@@ -133,8 +133,7 @@ static void note_turns(const double *gradients, chain_scratch *scratch)
     for (size_t k = 0; k < scratch->turns.count; k++) {
         const size_t i = scratch->turns.points[k];
         double f[9];
-        for (size_t n = 0; n < 9; n++)
-            f[n] = gradients[9 * i + n] + (n % 4 == 0 ? 1 : 0);
+        mat_add_identity(gradients + 9 * i, f);
         scratch->is_turned[i] ^= mat_determinant(f) < 0;
     }
 }

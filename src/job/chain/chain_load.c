@@ -1,5 +1,6 @@
 #include "job/chain/chain_load.h"
 #include "base/memory/memory.h"
+#include "base/spelling.h"
 #include "embed/locator.h"
 #include "embed/locator_border.h"
 #include "job/chain/job_cache.h"
@@ -130,10 +131,11 @@ static ffd_status refuse_unused(const chain_files *files, const bool *used, bool
             memcpy(names + length, ", ...", sizeof ", ...");
         count++;
     }
-    return count == 0 ? FFD_OK
-                      : ffd_fail_file(error, FFD_E_INVALID, files->lattices[0].path,
-                                      "no lattice has the placeholder%s %s (--set%s)", count == 1 ? "" : "s",
-                                      names, in_batch ? "; --csv-ignore leaves columns of a table out" : "");
+    return count == 0
+               ? FFD_OK
+               : ffd_fail_file(error, FFD_E_INVALID, files->lattices[0].path,
+                               "no lattice has the placeholder%s %s ({set}%s)", count == 1 ? "" : "s", names,
+                               in_batch ? SPELLED("; {csv_ignore} leaves columns of a table out") : "");
 }
 
 void ffd_chain_free(lattice_chain *chain)

@@ -24,7 +24,7 @@ ffd_status ffd_lattice_memory_take(memory_budget *budget, const lattice_spec *sp
         return FFD_OK;
     return ffd_fail(error, FFD_E_LIMIT,
                     "a lattice of %zu by %zu by %zu control points needs %llu MB of memory, but %llu MB "
-                    "are left of the %llu MB allowed (--memory raises this)",
+                    "are left of the %llu MB allowed ({input.memory} raises this)",
                     spec->size[0], spec->size[1], spec->size[2], megabytes(bytes),
                     (unsigned long long)(ffd_budget_left(budget) / MEGABYTE),
                     (unsigned long long)(ffd_budget_most(budget) / MEGABYTE));

@@ -140,7 +140,7 @@ ffd_status ffd_overlaps_warn(const lattice_chain *chain, const mesh_log *log, ff
     if (search.pairs > 1)
         snprintf(more, sizeof more, ", and %zu more pairs do", search.pairs - 1);
     ffd_log_line(log, FFD_LOG_WARNING,
-                 "the volumes of %s and %s overlap%s: what is in both goes with the first -l alone",
+                 "the volumes of %s and %s overlap%s: what is in both goes with the first {lattice} alone",
                  chain->links[search.first].lattice->spec->name,
                  chain->links[search.other].lattice->spec->name, more);
     return FFD_OK;

@@ -1,4 +1,5 @@
 #include "job/chain/pace.h"
+#include "base/spelling.h"
 #include "base/system/clock.h"
 #include "base/system/deadline.h"
 #include "base/text/words.h"
@@ -39,7 +40,7 @@ static void tell(chain_pace *pace, const chain_link *link)
                  "the search for %" PRIu64
                  " vertices in the lattice%s%s took %.3g seconds, because it folds at "
                  "rest or has steep weights; all vertices may take about %s%s",
-                 pace->done, *name ? " " : "", name, pace->seconds, text, pace->more);
+                 pace->done, *name ? " " : "", name, pace->seconds, text, SPELLED(pace->more));
 }
 
 /* How many points to search next, after these many took these seconds. */

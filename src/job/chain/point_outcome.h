@@ -3,16 +3,10 @@
 #define FFD_JOB_CHAIN_POINT_OUTCOME_H
 
 #include "base/vector/vec.h"
+#include "embed/locator.h"
 #include "job/chain/chain.h"
 #include "lattice/lattice.h"
 #include <math.h>
-
-/* Whether the location has u,v,w. */
-static inline bool ffd_location_is_placed(const ffd_location *location)
-{
-    return location->status != FFD_OUTSIDE && location->status != FFD_POINT_INVALID &&
-           vec_is_finite(location->uvw);
-}
 
 /* Fills the outcome of a point in one lattice from its location. */
 static inline void ffd_outcome_make(const ffd_lattice *lattice, const ffd_location *location,

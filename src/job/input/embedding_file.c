@@ -201,7 +201,7 @@ static ffd_status check_origin(const file_content *content, size_t count, const 
                              "was made for another mesh: its positions, or their number type, differ");
     if (memcmp(lattice, content->footer + LATTICE, sizeof *lattice) != 0)
         return ffd_fail_file(error, FFD_E_INVALID, content->name,
-                             "was made for another rest lattice, or with another --snap");
+                             "was made for another rest lattice, or with another {snap}");
     return FFD_OK;
 }
 

@@ -2,6 +2,7 @@
 #include "base/fail.h"
 #include "base/file/output.h"
 #include "base/memory/memory.h"
+#include <ffd/settings.h>
 #include <stdio.h>
 
 static ffd_status check_bytes(const char *what, ffd_bytes bytes, ffd_error *error)
@@ -72,21 +73,9 @@ static ffd_status name_lattices(job_memory *memory, ffd_deform_desc *desc, ffd_e
     return status;
 }
 
-static ffd_status refuse_files(const ffd_deform_desc *desc, ffd_error *error)
-{
-    const char *const what = desc->in_place                               ? "--in-place"
-                             : desc->depfile                              ? "--depfile"
-                             : desc->resources == FFD_RESOURCES_REFERENCE ? "--resources reference"
-                                                                          : NULL;
-    if (!what || (!desc->sink && !desc->input.bytes.data))
-        return FFD_OK;
-    return ffd_fail(error, FFD_E_ARGUMENT, "%s needs files: here %s in memory", what,
-                    desc->sink ? "the output is" : "the mesh is");
-}
-
 ffd_status ffd_in_memory_desc(job_memory *memory, ffd_deform_desc *desc, ffd_error *error)
 {
-    ffd_status status = refuse_files(desc, error);
+    ffd_status status = ffd_deform_desc_check(desc, error);
     if (!status)
         status = ffd_in_memory_source(memory, &desc->input, error);
     if (!status)

@@ -59,18 +59,16 @@ static ffd_status check_desc(const ffd_jacobian_desc *desc, ffd_error *error)
 {
     if (!desc->job || !desc->output)
         return ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete");
-    if (!(desc->job->timeout >= 0))
-        return ffd_fail(error, FFD_E_ARGUMENT, "the timeout %g is not a time", desc->job->timeout);
     if (desc->by != FFD_BY_POINTS && desc->by != FFD_BY_PARAMETERS)
         return ffd_fail(error, FFD_E_ARGUMENT, "%d is not a value of ffd_jacobian_by", (int)desc->by);
     if (desc->times && desc->transposed)
-        return ffd_fail(error, FFD_E_ARGUMENT, "--times and --transposed cannot be used together");
+        return ffd_fail(error, FFD_E_ARGUMENT, "{times} and {transposed} cannot be used together");
     if (desc->of != FFD_LATTICE_LAST && desc->by == FFD_BY_PARAMETERS)
         return ffd_fail(error, FFD_E_ARGUMENT,
-                        "--of is for --wrt points: parameters are those of all lattices");
+                        "{of} is for {by=points}: parameters are those of all lattices");
     if (desc->job->blocks && desc->job->lattice_count > 1)
         return ffd_fail(error, FFD_E_UNSUPPORTED,
-                        "the derivative is not supported for lattices side by side (--blocks)");
+                        "the derivative is not supported for lattices side by side ({blocks})");
     return check_output(desc, error);
 }
 

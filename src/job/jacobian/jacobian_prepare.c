@@ -302,7 +302,7 @@ ffd_status ffd_jacobian_prepare(jacobian *j, ffd_error *error)
                            .threads = j->job.threads,
                            .links = j->job.chain.links,
                            .lattices = j->job.desc->lattices,
-                           .more = " (see --timeout)",
+                           .more = " (see {timeout})",
                            .log = j->job.log};
     for (size_t l = 0; l < j->link_count && !status; l++) {
         jacobian_link *const link = &j->links[l];

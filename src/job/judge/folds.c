@@ -54,6 +54,6 @@ void ffd_folds_warn(const ffd_job_result *result, const pass_totals *totals,
     if (result->det.outside <= 0)
         ffd_log_line(log, FFD_LOG_WARNING,
                      "outside the lattice det F falls to %g, at vertex %" PRIu64
-                     ": the mesh turns inside out there (see --falloff, a larger lattice)",
+                     ": the mesh turns inside out there (see {falloff}, a larger lattice)",
                      result->det.outside, result->det.outside_vertex);
 }

@@ -1,4 +1,5 @@
 #include "job/judge/gates.h"
+#include "base/spelling.h"
 #include "base/text/words.h"
 #include "job/chain/coverage.h"
 #include "job/judge/warnings.h"
@@ -90,7 +91,7 @@ typedef struct complaint {
 static void add(complaint *line, const char *text, const char *gate)
 {
     const size_t space = sizeof line->text - line->length;
-    const int length = snprintf(line->text + line->length, space, "%s%s (--fail-on %s)",
+    const int length = snprintf(line->text + line->length, space, SPELLED("%s%s ({fail_on=%s})"),
                                 line->length ? "; " : "", text, gate);
     line->length += length < 0 ? 0 : (size_t)length < space ? (size_t)length : space - 1;
 }

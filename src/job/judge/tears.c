@@ -1,4 +1,5 @@
 /* tears.c - says what torn edges a deformation makes. */
+#include "base/spelling.h"
 #include "base/text/words.h"
 #include "job/judge/warnings.h"
 #include <inttypes.h>
@@ -10,7 +11,7 @@ static const struct {
     const char *text, *remedy;
 } causes[] = {
     [FFD_TEAR_LATTICES] = {"the lattices move the two ends of edges differently",
-                           "see --blocks for lattices side by side, --outside extend, --falloff"},
+                           "see {blocks} for lattices side by side, {outside=extend}, {falloff}"},
     [FFD_TEAR_BLOCKS] = {"neighbouring blocks move their common faces differently",
                          "their control points there have to move alike"},
     [FFD_TEAR_SEAM] = {"the two faces of a lattice's seam are moved apart",
@@ -18,7 +19,7 @@ static const struct {
     [FFD_TEAR_AXIS] = {"control points at one place on a lattice's axis are moved apart",
                        "they have to move alike"},
     [FFD_TEAR_BORDER] = {"outside the lattice the nearest part of its border changes along edges",
-                         "see --falloff, a larger lattice"},
+                         "see {falloff}, a larger lattice"},
     [FFD_TEAR_OVERLAP] = {"edges lead from one part of a lattice that overlaps itself to another",
                           "two parts have one place at rest"},
 };
@@ -60,11 +61,11 @@ void ffd_tears_warn(const ffd_job_result *result, bool selects, const mesh_log *
     char text[400];
     const char *const remedy = result->tear.cause > FFD_TEAR_UNSELECTED ? causes[result->tear.cause].remedy
                                : result->tear.cause != FFD_TEAR_UNSELECTED
-                                   ? "see --outside extend, --falloff, a larger lattice"
-                               : selects ? "--only does not select them"
+                                   ? "see {outside=extend}, {falloff}, a larger lattice"
+                               : selects ? "{only} does not select them"
                                          : "the matrix of their node or skin has no inverse";
     if (result->tear.edges == 0)
         return;
     ffd_tears_describe(result, text, sizeof text);
-    ffd_log_line(log, FFD_LOG_WARNING, "%s (%s)", text, remedy);
+    ffd_log_line(log, FFD_LOG_WARNING, "%s (%s)", text, SPELLED(remedy));
 }

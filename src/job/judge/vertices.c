@@ -1,4 +1,5 @@
 /* vertices.c - says what became of the vertices of a pass. */
+#include "base/spelling.h"
 #include "base/text/number.h"
 #include "base/text/words.h"
 #include "job/chain/coverage.h"
@@ -82,7 +83,7 @@ static void tell_misses(const pass_totals *totals, char *text, size_t capacity)
     else if (outside > 1)
         snprintf(who, sizeof who, "all miss");
     round_up(misses->largest, by);
-    snprintf(text, capacity, "; %s the lattice by at most %s, see --snap", who, by);
+    snprintf(text, capacity, "; %s the lattice by at most %s, see %s", who, by, SPELLED("{snap}"));
 }
 
 /* Describes what happened to the vertices outside. */
@@ -132,7 +133,7 @@ static void warn_of_faces(const pass_totals *totals, const mesh_log *log)
 {
     if (totals->moved_twice)
         ffd_log_line(log, FFD_LOG_WARNING,
-                     "%" PRIu64 " %s on a face common to two lattices %s moved by both: see --blocks",
+                     "%" PRIu64 " %s on a face common to two lattices %s moved by both: see {blocks}",
                      totals->moved_twice, vertices(totals->moved_twice), are(totals->moved_twice));
 }
 

@@ -1,5 +1,6 @@
 #include "job/measure/rig.h"
 #include "base/memory/memory.h"
+#include "base/spelling.h"
 #include "base/text/words.h"
 #include "job/chain/chain_apply.h"
 #include <inttypes.h>
@@ -197,7 +198,7 @@ static void warn_of_lag(const ffd_rig_figures *figures, bool morphed, const mesh
                  figures->lagging_skins == 0 && things == 1 ? "lies" : "lie", figures->largest_lag,
                  morphed ? "mesh that the morph target shows" : "deformed mesh", figures->worst,
                  animates ? "; animations will turn it about the old places" : "",
-                 morphed ? "" : ": see --rig");
+                 morphed ? "" : SPELLED(": see {rig}"));
 }
 
 void ffd_rig_warn(const ffd_rig_figures *figures, rig_change change, double diagonal, const mesh_log *log)
@@ -218,7 +219,7 @@ void ffd_rig_warn(const ffd_rig_figures *figures, rig_change change, double diag
                                 "nodes do not follow the deformation"),
                      ffd_plural(figures->singular, "it", "them"));
     if (figures->partial)
-        ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " %s: --only selects a part of %s", figures->partial,
+        ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " %s: {only} selects a part of %s", figures->partial,
                      ffd_plural(figures->partial, "node stays where it is", "nodes stay where they are"),
                      ffd_plural(figures->partial, "its mesh", "their meshes"));
 }

@@ -286,7 +286,7 @@ ffd_status ffd_tear_figures_find(deform_job *job, figure_arrays *arrays, ffd_job
         return count_torn(job, &arrays->faces, arrays, &arrays->budget, result, error);
     if (!is_asked_for(job) && count_vertices(job) > UNASKED_VERTICES)
         status =
-            ffd_fail(&own, FFD_E_LIMIT, "more than %" PRIu64 " vertices (see --report)", UNASKED_VERTICES);
+            ffd_fail(&own, FFD_E_LIMIT, "more than %" PRIu64 " vertices (see {quality})", UNASKED_VERTICES);
     else
         status = read_and_count(job, planes, arrays, result, &own);
     if (status == FFD_OK)

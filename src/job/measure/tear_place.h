@@ -58,7 +58,7 @@ static inline ffd_status ffd_field_take(const tear_field *field, long long evalu
 {
     return !field->left || atomic_fetch_sub(field->left, evaluations) >= evaluations
                ? FFD_OK
-               : ffd_fail(error, FFD_E_LIMIT, "they take long in this lattice (see --report)");
+               : ffd_fail(error, FFD_E_LIMIT, "they take long in this lattice (see {quality})");
 }
 
 #endif

@@ -10,25 +10,23 @@
 #include "job/chain/point_rounding.h"
 #include "job/pass/pass_shapes.h"
 #include "job/pass/pass_splats.h"
+#include "job/pass/tile_points.h"
 #include "job/pass/tile_rounding.h"
 #include "job/pass/tile_totals.h"
-#include "job/pass/vertex_rounding.h"
 #include <ffd/deform.h>
 #include <math.h>
+#include <stdatomic.h>
 #include <string.h>
 
-/* Transforms a tile's positions from the file's space to the lattice's. */
-static void place_points(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
-                         double *points, pass_totals *totals)
+/* Transforms the tile's stored positions to the lattice's space. */
+static void place_points(const pass_tile *tile)
 {
-    const mesh_document *document = work->pass->document;
-    const bool is_counted = !work->part->repeats_positions && !work->part->skipped;
-    ffd_vertex_transforms_read(document, work->part_number, first, count, &scratch->transforms,
-                               is_counted ? &totals->weights : NULL);
-    if (work->part->skinned)
-        ffd_points_transform(scratch->transforms.transforms, count, points);
+    tile_points *const base = &tile->scratch->base;
+    memcpy(base->position, base->stored, 3 * tile->count * sizeof *base->position);
+    if (tile->part->skinned)
+        ffd_points_transform(tile->scratch->transforms.transforms, tile->count, base->position);
     else
-        ffd_part_transform(document, work->part_number, first, count, points);
+        ffd_part_transform(tile->pass->document, tile->part_number, tile->first, tile->count, base->position);
 }
 
 static void fill_nan(double *values, size_t count)
@@ -65,67 +63,62 @@ static void note_inversion(double det, size_t number, pass_totals *totals)
     }
 }
 
-/* Returns whether a link moves a vertex in a way that F tells. outcome: its own. i: its index in the tile. */
-static bool has_gradient(const part_work *work, const tile_scratch *scratch, const point_outcome *outcome,
-                         size_t i)
+/* Returns whether a link moves a vertex in a way that F tells. outcome: its own. v: its index in the tile. */
+static bool has_gradient(const pass_tile *tile, const point_outcome *outcome, size_t v)
 {
-    const bool singular = work->part->skinned ? scratch->transforms.singular[i] : work->part->singular;
+    const bool singular = tile->part->skinned ? tile->scratch->transforms.singular[v] : tile->part->singular;
     return !singular && outcome->status != FFD_SINGULAR && (outcome->located || outcome->extended);
 }
 
-/* Computes F = I + E and returns its determinant. */
-static double gradient_determinant(const double gradient[9], double f[9])
-{
-    for (int k = 0; k < 9; k++)
-        f[k] = gradient[k] + (k % 4 == 0 ? 1 : 0);
-    return mat_determinant(f);
-}
-
 /* Looks at det F of all vertices of a tile (after spread). */
-static void note_determinants(const part_work *work, const tile_scratch *scratch, size_t first, size_t count,
-                              pass_totals *totals)
+static void note_determinants(const pass_tile *tile)
 {
-    for (size_t i = 0; i < count; i++) {
-        const point_outcome *const outcome = &scratch->point_outcomes[i];
+    const tile_points *const base = &tile->scratch->base;
+    for (size_t i = 0; i < tile->count; i++) {
+        const point_outcome *const outcome = &base->outcomes[i];
         double f[9];
-        const double det = gradient_determinant(scratch->gradient + 9 * i, f);
-        const size_t number = (size_t)work->first_vertex + first + i;
-        if (!has_gradient(work, scratch, outcome, i))
+        mat_add_identity(base->gradient + 9 * i, f);
+        const double det = mat_determinant(f);
+        const size_t number = (size_t)tile->first_number + i;
+        if (!has_gradient(tile, outcome, i))
             continue;
-        note_range(det, outcome->extended, number, totals);
+        note_range(det, outcome->extended, number, tile->totals);
         if (!outcome->extended && turns_over(f, det))
-            note_inversion(det, number, totals);
+            note_inversion(det, number, tile->totals);
     }
 }
 
 /* Counts the vertices that turn inside out, of which turns has the candidates (before spread). */
-static void note_turns(const part_work *work, const tile_scratch *scratch, size_t first, pass_totals *totals)
+static void note_turns(const pass_tile *tile)
 {
-    for (size_t k = 0; k < scratch->turns.count; k++) {
-        const size_t chosen = scratch->turns.points[k], i = ffd_tile_chosen(scratch, chosen);
-        const point_outcome *const outcome = &scratch->point_outcomes[chosen];
+    const tile_points *const base = &tile->scratch->base;
+    const turn_list *const turns = &tile->scratch->turns;
+    for (size_t k = 0; k < turns->count; k++) {
+        const size_t i = turns->points[k], v = ffd_tile_vertex(base, i);
+        const point_outcome *const outcome = &base->outcomes[i];
         double f[9];
-        const double det = gradient_determinant(scratch->gradient + 9 * chosen, f);
-        if (!outcome->extended && turns_over(f, det) && has_gradient(work, scratch, outcome, i))
-            note_inversion(det, (size_t)work->first_vertex + first + i, totals);
+        mat_add_identity(base->gradient + 9 * i, f);
+        const double det = mat_determinant(f);
+        if (!outcome->extended && turns_over(f, det) && has_gradient(tile, outcome, v))
+            note_inversion(det, (size_t)tile->first_number + v, tile->totals);
     }
 }
 
 /* Fills the caller's arrays from a tile's results (after spread). */
-static void fill_arrays(const part_work *work, const tile_scratch *scratch, size_t first, size_t count)
+static void fill_arrays(const pass_tile *tile)
 {
-    const mesh_pass *pass = work->pass;
+    const mesh_pass *const pass = tile->pass;
+    const tile_points *const base = &tile->scratch->base;
     if (!pass->statuses && !pass->deformed && !pass->gradients)
         return;
-    for (size_t i = 0; i < count; i++) {
-        const size_t number = (size_t)work->first_vertex + first + i;
-        const bool singular = ffd_vertex_transform_of(&scratch->transforms, i).singular;
-        const point_outcome *outcome = &scratch->point_outcomes[i];
-        const double *gradient = scratch->gradient + 9 * i;
+    for (size_t i = 0; i < tile->count; i++) {
+        const size_t number = (size_t)tile->first_number + i;
+        const bool singular = ffd_vertex_transform_of(&tile->scratch->transforms, i).singular;
+        const double *gradient = base->gradient + 9 * i;
         if (pass->statuses)
-            pass->statuses[number] = outcome->status;
+            pass->statuses[number] = base->outcomes[i].status;
         if (pass->deformed) {
-            memcpy(pass->deformed + 3 * number, scratch->position + 3 * i, 3 * sizeof *scratch->position);
+            memcpy(pass->deformed + 3 * number, base->position + 3 * i, 3 * sizeof *base->position);
             if (singular)
                 fill_nan(pass->deformed + 3 * number, 3);
         }
@@ -137,231 +130,184 @@ static void fill_arrays(const part_work *work, const tile_scratch *scratch, size
     }
 }
 
-/* If the part's node or skin moves too (the rig follows), adjusts the displacements so that vertices end up
-   where the deformation puts them in the scene. Vertices that are not finite stay. */
-static void carry(const part_work *work, tile_scratch *scratch, size_t count, bool gradients,
-                  pass_totals *totals)
+/* Counts the vertices of a carried part that the lattices move. Later all of them are displaced, to make up
+   for the motion of the part's node or skin. */
+static void count_moved(const pass_tile *tile)
 {
-    for (size_t i = 0; i < count && work->part->carried; i++) {
-        double *const delta = scratch->delta + 3 * i;
-        const double *const place = scratch->position + 3 * i;
-        if (!vec_is_finite(place))
-            continue;
-        totals->moved += !work->part->repeats_positions && (delta[0] != 0 || delta[1] != 0 || delta[2] != 0);
-        ffd_part_carry(work->part, place, delta);
-        if (gradients)
-            ffd_part_carry_gradient(work->part, scratch->gradient + 9 * i);
-    }
-}
-
-/* Only the displacement is transformed back to the file's space: p' = p + linear^{-1} delta. */
-static void bring_back(const part_work *work, tile_scratch *scratch, size_t count)
-{
-    for (size_t i = 0; i < count && !work->part->identity; i++) {
-        const vertex_transform transform = ffd_vertex_transform_of(&scratch->transforms, i);
-        ffd_displacement_to_file(&transform, scratch->delta + 3 * i);
+    const tile_points *const base = &tile->scratch->base;
+    for (size_t i = 0; i < tile->count && tile->part->carried && !tile->part->repeats_positions; i++) {
+        const double *const delta = base->delta + 3 * i;
+        tile->totals->moved +=
+            vec_is_finite(base->position + 3 * i) && (delta[0] != 0 || delta[1] != 0 || delta[2] != 0);
     }
 }
 
 /* Adds the displacements to a tile's positions and writes them. */
-static void finish_positions(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
-                             pass_totals *totals)
+static void finish_positions(const pass_tile *tile)
 {
-    const mesh_pass *pass = work->pass;
-    ffd_tile_rounding_at_rest(work, scratch, count, totals);
-    totals->is_visible = totals->is_visible || ffd_tile_shows(work, scratch->raw, scratch->delta, count);
+    const mesh_pass *const pass = tile->pass;
+    tile_points *const base = &tile->scratch->base;
+    uint8_t *const changed = tile->scratch->changed;
+    pass_totals *const totals = tile->totals;
+    ffd_tile_rounding_at_rest(tile);
+    totals->is_visible = totals->is_visible || ffd_tile_shows(tile);
     const size_t unfit = ffd_array_kernel(pass->chain->isa)
-                             ->displace(scratch->delta, count, ffd_largest_coordinate(pass->document),
-                                        scratch->raw, scratch->changed);
-    ffd_tile_rounding_of_results(work, scratch, count, totals);
-    for (size_t i = 0; i < count && !work->part->carried; i++)
-        totals->moved += scratch->changed[i];
-    if (unfit < count)
-        totals->first_overflow = work->first_vertex + first + unfit;
+                             ->displace(base->delta, tile->count, ffd_largest_coordinate(pass->document),
+                                        base->stored, changed);
+    ffd_tile_rounding_of_results(tile);
+    for (size_t i = 0; i < tile->count && !tile->part->carried; i++)
+        totals->moved += changed[i];
+    if (unfit < tile->count)
+        totals->first_overflow = tile->first_number + unfit;
     if (ffd_pass_stores(pass))
-        pass->document->format->write_positions(pass->document, work->part_number, first, count, scratch->raw,
-                                                scratch->changed);
+        pass->document->format->write_positions(pass->document, tile->part_number, tile->first, tile->count,
+                                                base->stored, changed);
 }
 
 /* Lists the points that normals [from, to) belong to. *vertex: the first one's vertex; moved on to the last
    one's. */
-static void list_points(const part_work *work, tile_scratch *scratch, size_t first, size_t from, size_t to,
-                        size_t *vertex)
+static void list_points(const pass_tile *tile, size_t from, size_t to, size_t *vertex)
 {
     for (size_t i = from; i < to; i++) {
-        while (work->part->normal_start[*vertex + 1] <= i)
+        while (tile->part->normal_start[*vertex + 1] <= i)
             (*vertex)++;
-        scratch->of_points[i - from] = (uint32_t)(*vertex - first);
+        tile->scratch->of_points[i - from] = (uint32_t)(*vertex - tile->first);
     }
 }
 
 /* Deforms normals [from, to) of a tile: either one a vertex, or those whose points are listed. */
-static void deform_normals(const part_work *work, tile_scratch *scratch, size_t from, size_t to,
-                           pass_totals *totals)
+static void deform_normals(const pass_tile *tile, size_t from, size_t to)
 {
-    const mesh_part *part = work->part;
-    mesh_document *document = work->pass->document;
-    const attribute_batch batch = {.gradients = scratch->gradient,
-                                   .points = part->normal_start ? scratch->of_points : NULL,
+    const mesh_part *const part = tile->part;
+    tile_scratch *const s = tile->scratch;
+    mesh_document *const document = tile->pass->document;
+    const attribute_batch batch = {.gradients = s->base.gradient,
+                                   .points = part->normal_start ? s->of_points : NULL,
                                    .count = to - from,
-                                   .directions = scratch->normals,
+                                   .directions = s->normals,
                                    .step = 3,
-                                   .outcomes = scratch->outcomes};
-    document->format->read_normals(document, work->part_number, from, batch.count, scratch->normals);
-    ffd_deform_normals(work->pass->chain->isa, &batch);
-    if (work->pass->only_offsets)
+                                   .outcomes = s->outcomes};
+    document->format->read_normals(document, tile->part_number, from, batch.count, s->normals);
+    ffd_deform_normals(tile->pass->chain->isa, &batch);
+    if (tile->pass->only_offsets)
         return;
     for (size_t i = 0; i < batch.count; i++) {
         const bool selected = !part->selected_normals || part->selected_normals[from + i];
-        scratch->normals_changed[i] = selected && scratch->outcomes[i] == FFD_DIRECTION_CARRIED;
-        totals->normals_collapsed += selected && scratch->outcomes[i] == FFD_DIRECTION_COLLAPSED;
+        s->normals_changed[i] = selected && s->outcomes[i] == FFD_DIRECTION_CARRIED;
+        tile->totals->normals_collapsed += selected && s->outcomes[i] == FFD_DIRECTION_COLLAPSED;
     }
-    if (ffd_pass_stores(work->pass))
-        document->format->write_normals(document, work->part_number, from, batch.count, scratch->normals,
-                                        scratch->normals_changed);
+    if (ffd_pass_stores(tile->pass))
+        document->format->write_normals(document, tile->part_number, from, batch.count, s->normals,
+                                        s->normals_changed);
 }
 
 /* Deforms normals that are not one a vertex, in runs of at most a tile. */
-static void deform_listed_normals(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
-                                  pass_totals *totals)
+static void deform_listed_normals(const pass_tile *tile)
 {
-    const uint32_t *const start = work->part->normal_start;
-    const size_t end = start[first + count];
-    size_t from = start[first], vertex = first;
+    const uint32_t *const start = tile->part->normal_start;
+    const size_t end = start[tile->first + tile->count];
+    size_t from = start[tile->first], vertex = tile->first;
     for (size_t to; from < end; from = to) {
         to = end - from > PASS_TILE ? from + PASS_TILE : end;
-        list_points(work, scratch, first, from, to, &vertex);
-        deform_normals(work, scratch, from, to, totals);
+        list_points(tile, from, to, &vertex);
+        deform_normals(tile, from, to);
     }
 }
 
 /* Deforms the tangents, one a vertex. Requires the tile's deformed normals in scratch, which then are one a
    vertex too. */
-static void deform_tangents(const part_work *work, tile_scratch *scratch, size_t first, size_t count)
+static void deform_tangents(const pass_tile *tile)
 {
-    mesh_document *document = work->pass->document;
-    const attribute_batch batch = {.gradients = scratch->gradient,
-                                   .count = count,
-                                   .directions = scratch->tangents,
+    tile_scratch *const s = tile->scratch;
+    mesh_document *const document = tile->pass->document;
+    const attribute_batch batch = {.gradients = s->base.gradient,
+                                   .count = tile->count,
+                                   .directions = s->tangents,
                                    .step = 4,
-                                   .normals = work->part->normal_count ? scratch->normals : NULL,
-                                   .outcomes = scratch->outcomes};
-    document->format->read_tangents(document, work->part_number, first, count, scratch->tangents);
-    ffd_deform_tangents(work->pass->chain->isa, &batch);
-    for (size_t i = 0; i < count; i++)
-        scratch->tangents_changed[i] = scratch->outcomes[i] == FFD_DIRECTION_CARRIED;
-    if (work->pass->only_offsets || !ffd_pass_stores(work->pass))
+                                   .normals = tile->part->normal_count ? s->normals : NULL,
+                                   .outcomes = s->outcomes};
+    document->format->read_tangents(document, tile->part_number, tile->first, tile->count, s->tangents);
+    ffd_deform_tangents(tile->pass->chain->isa, &batch);
+    for (size_t i = 0; i < tile->count; i++)
+        s->tangents_changed[i] = s->outcomes[i] == FFD_DIRECTION_CARRIED;
+    if (tile->pass->only_offsets || !ffd_pass_stores(tile->pass))
         return;
-    document->format->write_tangents(document, work->part_number, first, count, scratch->tangents,
-                                     scratch->tangents_changed);
+    document->format->write_tangents(document, tile->part_number, tile->first, tile->count, s->tangents,
+                                     s->tangents_changed);
 }
 
-static void bring_back_gradients(const part_work *work, tile_scratch *scratch, size_t count)
+static void finish_attributes(const pass_tile *tile)
 {
-    for (size_t i = 0; i < count && !work->part->identity; i++) {
-        const vertex_transform transform = ffd_vertex_transform_of(&scratch->transforms, i);
-        ffd_gradient_to_file(&transform, scratch->gradient + 9 * i);
-    }
-}
-
-static void finish_attributes(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
-                              pass_totals *totals)
-{
-    const mesh_part *part = work->part;
+    const mesh_part *const part = tile->part;
     if (part->normal_count && part->normal_start)
-        deform_listed_normals(work, scratch, first, count, totals);
+        deform_listed_normals(tile);
     else if (part->normal_count)
-        deform_normals(work, scratch, first, first + count, totals);
+        deform_normals(tile, tile->first, tile->first + tile->count);
     if (part->has_tangents)
-        deform_tangents(work, scratch, first, count);
+        deform_tangents(tile);
 }
 
-/* Fills the location of a chosen vertex of the tile from the embedding. */
-static void recall_vertex(const part_work *work, tile_scratch *scratch, size_t i, size_t vertex,
-                          const chain_rounding *rounding, pass_totals *totals)
+/* Fills the location of point i of the tile from the embedding. */
+static void recall_vertex(const pass_tile *tile, const chain_run *run, size_t i, size_t vertex)
 {
-    const chain_link *const link = &work->pass->chain->links[0];
-    ffd_location *const location = &scratch->chain.locations[i];
-    const double *const x = scratch->position + 3 * i;
-    ffd_embedding_locate(work->pass->embedding, vertex, link->lattice, x, location);
-    if (totals->first_missed == UINT64_MAX && !ffd_recalled_meets(link, rounding, i, x, location)) {
-        totals->first_missed = vertex;
-        totals->missed_by = location->residual;
+    const chain_link *const link = &tile->pass->chain->links[0];
+    ffd_location *const location = &run->scratch->locations[i];
+    const double *const x = run->x + 3 * i;
+    ffd_embedding_locate(tile->pass->embedding, vertex, link->lattice, x, location);
+    if (tile->totals->first_missed == UINT64_MAX &&
+        !ffd_recalled_meets(link, run->rounding, i, x, location)) {
+        tile->totals->first_missed = vertex;
+        tile->totals->missed_by = location->residual;
     }
 }
 
 /* Fills the first link's locations from the embedding, or from pass->locations; both omit the positions of
    parts that repeat others. Returns false if the locations must be searched. */
-static bool recall(const part_work *work, tile_scratch *scratch, size_t first, const chain_rounding *rounding,
-                   pass_totals *totals)
+static bool recall(const pass_tile *tile, const chain_run *run)
 {
-    const mesh_pass *pass = work->pass;
-    if (work->part->repeats_positions || (!pass->embedding && !pass->is_located))
+    const mesh_pass *const pass = tile->pass;
+    if (tile->part->repeats_positions || (!pass->embedding && !pass->is_located))
         return false;
-    const size_t before = (size_t)work->first_vertex + first;
-    for (size_t i = 0; i < scratch->chosen_count; i++) {
-        const size_t vertex = before + ffd_tile_chosen(scratch, i);
+    for (size_t i = 0; i < run->count; i++) {
+        const size_t vertex = (size_t)tile->first_number + ffd_tile_vertex(&tile->scratch->base, i);
         if (pass->is_located)
-            scratch->chain.locations[i] = pass->locations[vertex];
+            run->scratch->locations[i] = pass->locations[vertex];
         else
-            recall_vertex(work, scratch, i, vertex, rounding, totals);
+            recall_vertex(tile, run, i, vertex);
     }
     return true;
 }
 
 /* Copies the last link's locations and u,v,w to the caller's arrays. */
-static void keep_locations(const part_work *work, const tile_scratch *scratch, size_t first, size_t count)
+static void keep_locations(const pass_tile *tile)
 {
-    const mesh_pass *pass = work->pass;
-    const size_t before = (size_t)work->first_vertex + first;
-    if (work->part->repeats_positions)
+    const mesh_pass *const pass = tile->pass;
+    const tile_points *const base = &tile->scratch->base;
+    const ffd_location *const locations = tile->scratch->chain.locations;
+    const size_t before = (size_t)tile->first_number;
+    if (tile->part->repeats_positions)
         return;
-    for (size_t i = 0; i < scratch->chosen_count && pass->locations && !pass->is_located; i++)
-        pass->locations[before + ffd_tile_chosen(scratch, i)] = scratch->chain.locations[i];
+    for (size_t i = 0; i < base->count && pass->locations && !pass->is_located; i++)
+        pass->locations[before + ffd_tile_vertex(base, i)] = locations[i];
     if (!pass->uvw)
         return;
-    fill_nan(pass->uvw + 3 * before, 3 * count);
-    for (size_t i = 0; i < scratch->chosen_count; i++)
-        memcpy(pass->uvw + 3 * (before + ffd_tile_chosen(scratch, i)), scratch->chain.locations[i].uvw,
-               3 * sizeof *pass->uvw);
-}
-
-/* Context of find_rounding. */
-typedef struct tile_rounding {
-    const part_work *work;
-    const tile_scratch *scratch;
-    size_t first; /* the tile's first vertex in the part */
-} tile_rounding;
-
-static void find_rounding(const void *context, size_t point, bool is_first, const double x[3], double half[3])
-{
-    const tile_rounding *tile = context;
-    const size_t i = ffd_tile_chosen(tile->scratch, point);
-    const vertex_transform transform = ffd_vertex_transform_of(&tile->scratch->transforms, i);
-    double position[3];
-    memcpy(position, tile->scratch->raw + 3 * i, sizeof position);
-    if (!is_first)
-        ffd_vertex_in_file(&transform, x, position);
-    ffd_vertex_cell(tile->work->pass->document, tile->work->part_number, tile->first + i, position, half);
-    ffd_vertex_rounding_place(&transform, half);
+    fill_nan(pass->uvw + 3 * before, 3 * tile->count);
+    for (size_t i = 0; i < base->count; i++)
+        memcpy(pass->uvw + 3 * (before + ffd_tile_vertex(base, i)), locations[i].uvw, 3 * sizeof *pass->uvw);
 }
 
 /* Compacts the positions of the selected vertices to the front. */
-static void choose(const part_work *work, tile_scratch *scratch, size_t first, size_t count)
+static void choose(const pass_tile *tile)
 {
-    size_t chosen = 0;
-    scratch->all_chosen = !work->part->selected && !work->part->skipped;
-    scratch->chosen_count = count;
-    if (scratch->all_chosen)
-        return;
-    for (size_t i = 0; i < count; i++)
-        if (ffd_part_selects(work->part, first + i)) {
-            if (chosen < i)
-                memcpy(scratch->position + 3 * chosen, scratch->position + 3 * i,
-                       3 * sizeof *scratch->position);
-            scratch->chosen[chosen++] = (uint32_t)i;
+    tile_points *const base = &tile->scratch->base;
+    base->are_all = !tile->part->selected && !tile->part->skipped;
+    base->count = base->are_all ? tile->count : 0;
+    for (size_t i = 0; i < tile->count && !base->are_all; i++)
+        if (ffd_part_selects(tile->part, tile->first + i)) {
+            if (base->count < i)
+                memcpy(base->position + 3 * base->count, base->position + 3 * i, 3 * sizeof *base->position);
+            base->which[base->count++] = (uint32_t)i;
         }
-    scratch->chosen_count = chosen;
 }
 
 /* Marks a vertex that no link may move. */
@@ -371,99 +317,90 @@ static void mark_always(const mesh_pass *pass, size_t vertex, pass_totals *total
     totals->kept++;
 }
 
-/* Adds the bits of the chosen vertices to the caller's, and clears them. */
-static void add_bits(const mesh_pass *pass, tile_scratch *scratch, size_t before, pass_totals *totals)
+/* Adds the bits of the selected vertices to the caller's, and clears them. */
+static void add_bits(const pass_tile *tile)
 {
-    for (size_t i = 0; i < scratch->chosen_count; i++) {
+    const mesh_pass *const pass = tile->pass;
+    const tile_points *const base = &tile->scratch->base;
+    for (size_t i = 0; i < base->count; i++) {
+        const size_t vertex = (size_t)tile->first_number + ffd_tile_vertex(base, i);
         unsigned any = 0;
         for (size_t p = 0; p < pass->chain->marks.kept; p++) {
-            uint8_t *const mark = &scratch->kept[p * CHAIN_RUN + i];
-            pass->kept[p * pass->kept_stride + before + ffd_tile_chosen(scratch, i)] |= *mark;
+            uint8_t *const mark = &tile->scratch->kept[p * CHAIN_RUN + i];
+            pass->kept[p * pass->kept_stride + vertex] |= *mark;
             any |= *mark;
             *mark = 0;
         }
-        totals->kept += any != 0;
+        tile->totals->kept += any != 0;
     }
 }
 
-/* Copies a plane of other marks of the chosen vertices to the caller's. */
-static void copy_plane(const mesh_pass *pass, const tile_scratch *scratch, size_t before, size_t plane)
+/* Copies a plane of other marks of the selected vertices to the caller's. */
+static void copy_plane(const pass_tile *tile, size_t plane)
 {
-    const uint8_t *const from = scratch->kept + plane * CHAIN_RUN;
-    uint8_t *const to = pass->kept + plane * pass->kept_stride + before;
-    if (scratch->all_chosen)
-        memcpy(to, from, scratch->chosen_count);
-    for (size_t i = 0; i < scratch->chosen_count && !scratch->all_chosen; i++)
-        to[scratch->chosen[i]] = from[i];
+    const tile_points *const base = &tile->scratch->base;
+    const uint8_t *const from = tile->scratch->kept + plane * CHAIN_RUN;
+    uint8_t *const to = tile->pass->kept + plane * tile->pass->kept_stride + tile->first_number;
+    if (base->are_all)
+        memcpy(to, from, base->count);
+    for (size_t i = 0; i < base->count && !base->are_all; i++)
+        to[base->which[i]] = from[i];
 }
 
 /* Marks the vertices of a tile that are not selected, or whose transform is singular. Copies the chain's
    marks to the caller's (keeps: there are bits). */
-static void mark_kept(const part_work *work, tile_scratch *scratch, size_t first, size_t count, bool keeps,
-                      pass_totals *totals)
+static void mark_kept(const pass_tile *tile, bool keeps)
 {
-    const mesh_pass *const pass = work->pass;
-    const size_t before = (size_t)work->first_vertex + first;
-    if (work->part->singular || work->part->skinned)
-        for (size_t i = 0; i < count; i++)
-            if (ffd_vertex_transform_of(&scratch->transforms, i).singular)
-                mark_always(pass, before + i, totals);
-    for (size_t i = 0; i < count && !scratch->all_chosen; i++)
-        if (!ffd_part_selects(work->part, first + i))
-            mark_always(pass, before + i, totals);
+    const mesh_pass *const pass = tile->pass;
+    const size_t before = (size_t)tile->first_number;
+    if (tile->part->singular || tile->part->skinned)
+        for (size_t i = 0; i < tile->count; i++)
+            if (ffd_vertex_transform_of(&tile->scratch->transforms, i).singular)
+                mark_always(pass, before + i, tile->totals);
+    for (size_t i = 0; i < tile->count && !tile->scratch->base.are_all; i++)
+        if (!ffd_part_selects(tile->part, tile->first + i))
+            mark_always(pass, before + i, tile->totals);
     if (keeps)
-        add_bits(pass, scratch, before, totals);
+        add_bits(tile);
     for (size_t p = pass->chain->marks.kept; p < pass->chain->marks.planes; p++)
-        copy_plane(pass, scratch, before, p);
+        copy_plane(tile, p);
 }
 
-/* Moves the results of the selected vertices back to their slots in the tile; the others get no
-   displacement. */
-static void spread(tile_scratch *scratch, size_t count)
+/* Moves the results of the selected vertices to their slots in the tile; the others get no displacement. */
+static void spread(const pass_tile *tile)
 {
-    size_t left = scratch->chosen_count;
-    for (size_t i = count; i-- > left;) {
-        double *const position = scratch->position + 3 * i, *const delta = scratch->delta + 3 * i,
-                      *const gradient = scratch->gradient + 9 * i;
-        if (left > 0 && scratch->chosen[left - 1] == i) {
-            left--;
-            memcpy(position, scratch->position + 3 * left, 3 * sizeof *position);
-            memcpy(delta, scratch->delta + 3 * left, 3 * sizeof *delta);
-            memcpy(gradient, scratch->gradient + 9 * left, 9 * sizeof *gradient);
-            scratch->point_outcomes[i] = scratch->point_outcomes[left];
-        } else {
-            const vertex_transform own = ffd_vertex_transform_of(&scratch->transforms, i);
-            memcpy(position, scratch->raw + 3 * i, 3 * sizeof *position);
-            ffd_vertex_transform_point(&own, position);
-            memset(delta, 0, 3 * sizeof *delta);
-            memset(gradient, 0, 9 * sizeof *gradient);
-            scratch->point_outcomes[i] = (point_outcome){.status = FFD_OUTSIDE};
+    tile_points *const base = &tile->scratch->base;
+    size_t left = base->count;
+    for (size_t i = tile->count; i-- > left;) {
+        if (left == 0 || base->which[left - 1] != i) {
+            ffd_tile_hold(base, i, i);
+            continue;
         }
+        left--;
+        memcpy(base->position + 3 * i, base->position + 3 * left, 3 * sizeof *base->position);
+        memcpy(base->delta + 3 * i, base->delta + 3 * left, 3 * sizeof *base->delta);
+        memcpy(base->gradient + 9 * i, base->gradient + 9 * left, 9 * sizeof *base->gradient);
+        base->outcomes[i] = base->outcomes[left];
     }
+    base->are_all = true;
+    base->count = tile->count;
 }
 
 /* Reads a tile's positions, transforms them to the lattice's space, and selects the ones to deform. */
-static void take_points(part_work *work, tile_scratch *scratch, size_t first, size_t count,
-                        pass_totals *totals)
+static void take_points(const pass_tile *tile)
 {
-    const mesh_document *document = work->pass->document;
-    document->format->read_positions(document, work->part_number, first, count, scratch->raw);
-    memcpy(scratch->position, scratch->raw, 3 * count * sizeof(double));
-    place_points(work, scratch, first, count, scratch->position, totals);
-    choose(work, scratch, first, count);
-    if (!work->part->repeats_positions)
-        ffd_totals_count_rest(work, scratch, first, totals);
-}
-
-/* Puts the points of a tile back to where they were before the chain moved them. */
-static void put_back(part_work *work, tile_scratch *scratch, size_t first, size_t count)
-{
-    memcpy(scratch->position, scratch->raw, 3 * count * sizeof(double));
-    if (work->part->skinned)
-        ffd_points_transform(scratch->transforms.transforms, count, scratch->position);
-    else
-        ffd_part_transform(work->pass->document, work->part_number, first, count, scratch->position);
-    choose(work, scratch, first, count);
+    const mesh_document *const document = tile->pass->document;
+    const bool counts = !tile->part->repeats_positions;
+    tile_points *const base = &tile->scratch->base;
+    ffd_tile_points_begin(tile, NULL, 0, base);
+    document->format->read_positions(document, tile->part_number, tile->first, tile->count, base->stored);
+    ffd_vertex_transforms_read(document, tile->part_number, tile->first, tile->count,
+                               &tile->scratch->transforms,
+                               counts && !tile->part->skipped ? &tile->totals->weights : NULL);
+    place_points(tile);
+    choose(tile);
+    if (counts)
+        ffd_totals_count_rest(tile);
 }
 
 /* What a tile needs of the gradients of the deformation. */
@@ -473,111 +410,127 @@ typedef struct gradient_need {
     bool turns;        /* to count the vertices with det F < 0 */
 } gradient_need;
 
-static gradient_need find_need(const part_work *work, bool directions)
+static gradient_need find_need(const pass_tile *tile, bool directions)
 {
-    const mesh_pass *const pass = work->pass;
-    const bool counts = !work->part->repeats_positions;
+    const mesh_pass *const pass = tile->pass;
+    const bool counts = !tile->part->repeats_positions;
     const bool determinants = counts && pass->determinants;
     return (gradient_need){.all = directions || determinants || (counts && pass->gradients),
                            .determinants = determinants,
                            .turns = counts && pass->inversions && !determinants};
 }
 
-/* Sends the chosen points through the lattices. */
-static ffd_status deform_points(part_work *work, tile_scratch *scratch, size_t first, size_t count,
-                                const gradient_need *need, pass_totals *totals)
+/* Sends the selected vertices through the lattices. */
+static ffd_status deform_points(const pass_tile *tile, const gradient_need *need, ffd_error *error)
 {
-    const mesh_pass *pass = work->pass;
-    const bool counts = !work->part->repeats_positions;
-    const tile_rounding tile_of = {work, scratch, first};
-    const chain_rounding cells = {find_rounding, &tile_of};
-    const chain_rounding *const rounding = ffd_rounding_is_none(&work->part->rounding) ? NULL : &cells;
-    chain_run run = {.x = scratch->position,
-                     .count = scratch->chosen_count,
-                     .located = recall(work, scratch, first, rounding, totals),
-                     .rounding = rounding,
-                     .scratch = &scratch->chain,
-                     .pace = scratch == work->scratch ? pass->pace : NULL,
-                     .delta = scratch->delta,
-                     .gradient = need->all || need->turns ? scratch->gradient : NULL,
-                     .turns = need->turns ? &scratch->turns : NULL,
-                     .only_turns = need->turns && !need->all,
-                     .outcomes = scratch->point_outcomes,
-                     .kept = counts ? scratch->kept : NULL};
-    ffd_status status = ffd_chain_apply(pass->chain, pass->links, &run, &scratch->error);
-    if (!status && run.only_turns && scratch->turns.count > 0 && pass->links > 1 && !pass->chain->blocks) {
+    const mesh_pass *const pass = tile->pass;
+    const bool counts = !tile->part->repeats_positions;
+    turn_list *const turns = &tile->scratch->turns;
+    chain_run run = ffd_tile_run(&tile->scratch->base, need->all || need->turns);
+    run.located = recall(tile, &run);
+    run.pace = tile->pace;
+    run.turns = need->turns ? turns : NULL;
+    run.only_turns = need->turns && !need->all;
+    run.kept = counts ? tile->scratch->kept : NULL;
+    turns->count = 0;
+    ffd_status status = ffd_chain_apply(pass->chain, pass->links, &run, error);
+    if (!status && run.only_turns && turns->count > 0 && pass->links > 1 && !pass->chain->blocks) {
         /* Rare: several lattices turn points inside out, whose gradients only a second run gives. */
-        put_back(work, scratch, first, count);
-        run.located = recall(work, scratch, first, rounding, totals);
+        place_points(tile);
+        choose(tile);
+        run.located = recall(tile, &run);
         run.turns = NULL;
         run.only_turns = false;
         run.pace = NULL;
         run.moved_twice = run.disagreeing = 0;
-        status = ffd_chain_apply(pass->chain, pass->links, &run, &scratch->error);
+        status = ffd_chain_apply(pass->chain, pass->links, &run, error);
     }
-    totals->embed_seconds = run.embed_seconds;
-    totals->deform_seconds = run.deform_seconds;
+    ffd_tile_add_times(tile, &run);
     if (counts) {
-        totals->moved_twice = run.moved_twice;
-        totals->disagreeing = run.disagreeing;
-        totals->disagreement = run.disagreement;
+        tile->totals->moved_twice = run.moved_twice;
+        tile->totals->disagreeing = run.disagreeing;
+        tile->totals->disagreement = run.disagreement;
     }
     if (status)
         return status;
-    keep_locations(work, scratch, first, count);
+    keep_locations(tile);
     if (run.kept)
-        mark_kept(work, scratch, first, count, run.keeps, totals);
-    return counts ? ffd_totals_count_deformed(work, scratch, first, totals, &scratch->error) : FFD_OK;
+        mark_kept(tile, run.keeps);
+    return counts ? ffd_totals_count_deformed(tile, error) : FFD_OK;
 }
 
-static void run_tile(void *context, size_t tile, size_t first, size_t last, int worker)
+static ffd_status deform_tile(const pass_tile *tile, ffd_error *error)
 {
-    part_work *work = context;
-    const mesh_pass *pass = work->pass;
-    const mesh_part *part = work->part;
-    tile_scratch *scratch = &work->scratch[worker];
-    pass_totals *totals = &work->tiles[tile];
-    const size_t count = last - first;
-    const bool shapes = ffd_pass_takes_shapes(pass, part);
+    const mesh_pass *const pass = tile->pass;
+    const mesh_part *const part = tile->part;
+    tile_points *const base = &tile->scratch->base;
+    const bool shapes = ffd_pass_takes_shapes(pass, part), splats = ffd_pass_takes_splats(pass, part);
     const bool wanted = pass->attributes && (!pass->only_offsets || shapes);
     const bool attributes = wanted && !part->singular && (part->normal_count || part->has_tangents);
-    const bool splats = ffd_pass_takes_splats(pass, part);
-    const bool counts = !part->repeats_positions;
-    const gradient_need need = find_need(work, attributes || splats);
+    const gradient_need need = find_need(tile, attributes || splats);
 
-    ffd_totals_clear(totals);
-    scratch->turns.count = 0;
+    take_points(tile);
+    ffd_status status = ffd_deadline_check(error);
+    if (!status)
+        status = deform_points(tile, &need, error);
+    if (status)
+        return status;
+    if (need.turns)
+        note_turns(tile);
+    spread(tile);
+    if (need.determinants)
+        note_determinants(tile);
+    if (!part->repeats_positions)
+        fill_arrays(tile);
+    count_moved(tile);
+    ffd_tile_carry(base, need.all);
+    ffd_tile_bring_back(base);
+    if (!part->repeats_positions)
+        finish_positions(tile);
+    if (splats)
+        ffd_tile_splat_turns(tile);
+    if (attributes || splats)
+        ffd_tile_bring_gradients_back(base);
+    if (attributes)
+        finish_attributes(tile);
+    if (splats)
+        ffd_tile_splats(tile);
+    return shapes ? ffd_tile_shapes(tile, error) : FFD_OK;
+}
+
+/* A part in work. */
+typedef struct part_work {
+    pass_tile whole; /* the part; its tiles are made from it */
+    int workers;
+    tile_scratch *scratch; /* one for each worker */
+    pass_totals *tiles;    /* figures of each tile */
+    atomic_bool stopped;   /* a tile has failed: skip the others */
+} part_work;
+
+/* Returns a tile with vertices [first, last) of the part, without scratch memory. */
+static pass_tile make_tile(const part_work *work, size_t number, size_t first, size_t last)
+{
+    pass_tile tile = work->whole;
+    tile.first = first;
+    tile.count = last - first;
+    tile.first_number += first;
+    tile.totals = &work->tiles[number];
+    return tile;
+}
+
+static void run_tile(void *context, size_t number, size_t first, size_t last, int worker)
+{
+    part_work *const work = context;
+    tile_scratch *const scratch = &work->scratch[worker];
+    pass_tile tile = make_tile(work, number, first, last);
+    tile.scratch = scratch;
+    tile.pace = worker == 0 ? tile.pass->pace : NULL;
+    ffd_totals_clear(tile.totals);
     if (atomic_load(&work->stopped))
         return;
-    take_points(work, scratch, first, count, totals);
-    scratch->status = ffd_deadline_check(&scratch->error);
-    if (!scratch->status)
-        scratch->status = deform_points(work, scratch, first, count, &need, totals);
-    if (scratch->status) {
+    scratch->status = deform_tile(&tile, &scratch->error);
+    if (scratch->status)
         atomic_store(&work->stopped, true);
-        return;
-    }
-    if (need.turns)
-        note_turns(work, scratch, first, totals);
-    spread(scratch, count);
-    if (need.determinants)
-        note_determinants(work, scratch, first, count, totals);
-    if (counts)
-        fill_arrays(work, scratch, first, count);
-    carry(work, scratch, count, need.all, totals);
-    bring_back(work, scratch, count);
-    if (!part->repeats_positions)
-        finish_positions(work, scratch, first, count, totals);
-    if (splats)
-        ffd_tile_splat_turns(work, scratch, count);
-    if (attributes || splats)
-        bring_back_gradients(work, scratch, count);
-    if (attributes)
-        finish_attributes(work, scratch, first, count, totals);
-    if (splats)
-        ffd_tile_splats(work, scratch, first, count, totals);
-    if (shapes)
-        ffd_tile_shapes(work, scratch, first, count, totals);
 }
 
 /* Parts with fewer full tiles than this use smaller tiles, to keep many threads busy. */
@@ -596,10 +549,11 @@ static ffd_status count_others(const part_work *work, size_t tiles, size_t size,
     bool any = false;
     for (size_t i = 0; i < tiles; i++)
         any = any || work->tiles[i].others;
-    const ffd_status status = any ? ffd_mesh_mark_used(work->pass->document, error) : FFD_OK;
+    const ffd_status status = any ? ffd_mesh_mark_used(work->whole.pass->document, error) : FFD_OK;
     for (size_t i = 0; i < tiles; i++) {
-        const size_t first = i * size, left = work->part->vertex_count - first;
-        ffd_totals_count_others(work, first, left < size ? left : size, &work->tiles[i]);
+        const size_t first = i * size, left = work->whole.count - first;
+        const pass_tile tile = make_tile(work, i, first, first + (left < size ? left : size));
+        ffd_totals_count_others(&tile);
     }
     return status;
 }
@@ -621,9 +575,9 @@ static int worker_count(const mesh_pass *pass)
     return most < (size_t)pass->threads ? (int)most : pass->threads;
 }
 
-static ffd_status run_part(part_work *work, pass_totals *totals, ffd_error *error)
+static ffd_status deform_part(part_work *work, pass_totals *totals, ffd_error *error)
 {
-    const size_t count = work->part->vertex_count, size = tile_size(count), tiles = tile_count(count);
+    const size_t count = work->whole.count, size = tile_size(count), tiles = tile_count(count);
     work->tiles = ffd_alloc_zero(tiles, sizeof *work->tiles);
     if (!work->tiles)
         return ffd_fail_memory(error);
@@ -631,7 +585,7 @@ static ffd_status run_part(part_work *work, pass_totals *totals, ffd_error *erro
     const ffd_status status = count_others(work, tiles, size, error);
     for (size_t i = 0; i < tiles; i++)
         ffd_totals_join(&work->tiles[i], totals);
-    ffd_totals_judge_rounding(work->tiles, tiles, ffd_part_tolerance(work->pass->document), totals);
+    ffd_totals_judge_rounding(work->tiles, tiles, ffd_part_tolerance(work->whole.pass->document), totals);
     ffd_free(work->tiles);
     if (status)
         return status;
@@ -699,7 +653,7 @@ static tile_scratch *make_scratch(const mesh_pass *pass, int workers)
 
 ffd_status ffd_pass_run(const mesh_pass *pass, pass_totals *totals, ffd_error *error)
 {
-    part_work work = {.pass = pass, .workers = worker_count(pass)};
+    part_work work = {.whole = {.pass = pass}, .workers = worker_count(pass)};
     ffd_status status = FFD_OK;
     ffd_totals_clear(totals);
     atomic_init(&work.stopped, false);
@@ -707,14 +661,16 @@ ffd_status ffd_pass_run(const mesh_pass *pass, pass_totals *totals, ffd_error *e
     if (!work.scratch)
         return ffd_fail_memory(error);
     for (size_t i = 0; i < pass->document->part_count && !status; i++) {
-        work.part = &pass->document->parts[i];
-        work.part_number = i;
+        const mesh_part *const part = &pass->document->parts[i];
+        work.whole.part = part;
+        work.whole.part_number = i;
+        work.whole.count = part->vertex_count;
         const uint64_t moved = totals->moved;
-        status = run_part(&work, totals, error);
-        if (work.part->splats && !ffd_pass_takes_splats(pass, work.part))
+        status = deform_part(&work, totals, error);
+        if (part->splats && !ffd_pass_takes_splats(pass, part))
             ffd_totals_note_splats(totals, i, totals->moved - moved);
-        if (!work.part->repeats_positions)
-            work.first_vertex += work.part->vertex_count;
+        if (!part->repeats_positions)
+            work.whole.first_number += part->vertex_count;
     }
     free_scratch(work.scratch, work.workers);
     return status;

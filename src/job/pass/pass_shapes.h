@@ -4,8 +4,8 @@
 
 #include "job/pass/tile.h"
 
-/* Deforms the morph targets of a tile. Call it last: scratch holds the base's positions, and its deformed
-   normals and tangents. A failure is stored in scratch, and stops the pass. */
-void ffd_tile_shapes(part_work *part, tile_scratch *scratch, size_t first, size_t count, pass_totals *totals);
+/* Deforms the morph targets of a tile. Call it last: scratch holds the base's displacements and gradients in
+   the file's space, and its deformed normals and tangents. Errors: those of ffd_chain_apply. */
+ffd_status ffd_tile_shapes(const pass_tile *tile, ffd_error *error);
 
 #endif

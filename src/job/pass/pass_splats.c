@@ -1,34 +1,33 @@
 #include "job/pass/pass_splats.h"
 
-void ffd_tile_splat_turns(const part_work *work, tile_scratch *scratch, size_t count)
+void ffd_tile_splat_turns(const pass_tile *tile)
 {
-    splat_turn *const turns = scratch->splat->turns;
-    ffd_splats_find_turns(work->pass->chain->isa, scratch->gradient, count, turns);
-    for (size_t i = 0; i < count && !work->part->identity; i++) {
-        const vertex_transform transform = ffd_vertex_transform_of(&scratch->transforms, i);
+    splat_turn *const turns = tile->scratch->splat->turns;
+    ffd_splats_find_turns(tile->pass->chain->isa, tile->scratch->base.gradient, tile->count, turns);
+    for (size_t i = 0; i < tile->count && !tile->part->identity; i++) {
+        const vertex_transform transform = ffd_vertex_transform_of(&tile->scratch->transforms, i);
         if (!transform.identity && !transform.singular)
             ffd_splat_turn_to_file(transform.linear, &turns[i]);
     }
 }
 
-void ffd_tile_splats(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
-                     pass_totals *totals)
+void ffd_tile_splats(const pass_tile *tile)
 {
-    mesh_document *const document = work->pass->document;
-    splat_scratch *const tile = scratch->splat;
-    document->format->read_splats(document, work->part_number, first, count, tile->splats);
-    ffd_splats_deform(work->pass->chain->isa, scratch->gradient, tile->turns, &work->part->form, count,
-                      tile->splats, tile->outcomes);
-    for (size_t i = 0; i < count; i++) {
-        const uint8_t outcome = tile->outcomes[i];
-        tile->changed[i] = outcome == SPLAT_CARRIED || outcome == SPLAT_FLATTENED;
-        if (!ffd_part_selects(work->part, first + i))
+    mesh_document *const document = tile->pass->document;
+    splat_scratch *const s = tile->scratch->splat;
+    document->format->read_splats(document, tile->part_number, tile->first, tile->count, s->splats);
+    ffd_splats_deform(tile->pass->chain->isa, tile->scratch->base.gradient, s->turns, &tile->part->form,
+                      tile->count, s->splats, s->outcomes);
+    for (size_t i = 0; i < tile->count; i++) {
+        const uint8_t outcome = s->outcomes[i];
+        s->changed[i] = outcome == SPLAT_CARRIED || outcome == SPLAT_FLATTENED;
+        if (!ffd_part_selects(tile->part, tile->first + i))
             continue; /* not selected: it only makes up for the turn of its node */
-        totals->splats_carried += tile->changed[i];
-        totals->splats_flattened += outcome == SPLAT_FLATTENED;
-        totals->splats_broken += outcome == SPLAT_BROKEN && scratch->changed[i];
+        tile->totals->splats_carried += s->changed[i];
+        tile->totals->splats_flattened += outcome == SPLAT_FLATTENED;
+        tile->totals->splats_broken += outcome == SPLAT_BROKEN && tile->scratch->changed[i];
     }
-    if (ffd_pass_stores(work->pass))
-        document->format->write_splats(document, work->part_number, first, count, tile->splats, tile->turns,
-                                       tile->changed);
+    if (ffd_pass_stores(tile->pass))
+        document->format->write_splats(document, tile->part_number, tile->first, tile->count, s->splats,
+                                       s->turns, s->changed);
 }

@@ -6,11 +6,9 @@
 
 /* Finds how directions turn at the tile's vertices, in the file's space. Their gradients must still be in the
    lattice's space. */
-void ffd_tile_splat_turns(const part_work *work, tile_scratch *scratch, size_t count);
+void ffd_tile_splat_turns(const pass_tile *tile);
 
-/* Deforms the splats [first, first + count) of the part and writes them. Their gradients must be in the
-   file's space. */
-void ffd_tile_splats(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
-                     pass_totals *totals);
+/* Deforms the splats of the tile and writes them. Their gradients must be in the file's space. */
+void ffd_tile_splats(const pass_tile *tile);
 
 #endif

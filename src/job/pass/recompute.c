@@ -27,8 +27,7 @@ typedef struct recomputing {
 static void carry_direction(const mesh_part *part, double n[3])
 {
     double linear[9], cofactor[9];
-    for (int i = 0; i < 9; i++)
-        linear[i] = part->carry[i] + (i % 4 == 0 ? 1 : 0);
+    mat_add_identity(part->carry, linear);
     mat_cofactor(linear, cofactor);
     mat_apply(cofactor, n, n);
 }

@@ -5,22 +5,37 @@
 #include "job/figures/pass_totals.h"
 #include "job/pass/mesh_pass.h"
 #include "job/pass/vertex_transform.h"
-#include <stdatomic.h>
 
 #define PASS_TILE VERTEX_TRANSFORMS /* the most vertices of a tile */
 
-/* Scratch memory for a morph target. `moved` lists the vertices that the target moves; position, moved_delta
-   and outcomes hold their values contiguously. */
+struct pass_tile;
+
+/* Points of a tile that go through the chain together: the selected vertices, or those that a morph target
+   moves. */
+typedef struct tile_points {
+    const struct pass_tile *tile;
+    const double *offsets; /* 3 a vertex of the tile: of the morph target; NULL: of the base */
+    size_t shape;          /* the target's number, or SHAPE_SHOWN */
+    chain_rounding cells;  /* the rounding cells of the points */
+    bool are_all;          /* all vertices of the tile, in their order; else which lists them */
+    uint32_t which[PASS_TILE];
+    size_t count;
+    double stored[3 * PASS_TILE]; /* 3 a vertex of the tile: its position in the file, without the offset */
+    /* One entry a point: */
+    double position[3 * PASS_TILE]; /* in the lattice's space, at rest, then deformed */
+    double delta[3 * PASS_TILE], gradient[9 * PASS_TILE];
+    point_outcome outcomes[PASS_TILE];
+} tile_points;
+
+/* In place of a target's number: the shape with the default weights of all targets. */
+#define SHAPE_SHOWN SIZE_MAX
+
+/* Scratch memory for a morph target. */
 typedef struct shape_scratch {
     double offsets[3 * PASS_TILE]; /* from the file, then replaced by the results */
-    double position[3 * PASS_TILE];
-    size_t moved[PASS_TILE];
-    size_t moved_count;
-    double moved_delta[3 * PASS_TILE], moved_gradient[9 * PASS_TILE];
-    point_outcome moved_outcomes[PASS_TILE];
-    const double *gradients[PASS_TILE]; /* of every vertex: the base's where the target does not move it */
-    double base[3 * PASS_TILE];         /* positions or directions without the target */
-    double normals[3 * PASS_TILE];      /* deformed, with the target */
+    tile_points moved;             /* the vertices that the target moves */
+    double before[3 * PASS_TILE];  /* directions without the target, from the file */
+    double normals[3 * PASS_TILE]; /* with the target; deformed */
     double tangents[4 * PASS_TILE];
     uint8_t changed[PASS_TILE];
 } shape_scratch;
@@ -34,16 +49,10 @@ typedef struct splat_scratch {
 
 /* Scratch memory of one worker. */
 typedef struct tile_scratch {
-    double raw[3 * PASS_TILE]; /* positions in the file's space */
-    bool all_chosen;           /* all vertices of the tile are selected; else chosen lists those that are */
-    uint32_t chosen[PASS_TILE];
-    size_t chosen_count;
-    chain_scratch chain; /* its locations: of the chosen vertices, then of those that a morph target moves */
-    /* Values of the chosen vertices, contiguous until spread moves them to their slots in the tile. */
-    double position[3 * PASS_TILE]; /* in the lattice's space, at rest, then deformed */
-    double delta[3 * PASS_TILE], gradient[9 * PASS_TILE];
-    point_outcome point_outcomes[PASS_TILE];
-    turn_list turns; /* the chosen vertices at which det F may be 0 or less, if only these are wanted */
+    tile_points base; /* the selected vertices, until spread makes them all vertices of the tile */
+    chain_scratch
+        chain;       /* its locations: of the selected vertices, then of those that a morph target moves */
+    turn_list turns; /* the points at which det F may be 0 or less, if only these are wanted */
     uint8_t changed[PASS_TILE];
     vertex_transforms transforms;
     double normals[3 * PASS_TILE], tangents[4 * PASS_TILE];
@@ -57,16 +66,17 @@ typedef struct tile_scratch {
     ffd_error error;
 } tile_scratch;
 
-typedef struct part_work {
+/* A tile that a thread works on. */
+typedef struct pass_tile {
     const mesh_pass *pass;
     const mesh_part *part;
     size_t part_number;
-    uint64_t first_vertex; /* number of the part's first vertex in the document */
-    int workers;
-    tile_scratch *scratch; /* one for each worker */
-    pass_totals *tiles;    /* figures of each tile */
-    atomic_bool stopped;   /* a tile has failed: skip the others */
-} part_work;
+    size_t first, count;   /* its vertices in the part */
+    uint64_t first_number; /* the number of the first one in the document */
+    tile_scratch *scratch;
+    pass_totals *totals;     /* of this tile */
+    struct chain_pace *pace; /* pass->pace in the calling thread, else NULL */
+} pass_tile;
 
 /* Whether the pass processes the morph targets of a part. */
 static inline bool ffd_pass_takes_shapes(const mesh_pass *pass, const mesh_part *part)
@@ -88,10 +98,16 @@ static inline bool ffd_pass_stores(const mesh_pass *pass)
     return pass->write && !pass->discards;
 }
 
-/* Returns the index in the tile of chosen vertex i. */
-static inline size_t ffd_tile_chosen(const tile_scratch *scratch, size_t i)
+/* Returns the index in the tile of the vertex that point i is. */
+static inline size_t ffd_tile_vertex(const tile_points *points, size_t i)
 {
-    return scratch->all_chosen ? i : scratch->chosen[i];
+    return points->are_all ? i : points->which[i];
+}
+
+/* Lowers the number of the first vertex of a kind. */
+static inline void ffd_note_first(uint64_t *first, uint64_t number)
+{
+    *first = number < *first ? number : *first;
 }
 
 /* The largest coordinate that the file's number type can hold. */

@@ -9,24 +9,25 @@
 /* and if none of so many vertices is near. */
 #define FEW_SEARCHES 8
 
-ffd_status ffd_tile_find_misses(const part_work *work, const tile_scratch *scratch, size_t first,
-                                near_misses *misses, ffd_error *error)
+ffd_status ffd_tile_find_misses(const pass_tile *tile, ffd_error *error)
 {
-    const lattice_chain *const chain = work->pass->chain;
+    const tile_points *const base = &tile->scratch->base;
+    const lattice_chain *const chain = tile->pass->chain;
     const chain_link *const link = chain->links;
+    near_misses *const misses = &tile->totals->misses;
     ffd_status status = FFD_OK;
     const uint64_t before = misses->count;
     int searches = 0;
-    if (chain->count != 1 || work->pass->links != 1 || chain->outside.extend)
+    if (chain->count != 1 || tile->pass->links != 1 || chain->outside.extend)
         return FFD_OK;
     const double reach = NEXT_TO_NOTHING * link->lattice->diagonal;
-    for (size_t i = 0; i < scratch->chosen_count && !status; i++) {
+    for (size_t i = 0; i < base->count && !status; i++) {
         double miss;
         bool searched;
-        if (scratch->point_outcomes[i].status != FFD_OUTSIDE ||
-            !ffd_part_shows(work->part, first + ffd_tile_chosen(scratch, i)))
+        if (base->outcomes[i].status != FFD_OUTSIDE ||
+            !ffd_part_shows(tile->part, tile->first + ffd_tile_vertex(base, i)))
             continue;
-        status = ffd_link_miss(link, scratch->position + 3 * i, reach, &miss, &searched, error);
+        status = ffd_link_miss(link, base->position + 3 * i, reach, &miss, &searched, error);
         misses->looked_at++;
         misses->count += miss > 0 && isfinite(miss);
         if (isfinite(miss))

@@ -5,9 +5,8 @@
 #include "job/pass/tile.h"
 
 /* Finds those of the visible vertices outside of the only lattice that miss it by next to nothing, if they
-   are left where they are. Call it where the positions of the chosen vertices are still contiguous. Errors:
+   are left where they are. Call it before the selected vertices are spread over the tile. Errors:
    FFD_E_MEMORY. */
-ffd_status ffd_tile_find_misses(const part_work *work, const tile_scratch *scratch, size_t first,
-                                near_misses *misses, ffd_error *error);
+ffd_status ffd_tile_find_misses(const pass_tile *tile, ffd_error *error);
 
 #endif

@@ -10,15 +10,13 @@
 double ffd_part_tolerance(const mesh_document *document);
 
 /* Notes how fine the floats of a tile's positions are before it is displaced. */
-void ffd_tile_rounding_at_rest(const part_work *work, const tile_scratch *scratch, size_t count,
-                               pass_totals *totals);
+void ffd_tile_rounding_at_rest(const pass_tile *tile);
 
-/* Whether floats hold a displacement of the tile (delta): the position of a vertex changes in the output.
-   True too where the results are not rounded here. raw: its positions before that, in the file's space. */
-bool ffd_tile_shows(const part_work *work, const double *raw, const double *delta, size_t count);
+/* Whether floats hold a displacement of the tile: the position of a vertex changes in the output. True too
+   where the results are not rounded here. Call it before the vertices are displaced in the file's space. */
+bool ffd_tile_shows(const pass_tile *tile);
 
 /* Notes the rounding errors of the results, if they may exceed the tolerance. */
-void ffd_tile_rounding_of_results(const part_work *work, const tile_scratch *scratch, size_t count,
-                                  pass_totals *totals);
+void ffd_tile_rounding_of_results(const pass_tile *tile);
 
 #endif

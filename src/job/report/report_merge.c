@@ -81,7 +81,7 @@ static ffd_status write_in_turn(part *parts, size_t count, merged_report *merged
                 return ffd_fail_file(
                     error, FFD_E_INVALID, ended->reader.name,
                     "has too few entries for a shard of one run with the others: its run was "
-                    "cut off, or had other jobs (without --interleave they can be joined)");
+                    "cut off, or had other jobs (without {interleave} they can be joined)");
             if (merged->count == entries && !ended)
                 ended = &parts[i];
         }

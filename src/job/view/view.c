@@ -3,6 +3,7 @@
 #include "base/file/mapping.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/spelling.h"
 #include "base/struct_size.h"
 #include "base/system/deadline.h"
 #include "base/text/words.h"
@@ -12,6 +13,7 @@
 #include "job/input/deform_desc.h"
 #include "job/input/in_memory.h"
 #include "job/input/selection.h"
+#include "job/input/settings.h"
 #include "job/input/source.h"
 #include "job/pass/chain_fit.h"
 #include "job/report/output_set.h"
@@ -24,6 +26,7 @@
 #include "view/page.h"
 #include "view/view_picture.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* The state of a view. */
@@ -355,29 +358,22 @@ static void judge_color(const view_work *work)
 static void warn_of_unused(const view_work *work)
 {
     const ffd_deform_desc *const job = work->desc->job;
-    const struct {
-        const char *name;
-        bool is_set;
-    } settings[] = {
-        {"--set", job->set_count > 0 && job->lattice_count == 0},
-        {"--outside", job->outside != FFD_OUTSIDE_KEEP},
-        {"--snap", job->snap > 0},
-        {"--blocks", job->blocks},
-        {"--normals", job->normals != FFD_NORMALS_TRANSFORM},
-        {"--rig", job->rig != FFD_RIG_KEEP},
-        {"--as-morph", job->as_morph},
-    };
-    char names[128] = "";
-    for (size_t i = 0; i < sizeof settings / sizeof *settings; i++)
-        if (settings[i].is_set) {
-            strcat(names, *names ? ", " : "");
-            strcat(names, settings[i].name);
+    static const char *const settings[] = {"set", "outside", "snap", "blocks", "normals", "rig", "as_morph"};
+    char names[300] = "";
+    const size_t first = job->lattice_count > 0 ? 1 : 0; /* the cages of lattices are shown by set */
+    for (size_t i = first; i < sizeof settings / sizeof *settings; i++)
+        if (ffd_setting_is_set(job, settings[i])) {
+            const size_t length = strlen(names);
+            char name[40];
+            snprintf(name, sizeof name, "{%s}", settings[i]);
+            snprintf(names + length, sizeof names - length, "%s%s", length ? ", " : "", SPELLED(name));
         }
     if (*names)
-        ffd_log_line(&work->job.log, FFD_LOG_WARNING,
-                     "not used, since files are shown as they are: %s (a deformation needs -l, and no "
-                     "OUT-MESH)",
-                     names);
+        ffd_log_line(
+            &work->job.log, FFD_LOG_WARNING,
+            "not used, since files are shown as they are: %s (a deformation needs {lattices}, and no "
+            "{deformed})",
+            names);
 }
 
 static ffd_status run(view_work *work, ffd_job_result *result, ffd_error *error)

@@ -62,14 +62,14 @@ static ffd_status refuse_name(const view_rigs_desc *desc, const view_scene *scen
     nearest_word nearest = {.word = desc->animation, .length = strlen(desc->animation)};
     if (scene->animation_count == 0)
         return ffd_fail_file(error, FFD_E_ARGUMENT, desc->before_name,
-                             "--animation: there are no animations that can be shown");
+                             "{animation}: there are no animations that can be shown");
     for (size_t a = 0; a < scene->animation_count; a++)
         ffd_nearest_offer(&nearest, scene->animations[a].name);
     ffd_name_shown(desc->animation, wanted, sizeof wanted);
     ffd_name_shown(nearest.best, shown, sizeof shown);
     tell_names(scene, names, sizeof names);
     return ffd_fail_file(error, FFD_E_ARGUMENT, desc->before_name,
-                         "--animation: none is called \"%s\" (nearest: \"%s\"; there %s %s)", wanted, shown,
+                         "{animation}: none is called \"%s\" (nearest: \"%s\"; there %s %s)", wanted, shown,
                          ffd_plural(scene->animation_count, "is", "are"), names);
 }
 
@@ -87,7 +87,7 @@ static ffd_status choose(const view_rigs_desc *desc, view_scene *scene, ffd_erro
     if (desc->animation && !alike)
         return refuse_name(desc, scene, error);
     if (alike > 1)
-        ffd_log_line(desc->log, FFD_LOG_WARNING, "--animation: %zu have this name, and the first is shown",
+        ffd_log_line(desc->log, FFD_LOG_WARNING, "{animation}: %zu have this name, and the first is shown",
                      alike);
     return FFD_OK;
 }

@@ -1,5 +1,6 @@
 #include "lattice/file/spec_set.h"
 #include "base/memory/memory.h"
+#include "base/spelling.h"
 #include "lattice/file/spec_parameters.h"
 #include "lattice/file/spec_values.h"
 #include "json/json_parse.h"
@@ -188,7 +189,8 @@ void ffd_spec_describe_open(const intern_table *open, char *text, size_t capacit
     const char *const first = ffd_intern_key(open, 0);
     size_t length = 0, shown = 0;
     if (open->count == 1) {
-        snprintf(text, capacity, "the placeholder \"%.60s\" has no value (--set %.60s=VALUE)", first, first);
+        snprintf(text, capacity, "the placeholder \"%.60s\" has no value (%s %.60s=VALUE)", first,
+                 SPELLED("{set}"), first);
         return;
     }
     for (; shown < open->count && length < NAMES_SHOWN; shown++)
@@ -196,7 +198,8 @@ void ffd_spec_describe_open(const intern_table *open, char *text, size_t capacit
                                    ffd_intern_key(open, (uint32_t)shown));
     if (shown < open->count)
         snprintf(names + length, sizeof names - length, " and %zu more", open->count - shown);
-    snprintf(text, capacity, "the placeholders %s have no values (--set NAME=VALUE for each)", names);
+    snprintf(text, capacity, "the placeholders %s have no values (%s NAME=VALUE for each)", names,
+             SPELLED("{set}"));
 }
 
 /* Reports all open placeholders in one message, at the position of the first. */

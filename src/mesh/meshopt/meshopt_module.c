@@ -4,7 +4,7 @@
 FFD_API extern const meshopt_module ffd_module;
 
 const meshopt_module ffd_module = {
-    {MESHOPT_IDENTITY, ffd_exceptions_prepare},
+    {MESHOPT_IDENTITY, ffd_exceptions_prepare, ffd_spell_members},
     ffd_meshopt_library_decode,
     ffd_meshopt_simplify,
 };

@@ -10,7 +10,7 @@
 
 #define MESHOPT_IDENTITY                                                                                     \
     {                                                                                                        \
-        "ffd-meshopt.so", FFD_VERSION, 3                                                                     \
+        "ffd-meshopt.so", FFD_VERSION, 4                                                                     \
     }
 
 typedef struct meshopt_module {

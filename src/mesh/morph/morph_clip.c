@@ -38,10 +38,10 @@ static ffd_status refuse(const clip_parser *p, const char *what)
     char name[SHOWN], place[SHOWN];
     show_place(p, place);
     if (!p->clip->name)
-        return ffd_fail(p->error, FFD_E_ARGUMENT, "--clip: \"%s\" %s (\"NAME: TIME TARGET=WEIGHT ..., ...\")",
-                        place, what);
+        return ffd_fail(p->error, FFD_E_ARGUMENT,
+                        "{clips}: \"%s\" %s (\"NAME: TIME TARGET=WEIGHT ..., ...\")", place, what);
     ffd_name_shown(p->clip->name, name, sizeof name);
-    return ffd_fail(p->error, FFD_E_ARGUMENT, "--clip: clip \"%s\": \"%s\" %s", name, place, what);
+    return ffd_fail(p->error, FFD_E_ARGUMENT, "{clips}: clip \"%s\": \"%s\" %s", name, place, what);
 }
 
 static void skip_blanks(clip_parser *p)
@@ -217,7 +217,7 @@ static ffd_status refuse_target(const morph_clip *clip, const char *name, const 
     ffd_name_shown(nearest.best ? nearest.best : "", best_shown, sizeof best_shown);
     return ffd_fail(
         error, FFD_E_ARGUMENT,
-        "--clip: clip \"%s\": there is no morph target \"%s\", neither in the file nor new (nearest: "
+        "{clips}: clip \"%s\": there is no morph target \"%s\", neither in the file nor new (nearest: "
         "\"%s\")",
         clip_shown, shown, best_shown);
 }
@@ -232,7 +232,7 @@ static ffd_status check_name(const morph_clip *clip, size_t number, intern_table
     if (known == number)
         return FFD_OK;
     ffd_name_shown(clip->name, shown, sizeof shown);
-    return ffd_fail(error, FFD_E_ARGUMENT, "--clip: two clips are called \"%s\"", shown);
+    return ffd_fail(error, FFD_E_ARGUMENT, "{clips}: two clips are called \"%s\"", shown);
 }
 
 ffd_status ffd_morph_clips_check(const morph_clip *clips, size_t count, const intern_table *known,

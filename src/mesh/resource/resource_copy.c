@@ -45,7 +45,7 @@ static ffd_status compare_copy(const resource_kind *kind, const char *target, co
         return status;
     return ffd_fail_file(
         error, FFD_E_IO, target,
-        "already exists and is not the %s to be copied there (--resources reference copies none)",
+        "already exists and is not the %s to be copied there ({resources=reference} copies none)",
         kind->name);
 }
 
@@ -236,7 +236,7 @@ static void say_unreached(const resource_copier *c, const mesh_resource *resourc
     ffd_name_shown(resource->path, shown, sizeof shown);
     if (!is_reached(c, resource->path))
         ffd_log_line(c->log, FFD_LOG_WARNING,
-                     "the output does not reach the %s \"%s\" (--resources copy copies it)",
+                     "the output does not reach the %s \"%s\" ({resources=copy} copies it)",
                      resource->kind->name, shown);
 }
 

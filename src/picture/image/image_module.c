@@ -3,7 +3,7 @@
 FFD_API extern const image_module ffd_module;
 
 const image_module ffd_module = {
-    {IMAGE_IDENTITY, NULL},
+    {IMAGE_IDENTITY, NULL, ffd_spell_members},
     ffd_png_decode,
     ffd_jpeg_decode,
     ffd_png_write,

@@ -17,15 +17,14 @@ Path = Union[str, "os.PathLike[str]"]
 AnyLattice = Union[Lattice, Path, bytes]
 Files = Union[Mapping[str, Any], Callable[[str], Any]]
 
-# Option -> enumeration; for the input's also option -> member.
-_ENUMERATIONS = {"outside": "ffd_outside", "normals": "ffd_normals", "resources": "ffd_resources", "rig": "ffd_rig", "isa": "ffd_isa",
-                 "output_format": "ffd_format"}
-_INPUT_ENUMERATIONS = {"input_format": ("format", "ffd_format"), "space": ("space", "ffd_space")}
+# The settings that have arguments of their own, or none.
+_ARGUMENTS = {"output", "lattices", "morphs", "in_place", "depfile", "positions"}
+# Option -> the library's entry for it: called as the member is, without "input.".
+_MEMBERS = {"input_format" if member.name == "input.format" else member.name.removeprefix("input."): member
+            for member in library.members() if member.name not in _ARGUMENTS}
+OPTIONS = set(_MEMBERS)
 # Options for reading a mesh.
-INPUT_OPTIONS = {*_INPUT_ENUMERATIONS, "memory", "strict", "allow_extensions"}
-_SWITCHES = ("blocks", "quality", "force", "if_changed", "dry_run")
-OPTIONS = {*_ENUMERATIONS, *INPUT_OPTIONS, *_SWITCHES, "set", "falloff", "snap", "embedding", "fail_on", "as_morph", "only",
-           "clips", "threads", "timeout"}
+INPUT_OPTIONS = {option for option, member in _MEMBERS.items() if member.name.startswith("input.")}
 
 
 @contextlib.contextmanager
@@ -167,52 +166,55 @@ def _set_gates(desc: Any, value: Any) -> None:
             desc.edges_most = float(most)
 
 
+def _set_embedding(desc: Any, value: Any) -> Any:
+    """Sets the embedding: a path, or the bytes of the file, which are returned to be kept alive."""
+    if not isinstance(value, bytes):
+        desc.embedding = library.path(value)
+        return None
+    desc.embedding_bytes.data, desc.embedding_bytes.size, kept = library.lend_bytes(value, "embedding")
+    return kept
+
+
+def _set_values(desc: Any, value: Any) -> None:
+    desc.set, desc.set_count = settings(value)
+
+
+# Options whose members take more than their value.
+_OWN: dict[str, Callable[[Any, Any], Any]] = {
+    "set": _set_values, "snap": _set_snap, "fail_on": _set_gates, "embedding": _set_embedding}
+
+
+def _seconds(value: Any, what: str) -> float:
+    seconds = library.real(value, what)
+    if not seconds > 0:
+        raise ValueError(f"{what} is {value!r}: it must be more than 0 seconds")
+    return seconds
+
+
+# Kind of a member -> function of an option's value and its name.
+_CONVERT: dict[str, Callable[[Any, str], Any]] = {
+    "flag": lambda value, what: bool(value), "count": library.integer, "length": library.real, "time": _seconds,
+    "bytes": lambda value, what: library.integer(value, what, most=2**63),
+    "text": lambda value, what: library.encoded(str(value), what)}
+
+
+def _set_member(desc: Any, option: str, value: Any) -> Any:
+    """Sets the member of an option. Returns an object that must stay alive."""
+    member = _MEMBERS[option]
+    structure, name = (desc.input if member.name.startswith("input.") else desc), member.name.removeprefix("input.")
+    if member.kind == "list":
+        texts, count = _texts(value, option)
+        setattr(structure, name, texts)
+        setattr(structure, name.removesuffix("s") + "_count", count)
+        return texts
+    setattr(structure, name, library.one_of(member.words, value, option) if member.words else _CONVERT[member.kind](value, option))
+    return None
+
+
 def _set_options(desc: Any, options: dict[str, Any], known: Collection[str]) -> list[Any]:
     """Sets the options that are not None. Returns the objects that must stay alive."""
     unknown = sorted(set(options) - set(known))
     if unknown:
         raise TypeError(f"unknown option {unknown[0]!r} (known: {', '.join(sorted(known))})")
-    options = {name: value for name, value in options.items() if value is not None}
-    kept = []
-    for name, value in options.items():
-        if name in _ENUMERATIONS:
-            setattr(desc, name, library.number_of(_ENUMERATIONS[name], value, name))
-        elif name in _INPUT_ENUMERATIONS:
-            member, enumeration = _INPUT_ENUMERATIONS[name]
-            setattr(desc.input, member, library.number_of(enumeration, value, name))
-        elif name in _SWITCHES:
-            setattr(desc, name, bool(value))
-        elif name == "set":
-            desc.set, desc.set_count = settings(value)
-        elif name == "falloff":
-            desc.falloff = library.real(value, "falloff")
-        elif name == "snap":
-            _set_snap(desc, value)
-        elif name == "fail_on":
-            _set_gates(desc, value)
-        elif name == "embedding" and isinstance(value, bytes):
-            desc.embedding_bytes.data, desc.embedding_bytes.size, embedding = library.lend_bytes(value, name)
-            kept.append(embedding)
-        elif name == "embedding":
-            desc.embedding = library.path(value)
-        elif name == "as_morph":
-            desc.as_morph = library.encoded(str(value), "as_morph")
-        elif name == "only":
-            desc.only, desc.only_count = _texts(value, name)
-        elif name == "clips":
-            desc.clips, desc.clip_count = _texts(value, name)
-        elif name == "timeout":
-            desc.timeout = library.real(value, name)
-            if not desc.timeout > 0:
-                raise ValueError(f"timeout is {value!r}: it must be more than 0 seconds")
-        elif name == "threads":
-            desc.threads = library.integer(value, name)
-        elif name == "memory":
-            desc.input.memory = library.integer(value, name, most=2**63)
-        elif name == "strict":
-            desc.input.strict = bool(value)
-        elif name == "allow_extensions":
-            texts, count = _texts(value, name)
-            kept.append(texts)
-            desc.input.allow_extensions, desc.input.allow_extension_count = texts, count
-    return kept
+    return [_OWN[name](desc, value) if name in _OWN else _set_member(desc, name, value)
+            for name, value in options.items() if value is not None]

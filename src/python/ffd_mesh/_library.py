@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
+import itertools
 import logging
 import operator
 import os
-from typing import Any, Callable, Iterator
+from typing import Any, Callable, Iterator, NamedTuple
 
 import numpy as np
 
@@ -41,12 +42,33 @@ WORDS = {name: _words(names) for name, names in declared.ENUMERATIONS.items()}
 NAMES = {name: {number: word for word, number in words.items()} for name, words in WORDS.items()}
 
 
-def number_of(enumeration: str, word: Any, what: str) -> int:
+def one_of(words: dict[str, int], word: Any, what: str) -> int:
     """The number of a word such as "extend". A ValueError lists the words that are possible."""
-    words = WORDS[enumeration]
     if not isinstance(word, str) or word not in words:
         raise ValueError(f"{what} must be one of {', '.join(map(repr, words))}, not {word!r}")
     return words[word]
+
+
+def number_of(enumeration: str, word: Any, what: str) -> int:
+    return one_of(WORDS[enumeration], word, what)
+
+
+class Member(NamedTuple):
+    """A setting of a job (ffd/settings.h). words: of a choice, with their numbers."""
+
+    name: str
+    kind: str
+    words: dict[str, int]
+
+
+def members() -> list[Member]:
+    found: list[Member] = []
+    while entry := lib.ffd_deform_member(len(found)):
+        member = entry.contents
+        words = itertools.takewhile(bool, member.words) if member.words else ()
+        found.append(Member(member.name.decode(), NAMES["ffd_member_kind"][member.kind],
+                            {word.decode(): number for number, word in enumerate(words)}))
+    return found
 
 
 def integer(value: Any, what: str, least: int = 0, most: int = 2**31 - 1) -> int:

@@ -1,6 +1,7 @@
 /* gltf_rig_follow.c - makes the nodes, skins and animations of a file follow the deformation, and logs
    what follows together with them, and what does not. */
 #include "base/memory/memory.h"
+#include "base/spelling.h"
 #include "base/text/words.h"
 #include "base/vector/vec.h"
 #include "io/gltf/edit/gltf_rig.h"
@@ -231,8 +232,8 @@ static ffd_status warn_of_left(const gltf_document *d, const gltf_rig *rig, cons
     if (following->unselected_by > 0)
         snprintf(off, sizeof off, ", up to %g from where", following->unselected_by);
     ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " %s%s %s %s %s: %s%s%s", count,
-                 ffd_plural(count, "node that --only does not select stays where it is",
-                            "nodes that --only does not select stay where they are"),
+                 ffd_plural(count, SPELLED("node that {only} does not select stays where it is"),
+                            SPELLED("nodes that {only} does not select stay where they are")),
                  off, ffd_plural(count, "the node that it hangs on", "the nodes that they hang on"),
                  following->unselected_by > 0 ? "would carry" : "would turn", ffd_plural(count, "it", "them"),
                  left.names + 2, above.count ? " on " : "", above.count ? above.names + 2 : "");
@@ -268,8 +269,8 @@ static ffd_status warn_of_left_skins(const gltf_document *d, const gltf_rig *rig
     if (status == FFD_OK && left.count > 0)
         ffd_log_line(log, FFD_LOG_WARNING, "%zu skinned %s, though joints %s on move, by up to %g%s",
                      left.count,
-                     ffd_plural(left.count, "mesh that --only does not select stays where it is",
-                                "meshes that --only does not select stay where they are"),
+                     ffd_plural(left.count, SPELLED("mesh that {only} does not select stays where it is"),
+                                SPELLED("meshes that {only} does not select stay where they are")),
                      ffd_plural(left.count, "that it hangs", "that they hang"), most, left.names);
     return status;
 }

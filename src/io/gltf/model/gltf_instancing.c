@@ -270,7 +270,8 @@ ffd_status ffd_gltf_check_reach(const mesh_document *document, const ffd_bounds 
             return ffd_json_span_fail(
                 &d->tree, ffd_gltf_extension(d, d->node_values.values[d->instanced_nodes[i].node], EXTENSION),
                 d->name, FFD_E_UNSUPPORTED, error,
-                EXTENSION " is not supported where the lattice reaches the instances (--space mesh deforms "
-                          "the mesh itself)");
+                EXTENSION
+                " is not supported where the lattice reaches the instances ({input.space=mesh} deforms "
+                "the mesh itself)");
     return FFD_OK;
 }

@@ -165,7 +165,7 @@ static ffd_status refuse_required(const gltf_document *d, ffd_error *error)
                                                   : "is not known";
     const ffd_status status = ffd_json_span_fail(
         &d->tree, d->refused_extension, d->name, FFD_E_UNSUPPORTED, error,
-        "the required extension \"%s\" %s (--allow-extension %s deforms %s)", name, why, name,
+        "the required extension \"%s\" %s ({input.allow_extensions=%s} deforms %s)", name, why, name,
         effect == EXTENSION_HOLDS ? "what else the file holds" : "the file all the same");
     ffd_free(name);
     return status;

@@ -4,7 +4,7 @@
 FFD_API extern const draco_module ffd_module;
 
 const draco_module ffd_module = {
-    .head = {DRACO_IDENTITY, ffd_exceptions_prepare},
+    .head = {DRACO_IDENTITY, ffd_exceptions_prepare, ffd_spell_members},
     .decode = ffd_draco_decode,
     .free = ffd_draco_free,
     .point_count = ffd_draco_point_count,

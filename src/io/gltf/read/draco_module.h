@@ -9,7 +9,7 @@
 
 #define DRACO_IDENTITY                                                                                       \
     {                                                                                                        \
-        "ffd-draco.so", FFD_VERSION, 1                                                                       \
+        "ffd-draco.so", FFD_VERSION, 2                                                                       \
     }
 
 typedef struct draco_module {

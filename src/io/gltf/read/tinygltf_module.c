@@ -4,6 +4,6 @@
 FFD_API extern const tinygltf_module ffd_module;
 
 const tinygltf_module ffd_module = {
-    {TINYGLTF_IDENTITY, ffd_exceptions_prepare},
+    {TINYGLTF_IDENTITY, ffd_exceptions_prepare, ffd_spell_members},
     ffd_gltf_parse_model,
 };

@@ -164,7 +164,7 @@ static ffd_status copy_image(const resources *r, const mesh_resource *image, ffd
         return status;
     return ffd_json_span_fail(
         &d->tree, d->image_values.values[image->number], d->name, FFD_E_IO, error,
-        "the image \"%s\" cannot be copied: %s; --resources reference refers to it where it is", image->path,
+        "the image \"%s\" cannot be copied: %s; {resources=reference} refers to it where it is", image->path,
         refused.message);
 }
 
@@ -224,7 +224,7 @@ static ffd_status embed_image(resources *r, size_t number, char *path, ffd_error
         return status;
     if (refused.status)
         return ffd_json_span_fail(&d->tree, d->image_values.values[number], d->name, FFD_E_IO, error,
-                                  "the image \"%s\" cannot be put into the output: %s; --resources reference "
+                                  "the image \"%s\" cannot be put into the output: %s; {resources=reference} "
                                   "refers to it where it is",
                                   path, refused.message);
     if (left) {

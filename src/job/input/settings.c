@@ -1,0 +1,200 @@
+#include "job/input/settings.h"
+#include "base/fail.h"
+#include "base/spelling.h"
+#include "job/input/deform_desc.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* In the order of the enums. */
+static const char *const outside_words[] = {"keep", "extend", "error", NULL};
+static const char *const normals_words[] = {"transform", "keep", "recompute", NULL};
+static const char *const space_words[] = {"scene", "mesh", NULL};
+static const char *const rig_words[] = {"keep", "follow", NULL};
+static const char *const resources_words[] = {"copy", "reference", NULL};
+static const char *const isa_words[] = {"auto", "scalar", "sse2", "avx2", "avx512", NULL};
+static const char *const format_words[] = {"auto", "obj", "gltf", "glb", "ply", "off", "stl", NULL};
+
+#define AT(member) offsetof(ffd_deform_desc, member)
+static const ffd_member members[] = {
+    {"input.format", FFD_MEMBER_FORMAT, AT(input.format), 0, format_words},
+    {"input.space", FFD_MEMBER_CHOICE, AT(input.space), 0, space_words},
+    {"input.memory", FFD_MEMBER_BYTES, AT(input.memory), 0, NULL},
+    {"input.strict", FFD_MEMBER_FLAG, AT(input.strict), 0, NULL},
+    {"input.allow_extensions", FFD_MEMBER_LIST, AT(input.allow_extensions), AT(input.allow_extension_count),
+     NULL},
+    {"output", FFD_MEMBER_TEXT, AT(output), 0, NULL},
+    {"output_format", FFD_MEMBER_FORMAT, AT(output_format), 0, format_words},
+    {"lattices", FFD_MEMBER_LIST, AT(lattices), AT(lattice_count), NULL},
+    {"blocks", FFD_MEMBER_FLAG, AT(blocks), 0, NULL},
+    {"set", FFD_MEMBER_LIST, AT(set), AT(set_count), NULL},
+    {"outside", FFD_MEMBER_CHOICE, AT(outside), 0, outside_words},
+    {"falloff", FFD_MEMBER_LENGTH, AT(falloff), 0, NULL},
+    {"snap", FFD_MEMBER_LENGTH, AT(snap), 0, NULL},
+    {"embedding", FFD_MEMBER_TEXT, AT(embedding), 0, NULL},
+    {"fail_on", FFD_MEMBER_GATES, AT(fail_on), 0, NULL},
+    {"quality", FFD_MEMBER_FLAG, AT(quality), 0, NULL},
+    {"normals", FFD_MEMBER_CHOICE, AT(normals), 0, normals_words},
+    {"rig", FFD_MEMBER_CHOICE, AT(rig), 0, rig_words},
+    {"as_morph", FFD_MEMBER_TEXT, AT(as_morph), 0, NULL},
+    {"morphs", FFD_MEMBER_LIST, AT(morphs), AT(lattice_count), NULL},
+    {"clips", FFD_MEMBER_LIST, AT(clips), AT(clip_count), NULL},
+    {"only", FFD_MEMBER_LIST, AT(only), AT(only_count), NULL},
+    {"resources", FFD_MEMBER_CHOICE, AT(resources), 0, resources_words},
+    {"threads", FFD_MEMBER_COUNT, AT(threads), 0, NULL},
+    {"isa", FFD_MEMBER_CHOICE, AT(isa), 0, isa_words},
+    {"force", FFD_MEMBER_FLAG, AT(force), 0, NULL},
+    {"if_changed", FFD_MEMBER_FLAG, AT(if_changed), 0, NULL},
+    {"in_place", FFD_MEMBER_FLAG, AT(in_place), 0, NULL},
+    {"dry_run", FFD_MEMBER_FLAG, AT(dry_run), 0, NULL},
+    {"depfile", FFD_MEMBER_OBJECT, AT(depfile), 0, NULL},
+    {"positions", FFD_MEMBER_OBJECT, AT(positions), 0, NULL},
+    {"timeout", FFD_MEMBER_TIME, AT(timeout), 0, NULL},
+};
+enum { MEMBERS = sizeof members / sizeof *members };
+
+const job_rule ffd_job_rules[] = {
+    {"falloff", JOB_NEEDS, "outside=extend", NULL},
+    {"rig=follow", JOB_EXCLUDES, "as_morph", "{rig=follow} moves the shape itself, which {as_morph} leaves"},
+    {"rig=follow", JOB_EXCLUDES, "input.space=mesh",
+     "{rig=follow} moves nodes, which have no place with {input.space=mesh}"},
+    {"embedding", JOB_EXCLUDES, "blocks", "{embedding} works with one lattice, and not with {blocks}"},
+    {"embedding", JOB_EXCLUDES, "morphs=several",
+     "{embedding} works with one lattice, but several {morphs} are given"},
+    {"embedding", JOB_EXCLUDES, "lattices=several",
+     "{embedding} works with one lattice, but several {lattices} are given"},
+    {"embedding", JOB_NEEDS, "lattices", NULL},
+    {"clips", JOB_NEEDS, "morphs", NULL},
+    {"as_morph", JOB_EXCLUDES, "morphs", NULL},
+    {"rig=follow", JOB_EXCLUDES, "morphs", "{rig=follow} moves the shape itself, which {morphs} leaves"},
+    {"blocks", JOB_EXCLUDES, "morphs", NULL},
+    {"positions", JOB_EXCLUDES, "morphs", NULL},
+    {"in_place", JOB_NEEDS_FILES, NULL, NULL},
+    {"depfile", JOB_NEEDS_FILES, NULL, NULL},
+    {"resources=reference", JOB_NEEDS_FILES, NULL, NULL},
+    {"in_place", JOB_EXCLUDES, "output", NULL},
+    {"in_place", JOB_EXCLUDES, "output_format",
+     "{in_place} keeps the format: {output_format} cannot be used with it"},
+    {"depfile", JOB_EXCLUDES, "in_place",
+     "{depfile} cannot be used with {in_place}: a file cannot depend on itself"},
+    {NULL, JOB_NEEDS, NULL, NULL},
+};
+
+const ffd_member *ffd_deform_member(size_t number)
+{
+    return number < MEMBERS ? &members[number] : NULL;
+}
+
+/* The number of a choice, or of the elements of a list. */
+static size_t number_of(const ffd_deform_desc *desc, const ffd_member *member)
+{
+    const char *const base = (const char *)desc;
+    size_t count;
+    int choice;
+    if (member->kind != FFD_MEMBER_LIST) {
+        memcpy(&choice, base + member->offset, sizeof choice);
+        return (size_t)choice;
+    }
+    memcpy(&count, base + member->count, sizeof count);
+    return count;
+}
+
+static double value_of(const ffd_deform_desc *desc, const ffd_member *member)
+{
+    double value;
+    memcpy(&value, (const char *)desc + member->offset, sizeof value);
+    return value;
+}
+
+static bool is_set(const ffd_deform_desc *desc, const ffd_member *member)
+{
+    static const size_t sizes[] = {
+        [FFD_MEMBER_FLAG] = sizeof(bool),          [FFD_MEMBER_CHOICE] = sizeof(int),
+        [FFD_MEMBER_FORMAT] = sizeof(int),         [FFD_MEMBER_COUNT] = sizeof(int),
+        [FFD_MEMBER_BYTES] = sizeof(uint64_t),     [FFD_MEMBER_GATES] = sizeof(unsigned),
+        [FFD_MEMBER_TEXT] = sizeof(const char *),  [FFD_MEMBER_LIST] = sizeof(const void *),
+        [FFD_MEMBER_OBJECT] = sizeof(const void *)};
+    static const char zeros[sizeof(uint64_t)];
+    if (member->kind == FFD_MEMBER_LENGTH || member->kind == FFD_MEMBER_TIME)
+        return value_of(desc, member) > 0;
+    return memcmp((const char *)desc + member->offset, zeros, sizes[member->kind]) != 0 &&
+           (member->kind != FFD_MEMBER_LIST || number_of(desc, member) > 0);
+}
+
+bool ffd_setting_is_set(const ffd_deform_desc *desc, const char *setting)
+{
+    const size_t length = strcspn(setting, "=");
+    const char *const word = setting[length] ? setting + length + 1 : NULL;
+    size_t m = 0;
+    while (m < MEMBERS &&
+           (strlen(members[m].name) != length || memcmp(members[m].name, setting, length) != 0))
+        m++;
+    if (m == MEMBERS || !is_set(desc, &members[m]))
+        return false;
+    if (!word)
+        return true;
+    const size_t number = number_of(desc, &members[m]);
+    return members[m].kind == FFD_MEMBER_LIST ? number > 1 : strcmp(members[m].words[number], word) == 0;
+}
+
+static ffd_status check_range(const ffd_deform_desc *desc, const ffd_member *member, ffd_error *error)
+{
+    size_t words = 0;
+    while (member->words && member->words[words])
+        words++;
+    if (words > 0 && number_of(desc, member) >= words)
+        return ffd_fail(error, FFD_E_ARGUMENT, "%d is not a value of %s", (int)number_of(desc, member),
+                        member->name);
+    if (member->kind != FFD_MEMBER_LENGTH && member->kind != FFD_MEMBER_TIME)
+        return FFD_OK;
+    const double value = value_of(desc, member);
+    const bool is_time = member->kind == FFD_MEMBER_TIME;
+    return value >= 0 && (is_time || isfinite(value))
+               ? FFD_OK
+               : ffd_fail(error, FFD_E_ARGUMENT, "the %s %g is not a %s", member->name, value,
+                          is_time ? "time" : "length");
+}
+
+/* A limit of NaN would never be exceeded. */
+static ffd_status check_gates(const ffd_deform_desc *desc, ffd_error *error)
+{
+    if (desc->fail_on & FFD_GATE_TEAR && isnan(desc->tear_most))
+        return ffd_fail(error, FFD_E_ARGUMENT, "the largest step of the gate tear is not a number");
+    if (desc->fail_on & FFD_GATE_EDGES && !(desc->edges_most >= 0))
+        return ffd_fail(error, FFD_E_ARGUMENT, "the gate edges has no length, but %g", desc->edges_most);
+    return FFD_OK;
+}
+
+static ffd_status check_rule(const ffd_deform_desc *desc, const job_rule *rule, ffd_error *error)
+{
+    char text[200];
+    if (!ffd_setting_is_set(desc, rule->setting))
+        return FFD_OK;
+    if (rule->relation == JOB_NEEDS_FILES) {
+        if (!desc->sink && !desc->input.bytes.data)
+            return FFD_OK;
+        snprintf(text, sizeof text, "{%s} needs files: here %s in memory", rule->setting,
+                 desc->sink ? "the output is" : "the mesh is");
+    } else {
+        if (ffd_setting_is_set(desc, rule->other) == (rule->relation == JOB_NEEDS))
+            return FFD_OK;
+        snprintf(text, sizeof text, "{%s} %s {%s}", rule->setting,
+                 rule->relation == JOB_NEEDS ? "needs" : "cannot be used with", rule->other);
+    }
+    return ffd_fail(error, FFD_E_ARGUMENT, "%s", SPELLED(rule->why ? rule->why : text));
+}
+
+ffd_status ffd_deform_desc_check(const ffd_deform_desc *callers, ffd_error *error)
+{
+    ffd_deform_desc desc;
+    ffd_status status = ffd_deform_desc_take(callers, &desc, error);
+    if (!status && desc.embedding_bytes.data && !desc.embedding)
+        desc.embedding = "embedding";
+    for (size_t m = 0; m < MEMBERS && !status; m++)
+        status = check_range(&desc, &members[m], error);
+    if (!status)
+        status = check_gates(&desc, error);
+    for (const job_rule *rule = ffd_job_rules; !status && rule->setting; rule++)
+        status = check_rule(&desc, rule, error);
+    return status;
+}
