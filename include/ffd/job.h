@@ -82,13 +82,6 @@ typedef void (*ffd_log_function)(void *user, ffd_log_level level, const char *li
    FFD_E_MEMORY. */
 FFD_API ffd_status ffd_restore_output(const char *path, ffd_error *error);
 
-/* Bytes that the caller owns and must not change or free before the job ends. data NULL: none; size must then
-   be 0. The library does not change them; it copies them only if their address is not a multiple of 8. */
-typedef struct ffd_bytes {
-    const void *data;
-    size_t size;
-} ffd_bytes;
-
 /* Provides a file that a mesh in memory refers to: a buffer, an image, a material library or a map.
    - name: relative to the mesh, with "/", as in the mesh except that "." and ".." are resolved; it never
      leads out of the mesh's folder.
@@ -120,7 +113,7 @@ typedef ffd_status (*ffd_positions_function)(void *user, const double *positions
 typedef struct ffd_source {
     /* "-": standard input. With bytes it is only a name for messages, and its ending says the format if
        format is FFD_FORMAT_AUTO; NULL then stands for "mesh". FFD_E_ARGUMENT if the last component of such a
-       name, or of that of an output in memory, is empty, "." or "..". */
+       name, or of that of an output in memory, is empty, "." or "..", or if the name means a stream. */
     const char *path;
     ffd_format format; /* FFD_FORMAT_AUTO is not allowed for "-" */
     ffd_space space;   /* of the lattice; for glTF only */
@@ -213,7 +206,7 @@ typedef struct ffd_deform_desc {
     /* If it differs from the format of the input, the deformed mesh is converted, in scene space; the log is
        warned of what the format cannot hold. .gltf and .glb are the same format in two containers. */
     ffd_format output_format;
-    const char *const *lattices; /* lattice_count paths (>= 1), applied in this order */
+    const ffd_lattice_source *lattices; /* lattice_count lattices (>= 1), applied in this order */
     size_t lattice_count;
     /* false: each lattice acts on the result of those before it. true: all lattices act on the mesh at rest,
        and each vertex belongs to the first lattice that holds it. */
@@ -284,16 +277,9 @@ typedef struct ffd_deform_desc {
     ffd_share *share;     /* the cache of this run; may be NULL */
     /* The box for lattices whose box is "mesh", instead of the bounds of this mesh; may be NULL. */
     const ffd_shared_box *shared_box;
-    ffd_depfile *depfile; /* receives the rule of the output; not with "-" and in_place; may be NULL */
-    ffd_log_function log; /* receives warnings and, by level, more; may be NULL */
-    void *log_user;       /* passed to log, as the other _user members to their functions */
-    /* lattice_count lattices, or NULL. An element that is not NULL replaces the file of that index, whose
-       path is then only a name for messages, or NULL. The job works on a copy. Placeholders (set) are for
-       files and texts only. */
-    const ffd_lattice *const *lattice_objects;
-    /* The same with the content of lattice files; each index has an object or a text, not both.
-       FFD_E_ARGUMENT for a box round named meshes, whose paths are relative to the file. */
-    const ffd_bytes *lattice_texts;
+    ffd_depfile *depfile;      /* receives the rule of the output; not with "-" and in_place; may be NULL */
+    ffd_log_function log;      /* receives warnings and, by level, more; may be NULL */
+    void *log_user;            /* passed to log, as the other _user members to their functions */
     ffd_bytes embedding_bytes; /* the content of the embedding file; embedding is then only a name, or NULL */
     /* Receives what would be written; no file is written then. output is only a name, written is ignored, and
        existing files do not matter. FFD_E_ARGUMENT with in_place, depfile and FFD_RESOURCES_REFERENCE. */
@@ -386,8 +372,8 @@ FFD_API ffd_status ffd_view_run(const ffd_view_desc *desc, ffd_job_result *resul
 typedef struct ffd_embed_desc {
     size_t struct_size; /* sizeof(ffd_embed_desc) in the caller's header */
     ffd_source input;   /* the mesh */
-    /* Path. Only the rest volume is used: placeholders in moves need no values. */
-    const char *lattice;
+    /* Only the rest volume is used: placeholders in moves need no values. Without a path "lattice". */
+    ffd_lattice_source lattice;
     const char *output;        /* path; "-": standard output */
     const char *status_output; /* NULL: none */
     double snap;               /* as in ffd_deform_desc */
@@ -398,9 +384,7 @@ typedef struct ffd_embed_desc {
     void *log_user;
     const ffd_setting *set; /* set_count values for placeholders, as in ffd_deform_desc; or NULL */
     size_t set_count;
-    const ffd_lattice *lattice_object; /* instead of the file, as in ffd_deform_desc; or NULL */
-    ffd_bytes lattice_text;            /* content of the file, as in ffd_deform_desc */
-    ffd_sink_function sink;            /* receives both outputs, as in ffd_deform_desc */
+    ffd_sink_function sink; /* receives both outputs, as in ffd_deform_desc */
     void *sink_user;
 } ffd_embed_desc;
 

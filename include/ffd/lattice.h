@@ -23,6 +23,25 @@ extern "C" {
    function may run on the lattice at that time. */
 typedef struct ffd_lattice ffd_lattice;
 
+/* Bytes that the caller owns and must not change or free before the call ends. data NULL: none; size must
+   then be 0. The library does not change them; it copies them only if their address is not a multiple of 8.
+ */
+typedef struct ffd_bytes {
+    const void *data;
+    size_t size;
+} ffd_bytes;
+
+/* A lattice of a job: a file, its text, or an object. */
+typedef struct ffd_lattice_source {
+    /* The file; "-": standard input. With a text or an object only a name for messages, or NULL, which then
+       stands for "lattice N", N from 1. */
+    const char *path;
+    /* The content of a lattice file. FFD_E_ARGUMENT for a box round named meshes, whose paths are relative to
+       the file. */
+    ffd_bytes text;
+    const ffd_lattice *object; /* or NULL; the job works on a copy, which takes no values for placeholders */
+} ffd_lattice_source;
+
 /* Which of the two volumes: that of the control points at rest, or deformed. */
 typedef enum ffd_volume { FFD_VOLUME_REST = 0, FFD_VOLUME_DEFORMED = 1 } ffd_volume;
 

@@ -10,6 +10,7 @@
 #include <ffd/error.h>
 #include <ffd/export.h>
 #include <ffd/fold.h>
+#include <ffd/lattice.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -210,7 +211,7 @@ typedef struct ffd_flaw {
 typedef struct ffd_morph_results {
     size_t count;
     const char *const *names;
-    const char *const *lattices;          /* NULL if the description has none, or an element without a name */
+    const ffd_lattice_source *lattices;
     const struct ffd_job_result *results; /* NULL if the description has no room for them */
 } ffd_morph_results;
 

@@ -111,7 +111,7 @@ static ffd_status add_boxes(hash_list *list, hash_cache *cache, const ffd_deform
     path_list meshes = {0}, read = {0};
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < desc->lattice_count && !status; i++)
-        status = ffd_cache_box_meshes(cache, desc->lattices[i], &meshes, error);
+        status = ffd_cache_box_meshes(cache, desc->lattices[i].path, &meshes, error);
     for (size_t i = 0; i < meshes.count && !status; i++) {
         ffd_source source = desc->input;
         source.path = meshes.paths[i];
@@ -145,7 +145,7 @@ ffd_status ffd_fingerprint_inputs(const ffd_deform_desc *desc, const fingerprint
     if (!status)
         status = add_images_of_input(&list, cache, desc, files, error);
     for (size_t i = 0; i < desc->lattice_count && !status; i++)
-        status = ffd_paths_add(&others, desc->lattices[i], error);
+        status = ffd_paths_add(&others, desc->lattices[i].path, error);
     if (!status && desc->embedding)
         status = ffd_paths_add(&others, desc->embedding, error);
     if (!status)

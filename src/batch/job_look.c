@@ -14,8 +14,8 @@ static ffd_status look_at_lattices(hash_cache *hashes, byte_buffer *found, const
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < desc->lattice_count && !status; i++) {
         path_list meshes = {0};
-        ffd_look_add(found, LOOK_LATTICE, desc->lattices[i]);
-        status = ffd_cache_box_meshes(hashes, desc->lattices[i], &meshes, error);
+        ffd_look_add(found, LOOK_LATTICE, desc->lattices[i].path);
+        status = ffd_cache_box_meshes(hashes, desc->lattices[i].path, &meshes, error);
         *has_boxes = *has_boxes || meshes.count > 0;
         for (size_t m = 0; m < meshes.count && !status; m++) {
             const ffd_source source = {.path = meshes.paths[m]};

@@ -49,7 +49,7 @@ static ffd_status check_reads(const own_file *file, const job_source_desc *jobs,
     for (size_t i = 0; i < sizeof reads / sizeof *reads && !status; i++)
         status = check_read(file, &reads[i], error);
     for (size_t i = 0; i < jobs->lattice_count && !status; i++)
-        status = check_read(file, &(own_file){"a lattice", jobs->lattices[i]}, error);
+        status = check_read(file, &(own_file){"a lattice", jobs->lattices[i].path}, error);
     for (size_t i = 0; i < jobs->default_count && !status; i++)
         if (strcmp(jobs->defaults[i].name, "embedding") == 0)
             status = check_read(file, &(own_file){"the embedding", jobs->defaults[i].value}, error);

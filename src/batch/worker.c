@@ -189,7 +189,7 @@ static ffd_status look_at_files(batch_worker *worker, const wire_task *task, con
 /* Dry run: makes the checks that do not need the mesh. */
 static ffd_status plan(const ffd_deform_desc *desc, ffd_error *error)
 {
-    const chain_files files = {.paths = desc->lattices,
+    const chain_files files = {.lattices = desc->lattices,
                                .count = desc->lattice_count,
                                .set = desc->set,
                                .set_count = desc->set_count,

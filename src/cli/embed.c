@@ -58,7 +58,7 @@ static int embed(settings *s, const char *input)
                               .strict = s->strict,
                               .allow_extensions = s->allowed.names,
                               .allow_extension_count = s->allowed.count};
-    desc.lattice = s->lattice;
+    desc.lattice.path = s->lattice;
     desc.set = s->values.set;
     desc.set_count = s->values.count;
     desc.output = s->output;

@@ -10,8 +10,7 @@
 bool cli_add_lattice(void *context, const cli_option *option, const char *value)
 {
     cli_job *job = context;
-    job->lattices[job->lattice_count] = NULL;
-    return cli_set_text(&job->lattices[job->lattice_count++], option, value);
+    return cli_set_text(&job->lattices[job->lattice_count++].path, option, value);
 }
 
 static const char *const gate_names[] = {"folds", "outside", "multiple", "singular", "invalid", "tear",
@@ -216,7 +215,7 @@ static const char *wrong_streams(const cli_job *job, const cli_words *words, siz
     for (size_t i = 0; i < inputs; i++)
         meshes += cli_is_stream(words->words[i]);
     for (size_t i = 0; i < job->lattice_count; i++)
-        others += cli_is_stream(job->lattices[i]);
+        others += cli_is_stream(job->lattices[i].path);
     if (meshes && job->shares_box)
         return "--shared-box reads each IN twice, but standard input can be read only once";
     return meshes + others > 1 || (others && inputs > 1) ? "standard input can be read only once" : NULL;
@@ -231,7 +230,7 @@ static const char *wrong_report(const cli_job *job, const cli_words *words)
         if (ffd_paths_meet(job->report, words->words[i]))
             return "the report would replace a mesh";
     for (size_t i = 0; i < job->lattice_count; i++)
-        if (ffd_paths_meet(job->report, job->lattices[i]))
+        if (ffd_paths_meet(job->report, job->lattices[i].path))
             return "the report would replace a lattice";
     if (job->desc.embedding && ffd_paths_meet(job->report, job->desc.embedding))
         return "the report would replace the embedding";

@@ -9,8 +9,8 @@
 
 /* Set by cli_job_options. Each command's settings begin with it. */
 typedef struct cli_job {
-    ffd_deform_desc desc; /* the options that are members; cli_job_describe adds the following */
-    const char **lattices;
+    ffd_deform_desc desc;         /* the options that are members; cli_job_describe adds the following */
+    ffd_lattice_source *lattices; /* files */
     size_t lattice_count;
     cli_values values;
     cli_names only, allowed; /* selectors; extensions */

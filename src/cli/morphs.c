@@ -53,7 +53,7 @@ bool cli_add_morph(void *settings, const cli_option *option, const char *value)
         return false;
     }
     job->morphs[job->morph_count++] = name;
-    job->lattices[job->lattice_count++] = rest + 1;
+    job->lattices[job->lattice_count++].path = rest + 1;
     return true;
 }
 

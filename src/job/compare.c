@@ -92,11 +92,9 @@ ffd_status ffd_compare_run(const ffd_compare_desc *callers, ffd_comparison *comp
     status = ffd_in_memory_source(&memory, &desc.a, error);
     if (!status)
         status = ffd_in_memory_source(&memory, &desc.b, error);
-    ffd_in_memory_log(&memory, &desc.log, &desc.log_user);
     if (!status)
         status = run(&desc, &own, error);
-    status = ffd_in_memory_judge(&memory, status, error);
-    ffd_in_memory_end(&memory);
+    status = ffd_in_memory_end(&memory, status, error);
     ffd_struct_give(&own, sizeof own, comparison, comparison->struct_size);
     return status;
 }

@@ -1,6 +1,5 @@
 /* deform.c - the job of `ffd deform`. */
 #include "base/file/mapping.h"
-#include "base/file/memory_files.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/spelling.h"
@@ -12,6 +11,7 @@
 #include "job/deform_job.h"
 #include "job/figures/figure_values.h"
 #include "job/input/deform_desc.h"
+#include "job/input/in_memory.h"
 #include "job/input/shown_box.h"
 #include "job/input/source.h"
 #include "job/morphs.h"
@@ -19,6 +19,7 @@
 #include "job/report/depfile.h"
 #include "job/report/output_set.h"
 #include "job/sharing.h"
+#include "lattice/file/lattice_source.h"
 #include "mesh/resource/beside.h"
 #include <string.h>
 
@@ -26,7 +27,7 @@
 static ffd_status restore_output(const ffd_deform_desc *desc, ffd_error *error)
 {
     const char *const path = desc->in_place ? desc->input.path : desc->output;
-    return path && !ffd_output_is_stream(path) ? ffd_restore_output(path, error) : FFD_OK;
+    return path && !ffd_output_is_stream(path) && !desc->sink ? ffd_restore_output(path, error) : FFD_OK;
 }
 
 /* Refuses options that need an output file. */
@@ -46,6 +47,8 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
 {
     const char *input = desc->input.path;
     *options = (mesh_save_options){.path = desc->output,
+                                   .to_sink = desc->sink,
+                                   .from_memory = desc->input.bytes.data,
                                    .format = desc->output_format,
                                    .force = desc->force || desc->if_changed,
                                    .resources = desc->resources,
@@ -71,14 +74,14 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
         return ffd_fail(error, FFD_E_ARGUMENT, "standard output needs {output_format} " FORMAT_NAMES);
     if (options->format == FFD_FORMAT_AUTO)
         return ffd_format_refuse_name(desc->output, error);
-    /* The output first: usually it does not exist, which is a quick answer. */
-    if (!ffd_output_is_stream(desc->output) && ffd_file_same(desc->output, input))
+    if (desc->sink)
+        return FFD_OK;
+    if (!ffd_output_is_stream(desc->output) && ffd_job_reads_mesh(&desc->input, desc->output))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the input ({in_place} overwrites it)");
-    for (size_t i = 0; i < desc->lattice_count && !ffd_output_is_stream(desc->output); i++)
-        if (ffd_file_same(desc->output, desc->lattices[i]))
-            return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is a lattice of this command");
-    if (desc->embedding && !ffd_output_is_stream(desc->output) &&
-        ffd_file_same(desc->output, desc->embedding))
+    if (!ffd_output_is_stream(desc->output) &&
+        ffd_job_reads_lattice(desc->lattices, desc->lattice_count, desc->output))
+        return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is a lattice of this command");
+    if (!ffd_output_is_stream(desc->output) && ffd_job_reads_embedding(desc, desc->output))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the embedding that is to be reused");
     return ffd_output_check(desc->output, options->force, error);
 }
@@ -131,10 +134,11 @@ static ffd_status make_rule(const deform_job *job, path_list *inputs, byte_buffe
 {
     const ffd_deform_desc *desc = job->desc;
     ffd_status status = FFD_OK;
-    for (size_t i = 0; i < desc->lattice_count && !status; i++)
-        if (!ffd_file_is_stream(desc->lattices[i]))
-            status = ffd_paths_add(inputs, desc->lattices[i], error);
-    if (!status && desc->embedding && !ffd_file_is_stream(desc->embedding))
+    for (size_t i = 0; i < desc->lattice_count && !status; i++) {
+        const char *const path = ffd_lattice_file(&desc->lattices[i]);
+        status = path ? ffd_paths_add(inputs, path, error) : FFD_OK;
+    }
+    if (!status && desc->embedding && !desc->embedding_bytes.data && !ffd_file_is_stream(desc->embedding))
         status = ffd_paths_add(inputs, desc->embedding, error);
     for (size_t i = 0; i < job->chain.count && !status; i++)
         status = add_paths(inputs, &job->chain.links[i].box_files, error);
@@ -186,6 +190,7 @@ static ffd_status save(deform_job *job, const mesh_save_options *options, ffd_er
     if (status)
         return status;
     ffd_output_record(output, ffd_written_list(job->desc->written));
+    ffd_output_redirect(output, job->desc->sink, job->desc->sink_user);
     if (job->desc->if_changed)
         ffd_output_keep_equal(output);
     if (hashed)
@@ -193,7 +198,7 @@ static ffd_status save(deform_job *job, const mesh_save_options *options, ffd_er
     status = write_all(job, options, output, &rule, error);
     status = ffd_mapping_judge(job->losses, status, error);
     if (!status) /* a missing resource may be the fault of a resolve callback */
-        status = ffd_memory_judge_path(job->desc->input.path, status, error);
+        status = ffd_in_memory_judge(&job->desc->input, status, error);
     if (!status)
         status = ffd_output_commit(output, error);
     if (!status && job->desc->depfile)
@@ -211,7 +216,7 @@ static ffd_status rehearse_conversion(deform_job *job, const mesh_save_options *
     const mesh_format *const to = ffd_format_table(options->format);
     beside_names names = {.options = options, .log = &job->log};
     ffd_format from;
-    if (!to->count_beside || ffd_output_is_stream(options->path))
+    if (!to->count_beside || ffd_output_is_stream(options->path) || options->to_sink)
         return FFD_OK;
     ffd_status status = ffd_source_format(&job->desc->input, &from, error);
     const size_t count = status ? 0 : to->count_beside(NULL, from, options->format);
@@ -292,7 +297,7 @@ static bool needs_only_positions(const ffd_deform_desc *desc, const mesh_save_op
 static ffd_status check_reads(const deform_job *job, const char *output, ffd_error *error)
 {
     const ffd_deform_desc *const desc = job->desc;
-    if (!ffd_deform_desc_writes(desc) || desc->in_place)
+    if (!ffd_deform_desc_writes(desc) || desc->in_place || desc->sink)
         return FFD_OK;
     const ffd_status status = ffd_job_check_mesh_files(output, &desc->input, job->document, error);
     return status ? status : ffd_job_check_box_files(output, &job->chain, desc->lattices, error);

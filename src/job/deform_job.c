@@ -26,15 +26,16 @@
 #include "job/pass/chain_fit.h"
 #include "job/pass/pass.h"
 #include "job/report/output_set.h"
+#include "lattice/file/lattice_source.h"
 #include <string.h>
 
 static ffd_status check_embedding(const ffd_deform_desc *desc, ffd_error *error)
 {
     const char *embedding = desc->embedding;
-    if (!embedding)
+    if (!embedding || desc->embedding_bytes.data)
         return FFD_OK;
     if (strcmp(embedding, "-") == 0 &&
-        (strcmp(desc->input.path, "-") == 0 || strcmp(desc->lattices[0], "-") == 0))
+        (strcmp(desc->input.path, "-") == 0 || ffd_lattice_is_stream(&desc->lattices[0])))
         return ffd_fail(error, FFD_E_ARGUMENT, "standard input can be read only once");
     if (desc->written && ffd_written_holds(&desc->written->files, embedding))
         return ffd_fail_file(error, FFD_E_EXISTS, embedding,
@@ -45,7 +46,7 @@ static ffd_status check_embedding(const ffd_deform_desc *desc, ffd_error *error)
 static bool is_complete(const ffd_deform_desc *desc)
 {
     const ffd_source *const input = &desc->input;
-    return input->path && ffd_desc_has_texts(desc->lattices, desc->lattice_count) &&
+    return input->path && (desc->lattices || desc->lattice_count == 0) &&
            ffd_desc_has_texts(desc->only, desc->only_count) &&
            ffd_desc_has_texts(desc->clips, desc->clip_count) &&
            ffd_desc_has_texts(input->allow_extensions, input->allow_extension_count) &&
@@ -64,7 +65,7 @@ static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
     return check_embedding(desc, error);
 }
 
-/* Runs a job with structs of this library's size, and with paths for what is in memory. size: of each of the
+/* Runs a job with structs of this library's size, and with names for what is in memory. size: of each of the
    caller's results of morph targets. */
 static ffd_status run_own(deform_job_function run, const ffd_deform_desc *callers, ffd_job_result *result,
                           size_t size)
@@ -83,12 +84,11 @@ static ffd_status run_own(deform_job_function run, const ffd_deform_desc *caller
         status = run(&desc, result, &result->error);
     for (size_t k = 0; k < desc.lattice_count && morphs; k++)
         ffd_struct_give(&morphs[k], sizeof morphs[k], (char *)callers->morph_results + k * size, size);
-    status = ffd_in_memory_judge(&memory, status, &result->error);
+    status = ffd_in_memory_end(&memory, status, &result->error);
     if (result->morphs.results)
         result->morphs.results = callers->morph_results;
     if (result->morphs.lattices)
         result->morphs.lattices = callers->lattices;
-    ffd_in_memory_end(&memory);
     ffd_free(morphs);
     return status;
 }
@@ -138,7 +138,8 @@ static ffd_status open_mesh(deform_job *job, ffd_error *error)
     source.only_positions = job->only_positions;
     file_stamp stamp;
     file_input bytes;
-    const bool is_file = ffd_cache_holds_meshes(desc->share) && ffd_file_stamp(source.path, &stamp);
+    const bool is_file =
+        ffd_cache_holds_meshes(desc->share) && !source.bytes.data && ffd_file_stamp(source.path, &stamp);
     ffd_status status = is_file && ffd_cache_take_bytes(desc->share, source.path, &stamp, &bytes)
                             ? ffd_source_open_bytes(&source, job->threads, &bytes, &job->document, error)
                             : ffd_source_open(&source, job->threads, &job->document, error);
@@ -155,8 +156,7 @@ ffd_status ffd_deform_job_load_chain(deform_job *job, const chain_outside *outsi
                                      ffd_error *error)
 {
     const ffd_deform_desc *const desc = job->desc;
-    const chain_files files = {.paths = desc->lattices,
-                               .objects = desc->lattice_objects,
+    const chain_files files = {.lattices = desc->lattices,
                                .count = desc->lattice_count,
                                .set = desc->set,
                                .set_count = desc->set_count,
@@ -175,7 +175,8 @@ ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_erro
     const chain_outside outside = {desc->outside == FFD_OUTSIDE_EXTEND, desc->falloff, desc->snap,
                                    desc->snap_relative};
     const double start = ffd_clock_seconds();
-    if (desc->written && ffd_written_holds(&desc->written->files, desc->input.path))
+    if (desc->written && !desc->input.bytes.data &&
+        ffd_written_holds(&desc->written->files, desc->input.path))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->input.path,
                              "was written by this run already, under this name or another");
     ffd_status status = ffd_deform_job_load_chain(job, &outside, desc->share, error);
@@ -292,8 +293,8 @@ static ffd_status locate(deform_job *job, ffd_error *error)
     if (status || !embedding)
         return status;
     const chain_link *const link = &job->chain.links[0];
-    return ffd_embedding_reuse(embedding, job->document, link->lattice, link->snap, job->threads,
-                               &job->embedding, error);
+    return ffd_embedding_reuse(embedding, job->desc->embedding_bytes, job->document, link->lattice,
+                               link->snap, job->threads, &job->embedding, error);
 }
 
 /* Whether nodes and other places matter: conversions and arrays of positions do not contain them. */

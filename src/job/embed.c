@@ -19,6 +19,7 @@
 #include "job/pass/chain_fit.h"
 #include "job/pass/pass.h"
 #include "job/reads.h"
+#include "lattice/file/lattice_source.h"
 #include <math.h>
 #include <string.h>
 
@@ -45,6 +46,7 @@ static ffd_status write_files(const ffd_embed_desc *desc, const embedding *made,
     ffd_status status = ffd_output_create(&output, error);
     if (status)
         return status;
+    ffd_output_redirect(output, desc->sink, desc->sink_user);
     if (desc->status_output) {
         status = ffd_output_begin(output, desc->status_output, desc->force, error);
         if (!status)
@@ -66,7 +68,7 @@ static ffd_status write_files(const ffd_embed_desc *desc, const embedding *made,
 
 static ffd_status check_output(const ffd_embed_desc *desc, const char *path, ffd_error *error)
 {
-    if (ffd_file_same(path, desc->input.path) || ffd_file_same(path, desc->lattice))
+    if (ffd_job_reads_mesh(&desc->input, path) || ffd_job_reads_lattice(&desc->lattice, 1, path))
         return ffd_fail_file(error, FFD_E_EXISTS, path, "is an input of this command");
     return ffd_output_check(path, desc->force, error);
 }
@@ -105,11 +107,15 @@ static ffd_status fail_one_file(const char *output, ffd_error *error)
 
 static ffd_status check_outputs(const ffd_embed_desc *desc, ffd_error *error)
 {
-    if (!desc->input.path || !desc->lattice || !desc->output ||
+    if (!desc->input.path || !desc->lattice.path || !desc->output ||
         !ffd_desc_has_settings(desc->set, desc->set_count))
         return ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete");
     if (!(desc->snap >= 0 && isfinite(desc->snap)))
         return ffd_fail(error, FFD_E_ARGUMENT, "the snap %g is not a length", desc->snap);
+    if (desc->sink)
+        return desc->status_output && strcmp(desc->output, desc->status_output) == 0
+                   ? fail_one_file(desc->output, error)
+                   : FFD_OK;
     /* Restore files that a killed run had set aside. */
     ffd_status status = ffd_output_is_stream(desc->output) ? FFD_OK : ffd_restore_output(desc->output, error);
     if (!status)
@@ -126,7 +132,7 @@ static ffd_status check_reads(const ffd_embed_desc *desc, const embedding *made,
 {
     const char *const outputs[] = {desc->output, desc->status_output};
     ffd_status status = FFD_OK;
-    for (size_t i = 0; i < 2 && outputs[i] && !status; i++) {
+    for (size_t i = 0; i < 2 && outputs[i] && !desc->sink && !status; i++) {
         status = ffd_job_check_mesh_files(outputs[i], &desc->input, NULL, error);
         if (!status)
             status = ffd_job_check_box_files(outputs[i], &made->chain, &desc->lattice, error);
@@ -223,8 +229,7 @@ static ffd_status run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_er
 {
     const double start = ffd_clock_seconds();
     const mesh_log log = {desc->log, desc->log_user};
-    const chain_files files = {.paths = &desc->lattice,
-                               .objects = &desc->lattice_object,
+    const chain_files files = {.lattices = &desc->lattice,
                                .count = 1,
                                .set = desc->set,
                                .set_count = desc->set_count,
@@ -252,24 +257,19 @@ static ffd_status run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_er
     return status;
 }
 
-/* Registers data in memory under paths. */
+/* Names and checks data in memory. */
 static ffd_status take_memory(job_memory *memory, ffd_embed_desc *desc, ffd_error *error)
 {
-    const ffd_bytes text = desc->lattice_object ? (ffd_bytes){"", 0} : desc->lattice_text;
-    ffd_status status = FFD_OK;
-    if (desc->lattice_object && desc->lattice_text.data)
-        status = ffd_fail(error, FFD_E_ARGUMENT, "the lattice is given as an object and as a text");
-    if (desc->sink && desc->output && desc->status_output && strcmp(desc->output, desc->status_output) == 0)
+    ffd_status status = ffd_in_memory_lattice(&desc->lattice, "the lattice", "lattice", error);
+    if (!status && desc->sink && desc->output && desc->status_output &&
+        strcmp(desc->output, desc->status_output) == 0)
         status = fail_one_file(desc->output, error);
     if (!status)
         status = ffd_in_memory_source(memory, &desc->input, error);
     if (!status)
-        status = ffd_in_memory_bytes(memory, text, "lattice", &desc->lattice, error);
+        status = ffd_in_memory_output(desc->sink, desc->output, error);
     if (!status)
-        status = ffd_in_memory_output(memory, desc->sink, desc->sink_user, &desc->output, error);
-    if (!status)
-        status = ffd_in_memory_output(memory, desc->sink, desc->sink_user, &desc->status_output, error);
-    ffd_in_memory_log(memory, &desc->log, &desc->log_user);
+        status = ffd_in_memory_output(desc->sink, desc->status_output, error);
     return status;
 }
 
@@ -287,8 +287,7 @@ ffd_status ffd_embed_run(const ffd_embed_desc *callers, ffd_job_result *callers_
     status = take_memory(&memory, &desc, &result.error);
     if (!status)
         status = run(&desc, &result, &result.error);
-    result.status = ffd_in_memory_judge(&memory, status, &result.error);
-    ffd_in_memory_end(&memory);
+    result.status = ffd_in_memory_end(&memory, status, &result.error);
     if (result.status && error)
         *error = result.error;
     if (callers_result)

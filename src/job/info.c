@@ -46,7 +46,7 @@ static ffd_status write_facts(const ffd_info_desc *desc, byte_buffer *out, ffd_e
     ffd_json_object(&json, NULL, false);
     ffd_json_string(&json, "format", "ffd-info");
     ffd_json_count(&json, "version", 1);
-    ffd_json_string(&json, "file", ffd_memory_has(file->path) ? ffd_source_name(file) : file->path);
+    ffd_json_string(&json, "file", file->path);
     ffd_json_string(&json, "kind", lattice ? "lattice" : "mesh");
     const ffd_status status =
         lattice ? ffd_info_lattice(desc, &json, error) : ffd_info_mesh(desc, &json, error);
@@ -69,7 +69,6 @@ ffd_status ffd_info_run(const ffd_info_desc *callers, char **text, ffd_error *er
         return status;
     job_memory memory = {0};
     status = ffd_in_memory_source(&memory, &own.file, error);
-    ffd_in_memory_log(&memory, &own.log, &own.log_user);
     if (!status)
         status = write_facts(desc, &facts, error);
     status = ffd_mapping_judge(losses, status, error);
@@ -81,8 +80,7 @@ ffd_status ffd_info_run(const ffd_info_desc *callers, char **text, ffd_error *er
     }
     if (status != FFD_OK && status != FFD_E_ARGUMENT)
         ffd_fail_name_file(error, ffd_source_name(&desc->file));
-    status = ffd_in_memory_judge(&memory, status, error);
-    ffd_in_memory_end(&memory);
+    status = ffd_in_memory_end(&memory, status, error);
     ffd_buffer_free(&facts);
     return status;
 }

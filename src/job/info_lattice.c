@@ -206,11 +206,12 @@ static ffd_status load(const ffd_info_desc *desc, ffd_lattice **lattice, bool *f
     const spec_settings settings = {
         .values = desc->set, .used = used, .count = desc->set_count, .may_be_open = true};
     memory_budget budget = ffd_budget_make(desc->file.memory);
+    const ffd_lattice_source source = {.path = desc->file.path, .text = desc->file.bytes};
     lattice_spec *spec = NULL;
     size_t size = 0;
     if (!used)
         return ffd_fail_memory(error);
-    ffd_status status = ffd_spec_load(desc->file.path, &settings, &spec, &size, error);
+    ffd_status status = ffd_spec_load(&source, &settings, &spec, &size, error);
     ffd_budget_add_file(&budget, size, 0);
     if (!status)
         status = check_values(desc, used, error);

@@ -8,6 +8,7 @@
 #include "job/input/selection.h"
 #include "job/input/source.h"
 #include "job/reads.h"
+#include "lattice/file/spec_text.h"
 #include "lattice/lattice.h"
 #include <math.h>
 #include <string.h>
@@ -126,8 +127,10 @@ static ffd_status check_desc(const ffd_lattice_new_desc *desc, ffd_error *error)
         complete = desc->meshes[i].path;
     if (!complete)
         return ffd_fail(error, FFD_E_ARGUMENT, "the description of the new lattice is not complete");
+    if (desc->sink)
+        return FFD_OK;
     for (size_t i = 0; i < desc->mesh_count && !ffd_output_is_stream(desc->output); i++)
-        if (ffd_file_same(desc->meshes[i].path, desc->output))
+        if (ffd_job_reads_mesh(&desc->meshes[i], desc->output))
             return ffd_fail_file(error, FFD_E_ARGUMENT, desc->output, "the lattice would replace its mesh");
     for (size_t i = 0; i < desc->mesh_count; i++) {
         const ffd_status status = ffd_job_check_mesh_files(desc->output, &desc->meshes[i], NULL, error);
@@ -152,8 +155,19 @@ static ffd_status take_memory(job_memory *memory, ffd_lattice_new_desc *desc, ff
     }
     desc->meshes = count > 0 ? *meshes : NULL;
     if (!status)
-        status = ffd_in_memory_output(memory, desc->sink, desc->sink_user, &desc->output, error);
-    ffd_in_memory_log(memory, &desc->log, &desc->log_user);
+        status = ffd_in_memory_output(desc->sink, desc->output, error);
+    return status;
+}
+
+static ffd_status save(const ffd_lattice_new_desc *desc, const ffd_lattice *lattice, ffd_error *error)
+{
+    file_output *output;
+    ffd_status status = ffd_output_create(&output, error);
+    if (status)
+        return status;
+    ffd_output_redirect(output, desc->sink, desc->sink_user);
+    status = ffd_lattice_write(lattice, output, desc->output, desc->force, error);
+    ffd_output_destroy(&output);
     return status;
 }
 
@@ -176,9 +190,8 @@ ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *callers, ffd_error *e
     if (!status)
         status = create_round(desc, &lattice, error);
     if (!status)
-        status = ffd_lattice_save(lattice, desc->output, desc->force, error);
-    status = ffd_in_memory_judge(&memory, status, error);
-    ffd_in_memory_end(&memory);
+        status = save(desc, lattice, error);
+    status = ffd_in_memory_end(&memory, status, error);
     ffd_free(meshes);
     ffd_lattice_destroy(&lattice);
     return status;

@@ -126,7 +126,6 @@ static ffd_status add_target(deform_job *job, size_t k, const mesh_log *log, ffd
     mesh_log_label label;
     ffd_deform_desc one = *all;
     one.lattices = all->lattices + k;
-    one.lattice_objects = all->lattice_objects ? all->lattice_objects + k : NULL;
     one.lattice_count = 1;
     one.as_morph = name;
     ffd_result_clear(result);

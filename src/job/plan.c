@@ -165,7 +165,7 @@ ffd_status ffd_plan_read(job_plan *plan, size_t number, const ffd_deform_desc *d
     ffd_status status = FFD_OK;
     /* A mesh of a box that is not there yet fails all jobs. */
     for (size_t i = 0; i < desc->lattice_count && plan->replaces && !plan->has_lattices && !status; i++)
-        status = check_lattice(plan, desc->lattices[i], error);
+        status = check_lattice(plan, desc->lattices[i].path, error);
     plan->has_lattices = true;
     return status ? status : check_mesh(plan, number, &desc->input, error);
 }

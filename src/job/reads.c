@@ -1,16 +1,16 @@
 #include "job/reads.h"
 #include "base/file/input.h"
-#include "base/file/memory_files.h"
 #include "base/file/output.h"
 #include "io/formats.h"
 #include "job/input/source.h"
+#include "lattice/file/lattice_source.h"
 #include <string.h>
 
 /* Whether a file is there that an output would replace. */
 static bool replaces(const char *output)
 {
     file_stamp stamp;
-    return !ffd_output_is_stream(output) && !ffd_memory_has(output) && ffd_file_stamp(output, &stamp);
+    return !ffd_output_is_stream(output) && ffd_file_stamp(output, &stamp);
 }
 
 static bool holds(const path_list *files, const char *output)
@@ -65,12 +65,33 @@ static const char *role_of(const mesh_names *names, const char *output)
     return holds(&names->named, output) ? "a buffer of the input" : NULL;
 }
 
+/* Asks for the output first: usually it does not exist, which is a quick answer. */
+bool ffd_job_reads_mesh(const ffd_source *source, const char *path)
+{
+    return source->path && !source->bytes.data && ffd_file_same(path, source->path);
+}
+
+bool ffd_job_reads_embedding(const ffd_deform_desc *desc, const char *path)
+{
+    return desc->embedding && !desc->embedding_bytes.data && ffd_file_same(path, desc->embedding);
+}
+
+bool ffd_job_reads_lattice(const ffd_lattice_source *lattices, size_t count, const char *path)
+{
+    for (size_t i = 0; i < count && lattices; i++) {
+        const char *const file = ffd_lattice_file(&lattices[i]);
+        if (file && ffd_file_same(path, file))
+            return true;
+    }
+    return false;
+}
+
 ffd_status ffd_job_check_mesh_files(const char *output, const ffd_source *source,
                                     const mesh_document *document, ffd_error *error)
 {
     ffd_format format;
     mesh_names names = {0};
-    if (ffd_file_is_stream(source->path) || ffd_memory_has(source->path) || !replaces(output) ||
+    if (ffd_file_is_stream(source->path) || source->bytes.data || !replaces(output) ||
         ffd_source_format(source, &format, NULL))
         return FFD_OK;
     const mesh_format *const table = ffd_format_table(format);
@@ -91,13 +112,13 @@ ffd_status ffd_job_check_mesh_files(const char *output, const ffd_source *source
 }
 
 ffd_status ffd_job_check_box_files(const char *output, const lattice_chain *chain,
-                                   const char *const *lattices, ffd_error *error)
+                                   const ffd_lattice_source *lattices, ffd_error *error)
 {
     for (size_t i = 0; i < chain->count; i++)
         if (holds(&chain->links[i].box_files, output))
             return ffd_fail_file(
                 error, FFD_E_EXISTS, output,
                 "is a file of the meshes that the box of %s goes round and is not overwritten",
-                ffd_file_display_name(lattices[i]));
+                ffd_lattice_name(&lattices[i]));
     return FFD_OK;
 }

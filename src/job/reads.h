@@ -1,19 +1,25 @@
-/* reads.h - the files that a job reads through others: its outputs must not replace them. The files that the
-   job itself names are checked by each command. */
+/* reads.h - the files that a job reads: its outputs must not replace them. The other files that the job
+   itself names are checked by each command. */
 #ifndef FFD_JOB_READS_H
 #define FFD_JOB_READS_H
 
 #include "job/chain/chain.h"
 #include "mesh/mesh.h"
 
+/* Returns whether a mesh is the file at a path. */
+bool ffd_job_reads_mesh(const ffd_source *source, const char *path);
+/* Returns whether the embedding of a job is that file. */
+bool ffd_job_reads_embedding(const ffd_deform_desc *desc, const char *path);
+/* Returns whether one of the lattices (NULL: there are none) is the file at a path. */
+bool ffd_job_reads_lattice(const ffd_lattice_source *lattices, size_t count, const char *path);
 /* Refuses (FFD_E_EXISTS) an output in the place of a file that a mesh names: a buffer, an image, a material
    library, a file of an extension. document: the open mesh; NULL: its file is read, if there is something to
    replace. */
 ffd_status ffd_job_check_mesh_files(const char *output, const ffd_source *source,
                                     const mesh_document *document, ffd_error *error);
-/* The same for the meshes that the boxes of lattices go round, and their buffers. lattices: the names of the
-   chain's lattices. */
+/* The same for the meshes that the boxes of lattices go round, and their buffers. lattices: those of the
+   chain. */
 ffd_status ffd_job_check_box_files(const char *output, const lattice_chain *chain,
-                                   const char *const *lattices, ffd_error *error);
+                                   const ffd_lattice_source *lattices, ffd_error *error);
 
 #endif

@@ -1,5 +1,4 @@
 #include "job/sharing.h"
-#include "base/file/memory_files.h"
 #include "base/file/output.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
@@ -38,7 +37,7 @@ static ffd_status add_input(job_sharing *s, ffd_error *error)
 {
     path_list files = {0};
     s->has_input = true;
-    if (!s->document->format->list_files || ffd_file_is_stream(s->input))
+    if (!s->document->format->list_files || ffd_file_is_stream(s->input) || s->document->folder.resolve)
         return FFD_OK;
     const mesh_format *const format = s->document->format;
     ffd_status status = format->list_files(s->document, &files, error);
@@ -67,7 +66,7 @@ void ffd_sharing_begin(job_sharing *sharing, const ffd_deform_desc *desc, const 
 {
     *sharing = (job_sharing){.document = document, .input = desc->input.path};
     *used = NULL;
-    if (!ffd_format_table(to)->name_beside || ffd_output_is_stream(output) || ffd_memory_has(output))
+    if (!ffd_format_table(to)->name_beside || ffd_output_is_stream(output) || desc->sink)
         return;
     sharing->known = desc->written ? &desc->written->users : &sharing->own;
     sharing->sharing = (mesh_sharing){find, sharing, sharing->known->is_complete};

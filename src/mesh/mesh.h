@@ -6,6 +6,7 @@
 #ifndef FFD_MESH_MESH_H
 #define FFD_MESH_MESH_H
 
+#include "base/file/file_folder.h"
 #include "base/file/input.h"
 #include "base/file/output.h"
 #include "base/file/path_list.h"
@@ -202,6 +203,8 @@ typedef struct mesh_sharing {
 
 typedef struct mesh_save_options {
     const char *path; /* "-": standard output */
+    bool to_sink;     /* path is only a name: the output goes to a callback (ffd_output_redirect) */
+    bool from_memory; /* so is input: the mesh is in memory */
     ffd_format format;
     bool force;
     ffd_resources resources;
@@ -217,6 +220,12 @@ typedef struct mesh_save_options {
     uint64_t *bytes_left;
     uint64_t *bounds_left; /* receives the number of bounds in extensions that no longer fit; may be NULL */
 } mesh_save_options;
+
+/* Returns whether a path of the output leads to a file of the input. */
+static inline bool ffd_save_meets(const mesh_save_options *options, const char *input, const char *output)
+{
+    return !options->to_sink && !options->from_memory && ffd_file_same(input, output);
+}
 
 /* x = linear p + offset, in place. */
 static inline void ffd_point_transform(const double linear[9], const double offset[3], double point[3])
@@ -476,6 +485,7 @@ struct mesh_document {
     size_t part_count;
     double largest_coordinate; /* of the file's number type; 0: that of the format */
     bool has_face_normals;     /* faces have normals, which saving computes anew */
+    file_folder folder;        /* where the names in the file lead */
     memory_budget budget;
     mesh_flaws flaws; /* found by open */
     /* Number of things whose faces, lines or points are unknown (the flaws say why); they are in no faces. */

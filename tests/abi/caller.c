@@ -94,7 +94,7 @@ static void run_jobs(const ffd_lattice *lattice, const char *mesh, const char *o
     char file[1024];
     snprintf(file, sizeof file, "%s.json", output);
     expect(ffd_lattice_save(lattice, file, true, NULL) == FFD_OK, "ffd_lattice_save");
-    const char *const lattices[] = {file};
+    const ffd_lattice_source lattices[] = {{.path = file}};
     GUARDED(ffd_deform_desc, desc);
     GUARDED(ffd_job_result, result);
     ffd_deform_desc_init(&desc.as, sizeof desc.as);

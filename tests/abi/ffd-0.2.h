@@ -25,6 +25,15 @@ typedef struct ffd_error {
 size_t ffd_error_format(const ffd_error *error, char *text, size_t capacity);
 int ffd_status_exit_code(ffd_status status);
 typedef struct ffd_lattice ffd_lattice;
+typedef struct ffd_bytes {
+    const void *data;
+    size_t size;
+} ffd_bytes;
+typedef struct ffd_lattice_source {
+    const char *path;
+    ffd_bytes text;
+    const ffd_lattice *object;
+} ffd_lattice_source;
 typedef enum ffd_volume { FFD_VOLUME_REST = 0, FFD_VOLUME_DEFORMED = 1 } ffd_volume;
 typedef enum ffd_knots {
     FFD_KNOTS_DEFAULT = 0,
@@ -302,7 +311,7 @@ typedef struct ffd_flaw {
 typedef struct ffd_morph_results {
     size_t count;
     const char *const *names;
-    const char *const *lattices;
+    const ffd_lattice_source *lattices;
     const struct ffd_job_result *results;
 } ffd_morph_results;
 typedef struct ffd_seconds {
@@ -378,10 +387,6 @@ typedef enum ffd_gate {
 typedef enum ffd_log_level { FFD_LOG_WARNING = 0, FFD_LOG_INFO, FFD_LOG_DETAIL } ffd_log_level;
 typedef void (*ffd_log_function)(void *user, ffd_log_level level, const char *line);
 ffd_status ffd_restore_output(const char *path, ffd_error *error);
-typedef struct ffd_bytes {
-    const void *data;
-    size_t size;
-} ffd_bytes;
 typedef ffd_status (*ffd_resolve_function)(void *user, const char *name, ffd_bytes *bytes);
 typedef ffd_status (*ffd_sink_function)(void *user, const char *name, const void *bytes, size_t size);
 typedef ffd_status (*ffd_positions_function)(void *user, const double *positions, size_t count);
@@ -421,7 +426,7 @@ typedef struct ffd_deform_desc {
     ffd_source input;
     const char *output;
     ffd_format output_format;
-    const char *const *lattices;
+    const ffd_lattice_source *lattices;
     size_t lattice_count;
     bool blocks;
     const ffd_setting *set;
@@ -458,8 +463,6 @@ typedef struct ffd_deform_desc {
     ffd_depfile *depfile;
     ffd_log_function log;
     void *log_user;
-    const ffd_lattice *const *lattice_objects;
-    const ffd_bytes *lattice_texts;
     ffd_bytes embedding_bytes;
     ffd_sink_function sink;
     void *sink_user;
@@ -499,7 +502,7 @@ ffd_status ffd_view_run(const ffd_view_desc *desc, ffd_job_result *result, ffd_e
 typedef struct ffd_embed_desc {
     size_t struct_size;
     ffd_source input;
-    const char *lattice;
+    ffd_lattice_source lattice;
     const char *output;
     const char *status_output;
     double snap;
@@ -510,8 +513,6 @@ typedef struct ffd_embed_desc {
     void *log_user;
     const ffd_setting *set;
     size_t set_count;
-    const ffd_lattice *lattice_object;
-    ffd_bytes lattice_text;
     ffd_sink_function sink;
     void *sink_user;
 } ffd_embed_desc;

@@ -219,13 +219,13 @@ static void check_positions(const trial *of, const mesh_document *document, cons
 /* Where the moved lattice brings the vertices of the file; NULL: refused. */
 static double *deformed_positions(const trial *of, const uint8_t *data, size_t size)
 {
-    const char *const lattices[] = {of->lattice};
+    const ffd_lattice_source lattices[] = {{.path = of->lattice}};
     lattice_chain chain = {0};
     ffd_error error;
     pass_totals totals;
     mesh_document *document = trial_open_again(of, of->input, data, size);
-    PROMISE(ffd_chain_load(&(chain_files){.paths = lattices, .count = 1}, &(chain_outside){0}, FFD_ISA_AUTO,
-                           NULL, &chain, &error) == FFD_OK &&
+    PROMISE(ffd_chain_load(&(chain_files){.lattices = lattices, .count = 1}, &(chain_outside){0},
+                           FFD_ISA_AUTO, NULL, &chain, &error) == FFD_OK &&
                 ffd_chain_fit(&chain, document, 1, &error) == FFD_OK,
             "no lattice");
     double *const deformed = malloc((size_t)ffd_mesh_vertex_count(document) * 3 * sizeof *deformed + 1);

@@ -23,7 +23,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const file_input input = {.data = data, .size = size};
     intern_table libraries = {0}, maps = {0};
     fuzz_mesh(FFD_FORMAT_OBJ, data, size);
-    ffd_obj_list_libraries(&input, "none/m.obj", &libraries, NULL);
+    ffd_obj_list_libraries(&input, &(file_folder){.file = "none/m.obj"}, &libraries, NULL);
     check_names(&libraries, size);
     if (ffd_mtl_has_content(data, size)) {
         ffd_mtl_list_maps(data, size, "m.mtl", &maps, NULL);

@@ -68,7 +68,7 @@ static ffd_status save(const trial *of, const deform_job *job, ffd_error *error)
 
 bool trial_deform(const trial *of, mesh_document *document, uint64_t *moved)
 {
-    const char *const lattices[] = {of->lattice};
+    const ffd_lattice_source lattices[] = {{.path = of->lattice}};
     ffd_deform_desc desc;
     ffd_job_result result = {.struct_size = sizeof result};
     deform_job job;
@@ -83,7 +83,7 @@ bool trial_deform(const trial *of, mesh_document *document, uint64_t *moved)
     ffd_status status = ffd_deform_job_begin(&job, &desc, false, &result);
     job.document = document;
     if (!status)
-        status = ffd_chain_load(&(chain_files){.paths = lattices, .count = 1}, &(chain_outside){0},
+        status = ffd_chain_load(&(chain_files){.lattices = lattices, .count = 1}, &(chain_outside){0},
                                 FFD_ISA_AUTO, NULL, &job.chain, &result.error);
     PROMISE(!status, "%s", result.error.message);
     status = ffd_deform_job_run(&job, &result, &result.error);

@@ -85,7 +85,8 @@ void unmake(void *block)
         end("host: operator delete of a block that operator new has not made\n");
 }
 
-ffd_status run(const char *what, const char *mesh, const char *lattice, const char *output, ffd_error *error)
+ffd_status run(const char *what, const char *mesh, const char *lattice_path, const char *output,
+               ffd_error *error)
 {
     ffd_deform_desc desc;
     ffd_view_desc view;
@@ -95,6 +96,8 @@ ffd_status run(const char *what, const char *mesh, const char *lattice, const ch
     ffd_deform_desc_init(&desc, sizeof desc);
     ffd_view_desc_init(&view, sizeof view);
     desc.input.path = mesh;
+    ffd_lattice_source lattice = {};
+    lattice.path = lattice_path;
     desc.lattices = &lattice;
     desc.lattice_count = 1;
     const bool is_picture = std::strcmp(what, "view") == 0;

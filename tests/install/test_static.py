@@ -26,7 +26,7 @@ int main(int count, char **arguments)
     ffd_deform_desc desc;
     ffd_job_result result = {.struct_size = sizeof result};
     ffd_error error;
-    const char *lattice = arguments[2];
+    const ffd_lattice_source lattice = {.path = arguments[2]};
     ffd_deform_desc_init(&desc, sizeof desc);
     desc.input.path = arguments[1];
     desc.lattices = &lattice;

@@ -107,7 +107,7 @@ LAYERS = {
     },
     "job/view": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "job", "job/chain", "job/figures", "job/input",
-        "job/measure", "job/pass", "job/report", "lattice", "mesh", "view",
+        "job/measure", "job/pass", "job/report", "lattice", "lattice/file", "mesh", "view",
     },
     "batch/manifest": {"base", "base/file", "base/memory", "base/system", "base/text", "json", "mesh"},
     "batch/files": {"base/file", "base/memory", "base/text", "batch/manifest", "io"},

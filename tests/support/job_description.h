@@ -5,7 +5,8 @@
 #include <ffd/job.h>
 
 /* One lattice, one thread, force. */
-static inline ffd_deform_desc describe_job(const char *mesh, const char *output, const char *const *lattices)
+static inline ffd_deform_desc describe_job(const char *mesh, const char *output,
+                                           const ffd_lattice_source *lattices)
 {
     ffd_deform_desc desc;
     ffd_deform_desc_init(&desc, sizeof desc);

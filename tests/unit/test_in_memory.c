@@ -8,7 +8,6 @@
 #include <cmocka.h>
 
 #include "../support/test_folder.h"
-#include "base/file/memory_files.h"
 #include "base/memory/memory.h"
 #include <ffd/ffd.h>
 #include <ffd/jacobian.h>
@@ -260,8 +259,7 @@ typedef struct both {
     sink sink;
     ffd_deform_desc desc;
     ffd_lattice *lattice;
-    const ffd_lattice *objects[1];
-    const char *paths[1];
+    ffd_lattice_source source; /* that lattice, under the name of its file */
     char input[200], output[200], path[200];
 } both;
 
@@ -277,8 +275,7 @@ static void begin(both *b, void (*make)(name_list *), const char *output)
     snprintf(b->path, sizeof b->path, "%s/in/l.json", folder);
     assert_int_equal(ffd_lattice_parse(lattice_text, strlen(lattice_text), "l.json", &b->lattice, NULL),
                      FFD_OK);
-    b->objects[0] = b->lattice;
-    b->paths[0] = b->path;
+    b->source = (ffd_lattice_source){.path = b->path, .object = b->lattice};
     b->resolver.files = &b->given;
     ffd_deform_desc_init(&b->desc, sizeof b->desc);
     b->desc.input = (ffd_source){.path = b->input,
@@ -287,8 +284,7 @@ static void begin(both *b, void (*make)(name_list *), const char *output)
                                  .resolve_user = &b->resolver};
     b->desc.output = b->output;
     b->desc.lattice_count = 1;
-    b->desc.lattice_objects = b->objects;
-    b->desc.lattices = b->paths;
+    b->desc.lattices = &b->source;
     b->desc.threads = 2;
     b->desc.log = note;
     b->desc.sink = take;
@@ -303,8 +299,8 @@ static void use_files(both *b)
     put_all(&b->given, "in");
     put_text("in/l.json", lattice_text);
     b->desc.input = (ffd_source){.path = b->input};
-    b->desc.lattice_objects = NULL;
-    b->desc.lattices = b->paths;
+    b->source = (ffd_lattice_source){.path = b->path};
+    b->desc.lattices = &b->source;
     b->desc.sink = NULL;
     said[0] = 0;
 }
@@ -376,6 +372,15 @@ static void one_of_both_may_be_a_file(void **state)
     assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK); /* --force is not needed */
     assert_int_equal(b.sink.files.count, 3);
     check_same(&b.sink.files, "out");
+    /* An output's name that is the path of the input means no file. */
+    clear(&b.sink.files);
+    b.desc.output = b.input;
+    assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
+    assert_int_equal(b.sink.files.count, 3);
+    clear(&b.sink.files);
+    b.desc.output = b.output;
+    assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
+    check_same(&b.sink.files, "out"); /* as before: the input is as it was */
     end(&b);
     (void)state;
 }
@@ -389,7 +394,7 @@ static void names_are_the_callers(void **state)
     b.desc.input.path = NULL;
     b.desc.input.format = FFD_FORMAT_GLTF;
     b.desc.output = "moved.gltf";
-    b.desc.lattices = NULL;
+    b.source.path = NULL;
     assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
     assert_int_equal(b.sink.files.count, 3);
     assert_non_null(find(&b.sink.files, "moved.bin"));
@@ -413,7 +418,7 @@ static void names_are_the_callers(void **state)
 /* A name that ends like a folder is refused. */
 static void names_that_are_no_files_are_refused(void **state)
 {
-    static const char *const names[] = {"", "/", ".", "..", "in/", "in/.."};
+    static const char *const names[] = {"", "/", ".", "..", "in/", "in/..", "-", "/dev/stdin"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         for (int which = 0; which < 2; which++) {
             both b;
@@ -435,14 +440,12 @@ static void a_text_names_no_meshes(void **state)
 {
     static const char around[] = "{\"format\":\"ffd-lattice\",\"version\":1,\"size\":[3,3,3],"
                                  "\"rest\":{\"box\":{\"meshes\":[\"head.off\"]}}}";
-    const ffd_bytes text = {around, sizeof around - 1};
     both b;
     ffd_job_result result = {.struct_size = sizeof result};
     ffd_error error;
     begin(&b, make_off, "head.off");
     put_all(&b.given, "in");
-    b.desc.lattice_objects = NULL;
-    b.desc.lattice_texts = &text;
+    b.source = (ffd_lattice_source){.path = b.path, .text = {around, sizeof around - 1}};
     assert_int_equal(ffd_deform_run(&b.desc, &result, &error), FFD_E_ARGUMENT);
     assert_string_equal(error.file, b.path);
     assert_non_null(strstr(error.message, "cannot be read from memory"));
@@ -456,10 +459,7 @@ static void texts_of_lattices_have_values(void **state)
     ffd_job_result result = {.struct_size = sizeof result};
     begin(&b, make_off, "head.off");
     const ffd_setting set = {"lift", "0.5"};
-    const ffd_bytes text = {open_text, strlen(open_text)};
-    b.desc.lattices = NULL;
-    b.desc.lattice_objects = NULL;
-    b.desc.lattice_texts = &text;
+    b.source = (ffd_lattice_source){.text = {open_text, strlen(open_text)}};
     ffd_error error;
     assert_int_equal(ffd_deform_run(&b.desc, &result, &error), FFD_E_INVALID);
     assert_string_equal(error.file, "lattice 1");
@@ -499,24 +499,25 @@ static void several_morph_targets_are_made(void **state)
     ffd_job_result result = {.struct_size = sizeof result};
     begin(&b, make_gltf, "head.gltf");
     assert_int_equal(ffd_lattice_copy(b.lattice, &second, NULL), FFD_OK);
-    const ffd_lattice *const objects[] = {b.lattice, second};
     static const char *const names[] = {"wide", "tall"};
     char other[200];
     snprintf(other, sizeof other, "%s/in/k.json", folder);
-    const char *const paths[] = {b.path, other};
+    ffd_lattice_source lattices[] = {{.path = b.path, .object = b.lattice},
+                                     {.path = other, .object = second}};
     b.desc.lattice_count = 2;
-    b.desc.lattice_objects = objects;
-    b.desc.lattices = paths;
+    b.desc.lattices = lattices;
     b.desc.morphs = names;
     assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
     assert_int_equal(result.morphs.count, 2);
-    assert_ptr_equal(result.morphs.lattices, paths);
+    assert_ptr_equal(result.morphs.lattices, lattices);
     check_lattice_names(&b.desc, "k.json\"");
-    b.desc.lattices = NULL;
+    lattices[1].path = NULL;
     check_lattice_names(&b.desc, "\"lattice 2\"");
     use_files(&b);
     put_text("in/k.json", lattice_text);
-    b.desc.lattices = paths;
+    lattices[0] = (ffd_lattice_source){.path = b.path};
+    lattices[1] = (ffd_lattice_source){.path = other};
+    b.desc.lattices = lattices;
     assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
     check_same(&b.sink.files, "out");
     ffd_lattice_destroy(&second);
@@ -532,7 +533,7 @@ static void embeddings_pass_through_memory(void **state)
     begin(&b, make_gltf, "head.gltf");
     ffd_embed_desc_init(&embed, sizeof embed);
     embed.input = b.desc.input;
-    embed.lattice_object = b.lattice;
+    embed.lattice.object = b.lattice;
     char uvw[200], statuses[200];
     snprintf(uvw, sizeof uvw, "%s/out/e.npy", folder);
     snprintf(statuses, sizeof statuses, "%s/out/s.npy", folder);
@@ -554,8 +555,7 @@ static void embeddings_pass_through_memory(void **state)
     assert_string_equal(error.file, "embedding");
     use_files(&b);
     embed.input = b.desc.input;
-    embed.lattice_object = NULL;
-    embed.lattice = b.path;
+    embed.lattice = (ffd_lattice_source){.path = b.path};
     embed.sink = NULL;
     assert_int_equal(ffd_embed_run(&embed, &result, NULL), FFD_OK);
     check_same(&b.sink.files, "out");
@@ -656,8 +656,7 @@ static void multiply(both *b, ffd_jacobian_desc *desc, const char *const outputs
     ffd_job_result result = {.struct_size = sizeof result};
     ffd_embed_desc_init(&embed, sizeof embed);
     embed.input = b->desc.input;
-    embed.lattice = b->path;
-    embed.lattice_object = in_memory ? b->lattice : NULL;
+    embed.lattice = (ffd_lattice_source){.path = b->path, .object = in_memory ? b->lattice : NULL};
     embed.output = outputs[0];
     embed.sink = b->desc.sink;
     embed.sink_user = &b->sink;
@@ -841,7 +840,6 @@ static void a_sink_that_fails_ends_the_job(void **state)
         b.sink.takes = takes;
         assert_int_equal(ffd_deform_run(&b.desc, &result, &error), takes == 1 ? FFD_E_IO : FFD_E_CANCELLED);
         assert_string_equal(error.message, "was not taken by the caller");
-        assert_null(strstr(error.file, "ffd-memory"));
         assert_int_equal(b.sink.files.count, takes);
         assert_null(find(&b.sink.files, b.output)); /* never the mesh without the files that it needs */
         end(&b);
@@ -855,7 +853,7 @@ static void a_sink_that_fails_ends_the_job(void **state)
         "{\"format\":\"ffd-lattice\",\"version\":1,\"size\":[2,2,2],\"rest\":{\"box\":{\"min\":[8,8,8],"
         "\"max\":[9,9,9]}}}";
     assert_int_equal(ffd_lattice_parse(far_away, strlen(far_away), "far", &b.lattice, NULL), FFD_OK);
-    b.objects[0] = b.lattice;
+    b.source.object = b.lattice;
     assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_E_GATE);
     assert_int_equal(b.sink.files.count, 0);
     end(&b);
@@ -879,7 +877,6 @@ static void truncated_bytes_fail_as_files_do(void **state)
             memcpy(cut, b.given.files[0].bytes, size);
             put(strrchr(b.input, '/') - 2, cut, size);
             b.desc.input.bytes = (ffd_bytes){cut, size};
-            b.desc.lattice_objects = b.objects;
             ffd_deform_desc on_file = b.desc;
             on_file.input = file;
             on_file.dry_run = b.desc.dry_run = true;
@@ -896,19 +893,58 @@ static void truncated_bytes_fail_as_files_do(void **state)
     (void)state;
 }
 
+/* What is in memory is not taken for the file of its name: not for one that an earlier job has read or
+   written, and not for the output. */
+static void names_in_memory_mean_no_files(void **state)
+{
+    static const char other[] = "OFF\n1 0 0\n5 5 5\n";
+    both b;
+    ffd_job_result result = {.struct_size = sizeof result};
+    ffd_share *share;
+    ffd_written *written;
+    begin(&b, make_off, "head.off");
+    use_files(&b);
+    assert_int_equal(ffd_share_create(&share, NULL), FFD_OK);
+    assert_int_equal(ffd_written_create(&written, NULL), FFD_OK);
+    b.desc.share = share;
+    b.desc.written = written;
+    assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
+    assert_true(result.vertices > 1);
+    b.desc.input.bytes = (ffd_bytes){other, sizeof other - 1};
+    b.desc.output = "in/no.off"; /* and no such folder */
+    b.desc.dry_run = true;
+    b.desc.sink = take;
+    b.desc.sink_user = &b.sink;
+    assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
+    assert_int_equal(result.vertices, 1);
+    b.desc.dry_run = false;
+    b.desc.sink = NULL;
+    b.desc.input.path = b.output; /* that file was written by this run */
+    b.desc.output = b.input;
+    b.desc.force = true;
+    assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
+    assert_int_equal(result.vertices, 1);
+    b.desc.written = NULL;
+    b.desc.input.path = b.input; /* and that one is replaced, as any other */
+    assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
+    ffd_written_destroy(&written);
+    ffd_share_destroy(&share);
+    end(&b);
+    (void)state;
+}
+
 static void descriptions_that_contradict_themselves_are_refused(void **state)
 {
     both b;
     ffd_job_result result = {.struct_size = sizeof result};
     ffd_error error = {0};
-    ffd_bytes text = {lattice_text, strlen(lattice_text)};
     ffd_depfile *depfile;
     begin(&b, make_off, "head.off");
     const ffd_deform_desc whole = b.desc;
     assert_int_equal(ffd_depfile_create(in_folder("out/d"), &depfile, NULL), FFD_OK);
     for (int wrong = 0; wrong < 9; wrong++) {
         b.desc = whole;
-        b.desc.lattices = NULL;
+        b.source = (ffd_lattice_source){.object = b.lattice};
         if (wrong == 0)
             b.desc.input.bytes.data = NULL;
         if (wrong == 1)
@@ -920,9 +956,9 @@ static void descriptions_that_contradict_themselves_are_refused(void **state)
         if (wrong == 4)
             b.desc.resources = FFD_RESOURCES_REFERENCE;
         if (wrong == 5)
-            b.desc.lattice_texts = &text; /* together with an object */
+            b.source.text = (ffd_bytes){lattice_text, strlen(lattice_text)}; /* together with an object */
         if (wrong == 6)
-            b.desc.lattice_objects = NULL;
+            b.source.object = NULL;
         if (wrong == 7)
             b.desc.embedding_bytes.size = 3;
         if (wrong == 8)
@@ -933,23 +969,11 @@ static void descriptions_that_contradict_themselves_are_refused(void **state)
     }
     ffd_depfile_destroy(&depfile);
     b.desc = whole;
+    b.source.object = b.lattice;
     b.desc.input.bytes.size = 0; /* an empty file */
     assert_int_equal(ffd_deform_run(&b.desc, &result, &error), FFD_E_INVALID);
     assert_int_equal(b.sink.files.count, 0);
     end(&b);
-    (void)state;
-}
-
-static void no_name_in_a_file_leads_to_the_memory_of_a_job(void **state)
-{
-    memory_files *files;
-    assert_int_equal(ffd_memory_create(&files, NULL), FFD_OK);
-    for (int i = 0; i < 10000; i++) {
-        char path[40];
-        snprintf(path, sizeof path, "ffd-memory:%d/0/head.obj", i);
-        assert_false(ffd_memory_has(path));
-    }
-    ffd_memory_destroy(&files);
     (void)state;
 }
 
@@ -978,10 +1002,8 @@ static void arrays_of_descriptions_are_complete(void **state)
             b.desc.set = &settings[wrong - 3];
         if (wrong == 5)
             b.desc.input.allow_extensions = none;
-        if (wrong == 6) {
-            b.desc.lattices = none;
-            b.desc.lattice_objects = NULL;
-        }
+        if (wrong == 6)
+            b.desc.lattices = NULL;
         b.desc.only_count = b.desc.only != NULL;
         b.desc.clip_count = b.desc.clips != NULL;
         b.desc.set_count = b.desc.set != NULL;
@@ -996,7 +1018,7 @@ static void arrays_of_descriptions_are_complete(void **state)
     char *text;
     ffd_embed_desc_init(&embed, sizeof embed);
     embed.input = whole.input;
-    embed.lattice_text = (ffd_bytes){open_text, sizeof open_text - 1};
+    embed.lattice.text = (ffd_bytes){open_text, sizeof open_text - 1};
     embed.output = "uvw.npy";
     embed.sink = take;
     embed.sink_user = &b.sink;
@@ -1007,7 +1029,7 @@ static void arrays_of_descriptions_are_complete(void **state)
     embed.status_output = "uvw.npy";
     assert_int_equal(ffd_embed_run(&embed, NULL, &error), FFD_E_ARGUMENT);
     ffd_info_desc_init(&info, sizeof info);
-    info.file = (ffd_source){.path = "l.json", .bytes = embed.lattice_text};
+    info.file = (ffd_source){.path = "l.json", .bytes = embed.lattice.text};
     info.set = settings;
     info.set_count = 1;
     assert_int_equal(ffd_info_run(&info, &text, &error), FFD_E_ARGUMENT);
@@ -1100,13 +1122,13 @@ static ffd_status take_and_run(void *user, const char *name, const void *bytes, 
     static const char lifted[] =
         "{\"format\":\"ffd-lattice\",\"version\":1,\"size\":[2,2,2],\"rest\":{\"box\":\"mesh\"},"
         "\"moves\":[{\"by\":[0,0,1]}]}";
-    const ffd_bytes text = {lifted, sizeof lifted - 1};
+    const ffd_lattice_source lattice = {.text = {lifted, sizeof lifted - 1}};
     ffd_deform_desc desc;
     ffd_job_result result = {.struct_size = sizeof result};
     ffd_deform_desc_init(&desc, sizeof desc);
     desc.input = (ffd_source){.path = name, .bytes = {bytes, size}};
     desc.output = "again.off";
-    desc.lattice_texts = &text;
+    desc.lattices = &lattice;
     desc.lattice_count = 1;
     desc.threads = 1;
     desc.sink = take;
@@ -1193,8 +1215,8 @@ int main(void)
         cmocka_unit_test(truncated_bytes_fail_as_files_do),
         cmocka_unit_test(jobs_run_in_threads_and_in_callbacks),
         cmocka_unit_test(memory_may_run_out_anywhere),
+        cmocka_unit_test(names_in_memory_mean_no_files),
         cmocka_unit_test(descriptions_that_contradict_themselves_are_refused),
-        cmocka_unit_test(no_name_in_a_file_leads_to_the_memory_of_a_job),
         cmocka_unit_test(arrays_of_descriptions_are_complete),
         cmocka_unit_test(choices_that_are_none_are_refused),
         cmocka_unit_test(negative_threads_are_refused),

@@ -17,7 +17,7 @@
 #include <unistd.h>
 
 static char mesh[64], lattice[64], output[64];
-static const char *const lattices[] = {lattice, lattice};
+static const ffd_lattice_source lattices[] = {{.path = lattice}, {.path = lattice}};
 
 static int set_up(void **state)
 {
@@ -251,7 +251,7 @@ static void morph_targets_have_figures_of_their_own(void **state)
     assert_int_equal(result.morphs.count, 2);
     assert_null(result.morphs.results);
     assert_string_equal(result.morphs.names[1], "more");
-    assert_string_equal(result.morphs.lattices[1], lattice);
+    assert_string_equal(result.morphs.lattices[1].path, lattice);
     desc.morph_results = results;
     assert_int_equal(ffd_deform_run(&desc, &result, NULL), FFD_OK);
     assert_ptr_equal(result.morphs.results, results);

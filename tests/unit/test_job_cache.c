@@ -209,8 +209,8 @@ static void only_lattices_of_unchanged_files_are_lent(void **state)
     char a_path[4096], box_path[4096];
     snprintf(a_path, sizeof a_path, "%s", in_folder("a.json"));
     snprintf(box_path, sizeof box_path, "%s", in_folder("box.json"));
-    const char *const one_path[] = {a_path}, *const both_paths[] = {a_path, box_path};
-    const chain_files a = {.paths = one_path, .count = 1}, both = {.paths = both_paths, .count = 2};
+    const ffd_lattice_source lattices[] = {{.path = a_path}, {.path = box_path}};
+    const chain_files a = {.lattices = lattices, .count = 1}, both = {.lattices = lattices, .count = 2};
     ffd_share *share;
     assert_int_equal(ffd_share_create(&share, NULL), FFD_OK);
     put_text("a.json", BENT("0"));
@@ -243,8 +243,8 @@ static void folds_and_border_are_lent_once_asked_for(void **state)
     static const chain_outside keep_them, extend = {.extend = true};
     char path[4096];
     snprintf(path, sizeof path, "%s", in_folder("f.json"));
-    const char *const paths[] = {path};
-    const chain_files files = {.paths = paths, .count = 1};
+    const ffd_lattice_source lattice = {.path = path};
+    const chain_files files = {.lattices = &lattice, .count = 1};
     const boundary *first = NULL, *border;
     ffd_job_result result = {.struct_size = sizeof result}, again = result;
     ffd_share *share;
@@ -292,8 +292,8 @@ static void a_share_for_lattices_keeps_no_mesh(void **state)
     assert_false(takes(share, &desc, false));
 
     snprintf(path, sizeof path, "%s", in_folder("o.json"));
-    const char *const paths[] = {path};
-    const chain_files files = {.paths = paths, .count = 1};
+    const ffd_lattice_source lattice = {.path = path};
+    const chain_files files = {.lattices = &lattice, .count = 1};
     put_text("o.json", CURVED);
     assert_int_equal(borrowed(share, &files, FFD_ISA_AUTO), 0);
     assert_int_equal(borrowed(share, &files, FFD_ISA_AUTO), 3);

@@ -182,7 +182,7 @@ static void rows_of_a_table_become_jobs(void **state)
 {
     put_text("t.csv",
              "in,out,A,\"B \"\"2\"\"\"\na,o1,1,x\n\n\"b\",o2,\"[1,\n2]\",\"y,z\"\nc,o3,1\nd\"e,o,1,2\n");
-    static const char *const lattices[] = {"l.json"};
+    static const ffd_lattice_source lattices[] = {{.path = "l.json"}};
     job_source_desc desc = {
         .table = in_folder("t.csv"), .lattices = lattices, .lattice_count = 1, .out_dir = "dir", .shards = 1};
     job_source *source;
@@ -219,7 +219,7 @@ static void rows_of_a_table_become_jobs(void **state)
 
 static void files_of_a_pattern_come_sorted(void **state)
 {
-    static const char *const lattices[] = {"l.json"};
+    static const ffd_lattice_source lattices[] = {{.path = "l.json"}};
     put_text("g2.obj", "");
     put_text("g1.obj", "");
     job_source_desc desc = {.pattern = in_folder("g*.obj"),

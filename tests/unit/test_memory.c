@@ -49,7 +49,7 @@ static size_t count_files(void)
 
 static ffd_deform_desc describe(void)
 {
-    static const char *const lattices[] = {lattice};
+    static const ffd_lattice_source lattices[] = {{.path = lattice}};
     ffd_deform_desc desc = describe_job(input, output, lattices);
     desc.force = false; /* so that the next job notices a file left by a failure */
     return desc;
@@ -90,7 +90,8 @@ static ffd_status run_morphs(ffd_error *error)
 {
     ffd_deform_desc desc = describe();
     ffd_job_result result = {.struct_size = sizeof result};
-    const char *const lattices[] = {lattice, lattice}, *const names[] = {"bent", "again"};
+    const ffd_lattice_source lattices[] = {{.path = lattice}, {.path = lattice}};
+    const char *const names[] = {"bent", "again"};
     const char *const clips[] = {"a: 0 bent=1, 1", "b: 1 again=1"};
     desc.lattices = lattices;
     desc.lattice_count = 2;
@@ -115,7 +116,7 @@ static ffd_status run_embed(ffd_error *error)
     ffd_job_result result = {.struct_size = sizeof result};
     ffd_embed_desc_init(&desc, sizeof desc);
     desc.input.path = input;
-    desc.lattice = lattice;
+    desc.lattice.path = lattice;
     desc.output = output;
     desc.threads = 1;
     return ffd_embed_run(&desc, &result, error);

@@ -45,7 +45,8 @@ static void statements_that_name_libraries(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const file_input input = {.data = (const unsigned char *)cases[i][0], .size = strlen(cases[i][0])};
         intern_table names = {0};
-        assert_int_equal(ffd_obj_list_libraries(&input, "m.obj", &names, NULL), FFD_OK);
+        assert_int_equal(ffd_obj_list_libraries(&input, &(file_folder){.file = "m.obj"}, &names, NULL),
+                         FFD_OK);
         check_names(&names, cases[i][1]);
         ffd_intern_free(&names);
     }
@@ -63,7 +64,8 @@ static void statements_anywhere_in_a_large_file(void **state)
         memset(text, 'm', size);
         memcpy(text + piece - shift, "\nmtllib a.mtl\n", 14);
         memcpy(text + 2 * piece - shift, "\nmtllib b.mtl\n", 14);
-        assert_int_equal(ffd_obj_list_libraries(&input, "m.obj", &names, NULL), FFD_OK);
+        assert_int_equal(ffd_obj_list_libraries(&input, &(file_folder){.file = "m.obj"}, &names, NULL),
+                         FFD_OK);
         check_names(&names, "a.mtl|b.mtl");
         ffd_intern_free(&names);
     }
@@ -132,7 +134,8 @@ static ffd_status bring(void)
     ffd_error error = {0};
     ffd_status status = ffd_output_create(&output, &error);
     if (!status)
-        status = ffd_obj_bring_resources(&input, true, &options, output, NULL, &error);
+        status = ffd_obj_bring_resources(&input, &(file_folder){.file = options.input}, true, &options,
+                                         output, NULL, &error);
     if (!status)
         status = ffd_output_begin(output, options.path, false, &error);
     if (!status)

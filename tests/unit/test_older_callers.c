@@ -47,7 +47,7 @@ static void jobs_of_older_callers_run(void **state)
     strcpy(input, in_folder("a.obj"));
     strcpy(output, in_folder("b.obj"));
     strcpy(file, in_folder("l.json"));
-    const char *const lattices[] = {file};
+    const ffd_lattice_source lattices[] = {{.path = file}};
     OLDER(ffd_deform_desc, desc, offsetof(ffd_deform_desc, depfile));
     OLDER(ffd_job_result, result, offsetof(ffd_job_result, seconds));
     ffd_deform_desc_init(&desc.as, desc_known);
@@ -105,7 +105,7 @@ static void descriptions_of_older_callers_are_enough(void **state)
     char npy[100];
     strcpy(npy, in_folder("e.npy"));
     embed.as.input.path = input;
-    embed.as.lattice = file;
+    embed.as.lattice.path = file;
     embed.as.output = npy;
     assert_int_equal(ffd_embed_run(&embed.as, NULL, NULL), FFD_OK);
     OLDER(ffd_lattice_desc, round, offsetof(ffd_lattice_desc, principal));

@@ -103,7 +103,7 @@ static void deform_file(const ffd_lattice *lattice, const void *points, ffd_numb
     ffd_error error = {0};
     if (ffd_lattice_save(lattice, in_folder("l.json"), true, &error))
         fail_msg("%s", error.message);
-    const char *const lattices[] = {in_folder("l.json")};
+    const ffd_lattice_source lattices[] = {{.path = in_folder("l.json")}};
     ffd_deform_desc desc;
     ffd_job_result done = {.struct_size = sizeof done};
     ffd_deform_desc_init(&desc, sizeof desc);

@@ -46,8 +46,7 @@ typedef struct job {
     ffd_deform_desc desc;
     ffd_job_result result;
     ffd_error error;
-    ffd_bytes text;
-    const char *name;
+    ffd_lattice_source lattice;
     taker taker;
 } job;
 
@@ -56,12 +55,10 @@ static void begin(job *j)
     memset(j, 0, sizeof *j);
     ffd_deform_desc_init(&j->desc, sizeof j->desc);
     j->result.struct_size = sizeof j->result;
-    j->text = (ffd_bytes){lattice, strlen(lattice)};
-    j->name = "l.json";
+    j->lattice = (ffd_lattice_source){.path = "l.json", .text = {lattice, strlen(lattice)}};
     j->desc.input.path = "a.obj";
     j->desc.input.bytes = (ffd_bytes){mesh, strlen(mesh)};
-    j->desc.lattices = &j->name;
-    j->desc.lattice_texts = &j->text;
+    j->desc.lattices = &j->lattice;
     j->desc.lattice_count = 1;
     j->desc.positions = take;
     j->desc.positions_user = &j->taker;

@@ -44,7 +44,7 @@ static const char scene[] =
     "AAAAIA+AAAAAA==\"}]}";
 
 static char mesh[64], lattice[64], output[64], kept[64];
-static const char *const lattices[] = {lattice};
+static const ffd_lattice_source lattices[] = {{.path = lattice}};
 
 static int set_up(void **state)
 {

@@ -13,7 +13,7 @@
 #include <math.h>
 
 static char mesh[64], other[64], lattice[64], page[64], drawn[64];
-static const char *const lattices[] = {lattice};
+static const ffd_lattice_source lattices[] = {{.path = lattice}};
 
 /* A square and a triangle beside it; vertices from x = 2.5 on are outside. */
 #define MESH                                                                                                 \

@@ -25,8 +25,8 @@ static bool deform(const Run &run, const char *lattice, const char *mesh, const 
     ffd_deform_desc_init(&desc, sizeof desc);
     desc.input.path = mesh;
     desc.output = output.c_str();
-    desc.lattices = &lattice;
-    desc.lattice_count = 1;
+    const ffd_lattice_source source = {lattice, {}, nullptr};
+    desc.lattices = &source, desc.lattice_count = 1;
     desc.fail_on = FFD_GATE_FOLDS; // nothing is written unless the volume is proven to be free of folds
     desc.force = true;             // replaces what an earlier run wrote, ...
     desc.written = run.written;    // ... and never what this one did

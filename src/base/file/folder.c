@@ -1,7 +1,6 @@
 #define _XOPEN_SOURCE 700 /* realpath, readlink */
 #include "base/file/folder.h"
 #include "base/file/input.h"
-#include "base/file/memory_files.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include <dirent.h>
@@ -98,8 +97,6 @@ bool ffd_paths_meet(const char *a, const char *b)
 
 char *ffd_path_resolve(const char *path)
 {
-    if (ffd_memory_has(path))
-        return ffd_path_normalize(path);
     char *resolved = realpath(path, NULL);
     char *copy = resolved ? ffd_text_copy(resolved) : NULL;
     free(resolved);
@@ -122,19 +119,4 @@ char *ffd_path_follow(const char *path)
     const bool is_circle = at != NULL;
     ffd_free(at);
     return is_circle ? ffd_text_copy(path) : NULL;
-}
-
-ffd_status ffd_path_turn_slashes(char *name, const char *folder, bool *turned, ffd_error *error)
-{
-    *turned = false;
-    if (!strchr(name, '\\'))
-        return FFD_OK;
-    char *const path = ffd_path_join(folder, name);
-    if (!path)
-        return ffd_fail_memory(error);
-    *turned = !ffd_file_exists(path);
-    ffd_free(path);
-    for (char *c = name; *turned && *c; c++)
-        *c = (char)(*c == '\\' ? '/' : *c);
-    return FFD_OK;
 }

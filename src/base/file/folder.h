@@ -28,9 +28,5 @@ bool ffd_paths_meet(const char *a, const char *b);
 /* Returns whether two files are in different folders, which need not exist. Returns false if memory runs
    out. */
 bool ffd_folders_differ(const char *file, const char *other);
-/* Replaces the backslashes in a name from a file by slashes, which programs for Windows mean by them, unless
-   the folder has a file with exactly that name. Sets *turned to whether the name has changed. Errors:
-   FFD_E_MEMORY. */
-ffd_status ffd_path_turn_slashes(char *name, const char *folder, bool *turned, ffd_error *error);
 
 #endif

@@ -1,7 +1,6 @@
 #define _DEFAULT_SOURCE /* flock, pread */
 #include "base/file/growing.h"
 #include "base/file/input.h"
-#include "base/file/memory_files.h"
 #include "base/file/output.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
@@ -20,8 +19,7 @@ struct growing_file {
 bool ffd_growing_can(const char *path)
 {
     file_stamp stamp;
-    return !ffd_output_is_stream(path) && !ffd_memory_has(path) &&
-           (!ffd_file_exists(path) || ffd_file_stamp(path, &stamp));
+    return !ffd_output_is_stream(path) && (!ffd_file_exists(path) || ffd_file_stamp(path, &stamp));
 }
 
 /* Refuses a file that another run is writing. */

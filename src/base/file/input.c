@@ -1,7 +1,6 @@
 #define _XOPEN_SOURCE 700 /* realpath, pread */
 #define _DEFAULT_SOURCE   /* madvise */
 #include "base/file/input.h"
-#include "base/file/memory_files.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/system/deadline.h"
@@ -149,7 +148,7 @@ static ffd_status map_file(int fd, const char *name, const struct stat *info, fi
 bool ffd_file_stamp(const char *path, file_stamp *stamp)
 {
     struct stat info;
-    if (ffd_memory_has(path) || stat(path, &info) != 0 || !S_ISREG(info.st_mode))
+    if (stat(path, &info) != 0 || !S_ISREG(info.st_mode))
         return false;
     *stamp = (file_stamp){
         .device = (uint64_t)info.st_dev,
@@ -164,8 +163,8 @@ bool ffd_file_stamp(const char *path, file_stamp *stamp)
 bool ffd_file_reads_once(const char *path)
 {
     struct stat info;
-    return ffd_file_is_stream(path) || (!ffd_memory_has(path) && stat(path, &info) == 0 &&
-                                        !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode));
+    return ffd_file_is_stream(path) ||
+           (stat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode));
 }
 
 _Static_assert(sizeof(file_stamp) == 7 * sizeof(uint64_t), "bytes that are compared have no padding");
@@ -198,8 +197,7 @@ bool ffd_file_is_stream(const char *path)
 
 const char *ffd_file_display_name(const char *path)
 {
-    const char *const name = ffd_memory_name(path);
-    return name ? name : strcmp(path, "-") == 0 ? "standard input" : path;
+    return strcmp(path, "-") == 0 ? "standard input" : path;
 }
 
 /* Refuses folders, and pipes and devices, which may block forever or never end. */
@@ -244,30 +242,24 @@ static ffd_status fail_open(const char *path, int reason, ffd_error *error)
     return ffd_fail_file(error, FFD_E_IO, path, "cannot be opened: %s", strerror(reason));
 }
 
-/* Borrows bytes in memory. Readers rely on numbers being aligned in memory if they are aligned in the file,
-   so unaligned bytes are copied. */
-static ffd_status lend(const void *bytes, size_t size, const char *name, file_input *input, ffd_error *error)
+/* Readers rely on numbers being aligned in memory if they are aligned in the file, so unaligned bytes are
+   copied. */
+ffd_status ffd_file_lend(ffd_bytes bytes, const char *name, file_input *input, ffd_error *error)
 {
     unsigned char *copy = NULL;
-    if (size > 0 && (uintptr_t)bytes % ALIGNED != 0) {
-        copy = ffd_alloc(size, 1);
+    *input = (file_input){.data = nothing};
+    if (bytes.size > 0 && (uintptr_t)bytes.data % ALIGNED != 0) {
+        copy = ffd_alloc(bytes.size, 1);
         if (!copy)
-            return fail_memory(name, size, error);
-        memcpy(copy, bytes, size);
+            return fail_memory(name, bytes.size, error);
+        memcpy(copy, bytes.data, bytes.size);
     }
-    *input = (file_input){.data = copy ? copy : size > 0 ? bytes : nothing, .size = size, .block = copy};
+    *input = (file_input){.data = copy             ? copy
+                                  : bytes.size > 0 ? bytes.data
+                                                   : nothing,
+                          .size = bytes.size,
+                          .block = copy};
     return FFD_OK;
-}
-
-/* Loads a file in memory. */
-static ffd_status load_memory(const char *path, file_input *input, ffd_error *error)
-{
-    const void *bytes;
-    size_t size;
-    const ffd_status status = ffd_memory_find(path, &bytes, &size, error);
-    if (status || !bytes)
-        return status ? status : fail_open(path, ENOENT, error);
-    return lend(bytes, size, ffd_file_display_name(path), input, error);
 }
 
 /* Opening a pipe does not block with O_NONBLOCK: one that is no stream is refused later, and at one of a name
@@ -299,8 +291,6 @@ static ffd_status load(const char *path, size_t least_mapped, file_input *input,
 {
     int fd;
     *input = (file_input){.data = nothing};
-    if (ffd_memory_has(path))
-        return load_memory(path, input, error);
     ffd_status status = ffd_file_open(path, &fd, error);
     if (status)
         return status;
@@ -313,6 +303,11 @@ static ffd_status load(const char *path, size_t least_mapped, file_input *input,
 ffd_status ffd_file_load(const char *path, file_input *input, ffd_error *error)
 {
     return load(path, SMALL, input, error);
+}
+
+ffd_status ffd_file_take(const char *path, ffd_bytes bytes, file_input *input, ffd_error *error)
+{
+    return bytes.data ? ffd_file_lend(bytes, path, input, error) : ffd_file_load(path, input, error);
 }
 
 ffd_status ffd_file_map(const char *path, file_input *input, ffd_error *error)
@@ -328,39 +323,10 @@ static bool is_inside(const char *folder, const char *path)
     return strncmp(folder, path, length) == 0 && path[length] == '/';
 }
 
-/* Both paths are normalized, so no ".." can lead out of the folder. */
-static ffd_status load_memory_within(const char *folder, const char *relative, const char *named_by,
-                                     file_input *input, ffd_error *error)
-{
-    char *const root = ffd_path_normalize(folder), *const joined = ffd_path_join(folder, relative);
-    char *const path = joined ? ffd_path_normalize(joined) : NULL;
-    const void *bytes = NULL;
-    size_t size = 0;
-    ffd_status status = FFD_OK;
-    if (!root || !path)
-        status = ffd_fail_memory(error);
-    else if (relative[0] == '/' || !is_inside(root, path))
-        status = ffd_fail_file(error, FFD_E_IO, named_by, "the file \"%s\" is outside the model's folder",
-                               relative);
-    else
-        status = ffd_memory_find(path, &bytes, &size, error);
-    if (!status && !bytes)
-        status = ffd_fail_file(error, FFD_E_IO, named_by, "the file \"%s\" cannot be opened: %s", relative,
-                               strerror(ENOENT));
-    if (!status)
-        status = lend(bytes, size, named_by, input, error);
-    ffd_free(root);
-    ffd_free(joined);
-    ffd_free(path);
-    return status;
-}
-
 ffd_status ffd_file_load_within(const char *folder, const char *relative, const char *named_by, size_t *most,
                                 file_input *input, ffd_error *error)
 {
     *input = (file_input){.data = nothing};
-    if (ffd_memory_has(folder))
-        return load_memory_within(folder, relative, named_by, input, error);
     char *joined = ffd_path_join(folder, relative);
     char *root = realpath(folder, NULL), *path = joined ? realpath(joined, NULL) : NULL;
     const int reason = errno;
@@ -452,27 +418,11 @@ ffd_status ffd_file_compare(const char *path, const file_input *bytes, bool *sam
 bool ffd_file_exists(const char *path)
 {
     struct stat info;
-    const void *bytes;
-    size_t size;
-    if (ffd_memory_has(path))
-        return !ffd_memory_find(path, &bytes, &size, NULL) && bytes;
     return stat(path, &info) == 0;
-}
-
-/* Returns whether both paths are the same path in memory. */
-static bool is_same_memory(const char *a, const char *b)
-{
-    char *const x = ffd_path_normalize(a), *const y = ffd_path_normalize(b);
-    const bool same = x && y && strcmp(x, y) == 0;
-    ffd_free(x);
-    ffd_free(y);
-    return same;
 }
 
 bool ffd_file_same(const char *a, const char *b)
 {
     struct stat x, y;
-    if (ffd_memory_has(a) || ffd_memory_has(b))
-        return is_same_memory(a, b);
     return stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
 }

@@ -4,6 +4,7 @@
 
 #include "base/fail.h"
 #include "base/file/mapping.h"
+#include <ffd/lattice.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -24,6 +25,11 @@ ffd_status ffd_file_open(const char *path, int *fd, ffd_error *error);
    happens if one is truncated meanwhile. Truncation of a smaller file is FFD_E_IO, an endless stream
    FFD_E_LIMIT. Other errors: those of ffd_file_open. */
 ffd_status ffd_file_load(const char *path, file_input *input, ffd_error *error);
+/* Lends bytes in memory, which must stay as they are until the input is unloaded. name: for messages. Errors:
+   FFD_E_MEMORY. */
+ffd_status ffd_file_lend(ffd_bytes bytes, const char *name, file_input *input, ffd_error *error);
+/* Lends bytes, if there are any, under the name `path`; else loads the file. */
+ffd_status ffd_file_take(const char *path, ffd_bytes bytes, file_input *input, ffd_error *error);
 /* As ffd_file_load, but maps small files too: for callers that keep many files open and must save memory. */
 ffd_status ffd_file_map(const char *path, file_input *input, ffd_error *error);
 /* Loads a file that a model refers to. relative must lead to a regular file inside folder after all symbolic
@@ -52,8 +58,8 @@ void ffd_file_release_until(const file_input *input, const void *end, size_t *re
 bool ffd_file_is_stream(const char *path);
 /* Returns whether path can be read only once: a stream, a pipe or another device. */
 bool ffd_file_reads_once(const char *path);
-/* Returns the path as messages show it: "standard input" for "-", the name of a file in memory
-   (memory_files.h), any other path unchanged. */
+/* Returns the path as messages show it: "standard input" for "-", any other path
+   unchanged. */
 const char *ffd_file_display_name(const char *path);
 /* Returns whether a file or folder exists at path (symbolic links are followed). */
 bool ffd_file_exists(const char *path);

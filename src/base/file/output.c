@@ -4,7 +4,6 @@
 #include "base/file/file_set.h"
 #include "base/file/folder.h"
 #include "base/file/input.h"
-#include "base/file/memory_files.h"
 #include "base/file/path.h"
 #include "base/file/temporary.h"
 #include "base/file/written_files.h"
@@ -28,10 +27,8 @@ typedef struct output_file {
     cleanup_entry *noted;
     int fd; /* -1 when closed */
     bool force, committed;
-    bool stays_open; /* also after the commit */
-    bool is_memory;  /* bytes are collected here for the sink of memory_files.h */
-    byte_buffer bytes;
-    char *name; /* name for the sink */
+    bool stays_open;   /* also after the commit */
+    byte_buffer bytes; /* for the sink */
 } output_file;
 
 typedef struct output_folder {
@@ -51,6 +48,8 @@ struct file_output {
     size_t filled;
     written_files *written; /* may be NULL */
     hash_stream *hash;      /* hash of the first file; NULL: not requested */
+    ffd_sink_function sink; /* NULL: in the file system */
+    void *sink_user;
 };
 
 ffd_status ffd_output_create(file_output **output, ffd_error *error)
@@ -67,6 +66,12 @@ ffd_status ffd_output_create(file_output **output, ffd_error *error)
 void ffd_output_record(file_output *output, written_files *written)
 {
     output->written = written;
+}
+
+void ffd_output_redirect(file_output *output, ffd_sink_function sink, void *user)
+{
+    output->sink = sink;
+    output->sink_user = user;
 }
 
 void ffd_output_hash(file_output *output)
@@ -139,6 +144,15 @@ static int stream_of(const char *path)
 bool ffd_output_is_stream(const char *path)
 {
     return stream_of(path) >= 0;
+}
+
+ffd_status ffd_file_check_name(const char *name, ffd_error *error)
+{
+    const char *const last = ffd_path_name(name);
+    return *last && strcmp(last, ".") != 0 && strcmp(last, "..") != 0 && !ffd_file_is_stream(name) &&
+                   !ffd_output_is_stream(name)
+               ? FFD_OK
+               : ffd_fail(error, FFD_E_ARGUMENT, "\"%s\" is no name for a file", name);
 }
 
 /* Returns the name of a target for messages. */
@@ -228,7 +242,7 @@ ffd_status ffd_output_check(const char *path, bool force, ffd_error *error)
 {
     struct stat info;
     bool exists;
-    if (ffd_output_is_stream(path) || ffd_memory_has(path))
+    if (ffd_output_is_stream(path))
         return FFD_OK;
     const ffd_status status = check_target(path, force, &info, &exists, error);
     if (status || exists)
@@ -306,10 +320,12 @@ static void drop_temporary(output_file *file)
     file->temporary = NULL;
 }
 
-static ffd_status write_all(output_file *file, const unsigned char *bytes, size_t size, ffd_error *error)
+/* Writes to the file begun last. */
+static ffd_status write_all(file_output *output, const unsigned char *bytes, size_t size, ffd_error *error)
 {
+    output_file *const file = &output->files[output->count - 1];
     size_t done = 0;
-    if (file->is_memory) {
+    if (output->sink) {
         ffd_buffer_append(&file->bytes, bytes, size);
         return file->bytes.failed ? ffd_fail_memory(error) : FFD_OK;
     }
@@ -328,8 +344,7 @@ static ffd_status flush(file_output *output, ffd_error *error)
 {
     if (output->count == 0)
         return FFD_OK;
-    const ffd_status status =
-        write_all(&output->files[output->count - 1], output->block, output->filled, error);
+    const ffd_status status = write_all(output, output->block, output->filled, error);
     if (!status)
         output->filled = 0;
     return status;
@@ -348,8 +363,7 @@ ffd_status ffd_output_begin(file_output *output, const char *path, bool force, f
 
     struct stat info;
     bool exists = false;
-    file->is_memory = ffd_memory_has(path);
-    if (!ffd_output_is_stream(path) && !file->is_memory) {
+    if (!ffd_output_is_stream(path) && !output->sink) {
         status = check_target(path, force, &info, &exists, error);
         if (status)
             return status;
@@ -361,8 +375,8 @@ ffd_status ffd_output_begin(file_output *output, const char *path, bool force, f
         return ffd_fail_memory(error);
     output->count++;
 
-    if (file->is_memory)
-        return ffd_memory_begin(path, &file->name, error);
+    if (output->sink)
+        return FFD_OK;
     if (ffd_output_is_stream(path)) {
         file->fd = dup(stream_of(path));
         return file->fd < 0 ? ffd_fail_errno(error, shown(path), "cannot be written") : FFD_OK;
@@ -387,7 +401,7 @@ ffd_status ffd_output_begin(file_output *output, const char *path, bool force, f
 
 ffd_status ffd_output_folder(file_output *output, const char *path, ffd_error *error)
 {
-    if (ffd_memory_has(path))
+    if (output->sink)
         return FFD_OK;
     if (!ffd_grow((void **)&output->folders, &output->folder_capacity, output->folder_count + 1,
                   sizeof *output->folders))
@@ -412,7 +426,7 @@ ffd_status ffd_output_folder(file_output *output, const char *path, ffd_error *e
 static ffd_status make_room(file_output *output, ffd_error *error)
 {
     const output_file *const file = &output->files[output->count - 1];
-    const ffd_status status = file->temporary || file->is_memory ? ffd_deadline_check(error) : FFD_OK;
+    const ffd_status status = file->temporary || output->sink ? ffd_deadline_check(error) : FFD_OK;
     return status ? status : flush(output, error);
 }
 
@@ -424,7 +438,7 @@ ffd_status ffd_output_write(file_output *output, const void *bytes, size_t size,
     if (output->hash && output->count == 1)
         ffd_hash_stream_add(output->hash, bytes, size);
     if (size >= BLOCK)
-        return write_all(&output->files[output->count - 1], bytes, size, error);
+        return write_all(output, bytes, size, error);
     if (size > 0)
         memcpy(output->block + output->filled, bytes, size);
     output->filled += size;
@@ -483,7 +497,7 @@ static ffd_status settle_file(output_file *file, ffd_error *error)
 {
     file->committed = true;
     ffd_cleanup_strike(&file->noted);
-    if (file->stays_open || file->is_memory)
+    if (file->stays_open || file->fd < 0)
         return FFD_OK;
     /* Closing releases the lock: only now may another run use the temporary name. */
     const int fd = file->fd;
@@ -523,18 +537,18 @@ static ffd_status place_all(file_output *output, ffd_error *error)
     return status;
 }
 
-/* Passes files in memory to their sink in the order in which they were begun, so the head of the set comes
-   last. */
+/* Passes the files to the sink in the order in which they were begun, so the head of the set comes last. Does
+   not allocate. */
 static ffd_status give_all(const file_output *output, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < output->count && !status; i++) {
+    for (size_t i = 0; i < output->count && output->sink; i++) {
         const output_file *const file = &output->files[i];
-        if (file->is_memory)
-            status = ffd_memory_give(file->target, file->name, file->bytes.size > 0 ? file->bytes.data : "",
-                                     file->bytes.size, error);
+        const ffd_status status = ffd_status_known(output->sink(
+            output->sink_user, file->target, file->bytes.size > 0 ? file->bytes.data : "", file->bytes.size));
+        if (status)
+            return ffd_fail_file(error, status, file->target, "was not taken by the caller");
     }
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status settle_all(file_output *output, bool stays, ffd_error *error)
@@ -590,7 +604,6 @@ void ffd_output_destroy(file_output **output)
         ffd_free(file->temporary);
         ffd_free(file->target);
         ffd_buffer_free(&file->bytes);
-        ffd_free(file->name);
     }
     for (size_t i = (*output)->folder_count; i-- > 0;) {
         if (!(*output)->committed)

@@ -5,13 +5,13 @@
 #include "base/fail.h"
 #include "base/file/written_files.h"
 #include "base/memory/hash.h"
+#include <ffd/job.h>
 #include <stdbool.h>
 #include <stddef.h>
 
 /* A set of files that appear together. Each file is written under a temporary name in the folder of its
    target (".NAME.ffd-tmp", always the same for a target, locked against other runs). The commit renames all
-   files; the one begun last is the head (file_set.h). Files in memory (memory_files.h) are collected, and the
-   commit passes them to their callback in the order in which they were begun, until the callback fails. */
+   files; the one begun last is the head (file_set.h). */
 typedef struct file_output file_output;
 
 /* Creates an empty set; the caller destroys it with ffd_output_destroy. Errors: FFD_E_MEMORY. */
@@ -19,6 +19,9 @@ ffd_status ffd_output_create(file_output **output, ffd_error *error);
 /* From now on the set refuses targets that are in `written` (FFD_E_EXISTS), and its commit adds its files to
    it. written may be NULL and must outlive the set. */
 void ffd_output_record(file_output *output, written_files *written);
+/* From now on paths are only names: the set collects its files in memory, and its commit passes them to the
+   callback in the order in which they were begun, until that fails. sink NULL: does nothing. */
+void ffd_output_redirect(file_output *output, ffd_sink_function sink, void *user);
 /* From now on the bytes of the first file are hashed while they are written. */
 void ffd_output_hash(file_output *output);
 /* Gets that hash. Returns false if the set is not a single regular file, or there is no hash. */
@@ -48,6 +51,9 @@ bool ffd_output_was_busy(const file_output *output);
 /* Destroys the set, and removes its temporary files if it is not committed. output and *output may be
    NULL. */
 void ffd_output_destroy(file_output **output);
+/* Refuses (FFD_E_ARGUMENT) a name for something in memory that cannot be that of a file: its last component
+   is empty, "." or "..", or it means a stream. */
+ffd_status ffd_file_check_name(const char *name, ffd_error *error);
 /* Makes the checks of ffd_output_begin before any work is done. */
 ffd_status ffd_output_check(const char *path, bool force, ffd_error *error);
 

@@ -1,7 +1,6 @@
 #define _XOPEN_SOURCE 700 /* realpath, lstat */
 #include "base/file/place.h"
 #include "base/file/folder.h"
-#include "base/file/memory_files.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include <string.h>
@@ -111,9 +110,7 @@ static hash128 hash_of(const char *folder, const char *name)
 
 static hash128 find_place(file_places *places, const char *path)
 {
-    char *const target = ffd_memory_has(path) ? ffd_path_normalize(path)
-                         : is_link(path)      ? resolve(path)
-                                              : NULL;
+    char *const target = is_link(path) ? resolve(path) : NULL;
     const char *const whole = target ? target : path;
     const char *const name = ffd_path_name(whole);
     size_t length = (size_t)(name - whole);

@@ -87,9 +87,9 @@ static void add_lattices(job_description *job, const job_commons *commons)
 {
     for (size_t i = 0; i < commons->lattice_count; i++)
         if (commons->morphs)
-            ffd_description_add(job, JOB_MORPH, commons->morphs[i], commons->lattices[i]);
+            ffd_description_add(job, JOB_MORPH, commons->morphs[i], commons->lattices[i].path);
         else
-            ffd_description_add(job, JOB_LATTICE, NULL, commons->lattices[i]);
+            ffd_description_add(job, JOB_LATTICE, NULL, commons->lattices[i].path);
 }
 
 char *ffd_output_name(const job_commons *commons, const char *input, uint64_t number)

@@ -4,15 +4,16 @@
 
 #include "batch/manifest/csv.h"
 #include "batch/manifest/job_description.h"
+#include <ffd/lattice.h>
 #include <stdint.h>
 
 /* Values from the command line, for all jobs. */
 typedef struct job_commons {
-    const char *folder;          /* of the table; "": the current one */
-    const char *out_dir;         /* folder of outputs; or NULL */
-    const char *ending;          /* of outputs that the inputs name; NULL: that of the input */
-    const char *input;           /* for rows without one; or NULL */
-    const char *const *lattices; /* for jobs without any */
+    const char *folder;                 /* of the table; "": the current one */
+    const char *out_dir;                /* folder of outputs; or NULL */
+    const char *ending;                 /* of outputs that the inputs name; NULL: that of the input */
+    const char *input;                  /* for rows without one; or NULL */
+    const ffd_lattice_source *lattices; /* for jobs without any */
     size_t lattice_count;
     const char *const *morphs; /* lattice_count names, if each lattice makes a morph target; or NULL */
     const uint8_t *skipped;    /* of a table's columns: whether they are left out */

@@ -8,10 +8,10 @@
 #include "mesh/flaws.h"
 
 typedef struct job_source_desc {
-    const char *manifest;        /* JSON Lines; "-": standard input; or NULL */
-    const char *table;           /* CSV, whose first row names the columns; or NULL */
-    const char *pattern;         /* with a table: the mesh of rows without "in"; else a pattern for meshes */
-    const char *const *lattices; /* for jobs that name none */
+    const char *manifest; /* JSON Lines; "-": standard input; or NULL */
+    const char *table;    /* CSV, whose first row names the columns; or NULL */
+    const char *pattern;  /* with a table: the mesh of rows without "in"; else a pattern for meshes */
+    const ffd_lattice_source *lattices; /* for jobs that name none */
     size_t lattice_count;
     const char *const *morphs; /* lattice_count names, if each lattice makes a morph target; or NULL */
     const char *ignored;       /* columns of the table to ignore, "a,b"; or NULL */

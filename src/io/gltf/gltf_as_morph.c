@@ -194,7 +194,11 @@ static ffd_status reopen(morph_file *file, file_input *bytes, ffd_error *error)
 {
     const gltf_document *const d = file->source;
     const ffd_format format = d->binary ? FFD_FORMAT_GLB : FFD_FORMAT_GLTF;
-    const ffd_source source = {.path = d->path, .format = format, .space = d->space};
+    const ffd_source source = {.path = d->path,
+                               .format = format,
+                               .space = d->space,
+                               .resolve = d->base.folder.resolve,
+                               .resolve_user = d->base.folder.user};
     memory_budget budget = d->base.budget;
     budget.is_shared = true;
     close_file(file);

@@ -112,7 +112,7 @@ static ffd_status load_image(const gltf_document *d, material_images *images, si
     char *path = NULL;
     ffd_status status = FFD_OK;
     if (ffd_json_span_member(&d->tree, value, "bufferView") == JSON_NONE)
-        status = ffd_gltf_file_path(&d->tree, value, d->path, &path, error);
+        status = ffd_gltf_file_path(&d->tree, value, &d->base.folder, &path, error);
     if (!status)
         status =
             path ? ffd_images_load(images, path, number, error) : load_inner(d, images, image, number, error);
@@ -263,10 +263,12 @@ ffd_status ffd_gltf_list_materials(mesh_document *document, const mesh_log *log,
     const gltf_document *const d = ffd_gltf_of(document);
     const bool has_folder = !ffd_file_is_stream(d->path);
     char *const folder = has_folder ? ffd_path_folder(d->path) : NULL;
-    reader r = {
-        .document = d,
-        .images = {.materials = materials, .budget = &document->budget, .mesh = d->path, .folder = folder},
-        .error = error};
+    reader r = {.document = d,
+                .images = {.materials = materials,
+                           .budget = &document->budget,
+                           .mesh = d->base.folder,
+                           .folder = folder},
+                .error = error};
     ffd_status status = folder || !has_folder ? FFD_OK : ffd_fail_memory(error);
     for (size_t i = 0; i < d->material_values.count && !status; i++)
         status = read_material(&r, d->material_values.values[i]);

@@ -158,8 +158,8 @@ static ffd_status load_buffers(gltf_document *d, ffd_error *error)
     for (size_t i = 0; i < d->buffer_values.count && status == FFD_OK; i++) {
         const bool bin = i == 0 && d->binary && d->glb.has_bin;
         status = ffd_gltf_load_buffer(&d->tree, d->buffer_values.values[i],
-                                      bin ? d->input.data + d->glb.bin_begin : NULL, d->glb.bin_size, d->path,
-                                      d->name, &most_read, &d->buffers[i], error);
+                                      bin ? d->input.data + d->glb.bin_begin : NULL, d->glb.bin_size,
+                                      &d->base.folder, d->name, &most_read, &d->buffers[i], error);
         if (d->buffers[i].kind == BUFFER_DATA && status == FFD_OK)
             status = ffd_budget_take(&d->base.budget, d->buffers[i].size, 1, error);
         if (status == FFD_OK)
@@ -321,6 +321,7 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
     if (!d->path)
         return ffd_fail_memory(error);
     d->name = ffd_file_display_name(d->path);
+    d->base.folder = (file_folder){d->path, source->resolve, source->resolve_user};
     ffd_status status = find_json(d, source->format, error);
     if (status == FFD_OK)
         status = parse_model(d, error);

@@ -1,5 +1,4 @@
 #include "io/npy/npy.h"
-#include "base/file/input.h"
 #include "base/memory/memory.h"
 #include <inttypes.h>
 #include <stdint.h>
@@ -154,11 +153,11 @@ static ffd_status read_values(const char *path, const file_input *file, size_t n
     return FFD_OK;
 }
 
-ffd_status ffd_npy_read(const char *path, size_t numbers, double **values, ffd_error *error)
+ffd_status ffd_npy_read(const char *path, ffd_bytes bytes, size_t numbers, double **values, ffd_error *error)
 {
     file_input file;
     *values = NULL;
-    ffd_status status = ffd_file_load(path, &file, error);
+    ffd_status status = ffd_file_take(path, bytes, &file, error);
     if (status)
         return status;
     status = read_values(path, &file, numbers, values, error);

@@ -3,6 +3,7 @@
 #define FFD_IO_NPY_NPY_H
 
 #include "base/fail.h"
+#include "base/file/input.h"
 #include "base/file/output.h"
 #include <stddef.h>
 
@@ -26,9 +27,9 @@ ffd_status ffd_npy_begin(file_output *output, const char *descr, size_t rows, si
 bool ffd_npy_starts(const unsigned char *data, size_t size, const char *descr, size_t rows, size_t columns,
                     size_t *values);
 
-/* Reads an array of float32 or float64 in C order as doubles. The product of its shape must be `numbers`,
-   whatever its dimensions. The caller frees *values with ffd_free. Errors: FFD_E_INVALID for another file,
-   type, order or size, FFD_E_IO, FFD_E_MEMORY. */
-ffd_status ffd_npy_read(const char *path, size_t numbers, double **values, ffd_error *error);
+/* Reads from a file, or from bytes of that name (ffd_file_take), an array of float32 or float64 in C order as
+   doubles. The product of its shape must be `numbers`, whatever its dimensions. The caller frees *values with
+   ffd_free. Errors: FFD_E_INVALID for another file, type, order or size, FFD_E_IO, FFD_E_MEMORY. */
+ffd_status ffd_npy_read(const char *path, ffd_bytes bytes, size_t numbers, double **values, ffd_error *error);
 
 #endif

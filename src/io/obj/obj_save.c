@@ -246,7 +246,8 @@ ffd_status ffd_obj_save(mesh_document *document, const mesh_save_options *option
     const obj_document *d = ffd_obj_of(document);
     file_splice splice;
     saver s = {.document = d, .splice = &splice};
-    ffd_status status = ffd_obj_bring_resources(&d->file.input, d->names_files, options, output, log, error);
+    ffd_status status = ffd_obj_bring_resources(&d->file.input, &document->folder, d->names_files, options,
+                                                output, log, error);
     if (status == FFD_OK && d->file.new_directions)
         status = ffd_obj_split_normals(d, &s.split, error);
     if (status == FFD_OK) {
@@ -267,5 +268,6 @@ ffd_status ffd_obj_check_save(mesh_document *document, const mesh_save_options *
                               const mesh_log *log, ffd_error *error)
 {
     const obj_document *d = ffd_obj_of(document);
-    return ffd_obj_bring_resources(&d->file.input, d->names_files, options, output, log, error);
+    return ffd_obj_bring_resources(&d->file.input, &document->folder, d->names_files, options, output, log,
+                                   error);
 }

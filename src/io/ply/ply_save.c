@@ -90,7 +90,8 @@ static size_t write_elements(const ply_document *d, file_splice *splice)
 ffd_status ffd_ply_check_save(mesh_document *document, const mesh_save_options *options, file_output *output,
                               const mesh_log *log, ffd_error *error)
 {
-    return ffd_ply_bring_textures(&ffd_ply_of(document)->header, options, output, log, error);
+    return ffd_ply_bring_textures(&ffd_ply_of(document)->header, &document->folder, options, output, log,
+                                  error);
 }
 
 ffd_status ffd_ply_save(mesh_document *document, const mesh_save_options *options, file_output *output,
@@ -98,7 +99,8 @@ ffd_status ffd_ply_save(mesh_document *document, const mesh_save_options *option
 {
     const ply_document *d = ffd_ply_of(document);
     file_splice splice;
-    const ffd_status status = ffd_ply_bring_textures(&d->header, options, output, log, error);
+    const ffd_status status =
+        ffd_ply_bring_textures(&d->header, &document->folder, options, output, log, error);
     if (status)
         return status;
     ffd_splice_begin(&splice, &d->file, options, output, error);

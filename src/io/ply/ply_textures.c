@@ -30,7 +30,7 @@ bool ffd_ply_texture_name(text_word note, text_word *name)
 }
 
 /* Adds an image by its name, which counts from the mesh's folder. An absolute name is no file beside it. */
-static ffd_status add(const char *folder, text_word name, resource_list *list, ffd_error *error)
+static ffd_status add(const file_folder *folder, text_word name, resource_list *list, ffd_error *error)
 {
     const size_t size = (size_t)(name.last - name.first);
     char *const text = ffd_alloc(size + 1, 1);
@@ -38,9 +38,9 @@ static ffd_status add(const char *folder, text_word name, resource_list *list, f
         return ffd_fail_memory(error);
     memcpy(text, name.first, size);
     text[size] = 0;
-    bool turned;
-    ffd_status status = ffd_path_turn_slashes(text, folder, &turned, error);
-    if (status == FFD_OK && !ffd_path_is_absolute(text) && !memchr(text, 0, size)) {
+    ffd_status status = FFD_OK;
+    ffd_folder_turn_slashes(folder, text);
+    if (!ffd_path_is_absolute(text) && !memchr(text, 0, size)) {
         char *const path = ffd_path_normalize(text);
         status = path ? ffd_resources_add(list, &ffd_resource_image, list->count, path, error)
                       : ffd_fail_memory(error);
@@ -49,7 +49,7 @@ static ffd_status add(const char *folder, text_word name, resource_list *list, f
     return status;
 }
 
-static ffd_status list_all(const ply_header *header, const char *folder, resource_list *list,
+static ffd_status list_all(const ply_header *header, const file_folder *folder, resource_list *list,
                            ffd_error *error)
 {
     ffd_status status = FFD_OK;
@@ -68,9 +68,11 @@ static ffd_status warn_of_stream(const ply_header *header, const mesh_save_optio
     resource_list list = {0};
     left_out left = {0};
     char *const to = ffd_path_folder(options->path);
-    ffd_status status = to ? list_all(header, to, &list, error) : ffd_fail_memory(error);
+    const file_folder there = {.file = options->to_sink ? NULL : options->path};
+    ffd_status status = to ? list_all(header, &there, &list, error) : ffd_fail_memory(error);
     for (size_t i = 0; i < list.count && !status; i++)
-        status = ffd_left_add_unreached(&left, to, list.resources[i].path, "of TextureFile", error);
+        status = ffd_left_add_unreached(&left, options->to_sink ? NULL : to, list.resources[i].path,
+                                        "of TextureFile", error);
     if (!status)
         ffd_left_say_of_stream(&left, log);
     ffd_resources_free(&list);
@@ -78,23 +80,25 @@ static ffd_status warn_of_stream(const ply_header *header, const mesh_save_optio
     return status;
 }
 
-ffd_status ffd_ply_bring_textures(const ply_header *header, const mesh_save_options *options,
-                                  file_output *output, const mesh_log *log, ffd_error *error)
+ffd_status ffd_ply_bring_textures(const ply_header *header, const file_folder *folder,
+                                  const mesh_save_options *options, file_output *output, const mesh_log *log,
+                                  ffd_error *error)
 {
     const char *const mesh = options->input;
     if (!mesh || header->note_count == 0 || ffd_output_is_stream(options->path))
         return FFD_OK;
     if (ffd_file_is_stream(mesh))
         return warn_of_stream(header, options, log, error);
-    if (ffd_file_same(mesh, options->path))
+    if (ffd_save_meets(options, mesh, options->path))
         return FFD_OK;
     char *const from = ffd_path_folder(mesh), *const to = ffd_path_folder(options->path);
-    const resource_copier copier = {mesh, from, to, output, log, options->copied};
+    const resource_copier copier = {
+        *folder, from, to, options->to_sink ? options->path : NULL, output, log, options->copied};
     resource_list list = {0};
-    ffd_status status = from && to ? list_all(header, from, &list, error) : ffd_fail_memory(error);
+    ffd_status status = from && to ? list_all(header, folder, &list, error) : ffd_fail_memory(error);
     if (status == FFD_OK)
         status = ffd_resources_bring(&copier, &list, options->resources == FFD_RESOURCES_COPY,
-                                     ffd_file_same(from, to), options->path, error);
+                                     ffd_save_meets(options, from, to), options->path, error);
     ffd_resources_free(&list);
     ffd_free(from);
     ffd_free(to);
@@ -109,10 +113,10 @@ static ffd_status find(const char *path, const file_input *bytes, path_list *nam
     ply_header header = {0};
     resource_list list = {0};
     const ffd_status read = ffd_ply_header_read(bytes, path, &header, NULL);
-    char *const folder = ffd_path_folder(path);
-    ffd_status status = folder && read != FFD_E_MEMORY ? FFD_OK : ffd_fail_memory(error);
+    const file_folder folder = {.file = path};
+    ffd_status status = read != FFD_E_MEMORY ? FFD_OK : ffd_fail_memory(error);
     if (!read && !status)
-        status = list_all(&header, folder, &list, error);
+        status = list_all(&header, &folder, &list, error);
     for (size_t i = 0; i < list.count && !status; i++) {
         char *const file = ffd_path_beside(path, list.resources[i].path);
         status = file ? FFD_OK : ffd_fail_memory(error);
@@ -124,7 +128,6 @@ static ffd_status find(const char *path, const file_input *bytes, path_list *nam
     }
     ffd_resources_free(&list);
     ffd_ply_header_free(&header);
-    ffd_free(folder);
     return status;
 }
 

@@ -11,8 +11,9 @@ bool ffd_ply_texture_name(text_word note, text_word *name);
 /* Copies the images of the file at options->input to the same places beside the output, or says which the
    output does not reach (FFD_RESOURCES_REFERENCE). Comes before the output's own file. Errors: FFD_E_EXISTS,
    FFD_E_IO, FFD_E_MEMORY. */
-ffd_status ffd_ply_bring_textures(const ply_header *header, const mesh_save_options *options,
-                                  file_output *output, const mesh_log *log, ffd_error *error);
+ffd_status ffd_ply_bring_textures(const ply_header *header, const file_folder *folder,
+                                  const mesh_save_options *options, file_output *output, const mesh_log *log,
+                                  ffd_error *error);
 
 /* mesh_format's find_resources and find_named. */
 mesh_find_resources_function ffd_ply_find_textures;

@@ -19,6 +19,7 @@ void *ffd_file_document_make(size_t size, const file_input *input, const ffd_sou
     d->input = *input;
     d->name = name;
     d->path = path;
+    d->base.folder = (file_folder){path, source->resolve, source->resolve_user};
     d->base.flaws.strict = source->strict;
     return d;
 }

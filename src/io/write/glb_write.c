@@ -191,7 +191,7 @@ static ffd_status put_stream(gltf_writer *w)
 
 static ffd_status put_bin_file(gltf_writer *w, const mesh_save_options *options, const char *path)
 {
-    if (options->input && ffd_file_same(options->input, path))
+    if (options->input && ffd_save_meets(options, options->input, path))
         w->sink.status =
             ffd_fail_file(w->error, FFD_E_EXISTS, path, "is the input and is not overwritten by a buffer");
     else

@@ -8,6 +8,7 @@
 #include "job/chain/mesh_boxes.h"
 #include "job/input/embedding_file.h"
 #include "job/input/shown_box.h"
+#include "lattice/file/lattice_source.h"
 #include "lattice/file/spec_set.h"
 #include "lattice/lattice.h"
 #include "lattice/rest_hash.h"
@@ -21,10 +22,10 @@
 static void borrow_lattice(const chain_files *files, lattice_chain *chain, size_t i)
 {
     chain_link *const link = &chain->links[i];
-    if (!chain->share || files->set_count > 0 || ffd_file_is_stream(files->paths[i]) ||
-        !ffd_file_stamp(files->paths[i], &link->stamp))
+    const char *const path = ffd_lattice_file(&files->lattices[i]);
+    if (!chain->share || files->set_count > 0 || !path || !ffd_file_stamp(path, &link->stamp))
         return;
-    link->path = files->paths[i];
+    link->path = path;
     ffd_cache_lend_lattice(chain->share, link);
 }
 
@@ -49,17 +50,22 @@ static ffd_status fit(const chain_files *files, ffd_share *share, chain_link *li
     return status ? status : ffd_lattice_fit(link->lattice, box.min, box.max, error);
 }
 
+/* Adds to open the placeholders of a lattice that have no value, if it can be read once more. */
+static void list_open(const chain_files *files, size_t i, bool *used, intern_table *open)
+{
+    const ffd_lattice_source *const lattice = &files->lattices[i];
+    if (!lattice->object && !ffd_lattice_is_stream(lattice))
+        ffd_lattice_list_open(lattice, files->set, files->set_count, used, open, NULL);
+}
+
 /* Replaces the message of a failure that is due to open placeholders in lattice i by one that names those of
    all lattices. */
 static void tell_open(const chain_files *files, size_t i, bool *used, ffd_error *error)
 {
     intern_table own = {0}, all = {0};
-    const bool is_open =
-        !ffd_file_is_stream(files->paths[i]) &&
-        !ffd_lattice_list_open(files->paths[i], files->set, files->set_count, used, &own, NULL) && own.count;
-    for (size_t k = 0; k < files->count && is_open; k++)
-        if (!ffd_file_is_stream(files->paths[k]))
-            ffd_lattice_list_open(files->paths[k], files->set, files->set_count, used, &all, NULL);
+    list_open(files, i, used, &own);
+    for (size_t k = 0; k < files->count && own.count; k++)
+        list_open(files, k, used, &all);
     if (all.count > own.count)
         ffd_spec_describe_open(&all, error->message, sizeof error->message);
     ffd_intern_free(&own);
@@ -83,15 +89,14 @@ static ffd_status load_lattice(const chain_files *files, bool *used, size_t i, u
                                     .count = files->set_count,
                                     .may_be_open = files->rest_only,
                                     .derives = files->derives};
-    const ffd_lattice *const object = files->objects ? files->objects[i] : NULL;
-    const ffd_status status =
-        object     ? copy_object(object, memory, lattice, error)
-        : *lattice ? ffd_lattice_memory_take(memory, (*lattice)->spec, file_size, error)
-                   : ffd_lattice_memory_load(files->paths[i], &settings, memory, lattice, error);
+    const ffd_lattice_source *const source = &files->lattices[i];
+    const ffd_status status = source->object ? copy_object(source->object, memory, lattice, error)
+                              : *lattice ? ffd_lattice_memory_take(memory, (*lattice)->spec, file_size, error)
+                                         : ffd_lattice_memory_load(source, &settings, memory, lattice, error);
     if (status == FFD_E_INVALID && !files->rest_only && error)
         tell_open(files, i, used, error);
     if (status)
-        ffd_fail_name_file(error, files->paths[i]);
+        ffd_fail_name_file(error, files->lattices[i].path);
     return status;
 }
 
@@ -106,7 +111,7 @@ static ffd_status load_link(const chain_files *files, bool *used, lattice_chain 
     if (!status && fitted)
         status = ffd_chain_prepare(chain, i, error);
     if (status)
-        ffd_fail_name_file(error, files->paths[i]);
+        ffd_fail_name_file(error, files->lattices[i].path);
     return status;
 }
 
@@ -128,7 +133,7 @@ static ffd_status refuse_unused(const chain_files *files, const bool *used, bool
     }
     return count == 0
                ? FFD_OK
-               : ffd_fail_file(error, FFD_E_INVALID, files->paths[0],
+               : ffd_fail_file(error, FFD_E_INVALID, files->lattices[0].path,
                                "no lattice has the placeholder%s %s ({set}%s)", count == 1 ? "" : "s", names,
                                in_batch ? SPELLED("; {csv_ignore} leaves columns of a table out") : "");
 }

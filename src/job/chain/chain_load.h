@@ -5,11 +5,9 @@
 #include "job/chain/chain.h"
 #include "mesh/mesh_log.h"
 
-/* The lattice files of a chain, with the values of their placeholders. */
+/* The lattices of a chain, with the values of their placeholders. */
 typedef struct chain_files {
-    const char *const *paths; /* count entries */
-    const ffd_lattice *const
-        *objects; /* count entries, each NULL or a lattice that replaces the file; or NULL */
+    const ffd_lattice_source *lattices; /* count entries with paths or names */
     size_t count;
     const ffd_setting *set; /* set_count entries, or NULL */
     size_t set_count;

@@ -150,10 +150,12 @@ static bool same_source(const ffd_share *share, const ffd_deform_desc *desc, boo
     return true;
 }
 
-/* A job that changes the document itself, or overwrites its file, leaves no mesh to reuse. */
+/* A job that changes the document itself, or overwrites its file, leaves no mesh to reuse; nor does one in
+   memory. */
 static bool leaves_mesh(const ffd_deform_desc *desc)
 {
-    return !desc->as_morph && !desc->morphs && !desc->in_place && !ffd_file_is_stream(desc->input.path);
+    return !desc->as_morph && !desc->morphs && !desc->in_place && !desc->input.bytes.data &&
+           !ffd_file_is_stream(desc->input.path);
 }
 
 mesh_document *ffd_cache_take_mesh(ffd_share *share, const ffd_deform_desc *desc, bool only_positions)

@@ -30,13 +30,13 @@ ffd_status ffd_lattice_memory_take(memory_budget *budget, const lattice_spec *sp
                     (unsigned long long)(ffd_budget_most(budget) / MEGABYTE));
 }
 
-ffd_status ffd_lattice_memory_load(const char *path, const spec_settings *settings, memory_budget *budget,
-                                   ffd_lattice **lattice, ffd_error *error)
+ffd_status ffd_lattice_memory_load(const ffd_lattice_source *source, const spec_settings *settings,
+                                   memory_budget *budget, ffd_lattice **lattice, ffd_error *error)
 {
     lattice_spec *spec = NULL;
     size_t size = 0;
     *lattice = NULL;
-    ffd_status status = ffd_spec_load(path, settings, &spec, &size, error);
+    ffd_status status = ffd_spec_load(source, settings, &spec, &size, error);
     if (!status)
         status = ffd_lattice_memory_take(budget, spec, size, error);
     if (!status)

@@ -13,8 +13,8 @@ ffd_status ffd_lattice_memory_take(memory_budget *budget, const lattice_spec *sp
                                    ffd_error *error);
 
 /* Loads a lattice within the budget. Errors: those of reading and building it, FFD_E_LIMIT. */
-ffd_status ffd_lattice_memory_load(const char *path, const spec_settings *settings, memory_budget *budget,
-                                   ffd_lattice **lattice, ffd_error *error);
+ffd_status ffd_lattice_memory_load(const ffd_lattice_source *source, const spec_settings *settings,
+                                   memory_budget *budget, ffd_lattice **lattice, ffd_error *error);
 
 /* Takes the memory of the chain's lattices from the budget of the job's mesh. Errors: FFD_E_LIMIT. */
 ffd_status ffd_lattice_memory_share(const struct lattice_chain *chain, memory_budget *budget,

@@ -65,6 +65,8 @@ static ffd_status add_mesh(mesh_box *box, const char *path, const ffd_source *li
     file_stamp stamp;
     source.path = path;
     source.format = FFD_FORMAT_AUTO;
+    source.bytes = (ffd_bytes){0};
+    source.resolve = NULL;
     if (!ffd_file_stamp(path, &stamp))
         stamp = none;
     const ffd_status status = ffd_shown_box_add(shown, &source, NULL, 0, &box->files, &log, error);

@@ -23,13 +23,13 @@ static void tell(chain_pace *pace, const chain_link *link)
 {
     const double each = pace->seconds / (double)pace->done, parts = ceil(pace->points / MESH_RANGE_STEP);
     const double all = larger_of(each * pace->points / lesser_of(pace->threads, parts), pace->seconds);
-    const char *const lattice = pace->lattices ? pace->lattices[link - pace->links] : NULL;
+    const ffd_lattice_source *const lattice = pace->lattices ? &pace->lattices[link - pace->links] : NULL;
     char text[40], name[201] = "";
     if (pace->is_told || pace->done < FIRST_POINTS || each < SLOW)
         return;
     pace->is_told = true;
     if (lattice)
-        ffd_name_shown(lattice, name, sizeof name);
+        ffd_name_shown(lattice->path, name, sizeof name);
     if (all < 120)
         snprintf(text, sizeof text, "%.0f seconds", all);
     else if (all < 7200)

@@ -10,9 +10,9 @@
 typedef struct chain_pace {
     double points; /* that all threads search */
     int threads;
-    const chain_link *links;     /* of the chain, */
-    const char *const *lattices; /* and their names; NULL, or an element is, if there are none */
-    const char *more;            /* end of the warning */
+    const chain_link *links;            /* of the chain, */
+    const ffd_lattice_source *lattices; /* and where they come from; NULL: unknown */
+    const char *more;                   /* end of the warning */
     mesh_log log;
     uint64_t done;  /* points of this thread, */
     double seconds; /* and what they took */

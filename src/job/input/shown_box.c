@@ -111,8 +111,7 @@ ffd_status ffd_shared_box_add(ffd_shared_box *box, const ffd_deform_desc *caller
     if (!status)
         status = ffd_shown_box_add(&box->box, &desc->input, desc->only, desc->only_count, &box->files, NULL,
                                    error);
-    status = ffd_in_memory_judge(&memory, status, error);
-    ffd_in_memory_end(&memory);
+    status = ffd_in_memory_end(&memory, status, error);
     return status;
 }
 

@@ -1,6 +1,5 @@
 #include "job/input/source.h"
 #include "base/file/file_set_record.h"
-#include "base/file/memory_files.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
@@ -71,8 +70,8 @@ ffd_status ffd_source_open(const ffd_source *source, int threads, mesh_document 
     *document = NULL;
     ffd_status status = ffd_source_format(source, &format, error);
     if (!status) {
-        status = ffd_file_load(source->path, &input, error);
-        if (status)
+        status = ffd_file_take(source->path, source->bytes, &input, error);
+        if (status && !source->bytes.data)
             tell_of_set_aside(source->path, error);
     }
     return status ? status : ffd_source_open_bytes(source, threads, &input, document, error);
@@ -82,7 +81,7 @@ ffd_status ffd_source_files(const ffd_source *source, const mesh_document *docum
                             ffd_error *error)
 {
     ffd_status status = FFD_OK;
-    if (ffd_memory_has(source->path))
+    if (source->bytes.data)
         return FFD_OK;
     if (!ffd_file_is_stream(source->path))
         status = ffd_paths_add(files, source->path, error);

@@ -27,13 +27,12 @@ static bool is_product(const ffd_jacobian_desc *desc)
 /* force is for older outputs, not for what is read. */
 static bool is_input(const ffd_jacobian_desc *desc)
 {
-    const char *const inputs[] = {desc->job->input.path, desc->times, desc->transposed};
-    bool found = false;
-    for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++)
-        found = found || (inputs[i] && ffd_file_same(inputs[i], desc->output));
-    for (size_t i = 0; i < desc->job->lattice_count && desc->job->lattices; i++)
-        found = found || ffd_file_same(desc->job->lattices[i], desc->output);
-    return found;
+    const char *const arrays[] = {desc->times_bytes.data ? NULL : desc->times,
+                                  desc->transposed_bytes.data ? NULL : desc->transposed};
+    bool found = ffd_job_reads_mesh(&desc->job->input, desc->output);
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+        found = found || (arrays[i] && ffd_file_same(arrays[i], desc->output));
+    return found || ffd_job_reads_lattice(desc->job->lattices, desc->job->lattice_count, desc->output);
 }
 
 static ffd_status check_output(const ffd_jacobian_desc *desc, ffd_error *error)
@@ -49,6 +48,8 @@ static ffd_status check_output(const ffd_jacobian_desc *desc, ffd_error *error)
     if (npy && !is_product(desc) && by_points)
         return ffd_fail_file(error, FFD_E_ARGUMENT, path,
                              "a matrix by control points is sparse: it is written as .npz or .mtx");
+    if (desc->job->sink)
+        return FFD_OK;
     if (is_input(desc))
         return ffd_fail_file(error, FFD_E_EXISTS, path, "is an input of this command");
     return ffd_output_check(path, desc->job->force, error);
@@ -113,9 +114,9 @@ static ffd_status run(const ffd_jacobian_desc *desc, ffd_jacobian_result *result
     j.job.only_positions = true;
     if (!status)
         status = ffd_deform_job_open(&j.job, &figures, &figures.error);
-    if (!status)
+    if (!status && !desc->job->sink)
         status = ffd_job_check_mesh_files(desc->output, &desc->job->input, j.job.document, &figures.error);
-    if (!status)
+    if (!status && !desc->job->sink)
         status = ffd_job_check_box_files(desc->output, &j.job.chain, desc->job->lattices, &figures.error);
     if (!status)
         status = make(&j, result, &figures.error);
@@ -123,15 +124,15 @@ static ffd_status run(const ffd_jacobian_desc *desc, ffd_jacobian_result *result
     return ffd_deform_job_end(&j.job, status, &figures, error);
 }
 
-/* Registers data in memory under paths. The job's own output is ignored. */
+/* Names and checks data in memory. The job's own output is ignored. */
 static ffd_status take_memory(job_memory *memory, ffd_jacobian_desc *desc, ffd_deform_desc *job,
                               ffd_error *error)
 {
-    ffd_status status = ffd_in_memory_output(memory, job->sink, job->sink_user, &desc->output, error);
+    ffd_status status = ffd_in_memory_output(job->sink, desc->output, error);
     if (!status)
-        status = ffd_in_memory_bytes(memory, desc->times_bytes, "times", &desc->times, error);
+        status = ffd_in_memory_bytes(desc->times_bytes, "times", &desc->times, error);
     if (!status)
-        status = ffd_in_memory_bytes(memory, desc->transposed_bytes, "transposed", &desc->transposed, error);
+        status = ffd_in_memory_bytes(desc->transposed_bytes, "transposed", &desc->transposed, error);
     job->output = NULL;
     return status ? status : ffd_in_memory_desc(memory, job, error);
 }
@@ -161,8 +162,7 @@ ffd_status ffd_jacobian_run(const ffd_jacobian_desc *callers, ffd_jacobian_resul
     if (runs)
         status = run(&desc, &result, &own);
     ffd_deadline_end(before);
-    status = ffd_in_memory_judge(&memory, status, &own);
-    ffd_in_memory_end(&memory);
+    status = ffd_in_memory_end(&memory, status, &own);
     if (status && error)
         *error = own;
     if (callers_result && runs)

@@ -181,8 +181,7 @@ static ffd_status load_changed(const jacobian *j, const spec_variable *variable,
         if (strcmp(desc->set[i].name, variable->name) != 0)
             set[count++] = desc->set[i];
     set[count++] = (ffd_setting){variable->name, text};
-    const chain_files files = {.paths = desc->lattices,
-                               .objects = desc->lattice_objects,
+    const chain_files files = {.lattices = desc->lattices,
                                .count = desc->lattice_count,
                                .set = set,
                                .set_count = count,

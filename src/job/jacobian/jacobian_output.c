@@ -301,6 +301,8 @@ ffd_status ffd_jacobian_write(const jacobian *j, const uint64_t *starts, ffd_err
     const char *const path = j->desc->output;
     file_output *output;
     ffd_status status = ffd_output_create(&output, error);
+    if (!status)
+        ffd_output_redirect(output, j->desc->job->sink, j->desc->job->sink_user);
     if (!status && j->desc->by == FFD_BY_PARAMETERS)
         status = write_names(j, output, error);
     if (!status)

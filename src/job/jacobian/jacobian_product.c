@@ -79,6 +79,8 @@ static ffd_status write(const jacobian *j, const double *numbers, size_t rows, s
     file_output *output;
     ffd_status status = ffd_output_create(&output, error);
     if (!status)
+        ffd_output_redirect(output, j->desc->job->sink, j->desc->job->sink_user);
+    if (!status)
         status = ffd_output_begin(output, j->desc->output, j->desc->job->force, error);
     if (!status)
         status = ffd_npy_begin(output, "<f8", rows, columns, error);
@@ -100,6 +102,7 @@ ffd_status ffd_jacobian_multiply(const jacobian *j, ffd_error *error)
     double *in = NULL;
     product p = {.j = j};
     ffd_status status = ffd_npy_read(transposed ? j->desc->transposed : j->desc->times,
+                                     transposed ? j->desc->transposed_bytes : j->desc->times_bytes,
                                      transposed ? vertices : columns, &in, error);
     if (status)
         return status;

@@ -4,7 +4,7 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-void ffd_folds_describe(const ffd_job_result *result, const char *const *lattices, char *text,
+void ffd_folds_describe(const ffd_job_result *result, const ffd_lattice_source *lattices, char *text,
                         size_t capacity)
 {
     const ffd_folds *folds = &result->folds;
@@ -21,7 +21,7 @@ void ffd_folds_describe(const ffd_job_result *result, const char *const *lattice
         snprintf(text, capacity,
                  "folds in %" PRIu64 " of %" PRIu64 " %s, as at u,v,w = %g %g %g of %.100s, x,y,z = %g %g %g",
                  folds->folded_cells, folds->cells, cells, uvw[0], uvw[1], uvw[2],
-                 lattices[result->folds.witness.lattice], xyz[0], xyz[1], xyz[2]);
+                 lattices[result->folds.witness.lattice].path, xyz[0], xyz[1], xyz[2]);
 }
 
 /* Says how many faces are turned over, or if that is not known at how many vertices the mesh is inside out.
@@ -40,8 +40,8 @@ static void tell_turned(const ffd_job_result *result, const pass_totals *totals,
                  totals->det_inverted, totals->first_inverted);
 }
 
-void ffd_folds_warn(const ffd_job_result *result, const pass_totals *totals, const char *const *lattices,
-                    const mesh_log *log)
+void ffd_folds_warn(const ffd_job_result *result, const pass_totals *totals,
+                    const ffd_lattice_source *lattices, const mesh_log *log)
 {
     char text[400], turned[200];
     tell_turned(result, totals, turned, sizeof turned);

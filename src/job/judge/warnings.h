@@ -13,11 +13,11 @@ void ffd_result_warn(const pass_totals *totals, const lattice_chain *chain, bool
 
 /* Describes folds, such as "folds in 3 of 27 cells, as at u,v,w = 0.5 0.5 0.5 of b.json, x,y,z = 1 2 3", or
    that they could not be ruled out. Only for verdicts other than none. lattices: the names of the job's. */
-void ffd_folds_describe(const ffd_job_result *result, const char *const *lattices, char *text,
+void ffd_folds_describe(const ffd_job_result *result, const ffd_lattice_source *lattices, char *text,
                         size_t capacity);
 /* Warns of folds and of faces that are turned over. */
-void ffd_folds_warn(const ffd_job_result *result, const pass_totals *totals, const char *const *lattices,
-                    const mesh_log *log);
+void ffd_folds_warn(const ffd_job_result *result, const pass_totals *totals,
+                    const ffd_lattice_source *lattices, const mesh_log *log);
 
 /* Describes torn edges, as in "36 vertices of Knight_Sword stay; the largest step to a neighbour is 0.47".
    Requires torn edges. */

@@ -101,7 +101,7 @@ static void write_morphs(json_text *json, const char *key, const ffd_morph_resul
     ffd_json_array(json, key, false);
     for (size_t k = 0; k < morphs->count; k++) {
         lattice_name name;
-        const char *const lattice = morphs->lattices ? morphs->lattices[k] : NULL;
+        const char *const lattice = morphs->lattices[k].path;
         ffd_json_object(json, NULL, false);
         ffd_json_string(json, "name", morphs->names[k]);
         ffd_json_string(json, "lattice", name_of(lattice, k, &name));

@@ -1,6 +1,5 @@
 #include "job/report/report_file.h"
 #include "base/file/growing.h"
-#include "base/file/memory_files.h"
 #include "base/file/output.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
@@ -24,10 +23,9 @@ struct ffd_report {
     uint64_t end;        /* of the last entry in the file */
     entry_place *places; /* by job number */
     size_t place_count, place_capacity;
-    uint64_t count;       /* of entries */
-    bool is_mixed;        /* entries are not in the order of the jobs */
-    byte_buffer buffer;   /* next bytes to write */
-    memory_files *memory; /* owns the path of a report that goes to a sink */
+    uint64_t count;     /* of entries */
+    bool is_mixed;      /* entries are not in the order of the jobs */
+    byte_buffer buffer; /* next bytes to write */
 };
 
 /* The text */
@@ -91,16 +89,24 @@ static bool is_report_of_lines(const file_input *old)
 
 /* Writing */
 
-static ffd_status open_file(ffd_report *report, ffd_written *written, ffd_error *error)
+/* The callback that gets a report; function NULL: none. */
+typedef struct report_sink {
+    ffd_sink_function function;
+    void *user;
+} report_sink;
+
+static ffd_status open_file(ffd_report *report, ffd_written *written, const report_sink *sink,
+                            ffd_error *error)
 {
     byte_buffer *const head = &report->buffer;
     ffd_report_begin_text(report->lines, head);
     report->end = head->size;
-    if (!ffd_growing_can(report->path)) {
+    if (sink->function || !ffd_growing_can(report->path)) {
         ffd_status status = ffd_output_create(&report->stream, error);
         if (status)
             return status;
         ffd_output_record(report->stream, ffd_written_list(written));
+        ffd_output_redirect(report->stream, sink->function, sink->user);
         status = ffd_output_begin(report->stream, report->path, true, error);
         if (!status && head->failed)
             status = ffd_fail_memory(error);
@@ -112,20 +118,17 @@ static ffd_status open_file(ffd_report *report, ffd_written *written, ffd_error 
                                              &report->file, error);
 }
 
-/* memory: has the path, and becomes the report's; or NULL. */
-static ffd_status create(const char *path, bool stable, ffd_written *written, memory_files *memory,
+static ffd_status create(const char *path, bool stable, ffd_written *written, report_sink sink,
                          ffd_report **report, ffd_error *error)
 {
     ffd_report *made = ffd_alloc_zero(1, sizeof *made);
     if (!made || !(made->path = ffd_text_copy(path))) {
         ffd_free(made);
-        ffd_memory_destroy(&memory);
         return ffd_fail_memory(error);
     }
-    made->memory = memory;
     made->stable = stable;
     made->lines = ffd_report_has_lines(path);
-    const ffd_status status = open_file(made, written, error);
+    const ffd_status status = open_file(made, written, &sink, error);
     if (status)
         ffd_report_destroy(&made);
     *report = made;
@@ -149,24 +152,17 @@ ffd_status ffd_report_create(const char *path, bool stable, ffd_written *written
 {
     *report = NULL;
     const ffd_status status = check_kind(path, error);
-    return status ? status : create(path, stable, written, NULL, report, error);
+    return status ? status : create(path, stable, written, (report_sink){0}, report, error);
 }
 
 ffd_status ffd_report_create_sink(const char *name, bool stable, ffd_sink_function sink, void *user,
                                   ffd_report **report, ffd_error *error)
 {
-    memory_files *memory;
-    const char *path;
     *report = NULL;
     if (!name || !sink)
         return ffd_fail(error, FFD_E_ARGUMENT, "a report in memory needs a name and a sink");
-    ffd_status status = ffd_memory_create(&memory, error);
-    if (!status)
-        status = ffd_memory_take(memory, name, sink, user, &path, error);
-    if (!status)
-        return create(path, stable, NULL, memory, report, error);
-    ffd_memory_destroy(&memory);
-    return status;
+    const ffd_status status = ffd_file_check_name(name, error);
+    return status ? status : create(name, stable, NULL, (report_sink){sink, user}, report, error);
 }
 
 void ffd_report_destroy(ffd_report **report)
@@ -174,7 +170,6 @@ void ffd_report_destroy(ffd_report **report)
     if (!report || !*report)
         return;
     ffd_output_destroy(&(*report)->stream);
-    ffd_memory_destroy(&(*report)->memory);
     ffd_growing_close(&(*report)->file);
     ffd_buffer_free(&(*report)->buffer);
     ffd_free((*report)->places);

@@ -1,7 +1,6 @@
 /* view.c - the job of `ffd view`: makes a scene of a mesh and its deformation, or of one or two files as they
    are. */
 #include "base/file/mapping.h"
-#include "base/file/memory_files.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/spelling.h"
@@ -90,9 +89,9 @@ static ffd_status check_desc(const view_work *work, ffd_error *error)
                              "the ending \"%s\" is not that of a page or a picture (.html .htm .png)",
                              ffd_path_ending(desc->output));
     ffd_status status = ffd_view_picture_check(&picture, error);
-    if (!status)
+    if (!status && !desc->sink)
         status = ffd_view_check_inputs(desc, error);
-    return status ? status : ffd_output_check(desc->output, desc->force, error);
+    return status || desc->sink ? status : ffd_output_check(desc->output, desc->force, error);
 }
 
 /* Whether to show the shape with default weights of morph targets instead of the stored one. */
@@ -180,7 +179,8 @@ static ffd_status check_mesh(const view_work *work, const ffd_source *source, me
                              ffd_error *error)
 {
     const ffd_status status = ffd_mesh_check(document, error);
-    return status ? status : ffd_view_check_files(source, document, work->desc->output, error);
+    return status || work->desc->sink ? status
+                                      : ffd_view_check_files(source, document, work->desc->output, error);
 }
 
 /* Deforms the mesh in memory. A shape that a gate refuses is shown too; result then has the refusal. */
@@ -322,12 +322,13 @@ static ffd_status write_view(view_work *work, ffd_error *error)
     if (status)
         return status;
     ffd_output_record(output, ffd_written_list(desc->job->written));
+    ffd_output_redirect(output, desc->sink, desc->sink_user);
     status = ffd_output_begin(output, desc->output, desc->force, error);
     if (!status)
         status = is_page(desc->output) ? write_page(work, output, error) : write_picture(work, output, error);
     status = ffd_mapping_judge(work->job.losses, status, error);
     if (!status) /* an image that seems to be missing may have failed to load */
-        status = ffd_memory_judge_path(desc->job->input.path, status, error);
+        status = ffd_in_memory_judge(&desc->job->input, status, error);
     if (!status)
         status = ffd_output_commit(output, error);
     ffd_output_destroy(&output);
@@ -433,7 +434,6 @@ static void allow_memory(ffd_source *source)
 /* The same for descriptions that may hold data in memory. */
 static ffd_status view_in_memory(ffd_view_desc *desc, ffd_deform_desc *job, ffd_job_result *result)
 {
-    const char *const output = desc->output;
     ffd_source deformed;
     job_memory memory = {0};
     ffd_status status = FFD_OK;
@@ -447,16 +447,12 @@ static ffd_status view_in_memory(ffd_view_desc *desc, ffd_deform_desc *job, ffd_
         status = ffd_in_memory_source(&memory, &deformed, &result->error);
     }
     if (!status)
-        status = ffd_in_memory_output(&memory, desc->sink, desc->sink_user, &desc->output, &result->error);
+        status = ffd_in_memory_output(desc->sink, desc->output, &result->error);
     if (!status)
         status = ffd_in_memory_desc(&memory, job, &result->error);
     if (!status)
         status = view(desc, result, &result->error);
-    status = ffd_in_memory_judge(&memory, status, &result->error);
-    if (result->picture)
-        result->picture = output;
-    ffd_in_memory_end(&memory);
-    return status;
+    return ffd_in_memory_end(&memory, status, &result->error);
 }
 
 ffd_status ffd_view_run(const ffd_view_desc *callers, ffd_job_result *callers_result, ffd_error *error)

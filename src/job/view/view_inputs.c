@@ -1,6 +1,7 @@
 #include "job/view/view_inputs.h"
 #include "base/file/input.h"
 #include "base/file/path.h"
+#include "job/reads.h"
 
 static ffd_status refuse(const char *output, bool is_linked, ffd_error *error)
 {
@@ -11,13 +12,10 @@ static ffd_status refuse(const char *output, bool is_linked, ffd_error *error)
 ffd_status ffd_view_check_inputs(const ffd_view_desc *desc, ffd_error *error)
 {
     const ffd_deform_desc *const job = desc->job;
-    const char *const inputs[] = {job->input.path, desc->deformed ? desc->deformed->path : NULL,
-                                  job->embedding};
-    bool is_input = false;
-    for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++)
-        is_input = is_input || (inputs[i] && ffd_file_same(inputs[i], desc->output));
-    for (size_t i = 0; i < job->lattice_count; i++)
-        is_input = is_input || ffd_file_same(job->lattices[i], desc->output);
+    const bool is_input = ffd_job_reads_mesh(&job->input, desc->output) ||
+                          (desc->deformed && ffd_job_reads_mesh(desc->deformed, desc->output)) ||
+                          ffd_job_reads_embedding(job, desc->output) ||
+                          ffd_job_reads_lattice(job->lattices, job->lattice_count, desc->output);
     return is_input ? refuse(desc->output, false, error) : FFD_OK;
 }
 
@@ -39,7 +37,7 @@ ffd_status ffd_view_check_files(const ffd_source *source, const mesh_document *d
 {
     path_list files = {0};
     bool is_named = false, is_linked = false;
-    if (!ffd_file_exists(output))
+    if (!ffd_file_exists(output) || source->bytes.data)
         return FFD_OK;
     ffd_status status = find_resources(source, document, &files, error);
     if (!status && document->format->list_files)

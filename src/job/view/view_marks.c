@@ -3,6 +3,7 @@
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "job/measure/quality.h"
+#include "lattice/file/lattice_source.h"
 #include "lattice/lattice.h"
 #include <math.h>
 #include <string.h>
@@ -125,8 +126,8 @@ static double *copy_points(const double *points, size_t count)
     return copy;
 }
 
-ffd_status ffd_view_add_cages(const lattice_chain *chain, const char *const *names, view_scene *scene,
-                              ffd_error *error)
+ffd_status ffd_view_add_cages(const lattice_chain *chain, const ffd_lattice_source *sources,
+                              view_scene *scene, ffd_error *error)
 {
     scene->cages = ffd_alloc_zero(chain->count, sizeof *scene->cages);
     if (!scene->cages)
@@ -138,7 +139,7 @@ ffd_status ffd_view_add_cages(const lattice_chain *chain, const char *const *nam
             cage->size[a] = lattice->size[a];
             cage->closed[a] = ffd_knots_closed(&lattice->knots[a]);
         }
-        cage->name = ffd_text_copy(ffd_file_display_name(names[l]));
+        cage->name = ffd_text_copy(ffd_lattice_name(&sources[l]));
         cage->rest = copy_points(lattice->rest, lattice->count);
         cage->deformed = copy_points(lattice->deformed, lattice->count);
         if (!cage->name || !cage->rest || !cage->deformed)

@@ -10,9 +10,10 @@
    scene was made from. Errors: FFD_E_MEMORY. */
 ffd_status ffd_view_add_marks(const deform_job *job, const ffd_job_result *result, const mesh_model *model,
                               const uint32_t *faces, view_scene *scene, ffd_error *error);
-/* Fills the cages. The lattices must be fitted. names: of the lattices. Errors: FFD_E_MEMORY. */
-ffd_status ffd_view_add_cages(const lattice_chain *chain, const char *const *names, view_scene *scene,
-                              ffd_error *error);
+/* Fills the cages. The lattices must be fitted. sources: of the lattices, for their names. Errors:
+ * FFD_E_MEMORY. */
+ffd_status ffd_view_add_cages(const lattice_chain *chain, const ffd_lattice_source *sources,
+                              view_scene *scene, ffd_error *error);
 /* Finds the largest displacement of a vertex. */
 void ffd_view_measure(view_scene *scene);
 

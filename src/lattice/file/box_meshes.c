@@ -23,7 +23,8 @@ ffd_status ffd_lattice_box_meshes(const char *path, const file_input *bytes, pat
     const spec_settings rest_only = {.may_be_open = true};
     lattice_spec *spec = NULL;
     size_t size;
-    if (!may_name_meshes(bytes) || ffd_spec_load(path, &rest_only, &spec, &size, NULL))
+    if (!may_name_meshes(bytes) ||
+        ffd_spec_load(&(ffd_lattice_source){.path = path}, &rest_only, &spec, &size, NULL))
         return FFD_OK;
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < spec->mesh_count && !status; i++) {

@@ -1,11 +1,11 @@
 /* file.c - lattice files: load, save, and fit to a mesh. */
 #include "base/file/input.h"
-#include "base/file/memory_files.h"
 #include "base/file/output.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "lattice/build.h"
 #include "lattice/copy.h"
+#include "lattice/file/lattice_source.h"
 #include "lattice/file/spec_parse.h"
 #include "lattice/file/spec_set.h"
 #include "lattice/file/spec_text.h"
@@ -53,10 +53,10 @@ ffd_status ffd_lattice_load(const char *path, ffd_lattice **lattice, ffd_error *
     return ffd_lattice_load_set(path, NULL, 0, NULL, lattice, error);
 }
 
-ffd_status ffd_spec_load(const char *path, const spec_settings *settings, lattice_spec **spec, size_t *size,
-                         ffd_error *error)
+/* Reads the file. *size is its size. */
+static ffd_status load_file(const char *path, const spec_settings *settings, lattice_spec **spec,
+                            size_t *size, ffd_error *error)
 {
-    *spec = NULL;
     file_input input;
     const unsigned losses = ffd_mapping_losses();
     ffd_status status = ffd_file_load(path, &input, error);
@@ -65,12 +65,23 @@ ffd_status ffd_spec_load(const char *path, const spec_settings *settings, lattic
     *size = input.size;
     status = ffd_spec_parse((const char *)input.data, input.size, path, settings, spec, error);
     ffd_file_unload(&input);
-    status = ffd_mapping_judge(losses, status, error);
-    if (!status && (*spec)->mesh_count > 0 && (ffd_file_is_stream(path) || ffd_memory_has(path)))
+    return ffd_mapping_judge(losses, status, error);
+}
+
+ffd_status ffd_spec_load(const ffd_lattice_source *source, const spec_settings *settings, lattice_spec **spec,
+                         size_t *size, ffd_error *error)
+{
+    const ffd_bytes *const text = &source->text;
+    *spec = NULL;
+    *size = text->size;
+    ffd_status status = text->data
+                            ? ffd_spec_parse(text->data, text->size, source->path, settings, spec, error)
+                            : load_file(source->path, settings, spec, size, error);
+    if (!status && (*spec)->mesh_count > 0 && !ffd_lattice_file(source))
         status = ffd_fail(
             error, FFD_E_ARGUMENT,
             "the lattice's box goes round meshes named relative to its file: it cannot be read from %s",
-            ffd_memory_has(path) ? "memory" : ffd_file_display_name(path));
+            text->data ? "memory" : ffd_file_display_name(source->path));
     if (status) {
         ffd_spec_free(*spec);
         *spec = NULL;
@@ -84,7 +95,8 @@ static ffd_status load(const char *path, const spec_settings *settings, ffd_latt
     lattice_spec *spec;
     size_t size;
     *lattice = NULL;
-    const ffd_status status = ffd_spec_load(path, settings, &spec, &size, error);
+    const ffd_status status =
+        ffd_spec_load(&(ffd_lattice_source){.path = path}, settings, &spec, &size, error);
     return status ? status : build(spec, lattice, error);
 }
 
@@ -102,14 +114,14 @@ ffd_status ffd_lattice_load_rest(const char *path, const ffd_setting *values, si
     return load(path, &settings, lattice, error);
 }
 
-ffd_status ffd_lattice_list_open(const char *path, const ffd_setting *values, size_t count, bool *used,
-                                 intern_table *open, ffd_error *error)
+ffd_status ffd_lattice_list_open(const ffd_lattice_source *source, const ffd_setting *values, size_t count,
+                                 bool *used, intern_table *open, ffd_error *error)
 {
     const spec_settings settings = {.values = values, .used = used, .count = count, .may_be_open = true};
     lattice_spec *spec;
     size_t size;
     uint32_t number;
-    ffd_status status = ffd_spec_load(path, &settings, &spec, &size, error);
+    ffd_status status = ffd_spec_load(source, &settings, &spec, &size, error);
     for (uint32_t i = 0; !status && i < spec->open.count; i++) {
         const char *const name = ffd_intern_key(&spec->open, i);
         if (!ffd_intern(open, name, strlen(name), &number))
@@ -150,22 +162,29 @@ ffd_status ffd_lattice_text(const ffd_lattice *lattice, char **text, size_t *siz
     return *text ? FFD_OK : ffd_fail_memory(error);
 }
 
-ffd_status ffd_lattice_save(const ffd_lattice *lattice, const char *path, bool force, ffd_error *error)
+ffd_status ffd_lattice_write(const ffd_lattice *lattice, file_output *output, const char *path, bool force,
+                             ffd_error *error)
 {
     size_t size;
     char *text;
-    file_output *output = NULL;
     ffd_status status = ffd_lattice_text(lattice, &text, &size, error);
-    if (!status)
-        status = ffd_output_create(&output, error);
     if (!status)
         status = ffd_output_begin(output, path, force, error);
     if (!status)
         status = ffd_output_write(output, text, size, error);
     if (!status)
         status = ffd_output_commit(output, error);
-    ffd_output_destroy(&output);
     ffd_free(text);
+    return status;
+}
+
+ffd_status ffd_lattice_save(const ffd_lattice *lattice, const char *path, bool force, ffd_error *error)
+{
+    file_output *output;
+    ffd_status status = ffd_output_create(&output, error);
+    if (!status)
+        status = ffd_lattice_write(lattice, output, path, force, error);
+    ffd_output_destroy(&output);
     return status;
 }
 

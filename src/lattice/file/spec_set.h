@@ -36,10 +36,10 @@ ffd_status ffd_spec_set(json_file *file, uint32_t moves, const spec_settings *se
                         spec_values *values);
 /* Writes the message that these placeholders (at least one) have no values. */
 void ffd_spec_describe_open(const intern_table *open, char *text, size_t capacity);
-/* Adds to open the names of the placeholders in a file that have no value. Errors: those of
+/* Adds to open the names of the placeholders in a file or a text that have no value. Errors: those of
    ffd_lattice_load_rest. */
-ffd_status ffd_lattice_list_open(const char *path, const ffd_setting *values, size_t count, bool *used,
-                                 intern_table *open, ffd_error *error);
+ffd_status ffd_lattice_list_open(const ffd_lattice_source *source, const ffd_setting *values, size_t count,
+                                 bool *used, intern_table *open, ffd_error *error);
 /* Frees the values and empties them. */
 void ffd_spec_values_free(spec_values *values);
 

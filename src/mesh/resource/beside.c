@@ -29,7 +29,7 @@ typedef struct beside_file {
 static ffd_status look(const beside_names *names, const char *path, beside_file *file, ffd_error *error)
 {
     const mesh_sharing *const sharing = names->options->sharing;
-    *file = (beside_file){.exists = ffd_file_exists(path)};
+    *file = (beside_file){.exists = !names->options->to_sink && ffd_file_exists(path)};
     if (!sharing || !(file->exists || names->passes || sharing->is_cheap))
         return FFD_OK;
     return sharing->find(sharing->context, path, names->options->path, &file->others, &file->is_own,

@@ -21,11 +21,14 @@ void ffd_left_add(left_out *left, const char *name, const char *why)
 ffd_status ffd_left_add_unreached(left_out *left, const char *to, const char *path, const char *why,
                                   ffd_error *error)
 {
-    char *const there = ffd_path_join(to, path);
-    if (there && !ffd_file_exists(there))
-        ffd_left_add(left, path, why);
+    char *const there = to ? ffd_path_join(to, path) : NULL;
+    const bool is_there = there && ffd_file_exists(there);
     ffd_free(there);
-    return there ? FFD_OK : ffd_fail_memory(error);
+    if (to && !there)
+        return ffd_fail_memory(error);
+    if (!is_there)
+        ffd_left_add(left, path, why);
+    return FFD_OK;
 }
 
 void ffd_left_add_unloaded(left_out *list, const char *path, const char *left)

@@ -17,8 +17,8 @@ typedef struct left_out {
 
 /* Adds a thing by its name, with the reason why it is left out, such as "is missing". */
 void ffd_left_add(left_out *left, const char *name, const char *why);
-/* Adds a file that is not copied, unless there is one at the same path in the output's folder `to`. why: what
-   names it, such as "of mtllib". Errors: FFD_E_MEMORY. */
+/* Adds a file that is not copied, unless there is one at the same path in the output's folder `to` (NULL:
+   there are no files). why: what names it, such as "of mtllib". Errors: FFD_E_MEMORY. */
 ffd_status ffd_left_add_unreached(left_out *left, const char *to, const char *path, const char *why,
                                   ffd_error *error);
 /* Adds a file that was not loaded. left: the reason; NULL: it must not be read (ffd_resource_load). */

@@ -45,8 +45,8 @@ static ffd_status take(const material_images *images, const char *name, uint64_t
     if (status == FFD_OK)
         return FFD_OK;
     ffd_name_shown(name, shown, sizeof shown);
-    return ffd_fail_file(error, status, ffd_file_display_name(images->mesh), "the image \"%s\" %s", shown,
-                         problem.message);
+    return ffd_fail_file(error, status, ffd_file_display_name(images->mesh.file), "the image \"%s\" %s",
+                         shown, problem.message);
 }
 
 ffd_status ffd_images_add(material_images *images, const char *name, const unsigned char *bytes, size_t size,

@@ -3,6 +3,7 @@
 #ifndef FFD_MESH_RESOURCE_MATERIAL_IMAGES_H
 #define FFD_MESH_RESOURCE_MATERIAL_IMAGES_H
 
+#include "base/file/file_folder.h"
 #include "base/memory/intern.h"
 #include "mesh/material.h"
 #include "mesh/resource/left_out.h"
@@ -11,7 +12,7 @@
 typedef struct material_images {
     mesh_materials *materials; /* receives the images */
     memory_budget *budget;
-    const char *mesh;   /* path of the mesh file, also for messages */
+    file_folder mesh;   /* where the names in the mesh file lead; its file is for messages too */
     const char *folder; /* its folder; NULL: none */
     left_out left;
     intern_table known; /* names of images that were requested */

@@ -12,13 +12,19 @@
 #define MOST_WAITING 60.0
 #define LOOK 0.002
 
+/* Whether there is a file at a path of the output. */
+static bool is_there(const resource_copier *c, const char *target)
+{
+    return !c->sink_name && ffd_file_exists(target);
+}
+
 /* Begins the file of a copy, unless it exists. If another process is writing the same copy, waits for it.
    There is no deadlock, because all processes write copies in the order of their paths. */
 static ffd_status begin_copy(const resource_copier *c, const char *target, bool *exists, ffd_error *error)
 {
     const double begin = ffd_clock_seconds();
     for (;;) {
-        *exists = ffd_file_exists(target);
+        *exists = is_there(c, target);
         if (*exists)
             return FFD_OK;
         const ffd_status status = ffd_output_begin(c->output, target, false, error);
@@ -47,7 +53,7 @@ static ffd_status write_copy(const resource_copier *c, const resource_kind *kind
                              const file_input *bytes, ffd_error *error)
 {
     bool exists;
-    if (ffd_file_exists(target))
+    if (is_there(c, target))
         return compare_copy(kind, target, bytes, error);
     if (!c->output)
         return FFD_OK;
@@ -62,9 +68,12 @@ static ffd_status write_copy(const resource_copier *c, const resource_kind *kind
                   : ffd_output_write(c->output, bytes->data, bytes->size, error);
 }
 
-/* Returns whether a path in the folder goes through a symbolic link. */
-static bool is_through_link(const char *folder, const char *path)
+/* Returns whether a path in the mesh's folder goes through a symbolic link. */
+static bool is_through_link(const resource_copier *c, const char *path)
 {
+    const char *const folder = c->from;
+    if (c->mesh.resolve)
+        return false;
     char *const root = ffd_path_resolve(folder), *const joined = ffd_path_join(folder, path);
     char *const direct = root ? ffd_path_join(root, path) : NULL;
     char *const resolved = joined ? ffd_path_resolve(joined) : NULL;
@@ -78,8 +87,8 @@ static bool is_through_link(const char *folder, const char *path)
 
 bool ffd_resource_is_outside(const resource_copier *c, const char *path)
 {
-    if (ffd_path_leads_out(path))
-        return true;
+    if (ffd_path_leads_out(path) || c->mesh.resolve)
+        return ffd_path_leads_out(path);
     char *const root = ffd_path_resolve(c->from), *const joined = ffd_path_join(c->from, path);
     char *const resolved = joined ? ffd_path_resolve(joined) : NULL;
     char *const relative = root && resolved ? ffd_path_relative(root, resolved) : NULL;
@@ -92,19 +101,19 @@ bool ffd_resource_is_outside(const resource_copier *c, const char *path)
 }
 
 /* Returns the reason why a file in the mesh's folder is not copied, judging by its name alone; NULL: none. */
-static const char *left_by_name(const mesh_resource *resource, const char *source)
+static const char *left_by_name(const resource_copier *c, const mesh_resource *resource)
 {
     if (!resource->kind->has_name(resource->path))
         return resource->kind->other_name;
     if (ffd_image_is_hidden(resource->path))
         return "is a hidden file or in a hidden folder";
-    return ffd_file_exists(source) ? NULL : "is missing";
+    return ffd_folder_has(&c->mesh, resource->path) ? NULL : "is missing";
 }
 
 static const char *left_by_content(const resource_copier *c, const mesh_resource *resource,
                                    const file_input *bytes)
 {
-    if (is_through_link(c->from, resource->path))
+    if (is_through_link(c, resource->path))
         return "is reached through a link";
     return resource->kind->has_content(bytes->data, bytes->size) ? NULL : resource->kind->other_content;
 }
@@ -119,14 +128,10 @@ ffd_status ffd_resource_load(const resource_copier *c, const mesh_resource *reso
         ffd_fail(refused, FFD_E_IO, "it is outside the model's folder");
         return FFD_OK;
     }
-    char *const source = ffd_path_beside(c->mesh, resource->path);
-    if (!source)
-        return ffd_fail_memory(error);
-    *left = left_by_name(resource, source);
-    ffd_free(source);
+    *left = left_by_name(c, resource);
     if (*left)
         return FFD_OK;
-    const ffd_status status = ffd_file_load_within(c->from, resource->path, c->mesh, &most, bytes, refused);
+    const ffd_status status = ffd_folder_load(&c->mesh, resource->path, c->mesh.file, &most, bytes, refused);
     if (status)
         return status == FFD_E_MEMORY ? ffd_fail_memory(error) : FFD_OK;
     *left = left_by_content(c, resource, bytes);
@@ -139,7 +144,7 @@ ffd_status ffd_resource_note(const resource_copier *c, const mesh_resource *reso
 {
     if (!c->copied)
         return FFD_OK;
-    char *const source = ffd_path_beside(c->mesh, resource->path);
+    char *const source = ffd_path_beside(c->mesh.file, resource->path);
     const ffd_status status = source ? ffd_paths_add(c->copied, source, error) : ffd_fail_memory(error);
     ffd_free(source);
     return status;
@@ -148,7 +153,8 @@ ffd_status ffd_resource_note(const resource_copier *c, const mesh_resource *reso
 static ffd_status copy_loaded(const resource_copier *c, const mesh_resource *resource,
                               const file_input *bytes, ffd_error *error)
 {
-    char *const target = ffd_path_join(c->to, resource->path);
+    char *const target =
+        c->sink_name ? ffd_path_beside(c->sink_name, resource->path) : ffd_path_join(c->to, resource->path);
     ffd_status status = target ? write_copy(c, resource->kind, target, bytes, error) : ffd_fail_memory(error);
     if (!status)
         status = ffd_resource_note(c, resource, error);
@@ -176,14 +182,20 @@ ffd_status ffd_resource_copy(const resource_copier *c, const mesh_resource *reso
     return status;
 }
 
+/* Whether a path of the output leads to a file that is there. */
+static bool meets(const resource_copier *c, const char *file, const char *target)
+{
+    return !c->sink_name && ffd_file_same(file, target);
+}
+
 ffd_status ffd_resource_check_target(const resource_copier *c, const mesh_resource *resource, bool is_copied,
                                      const char *target, ffd_error *error)
 {
     char *source = ffd_path_join(c->from, resource->path), *copy = ffd_path_join(c->to, resource->path);
     ffd_status status = source && copy ? FFD_OK : ffd_fail_memory(error);
     if (!status &&
-        (ffd_file_same(source, target) ||
-         (is_copied && (strcmp(resource->path, ffd_path_name(target)) == 0 || ffd_file_same(copy, target)))))
+        ((!c->mesh.resolve && meets(c, source, target)) ||
+         (is_copied && (strcmp(resource->path, ffd_path_name(target)) == 0 || meets(c, copy, target)))))
         status = ffd_fail_file(error, FFD_E_EXISTS, target,
                                "is also the path of the %s \"%s\": give the output another name",
                                resource->kind->name, resource->path);
@@ -197,8 +209,8 @@ ffd_status ffd_resource_check_target(const resource_copier *c, const mesh_resour
 static bool is_reached(const resource_copier *c, const char *path)
 {
     char *const from = ffd_path_join(c->from, path), *const to = ffd_path_join(c->to, path);
-    const bool reached =
-        from && to && (ffd_path_leads_out(path) ? ffd_file_same(from, to) : ffd_file_exists(to));
+    const bool reached = from && to && is_there(c, to) &&
+                         (!ffd_path_leads_out(path) || (!c->mesh.resolve && ffd_file_same(from, to)));
     ffd_free(from);
     ffd_free(to);
     return reached;

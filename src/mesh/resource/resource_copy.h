@@ -3,7 +3,7 @@
 #ifndef FFD_MESH_RESOURCE_RESOURCE_COPY_H
 #define FFD_MESH_RESOURCE_RESOURCE_COPY_H
 
-#include "base/file/input.h"
+#include "base/file/file_folder.h"
 #include "base/file/output.h"
 #include "base/file/path_list.h"
 #include "mesh/mesh_log.h"
@@ -14,8 +14,9 @@
 
 /* Source and destination of copies. */
 typedef struct resource_copier {
-    const char *mesh;      /* path of the mesh file */
+    file_folder mesh;      /* where the names in the mesh file lead */
     const char *from, *to; /* folders of the mesh file and of the output */
+    const char *sink_name; /* the output's name, if it goes to a callback: no file is there; else NULL */
     file_output *output;   /* NULL: only make the checks, copy nothing */
     const mesh_log *log;
     path_list

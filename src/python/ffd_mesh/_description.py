@@ -45,14 +45,7 @@ def embedding_described(source: Any, lattice: AnyLattice, options: dict[str, Any
                         known: Collection[str]) -> Iterator[tuple[Any, list[str]]]:
     """The same of a job that embeds, in one lattice."""
     desc = library.filled("ffd_embed_desc")
-    kept = [lattice]
-    if isinstance(lattice, Lattice):
-        desc.lattice_object = lattice._owned.pointer.value
-    elif isinstance(lattice, bytes):
-        desc.lattice_text.data, desc.lattice_text.size, text = library.lend_bytes(lattice, "a lattice")
-        kept.append(text)
-    else:
-        desc.lattice = library.path(lattice)
+    kept = [lattice, _set_lattice(desc.lattice, lattice)]
     with _logged(desc, source, options, known, kept) as warnings:
         yield desc, warnings
 
@@ -119,27 +112,29 @@ class Memory:
             self.resolver.reraise()
 
 
+def _set_lattice(source: Any, lattice: AnyLattice) -> Any:
+    """Sets an ffd_lattice_source by path, as an object or as a text. Returns what must stay alive beside the lattice."""
+    text = None
+    if isinstance(lattice, Lattice):
+        source.object = lattice._owned.pointer.value
+    elif isinstance(lattice, bytes):
+        source.text.data, source.text.size, text = library.lend_bytes(lattice, "a lattice")
+    else:
+        source.path = library.path(lattice)
+    return text
+
+
 def _set_lattices(desc: Any, lattices: Any) -> list[Any]:
-    """Sets the lattices by path, as objects or as texts. Returns the objects that must stay alive."""
+    """Sets the lattices. Returns the objects that must stay alive."""
     named = isinstance(lattices, Mapping)
     several = list(lattices.values()) if named else list(lattices) if isinstance(lattices, (list, tuple)) else [lattices]
     if not several:
         raise ValueError("no lattice is given")
     if named:
         desc.morphs = (ctypes.c_char_p * len(several))(*(library.encoded(str(name), "a name") for name in lattices))
-    paths, texts = (ctypes.c_char_p * len(several))(), (declared.ffd_bytes * len(several))()
-    objects = (ctypes.c_void_p * len(several))()
-    kept = [several, objects]
-    for i, lattice in enumerate(several):
-        if isinstance(lattice, Lattice):
-            objects[i] = lattice._owned.pointer.value
-        elif isinstance(lattice, bytes):
-            texts[i].data, texts[i].size, text = library.lend_bytes(lattice, "a lattice")
-            kept.append(text)
-        else:
-            paths[i] = library.path(lattice)
-    desc.lattices, desc.lattice_count = paths, len(several)
-    desc.lattice_objects, desc.lattice_texts = ctypes.addressof(objects), texts
+    sources = (declared.ffd_lattice_source * len(several))()
+    kept = [several, *(_set_lattice(source, lattice) for source, lattice in zip(sources, several))]
+    desc.lattices, desc.lattice_count = sources, len(several)
     return kept
 
 

@@ -13,8 +13,8 @@
 typedef struct loader {
     const json_span *tree;
     uint32_t value, uri; /* JSON values: the buffer and its uri */
-    const char *model;   /* the path of the model */
-    const char *name;    /* for messages */
+    const file_folder *model;
+    const char *name; /* for messages */
     size_t *most_read;
     ffd_error *error;
 } loader;
@@ -107,7 +107,7 @@ ffd_status ffd_gltf_load_data_uri(const json_span *tree, uint32_t uri, const cha
 
 static ffd_status load_file(const loader *l, char *uri, size_t size, gltf_buffer *buffer)
 {
-    if (ffd_file_is_stream(l->model))
+    if (ffd_file_is_stream(l->model->file))
         return ffd_json_span_fail(l->tree, l->uri, l->name, FFD_E_IO, l->error,
                                   "the buffer is the file \"%s\", and standard input has no folder", uri);
     if (ffd_uri_is_absolute(uri))
@@ -119,15 +119,11 @@ static ffd_status load_file(const loader *l, char *uri, size_t size, gltf_buffer
         return ffd_json_span_fail(l->tree, l->uri, l->name, FFD_E_INVALID, l->error,
                                   "the buffer's name holds a NUL character");
     buffer->path = ffd_text_copy(uri);
-    char *folder = ffd_path_folder(l->model);
-    bool turned = false;
-    ffd_status status = buffer->path && folder ? FFD_OK : ffd_fail_memory(l->error);
-    if (status == FFD_OK)
-        status = ffd_path_turn_slashes(buffer->path, folder, &turned, l->error);
-    buffer->flaws = turned ? BUFFER_BACKSLASH : 0;
-    if (status == FFD_OK)
-        status = ffd_file_load_within(folder, buffer->path, l->name, l->most_read, &buffer->file, l->error);
-    ffd_free(folder);
+    if (!buffer->path)
+        return ffd_fail_memory(l->error);
+    buffer->flaws = ffd_folder_turn_slashes(l->model, buffer->path) ? BUFFER_BACKSLASH : 0;
+    const ffd_status status =
+        ffd_folder_load(l->model, buffer->path, l->name, l->most_read, &buffer->file, l->error);
     if (status)
         return status;
     buffer->kind = BUFFER_FILE;
@@ -149,8 +145,8 @@ static ffd_status load_uri(const loader *l, gltf_buffer *buffer)
 }
 
 ffd_status ffd_gltf_load_buffer(const json_span *tree, uint32_t value, const unsigned char *bin,
-                                size_t bin_size, const char *model, const char *name, size_t *most_read,
-                                gltf_buffer *buffer, ffd_error *error)
+                                size_t bin_size, const file_folder *model, const char *name,
+                                size_t *most_read, gltf_buffer *buffer, ffd_error *error)
 {
     *buffer = (gltf_buffer){.kind = BUFFER_EMPTY};
     const loader l = {tree, value, ffd_json_span_member(tree, value, "uri"), model, name, most_read, error};

@@ -2,7 +2,7 @@
 #ifndef FFD_IO_GLTF_FILE_GLTF_BUFFER_H
 #define FFD_IO_GLTF_FILE_GLTF_BUFFER_H
 
-#include "base/file/input.h"
+#include "base/file/file_folder.h"
 #include "json/json_span.h"
 #include <stddef.h>
 
@@ -39,8 +39,8 @@ typedef struct gltf_buffer {
    messages. most_read: as in ffd_file_load_within. After a failure *buffer is empty. Errors: FFD_E_INVALID,
    FFD_E_IO, FFD_E_MEMORY. */
 ffd_status ffd_gltf_load_buffer(const json_span *tree, uint32_t value, const unsigned char *bin,
-                                size_t bin_size, const char *model, const char *name, size_t *most_read,
-                                gltf_buffer *buffer, ffd_error *error);
+                                size_t bin_size, const file_folder *model, const char *name,
+                                size_t *most_read, gltf_buffer *buffer, ffd_error *error);
 
 /* Decodes a data URI, the JSON string `uri`, into *buffer, which is empty after a failure. Errors:
    FFD_E_INVALID, FFD_E_MEMORY. */

@@ -76,19 +76,7 @@ char *ffd_uri_encode(const char *path)
     return ffd_buffer_finish(&out);
 }
 
-static ffd_status normalize(const char *mesh, char *name, char **path, ffd_error *error)
-{
-    bool turned;
-    char *folder = ffd_path_folder(mesh);
-    ffd_status status = folder ? ffd_path_turn_slashes(name, folder, &turned, error) : ffd_fail_memory(error);
-    ffd_free(folder);
-    if (status)
-        return status;
-    *path = ffd_path_normalize(name);
-    return *path ? FFD_OK : ffd_fail_memory(error);
-}
-
-ffd_status ffd_gltf_uri_path(const json_span *tree, uint32_t uri, const char *mesh, char **path,
+ffd_status ffd_gltf_uri_path(const json_span *tree, uint32_t uri, const file_folder *mesh, char **path,
                              ffd_error *error)
 {
     *path = NULL;
@@ -102,22 +90,25 @@ ffd_status ffd_gltf_uri_path(const json_span *tree, uint32_t uri, const char *me
     if (!ffd_uri_is_data(text) && !ffd_uri_is_absolute(text)) {
         size = ffd_uri_decode(text, size);
         text[size] = 0;
-        if (!memchr(text, 0, size) && size > 0)
-            status = normalize(mesh, text, path, error);
+        if (!memchr(text, 0, size) && size > 0) {
+            ffd_folder_turn_slashes(mesh, text);
+            *path = ffd_path_normalize(text);
+            status = *path ? FFD_OK : ffd_fail_memory(error);
+        }
     }
     ffd_free(text);
     return status;
 }
 
-ffd_status ffd_gltf_file_path(const json_span *tree, uint32_t value, const char *mesh, char **path,
+ffd_status ffd_gltf_file_path(const json_span *tree, uint32_t value, const file_folder *mesh, char **path,
                               ffd_error *error)
 {
     return ffd_gltf_uri_path(tree, ffd_json_span_member(tree, value, "uri"), mesh, path, error);
 }
 
-ffd_status ffd_gltf_add_beside(const char *mesh, char *relative, path_list *files, ffd_error *error)
+ffd_status ffd_gltf_add_beside(const file_folder *mesh, char *relative, path_list *files, ffd_error *error)
 {
-    char *const path = relative ? ffd_path_beside(mesh, relative) : NULL;
+    char *const path = relative ? ffd_path_beside(mesh->file, relative) : NULL;
     const ffd_status status = path       ? ffd_paths_add(files, path, error)
                               : relative ? ffd_fail_memory(error)
                                          : FFD_OK;
@@ -156,7 +147,8 @@ uint32_t ffd_gltf_next_linked(const json_span *tree, uint32_t v, uint32_t *exten
     return *extension == JSON_NONE ? JSON_NONE : v - 1;
 }
 
-ffd_status ffd_gltf_find_linked(const json_span *tree, const char *mesh, path_list *files, ffd_error *error)
+ffd_status ffd_gltf_find_linked(const json_span *tree, const file_folder *mesh, path_list *files,
+                                ffd_error *error)
 {
     ffd_status status = FFD_OK;
     uint32_t extension, v = ffd_gltf_next_linked(tree, 0, &extension);

@@ -82,13 +82,13 @@ static ffd_status refuse_own_file(const gltf_saver *saver, const char *target, f
 {
     const gltf_document *d = saver->document;
     if (!ffd_file_is_stream(d->path) && strcmp(target, saver->options->path) != 0 &&
-        ffd_file_same(d->path, target))
+        ffd_save_meets(saver->options, d->path, target))
         return ffd_fail_file(error, FFD_E_EXISTS, target, "is the input and is not overwritten by a buffer");
     for (size_t i = 0; i < d->buffer_values.count; i++) {
         if (d->buffers[i].kind != BUFFER_FILE)
             continue;
         char *own = ffd_path_beside(d->path, d->buffers[i].path);
-        const bool same = own && ffd_file_same(own, target), failed = !own;
+        const bool same = own && ffd_save_meets(saver->options, own, target), failed = !own;
         ffd_free(own);
         if (failed)
             return ffd_fail_memory(error);
@@ -161,7 +161,7 @@ static ffd_status give_name(gltf_saver *saver, size_t b, beside_names *names, ff
     saver->buffers[b].target = target;
     if (!saver->in_place)
         status = refuse_own_file(saver, target, error);
-    if (!status && !saver->in_place)
+    if (!status && !saver->in_place && !saver->options->to_sink)
         status = ffd_output_check(target, saver->options->force, error);
     return status ? status : set_uri(saver, b, ffd_path_name(target), error);
 }

@@ -28,11 +28,12 @@ typedef struct resources {
 
 static ffd_status image_path(const gltf_document *d, size_t image, char **path, ffd_error *error)
 {
-    return ffd_gltf_file_path(&d->tree, d->image_values.values[image], d->path, path, error);
+    return ffd_gltf_file_path(&d->tree, d->image_values.values[image], &d->base.folder, path, error);
 }
 
 /* Adds the images of a JSON text that may be copied, with their names. */
-static ffd_status find_images(const json_span *tree, const char *mesh, path_list *files, ffd_error *error)
+static ffd_status find_images(const json_span *tree, const file_folder *mesh, path_list *files,
+                              ffd_error *error)
 {
     ffd_status status = FFD_OK;
     uint32_t image = ffd_json_span_first(tree, ffd_json_span_member(tree, 0, "images"));
@@ -40,7 +41,7 @@ static ffd_status find_images(const json_span *tree, const char *mesh, path_list
         char *relative, *path = NULL;
         status = ffd_gltf_file_path(tree, image, mesh, &relative, error);
         if (relative && ffd_image_has_name(relative) && !ffd_image_is_hidden(relative)) {
-            path = ffd_path_beside(mesh, relative);
+            path = ffd_path_beside(mesh->file, relative);
             status = path ? ffd_paths_add(files, path, error) : ffd_fail_memory(error);
         }
         ffd_free(path);
@@ -87,19 +88,20 @@ static ffd_status parse(const char *path, const file_input *bytes, json_span *tr
 ffd_status ffd_gltf_find_resources(const char *path, const file_input *bytes, path_list *files,
                                    ffd_error *error)
 {
+    const file_folder mesh = {.file = path};
     json_span tree;
     bool is_model;
     ffd_status status = parse(path, bytes, &tree, &is_model, error);
     if (is_model) {
-        status = find_images(&tree, path, files, error);
+        status = find_images(&tree, &mesh, files, error);
         ffd_json_span_free(&tree);
     }
     return status;
 }
 
 /* Adds the files that the members of an array name. */
-static ffd_status find_files(const json_span *tree, const char *array, const char *mesh, path_list *files,
-                             ffd_error *error)
+static ffd_status find_files(const json_span *tree, const char *array, const file_folder *mesh,
+                             path_list *files, ffd_error *error)
 {
     ffd_status status = FFD_OK;
     uint32_t value = ffd_json_span_first(tree, ffd_json_span_member(tree, 0, array));
@@ -115,20 +117,21 @@ static ffd_status find_files(const json_span *tree, const char *array, const cha
 ffd_status ffd_gltf_find_named(const char *path, const file_input *bytes, const mesh_named *named,
                                ffd_error *error)
 {
+    const file_folder mesh = {.file = path};
     json_span tree;
     bool is_model;
     ffd_status status = parse(path, bytes, &tree, &is_model, error);
     if (!is_model)
         return status;
-    status = find_files(&tree, "buffers", path, named->files, error);
+    status = find_files(&tree, "buffers", &mesh, named->files, error);
     if (!status)
-        status = find_files(&tree, "images", path, named->files, error);
+        status = find_files(&tree, "images", &mesh, named->files, error);
     if (!status)
-        status = ffd_gltf_find_linked(&tree, path, named->files, error);
+        status = ffd_gltf_find_linked(&tree, &mesh, named->files, error);
     if (!status && named->copies)
-        status = find_images(&tree, path, named->copies, error);
+        status = find_images(&tree, &mesh, named->copies, error);
     if (!status && named->linked)
-        status = ffd_gltf_find_linked(&tree, path, named->linked, error);
+        status = ffd_gltf_find_linked(&tree, &mesh, named->linked, error);
     ffd_json_span_free(&tree);
     return status;
 }
@@ -141,7 +144,7 @@ ffd_status ffd_gltf_list_images(const mesh_document *document, path_list *files,
         char *relative = NULL;
         status = image_path(d, i, &relative, error);
         if (!status)
-            status = ffd_gltf_add_beside(d->path, relative, files, error);
+            status = ffd_gltf_add_beside(&d->base.folder, relative, files, error);
     }
     return status;
 }
@@ -149,7 +152,7 @@ ffd_status ffd_gltf_list_images(const mesh_document *document, path_list *files,
 ffd_status ffd_gltf_list_linked(const mesh_document *document, path_list *files, ffd_error *error)
 {
     const gltf_document *d = ffd_gltf_of(document);
-    return ffd_gltf_find_linked(&d->tree, d->path, files, error);
+    return ffd_gltf_find_linked(&d->tree, &d->base.folder, files, error);
 }
 
 static ffd_status copy_image(const resources *r, const mesh_resource *image, ffd_error *error)
@@ -305,7 +308,7 @@ static ffd_status leave_file(const resources *r, uint32_t uri, uint32_t extensio
 {
     const json_span *const tree = &r->saver->document->tree;
     char *path;
-    ffd_status status = ffd_gltf_uri_path(tree, uri, r->saver->document->path, &path, error);
+    ffd_status status = ffd_gltf_uri_path(tree, uri, &r->saver->document->base.folder, &path, error);
     if (status || !path)
         return status;
     char *const name = ffd_json_span_key(tree, extension);
@@ -316,7 +319,7 @@ static ffd_status leave_file(const resources *r, uint32_t uri, uint32_t extensio
     } else if (known->count > before) {
         char why[120];
         snprintf(why, sizeof why, "of %s", name);
-        status = ffd_left_add_unreached(left, r->to, path, why, error);
+        status = ffd_left_add_unreached(left, r->saver->options->to_sink ? NULL : r->to, path, why, error);
     }
     ffd_free(name);
     ffd_free(path);
@@ -362,7 +365,8 @@ static ffd_status warn_of_stream(gltf_saver *saver, ffd_error *error)
             status = ffd_resources_add(&images, &ffd_resource_image, i, path, error);
     }
     for (size_t i = 0; i < images.count && status == FFD_OK; i++)
-        status = ffd_left_add_unreached(&left, r.to, images.resources[i].path, "of images", error);
+        status = ffd_left_add_unreached(&left, saver->options->to_sink ? NULL : r.to,
+                                        images.resources[i].path, "of images", error);
     ffd_resources_free(&images);
     if (status == FFD_OK)
         status = leave_linked(&r, &left, error);
@@ -386,14 +390,15 @@ ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error)
                    .to = ffd_path_folder(saver->options->path),
                    .embeds = embeds,
                    .budget = d->base.budget};
-    r.copier = (resource_copier){.mesh = d->path,
+    r.copier = (resource_copier){.mesh = d->base.folder,
                                  .from = r.from,
                                  .to = r.to,
+                                 .sink_name = saver->options->to_sink ? saver->options->path : NULL,
                                  .output = saver->output,
                                  .log = saver->log,
                                  .copied = saver->options->copied};
     ffd_status status = r.from && r.to ? FFD_OK : ffd_fail_memory(error);
-    const bool stay = status == FFD_OK && (saver->in_place || ffd_file_same(r.from, r.to));
+    const bool stay = status == FFD_OK && (saver->in_place || ffd_save_meets(saver->options, r.from, r.to));
     const bool own_copies = stay || (copies && !embeds);
     for (size_t i = 0; i < d->image_values.count && status == FFD_OK; i++)
         status = refuse_image_name(&r, i, own_copies, error);

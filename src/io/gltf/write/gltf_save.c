@@ -210,7 +210,7 @@ ffd_status ffd_gltf_save_results(mesh_document *document, const mesh_save_option
     gltf_saver saver = {.document = d, .options = options, .output = output, .log = log};
     saver.binary = options->format == FFD_FORMAT_AUTO ? d->binary : options->format == FFD_FORMAT_GLB;
     saver.in_place = !ffd_output_is_stream(options->path) && !ffd_file_is_stream(d->path) &&
-                     ffd_file_same(options->path, d->path);
+                     ffd_save_meets(options, d->path, options->path);
     ffd_status status = ffd_gltf_make_plan(d, &saver.plan, error);
     if (status == FFD_OK)
         status = ffd_gltf_make_content(&saver, error);

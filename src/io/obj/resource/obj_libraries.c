@@ -1,5 +1,4 @@
 #include "io/obj/resource/obj_libraries.h"
-#include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "io/obj/resource/mtl_file.h"
 #include "io/obj/resource/obj_paths.h"
@@ -11,17 +10,14 @@
 #define NAME_MAX_SIZE ((size_t)4096)
 
 /* Whether a file beside the OBJ file has just this name. */
-static bool is_file(const char *path, const char *name, size_t size)
+static bool is_file(const file_folder *mesh, const char *name, size_t size)
 {
     char text[NAME_MAX_SIZE + 1];
     if (size > NAME_MAX_SIZE)
         return false;
     memcpy(text, name, size);
     text[size] = 0;
-    char *const beside = ffd_path_beside(path, text);
-    const bool is_one = beside && ffd_mtl_has_name(text) && ffd_file_exists(beside);
-    ffd_free(beside);
-    return is_one;
+    return ffd_mtl_has_name(text) && ffd_folder_has(mesh, text);
 }
 
 /* A name as far as it is known: from its first word to its last one. */
@@ -31,16 +27,18 @@ typedef struct name_words {
 
 /* Adds a name that ends like a library's. If there is only a file of its last word, the words before are
    another name. */
-static ffd_status add_words(intern_table *names, const name_words *name, const char *path, ffd_error *error)
+static ffd_status add_words(intern_table *names, const name_words *name, const file_folder *mesh,
+                            ffd_error *error)
 {
     const size_t size = (size_t)(name->end - name->first), last = (size_t)(name->end - name->last_word);
-    if (last == size || is_file(path, name->first, size) || !is_file(path, name->last_word, last))
-        return ffd_obj_add_name(names, name->first, size, path, error);
+    if (last == size || is_file(mesh, name->first, size) || !is_file(mesh, name->last_word, last))
+        return ffd_obj_add_name(names, name->first, size, mesh->file, error);
     const char *end = name->last_word;
     while (ffd_text_is_blank(end[-1]))
         end--;
-    const ffd_status status = ffd_obj_add_name(names, name->first, (size_t)(end - name->first), path, error);
-    return status ? status : ffd_obj_add_name(names, name->last_word, last, path, error);
+    const ffd_status status =
+        ffd_obj_add_name(names, name->first, (size_t)(end - name->first), mesh->file, error);
+    return status ? status : ffd_obj_add_name(names, name->last_word, last, mesh->file, error);
 }
 
 static bool ends_library(text_word word)
@@ -52,7 +50,7 @@ static bool ends_library(text_word word)
 }
 
 /* Cuts the arguments of a statement into names. */
-static ffd_status split(intern_table *names, const char *text, size_t size, const char *path,
+static ffd_status split(intern_table *names, const char *text, size_t size, const file_folder *mesh,
                         ffd_error *error)
 {
     text_scan scan;
@@ -65,18 +63,18 @@ static ffd_status split(intern_table *names, const char *text, size_t size, cons
         text++;
         size--;
     }
-    if (is_file(path, text, size))
-        return ffd_obj_add_name(names, text, size, path, error);
+    if (is_file(mesh, text, size))
+        return ffd_obj_add_name(names, text, size, mesh->file, error);
     ffd_text_begin(&scan, text, size, false);
     while (!status && ffd_text_word(&scan, &word)) {
         name = (name_words){name.first ? name.first : word.first, word.first, word.last};
         if (ends_library(word)) {
-            status = add_words(names, &name, path, error);
+            status = add_words(names, &name, mesh, error);
             name.first = NULL;
         }
     }
     if (!status && name.first)
-        status = ffd_obj_add_name(names, name.first, (size_t)(name.end - name.first), path, error);
+        status = ffd_obj_add_name(names, name.first, (size_t)(name.end - name.first), mesh->file, error);
     return status;
 }
 
@@ -85,14 +83,14 @@ bool ffd_obj_names_libraries(const file_input *input)
     return ffd_obj_has_statement(input, "mtllib");
 }
 
-ffd_status ffd_obj_list_libraries(const file_input *input, const char *path, intern_table *names,
+ffd_status ffd_obj_list_libraries(const file_input *input, const file_folder *mesh, intern_table *names,
                                   ffd_error *error)
 {
     intern_table statements = {0};
-    ffd_status status = ffd_obj_list_statements(input, path, "mtllib", &statements, error);
+    ffd_status status = ffd_obj_list_statements(input, mesh->file, "mtllib", &statements, error);
     for (uint32_t i = 0; i < statements.count && !status; i++) {
         const char *const text = ffd_intern_key(&statements, i);
-        status = split(names, text, strlen(text), path, error);
+        status = split(names, text, strlen(text), mesh, error);
     }
     ffd_intern_free(&statements);
     return status;

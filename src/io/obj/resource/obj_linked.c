@@ -55,8 +55,8 @@ static ffd_status list_names(const file_input *input, const char *file, int stat
     return status;
 }
 
-ffd_status ffd_obj_leave_linked(const file_input *input, const char *name, const char *from, const char *to,
-                                left_out *left, ffd_error *error)
+ffd_status ffd_obj_leave_linked(const file_input *input, const char *name, const file_folder *from,
+                                const char *to, left_out *left, ffd_error *error)
 {
     ffd_status status = FFD_OK;
     for (int s = 0; s < STATEMENTS && !status; s++) {
@@ -77,12 +77,11 @@ ffd_status ffd_obj_leave_linked(const file_input *input, const char *name, const
 }
 
 /* Adds the path of a file beside the mesh. */
-static ffd_status add_beside(const char *mesh, const char *folder, const char *name, path_list *files,
-                             ffd_error *error)
+static ffd_status add_beside(const file_folder *mesh, const char *name, path_list *files, ffd_error *error)
 {
     char *path;
-    ffd_status status = ffd_obj_find_path(folder, "", name, &path, error);
-    char *const file = path ? ffd_path_beside(mesh, path) : NULL;
+    ffd_status status = ffd_obj_find_path(mesh, "", name, &path, error);
+    char *const file = path ? ffd_path_beside(mesh->file, path) : NULL;
     if (path)
         status = file ? ffd_paths_add(files, file, error) : ffd_fail_memory(error);
     ffd_free(path);
@@ -92,14 +91,13 @@ static ffd_status add_beside(const char *mesh, const char *folder, const char *n
 
 ffd_status ffd_obj_find_linked(const file_input *input, const char *path, path_list *files, ffd_error *error)
 {
-    char *const folder = ffd_path_folder(path);
+    const file_folder mesh = {.file = path};
     intern_table names = {0};
-    ffd_status status = folder ? FFD_OK : ffd_fail_memory(error);
+    ffd_status status = FFD_OK;
     for (int s = 0; s < STATEMENTS && !status; s++)
         status = list_names(input, path, s, &names, error);
     for (uint32_t i = 0; i < names.count && !status; i++)
-        status = add_beside(path, folder, ffd_intern_key(&names, i), files, error);
+        status = add_beside(&mesh, ffd_intern_key(&names, i), files, error);
     ffd_intern_free(&names);
-    ffd_free(folder);
     return status;
 }

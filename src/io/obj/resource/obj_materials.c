@@ -104,7 +104,7 @@ static ffd_status load_map(reader *r, const char *library, text_word name, uint3
     ffd_buffer_append(&text, name.first, (size_t)(name.last - name.first));
     char *const named = ffd_buffer_finish(&text);
     ffd_status status =
-        named ? ffd_obj_find_map(r->from.from, library, named, &path, r->error) : ffd_fail_memory(r->error);
+        named ? ffd_obj_find_map(&r->from.mesh, library, named, &path, r->error) : ffd_fail_memory(r->error);
     if (!status && path) {
         status = ffd_images_load(&r->images, path, image, r->error);
     } else if (!status) {
@@ -115,8 +115,8 @@ static ffd_status load_map(reader *r, const char *library, text_word name, uint3
     ffd_free(named);
     ffd_free(path);
     if (!status && r->images.known.count > OBJ_RESOURCES_MAX)
-        status =
-            ffd_fail_file(r->error, FFD_E_LIMIT, r->from.mesh, "names more than %d maps", OBJ_RESOURCES_MAX);
+        status = ffd_fail_file(r->error, FFD_E_LIMIT, r->from.mesh.file, "names more than %d maps",
+                               OBJ_RESOURCES_MAX);
     return status;
 }
 
@@ -183,7 +183,7 @@ static ffd_status read_library(reader *r, const char *name)
         ffd_left_add(&r->left, name, "is a file, and standard input has no folder");
         return FFD_OK;
     }
-    ffd_status status = ffd_obj_find_path(r->from.from, "", name, &path, r->error);
+    ffd_status status = ffd_obj_find_path(&r->from.mesh, "", name, &path, r->error);
     if (status)
         return status;
     if (path)
@@ -199,7 +199,8 @@ ffd_status ffd_obj_list_materials(mesh_document *document, const mesh_log *log, 
 {
     const file_document *const file = (const file_document *)document;
     intern_table libraries = {0};
-    const char *const mesh = file->path ? file->path : file->name;
+    const file_folder mesh = {file->path ? file->path : file->name, document->folder.resolve,
+                              document->folder.user};
     char *const folder = file->path ? ffd_path_folder(file->path) : NULL;
     reader r = {
         .from = {.mesh = mesh, .from = folder},
@@ -209,7 +210,7 @@ ffd_status ffd_obj_list_materials(mesh_document *document, const mesh_log *log, 
         .error = error};
     ffd_status status = folder || !file->path ? FFD_OK : ffd_fail_memory(error);
     if (!status)
-        status = ffd_obj_list_libraries(&file->input, mesh, &libraries, error);
+        status = ffd_obj_list_libraries(&file->input, &mesh, &libraries, error);
     for (uint32_t i = 0; i < libraries.count && !status; i++)
         status = read_library(&r, ffd_intern_key(&libraries, i));
     ffd_left_say(&r.left, "material library cannot be read, and its materials are unknown",

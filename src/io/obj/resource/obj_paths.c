@@ -1,6 +1,4 @@
 #include "io/obj/resource/obj_paths.h"
-#include "base/file/folder.h"
-#include "base/file/input.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 
@@ -11,18 +9,18 @@ static bool is_absolute(const char *name)
     return name[0] == '/' || name[0] == '\\' || (letter >= 'a' && letter <= 'z' && name[1] == ':');
 }
 
-ffd_status ffd_obj_find_path(const char *folder, const char *base, const char *name, char **path,
+ffd_status ffd_obj_find_path(const file_folder *folder, const char *base, const char *name, char **path,
                              ffd_error *error)
 {
-    bool turned;
     char *beside = NULL;
     *path = NULL;
     if (is_absolute(name))
         return FFD_OK;
     beside = ffd_path_beside(base, name);
-    ffd_status status = beside ? ffd_path_turn_slashes(beside, folder, &turned, error) : FFD_E_MEMORY;
-    if (!status)
+    if (beside) {
+        ffd_folder_turn_slashes(folder, beside);
         *path = ffd_path_normalize(beside);
+    }
     ffd_free(beside);
     if (!*path)
         return ffd_fail_memory(error);
@@ -34,15 +32,12 @@ ffd_status ffd_obj_find_path(const char *folder, const char *base, const char *n
 }
 
 /* Whether there is a file at a path below the mesh's folder. */
-static bool is_there(const char *folder, const char *path)
+static bool is_there(const file_folder *folder, const char *path)
 {
-    char *const file = ffd_path_leads_out(path) ? NULL : ffd_path_join(folder, path);
-    const bool there = file && ffd_file_exists(file);
-    ffd_free(file);
-    return there;
+    return !ffd_path_leads_out(path) && ffd_folder_has(folder, path);
 }
 
-ffd_status ffd_obj_find_map(const char *folder, const char *library, const char *name, char **path,
+ffd_status ffd_obj_find_map(const file_folder *folder, const char *library, const char *name, char **path,
                             ffd_error *error)
 {
     char *other = NULL;

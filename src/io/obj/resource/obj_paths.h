@@ -3,17 +3,17 @@
 #ifndef FFD_IO_OBJ_RESOURCE_OBJ_PATHS_H
 #define FFD_IO_OBJ_RESOURCE_OBJ_PATHS_H
 
-#include "base/fail.h"
+#include "base/file/file_folder.h"
 #include "base/memory/intern.h"
 
 /* Finds the path, relative to the mesh's folder and normalized, of a name in the file `base`, which is
    relative to that folder too. NULL with FFD_OK: the name is absolute, or that of a folder. Errors:
    FFD_E_MEMORY. */
-ffd_status ffd_obj_find_path(const char *folder, const char *base, const char *name, char **path,
+ffd_status ffd_obj_find_path(const file_folder *folder, const char *base, const char *name, char **path,
                              ffd_error *error);
 /* The same of a map in a library: names count from the library's folder; some programs write them from that
    of the mesh, where they lead if only there is such a file. */
-ffd_status ffd_obj_find_map(const char *folder, const char *library, const char *name, char **path,
+ffd_status ffd_obj_find_map(const file_folder *folder, const char *library, const char *name, char **path,
                             ffd_error *error);
 
 /* Names of one file, and their bytes: a file must not be able to ask for any number, and any memory. */

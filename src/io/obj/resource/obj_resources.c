@@ -18,7 +18,7 @@ static ffd_status add_file(const resource_copier *c, resource_list *list, const 
                            const char *name, ffd_error *error)
 {
     char *path;
-    const ffd_status status = ffd_obj_find_map(c->from, library, name, &path, error);
+    const ffd_status status = ffd_obj_find_map(&c->mesh, library, name, &path, error);
     return status || !path ? status : ffd_resources_add(list, &ffd_resource_image, list->count, path, error);
 }
 
@@ -30,16 +30,12 @@ static ffd_status add_tiles(const resource_copier *c, resource_list *list, const
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < IMAGE_TILES && status == FFD_OK; i++) {
         char *path = NULL, *const tile = ffd_image_tile(name, i);
-        status = tile ? ffd_obj_find_map(c->from, library, tile, &path, error) : ffd_fail_memory(error);
+        status = tile ? ffd_obj_find_map(&c->mesh, library, tile, &path, error) : ffd_fail_memory(error);
         ffd_free(tile);
-        char *const file = path ? ffd_path_join(c->from, path) : NULL;
-        if (path && !file)
-            status = ffd_fail_memory(error);
-        if (status == FFD_OK && path && ffd_file_exists(file))
+        if (status == FFD_OK && path && ffd_folder_has(&c->mesh, path))
             status = ffd_resources_add(list, &ffd_resource_image, list->count, path, error);
         else
             ffd_free(path);
-        ffd_free(file);
     }
     return status || list->count > before ? status : add_file(c, list, library, name, error);
 }
@@ -81,10 +77,10 @@ static ffd_status list_all(const resource_copier *c, const file_input *input, bo
                            resource_list *list, ffd_error *error)
 {
     intern_table names = {0};
-    ffd_status status = ffd_obj_list_libraries(input, c->mesh, &names, error);
+    ffd_status status = ffd_obj_list_libraries(input, &c->mesh, &names, error);
     for (uint32_t i = 0; i < names.count && !status; i++) {
         char *path;
-        status = ffd_obj_find_path(c->from, "", ffd_intern_key(&names, i), &path, error);
+        status = ffd_obj_find_path(&c->mesh, "", ffd_intern_key(&names, i), &path, error);
         if (!status && path)
             status = ffd_resources_add(list, &ffd_resource_library, i, path, error);
     }
@@ -94,7 +90,8 @@ static ffd_status list_all(const resource_copier *c, const file_input *input, bo
         const mesh_resource library = list->resources[i]; /* the list moves as it grows */
         status = add_maps(c, list, &library, error);
         if (!status && list->count > OBJ_RESOURCES_MAX)
-            status = ffd_fail_file(error, FFD_E_LIMIT, c->mesh, "names more than %d maps", OBJ_RESOURCES_MAX);
+            status =
+                ffd_fail_file(error, FFD_E_LIMIT, c->mesh.file, "names more than %d maps", OBJ_RESOURCES_MAX);
     }
     ffd_resources_sort(list);
     return status;
@@ -113,15 +110,17 @@ static ffd_status bring(const resource_copier *c, const file_input *input, const
     return status;
 }
 
-/* Adds the libraries that an output in folder `to` does not reach. name: of the mesh, for messages. */
-static ffd_status leave_libraries(const file_input *input, const char *name, const char *to, left_out *left,
-                                  ffd_error *error)
+/* Adds the libraries that an output in folder `to` (both NULL: it is no file) does not reach. name: of the
+   mesh, for messages. */
+static ffd_status leave_libraries(const file_input *input, const char *name, const char *output,
+                                  const char *to, left_out *left, ffd_error *error)
 {
     intern_table names = {0};
-    ffd_status status = ffd_obj_list_libraries(input, name, &names, error);
+    const file_folder mesh = {.file = name}, there = {.file = output};
+    ffd_status status = ffd_obj_list_libraries(input, &mesh, &names, error);
     for (uint32_t i = 0; i < names.count && !status; i++) {
         char *path;
-        status = ffd_obj_find_path(to, "", ffd_intern_key(&names, i), &path, error);
+        status = ffd_obj_find_path(&there, "", ffd_intern_key(&names, i), &path, error);
         if (!status && path)
             status = ffd_left_add_unreached(left, to, path, "of mtllib", error);
         ffd_free(path);
@@ -136,10 +135,13 @@ static ffd_status warn_of_stream(const file_input *input, bool names_files, cons
 {
     const char *const mesh = ffd_file_display_name(options->input);
     left_out left = {0};
-    char *const to = ffd_path_folder(options->path);
-    ffd_status status = to ? leave_libraries(input, mesh, to, &left, error) : ffd_fail_memory(error);
+    const char *const output = options->to_sink ? NULL : options->path;
+    char *const to = output ? ffd_path_folder(output) : NULL;
+    const file_folder there = {.file = output};
+    ffd_status status =
+        to || !output ? leave_libraries(input, mesh, output, to, &left, error) : ffd_fail_memory(error);
     if (!status && names_files)
-        status = ffd_obj_leave_linked(input, mesh, to, to, &left, error);
+        status = ffd_obj_leave_linked(input, mesh, &there, to, &left, error);
     if (!status)
         ffd_left_say_of_stream(&left, log);
     ffd_free(to);
@@ -150,14 +152,15 @@ static ffd_status warn_of_stream(const file_input *input, bool names_files, cons
 static ffd_status warn_of_linked(const resource_copier *c, const file_input *input, ffd_error *error)
 {
     left_out left = {0};
-    const ffd_status status = ffd_obj_leave_linked(input, c->mesh, c->from, c->to, &left, error);
+    const ffd_status status =
+        ffd_obj_leave_linked(input, c->mesh.file, &c->mesh, c->sink_name ? NULL : c->to, &left, error);
     if (!status)
         ffd_left_say(&left, "file that a statement names is not copied",
                      "files that statements name are not copied", c->log);
     return status;
 }
 
-ffd_status ffd_obj_bring_resources(const file_input *input, bool names_files,
+ffd_status ffd_obj_bring_resources(const file_input *input, const file_folder *folder, bool names_files,
                                    const mesh_save_options *options, file_output *output, const mesh_log *log,
                                    ffd_error *error)
 {
@@ -168,12 +171,13 @@ ffd_status ffd_obj_bring_resources(const file_input *input, bool names_files,
         return warn_of_stream(input, names_files, options, log, error);
     /* To look through a file that is in memory takes less than to ask the system for folders. */
     if ((!input->mapped && !names_files && !ffd_obj_names_libraries(input)) ||
-        ffd_file_same(mesh, options->path))
+        ffd_save_meets(options, mesh, options->path))
         return FFD_OK;
     char *const from = ffd_path_folder(mesh), *const to = ffd_path_folder(options->path);
-    const resource_copier copier = {mesh, from, to, output, log, options->copied};
+    const resource_copier copier = {
+        *folder, from, to, options->to_sink ? options->path : NULL, output, log, options->copied};
     ffd_status status = from && to ? FFD_OK : ffd_fail_memory(error);
-    const bool is_stay = !status && ffd_file_same(from, to);
+    const bool is_stay = !status && ffd_save_meets(options, from, to);
     /* In its own folder an output of another ending meets none of the names. */
     if (!status && (!is_stay || ffd_mtl_has_name(options->path) || ffd_image_has_name(options->path)))
         status = bring(&copier, input, options, is_stay, error);
@@ -189,7 +193,7 @@ ffd_status ffd_obj_find_resources(const char *path, const file_input *bytes, pat
 {
     resource_list list = {0};
     char *const from = ffd_path_folder(path);
-    const resource_copier copier = {.mesh = path, .from = from};
+    const resource_copier copier = {.mesh = {.file = path}, .from = from};
     ffd_status status = from ? FFD_OK : ffd_fail_memory(error);
     if (!status)
         status = list_all(&copier, bytes, true, &list, error);

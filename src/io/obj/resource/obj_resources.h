@@ -11,7 +11,7 @@
    that a mesh from standard input names. Refuses an output that has the name of one of them. Begins and
    writes files of `output`, so that it comes before the output's own file. Errors: FFD_E_EXISTS, FFD_E_IO,
    FFD_E_LIMIT, FFD_E_MEMORY. */
-ffd_status ffd_obj_bring_resources(const file_input *input, bool names_files,
+ffd_status ffd_obj_bring_resources(const file_input *input, const file_folder *folder, bool names_files,
                                    const mesh_save_options *options, file_output *output, const mesh_log *log,
                                    ffd_error *error);
 
