@@ -109,12 +109,13 @@ static ffd_status visit_targets(anchor_work *w, target_visit *visit)
     memset(w->is_done, 0, d->base.part_count * sizeof *w->is_done);
     for (size_t i = 0; i < d->instance_count; i++) {
         const gltf_instance *const instance = &d->instances[i];
-        const size_t *const targets = d->targets + instance->first_target;
         const size_t part = take_part(w, instance);
         for (size_t t = 0; part != GLTF_NONE && t < instance->primitive->target_count && status == FFD_OK;
-             t++)
-            if (has_positions(d, targets[t]))
-                status = visit(w, part, targets[t], w->rig->pose.first_weight[instance->node] + t);
+             t++) {
+            const size_t target = d->targets[instance->first_target + t];
+            if (has_positions(d, target))
+                status = visit(w, part, target, w->rig->pose.first_weight[instance->node] + t);
+        }
     }
     return status;
 }

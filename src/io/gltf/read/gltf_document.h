@@ -252,8 +252,8 @@ static inline const gltf_primitive *ffd_gltf_next_primitive(const gltf_document 
                                                             const gltf_primitive *primitive)
 {
     const gltf_mesh *const of = &document->model.meshes[mesh];
-    const gltf_primitive *const next = primitive ? primitive + 1 : of->primitives;
-    return next < of->primitives + of->primitive_count ? next : NULL;
+    const size_t next = primitive ? primitive->number + 1 : 0;
+    return next < of->primitive_count ? &of->primitives[next] : NULL;
 }
 
 /* Returns the instances of a primitive of a mesh, one for each use of the mesh. */
