@@ -3,11 +3,6 @@
 #include "mesh/precision.h"
 #include <math.h>
 
-static uint64_t least(uint64_t a, uint64_t b)
-{
-    return a < b ? a : b;
-}
-
 void ffd_totals_add_stored(const pass_totals *stored, bool written, pass_totals *shown)
 {
     shown->of_shown = true;
@@ -19,7 +14,7 @@ void ffd_totals_add_stored(const pass_totals *stored, bool written, pass_totals 
     shown->first_missed = stored->first_missed;
     shown->missed_by = stored->missed_by;
     if (written) {
-        shown->first_overflow = least(shown->first_overflow, stored->first_overflow);
+        ffd_note_first(&shown->first_overflow, stored->first_overflow);
         shown->lost = stored->lost;
     }
     shown->embed_seconds += stored->embed_seconds;

@@ -104,4 +104,10 @@ void ffd_totals_judge_rounding(const pass_totals *tiles, size_t count, double to
 /* Adds the figures of a tile. Tiles must be added in order. */
 void ffd_totals_join(const pass_totals *tile, pass_totals *all);
 
+/* Lowers the number of the first vertex of a kind. */
+static inline void ffd_note_first(uint64_t *first, uint64_t number)
+{
+    *first = number < *first ? number : *first;
+}
+
 #endif

@@ -104,12 +104,6 @@ static inline size_t ffd_tile_vertex(const tile_points *points, size_t i)
     return points->are_all ? i : points->which[i];
 }
 
-/* Lowers the number of the first vertex of a kind. */
-static inline void ffd_note_first(uint64_t *first, uint64_t number)
-{
-    *first = number < *first ? number : *first;
-}
-
 /* The largest coordinate that the file's number type can hold. */
 static inline double ffd_largest_coordinate(const mesh_document *document)
 {
