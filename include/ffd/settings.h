@@ -38,7 +38,7 @@ typedef struct ffd_member {
 } ffd_member;
 
 /* Returns a member of the table, by its number from 0; NULL behind the last. Thread-safe. */
-FFD_API const ffd_member *ffd_deform_member(size_t number);
+FFD_API const ffd_member *ffd_deform_member(size_t index);
 
 /* Checks that all settings are in their ranges and fit each other. It looks at no file. All functions that
    run a job begin with it. Thread-safe. Errors: FFD_E_ARGUMENT. */

@@ -42,8 +42,8 @@ static const ffd_member *find_member(const char *option)
 {
     const ffd_member *member;
     char name[64];
-    size_t number = 0;
-    while ((member = ffd_deform_member(number++)) != NULL) {
+    size_t index = 0;
+    while ((member = ffd_deform_member(index++)) != NULL) {
         cli_spell(member->name, NULL, name, sizeof name);
         if (strncmp(name, "--", 2) == 0 && strcmp(name + 2, option) == 0)
             break;

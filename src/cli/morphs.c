@@ -37,15 +37,15 @@ bool cli_add_morph(void *settings, const cli_option *option, const char *value)
         cli_complain("out of memory");
         return false;
     }
-    uint32_t number = 0;
+    uint32_t index = 0;
     const char *const rest = *value == '\'' ? copy_quoted(value, name) : copy_name(value, name);
     const char *why = !rest || *rest != '=' || !*name
                           ? "is not NAME=LATTICE (a name with blanks, '=' or ',' is in single quotes)"
                       : !rest[1] ? "names no lattice"
                                  : NULL;
-    if (!why && !ffd_intern(&job->morph_names, name, strlen(name), &number))
+    if (!why && !ffd_intern(&job->morph_names, name, strlen(name), &index))
         why = "is one too many: out of memory";
-    else if (!why && number < job->morph_count)
+    else if (!why && index < job->morph_count)
         why = "has the name of another morph target";
     if (why) {
         cli_complain("--%s: \"%s\" %s", option->name, value, why);

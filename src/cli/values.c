@@ -13,9 +13,9 @@ bool cli_add_value(void *settings, const cli_option *option, const char *value)
         return false;
     }
     const size_t length = (size_t)(equals - value);
-    uint32_t number;
-    const bool is_known = ffd_intern(&values->known, value, length, &number);
-    if (is_known && number < values->count) {
+    uint32_t index;
+    const bool is_known = ffd_intern(&values->known, value, length, &index);
+    if (is_known && index < values->count) {
         cli_complain("--%s: \"%.*s\" is set twice", option->name, (int)length, value);
         return false;
     }
