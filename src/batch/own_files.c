@@ -45,15 +45,14 @@ static ffd_status check_read(const own_file *file, const own_file *read, ffd_err
 static ffd_status check_reads(const own_file *file, const job_source_desc *jobs, ffd_error *error)
 {
     const own_file reads[] = {{"the manifest", jobs->manifest}, {"the table", jobs->table}};
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < sizeof reads / sizeof *reads && !status; i++)
-        status = check_read(file, &reads[i], error);
-    for (size_t i = 0; i < jobs->lattice_count && !status; i++)
-        status = check_read(file, &(own_file){"a lattice", jobs->lattices[i].path}, error);
-    for (size_t i = 0; i < jobs->default_count && !status; i++)
+    for (size_t i = 0; i < sizeof reads / sizeof *reads; i++)
+        TRY(check_read(file, &reads[i], error));
+    for (size_t i = 0; i < jobs->lattice_count; i++)
+        TRY(check_read(file, &(own_file){"a lattice", jobs->lattices[i].path}, error));
+    for (size_t i = 0; i < jobs->default_count; i++)
         if (strcmp(jobs->defaults[i].name, "embedding") == 0)
-            status = check_read(file, &(own_file){"the embedding", jobs->defaults[i].value}, error);
-    return status;
+            TRY(check_read(file, &(own_file){"the embedding", jobs->defaults[i].value}, error));
+    return FFD_OK;
 }
 
 static ffd_status check_all(const own_file *files, size_t count, const batch_desc *desc, ffd_error *error)

@@ -54,10 +54,8 @@ static ffd_status describe_meshes(ffd_lattice *lattice, const ffd_source *like, 
 {
     ffd_error reason;
     char line[1024];
-    ffd_status status = write_meshes(lattice, json, error);
-    if (status)
-        return status;
-    status = go_round(lattice, like, fits, box, &reason);
+    TRY(write_meshes(lattice, json, error));
+    ffd_status status = go_round(lattice, like, fits, box, &reason);
     if (!status)
         return FFD_OK;
     *box = ffd_bounds_empty();

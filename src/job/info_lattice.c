@@ -146,10 +146,10 @@ static ffd_status write_inversion(const ffd_lattice *lattice, json_text *json, f
     ffd_locator *locator = NULL;
     ffd_error reason = {0};
     const ffd_status status = ffd_locator_create(lattice, &locator, &reason);
-    if (status == FFD_OK)
+    if (!status)
         ffd_json_string(json, "inversion", ffd_locator_get_method(locator));
     ffd_locator_destroy(&locator);
-    if (status == FFD_OK)
+    if (!status)
         return FFD_OK;
     if (status != FFD_E_INVALID && status != FFD_E_LIMIT) {
         if (error)

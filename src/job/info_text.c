@@ -239,9 +239,7 @@ ffd_status ffd_info_render(const char *json, size_t size, char **text, ffd_error
 {
     const json_input input = {.text = json, .size = size, .name = ""};
     json_tree facts;
-    const ffd_status status = ffd_json_parse(&input, &facts, error);
-    if (status)
-        return status;
+    TRY(ffd_json_parse(&input, &facts, error));
     byte_buffer out = {0};
     renderer r = {.facts = &facts};
     render_members(&r, 0, 0);

@@ -217,12 +217,12 @@ static ffd_status find_in_links(const tear_field *field, field_place *places, si
                                 ffd_error *error)
 {
     size_t gaps = 0;
-    ffd_status status = apply_links(field, places, count, visitor, cause, scratch, error);
-    if (!status && field->chain->count > 1 && !field->chain->outside.extend)
-        status = find_gaps(field, places, count, &gaps, scratch, error);
-    if (status || gaps == 0)
-        return status;
-    status = apply_links(field, scratch->in_gaps, gaps, NULL, NULL, scratch, error);
+    TRY(apply_links(field, places, count, visitor, cause, scratch, error));
+    if (field->chain->count > 1 && !field->chain->outside.extend)
+        TRY(find_gaps(field, places, count, &gaps, scratch, error));
+    if (gaps == 0)
+        return FFD_OK;
+    ffd_status status = apply_links(field, scratch->in_gaps, gaps, NULL, NULL, scratch, error);
     for (size_t k = 0; k < gaps && !status; k++) {
         field_place *const place = &places[scratch->gaps[k]];
         memcpy(place->delta, scratch->in_gaps[k].delta, sizeof place->delta);

@@ -470,11 +470,8 @@ static ffd_status deform_tile(const pass_tile *tile, ffd_error *error)
     const gradient_need need = find_need(tile, attributes || splats);
 
     take_points(tile);
-    ffd_status status = ffd_deadline_check(error);
-    if (!status)
-        status = deform_points(tile, &need, error);
-    if (status)
-        return status;
+    TRY(ffd_deadline_check(error));
+    TRY(deform_points(tile, &need, error));
     if (need.turns)
         note_turns(tile);
     spread(tile);
