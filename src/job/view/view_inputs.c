@@ -1,7 +1,7 @@
-#include "job/view/view_inputs.h"
 #include "base/file/input.h"
 #include "base/file/path.h"
 #include "job/reads.h"
+#include "job/view/view.h"
 
 static ffd_status refuse(const char *output, bool is_linked, ffd_error *error)
 {

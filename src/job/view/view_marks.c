@@ -1,8 +1,8 @@
-#include "job/view/view_marks.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "job/measure/quality.h"
+#include "job/view/view.h"
 #include "lattice/file/lattice_source.h"
 #include "lattice/lattice.h"
 #include <math.h>

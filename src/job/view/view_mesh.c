@@ -1,6 +1,6 @@
-#include "job/view/view_mesh.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "job/view/view.h"
 #include "mesh/model_triangles.h"
 #include <math.h>
 #include <string.h>

@@ -1,5 +1,5 @@
-#include "job/view/view_order.h"
 #include "base/memory/memory.h"
+#include "job/view/view.h"
 #include <stdlib.h>
 
 /* A part whose vertices are counted, and the number of the first. */

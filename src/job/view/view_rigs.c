@@ -1,8 +1,8 @@
-#include "job/view/view_rigs.h"
 #include "base/memory/intern.h"
 #include "base/memory/memory.h"
 #include "base/text/words.h"
 #include "base/vector/vec.h"
+#include "job/view/view.h"
 #include <stdio.h>
 #include <string.h>
 
