@@ -1,11 +1,9 @@
 /* info.c - the job of `ffd info`. */
+#include "job/info.h"
 #include "base/file/mapping.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/struct_size.h"
-#include "job/info_lattice.h"
-#include "job/info_mesh.h"
-#include "job/info_text.h"
 #include "job/input/deform_desc.h"
 #include "job/input/in_memory.h"
 #include "job/input/source.h"

@@ -9,8 +9,7 @@
 #include "../support/json_facts.h"
 #include "../support/test_folder.h"
 #include "base/memory/memory.h"
-#include "job/info_mesh.h"
-#include "job/info_text.h"
+#include "job/info.h"
 #include <ffd/job.h>
 #include <math.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* view_inputs.c - the inputs of a view, which its output must not replace. */
 #include "base/file/input.h"
 #include "base/file/path.h"
 #include "job/reads.h"

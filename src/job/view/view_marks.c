@@ -1,3 +1,5 @@
+/* view_marks.c - marks of a deformation in a scene: statuses, det F, flipped faces, torn edges, the witness
+   of a fold; and the control lattices. */
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"

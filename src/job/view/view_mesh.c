@@ -1,3 +1,4 @@
+/* view_mesh.c - makes a scene's geometry from a model and its deformed positions. */
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "job/view/view.h"

@@ -1,3 +1,5 @@
+/* view_order.c - which vertices of two files of one mesh are the same: the later file may list its parts in
+   another order. */
 #include "base/memory/memory.h"
 #include "job/view/view.h"
 #include <stdlib.h>

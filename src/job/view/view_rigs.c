@@ -1,3 +1,4 @@
+/* view_rigs.c - the animations of a view: skeletons and keys of the mesh before and after. */
 #include "base/memory/intern.h"
 #include "base/memory/memory.h"
 #include "base/text/words.h"
