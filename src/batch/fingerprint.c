@@ -162,9 +162,9 @@ static ffd_status find_copies(const char *path, const mesh_format *format, path_
 {
     file_input bytes;
     ffd_status status = FFD_OK;
-    if (!format->find_resources || ffd_file_load(path, &bytes, NULL))
+    if (!format->resources || ffd_file_load(path, &bytes, NULL))
         return FFD_OK;
-    status = format->find_resources(path, &bytes, images, error);
+    status = format->resources->find_copied(path, &bytes, images, error);
     ffd_file_unload(&bytes);
     return status;
 }
@@ -177,7 +177,7 @@ static ffd_status list_output(const ffd_source *output, bool has_copies, path_li
     ffd_format format;
     mesh_document *document = NULL;
     ffd_status status = ffd_source_format(output, &format, error);
-    if (!status && !ffd_format_table(format)->list_files) {
+    if (!status && !ffd_format_table(format)->sidecars) {
         status = ffd_paths_add(files, output->path, error);
         return !status && has_copies ? find_copies(output->path, ffd_format_table(format), images, error)
                                      : status;
@@ -186,8 +186,8 @@ static ffd_status list_output(const ffd_source *output, bool has_copies, path_li
         status = ffd_source_open(output, 1, &document, error);
     if (!status)
         status = ffd_source_files(output, document, files, error);
-    if (!status && document->format->list_images)
-        status = document->format->list_images(document, images, error);
+    if (!status && document->format->sidecars)
+        status = document->format->sidecars->list_images(document, images, error);
     ffd_source_close(&document);
     return status;
 }

@@ -20,6 +20,7 @@
 #include "job/report/output_set.h"
 #include "job/sharing.h"
 #include "lattice/file/lattice_source.h"
+#include "mesh/morphs.h"
 #include "mesh/resource/sidecar.h"
 #include <string.h>
 
@@ -210,10 +211,10 @@ static ffd_status dry_run_conversion(deform_job *job, const mesh_save_options *o
     const mesh_format *const to = ffd_format_table(options->format);
     sidecar_names names = {.options = options, .log = &job->log};
     ffd_format from;
-    if (!to->count_sidecars || ffd_output_is_stream(options->path) || options->to_sink)
+    if (!to->sidecars || ffd_output_is_stream(options->path) || options->to_sink)
         return FFD_OK;
     ffd_status status = ffd_source_format(&job->desc->input, &from, error);
-    const size_t count = status ? 0 : to->count_sidecars(NULL, from, options->format);
+    const size_t count = status ? 0 : to->sidecars->count(NULL, from, options->format);
     for (size_t i = 0; i < count && !status; i++) {
         char *path;
         status = ffd_sidecar_next(&names, NULL, NULL, &path, error);
@@ -272,11 +273,11 @@ static ffd_status begin_morph(deform_job *job, ffd_error *error)
     const mesh_format *format = job->document->format;
     if (!job->desc->as_morph)
         return FFD_OK;
-    if (!format->keep_base) { /* a conversion */
+    if (!format->morphs) { /* a conversion */
         job->base.budget = &job->document->budget;
         return format->model(job->document, &job->base, error);
     }
-    return format->keep_base(job->document, job->desc->as_morph, error);
+    return format->morphs->keep_base(job->document, job->desc->as_morph, error);
 }
 
 /* Whether no option needs normals. */

@@ -27,6 +27,7 @@
 #include "job/pass/pass.h"
 #include "job/report/output_set.h"
 #include "lattice/file/lattice_source.h"
+#include "mesh/places.h"
 #include <string.h>
 
 static ffd_status check_embedding(const ffd_deform_desc *desc, ffd_error *error)
@@ -183,9 +184,9 @@ ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_erro
         status = open_mesh(job, error);
     /* Nothing is saved, but a deformation would add a morph target, and keep the others, which are not
        judged. */
-    if (!status && job->check && desc->as_morph && job->document->format->keep_base)
+    if (!status && job->check && desc->as_morph && job->document->format->morphs)
         job->document->keeps_base = true;
-    if (!status && desc->rig == FFD_RIG_FOLLOW && !job->document->format->follow)
+    if (!status && desc->rig == FFD_RIG_FOLLOW && !job->document->format->places)
         status = ffd_fail_file(error, FFD_E_ARGUMENT, ffd_source_name(&desc->input),
                                "has no nodes that could follow: only glTF has ({rig=follow})");
     if (!status)
@@ -308,8 +309,8 @@ static ffd_status move_rig(deform_job *job, ffd_error *error)
     const ffd_status status = ffd_rig_places_find(job->document, &job->chain, follows, &job->rig, error);
     return status || !follows || job->rig.places.count == 0
                ? status
-               : format->follow(job->document, &job->rig.places, job->rig.moves, &job->log, &job->following,
-                                error);
+               : format->places->follow(job->document, &job->rig.places, job->rig.moves, &job->log,
+                                        &job->following, error);
 }
 
 /* Finds what is left behind, and how far joints, pivots and sockets lag. */

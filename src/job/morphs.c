@@ -4,6 +4,7 @@
 #include "job/chain/chain_load.h"
 #include "job/deform_job.h"
 #include "job/figures/figure_values.h"
+#include "mesh/morphs.h"
 #include "json/json_chars.h"
 #include <stdio.h>
 #include <string.h>
@@ -71,9 +72,9 @@ static ffd_status keep_clips(const deform_job *job, ffd_error *error)
     intern_table names = {0};
     uint32_t index;
     bool listed = true;
-    if (!job->document->converted && job->document->format->keep_clips)
-        return job->document->format->keep_clips(job->document, job->clips, job->clip_count, desc->morphs,
-                                                 desc->lattice_count, error);
+    if (!job->document->converted && job->document->format->morphs)
+        return job->document->format->morphs->keep_clips(job->document, job->clips, job->clip_count,
+                                                         desc->morphs, desc->lattice_count, error);
     for (size_t i = 0; i < desc->lattice_count && listed; i++)
         listed = ffd_intern(&names, desc->morphs[i], strlen(desc->morphs[i]), &index);
     const ffd_status status =
@@ -134,8 +135,9 @@ static ffd_status add_target(deform_job *job, size_t k, const mesh_log *log, ffd
     job->file_log = k == 0 ? *log : (mesh_log){0};
     lattice_chain whole = job->chain;
     job->chain = ffd_chain_link_alone(&whole, k);
-    ffd_status status =
-        job->document->converted ? FFD_OK : job->document->format->keep_base(job->document, name, error);
+    ffd_status status = job->document->converted
+                            ? FFD_OK
+                            : job->document->format->morphs->keep_base(job->document, name, error);
     if (!status)
         status = ffd_deform_job_run(job, result, error);
     if (!status && job->document->converted)

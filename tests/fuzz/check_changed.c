@@ -7,6 +7,7 @@
 #include "job/input/source.h"
 #include "mesh/difference.h"
 #include "mesh/mixed_faces.h"
+#include "mesh/selector.h"
 #include "promise.h"
 #include <string.h>
 
@@ -127,8 +128,8 @@ static void select_group(mesh_document *document)
 {
     static const mesh_selector selector = {SELECT_GROUP, "default", sizeof "default" - 1};
     ffd_error error = {0};
-    if (document->format->selector_kinds & SELECTOR_BIT(SELECT_GROUP))
-        (void)document->format->select(document, &selector, 1, &error);
+    if (document->format->selectors->kinds & SELECTOR_BIT(SELECT_GROUP))
+        (void)document->format->selectors->select(document, &selector, 1, &error);
 }
 
 static void use(const trial *of, mesh_document *document, uint64_t seed)

@@ -153,7 +153,7 @@ bool ffd_reads_know_mesh(const run_files *files, const job_kind *kind)
 bool ffd_reads_need_named(run_files *files, const job_kind *kind)
 {
     const mesh_format *const source = kind->source;
-    return source && source->find_named && (source->list_files || files->has_odd_outputs) &&
+    return source && source->resources && (source->sidecars || files->has_odd_outputs) &&
            ffd_run_writes_near(files, kind->input);
 }
 

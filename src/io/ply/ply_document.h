@@ -9,6 +9,7 @@
 
 #include "io/ply/ply_walk.h"
 #include "io/text/file_document.h"
+#include "mesh/splats.h"
 #include "splat/harmonics.h"
 
 /* Marks of a splat: whether its numbers change, and whether its harmonics turn and are mirrored. */

@@ -7,6 +7,8 @@
 #include "io/format_names.h"
 #include "io/formats.h"
 #include "mesh/bounds.h"
+#include "mesh/linked_files.h"
+#include "mesh/morphs.h"
 #include <string.h>
 
 /* Positions read per call. */
@@ -85,20 +87,20 @@ ffd_status ffd_source_files(const ffd_source *source, const mesh_document *docum
         return FFD_OK;
     if (!ffd_file_is_stream(source->path))
         status = ffd_paths_add(files, source->path, error);
-    if (!status && document->format->list_files)
-        status = document->format->list_files(document, files, error);
+    if (!status && document->format->sidecars)
+        status = document->format->sidecars->list(document, files, error);
     return status;
 }
 
 bool ffd_source_is_alone(const mesh_document *document)
 {
-    const mesh_format *const format = document->format;
+    const mesh_sidecar_calls *const sidecars = document->format->sidecars;
     path_list others = {0};
-    ffd_status status = FFD_OK;
-    if (format->list_files)
-        status = format->list_files(document, &others, NULL);
-    if (!status && format->list_images)
-        status = format->list_images(document, &others, NULL);
+    if (!sidecars)
+        return true;
+    ffd_status status = sidecars->list(document, &others, NULL);
+    if (!status)
+        status = sidecars->list_images(document, &others, NULL);
     const bool is_alone = !status && others.count == 0;
     ffd_paths_free(&others);
     return is_alone;
@@ -149,7 +151,8 @@ static bool visit_block(const place_walk *walk, const size_t *shape, size_t firs
     double xyz[3 * BLOCK], offsets[3 * BLOCK];
     format->read_positions(walk->document, walk->part, first, count, xyz);
     if (shape)
-        format->read_offsets(walk->document, walk->part, *shape, MESH_POSITIONS, first, count, offsets);
+        format->morphs->read_offsets(walk->document, walk->part, *shape, MESH_POSITIONS, first, count,
+                                     offsets);
     for (size_t i = 0; i < 3 * count; i++)
         xyz[i] += shape ? offsets[i] : 0;
     ffd_part_transform(walk->document, walk->part, first, count, xyz);

@@ -16,7 +16,7 @@ static ffd_status add_name(const mesh_document *document, size_t place, ffd_behi
         used++;
     if (used == FFD_BEHIND_NAMES)
         return FFD_OK;
-    char *name = document->format->place_name(document, place);
+    char *name = document->format->places->name(document, place);
     if (!name)
         return ffd_fail_memory(error);
     ffd_name_shown(name, behind->names[used], sizeof behind->names[used]);

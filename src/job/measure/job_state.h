@@ -8,6 +8,7 @@
 #include "job/measure/details.h"
 #include "job/measure/rig.h"
 #include "mesh/mesh.h"
+#include "mesh/morphs.h"
 
 /* The state of a job. */
 typedef struct deform_job {

@@ -5,6 +5,7 @@
 
 #include "job/chain/chain.h"
 #include "mesh/mesh.h"
+#include "mesh/places.h"
 
 typedef struct rig_places {
     mesh_places places;

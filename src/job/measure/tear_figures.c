@@ -8,6 +8,7 @@
 #include "job/measure/tears.h"
 #include "lattice/lattice.h"
 #include "mesh/mixed_faces.h"
+#include "mesh/selector.h"
 #include <inttypes.h>
 #include <limits.h>
 #include <stdio.h>
@@ -143,9 +144,9 @@ static void name_part(const deform_job *job, ffd_job_result *result)
     const vertex_marks still = marks_of(job, 1);
     const mesh_format *const format = job->document->format;
     mark_still(job);
-    if (format->name_part)
-        result->tear.stays = format->name_part(job->document, result->tear.vertex, job->kept,
-                                               result->tear.part, sizeof result->tear.part);
+    if (format->selectors)
+        result->tear.stays = format->selectors->name_owner(job->document, result->tear.vertex, job->kept,
+                                                           result->tear.part, sizeof result->tear.part);
     if (*result->tear.part)
         return;
     result->tear.stays = 0;

@@ -5,6 +5,7 @@
 #include "deform/attribute.h"
 #include "job/chain/chain_apply.h"
 #include "job/pass/tile.h"
+#include "mesh/morphs.h"
 #include <math.h>
 #include <string.h>
 
@@ -19,8 +20,8 @@ static void read_offsets(shape_scratch *s, mesh_stream stream)
     const pass_tile *const tile = s->moved.tile;
     const mesh_document *document = tile->pass->document;
     if (has(s, stream))
-        document->format->read_offsets(document, tile->part_number, s->moved.shape, stream, tile->first,
-                                       tile->count, s->offsets);
+        document->format->morphs->read_offsets(document, tile->part_number, s->moved.shape, stream,
+                                               tile->first, tile->count, s->offsets);
     else
         memset(s->offsets, 0, 3 * tile->count * sizeof *s->offsets);
 }
@@ -29,8 +30,8 @@ static void write_offsets(shape_scratch *s, mesh_stream stream)
 {
     const pass_tile *const tile = s->moved.tile;
     mesh_document *document = tile->pass->document;
-    document->format->write_offsets(document, tile->part_number, s->moved.shape, stream, tile->first,
-                                    tile->count, s->offsets, s->changed);
+    document->format->morphs->write_offsets(document, tile->part_number, s->moved.shape, stream, tile->first,
+                                            tile->count, s->offsets, s->changed);
 }
 
 /* Reads the position offsets of the target, or, for SHAPE_SHOWN, their weighted sum. */
@@ -48,8 +49,8 @@ static void read_position_offsets(shape_scratch *s)
         const double weight = tile->part->shapes[k].weight;
         if (weight == 0 || !tile->part->shapes[k].has[MESH_POSITIONS])
             continue;
-        document->format->read_offsets(document, tile->part_number, k, MESH_POSITIONS, tile->first,
-                                       tile->count, one);
+        document->format->morphs->read_offsets(document, tile->part_number, k, MESH_POSITIONS, tile->first,
+                                               tile->count, one);
         for (size_t i = 0; i < 3 * tile->count; i++)
             sum[i] += weight * one[i];
     }

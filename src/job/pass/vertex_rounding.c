@@ -1,6 +1,7 @@
 #include "job/pass/vertex_rounding.h"
 #include "base/lower_bound.h"
 #include "base/memory/memory.h"
+#include "mesh/morphs.h"
 #include <math.h>
 #include <string.h>
 
@@ -29,7 +30,7 @@ void ffd_vertex_cell(const mesh_document *document, size_t part, size_t vertex, 
         double offset[3], cell[3];
         if (shape->weight == 0 || !shape->has[MESH_POSITIONS])
             continue;
-        document->format->read_offsets(document, part, k, MESH_POSITIONS, vertex, 1, offset);
+        document->format->morphs->read_offsets(document, part, k, MESH_POSITIONS, vertex, 1, offset);
         ffd_rounding_cell(&shape->rounding, offset, cell);
         for (int a = 0; a < 3; a++) {
             stored[a] -= shape->weight * offset[a];

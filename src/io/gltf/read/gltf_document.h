@@ -6,6 +6,8 @@
 #include "io/gltf/file/gltf_buffer.h"
 #include "io/gltf/read/gltf_model.h"
 #include "mesh/mesh.h"
+#include "mesh/morphs.h"
+#include "mesh/selector.h"
 #include "json/json_tree.h"
 #include <stdarg.h>
 #include <stdatomic.h>

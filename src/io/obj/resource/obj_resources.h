@@ -3,6 +3,7 @@
 #ifndef FFD_IO_OBJ_RESOURCE_OBJ_RESOURCES_H
 #define FFD_IO_OBJ_RESOURCE_OBJ_RESOURCES_H
 
+#include "mesh/linked_files.h"
 #include "mesh/mesh.h"
 
 /* Copies the libraries and maps of the file at options->input, whose bytes are `input`, to the same places
@@ -16,7 +17,7 @@ ffd_status ffd_obj_bring_resources(const file_input *input, const file_folder *f
                                    ffd_error *error);
 
 /* mesh_format's find_resources. */
-mesh_find_resources_function ffd_obj_find_resources;
+mesh_find_copied_function ffd_obj_find_resources;
 /* mesh_format's find_named. */
 mesh_find_named_function ffd_obj_find_named;
 
