@@ -30,7 +30,7 @@ static double find_diagonal(const mesh_document *document)
     double half[3];
     for (size_t i = 0; i < document->part_count; i++)
         if (!document->parts[i].repeats_positions)
-            ffd_source_widen(document, i, &box);
+            ffd_source_widen(document, MESH_STORED, i, &box);
     if (box.min[0] > box.max[0])
         return 0;
     for (int c = 0; c < 3; c++)

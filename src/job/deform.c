@@ -53,6 +53,7 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
                                    .format = desc->output_format,
                                    .force = desc->force || desc->if_changed,
                                    .resources = desc->resources,
+                                   .sparse_targets = desc->morphs,
                                    .input = input};
     if (!ffd_deform_desc_writes(desc)) {
         TRY(check_no_output(desc, error));
@@ -94,7 +95,8 @@ static ffd_status write_mesh(deform_job *job, const mesh_save_options *options, 
     const bool morphs = job->desc->as_morph || job->desc->morphs;
     if (!ffd_conversion_needed(job->document, options->format))
         return job->document->format->save(job->document, options, output, &job->log, error);
-    return ffd_conversion_save(job->document, morphs ? &morph : NULL, options, output, &job->log, error);
+    return ffd_conversion_save(job->document, ffd_job_written(job), morphs ? &morph : NULL, options, output,
+                               &job->log, error);
 }
 
 static void warn_of_name(const deform_job *job, const char *name)
@@ -173,7 +175,7 @@ static ffd_status write_all(deform_job *job, const mesh_save_options *options, f
    other names. */
 static bool is_hashed(const deform_job *job)
 {
-    return ffd_job_cache_hashes_output(job->desc->cache) && !job->document->converted &&
+    return ffd_job_cache_hashes_output(job->desc->cache) && !job->converts &&
            ffd_source_is_alone(job->document);
 }
 
@@ -275,7 +277,7 @@ static ffd_status begin_morph(deform_job *job, ffd_error *error)
         return FFD_OK;
     if (!format->morphs) { /* a conversion */
         job->base.budget = &job->document->budget;
-        return format->model(job->document, &job->base, error);
+        return format->model(job->document, MESH_STORED, &job->base, error);
     }
     return format->morphs->keep_base(job->document, job->desc->as_morph, error);
 }
@@ -338,7 +340,7 @@ static ffd_status deform_and_save(deform_job *job, ffd_job_result *result, ffd_e
     if (!status)
         status = begin_morph(job, error);
     if (!status)
-        job->document->converted = ffd_conversion_needed(job->document, options.format);
+        job->converts = ffd_conversion_needed(job->document, options.format);
     if (!status)
         status =
             job->desc->morphs ? ffd_morphs_run(job, result, error) : ffd_deform_job_run(job, result, error);

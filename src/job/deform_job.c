@@ -182,10 +182,6 @@ ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_erro
     job->document_is_shared = job->document;
     if (!status && !job->document)
         status = open_mesh(job, error);
-    /* Nothing is saved, but a deformation would add a morph target, and keep the others, which are not
-       judged. */
-    if (!status && job->check && desc->as_morph && job->document->format->morphs)
-        job->document->keeps_base = true;
     if (!status && desc->rig == FFD_RIG_FOLLOW && !job->document->format->places)
         status = ffd_fail_file(error, FFD_E_ARGUMENT, ffd_source_name(&desc->input),
                                "has no nodes that could follow: only glTF has ({rig=follow})");
@@ -235,16 +231,13 @@ static ffd_status prepare_positions(deform_job *job, memory_budget *budget, ffd_
 static ffd_status prepare_arrays(deform_job *job, figure_arrays *arrays, figure_arrays *stored,
                                  ffd_error *error)
 {
-    const bool both = ffd_passes_judge_shown(job) && !ffd_passes_write_shown(job);
-    ffd_status status = FFD_OK;
-    job->document->shown = ffd_passes_judge_shown(job);
+    const bool both = ffd_job_judged(job) != ffd_job_written(job);
     if (ffd_figures_wanted(job) || (job->recomputes && !both))
-        status = ffd_figures_prepare(job, arrays, error);
-    job->document->shown = false;
-    if (status || !job->recomputes || !both)
-        return status;
+        TRY(ffd_figures_prepare(job, ffd_job_judged(job), arrays, error));
+    if (!job->recomputes || !both)
+        return FFD_OK;
     stored->budget = arrays->budget;
-    status = ffd_figures_prepare(job, stored, error);
+    const ffd_status status = ffd_figures_prepare(job, MESH_STORED, stored, error);
     arrays->budget = stored->budget;
     return status;
 }
@@ -252,18 +245,20 @@ static ffd_status prepare_arrays(deform_job *job, figure_arrays *arrays, figure_
 /* Refuses what can be refused before vertices are processed, and allocates the results. */
 static ffd_status prepare(deform_job *job, figure_arrays *arrays, figure_arrays *stored, ffd_error *error)
 {
-    const bool attributes = job->desc->normals != FFD_NORMALS_KEEP;
-    const mesh_format *format = job->document->format;
     ffd_status status = ffd_mesh_check(job->document, error);
     if (!status && !job->details)
         status = check_unknown(job, error);
     if (!status)
         status = ffd_mesh_warn(job->document, &job->file_log, error);
     job->recomputes = job->desc->normals == FFD_NORMALS_RECOMPUTE && has_normals(job->document);
-    job->document->results_replace = !ffd_job_cache_holds_meshes(job->desc->cache) &&
-                                     !ffd_figures_wanted(job) && !job->recomputes && !job->desc->morphs;
+    const mesh_results results = {.state = ffd_job_written(job),
+                                  .directions = job->desc->normals != FFD_NORMALS_KEEP,
+                                  .converted = job->converts,
+                                  .replace = !ffd_job_cache_holds_meshes(job->desc->cache) &&
+                                             !ffd_figures_wanted(job) && !job->recomputes &&
+                                             !job->desc->morphs};
     if (!status)
-        status = format->begin_results(job->document, attributes, attributes, error);
+        status = job->document->format->begin_results(job->document, &results, error);
     if (job->desc->normals == FFD_NORMALS_RECOMPUTE && !job->recomputes && !job->document->has_face_normals)
         ffd_log_line(&job->file_log, FFD_LOG_WARNING, "has no normals to recompute");
     arrays->budget = job->document->budget;
@@ -295,7 +290,7 @@ static ffd_status locate(deform_job *job, ffd_error *error)
 /* Whether nodes and other places matter: conversions and arrays of positions do not contain them. */
 static bool has_rig(const deform_job *job)
 {
-    return (job->check || ffd_deform_desc_writes(job->desc)) && (!job->document->converted || job->details);
+    return (job->check || ffd_deform_desc_writes(job->desc)) && (!job->converts || job->details);
 }
 
 /* Finds how the lattices move the document's places (nodes, joints, sockets), and with --rig follow moves
@@ -413,7 +408,6 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
         status = judge(job, &arrays, result, error);
     if (!status)
         status = ffd_deadline_check(error);
-    job->document->shown = job->document->shown && ffd_passes_write_shown(job);
     status = ffd_mapping_judge(job->losses, status, error);
     if (!status)
         ffd_flaws_warn(&job->document->flaws, NULL, &job->file_log);
@@ -457,8 +451,6 @@ ffd_status ffd_deform_job_end(deform_job *job, ffd_status status, ffd_job_result
         ffd_fail_name_file(&result->error, ffd_source_name(&job->desc->input));
     ffd_embedding_close(&job->embedding);
     ffd_model_free(&job->base);
-    if (job->document) /* reset for the next job */
-        job->document->shown = job->document->converted = false;
     if (!status)
         ffd_job_cache_put_mesh(job->desc->cache, job->desc, job->document);
     else

@@ -28,6 +28,10 @@
 /* The attributes of vertices. */
 typedef enum mesh_stream { MESH_POSITIONS, MESH_NORMALS, MESH_TANGENTS, MESH_STREAMS } mesh_stream;
 
+/* Which positions, normals and tangents of a document are meant: those of the base, as the file stores them,
+   or those that it shows, with the default weights of its morph targets. */
+typedef enum mesh_state { MESH_STORED, MESH_SHOWN } mesh_state;
+
 /* A morph target of a part: offsets for some of its streams. The target moves a vertex to its position plus
    the offset. */
 typedef struct mesh_shape {
@@ -164,7 +168,8 @@ typedef struct mesh_save_options {
     ffd_format format;
     bool force;
     ffd_resources resources;
-    const char *input; /* file of the document, which a conversion must not replace; NULL or "-": none */
+    bool sparse_targets; /* new morph targets may be stored without their offsets of 0 */
+    const char *input;   /* file of the document, which a conversion must not replace; NULL or "-": none */
     const mesh_sharing *sharing; /* models that may share buffers with the output; NULL: none */
     /* Receives further files of the output with unchanged content: images and material libraries that are
        copied next to it, or exist already. May be NULL. */
@@ -211,33 +216,44 @@ typedef ffd_status mesh_describe_function(const mesh_document *document, json_te
    ffd_difference_begin: it has the tolerances, and no differences. */
 typedef ffd_status mesh_compare_function(const mesh_document *a, const mesh_document *b,
                                          ffd_comparison *comparison, ffd_error *error);
-/* Read the values of the file, as doubles, without transforms: 3 for a position or normal, 4 for a tangent
+/* Reads values of the file, as doubles, without transforms: 3 for a position or normal, 4 for a tangent
    (x,y,z and the handedness). Thread-safe. */
-typedef void mesh_read_function(const mesh_document *document, size_t part, size_t first, size_t count,
-                                double *values);
+typedef void mesh_read_function(const mesh_document *document, size_t part, mesh_stream stream,
+                                mesh_state state, size_t first, size_t count, double *values);
 /* Gets all faces, lines and points. Errors: FFD_E_MEMORY, FFD_E_LIMIT, and those of the file's content. */
-typedef ffd_status mesh_faces_function(const mesh_document *document, mesh_faces *faces, ffd_error *error);
+typedef ffd_status mesh_faces_function(const mesh_document *document, mesh_state state, mesh_faces *faces,
+                                       ffd_error *error);
 typedef struct vertex_marks vertex_marks; /* mixed_faces.h */
 /* Gets the faces whose vertices do not all have equal marks, and possibly others, with the positions of
    their vertices: only of these vertices if faces->numbers is set, otherwise the positions of other
    vertices are undefined. Vertices at the same position have equal marks. Errors: FFD_E_MEMORY,
    FFD_E_LIMIT, and those of the file's content. */
-typedef ffd_status mesh_mixed_faces_function(const mesh_document *document, const vertex_marks *marks,
-                                             mesh_faces *faces, ffd_error *error);
+typedef ffd_status mesh_mixed_faces_function(const mesh_document *document, mesh_state state,
+                                             const vertex_marks *marks, mesh_faces *faces, ffd_error *error);
 /* Fills an empty model, which the caller frees in every case, with the transformed mesh, and with the
-   results if there are any. */
-typedef ffd_status mesh_model_function(const mesh_document *document, mesh_model *model, ffd_error *error);
+   results if there are any; state must then be theirs. */
+typedef ffd_status mesh_model_function(const mesh_document *document, mesh_state state, mesh_model *model,
+                                       ffd_error *error);
+/* What the results of a document will be. */
+typedef struct mesh_results {
+    mesh_state state; /* the vectors that they replace */
+    bool directions;  /* normals and tangents are written, too */
+    bool converted; /* they are for another format (model), so they are not rounded to the quantization steps
+                       of the file, and morph targets and splats have none */
+    bool replace;   /* nobody reads the original values after results are written, so results may replace
+                       them; the same for all results of a document */
+} mesh_results;
 /* Begins results, before any is written: allocates memory, and frees the results of an earlier deformation of
    the document. */
-typedef ffd_status mesh_begin_results_function(mesh_document *document, bool normals, bool tangents,
+typedef ffd_status mesh_begin_results_function(mesh_document *document, const mesh_results *results,
                                                ffd_error *error);
 /* Results of vertices are written in ranges that begin at multiples of this. */
 #define MESH_RANGE_STEP ((size_t)1024)
-/* Write results. They may run in several threads on disjoint ranges, which begin at multiples of
+/* Writes results. It may run in several threads on disjoint ranges, which begin at multiples of
    MESH_RANGE_STEP if there is a vector for each vertex. changed: one byte for each vector; 0: unchanged (its
    values are then not read). Each vector is written at most once. */
-typedef void mesh_write_function(mesh_document *document, size_t part, size_t first, size_t count,
-                                 const double *values, const uint8_t *changed);
+typedef void mesh_write_function(mesh_document *document, size_t part, mesh_stream stream, size_t first,
+                                 size_t count, const double *values, const uint8_t *changed);
 /* Writes the file, and further files that belong to it, to output; byte-identical to the input if nothing
    changed. */
 typedef ffd_status mesh_save_function(mesh_document *document, const mesh_save_options *options,
@@ -293,17 +309,15 @@ typedef struct mesh_format {
     mesh_close_function *close;
     mesh_describe_function *describe;
     mesh_compare_function *compare;
-    mesh_read_function *read_positions;
+    mesh_read_function *read;
     mesh_faces_function *faces;
     mesh_mixed_faces_function *mixed_faces;
     mesh_model_function *model;
     mesh_begin_results_function *begin_results;
-    mesh_write_function *write_positions;
+    mesh_write_function *write;
     mesh_save_function *save;
 
     /* NULL: there is nothing of that kind. */
-    mesh_read_function *read_normals, *read_tangents;
-    mesh_write_function *write_normals, *write_tangents;
     mesh_check_function *check;
     mesh_check_reach_function *check_reach;
     /* Makes the checks of save that concern files other than the output itself; output is NULL, and nothing
@@ -338,19 +352,6 @@ struct mesh_document {
     /* Number of things whose faces, lines or points are unknown (the flaws say why); they are in no faces. */
     size_t unknown_drawings;
     bool used_is_marked; /* ffd_mesh_mark_used was called */
-    /* Set before results: they are for another format (model), so they are not rounded to the quantization
-       steps of the file. */
-    bool converted;
-    /* Set before the first results, and not changed: nobody reads the original values after results are
-       written, so results may replace them. */
-    bool results_replace;
-    /* Set by a job: positions, normals and tangents are read with the default weights of morph targets
-       applied, and results refer to these. */
-    bool shown;
-    /* Results are the offsets of a new morph target (keep_base); other targets stay. */
-    bool keeps_base;
-    /* Set by a job before it saves: new targets may be stored sparsely, without offsets of 0. */
-    bool sparse_targets;
 };
 
 /* Returns whether a part has shapes with weights other than 0. */

@@ -98,9 +98,8 @@ typedef struct mesh_anchors {
 typedef ffd_status mesh_read_skeleton_function(mesh_document *document, bool after, mesh_skeleton **skeleton,
                                                ffd_error *error);
 /* Fills anchors, which the caller frees in every case, with the vertices of the file, or with the results
-   of a deformation. The targets are those that loaded animations drive. shown: as for read_positions.
-   Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
-typedef ffd_status mesh_read_anchors_function(const mesh_skeleton *skeleton, bool after,
+   of a deformation. The targets are those that loaded animations drive. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
+typedef ffd_status mesh_read_anchors_function(const mesh_skeleton *skeleton, mesh_state state, bool after,
                                               mesh_anchors *anchors, ffd_error *error);
 
 struct mesh_rig_calls {

@@ -95,13 +95,13 @@ static void take_faces(const mesh_document *document)
     PROMISE(bytes, "no memory");
     for (size_t i = 0; i < count; i++)
         bytes[i] = i & 1;
-    ffd_status status = document->format->faces(document, &faces, &error);
+    ffd_status status = document->format->faces(document, MESH_STORED, &faces, &error);
     allow_refusal(status, &error);
     if (!status)
         take_normals(document, &faces);
     ffd_mesh_faces_free(&faces);
     const vertex_marks marks = {bytes, 1, count};
-    status = document->format->mixed_faces(document, &marks, &faces, &error);
+    status = document->format->mixed_faces(document, MESH_STORED, &marks, &faces, &error);
     allow_refusal(status, &error);
     ffd_mesh_faces_free(&faces);
     free(bytes);
@@ -119,7 +119,7 @@ static void convert(const mesh_document *document)
 {
     ffd_error error = {0};
     mesh_model model = {.wants_details = true};
-    allow_refusal(document->format->model(document, &model, &error), &error);
+    allow_refusal(document->format->model(document, MESH_STORED, &model, &error), &error);
     ffd_model_free(&model);
 }
 

@@ -89,13 +89,15 @@ typedef struct cloud {
     double xyz[PARTS][3 * MOST];
 } cloud;
 
-static void read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
-                           double *xyz)
+static void read_positions(const mesh_document *document, size_t part, mesh_stream stream, mesh_state state,
+                           size_t first, size_t count, double *xyz)
 {
+    (void)stream;
+    (void)state;
     memcpy(xyz, ((const cloud *)document)->xyz[part] + 3 * first, 3 * count * sizeof *xyz);
 }
 
-static const mesh_format cloud_format = {.name = "cloud", .read_positions = read_positions};
+static const mesh_format cloud_format = {.name = "cloud", .read = read_positions};
 
 /* Parts of 2600 (three tiles) and 1024 (one) vertices. */
 static cloud *make_cloud(void)

@@ -33,24 +33,25 @@ typedef struct cloud {
     double xyz[PARTS][3 * MOST];
 } cloud;
 
-static void read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
-                           double *xyz)
+static void read_positions(const mesh_document *document, size_t part, mesh_stream stream, mesh_state state,
+                           size_t first, size_t count, double *xyz)
 {
+    (void)stream;
+    (void)state;
     memcpy(xyz, ((const cloud *)document)->xyz[part] + 3 * first, 3 * count * sizeof *xyz);
 }
 
-static void write_positions(mesh_document *document, size_t part, size_t first, size_t count,
-                            const double *xyz, const uint8_t *changed)
+static void write_positions(mesh_document *document, size_t part, mesh_stream stream, size_t first,
+                            size_t count, const double *xyz, const uint8_t *changed)
 {
+    (void)stream;
     for (size_t i = 0; i < count; i++)
         if (changed[i])
             memcpy(((cloud *)document)->xyz[part] + 3 * (first + i), xyz + 3 * i, 3 * sizeof *xyz);
 }
 
-static const mesh_format cloud_format = {.name = "cloud",
-                                         .read_positions = read_positions,
-                                         .write_positions = write_positions,
-                                         .largest_coordinate = 1e300};
+static const mesh_format cloud_format = {
+    .name = "cloud", .read = read_positions, .write = write_positions, .largest_coordinate = 1e300};
 
 /* Points in [-3, 3]^3, and a last part whose matrix is singular. */
 static cloud *make_cloud(void)

@@ -27,21 +27,11 @@ static ffd_status warn(const mesh_document *document, const mesh_log *log, ffd_e
     return ffd_gltf_warn_of_faults(document, log, error);
 }
 
-static void read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
-                           double *xyz)
+static void read(const mesh_document *document, size_t part, mesh_stream stream, mesh_state state,
+                 size_t first, size_t count, double *values)
 {
-    ffd_gltf_read_shown(ffd_gltf_of(document), part, GLTF_POSITION, first, count, 3, xyz);
-}
-
-static void read_normals(const mesh_document *document, size_t part, size_t first, size_t count, double *xyz)
-{
-    ffd_gltf_read_shown(ffd_gltf_of(document), part, GLTF_NORMAL, first, count, 3, xyz);
-}
-
-static void read_tangents(const mesh_document *document, size_t part, size_t first, size_t count,
-                          double *xyzw)
-{
-    ffd_gltf_read_shown(ffd_gltf_of(document), part, GLTF_TANGENT, first, count, 4, xyzw);
+    ffd_gltf_read_shown(ffd_gltf_of(document), part, (gltf_semantic)stream, state, first, count,
+                        stream == MESH_TANGENTS ? 4 : 3, values);
 }
 
 static void read_offsets(const mesh_document *document, size_t part, size_t shape, mesh_stream stream,
@@ -52,10 +42,10 @@ static void read_offsets(const mesh_document *document, size_t part, size_t shap
     ffd_gltf_read(d, d->parts[target].streams[stream].accessor, first, count, 3, xyz);
 }
 
-static ffd_status begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error)
+static ffd_status begin_results(mesh_document *document, const mesh_results *results, ffd_error *error)
 {
     ffd_gltf_free_rig((gltf_document *)document);
-    TRY(ffd_gltf_begin_results(document, normals, tangents, error));
+    TRY(ffd_gltf_begin_results(document, results, error));
     return ffd_gltf_begin_splats((gltf_document *)document, error);
 }
 
@@ -119,13 +109,9 @@ const mesh_format ffd_gltf_format = {
     .largest_coordinate = FLT_MAX,
     .read_transforms = ffd_gltf_read_transforms,
     .mark_used = ffd_gltf_mark_used,
-    .read_positions = read_positions,
-    .read_normals = read_normals,
-    .read_tangents = read_tangents,
+    .read = read,
     .begin_results = begin_results,
-    .write_positions = ffd_gltf_write_positions,
-    .write_normals = ffd_gltf_write_normals,
-    .write_tangents = ffd_gltf_write_tangents,
+    .write = ffd_gltf_write,
     .save = save,
     .check_save = ffd_gltf_save,
     .faces = ffd_gltf_faces,

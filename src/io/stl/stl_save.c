@@ -13,7 +13,7 @@ typedef struct stl_saver {
 
 static void corners_before(const stl_document *d, size_t facet, double corners[9])
 {
-    ffd_stl_read_positions(&d->file.base, 0, 3 * facet, 3, corners);
+    ffd_stl_read_corners(d, 3 * facet, 3, corners);
 }
 
 /* Computes the unit normal of a moved facet from its corners as written. It points to the side of the old

@@ -40,7 +40,7 @@ static void hash_tile(void *context, size_t tile, size_t first, size_t last, int
     const part_hashes *work = context;
     double xyz[3 * TILE];
     (void)worker;
-    ffd_source_positions(work->document, work->part, first, last - first, xyz);
+    ffd_source_positions(work->document, MESH_STORED, work->part, first, last - first, xyz);
     work->tiles[tile] = ffd_hash_doubles(xyz, 3 * (last - first));
 }
 

@@ -90,10 +90,10 @@ static ffd_status check_desc(const view_work *work, ffd_error *error)
     return status || desc->sink ? status : ffd_output_check(desc->output, desc->force, error);
 }
 
-/* Whether to show the shape with default weights of morph targets instead of the stored one. */
-static bool shows_shapes(const view_work *work, const mesh_document *document)
+/* What is shown of a mesh: the base, or what default weights of morph targets make of it. */
+static mesh_state shown_state(const view_work *work, const mesh_document *document)
 {
-    return !work->job.stored && ffd_mesh_shows_shapes(document);
+    return !work->job.stored && ffd_mesh_shows_shapes(document) ? MESH_SHOWN : MESH_STORED;
 }
 
 /* Reads the mesh in the shape that is shown. */
@@ -103,11 +103,9 @@ static ffd_status read_model(view_work *work, ffd_error *error)
     mesh_model *const model = &work->model;
     model->budget = &document->budget;
     model->wants_details = true;
-    document->shown = shows_shapes(work, document);
     const uint64_t before = document->budget.taken;
-    const ffd_status status = document->format->model(document, model, error);
+    const ffd_status status = document->format->model(document, shown_state(work, document), model, error);
     work->model_bytes = document->budget.taken - before;
-    document->shown = false;
     if (status || !document->format->list_materials)
         return status;
     /* A page shows no images. */
@@ -145,7 +143,7 @@ static ffd_status make_rigs(view_work *work, bool deformed, ffd_error *error)
                                  .deformed = deformed,
                                  .follows = deformed && desc->job->rig == FFD_RIG_FOLLOW,
                                  .gradients = work->details.gradients,
-                                 .shown = !work->job.stored,
+                                 .state = work->job.stored ? MESH_STORED : MESH_SHOWN,
                                  .before_name = ffd_source_name(&desc->job->input),
                                  .after_name = desc->deformed ? ffd_source_name(desc->deformed) : NULL,
                                  .animation = desc->animation,
@@ -184,7 +182,7 @@ static ffd_status run_job(view_work *work, ffd_job_result *result, ffd_error *er
     TRY(check_mesh(work, &work->desc->job->input, job->document, error));
     TRY(read_model(work, error));
     /* Deform the shape with default weights, as for a conversion. */
-    job->document->converted = shows_shapes(work, job->document);
+    job->converts = shown_state(work, job->document) == MESH_SHOWN;
     job->details = &work->details;
     ffd_status status = ffd_deform_job_run(job, result, &result->error);
     result->status = status;
@@ -231,12 +229,12 @@ static ffd_status read_positions(const view_work *work, mesh_document *document,
     *positions = ffd_alloc(count, 3 * sizeof **positions);
     if (!*positions)
         return ffd_fail_memory(error);
-    document->shown = shows_shapes(work, document);
     for (size_t i = 0; i < document->part_count; i++) {
         const mesh_part *const part = &document->parts[i];
         if (part->repeats_positions)
             continue;
-        ffd_source_positions(document, i, 0, part->vertex_count, *positions + 3 * first);
+        ffd_source_positions(document, shown_state(work, document), i, 0, part->vertex_count,
+                             *positions + 3 * first);
         first += part->vertex_count;
     }
     return FFD_OK;

@@ -190,10 +190,7 @@ static ffd_status read_anchors(const view_rigs_desc *desc, mesh_document *docume
 {
     if (!rig->skeleton || !rig->skeleton->starts)
         return FFD_OK;
-    document->shown = desc->shown && ffd_mesh_shows_shapes(document);
-    const ffd_status status = document->format->rig->read_anchors(rig->skeleton, after, &rig->anchors, error);
-    document->shown = false;
-    return status;
+    return document->format->rig->read_anchors(rig->skeleton, desc->state, after, &rig->anchors, error);
 }
 
 /* A job that deforms the shape with default weights has no deformed targets. Transform their offsets by the

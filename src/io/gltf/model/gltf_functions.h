@@ -44,9 +44,7 @@ mesh_read_transforms_function ffd_gltf_read_transforms;
 ffd_status ffd_gltf_warn_of_faults(const mesh_document *document, const mesh_log *log, ffd_error *error);
 
 mesh_begin_results_function ffd_gltf_begin_results;
-mesh_write_function ffd_gltf_write_positions;
-mesh_write_function ffd_gltf_write_normals;
-mesh_write_function ffd_gltf_write_tangents;
+mesh_write_function ffd_gltf_write;
 mesh_write_offsets_function ffd_gltf_write_offsets;
 
 mesh_read_splats_function ffd_gltf_read_splats;

@@ -196,13 +196,13 @@ typedef struct gltf_document {
     size_t shape_count;
     size_t splat_groups;    /* number of elements of parts that hold splats, after those of shapes */
     atomic_size_t unturned; /* splats whose harmonics could not be turned: they are not finite numbers */
+    mesh_results results;   /* as they were begun */
     /* Results are offsets of a further morph target of this name; NULL: results are not offsets. */
     char *morph_name;
     gltf_morph *morphs; /* morph_count: the further morph targets before it, complete */
     size_t morph_count, morph_capacity;
     const morph_clip *clips; /* clip_count, lent: animations to add */
     size_t clip_count;
-    bool morph_normals; /* whether the further morph target has offsets of normals and tangents too */
     /* Number of accessors at the end of the model that the file did not have: zeros without bytes. */
     size_t own_accessors;
     gltf_instanced_node *instanced_nodes; /* in the order of nodes */
