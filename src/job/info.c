@@ -80,8 +80,3 @@ ffd_status ffd_info_run(const ffd_info_desc *callers, char **text, ffd_error *er
     ffd_buffer_free(&facts);
     return status;
 }
-
-void ffd_text_free(char *text)
-{
-    ffd_free(text);
-}

@@ -41,7 +41,7 @@ ffd_status ffd_info_mesh(const ffd_info_desc *desc, json_text *json, ffd_error *
 ffd_status ffd_info_document(const mesh_document *document, json_text *json, ffd_error *error);
 
 /* Renders a JSON object (size bytes) as aligned lines: a member a line, the members of an inner object
-   indented below its name, "format" and "version" left out. *text is freed with ffd_text_free. */
+   indented below its name, "format" and "version" left out. *text is freed with ffd_free. */
 ffd_status ffd_info_render(const char *json, size_t size, char **text, ffd_error *error);
 
 #endif

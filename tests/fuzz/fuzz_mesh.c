@@ -54,7 +54,7 @@ static void check_description(const mesh_document *document)
     char *text;
     PROMISE(ffd_info_render(out.data, out.size, &text, &error) == FFD_OK, "cannot be told: %s",
             error.message);
-    ffd_text_free(text);
+    ffd_free(text);
     ffd_buffer_free(&out);
 }
 
