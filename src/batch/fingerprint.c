@@ -145,8 +145,8 @@ ffd_status ffd_fingerprint_inputs(const ffd_deform_desc *desc, const fingerprint
         status = add_images_of_input(&list, cache, desc, files, error);
     for (size_t i = 0; i < desc->lattice_count && !status; i++)
         status = ffd_paths_add(&others, desc->lattices[i].path, error);
-    if (!status && desc->embedding)
-        status = ffd_paths_add(&others, desc->embedding, error);
+    if (!status && desc->embedding.path)
+        status = ffd_paths_add(&others, desc->embedding.path, error);
     if (!status)
         status = add_files(&list, cache, &others, error);
     for (size_t i = 0; i < others.count && !status; i++)

@@ -140,8 +140,9 @@ static ffd_status make_rule(const deform_job *job, path_list *inputs, byte_buffe
         const char *const path = ffd_lattice_file(&desc->lattices[i]);
         TRY(path ? ffd_paths_add(inputs, path, error) : FFD_OK);
     }
-    if (desc->embedding && !desc->embedding_bytes.data && !ffd_file_is_stream(desc->embedding))
-        TRY(ffd_paths_add(inputs, desc->embedding, error));
+    const char *const embedding = desc->embedding.bytes.data ? NULL : desc->embedding.path;
+    if (embedding && !ffd_file_is_stream(embedding))
+        TRY(ffd_paths_add(inputs, embedding, error));
     for (size_t i = 0; i < job->chain.count; i++)
         TRY(add_paths(inputs, &job->chain.links[i].box_files, error));
     if (desc->shared_box && goes_round_all(job))

@@ -32,8 +32,8 @@
 
 static ffd_status check_embedding(const ffd_deform_desc *desc, ffd_error *error)
 {
-    const char *embedding = desc->embedding;
-    if (!embedding || desc->embedding_bytes.data)
+    const char *embedding = desc->embedding.path;
+    if (!embedding || desc->embedding.bytes.data)
         return FFD_OK;
     if (strcmp(embedding, "-") == 0 &&
         (strcmp(desc->input.path, "-") == 0 || ffd_lattice_is_stream(&desc->lattices[0])))
@@ -278,13 +278,12 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, figure_arrays 
 
 static ffd_status locate(deform_job *job, ffd_error *error)
 {
-    const char *embedding = job->desc->embedding;
     TRY(ffd_chain_fit(&job->chain, job->document, job->threads, error));
-    if (!embedding)
+    if (!job->desc->embedding.path)
         return FFD_OK;
     const chain_link *const link = &job->chain.links[0];
-    return ffd_embedding_reuse(embedding, job->desc->embedding_bytes, job->document, link->lattice,
-                               link->snap, job->threads, &job->embedding, error);
+    return ffd_embedding_reuse(&job->desc->embedding, job->document, link->lattice, link->snap, job->threads,
+                               &job->embedding, error);
 }
 
 /* Whether nodes and other places matter: conversions and arrays of positions do not contain them. */

@@ -62,14 +62,14 @@ static ffd_status recompute(deform_job *job, mesh_state state, const figure_arra
    It also gives the positions to the caller. */
 static ffd_status pass_over_stored(deform_job *job, mesh_pass *pass, pass_totals *totals, ffd_error *error)
 {
-    const bool keeps = job->chain.count == 1 && !job->desc->embedding && !job->forgets_locations;
+    const bool keeps = job->chain.count == 1 && !job->desc->embedding.path && !job->forgets_locations;
     ffd_job_cache *const cache = keeps ? job->desc->cache : NULL;
     const hash128 rest = located_in(&job->chain.links[0]);
     pass->locations =
         ffd_job_cache_locations(cache, job->document, job->document_is_shared, &rest, &pass->is_located);
-    pass->embedding = job->desc->embedding ? &job->embedding : NULL;
+    pass->embedding = job->desc->embedding.path ? &job->embedding : NULL;
     pass->deformed = pass->deformed ? pass->deformed : job->positions;
-    if (!pass->is_located && !job->desc->embedding)
+    if (!pass->is_located && !job->desc->embedding.path)
         ffd_job_cache_count_search(job->desc->cache);
     TRY(ffd_pass_run(pass, totals, error));
     ffd_job_cache_locations_filled(cache);

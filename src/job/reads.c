@@ -71,7 +71,8 @@ bool ffd_job_reads_mesh(const ffd_source *source, const char *path)
 
 bool ffd_job_reads_embedding(const ffd_deform_desc *desc, const char *path)
 {
-    return desc->embedding && !desc->embedding_bytes.data && ffd_file_same(path, desc->embedding);
+    const ffd_embedding_source *const embedding = &desc->embedding;
+    return embedding->path && !embedding->bytes.data && ffd_file_same(path, embedding->path);
 }
 
 bool ffd_job_reads_lattice(const ffd_lattice_source *lattices, size_t count, const char *path)

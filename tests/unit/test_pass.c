@@ -437,7 +437,7 @@ static void write_embedding(const lattice_chain *chain, const double *uvw, const
     assert_int_equal(ffd_embedding_write(output, uvw, statuses, NUMBERED, &positions, &rest, NULL), FFD_OK);
     assert_int_equal(ffd_output_commit(output, NULL), FFD_OK);
     ffd_output_destroy(&output);
-    assert_int_equal(ffd_embedding_reuse(in_folder("e.npy"), (ffd_bytes){0}, &mesh->head,
+    assert_int_equal(ffd_embedding_reuse(&(ffd_embedding_source){.path = in_folder("e.npy")}, &mesh->head,
                                          chain->links[0].lattice, 0, 1, file, NULL),
                      FFD_OK);
     free(mesh);

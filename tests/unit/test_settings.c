@@ -159,7 +159,7 @@ static void an_embedding_in_memory_has_the_rules_of_a_file(void **state)
     ffd_deform_desc desc;
     ffd_error error;
     ffd_deform_desc_init(&desc, sizeof desc);
-    desc.embedding_bytes = (ffd_bytes){&byte, 1};
+    desc.embedding.bytes = (ffd_bytes){&byte, 1};
     set(&desc, "lattices");
     assert_int_equal(ffd_deform_desc_check(&desc, &error), FFD_OK);
     desc.blocks = true;
