@@ -214,10 +214,11 @@ static ffd_status embed_image(resources *r, size_t index, char *path, ffd_error 
 {
     const gltf_document *d = r->saver->document;
     const mesh_resource image = {path, &ffd_resource_image, index};
-    const char *left = ffd_resource_is_outside(&r->copier, path) ? "is outside the model's folder" : NULL;
+    const char *left =
+        ffd_resource_is_outside(&r->copier.mesh, path) ? "is outside the model's folder" : NULL;
     ffd_error refused = {0};
     file_input bytes = {0};
-    TRY(left ? FFD_OK : ffd_resource_load(&r->copier, &image, &bytes, &left, &refused, error));
+    TRY(left ? FFD_OK : ffd_resource_load(&r->copier.mesh, &image, &bytes, &left, &refused, error));
     if (refused.status)
         return ffd_json_tree_fail(&d->tree, d->image_values.values[index], d->name, FFD_E_IO, error,
                                   "the image \"%s\" cannot be put into the output: %s; {resources=reference} "
