@@ -14,6 +14,7 @@
 #include "job/input/in_memory.h"
 #include "job/input/shown_box.h"
 #include "job/input/source.h"
+#include "job/job_call.h"
 #include "job/morphs.h"
 #include "job/reads.h"
 #include "job/report/depfile.h"
@@ -352,30 +353,33 @@ static ffd_status deform_and_save(deform_job *job, ffd_job_result *result, ffd_e
 }
 
 /* Several morph targets share the locations of the vertices through a cache of the job's own. */
-static ffd_status run_deform_job(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
+static ffd_status share_locations(ffd_deform_desc *desc, ffd_job_cache **cache, ffd_error *error)
 {
-    ffd_job_cache *cache = NULL;
-    ffd_deform_desc own = *desc;
-    deform_job job;
-    if (!ffd_deform_desc_writes(desc)) /* normals are not written */
-        own.normals = FFD_NORMALS_KEEP;
-    if (desc->morphs && !ffd_job_cache_holds_meshes(desc->cache)) {
-        if (ffd_job_cache_create_for_job(&cache, error)) {
-            ffd_result_clear(result);
-            return result->status = ffd_fail_memory(&result->error);
-        }
-        own.cache = cache;
-    }
-    ffd_status status = ffd_deform_job_begin(&job, &own, false, result);
-    if (!status)
-        status = deform_and_save(&job, result, &result->error);
-    ffd_morphs_end(&job);
-    status = ffd_deform_job_end(&job, status, result, error);
-    ffd_job_cache_destroy(&cache);
-    return status;
+    *cache = NULL;
+    if (!desc->morphs || ffd_job_cache_holds_meshes(desc->cache))
+        return FFD_OK;
+    TRY(ffd_job_cache_create_for_job(cache, error));
+    desc->cache = *cache;
+    return FFD_OK;
 }
 
 ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
 {
-    return ffd_job_for_caller(run_deform_job, desc, result, error);
+    job_call call;
+    deform_job job;
+    ffd_job_cache *cache = NULL;
+    ffd_status status = ffd_job_call_begin(&call, desc, result, error);
+    if (!status && !ffd_deform_desc_writes(&call.desc)) /* normals are not written */
+        call.desc.normals = FFD_NORMALS_KEEP;
+    if (!status)
+        status = share_locations(&call.desc, &cache, &call.result.error);
+    if (!status) {
+        status = ffd_deform_job_begin(&job, &call.desc, false, &call.result);
+        if (!status)
+            status = deform_and_save(&job, &call.result, &call.result.error);
+        ffd_morphs_end(&job);
+        status = ffd_deform_job_end(&job, status, &call.result, NULL);
+    }
+    ffd_job_cache_destroy(&cache);
+    return ffd_job_call_end(&call, status, error);
 }

@@ -2,7 +2,6 @@
 #include "base/file/mapping.h"
 #include "base/memory/memory.h"
 #include "base/spelling.h"
-#include "base/struct_size.h"
 #include "base/system/clock.h"
 #include "base/system/deadline.h"
 #include "base/system/thread.h"
@@ -14,7 +13,6 @@
 #include "job/deform_passes.h"
 #include "job/figures/figure_values.h"
 #include "job/input/deform_desc.h"
-#include "job/input/in_memory.h"
 #include "job/input/selection.h"
 #include "job/input/source.h"
 #include "job/judge/gates.h"
@@ -64,55 +62,6 @@ static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
                         "this build or this processor does not support the instruction set %s",
                         ffd_isa_name(desc->isa));
     return check_embedding(desc, error);
-}
-
-/* Runs a job with structs of this library's size, and with names for what is in memory. size: of each of the
-   caller's results of morph targets. */
-static ffd_status run_own(deform_job_function run, const ffd_deform_desc *callers, ffd_job_result *result,
-                          size_t size)
-{
-    ffd_deform_desc desc = *callers;
-    ffd_job_result *morphs = NULL;
-    job_memory memory = {0};
-    ffd_status status = ffd_chain_check_count(desc.lattice_count, &result->error);
-    if (!status)
-        status = ffd_in_memory_desc(&memory, &desc, &result->error);
-    if (!status && callers->morph_results) {
-        desc.morph_results = morphs = ffd_alloc_zero(desc.lattice_count, sizeof *morphs);
-        status = morphs ? FFD_OK : ffd_fail_memory(&result->error);
-    }
-    if (!status)
-        status = run(&desc, result, &result->error);
-    for (size_t k = 0; k < desc.lattice_count && morphs; k++)
-        ffd_struct_give(&morphs[k], sizeof morphs[k], (char *)callers->morph_results + k * size, size);
-    status = ffd_in_memory_end(&memory, status, &result->error);
-    if (result->morphs.results)
-        result->morphs.results = callers->morph_results;
-    if (result->morphs.lattices)
-        result->morphs.lattices = callers->lattices;
-    ffd_free(morphs);
-    return status;
-}
-
-ffd_status ffd_job_for_caller(deform_job_function run, const ffd_deform_desc *callers,
-                              ffd_job_result *callers_result, ffd_error *error)
-{
-    ffd_deform_desc desc;
-    ffd_job_result result;
-    ffd_result_clear(&result);
-    TRY(ffd_struct_check(sizeof result, callers_result, "ffd_job_result", error));
-    const size_t size = callers_result->struct_size;
-    deadline own;
-    ffd_status status = ffd_deform_desc_take(callers, &desc, &result.error);
-    const deadline *const before = ffd_deadline_begin(&own, status ? 0 : desc.timeout);
-    if (!status)
-        status = run_own(run, &desc, &result, size);
-    ffd_deadline_end(before);
-    if (status && error)
-        *error = result.error;
-    result.status = status;
-    ffd_struct_give(&result, sizeof result, callers_result, size);
-    return status;
 }
 
 ffd_status ffd_deform_job_begin(deform_job *job, const ffd_deform_desc *desc, bool check,

@@ -4,14 +4,6 @@
 
 #include "job/measure/job_state.h"
 
-/* Runs a job. The structs have this library's sizes. */
-typedef ffd_status (*deform_job_function)(const ffd_deform_desc *desc, ffd_job_result *result,
-                                          ffd_error *error);
-
-/* Runs a job for a caller whose structs may have the sizes of an older header. */
-ffd_status ffd_job_for_caller(deform_job_function run, const ffd_deform_desc *desc, ffd_job_result *result,
-                              ffd_error *error);
-
 /* Clears result, checks the options that do not concern the output, and takes desc. Errors, stored in result:
    FFD_E_ARGUMENT, FFD_E_EXISTS. */
 ffd_status ffd_deform_job_begin(deform_job *job, const ffd_deform_desc *desc, bool check,
