@@ -170,7 +170,7 @@ static ffd_status find_copies(const char *path, const mesh_format *format, path_
 }
 
 /* Lists the files that the output refers to: its buffers, and images and material libraries
-   (format.find_resources finds those that were copied), which may be missing. */
+   (find_copied finds those that were copied), which may be missing. */
 static ffd_status list_output(const ffd_source *output, bool has_copies, path_list *files, path_list *images,
                               ffd_error *error)
 {

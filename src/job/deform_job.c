@@ -346,7 +346,7 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
     if (!status)
         status = move_rig(job, error);
     if (!status)
-        status = ffd_passes_run(job, &arrays, &stored, error);
+        status = ffd_deform_passes(job, &arrays, &stored, error);
     ffd_figures_free(&stored);
     if (!status) {
         ffd_result_fill(result, &job->totals, ffd_clock_seconds() - prepared);

@@ -71,7 +71,7 @@ static ffd_status pass_over_stored(deform_job *job, mesh_pass *pass, pass_totals
     pass->deformed = pass->deformed ? pass->deformed : job->positions;
     if (!pass->is_located && !job->desc->embedding.path)
         ffd_job_cache_count_search(job->desc->cache);
-    TRY(ffd_pass_run(pass, totals, error));
+    TRY(ffd_pass_over_mesh(pass, totals, error));
     ffd_job_cache_locations_filled(cache);
     if (job->positions && pass->deformed != job->positions)
         memcpy(job->positions, pass->deformed,
@@ -97,15 +97,15 @@ static ffd_status pass_over_both(deform_job *job, const figure_arrays *figures, 
         TRY(recompute(job, MESH_STORED, stored, counts, error));
     fill_figures(job, figures, &shown);
     shown.discards = !writes_shown;
-    ffd_status status = ffd_pass_run(&shown, &job->totals, error);
+    ffd_status status = ffd_pass_over_mesh(&shown, &job->totals, error);
     if (!status && writes_shown && job->totals.moved)
         status = recompute(job, MESH_SHOWN, figures, counts, error);
     ffd_totals_add_stored(&of_stored, pass.write, &job->totals);
     return status;
 }
 
-ffd_status ffd_passes_run(deform_job *job, const figure_arrays *figures, const figure_arrays *stored,
-                          ffd_error *error)
+ffd_status ffd_deform_passes(deform_job *job, const figure_arrays *figures, const figure_arrays *stored,
+                             ffd_error *error)
 {
     recompute_counts counts = {0};
     chain_pace pace = {.points = (double)ffd_mesh_vertex_count(job->document),

@@ -9,9 +9,9 @@
 
 /* Sends the mesh through the chain: fills the results, job->totals, job->positions and the arrays, and
    recomputes normals. figures: of the shape that is judged. stored: of the base, if normals are recomputed
-   and the results are of another shape than the figures; else empty. Errors: those of ffd_pass_run and
+   and the results are of another shape than the figures; else empty. Errors: those of ffd_pass_over_mesh and
    ffd_recompute_normals. */
-ffd_status ffd_passes_run(deform_job *job, const figure_arrays *figures, const figure_arrays *stored,
-                          ffd_error *error);
+ffd_status ffd_deform_passes(deform_job *job, const figure_arrays *figures, const figure_arrays *stored,
+                             ffd_error *error);
 
 #endif

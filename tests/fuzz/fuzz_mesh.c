@@ -230,7 +230,7 @@ static double *deformed_positions(const trial *of, const uint8_t *data, size_t s
     double *const deformed = malloc((size_t)ffd_mesh_vertex_count(document) * 3 * sizeof *deformed + 1);
     const mesh_pass pass = {
         .document = document, .chain = &chain, .links = 1, .threads = 1, .deformed = deformed};
-    PROMISE(deformed && ffd_pass_run(&pass, &totals, &error) == FFD_OK, "no pass");
+    PROMISE(deformed && ffd_pass_over_mesh(&pass, &totals, &error) == FFD_OK, "no pass");
     ffd_chain_free(&chain);
     ffd_source_close(&document);
     return deformed;

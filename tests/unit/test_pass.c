@@ -127,7 +127,7 @@ static outcome *run_on(cloud *mesh, const lattice_chain *chain, const embedding_
                             .deformed = made->deformed,
                             .gradients = made->gradients,
                             .determinants = true};
-    assert_int_equal(ffd_pass_run(&pass, &made->totals, NULL), FFD_OK);
+    assert_int_equal(ffd_pass_over_mesh(&pass, &made->totals, NULL), FFD_OK);
     made->totals.embed_seconds = made->totals.deform_seconds = 0;
     return made;
 }
@@ -348,7 +348,7 @@ static void without_gradients_there_are_no_determinants(void **state)
     cloud *mesh = make_cloud();
     pass_totals totals;
     const mesh_pass pass = {.document = &mesh->head, .chain = &chain, .links = 1, .threads = 1};
-    assert_int_equal(ffd_pass_run(&pass, &totals, NULL), FFD_OK);
+    assert_int_equal(ffd_pass_over_mesh(&pass, &totals, NULL), FFD_OK);
     assert_true(totals.det_min > totals.det_max);
     free(mesh);
     ffd_chain_free(&chain);

@@ -61,7 +61,7 @@ typedef struct obj_unknown {
 
 typedef struct obj_document {
     /* positions: of each `v`; directions: of each `vn`, NULL: not held; new_directions: of each pair. Results
-       may be where what was read was (results_replace). */
+       may be where what was read was (mesh_results.replace). */
     file_document file;
     size_t vertices, texcoords, normals;                       /* `v`, `vt`, `vn` */
     size_t faces, corners, lines, points;                      /* statements; corners of faces */

@@ -16,7 +16,7 @@ ffd_status ffd_ply_bring_textures(const ply_header *header, const file_folder *f
                                   const mesh_save_options *options, file_output *output, const mesh_log *log,
                                   ffd_error *error);
 
-/* mesh_format's find_resources and find_named. */
+/* The calls of mesh_resource_calls. */
 mesh_find_copied_function ffd_ply_find_textures;
 mesh_find_named_function ffd_ply_find_named;
 

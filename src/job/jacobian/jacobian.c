@@ -105,7 +105,7 @@ static ffd_status make(jacobian *j, ffd_jacobian_result *result, ffd_error *erro
     return status;
 }
 
-static ffd_status run(const ffd_jacobian_desc *desc, ffd_jacobian_result *result, ffd_error *error)
+static ffd_status differentiate(const ffd_jacobian_desc *desc, ffd_jacobian_result *result, ffd_error *error)
 {
     ffd_job_result figures;
     jacobian j = {.desc = desc};
@@ -160,7 +160,7 @@ ffd_status ffd_jacobian_run(const ffd_jacobian_desc *callers, ffd_jacobian_resul
     deadline limit;
     const deadline *const before = ffd_deadline_begin(&limit, runs ? job.timeout : 0);
     if (runs)
-        status = run(&desc, &result, &own);
+        status = differentiate(&desc, &result, &own);
     ffd_deadline_end(before);
     status = ffd_in_memory_end(&memory, status, &own);
     if (status && error)

@@ -420,7 +420,7 @@ static gradient_need find_need(const pass_tile *tile, bool directions)
 }
 
 /* Sends the selected vertices through the lattices. */
-static ffd_status deform_points(const pass_tile *tile, const gradient_need *need, ffd_error *error)
+static ffd_status send_points(const pass_tile *tile, const gradient_need *need, ffd_error *error)
 {
     const mesh_pass *const pass = tile->pass;
     const bool counts = !tile->part->repeats_positions;
@@ -470,7 +470,7 @@ static ffd_status deform_tile(const pass_tile *tile, ffd_error *error)
 
     take_points(tile);
     TRY(ffd_deadline_check(error));
-    TRY(deform_points(tile, &need, error));
+    TRY(send_points(tile, &need, error));
     if (need.turns)
         note_turns(tile);
     spread(tile);
@@ -571,7 +571,7 @@ static int worker_count(const mesh_pass *pass)
     return most < (size_t)pass->threads ? (int)most : pass->threads;
 }
 
-static ffd_status deform_part(part_work *work, pass_totals *totals, ffd_error *error)
+static ffd_status pass_over_part(part_work *work, pass_totals *totals, ffd_error *error)
 {
     const size_t count = work->whole.count, size = tile_size(count), tiles = tile_count(count);
     work->tiles = ffd_alloc_zero(tiles, sizeof *work->tiles);
@@ -647,7 +647,7 @@ static tile_scratch *make_scratch(const mesh_pass *pass, int workers)
     return scratch;
 }
 
-ffd_status ffd_pass_run(const mesh_pass *pass, pass_totals *totals, ffd_error *error)
+ffd_status ffd_pass_over_mesh(const mesh_pass *pass, pass_totals *totals, ffd_error *error)
 {
     part_work work = {.whole = {.pass = pass}, .workers = worker_count(pass)};
     ffd_status status = FFD_OK;
@@ -662,7 +662,7 @@ ffd_status ffd_pass_run(const mesh_pass *pass, pass_totals *totals, ffd_error *e
         work.whole.part_number = i;
         work.whole.count = part->vertex_count;
         const uint64_t moved = totals->moved;
-        status = deform_part(&work, totals, error);
+        status = pass_over_part(&work, totals, error);
         if (part->splats && !ffd_pass_takes_splats(pass, part))
             ffd_totals_note_splats(totals, i, totals->moved - moved);
         if (!part->repeats_positions)

@@ -350,7 +350,7 @@ static void warn_of_unused(const view_work *work)
             names);
 }
 
-static ffd_status run(view_work *work, ffd_job_result *result, ffd_error *error)
+static ffd_status make_view(view_work *work, ffd_job_result *result, ffd_error *error)
 {
     const bool deforms = !work->desc->deformed && work->desc->job->lattice_count > 0;
     TRY(check_desc(work, error));
@@ -383,7 +383,7 @@ static ffd_status view(const ffd_view_desc *desc, ffd_job_result *result, ffd_er
     ffd_status status = ffd_deform_job_begin(&work.job, desc->job, true, result);
     work.job.stored = desc->as_stored;
     if (!status) {
-        status = run(&work, result, &own);
+        status = make_view(&work, result, &own);
         if (status) {
             result->error = own;
         } else {

@@ -16,7 +16,7 @@ ffd_status ffd_obj_bring_resources(const file_input *input, const file_folder *f
                                    const mesh_save_options *options, file_output *output, const mesh_log *log,
                                    ffd_error *error);
 
-/* mesh_format's find_resources. */
+/* mesh_resource_calls' find_copied. */
 mesh_find_copied_function ffd_obj_find_resources;
 /* mesh_format's find_named. */
 mesh_find_named_function ffd_obj_find_named;
