@@ -10,7 +10,7 @@ ffd_status ffd_check_run(const ffd_deform_desc *desc, ffd_job_result *result, ff
     if (!status) {
         status = ffd_deform_job_begin(&job, &call.desc, true, &call.result);
         if (!status)
-            status = ffd_deform_job_open(&job, &call.result, &call.result.error);
+            status = ffd_deform_job_open(&job, JOB_NEEDS_NORMALS, &call.result, &call.result.error);
         if (!status)
             status = ffd_deform_job_run(&job, &call.result, &call.result.error);
         status = ffd_deform_job_end(&job, status, &call.result, NULL);

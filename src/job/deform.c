@@ -323,31 +323,20 @@ static ffd_status write_output(deform_job *job, mesh_save_options *options, ffd_
 static ffd_status deform_and_save(deform_job *job, ffd_job_result *result, ffd_error *error)
 {
     mesh_save_options options;
-    ffd_status status = restore_output(job->desc, error);
-    if (!status)
-        status = resolve_output(job->desc, &options, error);
-    if (!status)
-        status = check_morph(job, &options, error);
-    if (!status)
-        status = ffd_morphs_begin(job, error);
-    job->only_positions = !status && needs_only_positions(job->desc, &options);
-    if (!status)
-        status = ffd_deform_job_open(job, result, error);
-    if (!status)
-        status = check_reads(job, options.path, error);
-    if (!status)
-        status = check_rig(job, &options, error);
-    if (!status)
-        status = ffd_conversion_check(job->document, options.format, error);
-    if (!status)
-        status = begin_morph(job, error);
-    if (!status)
-        job->converts = ffd_conversion_needed(job->document, options.format);
-    if (!status)
-        status =
-            job->desc->morphs ? ffd_morphs_run(job, result, error) : ffd_deform_job_run(job, result, error);
-    if (status || !ffd_deform_desc_writes(job->desc))
-        return status;
+    TRY(restore_output(job->desc, error));
+    TRY(resolve_output(job->desc, &options, error));
+    TRY(check_morph(job, &options, error));
+    TRY(ffd_morphs_begin(job, error));
+    const unsigned needs = needs_only_positions(job->desc, &options) ? 0 : JOB_NEEDS_NORMALS;
+    TRY(ffd_deform_job_open(job, needs, result, error));
+    TRY(check_reads(job, options.path, error));
+    TRY(check_rig(job, &options, error));
+    TRY(ffd_conversion_check(job->document, options.format, error));
+    TRY(begin_morph(job, error));
+    job->converts = ffd_conversion_needed(job->document, options.format);
+    TRY(job->desc->morphs ? ffd_morphs_run(job, result, error) : ffd_deform_job_run(job, result, error));
+    if (!ffd_deform_desc_writes(job->desc))
+        return FFD_OK;
     warn_of_ending(job, &options);
     return write_output(job, &options, result, error);
 }

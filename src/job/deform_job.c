@@ -79,11 +79,11 @@ ffd_status ffd_deform_job_begin(deform_job *job, const ffd_deform_desc *desc, bo
     return status;
 }
 
-static ffd_status open_mesh(deform_job *job, ffd_error *error)
+static ffd_status open_mesh(deform_job *job, bool only_positions, ffd_error *error)
 {
     const ffd_deform_desc *desc = job->desc;
     ffd_source source = desc->input;
-    source.only_positions = job->only_positions;
+    source.only_positions = only_positions;
     file_stamp stamp;
     file_input bytes;
     const bool is_file =
@@ -93,13 +93,12 @@ static ffd_status open_mesh(deform_job *job, ffd_error *error)
             : ffd_source_open(&source, job->threads, &job->document, error));
     TRY(ffd_selection_apply(desc->only, desc->only_count, ffd_source_name(&desc->input), job->document,
                             error));
-    ffd_job_cache_describe_mesh(desc->cache, desc, job->only_positions, is_file ? &stamp : NULL,
-                                job->document);
+    ffd_job_cache_describe_mesh(desc->cache, desc, only_positions, is_file ? &stamp : NULL, job->document);
     return FFD_OK;
 }
 
-ffd_status ffd_deform_job_load_chain(deform_job *job, const chain_outside *outside, ffd_job_cache *cache,
-                                     ffd_error *error)
+ffd_status ffd_deform_job_load_chain(deform_job *job, unsigned needs, const chain_outside *outside,
+                                     ffd_job_cache *cache, ffd_error *error)
 {
     const ffd_deform_desc *const desc = job->desc;
     const chain_files files = {.lattices = desc->lattices,
@@ -107,7 +106,7 @@ ffd_status ffd_deform_job_load_chain(deform_job *job, const chain_outside *outsi
                                .set = desc->set,
                                .set_count = desc->set_count,
                                .mesh = &desc->input,
-                               .derives = job->derives,
+                               .derives = needs & JOB_NEEDS_DERIVATIVES,
                                .shared = desc->shared_box,
                                .log = &job->log};
     const ffd_status status = ffd_chain_load(&files, outside, desc->isa, cache, &job->chain, error);
@@ -115,22 +114,23 @@ ffd_status ffd_deform_job_load_chain(deform_job *job, const chain_outside *outsi
     return status;
 }
 
-ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_error *error)
+ffd_status ffd_deform_job_open(deform_job *job, unsigned needs, ffd_job_result *result, ffd_error *error)
 {
     const ffd_deform_desc *desc = job->desc;
     const chain_outside outside = {desc->outside == FFD_OUTSIDE_EXTEND, desc->falloff, desc->snap,
                                    desc->snap_relative};
+    const bool only_positions = !(needs & JOB_NEEDS_NORMALS);
     const double start = ffd_clock_seconds();
     if (desc->output_set && !desc->input.bytes.data &&
         ffd_written_holds(&desc->output_set->files, desc->input.path))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->input.path,
                              "was written by this run already, under this name or another");
-    ffd_status status = ffd_deform_job_load_chain(job, &outside, desc->cache, error);
+    ffd_status status = ffd_deform_job_load_chain(job, needs, &outside, desc->cache, error);
     if (!status)
-        job->document = ffd_job_cache_take_mesh(desc->cache, desc, job->only_positions);
+        job->document = ffd_job_cache_take_mesh(desc->cache, desc, only_positions);
     job->document_is_shared = job->document;
     if (!status && !job->document)
-        status = open_mesh(job, error);
+        status = open_mesh(job, only_positions, error);
     if (!status && desc->rig == FFD_RIG_FOLLOW && !job->document->format->places)
         status = ffd_fail_file(error, FFD_E_ARGUMENT, ffd_source_name(&desc->input),
                                "has no nodes that could follow: only glTF has ({rig=follow})");

@@ -9,13 +9,17 @@
 ffd_status ffd_deform_job_begin(deform_job *job, const ffd_deform_desc *desc, bool check,
                                 ffd_job_result *result);
 
-/* Loads the job's lattices into its chain; they are fitted later. share may be NULL. Errors: those of
-   ffd_chain_load. */
-ffd_status ffd_deform_job_load_chain(deform_job *job, const chain_outside *outside, ffd_job_cache *cache,
-                                     ffd_error *error);
+/* What a job needs beside positions and displacements: the normals of the mesh; the derivatives of the
+   control points by placeholders. */
+enum { JOB_NEEDS_NORMALS = 1, JOB_NEEDS_DERIVATIVES = 2 };
 
-/* Opens the lattices and the mesh. */
-ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_error *error);
+/* Loads the job's lattices into its chain; they are fitted later. needs: a set of JOB_NEEDS. cache may be
+   NULL. Errors: those of ffd_chain_load. */
+ffd_status ffd_deform_job_load_chain(deform_job *job, unsigned needs, const chain_outside *outside,
+                                     ffd_job_cache *cache, ffd_error *error);
+
+/* Opens the lattices and the mesh. needs: a set of JOB_NEEDS. */
+ffd_status ffd_deform_job_open(deform_job *job, unsigned needs, ffd_job_result *result, ffd_error *error);
 
 /* Deforms the vertices, fills result with the figures and judges them. The document can be saved
    afterwards. */

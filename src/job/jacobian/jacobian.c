@@ -110,10 +110,9 @@ static ffd_status differentiate(const ffd_jacobian_desc *desc, ffd_jacobian_resu
     ffd_job_result figures;
     jacobian j = {.desc = desc};
     ffd_status status = ffd_deform_job_begin(&j.job, desc->job, true, &figures);
-    j.job.derives = desc->by == FFD_BY_PARAMETERS;
-    j.job.only_positions = true;
     if (!status)
-        status = ffd_deform_job_open(&j.job, &figures, &figures.error);
+        status = ffd_deform_job_open(&j.job, desc->by == FFD_BY_PARAMETERS ? JOB_NEEDS_DERIVATIVES : 0,
+                                     &figures, &figures.error);
     if (!status && !desc->job->sink)
         status = ffd_job_check_mesh_files(desc->output, &desc->job->input, j.job.document, &figures.error);
     if (!status && !desc->job->sink)

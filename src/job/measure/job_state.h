@@ -13,13 +13,11 @@
 /* The state of a job. */
 typedef struct deform_job {
     const ffd_deform_desc *desc;
-    bool check;          /* no output will be written; all figures are wanted */
-    bool recomputes;     /* normals exist, and are to be recomputed from the deformed faces */
-    bool derives;        /* set before opening: keep derivatives by placeholders */
-    bool stored;         /* set before it runs: judge the base, whatever default weights show */
-    bool only_positions; /* set before opening: nothing needs normals */
-    bool converts;       /* set before it runs: the results are for another format */
-    unsigned losses;     /* of mapped inputs, before this job (base/file/mapping.h) */
+    bool check;      /* no output will be written; all figures are wanted */
+    bool recomputes; /* normals exist, and are to be recomputed from the deformed faces */
+    bool stored;     /* set before it runs: judge the base, whatever default weights show */
+    bool converts;   /* set before it runs: the results are for another format */
+    unsigned losses; /* of mapped inputs, before this job (base/file/mapping.h) */
     int threads;
     mesh_log log;
     mesh_log file_log; /* for messages about the file, not its deformation */

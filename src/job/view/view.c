@@ -178,7 +178,7 @@ static ffd_status run_job(view_work *work, ffd_job_result *result, ffd_error *er
 {
     deform_job *const job = &work->job;
     job->stored = job->stored || job->desc->as_morph; /* it keeps the other targets */
-    TRY(ffd_deform_job_open(job, result, error));
+    TRY(ffd_deform_job_open(job, JOB_NEEDS_NORMALS, result, error));
     TRY(check_mesh(work, &work->desc->job->input, job->document, error));
     TRY(read_model(work, error));
     /* Deform the shape with default weights, as for a conversion. */
@@ -212,7 +212,7 @@ static ffd_status load_cages(view_work *work, ffd_error *error)
     const chain_outside outside = {0};
     if (desc->lattice_count == 0)
         return FFD_OK;
-    TRY(ffd_deform_job_load_chain(job, &outside, NULL, error));
+    TRY(ffd_deform_job_load_chain(job, 0, &outside, NULL, error));
     TRY(ffd_selection_apply(desc->only, desc->only_count, ffd_source_name(&desc->input), job->document,
                             error));
     TRY(ffd_chain_fit(&job->chain, job->document, job->threads, error));
@@ -401,34 +401,30 @@ static void allow_memory(ffd_source *source)
         source->memory = LEAST_VIEW_MEMORY;
 }
 
-/* The same for descriptions that may hold data in memory. */
-static ffd_status view_in_memory(ffd_view_desc *desc, ffd_deform_desc *job, ffd_job_result *result)
+/* Names and checks data in memory. deformed: receives the library's own copy of desc->deformed. The job's own
+   output is ignored. */
+static ffd_status take_memory(job_memory *memory, ffd_view_desc *desc, ffd_source *deformed,
+                              ffd_deform_desc *job, ffd_error *error)
 {
-    ffd_source deformed;
-    job_memory memory = {0};
-    ffd_status status = FFD_OK;
     job->sink = NULL;
     job->positions = NULL;
     allow_memory(&job->input);
     if (desc->deformed) {
-        deformed = *desc->deformed;
-        allow_memory(&deformed);
-        desc->deformed = &deformed;
-        status = ffd_in_memory_source(&memory, &deformed, &result->error);
+        *deformed = *desc->deformed;
+        allow_memory(deformed);
+        desc->deformed = deformed;
+        TRY(ffd_in_memory_source(memory, deformed, error));
     }
-    if (!status)
-        status = ffd_in_memory_output(desc->sink, desc->output, &result->error);
-    if (!status)
-        status = ffd_in_memory_desc(&memory, job, &result->error);
-    if (!status)
-        status = view(desc, result, &result->error);
-    return ffd_in_memory_end(&memory, status, &result->error);
+    TRY(ffd_in_memory_output(desc->sink, desc->output, error));
+    return ffd_in_memory_desc(memory, job, error);
 }
 
 ffd_status ffd_view_run(const ffd_view_desc *callers, ffd_job_result *callers_result, ffd_error *error)
 {
     ffd_view_desc desc;
     ffd_deform_desc job;
+    ffd_source deformed;
+    job_memory memory = {0};
     ffd_job_result result;
     ffd_view_desc_init(&desc, sizeof desc);
     ffd_deform_desc_init(&job, sizeof job); /* stays unused for files as they are */
@@ -442,7 +438,10 @@ ffd_status ffd_view_run(const ffd_view_desc *callers, ffd_job_result *callers_re
     deadline own;
     const deadline *const before = ffd_deadline_begin(&own, status ? 0 : job.timeout);
     if (!status)
-        status = view_in_memory(&desc, &job, &result);
+        status = take_memory(&memory, &desc, &deformed, &job, &result.error);
+    if (!status)
+        status = view(&desc, &result, &result.error);
+    status = ffd_in_memory_end(&memory, status, &result.error);
     ffd_deadline_end(before);
     if (status && error)
         *error = result.error;
