@@ -164,13 +164,13 @@ static ffd_status find_copies(const char *path, const mesh_format *format, path_
     ffd_status status = FFD_OK;
     if (!format->resources || ffd_file_load(path, &bytes, NULL))
         return FFD_OK;
-    status = format->resources->find_copied(path, &bytes, images, error);
+    status = format->resources->find_named(path, &bytes, &(mesh_named){.copies = images}, error);
     ffd_file_unload(&bytes);
     return status;
 }
 
 /* Lists the files that the output refers to: its buffers, and images and material libraries
-   (find_copied finds those that were copied), which may be missing. */
+   (find_named finds those that were copied), which may be missing. */
 static ffd_status list_output(const ffd_source *output, bool has_copies, path_list *files, path_list *images,
                               ffd_error *error)
 {

@@ -110,7 +110,8 @@ static ffd_status list_by_bytes(hash_cache *cache, cached_mesh *mesh, const ffd_
 {
     file_input bytes;
     TRY(load_and_hash(cache, source->path, &mesh->stamp, &bytes, error));
-    ffd_status status = table->resources->find_copied(source->path, &bytes, &mesh->images, error);
+    ffd_status status =
+        table->resources->find_named(source->path, &bytes, &(mesh_named){.copies = &mesh->images}, error);
     ffd_kept_put(&cache->kept, source->path, &mesh->stamp, &bytes);
     return status;
 }

@@ -4,18 +4,16 @@
 
 #include "mesh/mesh.h"
 
+/* What a mesh names; existing or not. NULL: not asked for. */
 typedef struct mesh_named {
-    path_list *files;  /* every file that the mesh names */
-    path_list *copies; /* those that are copied with an output; NULL: not asked for */
-    path_list *linked; /* those that no job reads or copies; NULL: not asked for */
+    path_list *files;  /* every file beside it: buffers, images, material libraries and their maps, files of
+                          extensions */
+    path_list *copies; /* images and other files that are copied with an output */
+    path_list *linked; /* those that no job reads or copies */
 } mesh_named;
 
-/* Adds the images and other files that are copied with an output, existing or not, by scanning the bytes
-   of the file at a path without opening a document. An invalid file has none. */
-typedef ffd_status mesh_find_copied_function(const char *path, const file_input *bytes, path_list *files,
-                                             ffd_error *error);
-/* Adds every file beside it that a mesh names, existing or not, in the same way: buffers, images,
-   material libraries and their maps, files of extensions. */
+/* Adds the files that a mesh names, by scanning the bytes of the file at a path without opening a document.
+   An invalid file has none. */
 typedef ffd_status mesh_find_named_function(const char *path, const file_input *bytes,
                                             const mesh_named *named, ffd_error *error);
 typedef ffd_status mesh_list_files_function(const mesh_document *document, path_list *files,
@@ -23,7 +21,6 @@ typedef ffd_status mesh_list_files_function(const mesh_document *document, path_
 
 /* The files that meshes name. */
 struct mesh_resource_calls {
-    mesh_find_copied_function *find_copied;
     mesh_find_named_function *find_named;
     /* Adds files that no job reads or copies, wherever they are: those of extensions of a glTF, of call and
        others in an OBJ. NULL: none. */

@@ -72,7 +72,6 @@ static const mesh_selector_calls selectors = {
     .name_owner = ffd_gltf_name_part,
 };
 static const mesh_resource_calls resources = {
-    .find_copied = ffd_gltf_find_resources,
     .find_named = ffd_gltf_find_named,
     .list_linked = ffd_gltf_list_linked,
 };

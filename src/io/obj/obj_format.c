@@ -10,7 +10,6 @@ static const mesh_selector_calls selectors = {
     .name_owner = ffd_obj_name_part,
 };
 static const mesh_resource_calls resources = {
-    .find_copied = ffd_obj_find_resources,
     .find_named = ffd_obj_find_named,
     .list_linked = ffd_obj_list_linked,
 };

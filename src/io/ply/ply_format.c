@@ -14,8 +14,7 @@ static ffd_status check(const mesh_document *document, ffd_error *error)
     return ffd_ply_check_faces(d, error);
 }
 
-static const mesh_resource_calls resources = {.find_copied = ffd_ply_find_textures,
-                                              .find_named = ffd_ply_find_named};
+static const mesh_resource_calls resources = {.find_named = ffd_ply_find_named};
 static const mesh_splat_calls splats = {.read = ffd_ply_read_splats, .write = ffd_ply_write_splats};
 
 const mesh_format ffd_ply_format = {

@@ -17,7 +17,6 @@ ffd_status ffd_ply_bring_textures(const ply_header *header, const file_folder *f
                                   ffd_error *error);
 
 /* The calls of mesh_resource_calls. */
-mesh_find_copied_function ffd_ply_find_textures;
 mesh_find_named_function ffd_ply_find_named;
 
 #endif

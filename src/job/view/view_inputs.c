@@ -29,7 +29,8 @@ static ffd_status find_resources(const ffd_source *source, const mesh_document *
     if (!document->format->resources || ffd_file_is_stream(source->path) ||
         ffd_file_load(source->path, &bytes, NULL))
         return FFD_OK;
-    const ffd_status status = document->format->resources->find_copied(source->path, &bytes, files, error);
+    const ffd_status status =
+        document->format->resources->find_named(source->path, &bytes, &(mesh_named){.copies = files}, error);
     ffd_file_unload(&bytes);
     return status;
 }

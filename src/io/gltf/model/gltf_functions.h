@@ -58,7 +58,6 @@ mesh_save_function ffd_gltf_save_results;
 mesh_count_sidecars_function ffd_gltf_count_sidecars;
 mesh_list_files_function ffd_gltf_list_images;
 mesh_list_files_function ffd_gltf_list_linked;
-mesh_find_copied_function ffd_gltf_find_resources;
 mesh_find_named_function ffd_gltf_find_named;
 
 mesh_open_function ffd_gltf_open;

@@ -188,29 +188,22 @@ ffd_status ffd_obj_bring_resources(const file_input *input, const file_folder *f
     return status;
 }
 
-ffd_status ffd_obj_find_resources(const char *path, const file_input *bytes, path_list *files,
-                                  ffd_error *error)
+ffd_status ffd_obj_find_named(const char *path, const file_input *bytes, const mesh_named *named,
+                              ffd_error *error)
 {
     resource_list list = {0};
     const file_folder mesh = {.file = path};
     ffd_status status = list_all(&mesh, bytes, true, &list, error);
     for (size_t i = 0; i < list.count && !status; i++) {
         char *const file = ffd_path_sibling(path, list.resources[i].path);
+        const bool is_outside = ffd_path_leads_out(list.resources[i].path);
         status = file ? FFD_OK : ffd_fail_memory(error);
-        if (!status && !ffd_path_leads_out(list.resources[i].path))
-            status = ffd_paths_add(files, file, error);
+        if (!status && named->files && !is_outside)
+            status = ffd_paths_add(named->files, file, error);
+        if (!status && named->copies && !is_outside)
+            status = ffd_paths_add(named->copies, file, error);
         ffd_free(file);
     }
     ffd_resources_free(&list);
     return status;
-}
-
-ffd_status ffd_obj_find_named(const char *path, const file_input *bytes, const mesh_named *named,
-                              ffd_error *error)
-{
-    const size_t before = named->files->count;
-    TRY(ffd_obj_find_resources(path, bytes, named->files, error));
-    for (size_t i = before; named->copies && i < named->files->count; i++)
-        TRY(ffd_paths_add(named->copies, named->files->paths[i], error));
-    return FFD_OK;
 }
