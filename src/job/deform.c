@@ -232,10 +232,9 @@ static ffd_status dry_run_conversion(deform_job *job, const mesh_save_options *o
 /* Refuses an output whose other files cannot be written, as writing would. */
 static ffd_status dry_run_job(deform_job *job, const mesh_save_options *options, ffd_error *error)
 {
-    const mesh_format *const format = job->document->format;
     if (ffd_conversion_needed(job->document, options->format))
         return dry_run_conversion(job, options, error);
-    return format->check_save ? format->check_save(job->document, options, NULL, &job->log, error) : FFD_OK;
+    return job->document->format->save(job->document, options, NULL, &job->log, error);
 }
 
 static const char *name_of_format(ffd_format format)

@@ -255,7 +255,7 @@ typedef ffd_status mesh_begin_results_function(mesh_document *document, const me
 typedef void mesh_write_function(mesh_document *document, size_t part, mesh_stream stream, size_t first,
                                  size_t count, const double *values, const uint8_t *changed);
 /* Writes the file, and further files that belong to it, to output; byte-identical to the input if nothing
-   changed. */
+   changed. output NULL: only makes the checks that concern files other than the output itself. */
 typedef ffd_status mesh_save_function(mesh_document *document, const mesh_save_options *options,
                                       file_output *output, const mesh_log *log, ffd_error *error);
 
@@ -320,9 +320,6 @@ typedef struct mesh_format {
     /* NULL: there is nothing of that kind. */
     mesh_check_function *check;
     mesh_check_reach_function *check_reach;
-    /* Makes the checks of save that concern files other than the output itself; output is NULL, and nothing
-       is written. */
-    mesh_save_function *check_save;
     mesh_warn_function *warn;
     mesh_read_transforms_function *read_transforms; /* without it, no part is skinned */
     mesh_mark_used_function *mark_used;

@@ -61,7 +61,8 @@ static ffd_status follow(mesh_document *document, const mesh_places *places, mes
 static ffd_status save(mesh_document *document, const mesh_save_options *options, file_output *output,
                        const mesh_log *log, ffd_error *error)
 {
-    ffd_gltf_warn_of_splats(ffd_gltf_of(document), log);
+    if (output)
+        ffd_gltf_warn_of_splats(ffd_gltf_of(document), log);
     return ffd_gltf_save(document, options, output, log, error);
 }
 
@@ -112,7 +113,6 @@ const mesh_format ffd_gltf_format = {
     .begin_results = begin_results,
     .write = ffd_gltf_write,
     .save = save,
-    .check_save = ffd_gltf_save,
     .faces = ffd_gltf_faces,
     .mixed_faces = ffd_gltf_mixed_faces,
     .corner_normals = ffd_gltf_corner_normals,

@@ -111,7 +111,6 @@ mesh_read_function ffd_obj_read;
 mesh_begin_results_function ffd_obj_begin_results;
 mesh_write_function ffd_obj_write;
 mesh_save_function ffd_obj_save;
-mesh_save_function ffd_obj_check_save;
 mesh_faces_function ffd_obj_faces;
 mesh_mixed_faces_function ffd_obj_mixed_faces;
 mesh_name_owner_function ffd_obj_name_part;

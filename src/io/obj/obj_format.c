@@ -27,7 +27,6 @@ const mesh_format ffd_obj_format = {
     .begin_results = ffd_obj_begin_results,
     .write = ffd_obj_write,
     .save = ffd_obj_save,
-    .check_save = ffd_obj_check_save,
     .faces = ffd_obj_faces,
     .mixed_faces = ffd_obj_mixed_faces,
     .corner_normals = ffd_obj_corner_normals,

@@ -115,7 +115,7 @@ mesh_open_function ffd_ply_open;
 mesh_close_function ffd_ply_close;
 mesh_begin_results_function ffd_ply_begin_results;
 mesh_write_function ffd_ply_write;
-mesh_save_function ffd_ply_save, ffd_ply_check_save;
+mesh_save_function ffd_ply_save;
 mesh_mark_used_function ffd_ply_mark_used;
 mesh_faces_function ffd_ply_faces;
 mesh_mixed_faces_function ffd_ply_mixed_faces;

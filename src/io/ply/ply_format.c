@@ -31,7 +31,6 @@ const mesh_format ffd_ply_format = {
     .splats = &splats,
     .begin_results = ffd_ply_begin_results,
     .write = ffd_ply_write,
-    .check_save = ffd_ply_check_save,
     .save = ffd_ply_save,
     .faces = ffd_ply_faces,
     .mixed_faces = ffd_ply_mixed_faces,

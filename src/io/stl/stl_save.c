@@ -84,6 +84,8 @@ ffd_status ffd_stl_save(mesh_document *document, const mesh_save_options *option
 {
     stl_saver s = {.document = ffd_stl_of(document)};
     (void)log;
+    if (!output)
+        return FFD_OK;
     ffd_splice_begin(&s.splice, &s.document->file, options, output, error);
     if (s.document->file.new_positions)
         write_facets(&s);
