@@ -29,7 +29,8 @@
 typedef enum mesh_stream { MESH_POSITIONS, MESH_NORMALS, MESH_TANGENTS, MESH_STREAMS } mesh_stream;
 
 /* Which positions, normals and tangents of a document are meant: those of the base, as the file stores them,
-   or those that it shows, with the default weights of its morph targets. */
+   or those that it shows, with the default weights of its morph targets. Without targets they are the same.
+ */
 typedef enum mesh_state { MESH_STORED, MESH_SHOWN } mesh_state;
 
 /* A morph target of a part: offsets for some of its streams. The target moves a vertex to its position plus
@@ -220,7 +221,8 @@ typedef ffd_status mesh_compare_function(const mesh_document *a, const mesh_docu
    (x,y,z and the handedness). Thread-safe. */
 typedef void mesh_read_function(const mesh_document *document, size_t part, mesh_stream stream,
                                 mesh_state state, size_t first, size_t count, double *values);
-/* Gets all faces, lines and points. Errors: FFD_E_MEMORY, FFD_E_LIMIT, and those of the file's content. */
+/* Gets all faces, and counts lines and points. Errors: FFD_E_MEMORY, FFD_E_LIMIT, and those of the file's
+ * content. */
 typedef ffd_status mesh_faces_function(const mesh_document *document, mesh_state state, mesh_faces *faces,
                                        ffd_error *error);
 typedef struct vertex_marks vertex_marks; /* mixed_faces.h */
@@ -277,8 +279,7 @@ typedef ffd_status mesh_warn_function(const mesh_document *document, const mesh_
 typedef void mesh_read_transforms_function(const mesh_document *document, size_t part, size_t first,
                                            size_t count, double *transforms, skin_weights *found);
 /* Sets used of the parts with vertices that are in no face, line or point; it stays NULL for parts whose
-   faces cannot be read. Called once (ffd_mesh_mark_used). Errors:
-   FFD_E_MEMORY, FFD_E_LIMIT. */
+   faces cannot be read. Called once (ffd_mesh_mark_used). Errors: FFD_E_MEMORY, FFD_E_LIMIT. */
 typedef ffd_status mesh_mark_used_function(mesh_document *document, ffd_error *error);
 /* Gets the index of the normal of each corner that `faces` has given, or MESH_NO_NORMAL; normals are
    numbered through all parts. Only for documents with normals. Without it, it is that of the corner's vertex,
