@@ -55,6 +55,15 @@ static void add_bytes(gltf_grown *w)
     ffd_buffer_free(&buffer);
 }
 
+/* Returns where the JSON of a GLB ends without its padding, which would add up from change to change. */
+static size_t text_end(const gltf_document *d)
+{
+    size_t end = d->tree.size;
+    while (end > d->tree.values[0].end && d->tree.text[end - 1] == ' ')
+        end--;
+    return end;
+}
+
 static void pad(byte_buffer *out, const char *with)
 {
     while (out->size % 4 && !out->failed)
@@ -95,7 +104,7 @@ static ffd_status write_file(gltf_grown *w, file_input *made, ffd_error *error)
     byte_buffer text = {0}, glb = {0}, *const file = d->binary ? &glb : &text;
     ffd_status status = FFD_OK;
     ffd_edits_sort(&w->edits);
-    ffd_edits_apply(&w->edits, d->tree.text, 0, (uint32_t)d->tree.size, &text);
+    ffd_edits_apply(&w->edits, d->tree.text, 0, (uint32_t)(d->binary ? text_end(d) : d->tree.size), &text);
     if (d->binary && !text.failed)
         write_glb(w, &text, &glb);
     if (text.failed || glb.failed || w->bytes.failed)
