@@ -260,20 +260,16 @@ static ffd_status add_targets(morph_file *file, morph_marks *marks, const mesh_l
     return FFD_OK;
 }
 
-static ffd_status add_clips(morph_file *file, const morph_marks *marks, const mesh_log *log, ffd_error *error)
+static ffd_status add_clips(morph_file *file, const morph_marks *marks, gltf_edit *edit, ffd_error *error)
 {
     const gltf_document *const d = file->source;
-    file_input bytes = {0};
     clip_target *const targets = ffd_alloc(d->morph_count, sizeof *targets);
     if (!targets)
         return ffd_fail_memory(error);
     for (size_t k = 0; k < d->morph_count; k++)
         targets[k] = (clip_target){d->morphs[k].name, marks[k].places};
-    ffd_status status = ffd_gltf_add_clips(current(file), d->clips, d->clip_count, targets, d->morph_count,
-                                           log, &bytes, &file->bytes_left, error);
-    if (!status && bytes.data)
-        status = reopen(file, &bytes, error);
-    ffd_file_unload(&bytes);
+    const ffd_status status =
+        ffd_gltf_add_clips(d->clips, d->clip_count, targets, d->morph_count, edit, &file->bytes_left, error);
     ffd_free(targets);
     return status;
 }
@@ -294,18 +290,26 @@ static void warn_of_many(const gltf_document *d, const gltf_document *file, cons
                      meshes == 1 ? "mesh has" : "meshes have up to", most, MORPHS_PLAYED);
 }
 
-static ffd_status save_file(const morph_file *file, const morph_marks *marks,
+/* Saves the file with its targets' results and the edit. */
+static ffd_status save_file(const morph_file *file, const morph_marks *marks, gltf_edit *edit,
                             const mesh_save_options *options, file_output *output, const mesh_log *log,
                             ffd_error *error)
 {
     const gltf_document *const d = file->source;
-    gltf_document *const other = (gltf_document *)file->made;
+    gltf_document *const other = (gltf_document *)current(file);
+    const size_t lent = file->made ? d->morph_count : 0;
     other->base.sparse_targets = d->base.sparse_targets;
     other->own_accessors = other->model.accessor_count - d->model.accessor_count;
-    for (size_t k = 0; k < d->morph_count; k++)
+    for (size_t k = 0; k < lent; k++)
         lend_results(d, &marks[k], false, other);
+    if (edit->accessor_count > 0) {
+        other->edit = edit;
+        other->replaced = &edit->replaced;
+    }
     const ffd_status status = ffd_gltf_save_results(&other->base, options, output, log, error);
-    for (size_t k = 0; k < d->morph_count; k++)
+    other->edit = NULL;
+    other->replaced = NULL;
+    for (size_t k = 0; k < lent; k++)
         lend_results(d, &marks[k], true, other);
     return status;
 }
@@ -321,15 +325,16 @@ static ffd_status save_as_morph(mesh_document *document, const mesh_save_options
         status = ffd_fail_memory(error);
     if (!status)
         status = add_targets(&file, marks, log, error);
+    gltf_edit edit = {.document = current(&file), .log = log};
     if (!status && d->clip_count > 0)
-        status = add_clips(&file, marks, log, error);
+        status = add_clips(&file, marks, &edit, error);
     if (!status)
         warn_of_many(d, current(&file), log);
     if (options->bytes_left)
         *options->bytes_left = file.bytes_left;
     if (!status)
-        status = file.made ? save_file(&file, marks, options, output, log, error)
-                           : ffd_gltf_save_results(document, options, output, log, error);
+        status = save_file(&file, marks, &edit, options, output, log, error);
+    ffd_gltf_edit_free(&edit);
     close_file(&file);
     for (size_t k = 0; k < d->morph_count && marks; k++)
         free_marks(&marks[k]);

@@ -1,6 +1,6 @@
 #include "io/gltf/edit/gltf_morph_text.h"
 #include "base/memory/memory.h"
-#include "io/gltf/edit/gltf_grown.h"
+#include "io/gltf/edit/gltf_edit.h"
 #include "io/gltf/edit/gltf_json_insert.h"
 #include "io/gltf/edit/gltf_morph_weights.h"
 #include "io/gltf/edit/gltf_target_names.h"
@@ -63,7 +63,7 @@ static bool can_reuse(const gltf_document *d, const unsigned char *users, const 
 enum { ZEROS_DIRECTIONS, ZEROS_POSITIONS, ZEROS_GAP, ZEROS_KINDS };
 
 typedef struct morph_writer {
-    gltf_grown file;
+    gltf_edit file;
     const morph_request *request;
     bool *grow;                 /* per mesh: whether it gets one more target */
     unsigned char *users;       /* from ffd_gltf_count_users */
@@ -180,7 +180,7 @@ static void add_to_primitive(morph_writer *w, const gltf_primitive *primitive)
 
 /* Adds a weight 0, or puts it in the place of one that no target had. targets: how many there are. make: also
    if there are no weights yet, as for a mesh; a node needs none of its own. */
-static void add_weights(gltf_grown *file, uint32_t value, size_t targets, bool make)
+static void add_weights(gltf_edit *file, uint32_t value, size_t targets, bool make)
 {
     const gltf_document *const d = file->document;
     const json_tree *const tree = &d->tree;
@@ -279,7 +279,7 @@ ffd_status ffd_gltf_add_target(const gltf_document *d, const morph_request *requ
     if (made_all) {
         add_to_meshes(&w);
         ffd_gltf_extend_weights(&w.file, w.grow);
-        status = ffd_gltf_grown_write(&w.file, made, error);
+        status = ffd_gltf_edit_write(&w.file, made, error);
     } else {
         status = ffd_fail_memory(error);
     }
@@ -287,6 +287,6 @@ ffd_status ffd_gltf_add_target(const gltf_document *d, const morph_request *requ
     ffd_free(w.users);
     for (int i = 0; i < ZEROS_KINDS; i++)
         ffd_free(w.zeros[i]);
-    ffd_gltf_grown_free(&w.file);
+    ffd_gltf_edit_free(&w.file);
     return status;
 }

@@ -40,13 +40,13 @@ typedef struct channel_note {
 } channel_note;
 
 typedef struct weight_writer {
-    gltf_grown *file;
+    gltf_edit *file;
     const bool *meshes;
     channel_note stale; /* their weights are not one for each morph target */
     channel_note odd;   /* likewise, and they are left as they are */
 } weight_writer;
 
-static bool read_index(const gltf_grown *file, uint32_t object, const char *key, size_t count, size_t *index)
+static bool read_index(const gltf_edit *file, uint32_t object, const char *key, size_t count, size_t *index)
 {
     double number;
     if (!ffd_json_tree_number(&file->document->tree, ffd_json_tree_member(&file->document->tree, object, key),
@@ -86,7 +86,7 @@ static driven follow_pointer(const gltf_document *d, const char *pointer)
     return what;
 }
 
-static driven find_target(gltf_grown *file, uint32_t target)
+static driven find_target(gltf_edit *file, uint32_t target)
 {
     const gltf_document *d = file->document;
     driven what = {GLTF_NONE, GLTF_NONE};
@@ -117,7 +117,7 @@ static void end_animation(animation *a)
     ffd_free(a->outputs);
 }
 
-static bool begin_animation(const gltf_grown *file, uint32_t value, animation *a)
+static bool begin_animation(const gltf_edit *file, uint32_t value, animation *a)
 {
     const json_tree *tree = &file->document->tree;
     a->samplers = ffd_json_tree_member(tree, value, "samplers");
@@ -160,7 +160,7 @@ static size_t want_output(animation *a, size_t sampler, size_t targets, bool is_
 /* Finds the channels that drive weights of the meshes. */
 static bool find_drivers(const weight_writer *w, animation *a)
 {
-    gltf_grown *const file = w->file;
+    gltf_edit *const file = w->file;
     const json_tree *tree = &file->document->tree;
     size_t c = 0;
     for (uint32_t v = ffd_json_tree_first(tree, a->channels); v != JSON_NONE;
@@ -192,7 +192,7 @@ typedef struct output_rows {
 
 /* Finds the layout of the output that a sampler has, for weights of the targets. Returns false if it is
    unknown. */
-static bool find_rows(const gltf_grown *file, uint32_t sampler, const wanted_output *wanted,
+static bool find_rows(const gltf_edit *file, uint32_t sampler, const wanted_output *wanted,
                       output_rows *layout)
 {
     const gltf_document *d = file->document;
@@ -224,7 +224,7 @@ static bool find_rows(const gltf_grown *file, uint32_t sampler, const wanted_out
 static void write_output(const weight_writer *w, const output_rows *old, wanted_output *wanted)
 {
     const gltf_document *d = w->file->document;
-    gltf_grown *const file = w->file;
+    gltf_edit *const file = w->file;
     const size_t kept = wanted->is_single ? 0 : old->width < wanted->targets ? old->width : wanted->targets;
     const size_t width = wanted->is_single ? 1 : wanted->targets + 1;
     const size_t count = (size_t)d->model.accessors[old->accessor].count;
@@ -284,7 +284,7 @@ static void make_outputs(weight_writer *w, animation *a)
 }
 
 /* Appends the text of a JSON value in which one number is replaced. */
-static void copy_with_number(const gltf_grown *file, uint32_t value, uint32_t index, size_t with,
+static void copy_with_number(const gltf_edit *file, uint32_t value, uint32_t index, size_t with,
                              byte_buffer *text)
 {
     const json_tree *tree = &file->document->tree;
@@ -296,7 +296,7 @@ static void copy_with_number(const gltf_grown *file, uint32_t value, uint32_t in
 
 /* Gives samplers their new outputs: the first one to the sampler itself, unless it also drives something
    else, and the others to copies of it. */
-static void place_outputs(gltf_grown *file, animation *a)
+static void place_outputs(gltf_edit *file, animation *a)
 {
     const gltf_document *d = file->document;
     byte_buffer copies = {0};
@@ -323,7 +323,7 @@ static void place_outputs(gltf_grown *file, animation *a)
     ffd_buffer_free(&copies);
 }
 
-static void redirect_channels(gltf_grown *file, const animation *a)
+static void redirect_channels(gltf_edit *file, const animation *a)
 {
     const json_tree *tree = &file->document->tree;
     size_t c = 0;
@@ -349,7 +349,7 @@ static void warn(const weight_writer *w, const channel_note *note, const char *o
                  ffd_plural(note->count, one, many), pointer, more);
 }
 
-void ffd_gltf_extend_weights(gltf_grown *file, const bool *meshes)
+void ffd_gltf_extend_weights(gltf_edit *file, const bool *meshes)
 {
     const json_tree *tree = &file->document->tree;
     const uint32_t animations = ffd_json_tree_member(tree, 0, "animations");

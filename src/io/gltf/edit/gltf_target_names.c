@@ -59,7 +59,7 @@ bool ffd_gltf_find_target(const gltf_document *d, size_t mesh, const char *name,
 
 /* The names to add. */
 typedef struct name_writer {
-    gltf_grown *file;
+    gltf_edit *file;
     size_t mesh, count; /* count: targets before the further one */
     const uint32_t *names;
     const char *name; /* of the further target */
@@ -111,7 +111,7 @@ static void log_named(const name_writer *w, size_t first)
    one. */
 static void edit_list(const name_writer *w, uint32_t list)
 {
-    gltf_grown *const file = w->file;
+    gltf_edit *const file = w->file;
     const json_tree *const tree = &file->document->tree;
     const size_t named = tree->values[list].count;
     byte_buffer text = {0};
@@ -128,7 +128,7 @@ static void edit_list(const name_writer *w, uint32_t list)
 
 static void edit_mesh(const name_writer *w)
 {
-    gltf_grown *const file = w->file;
+    gltf_edit *const file = w->file;
     const json_tree *const tree = &file->document->tree;
     const uint32_t value = file->document->mesh_values.values[w->mesh];
     const uint32_t extras = ffd_json_tree_member(tree, value, "extras");
@@ -152,7 +152,7 @@ static void edit_mesh(const name_writer *w)
     ffd_buffer_free(&text);
 }
 
-void ffd_gltf_add_target_name(gltf_grown *file, size_t mesh, const char *name)
+void ffd_gltf_add_target_name(gltf_edit *file, size_t mesh, const char *name)
 {
     const gltf_document *const d = file->document;
     uint32_t *const names = ffd_gltf_list_target_names(d, mesh);

@@ -3,7 +3,7 @@
 #ifndef FFD_IO_GLTF_EDIT_GLTF_TARGET_NAMES_H
 #define FFD_IO_GLTF_EDIT_GLTF_TARGET_NAMES_H
 
-#include "io/gltf/edit/gltf_grown.h"
+#include "io/gltf/edit/gltf_edit.h"
 
 /* Returns the JSON string that names each target of a mesh (gltf_mesh_uses); JSON_NONE: it has no
    name. The caller frees the array. NULL: memory ran out. */
@@ -16,6 +16,6 @@ bool ffd_gltf_find_target(const gltf_document *document, size_t mesh, const char
 
 /* Adds the name of a further target to the list of a mesh, which is made if it is missing, and to those that
    its primitives have. Targets before it that a list lacks are entered with their names, or as "target_3". */
-void ffd_gltf_add_target_name(gltf_grown *file, size_t mesh, const char *name);
+void ffd_gltf_add_target_name(gltf_edit *file, size_t mesh, const char *name);
 
 #endif

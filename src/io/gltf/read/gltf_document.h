@@ -208,7 +208,10 @@ typedef struct gltf_document {
     /* The reason if the transforms of instances are unknown: the document can then only be described. */
     ffd_status instancing_status;
     ffd_error instancing_error;
-    struct gltf_rig *rig; /* how nodes follow the deformation (io/gltf/edit); NULL: they do not */
+    struct gltf_edit
+        *edit; /* lent: what saving changes and adds beside results (io/gltf/edit); NULL: nothing */
+    const gltf_values *replaced; /* lent: animations that the edit replaces; NULL: none */
+    struct gltf_rig *rig;        /* how nodes follow the deformation (io/gltf/edit); NULL: they do not */
     /* Per morph target of an instance: the part that holds its offsets; GLTF_NONE: not deformed. */
     size_t *targets;
 } gltf_document;
@@ -244,6 +247,15 @@ static inline size_t ffd_gltf_shape_end(const gltf_document *document)
 static inline size_t ffd_gltf_part_count(const gltf_document *document)
 {
     return ffd_gltf_shape_end(document) + document->splat_groups;
+}
+
+/* Whether an animation is replaced in the output: what it names does not count. */
+static inline bool ffd_gltf_is_replaced(const gltf_document *document, uint32_t animation)
+{
+    for (size_t i = 0; document->replaced && i < document->replaced->count; i++)
+        if (document->replaced->values[i] == animation)
+            return true;
+    return false;
 }
 
 /* Returns the primitive of a mesh after `primitive`, or the first one if that is NULL; NULL: there is none.

@@ -1,5 +1,6 @@
 /* gltf_patch.c - edits the JSON as the plan and the new buffers require. */
 #include "base/memory/memory.h"
+#include "io/gltf/edit/gltf_edit.h"
 #include "io/gltf/edit/gltf_json_insert.h"
 #include "io/gltf/edit/gltf_rig.h"
 #include "io/gltf/read/gltf_elements.h"
@@ -109,9 +110,9 @@ static void write_view(const gltf_saver *saver, const gltf_append *append, size_
         ffd_gltf_version_numbers(saver->document, version) * ffd_gltf_component_size(version->component);
     ffd_buffer_format(text, "%s{\"buffer\":%zu,\"byteOffset\":%zu,\"byteLength\":%zu",
                       text->size > 0 ? "," : "", buffer, append->offset, append->size);
-    if (append->stride > element && !append->sparse)
+    if (append->stride > element && !append->bytes)
         ffd_buffer_format(text, ",\"byteStride\":%zu", append->stride);
-    if (!append->sparse)
+    if (!append->bytes)
         write_target(saver, version, text);
     ffd_buffer_text(text, "}");
 }
@@ -124,6 +125,12 @@ static void add_views(gltf_saver *saver)
     if (!next) {
         saver->edits.failed = true;
         return;
+    }
+    if (ffd_gltf_added_bytes(d) > 0) {
+        const size_t buffer = ffd_gltf_added_buffer(d);
+        ffd_buffer_format(&text, "{\"buffer\":%zu,\"byteOffset\":%zu,\"byteLength\":%zu}", buffer,
+                          saver->buffers[buffer].appends[0].offset, ffd_gltf_added_bytes(d));
+        next[buffer]++;
     }
     for (size_t i = 0; i < saver->plan.appended_count; i++) {
         const size_t accessor = saver->plan.versions[saver->plan.appended[i]].accessor;
@@ -199,17 +206,19 @@ static void add_matrices(gltf_saver *saver, const gltf_version *version, size_t 
 static void add_accessors(gltf_saver *saver)
 {
     const gltf_document *d = saver->document;
+    if (d->edit)
+        ffd_gltf_add_elements(d, &d->accessor_values, "accessors", &d->edit->accessors, &saver->edits);
     for (size_t i = 0; i < saver->plan.appended_count; i++) {
         const gltf_version *version = &saver->plan.versions[saver->plan.appended[i]];
         json_edits edits = {0}, *own = version->rebinds ? &saver->edits : &edits;
         if (version->accessor == GLTF_NONE) {
-            add_matrices(saver, version, d->view_values.count + i);
+            add_matrices(saver, version, ffd_gltf_view_end(d) + i);
             continue;
         }
         if (saver->sparse[i].bytes)
-            edit_sparse(saver, version, &saver->sparse[i], d->view_values.count + i, own);
+            edit_sparse(saver, version, &saver->sparse[i], ffd_gltf_view_end(d) + i, own);
         else
-            edit_storage(saver, version, d->view_values.count + i, own);
+            edit_storage(saver, version, ffd_gltf_view_end(d) + i, own);
         ffd_gltf_edit_bounds(saver, version, own);
         if (version->rebinds)
             continue;

@@ -26,12 +26,12 @@ typedef struct gltf_unpacking {
     size_t buffer, offset; /* where they go */
 } gltf_unpacking;
 
-/* The content of a new accessor, or decompressed data, after the old end of a buffer. */
+/* The content of a new accessor, or other data, after the old end of a buffer. */
 typedef struct gltf_append {
     size_t offset, size, stride; /* size: of all elements; stride: a multiple of 4, as attributes require */
-    size_t version;              /* GLTF_NONE: decompressed data */
-    size_t unpacking;
-    const unsigned char *sparse; /* the stored part of the version; NULL: all of it */
+    size_t version;              /* GLTF_NONE: none */
+    /* Decompressed data, that of an edit, the stored part of a version; NULL: all elements of the version. */
+    const unsigned char *bytes;
 } gltf_append;
 
 /* The nonzero elements of an appended version, if only these are stored: their indices, then their values. */

@@ -1,4 +1,4 @@
-#include "io/gltf/edit/gltf_grown.h"
+#include "io/gltf/edit/gltf_edit.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include "base/text/base64.h"
@@ -10,13 +10,18 @@ static bool extends_bin(const gltf_document *d)
     return d->buffer_values.count > 0 && d->buffers[0].kind == BUFFER_BIN;
 }
 
+size_t ffd_gltf_added_buffer(const gltf_document *d)
+{
+    return extends_bin(d) ? 0 : d->buffer_values.count;
+}
+
 /* Returns the offset in the BIN chunk where the old bytes end and new ones begin. */
 static size_t bin_end(const gltf_document *d)
 {
     return ffd_gltf_align(d->buffers[0].length);
 }
 
-static void write_buffer(gltf_grown *w, byte_buffer *text)
+static void write_buffer(gltf_edit *w, byte_buffer *text)
 {
     const size_t size = w->bytes.size, length = ffd_base64_length(size);
     ffd_buffer_format(text, "{\"byteLength\":%zu,\"uri\":\"data:application/octet-stream;base64,", size);
@@ -32,7 +37,7 @@ static void write_buffer(gltf_grown *w, byte_buffer *text)
 }
 
 /* Adds a bufferView of the new bytes: in the BIN chunk if the file has one, else in a new buffer. */
-static void add_bytes(gltf_grown *w)
+static void add_bytes(gltf_edit *w)
 {
     const gltf_document *d = w->document;
     const bool bin = extends_bin(d);
@@ -40,7 +45,7 @@ static void add_bytes(gltf_grown *w)
     if (w->bytes.size == 0)
         return;
     ffd_buffer_format(&view, "{\"buffer\":%zu,\"byteOffset\":%zu,\"byteLength\":%zu}",
-                      bin ? 0 : d->buffer_values.count, bin ? bin_end(d) : 0, w->bytes.size);
+                      ffd_gltf_added_buffer(d), bin ? bin_end(d) : 0, w->bytes.size);
     ffd_gltf_add_elements(d, &d->view_values, "bufferViews", &view, &w->edits);
     if (bin) {
         const uint32_t length = ffd_json_tree_member(&d->tree, d->buffer_values.values[0], "byteLength");
@@ -71,7 +76,7 @@ static void pad(byte_buffer *out, const char *with)
 }
 
 /* Writes the container around a new JSON text. */
-static void write_glb(const gltf_grown *w, byte_buffer *json, byte_buffer *out)
+static void write_glb(const gltf_edit *w, byte_buffer *json, byte_buffer *out)
 {
     const gltf_document *d = w->document;
     const bool grows = extends_bin(d) && w->bytes.size > 0;
@@ -98,7 +103,7 @@ static void write_glb(const gltf_grown *w, byte_buffer *json, byte_buffer *out)
         store_u32((unsigned char *)out->data + 8, (uint32_t)out->size);
 }
 
-static ffd_status write_file(gltf_grown *w, file_input *made, ffd_error *error)
+static ffd_status write_file(gltf_edit *w, file_input *made, ffd_error *error)
 {
     const gltf_document *d = w->document;
     byte_buffer text = {0}, glb = {0}, *const file = d->binary ? &glb : &text;
@@ -121,16 +126,17 @@ static ffd_status write_file(gltf_grown *w, file_input *made, ffd_error *error)
     return status;
 }
 
-ffd_status ffd_gltf_grown_write(gltf_grown *w, file_input *made, ffd_error *error)
+ffd_status ffd_gltf_edit_write(gltf_edit *w, file_input *made, ffd_error *error)
 {
     ffd_gltf_add_elements(w->document, &w->document->accessor_values, "accessors", &w->accessors, &w->edits);
     add_bytes(w);
     return write_file(w, made, error);
 }
 
-void ffd_gltf_grown_free(gltf_grown *w)
+void ffd_gltf_edit_free(gltf_edit *w)
 {
     ffd_buffer_free(&w->accessors);
     ffd_buffer_free(&w->bytes);
+    ffd_free(w->replaced.values);
     ffd_edits_free(&w->edits);
 }
