@@ -3,9 +3,9 @@
 #include "base/text/buffer_binary.h"
 #include "base/text/number.h"
 #include "base/text/words.h"
-#include "io/gltf/edit/gltf_edit.h"
 #include "io/gltf/edit/gltf_json_insert.h"
 #include "io/gltf/edit/gltf_left_bytes.h"
+#include "io/gltf/edit/gltf_morph_weights.h"
 #include "io/gltf/edit/gltf_target_names.h"
 #include "io/gltf/model/gltf_parts.h"
 #include "io/gltf/read/gltf_users.h"
@@ -22,16 +22,14 @@
 typedef struct clip_writer {
     gltf_edit *file;
     memory_budget budget;
-    const clip_target *targets;
-    size_t target_count;
     const morph_clip *clip; /* the clip being written */
     size_t input;           /* accessor of its times; GLTF_NONE: not added yet */
     /* Per mesh: the sampler of its nodes without weights of their own; GLTF_NONE: not added yet. */
     size_t *samplers;
     size_t sampler_count, channel_count;
     byte_buffer sampler_text, channel_text;
-    byte_buffer added;   /* new animations, with commas */
-    uint64_t bytes_left; /* bytes that these leave unused */
+    byte_buffer added;    /* new animations, with commas */
+    gltf_values replaced; /* animations that clips have replaced so far; lent */
     ffd_error *error;
 } clip_writer;
 
@@ -128,9 +126,9 @@ static bool find_driven(clip_writer *w, size_t mesh, uint32_t *names, size_t cou
     ffd_free(values);
     w->file->edits.failed = w->file->edits.failed || failed;
     /* Further targets are known by their places: extras may have no room for their names. */
-    for (size_t k = 0; k < w->target_count; k++) {
-        const size_t place = w->targets[k].places[mesh];
-        const char *const name = w->targets[k].name;
+    for (size_t k = 0; k < d->morph_count; k++) {
+        const size_t place = d->morphs[k].places[mesh];
+        const char *const name = d->morphs[k].name;
         if (place >= count)
             continue;
         if (!ffd_intern_find(&w->clip->names, name, strlen(name), &names[place]))
@@ -245,10 +243,10 @@ static ffd_status warn_of_replaced(clip_writer *w, uint32_t old, const char *nam
 {
     char left[80] = "";
     uint64_t bytes;
-    w->file->replaced.values[w->file->replaced.count++] = old;
-    if (!count_own_bytes(w->file->document, old, &w->file->replaced, &bytes))
+    w->replaced.count++;
+    if (!count_own_bytes(w->file->document, old, &w->replaced, &bytes))
         return ffd_fail_memory(w->error);
-    w->bytes_left += bytes;
+    w->file->bytes_left += bytes;
     if (bytes > 0)
         snprintf(left, sizeof left, "; %" PRIu64 " bytes that only it used stay in the file", bytes);
     ffd_log_line(w->file->log, FFD_LOG_WARNING, "has an animation \"%s\" already: it is replaced%s", name,
@@ -264,6 +262,7 @@ static ffd_status place_clip(clip_writer *w, uint32_t animations)
     const uint32_t old = find_animation(w, animations);
     char shown[80];
     byte_buffer text = {0};
+    file->any = true;
     ffd_name_shown(w->clip->name, shown, sizeof shown);
     TRY(old == JSON_NONE ? FFD_OK : warn_of_replaced(w, old, shown));
     ffd_buffer_text(&text, old == JSON_NONE && w->added.size > 0 ? ",{\"name\":" : "{\"name\":");
@@ -308,22 +307,34 @@ static ffd_status add_clip(clip_writer *w, const morph_clip *clip, uint32_t *nam
     return FFD_OK;
 }
 
-static ffd_status add_all(clip_writer *w, const morph_clip *clips, size_t count)
+/* Notes the animations that clips replace: those of their names, unless a clip drives nothing. names: room
+   for one per target of a mesh. */
+static void find_replaced(clip_writer *w, uint32_t *names, uint32_t animations)
 {
     const gltf_document *const d = w->file->document;
+    for (size_t c = 0; c < d->clip_count; c++) {
+        bool any = false;
+        w->clip = &d->clips[c];
+        const uint32_t old = find_animation(w, animations);
+        for (size_t n = 0; n < d->model.node_count && old != JSON_NONE && !any; n++) {
+            const int mesh = d->model.nodes[n].mesh;
+            any = mesh >= 0 && find_driven(w, (size_t)mesh, names, d->mesh_uses[mesh].target_count);
+        }
+        if (any)
+            w->file->replaced.values[w->file->replaced.count++] = old;
+    }
+}
+
+static ffd_status add_all(clip_writer *w, uint32_t *names)
+{
+    gltf_document *const d = w->file->document;
     const uint32_t animations = ffd_json_tree_member(&d->tree, 0, "animations");
-    size_t most = 0;
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        most = d->mesh_uses[m].target_count > most ? d->mesh_uses[m].target_count : most;
-    uint32_t *const names = ffd_alloc(most, sizeof *names);
-    w->samplers = ffd_alloc(d->model.mesh_count, sizeof *w->samplers);
-    w->file->replaced.values = ffd_alloc(count, sizeof *w->file->replaced.values);
-    ffd_status status = names && w->samplers && w->file->replaced.values ? FFD_OK : ffd_fail_memory(w->error);
-    for (size_t c = 0; c < count && !status; c++)
-        status = add_clip(w, &clips[c], names, animations);
-    ffd_free(names);
-    if (status || w->file->accessor_count == 0)
-        return status;
+    find_replaced(w, names, animations);
+    d->replaced = &w->file->replaced;
+    w->replaced.values = w->file->replaced.values;
+    ffd_gltf_extend_weights(w->file);
+    for (size_t c = 0; c < d->clip_count; c++)
+        TRY(add_clip(w, &d->clips[c], names, animations));
     if (animations == JSON_NONE)
         ffd_gltf_add_elements(d, &(gltf_values){0}, "animations", &w->added, &w->file->edits);
     else if (w->added.size > 0)
@@ -331,16 +342,19 @@ static ffd_status add_all(clip_writer *w, const morph_clip *clips, size_t count)
     return w->file->bytes.failed ? ffd_fail_memory(w->error) : FFD_OK;
 }
 
-ffd_status ffd_gltf_add_clips(const morph_clip *clips, size_t clip_count, const clip_target *targets,
-                              size_t target_count, gltf_edit *edit, uint64_t *bytes_left, ffd_error *error)
+ffd_status ffd_gltf_animate_weights(gltf_edit *edit, ffd_error *error)
 {
-    clip_writer w = {.file = edit,
-                     .budget = edit->document->base.budget,
-                     .targets = targets,
-                     .target_count = target_count,
-                     .error = error};
-    const ffd_status status = add_all(&w, clips, clip_count);
-    *bytes_left += w.bytes_left;
+    gltf_document *const d = edit->document;
+    clip_writer w = {.file = edit, .budget = d->base.budget, .error = error};
+    size_t most = 0;
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        most = d->mesh_uses[m].target_count > most ? d->mesh_uses[m].target_count : most;
+    uint32_t *const names = ffd_alloc(most, sizeof *names);
+    w.samplers = ffd_alloc(d->model.mesh_count, sizeof *w.samplers);
+    edit->replaced.values = ffd_alloc(d->clip_count, sizeof *edit->replaced.values);
+    const ffd_status status =
+        names && w.samplers && edit->replaced.values ? add_all(&w, names) : ffd_fail_memory(error);
+    ffd_free(names);
     ffd_free(w.samplers);
     ffd_buffer_free(&w.sampler_text);
     ffd_buffer_free(&w.channel_text);

@@ -13,8 +13,9 @@
 /* An output that some channels of a sampler need. */
 typedef struct wanted_output {
     size_t sampler;
-    size_t targets; /* the number of morph targets of the mesh that they drive; the output has one more */
-    bool is_single; /* they drive only the weight of the further target, which is to be 0 */
+    size_t targets; /* the number of morph targets that the file has of the mesh that they drive */
+    size_t added;   /* how many more the mesh gets, and the output has */
+    bool is_single; /* they drive only the weight of a further target, which is to be 0 */
     size_t made;    /* the new accessor; GLTF_NONE: the old one stays */
     size_t place;   /* the number of the sampler that gets it */
     size_t next;    /* of the same sampler; GLTF_NONE: the last one */
@@ -41,7 +42,6 @@ typedef struct channel_note {
 
 typedef struct weight_writer {
     gltf_edit *file;
-    const bool *meshes;
     channel_note stale; /* their weights are not one for each morph target */
     channel_note odd;   /* likewise, and they are left as they are */
 } weight_writer;
@@ -139,12 +139,14 @@ static bool begin_animation(const gltf_edit *file, uint32_t value, animation *a)
     return true;
 }
 
-/* Returns the wanted output with these properties, which is added if it is new; GLTF_NONE: memory ran out. */
-static size_t want_output(animation *a, size_t sampler, size_t targets, bool is_single)
+/* Returns the output that a sampler gets for the weights of a mesh, which is added if it is new; GLTF_NONE:
+   memory ran out. */
+static size_t want_output(animation *a, size_t sampler, const gltf_mesh_uses *mesh, bool is_single)
 {
+    const size_t targets = mesh->filed_targets, added = mesh->target_count - targets;
     size_t *last = &a->first[sampler];
-    while (*last != GLTF_NONE &&
-           (a->outputs[*last].targets != targets || a->outputs[*last].is_single != is_single))
+    while (*last != GLTF_NONE && (a->outputs[*last].targets != targets || a->outputs[*last].added != added ||
+                                  a->outputs[*last].is_single != is_single))
         last = &a->outputs[*last].next;
     if (*last != GLTF_NONE)
         return *last;
@@ -153,14 +155,13 @@ static size_t want_output(animation *a, size_t sampler, size_t targets, bool is_
     if (!ffd_grow((void **)&a->outputs, &a->output_capacity, index + 1, sizeof *a->outputs))
         return GLTF_NONE;
     a->outputs[a->output_count++] =
-        (wanted_output){sampler, targets, is_single, GLTF_NONE, sampler, GLTF_NONE};
+        (wanted_output){sampler, targets, added, is_single, GLTF_NONE, sampler, GLTF_NONE};
     return index;
 }
 
-/* Finds the channels that drive weights of the meshes. */
-static bool find_drivers(const weight_writer *w, animation *a)
+/* Finds the channels that drive weights of meshes with further targets. */
+static bool find_drivers(gltf_edit *file, animation *a)
 {
-    gltf_edit *const file = w->file;
     const json_tree *tree = &file->document->tree;
     size_t c = 0;
     for (uint32_t v = ffd_json_tree_first(tree, a->channels); v != JSON_NONE;
@@ -170,10 +171,13 @@ static bool find_drivers(const weight_writer *w, animation *a)
         if (!read_index(file, v, "sampler", a->sampler_count, &sampler))
             continue;
         const driven what = find_target(file, ffd_json_tree_member(tree, v, "target"));
-        const bool grows = what.mesh != GLTF_NONE && w->meshes[what.mesh];
-        const size_t targets = grows ? file->document->mesh_uses[what.mesh].target_count : 0;
-        if (grows && (what.weight == GLTF_NONE || what.weight == targets)) {
-            a->wanted[c] = want_output(a, sampler, targets, what.weight != GLTF_NONE);
+        const gltf_mesh_uses *const mesh =
+            what.mesh == GLTF_NONE ? NULL : &file->document->mesh_uses[what.mesh];
+        const bool grows = mesh && mesh->target_count > mesh->filed_targets;
+        const bool drives_added = what.weight == GLTF_NONE || (mesh && what.weight >= mesh->filed_targets &&
+                                                               what.weight < mesh->target_count);
+        if (grows && drives_added) {
+            a->wanted[c] = want_output(a, sampler, mesh, what.weight != GLTF_NONE);
             if (a->wanted[c] == GLTF_NONE)
                 return false;
         } else {
@@ -219,14 +223,14 @@ static bool find_rows(const gltf_edit *file, uint32_t sampler, const wanted_outp
     return layout->rows > 0 && (keys > 0 || count % row == 0);
 }
 
-/* Makes an output in which the further target has the weight 0, after those of the others: as many values as
-   the old output has for them, and zeros. Zeros alone need no bytes. */
+/* Makes an output in which the further targets have the weight 0, after those of the others: as many values
+   as the old output has for them, and zeros. Zeros alone need no bytes. */
 static void write_output(const weight_writer *w, const output_rows *old, wanted_output *wanted)
 {
     const gltf_document *d = w->file->document;
     gltf_edit *const file = w->file;
     const size_t kept = wanted->is_single ? 0 : old->width < wanted->targets ? old->width : wanted->targets;
-    const size_t width = wanted->is_single ? 1 : wanted->targets + 1;
+    const size_t width = wanted->is_single ? 1 : wanted->targets + wanted->added;
     const size_t count = (size_t)d->model.accessors[old->accessor].count;
     ffd_buffer_text(&file->accessors, file->accessor_count > 0 ? ",{" : "{");
     if (kept > 0)
@@ -349,15 +353,17 @@ static void warn(const weight_writer *w, const channel_note *note, const char *o
                  ffd_plural(note->count, one, many), pointer, more);
 }
 
-void ffd_gltf_extend_weights(gltf_edit *file, const bool *meshes)
+void ffd_gltf_extend_weights(gltf_edit *file)
 {
     const json_tree *tree = &file->document->tree;
     const uint32_t animations = ffd_json_tree_member(tree, 0, "animations");
-    weight_writer w = {.file = file, .meshes = meshes};
+    weight_writer w = {.file = file};
     for (uint32_t v = ffd_json_tree_first(tree, animations); v != JSON_NONE && !file->edits.failed;
          v = ffd_json_tree_after(tree, v)) {
         animation a = {0};
-        if (begin_animation(file, v, &a) && find_drivers(&w, &a)) {
+        if (ffd_gltf_is_replaced(file->document, v))
+            continue;
+        if (begin_animation(file, v, &a) && find_drivers(file, &a)) {
             make_outputs(&w, &a);
             place_outputs(file, &a);
             redirect_channels(file, &a);

@@ -4,7 +4,8 @@
 
 #include "io/gltf/edit/gltf_edit.h"
 
-/* Adds a weight 0 for the further target to all animations of the weights of these meshes and their nodes. */
-void ffd_gltf_extend_weights(gltf_edit *file, const bool *meshes);
+/* Adds a weight 0 for each further target to all animations of the weights of meshes and of their nodes,
+   except animations that others replace. */
+void ffd_gltf_extend_weights(gltf_edit *edit);
 
 #endif

@@ -304,14 +304,6 @@ static bool can_overwrite(const gltf_document *d, const gltf_version *version)
     return has_bytes && !accessor->sparse.present && version->component == accessor->component;
 }
 
-/* Whether the program itself added the accessor, with zeros and no bytes: the version's bytes can be bound to
-   it. */
-static bool can_rebind(const gltf_document *d, const gltf_version *version)
-{
-    const gltf_accessor *accessor = &d->model.accessors[version->accessor];
-    return version->accessor >= d->model.accessor_count - d->own_accessors && accessor->view < 0;
-}
-
 static ffd_status choose_in_place(const gltf_document *d, gltf_plan *plan, ffd_error *error)
 {
     bool *original = ffd_alloc_zero(d->model.accessor_count, sizeof *original);
@@ -337,7 +329,7 @@ static ffd_status choose_in_place(const gltf_document *d, gltf_plan *plan, ffd_e
             continue;
         if (can_overwrite(d, version))
             plan->in_place[version->accessor] = v;
-        version->rebinds = can_rebind(d, version);
+        version->rebinds = ffd_gltf_is_added(d, version->accessor);
         original[version->accessor] =
             original[version->accessor] || version->rebinds; /* only one version per accessor */
     }

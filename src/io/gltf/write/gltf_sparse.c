@@ -18,11 +18,8 @@ static bool is_zero(const float *xyz)
 
 static bool may_be_sparse(const gltf_document *d, const gltf_version *version)
 {
-    if (!d->base.sparse_targets || version->accessor == GLTF_NONE)
-        return false;
-    const gltf_accessor *const accessor = &d->model.accessors[version->accessor];
-    return version->accessor >= d->model.accessor_count - d->own_accessors && accessor->view < 0 &&
-           version->component == GLTF_FLOAT && accessor->rows == 3;
+    return d->base.sparse_targets && version->accessor != GLTF_NONE &&
+           ffd_gltf_is_added(d, version->accessor);
 }
 
 static void put_index(gltf_stored_part *sparse, size_t k, size_t index)
