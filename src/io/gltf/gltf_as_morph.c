@@ -2,12 +2,10 @@
    The model gets targets of zeros; the results, which are offsets, become theirs. */
 #include "base/file/path.h"
 #include "base/memory/memory.h"
-#include "io/gltf/edit/gltf_clip.h"
-#include "io/gltf/edit/gltf_morph_targets.h"
-#include "io/gltf/edit/gltf_target_names.h"
+#include "io/gltf/edit/gltf_morphs.h"
 #include "io/gltf/model/gltf_functions.h"
 #include "io/gltf/model/gltf_parts.h"
-#include "io/gltf/model/gltf_results.h"
+#include "mesh/morph/morph_clip.h"
 
 /* Moves the results of the current target, which are complete, from the streams to document->morphs. */
 static ffd_status finish_target(gltf_document *d, ffd_error *error)

@@ -7,7 +7,6 @@
 #include "io/gltf/model/gltf_instancing.h"
 #include "io/gltf/model/gltf_parts.h"
 #include "io/gltf/model/gltf_refuse.h"
-#include "io/gltf/model/gltf_results.h"
 #include "io/gltf/model/gltf_scene.h"
 #include "io/gltf/model/gltf_skin.h"
 #include "io/gltf/model/gltf_splats.h"

@@ -1,14 +1,14 @@
-#include "io/gltf/edit/gltf_clip.h"
+/* gltf_clip.c - animations of the weights of morph targets from clips. */
 #include "base/memory/memory.h"
 #include "base/text/buffer_binary.h"
 #include "base/text/number.h"
 #include "base/text/words.h"
 #include "io/gltf/edit/gltf_json_insert.h"
 #include "io/gltf/edit/gltf_left_bytes.h"
-#include "io/gltf/edit/gltf_morph_weights.h"
-#include "io/gltf/edit/gltf_target_names.h"
+#include "io/gltf/edit/gltf_morphs.h"
 #include "io/gltf/model/gltf_parts.h"
 #include "io/gltf/read/gltf_users.h"
+#include "mesh/morph/morph_clip.h"
 #include "json/json_text.h"
 #include <inttypes.h>
 #include <stdio.h>

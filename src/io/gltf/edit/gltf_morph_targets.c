@@ -1,7 +1,7 @@
-#include "io/gltf/edit/gltf_morph_targets.h"
+/* gltf_morph_targets.c - further morph targets, and those in place of others, in the model. */
 #include "base/memory/memory.h"
 #include "io/gltf/edit/gltf_left_bytes.h"
-#include "io/gltf/edit/gltf_target_names.h"
+#include "io/gltf/edit/gltf_morphs.h"
 #include "io/gltf/read/gltf_users.h"
 
 /* An attribute of a morph target of a primitive. */

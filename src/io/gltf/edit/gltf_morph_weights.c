@@ -1,9 +1,9 @@
-#include "io/gltf/edit/gltf_morph_weights.h"
+/* gltf_morph_weights.c - what further morph targets get in the animations of a file. */
 #include "base/memory/memory.h"
 #include "base/text/buffer_binary.h"
 #include "base/text/words.h"
 #include "io/gltf/edit/gltf_json_insert.h"
-#include "io/gltf/edit/gltf_target_names.h"
+#include "io/gltf/edit/gltf_morphs.h"
 #include "io/gltf/read/gltf_elements.h"
 #include "io/gltf/read/gltf_index_table.h"
 #include <math.h>

@@ -1,6 +1,7 @@
-#include "io/gltf/edit/gltf_target_names.h"
+/* gltf_target_names.c - the names of morph targets. */
 #include "base/memory/memory.h"
 #include "io/gltf/edit/gltf_json_insert.h"
+#include "io/gltf/edit/gltf_morphs.h"
 #include "json/json_text.h"
 
 static bool is_array(const gltf_document *d, uint32_t value)

@@ -3,7 +3,6 @@
 #include "base/memory/slots.h"
 #include "base/vector/vec.h"
 #include "io/gltf/model/gltf_parts.h"
-#include "io/gltf/model/gltf_results.h"
 #include "io/gltf/read/gltf_elements.h"
 #include <float.h>
 #include <math.h>

@@ -233,6 +233,9 @@ void ffd_gltf_forget_bytes(const gltf_document *document, const gltf_buffer *buf
    uncompressed. */
 void ffd_gltf_forget_elements(const gltf_document *document, size_t accessor, size_t first, size_t count);
 
+/* Frees the arrays of a stream's result. */
+void ffd_gltf_free_result(gltf_stream *stream);
+
 /* Converts a mesh document, which must be of glTF. */
 static inline const gltf_document *ffd_gltf_of(const mesh_document *document)
 {

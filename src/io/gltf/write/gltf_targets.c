@@ -1,9 +1,8 @@
 /* gltf_targets.c - writes further and replaced morph targets: their accessors, and what primitives, meshes
    and nodes say of them. */
 #include "base/memory/memory.h"
-#include "io/gltf/edit/gltf_edit.h"
 #include "io/gltf/edit/gltf_json_insert.h"
-#include "io/gltf/edit/gltf_target_names.h"
+#include "io/gltf/edit/gltf_morphs.h"
 #include "io/gltf/write/gltf_plan.h"
 #include "io/gltf/write/gltf_saver.h"
 
