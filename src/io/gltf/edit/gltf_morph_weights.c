@@ -6,7 +6,6 @@
 #include "io/gltf/edit/gltf_morphs.h"
 #include "io/gltf/read/gltf_elements.h"
 #include "io/gltf/read/gltf_index_table.h"
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -46,15 +45,10 @@ typedef struct weight_writer {
     channel_note odd;   /* likewise, and they are left as they are */
 } weight_writer;
 
-static bool read_index(const gltf_edit *file, uint32_t object, const char *key, size_t count, size_t *index)
+/* Returns a member of an object as a whole number below count; GLTF_NONE if it is not one. */
+static size_t index_of(const gltf_document *d, uint32_t object, const char *key, size_t count)
 {
-    double number;
-    if (!ffd_json_tree_number(&file->document->tree, ffd_json_tree_member(&file->document->tree, object, key),
-                              &number) ||
-        !(number >= 0 && number < (double)count) || floor(number) < number)
-        return false;
-    *index = (size_t)number;
-    return true;
+    return ffd_gltf_index(d, ffd_json_tree_member(&d->tree, object, key), count);
 }
 
 /* What a channel drives. */
@@ -101,9 +95,9 @@ static driven find_target(gltf_edit *file, uint32_t target)
         return what;
     }
     const uint32_t path = ffd_json_tree_member(&d->tree, target, "path");
-    size_t node;
-    if (path != JSON_NONE && ffd_json_tree_string_is(&d->tree, path, "weights") &&
-        read_index(file, target, "node", d->model.node_count, &node) && d->model.nodes[node].mesh >= 0)
+    const size_t node = index_of(d, target, "node", d->model.node_count);
+    if (path != JSON_NONE && ffd_json_tree_string_is(&d->tree, path, "weights") && node != GLTF_NONE &&
+        d->model.nodes[node].mesh >= 0)
         what.mesh = (size_t)d->model.nodes[node].mesh;
     return what;
 }
@@ -166,9 +160,9 @@ static bool find_drivers(gltf_edit *file, animation *a)
     size_t c = 0;
     for (uint32_t v = ffd_json_tree_first(tree, a->channels); v != JSON_NONE;
          v = ffd_json_tree_after(tree, v), c++) {
-        size_t sampler;
+        const size_t sampler = index_of(file->document, v, "sampler", a->sampler_count);
         a->wanted[c] = GLTF_NONE;
-        if (!read_index(file, v, "sampler", a->sampler_count, &sampler))
+        if (sampler == GLTF_NONE)
             continue;
         const driven what = find_target(file, ffd_json_tree_member(tree, v, "target"));
         const gltf_mesh_uses *const mesh =
@@ -203,16 +197,15 @@ static bool find_rows(const gltf_edit *file, uint32_t sampler, const wanted_outp
     const uint32_t interpolation = ffd_json_tree_member(&d->tree, sampler, "interpolation");
     const bool cubic =
         interpolation != JSON_NONE && ffd_json_tree_string_is(&d->tree, interpolation, "CUBICSPLINE");
-    size_t input;
-    if (!read_index(file, sampler, "output", d->model.accessor_count, &layout->accessor))
+    const size_t input = index_of(d, sampler, "input", d->model.accessor_count);
+    layout->accessor = index_of(d, sampler, "output", d->model.accessor_count);
+    if (layout->accessor == GLTF_NONE)
         return false;
     const gltf_accessor *const old = &d->model.accessors[layout->accessor];
     const size_t count = (size_t)old->count, parts = cubic ? 3 : 1, row = parts * wanted->targets;
     if (count == 0 || old->columns * old->rows != 1 || !d->layouts[layout->accessor].readable)
         return false;
-    const size_t keys = read_index(file, sampler, "input", d->model.accessor_count, &input)
-                            ? (size_t)d->model.accessors[input].count
-                            : 0;
+    const size_t keys = input == GLTF_NONE ? 0 : (size_t)d->model.accessors[input].count;
     const bool is_whole = keys > 0 && count % keys == 0 && count / keys % parts == 0;
     layout->width = is_whole ? count / (keys * parts) : wanted->targets;
     layout->fits = keys == 0 || (is_whole && layout->width == wanted->targets && !wanted->is_single);

@@ -260,13 +260,19 @@ static inline bool ffd_gltf_is_added(const gltf_document *document, size_t acces
     return accessor >= document->accessor_values.count;
 }
 
+/* Whether a value is among others (NULL: none). */
+static inline bool ffd_gltf_is_among(const gltf_values *list, uint32_t value)
+{
+    for (size_t i = 0; list && i < list->count; i++)
+        if (list->values[i] == value)
+            return true;
+    return false;
+}
+
 /* Whether an animation is replaced in the output: what it names does not count. */
 static inline bool ffd_gltf_is_replaced(const gltf_document *document, uint32_t animation)
 {
-    for (size_t i = 0; document->replaced && i < document->replaced->count; i++)
-        if (document->replaced->values[i] == animation)
-            return true;
-    return false;
+    return ffd_gltf_is_among(document->replaced, animation);
 }
 
 /* Returns the primitive of a mesh after `primitive`, or the first one if that is NULL; NULL: there is none.

@@ -1,6 +1,6 @@
 /* gltf_saver.h - the state of saving: the plan, the new buffers, the edits of the JSON; and the steps, in the
-   order of gltf_save.c: gltf_content.c (with gltf_unpack.c, gltf_mend_weights.c, gltf_sparse.c),
-   gltf_container.c, gltf_patch.c (with gltf_bounds.c, gltf_targets.c, gltf_follow.c, gltf_extensions.c),
+   order of gltf_save.c: gltf_content.c (with gltf_unpack.c, gltf_mend_weights.c, gltf_targets.c),
+   gltf_container.c, gltf_patch.c (with gltf_targets.c, gltf_bounds.c, gltf_follow.c, gltf_extensions.c),
    gltf_resources.c, gltf_announce.c. */
 #ifndef FFD_IO_GLTF_WRITE_GLTF_SAVER_H
 #define FFD_IO_GLTF_WRITE_GLTF_SAVER_H
@@ -109,10 +109,6 @@ ffd_status ffd_gltf_mend_weights(gltf_saver *saver, ffd_error *error);
    if the document allows it and at least two thirds of the vectors are 0. Errors: FFD_E_LIMIT,
    FFD_E_MEMORY. */
 ffd_status ffd_gltf_list_sparse(gltf_saver *saver, ffd_error *error);
-
-/* Writes the member "sparse" of an accessor, followed by a comma. view: the bufferView of its indices and
-   values. */
-void ffd_gltf_write_sparse(const gltf_stored_part *sparse, size_t view, byte_buffer *text);
 
 /* Frees saver->sparse. */
 void ffd_gltf_free_sparse(gltf_saver *saver);

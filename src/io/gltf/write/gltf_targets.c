@@ -1,10 +1,102 @@
-/* gltf_targets.c - writes further and replaced morph targets: their accessors, and what primitives, meshes
-   and nodes say of them. */
+/* gltf_targets.c - writes further and replaced morph targets: their accessors, which store only nonzero
+   offsets where most are 0, and what primitives, meshes and nodes say of them. */
+#include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include "io/gltf/edit/gltf_json_insert.h"
 #include "io/gltf/edit/gltf_morphs.h"
 #include "io/gltf/write/gltf_plan.h"
 #include "io/gltf/write/gltf_saver.h"
+#include <string.h>
+
+#define VECTOR (3 * sizeof(float))
+
+/* The largest number of elements that 16-bit indices can number. */
+#define SHORT_INDICES ((size_t)65536)
+
+static bool is_zero(const float *xyz)
+{
+    static const float zero[3] = {0, 0, 0};
+    return memcmp(xyz, zero, VECTOR) == 0; /* -0 is stored: sparse or not, a target has the same bits */
+}
+
+static bool may_be_sparse(const gltf_document *d, const gltf_version *version)
+{
+    return d->base.sparse_targets && version->accessor != GLTF_NONE &&
+           ffd_gltf_is_added(d, version->accessor);
+}
+
+static void put_index(gltf_stored_part *sparse, size_t k, size_t index)
+{
+    if (sparse->index_size == 2) {
+        sparse->bytes[2 * k] = index & 255;
+        sparse->bytes[2 * k + 1] = (unsigned char)(index >> 8 & 255);
+    } else {
+        store_u32(sparse->bytes + 4 * k, (uint32_t)index);
+    }
+}
+
+/* Stores the nonzero vectors; their number is sparse->count. */
+static ffd_status store(const float *values, size_t count, memory_budget *budget, gltf_stored_part *sparse,
+                        ffd_error *error)
+{
+    sparse->index_size = count <= SHORT_INDICES ? 2 : 4;
+    sparse->values_at = ffd_gltf_align(sparse->count * sparse->index_size);
+    sparse->size = sparse->values_at + sparse->count * VECTOR;
+    TRY(ffd_budget_take(budget, sparse->size, 1, error));
+    sparse->bytes = ffd_alloc_zero(sparse->size, 1);
+    if (!sparse->bytes)
+        return ffd_fail_memory(error);
+    for (size_t i = 0, k = 0; i < count; i++) {
+        if (is_zero(values + 3 * i))
+            continue;
+        put_index(sparse, k, i);
+        for (size_t c = 0; c < 3; c++)
+            store_float(sparse->bytes + sparse->values_at + k * VECTOR + c * sizeof(float),
+                        values[3 * i + c]);
+        k++;
+    }
+    return FFD_OK;
+}
+
+ffd_status ffd_gltf_list_sparse(gltf_saver *saver, ffd_error *error)
+{
+    const gltf_document *const d = saver->document;
+    memory_budget budget = d->base.budget;
+    ffd_status status = FFD_OK;
+    saver->sparse = ffd_alloc_zero(saver->plan.appended_count, sizeof *saver->sparse);
+    if (!saver->sparse)
+        return ffd_fail_memory(error);
+    for (size_t i = 0; i < saver->plan.appended_count && !status; i++) {
+        const gltf_version *const version = &saver->plan.versions[saver->plan.appended[i]];
+        gltf_stored_part *const sparse = &saver->sparse[i];
+        if (!may_be_sparse(d, version))
+            continue;
+        const size_t count = (size_t)d->model.accessors[version->accessor].count;
+        for (size_t v = 0; v < count; v++)
+            sparse->count += !is_zero(version->values + 3 * v);
+        if (sparse->count <= count / 3)
+            status = store(version->values, count, &budget, sparse, error);
+    }
+    return status;
+}
+
+/* Writes the member "sparse" of an accessor, followed by a comma. view: the bufferView of its indices and
+ * values. */
+static void write_sparse(const gltf_stored_part *sparse, size_t view, byte_buffer *text)
+{
+    ffd_buffer_format(text,
+                      "\"sparse\":{\"count\":%zu,\"indices\":{\"bufferView\":%zu,\"componentType\":%d},"
+                      "\"values\":{\"bufferView\":%zu,\"byteOffset\":%zu}},",
+                      sparse->count, view, sparse->index_size == 2 ? GLTF_U16 : GLTF_U32, view,
+                      sparse->values_at);
+}
+
+void ffd_gltf_free_sparse(gltf_saver *saver)
+{
+    for (size_t i = 0; saver->sparse && i < saver->plan.appended_count; i++)
+        ffd_free(saver->sparse[i].bytes);
+    ffd_free(saver->sparse);
+}
 
 void ffd_gltf_write_added(const gltf_saver *saver, size_t accessor, size_t appended, byte_buffer *text)
 {
@@ -15,7 +107,7 @@ void ffd_gltf_write_added(const gltf_saver *saver, size_t accessor, size_t appen
     const size_t view = ffd_gltf_view_end(d) + appended;
     ffd_buffer_text(text, text->size > 0 ? ",{" : "{");
     if (version && saver->sparse[appended].bytes)
-        ffd_gltf_write_sparse(&saver->sparse[appended], view, text);
+        write_sparse(&saver->sparse[appended], view, text);
     else if (version)
         ffd_buffer_format(text, "\"bufferView\":%zu,", view);
     ffd_buffer_format(text, "\"componentType\":%d,\"count\":%llu,\"type\":\"VEC3\"", GLTF_FLOAT,
