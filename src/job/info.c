@@ -1,11 +1,9 @@
 /* info.c - the job of `ffd info`. */
+#include "job/info.h"
 #include "base/file/mapping.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/struct_size.h"
-#include "job/info_lattice.h"
-#include "job/info_mesh.h"
-#include "job/info_text.h"
 #include "job/input/deform_desc.h"
 #include "job/input/in_memory.h"
 #include "job/input/source.h"
@@ -81,9 +79,4 @@ ffd_status ffd_info_run(const ffd_info_desc *callers, char **text, ffd_error *er
     status = ffd_in_memory_end(&memory, status, error);
     ffd_buffer_free(&facts);
     return status;
-}
-
-void ffd_text_free(char *text)
-{
-    ffd_free(text);
 }

@@ -1,6 +1,7 @@
-#include "job/info_box.h"
+/* info_box.c - boxes in what `ffd info` prints: any bounds, and the box of a lattice's rest volume. */
 #include "base/memory/memory.h"
 #include "job/chain/mesh_boxes.h"
+#include "job/info.h"
 #include "lattice/lattice.h"
 #include "lattice/shapes.h"
 #include "lattice/spec.h"

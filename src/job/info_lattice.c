@@ -1,10 +1,9 @@
-#include "job/info_lattice.h"
+/* info_lattice.c - describes a lattice file for `ffd info`. */
 #include "base/memory/memory.h"
 #include "base/spelling.h"
 #include "base/vector/vec.h"
 #include "job/chain/lattice_memory.h"
-#include "job/info_box.h"
-#include "job/info_layers.h"
+#include "job/info.h"
 #include "lattice/build.h"
 #include "lattice/file/spec_parse.h"
 #include "lattice/lattice.h"

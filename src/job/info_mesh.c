@@ -1,8 +1,7 @@
-#include "job/info_mesh.h"
+/* info_mesh.c - describes a mesh for `ffd info`. */
 #include "io/openmesh/half_edges.h"
 #include "io/openmesh/topology.h"
-#include "job/info_box.h"
-#include "job/info_parts.h"
+#include "job/info.h"
 #include "job/input/source.h"
 #include "mesh/bounds.h"
 #include <stdio.h>

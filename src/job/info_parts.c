@@ -1,6 +1,6 @@
-#include "job/info_parts.h"
+/* info_parts.c - lists the names of a mesh that `--only` accepts. */
 #include "base/memory/memory.h"
-#include "job/info_box.h"
+#include "job/info.h"
 #include "mesh/listing.h"
 #include <stdio.h>
 #include <string.h>

@@ -1,10 +1,10 @@
-#include "job/measure/tear_blocks.h"
+/* tear_blocks.c - tear_field.h for blocks (lattices side by side). */
 #include "base/vector/vec.h"
 #include "embed/locator.h"
 #include "job/chain/blocks.h"
 #include "job/chain/chain_apply.h"
 #include "job/chain/point_outcome.h"
-#include "job/measure/tear_feet.h"
+#include "job/measure/tear_field.h"
 #include "lattice/lattice.h"
 #include <math.h>
 #include <string.h>

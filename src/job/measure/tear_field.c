@@ -4,8 +4,6 @@
 #include "embed/locator_border.h"
 #include "job/chain/pace.h"
 #include "job/chain/point_outcome.h"
-#include "job/measure/tear_blocks.h"
-#include "job/measure/tear_feet.h"
 #include "lattice/lattice.h"
 #include <math.h>
 #include <string.h>

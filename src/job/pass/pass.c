@@ -8,11 +8,7 @@
 #include "job/chain/chain_apply.h"
 #include "job/chain/marks.h"
 #include "job/chain/point_rounding.h"
-#include "job/pass/pass_shapes.h"
-#include "job/pass/pass_splats.h"
-#include "job/pass/tile_points.h"
-#include "job/pass/tile_rounding.h"
-#include "job/pass/tile_totals.h"
+#include "job/pass/tile.h"
 #include <ffd/deform.h>
 #include <math.h>
 #include <stdatomic.h>

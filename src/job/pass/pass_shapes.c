@@ -1,11 +1,10 @@
 /* pass_shapes.c - morph targets in a pass. With D the displacement in the file's own space, a vertex at p
    with the offset m gets m' = m + D(p + m) - D(p); its normals' offset is n'(p + m, n + dn) - n'(p, n),
    tangents likewise (src/maths.md 9.3). */
-#include "job/pass/pass_shapes.h"
 #include "base/vector/vec.h"
 #include "deform/attribute.h"
 #include "job/chain/chain_apply.h"
-#include "job/pass/tile_points.h"
+#include "job/pass/tile.h"
 #include <math.h>
 #include <string.h>
 

@@ -1,5 +1,6 @@
 /* view.c - the job of `ffd view`: makes a scene of a mesh and its deformation, or of one or two files as they
    are. */
+#include "job/view/view.h"
 #include "base/file/mapping.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
@@ -18,11 +19,6 @@
 #include "job/pass/chain_fit.h"
 #include "job/report/output_set.h"
 #include "job/report/report.h"
-#include "job/view/view_inputs.h"
-#include "job/view/view_marks.h"
-#include "job/view/view_mesh.h"
-#include "job/view/view_order.h"
-#include "job/view/view_rigs.h"
 #include "view/page.h"
 #include "view/view_picture.h"
 #include <math.h>

@@ -1,8 +1,10 @@
-#include "job/view/view_marks.h"
+/* view_marks.c - marks of a deformation in a scene: statuses, det F, flipped faces, torn edges, the witness
+   of a fold; and the control lattices. */
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "job/measure/quality.h"
+#include "job/view/view.h"
 #include "lattice/file/lattice_source.h"
 #include "lattice/lattice.h"
 #include <math.h>

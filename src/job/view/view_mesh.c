@@ -1,6 +1,7 @@
-#include "job/view/view_mesh.h"
+/* view_mesh.c - makes a scene's geometry from a model and its deformed positions. */
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "job/view/view.h"
 #include "mesh/model_triangles.h"
 #include <math.h>
 #include <string.h>

@@ -1,5 +1,7 @@
-#include "job/view/view_order.h"
+/* view_order.c - which vertices of two files of one mesh are the same: the later file may list its parts in
+   another order. */
 #include "base/memory/memory.h"
+#include "job/view/view.h"
 #include <stdlib.h>
 
 /* A part whose vertices are counted, and the number of the first. */
