@@ -190,7 +190,7 @@ static void write_matrices(const gltf_version *version, size_t view, byte_buffer
 static void add_accessors(gltf_saver *saver)
 {
     const gltf_document *d = saver->document;
-    ffd_gltf_add_all_added(saver);
+    ffd_gltf_add_new_accessors(saver);
     for (size_t i = 0; i < saver->plan.appended_count; i++) {
         const gltf_version *version = &saver->plan.versions[saver->plan.appended[i]];
         byte_buffer text = {0};
@@ -200,7 +200,7 @@ static void add_accessors(gltf_saver *saver)
         if (version->accessor == GLTF_NONE) {
             write_matrices(version, ffd_gltf_view_end(d) + i, &text);
         } else if (ffd_gltf_is_added(d, version->accessor)) {
-            ffd_gltf_write_added(saver, version->accessor, i, &text);
+            ffd_gltf_write_new_accessor(saver, version->accessor, i, &text);
         } else {
             edit_storage(saver, version, ffd_gltf_view_end(d) + i, &edits);
             ffd_gltf_edit_bounds(saver, version, &edits);

@@ -164,10 +164,11 @@ bool ffd_gltf_replaces_target(const gltf_document *document, size_t mesh, size_t
 
 /* Adds the accessors that the document's edit adds: those of further morph targets, then those of animations.
  */
-void ffd_gltf_add_all_added(gltf_saver *saver);
+void ffd_gltf_add_new_accessors(gltf_saver *saver);
 /* Appends one of them to the text of a list, with the content of version plan.appended[appended]; GLTF_NONE:
    zeros. */
-void ffd_gltf_write_added(const gltf_saver *saver, size_t accessor, size_t appended, byte_buffer *text);
+void ffd_gltf_write_new_accessor(const gltf_saver *saver, size_t accessor, size_t appended,
+                                 byte_buffer *text);
 
 /* Makes and logs these edits. Errors: FFD_E_MEMORY. */
 ffd_status ffd_gltf_make_edits(gltf_saver *saver, ffd_error *error);

@@ -98,7 +98,7 @@ void ffd_gltf_free_sparse(gltf_saver *saver)
     ffd_free(saver->sparse);
 }
 
-void ffd_gltf_write_added(const gltf_saver *saver, size_t accessor, size_t appended, byte_buffer *text)
+void ffd_gltf_write_new_accessor(const gltf_saver *saver, size_t accessor, size_t appended, byte_buffer *text)
 {
     const gltf_document *const d = saver->document;
     const gltf_plan *const plan = &saver->plan;
@@ -117,7 +117,7 @@ void ffd_gltf_write_added(const gltf_saver *saver, size_t accessor, size_t appen
     ffd_buffer_text(text, "}");
 }
 
-void ffd_gltf_add_all_added(gltf_saver *saver)
+void ffd_gltf_add_new_accessors(gltf_saver *saver)
 {
     const gltf_document *const d = saver->document;
     const gltf_plan *const plan = &saver->plan;
@@ -133,7 +133,7 @@ void ffd_gltf_add_all_added(gltf_saver *saver)
         if (plan->versions[plan->appended[i]].rebinds)
             appended[plan->versions[plan->appended[i]].accessor - first] = i;
     for (size_t i = 0; i < count && appended; i++)
-        ffd_gltf_write_added(saver, first + i, appended[i], &text);
+        ffd_gltf_write_new_accessor(saver, first + i, appended[i], &text);
     if (d->edit->accessor_count > 0) {
         ffd_buffer_text(&text, text.size > 0 ? "," : "");
         ffd_buffer_append(&text, d->edit->accessors.data, d->edit->accessors.size);
