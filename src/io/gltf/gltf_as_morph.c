@@ -5,7 +5,6 @@
 #include "io/gltf/edit/gltf_morphs.h"
 #include "io/gltf/model/gltf_functions.h"
 #include "io/gltf/model/gltf_parts.h"
-#include "mesh/morph/morph_clip.h"
 
 /* Moves the results of the current target, which are complete, from the streams to document->morphs. */
 static ffd_status finish_target(gltf_document *d, ffd_error *error)

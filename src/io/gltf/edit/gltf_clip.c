@@ -8,7 +8,6 @@
 #include "io/gltf/edit/gltf_morphs.h"
 #include "io/gltf/model/gltf_parts.h"
 #include "io/gltf/read/gltf_users.h"
-#include "mesh/morph/morph_clip.h"
 #include "json/json_text.h"
 #include <inttypes.h>
 #include <stdio.h>

@@ -4,6 +4,7 @@
 #define FFD_IO_GLTF_EDIT_GLTF_MORPHS_H
 
 #include "io/gltf/edit/gltf_edit.h"
+#include "mesh/morph/morph_clip.h"
 
 /* Adds a target of zeros, for the deformed attributes, to the primitives of the meshes that morph->places
    names; it replaces a target that the mesh has there. It has the same place in all primitives of a mesh:
