@@ -111,7 +111,7 @@ static const char *wrong_positions(const settings *s, const cli_words *words)
         return "--positions needs a name that ends in .npy";
     if (jobs->job.desc.in_place)
         return "--in-place cannot be used with --positions";
-    if (jobs->job.morph_count > 0)
+    if (jobs->job.desc.morphs)
         return "--morph cannot be used with --positions: a row is of one deformation";
     if (jobs->depfile_path)
         return "--depfile cannot be used with --positions: its rules are for meshes";
@@ -128,13 +128,13 @@ static const char *wrong(const settings *s, const cli_words *words)
         return "more than one MANIFEST";
     if (!manifest && !s->table && !s->pattern)
         return "needs MANIFEST, or --in, or --csv";
-    if (manifest && (s->table || s->pattern || jobs->out_dir || jobs->job.lattice_count))
+    if (manifest && (s->table || s->pattern || jobs->out_dir || jobs->job.desc.lattice_count))
         return "MANIFEST cannot be used with --in, --csv, --lattice, --morph or --out-dir";
     if (s->ignored && !s->table)
         return "--csv-ignore needs --csv";
-    if (!manifest && !s->table && !jobs->job.lattice_count)
+    if (!manifest && !s->table && !jobs->job.desc.lattice_count)
         return "--in needs a lattice (-l FILE)";
-    if (jobs->job.morph_count > 0 && jobs->job.lattice_count > jobs->job.morph_count)
+    if (cli_job_mixes_morphs(&jobs->job))
         return "-l cannot be used with --morph: each --morph names its own lattice";
     if (!manifest && !s->table && !jobs->out_dir && !jobs->job.desc.in_place && !s->positions)
         return "--in needs --out-dir, --in-place or --positions";
@@ -162,9 +162,9 @@ static int run_batch(const settings *s, const cli_words *words)
                                       .table = s->table,
                                       .ignored = s->ignored,
                                       .pattern = s->pattern,
-                                      .lattices = job->lattices,
-                                      .lattice_count = job->lattice_count,
-                                      .morphs = job->morph_count ? job->morphs : NULL,
+                                      .lattices = job->desc.lattices,
+                                      .lattice_count = job->desc.lattice_count,
+                                      .morphs = job->desc.morphs,
                                       .out_dir = s->jobs.out_dir,
                                       .defaults = s->defaults,
                                       .default_count = s->default_count,

@@ -3,7 +3,6 @@
 #include "base/file/folder.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
-#include "cli/morphs.h"
 #include "io/format_names.h"
 #include "job/plan.h"
 #include <errno.h>
@@ -23,11 +22,11 @@ static bool set_output_format(void *context, const cli_option *option, const cha
 #define AT(field) offsetof(settings, field)
 const cli_option cli_deform_options[] = {
     {"morph", 0, "NAME=LATTICE",
-     "glTF out, in place of -l: as --as-morph, for this lattice; repeatable, in one pass", cli_add_morph, 0,
-     NULL},
+     "glTF out, in place of -l: as --as-morph, for this lattice; repeatable, in one pass", cli_set_member,
+     AT(job.desc), NULL},
     {"clip", 0, "CLIP",
      "with --morph: animate weights, \"NAME: TIME TARGET=W ..., TIME ...\"; seconds; repeatable",
-     cli_add_clip, 0, NULL},
+     cli_set_member, AT(job.desc), NULL},
     {"out-dir", 0, "DIR", "write every IN under its own name into this folder", cli_set_text, AT(out_dir),
      NULL},
     {"in-place", 0, NULL, "overwrite IN", cli_set_member, AT(job.desc), NULL},
@@ -143,7 +142,14 @@ static bool describe(settings *s, const char *input, const char *output, ffd_def
     cli_job_describe(&s->job, input, desc);
     desc->output = s->job.desc.in_place ? NULL : output;
     desc->depfile = s->depfile;
-    return cli_morphs_describe(&s->job, desc);
+    if (!desc->morphs)
+        return true;
+    if (!s->job.morph_results)
+        s->job.morph_results = calloc(desc->lattice_count, sizeof *s->job.morph_results);
+    desc->morph_results = s->job.morph_results;
+    if (!desc->morph_results)
+        cli_complain("out of memory");
+    return desc->morph_results;
 }
 
 static int deform(settings *s, const char *input, const char *output, ffd_report *report)
@@ -247,7 +253,7 @@ static const char *wrong_outputs(const settings *s, const cli_words *words, size
 /* Makes all checks before the first job. Returns 0, or an exit code after a complaint. */
 static int refuse(const cli_command *command, settings *s, const cli_words *words, size_t inputs)
 {
-    const char *why = s->job.lattice_count ? wrong_words(s, words) : NULL;
+    const char *why = s->job.desc.lattice_count ? wrong_words(s, words) : NULL;
     if (!why && !has_many(s) && words->count > 1)
         s->output = words->words[1];
     if (!why)

@@ -191,7 +191,7 @@ static const char *mistake(settings *s, const cli_words *words)
     const char *const why = mistake_of_kind(s);
     if (why)
         return why;
-    if (words->count == 2 || s->job.lattice_count == 0)
+    if (words->count == 2 || s->job.desc.lattice_count == 0)
         return mistake_of_files(s, words);
     if (s->job.report && ffd_paths_meet(s->job.report, s->output))
         return "the report would replace the picture or page";

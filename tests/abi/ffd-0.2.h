@@ -698,20 +698,31 @@ typedef enum ffd_member_kind {
     FFD_MEMBER_FORMAT,
     FFD_MEMBER_COUNT,
     FFD_MEMBER_LENGTH,
+    FFD_MEMBER_DISTANCE,
     FFD_MEMBER_TIME,
     FFD_MEMBER_BYTES,
     FFD_MEMBER_GATES,
     FFD_MEMBER_TEXT,
-    FFD_MEMBER_LIST,
+    FFD_MEMBER_TEXTS,
+    FFD_MEMBER_SELECTORS,
+    FFD_MEMBER_CLIPS,
+    FFD_MEMBER_VALUES,
+    FFD_MEMBER_LATTICES,
+    FFD_MEMBER_MORPHS,
     FFD_MEMBER_OBJECT
 } ffd_member_kind;
+typedef enum ffd_member_trait { FFD_MEMBER_IS_PATH = 1, FFD_MEMBER_IS_IDLE = 2 } ffd_member_trait;
 typedef struct ffd_member {
     const char *name;
+    const char *option;
     ffd_member_kind kind;
     size_t offset;
-    size_t count;
+    size_t second;
     const char *const *words;
+    unsigned traits;
 } ffd_member;
 const ffd_member *ffd_deform_member(size_t number);
+ffd_status ffd_member_read(const ffd_member *member, void *desc, const char *text, ffd_error *error);
+void ffd_deform_desc_clear(ffd_deform_desc *desc);
 ffd_status ffd_deform_desc_check(const ffd_deform_desc *desc, ffd_error *error);
 const char *ffd_version(void);

@@ -202,7 +202,7 @@ def _set_member(desc: Any, option: str, value: Any) -> Any:
     """Sets the member of an option. Returns an object that must stay alive."""
     member = _MEMBERS[option]
     structure, name = (desc.input if member.name.startswith("input.") else desc), member.name.removeprefix("input.")
-    if member.kind == "list":
+    if member.kind in ("texts", "selectors", "clips"):
         texts, count = _texts(value, option)
         setattr(structure, name, texts)
         setattr(structure, name.removesuffix("s") + "_count", count)
