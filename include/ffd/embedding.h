@@ -16,12 +16,12 @@ extern "C" {
 /* What is known about the solutions of C(u,v,w) = p for a point p. The values are those of `ffd embed
    --status`. */
 typedef enum ffd_vertex_status {
-    FFD_INSIDE = 0,       /* exactly one solution */
-    FFD_OUTSIDE = 1,      /* none within the tolerance; this is proven */
-    FFD_MULTIPLE = 2,     /* two or more: the lattice overlaps itself */
-    FFD_SINGULAR = 3,     /* a solution where det J is 0 to rounding, or a set of solutions, or the search
-                             stopped without a result: u,v,w is then where it stopped */
-    FFD_POINT_INVALID = 4 /* a coordinate of p is not finite */
+    FFD_VERTEX_INSIDE = 0,   /* exactly one solution */
+    FFD_VERTEX_OUTSIDE = 1,  /* none within the tolerance; this is proven */
+    FFD_VERTEX_MULTIPLE = 2, /* two or more: the lattice overlaps itself */
+    FFD_VERTEX_SINGULAR = 3, /* a solution where det J is 0 to rounding, or a set of solutions, or the search
+                         stopped without a result: u,v,w is then where it stopped */
+    FFD_VERTEX_INVALID = 4   /* a coordinate of p is not finite */
 } ffd_vertex_status;
 
 #define FFD_VERTEX_STATUS_COUNT 5
@@ -43,7 +43,7 @@ typedef struct ffd_location {
     double residual; /* |C(u,v,w) - p|, Euclidean, world units; 0 without u,v,w */
     uint8_t status;  /* ffd_vertex_status */
     bool unresolved; /* the search stopped at one of its limits: there may be solutions that it did not find.
-                        Always false with FFD_INSIDE and FFD_OUTSIDE. */
+                        Always false with FFD_VERTEX_INSIDE and FFD_VERTEX_OUTSIDE. */
     uint32_t evaluations; /* of C with its Jacobian; 0 for affine and separable lattices */
     uint32_t leaves;      /* leaves of the search structure that were searched */
 } ffd_location;
@@ -78,14 +78,14 @@ typedef struct ffd_border_allowance {
      locations     count results; location_size is sizeof(ffd_location) in the caller's header, because the
                    elements have no struct_size of their own
    The result of a point depends only on the point and the lattice, to the bit. For a point with status
-   FFD_INSIDE, the residual in each coordinate a is at most 16 eps (max|P_a| + |p_a|) plus the change of C_a
-   by rounding u,v,w.
+   FFD_VERTEX_INSIDE, the residual in each coordinate a is at most 16 eps (max|P_a| + |p_a|) plus the change
+   of C_a by rounding u,v,w.
 
    With an allowance, a point that would be outside is inside if a point of the border is within the tolerance
    plus rounding of it in each coordinate, or within the distance snap. u,v,w and residual are then those of
    the nearest border point. If the search of the border stops before this is decided, the point is
-   FFD_SINGULAR and unresolved, without u,v,w. All other results are the same as without an allowance, to the
-   bit. A rounding of at most 1/16 of the tolerance is ignored, since the tolerance includes it.
+   FFD_VERTEX_SINGULAR and unresolved, without u,v,w. All other results are the same as without an allowance,
+   to the bit. A rounding of at most 1/16 of the tolerance is ignored, since the tolerance includes it.
 
    Thread-safe; allocates only memory that it frees before it returns. Errors: FFD_E_ARGUMENT (sizes),
    FFD_E_MEMORY, FFD_E_LIMIT; some locations are then undefined. */

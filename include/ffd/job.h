@@ -3,8 +3,8 @@
    callbacks.
 
    Strings, arrays and objects that a description points to belong to the caller and are used during the call
-   only. Jobs may run in several threads at once if they share no ffd_written, ffd_share, ffd_shared_box,
-   ffd_depfile or ffd_report, and write different outputs. */
+   only. Jobs may run in several threads at once if they share no ffd_output_set, ffd_job_cache,
+   ffd_shared_box, ffd_depfile or ffd_report, and write different outputs. */
 #ifndef FFD_JOB_H
 #define FFD_JOB_H
 
@@ -152,25 +152,25 @@ FFD_API ffd_status ffd_clip_check(const char *text, ffd_error *error);
 /* The set of files that a run has written. Jobs that share it neither overwrite nor read what an earlier one
    of them wrote; files are compared by identity, because several names can lead to one file. One thread at a
    time. */
-typedef struct ffd_written ffd_written;
+typedef struct ffd_output_set ffd_output_set;
 
-/* Creates an empty set. The caller destroys *written. Errors: FFD_E_MEMORY. */
-FFD_API ffd_status ffd_written_create(ffd_written **written, ffd_error *error);
-/* Destroys the set and sets *written to NULL. written and *written may be NULL. */
-FFD_API void ffd_written_destroy(ffd_written **written);
+/* Creates an empty set. The caller destroys *output_set. Errors: FFD_E_MEMORY. */
+FFD_API ffd_status ffd_output_set_create(ffd_output_set **output_set, ffd_error *error);
+/* Destroys the set and sets *output_set to NULL. output_set and *output_set may be NULL. */
+FFD_API void ffd_output_set_destroy(ffd_output_set **output_set);
 
 /* A cache that a job leaves for the next one: the mesh (if it is unchanged), the lattices, their fold proofs
    and search structures, and, for a single lattice, the u,v,w of the mesh. The output and all figures except
    the seconds are the same with and without a cache. One job at a time. */
-typedef struct ffd_share ffd_share;
+typedef struct ffd_job_cache ffd_job_cache;
 
-/* Creates an empty cache. The caller destroys *share. Errors: FFD_E_MEMORY. */
-FFD_API ffd_status ffd_share_create(ffd_share **share, ffd_error *error);
-/* As ffd_share_create, for jobs that all have different meshes: keeps only lattices and their search
+/* Creates an empty cache. The caller destroys *cache. Errors: FFD_E_MEMORY. */
+FFD_API ffd_status ffd_job_cache_create(ffd_job_cache **cache, ffd_error *error);
+/* As ffd_job_cache_create, for jobs that all have different meshes: keeps only lattices and their search
    structures. */
-FFD_API ffd_status ffd_share_create_for_lattices(ffd_share **share, ffd_error *error);
-/* Destroys the cache and sets *share to NULL. share and *share may be NULL. */
-FFD_API void ffd_share_destroy(ffd_share **share);
+FFD_API ffd_status ffd_job_cache_create_for_lattices(ffd_job_cache **cache, ffd_error *error);
+/* Destroys the cache and sets *cache to NULL. cache and *cache may be NULL. */
+FFD_API void ffd_job_cache_destroy(ffd_job_cache **cache);
 
 /* One box round the meshes of several jobs, for lattices whose box is "mesh" (`--shared-box`). One thread at
    a time; jobs only read it. */
@@ -273,8 +273,8 @@ typedef struct ffd_deform_desc {
     /* Do everything except writing. Unlike ffd_check_run, this includes the checks of the output path and of
        the files next to it; only errors of the writing itself are not found. */
     bool dry_run;
-    ffd_written *written; /* the files of this run; may be NULL */
-    ffd_share *share;     /* the cache of this run; may be NULL */
+    ffd_output_set *output_set; /* the files of this run; may be NULL */
+    ffd_job_cache *cache;       /* the cache of this run; may be NULL */
     /* The box for lattices whose box is "mesh", instead of the bounds of this mesh; may be NULL. */
     const ffd_shared_box *shared_box;
     ffd_depfile *depfile;      /* receives the rule of the output; not with "-" and in_place; may be NULL */
@@ -537,8 +537,8 @@ typedef struct ffd_report ffd_report;
    first job. It is valid JSON after each entry, and keeps its entries if the program is killed. An existing
    file is replaced only if it is a report of the same kind. stable: leave out times. written may be NULL. The
    caller destroys *report. Errors: FFD_E_IO, FFD_E_EXISTS, FFD_E_MEMORY. */
-FFD_API ffd_status ffd_report_create(const char *path, bool stable, ffd_written *written, ffd_report **report,
-                                     ffd_error *error);
+FFD_API ffd_status ffd_report_create(const char *path, bool stable, ffd_output_set *output_set,
+                                     ffd_report **report, ffd_error *error);
 /* As ffd_report_create, in memory: ffd_report_write passes the whole report to sink. The ending of name
    selects JSON or JSON Lines. Errors: FFD_E_ARGUMENT (no name or no sink), FFD_E_MEMORY. */
 FFD_API ffd_status ffd_report_create_sink(const char *name, bool stable, ffd_sink_function sink, void *user,

@@ -32,9 +32,10 @@ typedef struct ffd_span {
     ptrdiff_t step;   /* bytes from x to y and from y to z, may be negative; 0: the size of a number */
 } ffd_span;
 
-/* How a call runs. Fill with ffd_run_init. NULL in place of an ffd_run stands for the defaults. */
-typedef struct ffd_run {
-    size_t struct_size; /* sizeof(ffd_run) in the caller's header */
+/* How a call runs. Fill with ffd_run_options_init. NULL in place of an ffd_run_options stands for the
+ * defaults. */
+typedef struct ffd_run_options {
+    size_t struct_size; /* sizeof(ffd_run_options) in the caller's header */
     int threads;        /* >= 1, or 0 (default) for all cores; does not affect the result */
     ffd_isa isa;        /* does not affect the result; FFD_E_ARGUMENT if not available; default
                            FFD_ISA_AUTO */
@@ -43,10 +44,10 @@ typedef struct ffd_run {
        its output is undefined. */
     bool (*progress)(void *user, double done);
     void *user; /* passed to progress */
-} ffd_run;
+} ffd_run_options;
 
-/* Sets run to defaults. size: sizeof(ffd_run) in the caller's header. */
-FFD_API void ffd_run_init(ffd_run *run, size_t size);
+/* Sets run to defaults. size: sizeof(ffd_run_options) in the caller's header. */
+FFD_API void ffd_run_options_init(ffd_run_options *run, size_t size);
 
 /* What to embed. Fill with ffd_embedding_desc_init, then set lattice and points. */
 typedef struct ffd_embedding_desc {
@@ -74,7 +75,7 @@ typedef struct ffd_embedding ffd_embedding;
    lattice; with FFD_OUTSIDE_EXTEND 140 more bytes for each point outside. Thread-safe. Errors:
    FFD_E_ARGUMENT, FFD_E_INVALID (a lattice with a cell without volume), FFD_E_EMBEDDING (FFD_OUTSIDE_ERROR;
    the message names the point), FFD_E_CANCELLED, FFD_E_MEMORY, FFD_E_LIMIT. */
-FFD_API ffd_status ffd_embedding_create(const ffd_embedding_desc *desc, const ffd_run *run,
+FFD_API ffd_status ffd_embedding_create(const ffd_embedding_desc *desc, const ffd_run_options *run,
                                         ffd_embedding **embedding, ffd_error *error);
 
 /* Destroys the embedding and sets *embedding to NULL. embedding and *embedding may be NULL. */
@@ -104,7 +105,7 @@ FFD_API const uint8_t *ffd_embedding_get_status(const ffd_embedding *embedding);
    FFD_E_ARGUMENT, FFD_E_INVALID (also if a result is too large for the type of out: the message names the
    first such point), FFD_E_CANCELLED, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_embedding_deform(const ffd_embedding *embedding, const ffd_lattice *moved, ffd_span in,
-                                        ffd_span out, double *gradients, const ffd_run *run,
+                                        ffd_span out, double *gradients, const ffd_run_options *run,
                                         ffd_error *error);
 
 /* As ffd_embedding_deform, for some of the points: vertices holds count indices below N in strictly ascending
@@ -112,7 +113,7 @@ FFD_API ffd_status ffd_embedding_deform(const ffd_embedding *embedding, const ff
    written. */
 FFD_API ffd_status ffd_embedding_deform_some(const ffd_embedding *embedding, const ffd_lattice *moved,
                                              const uint32_t *vertices, size_t count, ffd_span in,
-                                             ffd_span out, double *gradients, const ffd_run *run,
+                                             ffd_span out, double *gradients, const ffd_run_options *run,
                                              ffd_error *error);
 
 /* Lists the points that may move with any of the given control points (count indices, u fastest): all points
@@ -145,7 +146,7 @@ typedef struct ffd_csr {
    Thread-safe. Errors: FFD_E_ARGUMENT, FFD_E_INVALID (weights that are not positive and finite),
    FFD_E_CANCELLED, FFD_E_MEMORY, FFD_E_LIMIT. */
 FFD_API ffd_status ffd_embedding_basis(const ffd_embedding *embedding, const double *weights, ffd_csr *matrix,
-                                       const ffd_run *run, ffd_error *error);
+                                       const ffd_run_options *run, ffd_error *error);
 
 /* Frees the arrays of a matrix and sets it to zeros. */
 FFD_API void ffd_csr_free(ffd_csr *matrix);
@@ -154,7 +155,7 @@ FFD_API void ffd_csr_free(ffd_csr *matrix);
    doubles for each control point, u fastest. dx: N x 3 doubles; 0 for points that do not move. weights, run,
    threads and errors: as for ffd_embedding_basis. */
 FFD_API ffd_status ffd_embedding_basis_times(const ffd_embedding *embedding, const double *weights,
-                                             const double *dq, double *dx, const ffd_run *run,
+                                             const double *dq, double *dx, const ffd_run_options *run,
                                              ffd_error *error);
 
 /* Multiplies the transposed matrix with a gradient, as adjoint methods need it, without storing the matrix:
@@ -163,8 +164,8 @@ FFD_API ffd_status ffd_embedding_basis_times(const ffd_embedding *embedding, con
    order: the result does not depend on the number of threads. weights, run, threads and errors: as for
    ffd_embedding_basis. */
 FFD_API ffd_status ffd_embedding_basis_transposed(const ffd_embedding *embedding, const double *weights,
-                                                  const double *dfdx, double *dfdq, const ffd_run *run,
-                                                  ffd_error *error);
+                                                  const double *dfdx, double *dfdq,
+                                                  const ffd_run_options *run, ffd_error *error);
 
 /* Serialises an embedding, for the same version of the library on machines of the same byte order. *bytes are
  *size bytes; the caller frees them with ffd_free. Thread-safe. Errors: FFD_E_MEMORY. */
@@ -188,16 +189,16 @@ FFD_API ffd_status ffd_embedding_load(const void *bytes, size_t size, const ffd_
 
    Thread-safe. Errors: FFD_E_ARGUMENT, FFD_E_CANCELLED, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_normals_deform(const double *gradients, ffd_span in, ffd_span out, size_t *collapsed,
-                                      const ffd_run *run, ffd_error *error);
+                                      const ffd_run_options *run, ffd_error *error);
 FFD_API ffd_status ffd_tangents_deform(const double *gradients, ffd_span normals, ffd_span in, ffd_span out,
-                                       size_t *collapsed, const ffd_run *run, ffd_error *error);
+                                       size_t *collapsed, const ffd_run_options *run, ffd_error *error);
 
 /* Evaluates C and, unless jacobians is NULL, its Jacobian at count u,v,w, as ffd_lattice_evaluate does. uvw
    and xyz: count x 3 doubles; jacobians: count x 9 doubles, row-major. run may be NULL. Thread-safe. Errors:
    FFD_E_ARGUMENT, FFD_E_CANCELLED, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_lattice_evaluate_many(const ffd_lattice *lattice, ffd_volume volume, const double *uvw,
-                                             size_t count, double *xyz, double *jacobians, const ffd_run *run,
-                                             ffd_error *error);
+                                             size_t count, double *xyz, double *jacobians,
+                                             const ffd_run_options *run, ffd_error *error);
 
 #ifdef __cplusplus
 }

@@ -5,11 +5,11 @@
 
 const char *ffd_vertex_status_name(ffd_vertex_status status)
 {
-    static const char *const names[] = {[FFD_INSIDE] = "inside",
-                                        [FFD_OUTSIDE] = "outside",
-                                        [FFD_MULTIPLE] = "multiple",
-                                        [FFD_SINGULAR] = "singular",
-                                        [FFD_POINT_INVALID] = "invalid"};
+    static const char *const names[] = {[FFD_VERTEX_INSIDE] = "inside",
+                                        [FFD_VERTEX_OUTSIDE] = "outside",
+                                        [FFD_VERTEX_MULTIPLE] = "multiple",
+                                        [FFD_VERTEX_SINGULAR] = "singular",
+                                        [FFD_VERTEX_INVALID] = "invalid"};
     return NAME_OF(names, status);
 }
 

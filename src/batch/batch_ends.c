@@ -17,7 +17,7 @@ const char *ffd_run_manifest(const batch_run *run)
     return jobs->manifest || jobs->table ? ffd_jobs_name(run->source) : NULL;
 }
 
-void ffd_run_say_error(batch_run *run, const ffd_error *error)
+void ffd_run_log_error(batch_run *run, const ffd_error *error)
 {
     char line[2100];
     const size_t length = ffd_error_format(error, line, sizeof line - 1);
@@ -179,7 +179,7 @@ static ffd_status show_task(batch_run *run, pool_task *task, ffd_error *error)
     return status ? status : ffd_run_view_add(run->view, task, &task->entry, error);
 }
 
-static ffd_status say_task(batch_run *run, const pool_task *task, ffd_error *error)
+static ffd_status log_task(batch_run *run, const pool_task *task, ffd_error *error)
 {
     byte_buffer lines = {0};
     append_lines(task, ffd_run_manifest(run), &lines);
@@ -222,9 +222,9 @@ static ffd_status note_end(batch_run *run, pool_task *task, ffd_error *error)
     if (!status)
         status = note_state(&run->meshes, task, error);
     if (!status)
-        status = say_task(run, task, error);
-    uint32_t number;
-    if (!status && task->own_box && !ffd_intern(&run->boxed, &task->mesh, sizeof task->mesh, &number))
+        status = log_task(run, task, error);
+    uint32_t index;
+    if (!status && task->own_box && !ffd_intern(&run->boxed, &task->mesh, sizeof task->mesh, &index))
         status = ffd_fail_memory(error);
     if (task->outcome == OUTCOME_FAILED && run->desc->stop)
         run->ending = true;
@@ -258,7 +258,7 @@ ffd_status ffd_run_note_ends(batch_run *run, ffd_error *error)
 }
 
 /* Does what must happen in the order of the jobs. */
-static ffd_status tell_task(batch_run *run, pool_task *task, ffd_error *error)
+static ffd_status emit_task(batch_run *run, pool_task *task, ffd_error *error)
 {
     if (run->desc->pool.dry && task->outcome != OUTCOME_FAILED)
         print_plan(task, rows_of(run));
@@ -277,7 +277,7 @@ static ffd_status tell_task(batch_run *run, pool_task *task, ffd_error *error)
 }
 
 /* Whether any output is in the order of the jobs. */
-static bool tells_in_order(const batch_run *run)
+static bool emits_in_order(const batch_run *run)
 {
     return run->desc->pool.dry || run->depfile || run->view ||
            (run->report && ffd_report_is_ordered(run->report));
@@ -285,7 +285,7 @@ static bool tells_in_order(const batch_run *run)
 
 ffd_status ffd_run_take_ended(batch_run *run, ffd_error *error)
 {
-    const bool in_order = tells_in_order(run);
+    const bool in_order = emits_in_order(run);
     size_t kept = 0;
     run->waiting = 0;
     ffd_status status = FFD_OK;
@@ -298,7 +298,7 @@ ffd_status ffd_run_take_ended(batch_run *run, ffd_error *error)
             continue;
         }
         if (task->state == TASK_ENDED)
-            status = tell_task(run, task, error);
+            status = emit_task(run, task, error);
         ffd_task_free(task);
     }
     run->count = kept;

@@ -19,7 +19,7 @@
 #define MOST_SHARED ((uint64_t)1 << 28)
 
 /* The longest wait for a worker, in seconds. */
-#define LOOK 0.1
+#define POLL 0.1
 
 /* Reading jobs */
 
@@ -83,7 +83,7 @@ static void drop_waiting(batch_run *run)
     run->waiting = 0;
 }
 
-static void heed_interrupts(batch_run *run)
+static void check_interrupts(batch_run *run)
 {
     const bool stops = ffd_interrupt_requested();
     run->ending = run->ending || stops;
@@ -111,7 +111,7 @@ static ffd_status begin_jobs(batch_run *run, ffd_error *error)
 static ffd_status wait_for_ends(batch_run *run, ffd_error *error)
 {
     if (ffd_pool_running(run->pool) > 0 || run->starved)
-        ffd_pool_wait(run->pool, run->starved ? ffd_jobs_descriptor(run->source) : -1, LOOK);
+        ffd_pool_wait(run->pool, run->starved ? ffd_jobs_descriptor(run->source) : -1, POLL);
     if (run->ending || run->desc->stop || ffd_interrupt_requested())
         return FFD_OK;
     const ffd_status status = ffd_pool_assign(run->pool, run->tasks, run->count, error);
@@ -120,20 +120,20 @@ static ffd_status wait_for_ends(batch_run *run, ffd_error *error)
 }
 
 /* Says once that jobs wait for memory, while processors are idle. */
-static void say_shortage(batch_run *run)
+static void log_memory_shortage(batch_run *run)
 {
     const pool_shortage *const shortage = ffd_pool_shortage(run->pool);
     ffd_error note;
-    if (!shortage || run->said_shortage || run->desc->quiet)
+    if (!shortage || run->logged_shortage || run->desc->quiet)
         return;
-    run->said_shortage = true;
+    run->logged_shortage = true;
     ffd_fail_file(&note, FFD_E_LIMIT, ffd_jobs_name(run->source),
                   "%d %s at a time on %d processors: the cgroup allows %" PRIu64
                   " MB of memory, and %s may take %" PRIu64 " MB ({input.memory}); {jobs} sets the number",
                   shortage->running, ffd_plural((uint64_t)shortage->running, "job", "jobs"),
                   shortage->processors, shortage->limit / 1000000, shortage->name,
                   shortage->needed / 1000000);
-    ffd_run_say_error(run, &note);
+    ffd_run_log_error(run, &note);
 }
 
 static ffd_status run_jobs(batch_run *run, ffd_error *error)
@@ -145,9 +145,9 @@ static ffd_status run_jobs(batch_run *run, ffd_error *error)
             first = begin_jobs(run, error);
         const ffd_status waited = wait_for_ends(run, first ? NULL : error);
         first = first ? first : waited;
-        say_shortage(run);
+        log_memory_shortage(run);
         status = ffd_run_note_ends(run, first ? NULL : error);
-        heed_interrupts(run);
+        check_interrupts(run);
         if (!status && run->ending)
             status = ffd_run_note_ends(run, first ? NULL : error); /* of those that were just stopped */
         if (!status)
@@ -179,7 +179,7 @@ static ffd_status open_journal(batch_run *run, ffd_error *error)
         return FFD_OK;
     if (!desc->journal) { /* the default journal is optional: it only saves time */
         if (desc->pool.resume)
-            ffd_run_say_error(run, &reason);
+            ffd_run_log_error(run, &reason);
         return FFD_OK;
     }
     if (error)
@@ -228,7 +228,7 @@ static ffd_status open_view(batch_run *run, ffd_error *error)
 }
 
 /* Without a readable mesh the number of vertices is unknown, so the array cannot be made. */
-static void say_kept_array(batch_run *run)
+static void log_kept_array(batch_run *run)
 {
     const char *const path = run->desc->positions;
     ffd_error note;
@@ -236,7 +236,7 @@ static void say_kept_array(batch_run *run)
         ffd_jobs_count(run->source) == 0 || !ffd_file_exists(path))
         return;
     ffd_fail_file(&note, FFD_E_INVALID, path, "stays as it is: no mesh could be read");
-    ffd_run_say_error(run, &note);
+    ffd_run_log_error(run, &note);
 }
 
 static ffd_status open_all(batch_run *run, ffd_error *error)
@@ -292,7 +292,7 @@ static const char *remark_of(const batch_run *run)
                                      : "; the other jobs were not started ({stop})";
 }
 
-static void say_line(void *user, ffd_log_level level, const char *line)
+static void log_line(void *user, ffd_log_level level, const char *line)
 {
     byte_buffer text = {0};
     (void)level; /* all lines are warnings */
@@ -304,7 +304,7 @@ static void say_line(void *user, ffd_log_level level, const char *line)
 }
 
 /* Logs how often meshes were read and searched, with --verbose. */
-static void say_counts(batch_run *run)
+static void log_counts(batch_run *run)
 {
     char line[200];
     const pool_counts counts = ffd_pool_counts(run->pool);
@@ -318,15 +318,15 @@ static void say_counts(batch_run *run)
 }
 
 /* Warns of flaws of the table. */
-static void say_flaws(batch_run *run)
+static void warn_of_flaws(batch_run *run)
 {
-    const mesh_log log = {say_line, &run->progress};
+    const mesh_log log = {log_line, &run->progress};
     if (!run->desc->quiet)
         ffd_flaws_warn(ffd_jobs_flaws(run->source), ffd_jobs_name(run->source), &log);
 }
 
 /* As `ffd deform` does of several inputs. */
-static void say_boxes(batch_run *run)
+static void log_boxes(batch_run *run)
 {
     ffd_error note;
     if (run->desc->quiet || run->boxed.count < 2)
@@ -336,17 +336,17 @@ static void say_boxes(batch_run *run)
         "the lattice's box was laid round each of %zu meshes by itself: parts that meet need one box round "
         "all of them ({shared_box})",
         run->boxed.count);
-    ffd_run_say_error(run, &note);
+    ffd_run_log_error(run, &note);
 }
 
 /* An empty manifest is valid, but seldom intended. */
-static void say_none(batch_run *run)
+static void warn_of_empty_manifest(batch_run *run)
 {
     ffd_error note;
     if (run->desc->quiet || !run->ended || ffd_jobs_count(run->source) > 0)
         return;
     ffd_fail_file(&note, FFD_E_INVALID, ffd_jobs_name(run->source), "has no jobs");
-    ffd_run_say_error(run, &note);
+    ffd_run_log_error(run, &note);
 }
 
 /* Writes the depfile, with one common rule that makes all outputs depend on the files of the shared box. */
@@ -383,13 +383,13 @@ ffd_status ffd_batch_run(const batch_desc *desc, bool *failed, ffd_error *error)
         status = status ? status : shown;
         if (!status && run.depfile && !run.counts.failed && !run.dropped)
             status = write_depfile(&run, error);
-        say_flaws(&run);
-        say_boxes(&run);
+        warn_of_flaws(&run);
+        log_boxes(&run);
         if (!status) {
-            say_none(&run);
-            say_kept_array(&run);
+            warn_of_empty_manifest(&run);
+            log_kept_array(&run);
         }
-        say_counts(&run);
+        log_counts(&run);
         if (!status)
             ffd_progress_end(&run.progress, &run.counts, desc->pool.dry ? "to do" : "done",
                              SPELLED(remark_of(&run)));

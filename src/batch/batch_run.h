@@ -49,13 +49,13 @@ typedef struct batch_run {
     bool starved;                   /* the next job is not complete yet */
     bool ending;                    /* no more jobs are begun */
     bool dropped;                   /* some jobs were not begun */
-    bool said_shortage;             /* that jobs wait for memory */
+    bool logged_shortage;           /* that jobs wait for memory */
 } batch_run;
 
 /* Returns the file whose lines the jobs are, for messages; NULL: none. */
 const char *ffd_run_manifest(const batch_run *run);
 /* Prints an error that belongs to no job. */
-void ffd_run_say_error(batch_run *run, const ffd_error *error);
+void ffd_run_log_error(batch_run *run, const ffd_error *error);
 /* Fails a job whose error is stored in it. */
 void ffd_run_fail_task(pool_task *task);
 /* Notes the outputs of all jobs before any of them begins, if the jobs can be read twice. checks: refuse a
@@ -69,7 +69,7 @@ double ffd_run_fraction(const batch_run *run);
 void ffd_run_drop_early(batch_run *run);
 /* Claims the files of jobs as far as they are known, and makes these ready to run. Errors: FFD_E_MEMORY. */
 ffd_status ffd_run_claim_tasks(batch_run *run, ffd_error *error);
-/* Takes what the end of a task, or of a look that found nothing, says of its files. Errors: FFD_E_MEMORY. */
+/* Takes what the end of a task, or of a scan that found nothing, says of its files. Errors: FFD_E_MEMORY. */
 ffd_status ffd_run_learn(batch_run *run, pool_task *task, ffd_error *error);
 /* Handles the ends of jobs that need not wait for earlier jobs. An invalid job "ends" when all earlier ones
    have, because an earlier failure may stop the run; it is dropped if no more jobs are begun. Errors:

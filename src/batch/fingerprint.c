@@ -24,7 +24,7 @@ static ffd_status add_hash(hash_list *list, const hash128 *hash, ffd_error *erro
 static ffd_status add_file(hash_list *list, hash_cache *cache, const char *path, ffd_error *error)
 {
     hash128 hash;
-    const ffd_status status = ffd_cache_hash(cache, path, &hash, error);
+    const ffd_status status = ffd_hash_cache_hash(cache, path, &hash, error);
     return status ? status : add_hash(list, &hash, error);
 }
 
@@ -83,8 +83,8 @@ static bool copies_images(const ffd_deform_desc *desc)
 bool ffd_fingerprint_has_copies(const ffd_deform_desc *desc, hash_cache *cache)
 {
     path_list images = {0};
-    const bool has_none =
-        !copies_images(desc) || (!ffd_cache_images(cache, &desc->input, &images, NULL) && images.count == 0);
+    const bool has_none = !copies_images(desc) ||
+                          (!ffd_hash_cache_images(cache, &desc->input, &images, NULL) && images.count == 0);
     ffd_paths_free(&images);
     return !has_none;
 }
@@ -94,7 +94,8 @@ static ffd_status add_images_of_input(hash_list *list, hash_cache *cache, const 
                                       path_list *files, ffd_error *error)
 {
     path_list images = {0};
-    ffd_status status = copies_images(desc) ? ffd_cache_images(cache, &desc->input, &images, error) : FFD_OK;
+    ffd_status status =
+        copies_images(desc) ? ffd_hash_cache_images(cache, &desc->input, &images, error) : FFD_OK;
     if (!status)
         status = add_images(list, cache, &images, error);
     for (size_t i = 0; i < images.count && !status; i++)
@@ -111,12 +112,12 @@ static ffd_status add_boxes(hash_list *list, hash_cache *cache, const ffd_deform
     path_list meshes = {0}, read = {0};
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < desc->lattice_count && !status; i++)
-        status = ffd_cache_box_meshes(cache, desc->lattices[i].path, &meshes, error);
+        status = ffd_hash_cache_box_meshes(cache, desc->lattices[i].path, &meshes, error);
     for (size_t i = 0; i < meshes.count && !status; i++) {
         ffd_source source = desc->input;
         source.path = meshes.paths[i];
         source.format = FFD_FORMAT_AUTO;
-        status = ffd_cache_list(cache, &source, &read, error);
+        status = ffd_hash_cache_list(cache, &source, &read, error);
     }
     if (!status)
         status = add_files(list, cache, &read, error);
@@ -139,7 +140,7 @@ ffd_status ffd_fingerprint_inputs(const ffd_deform_desc *desc, const fingerprint
     path_list others = {0};
     ffd_status status = add_words(&list, words, error);
     if (!status)
-        status = ffd_cache_list(cache, &desc->input, files, error);
+        status = ffd_hash_cache_list(cache, &desc->input, files, error);
     if (!status)
         status = add_files(&list, cache, files, error);
     if (!status)

@@ -33,7 +33,7 @@ static void remember(hash_cache *cache, const char *path, const file_stamp *stam
     cache->next = (cache->next + 1) % CACHED_FILES;
 }
 
-ffd_status ffd_cache_hash(hash_cache *cache, const char *path, hash128 *hash, ffd_error *error)
+ffd_status ffd_hash_cache_hash(hash_cache *cache, const char *path, hash128 *hash, ffd_error *error)
 {
     /* Stamp before reading: if the file changes meanwhile, the entry is outdated. */
     file_stamp stamp;
@@ -123,8 +123,8 @@ static ffd_status list_by_bytes(hash_cache *cache, cached_mesh *mesh, const ffd_
 }
 
 /* stamp: of the source's file, taken before it is read; NULL: it has none. */
-static ffd_status look_into(hash_cache *cache, cached_mesh *mesh, const ffd_source *source, ffd_format format,
-                            const file_stamp *stamp, ffd_error *error)
+static ffd_status scan_source(hash_cache *cache, cached_mesh *mesh, const ffd_source *source,
+                              ffd_format format, const file_stamp *stamp, ffd_error *error)
 {
     const mesh_format *const table = ffd_format_table(format);
     ffd_status status = FFD_OK;
@@ -152,12 +152,13 @@ static ffd_status know_mesh(hash_cache *cache, const ffd_source *source, ffd_for
     cached_mesh *const mesh = &cache->meshes[cache->next_mesh];
     forget_mesh(mesh);
     *known = mesh;
-    const ffd_status status = look_into(cache, mesh, source, format, is_file ? &stamp : NULL, error);
+    const ffd_status status = scan_source(cache, mesh, source, format, is_file ? &stamp : NULL, error);
     cache->next_mesh = (cache->next_mesh + 1) % CACHED_FILES;
     return status;
 }
 
-ffd_status ffd_cache_list(hash_cache *cache, const ffd_source *source, path_list *files, ffd_error *error)
+ffd_status ffd_hash_cache_list(hash_cache *cache, const ffd_source *source, path_list *files,
+                               ffd_error *error)
 {
     ffd_format format;
     const cached_mesh *mesh;
@@ -170,7 +171,8 @@ ffd_status ffd_cache_list(hash_cache *cache, const ffd_source *source, path_list
     return status ? status : copy_list(&mesh->files, files, error);
 }
 
-ffd_status ffd_cache_images(hash_cache *cache, const ffd_source *source, path_list *images, ffd_error *error)
+ffd_status ffd_hash_cache_images(hash_cache *cache, const ffd_source *source, path_list *images,
+                                 ffd_error *error)
 {
     ffd_format format;
     const cached_mesh *mesh;
@@ -181,70 +183,70 @@ ffd_status ffd_cache_images(hash_cache *cache, const ffd_source *source, path_li
     return status ? status : copy_list(&mesh->images, images, error);
 }
 
-static void forget_look(cached_look *look)
+static void forget_scan(cached_scan *scan)
 {
-    ffd_free(look->path);
-    ffd_paths_free(&look->named);
-    ffd_paths_free(&look->copied);
-    *look = (cached_look){0};
+    ffd_free(scan->path);
+    ffd_paths_free(&scan->named);
+    ffd_paths_free(&scan->copied);
+    *scan = (cached_scan){0};
 }
 
-static bool is_last_look(const cached_look *look, const char *path, const file_stamp *stamp, ffd_format from,
+static bool is_last_scan(const cached_scan *scan, const char *path, const file_stamp *stamp, ffd_format from,
                          ffd_format to)
 {
-    return look->path && strcmp(look->path, path) == 0 && ffd_stamp_equal(&look->stamp, stamp) &&
-           look->from == from && look->to == to;
+    return scan->path && strcmp(scan->path, path) == 0 && ffd_stamp_equal(&scan->stamp, stamp) &&
+           scan->from == from && scan->to == to;
 }
 
 /* Parses a file of a format that may refer to other files. */
-static ffd_status look_at_bytes(hash_cache *cache, const char *path, const file_stamp *stamp, ffd_format from,
-                                ffd_format to, ffd_error *error)
+static ffd_status scan_bytes(hash_cache *cache, const char *path, const file_stamp *stamp, ffd_format from,
+                             ffd_format to, ffd_error *error)
 {
-    cached_look *const look = &cache->look;
+    cached_scan *const scan = &cache->scan;
     const mesh_format *const table = ffd_format_table(from);
     file_input bytes;
-    forget_look(look);
+    forget_scan(scan);
     ffd_status status = load_and_hash(cache, path, stamp, &bytes, error);
     if (status)
         return status;
-    if (table->count_beside)
-        look->beside = table->count_beside(&bytes, from, to);
+    if (table->count_sidecars)
+        scan->beside = table->count_sidecars(&bytes, from, to);
     /* A GLB that is made of a .gltf holds its images. */
     const bool copies = from != FFD_FORMAT_GLTF || to != FFD_FORMAT_GLB;
-    const mesh_named found = {.files = &look->named, .copies = copies ? &look->copied : NULL};
+    const mesh_named found = {.files = &scan->named, .copies = copies ? &scan->copied : NULL};
     if (table->find_named)
         status = table->find_named(path, &bytes, &found, error);
     ffd_kept_put(&cache->kept, path, stamp, &bytes);
-    look->path = status ? NULL : ffd_text_copy(path);
-    look->stamp = *stamp;
-    look->from = from;
-    look->to = to;
+    scan->path = status ? NULL : ffd_text_copy(path);
+    scan->stamp = *stamp;
+    scan->from = from;
+    scan->to = to;
     return status;
 }
 
-ffd_status ffd_cache_look(hash_cache *cache, const ffd_source *source, ffd_format to, size_t *beside,
-                          path_list *named, path_list *copied, ffd_error *error)
+ffd_status ffd_hash_cache_scan(hash_cache *cache, const ffd_source *source, ffd_format to, size_t *beside,
+                               path_list *named, path_list *copied, ffd_error *error)
 {
     ffd_format from;
     file_stamp stamp;
     *beside = 0;
     ffd_status status = ffd_source_format(source, &from, error);
     if (!status && !ffd_format_table(from)->list_files) {
-        status = ffd_cache_images(cache, source, copied, error);
+        status = ffd_hash_cache_images(cache, source, copied, error);
         return status ? status : copy_list(copied, named, error);
     }
     if (status || !ffd_file_stamp(source->path, &stamp))
         return status;
-    if (!is_last_look(&cache->look, source->path, &stamp, from, to))
-        status = look_at_bytes(cache, source->path, &stamp, from, to, error);
+    if (!is_last_scan(&cache->scan, source->path, &stamp, from, to))
+        status = scan_bytes(cache, source->path, &stamp, from, to, error);
     if (status)
         return status;
-    *beside = cache->look.beside;
-    status = copy_list(&cache->look.named, named, error);
-    return status ? status : copy_list(&cache->look.copied, copied, error);
+    *beside = cache->scan.beside;
+    status = copy_list(&cache->scan.named, named, error);
+    return status ? status : copy_list(&cache->scan.copied, copied, error);
 }
 
-ffd_status ffd_cache_list_named(const ffd_source *source, path_list *named, ffd_error *error)
+ffd_status ffd_hash_cache_list_named(const ffd_source *source, path_list *named, ffd_error *error)
 {
     ffd_format format;
     file_input bytes;
@@ -257,8 +259,8 @@ ffd_status ffd_cache_list_named(const ffd_source *source, path_list *named, ffd_
     return status;
 }
 
-/* Loads a lattice file, remembers its hash, and looks through it. */
-static ffd_status look_through(hash_cache *cache, const char *path, path_list *meshes, ffd_error *error)
+/* Loads a lattice file, remembers its hash, and scans it. */
+static ffd_status scan_lattice(hash_cache *cache, const char *path, path_list *meshes, ffd_error *error)
 {
     file_stamp stamp;
     file_input bytes;
@@ -267,34 +269,34 @@ static ffd_status look_through(hash_cache *cache, const char *path, path_list *m
     ffd_status status = ffd_lattice_box_meshes(path, &bytes, meshes, error);
     ffd_file_unload(&bytes);
     cached_file *const file = status ? NULL : find(cache, path, &stamp);
-    if (!file || file->is_looked_through)
+    if (!file || file->is_scanned_through)
         return status;
     status = copy_list(meshes, &file->meshes, error);
-    file->is_looked_through = !status;
+    file->is_scanned_through = !status;
     return status;
 }
 
-ffd_status ffd_cache_box_meshes(hash_cache *cache, const char *path, path_list *meshes, ffd_error *error)
+ffd_status ffd_hash_cache_box_meshes(hash_cache *cache, const char *path, path_list *meshes, ffd_error *error)
 {
     file_stamp stamp;
     path_list found = {0};
     const cached_file *const file = ffd_file_stamp(path, &stamp) ? find(cache, path, &stamp) : NULL;
-    if (file && file->is_looked_through)
+    if (file && file->is_scanned_through)
         return copy_list(&file->meshes, meshes, error);
-    ffd_status status = look_through(cache, path, &found, error);
+    ffd_status status = scan_lattice(cache, path, &found, error);
     if (!status)
         status = copy_list(&found, meshes, error);
     ffd_paths_free(&found);
     return status;
 }
 
-void ffd_cache_free(hash_cache *cache)
+void ffd_hash_cache_free(hash_cache *cache)
 {
     for (size_t i = 0; i < CACHED_FILES; i++)
         forget_file(&cache->files[i]);
     for (size_t i = 0; i < CACHED_FILES; i++)
         forget_mesh(&cache->meshes[i]);
-    forget_look(&cache->look);
+    forget_scan(&cache->scan);
     ffd_kept_free(&cache->kept);
     *cache = (hash_cache){0};
 }

@@ -14,8 +14,8 @@ typedef struct cached_file {
     char *path; /* NULL: empty entry */
     file_stamp stamp;
     hash128 hash;
-    bool is_looked_through; /* meshes is valid: */
-    path_list meshes;       /* named by a lattice file for its box */
+    bool is_scanned_through; /* meshes is valid: */
+    path_list meshes;        /* named by a lattice file for its box */
 } cached_file;
 
 /* A mesh with the files that it was read from (itself first), if its format can refer to files. */
@@ -26,41 +26,44 @@ typedef struct cached_mesh {
     path_list files, images; /* images: with material libraries */
 } cached_mesh;
 
-/* The result of the last ffd_cache_look. */
-typedef struct cached_look {
+/* The result of the last ffd_hash_cache_scan. */
+typedef struct cached_scan {
     char *path; /* NULL: none */
     file_stamp stamp;
     ffd_format from, to;
     size_t beside;
     path_list named, copied;
-} cached_look;
+} cached_scan;
 
 /* All zeros: empty. */
 typedef struct hash_cache {
     cached_file files[CACHED_FILES];
     cached_mesh meshes[CACHED_FILES];
-    cached_look look;
+    cached_scan scan;
     size_t next, next_mesh; /* entries to replace next */
     kept_file kept;         /* bytes of the current job's mesh, if it is small */
 } hash_cache;
 
 /* Hashes a file's bytes. cache NULL: always read the file. Errors: those of reading. */
-ffd_status ffd_cache_hash(hash_cache *cache, const char *path, hash128 *hash, ffd_error *error);
+ffd_status ffd_hash_cache_hash(hash_cache *cache, const char *path, hash128 *hash, ffd_error *error);
 /* Adds the files that a mesh is read from. Opens the mesh only if its format can refer to files. Errors:
    those of reading. */
-ffd_status ffd_cache_list(hash_cache *cache, const ffd_source *source, path_list *files, ffd_error *error);
+ffd_status ffd_hash_cache_list(hash_cache *cache, const ffd_source *source, path_list *files,
+                               ffd_error *error);
 /* Adds the images and material libraries that a mesh refers to, existing or not. Errors: those of reading. */
-ffd_status ffd_cache_images(hash_cache *cache, const ffd_source *source, path_list *images, ffd_error *error);
+ffd_status ffd_hash_cache_images(hash_cache *cache, const ffd_source *source, path_list *images,
+                                 ffd_error *error);
 /* Finds the files that a mesh names, which are added to `named`, and to `copied` those that may be copied
    with it; and what saving it in its own format, as `to`, writes beside it: *beside is the number of other
    files. Errors: those of reading. */
-ffd_status ffd_cache_look(hash_cache *cache, const ffd_source *source, ffd_format to, size_t *beside,
-                          path_list *named, path_list *copied, ffd_error *error);
+ffd_status ffd_hash_cache_scan(hash_cache *cache, const ffd_source *source, ffd_format to, size_t *beside,
+                               path_list *named, path_list *copied, ffd_error *error);
 /* Adds the files that a mesh names; none if it cannot be read. Errors: FFD_E_MEMORY. */
-ffd_status ffd_cache_list_named(const ffd_source *source, path_list *named, ffd_error *error);
+ffd_status ffd_hash_cache_list_named(const ffd_source *source, path_list *named, ffd_error *error);
 /* Adds the meshes that a lattice file names for its box; none if it cannot be read. Errors: FFD_E_MEMORY. */
-ffd_status ffd_cache_box_meshes(hash_cache *cache, const char *path, path_list *meshes, ffd_error *error);
+ffd_status ffd_hash_cache_box_meshes(hash_cache *cache, const char *path, path_list *meshes,
+                                     ffd_error *error);
 /* Frees all entries; leaves an empty cache. */
-void ffd_cache_free(hash_cache *cache);
+void ffd_hash_cache_free(hash_cache *cache);
 
 #endif

@@ -31,9 +31,9 @@ bool ffd_job_picture_is_current(const char *path, const char *output)
 void ffd_job_picture_drop_mesh(const ffd_deform_desc *desc)
 {
     file_stamp stamp;
-    if (!desc->share || !ffd_file_stamp(desc->input.path, &stamp) || stamp.size < LARGE)
+    if (!desc->cache || !ffd_file_stamp(desc->input.path, &stamp) || stamp.size < LARGE)
         return;
-    mesh_document *mesh = ffd_cache_take_mesh(desc->share, desc, false);
+    mesh_document *mesh = ffd_job_cache_take_mesh(desc->cache, desc, false);
     ffd_source_close(&mesh);
 }
 
@@ -52,7 +52,7 @@ ffd_status ffd_job_picture_write(const char *path, const ffd_deform_desc *desc, 
     ffd_view_desc view;
     char *folder;
     size_t made;
-    job.share = NULL; /* draw the mesh at rest; a mesh of the share may have results */
+    job.cache = NULL; /* draw the mesh at rest; a mesh of the cache may have results */
     ffd_view_desc_init(&view, sizeof view);
     view.job = &job;
     view.output = path;

@@ -10,7 +10,7 @@
 ffd_status ffd_job_picture_check(const char *path, bool force, ffd_error *error);
 /* Whether the picture exists and is not older than the output, so that it shows the same job. */
 bool ffd_job_picture_is_current(const char *path, const char *output);
-/* Drops the mesh that the job has left in the share, if it is large: drawing needs the memory. */
+/* Drops the mesh that the job has left in the cache, if it is large: drawing needs the memory. */
 void ffd_job_picture_drop_mesh(const ffd_deform_desc *desc);
 /* Draws the job like `ffd check --picture`, and makes the picture's folders. result: as of ffd_check_run. A
    job that a gate refuses (FFD_E_GATE) is drawn too. Errors: all of these. */

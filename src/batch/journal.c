@@ -108,8 +108,8 @@ static uint64_t first_slot(const hash128 *target, uint64_t slots)
 }
 
 /* Finds the target's slot, or the free slot where it belongs. Returns false if there is none. */
-static bool look_up(const update_file *file, uint64_t slots, const hash128 *target, uint64_t *number,
-                    journal_slot *slot)
+static bool find_slot(const update_file *file, uint64_t slots, const hash128 *target, uint64_t *number,
+                      journal_slot *slot)
 {
     *number = first_slot(target, slots);
     for (uint64_t i = 0; i < slots && !is_interrupted(i); i++, *number = (*number + 1) % slots) {
@@ -265,7 +265,7 @@ bool ffd_journal_find(job_journal *journal, const hash128 *target, job_record *r
 {
     journal_slot slot;
     uint64_t number;
-    if (!look_up(journal->file, journal->slots, target, &number, &slot) || is_free(&slot))
+    if (!find_slot(journal->file, journal->slots, target, &number, &slot) || is_free(&slot))
         return false;
     *record = slot.record;
     return !figures || read_figures(journal->file, &slot, figures);
@@ -282,7 +282,7 @@ static bool copy_table(const job_journal *journal, job_journal *copy)
         copied = !is_interrupted(i) && read_slot(journal->file, i, &slot);
         if (!copied || is_free(&slot) || !is_whole(&slot) || !read_figures(journal->file, &slot, &figures))
             continue;
-        copied = look_up(copy->file, copy->slots, &slot.target, &number, &other) &&
+        copied = find_slot(copy->file, copy->slots, &slot.target, &number, &other) &&
                  write_figures(copy, figures.data, figures.size, &slot) &&
                  write_slot(copy->file, number, &slot);
         copy->used++;
@@ -327,7 +327,7 @@ bool ffd_journal_put(job_journal *journal, const hash128 *target, const job_reco
     journal_slot slot = {.target = *target, .record = *record}, there;
     uint64_t number;
     if (size > FIGURES_MOST || !reserve_slot(journal) ||
-        !look_up(journal->file, journal->slots, target, &number, &there))
+        !find_slot(journal->file, journal->slots, target, &number, &there))
         return false;
     journal->used += is_free(&there);
     journal->live += size - (is_free(&there) ? 0 : there.size);

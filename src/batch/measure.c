@@ -8,7 +8,7 @@
 #define WINDOW ((size_t)256)
 
 /* The longest wait, in seconds. */
-#define LOOK 0.1
+#define POLL 0.1
 
 typedef struct measuring {
     job_source *source;
@@ -115,7 +115,7 @@ static ffd_status measure_all(measuring *m, ffd_error *error)
         if (!status)
             status = ffd_pool_assign(m->pool, m->tasks, m->count, error);
         if (!status && (ffd_pool_running(m->pool) > 0 || m->starved))
-            ffd_pool_wait(m->pool, -1, LOOK);
+            ffd_pool_wait(m->pool, -1, POLL);
         if (!status)
             status = take_ended(m, error);
         if (m->count == 0 && (m->ended || m->found))

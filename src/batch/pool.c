@@ -21,7 +21,7 @@ typedef struct pool_worker {
     hash128 mesh;            /* of the current or last task */
     uint64_t memory;         /* bytes that this task may take: the worker keeps its mesh */
     bool has_mesh, timed_out, stopped, retires;
-    bool was_told;   /* the task was sent */
+    bool was_logged; /* the task was sent */
     bool is_unheard; /* its message is invalid, or memory ran out for it */
     bool is_ending;  /* its time is up */
     double deadline; /* 0: none */
@@ -32,7 +32,7 @@ struct worker_pool {
     int processors;             /* shared by the workers */
     pool_worker *workers;       /* desc.workers entries */
     worker_process **processes; /* the same processes, as an array to wait for */
-    bool rehearsed;             /* dry run: a job was tried, all but writing */
+    bool dry_run_done;          /* dry run: a job was tried, all but writing */
     uint64_t memory;            /* bytes that all workers together may take; UINT64_MAX: no limit */
     pool_shortage shortage;     /* if needed > 0 */
     pool_counts counts;
@@ -102,7 +102,7 @@ static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_t
     head.records = desc->records;
     head.resume = desc->resume;
     head.dry = desc->dry;
-    head.rehearse = desc->dry && !pool->rehearsed;
+    head.dry_run_job = desc->dry && !pool->dry_run_done;
     head.depfile = desc->depfile;
     head.report = desc->report;
     head.quality = desc->quality;
@@ -118,11 +118,11 @@ static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_t
         head.vertices = desc->rows->vertices;
         head.is_double = desc->rows->is_double;
     }
-    head.look = task->looks;
-    head.look_at_mesh = task->needs.mesh;
-    head.look_at_lattices = task->needs.lattices;
-    head.look_only = task->looks_only;
-    head.survey = task->looks && task->surveys;
+    head.scan = task->scans;
+    head.scan_mesh = task->needs.mesh;
+    head.scan_lattices = task->needs.lattices;
+    head.scan_only = task->only_scans;
+    head.survey = task->scans && task->surveys;
     head.tells = desc->tells;
     head.is_unsurveyed = task->is_unsurveyed;
     head.has_box = desc->box != NULL;
@@ -173,7 +173,7 @@ static pool_task *choose(const worker_pool *pool, const pool_worker *worker, poo
 
 /* Returns the memory that is left beside the workers that run and, unless worker is NULL, all other idle
    ones. */
-static uint64_t memory_beside(const worker_pool *pool, const pool_worker *worker)
+static uint64_t memory_of_others(const worker_pool *pool, const pool_worker *worker)
 {
     uint64_t left = pool->memory;
     for (int i = 0; i < pool->desc.workers; i++) {
@@ -216,12 +216,12 @@ static void note_shortage(worker_pool *pool, const pool_task *task)
    are ended. Else the task waits for those that run; but one always may. */
 static bool make_room(worker_pool *pool, const pool_worker *worker, pool_task *task)
 {
-    for (int i = 0; i < pool->desc.workers && !fits(pool, task, memory_beside(pool, worker)); i++) {
+    for (int i = 0; i < pool->desc.workers && !fits(pool, task, memory_of_others(pool, worker)); i++) {
         pool_worker *const other = &pool->workers[i];
         if (other != worker && !other->task)
             finish_worker(other, NULL);
     }
-    if (fits(pool, task, memory_beside(pool, worker)) || ffd_pool_running(pool) == 0)
+    if (fits(pool, task, memory_of_others(pool, worker)) || ffd_pool_running(pool) == 0)
         return true;
     note_shortage(pool, task);
     return false;
@@ -238,7 +238,7 @@ static int count_runnable(const worker_pool *pool, pool_task *const *tasks, size
 {
     int found = (int)ffd_pool_running(pool);
     const hash128 *large = NULL;
-    uint64_t left = memory_beside(pool, NULL);
+    uint64_t left = memory_of_others(pool, NULL);
     for (size_t i = 0; i < count && found < pool->desc.workers; i++) {
         pool_task *const task = tasks[i];
         if (!task || !ffd_task_is_pending(task))
@@ -262,7 +262,7 @@ static void begin_task(const worker_pool *pool, pool_worker *worker, pool_task *
     worker->has_mesh = true;
     worker->timed_out = worker->stopped = worker->is_ending = worker->is_unheard = false;
     worker->deadline = pool->desc.timeout > 0 ? ffd_clock_seconds() + pool->desc.timeout : 0;
-    task->looks = task->state == TASK_NEW;
+    task->scans = task->state == TASK_NEW;
     task->took_row = pool->desc.rows != NULL;
     task->state = TASK_RUNS;
 }
@@ -287,10 +287,10 @@ ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t co
         begin_task(pool, worker, task);
         const int share = pool->processors / count_runnable(pool, tasks, count);
         /* If sending fails, the worker has ended; that shows when its answer is read. */
-        worker->was_told = send_task(pool, worker, task,
-                                     desc->threads ? desc->threads
-                                     : share < 1   ? 1
-                                                   : share);
+        worker->was_logged = send_task(pool, worker, task,
+                                       desc->threads ? desc->threads
+                                       : share < 1   ? 1
+                                                     : share);
     }
     return FFD_OK;
 }
@@ -305,13 +305,13 @@ static void end_task(pool_worker *worker, wire_outcome outcome)
     worker->deadline = 0;
 }
 
-/* Takes the result of a look; the task goes back to the window. */
-static void take_look(pool_worker *worker, const wire_answer *head, const char *found)
+/* Takes the result of a scan; the task goes back to the window. */
+static void take_scan(pool_worker *worker, const wire_answer *head, const char *found)
 {
     pool_task *const task = worker->task;
     ffd_buffer_append(&task->found, found, head->rule_size);
     task->beside = (size_t)head->beside;
-    task->has_looked = true;
+    task->has_scanned = true;
     task->was_returned = false;
     worker->retires = head->retires;
     if (head->out_of_memory || task->found.failed) {
@@ -332,7 +332,7 @@ static bool take_answer(worker_pool *pool, pool_worker *worker)
     if (bytes->size < sizeof head)
         return true;
     memcpy(&head, bytes->data, sizeof head);
-    if (!worker->task || ((head.looked || head.goes_on) && !worker->task->looks) ||
+    if (!worker->task || ((head.scanned || head.goes_on) && !worker->task->scans) ||
         head.log_size > WIRE_MOST || head.entry_size > WIRE_MOST || head.rule_size > WIRE_MOST ||
         head.figures_size > WIRE_MOST)
         return false;
@@ -340,20 +340,20 @@ static bool take_answer(worker_pool *pool, pool_worker *worker)
         return true;
     pool_task *const task = worker->task;
     if (head.goes_on) { /* the rest of the answer may be here already */
-        task->looks = false;
-        task->looked_in_vain = true;
+        task->scans = false;
+        task->scanned_in_vain = true;
         bytes->size -= sizeof head;
         memmove(bytes->data, bytes->data + sizeof head, bytes->size);
         return take_answer(pool, worker);
     }
     const char *const log = bytes->data + sizeof head, *const entry = log + head.log_size,
                       *const rule = entry + head.entry_size, *const figures = rule + head.rule_size;
-    if (head.looked) {
-        take_look(worker, &head, rule);
+    if (head.scanned) {
+        take_scan(worker, &head, rule);
         bytes->size = 0;
         return true;
     }
-    task->looked_in_vain = task->looked_in_vain || task->looks;
+    task->scanned_in_vain = task->scanned_in_vain || task->scans;
     ffd_buffer_append(&task->log, log, head.log_size);
     ffd_buffer_append(&task->entry, entry, head.entry_size);
     ffd_buffer_append(&task->rule, rule, head.rule_size);
@@ -377,7 +377,7 @@ static bool take_answer(worker_pool *pool, pool_worker *worker)
     task->took_row = head.took_row;
     task->own_box = head.own_box;
     worker->retires = head.retires;
-    pool->rehearsed = pool->rehearsed || head.rehearsed;
+    pool->dry_run_done = pool->dry_run_done || head.dry_run_done;
     bytes->size = 0;
     end_task(worker, lost ? OUTCOME_FAILED : (wire_outcome)head.outcome);
     return true;
@@ -413,9 +413,9 @@ static void end_worker(const worker_pool *pool, pool_worker *worker)
     if (!worker->task)
         return;
     pool_task *const task = worker->task;
-    if (!worker->was_told &&
+    if (!worker->was_logged &&
         !task->was_returned) { /* the worker had ended before: give the task to another one, once */
-        task->state = task->looks ? TASK_NEW : TASK_WAITS;
+        task->state = task->scans ? TASK_NEW : TASK_WAITS;
         task->was_returned = true;
         worker->task = NULL;
         return;
@@ -531,7 +531,7 @@ bool ffd_task_is_pending(const pool_task *task)
 
 bool ffd_task_is_settled(const pool_task *task)
 {
-    return task->state == TASK_WAITS || (task->state == TASK_RUNS && !task->looks) ||
+    return task->state == TASK_WAITS || (task->state == TASK_RUNS && !task->scans) ||
            task->state == TASK_ENDED || task->state == TASK_DROPPED;
 }
 

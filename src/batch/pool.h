@@ -22,7 +22,7 @@ typedef struct pool_desc {
 
 typedef enum task_state {
     TASK_WAITS, /* ready to run: all files that it writes are known */
-    TASK_NEW,   /* ready to run, but its worker must first look for files beside and copied with its output */
+    TASK_NEW,   /* ready to run, but its worker must first scan for files beside and copied with its output */
     TASK_LOOKED,  /* such files were found: it waits until the files of all earlier jobs are known */
     TASK_ORDERED, /* its output is not claimed yet; it waits likewise, unless the output has the ending of a
                      mesh format */
@@ -50,17 +50,17 @@ typedef struct pool_task {
     task_state state;
     char *picture;            /* path; NULL: none is wanted */
     const char *picture_name; /* part of that path below the folder of pictures */
-    claim_needs needs;        /* what a look must look at */
-    bool looks_only;          /* its worker answers after the look, whatever it finds */
-    bool surveys;             /* likewise, and looks through the models of the output's folder */
-    bool looks;               /* while running: it began as TASK_NEW, and its worker still looks */
-    bool looked_in_vain;      /* the look found nothing */
+    claim_needs needs;        /* what a scan must read */
+    bool only_scans;          /* its worker answers after the scan, whatever it finds */
+    bool surveys;             /* likewise, and scans the models of the output's folder */
+    bool scans;               /* while running: it began as TASK_NEW, and its worker still scans */
+    bool scanned_in_vain;     /* the scan found nothing */
     bool is_learned;          /* that was taken to heart (ffd_run_learn) */
-    bool has_looked;          /* the results of a look are here: */
+    bool has_scanned;         /* the results of a scan are here: */
     size_t beside;            /* number of files beside the output, */
-    byte_buffer found;        /* and what else it found (look.h) */
+    byte_buffer found;        /* and what else it found (scan.h) */
     byte_buffer passed;       /* names that the output must not take (ffd_claims_others) */
-    bool is_unsurveyed;       /* these are not known: the job looks by itself */
+    bool is_unsurveyed;       /* these are not known: the job scans by itself */
     bool was_returned;        /* a worker had ended before it could take the task */
     bool noted;               /* its end was handled (ffd_run_note_ends) */
     bool own_box;             /* a lattice's box was laid round its mesh */
@@ -94,7 +94,7 @@ size_t ffd_pool_running(const worker_pool *pool);
 /* Statistics for --verbose. */
 typedef struct pool_counts {
     uint64_t workers; /* number of workers used */
-    share_counts jobs;
+    cache_counts jobs;
 } pool_counts;
 /* Returns the counts so far. */
 pool_counts ffd_pool_counts(const worker_pool *pool);
@@ -111,7 +111,7 @@ void ffd_pool_stop(worker_pool *pool);
 /* Ends the workers and sets *pool to NULL, which it may be already. */
 void ffd_pool_destroy(worker_pool **pool);
 
-/* Whether a task has not run, except for a look. */
+/* Whether a task has not run, except for a scan. */
 bool ffd_task_is_pending(const pool_task *task);
 /* Whether all files that a task writes are known, or it writes none. */
 bool ffd_task_is_settled(const pool_task *task);

@@ -16,7 +16,7 @@
 #define PIECE ((size_t)3 * 8 * 4096)
 
 /* Seconds between checks of a file that another run is making. */
-#define LOOK 0.02
+#define POLL 0.02
 
 static size_t number_size(const row_array *array)
 {
@@ -147,7 +147,7 @@ ffd_status ffd_rows_make(const row_array *array, bool force, file_output **made,
     bool busy, is_there = false;
     ffd_status status = begin(array, force, made, &busy, error);
     while (busy && !force && !is_there && !ffd_interrupt_requested()) {
-        ffd_clock_sleep(LOOK);
+        ffd_clock_sleep(POLL);
         status = ffd_rows_find(array, &is_there, error);
         if (!status && !is_there)
             status = begin(array, force, made, &busy, error);

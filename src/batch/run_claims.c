@@ -46,7 +46,7 @@ static ffd_status claim_output(batch_run *run, pool_task *task, ffd_error *error
     task->state = task->needs.mesh || task->needs.lattices ? TASK_NEW
                   : task->needs.others                     ? TASK_LOOKED
                                                            : TASK_WAITS;
-    task->looks_only = ffd_job_count_beside(&kind) > 0;
+    task->only_scans = ffd_job_count_sidecars(&kind) > 0;
     if (run->view && !job->error.status && claim_picture(run, task, error))
         return FFD_E_MEMORY;
     if (!job->error.status && ffd_reads_check(&run->files, job, error))
@@ -59,7 +59,7 @@ static ffd_status claim_output(batch_run *run, pool_task *task, ffd_error *error
     return FFD_OK;
 }
 
-/* Sends a task to a worker, which looks through the models of the folder of its output. */
+/* Sends a task to a worker, which scans the models of the folder of its output. */
 static ffd_status ask_for_survey(batch_run *run, pool_task *task, ffd_error *error)
 {
     task->surveys = task->needs.mesh = true;
@@ -73,12 +73,12 @@ static ffd_status claim_others(batch_run *run, pool_task *task, ffd_error *error
     batch_job *const job = &task->job;
     job_kind kind = ffd_job_kind(job);
     ffd_status status = FFD_OK;
-    if (task->has_looked)
+    if (task->has_scanned)
         status =
             ffd_reads_learn(&run->files, job, &kind, task->needs.mesh, task->beside, &task->found, error);
     ffd_buffer_free(&task->found);
-    task->has_looked = false;
-    kind.is_looked_at = ffd_reads_know_mesh(&run->files, &kind);
+    task->has_scanned = false;
+    kind.is_scanned = ffd_reads_know_mesh(&run->files, &kind);
     if (!status && ffd_claims_need_survey(&run->files, job, &kind))
         return ask_for_survey(run, task, error);
     if (!status)
@@ -90,7 +90,7 @@ static ffd_status claim_others(batch_run *run, pool_task *task, ffd_error *error
     return status;
 }
 
-/* Whether a task that waits for a worker to look needs that no more, since others were looked at. */
+/* Whether a task that waits for a worker to scan needs that no more, since others were scanned. */
 static bool is_known(const batch_run *run, const pool_task *task)
 {
     if (task->state != TASK_NEW || task->surveys)
@@ -101,8 +101,8 @@ static bool is_known(const batch_run *run, const pool_task *task)
 
 ffd_status ffd_run_learn(batch_run *run, pool_task *task, ffd_error *error)
 {
-    const bool is_new = task->looked_in_vain && !task->is_learned;
-    task->is_learned = task->is_learned || task->looked_in_vain;
+    const bool is_new = task->scanned_in_vain && !task->is_learned;
+    task->is_learned = task->is_learned || task->scanned_in_vain;
     if (task->state == TASK_ENDED && task->surveys &&
         ffd_run_survey(&run->files, task->job.target) == SURVEY_ASKED)
         return ffd_run_set_survey(&run->files, task->job.target, SURVEY_FAILED, error);
@@ -118,7 +118,7 @@ ffd_status ffd_run_claim_tasks(batch_run *run, ffd_error *error)
     bool settled = true;
     for (size_t i = 0; i < run->count && !status; i++) {
         pool_task *const task = run->tasks[i];
-        if (task->looked_in_vain && !task->is_learned)
+        if (task->scanned_in_vain && !task->is_learned)
             status = ffd_run_learn(run, task, error);
         if (!status && task->state == TASK_ORDERED &&
             (settled || (task->has_mesh_name && !run->files.comes_once)))

@@ -29,26 +29,26 @@ typedef struct wire_task {
     uint32_t word_count, content_words, passed_count;
     int32_t threads;
     bool has_record, has_drawn;
-    bool records;  /* fill the answer's record */
-    bool resume;   /* keep outputs that are up to date, replace others */
-    bool dry;      /* dry run: write nothing */
-    bool rehearse; /* dry run: do everything except writing */
-    bool depfile;  /* make the depfile rule */
-    bool report;   /* make the report entry, */
-    bool quality;  /* with figures of quality, */
-    bool stable;   /* without times */
-    bool quiet;    /* log no warnings */
-    bool verbose;  /* log details too */
-    bool measure;  /* only measure the mesh's box, and list its files if depfile is set */
-    bool count;    /* only count the mesh's vertices */
+    bool records;     /* fill the answer's record */
+    bool resume;      /* keep outputs that are up to date, replace others */
+    bool dry;         /* dry run: write nothing */
+    bool dry_run_job; /* dry run: do everything except writing */
+    bool depfile;     /* make the depfile rule */
+    bool report;      /* make the report entry, */
+    bool quality;     /* with figures of quality, */
+    bool stable;      /* without times */
+    bool quiet;       /* log no warnings */
+    bool verbose;     /* log details too */
+    bool measure;     /* only measure the mesh's box, and list its files if depfile is set */
+    bool count;       /* only count the mesh's vertices */
     bool has_row, is_double;
-    bool look;         /* first look at the files of the job (look.h): */
-    bool look_at_mesh; /* those of the mesh, */
-    bool look_at_lattices;
-    bool look_only;     /* answer after the look, whatever it finds */
-    bool survey;        /* likewise, and look through the models of the folder of the output */
-    bool tells;         /* tell at once that the look has found nothing */
-    bool is_unsurveyed; /* look through these models when a file beside the output would be replaced */
+    bool scan;      /* first scan the files of the job (scan.h): */
+    bool scan_mesh; /* those of the mesh, */
+    bool scan_lattices;
+    bool scan_only;     /* answer after the scan, whatever it finds */
+    bool survey;        /* likewise, and scan the models of the folder of the output */
+    bool tells;         /* tell at once that the scan has found nothing */
+    bool is_unsurveyed; /* scan these models when a file beside the output would be replaced */
     bool has_box;
     shown_box box; /* shared box, if has_box */
 } wire_task;
@@ -59,24 +59,24 @@ typedef enum wire_outcome { OUTCOME_DONE, OUTCOME_SKIPPED, OUTCOME_FAILED } wire
 typedef struct wire_answer {
     uint64_t log_size;     /* messages, each with its line break */
     uint64_t entry_size;   /* of the report */
-    uint64_t rule_size;    /* depfile rule; of a measured mesh: its files, each terminated by 0; after a look:
-                              what    was found (look.h) */
+    uint64_t rule_size;    /* depfile rule; of a measured mesh: its files, each terminated by 0; after a scan:
+                              what    was found (scan.h) */
     uint64_t figures_size; /* of the job, as JSON terminated by 0 */
     job_record record;
     hash128 drawn;       /* bytes of the picture of a job without an output, if has_drawn */
     hash128 state;       /* of the mesh's files, if has_state (job_cache.h) */
-    share_counts counts; /* of this job */
+    cache_counts counts; /* of this job */
     shown_box box;       /* of a measured mesh */
     uint64_t vertices;   /* if only vertices were counted */
-    uint64_t beside;     /* after a look: number of files beside the output */
+    uint64_t beside;     /* after a scan: number of files beside the output */
     uint8_t outcome;
     bool has_record, has_drawn, has_state;
-    bool rehearsed;     /* dry run: everything except writing was done */
+    bool dry_run_done;  /* dry run: everything except writing was done */
     bool has_picture;   /* it exists, made now or before */
     bool took_row;      /* the row may be written to */
     bool own_box;       /* a lattice's box was laid round the job's mesh */
-    bool looked;        /* the look found files, and nothing else was done */
-    bool goes_on;       /* the look found nothing: the answer has no more yet */
+    bool scanned;       /* the scan found files, and nothing else was done */
+    bool goes_on;       /* the scan found nothing: the answer has no more yet */
     bool retires;       /* the worker ends: send no more tasks */
     bool out_of_memory; /* memory ran out for the answer, so the job failed and there are no texts */
 } wire_answer;

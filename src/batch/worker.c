@@ -6,8 +6,8 @@
 #include "base/one_line.h"
 #include "base/system/interrupt.h"
 #include "batch/fingerprint.h"
-#include "batch/job_look.h"
 #include "batch/job_picture.h"
+#include "batch/job_scan.h"
 #include "batch/manifest/settings.h"
 #include "batch/row_array.h"
 #include "batch/wire.h"
@@ -26,15 +26,15 @@
 
 typedef struct batch_worker {
     const worker_program *program;
-    hash_cache hashes; /* of the files of all jobs so far */
-    ffd_share *share;  /* cache between jobs */
-    byte_buffer text;  /* of the task: words, content, names */
+    hash_cache hashes;    /* of the files of all jobs so far */
+    ffd_job_cache *cache; /* cache between jobs */
+    byte_buffer text;     /* of the task: words, content, names */
     char **words;
     size_t word_capacity;
     byte_buffer log, entry, rule, figures; /* of the answer */
     byte_buffer message;                   /* the whole answer */
-    ffd_written *written; /* of the task: the models that share files with its output; or NULL */
-    void *opened;         /* of the task: owns what desc borrows; or NULL */
+    ffd_output_set *output_set; /* of the task: the models that share files with its output; or NULL */
+    void *opened;               /* of the task: owns what desc borrows; or NULL */
 } batch_worker;
 
 /* Returns the next word. */
@@ -163,16 +163,16 @@ static ffd_status deform(ffd_deform_desc *desc, ffd_job_result *result)
     byte_buffer *const lines = ((const job_log *)desc->log_user)->lines;
     const size_t before = lines->size;
     const ffd_status status = ffd_deform_run(desc, result, NULL);
-    if (status != FFD_E_LIMIT || !desc->share)
+    if (status != FFD_E_LIMIT || !desc->cache)
         return status;
     lines->size = before;
-    desc->share = NULL;
+    desc->cache = NULL;
     return ffd_deform_run(desc, result, NULL);
 }
 
 /* Hashes the input files and makes the depfile rule, as far as wanted. */
-static ffd_status look_at_files(batch_worker *worker, const wire_task *task, const fingerprint_words *words,
-                                const ffd_deform_desc *desc, wire_answer *answer, ffd_error *error)
+static ffd_status hash_files(batch_worker *worker, const wire_task *task, const fingerprint_words *words,
+                             const ffd_deform_desc *desc, wire_answer *answer, ffd_error *error)
 {
     path_list files = {0};
     if (!task->records && !task->dry && !task->depfile)
@@ -219,14 +219,14 @@ static ffd_status draw(const char *picture, bool is_all, const ffd_deform_desc *
 }
 
 /* Hashes the results that were just written. The output is read again unless its bytes were hashed while
-   written. A job that went on after a look copies nothing. */
+   written. A job that went on after a scan copies nothing. */
 static bool know_results(batch_worker *worker, const wire_task *task, const ffd_deform_desc *desc,
                          const job_row *row, hash128 *results)
 {
     hash128 bytes;
     const bool has_output = desc->output || desc->in_place;
-    if (!has_output || !ffd_cache_find_output(worker->share, &bytes) ||
-        (!task->look && ffd_fingerprint_has_copies(desc, &worker->hashes)))
+    if (!has_output || !ffd_job_cache_find_output(worker->cache, &bytes) ||
+        (!task->scan && ffd_fingerprint_has_copies(desc, &worker->hashes)))
         return hash_results(desc, NULL, row, results);
     const hash128 output = ffd_fingerprint_written(&bytes);
     return hash_results(desc, &output, row, results);
@@ -236,12 +236,12 @@ static bool know_results(batch_worker *worker, const wire_task *task, const ffd_
 static ffd_status make_output(batch_worker *worker, const wire_task *task, ffd_deform_desc *desc,
                               wire_answer *answer, ffd_job_result *result)
 {
-    const share_counts before = ffd_cache_counts(worker->share);
-    ffd_cache_begin_job(worker->share, task->records, &worker->hashes.kept);
+    const cache_counts before = ffd_job_cache_counts(worker->cache);
+    ffd_job_cache_begin_job(worker->cache, task->records, &worker->hashes.kept);
     const ffd_status status = deform(desc, result);
-    answer->counts.reads = ffd_cache_counts(worker->share).reads - before.reads;
-    answer->counts.searches = ffd_cache_counts(worker->share).searches - before.searches;
-    answer->has_state = ffd_cache_find_state(worker->share, &answer->state);
+    answer->counts.reads = ffd_job_cache_counts(worker->cache).reads - before.reads;
+    answer->counts.searches = ffd_job_cache_counts(worker->cache).searches - before.searches;
+    answer->has_state = ffd_job_cache_find_state(worker->cache, &answer->state);
     return status;
 }
 
@@ -284,7 +284,7 @@ static bool has_picture(const wire_task *task, const char *picture, const ffd_de
     hash128 bytes;
     if (desc->output)
         return ffd_job_picture_is_current(picture, desc->output);
-    return task->has_drawn && !ffd_cache_hash(NULL, picture, &bytes, NULL) &&
+    return task->has_drawn && !ffd_hash_cache_hash(NULL, picture, &bytes, NULL) &&
            ffd_hash_equal(&bytes, &task->drawn);
 }
 
@@ -299,10 +299,10 @@ static ffd_status do_job(batch_worker *worker, const wire_task *task, const char
         return FFD_OK;
     }
     ffd_status status = check(task, picture, desc, &result->error);
-    if (status || (task->dry && (has_output || !task->rehearse)))
+    if (status || (task->dry && (has_output || !task->dry_run_job)))
         return status ? status : plan(desc, &result->error);
     desc->dry_run = task->dry;
-    answer->rehearsed = task->dry;
+    answer->dry_run_done = task->dry;
     if (!has_output)
         status = judge_row(row, make_output(worker, task, desc, answer, result), &result->error);
     if (task->dry)
@@ -314,7 +314,7 @@ static ffd_status do_job(batch_worker *worker, const wire_task *task, const char
     if (!status && task->records)
         answer->has_record = has_output || know_results(worker, task, desc, row, &answer->record.outputs);
     answer->has_drawn = answer->has_record && answer->has_picture && !desc->output &&
-                        !ffd_cache_hash(NULL, picture, &answer->drawn, NULL);
+                        !ffd_hash_cache_hash(NULL, picture, &answer->drawn, NULL);
     return status;
 }
 
@@ -354,8 +354,8 @@ static ffd_status count_vertices(const wire_task *task, const ffd_deform_desc *d
     return status;
 }
 
-/* Tells the first process that a look has found nothing, and the job goes on. */
-static ffd_status tell(ffd_error *error)
+/* Tells the first process that a scan has found nothing, and the job goes on. */
+static ffd_status send_nothing_found(ffd_error *error)
 {
     wire_answer note;
     memset(&note, 0, sizeof note);
@@ -373,12 +373,12 @@ static ffd_status do_task(batch_worker *worker, const wire_task *task, const fin
     const ffd_shared_box shared = {.box = task->box};
     const unsigned losses = ffd_mapping_losses();
     ffd_status status = take_row(task, row, desc, answer, &result->error);
-    if (!status && task->look)
-        status = ffd_job_look(&worker->hashes, task, desc, &worker->rule, answer, &result->error);
-    if (status || answer->looked)
+    if (!status && task->scan)
+        status = ffd_job_scan(&worker->hashes, task, desc, &worker->rule, answer, &result->error);
+    if (status || answer->scanned)
         return status;
-    if (task->look && task->tells)
-        status = tell(&result->error);
+    if (task->scan && task->tells)
+        status = send_nothing_found(&result->error);
     if (status)
         return status;
     if (task->count) {
@@ -392,7 +392,7 @@ static ffd_status do_task(batch_worker *worker, const wire_task *task, const fin
         return measure(worker, task, desc, answer, &result->error);
     desc->shared_box = task->has_box ? &shared : NULL;
     if (!status)
-        status = look_at_files(worker, task, words, desc, answer, &result->error);
+        status = hash_files(worker, task, words, desc, answer, &result->error);
     status = ffd_mapping_judge(losses, status, &result->error);
     if (!status)
         status = do_job(worker, task, *picture ? picture : NULL, row, desc, answer, result);
@@ -406,16 +406,16 @@ static ffd_status take_passed(batch_worker *worker, const wire_task *task, const
                               const ffd_deform_desc *desc, ffd_error *error)
 {
     const mesh_format *const format = ffd_format_table(ffd_job_output_format(desc));
-    if (!format || !format->name_beside)
+    if (!format || !format->name_sidecar)
         return FFD_OK;
-    ffd_status status = ffd_written_create(&worker->written, error);
+    ffd_status status = ffd_output_set_create(&worker->output_set, error);
     for (uint32_t i = 0; i < task->passed_count && !status; i++) {
         const char *const users = next_word(text);
-        status = ffd_users_add(&worker->written->users.users, text, users, error);
+        status = ffd_users_add(&worker->output_set->users.users, text, users, error);
         text = next_word(users);
     }
     if (!status)
-        worker->written->users.is_complete = !task->is_unsurveyed;
+        worker->output_set->users.is_complete = !task->is_unsurveyed;
     return status;
 }
 
@@ -444,10 +444,10 @@ static ffd_status run_words(batch_worker *worker, const wire_task *task, wire_an
     desc.quality = task->quality;
     desc.positions = task->has_row ? take_positions : NULL;
     desc.positions_user = &row;
-    desc.share = worker->share;
+    desc.cache = worker->cache;
     if (take_passed(worker, task, next_word(row.array.path), &desc, &result->error))
         return result->error.status;
-    desc.written = worker->written;
+    desc.output_set = worker->output_set;
     if (desc.threads == 0)
         desc.threads = task->threads;
     const ffd_status status =
@@ -474,7 +474,7 @@ static void make_entry(batch_worker *worker, const wire_task *task, const wire_a
                                 .row = task->row,
                                 .set = set.failed ? NULL : set.data,
                                 .result = result,
-                                .planned = task->dry && !answer->rehearsed && !result->status,
+                                .planned = task->dry && !answer->dry_run_done && !result->status,
                                 .stable = task->stable};
     ffd_report_entry_text(&entry, &worker->entry);
     worker->entry.failed = worker->entry.failed || set.failed;
@@ -497,9 +497,9 @@ static void answer_task(batch_worker *worker, const wire_task *task, wire_answer
         ffd_report_figures(&result, &worker->figures);
         ffd_buffer_append(&worker->figures, "", 1);
     }
-    if (task->report && !answer->looked && answer->outcome != OUTCOME_SKIPPED)
+    if (task->report && !answer->scanned && answer->outcome != OUTCOME_SKIPPED)
         make_entry(worker, task, answer, &result);
-    ffd_written_destroy(&worker->written);
+    ffd_output_set_destroy(&worker->output_set);
     if (worker->opened)
         worker->program->close(worker->opened);
     worker->opened = NULL;
@@ -544,7 +544,7 @@ int ffd_worker_run(const worker_program *program)
     ffd_guard_inputs();
     ffd_interrupt_ignore();
     ffd_process_follow_parent();
-    worker.text.failed = ffd_share_create(&worker.share, NULL) != FFD_OK;
+    worker.text.failed = ffd_job_cache_create(&worker.cache, NULL) != FFD_OK;
     bool going = !worker.text.failed;
     while (going && read_task(&worker, &task)) {
         wire_answer answer;
@@ -557,8 +557,8 @@ int ffd_worker_run(const worker_program *program)
         ffd_process_defer_stop(false);
     }
     const int code = worker.text.failed ? ffd_status_exit_code(FFD_E_MEMORY) : 0;
-    ffd_share_destroy(&worker.share);
-    ffd_cache_free(&worker.hashes);
+    ffd_job_cache_destroy(&worker.cache);
+    ffd_hash_cache_free(&worker.hashes);
     ffd_buffer_free(&worker.text);
     ffd_buffer_free(&worker.log);
     ffd_buffer_free(&worker.entry);

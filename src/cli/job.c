@@ -167,8 +167,8 @@ void cli_job_describe(cli_job *job, const char *input, ffd_deform_desc *desc)
     *desc = job->desc;
     desc->input.path = input;
     desc->quality = job->report != NULL;
-    desc->written = job->written;
-    desc->share = job->share;
+    desc->output_set = job->output_set;
+    desc->cache = job->cache;
     desc->shared_box = job->shared_box;
     desc->log = cli_log;
     desc->log_user = &job->logging;
@@ -225,9 +225,9 @@ int cli_job_run_all(cli_job *job, const cli_words *words, size_t inputs, cli_job
     ffd_report *report = NULL;
     ffd_error error;
     int code = EXIT_DONE;
-    if (ffd_written_create(&job->written, &error) ||
-        (inputs > 1 && ffd_share_create_for_lattices(&job->share, &error)) ||
-        (job->report && ffd_report_create(job->report, job->stable, job->written, &report, &error)))
+    if (ffd_output_set_create(&job->output_set, &error) ||
+        (inputs > 1 && ffd_job_cache_create_for_lattices(&job->cache, &error)) ||
+        (job->report && ffd_report_create(job->report, job->stable, job->output_set, &report, &error)))
         code = cli_fail(&error);
     else
         code = share_box(job, words, inputs);
@@ -238,8 +238,8 @@ int cli_job_run_all(cli_job *job, const cli_words *words, size_t inputs, cli_job
         code = code ? code : own;
     }
     ffd_report_destroy(&report);
-    ffd_written_destroy(&job->written);
-    ffd_share_destroy(&job->share);
+    ffd_output_set_destroy(&job->output_set);
+    ffd_job_cache_destroy(&job->cache);
     ffd_shared_box_destroy(&job->shared_box);
     return code;
 }

@@ -13,8 +13,8 @@ typedef struct cli_job {
     bool stable, shares_box;
     bool own_box;               /* a job has used a box round its own mesh */
     ffd_shared_box *shared_box; /* of all jobs, or NULL */
-    ffd_written *written;       /* files written so far */
-    ffd_share *share;           /* cache of several jobs, which all have the same lattices */
+    ffd_output_set *output_set; /* files written so far */
+    ffd_job_cache *cache;       /* cache of several jobs, which all have the same lattices */
     ffd_error refusal;          /* why the library refuses the options */
     cli_logging logging;
     bool help;

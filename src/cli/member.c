@@ -20,10 +20,10 @@ static const char *last_name(const char *member)
 static void make_option(const char *name, char *option, size_t capacity)
 {
     const ffd_member *member;
-    size_t number = 0;
-    while ((member = ffd_deform_member(number)) != NULL &&
+    size_t index = 0;
+    while ((member = ffd_deform_member(index)) != NULL &&
            !(member->option && strcmp(last_name(member->name), name) == 0))
-        number++;
+        index++;
     snprintf(option, capacity, "--%s", member ? member->option : name);
     for (char *c = option; *c; c++)
         *c = *c == '_' ? '-' : *c;
@@ -44,10 +44,10 @@ void cli_spell(const char *member, const char *value, char *text, size_t capacit
 const ffd_member *cli_find_member(const char *option)
 {
     const ffd_member *member;
-    size_t number = 0;
-    while ((member = ffd_deform_member(number)) != NULL &&
+    size_t index = 0;
+    while ((member = ffd_deform_member(index)) != NULL &&
            !(member->option && strcmp(member->option, option) == 0))
-        number++;
+        index++;
     return member;
 }
 

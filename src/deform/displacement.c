@@ -61,25 +61,25 @@ static bool displace(const ffd_lattice *lattice, const double uvw[3], bool inver
     static const uint32_t which[1] = {0};
     double inside[3], numbers[2 * FIELD_NUMBERS + 1];
     const cell_use use = jacobian ? CELL_GRADIENTS : by_uvw ? CELL_BY_UVW : CELL_VALUES;
-    size_t number[3];
+    size_t index[3];
     int span[3];
     kernel_cell cell;
     if (lattice->rest_weights)
         return displace_rational(lattice, uvw, delta, by_uvw, jacobian);
     ffd_displacement_wrap(lattice, uvw, inside);
     for (int a = 0; a < 3; a++)
-        number[a] = ffd_knots_span_number(&lattice->knots[a], inside[a]);
+        index[a] = ffd_knots_span_number(&lattice->knots[a], inside[a]);
     const cell_motion motion =
-        ffd_displacement_cell_points(lattice, ffd_extraction_kernel_scalar, number, use, numbers);
+        ffd_displacement_cell_points(lattice, ffd_extraction_kernel_scalar, index, use, numbers);
     if (motion.kind == CELL_STILL)
         return false;
-    ffd_displacement_spans(lattice, number, span);
+    ffd_displacement_spans(lattice, index, span);
     if (motion.kind == CELL_SHIFTED) {
         shift(ffd_displacement_shared(lattice, span, NULL), delta, by_uvw, jacobian);
         return true;
     }
     const double *const shared = motion.knots ? ffd_displacement_shared(lattice, span, inside) : NULL;
-    ffd_displacement_cell_begin(lattice, number, use, numbers, &cell);
+    ffd_displacement_cell_begin(lattice, index, use, numbers, &cell);
     cell.inverse = inverse ? cell.inverse : NULL;
     const kernel_points points = {
         .uvw = inside, .which = which, .count = 1, .delta = delta, .gradient = by_uvw, .jacobian = jacobian};

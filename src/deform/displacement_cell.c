@@ -187,10 +187,10 @@ static cell_motion motion_of(const ffd_lattice *lattice, const int span[3])
     return (cell_motion){.kind = CELL_BENT, .knots = knots_that_share(lattice, span)};
 }
 
-void ffd_displacement_spans(const ffd_lattice *lattice, const size_t number[3], int span[3])
+void ffd_displacement_spans(const ffd_lattice *lattice, const size_t index[3], int span[3])
 {
     for (int a = 0; a < 3; a++)
-        span[a] = lattice->knots[a].spans[number[a]];
+        span[a] = lattice->knots[a].spans[index[a]];
 }
 
 void ffd_displacement_wrap(const ffd_lattice *lattice, const double uvw[3], double inside[3])
@@ -235,7 +235,7 @@ static size_t field_numbers(const ffd_lattice *lattice, cell_use use)
 }
 
 /* Brings the control points of a field, which numbers hold, into the form of the kernel. */
-static void extract_field(const ffd_lattice *lattice, extraction_kernel *extract, const size_t number[3],
+static void extract_field(const ffd_lattice *lattice, extraction_kernel *extract, const size_t index[3],
                           cell_use use, double *numbers)
 {
     const size_t count = point_numbers(lattice);
@@ -245,7 +245,7 @@ static void extract_field(const ffd_lattice *lattice, extraction_kernel *extract
         const knot_vector *const knots = &lattice->knots[a];
         const size_t order = (size_t)knots->degree + 1;
         degree[a] = knots->degree;
-        extraction[a] = knots->extractions + number[a] * order * order;
+        extraction[a] = knots->extractions + index[a] * order * order;
     }
     numbers[count] = 0;
     extract(degree, extraction, numbers, use == CELL_VALUES ? NULL : numbers + count);
@@ -257,29 +257,29 @@ size_t ffd_displacement_cell_numbers(const ffd_lattice *lattice, cell_use use)
 }
 
 cell_motion ffd_displacement_cell_points(const ffd_lattice *lattice, extraction_kernel *extract,
-                                         const size_t number[3], cell_use use, double *numbers)
+                                         const size_t index[3], cell_use use, double *numbers)
 {
     int span[3];
-    ffd_displacement_spans(lattice, number, span);
+    ffd_displacement_spans(lattice, index, span);
     const cell_motion motion = motion_of(lattice, span);
     if (motion.kind != CELL_BENT)
         return motion;
     ffd_lattice_cell_points(lattice, lattice->difference, span, numbers);
-    extract_field(lattice, extract, number, use, numbers);
+    extract_field(lattice, extract, index, use, numbers);
     if (needs_rest(lattice, use)) {
         double *const rest = numbers + field_numbers(lattice, use);
         ffd_lattice_cell_points(lattice, lattice->rest, span, rest);
-        extract_field(lattice, extract, number, use, rest);
+        extract_field(lattice, extract, index, use, rest);
     }
     return motion;
 }
 
-void ffd_displacement_cell_begin(const ffd_lattice *lattice, const size_t number[3], cell_use use,
+void ffd_displacement_cell_begin(const ffd_lattice *lattice, const size_t index[3], cell_use use,
                                  const double *numbers, kernel_cell *cell)
 {
     for (int a = 0; a < 3; a++) {
         const knot_vector *const knots = &lattice->knots[a];
-        const int span = knots->spans[number[a]];
+        const int span = knots->spans[index[a]];
         cell->degree[a] = knots->degree;
         cell->first[a] = knots->t[span];
         cell->width[a] = knots->t[span + 1] - knots->t[span];

@@ -39,11 +39,11 @@ size_t ffd_displacement_cell_numbers(const ffd_lattice *lattice, cell_use use);
 /* Returns how the cell with these indices of non-empty spans moves. If its points have different
    displacements, also fills numbers, with room for one more that the kernel may write. */
 cell_motion ffd_displacement_cell_points(const ffd_lattice *lattice, extraction_kernel *extract,
-                                         const size_t number[3], cell_use use, double *numbers);
+                                         const size_t index[3], cell_use use, double *numbers);
 /* Converts indices of non-empty spans to spans. */
-void ffd_displacement_spans(const ffd_lattice *lattice, const size_t number[3], int span[3]);
+void ffd_displacement_spans(const ffd_lattice *lattice, const size_t index[3], int span[3]);
 /* Sets up a cell for the kernel, with these numbers. */
-void ffd_displacement_cell_begin(const ffd_lattice *lattice, const size_t number[3], cell_use use,
+void ffd_displacement_cell_begin(const ffd_lattice *lattice, const size_t index[3], cell_use use,
                                  const double *numbers, kernel_cell *cell);
 
 /* Wraps u,v,w into the domain: closed directions modulo their period. */

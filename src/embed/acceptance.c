@@ -15,7 +15,8 @@ typedef struct judged_place {
     double allowance[3];           /* at most, in each coordinate */
 } judged_place;
 
-static void look_at(const ffd_locator *locator, const double xyz[3], const double uvw[3], judged_place *at)
+static void evaluate_place(const ffd_locator *locator, const double xyz[3], const double uvw[3],
+                           judged_place *at)
 {
     const ffd_lattice *const lattice = locator->lattice;
     double point[3];
@@ -53,7 +54,7 @@ bool ffd_locator_accepts(const ffd_locator *locator, const double xyz[3], const 
     ffd_world_tolerance(locator, xyz, tolerance);
     if (location->residual <= lesser_of(tolerance[0], lesser_of(tolerance[1], tolerance[2])))
         return true;
-    look_at(locator, xyz, location->uvw, &at);
+    evaluate_place(locator, xyz, location->uvw, &at);
     if (ffd_residual_is_explained(at.residual, at.jacobian, at.tolerance, at.grain))
         return true;
     for (int a = 0; a < 3; a++) {

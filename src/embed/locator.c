@@ -106,7 +106,7 @@ const char *ffd_locator_get_method(const ffd_locator *locator)
     return names[locator->method];
 }
 
-static const ffd_location nowhere = {.uvw = {NAN, NAN, NAN}, .status = FFD_OUTSIDE};
+static const ffd_location nowhere = {.uvw = {NAN, NAN, NAN}, .status = FFD_VERTEX_OUTSIDE};
 
 /* Sets p = xyz - origin. Returns false if the verdict on the point is known already. */
 static bool begin(const ffd_locator *locator, const double xyz[3], double p[3], ffd_location *location)
@@ -115,7 +115,7 @@ static bool begin(const ffd_locator *locator, const double xyz[3], double p[3], 
     for (int a = 0; a < 3; a++)
         p[a] = xyz[a] - locator->origin[a];
     if (!vec_is_finite(xyz))
-        location->status = FFD_POINT_INVALID;
+        location->status = FFD_VERTEX_INVALID;
     return vec_is_finite(p); /* false: xyz is not finite, or the difference overflows */
 }
 

@@ -23,7 +23,7 @@ ffd_status ffd_locator_find_near(const ffd_locator *locator, const double *xyz, 
 /* Whether the location has u,v,w. */
 static inline bool ffd_location_is_placed(const ffd_location *location)
 {
-    return location->status != FFD_OUTSIDE && location->status != FFD_POINT_INVALID &&
+    return location->status != FFD_VERTEX_OUTSIDE && location->status != FFD_VERTEX_INVALID &&
            vec_is_finite(location->uvw);
 }
 

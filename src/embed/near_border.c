@@ -71,7 +71,7 @@ static void take(const border_place *place, ffd_location *location)
 {
     double determinant;
     const bool singular = ffd_mat_is_singular(place->jacobian, &determinant);
-    location->status = singular || location->unresolved ? FFD_SINGULAR : FFD_INSIDE;
+    location->status = singular || location->unresolved ? FFD_VERTEX_SINGULAR : FFD_VERTEX_INSIDE;
     location->residual = vec_length(place->residual);
     memcpy(location->uvw, place->uvw, sizeof place->uvw);
 }
@@ -96,8 +96,8 @@ static ffd_status find_verdict(const boundary *border, const double p[3], const 
     return status;
 }
 
-static ffd_status look_again(const ffd_locator *locator, const double p[3], const border_reach *reach,
-                             ffd_location *location, ffd_error *error)
+static ffd_status retry(const ffd_locator *locator, const double p[3], const border_reach *reach,
+                        ffd_location *location, ffd_error *error)
 {
     const boundary *border;
     boundary_point nearest;
@@ -118,7 +118,7 @@ static ffd_status look_again(const ffd_locator *locator, const double p[3], cons
     if (verdict == BOUNDARY_MEETS) {
         take(&place, location);
     } else if (verdict == BOUNDARY_UNDECIDED) {
-        location->status = FFD_SINGULAR;
+        location->status = FFD_VERTEX_SINGULAR;
         location->unresolved = true;
     }
     return status;
@@ -138,7 +138,7 @@ ffd_status ffd_near_border_find(const ffd_locator *locator, const double *xyz, s
             !find_reach(locator, p, rounding ? rounding + 3 * i : NULL, allowance->snap, &reach) ||
             !is_near_hull(locator, p, &reach))
             continue;
-        status = look_again(locator, p, &reach, &locations[i], error);
+        status = retry(locator, p, &reach, &locations[i], error);
     }
     return status;
 }
@@ -154,8 +154,8 @@ static bool is_near(const bounds *hull, const double x[3], const double half[3],
     return bounds_hold(hull, x, slack);
 }
 
-ffd_status ffd_near_border_look_again(const ffd_locator *locator, const double x[3], const double half[3],
-                                      double snap, ffd_location *location, ffd_error *error)
+ffd_status ffd_near_border_retry(const ffd_locator *locator, const double x[3], const double half[3],
+                                 double snap, ffd_location *location, ffd_error *error)
 {
     const ffd_border_allowance allowance = {.rounding = half, .snap = snap};
     if (!is_near(&locator->hull, x, half, snap))

@@ -13,8 +13,8 @@ ffd_status ffd_near_border_find(const ffd_locator *locator, const double *xyz, s
 
 /* The same for one point without u,v,w, with an early exit far from the volume. half: half sides of the
    rounding cell of the point; snap: world units. */
-ffd_status ffd_near_border_look_again(const ffd_locator *locator, const double x[3], const double half[3],
-                                      double snap, ffd_location *location, ffd_error *error);
+ffd_status ffd_near_border_retry(const ffd_locator *locator, const double x[3], const double half[3],
+                                 double snap, ffd_location *location, ffd_error *error);
 
 /* Finds how far a point outside of the volume is from its border: infinite where that is more than reach. A
    snap of this distance makes it inside. *searched: that took a search, which may be slow. Errors:

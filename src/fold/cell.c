@@ -45,7 +45,7 @@ static void begin(const fold_plan *plan, size_t cell, fold_scratch *scratch, cel
 
 /* Tests the values at the corners of the cell, before coefficients are computed. A value that is negative
    even if control points are known only roughly is not an excused zero. */
-static void look_at_cell_corners(cell_search *search)
+static void test_cell_corners(cell_search *search)
 {
     for (int corner = 0; corner < 8; corner++) {
         double t[3], weight = 1;
@@ -74,7 +74,7 @@ static bool decide_quickly(cell_search *search)
     static const double centre[3] = {0.5, 0.5, 0.5};
     regularity quick;
     ffd_cell_regularity(&search->form, &quick);
-    look_at_cell_corners(search);
+    test_cell_corners(search);
     if (quick.proven && quick.negative == (search->plan->volume.sign < 0)) {
         search->result.lower = ffd_search_lower(search, quick.least, 1, 1);
         return true;

@@ -14,7 +14,7 @@ static void local_of(const box *part, const double t[3], double local[3])
 
 /* Tests the corners, whose coefficients are values. Returns whether one of them is so near to 0 that its sign
    is unknown; search->result records a negative one. */
-static bool look_at_corners(cell_search *search, const box *part, const box_view *view)
+static bool test_corners(cell_search *search, const box *part, const box_view *view)
 {
     const int *order = search->order;
     bool doubtful = false;
@@ -41,7 +41,7 @@ static bool look_at_corners(cell_search *search, const box *part, const box_view
 }
 
 /* Tests the value at the parameter where the least coefficient has its greatest influence. */
-static void look_at_least(cell_search *search, const box *part, const box_view *view)
+static void test_least(cell_search *search, const box *part, const box_view *view)
 {
     double t[3], local[3];
     int orders = 0;
@@ -92,26 +92,26 @@ static bool is_decided(cell_search *search, const box *part, const box_view *vie
             give_up(search, part, depth);
         return search->result.verdict == FFD_FOLDS_SOME || part->is_even;
     }
-    const bool doubtful = look_at_corners(search, part, view);
+    const bool doubtful = test_corners(search, part, view);
     if (search->result.verdict == FFD_FOLDS_SOME)
         return true;
     if (doubtful && part->is_even && view->least >= -part->rounding) {
         give_up(search, part, depth);
         return true;
     }
-    look_at_least(search, part, view);
+    test_least(search, part, view);
     return search->result.verdict == FFD_FOLDS_SOME;
 }
 
 /* For the refinement of min_det: returns whether the bound of the box is good enough. */
 static bool is_near(cell_search *search, const box *part, const box_view *view)
 {
-    look_at_corners(search, part, view);
+    test_corners(search, part, view);
     const double rounding = ffd_search_relative(search, 4 * part->rounding, view->least_weight);
     const double lower = ffd_box_lower(search, part, view), seen = search->result.least_seen;
     if (lower >= ffd_fold_target(seen) || (part->is_even && lower >= seen - rounding))
         return true;
-    look_at_least(search, part, view);
+    test_least(search, part, view);
     return lower >= ffd_fold_target(search->result.least_seen);
 }
 

@@ -30,7 +30,7 @@ const mesh_format *ffd_format_table(ffd_format format)
 }
 
 /* Where the content of a file that is not valid looks like another format, adds that to the message. */
-static void tell_content(const mesh_format *format, const file_input *input, ffd_error *error)
+static void mention_content(const mesh_format *format, const file_input *input, ffd_error *error)
 {
     const content_kind *const kind = ffd_content_kind(input->data, input->size);
     const size_t length = strlen(error->message);
@@ -45,7 +45,7 @@ ffd_status ffd_format_open(const mesh_format *format, file_input *input, const f
     if (!status)
         (*document)->format = format;
     else if (status == FFD_E_INVALID && error)
-        tell_content(format, input, error);
+        mention_content(format, input, error);
     return status;
 }
 

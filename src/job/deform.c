@@ -20,7 +20,7 @@
 #include "job/report/output_set.h"
 #include "job/sharing.h"
 #include "lattice/file/lattice_source.h"
-#include "mesh/resource/beside.h"
+#include "mesh/resource/sidecar.h"
 #include <string.h>
 
 /* Restores files that a killed run had set aside, before they are read. */
@@ -118,7 +118,7 @@ static ffd_status add_paths(path_list *to, const path_list *from, ffd_error *err
     return status;
 }
 
-/* Whether a lattice takes the shared box. */
+/* Whether a lattice takes the cached box. */
 static bool goes_round_all(const deform_job *job)
 {
     for (size_t i = 0; i < job->chain.count; i++) {
@@ -172,11 +172,11 @@ static ffd_status write_all(deform_job *job, const mesh_save_options *options, f
     return status;
 }
 
-/* Whether the share wants a hash of this output. A conversion is not hashed: it may refer to files under
+/* Whether the cache wants a hash of this output. A conversion is not hashed: it may refer to files under
    other names. */
 static bool is_hashed(const deform_job *job)
 {
-    return ffd_cache_hashes_output(job->desc->share) && !job->document->converted &&
+    return ffd_job_cache_hashes_output(job->desc->cache) && !job->document->converted &&
            ffd_source_is_alone(job->document);
 }
 
@@ -189,7 +189,7 @@ static ffd_status save(deform_job *job, const mesh_save_options *options, ffd_er
     ffd_status status = ffd_output_create(&output, error);
     if (status)
         return status;
-    ffd_output_record(output, ffd_written_list(job->desc->written));
+    ffd_output_record(output, ffd_output_set_list(job->desc->output_set));
     ffd_output_redirect(output, job->desc->sink, job->desc->sink_user);
     if (job->desc->if_changed)
         ffd_output_keep_equal(output);
@@ -204,25 +204,25 @@ static ffd_status save(deform_job *job, const mesh_save_options *options, ffd_er
     if (!status && job->desc->depfile)
         ffd_depfile_add(job->desc->depfile, &rule);
     if (!status && hashed && ffd_output_hash_value(output, &hash))
-        ffd_cache_put_output(job->desc->share, &hash);
+        ffd_job_cache_put_output(job->desc->cache, &hash);
     ffd_buffer_free(&rule);
     ffd_output_destroy(&output);
     return status;
 }
 
 /* Refuses a conversion whose other files cannot be written. */
-static ffd_status rehearse_conversion(deform_job *job, const mesh_save_options *options, ffd_error *error)
+static ffd_status dry_run_conversion(deform_job *job, const mesh_save_options *options, ffd_error *error)
 {
     const mesh_format *const to = ffd_format_table(options->format);
-    beside_names names = {.options = options, .log = &job->log};
+    sidecar_names names = {.options = options, .log = &job->log};
     ffd_format from;
-    if (!to->count_beside || ffd_output_is_stream(options->path) || options->to_sink)
+    if (!to->count_sidecars || ffd_output_is_stream(options->path) || options->to_sink)
         return FFD_OK;
     ffd_status status = ffd_source_format(&job->desc->input, &from, error);
-    const size_t count = status ? 0 : to->count_beside(NULL, from, options->format);
+    const size_t count = status ? 0 : to->count_sidecars(NULL, from, options->format);
     for (size_t i = 0; i < count && !status; i++) {
         char *path;
-        status = ffd_beside_next(&names, NULL, NULL, &path, error);
+        status = ffd_sidecar_next(&names, NULL, NULL, &path, error);
         if (!status)
             status = ffd_output_check(path, options->force, error);
         ffd_free(path);
@@ -231,11 +231,11 @@ static ffd_status rehearse_conversion(deform_job *job, const mesh_save_options *
 }
 
 /* Refuses an output whose other files cannot be written, as writing would. */
-static ffd_status rehearse(deform_job *job, const mesh_save_options *options, ffd_error *error)
+static ffd_status dry_run_job(deform_job *job, const mesh_save_options *options, ffd_error *error)
 {
     const mesh_format *const format = job->document->format;
     if (ffd_conversion_needed(job->document, options->format))
-        return rehearse_conversion(job, options, error);
+        return dry_run_conversion(job, options, error);
     return format->check_save ? format->check_save(job->document, options, NULL, &job->log, error) : FFD_OK;
 }
 
@@ -313,7 +313,8 @@ static ffd_status write_output(deform_job *job, mesh_save_options *options, ffd_
     options->indices_left = &result->indices_left;
     options->bytes_left = &result->bytes_left;
     options->bounds_left = &result->bounds_left;
-    const ffd_status status = job->desc->dry_run ? rehearse(job, options, error) : save(job, options, error);
+    const ffd_status status =
+        job->desc->dry_run ? dry_run_job(job, options, error) : save(job, options, error);
     ffd_sharing_end(&sharing);
     if (!job->desc->dry_run)
         result->seconds.write = ffd_clock_seconds() - start;
@@ -352,27 +353,27 @@ static ffd_status deform_and_save(deform_job *job, ffd_job_result *result, ffd_e
     return write_output(job, &options, result, error);
 }
 
-/* Several morph targets share the locations of the vertices through a share of the job's own. */
+/* Several morph targets share the locations of the vertices through a cache of the job's own. */
 static ffd_status run_deform_job(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
 {
-    ffd_share *share = NULL;
+    ffd_job_cache *cache = NULL;
     ffd_deform_desc own = *desc;
     deform_job job;
     if (!ffd_deform_desc_writes(desc)) /* normals are not written */
         own.normals = FFD_NORMALS_KEEP;
-    if (desc->morphs && !ffd_cache_holds_meshes(desc->share)) {
-        if (ffd_cache_create_for_job(&share, error)) {
+    if (desc->morphs && !ffd_job_cache_holds_meshes(desc->cache)) {
+        if (ffd_job_cache_create_for_job(&cache, error)) {
             ffd_result_clear(result);
             return result->status = ffd_fail_memory(&result->error);
         }
-        own.share = share;
+        own.cache = cache;
     }
     ffd_status status = ffd_deform_job_begin(&job, &own, false, result);
     if (!status)
         status = deform_and_save(&job, result, &result->error);
     ffd_morphs_end(&job);
     status = ffd_deform_job_end(&job, status, result, error);
-    ffd_share_destroy(&share);
+    ffd_job_cache_destroy(&cache);
     return status;
 }
 

@@ -37,7 +37,7 @@ static ffd_status check_embedding(const ffd_deform_desc *desc, ffd_error *error)
     if (strcmp(embedding, "-") == 0 &&
         (strcmp(desc->input.path, "-") == 0 || ffd_lattice_is_stream(&desc->lattices[0])))
         return ffd_fail(error, FFD_E_ARGUMENT, "standard input can be read only once");
-    if (desc->written && ffd_written_holds(&desc->written->files, embedding))
+    if (desc->output_set && ffd_written_holds(&desc->output_set->files, embedding))
         return ffd_fail_file(error, FFD_E_EXISTS, embedding,
                              "was written by this run already, under this name or another");
     return FFD_OK;
@@ -139,20 +139,20 @@ static ffd_status open_mesh(deform_job *job, ffd_error *error)
     file_stamp stamp;
     file_input bytes;
     const bool is_file =
-        ffd_cache_holds_meshes(desc->share) && !source.bytes.data && ffd_file_stamp(source.path, &stamp);
-    ffd_status status = is_file && ffd_cache_take_bytes(desc->share, source.path, &stamp, &bytes)
+        ffd_job_cache_holds_meshes(desc->cache) && !source.bytes.data && ffd_file_stamp(source.path, &stamp);
+    ffd_status status = is_file && ffd_job_cache_take_bytes(desc->cache, source.path, &stamp, &bytes)
                             ? ffd_source_open_bytes(&source, job->threads, &bytes, &job->document, error)
                             : ffd_source_open(&source, job->threads, &job->document, error);
     if (!status)
         status = ffd_selection_apply(desc->only, desc->only_count, ffd_source_name(&desc->input),
                                      job->document, error);
     if (!status)
-        ffd_cache_describe_mesh(desc->share, desc, job->only_positions, is_file ? &stamp : NULL,
-                                job->document);
+        ffd_job_cache_describe_mesh(desc->cache, desc, job->only_positions, is_file ? &stamp : NULL,
+                                    job->document);
     return status;
 }
 
-ffd_status ffd_deform_job_load_chain(deform_job *job, const chain_outside *outside, ffd_share *share,
+ffd_status ffd_deform_job_load_chain(deform_job *job, const chain_outside *outside, ffd_job_cache *cache,
                                      ffd_error *error)
 {
     const ffd_deform_desc *const desc = job->desc;
@@ -164,7 +164,7 @@ ffd_status ffd_deform_job_load_chain(deform_job *job, const chain_outside *outsi
                                .derives = job->derives,
                                .shared = desc->shared_box,
                                .log = &job->log};
-    const ffd_status status = ffd_chain_load(&files, outside, desc->isa, share, &job->chain, error);
+    const ffd_status status = ffd_chain_load(&files, outside, desc->isa, cache, &job->chain, error);
     job->chain.blocks = desc->blocks && desc->lattice_count > 1;
     return status;
 }
@@ -175,13 +175,13 @@ ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_erro
     const chain_outside outside = {desc->outside == FFD_OUTSIDE_EXTEND, desc->falloff, desc->snap,
                                    desc->snap_relative};
     const double start = ffd_clock_seconds();
-    if (desc->written && !desc->input.bytes.data &&
-        ffd_written_holds(&desc->written->files, desc->input.path))
+    if (desc->output_set && !desc->input.bytes.data &&
+        ffd_written_holds(&desc->output_set->files, desc->input.path))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->input.path,
                              "was written by this run already, under this name or another");
-    ffd_status status = ffd_deform_job_load_chain(job, &outside, desc->share, error);
+    ffd_status status = ffd_deform_job_load_chain(job, &outside, desc->cache, error);
     if (!status)
-        job->document = ffd_cache_take_mesh(desc->share, desc, job->only_positions);
+        job->document = ffd_job_cache_take_mesh(desc->cache, desc, job->only_positions);
     job->document_is_shared = job->document;
     if (!status && !job->document)
         status = open_mesh(job, error);
@@ -265,8 +265,8 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, figure_arrays 
     if (!status)
         status = ffd_mesh_warn(job->document, &job->file_log, error);
     job->recomputes = job->desc->normals == FFD_NORMALS_RECOMPUTE && has_normals(job->document);
-    job->document->results_replace = !ffd_cache_holds_meshes(job->desc->share) && !ffd_figures_wanted(job) &&
-                                     !job->recomputes && !job->desc->morphs;
+    job->document->results_replace = !ffd_job_cache_holds_meshes(job->desc->cache) &&
+                                     !ffd_figures_wanted(job) && !job->recomputes && !job->desc->morphs;
     if (!status)
         status = format->begin_results(job->document, attributes, attributes, error);
     if (job->desc->normals == FFD_NORMALS_RECOMPUTE && !job->recomputes && !job->document->has_face_normals)
@@ -387,7 +387,7 @@ static ffd_status give_positions(deform_job *job, ffd_error *error)
 }
 
 /* Whether a word is needed if nothing moves: a check prints how many vertices move. */
-static bool tells_still(const deform_job *job)
+static bool warns_if_still(const deform_job *job)
 {
     return !job->check || job->details;
 }
@@ -426,7 +426,7 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
         status = ffd_overlaps_warn(&job->chain, &job->log, error);
     if (!status)
         ffd_result_warn(&job->totals, &job->chain, true, &job->log);
-    if (!status && tells_still(job))
+    if (!status && warns_if_still(job))
         ffd_still_warn(&job->totals, &job->chain, &result->bounds.before, job->desc->as_morph != NULL,
                        !job->check, &job->log);
     if (!status)
@@ -465,10 +465,10 @@ ffd_status ffd_deform_job_end(deform_job *job, ffd_status status, ffd_job_result
     if (job->document) /* reset for the next job */
         job->document->shown = job->document->converted = false;
     if (status == FFD_OK)
-        ffd_cache_put_mesh(job->desc->share, job->desc, job->document);
+        ffd_job_cache_put_mesh(job->desc->cache, job->desc, job->document);
     else
         ffd_source_close(&job->document);
-    ffd_cache_put_chain(job->desc->share, &job->chain);
+    ffd_job_cache_put_chain(job->desc->cache, &job->chain);
     ffd_chain_free(&job->chain);
     if (status && error)
         *error = result->error;

@@ -19,7 +19,7 @@ ffd_status ffd_deform_job_begin(deform_job *job, const ffd_deform_desc *desc, bo
 
 /* Loads the job's lattices into its chain; they are fitted later. share may be NULL. Errors: those of
    ffd_chain_load. */
-ffd_status ffd_deform_job_load_chain(deform_job *job, const chain_outside *outside, ffd_share *share,
+ffd_status ffd_deform_job_load_chain(deform_job *job, const chain_outside *outside, ffd_job_cache *cache,
                                      ffd_error *error);
 
 /* Opens the lattices and the mesh. */

@@ -70,18 +70,18 @@ static ffd_status recompute(deform_job *job, const figure_arrays *arrays, recomp
 static ffd_status pass_over_stored(deform_job *job, mesh_pass *pass, pass_totals *totals, ffd_error *error)
 {
     const bool keeps = job->chain.count == 1 && !job->desc->embedding && !job->forgets_locations;
-    ffd_share *const share = keeps ? job->desc->share : NULL;
+    ffd_job_cache *const cache = keeps ? job->desc->cache : NULL;
     const hash128 rest = located_in(&job->chain.links[0]);
     pass->locations =
-        ffd_cache_locations(share, job->document, job->document_is_shared, &rest, &pass->is_located);
+        ffd_job_cache_locations(cache, job->document, job->document_is_shared, &rest, &pass->is_located);
     pass->embedding = job->desc->embedding ? &job->embedding : NULL;
     pass->deformed = pass->deformed ? pass->deformed : job->positions;
     if (!pass->is_located && !job->desc->embedding)
-        ffd_cache_count_search(job->desc->share);
+        ffd_job_cache_count_search(job->desc->cache);
     const ffd_status status = ffd_pass_run(pass, totals, error);
     if (status)
         return status;
-    ffd_cache_locations_filled(share);
+    ffd_job_cache_locations_filled(cache);
     if (job->positions && pass->deformed != job->positions)
         memcpy(job->positions, pass->deformed,
                (size_t)ffd_mesh_vertex_count(job->document) * 3 * sizeof *job->positions);

@@ -12,7 +12,7 @@
 
 /* A walk over the JSON. The first one measures the widest name, the second one writes. */
 typedef struct renderer {
-    const json_span *facts;
+    const json_tree *facts;
     byte_buffer *out; /* NULL in the first walk */
     size_t width;
     bool failed; /* out of memory */
@@ -41,14 +41,14 @@ static void write_scalar(renderer *r, uint32_t value)
     double number;
     switch ((json_kind)r->facts->values[value].kind) {
     case JSON_STRING: {
-        char *const text = ffd_json_span_string(r->facts, value, NULL);
+        char *const text = ffd_json_tree_string(r->facts, value, NULL);
         r->failed = r->failed || !text;
         write_string(r->out, text ? text : "");
         ffd_free(text);
         break;
     }
     case JSON_NUMBER:
-        ffd_json_span_number(r->facts, value, &number);
+        ffd_json_tree_number(r->facts, value, &number);
         ffd_buffer_number(r->out, number);
         break;
     case JSON_TRUE:
@@ -71,8 +71,8 @@ static bool is_kind(const renderer *r, uint32_t value, json_kind kind)
 
 static bool has_inner_parts(const renderer *r, uint32_t array)
 {
-    for (uint32_t v = ffd_json_span_first(r->facts, array); v != JSON_NONE;
-         v = ffd_json_span_after(r->facts, v))
+    for (uint32_t v = ffd_json_tree_first(r->facts, array); v != JSON_NONE;
+         v = ffd_json_tree_after(r->facts, v))
         if (is_kind(r, v, JSON_OBJECT) || is_kind(r, v, JSON_ARRAY))
             return true;
     return false;
@@ -81,12 +81,12 @@ static bool has_inner_parts(const renderer *r, uint32_t array)
 /* Numbers are separated by spaces; names, which may contain spaces, by commas. */
 static void write_value(renderer *r, uint32_t value)
 {
-    const uint32_t first = ffd_json_span_first(r->facts, value);
+    const uint32_t first = ffd_json_tree_first(r->facts, value);
     if (!is_kind(r, value, JSON_ARRAY) || first == JSON_NONE) {
         write_scalar(r, value);
         return;
     }
-    for (uint32_t v = first; v != JSON_NONE; v = ffd_json_span_after(r->facts, v)) {
+    for (uint32_t v = first; v != JSON_NONE; v = ffd_json_tree_after(r->facts, v)) {
         if (v != first)
             ffd_buffer_text(r->out, is_kind(r, v, JSON_STRING) ? ", " : " ");
         write_scalar(r, v);
@@ -127,7 +127,7 @@ static void render_line(renderer *r, size_t depth, const char *name, uint32_t va
 /* Writes the numbers of an array inside one of a thing's members, such as "min" of "bounds". */
 static void write_corner(renderer *r, uint32_t bounds, const char *key)
 {
-    const uint32_t corner = ffd_json_span_member(r->facts, bounds, key);
+    const uint32_t corner = ffd_json_tree_member(r->facts, bounds, key);
     if (corner != JSON_NONE)
         write_value(r, corner);
 }
@@ -136,14 +136,14 @@ static void write_corner(renderer *r, uint32_t bounds, const char *key)
 static void write_count(renderer *r, uint32_t thing, const char *key, const char *one)
 {
     double count = 0;
-    ffd_json_span_number(r->facts, ffd_json_span_member(r->facts, thing, key), &count);
+    ffd_json_tree_number(r->facts, ffd_json_tree_member(r->facts, thing, key), &count);
     ffd_buffer_format(r->out, "%.0f %s", count, ffd_plural((uint64_t)count, one, key));
 }
 
 /* Writes a thing's vertices, faces and bounds on one line, as a mesh may have thousands of things. */
 static void write_drawing(renderer *r, uint32_t thing)
 {
-    const uint32_t bounds = ffd_json_span_member(r->facts, thing, "bounds");
+    const uint32_t bounds = ffd_json_tree_member(r->facts, thing, "bounds");
     write_count(r, thing, "vertices", "vertex");
     ffd_buffer_text(r->out, ", ");
     write_count(r, thing, "faces", "face");
@@ -159,13 +159,13 @@ static void write_drawing(renderer *r, uint32_t thing)
    out of memory. */
 static char *thing_name(const renderer *r, uint32_t thing)
 {
-    const uint32_t selector = ffd_json_span_member(r->facts, thing, "selector");
+    const uint32_t selector = ffd_json_tree_member(r->facts, thing, "selector");
     if (selector != JSON_NONE)
-        return ffd_json_span_string(r->facts, selector, NULL);
+        return ffd_json_tree_string(r->facts, selector, NULL);
     double number = 0;
     byte_buffer text = {0};
-    char *const kind = ffd_json_span_string(r->facts, ffd_json_span_member(r->facts, thing, "kind"), NULL);
-    ffd_json_span_number(r->facts, ffd_json_span_member(r->facts, thing, "number"), &number);
+    char *const kind = ffd_json_tree_string(r->facts, ffd_json_tree_member(r->facts, thing, "kind"), NULL);
+    ffd_json_tree_number(r->facts, ffd_json_tree_member(r->facts, thing, "number"), &number);
     ffd_buffer_format(&text, "%s %.0f", kind ? kind : "", number);
     char *const name = kind ? ffd_buffer_finish(&text) : NULL;
     ffd_free(kind);
@@ -198,11 +198,11 @@ static void render_value(renderer *r, size_t depth, const char *name, uint32_t v
 static void render_elements(renderer *r, size_t depth, uint32_t array)
 {
     size_t i = 0;
-    for (uint32_t v = ffd_json_span_first(r->facts, array); v != JSON_NONE;
-         v = ffd_json_span_after(r->facts, v)) {
+    for (uint32_t v = ffd_json_tree_first(r->facts, array); v != JSON_NONE;
+         v = ffd_json_tree_after(r->facts, v)) {
         char number[32];
         snprintf(number, sizeof number, "%zu", i++);
-        if (ffd_json_span_member(r->facts, v, "faces") != JSON_NONE)
+        if (ffd_json_tree_member(r->facts, v, "faces") != JSON_NONE)
             render_thing(r, depth, v);
         else
             render_value(r, depth, number, v);
@@ -211,11 +211,11 @@ static void render_elements(renderer *r, size_t depth, uint32_t array)
 
 static void render_members(renderer *r, size_t depth, uint32_t object)
 {
-    for (uint32_t v = ffd_json_span_first(r->facts, object); v != JSON_NONE;
-         v = ffd_json_span_after(r->facts, v)) {
-        const bool hidden = depth == 0 && (ffd_json_span_key_is(r->facts, v, "format") ||
-                                           ffd_json_span_key_is(r->facts, v, "version"));
-        char *const key = hidden ? NULL : ffd_json_span_key(r->facts, v);
+    for (uint32_t v = ffd_json_tree_first(r->facts, object); v != JSON_NONE;
+         v = ffd_json_tree_after(r->facts, v)) {
+        const bool hidden = depth == 0 && (ffd_json_tree_key_is(r->facts, v, "format") ||
+                                           ffd_json_tree_key_is(r->facts, v, "version"));
+        char *const key = hidden ? NULL : ffd_json_tree_key(r->facts, v);
         if (key)
             render_value(r, depth, key, v);
         r->failed = r->failed || (!hidden && !key);
@@ -238,7 +238,7 @@ static void render_value(renderer *r, size_t depth, const char *name, uint32_t v
 ffd_status ffd_info_render(const char *json, size_t size, char **text, ffd_error *error)
 {
     const json_input input = {.text = json, .size = size, .name = ""};
-    json_span facts;
+    json_tree facts;
     const ffd_status status = ffd_json_parse(&input, &facts, error);
     if (status)
         return status;
@@ -247,7 +247,7 @@ ffd_status ffd_info_render(const char *json, size_t size, char **text, ffd_error
     render_members(&r, 0, 0);
     r.out = &out;
     render_members(&r, 0, 0);
-    ffd_json_span_free(&facts);
+    ffd_json_tree_free(&facts);
     out.failed = out.failed || r.failed;
     *text = ffd_buffer_finish(&out);
     ffd_buffer_free(&out);

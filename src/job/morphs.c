@@ -26,12 +26,12 @@ static ffd_status check_names(const ffd_deform_desc *desc, ffd_error *error)
     intern_table names = {0};
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < desc->lattice_count && !status; i++) {
-        uint32_t number;
+        uint32_t index;
         char shown[80];
         status = check_name(desc->morphs[i], error);
-        if (!status && !ffd_intern(&names, desc->morphs[i], strlen(desc->morphs[i]), &number))
+        if (!status && !ffd_intern(&names, desc->morphs[i], strlen(desc->morphs[i]), &index))
             status = ffd_fail_memory(error);
-        if (status || number == i)
+        if (status || index == i)
             continue;
         ffd_name_shown(desc->morphs[i], shown, sizeof shown);
         status = ffd_fail(error, FFD_E_ARGUMENT, "{morphs}: two morph targets are called \"%s\"", shown);
@@ -69,13 +69,13 @@ static ffd_status keep_clips(const deform_job *job, ffd_error *error)
 {
     const ffd_deform_desc *const desc = job->desc;
     intern_table names = {0};
-    uint32_t number;
+    uint32_t index;
     bool listed = true;
     if (!job->document->converted && job->document->format->keep_clips)
         return job->document->format->keep_clips(job->document, job->clips, job->clip_count, desc->morphs,
                                                  desc->lattice_count, error);
     for (size_t i = 0; i < desc->lattice_count && listed; i++)
-        listed = ffd_intern(&names, desc->morphs[i], strlen(desc->morphs[i]), &number);
+        listed = ffd_intern(&names, desc->morphs[i], strlen(desc->morphs[i]), &index);
     const ffd_status status =
         listed ? ffd_morph_clips_check(job->clips, job->clip_count, &names, error) : ffd_fail_memory(error);
     ffd_intern_free(&names);

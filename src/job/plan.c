@@ -18,11 +18,11 @@ static ffd_status add_folders(job_plan *plan, const char *path, ffd_error *error
     for (bool goes_on = resolved; goes_on && !status;) {
         const hash128 place = ffd_place_of(&plan->places, at);
         const size_t known = plan->folders.count;
-        uint32_t number;
-        if (!ffd_intern(&plan->folders, &place, sizeof place, &number))
+        uint32_t index;
+        if (!ffd_intern(&plan->folders, &place, sizeof place, &index))
             status = ffd_fail_memory(error);
         char *const slash = strrchr(at, '/');
-        goes_on = !status && number == known && slash && at[1];
+        goes_on = !status && index == known && slash && at[1];
         if (goes_on)
             slash[slash == at] = 0;
     }
@@ -34,7 +34,7 @@ static ffd_status add_folders(job_plan *plan, const char *path, ffd_error *error
 ffd_status ffd_plan_write(job_plan *plan, const char *input, const char *output, ffd_error *error)
 {
     const hash128 place = ffd_place_of(&plan->places, output);
-    const size_t number = plan->inputs.count;
+    const size_t index = plan->inputs.count;
     uint64_t writer;
     if (ffd_files_find(&plan->outputs, &place, &writer))
         return ffd_fail_file(error, FFD_E_INVALID, input, "and %s would both write one file",
@@ -42,7 +42,7 @@ ffd_status ffd_plan_write(job_plan *plan, const char *input, const char *output,
     plan->replaces = plan->replaces || ffd_file_exists(output);
     ffd_status status = ffd_paths_add(&plan->inputs, input, error);
     if (!status)
-        status = ffd_files_put(&plan->outputs, &place, number, error);
+        status = ffd_files_put(&plan->outputs, &place, index, error);
     return status ? status : add_folders(plan, output, error);
 }
 
@@ -51,9 +51,9 @@ static bool has_outputs_below(job_plan *plan, const char *mesh)
 {
     char *const folder = ffd_path_folder(mesh), *const resolved = folder ? ffd_path_resolve(folder) : NULL;
     const hash128 place = resolved ? ffd_place_of(&plan->places, resolved) : (hash128){{0}};
-    uint32_t number;
+    uint32_t index;
     ffd_free(folder);
-    const bool found = !resolved || ffd_intern_find(&plan->folders, &place, sizeof place, &number);
+    const bool found = !resolved || ffd_intern_find(&plan->folders, &place, sizeof place, &index);
     ffd_free(resolved);
     return found;
 }
@@ -160,14 +160,14 @@ static ffd_status check_mesh(job_plan *plan, size_t job, const ffd_source *sourc
     return status;
 }
 
-ffd_status ffd_plan_read(job_plan *plan, size_t number, const ffd_deform_desc *desc, ffd_error *error)
+ffd_status ffd_plan_read(job_plan *plan, size_t index, const ffd_deform_desc *desc, ffd_error *error)
 {
     ffd_status status = FFD_OK;
     /* A mesh of a box that is not there yet fails all jobs. */
     for (size_t i = 0; i < desc->lattice_count && plan->replaces && !plan->has_lattices && !status; i++)
         status = check_lattice(plan, desc->lattices[i].path, error);
     plan->has_lattices = true;
-    return status ? status : check_mesh(plan, number, &desc->input, error);
+    return status ? status : check_mesh(plan, index, &desc->input, error);
 }
 
 void ffd_plan_free(job_plan *plan)

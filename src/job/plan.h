@@ -22,7 +22,7 @@ typedef struct job_plan {
 ffd_status ffd_plan_write(job_plan *plan, const char *input, const char *output, ffd_error *error);
 /* Refuses a job that reads the output of another one (FFD_E_INVALID); number: of the job, in the order in
    which they were added. All jobs have the same lattices. Errors: FFD_E_MEMORY too. */
-ffd_status ffd_plan_read(job_plan *plan, size_t number, const ffd_deform_desc *desc, ffd_error *error);
+ffd_status ffd_plan_read(job_plan *plan, size_t index, const ffd_deform_desc *desc, ffd_error *error);
 /* Frees the jobs; leaves none. */
 void ffd_plan_free(job_plan *plan);
 

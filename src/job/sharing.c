@@ -23,10 +23,10 @@ static ffd_status list_folder(job_sharing *s, const char *file, ffd_error *error
         return ffd_fail_memory(error);
     const hash128 there = ffd_place_of(&s->known->users.places, folder);
     const size_t count = s->known->folders.count;
-    uint32_t number;
+    uint32_t index;
     ffd_status status =
-        ffd_intern(&s->known->folders, &there, sizeof there, &number) ? FFD_OK : ffd_fail_memory(error);
-    if (!status && number == count)
+        ffd_intern(&s->known->folders, &there, sizeof there, &index) ? FFD_OK : ffd_fail_memory(error);
+    if (!status && index == count)
         status = add_models(s, folder, error);
     ffd_free(folder);
     return status;
@@ -66,9 +66,9 @@ void ffd_sharing_begin(job_sharing *sharing, const ffd_deform_desc *desc, const 
 {
     *sharing = (job_sharing){.document = document, .input = desc->input.path};
     *used = NULL;
-    if (!ffd_format_table(to)->name_beside || ffd_output_is_stream(output) || desc->sink)
+    if (!ffd_format_table(to)->name_sidecar || ffd_output_is_stream(output) || desc->sink)
         return;
-    sharing->known = desc->written ? &desc->written->users : &sharing->own;
+    sharing->known = desc->output_set ? &desc->output_set->users : &sharing->own;
     sharing->sharing = (mesh_sharing){find, sharing, sharing->known->is_complete};
     *used = &sharing->sharing;
 }

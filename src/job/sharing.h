@@ -1,5 +1,5 @@
 /* sharing.h - the models that share buffers with the output of a job: those of its folder, its own input, and
-   those that the run knows (ffd_written). */
+   those that the run knows (ffd_output_set). */
 #ifndef FFD_JOB_SHARING_H
 #define FFD_JOB_SHARING_H
 

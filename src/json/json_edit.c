@@ -65,14 +65,14 @@ static uint32_t start_of(const json_value *value)
 
 /* Removes each member together with the comma before it; or with the comma after it, if no earlier member is
    kept. */
-void ffd_edits_remove(json_edits *edits, const json_span *tree, uint32_t container, const uint32_t *gone,
+void ffd_edits_remove(json_edits *edits, const json_tree *tree, uint32_t container, const uint32_t *gone,
                       size_t gone_count)
 {
     bool kept = false;
     uint32_t before = JSON_NONE;
-    for (uint32_t v = ffd_json_span_first(tree, container); v != JSON_NONE;
-         v = ffd_json_span_after(tree, v)) {
-        const uint32_t after = ffd_json_span_after(tree, v);
+    for (uint32_t v = ffd_json_tree_first(tree, container); v != JSON_NONE;
+         v = ffd_json_tree_after(tree, v)) {
+        const uint32_t after = ffd_json_tree_after(tree, v);
         if (!is_among(v, gone, gone_count))
             kept = true;
         else if (kept)

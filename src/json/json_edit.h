@@ -3,7 +3,7 @@
 #define FFD_JSON_JSON_EDIT_H
 
 #include "base/text/buffer.h"
-#include "json/json_span.h"
+#include "json/json_tree.h"
 #include <stdint.h>
 
 #define EDIT_NO_BUFFER (-1)
@@ -34,7 +34,7 @@ void ffd_edits_buffer(json_edits *edits, uint32_t begin, uint32_t end, int buffe
 
 /* Removes members of an object, or elements of an array, with their commas. At most once for each
    container. */
-void ffd_edits_remove(json_edits *edits, const json_span *tree, uint32_t container, const uint32_t *gone,
+void ffd_edits_remove(json_edits *edits, const json_tree *tree, uint32_t container, const uint32_t *gone,
                       size_t gone_count);
 
 /* Sorts the edits by offset. To be called before they are applied. */

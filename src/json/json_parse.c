@@ -20,7 +20,7 @@
 
 typedef struct scanner {
     const json_input *input;
-    json_span *tree;
+    json_tree *tree;
     const char *at, *last;
     ffd_error *error;
 } scanner;
@@ -199,7 +199,7 @@ static uint32_t offset(const scanner *s)
 /* Appends a value to the tree, as a member of parent. */
 static json_value *add_value(scanner *s, uint32_t parent)
 {
-    json_span *tree = s->tree;
+    json_tree *tree = s->tree;
     if (!ffd_grow((void **)&tree->values, &tree->capacity, tree->count + 1, sizeof *tree->values)) {
         ffd_fail_memory(s->error);
         return NULL;
@@ -239,7 +239,7 @@ static ffd_status refuse_key(const scanner *s, uint32_t a, uint32_t b)
         refuse(s, s->tree->text + value->key_begin, "duplicate key %.*s in an object",
                (int)(length < KEY_SHOWN ? length : KEY_SHOWN), s->tree->text + value->key_begin);
     if (s->error)
-        ffd_json_span_pointer(s->tree, a > b ? a : b, s->error->pointer, sizeof s->error->pointer);
+        ffd_json_tree_pointer(s->tree, a > b ? a : b, s->error->pointer, sizeof s->error->pointer);
     return status;
 }
 
@@ -247,7 +247,7 @@ static ffd_status refuse_key(const scanner *s, uint32_t a, uint32_t b)
    be the value that others use. */
 static ffd_status refuse_equal_keys(const scanner *s, uint32_t object)
 {
-    const json_span *tree = s->tree;
+    const json_tree *tree = s->tree;
     const size_t count = tree->values[object].count;
     json_member few[FEW_MEMBERS];
     json_member *members = few;
@@ -255,10 +255,10 @@ static ffd_status refuse_equal_keys(const scanner *s, uint32_t object)
         return FFD_OK;
     if (count > FEW_MEMBERS && !(members = ffd_alloc(count, sizeof *members)))
         return ffd_fail_memory(s->error);
-    ffd_json_span_sort(tree, object, members);
+    ffd_json_tree_sort(tree, object, members);
     ffd_status status = FFD_OK;
     for (size_t i = 1; i < count && status == FFD_OK; i++)
-        if (ffd_json_span_compare_keys(tree, members[i - 1].value, tree, members[i].value) == 0)
+        if (ffd_json_tree_compare_keys(tree, members[i - 1].value, tree, members[i].value) == 0)
             status = refuse_key(s, members[i - 1].value, members[i].value);
     if (members != few)
         ffd_free(members);
@@ -267,7 +267,7 @@ static ffd_status refuse_equal_keys(const scanner *s, uint32_t object)
 
 static ffd_status close_container(scanner *s, uint32_t *container)
 {
-    json_span *tree = s->tree;
+    json_tree *tree = s->tree;
     const uint32_t closed = *container;
     s->at++;
     tree->values[closed].end = offset(s);
@@ -279,7 +279,7 @@ static ffd_status close_container(scanner *s, uint32_t *container)
 /* Reads a value in *container; if it is an object or array, it becomes *container. */
 static ffd_status scan_value(scanner *s, uint32_t *container, int *depth)
 {
-    json_span *tree = s->tree;
+    json_tree *tree = s->tree;
     json_value *value = add_value(s, *container);
     if (!value)
         return FFD_E_MEMORY;
@@ -291,7 +291,7 @@ static ffd_status scan_value(scanner *s, uint32_t *container, int *depth)
     value->begin = offset(s);
     if (s->at == s->last || (*s->at != '{' && *s->at != '['))
         return scan_scalar(s, value);
-    if (++*depth > JSON_SPAN_DEPTH)
+    if (++*depth > JSON_TREE_DEPTH)
         return expect(s, s->at, "values are nested more than 256 deep");
     value->kind = *s->at == '{' ? JSON_OBJECT : JSON_ARRAY;
     *container = (uint32_t)(tree->count - 1);
@@ -335,9 +335,9 @@ static ffd_status scan_text(scanner *s)
     return s->at < s->last ? expect(s, s->at, "nothing may follow the value") : FFD_OK;
 }
 
-ffd_status ffd_json_parse(const json_input *input, json_span *tree, ffd_error *error)
+ffd_status ffd_json_parse(const json_input *input, json_tree *tree, ffd_error *error)
 {
-    *tree = (json_span){.text = input->text, .size = input->size};
+    *tree = (json_tree){.text = input->text, .size = input->size};
     if (input->size > LARGEST_TEXT)
         return ffd_fail_file(error, FFD_E_LIMIT, input->name, "its JSON has %zu bytes, more than %zu",
                              input->size, LARGEST_TEXT);
@@ -345,6 +345,6 @@ ffd_status ffd_json_parse(const json_input *input, json_span *tree, ffd_error *e
         .input = input, .tree = tree, .at = input->text, .last = input->text + input->size, .error = error};
     const ffd_status status = scan_text(&s);
     if (status)
-        ffd_json_span_free(tree);
+        ffd_json_tree_free(tree);
     return status;
 }

@@ -3,7 +3,7 @@
 #ifndef FFD_JSON_JSON_PARSE_H
 #define FFD_JSON_JSON_PARSE_H
 
-#include "json/json_span.h"
+#include "json/json_tree.h"
 
 /* Additional rules of a reader, combined with |. */
 enum {
@@ -26,6 +26,6 @@ typedef struct json_input {
 
 /* Parses a text, which must outlive the tree. *tree is empty after a failure. Errors: FFD_E_INVALID with line
    and column, FFD_E_LIMIT (4 GiB), FFD_E_MEMORY. */
-ffd_status ffd_json_parse(const json_input *input, json_span *tree, ffd_error *error);
+ffd_status ffd_json_parse(const json_input *input, json_tree *tree, ffd_error *error);
 
 #endif

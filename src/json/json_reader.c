@@ -45,12 +45,12 @@ json_cursor ffd_cursor_top(const json_file *file)
 
 json_cursor ffd_cursor_member(json_cursor object, const char *key)
 {
-    return move_to(object, ffd_json_span_member(object.tree, object.value, key));
+    return move_to(object, ffd_json_tree_member(object.tree, object.value, key));
 }
 
 json_cursor ffd_cursor_first(json_cursor container)
 {
-    return move_to(container, ffd_json_span_first(container.tree, container.value));
+    return move_to(container, ffd_json_tree_first(container.tree, container.value));
 }
 
 json_cursor ffd_cursor_next(json_cursor element)
@@ -58,7 +58,7 @@ json_cursor ffd_cursor_next(json_cursor element)
     /* The root of a substitute is followed by what follows the replaced value. */
     if (is_substitute(element) && element.value == 0)
         element = (json_cursor){element.file, element.file->tree, element.replaced, JSON_NONE};
-    return move_to(element, ffd_json_span_after(element.tree, element.value));
+    return move_to(element, ffd_json_tree_after(element.tree, element.value));
 }
 
 /* The JSON pointer of the value, cut to capacity. */
@@ -66,10 +66,10 @@ static void write_pointer(json_cursor cursor, char *text, size_t capacity)
 {
     size_t length = 0;
     if (is_substitute(cursor)) {
-        ffd_json_span_pointer(cursor.file->tree, cursor.replaced, text, capacity);
+        ffd_json_tree_pointer(cursor.file->tree, cursor.replaced, text, capacity);
         length = strlen(text);
     }
-    ffd_json_span_pointer(cursor.tree, cursor.value, text + length, capacity - length);
+    ffd_json_tree_pointer(cursor.tree, cursor.value, text + length, capacity - length);
 }
 
 static ffd_status fail(json_cursor cursor, ffd_status status, const char *format, va_list arguments)
@@ -132,7 +132,7 @@ json_words ffd_json_describe(json_cursor cursor)
         snprintf(words.text, sizeof words.text, "the text \"%s\"", text);
         break;
     case JSON_NUMBER:
-        ffd_json_span_number(cursor.tree, cursor.value, &number);
+        ffd_json_tree_number(cursor.tree, cursor.value, &number);
         snprintf(words.text, sizeof words.text, "the number %s", ffd_number_text(number).text);
         break;
     case JSON_TRUE:
@@ -151,7 +151,7 @@ json_words ffd_json_describe(json_cursor cursor)
 static bool is_known(json_cursor member, const char *const *known, size_t count)
 {
     for (size_t i = 0; i < count; i++)
-        if (ffd_json_span_key_is(member.tree, member.value, known[i]))
+        if (ffd_json_tree_key_is(member.tree, member.value, known[i]))
             return true;
     return false;
 }
@@ -162,8 +162,8 @@ ffd_status ffd_json_read_object(json_cursor cursor, const char *const *known, si
     if (!ffd_cursor_is(cursor, JSON_OBJECT))
         return ffd_cursor_fail(cursor, "must be an object, not %s", ffd_json_describe(cursor).text);
     json_cursor member = cursor;
-    for (member.value = ffd_json_span_first(cursor.tree, cursor.value); ffd_cursor_exists(member);
-         member.value = ffd_json_span_after(member.tree, member.value)) {
+    for (member.value = ffd_json_tree_first(cursor.tree, cursor.value); ffd_cursor_exists(member);
+         member.value = ffd_json_tree_after(member.tree, member.value)) {
         char key[81], hint[300];
         if (is_known(member, known, count))
             continue;
@@ -193,14 +193,14 @@ static ffd_status trace_number(json_cursor cursor, double *number)
 
 ffd_status ffd_json_read_double(json_cursor cursor, double *number)
 {
-    if (!ffd_json_span_number(cursor.tree, cursor.value, number))
+    if (!ffd_json_tree_number(cursor.tree, cursor.value, number))
         return ffd_cursor_fail(cursor, "must be a number, not %s", ffd_json_describe(cursor).text);
     return cursor.file->trace && is_substitute(cursor) ? trace_number(cursor, number) : FFD_OK;
 }
 
 ffd_status ffd_json_read_integer(json_cursor cursor, double *number)
 {
-    if (ffd_json_span_number(cursor.tree, cursor.value, number) && *number == floor(*number) &&
+    if (ffd_json_tree_number(cursor.tree, cursor.value, number) && *number == floor(*number) &&
         fabs(*number) <= 0x1p53)
         return FFD_OK;
     return ffd_cursor_fail(cursor, "must be a whole number, not %s", ffd_json_describe(cursor).text);
@@ -218,7 +218,7 @@ ffd_status ffd_json_read_doubles(json_cursor cursor, size_t count, double *numbe
 ffd_status ffd_json_read_word(json_cursor cursor, const char *const *words, size_t count, size_t *index)
 {
     for (*index = 0; *index < count; ++*index)
-        if (ffd_json_span_string_is(cursor.tree, cursor.value, words[*index]))
+        if (ffd_json_tree_string_is(cursor.tree, cursor.value, words[*index]))
             return FFD_OK;
     if (!ffd_cursor_is(cursor, JSON_STRING))
         return ffd_cursor_fail(cursor, "must be a word like \"%s\", not %s", words[0],

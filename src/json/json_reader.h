@@ -3,12 +3,12 @@
 #ifndef FFD_JSON_JSON_READER_H
 #define FFD_JSON_JSON_READER_H
 
-#include "json/json_span.h"
+#include "json/json_tree.h"
 
 /* Replacement value of a placeholder. */
 typedef struct json_substitute {
     uint32_t value;        /* index in the tree of the file */
-    const json_span *tree; /* its root is the replacement */
+    const json_tree *tree; /* its root is the replacement */
 } json_substitute;
 
 /* A number that was read from a substitute. */
@@ -27,7 +27,7 @@ typedef struct json_trace {
 /* A parsed file. Its strings must not contain U+0000 (JSON_NO_NUL). */
 typedef struct json_file {
     const char *name; /* for messages */
-    const json_span *tree;
+    const json_tree *tree;
     const json_substitute *substitutes; /* sorted by ascending value */
     size_t substitute_count;
     json_trace *trace; /* records all numbers that are read from substitutes; may be NULL */
@@ -37,7 +37,7 @@ typedef struct json_file {
 /* A position in the file: one value. */
 typedef struct json_cursor {
     const json_file *file;
-    const json_span *tree; /* the file's, or a substitute's */
+    const json_tree *tree; /* the file's, or a substitute's */
     uint32_t value;        /* index in this tree; JSON_NONE: no value */
     uint32_t replaced;     /* if tree is a substitute's: the value in the file's tree that it replaces */
 } json_cursor;

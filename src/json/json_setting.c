@@ -24,7 +24,7 @@ ffd_status ffd_json_setting_parse(const char *text, unsigned rules, json_setting
 
 void ffd_json_setting_free(json_setting *setting)
 {
-    ffd_json_span_free(&setting->tree);
+    ffd_json_tree_free(&setting->tree);
     ffd_free(setting->quoted);
     *setting = (json_setting){0};
 }

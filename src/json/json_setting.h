@@ -2,11 +2,11 @@
 #ifndef FFD_JSON_JSON_SETTING_H
 #define FFD_JSON_JSON_SETTING_H
 
-#include "json/json_span.h"
+#include "json/json_tree.h"
 
 /* All zeros: empty. */
 typedef struct json_setting {
-    json_span tree; /* its root is the value */
+    json_tree tree; /* its root is the value */
     char *quoted;   /* if the text is not JSON: the text as a JSON string; else NULL */
 } json_setting;
 

@@ -31,9 +31,9 @@ static bool copy_names(const intern_table *from, intern_table *to)
     bool whole = true;
     *to = (intern_table){0};
     for (uint32_t i = 0; i < from->count && whole; i++) {
-        uint32_t number;
+        uint32_t index;
         const char *const name = ffd_intern_key(from, i);
-        whole = ffd_intern(to, name, strlen(name), &number);
+        whole = ffd_intern(to, name, strlen(name), &index);
     }
     return whole;
 }

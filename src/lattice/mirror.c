@@ -116,19 +116,19 @@ static ffd_status make_tree(const ffd_lattice *lattice, const unsigned char *sel
 
 /* A lookup of a point within the tolerance of a position. Lengths are in units of the tolerance, so that
    squares neither overflow nor underflow. */
-typedef struct look_up {
+typedef struct find_slot {
     const mirror_tree *tree;
     const double *place;
     double tolerance;
     double offset[3]; /* lower bound of the distance to the current range in each coordinate */
-} look_up;
+} find_slot;
 
 static bool is_near(const double offset[3])
 {
     return vec_dot(offset, offset) <= 1;
 }
 
-static bool is_at(const look_up *look, size_t place_in_order)
+static bool is_at(const find_slot *look, size_t place_in_order)
 {
     const double *const p = look->tree->points + 3 * (size_t)look->tree->order[place_in_order];
     double offset[3];
@@ -137,7 +137,7 @@ static bool is_at(const look_up *look, size_t place_in_order)
     return is_near(offset);
 }
 
-static bool find_in(look_up *look, size_t begin, size_t end)
+static bool find_in(find_slot *look, size_t begin, size_t end)
 {
     const size_t middle = begin + (end - begin) / 2;
     if (end - begin <= LEAF) {
@@ -165,7 +165,7 @@ static bool has_image(const mirror_tree *tree, const mirror_plane *plane, size_t
 {
     double image[3];
     ffd_mirror_point(plane, tree->points + 3 * point, image);
-    look_up look = {.tree = tree, .place = image, .tolerance = plane->tolerance};
+    find_slot look = {.tree = tree, .place = image, .tolerance = plane->tolerance};
     return find_in(&look, 0, tree->count);
 }
 

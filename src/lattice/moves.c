@@ -263,11 +263,11 @@ static ffd_status move_point(const move_work *work, ready_move *ready, const mir
     return check_finite(work, move, point);
 }
 
-static ffd_status observe(const move_work *work, size_t number, const lattice_move *move,
+static ffd_status observe(const move_work *work, size_t index, const lattice_move *move,
                           const ready_move *ready, const mirror_plane *plane)
 {
     const move_step step = {.move = move,
-                            .number = number,
+                            .number = index,
                             .ready = ready,
                             .plane = plane,
                             .selected = work->selected,
@@ -278,11 +278,11 @@ static ffd_status observe(const move_work *work, size_t number, const lattice_mo
 }
 
 /* Moves the selected points. plane: for the mirror images of a mirrored move; else NULL. */
-static ffd_status move_points(const move_work *work, size_t number, const lattice_move *move,
+static ffd_status move_points(const move_work *work, size_t index, const lattice_move *move,
                               ready_move *ready, const mirror_plane *plane)
 {
     const exact_bend bend = {work->lattice, work->selected, ready, plane, work->file};
-    ffd_status status = observe(work, number, move, ready, plane);
+    ffd_status status = observe(work, index, move, ready, plane);
     if (!status && ready->move.exact)
         status = ffd_move_bend_exactly(&bend, work->error);
     for (size_t i = 0; i < work->lattice->count && !status; i++) {
@@ -294,7 +294,7 @@ static ffd_status move_points(const move_work *work, size_t number, const lattic
 }
 
 /* Applies the action again, reflected, to the mirror images of the points. */
-static ffd_status move_images(move_work *work, size_t number, const lattice_move *move, ready_move *ready)
+static ffd_status move_images(move_work *work, size_t index, const lattice_move *move, ready_move *ready)
 {
     const size_t *const size = work->lattice->size, count = work->lattice->count;
     const mirror_plane plane = ffd_mirror_plane(work->lattice, move->mirror);
@@ -304,7 +304,7 @@ static ffd_status move_images(move_work *work, size_t number, const lattice_move
     if (status)
         return status;
     if (missing == count)
-        return move_points(work, number, move, ready, &plane);
+        return move_points(work, index, move, ready, &plane);
     return ffd_fail_at(work->error, FFD_E_INVALID, work->file, move->pointer,
                        "control point %zu,%zu,%zu has no mirror image in %c: no other rests across the plane "
                        "%c = %s",
@@ -312,9 +312,9 @@ static ffd_status move_images(move_work *work, size_t number, const lattice_move
                        "xyz"[move->mirror], "xyz"[move->mirror], ffd_number_text(0.5 * plane.twice).text);
 }
 
-static ffd_status apply_move(move_work *work, const lattice_spec *spec, size_t number)
+static ffd_status apply_move(move_work *work, const lattice_spec *spec, size_t index)
 {
-    const lattice_move *const move = &spec->moves[number];
+    const lattice_move *const move = &spec->moves[index];
     ready_move ready = {.move = *move, .degrees = NAN};
     const size_t count = select_points(work, move);
     if (count == 0)
@@ -325,8 +325,8 @@ static ffd_status apply_move(move_work *work, const lattice_spec *spec, size_t n
         find_centroid(work, count, ready.move.about);
     if (ffd_move_has_extent(move->action))
         find_extent(work, &ready);
-    const ffd_status status = move_points(work, number, move, &ready, NULL);
-    return status || !move->has_mirror ? status : move_images(work, number, move, &ready);
+    const ffd_status status = move_points(work, index, move, &ready, NULL);
+    return status || !move->has_mirror ? status : move_images(work, index, move, &ready);
 }
 
 ffd_status ffd_moves_apply(const lattice_spec *spec, const rest_region *region, ffd_lattice *lattice,

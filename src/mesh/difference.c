@@ -27,7 +27,7 @@ static bool count(ffd_comparison *comparison, ffd_difference_kind kind)
     return comparison->differences++ == 0;
 }
 
-void ffd_difference_say(ffd_comparison *comparison, ffd_difference_kind kind, const char *format, ...)
+void ffd_difference_add_text(ffd_comparison *comparison, ffd_difference_kind kind, const char *format, ...)
 {
     ffd_difference *first = &comparison->first;
     va_list arguments;

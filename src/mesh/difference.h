@@ -10,12 +10,12 @@
 void ffd_difference_begin(ffd_comparison *comparison, double tolerance, double direction_tolerance);
 
 /* Counts a difference, and stores its text if it is the first one; control characters become '?'. */
-void ffd_difference_say(ffd_comparison *comparison, ffd_difference_kind kind, const char *format, ...)
+void ffd_difference_add_text(ffd_comparison *comparison, ffd_difference_kind kind, const char *format, ...)
     FFD_PRINTF(3, 4);
 
 /* The same for a difference after which the rest of the files cannot be matched. */
 #define ffd_difference_stop(comparison, ...)                                                                 \
-    ((comparison)->complete = false, ffd_difference_say(comparison, __VA_ARGS__))
+    ((comparison)->complete = false, ffd_difference_add_text(comparison, __VA_ARGS__))
 
 /* A callback that writes the name of the compared vector, such as "vertex 3 (line 7)". */
 typedef void difference_label(const void *context, char *text, size_t capacity);

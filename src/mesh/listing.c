@@ -46,7 +46,7 @@ void ffd_listing_free(mesh_listing *listing)
 }
 
 ffd_status ffd_listing_add(mesh_listing *listing, selector_kind kind, const char *name, size_t size,
-                           size_t number, ffd_error *error)
+                           size_t index, ffd_error *error)
 {
     char *const copy = size > 0 ? ffd_alloc(size + 1, 1) : NULL;
     if ((size > 0 && !copy) || !ffd_grow((void **)&listing->things, &listing->capacity, listing->count + 1,
@@ -59,7 +59,7 @@ ffd_status ffd_listing_add(mesh_listing *listing, selector_kind kind, const char
         copy[size] = 0;
     }
     listing->things[listing->count++] =
-        (mesh_thing){.kind = kind, .name = copy, .number = number, .bounds = ffd_bounds_empty()};
+        (mesh_thing){.kind = kind, .name = copy, .number = index, .bounds = ffd_bounds_empty()};
     return FFD_OK;
 }
 

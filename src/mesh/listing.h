@@ -30,7 +30,7 @@ void ffd_listing_free(mesh_listing *listing);
 /* Adds a thing, to which all following vertices and faces belong. An empty name counts as none. Errors:
    FFD_E_MEMORY. */
 ffd_status ffd_listing_add(mesh_listing *listing, selector_kind kind, const char *name, size_t size,
-                           size_t number, ffd_error *error);
+                           size_t index, ffd_error *error);
 /* Adds vertices of a part to the last thing; duplicates are allowed. */
 void ffd_listing_draw(mesh_listing *listing, size_t part, const uint32_t *vertices, size_t count);
 /* Adds count faces to the last thing. */

@@ -50,14 +50,14 @@ uint64_t ffd_mesh_vertex_count(const mesh_document *document)
 
 ffd_status ffd_parts_number(const mesh_document *document, size_t **first, ffd_error *error)
 {
-    size_t number = 0;
+    size_t index = 0;
     *first = ffd_alloc(document->part_count, sizeof **first);
     if (!*first)
         return ffd_fail_memory(error);
     for (size_t i = 0; i < document->part_count; i++) {
         const mesh_part *part = &document->parts[i];
-        (*first)[i] = part->repeats_positions ? (*first)[part->repeats] : number;
-        number += part->repeats_positions ? 0 : part->vertex_count;
+        (*first)[i] = part->repeats_positions ? (*first)[part->repeats] : index;
+        index += part->repeats_positions ? 0 : part->vertex_count;
     }
     return FFD_OK;
 }
@@ -115,9 +115,9 @@ void ffd_mesh_describe_splats(const mesh_document *document, json_text *json)
 ffd_status ffd_mesh_faces_take(const mesh_faces *faces, uint64_t corners, memory_budget *budget,
                                ffd_error *error)
 {
-    const size_t number = faces->numbers ? sizeof *faces->numbers : 0;
+    const size_t index = faces->numbers ? sizeof *faces->numbers : 0;
     ffd_status status =
-        ffd_budget_take(budget, faces->vertex_count, 3 * sizeof *faces->positions + number, error);
+        ffd_budget_take(budget, faces->vertex_count, 3 * sizeof *faces->positions + index, error);
     if (status == FFD_OK)
         status = ffd_budget_take(budget, faces->face_count, sizeof *faces->start, error);
     return status == FFD_OK ? ffd_budget_take(budget, corners, sizeof *faces->corners, error) : status;

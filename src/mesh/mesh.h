@@ -250,8 +250,8 @@ typedef ffd_status mesh_list_files_function(const mesh_document *document, path_
                                             ffd_error *error);
 typedef ffd_status mesh_find_resources_function(const char *path, const file_input *bytes, path_list *files,
                                                 ffd_error *error);
-typedef size_t mesh_count_beside_function(const file_input *bytes, ffd_format from, ffd_format to);
-typedef char *mesh_name_beside_function(const char *output, size_t number);
+typedef size_t mesh_count_sidecars_function(const file_input *bytes, ffd_format from, ffd_format to);
+typedef char *mesh_name_sidecar_function(const char *output, size_t index);
 typedef struct mesh_named {
     path_list *files;  /* every file that the mesh names */
     path_list *copies; /* those that are copied with an output; NULL: not asked for */
@@ -268,7 +268,7 @@ typedef ffd_status mesh_check_reach_function(const mesh_document *document, cons
                                              ffd_error *error);
 typedef ffd_status mesh_list_places_function(const mesh_document *document, bool all, mesh_places *places,
                                              ffd_error *error);
-typedef char *mesh_place_name_function(const mesh_document *document, size_t number);
+typedef char *mesh_place_name_function(const mesh_document *document, size_t index);
 typedef ffd_status mesh_count_skins_function(const mesh_document *document, const mesh_places *places,
                                              const uint8_t *marks, uint64_t *count, uint64_t *loose,
                                              ffd_error *error);
@@ -349,9 +349,9 @@ typedef struct mesh_format {
     mesh_find_named_function *find_named;
     /* Counts the further files, without images, that saving a mesh as `to` writes, by scanning the bytes of
        the input (NULL if its format is another one). An invalid file has none. NULL: there are none. */
-    mesh_count_beside_function *count_beside;
-    /* Returns the path of number `number` of these files, if no other model names it (beside.h). */
-    mesh_name_beside_function *name_beside;
+    mesh_count_sidecars_function *count_sidecars;
+    /* Returns the path of number `index` of these files, if no other model names it (sidecar.h). */
+    mesh_name_sidecar_function *name_sidecar;
     /* Refuses (FFD_E_UNSUPPORTED) content that the streams of the parts do not represent, before anything is
        embedded or deformed: skins, morph targets, compressed data. Not needed for a document that is only
        described. NULL: the streams represent everything. Called by ffd_mesh_check. */

@@ -116,12 +116,12 @@ ffd_status ffd_model_begin_run(mesh_model *model, const char *object, const char
     return add_run(model, run, error);
 }
 
-ffd_status ffd_model_number_material(mesh_model *model, uint32_t number, ffd_error *error)
+ffd_status ffd_model_number_material(mesh_model *model, uint32_t index, ffd_error *error)
 {
     model_run run = model->runs[model->run_count - 1];
-    if (run.material_number == number)
+    if (run.material_number == index)
         return FFD_OK;
-    run.material_number = number;
+    run.material_number = index;
     return add_run(model, run, error);
 }
 

@@ -129,7 +129,7 @@ ffd_status ffd_model_begin_run(mesh_model *model, const char *object, const char
                                ffd_error *error);
 /* Sets the material number of the current run. Begins a new run if two materials have the same name. Errors:
    FFD_E_LIMIT, FFD_E_MEMORY. */
-ffd_status ffd_model_number_material(mesh_model *model, uint32_t number, ffd_error *error);
+ffd_status ffd_model_number_material(mesh_model *model, uint32_t index, ffd_error *error);
 /* Adds a face, line or point of count corners. A face with two corners becomes a line, and a face or line
    with one corner a point; without corners nothing is added. A run must have begun. Errors: FFD_E_LIMIT,
    FFD_E_MEMORY. */

@@ -128,8 +128,8 @@ static ffd_status make_cloud(mesh_model *model, ffd_error *error)
     if (model->position_count > 0 && model->run_count == 0)
         status = ffd_model_begin_run(model, NULL, NULL, NULL, error);
     for (size_t i = 0; i < model->position_count && status == FFD_OK; i++) {
-        const uint32_t number = (uint32_t)i;
-        const model_corner corner = {number, texcoords ? number : MODEL_NONE, normals ? number : MODEL_NONE};
+        const uint32_t index = (uint32_t)i;
+        const model_corner corner = {index, texcoords ? index : MODEL_NONE, normals ? index : MODEL_NONE};
         status = ffd_model_add(model, MODEL_POINTS, &corner, 1, error);
     }
     return status;
@@ -228,14 +228,14 @@ static ffd_status find_lost_parts(const mesh_model *model, bool *lost, ffd_error
     for (size_t r = 0; r < model->run_count && status == FFD_OK; r++) {
         const uint32_t key[2] = {model->runs[r].object, model->runs[r].group};
         const size_t known = names.count;
-        uint32_t number;
-        if (!ffd_intern(&names, key, sizeof key, &number)) {
+        uint32_t index;
+        if (!ffd_intern(&names, key, sizeof key, &index)) {
             status = ffd_fail_memory(error);
             break;
         }
-        if (number == known)
-            parts[number] = (part_error){.box = ffd_bounds_empty()};
-        measure_run(model, r, &parts[number]);
+        if (index == known)
+            parts[index] = (part_error){.box = ffd_bounds_empty()};
+        measure_run(model, r, &parts[index]);
     }
     for (size_t p = 0; p < names.count && status == FFD_OK; p++) {
         const double side = ffd_bounds_side(&parts[p].box);

@@ -284,12 +284,12 @@ static void unlink_corner(polygon_cutter *cutter, uint32_t i)
 static void cut_ears(polygon_cutter *cutter, uint32_t count, uint32_t *triangles)
 {
     const uint64_t wanted = LOOKS_FIRST + (uint64_t)count * LOOKS_PER_CORNER;
-    const uint64_t most_looks = wanted < MOST_LOOKS ? wanted : MOST_LOOKS;
+    const uint64_t most_scans = wanted < MOST_LOOKS ? wanted : MOST_LOOKS;
     uint64_t looks = 0;
     uint32_t i = 0, left = count, tried = 0;
     int demand = EAR_CLEAR;
     while (left > 2) {
-        if (is_ear(cutter, i, looks > most_looks ? EAR_ANY : demand, &looks)) {
+        if (is_ear(cutter, i, looks > most_scans ? EAR_ANY : demand, &looks)) {
             *triangles++ = cutter->corners[i].previous;
             *triangles++ = i;
             *triangles++ = cutter->corners[i].next;
@@ -303,7 +303,7 @@ static void cut_ears(polygon_cutter *cutter, uint32_t count, uint32_t *triangles
         }
         i = cutter->corners[i].next; /* `next` of a corner that was just cut off is still valid */
     }
-    if (looks > most_looks)
+    if (looks > most_scans)
         cutter->hurried++;
 }
 

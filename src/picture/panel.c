@@ -64,16 +64,16 @@ static ffd_status make_cage(const picture_cage *cage, const projection *by, cons
                                    result, means, &result->discs, error);
 }
 
-ffd_status ffd_panel_make(const layout *by, size_t number, const ffd_bounds *seen, const band_means *means,
+ffd_status ffd_panel_make(const layout *by, size_t index, const ffd_bounds *seen, const band_means *means,
                           panel *result, ffd_error *error)
 {
-    const picture_panel *const of = &by->of->panels[number];
+    const picture_panel *const of = &by->of->panels[index];
     *result = (panel){.of = of,
                       .layout = by,
-                      .left = ffd_layout_column(by, number % by->columns),
-                      .right = ffd_layout_column(by, number % by->columns + 1),
-                      .top = ffd_layout_row(by, number / by->columns),
-                      .bottom = ffd_layout_row(by, number / by->columns + 1),
+                      .left = ffd_layout_column(by, index % by->columns),
+                      .right = ffd_layout_column(by, index % by->columns + 1),
+                      .top = ffd_layout_row(by, index / by->columns),
+                      .bottom = ffd_layout_row(by, index / by->columns + 1),
                       .meshes = ffd_alloc_zero(of->mesh_count, sizeof *result->meshes),
                       .cages = ffd_alloc_zero(of->cage_count, sizeof *result->cages)};
     /* The same width for all panels, so that panels whose widths differ by a pixel have the same scale. */

@@ -27,7 +27,7 @@ typedef struct panel {
 } panel;
 
 /* Prepares panel `number` of a picture. Errors: FFD_E_MEMORY, FFD_E_LIMIT; there is nothing to free then. */
-ffd_status ffd_panel_make(const layout *by, size_t number, const ffd_bounds *seen, const band_means *means,
+ffd_status ffd_panel_make(const layout *by, size_t index, const ffd_bounds *seen, const band_means *means,
                           panel *result, ffd_error *error);
 /* Frees the panel and empties it. */
 void ffd_panel_free(panel *of);

@@ -173,15 +173,15 @@ static void draw_band(void *context, size_t band, size_t begin, size_t end, int 
     put_bytes(d, &into);
 }
 
-static ffd_status draw_panel(drawing *d, size_t number, ffd_error *error)
+static ffd_status draw_panel(drawing *d, size_t index, ffd_error *error)
 {
     const picture *const of = d->of;
     const memory_budget before = d->budget;
-    ffd_status status = of->fill ? of->fill(of->context, number, error) : FFD_OK;
+    ffd_status status = of->fill ? of->fill(of->context, index, error) : FFD_OK;
     if (!status)
-        status = check_panel(&of->panels[number], d->means.budget, error);
+        status = check_panel(&of->panels[index], d->means.budget, error);
     if (!status)
-        status = ffd_panel_make(&d->layout, number, &d->seen, &d->means, &d->drawn, error);
+        status = ffd_panel_make(&d->layout, index, &d->seen, &d->means, &d->drawn, error);
     if (status)
         return status;
     ffd_parallel_tiles(of->height, BAND_ROWS, d->means.threads, draw_band, d);

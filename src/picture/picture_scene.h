@@ -79,7 +79,7 @@ typedef struct picture {
     /* Callback that fills panel `number` just before it is drawn; it may free the content of the previous
        panel, so that only one needs memory. Captions must be set from the start. NULL: all panels are filled;
        otherwise `seen` is required. */
-    ffd_status (*fill)(void *context, size_t number, ffd_error *error);
+    ffd_status (*fill)(void *context, size_t index, ffd_error *error);
     void *context;
     int threads;
 } picture;

@@ -347,9 +347,9 @@ static float nearest_in(const setup *s, block of)
     return least < s->nearest[0] ? s->nearest[0] : least < s->farthest[0] ? least : s->farthest[0];
 }
 
-static float farthest_of(const samples *in, size_t number)
+static float farthest_of(const samples *in, size_t index)
 {
-    const size_t first = number * BLOCK, width = (size_t)in->width, left = width - first;
+    const size_t first = index * BLOCK, width = (size_t)in->width, left = width - first;
     const size_t count = SAMPLES * (left < BLOCK ? left : BLOCK);
     float farthest = 0;
     for (size_t row = 0; row < (size_t)in->rows; row++) {

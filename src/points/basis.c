@@ -62,7 +62,7 @@ static ffd_status multiply_tile(void *context, size_t first, size_t count, int w
     return FFD_OK;
 }
 
-static ffd_status begin(const ffd_embedding *embedding, const double *weights, const ffd_run *callers,
+static ffd_status begin(const ffd_embedding *embedding, const double *weights, const ffd_run_options *callers,
                         point_run *run, basis_work *work, ffd_error *error)
 {
     *work = (basis_work){.embedding = embedding, .weights = weights};
@@ -101,7 +101,7 @@ static ffd_status make_entries(ffd_csr *matrix, ffd_error *error)
 }
 
 ffd_status ffd_embedding_basis(const ffd_embedding *embedding, const double *weights, ffd_csr *matrix,
-                               const ffd_run *callers, ffd_error *error)
+                               const ffd_run_options *callers, ffd_error *error)
 {
     point_run run = {.total = 0};
     basis_work work;
@@ -125,7 +125,7 @@ ffd_status ffd_embedding_basis(const ffd_embedding *embedding, const double *wei
 }
 
 ffd_status ffd_embedding_basis_times(const ffd_embedding *embedding, const double *weights, const double *dq,
-                                     double *dx, const ffd_run *callers, ffd_error *error)
+                                     double *dx, const ffd_run_options *callers, ffd_error *error)
 {
     point_run run = {.total = 0};
     basis_work work;

@@ -51,7 +51,7 @@ static void add_group(transposed_work *work, size_t points, int threads, double 
             dfdq[c] += work->sums[b * work->numbers + c];
 }
 
-static ffd_status add_all(transposed_work *work, const ffd_run *run, double *dfdq, ffd_error *error)
+static ffd_status add_all(transposed_work *work, const ffd_run_options *run, double *dfdq, ffd_error *error)
 {
     const size_t count = work->embedding->count, group = group_size(work, run->threads);
     memset(dfdq, 0, work->numbers * sizeof *dfdq);
@@ -70,7 +70,7 @@ static ffd_status add_all(transposed_work *work, const ffd_run *run, double *dfd
 }
 
 ffd_status ffd_embedding_basis_transposed(const ffd_embedding *embedding, const double *weights,
-                                          const double *dfdx, double *dfdq, const ffd_run *callers,
+                                          const double *dfdx, double *dfdq, const ffd_run_options *callers,
                                           ffd_error *error)
 {
     point_run run = {.total = 0};

@@ -62,7 +62,8 @@ static ffd_status check(direction_work *work, ffd_error *error)
     return status;
 }
 
-static ffd_status carry(direction_work *work, size_t *collapsed, const ffd_run *callers, ffd_error *error)
+static ffd_status carry(direction_work *work, size_t *collapsed, const ffd_run_options *callers,
+                        ffd_error *error)
 {
     point_run run = {.total = 0};
     atomic_init(&work->collapsed, 0);
@@ -82,14 +83,14 @@ static ffd_status carry(direction_work *work, size_t *collapsed, const ffd_run *
 }
 
 ffd_status ffd_normals_deform(const double *gradients, ffd_span in, ffd_span out, size_t *collapsed,
-                              const ffd_run *run, ffd_error *error)
+                              const ffd_run_options *run, ffd_error *error)
 {
     direction_work work = {.gradients = gradients, .in = in, .out = out};
     return carry(&work, collapsed, run, error);
 }
 
 ffd_status ffd_tangents_deform(const double *gradients, ffd_span normals, ffd_span in, ffd_span out,
-                               size_t *collapsed, const ffd_run *run, ffd_error *error)
+                               size_t *collapsed, const ffd_run_options *run, ffd_error *error)
 {
     direction_work work = {
         .gradients = gradients, .normals = normals, .in = in, .out = out, .tangents = true};

@@ -61,14 +61,14 @@ static ffd_status settle_point(const embed_work *work, size_t point, const doubl
     double half[3] = {0, 0, 0};
     if (is_float)
         ffd_rounding_cell(&of_floats, x, half);
-    if (!ffd_location_is_placed(location) && location->status != FFD_POINT_INVALID &&
+    if (!ffd_location_is_placed(location) && location->status != FFD_VERTEX_INVALID &&
         (is_float || work->desc->snap > 0))
-        status = ffd_near_border_look_again(work->locator, x, half, work->desc->snap, location, error);
+        status = ffd_near_border_retry(work->locator, x, half, work->desc->snap, location, error);
     const bool placed = ffd_location_is_placed(location);
     embedding->status[point] = location->status;
     for (size_t c = 0; c < 3; c++)
         embedding->uvw[3 * point + c] = placed ? location->uvw[c] : (double)NAN;
-    if (status || placed || location->status == FFD_POINT_INVALID)
+    if (status || placed || location->status == FFD_VERTEX_INVALID)
         return status;
     if (work->desc->outside == FFD_OUTSIDE_ERROR)
         return ffd_fail(error, FFD_E_EMBEDDING, "point %zu at %s %s %s is outside of the lattice", point,
@@ -180,7 +180,7 @@ ffd_status ffd_embedding_make(const ffd_lattice *lattice, size_t count, ffd_embe
     return ffd_fail_memory(error);
 }
 
-ffd_status ffd_embedding_create(const ffd_embedding_desc *callers, const ffd_run *callers_run,
+ffd_status ffd_embedding_create(const ffd_embedding_desc *callers, const ffd_run_options *callers_run,
                                 ffd_embedding **embedding, ffd_error *error)
 {
     ffd_embedding_desc desc;

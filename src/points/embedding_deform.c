@@ -88,7 +88,7 @@ static void read_tile(const deform_work *work, size_t first, size_t count, defor
    bits of a NaN. */
 static void write_point(const deform_work *work, size_t point, const double x[3])
 {
-    const bool invalid = work->embedding->status[point] == FFD_POINT_INVALID;
+    const bool invalid = work->embedding->status[point] == FFD_VERTEX_INVALID;
     if (!invalid || work->in.type != work->out.type)
         ffd_span_write(&work->out, point, 1, x);
     else if (work->in.data != work->out.data)
@@ -98,7 +98,7 @@ static void write_point(const deform_work *work, size_t point, const double x[3]
 static void write_tile(const deform_work *work, size_t first, size_t count, const deform_scratch *s)
 {
     const uint8_t *const status = work->embedding->status;
-    const bool whole = !work->vertices && !memchr(status + first, FFD_POINT_INVALID, count);
+    const bool whole = !work->vertices && !memchr(status + first, FFD_VERTEX_INVALID, count);
     if (whole)
         ffd_span_write(&work->out, first, count, s->x);
     for (size_t i = 0; i < count && !whole; i++)
@@ -202,7 +202,7 @@ static void free_scratch(const point_run *run, deform_scratch *scratch)
     ffd_free(scratch);
 }
 
-static ffd_status deform(deform_work *work, size_t count, const ffd_run *callers, ffd_error *error)
+static ffd_status deform(deform_work *work, size_t count, const ffd_run_options *callers, ffd_error *error)
 {
     point_run run = {.total = 0};
     ffd_status status = check(work, count, error);
@@ -218,7 +218,7 @@ static ffd_status deform(deform_work *work, size_t count, const ffd_run *callers
 }
 
 ffd_status ffd_embedding_deform(const ffd_embedding *embedding, const ffd_lattice *moved, ffd_span in,
-                                ffd_span out, double *gradients, const ffd_run *run, ffd_error *error)
+                                ffd_span out, double *gradients, const ffd_run_options *run, ffd_error *error)
 {
     deform_work work = {
         .embedding = embedding, .lattice = moved, .in = in, .out = out, .gradients = gradients};
@@ -227,7 +227,7 @@ ffd_status ffd_embedding_deform(const ffd_embedding *embedding, const ffd_lattic
 
 ffd_status ffd_embedding_deform_some(const ffd_embedding *embedding, const ffd_lattice *moved,
                                      const uint32_t *vertices, size_t count, ffd_span in, ffd_span out,
-                                     double *gradients, const ffd_run *run, ffd_error *error)
+                                     double *gradients, const ffd_run_options *run, ffd_error *error)
 {
     static const uint32_t none = 0;
     deform_work work = {.embedding = embedding,

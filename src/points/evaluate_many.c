@@ -21,8 +21,8 @@ static ffd_status evaluate_tile(void *context, size_t first, size_t count, int w
 }
 
 ffd_status ffd_lattice_evaluate_many(const ffd_lattice *lattice, ffd_volume volume, const double *uvw,
-                                     size_t count, double *xyz, double *jacobians, const ffd_run *callers,
-                                     ffd_error *error)
+                                     size_t count, double *xyz, double *jacobians,
+                                     const ffd_run_options *callers, ffd_error *error)
 {
     evaluate_work work = {lattice, volume, uvw, xyz, jacobians};
     point_run run = {.total = 0};

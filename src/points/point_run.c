@@ -3,19 +3,19 @@
 #include "base/struct_size.h"
 #include "base/vector/isa.h"
 
-void ffd_run_init(ffd_run *run, size_t size)
+void ffd_run_options_init(ffd_run_options *run, size_t size)
 {
-    const ffd_run defaults = {.struct_size = sizeof defaults};
+    const ffd_run_options defaults = {.struct_size = sizeof defaults};
     ffd_struct_give(&defaults, sizeof defaults, run, size);
 }
 
-ffd_status ffd_point_run_begin(const ffd_run *callers, size_t total, point_run *run, ffd_error *error)
+ffd_status ffd_point_run_begin(const ffd_run_options *callers, size_t total, point_run *run, ffd_error *error)
 {
     *run = (point_run){.total = total, .passes = 1};
-    ffd_run_init(&run->run, sizeof run->run);
+    ffd_run_options_init(&run->run, sizeof run->run);
     const size_t tiles = total / POINT_TILE + 1;
     ffd_status status =
-        callers ? ffd_struct_take(&run->run, sizeof run->run, callers, "ffd_run", error) : FFD_OK;
+        callers ? ffd_struct_take(&run->run, sizeof run->run, callers, "ffd_run_options", error) : FFD_OK;
     if (!status)
         status = ffd_threads_choose(run->run.threads, &run->run.threads, error);
     if (status)
@@ -47,7 +47,7 @@ typedef struct tile_context {
 } tile_context;
 
 /* Reports the progress of all threads to the caller, in the caller's thread. */
-static void tell(point_run *run, size_t done, int worker)
+static void report_progress(point_run *run, size_t done, int worker)
 {
     if (worker != 0 || !run->run.progress)
         return;
@@ -72,7 +72,7 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
         atomic_store(&run->stopped, true);
         return;
     }
-    tell(run, atomic_fetch_add(&run->done, last - first) + (last - first), worker);
+    report_progress(run, atomic_fetch_add(&run->done, last - first) + (last - first), worker);
 }
 
 ffd_status ffd_point_run_tiles(point_run *run, point_function function, void *context, ffd_error *error)
@@ -82,7 +82,7 @@ ffd_status ffd_point_run_tiles(point_run *run, point_function function, void *co
     ffd_parallel_tiles(run->total, POINT_TILE, run->run.threads, run_tile, &work);
     /* Other threads may have done all tiles; the caller gets a chance to cancel all the same. */
     if (run->total > 0 && !run->told && !atomic_load(&run->stopped))
-        tell(run, run->total, 0);
+        report_progress(run, run->total, 0);
     for (int i = 0; i < run->run.threads; i++)
         if (run->statuses[i] && (first < 0 || run->tiles[i] < run->tiles[first]))
             first = i;

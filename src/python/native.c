@@ -42,8 +42,8 @@ static int ask(PyObject *function, double done)
     return goes_on;
 }
 
-/* ffd_run.progress. user: a list with the caller's function or None, to which an exception is appended. It
-   also checks for an interrupt (Ctrl-C), which Python cannot handle during a call. */
+/* ffd_run_options.progress. user: a list with the caller's function or None, to which an exception is
+   appended. It also checks for an interrupt (Ctrl-C), which Python cannot handle during a call. */
 static bool progress(void *user, double done)
 {
     PyObject *const list = user;

@@ -62,7 +62,7 @@ static ffd_status choose_cages(page_work *work, ffd_error *error)
     return FFD_OK;
 }
 
-static void say_what_is_left_out(page_work *work, size_t used)
+static void log_omissions(page_work *work, size_t used)
 {
     const page_mesh *const mesh = &work->mesh;
     if (mesh->not_finite)
@@ -111,7 +111,7 @@ static ffd_status prepare(page_work *work, ffd_error *error)
     if (status)
         return status;
     ffd_page_data_measure(&work->mesh, &work->data);
-    say_what_is_left_out(work, used);
+    log_omissions(work, used);
     status = make_rig(work, error);
     return status ? status : choose_cages(work, error);
 }

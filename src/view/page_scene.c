@@ -41,9 +41,9 @@ static void put_mesh(json_text *json, const page_data *data)
     ffd_json_number(json, "displacementMax", scene->displacement_max);
 }
 
-static const mesh_material *material_of(const view_scene *scene, uint32_t number)
+static const mesh_material *material_of(const view_scene *scene, uint32_t index)
 {
-    return number < scene->materials.count ? &scene->materials.list[number] : NULL;
+    return index < scene->materials.count ? &scene->materials.list[index] : NULL;
 }
 
 static void put_parts(json_text *json, const page_mesh *mesh)

@@ -122,7 +122,7 @@ static bool is_finite(const double *p)
 
 /* Logs the triangles that are not drawn (each picture leaves out those with a vertex that is not finite) and
    the torn edges that are not marked. */
-static void say_what_is_left_out(const picture_work *w)
+static void log_omissions(const picture_work *w)
 {
     const view_scene *const scene = w->scene;
     size_t lost = 0;
@@ -145,21 +145,21 @@ static void say_what_is_left_out(const picture_work *w)
 }
 
 /* Returns the time that a panel shows. The panels of a row go from the first key to the last. */
-static double time_of(const picture_work *w, size_t number)
+static double time_of(const picture_work *w, size_t index)
 {
     const view_scene *const scene = w->scene;
-    const size_t count = w->options->frames, i = number % count;
+    const size_t count = w->options->frames, i = index % count;
     const rig_animation *const of =
         &scene->rigs[0].skeleton->animations[scene->animations[scene->animation].of[0]];
     return i + 1 == count ? of->end : of->begin + (of->end - of->begin) * (double)i / (double)(count - 1);
 }
 
 /* Computes the pose of a panel: the first row is the mesh before, the second the mesh after. */
-static ffd_status pose(picture_work *w, size_t number, step *s)
+static ffd_status pose(picture_work *w, size_t index, step *s)
 {
-    const int side = number < w->options->frames ? 0 : 1;
+    const int side = index < w->options->frames ? 0 : 1;
     const ffd_status status =
-        ffd_view_pose(w->scene, side, w->scene->animation, time_of(w, number), &s->positions, w->error);
+        ffd_view_pose(w->scene, side, w->scene->animation, time_of(w, index), &s->positions, w->error);
     s->share = side;
     s->owns_positions = true;
     for (size_t i = 0; w->used && s->positions && i < 3 * w->scene->vertex_count; i++)
@@ -168,14 +168,14 @@ static ffd_status pose(picture_work *w, size_t number, step *s)
     return status;
 }
 
-static ffd_status place(picture_work *w, size_t number, step *s)
+static ffd_status place(picture_work *w, size_t index, step *s)
 {
     const view_scene *const scene = w->scene;
     if (w->options->rows)
-        return pose(w, number, s);
-    s->share = number + 1 == w->step_count && number ? 1
-               : number                              ? (double)number / (double)(w->step_count - 1)
-                                                     : 0;
+        return pose(w, index, s);
+    s->share = index + 1 == w->step_count && index ? 1
+               : index                             ? (double)index / (double)(w->step_count - 1)
+                                                   : 0;
     if (!w->used && (s->share <= 0 || s->share >= 1)) {
         s->positions = s->share <= 0 ? scene->before : scene->after;
         return FFD_OK;
@@ -238,18 +238,18 @@ static void make_meshes(const picture_work *w, step *s, bool is_plain)
     s->meshes[1] = mesh;
 }
 
-static void name_step(const picture_work *w, size_t number, char caption[CAPTION])
+static void name_step(const picture_work *w, size_t index, char caption[CAPTION])
 {
     if (w->options->rows)
         snprintf(caption, CAPTION, "%s%.2f s",
-                 w->options->rows == 1         ? ""
-                 : number < w->options->frames ? "before "
-                                               : "after ",
-                 time_of(w, number));
+                 w->options->rows == 1        ? ""
+                 : index < w->options->frames ? "before "
+                                              : "after ",
+                 time_of(w, index));
     else if (w->step_count == 2)
-        snprintf(caption, CAPTION, "%s", number ? "after" : "before");
+        snprintf(caption, CAPTION, "%s", index ? "after" : "before");
     else
-        snprintf(caption, CAPTION, "%zu %%", (100 * number + (w->step_count - 1) / 2) / (w->step_count - 1));
+        snprintf(caption, CAPTION, "%zu %%", (100 * index + (w->step_count - 1) / 2) / (w->step_count - 1));
 }
 
 static void free_step(picture_work *w)
@@ -263,7 +263,7 @@ static void free_step(picture_work *w)
 }
 
 /* Called for the first step only: all steps leave out the same lattices. */
-static void say_which_are_left_out(const picture_work *w)
+static void log_omitted_lattices(const picture_work *w)
 {
     const size_t left_out = w->step.cages.left_out, all = w->scene->cage_count;
     if (left_out)
@@ -286,22 +286,22 @@ static ffd_status make_cages(const picture_work *w, step *s, ffd_error *error)
 
 /* Makes the step of a panel. Only one step is in memory at a time, as each has its own positions and
    colours. */
-static ffd_status make_step(void *context, size_t number, ffd_error *error)
+static ffd_status make_step(void *context, size_t index, ffd_error *error)
 {
     picture_work *const w = context;
     step *const s = &w->step;
     view_palette own;
     free_step(w);
-    ffd_status status = place(w, number, s);
+    ffd_status status = place(w, index, s);
     if (!status)
         status = paint(w, s, &own);
     if (status)
         return status;
     make_meshes(w, s, own.color == FFD_VIEW_PLAIN);
     status = make_cages(w, s, error);
-    if (!status && number == 0)
-        say_which_are_left_out(w);
-    picture_panel *const panel = &w->panels[number];
+    if (!status && index == 0)
+        log_omitted_lattices(w);
+    picture_panel *const panel = &w->panels[index];
     panel->meshes = s->meshes;
     panel->mesh_count = !w->scene->vertex_count ? 0 : s->meshes[1].triangle_count ? MESHES : 1;
     panel->cages = s->cages.list;
@@ -379,7 +379,7 @@ static ffd_status prepare(picture_work *w)
     w->white = ffd_alloc_zero(scene->triangle_count, sizeof *w->white);
     if (!w->twins || !w->white)
         return ffd_fail_memory(w->error);
-    say_what_is_left_out(w);
+    log_omissions(w);
     ffd_view_palette_make(scene, options->color, &w->palette);
     status = ffd_positions_twins(scene->before, scene->vertex_count, w->twins, w->error);
     if (!status)

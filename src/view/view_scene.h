@@ -90,8 +90,8 @@ typedef struct view_scene {
 /* Returns the index of a vertex of the scene in the document before (side 0) or after (side 1). */
 static inline size_t ffd_view_vertex_of(const view_scene *scene, int side, size_t vertex)
 {
-    const size_t number = scene->numbers ? (size_t)scene->numbers[vertex] : vertex;
-    return scene->rigs[side].order ? scene->rigs[side].order[number] : number;
+    const size_t index = scene->numbers ? (size_t)scene->numbers[vertex] : vertex;
+    return scene->rigs[side].order ? scene->rigs[side].order[index] : index;
 }
 
 /* Frees the rigs and animations. Must be called while their documents are still open. */

@@ -57,9 +57,9 @@ static void deform_arrays(const ffd_lattice *lattice)
     GUARDED(ffd_embedding_desc, desc);
     ffd_embedding_desc_init(&desc.as, sizeof desc.as);
     untouched(desc.behind, "ffd_embedding_desc_init");
-    GUARDED(ffd_run, run);
-    ffd_run_init(&run.as, sizeof run.as);
-    untouched(run.behind, "ffd_run_init");
+    GUARDED(ffd_run_options, run);
+    ffd_run_options_init(&run.as, sizeof run.as);
+    untouched(run.behind, "ffd_run_options_init");
     desc.as.lattice = lattice;
     desc.as.points = (ffd_span){xyz, 2, FFD_FLOAT64, 0, 0};
     run.as.threads = 1;
@@ -83,7 +83,7 @@ static void find_results(const ffd_lattice *lattice)
     const double middle[3] = {0.5, 0.5, 0.5};
     expect(ffd_locator_create(lattice, &locator, NULL) == FFD_OK &&
                ffd_locator_locate(locator, middle, 1, NULL, &found.as, sizeof found.as, NULL) == FFD_OK &&
-               found.as.status == FFD_INSIDE && found.as.uvw[0] == 0.5,
+               found.as.status == FFD_VERTEX_INSIDE && found.as.uvw[0] == 0.5,
            "ffd_locator_locate");
     untouched(found.behind, "ffd_locator_locate");
     ffd_locator_destroy(&locator);

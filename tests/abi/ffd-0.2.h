@@ -127,11 +127,11 @@ ffd_direction_outcome ffd_deform_normal(const double gradient[9], const double n
 ffd_direction_outcome ffd_deform_tangent(const double gradient[9], const double tangent[3],
                                          const double normal[3], double result[3]);
 typedef enum ffd_vertex_status {
-    FFD_INSIDE = 0,
-    FFD_OUTSIDE = 1,
-    FFD_MULTIPLE = 2,
-    FFD_SINGULAR = 3,
-    FFD_POINT_INVALID = 4
+    FFD_VERTEX_INSIDE = 0,
+    FFD_VERTEX_OUTSIDE = 1,
+    FFD_VERTEX_MULTIPLE = 2,
+    FFD_VERTEX_SINGULAR = 3,
+    FFD_VERTEX_INVALID = 4
 } ffd_vertex_status;
 const char *ffd_vertex_status_name(ffd_vertex_status status);
 typedef enum ffd_outside { FFD_OUTSIDE_KEEP = 0, FFD_OUTSIDE_EXTEND, FFD_OUTSIDE_ERROR } ffd_outside;
@@ -407,13 +407,13 @@ typedef struct ffd_source {
 } ffd_source;
 ffd_status ffd_selector_check(const char *text, ffd_error *error);
 ffd_status ffd_clip_check(const char *text, ffd_error *error);
-typedef struct ffd_written ffd_written;
-ffd_status ffd_written_create(ffd_written **written, ffd_error *error);
-void ffd_written_destroy(ffd_written **written);
-typedef struct ffd_share ffd_share;
-ffd_status ffd_share_create(ffd_share **share, ffd_error *error);
-ffd_status ffd_share_create_for_lattices(ffd_share **share, ffd_error *error);
-void ffd_share_destroy(ffd_share **share);
+typedef struct ffd_output_set ffd_output_set;
+ffd_status ffd_output_set_create(ffd_output_set **output_set, ffd_error *error);
+void ffd_output_set_destroy(ffd_output_set **output_set);
+typedef struct ffd_job_cache ffd_job_cache;
+ffd_status ffd_job_cache_create(ffd_job_cache **cache, ffd_error *error);
+ffd_status ffd_job_cache_create_for_lattices(ffd_job_cache **cache, ffd_error *error);
+void ffd_job_cache_destroy(ffd_job_cache **cache);
 typedef struct ffd_shared_box ffd_shared_box;
 ffd_status ffd_shared_box_create(ffd_shared_box **box, ffd_error *error);
 void ffd_shared_box_destroy(ffd_shared_box **box);
@@ -457,8 +457,8 @@ typedef struct ffd_deform_desc {
     bool if_changed;
     bool in_place;
     bool dry_run;
-    ffd_written *written;
-    ffd_share *share;
+    ffd_output_set *output_set;
+    ffd_job_cache *cache;
     const ffd_shared_box *shared_box;
     ffd_depfile *depfile;
     ffd_log_function log;
@@ -594,7 +594,7 @@ ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *desc, ffd_error *erro
 ffd_status ffd_job_result_text(const ffd_job_result *result, const char *lattice, char **text,
                                ffd_error *error);
 typedef struct ffd_report ffd_report;
-ffd_status ffd_report_create(const char *path, bool stable, ffd_written *written, ffd_report **report,
+ffd_status ffd_report_create(const char *path, bool stable, ffd_output_set *output_set, ffd_report **report,
                              ffd_error *error);
 ffd_status ffd_report_create_sink(const char *name, bool stable, ffd_sink_function sink, void *user,
                                   ffd_report **report, ffd_error *error);
@@ -633,14 +633,14 @@ typedef struct ffd_span {
     ptrdiff_t stride;
     ptrdiff_t step;
 } ffd_span;
-typedef struct ffd_run {
+typedef struct ffd_run_options {
     size_t struct_size;
     int threads;
     ffd_isa isa;
     bool (*progress)(void *user, double done);
     void *user;
-} ffd_run;
-void ffd_run_init(ffd_run *run, size_t size);
+} ffd_run_options;
+void ffd_run_options_init(ffd_run_options *run, size_t size);
 typedef struct ffd_embedding_desc {
     size_t struct_size;
     const ffd_lattice *lattice;
@@ -651,17 +651,18 @@ typedef struct ffd_embedding_desc {
 } ffd_embedding_desc;
 void ffd_embedding_desc_init(ffd_embedding_desc *desc, size_t size);
 typedef struct ffd_embedding ffd_embedding;
-ffd_status ffd_embedding_create(const ffd_embedding_desc *desc, const ffd_run *run, ffd_embedding **embedding,
-                                ffd_error *error);
+ffd_status ffd_embedding_create(const ffd_embedding_desc *desc, const ffd_run_options *run,
+                                ffd_embedding **embedding, ffd_error *error);
 void ffd_embedding_destroy(ffd_embedding **embedding);
 size_t ffd_embedding_get_count(const ffd_embedding *embedding);
 const double *ffd_embedding_get_uvw(const ffd_embedding *embedding);
 const uint8_t *ffd_embedding_get_status(const ffd_embedding *embedding);
 ffd_status ffd_embedding_deform(const ffd_embedding *embedding, const ffd_lattice *moved, ffd_span in,
-                                ffd_span out, double *gradients, const ffd_run *run, ffd_error *error);
+                                ffd_span out, double *gradients, const ffd_run_options *run,
+                                ffd_error *error);
 ffd_status ffd_embedding_deform_some(const ffd_embedding *embedding, const ffd_lattice *moved,
                                      const uint32_t *vertices, size_t count, ffd_span in, ffd_span out,
-                                     double *gradients, const ffd_run *run, ffd_error *error);
+                                     double *gradients, const ffd_run_options *run, ffd_error *error);
 ffd_status ffd_embedding_affected(const ffd_embedding *embedding, const size_t *control_points, size_t count,
                                   uint32_t **vertices, size_t *vertex_count, ffd_error *error);
 typedef struct ffd_csr {
@@ -671,22 +672,22 @@ typedef struct ffd_csr {
     double *values;
 } ffd_csr;
 ffd_status ffd_embedding_basis(const ffd_embedding *embedding, const double *weights, ffd_csr *matrix,
-                               const ffd_run *run, ffd_error *error);
+                               const ffd_run_options *run, ffd_error *error);
 void ffd_csr_free(ffd_csr *matrix);
 ffd_status ffd_embedding_basis_times(const ffd_embedding *embedding, const double *weights, const double *dq,
-                                     double *dx, const ffd_run *run, ffd_error *error);
+                                     double *dx, const ffd_run_options *run, ffd_error *error);
 ffd_status ffd_embedding_basis_transposed(const ffd_embedding *embedding, const double *weights,
-                                          const double *dfdx, double *dfdq, const ffd_run *run,
+                                          const double *dfdx, double *dfdq, const ffd_run_options *run,
                                           ffd_error *error);
 ffd_status ffd_embedding_save(const ffd_embedding *embedding, void **bytes, size_t *size, ffd_error *error);
 ffd_status ffd_embedding_load(const void *bytes, size_t size, const ffd_lattice *lattice,
                               ffd_embedding **embedding, ffd_error *error);
 ffd_status ffd_normals_deform(const double *gradients, ffd_span in, ffd_span out, size_t *collapsed,
-                              const ffd_run *run, ffd_error *error);
+                              const ffd_run_options *run, ffd_error *error);
 ffd_status ffd_tangents_deform(const double *gradients, ffd_span normals, ffd_span in, ffd_span out,
-                               size_t *collapsed, const ffd_run *run, ffd_error *error);
+                               size_t *collapsed, const ffd_run_options *run, ffd_error *error);
 ffd_status ffd_lattice_evaluate_many(const ffd_lattice *lattice, ffd_volume volume, const double *uvw,
-                                     size_t count, double *xyz, double *jacobians, const ffd_run *run,
+                                     size_t count, double *xyz, double *jacobians, const ffd_run_options *run,
                                      ffd_error *error);
 void ffd_cleanup_on_signals(void);
 void ffd_guard_inputs(void);
@@ -721,7 +722,7 @@ typedef struct ffd_member {
     const char *const *words;
     unsigned traits;
 } ffd_member;
-const ffd_member *ffd_deform_member(size_t number);
+const ffd_member *ffd_deform_member(size_t index);
 ffd_status ffd_member_read(const ffd_member *member, void *desc, const char *text, ffd_error *error);
 void ffd_deform_desc_clear(ffd_deform_desc *desc);
 ffd_status ffd_deform_desc_check(const ffd_deform_desc *desc, ffd_error *error);

@@ -29,7 +29,7 @@ typedef struct sample {
     double *wide, *wide_out, *gradients;
     float *narrow, *narrow_out;
     ffd_location *locations; /* of a batch */
-    ffd_run run;
+    ffd_run_options run;
     displacement_scratch scratch;
     double x[3 * DISPLACEMENT_BATCH], delta[3 * DISPLACEMENT_BATCH];
     uint8_t moves[DISPLACEMENT_BATCH], changed[DISPLACEMENT_BATCH];
@@ -218,7 +218,7 @@ int main(int count, char **arguments)
         s->which[n] = n;
     place_points(s);
     make_lattice(s);
-    ffd_run_init(&s->run, sizeof s->run);
+    ffd_run_options_init(&s->run, sizeof s->run);
     s->run.threads = 1;
     embed(s, false, false);
     for (size_t p = 0; p < sizeof pairs / sizeof *pairs; p++) {

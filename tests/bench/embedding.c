@@ -261,8 +261,8 @@ static void measure(const subject *of, int runs, size_t points)
             printf("%-32s %9.2f %7.2f %5u %7.2f %4u %8.3f (%.3f to %.3f) %6.1f %5.2f   %zu/%zu/%zu/%zu\n",
                    of->name, build[runs / 2], near.evaluations, near.most_evaluations, near.leaves,
                    near.most_leaves, time[runs / 2], time[0], time[runs - 1], ratio[runs / 2],
-                   away.evaluations, near.status[FFD_INSIDE], near.status[FFD_OUTSIDE],
-                   near.status[FFD_MULTIPLE], near.status[FFD_SINGULAR]);
+                   away.evaluations, near.status[FFD_VERTEX_INSIDE], near.status[FFD_VERTEX_OUTSIDE],
+                   near.status[FFD_VERTEX_MULTIPLE], near.status[FFD_VERTEX_SINGULAR]);
             fflush(stdout);
         }
         ffd_locator_destroy(&locator);

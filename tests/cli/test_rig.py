@@ -382,9 +382,9 @@ def a_skinned_mesh_that_is_not_selected_is_told_where_its_joints_move(run):
     not_told(deform(run, dressed(), move, "--rig", "keep", "--only", "node:skinned")[0], left)
     # The lower joint moves alone, as it turns about the upper one.
     turn = [{"rotate": {"axis": "z", "degrees": 90, "about": [0, 1, 0]}}]
-    for weights, is_told in (([[1.0, 0, 0, 0]] * 27, False), ([[0.5, 0.5, 0, 0]] * 27, True)):
+    for weights, is_logged in (([[1.0, 0, 0, 0]] * 27, False), ([[0.5, 0.5, 0, 0]] * 27, True)):
         done, _ = deform(run, dressed(weights), turn, "--rig", "follow", "--only", "node:skinned")
-        (told if is_told else not_told)(done, left)
+        (told if is_logged else not_told)(done, left)
 
 
 @case

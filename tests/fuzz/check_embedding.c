@@ -59,20 +59,20 @@ static void check_residual(const probe *of, bool is_affine, const double p[3], c
 static void check_location(const probe *of, bool is_affine, const double p[3], const ffd_location *location)
 {
     PROMISE(location->status < FFD_VERTEX_STATUS_COUNT, "status %d", location->status);
-    PROMISE((location->status == FFD_POINT_INVALID) == !vec_is_finite(p), "status %d of %g, %g, %g",
+    PROMISE((location->status == FFD_VERTEX_INVALID) == !vec_is_finite(p), "status %d of %g, %g, %g",
             location->status, p[0], p[1], p[2]);
     PROMISE(location->residual >= 0 && (isfinite(location->residual) || !of->is_ordinary), "residual %g",
             location->residual);
     if (!is_placed(location)) {
         PROMISE(isnan(location->uvw[0]) && isnan(location->uvw[1]) && isnan(location->uvw[2]),
                 "u,v,w = %g, %g, %g", location->uvw[0], location->uvw[1], location->uvw[2]);
-        PROMISE(location->status != FFD_INSIDE && location->status != FFD_MULTIPLE, "status %d without u,v,w",
-                location->status);
+        PROMISE(location->status != FFD_VERTEX_INSIDE && location->status != FFD_VERTEX_MULTIPLE,
+                "status %d without u,v,w", location->status);
         PROMISE(location->residual == 0, "residual %g without u,v,w", location->residual);
         return;
     }
-    PROMISE(location->status != FFD_OUTSIDE && location->status != FFD_POINT_INVALID, "status %d with u,v,w",
-            location->status);
+    PROMISE(location->status != FFD_VERTEX_OUTSIDE && location->status != FFD_VERTEX_INVALID,
+            "status %d with u,v,w", location->status);
     check_domain(of, location->uvw);
     /* Where the search stood still is no root. */
     if (!location->unresolved)
@@ -156,9 +156,9 @@ static void check_known(const probe *of, bool is_affine, const probe_point *poin
 {
     if (!is_exact(of, is_affine, point->p))
         return;
-    PROMISE(location->status != FFD_OUTSIDE, "outside: C(%.17g, %.17g, %.17g) = %.17g, %.17g, %.17g",
+    PROMISE(location->status != FFD_VERTEX_OUTSIDE, "outside: C(%.17g, %.17g, %.17g) = %.17g, %.17g, %.17g",
             point->uvw[0], point->uvw[1], point->uvw[2], point->p[0], point->p[1], point->p[2]);
-    if (location->status == FFD_INSIDE)
+    if (location->status == FFD_VERTEX_INSIDE)
         check_only_root(of, point, location);
 }
 

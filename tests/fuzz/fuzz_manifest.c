@@ -49,7 +49,7 @@ static void check_line(const char *text, size_t size)
 static void check_number(const char *cell, bool decimal_comma)
 {
     byte_buffer json = {0}, plain = {0};
-    json_span tree = {0};
+    json_tree tree = {0};
     if (ffd_csv_number(cell, decimal_comma, &json)) {
         const json_input input = {.text = json.data, .size = json.size, .name = "number"};
         PROMISE(ffd_json_parse(&input, &tree, NULL) == FFD_OK && tree.values[0].kind == JSON_NUMBER,
@@ -60,7 +60,7 @@ static void check_number(const char *cell, bool decimal_comma)
         ffd_buffer_append(&json, "", 1);
         PROMISE(strtod(json.data, NULL) == strtod(plain.data, NULL), "%s becomes %s", cell, json.data);
     }
-    ffd_json_span_free(&tree);
+    ffd_json_tree_free(&tree);
     ffd_buffer_free(&json);
     ffd_buffer_free(&plain);
 }

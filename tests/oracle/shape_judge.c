@@ -308,11 +308,12 @@ static void check_location(judge *j, int i)
     const ffd_location *found = &j->found[i];
     const double *p = j->xyz + 3 * i;
     const bool none = isnan(found->uvw[0]) && isnan(found->uvw[1]) && isnan(found->uvw[2]);
-    const bool proven = found->status == FFD_INSIDE || found->status == FFD_OUTSIDE;
-    const bool may_lack = found->status == FFD_SINGULAR && found->unresolved;
+    const bool proven = found->status == FFD_VERTEX_INSIDE || found->status == FFD_VERTEX_OUTSIDE;
+    const bool may_lack = found->status == FFD_VERTEX_SINGULAR && found->unresolved;
     trial_check(j->t, j->s, !(proven && found->unresolved), "point %.17g %.17g %.17g is %s and unresolved",
                 p[0], p[1], p[2], status_name(found->status));
-    trial_check(j->t, j->s, none ? found->status == FFD_OUTSIDE || may_lack : found->status != FFD_OUTSIDE,
+    trial_check(j->t, j->s,
+                none ? found->status == FFD_VERTEX_OUTSIDE || may_lack : found->status != FFD_VERTEX_OUTSIDE,
                 "point %.17g %.17g %.17g is %s at %g %g %g", p[0], p[1], p[2], status_name(found->status),
                 found->uvw[0], found->uvw[1], found->uvw[2]);
     trial_check(j->t, j->s, !none || found->residual == 0, "nothing found, with residual %g",
@@ -397,7 +398,7 @@ void judge_counted(judge *j, int i, const long double known[3])
     /* What is outside by less than the tolerance has a root there that no exact search sees: that the
        tolerance is met was checked. Far from 0 the second root of a point may be such a one. */
     if ((count == 0 || is_far(j, q)) && has_root(found) &&
-        (is_on_border(j, found->uvw) || found->status == FFD_MULTIPLE))
+        (is_on_border(j, found->uvw) || found->status == FFD_VERTEX_MULTIPLE))
         clear = false;
     if (!clear) {
         j->left_out++;
@@ -405,7 +406,7 @@ void judge_counted(judge *j, int i, const long double known[3])
     }
     trial_check(j->t, j->s, met, "the oracle misses the root %.17Lg %.17Lg %.17Lg of %.17g %.17g %.17g",
                 known ? known[0] : 0, known ? known[1] : 0, known ? known[2] : 0, p[0], p[1], p[2]);
-    const int status = count == 0 ? FFD_OUTSIDE : count == 1 ? FFD_INSIDE : FFD_MULTIPLE;
+    const int status = count == 0 ? FFD_VERTEX_OUTSIDE : count == 1 ? FFD_VERTEX_INSIDE : FFD_VERTEX_MULTIPLE;
     trial_check(j->t, j->s, found->status == status,
                 "point %.17g %.17g %.17g with %d roots (first %.17Lg %.17Lg %.17Lg) is %s", p[0], p[1], p[2],
                 count, count ? candidates[0].uvw[0] : 0, count ? candidates[0].uvw[1] : 0,
@@ -422,15 +423,15 @@ void judge_expect(judge *j, int i, int status, const long double uvw[3], const b
     long double q[3];
     memcpy(x.uvw, uvw, sizeof x.uvw);
     seen_from_origin(j, i, q);
-    if (status == FFD_INSIDE) /* the root of the rounded point */
+    if (status == FFD_VERTEX_INSIDE) /* the root of the rounded point */
         oracle_descend(&j->volume, q, x.uvw);
     look_at(j, q, &x);
-    if (status == FFD_SINGULAR)
+    if (status == FFD_VERTEX_SINGULAR)
         reach_of_singular(j, q, &x);
     j->judged++;
     check_location(j, i);
     bool vague = !x.sure;
-    for (int a = 0; status == FFD_INSIDE && a < 3; a++)
+    for (int a = 0; status == FFD_VERTEX_INSIDE && a < 3; a++)
         vague = vague || x.reach[a] > most_reach * length_of(&j->volume.axis[a]);
     if (vague) {
         j->left_out++;
@@ -460,7 +461,8 @@ void judge_next_to_singular(judge *j, int i, const long double known[3])
         return;
     }
     trial_check(j->t, j->s,
-                (found->status == FFD_INSIDE || found->status == FFD_SINGULAR) && !isnan(found->uvw[0]),
+                (found->status == FFD_VERTEX_INSIDE || found->status == FFD_VERTEX_SINGULAR) &&
+                    !isnan(found->uvw[0]),
                 "point %.17g %.17g %.17g next to a collapsed face (root %.17Lg %.17Lg %.17Lg) is %s, u = %g",
                 p[0], p[1], p[2], known[0], known[1], known[2], status_name(found->status), found->uvw[0]);
 }
@@ -518,7 +520,7 @@ void judge_beside(judge *j, int i, const long double face[3], int a)
         j->left_out++;
         return;
     }
-    trial_check(j->t, j->s, found->status == (within ? FFD_INSIDE : FFD_OUTSIDE),
+    trial_check(j->t, j->s, found->status == (within ? FFD_VERTEX_INSIDE : FFD_VERTEX_OUTSIDE),
                 "point %.17g %.17g %.17g, %.3Lg tolerances out of face %c = %.17Lg, is %s", p[0], p[1], p[2],
                 out / unit, "uvw"[a], face[a], status_name(found->status));
 }
@@ -528,7 +530,8 @@ void judge_far(judge *j, int i)
     const ffd_location *found = &j->found[i];
     j->judged++;
     check_location(j, i);
-    trial_check(j->t, j->s, found->status == FFD_OUTSIDE && found->evaluations == 0 && found->leaves == 0,
+    trial_check(j->t, j->s,
+                found->status == FFD_VERTEX_OUTSIDE && found->evaluations == 0 && found->leaves == 0,
                 "far point %.17g %.17g %.17g is %s after %u evaluations in %u leaves", j->xyz[3 * i],
                 j->xyz[3 * i + 1], j->xyz[3 * i + 2], status_name(found->status),
                 (unsigned)found->evaluations, (unsigned)found->leaves);

@@ -169,18 +169,18 @@ static void check_known(const subject *x, int i)
         const long double residual = fabsl(point[a] - q[a]);
         surely_inside = surely_inside && residual <= 0.75L * least[a]; /* 4 of 16 eps: C's own rounding */
     }
-    if (x->found[i].status == FFD_OUTSIDE && !surely_inside) {
-        check_nothing_found(x, i, FFD_OUTSIDE);
+    if (x->found[i].status == FFD_VERTEX_OUTSIDE && !surely_inside) {
+        check_nothing_found(x, i, FFD_VERTEX_OUTSIDE);
         return;
     }
     trial_check(
-        x->t, x->s, x->found[i].status == FFD_INSIDE,
+        x->t, x->s, x->found[i].status == FFD_VERTEX_INSIDE,
         "point %.17g %.17g %.17g (root %.17Lg %.17Lg %.17Lg, residual there %.3Lg %.3Lg %.3Lg, tolerance at "
         "least %.3Lg %.3Lg %.3Lg) is %s",
         p[0], p[1], p[2], root[0], root[1], root[2], point[0] - q[0], point[1] - q[1], point[2] - q[2],
         least[0], least[1], least[2], status_name(x->found[i].status));
-    if (x->found[i].status == FFD_INSIDE || x->found[i].status == FFD_MULTIPLE ||
-        x->found[i].status == FFD_SINGULAR)
+    if (x->found[i].status == FFD_VERTEX_INSIDE || x->found[i].status == FFD_VERTEX_MULTIPLE ||
+        x->found[i].status == FFD_VERTEX_SINGULAR)
         check_root(x, i, root);
 }
 
@@ -284,9 +284,9 @@ static void round_trip(subject *x, draw *random)
     for (int i = 0; i < known; i++)
         check_known(x, i);
     for (int i = known; i < known + 6; i++)
-        check_nothing_found(x, i, FFD_OUTSIDE);
+        check_nothing_found(x, i, FFD_VERTEX_OUTSIDE);
     for (int i = known + 6; i < POINTS; i++)
-        check_nothing_found(x, i, FFD_POINT_INVALID);
+        check_nothing_found(x, i, FFD_VERTEX_INVALID);
     check_order(x, random);
 }
 
@@ -549,13 +549,13 @@ static void check_counted(subject *x, int i)
     seen_from_origin(x, i, q);
     const int count = oracle_find_all(&x->volume, q, 1e-15L, roots);
     if (count == 0) {
-        check_nothing_found(x, i, FFD_OUTSIDE);
+        check_nothing_found(x, i, FFD_VERTEX_OUTSIDE);
         return;
     }
-    const int status = count == 1 ? FFD_INSIDE : FFD_MULTIPLE;
+    const int status = count == 1 ? FFD_VERTEX_INSIDE : FFD_VERTEX_MULTIPLE;
     trial_check(x->t, x->s, x->found[i].status == status, "point %.17g %.17g %.17g with %d roots is %s", p[0],
                 p[1], p[2], count, status_name(x->found[i].status));
-    if (x->found[i].status == FFD_INSIDE || x->found[i].status == FFD_MULTIPLE)
+    if (x->found[i].status == FFD_VERTEX_INSIDE || x->found[i].status == FFD_VERTEX_MULTIPLE)
         check_root(x, i, roots[0]);
 }
 
@@ -596,7 +596,7 @@ static void bent_bars(void **state)
     }
     printf("bent_bars: %d inside, %d outside, %d multiple\n", seen[0], seen[1], seen[2]);
     trial_end(&t);
-    assert_true(seen[FFD_INSIDE] > 0 && seen[FFD_OUTSIDE] > 0 && seen[FFD_MULTIPLE] > 0);
+    assert_true(seen[FFD_VERTEX_INSIDE] > 0 && seen[FFD_VERTEX_OUTSIDE] > 0 && seen[FFD_VERTEX_MULTIPLE] > 0);
 }
 
 /* Next to the faces of a warped volume, on both sides of them, and in closed rings: judged by all roots. */
@@ -683,10 +683,10 @@ static void collapsed_axes(void **state)
                     check_known(&x, i);
                 for (int i = known; i < x.count; i++) {
                     const ffd_location *found = &x.found[i];
-                    trial_check(&t, &s, found->status == FFD_SINGULAR, "a point of the axis is %s",
+                    trial_check(&t, &s, found->status == FFD_VERTEX_SINGULAR, "a point of the axis is %s",
                                 status_name(found->status));
                     trial_check(&t, &s,
-                                found->status == FFD_OUTSIDE ||
+                                found->status == FFD_VERTEX_OUTSIDE ||
                                     (found->uvw[0] == 0 && found->uvw[1] == (double)oracle_first(&s.axis[1])),
                                 "a point of the axis has u,v,w %.17g %.17g %.17g", found->uvw[0],
                                 found->uvw[1], found->uvw[2]);

@@ -31,8 +31,9 @@ static void add_totals(judge *totals, const judge *j)
 static void print_totals(const char *name, const judge *totals)
 {
     printf("%s: %ld inside, %ld outside, %ld multiple, %ld singular; %ld of %ld left out\n", name,
-           totals->seen[FFD_INSIDE], totals->seen[FFD_OUTSIDE], totals->seen[FFD_MULTIPLE],
-           totals->seen[FFD_SINGULAR], totals->left_out, totals->judged);
+           totals->seen[FFD_VERTEX_INSIDE], totals->seen[FFD_VERTEX_OUTSIDE],
+           totals->seen[FFD_VERTEX_MULTIPLE], totals->seen[FFD_VERTEX_SINGULAR], totals->left_out,
+           totals->judged);
 }
 
 static void put_on_face(const sample *s, draw *random, long double uvw[3])
@@ -142,7 +143,7 @@ static void run(const char *name, shape_kind kind, long cases, double share)
 {
     const judge totals = run_cases(name, &(case_steps){make_weighted_shape, judge_case}, kind, cases);
     assert_true((double)totals.left_out <= share * (double)totals.judged);
-    assert_true((kind != SHAPE_OVERLAP && kind != SHAPE_FOLD) || totals.seen[FFD_MULTIPLE] > 0);
+    assert_true((kind != SHAPE_OVERLAP && kind != SHAPE_FOLD) || totals.seen[FFD_VERTEX_MULTIPLE] > 0);
 }
 
 static void c_shapes(void **state)
@@ -205,7 +206,7 @@ static void judge_known(judge *j, draw *random)
     if (!judge_find(j))
         return;
     for (int i = 0; i < KNOWN; i++)
-        judge_expect(j, i, FFD_INSIDE, uvw[i], NULL);
+        judge_expect(j, i, FFD_VERTEX_INSIDE, uvw[i], NULL);
     judge_order(j, random);
 }
 
@@ -281,7 +282,7 @@ static void faces(void **state)
     (void)state;
     const judge totals = run_cases("faces", &(case_steps){make_one_of_all, judge_case_faces}, SHAPE_C, 42);
     assert_true(totals.left_out <= totals.judged / 3);
-    assert_true(totals.seen[FFD_INSIDE] > 0 && totals.seen[FFD_OUTSIDE] > 0);
+    assert_true(totals.seen[FFD_VERTEX_INSIDE] > 0 && totals.seen[FFD_VERTEX_OUTSIDE] > 0);
 }
 
 /* The angle of a quarter circle's rational quadratic at t in [0,1]. */
@@ -321,10 +322,10 @@ static void judge_torus_point(judge *j, const shape *x, int i)
     const long double depth = depth_in_torus(x, torus, whole);
     if (fabsl(depth) < 1e-12L)
         return;
-    trial_check(j->t, j->s, found->status == (depth > 0 ? FFD_INSIDE : FFD_OUTSIDE),
+    trial_check(j->t, j->s, found->status == (depth > 0 ? FFD_VERTEX_INSIDE : FFD_VERTEX_OUTSIDE),
                 "tube radius %.17Lg, angle %.17Lg, ring angle %.17Lg: status %d", torus[0], torus[1],
                 torus[2], found->status);
-    if (found->status != FFD_INSIDE)
+    if (found->status != FFD_VERTEX_INSIDE)
         return;
     const long double v = found->uvw[x->role[1]], quarter = fminl(floorl(v), whole ? 3 : 0);
     const long double tube = quarter * pi / 2 + quarter_angle(v - quarter);
@@ -366,7 +367,7 @@ static void quarter_tori(void **state)
     (void)state;
     const judge totals =
         run_cases("quarter_tori", &(case_steps){make_bare_shape, judge_torus}, SHAPE_QUARTER_TORUS, 20);
-    assert_true(totals.seen[FFD_INSIDE] > 0 && totals.seen[FFD_OUTSIDE] > 0);
+    assert_true(totals.seen[FFD_VERTEX_INSIDE] > 0 && totals.seen[FFD_VERTEX_OUTSIDE] > 0);
 }
 
 /* Points of collapsed faces have a set of roots, the least of which is the answer; points next to them have
@@ -413,7 +414,8 @@ static void judge_collapsed(judge *j, const shape *x, draw *random)
         if (i >= ON && i < ON + NEXT && (i - ON) % STEPS >= CLEAR_STEPS)
             judge_next_to_singular(j, i, uvw[i]);
         else
-            judge_expect(j, i, i < ON ? FFD_SINGULAR : FFD_INSIDE, uvw[i], i < ON ? exact[i] : NULL);
+            judge_expect(j, i, i < ON ? FFD_VERTEX_SINGULAR : FFD_VERTEX_INSIDE, uvw[i],
+                         i < ON ? exact[i] : NULL);
     for (int i = ON + NEXT + KNOWN; i < j->count; i++)
         judge_counted(j, i, NULL);
     judge_order(j, random);
@@ -427,7 +429,7 @@ static void judge_collapsed_case(shape_case *c)
 static void run_collapsed(const char *name, shape_kind kind, long cases)
 {
     const judge totals = run_cases(name, &(case_steps){make_shape, judge_collapsed_case}, kind, cases);
-    assert_true(totals.seen[FFD_SINGULAR] > 0 && totals.left_out <= totals.judged / 2);
+    assert_true(totals.seen[FFD_VERTEX_SINGULAR] > 0 && totals.left_out <= totals.judged / 2);
 }
 
 static void cylinders(void **state)
@@ -515,7 +517,7 @@ static void judge_seam(shape_case *c)
     if (!judge_find(j))
         return;
     for (int i = 0; i < ON + OFF; i++)
-        judge_expect(j, i, FFD_INSIDE, uvw[i], NULL);
+        judge_expect(j, i, FFD_VERTEX_INSIDE, uvw[i], NULL);
     judge_order(j, &c->random);
 }
 

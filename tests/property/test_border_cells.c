@@ -181,8 +181,8 @@ static void try_points(draw *d, ffd_lattice *lattice, sample which, figures *fou
     assert_int_equal(ffd_locator_find_near(locator, xyz, POINTS, &allowance, locations, NULL), FFD_OK);
     for (int i = 0; i < POINTS; i++) {
         found->points++;
-        found->outside += locations[i].status == FFD_OUTSIDE;
-        found->singular += locations[i].status == FFD_SINGULAR;
+        found->outside += locations[i].status == FFD_VERTEX_OUTSIDE;
+        found->singular += locations[i].status == FFD_VERTEX_SINGULAR;
     }
     ffd_locator_destroy(&locator);
     ffd_lattice_destroy(&lattice);
@@ -304,8 +304,8 @@ static void a_box_that_ends_before_the_tangent_plane_is_outside(void **state)
             const ffd_border_allowance allowance = {.rounding = rounding};
             ffd_location found[2];
             assert_int_equal(ffd_locator_find_near(locator, p, 2, &allowance, found, NULL), FFD_OK);
-            assert_int_equal(found[0].status, FFD_INSIDE);
-            assert_int_equal(found[1].status, FFD_OUTSIDE);
+            assert_int_equal(found[0].status, FFD_VERTEX_INSIDE);
+            assert_int_equal(found[1].status, FFD_VERTEX_OUTSIDE);
         }
         ffd_locator_destroy(&locator);
         ffd_lattice_destroy(&lattice);

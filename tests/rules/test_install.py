@@ -38,7 +38,7 @@ int main(void)
         ffd_locator_create(lattice, &locator, &error) != FFD_OK ||
         ffd_locator_locate(locator, point, 1, NULL, &location, sizeof location, &error) != FFD_OK)
         return 1;
-    if (location.status != FFD_INSIDE || !ffd_displacement(lattice, location.uvw, delta, gradient))
+    if (location.status != FFD_VERTEX_INSIDE || !ffd_displacement(lattice, location.uvw, delta, gradient))
         return 2;
     printf("%g %g %g\n", delta[0], delta[1], delta[2]);
     ffd_locator_destroy(&locator);

@@ -7,7 +7,7 @@ import re
 import tree
 
 # Of runs of several jobs, and what the program decides by itself.
-NOT_OFFERED = {"struct_size", "written", "share", "shared_box", "depfile", "morph_results", "only_positions", "as_stored"}
+NOT_OFFERED = {"struct_size", "output_set", "cache", "shared_box", "depfile", "morph_results", "only_positions", "as_stored"}
 # Structure -> the header, and the files that name its members.
 COMMON = ("description", "library")
 STRUCTURES = {

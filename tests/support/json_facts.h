@@ -8,7 +8,7 @@
 
 typedef struct json_facts {
     char *text;
-    json_span tree;
+    json_tree tree;
 } json_facts;
 
 /* Parses a copy of a text, which must be JSON. Free it with facts_free. */
@@ -29,7 +29,7 @@ static inline json_facts *facts_read(const char *text, size_t size)
 
 static inline void facts_free(json_facts *facts)
 {
-    ffd_json_span_free(&facts->tree);
+    ffd_json_tree_free(&facts->tree);
     free(facts->text);
     free(facts);
 }
@@ -46,7 +46,7 @@ static inline uint32_t facts_member(const json_facts *facts, const char *names)
         end = strchr(name, '.');
         if (end)
             *end++ = 0;
-        value = ffd_json_span_member(&facts->tree, value, name);
+        value = ffd_json_tree_member(&facts->tree, value, name);
     }
     return value;
 }
@@ -61,20 +61,20 @@ static inline int facts_is(const json_facts *facts, const char *names, json_kind
 static inline double facts_number(const json_facts *facts, uint32_t value)
 {
     double number = 0;
-    if (!ffd_json_span_number(&facts->tree, value, &number))
+    if (!ffd_json_tree_number(&facts->tree, value, &number))
         fail_msg("not a number in %s", facts->text);
     return number;
 }
 
 static inline double facts_number_at(const json_facts *facts, const char *names, size_t i)
 {
-    return facts_number(facts, ffd_json_span_element(&facts->tree, facts_member(facts, names), i));
+    return facts_number(facts, ffd_json_tree_element(&facts->tree, facts_member(facts, names), i));
 }
 
 static inline void assert_text(const json_facts *facts, uint32_t value, const char *expected)
 {
     assert_true(value != JSON_NONE && facts->tree.values[value].kind == JSON_STRING);
-    if (!ffd_json_span_string_is(&facts->tree, value, expected))
+    if (!ffd_json_tree_string_is(&facts->tree, value, expected))
         fail_msg("%.*s is not \"%s\"", (int)(facts->tree.values[value].end - facts->tree.values[value].begin),
                  facts->text + facts->tree.values[value].begin, expected);
 }

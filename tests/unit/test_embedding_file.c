@@ -328,7 +328,7 @@ static void a_seam_that_a_move_opens_keeps_the_hash(void **state)
 static const hash128 positions = {{1, 2, 3}}, rest = {{9, 8, 7}}, other = {{5}};
 
 static const double three[9] = {0.25, -0.5, 1e-300, NAN, NAN, NAN, 1, 2, 3};
-static const uint8_t three_statuses[3] = {FFD_INSIDE, FFD_OUTSIDE, FFD_MULTIPLE};
+static const uint8_t three_statuses[3] = {FFD_VERTEX_INSIDE, FFD_VERTEX_OUTSIDE, FFD_VERTEX_MULTIPLE};
 
 static ffd_status try_write(const char *name, const double *uvw, const uint8_t *statuses, size_t count)
 {
@@ -562,7 +562,7 @@ static void statuses_that_do_not_fit_are_refused(void **state)
 {
     (void)state;
     static const uint8_t unknown[3] = {0, 1, 5}, inside[3] = {0, 0, 2}, multiple[3] = {0, 2, 0};
-    static const uint8_t singular[3] = {0, FFD_SINGULAR, FFD_POINT_INVALID};
+    static const uint8_t singular[3] = {0, FFD_VERTEX_SINGULAR, FFD_VERTEX_INVALID};
     size_t size;
     unsigned char *bytes = written(three, unknown, 3, &size);
     assert_refused(bytes, size, 3, "the status of vertex 2 is 5, not 0 to 4");
@@ -677,7 +677,7 @@ static void embed_writes_what_belongs_to_mesh_and_lattice(void **state)
         ffd_embedding_open(output_path, (ffd_bytes){0}, 1500, &mesh_hash, &lattice_hash, &file, NULL),
         FFD_OK);
     for (size_t i = 0; i < 1500; i++) {
-        assert_int_equal(file.statuses[i], FFD_INSIDE);
+        assert_int_equal(file.statuses[i], FFD_VERTEX_INSIDE);
         assert_true(fabs(file.uvw[3 * i] - (double)(i % 13) / 12) <= 1e-14);
         assert_true(fabs(file.uvw[3 * i + 2] - (double)i / 1499) <= 1e-14);
     }

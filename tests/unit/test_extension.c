@@ -348,8 +348,8 @@ static void the_displacement_has_no_step_at_the_border(void **state)
                 side[1][a] = p[a] + 1e-7 * outward[a];
             }
             assert_int_equal(ffd_locator_find(locator, side[0], 2, found, NULL), FFD_OK);
-            assert_int_equal(found[0].status, FFD_INSIDE);
-            assert_int_equal(found[1].status, FFD_OUTSIDE);
+            assert_int_equal(found[0].status, FFD_VERTEX_INSIDE);
+            assert_int_equal(found[1].status, FFD_VERTEX_OUTSIDE);
             const boundary_point nearest = nearest_to(&s, side[1]);
             ffd_displacement(s.lattice, found[0].uvw, delta[0], gradient[0]);
             ffd_extension_displacement(s.lattice, &nearest, 3, delta[1], gradient[1]);

@@ -93,13 +93,13 @@ static void fill(ffd_job_result *result)
 static void copy(const ffd_job_result *result, ffd_job_result *read)
 {
     ffd_error error;
-    json_span tree;
+    json_tree tree;
     byte_buffer text = {0};
     ffd_report_figures(result, &text);
     const json_input input = {.text = text.data, .size = text.size, .name = "the report"};
     assert_int_equal(ffd_json_parse(&input, &tree, &error), FFD_OK);
     ffd_figures_read(&tree, 0, read);
-    ffd_json_span_free(&tree);
+    ffd_json_tree_free(&tree);
     ffd_buffer_free(&text);
 }
 
@@ -151,7 +151,7 @@ static void the_text_has_a_line_for_what_is_known(void **state)
                         "  vertices       0\n  moved          0, by 0 at most\n  area           not known\n"
                         "  volume         not known\n");
     ffd_text_free(text);
-    result.counts[FFD_SINGULAR] = result.vertices = 2;
+    result.counts[FFD_VERTEX_SINGULAR] = result.vertices = 2;
     result.tear.is_known = result.folds.is_known = result.folds.witness.is_there = true;
     result.folds.witness.lattice = 1;
     result.folds.verdict = FFD_FOLDS_SOME;
@@ -175,7 +175,7 @@ static void tiles_are_joined(void **state)
     for (int i = 0; i < 3; i++) {
         ffd_totals_clear(&tiles[i]);
         tiles[i].moved = 10;
-        tiles[i].counts[FFD_MULTIPLE] = (uint64_t)i;
+        tiles[i].counts[FFD_VERTEX_MULTIPLE] = (uint64_t)i;
         tiles[i].det_outside = i == 0 ? 3 : -1; /* the second and the third are equal */
         tiles[i].first_det_outside = 100 + (uint64_t)i;
         tiles[i].det_max = -5 + i;
@@ -187,7 +187,7 @@ static void tiles_are_joined(void **state)
     for (int i = 0; i < 3; i++)
         ffd_totals_join(&tiles[i], &all);
     assert_int_equal(all.moved, 30);
-    assert_int_equal(all.counts[FFD_MULTIPLE], 3);
+    assert_int_equal(all.counts[FFD_VERTEX_MULTIPLE], 3);
     assert_true(all.det_outside == -1 && all.first_det_outside == 101); /* the first of equal ones */
     assert_true(all.det_max == -3 && isinf(all.det_min));
     assert_int_equal(all.evaluations_max, 7);
@@ -202,7 +202,7 @@ static void targets_are_joined(void **state)
     for (int k = 0; k < 2; k++) {
         ffd_result_clear(&targets[k]);
         targets[k].vertices = 8;
-        targets[k].counts[FFD_INSIDE] = k == 0 ? 6 : 8;
+        targets[k].counts[FFD_VERTEX_INSIDE] = k == 0 ? 6 : 8;
         targets[k].hidden = k == 0 ? 1 : 0;
         targets[k].tear.is_known = true;
         targets[k].tear.edges = k == 0 ? 9 : 2;
@@ -221,7 +221,7 @@ static void targets_are_joined(void **state)
     targets[1].det.outside_vertex = 6;
     targets[0].behind[FFD_BEHIND_LIGHT].count = 2;
     ffd_results_join(targets, 2, &all);
-    assert_true(all.vertices == 8 && all.counts[FFD_INSIDE] == 6 && all.hidden == 1);
+    assert_true(all.vertices == 8 && all.counts[FFD_VERTEX_INSIDE] == 6 && all.hidden == 1);
     assert_true(all.tear.is_known && all.tear.edges == 2);
     assert_string_equal(all.tear.part, "node:b");
     assert_false(all.edges.is_known);

@@ -151,7 +151,7 @@ static void channels_say_where_they_come_from(void **state)
         const gltf_channel *const channel = &a->channels[c];
         char place[200] = "";
         if (channel->fault != JSON_NONE)
-            ffd_json_span_pointer(&d->tree, channel->fault, place, sizeof place);
+            ffd_json_tree_pointer(&d->tree, channel->fault, place, sizeof place);
         assert_int_equal(channel->sampler, expected[c].sampler);
         assert_int_equal(channel->node, expected[c].node);
         assert_int_equal(channel->path, expected[c].path);

@@ -21,13 +21,13 @@ static void a_file_is_read_again_when_it_is_another(void **state)
     hash_cache cache = {0};
     hash128 first, again, other;
     replace("a.obj", "v 0 0 0\n");
-    assert_int_equal(ffd_cache_hash(&cache, in_folder("a.obj"), &first, NULL), FFD_OK);
-    assert_int_equal(ffd_cache_hash(&cache, in_folder("a.obj"), &again, NULL), FFD_OK);
+    assert_int_equal(ffd_hash_cache_hash(&cache, in_folder("a.obj"), &first, NULL), FFD_OK);
+    assert_int_equal(ffd_hash_cache_hash(&cache, in_folder("a.obj"), &again, NULL), FFD_OK);
     assert_true(ffd_hash_equal(&again, &first));
     replace("a.obj", "v 0 0 1\n");
-    assert_int_equal(ffd_cache_hash(&cache, in_folder("a.obj"), &other, NULL), FFD_OK);
+    assert_int_equal(ffd_hash_cache_hash(&cache, in_folder("a.obj"), &other, NULL), FFD_OK);
     assert_false(ffd_hash_equal(&other, &first));
-    ffd_cache_free(&cache);
+    ffd_hash_cache_free(&cache);
 }
 
 /* A mesh with a buffer file. */
@@ -44,7 +44,7 @@ static void check_files(hash_cache *cache, const char *name, const char *buffer)
 {
     path_list files = {0};
     const ffd_source source = {.path = in_folder(name)};
-    assert_int_equal(ffd_cache_list(cache, &source, &files, NULL), FFD_OK);
+    assert_int_equal(ffd_hash_cache_list(cache, &source, &files, NULL), FFD_OK);
     assert_int_equal(files.count, 2);
     assert_string_equal(files.paths[0], in_folder(name));
     assert_string_equal(files.paths[1], in_folder(buffer));
@@ -60,7 +60,7 @@ static void the_files_of_a_mesh_are_those_of_now(void **state)
     check_files(&cache, "a.gltf", "one.bin");
     put_asset("a.gltf", "two.bin");
     check_files(&cache, "a.gltf", "two.bin");
-    ffd_cache_free(&cache);
+    ffd_hash_cache_free(&cache);
 }
 
 /* Alternating, like the jobs' meshes and those of a lattice's box. */
@@ -75,7 +75,7 @@ static void meshes_by_turns_are_read_once(void **state)
         check_files(&cache, "b.gltf", "b.bin");
     }
     assert_int_equal(cache.next_mesh, 2);
-    ffd_cache_free(&cache);
+    ffd_hash_cache_free(&cache);
 }
 
 static bool take(hash_cache *cache, const char *name, file_input *input)
@@ -99,8 +99,8 @@ static void the_bytes_of_a_mesh_are_kept_while_it_stays(void **state)
         hash_cache cache = {0};
         path_list images = {0};
         const ffd_source source = {.path = in_folder("k.obj")};
-        assert_int_equal(ffd_cache_images(&cache, &source, &images, NULL), FFD_OK);
-        assert_int_equal(ffd_cache_hash(&cache, in_folder("l.json"), &hash, NULL), FFD_OK);
+        assert_int_equal(ffd_hash_cache_images(&cache, &source, &images, NULL), FFD_OK);
+        assert_int_equal(ffd_hash_cache_hash(&cache, in_folder("l.json"), &hash, NULL), FFD_OK);
         assert_non_null(cache.kept.path);
         assert_false(take(&cache, "l.json", &input)); /* a job's first file is its mesh */
         assert_false(take(&cache, "same.obj", &input));
@@ -114,7 +114,7 @@ static void the_bytes_of_a_mesh_are_kept_while_it_stays(void **state)
             assert_false(take(&cache, "k.obj", &input));
         }
         ffd_paths_free(&images);
-        ffd_cache_free(&cache);
+        ffd_hash_cache_free(&cache);
     }
 }
 

@@ -232,15 +232,15 @@ static void check_same(const name_list *taken, const char *where)
 {
     for (size_t i = 0; i < taken->count; i++) {
         const named *const file = &taken->files[i];
-        FILE *const written = fopen(file->name, "rb");
-        if (!written)
+        FILE *const output_set = fopen(file->name, "rb");
+        if (!output_set)
             fail_msg("\"%s\" is not written", file->name);
         unsigned char *const bytes = malloc(file->size + 1);
-        if (fread(bytes, 1, file->size + 1, written) != file->size)
+        if (fread(bytes, 1, file->size + 1, output_set) != file->size)
             fail_msg("\"%s\" has another size", file->name);
         assert_memory_equal(bytes, file->bytes, file->size);
         free(bytes);
-        fclose(written);
+        fclose(output_set);
     }
     assert_int_equal(files_in(where), taken->count);
 }
@@ -900,14 +900,14 @@ static void names_in_memory_mean_no_files(void **state)
     static const char other[] = "OFF\n1 0 0\n5 5 5\n";
     both b;
     ffd_job_result result = {.struct_size = sizeof result};
-    ffd_share *share;
-    ffd_written *written;
+    ffd_job_cache *cache;
+    ffd_output_set *output_set;
     begin(&b, make_off, "head.off");
     use_files(&b);
-    assert_int_equal(ffd_share_create(&share, NULL), FFD_OK);
-    assert_int_equal(ffd_written_create(&written, NULL), FFD_OK);
-    b.desc.share = share;
-    b.desc.written = written;
+    assert_int_equal(ffd_job_cache_create(&cache, NULL), FFD_OK);
+    assert_int_equal(ffd_output_set_create(&output_set, NULL), FFD_OK);
+    b.desc.cache = cache;
+    b.desc.output_set = output_set;
     assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
     assert_true(result.vertices > 1);
     b.desc.input.bytes = (ffd_bytes){other, sizeof other - 1};
@@ -924,11 +924,11 @@ static void names_in_memory_mean_no_files(void **state)
     b.desc.force = true;
     assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
     assert_int_equal(result.vertices, 1);
-    b.desc.written = NULL;
+    b.desc.output_set = NULL;
     b.desc.input.path = b.input; /* and that one is replaced, as any other */
     assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
-    ffd_written_destroy(&written);
-    ffd_share_destroy(&share);
+    ffd_output_set_destroy(&output_set);
+    ffd_job_cache_destroy(&cache);
     end(&b);
     (void)state;
 }

@@ -375,7 +375,7 @@ static void a_box_lattice_is_described(void **state)
     assert_vector(json, "degree", 3, 3, 2);
     static const char *const knots[] = {"clamped", "open", "list"};
     for (size_t a = 0; a < 3; a++)
-        assert_text(json, ffd_json_span_element(&json->tree, facts_member(json, "knots"), a), knots[a]);
+        assert_text(json, ffd_json_tree_element(&json->tree, facts_member(json, "knots"), a), knots[a]);
     assert_true(facts_number_at(json, "domain.w", 1) == 2);
     assert_number(json, "control_points", 60);
     assert_word(json, "rest", "box");
@@ -407,7 +407,7 @@ static void a_cylinder_lattice_is_described(void **state)
              "\"radius\": [1, 2], \"height\": 4, \"angle\": [0, 360]}}}");
     json_facts *json = info_of("cylinder.json");
     assert_word(json, "rest", "cylinder");
-    assert_text(json, ffd_json_span_element(&json->tree, facts_member(json, "knots"), 1), "closed");
+    assert_text(json, ffd_json_tree_element(&json->tree, facts_member(json, "knots"), 1), "closed");
     assert_number(json, "moved", 0);
     assert_number(json, "largest_move", 0);
     assert_word(json, "inversion", "general");

@@ -114,7 +114,7 @@ static void costly_figures_are_there_when_asked_for(void **state)
     desc.fail_on = FFD_GATE_FOLDS | FFD_GATE_OUTSIDE;
     assert_int_equal(ffd_check_run(&desc, &result, NULL), FFD_E_GATE);
     assert_string_equal(result.error.message, "1 of 4 vertices is outside the lattice (fail_on = outside)");
-    assert_int_equal(result.counts[FFD_OUTSIDE], 1);
+    assert_int_equal(result.counts[FFD_VERTEX_OUTSIDE], 1);
     assert_true(result.folds.is_known && result.has_flipped && result.edges.is_known);
     (void)state;
 }
@@ -199,7 +199,7 @@ static void what_stays_behind_is_in_the_result(void **state)
     assert_string_equal(result.behind[FFD_BEHIND_SOCKET].names[1], "");
     assert_string_equal(result.behind[FFD_BEHIND_SPLAT].names[0], "rose");
     assert_int_equal(result.vertices, 6);
-    assert_int_equal(result.counts[FFD_OUTSIDE], 3);
+    assert_int_equal(result.counts[FFD_VERTEX_OUTSIDE], 3);
 
     unlink(output);
     fail_everywhere(ffd_check_run, &desc);
@@ -258,7 +258,7 @@ static void morph_targets_have_figures_of_their_own(void **state)
     desc = describe();
     assert_int_equal(ffd_check_run(&desc, &alone, NULL), FFD_OK);
     for (size_t k = 0; k < 2; k++) {
-        assert_int_equal(results[k].counts[FFD_INSIDE], alone.counts[FFD_INSIDE]);
+        assert_int_equal(results[k].counts[FFD_VERTEX_INSIDE], alone.counts[FFD_VERTEX_INSIDE]);
         assert_int_equal(results[k].moved, alone.moved);
         assert_memory_equal(&results[k].displacement.max, &alone.displacement.max, sizeof(double));
     }

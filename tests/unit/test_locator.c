@@ -104,7 +104,7 @@ static void check_round_trip(const ffd_lattice *lattice, const char *method, dra
         ffd_lattice_evaluate(lattice, FFD_VOLUME_REST, uvw, p, jacobian);
         assert_true(mat_invert(jacobian, inverse));
         assert_int_equal(ffd_locator_find(locator, p, 1, &location, &error), FFD_OK);
-        if (location.status != FFD_INSIDE)
+        if (location.status != FFD_VERTEX_INSIDE)
             fail_msg("u,v,w %.17g %.17g %.17g: status %d", uvw[0], uvw[1], uvw[2], location.status);
         for (int a = 0; a < 3; a++) {
             double allowed = 0;
@@ -205,18 +205,18 @@ static void far_points_are_outside_and_nan_is_invalid(void **state)
         assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
         const ffd_location far = find_one(locator, 1e5, 0, 0), huge = find_one(locator, 0, -1e308, 1e308);
         const ffd_location nan = find_one(locator, 0, NAN, 0), inf = find_one(locator, INFINITY, 0, 0);
-        assert_int_equal(far.status, FFD_OUTSIDE);
+        assert_int_equal(far.status, FFD_VERTEX_OUTSIDE);
         assert_int_equal(far.evaluations, 0);
         assert_true(isnan(far.uvw[0]) && isnan(far.uvw[1]) && isnan(far.uvw[2]));
-        assert_int_equal(huge.status, FFD_OUTSIDE);
-        assert_int_equal(nan.status, FFD_POINT_INVALID);
-        assert_int_equal(inf.status, FFD_POINT_INVALID);
+        assert_int_equal(huge.status, FFD_VERTEX_OUTSIDE);
+        assert_int_equal(nan.status, FFD_VERTEX_INVALID);
+        assert_int_equal(inf.status, FFD_VERTEX_INVALID);
         /* 1e-9 beyond the faces of a box is outside: that is far more than the tolerance. */
         if (maps[m] == box_map) {
-            assert_int_equal(find_one(locator, -1 - 1e-9, 0.1, 5).status, FFD_OUTSIDE);
-            assert_int_equal(find_one(locator, -1, 0.1, 5).status, FFD_INSIDE);
-            assert_int_equal(find_one(locator, 2, 0.25, 10).status, FFD_INSIDE);
-            assert_int_equal(find_one(locator, 2, 0.25, 10 + 1e-9).status, FFD_OUTSIDE);
+            assert_int_equal(find_one(locator, -1 - 1e-9, 0.1, 5).status, FFD_VERTEX_OUTSIDE);
+            assert_int_equal(find_one(locator, -1, 0.1, 5).status, FFD_VERTEX_INSIDE);
+            assert_int_equal(find_one(locator, 2, 0.25, 10).status, FFD_VERTEX_INSIDE);
+            assert_int_equal(find_one(locator, 2, 0.25, 10 + 1e-9).status, FFD_VERTEX_OUTSIDE);
         }
         ffd_locator_destroy(&locator);
         ffd_lattice_destroy(&lattice);
@@ -267,7 +267,7 @@ static void a_point_in_a_fold_is_multiple(void **state)
     set_points(lattice, folded_map);
     assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
     const ffd_location location = find_one(locator, 0.5, 0.5, 0.5);
-    assert_int_equal(location.status, FFD_MULTIPLE);
+    assert_int_equal(location.status, FFD_VERTEX_MULTIPLE);
     double back[3];
     ffd_lattice_evaluate(lattice, FFD_VOLUME_REST, location.uvw, back, NULL);
     assert_true(fabs(back[0] - 0.5) < 1e-13);
@@ -389,13 +389,13 @@ static void a_point_on_a_collapsed_face_is_singular(void **state)
         double p[3], back[3];
         ffd_lattice_evaluate(lattice, FFD_VOLUME_REST, uvw, p, NULL);
         const ffd_location location = find_one(locator, p[0], p[1], p[2]);
-        assert_true(location.status == FFD_INSIDE || location.status == FFD_SINGULAR);
+        assert_true(location.status == FFD_VERTEX_INSIDE || location.status == FFD_VERTEX_SINGULAR);
         ffd_lattice_evaluate(lattice, FFD_VOLUME_REST, location.uvw, back, NULL);
         for (int a = 0; a < 3; a++)
             assert_true(fabs(back[a] - p[a]) < 1e-13);
     }
     const ffd_location axis = find_one(locator, 0, 0, 0.5);
-    assert_int_equal(axis.status, FFD_SINGULAR);
+    assert_int_equal(axis.status, FFD_VERTEX_SINGULAR);
     assert_true(fabs(axis.uvw[0]) < 1e-12);
     ffd_locator_destroy(&locator);
     ffd_lattice_destroy(&lattice);
@@ -450,7 +450,7 @@ static void a_seam_point_is_one_root_whatever_the_moves(void **state)
     set_points(lattice, whole_turn_map);
     assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
     ffd_location found = find_one(locator, 2.5, 0, 0.3);
-    assert_int_equal(found.status, FFD_INSIDE);
+    assert_int_equal(found.status, FFD_VERTEX_INSIDE);
     assert_true(found.uvw[1] == 0);
     ffd_locator_destroy(&locator);
 
@@ -462,7 +462,7 @@ static void a_seam_point_is_one_root_whatever_the_moves(void **state)
     assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
     assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
     found = find_one(locator, 2.5, 0, 0.3);
-    assert_int_equal(found.status, FFD_INSIDE);
+    assert_int_equal(found.status, FFD_VERTEX_INSIDE);
     assert_true(found.uvw[1] == 0);
     assert_true(ffd_locator_has_seam(locator, 1));
     assert_false(ffd_locator_has_seam(locator, 0));
@@ -519,7 +519,7 @@ static void folds_are_refused_only_beyond_the_limit(void **state)
     assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
     const double middle[3] = {0.5, 0.5, 0.5};
     assert_int_equal(ffd_locator_find(locator, middle, 1, &found, NULL), FFD_OK);
-    assert_true(found.status != FFD_OUTSIDE);
+    assert_true(found.status != FFD_VERTEX_OUTSIDE);
     ffd_locator_destroy(&locator);
 
     assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
@@ -589,7 +589,7 @@ static void check_all_inside(ffd_lattice *lattice, draw *d)
     assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
     assert_int_equal(ffd_locator_find(locator, xyz, (size_t)count, found, NULL), FFD_OK);
     for (int i = 0; i < count; i++)
-        assert_int_equal(found[i].status, FFD_INSIDE);
+        assert_int_equal(found[i].status, FFD_VERTEX_INSIDE);
     ffd_locator_destroy(&locator);
 }
 
@@ -662,11 +662,11 @@ static void points_of_a_symmetric_fold_are_multiple(void **state)
         if (fabs(u - v) < 1e-3)
             continue;
         const ffd_location two = find_one(locator, u * v, u + v, 0.5);
-        assert_int_equal(two.status, FFD_MULTIPLE);
+        assert_int_equal(two.status, FFD_VERTEX_MULTIPLE);
         assert_false(two.unresolved);
         const double middle = 0.5 * (u + v);
         assert_int_equal(find_one(locator, middle * middle + 1e-6 + 0.1 * draw_unit(&d), u + v, 0.5).status,
-                         FFD_OUTSIDE);
+                         FFD_VERTEX_OUTSIDE);
     }
     ffd_locator_destroy(&locator);
     ffd_lattice_destroy(&lattice);
@@ -687,7 +687,7 @@ static void the_root_with_the_sign_of_the_volume_is_taken(void **state)
     assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
     assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
     const ffd_location found = find_one(locator, 0.7323, -0.0194, 0.4003);
-    assert_int_equal(found.status, FFD_MULTIPLE);
+    assert_int_equal(found.status, FFD_VERTEX_MULTIPLE);
     assert_true(fabs(found.uvw[0] - 0.98034) < 1e-5 && fabs(found.uvw[1] - 0.15813) < 1e-5);
     ffd_locator_destroy(&locator);
     ffd_lattice_destroy(&lattice);
@@ -712,7 +712,7 @@ static void steep_weights_do_not_turn_the_volume_round(void **state)
         assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
         assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
         const ffd_location found = find_one(locator, 0.5, 0, 5);
-        assert_int_equal(found.status, FFD_MULTIPLE);
+        assert_int_equal(found.status, FFD_VERTEX_MULTIPLE);
         assert_true(found.uvw[0] < 0.5);
         ffd_locator_destroy(&locator);
         ffd_lattice_destroy(&lattice);

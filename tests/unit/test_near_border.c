@@ -109,13 +109,13 @@ static void border_points_of_float32_are_inside(void **state)
         }
         assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
         assert_int_equal(ffd_locator_find(locator, xyz, POINTS, bare, NULL), FFD_OK);
-        assert_true(count_of(bare, FFD_OUTSIDE) > POINTS / 10);
+        assert_true(count_of(bare, FFD_VERTEX_OUTSIDE) > POINTS / 10);
         const ffd_border_allowance allowance = {.rounding = rounding};
         assert_int_equal(ffd_locator_find_near(locator, xyz, POINTS, &allowance, near, NULL), FFD_OK);
-        assert_int_equal(count_of(near, FFD_INSIDE), POINTS);
+        assert_int_equal(count_of(near, FFD_VERTEX_INSIDE), POINTS);
         for (int i = 0; i < POINTS; i++) {
             double back[3];
-            if (bare[i].status == FFD_INSIDE)
+            if (bare[i].status == FFD_VERTEX_INSIDE)
                 assert_memory_equal(&bare[i], &near[i], sizeof bare[i]);
             ffd_lattice_evaluate(lattice, FFD_VOLUME_REST, near[i].uvw, back, NULL);
             for (int a = 0; a < 3; a++)
@@ -145,9 +145,9 @@ static void rounding_of_one_coordinate_moves_along_it(void **state)
         memcpy(p + 3, p, 3 * sizeof *p);
         const ffd_border_allowance allowance = {.rounding = rounding};
         assert_int_equal(ffd_locator_find_near(locator, p, 2, &allowance, found, NULL), FFD_OK);
-        assert_int_equal(found[0].status, FFD_INSIDE);
+        assert_int_equal(found[0].status, FFD_VERTEX_INSIDE);
         assert_true(found[0].uvw[0] == 1);
-        assert_int_equal(found[1].status, FFD_OUTSIDE);
+        assert_int_equal(found[1].status, FFD_VERTEX_OUTSIDE);
     }
     ffd_locator_destroy(&locator);
     ffd_lattice_destroy(&lattice);
@@ -177,7 +177,7 @@ static void a_point_no_farther_than_snap_is_at_the_nearest_border_point(void **s
                 const ffd_border_allowance allowance = {.snap = far * (more ? 1.0001 : 0.9999)};
                 ffd_location found;
                 assert_int_equal(ffd_locator_find_near(locator, p, 1, &allowance, &found, NULL), FFD_OK);
-                assert_int_equal(found.status, more ? FFD_INSIDE : FFD_OUTSIDE);
+                assert_int_equal(found.status, more ? FFD_VERTEX_INSIDE : FFD_VERTEX_OUTSIDE);
                 if (!more)
                     continue;
                 assert_true(fabs(found.residual - far) <= 1e-5 * far);
@@ -222,7 +222,7 @@ static void a_search_of_the_border_that_ends_at_its_limit_is_said(void **state)
 {
     static const double axis[3] = {0, 0, 0.5};
     static const double snap[3] = {0.9, 1 - 1e-10, 1 + 1e-10};
-    static const ffd_vertex_status status[3] = {FFD_OUTSIDE, FFD_SINGULAR, FFD_INSIDE};
+    static const ffd_vertex_status status[3] = {FFD_VERTEX_OUTSIDE, FFD_VERTEX_SINGULAR, FFD_VERTEX_INSIDE};
     ffd_lattice *lattice = pipe();
     ffd_locator *locator;
     assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
@@ -231,7 +231,7 @@ static void a_search_of_the_border_that_ends_at_its_limit_is_said(void **state)
         ffd_location found;
         assert_int_equal(ffd_locator_find_near(locator, axis, 1, &allowance, &found, NULL), FFD_OK);
         assert_int_equal(found.status, status[i]);
-        assert_int_equal(found.unresolved, status[i] == FFD_SINGULAR);
+        assert_int_equal(found.unresolved, status[i] == FFD_VERTEX_SINGULAR);
     }
     ffd_locator_destroy(&locator);
     ffd_lattice_destroy(&lattice);
@@ -261,7 +261,7 @@ static void every_instruction_set_gives_the_same_bits_with_an_allowance(void **s
                              FFD_OK);
         }
         ffd_locator_destroy(&locator);
-        assert_true(count_of(one_by_one, FFD_OUTSIDE) > 0);
+        assert_true(count_of(one_by_one, FFD_VERTEX_OUTSIDE) > 0);
         for (ffd_isa isa = FFD_ISA_AUTO; isa <= FFD_ISA_AVX512; isa++) {
             if (!ffd_isa_available(isa))
                 continue;

@@ -170,7 +170,7 @@ static void locations_of_older_callers_are_found(void **state)
         ffd_locator_locate(locator, xyz, POINTS, &allowance, (ffd_location *)(void *)older, known, NULL),
         FFD_OK);
     for (size_t i = 0; i < POINTS; i++) {
-        assert_int_equal(now[i].status, i % 2 && i % 6 != 3 ? FFD_OUTSIDE : FFD_INSIDE);
+        assert_int_equal(now[i].status, i % 2 && i % 6 != 3 ? FFD_VERTEX_OUTSIDE : FFD_VERTEX_INSIDE);
         assert_memory_equal(older + known * i, &now[i], offsetof(ffd_location, evaluations));
     }
     guarded(older, known * POINTS, sizeof older);

@@ -197,7 +197,7 @@ static void only_selected_vertices_move_and_are_counted(void **state)
         place_of(before, i, p);
         if (!chosen) {
             const double zeros[9] = {0};
-            assert_true(isnan(made->uvw[3 * i]) && made->statuses[i] == FFD_OUTSIDE);
+            assert_true(isnan(made->uvw[3 * i]) && made->statuses[i] == FFD_VERTEX_OUTSIDE);
             assert_memory_equal(made->deformed + 3 * i, p, sizeof p);
             assert_memory_equal(made->gradients + 9 * i, zeros, sizeof zeros);
             continue;
@@ -207,8 +207,8 @@ static void only_selected_vertices_move_and_are_counted(void **state)
         assert_int_equal(made->statuses[i], whole->statuses[i]);
         assert_memory_equal(made->deformed + 3 * i, whole->deformed + 3 * i, 3 * sizeof(double));
         assert_memory_equal(made->gradients + 9 * i, whole->gradients + 9 * i, 9 * sizeof(double));
-        outside += made->statuses[i] == FFD_OUTSIDE;
-        first_outside = made->statuses[i] == FFD_OUTSIDE && i < first_outside ? i : first_outside;
+        outside += made->statuses[i] == FFD_VERTEX_OUTSIDE;
+        first_outside = made->statuses[i] == FFD_VERTEX_OUTSIDE && i < first_outside ? i : first_outside;
         if (part == 0)
             moved += made->mesh->xyz[0][at] != before->xyz[0][at] ||
                      made->mesh->xyz[0][at + 1] != before->xyz[0][at + 1] ||
@@ -228,9 +228,9 @@ static void only_selected_vertices_move_and_are_counted(void **state)
             assert_memory_equal(made->mesh->xyz[0] + 3 * i, whole->mesh->xyz[0] + 3 * i, 3 * sizeof(double));
     assert_memory_equal(made->mesh->xyz[2], before->xyz[2], sizeof before->xyz[2]);
     assert_int_equal(made->totals.vertices, vertices);
-    assert_int_equal(made->totals.counts[FFD_OUTSIDE], outside);
+    assert_int_equal(made->totals.counts[FFD_VERTEX_OUTSIDE], outside);
     assert_int_equal(made->totals.first_outside, first_outside);
-    assert_int_equal(made->totals.counts[FFD_POINT_INVALID], 1);
+    assert_int_equal(made->totals.counts[FFD_VERTEX_INVALID], 1);
     assert_int_equal(made->totals.first_invalid, 4500);
     assert_true(made->totals.moved > 1000 && moved - made->totals.moved <= 1); /* NaN differs from NaN */
     for (int a = 0; a < 3; a++) {
@@ -293,7 +293,7 @@ static void every_vertex_gets_what_the_library_gives_it_alone(void **state)
                 assert_true(isnan(made->gradients[9 * i + k]) && isnan(made->deformed[3 * i + k % 3]));
             continue;
         }
-        if (found.status == FFD_INSIDE) {
+        if (found.status == FFD_VERTEX_INSIDE) {
             inside++;
             ffd_displacement(chain.links[0].lattice, found.uvw, delta, gradient);
             least = fmin(least, determinant(gradient));
@@ -401,7 +401,7 @@ static void points_outside_stay_or_follow_with_falloff(void **state)
                 weight = f < 0 || s >= 1 ? 0 : 1 - s * s * s * (10 - 15 * s + 6 * s * s);
                 extended += weight > 0;
             }
-            assert_int_equal(made->statuses[i], distance > 0 ? FFD_OUTSIDE : FFD_INSIDE);
+            assert_int_equal(made->statuses[i], distance > 0 ? FFD_VERTEX_OUTSIDE : FFD_VERTEX_INSIDE);
             if (kept)
                 continue;
             assert_true(made->deformed[3 * i] == p[0]);
@@ -410,7 +410,7 @@ static void points_outside_stay_or_follow_with_falloff(void **state)
             if (weight == 0)
                 assert_memory_equal(made->deformed + 3 * i, p, sizeof p);
         }
-        assert_int_equal(made->totals.counts[FFD_OUTSIDE], outside);
+        assert_int_equal(made->totals.counts[FFD_VERTEX_OUTSIDE], outside);
         assert_int_equal(made->totals.outside_all, outside);
         assert_int_equal(made->totals.extended, extended);
         assert_true(f != 1 || (extended > 100 && extended < outside - 100));
@@ -481,8 +481,8 @@ static void forged_u_v_w_stay_within_the_domain(void **state)
     for (size_t i = 0; i < NUMBERED; i++) {
         statuses[i] = (uint8_t)(i % 5);
         for (size_t a = 0; a < 3; a++)
-            uvw[3 * i + a] =
-                values[(i / 5 + (a + 1) * (i / 40)) % (i % 5 == FFD_INSIDE || i % 5 == FFD_MULTIPLE ? 5 : 8)];
+            uvw[3 * i + a] = values[(i / 5 + (a + 1) * (i / 40)) %
+                                    (i % 5 == FFD_VERTEX_INSIDE || i % 5 == FFD_VERTEX_MULTIPLE ? 5 : 8)];
     }
     for (int l = 0; l < 2; l++) {
         embedding_file file;
@@ -494,7 +494,7 @@ static void forged_u_v_w_stay_within_the_domain(void **state)
         ffd_lattice_get_domain(chain.links[0].lattice, lo, hi);
         for (size_t i = 0; i < NUMBERED; i++) {
             const bool given =
-                i % 5 != FFD_OUTSIDE && i % 5 != FFD_POINT_INVALID && vec_is_finite(uvw + 3 * i);
+                i % 5 != FFD_VERTEX_OUTSIDE && i % 5 != FFD_VERTEX_INVALID && vec_is_finite(uvw + 3 * i);
             assert_int_equal(made->statuses[i], i % 5);
             for (size_t a = 0; a < 3; a++) {
                 const double u = made->uvw[3 * i + a];

@@ -169,8 +169,8 @@ static void threads_and_instructions_change_no_bit(void **state)
         ffd_lattice *rest = lattice_of(r, ""), *moved = lattice_of(r, MOVES);
         const ffd_span in = span_of(xyz, FFD_FLOAT64);
         ffd_embedding *embedding = embed(rest, in, FFD_OUTSIDE_EXTEND, 0);
-        ffd_run run;
-        ffd_run_init(&run, sizeof run);
+        ffd_run_options run;
+        ffd_run_options_init(&run, sizeof run);
         run.threads = 1;
         run.isa = FFD_ISA_SCALAR;
         assert_int_equal(
@@ -403,8 +403,8 @@ static void progress_can_cancel(void **state)
     ffd_lattice *rest = lattice_of(0, "");
     ffd_embedding_desc desc;
     ffd_embedding *embedding;
-    ffd_run run;
-    ffd_run_init(&run, sizeof run);
+    ffd_run_options run;
+    ffd_run_options_init(&run, sizeof run);
     ffd_embedding_desc_init(&desc, sizeof desc);
     run.threads = 1;
     run.progress = stop;
@@ -447,8 +447,8 @@ static void progress_of_a_basis_ends_at_1(void **state)
     ffd_embedding *embedding =
         embed(rest, (ffd_span){.data = many, .count = MANY, .type = FFD_FLOAT64}, FFD_OUTSIDE_KEEP, 0);
     ffd_csr matrix;
-    ffd_run run;
-    ffd_run_init(&run, sizeof run);
+    ffd_run_options run;
+    ffd_run_options_init(&run, sizeof run);
     run.threads = 1;
     run.progress = rises;
     run.user = &last;
@@ -540,13 +540,13 @@ static void shorter_structs_of_older_callers_do(void **state)
     const size_t known = offsetof(struct old_run, behind);
     static double xyz[3 * POINTS];
     ffd_lattice *rest = lattice_of(0, "");
-    ffd_run_init((ffd_run *)(void *)&run, known);
+    ffd_run_options_init((ffd_run_options *)(void *)&run, known);
     assert_int_equal(run.struct_size, known);
     assert_true(run.behind == 0x5a5a5a5a5a5a5a5a);
     ffd_embedding *embedding = embed(rest, span_of(xyz, FFD_FLOAT64), FFD_OUTSIDE_KEEP, 0);
     assert_int_equal(ffd_embedding_deform(embedding, rest, span_of(xyz, FFD_FLOAT64),
                                           span_of(xyz, FFD_FLOAT64), NULL,
-                                          (const ffd_run *)(const void *)&run, NULL),
+                                          (const ffd_run_options *)(const void *)&run, NULL),
                      FFD_OK);
     ffd_embedding_destroy(&embedding);
     ffd_lattice_destroy(&rest);

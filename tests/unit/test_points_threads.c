@@ -44,8 +44,8 @@ static void take_part(user *u)
 {
     shared *const all = u->all;
     results *const own = u->own;
-    ffd_run run;
-    ffd_run_init(&run, sizeof run);
+    ffd_run_options run;
+    ffd_run_options_init(&run, sizeof run);
     run.threads = u->threads;
     const ffd_span in = {all->points, POINTS, FFD_FLOAT64, 0, 0};
     const ffd_span out = {own->moved, POINTS, FFD_FLOAT32, 0, 0},

@@ -179,17 +179,17 @@ static void what_needs_an_output_is_refused(void **state)
 /* Also called for a mesh without vertices. */
 static void many_jobs_in_a_row(void **state)
 {
-    ffd_share *share;
-    assert_int_equal(ffd_share_create(&share, NULL), FFD_OK);
+    ffd_job_cache *cache;
+    assert_int_equal(ffd_job_cache_create(&cache, NULL), FFD_OK);
     for (int i = 0; i < 4; i++) {
         job j;
         begin(&j);
-        j.desc.share = share;
+        j.desc.cache = cache;
         j.desc.quality = i == 2;
         assert_int_equal(ffd_deform_run(&j.desc, &j.result, &j.error), FFD_OK);
         check_taken(&j.taker);
     }
-    ffd_share_destroy(&share);
+    ffd_job_cache_destroy(&cache);
     job j;
     begin(&j);
     j.desc.input.path = "a.off";

@@ -120,7 +120,7 @@ static void a_job_after_one_that_follows_is_as_alone(void **state)
 {
     file_input alone, after;
     ffd_job_result result = {.struct_size = sizeof result};
-    ffd_share *share;
+    ffd_job_cache *cache;
     (void)state;
     for (int k = 0; k < 2; k++) {
         const ffd_rig first = k ? FFD_RIG_KEEP : FFD_RIG_FOLLOW;
@@ -128,12 +128,12 @@ static void a_job_after_one_that_follows_is_as_alone(void **state)
         desc.output = kept;
         assert_int_equal(ffd_deform_run(&desc, &result, NULL), FFD_OK);
         assert_int_equal(ffd_file_load(kept, &alone, NULL), FFD_OK);
-        assert_int_equal(ffd_share_create(&share, NULL), FFD_OK);
+        assert_int_equal(ffd_job_cache_create(&cache, NULL), FFD_OK);
         ffd_deform_desc before = describe(first);
-        before.share = desc.share = share;
+        before.cache = desc.cache = cache;
         assert_int_equal(ffd_deform_run(&before, &result, NULL), FFD_OK);
         assert_int_equal(ffd_deform_run(&desc, &result, NULL), FFD_OK);
-        ffd_share_destroy(&share);
+        ffd_job_cache_destroy(&cache);
         assert_int_equal(ffd_file_load(kept, &after, NULL), FFD_OK);
         assert_int_equal(after.size, alone.size);
         assert_memory_equal(after.data, alone.data, alone.size);

@@ -132,11 +132,11 @@ static void what_is_written_is_recorded(void **state)
     ffd_view_desc view = describe(&job);
     ffd_job_result result = {.struct_size = sizeof result};
     ffd_error error;
-    assert_int_equal(ffd_written_create(&job.written, &error), FFD_OK);
+    assert_int_equal(ffd_output_set_create(&job.output_set, &error), FFD_OK);
     view.force = true;
     assert_int_equal(ffd_view_run(&view, &result, NULL), FFD_OK);
     assert_int_equal(ffd_view_run(&view, &result, NULL), FFD_E_EXISTS);
-    ffd_written_destroy(&job.written);
+    ffd_output_set_destroy(&job.output_set);
     unlink(page);
     (void)state;
 }

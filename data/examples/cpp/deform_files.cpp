@@ -5,9 +5,9 @@
 
 // What all jobs share: a record of what was written, and the report.
 struct Run {
-    ffd_written *written = nullptr;
+    ffd_output_set *output_set = nullptr;
     ffd_report *report = nullptr;
-    ~Run() { ffd_report_destroy(&report), ffd_written_destroy(&written); }
+    ~Run() { ffd_report_destroy(&report), ffd_output_set_destroy(&output_set); }
 };
 
 // Calls a function that takes an ffd_error last, and throws it.
@@ -27,9 +27,9 @@ static bool deform(const Run &run, const char *lattice, const char *mesh, const 
     desc.output = output.c_str();
     const ffd_lattice_source source = {lattice, {}, nullptr};
     desc.lattices = &source, desc.lattice_count = 1;
-    desc.fail_on = FFD_GATE_FOLDS; // nothing is written unless the volume is proven to be free of folds
-    desc.force = true;             // replaces what an earlier run wrote, ...
-    desc.written = run.written;    // ... and never what this one did
+    desc.fail_on = FFD_GATE_FOLDS;    // nothing is written unless the volume is proven to be free of folds
+    desc.force = true;                // replaces what an earlier run wrote, ...
+    desc.output_set = run.output_set; // ... and never what this one did
     ffd_job_result result = {};
     result.struct_size = sizeof result;
     ffd_error error;
@@ -46,8 +46,8 @@ try {
     const std::filesystem::path folder = argv[2];
     Run run;
     bool ok = true;
-    call(ffd_written_create, &run.written);
-    call(ffd_report_create, (folder / "report.json").c_str(), false, run.written, &run.report);
+    call(ffd_output_set_create, &run.output_set);
+    call(ffd_report_create, (folder / "report.json").c_str(), false, run.output_set, &run.report);
     for (char **mesh = argv + 3; *mesh; mesh++)
         ok &= deform(run, argv[1], *mesh, folder / std::filesystem::path(*mesh).filename());
     call(ffd_report_write, run.report);

@@ -139,7 +139,7 @@ static ffd_status survey(const set_file *files, size_t count, set_record *record
 }
 
 /* Adds to the error that the old files could not be restored either. */
-static void tell_of_record(const set_record *record, ffd_error *error)
+static void mention_record(const set_record *record, ffd_error *error)
 {
     if (error && exists(record->entries[record->count - 1].aside))
         ffd_fail_file(error, error->status, error->file,
@@ -156,7 +156,7 @@ static ffd_status place_set(set_file *files, size_t count, const set_record *rec
     if (!status)
         return settle(record, true, error);
     if (settle(record, false, NULL))
-        tell_of_record(record, error);
+        mention_record(record, error);
     return status;
 }
 

@@ -204,7 +204,7 @@ static bool parse_entry(const set_record *record, const char *text, char **targe
         return false;
     if (!ffd_path_is_absolute(path) && ffd_path_name(path) != path)
         return false;
-    *target = ffd_path_is_absolute(path) ? ffd_text_copy(path) : ffd_path_beside(record->path, path);
+    *target = ffd_path_is_absolute(path) ? ffd_text_copy(path) : ffd_path_sibling(record->path, path);
     return true;
 }
 

@@ -10,14 +10,14 @@ typedef struct user_pair {
 /* Returns the entry of a file, which is added if it is new; NULL: memory ran out. */
 static used_file *find_entry(file_users *users, const hash128 *file)
 {
-    uint32_t number;
+    uint32_t index;
     const size_t count = users->known.count;
     if (!ffd_grow((void **)&users->files, &users->capacity, count + 1, sizeof *users->files) ||
-        !ffd_intern(&users->known, file, sizeof *file, &number))
+        !ffd_intern(&users->known, file, sizeof *file, &index))
         return NULL;
-    if (number == count)
-        users->files[number] = (used_file){0};
-    return &users->files[number];
+    if (index == count)
+        users->files[index] = (used_file){0};
+    return &users->files[index];
 }
 
 ffd_status ffd_users_add(file_users *users, const char *file, const char *user, ffd_error *error)
@@ -25,10 +25,10 @@ ffd_status ffd_users_add(file_users *users, const char *file, const char *user, 
     const user_pair pair = {ffd_place_of(&users->places, file), ffd_place_of(&users->places, user)};
     const size_t before = users->pairs.count;
     used_file *const known = find_entry(users, &pair.file);
-    uint32_t number;
-    if (!known || !ffd_intern(&users->pairs, &pair, sizeof pair, &number))
+    uint32_t index;
+    if (!known || !ffd_intern(&users->pairs, &pair, sizeof pair, &index))
         return ffd_fail_memory(error);
-    if (number < before)
+    if (index < before)
         return FFD_OK;
     if (known->count < USERS_NAMED) {
         known->names[known->count] = ffd_text_copy(user);
@@ -43,17 +43,17 @@ ffd_status ffd_users_add(file_users *users, const char *file, const char *user, 
 ffd_status ffd_users_find(file_users *users, const char *file, const char *except, size_t *count, bool *by_it,
                           path_list *names, ffd_error *error)
 {
-    uint32_t number;
+    uint32_t index;
     ffd_status status = FFD_OK;
     *count = 0;
     *by_it = false;
     if (users->known.count == 0)
         return FFD_OK;
     const user_pair pair = {ffd_place_of(&users->places, file), ffd_place_of(&users->places, except)};
-    if (!ffd_intern_find(&users->known, &pair.file, sizeof pair.file, &number))
+    if (!ffd_intern_find(&users->known, &pair.file, sizeof pair.file, &index))
         return FFD_OK;
-    const used_file *const known = &users->files[number];
-    *by_it = ffd_intern_find(&users->pairs, &pair, sizeof pair, &number);
+    const used_file *const known = &users->files[index];
+    *by_it = ffd_intern_find(&users->pairs, &pair, sizeof pair, &index);
     *count = known->count - *by_it;
     for (size_t i = 0, named = 0; names && i < USERS_NAMED && i < known->count && named + 1 < USERS_NAMED;
          i++)

@@ -112,7 +112,7 @@ char *ffd_path_follow(const char *path)
         if (length < 0)
             return at;
         link[length] = 0;
-        char *const next = ffd_path_is_absolute(link) ? ffd_text_copy(link) : ffd_path_beside(at, link);
+        char *const next = ffd_path_is_absolute(link) ? ffd_text_copy(link) : ffd_path_sibling(at, link);
         ffd_free(at);
         at = next;
     }

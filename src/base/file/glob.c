@@ -33,12 +33,12 @@ static void *next_entry(void *folder)
     return ffd_interrupt_requested() ? NULL : readdir(folder);
 }
 
-static int look_at(const char *path, void *info)
+static int stat_path(const char *path, void *info)
 {
     return stat(path, info);
 }
 
-static int look_at_link(const char *path, void *info)
+static int stat_link(const char *path, void *info)
 {
     return lstat(path, info);
 }
@@ -48,8 +48,8 @@ static void use_own_calls(glob_t *found)
     found->gl_opendir = open_folder;
     found->gl_readdir = next_entry;
     found->gl_closedir = close_folder;
-    found->gl_stat = look_at;
-    found->gl_lstat = look_at_link;
+    found->gl_stat = stat_path;
+    found->gl_lstat = stat_link;
 }
 #else
 #define OWN_CALLS 0

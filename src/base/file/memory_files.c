@@ -19,7 +19,7 @@ struct memory_files {
 /* Asks the caller for a file, and notes the answer. */
 static ffd_status ask(memory_files *files, const char *name, ffd_bytes *bytes)
 {
-    uint32_t number;
+    uint32_t index;
     ffd_status status = FFD_OK;
     if (strcmp(name, ffd_path_name(files->mesh.path)) == 0)
         *bytes = files->mesh.bytes;
@@ -31,9 +31,9 @@ static ffd_status ask(memory_files *files, const char *name, ffd_bytes *bytes)
         return ffd_fail_file(&files->failure, status, files->mesh.path,
                              "the file \"%s\" was not given by the caller", name);
     if (!ffd_grow((void **)&files->found, &files->capacity, files->names.count + 1, sizeof *files->found) ||
-        !ffd_intern(&files->names, name, strlen(name), &number))
+        !ffd_intern(&files->names, name, strlen(name), &index))
         return ffd_fail_memory(&files->failure);
-    files->found[number] = *bytes;
+    files->found[index] = *bytes;
     return FFD_OK;
 }
 
@@ -43,14 +43,14 @@ ffd_status ffd_memory_find(void *user, const char *relative, ffd_bytes *bytes)
     memory_files *const files = user;
     char *const name = ffd_path_normalize(relative);
     const bool is_inside = name && *name && !ffd_path_is_absolute(name) && !ffd_path_leads_out(name);
-    uint32_t number;
+    uint32_t index;
     *bytes = (ffd_bytes){0};
     pthread_mutex_lock(&files->lock);
     if (!name && !files->failure.status)
         ffd_fail_memory(&files->failure);
     ffd_status status = files->failure.status;
-    if (!status && is_inside && ffd_intern_find(&files->names, name, strlen(name), &number))
-        *bytes = files->found[number];
+    if (!status && is_inside && ffd_intern_find(&files->names, name, strlen(name), &index))
+        *bytes = files->found[index];
     else if (!status && is_inside)
         status = ask(files, name, bytes);
     if (status)

@@ -269,8 +269,8 @@ static ffd_status open_device(output_file *file, const char *path, ffd_error *er
 }
 
 /* Opens the temporary file. *busy: another run is writing the target. */
-static ffd_status open_beside(output_file *file, const char *path, const struct stat *old, bool *busy,
-                              ffd_error *error)
+static ffd_status open_temporary(output_file *file, const char *path, const struct stat *old, bool *busy,
+                                 ffd_error *error)
 {
     file->temporary = ffd_temporary_name(file->target);
     if (!file->temporary)
@@ -386,7 +386,7 @@ ffd_status ffd_output_begin(file_output *output, const char *path, bool force, f
         return status;
     if (exists && !S_ISREG(info.st_mode))
         return open_device(file, path, error);
-    status = open_beside(file, path, exists ? &info : NULL, &output->was_busy, error);
+    status = open_temporary(file, path, exists ? &info : NULL, &output->was_busy, error);
     /* Another run may have created the target before this one got the lock. */
     if (!status && !force && lstat(file->target, &info) == 0) {
         status = fail_exists(path, error);

@@ -93,7 +93,7 @@ char *ffd_path_join(const char *folder, const char *name)
     return text;
 }
 
-char *ffd_path_beside(const char *path, const char *name)
+char *ffd_path_sibling(const char *path, const char *name)
 {
     const size_t folder = (size_t)(ffd_path_name(path) - path), length = strlen(name);
     char *text = ffd_alloc(folder + length + 1, 1);

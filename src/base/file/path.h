@@ -26,7 +26,7 @@ char *ffd_path_stem(const char *path);
 /* "a", "b" -> "a/b" */
 char *ffd_path_join(const char *folder, const char *name);
 /* "a/b.obj", "c" -> "a/c" */
-char *ffd_path_beside(const char *path, const char *name);
+char *ffd_path_sibling(const char *path, const char *name);
 /* "a/b.obj", "glb" -> "a/b.glb". The ending may begin with a dot; its capitals become small. */
 char *ffd_path_with_ending(const char *path, const char *ending);
 /* Resolves "." and "..": "a/../b" -> "b". Leading ".." of a relative path stay. */

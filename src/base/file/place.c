@@ -49,26 +49,26 @@ static char *resolve(const char *path)
 static char *unify(file_places *places, char *resolved)
 {
     struct stat info;
-    uint32_t number;
+    uint32_t index;
     if (!resolved || stat(resolved, &info) != 0)
         return resolved;
     const uint64_t key[] = {(uint64_t)info.st_dev, (uint64_t)info.st_ino};
     const size_t count = places->known.count;
-    if (count >= MOST_KNOWN && !ffd_intern_find(&places->known, key, sizeof key, &number))
+    if (count >= MOST_KNOWN && !ffd_intern_find(&places->known, key, sizeof key, &index))
         return resolved;
     char *const copy = ffd_text_copy(resolved);
     if (!copy ||
         !ffd_grow((void **)&places->resolved, &places->capacity, count + 1, sizeof *places->resolved) ||
-        !ffd_intern(&places->known, key, sizeof key, &number)) {
+        !ffd_intern(&places->known, key, sizeof key, &index)) {
         ffd_free(copy);
         return resolved;
     }
-    if (number == count) {
+    if (index == count) {
         places->resolved[count] = copy;
         return resolved;
     }
     ffd_free(copy);
-    char *const first = ffd_text_copy(places->resolved[number]);
+    char *const first = ffd_text_copy(places->resolved[index]);
     if (!first)
         return resolved;
     ffd_free(resolved);

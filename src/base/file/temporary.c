@@ -204,7 +204,7 @@ void ffd_temporary_discard(const char *path)
     bool more = name && ffd_path_has_ending(path, ".gltf");
     for (unsigned i = 0; more; i++) {
         snprintf(name, capacity, i ? "%s-%u.bin" : "%s.bin", stem, i);
-        char *const buffer = ffd_path_beside(path, name);
+        char *const buffer = ffd_path_sibling(path, name);
         char *const begun = buffer ? ffd_temporary_name(buffer) : NULL;
         more = begun && (i == 0 || ffd_file_exists(begun));
         if (more)

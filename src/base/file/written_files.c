@@ -17,13 +17,13 @@ static file_key key_of(const file_stamp *stamp)
 bool ffd_written_holds(const written_files *written, const char *path)
 {
     file_stamp stamp;
-    uint32_t number;
+    uint32_t index;
     if (written->count == 0 || !ffd_file_stamp(path, &stamp))
         return false;
     const file_key key = key_of(&stamp);
     /* The inode may be reused after somebody has removed the recorded file, so the paths are compared too. */
-    return ffd_intern_find(&written->known, &key, sizeof key, &number) &&
-           ffd_file_same(written->paths[number], path);
+    return ffd_intern_find(&written->known, &key, sizeof key, &index) &&
+           ffd_file_same(written->paths[index], path);
 }
 
 ffd_status ffd_written_add(written_files *written, const file_stamp *stamp, const char *path,
@@ -31,18 +31,18 @@ ffd_status ffd_written_add(written_files *written, const file_stamp *stamp, cons
 {
     const file_key key = key_of(stamp);
     char *const copy = ffd_text_copy(path);
-    uint32_t number;
+    uint32_t index;
     if (!copy ||
         !ffd_grow((void **)&written->paths, &written->capacity, written->count + 1, sizeof *written->paths) ||
-        !ffd_intern(&written->known, &key, sizeof key, &number)) {
+        !ffd_intern(&written->known, &key, sizeof key, &index)) {
         ffd_free(copy);
         return ffd_fail_memory(error);
     }
-    if (number < written->count)
-        ffd_free(written->paths[number]);
+    if (index < written->count)
+        ffd_free(written->paths[index]);
     else
         written->count++;
-    written->paths[number] = copy;
+    written->paths[index] = copy;
     return FFD_OK;
 }
 

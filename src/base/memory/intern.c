@@ -5,10 +5,10 @@
 
 #define FREE_SLOT UINT32_MAX
 
-static size_t key_size(const intern_table *table, uint32_t number)
+static size_t key_size(const intern_table *table, uint32_t index)
 {
-    const size_t end = number + 1u < table->count ? table->starts[number + 1u] : table->pool_size;
-    return end - table->starts[number] - 1;
+    const size_t end = index + 1u < table->count ? table->starts[index + 1u] : table->pool_size;
+    return end - table->starts[index] - 1;
 }
 
 static uint32_t *find_slot(const intern_table *table, const void *key, size_t size)
@@ -18,9 +18,9 @@ static uint32_t *find_slot(const intern_table *table, const void *key, size_t si
     memcpy(&bits, hash.bytes, sizeof bits);
     size_t at = (size_t)bits & (table->slot_count - 1);
     for (; table->slots[at] != FREE_SLOT; at = (at + 1) & (table->slot_count - 1)) {
-        const uint32_t number = table->slots[at];
-        if (key_size(table, number) == size &&
-            (size == 0 || memcmp(table->pool + table->starts[number], key, size) == 0))
+        const uint32_t index = table->slots[at];
+        if (key_size(table, index) == size &&
+            (size == 0 || memcmp(table->pool + table->starts[index], key, size) == 0))
             break;
     }
     return &table->slots[at];
@@ -82,9 +82,9 @@ bool ffd_intern_find(const intern_table *table, const void *key, size_t size, ui
     return *number != FREE_SLOT;
 }
 
-const char *ffd_intern_key(const intern_table *table, uint32_t number)
+const char *ffd_intern_key(const intern_table *table, uint32_t index)
 {
-    return table->pool + table->starts[number];
+    return table->pool + table->starts[index];
 }
 
 void ffd_intern_free(intern_table *table)

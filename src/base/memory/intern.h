@@ -22,7 +22,7 @@ bool ffd_intern(intern_table *table, const void *key, size_t size, uint32_t *num
 /* Looks up the number of a key; false if it is not in the table. */
 bool ffd_intern_find(const intern_table *table, const void *key, size_t size, uint32_t *number);
 /* Returns a key, terminated by 0. It is valid until the next key is added. */
-const char *ffd_intern_key(const intern_table *table, uint32_t number);
+const char *ffd_intern_key(const intern_table *table, uint32_t index);
 /* Frees the keys and empties the table. */
 void ffd_intern_free(intern_table *table);
 

@@ -74,10 +74,10 @@ static int workers_for(size_t tiles, int threads)
     return threads > 1 && (size_t)threads > tiles ? (int)tiles : threads;
 }
 
-static void call(tile_function function, const tiling *of, size_t number, int worker)
+static void call(tile_function function, const tiling *of, size_t index, int worker)
 {
-    const size_t begin = number * of->tile_size, rest = of->count - begin;
-    function(of->context, number, begin, begin + (rest < of->tile_size ? rest : of->tile_size), worker);
+    const size_t begin = index * of->tile_size, rest = of->count - begin;
+    function(of->context, index, begin, begin + (rest < of->tile_size ? rest : of->tile_size), worker);
 }
 
 static void run_tiles(void *context, int worker)
@@ -89,8 +89,8 @@ static void run_tiles(void *context, int worker)
         if (first >= tiles)
             return;
         const size_t last = tiles - first < work->share ? tiles : first + work->share;
-        for (size_t number = first; number < last; number++)
-            call(work->function, &work->tiling, number, worker);
+        for (size_t index = first; index < last; index++)
+            call(work->function, &work->tiling, index, worker);
     }
 }
 
@@ -175,9 +175,9 @@ static void run_ordered(void *context, int worker)
     (void)worker; /* scratch memory belongs to slots, not to threads */
     pthread_mutex_lock(&work->lock);
     for (int slot; (slot = take_tile(work)) >= 0;) {
-        const size_t number = work->slots[slot].tile;
+        const size_t index = work->slots[slot].tile;
         pthread_mutex_unlock(&work->lock);
-        call(work->function, &work->tiling, number, slot);
+        call(work->function, &work->tiling, index, slot);
         pthread_mutex_lock(&work->lock);
         work->slots[slot].made = true;
         finish_made(work);

@@ -36,7 +36,7 @@ const char *ffd_stand_in(const void *data, size_t size)
     return NULL;
 }
 
-void ffd_stand_in_tell(const void *data, size_t size, ffd_error *error)
+void ffd_stand_in_describe(const void *data, size_t size, ffd_error *error)
 {
     const char *const name = error && error->status == FFD_E_INVALID ? ffd_stand_in(data, size) : NULL;
     const size_t length = name ? strlen(error->message) : 0;

@@ -12,6 +12,6 @@
 /* Returns one of these, by the first words; NULL: the text is neither. */
 const char *ffd_stand_in(const void *data, size_t size);
 /* Adds to the message of a text that is not valid (FFD_E_INVALID) what it seems to be. error may be NULL. */
-void ffd_stand_in_tell(const void *data, size_t size, ffd_error *error);
+void ffd_stand_in_describe(const void *data, size_t size, ffd_error *error);
 
 #endif

@@ -72,11 +72,11 @@ ffd_status ffd_claims_picture(run_files *files, batch_job *job, const hash128 *f
 
 claim_needs ffd_claims_need(run_files *files, const batch_job *job, const job_kind *kind)
 {
-    const bool by_mesh = (kind->has_beside && kind->is_kept) || ffd_reads_need_named(files, kind) ||
+    const bool by_mesh = (kind->has_sidecars && kind->is_kept) || ffd_reads_need_named(files, kind) ||
                          ffd_job_has_copies(job, kind);
     return (claim_needs){.mesh = by_mesh,
                          .lattices = !ffd_reads_know_lattices(files, job),
-                         .others = by_mesh || ffd_job_count_beside(kind) > 0};
+                         .others = by_mesh || ffd_job_count_sidecars(kind) > 0};
 }
 
 bool ffd_claims_are_ready(const run_files *files, const batch_job *job, const job_kind *kind,
@@ -87,21 +87,21 @@ bool ffd_claims_are_ready(const run_files *files, const batch_job *job, const jo
 }
 
 /* Returns the number of files beside an output, as far as they are known. */
-static size_t count_beside(const run_files *files, const job_kind *kind)
+static size_t count_sidecars(const run_files *files, const job_kind *kind)
 {
-    if (!kind->has_beside || !kind->is_kept)
-        return ffd_job_count_beside(kind);
-    return kind->is_looked_at ? files->look.beside : 0;
+    if (!kind->has_sidecars || !kind->is_kept)
+        return ffd_job_count_sidecars(kind);
+    return kind->is_scanned ? files->scan.beside : 0;
 }
 
 bool ffd_claims_need_survey(run_files *files, const batch_job *job, const job_kind *kind)
 {
-    return count_beside(files, kind) > 0 && ffd_run_survey(files, job->target) == SURVEY_NONE;
+    return count_sidecars(files, kind) > 0 && ffd_run_survey(files, job->target) == SURVEY_NONE;
 }
 
 bool ffd_claims_lack_survey(run_files *files, const batch_job *job, const job_kind *kind)
 {
-    return count_beside(files, kind) > 0 && ffd_run_survey(files, job->target) == SURVEY_FAILED;
+    return count_sidecars(files, kind) > 0 && ffd_run_survey(files, job->target) == SURVEY_FAILED;
 }
 
 /* Copies of identical files may share a target, as one texture in many folders. */
@@ -134,12 +134,12 @@ static ffd_status add_copy(run_files *files, const hash128 *file, const char *so
    jobs may read it. */
 static ffd_status claim_copy(run_files *files, batch_job *job, const char *source, ffd_error *error)
 {
-    const char *const input = files->look.input;
+    const char *const input = files->scan.input;
     ffd_status status = FFD_OK;
     uint64_t line, number;
     if (!ffd_file_exists(source))
         return FFD_OK;
-    char *const target = ffd_path_beside(job->target, source + (ffd_path_name(input) - input));
+    char *const target = ffd_path_sibling(job->target, source + (ffd_path_name(input) - input));
     if (!target)
         return ffd_fail_memory(error);
     const hash128 file = ffd_run_place(files, target);
@@ -157,16 +157,16 @@ static ffd_status claim_copy(run_files *files, batch_job *job, const char *sourc
 }
 
 /* A name for a file beside an output. */
-typedef struct beside_name {
+typedef struct sidecar_name {
     char *path;
     hash128 place;
     bool exists, is_own; /* is_own: the model that the output replaces names it */
     size_t others;       /* models that name it too, */
     byte_buffer users;   /* and the names of the first ones */
-} beside_name;
+} sidecar_name;
 
 /* Finds the models that name a file; what another job reads in another way counts too. */
-static ffd_status find_others(run_files *files, const batch_job *job, beside_name *name, ffd_error *error)
+static ffd_status find_others(run_files *files, const batch_job *job, sidecar_name *name, ffd_error *error)
 {
     path_list names = {0};
     uint64_t line;
@@ -185,7 +185,7 @@ static ffd_status find_others(run_files *files, const batch_job *job, beside_nam
 }
 
 /* The claim of the files beside an output. */
-typedef struct beside_claim {
+typedef struct sidecar_claim {
     run_files *files;
     batch_job *job;
     const job_kind *kind;
@@ -193,27 +193,27 @@ typedef struct beside_claim {
     size_t count, capacity;
     size_t fresh;        /* those that do not exist yet, or are not of this model */
     byte_buffer *passed; /* as of ffd_claims_others */
-} beside_claim;
+} sidecar_claim;
 
-static void tell_worker(beside_claim *claim, const char *path, const char *users, size_t size)
+static void notify_worker(sidecar_claim *claim, const char *path, const char *users, size_t size)
 {
     ffd_buffer_append(claim->passed, path, strlen(path) + 1);
     ffd_buffer_append(claim->passed, users, size);
     ffd_buffer_append(claim->passed, "", 1);
 }
 
-/* Judges a name in the same way as the worker will (mesh/resource/beside.c), and claims it or passes
+/* Judges a name in the same way as the worker will (mesh/resource/sidecar.c), and claims it or passes
    it over. */
-static ffd_status judge_name(beside_claim *claim, beside_name *name, ffd_error *error)
+static ffd_status judge_name(sidecar_claim *claim, sidecar_name *name, ffd_error *error)
 {
     batch_job *const job = claim->job;
     const bool in_place = !job->output, has_passed = claim->passed->size > 0;
     const bool is_free = !name->others && (!name->exists || name->is_own || (!in_place && !has_passed));
     uint64_t line;
     if (name->others)
-        tell_worker(claim, name->path, name->users.data, name->users.size);
+        notify_worker(claim, name->path, name->users.data, name->users.size);
     else if (is_free && has_passed && name->exists)
-        tell_worker(claim, name->path, job->target, strlen(job->target));
+        notify_worker(claim, name->path, job->target, strlen(job->target));
     if (!is_free)
         return FFD_OK;
     if (is_taken(claim->files, job, &name->place, &line)) {
@@ -227,9 +227,9 @@ static ffd_status judge_name(beside_claim *claim, beside_name *name, ffd_error *
     return FFD_OK;
 }
 
-static ffd_status look_at_name(beside_claim *claim, size_t number, ffd_error *error)
+static ffd_status claim_name(sidecar_claim *claim, size_t index, ffd_error *error)
 {
-    beside_name name = {.path = claim->kind->format->name_beside(claim->job->target, number)};
+    sidecar_name name = {.path = claim->kind->format->name_sidecar(claim->job->target, index)};
     if (!name.path)
         return ffd_fail_memory(error);
     name.place = ffd_run_place(claim->files, name.path);
@@ -245,13 +245,13 @@ static ffd_status look_at_name(beside_claim *claim, size_t number, ffd_error *er
 }
 
 /* Claims as many files beside the output, or none and refuses the job. */
-static ffd_status claim_beside(run_files *files, batch_job *job, const job_kind *kind, size_t count,
-                               byte_buffer *passed, ffd_error *error)
+static ffd_status claim_sidecar(run_files *files, batch_job *job, const job_kind *kind, size_t count,
+                                byte_buffer *passed, ffd_error *error)
 {
-    beside_claim claim = {.files = files, .job = job, .kind = kind, .passed = passed};
+    sidecar_claim claim = {.files = files, .job = job, .kind = kind, .passed = passed};
     ffd_status status = FFD_OK;
-    for (size_t number = 0; claim.fresh < count && !status && !job->error.status; number++)
-        status = look_at_name(&claim, number, error);
+    for (size_t index = 0; claim.fresh < count && !status && !job->error.status; index++)
+        status = claim_name(&claim, index, error);
     for (size_t i = 0; i < claim.count && !status && !job->error.status; i++)
         status = ffd_files_put(&files->writes, &claim.places[i], job->line, error);
     ffd_free(claim.places);
@@ -261,15 +261,15 @@ static ffd_status claim_beside(run_files *files, batch_job *job, const job_kind 
 ffd_status ffd_claims_others(run_files *files, batch_job *job, const job_kind *kind, byte_buffer *passed,
                              ffd_error *error)
 {
-    const size_t beside = count_beside(files, kind);
-    const size_t copies = kind->is_looked_at && ffd_job_has_copies(job, kind) ? files->look.copies.count : 0;
+    const size_t beside = count_sidecars(files, kind);
+    const size_t copies = kind->is_scanned && ffd_job_has_copies(job, kind) ? files->scan.copies.count : 0;
     ffd_status status = FFD_OK;
     ffd_reads_check_boxes(files, job);
-    if (kind->is_looked_at && !job->error.status)
+    if (kind->is_scanned && !job->error.status)
         ffd_reads_check_named(files, job);
     if (beside > 0 && !job->error.status)
-        status = claim_beside(files, job, kind, beside, passed, error);
+        status = claim_sidecar(files, job, kind, beside, passed, error);
     for (size_t i = 0; i < copies && !status && !job->error.status; i++)
-        status = claim_copy(files, job, files->look.copies.paths[i], error);
+        status = claim_copy(files, job, files->scan.copies.paths[i], error);
     return status;
 }

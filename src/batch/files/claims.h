@@ -18,21 +18,21 @@ ffd_status ffd_claims_picture(run_files *files, batch_job *job, const hash128 *f
 /* What must be known before the other files of a job are claimed. The first process opens no mesh: one that
    crashes or hangs must cost its own jobs only. */
 typedef struct claim_needs {
-    bool mesh, lattices; /* a worker must look at these */
+    bool mesh, lattices; /* a worker must scan these */
     bool others;         /* there may be such files */
 } claim_needs;
 /* Returns that. */
 claim_needs ffd_claims_need(run_files *files, const batch_job *job, const job_kind *kind);
-/* Whether all of it is known: from the formats, or from the last looks. */
+/* Whether all of it is known: from the formats, or from the last scans. */
 bool ffd_claims_are_ready(const run_files *files, const batch_job *job, const job_kind *kind,
                           const claim_needs *needs);
-/* Whether a worker must first look through the models of the folder of the output, which could name the files
+/* Whether a worker must first scan the models of the folder of the output, which could name the files
    beside it. */
 bool ffd_claims_need_survey(run_files *files, const batch_job *job, const job_kind *kind);
-/* Whether that has failed: the job looks through them by itself. */
+/* Whether that has failed: the job scans them by itself. */
 bool ffd_claims_lack_survey(run_files *files, const batch_job *job, const job_kind *kind);
 /* Likewise claims the other files of a job. Two jobs may copy equal bytes to one place. A file that another
-   model names is passed over (mesh/resource/beside.h): passed gets its path and those models' names, each
+   model names is passed over (mesh/resource/sidecar.h): passed gets its path and those models' names, each
    terminated by 0; and the path of a file of its own behind these, with that of the output. Errors:
    FFD_E_MEMORY. */
 ffd_status ffd_claims_others(run_files *files, batch_job *job, const job_kind *kind, byte_buffer *passed,

@@ -24,7 +24,7 @@ job_kind ffd_job_kind(const batch_job *job)
     kind.source = ffd_format_table(kind.from);
     kind.format = ffd_format_table(kind.to);
     kind.is_kept = kind.format && kind.format == kind.source;
-    kind.has_beside = kind.format && kind.format->name_beside;
+    kind.has_sidecars = kind.format && kind.format->name_sidecar;
     return kind;
 }
 
@@ -36,7 +36,8 @@ bool ffd_job_has_copies(const batch_job *job, const job_kind *kind)
            ffd_folders_differ(kind->input, job->target);
 }
 
-size_t ffd_job_count_beside(const job_kind *kind)
+size_t ffd_job_count_sidecars(const job_kind *kind)
 {
-    return kind->has_beside && !kind->is_kept ? kind->format->count_beside(NULL, kind->from, kind->to) : 0;
+    return kind->has_sidecars && !kind->is_kept ? kind->format->count_sidecars(NULL, kind->from, kind->to)
+                                                : 0;
 }

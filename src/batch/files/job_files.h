@@ -11,15 +11,15 @@ typedef struct job_kind {
     ffd_format from, to;                /* to: FFD_FORMAT_AUTO without an output */
     const mesh_format *source, *format; /* of these; NULL: unknown */
     bool is_kept;                       /* they are the same */
-    bool has_beside;                    /* the output may have files beside it */
-    bool is_looked_at;                  /* a worker has looked at this mesh last (run_files.h) */
+    bool has_sidecars;                  /* the output may have files beside it */
+    bool is_scanned;                    /* a worker has scanned this mesh last (run_files.h) */
 } job_kind;
 
-/* Returns the kind of a valid job; is_looked_at: false. */
+/* Returns the kind of a valid job; is_scanned: false. */
 job_kind ffd_job_kind(const batch_job *job);
 /* Whether files may be copied with the output. */
 bool ffd_job_has_copies(const batch_job *job, const job_kind *kind);
 /* Returns the number of files beside an output whose format is not that of the mesh. */
-size_t ffd_job_count_beside(const job_kind *kind);
+size_t ffd_job_count_sidecars(const job_kind *kind);
 
 #endif

@@ -100,11 +100,11 @@ static ffd_status add_folders(run_files *files, char *folder, ffd_error *error)
     for (bool goes_on = true; goes_on;) {
         const hash128 place = ffd_run_place(files, folder);
         const size_t known = files->folders.known.count;
-        uint32_t number;
-        if (!ffd_intern(&files->folders.known, &place, sizeof place, &number))
+        uint32_t index;
+        if (!ffd_intern(&files->folders.known, &place, sizeof place, &index))
             return ffd_fail_memory(error);
         char *const slash = strrchr(folder, '/');
-        goes_on = number == known && slash && folder[1];
+        goes_on = index == known && slash && folder[1];
         if (goes_on)
             slash[slash == folder] = 0;
     }
@@ -148,15 +148,15 @@ ffd_status ffd_run_add_folder(run_files *files, const char *output, ffd_error *e
    of outputs. Shortens the path. */
 static bool holds_outputs(run_files *files, char *folder)
 {
-    uint32_t number;
+    uint32_t index;
     hash128 place = ffd_run_place(files, folder);
-    if (ffd_intern_find(&files->folders.known, &place, sizeof place, &number))
+    if (ffd_intern_find(&files->folders.known, &place, sizeof place, &index))
         return true;
     for (char *slash = strrchr(folder, '/'); files->has_odd_outputs && slash && folder[1];
          slash = strrchr(folder, '/')) {
         slash[slash == folder] = 0;
         place = ffd_run_place(files, folder);
-        if (ffd_intern_find(&files->folders.exact, &place, sizeof place, &number))
+        if (ffd_intern_find(&files->folders.exact, &place, sizeof place, &index))
             return true;
     }
     return false;
@@ -188,9 +188,9 @@ static hash128 place_of_folder(run_files *files, const char *output)
 folder_survey ffd_run_survey(run_files *files, const char *output)
 {
     const hash128 place = place_of_folder(files, output);
-    uint32_t number;
-    return ffd_intern_find(&files->surveyed.places, &place, sizeof place, &number)
-               ? (folder_survey)files->surveyed.states[number]
+    uint32_t index;
+    return ffd_intern_find(&files->surveyed.places, &place, sizeof place, &index)
+               ? (folder_survey)files->surveyed.states[index]
                : SURVEY_NONE;
 }
 
@@ -198,11 +198,11 @@ ffd_status ffd_run_set_survey(run_files *files, const char *output, folder_surve
 {
     surveyed_folders *const surveyed = &files->surveyed;
     const hash128 place = place_of_folder(files, output);
-    uint32_t number;
+    uint32_t index;
     if (!ffd_grow((void **)&surveyed->states, &surveyed->capacity, surveyed->places.count + 1, 1) ||
-        !ffd_intern(&surveyed->places, &place, sizeof place, &number))
+        !ffd_intern(&surveyed->places, &place, sizeof place, &index))
         return ffd_fail_memory(error);
-    surveyed->states[number] = (uint8_t)state;
+    surveyed->states[index] = (uint8_t)state;
     return FFD_OK;
 }
 
@@ -228,9 +228,9 @@ void ffd_run_files_free(run_files *files)
     ffd_intern_free(&files->folders.known);
     ffd_free(files->folders.last);
     ffd_free(files->folders.asked);
-    ffd_free(files->look.input);
-    ffd_paths_free(&files->look.named);
-    ffd_paths_free(&files->look.copies);
+    ffd_free(files->scan.input);
+    ffd_paths_free(&files->scan.named);
+    ffd_paths_free(&files->scan.copies);
     free_lattices(&files->lattices);
     ffd_users_free(&files->users);
     ffd_intern_free(&files->surveyed.places);

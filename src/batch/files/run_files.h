@@ -25,14 +25,14 @@ typedef struct read_conflicts {
 } read_conflicts;
 
 /* What a worker has found in a mesh: the files that it names, and what its output has beside it. */
-typedef struct mesh_look {
+typedef struct mesh_scan {
     char *input; /* path of the mesh; NULL: none */
     ffd_format from, to;
     file_stamp stamp;
     size_t beside;            /* number of files beside the output */
     path_list named, copies;  /* copies: those that may be copied with the output */
     read_conflicts conflicts; /* of named */
-} mesh_look;
+} mesh_scan;
 
 /* The files of the meshes that the box of a lattice goes round. */
 typedef struct known_lattice {
@@ -40,7 +40,7 @@ typedef struct known_lattice {
     read_conflicts conflicts;
 } known_lattice;
 
-/* The lattices that workers have looked into. */
+/* The lattices that workers have scanned. */
 typedef struct known_lattices {
     intern_table paths;
     known_lattice *list; /* one for each path */
@@ -67,9 +67,9 @@ typedef struct output_folders {
 /* Whether the models of a folder of outputs are among the users. */
 typedef enum folder_survey {
     SURVEY_NONE,  /* not asked for */
-    SURVEY_ASKED, /* a worker looks */
+    SURVEY_ASKED, /* a worker scans */
     SURVEY_DONE,
-    SURVEY_FAILED /* each job looks by itself */
+    SURVEY_FAILED /* each job scans by itself */
 } folder_survey;
 
 typedef struct surveyed_folders {
@@ -92,7 +92,7 @@ typedef struct run_files {
     copied_file *copied;
     size_t copied_count, copied_capacity;
     output_folders folders;
-    mesh_look look; /* at the last mesh that was looked at */
+    mesh_scan scan; /* of the last mesh that was scanned */
     known_lattices lattices;
     file_users users; /* models that name buffers: those of jobs, and those of folders of outputs: */
     surveyed_folders surveyed;

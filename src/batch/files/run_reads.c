@@ -1,7 +1,7 @@
 #include "batch/files/run_reads.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
-#include "batch/files/look.h"
+#include "batch/files/scan.h"
 #include <string.h>
 
 /* Notes that a job reads a file; of several the first one counts. */
@@ -89,10 +89,9 @@ void ffd_reads_check_own(run_files *files, batch_job *job)
 
 static const known_lattice *find_lattice(const run_files *files, const char *path)
 {
-    uint32_t number;
-    return ffd_intern_find(&files->lattices.paths, path, strlen(path), &number)
-               ? &files->lattices.list[number]
-               : NULL;
+    uint32_t index;
+    return ffd_intern_find(&files->lattices.paths, path, strlen(path), &index) ? &files->lattices.list[index]
+                                                                               : NULL;
 }
 
 /* Adds a lattice; one that is known stays as it is. *added: NULL then. */
@@ -100,14 +99,14 @@ static ffd_status add_lattice(run_files *files, const char *path, known_lattice 
 {
     known_lattices *const lattices = &files->lattices;
     const size_t count = lattices->paths.count;
-    uint32_t number;
+    uint32_t index;
     *added = NULL;
     if (!ffd_grow((void **)&lattices->list, &lattices->capacity, count + 1, sizeof *lattices->list) ||
-        !ffd_intern(&lattices->paths, path, strlen(path), &number))
+        !ffd_intern(&lattices->paths, path, strlen(path), &index))
         return ffd_fail_memory(error);
-    if (number < count)
+    if (index < count)
         return FFD_OK;
-    *added = &lattices->list[number];
+    *added = &lattices->list[index];
     **added = (known_lattice){0};
     return FFD_OK;
 }
@@ -144,11 +143,11 @@ static ffd_status end_lattice(run_files *files, known_lattice *lattice, uint64_t
 
 bool ffd_reads_know_mesh(const run_files *files, const job_kind *kind)
 {
-    const mesh_look *const look = &files->look;
+    const mesh_scan *const scan = &files->scan;
     file_stamp stamp;
-    return look->input && strcmp(look->input, kind->input) == 0 && look->from == kind->from &&
-           look->to == kind->to && ffd_file_stamp(kind->input, &stamp) &&
-           ffd_stamp_equal(&look->stamp, &stamp);
+    return scan->input && strcmp(scan->input, kind->input) == 0 && scan->from == kind->from &&
+           scan->to == kind->to && ffd_file_stamp(kind->input, &stamp) &&
+           ffd_stamp_equal(&scan->stamp, &stamp);
 }
 
 bool ffd_reads_need_named(run_files *files, const job_kind *kind)
@@ -160,27 +159,27 @@ bool ffd_reads_need_named(run_files *files, const job_kind *kind)
 
 void ffd_reads_check_named(const run_files *files, batch_job *job)
 {
-    ffd_run_refuse_conflict(files, job, "the buffer, image, library or other file ", &files->look.named,
-                            &files->look.conflicts);
+    ffd_run_refuse_conflict(files, job, "the buffer, image, library or other file ", &files->scan.named,
+                            &files->scan.conflicts);
 }
 
-static void begin_look(run_files *files, const job_kind *kind, size_t beside)
+static void begin_scan(run_files *files, const job_kind *kind, size_t beside)
 {
-    mesh_look *const look = &files->look;
-    ffd_free(look->input);
-    ffd_paths_free(&look->named);
-    ffd_paths_free(&look->copies);
-    *look = (mesh_look){.from = kind->from, .to = kind->to, .beside = beside};
-    if (ffd_file_stamp(kind->input, &look->stamp))
-        look->input = ffd_text_copy(kind->input);
+    mesh_scan *const scan = &files->scan;
+    ffd_free(scan->input);
+    ffd_paths_free(&scan->named);
+    ffd_paths_free(&scan->copies);
+    *scan = (mesh_scan){.from = kind->from, .to = kind->to, .beside = beside};
+    if (ffd_file_stamp(kind->input, &scan->stamp))
+        scan->input = ffd_text_copy(kind->input);
 }
 
-static ffd_status end_look(run_files *files, const job_kind *kind, uint64_t line, ffd_error *error)
+static ffd_status end_scan(run_files *files, const job_kind *kind, uint64_t line, ffd_error *error)
 {
-    mesh_look *const look = &files->look;
-    ffd_status status = note_all(files, &look->named, line, &look->conflicts, error);
-    for (size_t i = 0; i < look->named.count && !status; i++)
-        status = ffd_users_add(&files->users, look->named.paths[i], kind->input, error);
+    mesh_scan *const scan = &files->scan;
+    ffd_status status = note_all(files, &scan->named, line, &scan->conflicts, error);
+    for (size_t i = 0; i < scan->named.count && !status; i++)
+        status = ffd_users_add(&files->users, scan->named.paths[i], kind->input, error);
     return status;
 }
 
@@ -192,25 +191,25 @@ typedef struct finding {
     const char *model;      /* the last one */
 } finding;
 
-static ffd_status take(finding *f, look_kind kind, const char *path, ffd_error *error)
+static ffd_status take(finding *f, scan_kind kind, const char *path, ffd_error *error)
 {
-    mesh_look *const look = &f->files->look;
+    mesh_scan *const scan = &f->files->scan;
     ffd_status status = FFD_OK;
-    if (kind == LOOK_NAMED)
-        return ffd_paths_add(&look->named, path, error);
-    if (kind == LOOK_COPY)
-        return ffd_paths_add(&look->copies, path, error);
-    if (kind == LOOK_LATTICE) {
+    if (kind == SCAN_NAMED)
+        return ffd_paths_add(&scan->named, path, error);
+    if (kind == SCAN_COPY)
+        return ffd_paths_add(&scan->copies, path, error);
+    if (kind == SCAN_LATTICE) {
         status = end_lattice(f->files, f->lattice, f->job->line, error);
         return status ? status : add_lattice(f->files, path, &f->lattice, error);
     }
-    if (kind == LOOK_BOX)
+    if (kind == SCAN_BOX)
         return f->lattice ? ffd_paths_add(&f->lattice->files, path, error) : FFD_OK;
-    if (kind == LOOK_MODEL)
+    if (kind == SCAN_MODEL)
         f->model = path;
-    if (kind == LOOK_BUFFER && f->model)
+    if (kind == SCAN_BUFFER && f->model)
         status = ffd_users_add(&f->files->users, path, f->model, error);
-    return kind == LOOK_FOLDER ? ffd_run_set_survey(f->files, f->job->target, SURVEY_DONE, error) : status;
+    return kind == SCAN_FOLDER ? ffd_run_set_survey(f->files, f->job->target, SURVEY_DONE, error) : status;
 }
 
 ffd_status ffd_reads_learn(run_files *files, const batch_job *job, const job_kind *kind, bool of_mesh,
@@ -218,16 +217,16 @@ ffd_status ffd_reads_learn(run_files *files, const batch_job *job, const job_kin
 {
     finding f = {.files = files, .job = job};
     size_t at = 0;
-    look_kind entry;
+    scan_kind entry;
     ffd_status status = FFD_OK;
     if (of_mesh)
-        begin_look(files, kind, beside);
-    for (const char *path = ffd_look_next(found, &at, &entry); path && !status;
-         path = ffd_look_next(found, &at, &entry))
+        begin_scan(files, kind, beside);
+    for (const char *path = ffd_scan_next(found, &at, &entry); path && !status;
+         path = ffd_scan_next(found, &at, &entry))
         status = take(&f, entry, path, error);
     if (!status)
         status = end_lattice(files, f.lattice, job->line, error);
-    return status || !of_mesh ? status : end_look(files, kind, job->line, error);
+    return status || !of_mesh ? status : end_scan(files, kind, job->line, error);
 }
 
 ffd_status ffd_reads_learn_nothing(run_files *files, const batch_job *job, bool of_mesh, ffd_error *error)
@@ -237,7 +236,7 @@ ffd_status ffd_reads_learn_nothing(run_files *files, const batch_job *job, bool 
     known_lattice *added;
     ffd_status status = FFD_OK;
     if (of_mesh)
-        begin_look(files, &kind, 0);
+        begin_scan(files, &kind, 0);
     for (named_read read = next_read(job, &word); read.path && !status; read = next_read(job, &word))
         if (ffd_word_lattice(word))
             status = add_lattice(files, read.path, &added, error);

@@ -10,17 +10,17 @@
 ffd_status ffd_reads_check(run_files *files, batch_job *job, ffd_error *error);
 /* Stores an error in a job whose mesh, lattice or embedding the run itself writes. */
 void ffd_reads_check_own(run_files *files, batch_job *job);
-/* Whether workers have looked into all lattices of a job. */
+/* Whether workers have scanned all lattices of a job. */
 bool ffd_reads_know_lattices(const run_files *files, const batch_job *job);
 /* The same as ffd_reads_check for the meshes that the boxes of these lattices go round. */
 void ffd_reads_check_boxes(const run_files *files, batch_job *job);
-/* Whether the job's mesh is the one looked at last, and has not changed. */
+/* Whether the job's mesh is the one scanned last, and has not changed. */
 bool ffd_reads_know_mesh(const run_files *files, const job_kind *kind);
 /* Whether the files that a job's mesh names must be known. */
 bool ffd_reads_need_named(run_files *files, const job_kind *kind);
-/* Stores an error in a job whose mesh, which was looked at last, names a file that another job writes. */
+/* Stores an error in a job whose mesh, which was scanned last, names a file that another job writes. */
 void ffd_reads_check_named(const run_files *files, batch_job *job);
-/* Stores what a worker has found for a job (look.h). of_mesh: it has looked at the mesh; beside: the number
+/* Stores what a worker has found for a job (scan.h). of_mesh: it has scanned the mesh; beside: the number
    of files beside the output. Errors: FFD_E_MEMORY. */
 ffd_status ffd_reads_learn(run_files *files, const batch_job *job, const job_kind *kind, bool of_mesh,
                            size_t beside, const byte_buffer *found, ffd_error *error);

@@ -29,7 +29,7 @@ static void append_punctuation(const char *c, const char *last, byte_buffer *out
             ffd_buffer_append(out, c, 1);
 }
 
-static void append_compact(const json_span *tree, uint32_t top, byte_buffer *out)
+static void append_compact(const json_tree *tree, uint32_t top, byte_buffer *out)
 {
     const char *const text = tree->text, *at = text + tree->values[top].begin;
     for (uint32_t v = top; v < tree->values[top].next; v++) {
@@ -51,7 +51,7 @@ static void append_compact(const json_span *tree, uint32_t top, byte_buffer *out
     append_punctuation(at, text + tree->values[top].end, out);
 }
 
-void ffd_description_set(job_description *description, const char *name, const json_span *tree,
+void ffd_description_set(job_description *description, const char *name, const json_tree *tree,
                          uint32_t value)
 {
     byte_buffer text = {0};

@@ -4,7 +4,7 @@
 #define FFD_BATCH_MANIFEST_JOB_DESCRIPTION_H
 
 #include "base/text/buffer.h"
-#include "json/json_span.h"
+#include "json/json_tree.h"
 
 typedef enum job_part {
     JOB_INPUT,   /* value: a path */
@@ -34,7 +34,7 @@ typedef struct job_description {
 /* Adds a statement. name or value is NULL if the part has none. */
 void ffd_description_add(job_description *description, job_part part, const char *name, const char *value);
 /* Adds a placeholder's value, with the white space between its parts removed. */
-void ffd_description_set(job_description *description, const char *name, const json_span *tree,
+void ffd_description_set(job_description *description, const char *name, const json_tree *tree,
                          uint32_t value);
 /* Returns the name of a statement, valid until the next one is added. */
 const char *ffd_description_name(const job_description *description, const job_statement *statement);

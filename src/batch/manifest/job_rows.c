@@ -40,11 +40,11 @@ static char *number_of(const job_commons *commons, const char *cell, csv_flaw *f
 }
 
 /* Notes how a number writes its decimals, and whether its column has two ways that contradict each other. */
-static void note_point(const job_commons *commons, size_t number, const char *column, const char *cell,
+static void note_point(const job_commons *commons, size_t index, const char *column, const char *cell,
                        csv_flaw *flaw)
 {
     const csv_point point = ffd_csv_point(cell);
-    uint8_t *const points = &commons->points[number];
+    uint8_t *const points = &commons->points[index];
     *points |= (uint8_t)point;
     if (!point || *points != (CSV_DECIMAL_COMMA | CSV_DOT_OF_THREE) || flaw->mixed[0])
         return;

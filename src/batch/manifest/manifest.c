@@ -9,7 +9,7 @@
 /* Turns a line into a description. An invalid member becomes a statement JOB_WRONG, so that earlier members
    still take effect. */
 typedef struct line_parser {
-    const json_span *tree;
+    const json_tree *tree;
     job_description description;
 } line_parser;
 
@@ -37,7 +37,7 @@ static bool is_kind(const line_parser *parser, uint32_t value, json_kind kind)
 /* Adds a statement whose value is this string. */
 static void add_string(line_parser *parser, job_part part, const char *name, uint32_t value)
 {
-    char *const text = ffd_json_span_string(parser->tree, value, NULL);
+    char *const text = ffd_json_tree_string(parser->tree, value, NULL);
     if (text)
         ffd_description_add(&parser->description, part, name, text);
     else
@@ -60,8 +60,8 @@ static void read_lattices(line_parser *parser, uint32_t value)
     else if (parser->tree->values[value].count == 0)
         refuse(parser, "lattice", "\"lattice\" is an empty list");
     else
-        for (uint32_t v = ffd_json_span_first(parser->tree, value); v != JSON_NONE;
-             v = ffd_json_span_after(parser->tree, v))
+        for (uint32_t v = ffd_json_tree_first(parser->tree, value); v != JSON_NONE;
+             v = ffd_json_tree_after(parser->tree, v))
             read_path(parser, JOB_LATTICE, "lattice", v);
 }
 
@@ -85,9 +85,9 @@ static void read_clips(line_parser *parser, uint32_t value)
 {
     if (!is_kind(parser, value, JSON_ARRAY))
         read_clip(parser, value);
-    for (uint32_t v = is_kind(parser, value, JSON_ARRAY) ? ffd_json_span_first(parser->tree, value)
+    for (uint32_t v = is_kind(parser, value, JSON_ARRAY) ? ffd_json_tree_first(parser->tree, value)
                                                          : JSON_NONE;
-         v != JSON_NONE; v = ffd_json_span_after(parser->tree, v))
+         v != JSON_NONE; v = ffd_json_tree_after(parser->tree, v))
         read_clip(parser, v);
 }
 
@@ -99,7 +99,7 @@ static void add_number(line_parser *parser, const char *name, uint32_t value)
     const size_t size = v->end - v->begin;
     byte_buffer text = {0};
     double number;
-    ffd_json_span_number(parser->tree, value, &number);
+    ffd_json_tree_number(parser->tree, value, &number);
     if (memchr(first, '.', size) || memchr(first, 'e', size) || memchr(first, 'E', size))
         ffd_buffer_number(&text, number);
     else if (size == 2 && memcmp(first, "-0", size) == 0)
@@ -133,7 +133,7 @@ static void read_option_value(line_parser *parser, const char *name, uint32_t va
 static void read_option(line_parser *parser, const char *name, uint32_t value)
 {
     const uint32_t first =
-        is_kind(parser, value, JSON_ARRAY) ? ffd_json_span_first(parser->tree, value) : value;
+        is_kind(parser, value, JSON_ARRAY) ? ffd_json_tree_first(parser->tree, value) : value;
     if (is_kind(parser, value, JSON_TRUE))
         ffd_description_add(&parser->description, JOB_FLAG, name, NULL);
     else if (is_kind(parser, value, JSON_FALSE) || first == JSON_NONE)
@@ -141,7 +141,7 @@ static void read_option(line_parser *parser, const char *name, uint32_t value)
     else if (first == value)
         read_option_value(parser, name, value);
     else
-        for (uint32_t v = first; v != JSON_NONE; v = ffd_json_span_after(parser->tree, v))
+        for (uint32_t v = first; v != JSON_NONE; v = ffd_json_tree_after(parser->tree, v))
             read_option_value(parser, name, v);
 }
 
@@ -154,9 +154,9 @@ static void read_setting(line_parser *parser, const char *name, uint32_t value)
 static void read_members(line_parser *parser, uint32_t object,
                          void (*read)(line_parser *parser, const char *name, uint32_t value))
 {
-    for (uint32_t v = ffd_json_span_first(parser->tree, object); v != JSON_NONE;
-         v = ffd_json_span_after(parser->tree, v)) {
-        char *const name = ffd_json_span_key(parser->tree, v);
+    for (uint32_t v = ffd_json_tree_first(parser->tree, object); v != JSON_NONE;
+         v = ffd_json_tree_after(parser->tree, v)) {
+        char *const name = ffd_json_tree_key(parser->tree, v);
         if (name)
             read(parser, name, v);
         else
@@ -196,7 +196,7 @@ ffd_status ffd_job_parse(const batch_frame *frame, const char *text, size_t size
                               .name = frame->name,
                               .line = (size_t)job->line,
                               .rules = JSON_NO_NUL | JSON_DOUBLES | JSON_INTEGERS};
-    json_span tree;
+    json_tree tree;
     ffd_status status = ffd_json_parse(&input, &tree, &job->error);
     if (status)
         return status == FFD_E_MEMORY ? status : FFD_OK;
@@ -207,6 +207,6 @@ ffd_status ffd_job_parse(const batch_frame *frame, const char *text, size_t size
         refuse(&parser, "", "a job is an object: {\"in\": ..., \"lattice\": ..., \"out\": ...}");
     status = ffd_job_make(frame, &parser.description, job);
     ffd_description_free(&parser.description);
-    ffd_json_span_free(&tree);
+    ffd_json_tree_free(&tree);
     return status;
 }

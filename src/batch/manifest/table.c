@@ -158,16 +158,16 @@ static bool is_like_file(const char *name)
 }
 
 /* Tells what a reader of the table may have meant otherwise. */
-static ffd_status note_name(csv_table *table, const char *name, size_t number, ffd_error *error)
+static ffd_status note_name(csv_table *table, const char *name, size_t index, ffd_error *error)
 {
     const size_t line = (size_t)table->line;
     if (!*name) {
-        table->skipped[number] = true;
+        table->skipped[index] = true;
         return ffd_flaw_line(&table->flaws, table->name, line, error,
                              "column %zu has no name, as the index of pandas (index=False), and is left out",
-                             number + 1);
+                             index + 1);
     }
-    if (number == 0 && name[0] == '#' && name[1])
+    if (index == 0 && name[0] == '#' && name[1])
         return ffd_flaw_line(&table->flaws, table->name, line, error,
                              "the first row names the columns, although it begins with \"%.20s\"", name);
     return is_like_file(name) ? ffd_flaw_line(&table->flaws, table->name, line, error,
@@ -178,7 +178,7 @@ static ffd_status note_name(csv_table *table, const char *name, size_t number, f
 }
 
 /* names: gets the names of the columns, and numbers their numbers. */
-static ffd_status check_name(csv_table *table, const char *name, size_t number, intern_table *names,
+static ffd_status check_name(csv_table *table, const char *name, size_t index, intern_table *names,
                              size_t *numbers, ffd_error *error)
 {
     uint32_t known;
@@ -192,8 +192,8 @@ static ffd_status check_name(csv_table *table, const char *name, size_t number, 
         return ffd_fail_line(error, FFD_E_INVALID, table->name, (size_t)table->line,
                              "two columns of the table are named \"%.60s\"", name);
     if (*name)
-        numbers[known] = number;
-    return note_name(table, name, number, error);
+        numbers[known] = index;
+    return note_name(table, name, index, error);
 }
 
 static ffd_status check_columns(csv_table *table, ffd_error *error)

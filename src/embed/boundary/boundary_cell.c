@@ -20,9 +20,9 @@ typedef struct cell_visit {
     ffd_error *error;
 } cell_visit;
 
-static ffd_status look_at(cell_visit *visit, const face_patch *patch);
+static ffd_status visit_patch(cell_visit *visit, const face_patch *patch);
 
-static ffd_status look_at_halves(cell_visit *visit, const face_patch *patch, int f)
+static ffd_status visit_halves(cell_visit *visit, const face_patch *patch, int f)
 {
     face_patch *half[2] = {ffd_patch_create(patch->order, patch->rational),
                            ffd_patch_create(patch->order, patch->rational)};
@@ -31,13 +31,13 @@ static ffd_status look_at_halves(cell_visit *visit, const face_patch *patch, int
         ffd_patch_split(patch, f, half[0], half[1]);
     for (int i = 0; i < 2; i++) {
         if (!status && !visit->meets)
-            status = look_at(visit, half[i]);
+            status = visit_patch(visit, half[i]);
         ffd_free(half[i]);
     }
     return status;
 }
 
-static ffd_status look_at(cell_visit *visit, const face_patch *patch)
+static ffd_status visit_patch(cell_visit *visit, const face_patch *patch)
 {
     int longer = 0;
     if (visit->budget-- <= 0) {
@@ -49,7 +49,7 @@ static ffd_status look_at(cell_visit *visit, const face_patch *patch)
     if (view != PATCH_UNKNOWN)
         return FFD_OK;
     if (patch->hi[longer] - patch->lo[longer] > LEAST_PART)
-        return look_at_halves(visit, patch, longer);
+        return visit_halves(visit, patch, longer);
     visit->undecided = true;
     return FFD_OK;
 }
@@ -63,29 +63,29 @@ static ffd_status make_scratch(cell_visit *visit)
 }
 
 /* Examines the patches of a leaf whose patches are not stored. */
-static ffd_status look_at_cells(cell_visit *visit, const boundary_node *leaf)
+static ffd_status visit_cells(cell_visit *visit, const boundary_node *leaf)
 {
     ffd_status status = make_scratch(visit);
     for (size_t j = 0; j < leaf->cells[1] && !status; j++)
         for (size_t i = 0; i < leaf->cells[0] && !status && !visit->meets; i++) {
             const size_t cell[2] = {leaf->cell[0] + i, leaf->cell[1] + j};
             ffd_boundary_patch(visit->border, leaf->face, cell, visit->scratch);
-            status = look_at(visit, visit->scratch);
+            status = visit_patch(visit, visit->scratch);
         }
     return status;
 }
 
-static ffd_status look_at_node(cell_visit *visit, uint32_t number)
+static ffd_status visit_node(cell_visit *visit, uint32_t index)
 {
-    const boundary_node *const node = &visit->border->nodes[number];
+    const boundary_node *const node = &visit->border->nodes[index];
     if (visit->meets || !bounds_hold(&node->box, visit->cell.centre, visit->cell.half))
         return FFD_OK;
     if (node->patch)
-        return look_at(visit, node->patch);
+        return visit_patch(visit, node->patch);
     if (!node->child)
-        return look_at_cells(visit, node);
-    const ffd_status status = look_at_node(visit, node->child);
-    return status ? status : look_at_node(visit, node->child + 1);
+        return visit_cells(visit, node);
+    const ffd_status status = visit_node(visit, node->child);
+    return status ? status : visit_node(visit, node->child + 1);
 }
 
 /* Makes a patch of a face of a box with an affine map. */
@@ -109,12 +109,12 @@ static void make_box_face(const boundary *border, int direction, int end, face_p
     }
 }
 
-static ffd_status look_at_box(cell_visit *visit)
+static ffd_status visit_box(cell_visit *visit)
 {
     ffd_status status = make_scratch(visit);
     for (int face = 0; face < MOST_FACES && !status && !visit->meets; face++) {
         make_box_face(visit->border, face / 2, face % 2, visit->scratch);
-        status = look_at(visit, visit->scratch);
+        status = visit_patch(visit, visit->scratch);
     }
     return status;
 }
@@ -125,9 +125,9 @@ ffd_status ffd_boundary_view_cell(const boundary *border, const patch_cell *cell
     cell_visit visit = {.border = border, .cell = *cell, .budget = BUDGET, .error = error};
     ffd_status status = FFD_OK;
     if (border->lattice->form == REST_BOX_AFFINE)
-        status = look_at_box(&visit);
+        status = visit_box(&visit);
     for (int i = 0; i < border->face_count && !status; i++)
-        status = look_at_node(&visit, border->faces[i].root);
+        status = visit_node(&visit, border->faces[i].root);
     ffd_free(visit.scratch);
     *view = visit.meets ? PATCH_MEETS : visit.undecided ? PATCH_UNKNOWN : PATCH_MISSES;
     return status;

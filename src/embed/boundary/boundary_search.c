@@ -270,7 +270,7 @@ static ffd_status halve(border_search *search, const face_patch *patch, double k
 }
 
 /* Searches the nearest point of a patch. If the distance may have several minima, queues its halves. */
-static ffd_status look_into(border_search *search, const face_patch *patch, double key)
+static ffd_status search_patch(border_search *search, const face_patch *patch, double key)
 {
     search->budget--;
     const double bound = fmax(key, try_from(search, patch, 0.5, 0.5));
@@ -299,7 +299,7 @@ static ffd_status make_scratch(border_search *search)
 
 /* Makes the patches of a leaf whose patches are not stored, in scratch memory; halves have their own memory.
    Which patches are made must not depend on the reach, because that would change the search. */
-static ffd_status look_into_cells(border_search *search, const boundary_node *leaf)
+static ffd_status search_cells(border_search *search, const boundary_node *leaf)
 {
     ffd_status status = make_scratch(search);
     for (size_t j = 0; j < leaf->cells[1] && !status; j++)
@@ -314,31 +314,31 @@ static ffd_status look_into_cells(border_search *search, const boundary_node *le
             const bounds residual = ffd_patch_residual(search->scratch, search->x);
             const double bound = patch_bound(search, search->scratch, &residual);
             if (bound <= search->least + TIE)
-                status = look_into(search, search->scratch, bound);
+                status = search_patch(search, search->scratch, bound);
         }
     return status;
 }
 
-static ffd_status push_node(border_search *search, uint32_t number)
+static ffd_status push_node(border_search *search, uint32_t index)
 {
-    const boundary_node *node = &search->border->nodes[number];
+    const boundary_node *node = &search->border->nodes[index];
     double bound = box_bound(search, &node->box);
     if (bound <= threshold(search) && node->patch) {
         const bounds residual = ffd_patch_residual(node->patch, search->x);
         bound = fmax(bound, patch_bound(search, node->patch, &residual));
     }
-    return bound <= threshold(search) ? push(search, bound, number, NULL) : FFD_OK;
+    return bound <= threshold(search) ? push(search, bound, index, NULL) : FFD_OK;
 }
 
 static ffd_status expand(border_search *search, const waiting *next)
 {
     if (next->part)
-        return look_into(search, next->part, next->key);
+        return search_patch(search, next->part, next->key);
     const boundary_node *node = &search->border->nodes[next->node];
     if (node->patch)
-        return look_into(search, node->patch, next->key);
+        return search_patch(search, node->patch, next->key);
     if (!node->child)
-        return look_into_cells(search, node);
+        return search_cells(search, node);
     const ffd_status status = push_node(search, node->child);
     return status ? status : push_node(search, node->child + 1);
 }

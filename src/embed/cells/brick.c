@@ -3,10 +3,10 @@
 #include "embed/cells/cell_locator.h"
 #include <string.h>
 
-static void brick_cells(const cell_search *cells, uint32_t number, size_t first[3], size_t last[3])
+static void brick_cells(const cell_search *cells, uint32_t index, size_t first[3], size_t last[3])
 {
-    const size_t at[3] = {number % cells->bricks[0], number / cells->bricks[0] % cells->bricks[1],
-                          number / cells->bricks[0] / cells->bricks[1]};
+    const size_t at[3] = {index % cells->bricks[0], index / cells->bricks[0] % cells->bricks[1],
+                          index / cells->bricks[0] / cells->bricks[1]};
     for (int a = 0; a < 3; a++) {
         first[a] = at[a] * BRICK_SIDE;
         last[a] = first[a] + BRICK_SIDE - 1;
@@ -16,11 +16,11 @@ static void brick_cells(const cell_search *cells, uint32_t number, size_t first[
 }
 
 /* Returns the bounds of all control points that act in a brick. */
-static bounds brick_hull(const ffd_locator *locator, uint32_t number)
+static bounds brick_hull(const ffd_locator *locator, uint32_t index)
 {
     const cell_search *cells = locator->cells;
     size_t first[3], last[3], from[3], to[3], function[3];
-    brick_cells(cells, number, first, last);
+    brick_cells(cells, index, first, last);
     for (int a = 0; a < 3; a++) {
         const knot_vector *knots = &locator->knots[a];
         from[a] = (size_t)(knots->spans[first[a]] - knots->degree);
@@ -125,7 +125,7 @@ static bool cut(cell_cutter *cutter, bezier_box *box, int depth)
     return cut(cutter, &lower, depth + 1) && cut(cutter, &upper, depth + 1);
 }
 
-static bool cut_brick(const ffd_locator *locator, uint32_t number, cell_brick *brick)
+static bool cut_brick(const ffd_locator *locator, uint32_t index, cell_brick *brick)
 {
     const cell_search *cells = locator->cells;
     cell_cutter cutter = {.locator = locator, .brick = brick};
@@ -135,7 +135,7 @@ static bool cut_brick(const ffd_locator *locator, uint32_t number, cell_brick *b
     cutter.columns = ffd_alloc(3 * ffd_bezier_size(cells->order), sizeof(double));
     if (!cutter.slots || !cutter.columns)
         goto out;
-    brick_cells(cells, number, first, last);
+    brick_cells(cells, index, first, last);
     for (cell[2] = first[2]; cell[2] <= last[2]; cell[2]++)
         for (cell[1] = first[1]; cell[1] <= last[1]; cell[1]++)
             for (cell[0] = first[0]; cell[0] <= last[0]; cell[0]++) {
@@ -177,10 +177,10 @@ static size_t limit_of(const cell_search *cells, size_t cubic)
 
 /* Publishes a brick, unless another thread has published the same brick first. Returns whether this one was
    published. */
-static bool keep(cell_search *cells, uint32_t number, cell_brick *mine, const cell_brick **kept)
+static bool keep(cell_search *cells, uint32_t index, cell_brick *mine, const cell_brick **kept)
 {
     cell_brick *there = NULL;
-    if (atomic_compare_exchange_strong(&cells->made[number], &there, mine)) {
+    if (atomic_compare_exchange_strong(&cells->made[index], &there, mine)) {
         *kept = mine;
         return true;
     }
@@ -207,29 +207,29 @@ bool ffd_cells_are_strained(const struct cell_search *cells)
     return atomic_load(&cells->heavy_leaves) > 0;
 }
 
-static void keep_light(cell_search *cells, uint32_t number, cell_brick *mine, own_bricks *own,
+static void keep_light(cell_search *cells, uint32_t index, cell_brick *mine, own_bricks *own,
                        const cell_brick **kept)
 {
     const size_t leaves = mine->leaf_count;
     const bool fits = atomic_fetch_add(&cells->light_leaves, leaves) + leaves <= MOST_LIGHT_LEAVES;
-    if (!fits || !keep(cells, number, mine, kept))
+    if (!fits || !keep(cells, index, mine, kept))
         atomic_fetch_sub(&cells->light_leaves, leaves);
     if (fits)
         return;
-    const size_t slot = number % OWN_BRICKS;
+    const size_t slot = index % OWN_BRICKS;
     brick_free(own->brick[slot]);
     own->brick[slot] = mine;
-    own->number[slot] = number;
+    own->number[slot] = index;
     *kept = mine;
 }
 
-ffd_status ffd_cells_brick(const ffd_locator *locator, uint32_t number, own_bricks *own,
+ffd_status ffd_cells_brick(const ffd_locator *locator, uint32_t index, own_bricks *own,
                            const cell_brick **brick, ffd_error *error)
 {
     cell_search *cells = locator->cells;
-    const size_t slot = number % OWN_BRICKS;
-    *brick = atomic_load_explicit(&cells->made[number], memory_order_acquire);
-    if (!*brick && own->brick[slot] && own->number[slot] == number)
+    const size_t slot = index % OWN_BRICKS;
+    *brick = atomic_load_explicit(&cells->made[index], memory_order_acquire);
+    if (!*brick && own->brick[slot] && own->number[slot] == index)
         *brick = own->brick[slot];
     if (*brick)
         return FFD_OK;
@@ -237,16 +237,16 @@ ffd_status ffd_cells_brick(const ffd_locator *locator, uint32_t number, own_bric
     if (status)
         return status;
     cell_brick *mine = ffd_alloc_zero(1, sizeof *mine);
-    if (!mine || !cut_brick(locator, number, mine) || !index_leaves(mine)) {
+    if (!mine || !cut_brick(locator, index, mine) || !index_leaves(mine)) {
         brick_free(mine);
         return ffd_fail_memory(error);
     }
     const size_t leaves = mine->leaf_count;
     if (leaves <= LIGHT_LEAVES) {
-        keep_light(cells, number, mine, own, brick);
+        keep_light(cells, index, mine, own, brick);
         return FFD_OK;
     }
-    if (keep(cells, number, mine, brick))
+    if (keep(cells, index, mine, brick))
         atomic_fetch_add(&cells->heavy_leaves, leaves);
     return check_heavy(cells, error);
 }

@@ -21,7 +21,7 @@ void ffd_bricks_free(cell_search *cells);
 
 /* Finds or makes a brick. It belongs to the locator, or to own until own gets its next brick. Errors:
    FFD_E_MEMORY, FFD_E_LIMIT. */
-ffd_status ffd_cells_brick(const ffd_locator *locator, uint32_t number, own_bricks *own,
+ffd_status ffd_cells_brick(const ffd_locator *locator, uint32_t index, own_bricks *own,
                            const cell_brick **brick, ffd_error *error);
 
 #endif

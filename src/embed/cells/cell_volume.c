@@ -235,7 +235,7 @@ static ffd_status find_sign(const ffd_locator *locator, ffd_error *error)
     return status;
 }
 
-ffd_status ffd_cells_look_at_volume(const ffd_locator *locator, ffd_error *error)
+ffd_status ffd_cells_check_volume(const ffd_locator *locator, ffd_error *error)
 {
     cell_search *cells = locator->cells;
     const size_t count = cells->cells[0] * cells->cells[1] * cells->cells[2];

@@ -5,6 +5,6 @@
 #include "embed/cells/cells.h"
 
 /* Computes volume_sign. Errors: FFD_E_INVALID (a cell without volume). */
-ffd_status ffd_cells_look_at_volume(const ffd_locator *locator, ffd_error *error);
+ffd_status ffd_cells_check_volume(const ffd_locator *locator, ffd_error *error);
 
 #endif

@@ -124,7 +124,7 @@ ffd_status ffd_cells_create(ffd_locator *locator, ffd_error *error)
     if (!status)
         status = make_schemes(locator, cells, error);
     if (!status)
-        status = ffd_cells_look_at_volume(locator, error);
+        status = ffd_cells_check_volume(locator, error);
     if (!status)
         status = ffd_collapses_find(locator, &cells->collapses, error);
     if (!status)

@@ -68,11 +68,11 @@ static bool face_collapses(const ffd_locator *locator, const border_face *face, 
     return true;
 }
 
-static void note_point(collapse *set, const double point[N], size_t number)
+static void note_point(collapse *set, const double point[N], size_t index)
 {
     const double position[3] = {point[0] / point[3], point[1] / point[3], point[2] / point[3]};
-    memcpy(set->points + N * number, point, N * sizeof *point);
-    if (number == 0)
+    memcpy(set->points + N * index, point, N * sizeof *point);
+    if (index == 0)
         for (int a = 0; a < 3; a++)
             set->box.lo[a] = set->box.hi[a] = position[a];
     bounds_add(&set->box, position);
@@ -131,8 +131,8 @@ static ffd_status add_edge(const ffd_locator *locator, const border_face *face, 
     return status;
 }
 
-static ffd_status look_at_face(const ffd_locator *locator, int direction, int end, collapse_list *list,
-                               ffd_error *error)
+static ffd_status visit_face(const ffd_locator *locator, int direction, int end, collapse_list *list,
+                             ffd_error *error)
 {
     const int a = direction == 0 ? 1 : 0, b = direction == 2 ? 1 : 2;
     size_t index[3] = {0, 0, 0};
@@ -156,7 +156,7 @@ ffd_status ffd_collapses_find(const ffd_locator *locator, collapse_list *list, f
     ffd_status status = FFD_OK;
     for (int direction = 0; direction < 3; direction++)
         for (int end = 0; end < 2 && !status && !ffd_knots_closed(&locator->knots[direction]); end++)
-            status = look_at_face(locator, direction, end, list, error);
+            status = visit_face(locator, direction, end, list, error);
     return status;
 }
 

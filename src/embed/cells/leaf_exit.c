@@ -77,8 +77,8 @@ static void take_away(const double unit[3][3], int count, double v[3])
 
 /* Projects the residual, and the columns of the fixed coordinates, onto the orthogonal complement of the
    columns of the free coordinates. Returns false if the latter are not linearly independent. */
-static bool look_across(const double jacobian[9], const double residual[3], const double t[3],
-                        double across[3][3], double left[3])
+static bool project_residual(const double jacobian[9], const double residual[3], const double t[3],
+                             double across[3][3], double left[3])
 {
     double unit[3][3];
     int count = 0;
@@ -113,7 +113,7 @@ static bool is_closest(const double t[3], const sample *at, const double allowan
     double jacobian[9], equation[3], across[3][3], left[3];
     bool outward = false;
     if (!ffd_weigh_rows(at->jacobian, at->equation, allowance, jacobian, equation) ||
-        !look_across(jacobian, equation, t, across, left) ||
+        !project_residual(jacobian, equation, t, across, left) ||
         !(vec_length(left) > 0.5 * vec_length(equation)) ||
         !(vec_greatest(left) > at->weight * fmin(allowance[0], fmin(allowance[1], allowance[2]))))
         return false;
@@ -222,7 +222,7 @@ static bool seems_empty(point_search *search, const cell_region *region, const d
 
 /* Finds a root next to t: the closest point of the border, in least squares, may miss in one coordinate where
    another point is within the tolerance in all three. */
-static bool find_beside(point_search *search, const cell_region *region, const double t[3])
+static bool find_sidecar(point_search *search, const cell_region *region, const double t[3])
 {
     double beside[3] = {t[0], t[1], t[2]};
     sample at;
@@ -298,7 +298,7 @@ static bool damped_step(const sample *at, const double allowance[3], double damp
 /* Where J is nearly singular, Newton steps are mostly rounding in the null direction, and curvature makes
    each step miss again. Damped steps avoid that direction as long as possible. Returns whether t is a root
    afterwards. */
-static bool calm_down(point_search *search, const cell_region *region, double t[3], sample *at)
+static bool damp_step(point_search *search, const cell_region *region, double t[3], sample *at)
 {
     double damping = 1e-6;
     for (int step = 0; step < CALM_STEPS; step++) {
@@ -326,9 +326,9 @@ bool ffd_search_end(point_search *search, const cell_region *region, double t[3]
     double e;
     if (settle(&face, t))
         ffd_search_record(search, region, t, &face.at, false);
-    else if (calm_down(search, region, t, at))
+    else if (damp_step(search, region, t, at))
         ffd_search_record(search, region, t, at, false);
-    else if (!is_empty(search, region, t, at, &e) && !find_beside(search, region, t) &&
+    else if (!is_empty(search, region, t, at, &e) && !find_sidecar(search, region, t) &&
              !seems_empty(search, region, t, at, e)) {
         ffd_search_stall(search, region, t, at, stall);
         return false;

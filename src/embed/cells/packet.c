@@ -34,7 +34,7 @@ static void widen(point_packet *packet, const point_search *added)
         packet->slack[a] = added->slack[a] > packet->slack[a] ? added->slack[a] : packet->slack[a];
 }
 
-bool ffd_packet_add(point_packet *packet, const double p[3], uint32_t number)
+bool ffd_packet_add(point_packet *packet, const double p[3], uint32_t index)
 {
     if (packet->count == PACKET_SIZE)
         return false;
@@ -44,7 +44,7 @@ bool ffd_packet_add(point_packet *packet, const double p[3], uint32_t number)
         return true;
     if (packet->count > 0 && !is_near(packet, point->search.x))
         return false;
-    point->number = number;
+    point->number = index;
     point->bricks = point->count = 0;
     point->alone = false;
     widen(packet, &point->search);
@@ -52,7 +52,7 @@ bool ffd_packet_add(point_packet *packet, const double p[3], uint32_t number)
     return true;
 }
 
-static void look_at_leaf(packet_point *point, const cell_leaf *leaf)
+static void note_leaf(packet_point *point, const cell_leaf *leaf)
 {
     if (!bounds_hold(&leaf->hull, point->search.x, point->search.slack) ||
         (!leaf->hard && !ffd_search_image_holds(&point->search, leaf)))
@@ -63,25 +63,25 @@ static void look_at_leaf(packet_point *point, const cell_leaf *leaf)
         point->leaves[point->count++] = leaf;
 }
 
-static bool visit_leaf(void *context, uint32_t number)
+static bool visit_leaf(void *context, uint32_t index)
 {
     point_packet *packet = context;
     for (int i = 0; i < packet->count; i++)
         if (packet->enter[i] && !packet->points[i].alone)
-            look_at_leaf(&packet->points[i], &packet->brick->leaves[number]);
+            note_leaf(&packet->points[i], &packet->brick->leaves[index]);
     return true;
 }
 
-static bool visit_brick(void *context, uint32_t number)
+static bool visit_brick(void *context, uint32_t index)
 {
     point_packet *packet = context;
     const cell_search *cells = packet->locator->cells;
     bool any = false;
     /* Only stored bricks are used here: another one may not live beyond this point's search. */
-    packet->brick = atomic_load_explicit(&cells->made[number], memory_order_acquire);
+    packet->brick = atomic_load_explicit(&cells->made[index], memory_order_acquire);
     for (int i = 0; i < packet->count; i++) {
         packet_point *point = &packet->points[i];
-        packet->enter[i] = bounds_hold(&cells->brick_hulls[number], point->search.x, point->search.slack);
+        packet->enter[i] = bounds_hold(&cells->brick_hulls[index], point->search.x, point->search.slack);
         if (packet->enter[i])
             point->alone = point->alone || !packet->brick || point->bricks++ >= SEARCH_BRICKS;
         any = any || packet->enter[i];

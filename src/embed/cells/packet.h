@@ -35,7 +35,7 @@ typedef struct point_packet {
 void ffd_packet_begin(point_packet *packet, const ffd_locator *locator);
 /* Adds a point, unless it is too far away for the search's units. Returns false if the packet is full, or the
    point is too far from the others. */
-bool ffd_packet_add(point_packet *packet, const double p[3], uint32_t number);
+bool ffd_packet_add(point_packet *packet, const double p[3], uint32_t index);
 /* Finds the leaves of each point. */
 void ffd_packet_find_leaves(point_packet *packet);
 

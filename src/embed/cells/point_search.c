@@ -86,7 +86,7 @@ void ffd_search_judge(point_search *search, ffd_location *location)
     location->leaves = search->leaves;
     location->unresolved = unresolved;
     if (list->count == 0 && search->stall_count == 0) {
-        location->status = unresolved ? FFD_SINGULAR : FFD_OUTSIDE;
+        location->status = unresolved ? FFD_VERTEX_SINGULAR : FFD_VERTEX_OUTSIDE;
         return;
     }
     const root *best = list->count > 0 ? ffd_roots_best(search->locator, list) : &search->stalls[0];
@@ -95,9 +95,9 @@ void ffd_search_judge(point_search *search, ffd_location *location)
         regular = regular || !list->roots[i].singular;
     /* Several singular roots are one set of roots that the subdivision found more than once. */
     if (list->count > 1 && regular)
-        location->status = FFD_MULTIPLE;
+        location->status = FFD_VERTEX_MULTIPLE;
     else
-        location->status = best->singular || unresolved ? FFD_SINGULAR : FFD_INSIDE;
+        location->status = best->singular || unresolved ? FFD_VERTEX_SINGULAR : FFD_VERTEX_INSIDE;
     location->residual = best->residual / search->locator->cells->scale;
     ffd_locator_report(search->locator, best->uvw, location->uvw);
 }

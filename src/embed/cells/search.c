@@ -24,11 +24,11 @@ typedef struct brick_visit {
     const cell_brick *brick;
 } brick_visit;
 
-static bool visit_leaf(void *context, uint32_t number)
+static bool visit_leaf(void *context, uint32_t index)
 {
     const brick_visit *visit = context;
     point_search *search = visit->search;
-    const cell_leaf *leaf = &visit->brick->leaves[number];
+    const cell_leaf *leaf = &visit->brick->leaves[index];
     if (!bounds_hold(&leaf->hull, search->x, search->slack))
         return true;
     if (leaf->hard) {
@@ -43,11 +43,11 @@ static bool visit_leaf(void *context, uint32_t number)
     return search->status == FFD_OK;
 }
 
-static bool visit_brick(void *context, uint32_t number)
+static bool visit_brick(void *context, uint32_t index)
 {
     point_search *search = context;
     const cell_search *cells = search->locator->cells;
-    if (!bounds_hold(&cells->brick_hulls[number], search->x, search->slack))
+    if (!bounds_hold(&cells->brick_hulls[index], search->x, search->slack))
         return true;
     if (search->bricks++ >= SEARCH_BRICKS) {
         search->unresolved = true;
@@ -55,7 +55,7 @@ static bool visit_brick(void *context, uint32_t number)
     }
     brick_visit visit = {.search = search};
     search->status =
-        ffd_cells_brick(search->locator, number, &search->scratch->own, &visit.brick, search->error);
+        ffd_cells_brick(search->locator, index, &search->scratch->own, &visit.brick, search->error);
     if (search->status)
         return false;
     return ffd_box_tree_visit(&visit.brick->tree, search->x, search->slack, visit_leaf, &visit);
@@ -104,7 +104,7 @@ static bool is_on_collapse(point_search *search, ffd_location *location)
             continue;
         for (int a = 0; a < 3; a++)
             uvw[a] = locator->knots[a].t[span[a]] + offset[a];
-        location->status = FFD_SINGULAR;
+        location->status = FFD_VERTEX_SINGULAR;
         location->residual = vec_length(at.residual) / locator->cells->scale;
         ffd_locator_report(locator, uvw, location->uvw);
         return true;
@@ -193,9 +193,9 @@ static void search_by_shape(point_search *search, long part, ffd_location *locat
    outside. Nothing else that the first search decides depends on this. */
 static void search_again(point_search *search, ffd_location *location)
 {
-    if (!search->status && location->status == FFD_SINGULAR && location->unresolved && search->blurred)
+    if (!search->status && location->status == FFD_VERTEX_SINGULAR && location->unresolved && search->blurred)
         search_by_shape(search, AGAIN_PART, location);
-    search->strict = search->doubtful && location->status == FFD_OUTSIDE;
+    search->strict = search->doubtful && location->status == FFD_VERTEX_OUTSIDE;
     if (!search->status && search->strict)
         search_by_shape(search, STRICT_PART, location);
 }

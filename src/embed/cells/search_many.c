@@ -153,10 +153,10 @@ static void judge(const ffd_locator *locator, const placed_point *point, const l
     ffd_search_judge(&search, location);
 }
 
-static ffd_status find_alone(const ffd_locator *locator, const double *p, uint32_t number,
+static ffd_status find_alone(const ffd_locator *locator, const double *p, uint32_t index,
                              search_scratch **scratch, ffd_location *locations, ffd_error *error)
 {
-    return ffd_cells_find(locator, p + 3 * (size_t)number, scratch, &locations[number], error);
+    return ffd_cells_find(locator, p + 3 * (size_t)index, scratch, &locations[index], error);
 }
 
 /* Processes the points of a cell. */

@@ -88,7 +88,7 @@ static bool make_image(const point_search *search, const cell_region *region, co
    centre), where M is a mean of I - Y J. So for any n, |n . Y F(centre)| is at most |n . Y| allowance +
    (|n|_1 + |n . M|_1) / 2. |n . M|_1 is at most L |n|_1, and at most |n . Y| times the change of J, which is
    less for n across a long edge of the image. */
-static void look_along(const tolerance_image *image, const double normal[3], tolerance_view *view)
+static void project_image(const tolerance_image *image, const double normal[3], tolerance_view *view)
 {
     double off = 0, reach = 0, rounding = 0, bent = 0;
     const double length = fabs(normal[0]) + fabs(normal[1]) + fabs(normal[2]);
@@ -122,13 +122,13 @@ tolerance_view ffd_tolerance_view(const point_search *search, const cell_region 
     if (!make_image(search, region, box, &image))
         return view;
     for (int a = 0; a < 3; a++) {
-        look_along(&image, axes[a], &view);
-        look_along(&image, image.jacobian + 3 * a, &view);
+        project_image(&image, axes[a], &view);
+        project_image(&image, image.jacobian + 3 * a, &view);
         for (int r = 0; r < 3; r++) {
             const double edge[3] = {image.inverse[r], image.inverse[3 + r], image.inverse[6 + r]};
             double normal[3];
             vec_cross(axes[a], edge, normal);
-            look_along(&image, normal, &view);
+            project_image(&image, normal, &view);
         }
     }
     return view;

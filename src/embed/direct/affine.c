@@ -249,7 +249,7 @@ void ffd_affine_find(const ffd_locator *locator, const double p[3], ffd_location
     if (!found && clipped)
         return; /* outside: all of the domain misses */
     affine_equation(map, p, t, residual);
-    location->status = found ? FFD_INSIDE : FFD_SINGULAR;
+    location->status = found ? FFD_VERTEX_INSIDE : FFD_VERTEX_SINGULAR;
     location->unresolved = !found;
     location->residual = vec_length(residual);
     for (int a = 0; a < 3; a++) {

@@ -50,7 +50,7 @@ void FFD_AFFINE_KERNEL(const ffd_locator *locator, const double *xyz, size_t cou
         for (size_t l = 0; l < FFD_LANES; l++) {
             locations[first + l] = (ffd_location){.uvw = {uvw[3 * l], uvw[3 * l + 1], uvw[3 * l + 2]},
                                                   .residual = at.residual[l],
-                                                  .status = FFD_INSIDE};
+                                                  .status = FFD_VERTEX_INSIDE};
             found[first + l] = (uint8_t)(at.found[l] & 1);
         }
     }

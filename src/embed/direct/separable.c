@@ -129,8 +129,8 @@ static size_t span_holding(const knot_vector *knots, const monotone_curve *curve
 static double solve(const knot_vector *knots, const monotone_curve *curve, double x, double *residual,
                     double *grain)
 {
-    const size_t number = span_holding(knots, curve, x);
-    const int span = knots->spans[number];
+    const size_t index = span_holding(knots, curve, x);
+    const int span = knots->spans[index];
     double low = 0, high = knots->t[span + 1] - knots->t[span], u = 0.5 * high;
     double best = u, best_residual = HUGE_VAL, slope;
     const double sign = curve->falling ? -1 : 1;
@@ -183,7 +183,7 @@ void ffd_separable_find(const ffd_locator *locator, const double p[3], ffd_locat
         tolerance[a] += grain[a];
     /* Whether the point is outside was tested first. */
     const bool found = ffd_within_tolerance(residual, tolerance);
-    location->status = found ? FFD_INSIDE : FFD_SINGULAR;
+    location->status = found ? FFD_VERTEX_INSIDE : FFD_VERTEX_SINGULAR;
     location->unresolved = !found;
     location->residual = vec_length(residual);
     ffd_locator_report(locator, uvw, location->uvw);

@@ -99,9 +99,9 @@ static void set_child(const tree_builder *builder, uint32_t parent, int slot, si
 /* Adds a node. Returns its index. */
 static uint32_t add_node(const tree_builder *builder, size_t first, size_t count)
 {
-    const uint32_t number = (uint32_t)builder->tree->node_count++;
+    const uint32_t index = (uint32_t)builder->tree->node_count++;
     const size_t ends[] = {first, first + count / 2, first + count};
-    box_tree_node *const node = &builder->tree->nodes[number];
+    box_tree_node *const node = &builder->tree->nodes[index];
     for (int a = 0; a < 3; a++)
         for (int i = 0; i < CHILDREN; i++)
             node->lo[a][i] = node->hi[a][i] = NAN;
@@ -113,11 +113,11 @@ static uint32_t add_node(const tree_builder *builder, size_t first, size_t count
         if (half > ITEMS_A_LEAF)
             sort_items(builder, ends[h], half);
         if (quarter > 0)
-            set_child(builder, number, slot++, ends[h], quarter);
+            set_child(builder, index, slot++, ends[h], quarter);
         if (quarter < half)
-            set_child(builder, number, slot++, ends[h] + quarter, half - quarter);
+            set_child(builder, index, slot++, ends[h] + quarter, half - quarter);
     }
-    return number;
+    return index;
 }
 
 bool ffd_box_tree_build(const bounds *boxes, size_t count, box_tree *tree)

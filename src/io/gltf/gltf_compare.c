@@ -35,7 +35,7 @@ typedef struct gltf_comparer {
 } gltf_comparer;
 
 /* Returns the ancestor `levels` above `value`; JSON_NONE past the root. */
-static uint32_t above(const json_span *tree, uint32_t value, int levels)
+static uint32_t above(const json_tree *tree, uint32_t value, int levels)
 {
     for (; levels > 0 && value != JSON_NONE; levels--)
         value = tree->values[value].parent;
@@ -43,48 +43,49 @@ static uint32_t above(const json_span *tree, uint32_t value, int levels)
 }
 
 /* Whether the value describes where or how elements are stored. */
-static bool is_about_storage(const json_span *tree, uint32_t value)
+static bool is_about_storage(const json_tree *tree, uint32_t value)
 {
     static const char *const keys[] = {"accessors", "bufferViews", "buffers", "meshes"};
-    if (ffd_json_span_key_is(tree, value, "name"))
+    if (ffd_json_tree_key_is(tree, value, "name"))
         return false;
     while (value != JSON_NONE && tree->values[value].parent != 0)
         value = tree->values[value].parent;
     for (size_t i = 0; value != JSON_NONE && i < sizeof keys / sizeof *keys; i++)
-        if (ffd_json_span_key_is(tree, value, keys[i]))
+        if (ffd_json_tree_key_is(tree, value, keys[i]))
             return true;
     return false;
 }
 
-static ffd_difference_kind kind_of(const json_span *tree, uint32_t value)
+static ffd_difference_kind kind_of(const json_tree *tree, uint32_t value)
 {
-    const bool is_topology = is_about_storage(tree, value) && (ffd_json_span_key_is(tree, value, "count") ||
-                                                               ffd_json_span_key_is(tree, value, "indices") ||
-                                                               ffd_json_span_key_is(tree, value, "mode"));
+    const bool is_topology = is_about_storage(tree, value) && (ffd_json_tree_key_is(tree, value, "count") ||
+                                                               ffd_json_tree_key_is(tree, value, "indices") ||
+                                                               ffd_json_tree_key_is(tree, value, "mode"));
     return is_topology ? FFD_DIFFERENCE_TOPOLOGY : FFD_DIFFERENCE_OTHER;
 }
 
-static void say_at(gltf_comparer *c, uint32_t value, const char *what)
+static void report_difference(gltf_comparer *c, uint32_t value, const char *what)
 {
     char pointer[256] = "";
     if (c->result->differences == 0) /* only the first one is reported */
-        ffd_json_span_pointer(&c->a->tree, value, pointer, sizeof pointer);
-    ffd_difference_say(c->result, kind_of(&c->a->tree, value), "%s: %s", pointer[0] ? pointer : "/", what);
+        ffd_json_tree_pointer(&c->a->tree, value, pointer, sizeof pointer);
+    ffd_difference_add_text(c->result, kind_of(&c->a->tree, value), "%s: %s", pointer[0] ? pointer : "/",
+                            what);
 }
 
 static void differ_at(gltf_comparer *c, uint32_t value, const char *what)
 {
     c->other_storage = c->other_storage || is_about_storage(&c->a->tree, value);
-    say_at(c, value, what);
+    report_difference(c, value, what);
 }
 
 /* Whether the value may differ between equal files: the name of a buffer's file, and a buffer's length beyond
    its views. */
-static bool is_storage(const json_span *tree, uint32_t value)
+static bool is_storage(const json_tree *tree, uint32_t value)
 {
-    const uint32_t buffers = ffd_json_span_member(tree, 0, "buffers");
+    const uint32_t buffers = ffd_json_tree_member(tree, 0, "buffers");
     return buffers != JSON_NONE && above(tree, value, 2) == buffers &&
-           (ffd_json_span_key_is(tree, value, "uri") || ffd_json_span_key_is(tree, value, "byteLength"));
+           (ffd_json_tree_key_is(tree, value, "uri") || ffd_json_tree_key_is(tree, value, "byteLength"));
 }
 
 static bool is_value_before(const void *element, const void *value)
@@ -96,11 +97,11 @@ static bool is_value_before(const void *element, const void *value)
    one. */
 static size_t bounded_accessor(const gltf_comparer *c, uint32_t value)
 {
-    const json_span *tree = &c->a->tree;
+    const json_tree *tree = &c->a->tree;
     const gltf_values *list = &c->a->accessor_values;
     const uint32_t array = above(tree, value, 1), accessor = above(tree, value, 2);
     if (accessor == JSON_NONE ||
-        !(ffd_json_span_key_is(tree, array, "min") || ffd_json_span_key_is(tree, array, "max")))
+        !(ffd_json_tree_key_is(tree, array, "min") || ffd_json_tree_key_is(tree, array, "max")))
         return GLTF_NONE;
     const size_t found =
         lower_bound(&accessor, list->values, list->count, sizeof *list->values, is_value_before);
@@ -108,7 +109,7 @@ static size_t bounded_accessor(const gltf_comparer *c, uint32_t value)
 }
 
 /* Whether a number has neither a fraction nor an exponent. */
-static bool is_plain_integer(const json_span *tree, uint32_t value)
+static bool is_plain_integer(const json_tree *tree, uint32_t value)
 {
     for (uint32_t i = tree->values[value].begin; i < tree->values[value].end; i++)
         if (!strchr("-0123456789", tree->text[i]))
@@ -116,7 +117,7 @@ static bool is_plain_integer(const json_span *tree, uint32_t value)
     return true;
 }
 
-static bool same_text(const json_span *a, uint32_t x, const json_span *b, uint32_t y)
+static bool same_text(const json_tree *a, uint32_t x, const json_tree *b, uint32_t y)
 {
     const size_t size = a->values[x].end - a->values[x].begin;
     return size == b->values[y].end - b->values[y].begin &&
@@ -124,7 +125,7 @@ static bool same_text(const json_span *a, uint32_t x, const json_span *b, uint32
 }
 
 /* Returns the number of characters of a number to show in a message. */
-static int shown_size(const json_span *tree, uint32_t value)
+static int shown_size(const json_tree *tree, uint32_t value)
 {
     const uint32_t size = tree->values[value].end - tree->values[value].begin;
     return size > 40 ? 40 : (int)size;
@@ -141,10 +142,10 @@ static bool equal_numbers(gltf_comparer *c, uint32_t x, double a, uint32_t y, do
 
 static void differ_in_numbers(const gltf_comparer *c, uint32_t x, uint32_t y, char *what, size_t capacity)
 {
-    const json_span *first = &c->a->tree, *second = &c->b->tree;
+    const json_tree *first = &c->a->tree, *second = &c->b->tree;
     double a = 0, b = 0;
-    ffd_json_span_number(first, x, &a);
-    ffd_json_span_number(second, y, &b);
+    ffd_json_tree_number(first, x, &a);
+    ffd_json_tree_number(second, y, &b);
     if (a < b || a > b)
         snprintf(what, capacity, "%.17g and %.17g", a, b);
     else /* doubles do not distinguish them */
@@ -157,7 +158,7 @@ static void differ_in_bound(gltf_comparer *c, const gltf_bound *bound)
 {
     char what[96];
     differ_in_numbers(c, bound->in_a, bound->in_b, what, sizeof what);
-    say_at(c, bound->in_a, what);
+    report_difference(c, bound->in_a, what);
 }
 
 /* Bounds follow from the elements, which are compared on their own. With a tolerance bounds are not compared:
@@ -174,13 +175,13 @@ static void note_bound(gltf_comparer *c, size_t accessor, uint32_t x, uint32_t y
 
 static void compare_numbers(gltf_comparer *c, uint32_t x, uint32_t y)
 {
-    const json_span *first = &c->a->tree, *second = &c->b->tree;
+    const json_tree *first = &c->a->tree, *second = &c->b->tree;
     double a = 0, b = 0;
     char what[96];
     if (same_text(first, x, second, y))
         return;
-    ffd_json_span_number(first, x, &a);
-    ffd_json_span_number(second, y, &b);
+    ffd_json_tree_number(first, x, &a);
+    ffd_json_tree_number(second, y, &b);
     if (equal_numbers(c, x, a, y, b))
         return;
     const size_t accessor = bounded_accessor(c, x);
@@ -204,11 +205,11 @@ static ffd_status compare_arrays(gltf_comparer *c, uint32_t x, uint32_t y)
         return FFD_OK;
     }
     ffd_status status = FFD_OK;
-    uint32_t w = ffd_json_span_first(&c->b->tree, y);
-    for (uint32_t v = ffd_json_span_first(&c->a->tree, x); v != JSON_NONE && status == FFD_OK;
-         v = ffd_json_span_after(&c->a->tree, v)) {
+    uint32_t w = ffd_json_tree_first(&c->b->tree, y);
+    for (uint32_t v = ffd_json_tree_first(&c->a->tree, x); v != JSON_NONE && status == FFD_OK;
+         v = ffd_json_tree_after(&c->a->tree, v)) {
         status = compare_values(c, v, w);
-        w = ffd_json_span_after(&c->b->tree, w);
+        w = ffd_json_tree_after(&c->b->tree, w);
     }
     return status;
 }
@@ -216,7 +217,7 @@ static ffd_status compare_arrays(gltf_comparer *c, uint32_t x, uint32_t y)
 /* Adds the difference that only the second file has y, a member of object x. */
 static ffd_status differ_in_second(gltf_comparer *c, uint32_t x, uint32_t y)
 {
-    char *key = ffd_json_span_key(&c->b->tree, y);
+    char *key = ffd_json_tree_key(&c->b->tree, y);
     char what[160];
     if (!key)
         return ffd_fail_memory(c->error);
@@ -236,7 +237,7 @@ static ffd_status compare_members(gltf_comparer *c, uint32_t x, const json_membe
     while ((i < first_count || j < second_count) && status == FFD_OK) {
         const int order = i == first_count    ? 1
                           : j == second_count ? -1
-                                              : ffd_json_span_compare_keys(first[i].tree, first[i].value,
+                                              : ffd_json_tree_compare_keys(first[i].tree, first[i].value,
                                                                            second[j].tree, second[j].value);
         if (order < 0 && !is_storage(first[i].tree, first[i].value))
             differ_at(c, first[i].value, "only the first file has it");
@@ -257,8 +258,8 @@ static ffd_status compare_objects(gltf_comparer *c, uint32_t x, uint32_t y)
                 *second = ffd_alloc(second_count, sizeof *second);
     ffd_status status;
     if (first && second) {
-        ffd_json_span_sort(&c->a->tree, x, first);
-        ffd_json_span_sort(&c->b->tree, y, second);
+        ffd_json_tree_sort(&c->a->tree, x, first);
+        ffd_json_tree_sort(&c->b->tree, y, second);
         status = compare_members(c, x, first, first_count, second, second_count);
     } else {
         status = ffd_fail_memory(c->error);
@@ -281,7 +282,7 @@ static ffd_status compare_values(gltf_comparer *c, uint32_t x, uint32_t y)
         compare_numbers(c, x, y);
         return FFD_OK;
     case JSON_STRING:
-        if (!ffd_json_span_equal_strings(&c->a->tree, x, &c->b->tree, y))
+        if (!ffd_json_tree_equal_strings(&c->a->tree, x, &c->b->tree, y))
             differ_at(c, x, "different texts");
         return FFD_OK;
     case JSON_ARRAY:
@@ -325,15 +326,15 @@ static void note_kind(gltf_comparer *c, int accessor, ffd_difference_kind kind)
 
 static void note_texcoords(gltf_comparer *c, uint32_t primitive)
 {
-    const json_span *tree = &c->a->tree;
-    const uint32_t attributes = ffd_json_span_member(tree, primitive, "attributes");
+    const json_tree *tree = &c->a->tree;
+    const uint32_t attributes = ffd_json_tree_member(tree, primitive, "attributes");
     uint32_t value = attributes;
     for (int n = 0; value != JSON_NONE; n++) {
         char key[32];
         double accessor;
         snprintf(key, sizeof key, "TEXCOORD_%d", n);
-        value = ffd_json_span_member(tree, attributes, key);
-        if (ffd_json_span_number(tree, value, &accessor) && accessor >= 0 &&
+        value = ffd_json_tree_member(tree, attributes, key);
+        if (ffd_json_tree_number(tree, value, &accessor) && accessor >= 0 &&
             accessor < (double)c->a->model.accessor_count)
             note_kind(c, (int)accessor, FFD_DIFFERENCE_TEXCOORD);
     }
@@ -436,8 +437,8 @@ static void compare_elements(gltf_comparer *c, size_t accessor)
     for (size_t i = 0; i < count; i++)
         if (memcmp(ffd_gltf_element(c->a, accessor, i), ffd_gltf_element(c->b, accessor, i), size) != 0) {
             c->states[accessor] = GLTF_DIFFER;
-            ffd_difference_say(c->result, (ffd_difference_kind)c->kinds[accessor],
-                               "/accessors/%zu: element %zu differs", accessor, i);
+            ffd_difference_add_text(c->result, (ffd_difference_kind)c->kinds[accessor],
+                                    "/accessors/%zu: element %zu differs", accessor, i);
         }
 }
 
@@ -518,9 +519,9 @@ static void compare_bytes(gltf_comparer *c, size_t view, const unsigned char *a,
 {
     for (size_t k = 0; k < size; k++)
         if (a[k] != b[k]) {
-            ffd_difference_say(c->result, FFD_DIFFERENCE_OTHER,
-                               "/bufferViews/%zu: byte %zu is 0x%02x and 0x%02x", view, k, (unsigned)a[k],
-                               (unsigned)b[k]);
+            ffd_difference_add_text(c->result, FFD_DIFFERENCE_OTHER,
+                                    "/bufferViews/%zu: byte %zu is 0x%02x and 0x%02x", view, k,
+                                    (unsigned)a[k], (unsigned)b[k]);
             return;
         }
 }
@@ -531,8 +532,8 @@ static ffd_status compare_view(gltf_comparer *c, size_t i)
     size_t size, other_size;
     const unsigned char *a = find_bytes(c->a, i, &size), *b = find_bytes(c->b, i, &other_size);
     if (!a || !b || size != other_size) {
-        ffd_difference_say(c->result, FFD_DIFFERENCE_OTHER, "/bufferViews/%zu: only one file has its bytes",
-                           i);
+        ffd_difference_add_text(c->result, FFD_DIFFERENCE_OTHER,
+                                "/bufferViews/%zu: only one file has its bytes", i);
         return FFD_OK;
     }
     if (!ffd_gltf_view_bytes(c->a, i) || !ffd_gltf_view_bytes(c->b, i)) { /* the content is unknown */
@@ -562,8 +563,8 @@ static void leave_problems(const gltf_document *d, bool *is_unpacked)
     for (size_t i = 0; i < d->model.primitive_count; i++) {
         double view;
         const uint32_t value =
-            ffd_json_span_member(&d->tree, ffd_gltf_draco_value(d, &d->model.primitives[i]), "bufferView");
-        if (d->draco_problems[i] && ffd_json_span_number(&d->tree, value, &view) &&
+            ffd_json_tree_member(&d->tree, ffd_gltf_draco_value(d, &d->model.primitives[i]), "bufferView");
+        if (d->draco_problems[i] && ffd_json_tree_number(&d->tree, value, &view) &&
             view < (double)d->model.view_count)
             is_unpacked[(size_t)view] = false;
     }

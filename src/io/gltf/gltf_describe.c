@@ -10,7 +10,7 @@
 static void describe_text(const gltf_document *d, uint32_t value, const char *key, json_text *json,
                           bool *failed)
 {
-    char *text = ffd_json_span_string(&d->tree, value, NULL);
+    char *text = ffd_json_tree_string(&d->tree, value, NULL);
     *failed = *failed || !text;
     ffd_json_string(json, key, text);
     ffd_free(text);
@@ -18,9 +18,9 @@ static void describe_text(const gltf_document *d, uint32_t value, const char *ke
 
 static void describe_asset(const gltf_document *d, json_text *json, bool *failed)
 {
-    const uint32_t asset = ffd_json_span_member(&d->tree, 0, "asset");
-    const uint32_t generator = ffd_json_span_member(&d->tree, asset, "generator");
-    describe_text(d, ffd_json_span_member(&d->tree, asset, "version"), "version", json, failed);
+    const uint32_t asset = ffd_json_tree_member(&d->tree, 0, "asset");
+    const uint32_t generator = ffd_json_tree_member(&d->tree, asset, "generator");
+    describe_text(d, ffd_json_tree_member(&d->tree, asset, "version"), "version", json, failed);
     if (generator == JSON_NONE)
         ffd_json_null(json, "generator");
     else
@@ -29,16 +29,16 @@ static void describe_asset(const gltf_document *d, json_text *json, bool *failed
 
 static void describe_count(const gltf_document *d, const char *key, json_text *json)
 {
-    const uint32_t array = ffd_json_span_member(&d->tree, 0, key);
+    const uint32_t array = ffd_json_tree_member(&d->tree, 0, key);
     ffd_json_count(json, key, array == JSON_NONE ? 0 : d->tree.values[array].count);
 }
 
 static void describe_strings(const gltf_document *d, const char *key, json_text *json, bool *failed)
 {
-    const uint32_t array = ffd_json_span_member(&d->tree, 0, key);
+    const uint32_t array = ffd_json_tree_member(&d->tree, 0, key);
     ffd_json_array(json, key, true);
-    for (uint32_t v = ffd_json_span_first(&d->tree, array); v != JSON_NONE;
-         v = ffd_json_span_after(&d->tree, v))
+    for (uint32_t v = ffd_json_tree_first(&d->tree, array); v != JSON_NONE;
+         v = ffd_json_tree_after(&d->tree, v))
         describe_text(d, v, NULL, json, failed);
     ffd_json_end(json, ']');
 }
@@ -105,27 +105,27 @@ static ffd_status describe_attributes(const gltf_document *d, json_text *json, f
 {
     size_t count = 0;
     for (size_t i = 0; i < d->model.primitive_count; i++)
-        count += ffd_json_span_count(
-            &d->tree, ffd_json_span_member(&d->tree, d->model.primitives[i].value, "attributes"));
+        count += ffd_json_tree_count(
+            &d->tree, ffd_json_tree_member(&d->tree, d->model.primitives[i].value, "attributes"));
     json_member *members = ffd_alloc(count, sizeof *members);
     if (!members)
         return ffd_fail_memory(error);
     count = 0;
     for (size_t i = 0; i < d->model.primitive_count; i++) {
         const uint32_t attributes =
-            ffd_json_span_member(&d->tree, d->model.primitives[i].value, "attributes");
-        for (uint32_t v = ffd_json_span_first(&d->tree, attributes); v != JSON_NONE;
-             v = ffd_json_span_after(&d->tree, v))
+            ffd_json_tree_member(&d->tree, d->model.primitives[i].value, "attributes");
+        for (uint32_t v = ffd_json_tree_first(&d->tree, attributes); v != JSON_NONE;
+             v = ffd_json_tree_after(&d->tree, v))
             members[count++] = (json_member){&d->tree, v};
     }
-    ffd_json_span_sort_keys(members, count);
+    ffd_json_tree_sort_keys(members, count);
     ffd_status status = FFD_OK;
     ffd_json_array(json, "attributes", true);
     for (size_t i = 0; i < count && status == FFD_OK; i++) {
         if (i > 0 &&
-            ffd_json_span_compare_keys(&d->tree, members[i - 1].value, &d->tree, members[i].value) == 0)
+            ffd_json_tree_compare_keys(&d->tree, members[i - 1].value, &d->tree, members[i].value) == 0)
             continue;
-        char *name = ffd_json_span_key(&d->tree, members[i].value);
+        char *name = ffd_json_tree_key(&d->tree, members[i].value);
         if (name)
             ffd_json_string(json, NULL, name);
         else

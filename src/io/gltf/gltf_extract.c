@@ -105,18 +105,18 @@ static ffd_status add_texcoords(extractor *e, const gltf_primitive *primitive, s
 {
     const gltf_document *d = e->document;
     const shown_texcoords texcoords = texcoords_of(e, primitive, n);
-    uint32_t number;
+    uint32_t index;
     if (texcoords.taken.accessor == GLTF_NONE || *count > MODEL_VALUES_MAX)
         return FFD_OK; /* too many: refused later */
     const size_t known = e->texcoords.count;
-    if (!ffd_intern(&e->texcoords, &texcoords, sizeof texcoords, &number) ||
+    if (!ffd_intern(&e->texcoords, &texcoords, sizeof texcoords, &index) ||
         !ffd_grow((void **)&e->first_texcoord, &e->texcoords_capacity, e->texcoords.count,
                   sizeof *e->first_texcoord))
         return ffd_fail_memory(e->error);
-    if (number < known)
+    if (index < known)
         return FFD_OK;
     const uint64_t own = d->model.accessors[texcoords.taken.accessor].count;
-    e->first_texcoord[number] = *count;
+    e->first_texcoord[index] = *count;
     *count = own > MODEL_VALUES_MAX - *count ? MODEL_VALUES_MAX + (size_t)1 : *count + (size_t)own;
     return FFD_OK;
 }
@@ -125,9 +125,9 @@ static ffd_status add_texcoords(extractor *e, const gltf_primitive *primitive, s
 static size_t find_texcoords(const extractor *e, const gltf_primitive *primitive, size_t n)
 {
     const shown_texcoords texcoords = texcoords_of(e, primitive, n);
-    uint32_t number;
-    return ffd_intern_find(&e->texcoords, &texcoords, sizeof texcoords, &number) ? e->first_texcoord[number]
-                                                                                 : GLTF_NONE;
+    uint32_t index;
+    return ffd_intern_find(&e->texcoords, &texcoords, sizeof texcoords, &index) ? e->first_texcoord[index]
+                                                                                : GLTF_NONE;
 }
 
 /* Counts the values, and sets the first index of each part and of each set of texture coordinates. */
@@ -197,12 +197,12 @@ static void turn_normals(const gltf_document *d, size_t part, double *normals)
     }
 }
 
-static void fill_texcoords(const extractor *e, size_t number)
+static void fill_texcoords(const extractor *e, size_t index)
 {
     const gltf_document *const d = e->document;
-    double *const values = e->model->texcoords + 2 * e->first_texcoord[number];
+    double *const values = e->model->texcoords + 2 * e->first_texcoord[index];
     shown_texcoords shown;
-    memcpy(&shown, ffd_intern_key(&e->texcoords, (uint32_t)number), sizeof shown);
+    memcpy(&shown, ffd_intern_key(&e->texcoords, (uint32_t)index), sizeof shown);
     const size_t count = (size_t)d->model.accessors[shown.taken.accessor].count;
     ffd_gltf_read(d, (size_t)shown.taken.accessor, 0, count, 2, values);
     if (shown.set != GLTF_NONE) {
@@ -324,7 +324,7 @@ static ffd_status add_points(extractor *e, const drawn *drawing)
 static uint32_t find_name(const gltf_document *d, const gltf_values *list, size_t i)
 {
     const uint32_t name =
-        i < list->count ? ffd_json_span_member(&d->tree, list->values[i], "name") : JSON_NONE;
+        i < list->count ? ffd_json_tree_member(&d->tree, list->values[i], "name") : JSON_NONE;
     return name != JSON_NONE && d->tree.values[name].end - d->tree.values[name].begin > 2 ? name : JSON_NONE;
 }
 
@@ -334,7 +334,7 @@ static char *name_of(const gltf_document *d, const gltf_values *list, size_t i, 
     const uint32_t name = find_name(d, list, i);
     byte_buffer text = {0};
     if (name != JSON_NONE)
-        return ffd_json_span_string(&d->tree, name, NULL);
+        return ffd_json_tree_string(&d->tree, name, NULL);
     ffd_buffer_format(&text, "%s %zu", kind, i);
     return ffd_buffer_finish(&text);
 }
@@ -351,7 +351,7 @@ static ffd_status begin_run(extractor *e, const gltf_primitive *primitive, size_
     const gltf_document *d = e->document;
     double number;
     const bool has_material =
-        ffd_json_span_number(&d->tree, ffd_json_span_member(&d->tree, primitive->value, "material"), &number);
+        ffd_json_tree_number(&d->tree, ffd_json_tree_member(&d->tree, primitive->value, "material"), &number);
     char *object = object_name(d, primitive->mesh, node);
     char *material = has_material ? name_of(d, &d->material_values, (size_t)number, "material") : NULL;
     ffd_status status = object && (material || !has_material)
@@ -383,7 +383,7 @@ static ffd_status add_instance(extractor *e, const gltf_primitive *primitive, si
     if (primitive->mode == MODE_UNKNOWN && e->model->wants_details)
         return FFD_OK;
     if (primitive->mode == MODE_UNKNOWN)
-        return ffd_json_span_fail(&d->tree, primitive->value, d->name, FFD_E_INVALID, e->error,
+        return ffd_json_tree_fail(&d->tree, primitive->value, d->name, FFD_E_INVALID, e->error,
                                   "what the primitive draws is not known, so that it cannot be converted");
     drawn drawing = {.primitive = primitive,
                      .part = part,
@@ -404,13 +404,13 @@ static ffd_status add_instance(extractor *e, const gltf_primitive *primitive, si
     return status;
 }
 
-static uint32_t feature_of_attribute(const json_span *tree, uint32_t value)
+static uint32_t feature_of_attribute(const json_tree *tree, uint32_t value)
 {
     static const char *const known[] = {"POSITION", "NORMAL", "COLOR_0"};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-        if (ffd_json_span_key_is(tree, value, known[i]))
+        if (ffd_json_tree_key_is(tree, value, known[i]))
             return 0;
-    if (ffd_json_span_key_is(tree, value, "TANGENT"))
+    if (ffd_json_tree_key_is(tree, value, "TANGENT"))
         return MODEL_HAS_TANGENTS;
     const char *key = tree->text + tree->values[value].key_begin + 1;
     if (strncmp(key, "TEXCOORD_", 9) == 0)
@@ -426,18 +426,18 @@ static uint32_t features_of_primitive(const extractor *e, const gltf_primitive *
     bool stands_in = false;
     ffd_gltf_texcoords(d, primitive, &texcoords, &stands_in);
     e->model->other_texcoords += stands_in;
-    const uint32_t attributes = ffd_json_span_member(&d->tree, primitive->value, "attributes");
+    const uint32_t attributes = ffd_json_tree_member(&d->tree, primitive->value, "attributes");
     uint32_t found = primitive->target_count > 0 ? MODEL_HAS_MORPHS : 0;
     found |= ffd_gltf_has_more_texcoords(d, primitive, &texcoords) ? MODEL_HAS_MORE_TEXCOORDS : 0;
-    for (uint32_t v = ffd_json_span_first(&d->tree, attributes); v != JSON_NONE;
-         v = ffd_json_span_after(&d->tree, v))
+    for (uint32_t v = ffd_json_tree_first(&d->tree, attributes); v != JSON_NONE;
+         v = ffd_json_tree_after(&d->tree, v))
         found |= feature_of_attribute(&d->tree, v);
     return found;
 }
 
 static bool has_any(const gltf_document *d, const char *array)
 {
-    return ffd_json_span_first(&d->tree, ffd_json_span_member(&d->tree, 0, array)) != JSON_NONE;
+    return ffd_json_tree_first(&d->tree, ffd_json_tree_member(&d->tree, 0, array)) != JSON_NONE;
 }
 
 /* Returns the features of the file that a model cannot hold. */
@@ -518,7 +518,7 @@ static ffd_status refuse_instances(const gltf_document *d, const mesh_model *mod
 {
     if (d->instanced_node_count == 0 || model->wants_details)
         return FFD_OK;
-    return ffd_json_span_fail(&d->tree, d->node_values.values[d->instanced_nodes[0].node], d->name,
+    return ffd_json_tree_fail(&d->tree, d->node_values.values[d->instanced_nodes[0].node], d->name,
                               FFD_E_UNSUPPORTED, error,
                               "instances of EXT_mesh_gpu_instancing cannot be converted");
 }

@@ -113,11 +113,11 @@ static ffd_status add_copies(gltf_skeleton *skeleton, const gltf_rig_animation *
     return status;
 }
 
-ffd_status ffd_gltf_follow_keys(gltf_skeleton *skeleton, size_t number, ffd_error *error)
+ffd_status ffd_gltf_follow_keys(gltf_skeleton *skeleton, size_t index, ffd_error *error)
 {
     const gltf_rig *const rig = rig_of(skeleton);
-    gltf_animation *const animation = &skeleton->animations.list[number];
-    const gltf_rig_animation *const change = rig ? &rig->changes[number] : NULL;
+    gltf_animation *const animation = &skeleton->animations.list[index];
+    const gltf_rig_animation *const change = rig ? &rig->changes[index] : NULL;
     const size_t own = animation->sampler_count;
     if (!change || !change->contents)
         return FFD_OK;

@@ -13,7 +13,7 @@
 #include "io/gltf/model/gltf_splats.h"
 #include "io/gltf/read/gltf_elements.h"
 #include "io/gltf/write/gltf_saver.h"
-#include "mesh/resource/beside.h"
+#include "mesh/resource/sidecar.h"
 #include <float.h>
 
 static ffd_status check(const mesh_document *document, ffd_error *error)
@@ -85,8 +85,8 @@ const mesh_format ffd_gltf_format = {
     .list_linked = ffd_gltf_list_linked,
     .find_resources = ffd_gltf_find_resources,
     .find_named = ffd_gltf_find_named,
-    .count_beside = ffd_gltf_count_beside,
-    .name_beside = ffd_beside_name,
+    .count_sidecars = ffd_gltf_count_sidecars,
+    .name_sidecar = ffd_sidecar_name,
     .check = check,
     .warn = warn,
     .check_reach = ffd_gltf_check_reach,

@@ -23,11 +23,11 @@ typedef struct inner_image {
 
 static char *image_name(const gltf_document *d, size_t image)
 {
-    const uint32_t name = ffd_json_span_member(&d->tree, d->image_values.values[image], "name");
+    const uint32_t name = ffd_json_tree_member(&d->tree, d->image_values.values[image], "name");
     byte_buffer text = {0};
     if (name != JSON_NONE && d->tree.values[name].kind == JSON_STRING &&
         d->tree.values[name].end - d->tree.values[name].begin > 2)
-        return ffd_json_span_string(&d->tree, name, NULL);
+        return ffd_json_tree_string(&d->tree, name, NULL);
     ffd_buffer_format(&text, "image %zu", image);
     return ffd_buffer_finish(&text);
 }
@@ -79,8 +79,8 @@ static ffd_status load_inner(const gltf_document *d, material_images *images, si
                              ffd_error *error)
 {
     const uint32_t value = d->image_values.values[image];
-    const uint32_t view = ffd_json_span_member(&d->tree, value, "bufferView");
-    const uint32_t uri = ffd_json_span_member(&d->tree, value, "uri");
+    const uint32_t view = ffd_json_tree_member(&d->tree, value, "bufferView");
+    const uint32_t uri = ffd_json_tree_member(&d->tree, value, "uri");
     const size_t v = ffd_gltf_index(d, view, d->model.view_count);
     char key[40]; /* cannot be the path of a file: these are relative */
     bool is_known;
@@ -111,7 +111,7 @@ static ffd_status load_image(const gltf_document *d, material_images *images, si
     const uint32_t value = d->image_values.values[image];
     char *path = NULL;
     ffd_status status = FFD_OK;
-    if (ffd_json_span_member(&d->tree, value, "bufferView") == JSON_NONE)
+    if (ffd_json_tree_member(&d->tree, value, "bufferView") == JSON_NONE)
         status = ffd_gltf_file_path(&d->tree, value, &d->base.folder, &path, error);
     if (!status)
         status =
@@ -138,49 +138,49 @@ typedef struct base_colour {
    that has a texture, or a factor; the texture coordinates of the model are chosen in the same way. */
 static base_colour find_colour(const gltf_document *d, uint32_t material)
 {
-    const json_span *const tree = &d->tree;
-    const uint32_t base = ffd_json_span_member(tree, material, "pbrMetallicRoughness");
+    const json_tree *const tree = &d->tree;
+    const uint32_t base = ffd_json_tree_member(tree, material, "pbrMetallicRoughness");
     const uint32_t older = ffd_gltf_extension(d, material, "KHR_materials_pbrSpecularGlossiness");
-    const base_colour first = {ffd_json_span_member(tree, base, "baseColorFactor"),
-                               ffd_json_span_member(tree, base, "baseColorTexture")};
-    const base_colour second = {ffd_json_span_member(tree, older, "diffuseFactor"),
-                                ffd_json_span_member(tree, older, "diffuseTexture")};
+    const base_colour first = {ffd_json_tree_member(tree, base, "baseColorFactor"),
+                               ffd_json_tree_member(tree, base, "baseColorTexture")};
+    const base_colour second = {ffd_json_tree_member(tree, older, "diffuseFactor"),
+                                ffd_json_tree_member(tree, older, "diffuseTexture")};
     if (first.texture != JSON_NONE)
         return first;
     return second.texture != JSON_NONE || first.factor == JSON_NONE ? second : first;
 }
 
 /* Reads a colour factor: components that are not numbers stay, those outside 0 to 1 become 1. */
-static void read_factor(const json_span *tree, uint32_t array, double color[4])
+static void read_factor(const json_tree *tree, uint32_t array, double color[4])
 {
     double number;
     if (array == JSON_NONE || tree->values[array].kind != JSON_ARRAY)
         return;
-    uint32_t value = ffd_json_span_first(tree, array);
-    for (int c = 0; c < 4 && value != JSON_NONE; c++, value = ffd_json_span_after(tree, value))
-        if (ffd_json_span_number(tree, value, &number))
+    uint32_t value = ffd_json_tree_first(tree, array);
+    for (int c = 0; c < 4 && value != JSON_NONE; c++, value = ffd_json_tree_after(tree, value))
+        if (ffd_json_tree_number(tree, value, &number))
             color[c] = material_share(number);
 }
 
 static double read_cutoff(const gltf_document *d, uint32_t material)
 {
-    const uint32_t mode = ffd_json_span_member(&d->tree, material, "alphaMode");
-    const uint32_t cutoff = ffd_json_span_member(&d->tree, material, "alphaCutoff");
+    const uint32_t mode = ffd_json_tree_member(&d->tree, material, "alphaMode");
+    const uint32_t cutoff = ffd_json_tree_member(&d->tree, material, "alphaCutoff");
     double number;
     if (mode == JSON_NONE || d->tree.values[mode].kind != JSON_STRING)
         return 0;
-    if (ffd_json_span_string_is(&d->tree, mode, "BLEND"))
+    if (ffd_json_tree_string_is(&d->tree, mode, "BLEND"))
         return HALF;
-    if (!ffd_json_span_string_is(&d->tree, mode, "MASK"))
+    if (!ffd_json_tree_string_is(&d->tree, mode, "MASK"))
         return 0;
-    const bool is_valid = ffd_json_span_number(&d->tree, cutoff, &number) && number >= 0 && number <= DBL_MAX;
+    const bool is_valid = ffd_json_tree_number(&d->tree, cutoff, &number) && number >= 0 && number <= DBL_MAX;
     return is_valid ? number : HALF;
 }
 
 static texture_wrap read_wrap(const gltf_document *d, uint32_t sampler, const char *key)
 {
     enum { CLAMP_TO_EDGE = 33071, MIRRORED_REPEAT = 33648 };
-    const size_t mode = ffd_gltf_index(d, ffd_json_span_member(&d->tree, sampler, key), MIRRORED_REPEAT + 1);
+    const size_t mode = ffd_gltf_index(d, ffd_json_tree_member(&d->tree, sampler, key), MIRRORED_REPEAT + 1);
     return mode == CLAMP_TO_EDGE ? TEXTURE_CLAMP : mode == MIRRORED_REPEAT ? TEXTURE_MIRROR : TEXTURE_REPEAT;
 }
 
@@ -195,18 +195,18 @@ static const char *why_no_image(const gltf_document *d, uint32_t texture)
     for (size_t i = 0; i < sizeof extensions / sizeof *extensions; i++)
         if (ffd_gltf_has_extension(d, texture, extensions[i][0]))
             return extensions[i][1];
-    return ffd_json_span_member(&d->tree, texture, "source") == JSON_NONE
+    return ffd_json_tree_member(&d->tree, texture, "source") == JSON_NONE
                ? "has no image"
                : "names an image that is not there";
 }
 
 /* Notes, once per texture, why it has no image. number: GLTF_NONE if the texture does not exist. */
-static ffd_status leave_texture(reader *r, size_t number, const char *why, uint32_t *image)
+static ffd_status leave_texture(reader *r, size_t index, const char *why, uint32_t *image)
 {
     char name[40] = "a texture", key[sizeof name + 1];
     bool is_known;
-    if (number != GLTF_NONE)
-        snprintf(name, sizeof name, "texture %zu", number);
+    if (index != GLTF_NONE)
+        snprintf(name, sizeof name, "texture %zu", index);
     snprintf(key, sizeof key, "/%s", name); /* cannot be the path of a file: these are relative */
     const ffd_status status = ffd_images_find(&r->images, key, &is_known, image, r->error);
     if (!status && !is_known)
@@ -217,28 +217,28 @@ static ffd_status leave_texture(reader *r, size_t number, const char *why, uint3
 static ffd_status read_texture(reader *r, uint32_t info, mesh_material *material)
 {
     const gltf_document *const d = r->document;
-    const size_t number =
-        ffd_gltf_index(d, ffd_json_span_member(&d->tree, info, "index"), d->texture_values.count);
-    if (number == GLTF_NONE)
+    const size_t index =
+        ffd_gltf_index(d, ffd_json_tree_member(&d->tree, info, "index"), d->texture_values.count);
+    if (index == GLTF_NONE)
         return leave_texture(r, GLTF_NONE, "that a material names is not there", &material->image);
-    const uint32_t texture = d->texture_values.values[number];
+    const uint32_t texture = d->texture_values.values[index];
     const size_t sampler =
-        ffd_gltf_index(d, ffd_json_span_member(&d->tree, texture, "sampler"), d->sampler_values.count);
+        ffd_gltf_index(d, ffd_json_tree_member(&d->tree, texture, "sampler"), d->sampler_values.count);
     const size_t image =
-        ffd_gltf_index(d, ffd_json_span_member(&d->tree, texture, "source"), d->image_values.count);
+        ffd_gltf_index(d, ffd_json_tree_member(&d->tree, texture, "source"), d->image_values.count);
     if (sampler != GLTF_NONE) {
         material->wrap[0] = read_wrap(d, d->sampler_values.values[sampler], "wrapS");
         material->wrap[1] = read_wrap(d, d->sampler_values.values[sampler], "wrapT");
     }
-    return image == GLTF_NONE ? leave_texture(r, number, why_no_image(d, texture), &material->image)
+    return image == GLTF_NONE ? leave_texture(r, index, why_no_image(d, texture), &material->image)
                               : load_image(d, &r->images, image, &material->image, r->error);
 }
 
 static char *name_of(const gltf_document *d, uint32_t material)
 {
-    const uint32_t name = ffd_json_span_member(&d->tree, material, "name");
+    const uint32_t name = ffd_json_tree_member(&d->tree, material, "name");
     const bool has_name = name != JSON_NONE && d->tree.values[name].kind == JSON_STRING;
-    return has_name ? ffd_json_span_string(&d->tree, name, NULL) : ffd_text_copy("");
+    return has_name ? ffd_json_tree_string(&d->tree, name, NULL) : ffd_text_copy("");
 }
 
 static ffd_status read_material(reader *r, uint32_t value)
@@ -250,7 +250,7 @@ static ffd_status read_material(reader *r, uint32_t value)
         return status;
     mesh_material *const m = &materials->list[materials->count - 1];
     const base_colour colour = find_colour(d, value);
-    const uint32_t sides = ffd_json_span_member(&d->tree, value, "doubleSided");
+    const uint32_t sides = ffd_json_tree_member(&d->tree, value, "doubleSided");
     read_factor(&d->tree, colour.factor, m->color);
     m->alpha_cutoff = read_cutoff(d, value);
     m->is_double_sided = sides != JSON_NONE && d->tree.values[sides].kind == JSON_TRUE;

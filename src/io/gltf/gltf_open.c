@@ -73,13 +73,13 @@ static ffd_status find_json(gltf_document *d, ffd_format format, ffd_error *erro
 
 static ffd_status list_values(const gltf_document *d, const char *key, gltf_values *list, ffd_error *error)
 {
-    const uint32_t array = ffd_json_span_member(&d->tree, 0, key);
-    const size_t count = ffd_json_span_count(&d->tree, array);
+    const uint32_t array = ffd_json_tree_member(&d->tree, 0, key);
+    const size_t count = ffd_json_tree_count(&d->tree, array);
     list->values = ffd_alloc(count, sizeof *list->values);
     if (!list->values)
         return ffd_fail_memory(error);
-    for (uint32_t v = ffd_json_span_first(&d->tree, array); v != JSON_NONE;
-         v = ffd_json_span_after(&d->tree, v))
+    for (uint32_t v = ffd_json_tree_first(&d->tree, array); v != JSON_NONE;
+         v = ffd_json_tree_after(&d->tree, v))
         list->values[list->count++] = v;
     return FFD_OK;
 }
@@ -129,7 +129,7 @@ static ffd_status count_files(gltf_document *d, ffd_error *error)
 static ffd_status note_buffer(gltf_document *d, size_t i, ffd_error *error)
 {
     const gltf_buffer *const buffer = &d->buffers[i];
-    const uint32_t value = d->buffer_values.values[i], uri = ffd_json_span_member(&d->tree, value, "uri");
+    const uint32_t value = d->buffer_values.values[i], uri = ffd_json_tree_member(&d->tree, value, "uri");
     ffd_status status = FFD_OK;
     if (buffer->flaws & BUFFER_ODD_MARKER)
         status = ffd_gltf_flaw(d, uri, error,
@@ -173,18 +173,18 @@ static uint64_t count_primitives(const gltf_document *d)
 {
     uint64_t count = 0;
     for (size_t m = 0; m < d->mesh_values.count; m++)
-        count += ffd_json_span_count(&d->tree,
-                                     ffd_json_span_member(&d->tree, d->mesh_values.values[m], "primitives"));
+        count += ffd_json_tree_count(&d->tree,
+                                     ffd_json_tree_member(&d->tree, d->mesh_values.values[m], "primitives"));
     return count;
 }
 
 /* Limits the number of objects: one can take as few as 3 bytes of the file. */
 static ffd_status limit_objects(gltf_document *d, ffd_error *error)
 {
-    const uint32_t scenes = ffd_json_span_member(&d->tree, 0, "scenes");
+    const uint32_t scenes = ffd_json_tree_member(&d->tree, 0, "scenes");
     const uint64_t count = (uint64_t)d->buffer_values.count + d->view_values.count +
                            d->accessor_values.count + d->mesh_values.count + count_primitives(d) +
-                           d->node_values.count + ffd_json_span_count(&d->tree, scenes);
+                           d->node_values.count + ffd_json_tree_count(&d->tree, scenes);
     const ffd_status status = ffd_budget_check(&d->base.budget, count, OBJECT_BYTES, error);
     return status ? status : ffd_budget_take(&d->base.budget, count, KEPT_OBJECT_BYTES, error);
 }
@@ -199,10 +199,10 @@ static ffd_status join_json(gltf_document *d, ffd_error *error)
                 model->accessor_count == d->accessor_values.count &&
                 model->mesh_count == d->mesh_values.count && model->node_count == d->node_values.count;
     for (size_t m = 0; m < model->mesh_count && same; m++) {
-        const uint32_t primitives = ffd_json_span_member(&d->tree, d->mesh_values.values[m], "primitives");
-        same = model->meshes[m].primitive_count == ffd_json_span_count(&d->tree, primitives);
-        for (uint32_t v = ffd_json_span_first(&d->tree, primitives); v != JSON_NONE && same;
-             v = ffd_json_span_after(&d->tree, v))
+        const uint32_t primitives = ffd_json_tree_member(&d->tree, d->mesh_values.values[m], "primitives");
+        same = model->meshes[m].primitive_count == ffd_json_tree_count(&d->tree, primitives);
+        for (uint32_t v = ffd_json_tree_first(&d->tree, primitives); v != JSON_NONE && same;
+             v = ffd_json_tree_after(&d->tree, v))
             model->primitives[next++].value = v;
     }
     return same ? FFD_OK
@@ -276,7 +276,7 @@ static void free_document(gltf_document *d)
     ffd_gltf_free_skins(d);
     free_decoded(d);
     ffd_gltf_free_model(&d->model);
-    ffd_json_span_free(&d->tree);
+    ffd_json_tree_free(&d->tree);
     ffd_free(d->json);
     ffd_free(d->buffers);
     ffd_free(d->layouts);
@@ -308,7 +308,7 @@ ffd_status ffd_gltf_list_files(const mesh_document *document, path_list *files, 
     for (size_t i = 0; i < d->buffer_values.count && status == FFD_OK; i++) {
         if (d->buffers[i].kind != BUFFER_FILE)
             continue;
-        char *path = ffd_path_beside(d->path, d->buffers[i].path);
+        char *path = ffd_path_sibling(d->path, d->buffers[i].path);
         status = path ? ffd_paths_add(files, path, error) : ffd_fail_memory(error);
         ffd_free(path);
     }

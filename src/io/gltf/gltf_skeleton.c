@@ -300,15 +300,15 @@ static void fill_channel(const gltf_skeleton *rig, const gltf_animation *of, con
                         .input = keys->input};
 }
 
-static ffd_status load(mesh_skeleton *skeleton, size_t number, ffd_error *error)
+static ffd_status load(mesh_skeleton *skeleton, size_t index, ffd_error *error)
 {
     gltf_skeleton *const rig = (gltf_skeleton *)skeleton;
-    gltf_animation *const from = &rig->animations.list[number];
-    rig_animation *const to = &skeleton->animations[number];
+    gltf_animation *const from = &rig->animations.list[index];
+    rig_animation *const to = &skeleton->animations[index];
     ffd_status status = to->channels ? FFD_OK : ffd_gltf_load_animation(rig->document, from, error);
     if (status || to->channels)
         return status;
-    status = ffd_gltf_follow_keys(rig, number, error);
+    status = ffd_gltf_follow_keys(rig, index, error);
     if (status)
         return status;
     status = ffd_gltf_skeleton_take(rig, from->channel_count, sizeof *to->channels, error);

@@ -61,7 +61,7 @@ static void differ(comparer *c, ffd_difference_kind kind, const char *format, ..
     va_start(arguments, format);
     vsnprintf(what, sizeof what, format, arguments);
     va_end(arguments);
-    ffd_difference_say(c->result, kind, "%s: %s", place, what);
+    ffd_difference_add_text(c->result, kind, "%s: %s", place, what);
 }
 
 static void differ_in_words(comparer *c, ffd_difference_kind kind, text_word a, text_word b)
@@ -164,9 +164,9 @@ static void differ_in_length(comparer *c, bool in_a)
         const obj_scan *scan = &longer->scan;
         const ffd_difference_kind kind =
             scan->keyword == OBJ_VERTEX ? FFD_DIFFERENCE_TOPOLOGY : kind_of(scan->keyword);
-        ffd_difference_say(c->result, kind, "%.*s (line %zu) is only in the %s",
-                           ffd_text_display_size(scan->name), scan->name.first, scan->keyword_line,
-                           in_a ? "first" : "second");
+        ffd_difference_add_text(c->result, kind, "%.*s (line %zu) is only in the %s",
+                                ffd_text_display_size(scan->name), scan->name.first, scan->keyword_line,
+                                in_a ? "first" : "second");
     } while (ffd_obj_walk_next(longer));
 }
 

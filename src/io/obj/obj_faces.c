@@ -39,11 +39,11 @@ static void sort_numbers(uint32_t *numbers, size_t count)
         return;
     }
     for (size_t i = 1; i < count; i++) {
-        const uint32_t number = numbers[i];
+        const uint32_t index = numbers[i];
         size_t j = i;
-        for (; j > 0 && numbers[j - 1] > number; j--)
+        for (; j > 0 && numbers[j - 1] > index; j--)
             numbers[j] = numbers[j - 1];
-        numbers[j] = number;
+        numbers[j] = index;
     }
 }
 
@@ -277,15 +277,15 @@ static size_t list_plainly(const obj_document *d, const obj_scan *scan, uint32_t
     const char *c = scan->at;
     word_run run = {c, 0, 0};
     while (scan->plain) {
-        size_t number;
+        size_t index;
         while (c < scan->last && (*c == ' ' || *c == '\t'))
             c++;
         if (c == scan->last || *c == '\n' || *c == '\r')
             return count;
-        c = take_plain_word(&run, c, scan->last, &number);
-        if (number - 1 >= d->vertices || count == PLAIN_CORNERS)
+        c = take_plain_word(&run, c, scan->last, &index);
+        if (index - 1 >= d->vertices || count == PLAIN_CORNERS)
             break;
-        vertices[count++] = (uint32_t)(number - 1);
+        vertices[count++] = (uint32_t)(index - 1);
     }
     return 0;
 }

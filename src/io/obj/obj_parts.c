@@ -41,15 +41,15 @@ static uint32_t number_of(surveying *s, selector_kind kind, text_word word)
 {
     const size_t size = (size_t)(word.last - word.first);
     char short_key[SHORT_KEY], *const key = size < SHORT_KEY ? short_key : ffd_alloc(size + 1, 1);
-    uint32_t number = NO_NAME;
+    uint32_t index = NO_NAME;
     if (key) {
         key[0] = (char)kind;
         memcpy(key + 1, size > 0 ? word.first : "", size);
     }
-    s->failed = s->failed || !key || !ffd_intern(&s->names, key, size + 1, &number);
+    s->failed = s->failed || !key || !ffd_intern(&s->names, key, size + 1, &index);
     if (key != short_key)
         ffd_free(key);
-    return number;
+    return index;
 }
 
 static void end_run(surveying *s, const char *last)

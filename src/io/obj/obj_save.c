@@ -158,17 +158,17 @@ static bool has_counts(const obj_walk *walk, size_t vertices, size_t texcoords, 
 }
 
 /* Whether a walk that has ended has met as many elements as the block had when the file was read. */
-static bool meets_all(const obj_document *d, size_t number, const obj_walk *walk)
+static bool meets_all(const obj_document *d, size_t index, const obj_walk *walk)
 {
-    const obj_block *next = &d->blocks.list[number + 1];
-    return number + 1 == d->blocks.count
+    const obj_block *next = &d->blocks.list[index + 1];
+    return index + 1 == d->blocks.count
                ? has_counts(walk, d->vertices, d->texcoords, d->normals, d->faces)
                : has_counts(walk, next->vertices, next->texcoords, next->normals, next->faces);
 }
 
-static void make_block(saver *all, size_t number, byte_buffer *text)
+static void make_block(saver *all, size_t index, byte_buffer *text)
 {
-    const obj_block *block = &all->document->blocks.list[number];
+    const obj_block *block = &all->document->blocks.list[index];
     block_saver s = {.all = all};
     obj_walk walk;
     ffd_splice_begin_part(&s.splice, block->first, block->last, text, NULL);
@@ -176,22 +176,22 @@ static void make_block(saver *all, size_t number, byte_buffer *text)
     if (all->split.keeper)
         ffd_decimal_run_begin(&s.directions,
                               all->document->file.new_directions + 3 * pair_count(all->document));
-    ffd_obj_document_walk_block(all->document, number, &walk);
+    ffd_obj_document_walk_block(all->document, index, &walk);
     while (ffd_obj_walk_next(&walk))
         write_statement(&s, &walk);
     const bool is_spliced = ffd_splice_end(&s.splice) == FFD_OK;
-    if (is_spliced && meets_all(all->document, number, &walk))
+    if (is_spliced && meets_all(all->document, index, &walk))
         ffd_obj_forget_vectors(all->document, block->vertices, walk.vertices.seen - block->vertices);
     else
         atomic_store(&all->is_changed, true);
 }
 
 /* Whether some statement of the block can change. */
-static bool can_change(const saver *s, size_t number)
+static bool can_change(const saver *s, size_t index)
 {
     const obj_document *d = s->document;
-    const obj_block *block = &d->blocks.list[number];
-    const bool is_last = number + 1 == d->blocks.count;
+    const obj_block *block = &d->blocks.list[index];
+    const bool is_last = index + 1 == d->blocks.count;
     return (is_last ? d->vertices : block[1].vertices) > block->vertices ||
            (s->split.keeper && (is_last ? d->normals : block[1].normals) > block->normals) ||
            (s->split.target && block->names_elements);

@@ -46,7 +46,7 @@ static void note_index(const block_reader *r, const obj_scan *scan, const obj_co
 }
 
 /* A statement that is not read may name normals too (surf). */
-static void look_for_corners(const block_reader *r, obj_scan *scan, obj_block_users *block)
+static void find_corners(const block_reader *r, obj_scan *scan, obj_block_users *block)
 {
     text_word word;
     obj_corner corner;
@@ -59,16 +59,16 @@ static void look_for_corners(const block_reader *r, obj_scan *scan, obj_block_us
    long as to read a corner. */
 static ALWAYS_INLINE bool is_first(_Atomic uint32_t *first, uint32_t normal, bool is_alone)
 {
-    const uint32_t number = normal + 1;
+    const uint32_t index = normal + 1;
     uint32_t there = atomic_load_explicit(first, memory_order_relaxed);
     if (there == 0 && is_alone) {
-        atomic_store_explicit(first, number, memory_order_relaxed);
+        atomic_store_explicit(first, index, memory_order_relaxed);
         return true;
     }
-    if (there == 0 && atomic_compare_exchange_strong_explicit(first, &there, number, memory_order_relaxed,
+    if (there == 0 && atomic_compare_exchange_strong_explicit(first, &there, index, memory_order_relaxed,
                                                               memory_order_relaxed))
         return true;
-    return there == number;
+    return there == index;
 }
 
 static ffd_status add_normal(const block_reader *r, const obj_scan *scan, size_t vertex, obj_index index,
@@ -167,7 +167,7 @@ static ffd_status read_statement(const block_reader *r, obj_scan *scan, obj_bloc
         block->points++;
         return check_corners(r, scan, block);
     case OBJ_OTHER:
-        look_for_corners(r, scan, block);
+        find_corners(r, scan, block);
         return FFD_OK;
     default:
         return FFD_OK;
@@ -202,7 +202,7 @@ ffd_status ffd_obj_users_begin(const obj_document *d, size_t vertices, size_t no
     return FFD_OK;
 }
 
-void ffd_obj_users_look(const obj_document *d, const obj_users *users, obj_scan *scan, obj_block_users *block)
+void ffd_obj_users_scan(const obj_document *d, const obj_users *users, obj_scan *scan, obj_block_users *block)
 {
     /* An index that counts back is out of range here: how many elements come before is not known. */
     const size_t all = OBJ_ELEMENTS_MAX, normals = users->firsts || d->only_positions ? all : 0;
@@ -221,13 +221,13 @@ void ffd_obj_free_block_users(obj_block_users *block)
     *block = (obj_block_users){0};
 }
 
-static ffd_status read_block(const obj_document *d, const obj_users *users, size_t number,
+static ffd_status read_block(const obj_document *d, const obj_users *users, size_t index,
                              obj_block_users *block, ffd_error *error)
 {
     block_reader r = {.document = d, .users = users, .any_normals = d->normals > 0, .error = error};
     obj_walk walk;
     ffd_status status = FFD_OK;
-    ffd_obj_document_walk_block(d, number, &walk);
+    ffd_obj_document_walk_block(d, index, &walk);
     while (status == FFD_OK && ffd_obj_walk_next(&walk)) {
         r.vertices = walk.vertices;
         r.normals = walk.normals;
@@ -266,13 +266,13 @@ static void read_tile(void *context, size_t tile, size_t first, size_t last, int
 }
 
 /* Reads a block that has failed again, for the error message. */
-static ffd_status find_failure(const obj_document *d, const obj_users *users, size_t number,
-                               ffd_status status, ffd_error *error)
+static ffd_status find_failure(const obj_document *d, const obj_users *users, size_t index, ffd_status status,
+                               ffd_error *error)
 {
     obj_block_users block = {0};
     if (status == FFD_E_MEMORY)
         return ffd_fail_memory(error);
-    status = read_block(d, users, number, &block, error);
+    status = read_block(d, users, index, &block, error);
     ffd_obj_free_block_users(&block);
     return status ? status : ffd_file_document_changed(&d->file, error);
 }

@@ -40,7 +40,7 @@ ffd_status ffd_obj_users_begin(const obj_document *document, size_t vertices, si
                                obj_users *users, ffd_error *error);
 /* Reads the current statement of a scan while elements are still being read, unless the block is late already
    or becomes late. Thread-safe for different blocks; the caller stores *block when the block ends. */
-void ffd_obj_users_look(const obj_document *document, const obj_users *users, obj_scan *scan,
+void ffd_obj_users_scan(const obj_document *document, const obj_users *users, obj_scan *scan,
                         obj_block_users *block);
 /* Frees the users of one block. */
 void ffd_obj_free_block_users(obj_block_users *block);

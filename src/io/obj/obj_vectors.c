@@ -112,7 +112,7 @@ static ffd_status read_block(const reader *r, size_t block, block_content *conte
         }
         if (may_name_elements(keyword)) {
             content->names_elements = true;
-            ffd_obj_users_look(d, r->users, &walk.scan, &content->users);
+            ffd_obj_users_scan(d, r->users, &walk.scan, &content->users);
         } else if (keyword == OBJ_VERTEX) {
             status = read_vector(d, &walk.scan, "vertex", &content->positions, error);
         } else if (keyword == OBJ_NORMAL) {

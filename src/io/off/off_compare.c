@@ -30,8 +30,8 @@ static void differ(comparer *c, ffd_difference_kind kind, const char *what, text
 {
     char place[160];
     format_place(c, place, sizeof place);
-    ffd_difference_say(c->result, kind, "%s: %s \"%.*s\" and \"%.*s\"", place, what, ffd_text_display_size(a),
-                       a.first, ffd_text_display_size(b), b.first);
+    ffd_difference_add_text(c->result, kind, "%s: %s \"%.*s\" and \"%.*s\"", place, what,
+                            ffd_text_display_size(a), a.first, ffd_text_display_size(b), b.first);
 }
 
 /* Whether the vertices and faces of both files can be matched one by one. */

@@ -8,7 +8,7 @@ static ffd_status refuse_number(const off_document *d, size_t line, const char *
                          ffd_text_shown(word).text);
 }
 
-static ffd_status read_numbers(off_document *d, const off_vertex *v, size_t number, ffd_error *error)
+static ffd_status read_numbers(off_document *d, const off_vertex *v, size_t index, ffd_error *error)
 {
     static const char *const names[OFF_NUMBERS_MAX] = {
         "coordinate x of a vertex", "coordinate y of a vertex", "coordinate z of a vertex",
@@ -16,7 +16,7 @@ static ffd_status read_numbers(off_document *d, const off_vertex *v, size_t numb
     const size_t needed = off_header_numbers(&d->header);
     for (size_t i = 0; i < v->found; i++) {
         double *vectors = i < 3 ? d->file.positions : d->file.directions;
-        if (!ffd_text_number(v->numbers[i], &vectors[3 * number + i % 3]))
+        if (!ffd_text_number(v->numbers[i], &vectors[3 * index + i % 3]))
             return refuse_number(d, v->line, names[i], v->numbers[i], error);
     }
     if (v->found < needed)

@@ -21,8 +21,8 @@ typedef struct comparer {
 
 static void differ_in_words(comparer *c, const char *what, text_word a, text_word b)
 {
-    ffd_difference_say(c->result, FFD_DIFFERENCE_OTHER, "%s: \"%.*s\" and \"%.*s\"", what,
-                       ffd_text_display_size(a), a.first, ffd_text_display_size(b), b.first);
+    ffd_difference_add_text(c->result, FFD_DIFFERENCE_OTHER, "%s: \"%.*s\" and \"%.*s\"", what,
+                            ffd_text_display_size(a), a.first, ffd_text_display_size(b), b.first);
 }
 
 static void compare_properties(comparer *c, const ply_element *a, const ply_element *b)
@@ -33,17 +33,18 @@ static void compare_properties(comparer *c, const ply_element *a, const ply_elem
         if (!ffd_text_same(p->name, q->name))
             differ_in_words(c, "properties", p->name, q->name);
         else if (p->is_list != q->is_list)
-            ffd_difference_say(c->result, FFD_DIFFERENCE_OTHER, "property %.*s is a list only in the %s",
-                               shown, p->name.first, p->is_list ? "first" : "second");
+            ffd_difference_add_text(c->result, FFD_DIFFERENCE_OTHER, "property %.*s is a list only in the %s",
+                                    shown, p->name.first, p->is_list ? "first" : "second");
         else if (p->type != q->type || p->count_type != q->count_type)
-            ffd_difference_say(c->result, FFD_DIFFERENCE_OTHER, "property %.*s: types %s and %s", shown,
-                               p->name.first, ffd_ply_type_name(p->type != q->type ? p->type : p->count_type),
-                               ffd_ply_type_name(p->type != q->type ? q->type : q->count_type));
+            ffd_difference_add_text(c->result, FFD_DIFFERENCE_OTHER, "property %.*s: types %s and %s", shown,
+                                    p->name.first,
+                                    ffd_ply_type_name(p->type != q->type ? p->type : p->count_type),
+                                    ffd_ply_type_name(p->type != q->type ? q->type : q->count_type));
     }
     if (a->property_count != b->property_count)
-        ffd_difference_say(c->result, FFD_DIFFERENCE_OTHER, "element %.*s has %zu and %zu properties",
-                           ffd_text_display_size(a->name), a->name.first, a->property_count,
-                           b->property_count);
+        ffd_difference_add_text(c->result, FFD_DIFFERENCE_OTHER, "element %.*s has %zu and %zu properties",
+                                ffd_text_display_size(a->name), a->name.first, a->property_count,
+                                b->property_count);
 }
 
 /* Whether the rows of both files have the same form. */
@@ -55,15 +56,15 @@ static bool same_elements(comparer *c)
         if (!ffd_text_same(x->name, y->name))
             differ_in_words(c, "elements", x->name, y->name);
         else if (x->count != y->count)
-            ffd_difference_say(c->result, FFD_DIFFERENCE_TOPOLOGY,
-                               "element %.*s has %" PRIu64 " and %" PRIu64 " rows",
-                               ffd_text_display_size(x->name), x->name.first, x->count, y->count);
+            ffd_difference_add_text(c->result, FFD_DIFFERENCE_TOPOLOGY,
+                                    "element %.*s has %" PRIu64 " and %" PRIu64 " rows",
+                                    ffd_text_display_size(x->name), x->name.first, x->count, y->count);
         else
             compare_properties(c, x, y);
     }
     if (a->element_count != b->element_count)
-        ffd_difference_say(c->result, FFD_DIFFERENCE_OTHER, "%zu and %zu elements", a->element_count,
-                           b->element_count);
+        ffd_difference_add_text(c->result, FFD_DIFFERENCE_OTHER, "%zu and %zu elements", a->element_count,
+                                b->element_count);
     return c->result->equal;
 }
 
@@ -74,8 +75,9 @@ static void compare_notes(comparer *c)
         if (!ffd_text_same(a->notes[i], b->notes[i]))
             differ_in_words(c, "lines of the header", a->notes[i], b->notes[i]);
     if (a->note_count != b->note_count)
-        ffd_difference_say(c->result, FFD_DIFFERENCE_OTHER, "%zu and %zu lines of obj_info and texture files",
-                           a->note_count, b->note_count);
+        ffd_difference_add_text(c->result, FFD_DIFFERENCE_OTHER,
+                                "%zu and %zu lines of obj_info and texture files", a->note_count,
+                                b->note_count);
 }
 
 /* The rows */
@@ -132,8 +134,8 @@ static void differ_in_values(comparer *c, const ply_property *property, ply_type
     format_place(c, place, sizeof place);
     format_value(c->a, type, a, first, sizeof first);
     format_value(c->b, type, b, second, sizeof second);
-    ffd_difference_say(c->result, kind_of(c, property), "%s: %.*s: %s and %s", place,
-                       ffd_text_display_size(property->name), property->name.first, first, second);
+    ffd_difference_add_text(c->result, kind_of(c, property), "%s: %.*s: %s and %s", place,
+                            ffd_text_display_size(property->name), property->name.first, first, second);
 }
 
 static bool same_value(const comparer *c, ply_type type, text_word a, text_word b)

@@ -281,7 +281,7 @@ static ffd_status read_rows(face_reader *r)
 }
 
 /* Visits all faces, then the triangles of strips. The members of r say what to do with them. */
-static ffd_status look_at_faces(face_reader *r)
+static ffd_status visit_faces(face_reader *r)
 {
     const ply_document *const d = r->document;
     const ffd_status status = d->face ? read_rows(r) : FFD_OK;
@@ -304,7 +304,7 @@ static ffd_status read_faces(const ply_document *d, mesh_faces *faces, ffd_error
     if (status)
         return status;
     ffd_file_document_read_positions(&d->file.base, 0, 0, faces->vertex_count, faces->positions);
-    status = look_at_faces(&r);
+    status = visit_faces(&r);
     if (!status && r.face_count != faces->face_count)
         status = ffd_faces_changed(d->file.name, error);
     if (status)
@@ -317,7 +317,7 @@ static ffd_status read_faces(const ply_document *d, mesh_faces *faces, ffd_error
 ffd_status ffd_ply_check_faces(const ply_document *d, ffd_error *error)
 {
     face_reader r = {.document = d, .error = error};
-    return look_at_faces(&r);
+    return visit_faces(&r);
 }
 
 ffd_status ffd_ply_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error)
@@ -341,7 +341,7 @@ ffd_status ffd_ply_mixed_faces(const mesh_document *document, const vertex_marks
     face_list list = {0};
     face_reader r = {.document = d, .mixed = &list, .marks = marks, .error = error};
     *faces = (mesh_faces){.vertex_count = marks->vertices};
-    ffd_status status = look_at_faces(&r);
+    ffd_status status = visit_faces(&r);
     if (status == FFD_OK)
         status = ffd_face_lists_narrow(document, &list, 1, faces, error);
     if (status == FFD_OK)
@@ -387,7 +387,7 @@ ffd_status ffd_ply_mark_used(mesh_document *document, ffd_error *error)
     if (status)
         return status;
     face_reader r = {.document = d, .used = d->file.used};
-    const bool known = !look_at_faces(&r) && (!edges || mark_edges(d, edges, d->file.used));
+    const bool known = !visit_faces(&r) && (!edges || mark_edges(d, edges, d->file.used));
     if (ffd_used_keep(document, count, &d->file.used) && known)
         d->file.part.used = d->file.used;
     return FFD_OK;

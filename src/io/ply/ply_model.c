@@ -230,10 +230,10 @@ static bool take_ends(const extractor *e, ply_walk *walk, const ply_element *edg
         ffd_ply_walk_value(walk, property->type, &word);
         valid = ffd_ply_load_count(e->document->header.encoding, property->type, word, &vertex) &&
                 vertex < e->model->position_count && valid;
-        const uint32_t number = (uint32_t)vertex;
+        const uint32_t index = (uint32_t)vertex;
         ends[end] =
-            (model_corner){number, e->model->texcoord_count > 0 && !e->face_texcoords ? number : MODEL_NONE,
-                           e->model->normal_count > 0 ? number : MODEL_NONE};
+            (model_corner){index, e->model->texcoord_count > 0 && !e->face_texcoords ? index : MODEL_NONE,
+                           e->model->normal_count > 0 ? index : MODEL_NONE};
     }
     return valid && named[0] && named[1];
 }

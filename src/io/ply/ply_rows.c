@@ -217,24 +217,24 @@ static void change_vector(const double *before, const double *after, size_t firs
     }
 }
 
-static void change_splat(const ply_document *d, size_t number, row_change *row)
+static void change_splat(const ply_document *d, size_t index, row_change *row)
 {
-    const uint8_t marks = d->splat_marks[number];
+    const uint8_t marks = d->splat_marks[index];
     memset(row->changed + PLY_ROTATION_SLOT, 0, PLY_SLOT_COUNT - PLY_ROTATION_SLOT);
     for (size_t slot = PLY_ROTATION_SLOT; slot < PLY_REST_SLOT && marks; slot++) {
-        splat_ellipsoid before = d->splats[number];
+        splat_ellipsoid before = d->splats[index];
         if (slot == PLY_REST_SLOT - 1 && d->file.part.form.is_flat)
             break;
-        row->values[slot] = ply_new_splat_number(d, number, slot);
+        row->values[slot] = ply_new_splat_number(d, index, slot);
         row->changed[slot] = differ(ffd_ply_splat_number(&before, slot), &row->values[slot]);
     }
 }
 
 /* Returns whether the types cannot hold some harmonics, which then stay. */
-static bool change_rests(const ply_document *d, size_t number, row_change *row)
+static bool change_rests(const ply_document *d, size_t index, row_change *row)
 {
     const int degree = d->file.part.form.degree, functions = harmonics_count(degree);
-    const splat_turn turn = ffd_ply_turn_of(d, number);
+    const splat_turn turn = ffd_ply_turn_of(d, index);
     harmonics_block before, after;
     bool all = true;
     for (int k = 0; k < HARMONICS_CHANNELS; k++)
@@ -257,16 +257,16 @@ static bool change_rests(const ply_document *d, size_t number, row_change *row)
 }
 
 /* Returns whether the types cannot hold some harmonics, which then stay. */
-static bool change_row(const ply_document *d, size_t number, row_change *row)
+static bool change_row(const ply_document *d, size_t index, row_change *row)
 {
     const double *const directions = d->file.new_directions;
-    change_vector(d->file.positions + 3 * number, d->file.new_positions + 3 * number, 0, row);
-    change_vector(directions ? d->file.directions + 3 * number : NULL,
-                  directions ? directions + 3 * number : NULL, PLY_NORMAL_SLOT, row);
+    change_vector(d->file.positions + 3 * index, d->file.new_positions + 3 * index, 0, row);
+    change_vector(directions ? d->file.directions + 3 * index : NULL,
+                  directions ? directions + 3 * index : NULL, PLY_NORMAL_SLOT, row);
     if (!d->splat_marks)
         return false;
-    change_splat(d, number, row);
-    return d->splat_marks[number] & PLY_SPLAT_TURNS && change_rests(d, number, row);
+    change_splat(d, index, row);
+    return d->splat_marks[index] & PLY_SPLAT_TURNS && change_rests(d, index, row);
 }
 
 size_t ffd_ply_write_walked(const ply_document *d, file_splice *splice)
@@ -275,7 +275,7 @@ size_t ffd_ply_write_walked(const ply_document *d, file_splice *splice)
     row_change row = {.changed = {false}};
     size_t unturned = 0;
     ffd_ply_document_walk(d, d->vertex, &walk);
-    for (size_t number = 0; splice->status == FFD_OK && number < d->file.part.vertex_count; number++) {
+    for (size_t index = 0; splice->status == FFD_OK && index < d->file.part.vertex_count; index++) {
         ffd_ply_walk_row(&walk);
         for (size_t i = 0; i < d->vertex->property_count; i++) {
             const ply_property *property = &d->vertex->properties[i];
@@ -284,7 +284,7 @@ size_t ffd_ply_write_walked(const ply_document *d, file_splice *splice)
             else
                 ffd_ply_walk_value(&walk, property->type, &row.words[property->slot]);
         }
-        unturned += change_row(d, number, &row);
+        unturned += change_row(d, index, &row);
         for (size_t i = 0; i < d->vertex->property_count; i++) {
             const ply_property *property = &d->vertex->properties[i];
             char bytes[FFD_NUMBER_CAPACITY];

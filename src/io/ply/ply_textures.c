@@ -74,7 +74,7 @@ static ffd_status warn_of_stream(const ply_header *header, const mesh_save_optio
         status = ffd_left_add_unreached(&left, options->to_sink ? NULL : to, list.resources[i].path,
                                         "of TextureFile", error);
     if (!status)
-        ffd_left_say_of_stream(&left, log);
+        ffd_left_out_log_stream(&left, log);
     ffd_resources_free(&list);
     ffd_free(to);
     return status;
@@ -118,7 +118,7 @@ static ffd_status find(const char *path, const file_input *bytes, path_list *nam
     if (!read && !status)
         status = list_all(&header, &folder, &list, error);
     for (size_t i = 0; i < list.count && !status; i++) {
-        char *const file = ffd_path_beside(path, list.resources[i].path);
+        char *const file = ffd_path_sibling(path, list.resources[i].path);
         status = file ? FFD_OK : ffd_fail_memory(error);
         if (!status && named)
             status = ffd_paths_add(named, file, error);

@@ -42,14 +42,14 @@ static void next_text_facet(stl_side *side)
     side->line = found ? facet.line : side->text.scan.line;
 }
 
-static void next_facet(stl_side *side, size_t number)
+static void next_facet(stl_side *side, size_t index)
 {
-    ffd_stl_read_positions(&side->document->file.base, 0, 3 * number, 3, side->corners);
+    ffd_stl_read_positions(&side->document->file.base, 0, 3 * index, 3, side->corners);
     if (!side->document->binary) {
         next_text_facet(side);
         return;
     }
-    const unsigned char *bytes = ffd_stl_facet(side->document, number);
+    const unsigned char *bytes = ffd_stl_facet(side->document, index);
     ffd_stl_load(bytes, side->normal);
     side->attribute = bytes[STL_ATTRIBUTE] | (unsigned)bytes[STL_ATTRIBUTE + 1] << 8;
 }
@@ -94,10 +94,10 @@ static void compare_solids(comparer *c)
         if (in_a != in_b)
             differ_in_solids(c, in_a, in_b);
         else if (in_a == STL_AT_SOLID && !ffd_text_same(a->name, b->name))
-            ffd_difference_say(c->result, FFD_DIFFERENCE_OTHER,
-                               "solid %zu counted from 0 is named \"%.*s\" and \"%.*s\"", a->solids - 1,
-                               ffd_text_display_size(a->name), a->name.first, ffd_text_display_size(b->name),
-                               b->name.first);
+            ffd_difference_add_text(c->result, FFD_DIFFERENCE_OTHER,
+                                    "solid %zu counted from 0 is named \"%.*s\" and \"%.*s\"", a->solids - 1,
+                                    ffd_text_display_size(a->name), a->name.first,
+                                    ffd_text_display_size(b->name), b->name.first);
     }
 }
 
@@ -107,8 +107,8 @@ static void compare_attribute(comparer *c)
     if (c->a.attribute == c->b.attribute)
         return;
     format_place(c, place, sizeof place);
-    ffd_difference_say(c->result, FFD_DIFFERENCE_OTHER, "%s: attribute %u and %u", place, c->a.attribute,
-                       c->b.attribute);
+    ffd_difference_add_text(c->result, FFD_DIFFERENCE_OTHER, "%s: attribute %u and %u", place, c->a.attribute,
+                            c->b.attribute);
 }
 
 static void compare_facet(comparer *c)
@@ -131,8 +131,8 @@ static bool same_frame(comparer *c)
     else if (both_text(c))
         compare_solids(c);
     else if (a->binary && b->binary && memcmp(a->file.input.data, b->file.input.data, STL_HEADER) != 0)
-        ffd_difference_say(c->result, FFD_DIFFERENCE_OTHER, "the headers of %d bytes are not the same",
-                           STL_HEADER);
+        ffd_difference_add_text(c->result, FFD_DIFFERENCE_OTHER, "the headers of %d bytes are not the same",
+                                STL_HEADER);
     return a->facets == b->facets;
 }
 

@@ -21,10 +21,10 @@ static void put_row(const glb_plan *plan, const morph_clip *clip, uint32_t mesh,
     const mesh_model *const model = plan->model;
     for (size_t k = 0; k < model->morph_count; k++) {
         const char *const name = model->morphs[k].name;
-        uint32_t number;
+        uint32_t index;
         if (plan->morphed[mesh * model->morph_count + k])
-            ffd_buffer_float(out, ffd_intern_find(&clip->names, name, strlen(name), &number) ? weights[number]
-                                                                                             : 0);
+            ffd_buffer_float(out,
+                             ffd_intern_find(&clip->names, name, strlen(name), &index) ? weights[index] : 0);
     }
 }
 

@@ -31,21 +31,21 @@ typedef struct primitive_key {
 
 _Static_assert(sizeof(primitive_key) == 5 * sizeof(uint32_t), "a key has no padding");
 
-static bool read_texcoord(const mesh_model *model, uint32_t number, float *values)
+static bool read_texcoord(const mesh_model *model, uint32_t index, float *values)
 {
-    ffd_glb_texcoord(model, number, values);
+    ffd_glb_texcoord(model, index, values);
     return true;
 }
 
 /* The values include the offsets of morph targets. */
-static bool read_normal(const mesh_model *model, uint32_t number, float *values)
+static bool read_normal(const mesh_model *model, uint32_t index, float *values)
 {
     for (size_t k = 0; k < model->morph_count; k++)
-        ffd_glb_normal_offset(model, k, number, values + 3 + 3 * k);
-    return ffd_glb_normal(model, number, values);
+        ffd_glb_normal_offset(model, k, index, values + 3 + 3 * k);
+    return ffd_glb_normal(model, index, values);
 }
 
-typedef bool value_reader(const mesh_model *model, uint32_t number, float *values);
+typedef bool value_reader(const mesh_model *model, uint32_t index, float *values);
 
 /* Finds equal values, so that corners that refer to them by different numbers share a vertex. Values that
    cannot be used get MODEL_NONE. */
@@ -59,17 +59,17 @@ static ffd_status join_values(planner *p, size_t count, value_reader *read, size
     if (!*numbers || !first || !value)
         status = ffd_fail_memory(p->error);
     for (size_t i = 0; i < count && status == FFD_OK; i++) {
-        uint32_t number;
+        uint32_t index;
         const size_t known = values.count;
         (*numbers)[i] = MODEL_NONE;
         if (!read(p->model, (uint32_t)i, value))
             continue;
-        if (!ffd_intern(&values, value, size * sizeof *value, &number))
+        if (!ffd_intern(&values, value, size * sizeof *value, &index))
             status = ffd_fail_memory(p->error);
         else {
             if (values.count > known)
-                first[number] = (uint32_t)i;
-            (*numbers)[i] = first[number];
+                first[index] = (uint32_t)i;
+            (*numbers)[i] = first[index];
         }
     }
     ffd_intern_free(&values);

@@ -9,7 +9,7 @@
 #include "io/write/write.h"
 #include "mesh/polygon_cut.h"
 #include "mesh/precision.h"
-#include "mesh/resource/beside.h"
+#include "mesh/resource/sidecar.h"
 #include "mesh/srgb.h"
 #include <float.h>
 #include <inttypes.h>
@@ -114,11 +114,11 @@ static void measure(gltf_writer *w)
             w->sizes[VIEW_LONG] += 4 * indices;
     }
     w->sizes[VIEW_CLIPS] = w->clips.bytes.size;
-    size_t number = 0;
+    size_t index = 0;
     for (int v = 0; v < VIEW_COUNT; v++) {
         w->begins[v] = w->total;
-        w->numbers[v] = number;
-        number += w->sizes[v] > 0;
+        w->numbers[v] = index;
+        index += w->sizes[v] > 0;
         w->total += ffd_gltf_align(w->sizes[v]);
     }
 }
@@ -202,9 +202,9 @@ static ffd_status put_bin_file(gltf_writer *w, const mesh_save_options *options,
 
 static ffd_status put_files(gltf_writer *w, const mesh_save_options *options, const mesh_log *log)
 {
-    beside_names names = {.options = options, .log = log};
+    sidecar_names names = {.options = options, .log = log};
     char *path;
-    ffd_status status = ffd_beside_next(&names, NULL, NULL, &path, w->error);
+    ffd_status status = ffd_sidecar_next(&names, NULL, NULL, &path, w->error);
     char *const uri = path ? ffd_uri_encode(ffd_path_name(path)) : NULL;
     if (status == FFD_OK)
         status = uri ? FFD_OK : ffd_fail_memory(w->error);
@@ -223,7 +223,7 @@ static ffd_status put_files(gltf_writer *w, const mesh_save_options *options, co
     return status;
 }
 
-static void tell_origins(const gltf_writer *w, const mesh_log *log)
+static void log_origins(const gltf_writer *w, const mesh_log *log)
 {
     char texts[3][FFD_NUMBER_CAPACITY];
     const size_t count = w->plan.meshes.count;
@@ -265,7 +265,7 @@ static ffd_status write(const mesh_model *model, const mesh_save_options *option
     if (status == FFD_OK)
         status = files ? put_files(w, options, log) : binary ? put_glb(w, options->path) : put_stream(w);
     if (status == FFD_OK)
-        tell_origins(w, log);
+        log_origins(w, log);
     if (status == FFD_OK)
         ffd_polygon_cut_warn(w->plan.hurried_polygons, log);
     end(w);

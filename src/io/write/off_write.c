@@ -39,10 +39,10 @@ static void write_header(model_sink *sink, const off_plan *plan)
     ffd_sink_text(sink, " 0\n"); /* nobody uses the number of edges */
 }
 
-static void write_named(model_sink *sink, const double *values, size_t numbers, uint32_t number)
+static void write_named(model_sink *sink, const double *values, size_t numbers, uint32_t index)
 {
     static const double zeros[3] = {0, 0, 0};
-    ffd_sink_numbers(sink, number == MODEL_NONE ? zeros : values + numbers * number, numbers);
+    ffd_sink_numbers(sink, index == MODEL_NONE ? zeros : values + numbers * index, numbers);
 }
 
 /* Writes a colour: whole numbers up to 255, as in most files, or numbers with a decimal point, which tells

@@ -89,17 +89,17 @@ static void write_header(model_sink *sink, const ply_plan *plan)
 }
 
 /* Writes the values with this number, or zeros for MODEL_NONE. */
-static void write_values(model_sink *sink, const double *values, size_t numbers, uint32_t number)
+static void write_values(model_sink *sink, const double *values, size_t numbers, uint32_t index)
 {
     for (size_t i = 0; i < numbers; i++)
-        ffd_sink_double(sink, number == MODEL_NONE ? 0 : values[numbers * number + i]);
+        ffd_sink_double(sink, index == MODEL_NONE ? 0 : values[numbers * index + i]);
 }
 
 /* Written as floats: many programs ignore texture coordinates that are doubles. */
-static void write_texcoord(model_sink *sink, const ply_plan *plan, uint32_t number)
+static void write_texcoord(model_sink *sink, const ply_plan *plan, uint32_t index)
 {
     for (size_t i = 0; i < 2; i++)
-        ffd_sink_float(sink, number == MODEL_NONE ? 0 : plan->model->texcoords[2 * (size_t)number + i]);
+        ffd_sink_float(sink, index == MODEL_NONE ? 0 : plan->model->texcoords[2 * (size_t)index + i]);
 }
 
 static void write_colour(model_sink *sink, const double *colour, bool bytes, bool alpha)

@@ -117,7 +117,7 @@ static void begin_points(const block_work *work)
         const bool finite = vec_is_finite(run->x + 3 * i);
         run->scratch->owners[i] = BLOCK_NONE;
         run->outcomes[i] =
-            (point_outcome){.status = finite ? FFD_OUTSIDE : FFD_POINT_INVALID, .outside = finite};
+            (point_outcome){.status = finite ? FFD_VERTEX_OUTSIDE : FFD_VERTEX_INVALID, .outside = finite};
         run->scratch->locations[i] =
             (ffd_location){.uvw = {NAN, NAN, NAN}, .status = run->outcomes[i].status};
         blocks->asked[i] = 0;
@@ -209,8 +209,8 @@ static ffd_status note_location(const block_work *work, size_t i, uint32_t block
 
 /* Searches the block that these points ask for. Points that need further blocks are appended to
    blocks->again. *pending: how many these are. */
-static ffd_status look_in_block(const block_work *work, const uint32_t *points, size_t count, size_t *pending,
-                                ffd_error *error)
+static ffd_status search_block(const block_work *work, const uint32_t *points, size_t count, size_t *pending,
+                               ffd_error *error)
 {
     const chain_run *const run = work->run;
     block_scratch *const blocks = &run->scratch->blocks;
@@ -225,8 +225,9 @@ static ffd_status look_in_block(const block_work *work, const uint32_t *points, 
         const uint32_t i = points[k];
         blocks->asked[i] = block + 1;
         bool again;
-        if (blocks->found[k].status == FFD_OUTSIDE)
-            status = ffd_look_again(link, snap, true, run, i, run->x + 3 * i, &blocks->found[k], error);
+        if (blocks->found[k].status == FFD_VERTEX_OUTSIDE)
+            status =
+                ffd_retry_near_border(link, snap, true, run, i, run->x + 3 * i, &blocks->found[k], error);
         if (!status)
             status = note_location(work, i, block, &ends, &blocks->found[k], &again, error);
         if (!status && again)
@@ -248,7 +249,7 @@ static ffd_status locate_pending(const block_work *work, ffd_error *error)
         size_t again = 0;
         for (size_t k = 0, size; k < count && !status; k += size) {
             size = same_block(blocks->asked, sorted + k, count - k);
-            status = look_in_block(work, sorted + k, size, &again, error);
+            status = search_block(work, sorted + k, size, &again, error);
         }
         memcpy(blocks->pending, blocks->again, again * sizeof *blocks->again);
         blocks->pending_count = again;
@@ -264,7 +265,7 @@ static void begin_again(const block_work *work)
     blocks->pending_count = 0;
     for (size_t i = 0; i < run->count; i++) {
         blocks->asked[i] = 0;
-        if (run->scratch->owners[i] == BLOCK_NONE && run->outcomes[i].status != FFD_POINT_INVALID)
+        if (run->scratch->owners[i] == BLOCK_NONE && run->outcomes[i].status != FFD_VERTEX_INVALID)
             blocks->pending[blocks->pending_count++] = (uint32_t)i;
     }
 }
@@ -350,7 +351,7 @@ static void mark_inside(const block_work *work, size_t i)
     const ffd_location *const location = &run->scratch->locations[i];
     const uint32_t owner = run->scratch->owners[i];
     ffd_mark_owner(work->chain, run, i, owner);
-    ffd_mark_part(work->chain, owner, run, i, location->status == FFD_SINGULAR ? NULL : location->uvw);
+    ffd_mark_part(work->chain, owner, run, i, location->status == FFD_VERTEX_SINGULAR ? NULL : location->uvw);
 }
 
 /* Points outside of all blocks stay, or are extended. Lists the other points in blocks->pending. */
@@ -373,7 +374,7 @@ static ffd_status place_others(const block_work *work, ffd_error *error)
             memset(run->gradient + 9 * i, 0, 9 * sizeof *run->gradient);
         ffd_mark_owner(work->chain, run, i, OWNER_NONE);
         ffd_mark_part(work->chain, 0, run, i, NULL);
-        if (run->outcomes[i].status == FFD_POINT_INVALID)
+        if (run->outcomes[i].status == FFD_VERTEX_INVALID)
             continue;
         if (work->chain->outside.extend)
             status = extend(work, i, error);

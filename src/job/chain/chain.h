@@ -87,8 +87,8 @@ typedef struct lattice_chain {
     mark_layout marks;    /* of the points of a pass (marks.h) */
     memory_budget memory; /* charged with the lattices */
     chain_outside outside;
-    ffd_isa isa;      /* of the kernels; does not change results */
-    ffd_share *share; /* cache shared with the jobs before and after, or NULL */
+    ffd_isa isa;          /* of the kernels; does not change results */
+    ffd_job_cache *cache; /* cache shared with the jobs before and after, or NULL */
 } lattice_chain;
 
 /* The number of u,v,w that a point may have in this chain: one in each link, or one in all blocks. */

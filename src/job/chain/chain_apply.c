@@ -58,7 +58,7 @@ static ffd_status extend(const lattice_chain *chain, size_t l, chain_run *run,
     memset(delta, 0, 3 * sizeof *delta);
     if (gradient)
         memset(gradient, 0, 9 * sizeof *gradient);
-    if (run->scratch->locations[i].status == FFD_POINT_INVALID || !link->border)
+    if (run->scratch->locations[i].status == FFD_VERTEX_INVALID || !link->border)
         return FFD_OK;
     const double reach = link->falloff > 0 ? link->falloff : HUGE_VAL;
     ffd_status status = link->is_convex ? FFD_OK : ffd_deadline_check(error);
@@ -76,7 +76,7 @@ static ffd_status extend(const lattice_chain *chain, size_t l, chain_run *run,
 /* Marks a point as left by link l, unless the link extends to it. */
 static void mark_kept(const chain_link *link, size_t l, chain_run *run, size_t i)
 {
-    if (!link->border && run->scratch->locations[i].status != FFD_POINT_INVALID)
+    if (!link->border && run->scratch->locations[i].status != FFD_VERTEX_INVALID)
         ffd_mark_kept(run, i, l);
 }
 
@@ -92,8 +92,8 @@ static ffd_status note_locations(const lattice_chain *chain, size_t l, chain_run
         point_outcome later, *const outcome = is_first ? &run->outcomes[i] : &later;
         ffd_outcome_make(link->lattice, &locations[i], outcome);
         if (outcome->outside && !(is_first && run->located)) {
-            status = ffd_look_again(link, link->snap, is_first, run, i, run->x + 3 * i,
-                                    &run->scratch->locations[i], error);
+            status = ffd_retry_near_border(link, link->snap, is_first, run, i, run->x + 3 * i,
+                                           &run->scratch->locations[i], error);
             ffd_outcome_make(link->lattice, &locations[i], outcome);
         }
         if (!is_first)
@@ -102,7 +102,7 @@ static ffd_status note_locations(const lattice_chain *chain, size_t l, chain_run
             run->scratch->inside[batch->count++] = (uint32_t)i;
             if (parts)
                 ffd_mark_part(chain, l, run, i,
-                              locations[i].status == FFD_SINGULAR ? NULL : locations[i].uvw);
+                              locations[i].status == FFD_VERTEX_SINGULAR ? NULL : locations[i].uvw);
             continue;
         }
         ffd_mark_part(chain, l, run, i, NULL);

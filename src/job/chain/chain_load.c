@@ -23,14 +23,14 @@ static void borrow_lattice(const chain_files *files, lattice_chain *chain, size_
 {
     chain_link *const link = &chain->links[i];
     const char *const path = ffd_lattice_file(&files->lattices[i]);
-    if (!chain->share || files->set_count > 0 || !path || !ffd_file_stamp(path, &link->stamp))
+    if (!chain->cache || files->set_count > 0 || !path || !ffd_file_stamp(path, &link->stamp))
         return;
     link->path = path;
-    ffd_cache_lend_lattice(chain->share, link);
+    ffd_job_cache_lend_lattice(chain->cache, link);
 }
 
 /* Fits the lattice to its box, unless the box depends on the job's mesh. */
-static ffd_status fit(const chain_files *files, ffd_share *share, chain_link *link, bool *fitted,
+static ffd_status fit(const chain_files *files, ffd_job_cache *cache, chain_link *link, bool *fitted,
                       ffd_error *error)
 {
     const bool names_meshes = ffd_lattice_get_mesh_count(link->lattice) > 0;
@@ -42,7 +42,7 @@ static ffd_status fit(const chain_files *files, ffd_share *share, chain_link *li
         return FFD_OK;
     *fitted = true;
     if (names_meshes)
-        status = ffd_mesh_box_find(share ? ffd_cache_mesh_boxes(share) : &own, link->lattice, files->mesh,
+        status = ffd_mesh_box_find(cache ? ffd_job_cache_mesh_boxes(cache) : &own, link->lattice, files->mesh,
                                    &box, &link->box_files, files->log, error);
     else
         box = ffd_shown_box_bounds(&files->shared->box);
@@ -60,7 +60,7 @@ static void list_open(const chain_files *files, size_t i, bool *used, intern_tab
 
 /* Replaces the message of a failure that is due to open placeholders in lattice i by one that names those of
    all lattices. */
-static void tell_open(const chain_files *files, size_t i, bool *used, ffd_error *error)
+static void name_open_placeholders(const chain_files *files, size_t i, bool *used, ffd_error *error)
 {
     intern_table own = {0}, all = {0};
     list_open(files, i, used, &own);
@@ -94,7 +94,7 @@ static ffd_status load_lattice(const chain_files *files, bool *used, size_t i, u
                               : *lattice ? ffd_lattice_memory_take(memory, (*lattice)->spec, file_size, error)
                                          : ffd_lattice_memory_load(source, &settings, memory, lattice, error);
     if (status == FFD_E_INVALID && !files->rest_only && error)
-        tell_open(files, i, used, error);
+        name_open_placeholders(files, i, used, error);
     if (status)
         ffd_fail_name_file(error, files->lattices[i].path);
     return status;
@@ -107,7 +107,7 @@ static ffd_status load_link(const chain_files *files, bool *used, lattice_chain 
     bool fitted = false;
     ffd_status status = load_lattice(files, used, i, link->stamp.size, &chain->memory, &link->lattice, error);
     if (!status)
-        status = fit(files, chain->share, link, &fitted, error);
+        status = fit(files, chain->cache, link, &fitted, error);
     if (!status && fitted)
         status = ffd_chain_prepare(chain, i, error);
     if (status)
@@ -174,9 +174,9 @@ static ffd_status check_count(const chain_files *files, ffd_error *error)
 }
 
 ffd_status ffd_chain_load(const chain_files *files, const chain_outside *outside, ffd_isa isa,
-                          ffd_share *share, lattice_chain *chain, ffd_error *error)
+                          ffd_job_cache *cache, lattice_chain *chain, ffd_error *error)
 {
-    *chain = (lattice_chain){.memory = budget_of(files), .outside = *outside, .isa = isa, .share = share};
+    *chain = (lattice_chain){.memory = budget_of(files), .outside = *outside, .isa = isa, .cache = cache};
     ffd_status status = check_count(files, error);
     if (status)
         return status;
@@ -186,11 +186,11 @@ ffd_status ffd_chain_load(const chain_files *files, const chain_outside *outside
     chain->count = status ? 0 : files->count;
     for (size_t i = 0; i < chain->count; i++)
         borrow_lattice(files, chain, i);
-    ffd_cache_evict_lattices(share);
+    ffd_job_cache_evict_lattices(cache);
     for (size_t i = 0; i < chain->count && !status; i++)
         status = load_link(files, used, chain, i, error);
     if (!status)
-        status = refuse_unused(files, used, ffd_cache_is_of_batch(share), error);
+        status = refuse_unused(files, used, ffd_job_cache_is_of_batch(cache), error);
     ffd_free(used);
     if (status)
         ffd_chain_free(chain);
@@ -249,10 +249,10 @@ ffd_status ffd_chain_prepare(lattice_chain *chain, size_t link, ffd_error *error
 {
     chain_link *made = &chain->links[link];
     ffd_status status = FFD_OK;
-    if (chain->share) {
+    if (chain->cache) {
         if (!made->lattice_is_lent)
             made->rest = hash_rest(made->lattice);
-        ffd_cache_lend_locator(chain->share, chain->isa, made);
+        ffd_job_cache_lend_locator(chain->cache, chain->isa, made);
     }
     made->snap = chain->outside.snap * (chain->outside.snap_is_relative ? made->lattice->diagonal : 1);
     if (!made->locator)

@@ -162,9 +162,9 @@ static ffd_status count_places(const lattice_chain *chain, size_t link, const si
     ffd_status status = ffd_locator_find(to->locator, x, count, at, error);
     for (size_t k = 0; k < count && !status; k++) {
         face_place *const place = &run->scratch->places[numbers[k]];
-        if (at[k].status == FFD_OUTSIDE)
-            status =
-                ffd_look_again(to, to->snap, place->link == 0, run, place->point, place->x, &at[k], error);
+        if (at[k].status == FFD_VERTEX_OUTSIDE)
+            status = ffd_retry_near_border(to, to->snap, place->link == 0, run, place->point, place->x,
+                                           &at[k], error);
         if (!vec_is_finite(at[k].uvw) || !share_face(chain->links, place, to, at[k].uvw))
             continue;
         place->is_counted = true;

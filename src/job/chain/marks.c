@@ -111,8 +111,8 @@ static bool are_neighbours(const chain_link *link, int direction, int a, int b)
 bool ffd_marks_are_near(const lattice_chain *chain, const mark_planes *marks, size_t a, size_t b)
 {
     const uint8_t *plane = marks->bytes + chain->marks.parts * marks->points;
-    for (size_t number = 0; number < chain->marks.parted_count; number++) {
-        const unsigned owner = chain->blocks ? ffd_marks_owner(chain, marks, a) : chain->marks.parted[number];
+    for (size_t index = 0; index < chain->marks.parted_count; index++) {
+        const unsigned owner = chain->blocks ? ffd_marks_owner(chain, marks, a) : chain->marks.parted[index];
         if (owner == OWNER_NONE)
             return true;
         const chain_link *const link = &chain->links[owner & ~OWNER_NEAREST];

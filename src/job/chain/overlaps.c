@@ -101,7 +101,7 @@ static bool overlap(overlap_search *search, uint32_t a, uint32_t b)
     return found && !search->status;
 }
 
-static bool look_at_pair(void *context, uint32_t other)
+static bool visit_pair(void *context, uint32_t other)
 {
     overlap_search *const search = context;
     const uint32_t block = search->block;
@@ -132,7 +132,7 @@ ffd_status ffd_overlaps_warn(const lattice_chain *chain, const mesh_log *log, ff
         search.places[3 * PLACES * l] = NAN;
     for (size_t l = 0; l < chain->count && !search.status; l++) {
         search.block = (uint32_t)l;
-        ffd_box_tree_visit_box(&chain->tree, &chain->boxes[l], none, look_at_pair, &search);
+        ffd_box_tree_visit_box(&chain->tree, &chain->boxes[l], none, visit_pair, &search);
     }
     ffd_free(search.places);
     if (search.status || search.pairs == 0)

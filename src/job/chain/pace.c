@@ -19,15 +19,15 @@
 /* A point that takes so many seconds is worth a word. */
 #define SLOW 0.01
 
-static void tell(chain_pace *pace, const chain_link *link)
+static void warn(chain_pace *pace, const chain_link *link)
 {
     const double each = pace->seconds / (double)pace->done, parts = ceil(pace->points / MESH_RANGE_STEP);
     const double all = larger_of(each * pace->points / lesser_of(pace->threads, parts), pace->seconds);
     const ffd_lattice_source *const lattice = pace->lattices ? &pace->lattices[link - pace->links] : NULL;
     char text[40], name[201] = "";
-    if (pace->is_told || pace->done < FIRST_POINTS || each < SLOW)
+    if (pace->is_logged || pace->done < FIRST_POINTS || each < SLOW)
         return;
-    pace->is_told = true;
+    pace->is_logged = true;
     if (lattice)
         ffd_name_shown(lattice->path, name, sizeof name);
     if (all < 120)
@@ -68,7 +68,7 @@ ffd_status ffd_pace_find(const chain_link *link, const double *x, size_t count, 
         if (pace) {
             pace->done += now;
             pace->seconds += seconds;
-            tell(pace, link);
+            warn(pace, link);
         }
         size = ends ? next_slice(now, seconds) : MOST_POINTS;
         status = ffd_deadline_check(error);

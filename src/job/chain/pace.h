@@ -16,7 +16,7 @@ typedef struct chain_pace {
     mesh_log log;
     uint64_t done;  /* points of this thread, */
     double seconds; /* and what they took */
-    bool is_told;
+    bool is_logged;
 } chain_pace;
 
 /* As ffd_locator_find of a link. pace: NULL, or warns once, after 100 points or more, if a point takes 10 ms

@@ -13,7 +13,7 @@ static inline void ffd_outcome_make(const ffd_lattice *lattice, const ffd_locati
                                     point_outcome *outcome)
 {
     /* Assigned member by member: copying a whole record from the stack would stall on store forwarding. */
-    const bool invalid = location->status == FFD_POINT_INVALID;
+    const bool invalid = location->status == FFD_VERTEX_INVALID;
     const bool placed = ffd_location_is_placed(location);
     const double relative = location->residual / lattice->diagonal;
     outcome->residual_square = relative * relative;
@@ -22,7 +22,7 @@ static inline void ffd_outcome_make(const ffd_lattice *lattice, const ffd_locati
     outcome->moved = false;
     outcome->located = placed;
     outcome->outside = !placed && !invalid;
-    outcome->multiple = location->status == FFD_MULTIPLE;
+    outcome->multiple = location->status == FFD_VERTEX_MULTIPLE;
     outcome->unresolved = location->unresolved;
     outcome->disagrees = false;
     outcome->extended = false;
@@ -31,8 +31,8 @@ static inline void ffd_outcome_make(const ffd_lattice *lattice, const ffd_locati
 /* Being outside of one lattice does not matter if another one has the point. */
 static inline uint8_t ffd_status_joined(uint8_t a, uint8_t b)
 {
-    if (a == FFD_OUTSIDE || b == FFD_OUTSIDE)
-        return a == FFD_OUTSIDE ? b : a;
+    if (a == FFD_VERTEX_OUTSIDE || b == FFD_VERTEX_OUTSIDE)
+        return a == FFD_VERTEX_OUTSIDE ? b : a;
     return a > b ? a : b;
 }
 

@@ -2,14 +2,14 @@
 #include "embed/acceptance.h"
 #include "embed/near_border.h"
 
-ffd_status ffd_look_again(const chain_link *link, double snap, bool is_first, const chain_run *run,
-                          size_t point, const double x[3], ffd_location *location, ffd_error *error)
+ffd_status ffd_retry_near_border(const chain_link *link, double snap, bool is_first, const chain_run *run,
+                                 size_t point, const double x[3], ffd_location *location, ffd_error *error)
 {
     double half[3];
     if (!run->rounding && !(snap > 0))
         return FFD_OK;
     ffd_rounding_find(run->rounding, point, is_first, x, half);
-    return ffd_near_border_look_again(link->locator, x, half, snap, location, error);
+    return ffd_near_border_retry(link->locator, x, half, snap, location, error);
 }
 
 ffd_status ffd_link_miss(const chain_link *link, const double x[3], double reach, double *miss,
@@ -22,7 +22,7 @@ bool ffd_recalled_meets(const chain_link *link, const chain_rounding *rounding, 
                         const double x[3], const ffd_location *location)
 {
     double half[3];
-    if ((location->status != FFD_INSIDE && location->status != FFD_MULTIPLE) ||
+    if ((location->status != FFD_VERTEX_INSIDE && location->status != FFD_VERTEX_MULTIPLE) ||
         ffd_locator_accepts(link->locator, x, location, NULL, 0))
         return true;
     ffd_rounding_find(rounding, point, true, x, half);

@@ -18,8 +18,8 @@ static inline void ffd_rounding_find(const chain_rounding *rounding, size_t poin
 /* Looks again at a point of the run, at x, that is outside of the link's volume: within its rounding, or the
    snap, *location becomes the nearest point of the border. is_first: x is where the file has the point.
    Errors: FFD_E_MEMORY. */
-ffd_status ffd_look_again(const chain_link *link, double snap, bool is_first, const chain_run *run,
-                          size_t point, const double x[3], ffd_location *location, ffd_error *error);
+ffd_status ffd_retry_near_border(const chain_link *link, double snap, bool is_first, const chain_run *run,
+                                 size_t point, const double x[3], ffd_location *location, ffd_error *error);
 
 /* Finds how far a point outside of the link's volume misses it; see ffd_near_border_miss. */
 ffd_status ffd_link_miss(const chain_link *link, const double x[3], double reach, double *miss,

@@ -138,14 +138,14 @@ static int rank(ffd_fold_verdict verdict)
     return verdict == FFD_FOLDS_SOME ? 2 : verdict == FFD_FOLDS_UNKNOWN ? 1 : 0;
 }
 
-void ffd_folds_join(const ffd_folds *next, size_t number, ffd_folds *all)
+void ffd_folds_join(const ffd_folds *next, size_t index, ffd_folds *all)
 {
     const ffd_folds before = *all;
-    if (number == 0 || (!before.witness.is_there && next->witness.is_there)) {
+    if (index == 0 || (!before.witness.is_there && next->witness.is_there)) {
         *all = *next;
-        all->witness.lattice = next->witness.is_there ? number : 0;
+        all->witness.lattice = next->witness.is_there ? index : 0;
     }
-    if (number == 0)
+    if (index == 0)
         return;
     all->is_known = before.is_known && next->is_known;
     all->verdict = rank(next->verdict) > rank(before.verdict) ? next->verdict : before.verdict;
@@ -165,17 +165,17 @@ static void join_behind(const ffd_job_result *target, ffd_job_result *all)
 }
 
 /* Joins target `number` of count. before: all before that. taken: of the figure before. */
-static bool join_target(const figure *f, const ffd_job_result *target, size_t number, size_t count,
+static bool join_target(const figure *f, const ffd_job_result *target, size_t index, size_t count,
                         const ffd_job_result *before, bool taken, ffd_job_result *all)
 {
-    const bool is_first = number == 0;
+    const bool is_first = index == 0;
     const void *const from = (const char *)target + f->result.at;
     void *const to = (char *)all + f->result.at;
     switch (f->targets) {
     case JOIN_NONE:
         return false;
     case JOIN_FOLDS:
-        ffd_folds_join(&target->folds, number, &all->folds);
+        ffd_folds_join(&target->folds, index, &all->folds);
         return false;
     case JOIN_BEHIND:
         join_behind(target, all);
@@ -191,7 +191,7 @@ static bool join_target(const figure *f, const ffd_job_result *target, size_t nu
             memcpy(to, from, size_of(f->result.type));
         return taken;
     case JOIN_FEWEST:
-        if (is_first || target->counts[FFD_INSIDE] < before->counts[FFD_INSIDE])
+        if (is_first || target->counts[FFD_VERTEX_INSIDE] < before->counts[FFD_VERTEX_INSIDE])
             memcpy(to, from, size_of(f->result.type));
         return false;
     case JOIN_GROUP:

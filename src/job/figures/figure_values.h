@@ -18,6 +18,6 @@ void ffd_result_note_flaws(ffd_job_result *result, const mesh_flaws *flaws);
 void ffd_results_join(const ffd_job_result *targets, size_t count, ffd_job_result *all);
 
 /* Adds the folds of volume `number`: the worse verdict, sums of cells, the first witness. */
-void ffd_folds_join(const ffd_folds *next, size_t number, ffd_folds *all);
+void ffd_folds_join(const ffd_folds *next, size_t index, ffd_folds *all);
 
 #endif

@@ -245,7 +245,7 @@ static ffd_status check_vertices(const embedding_file *file, const char *name, f
         if (s >= FFD_VERTEX_STATUS_COUNT)
             return ffd_fail_file(error, FFD_E_INVALID, name, "the status of vertex %zu is %u, not 0 to %d", i,
                                  s, FFD_VERTEX_STATUS_COUNT - 1);
-        if ((s == FFD_INSIDE || s == FFD_MULTIPLE) && !vec_is_finite(file->uvw + 3 * i))
+        if ((s == FFD_VERTEX_INSIDE || s == FFD_VERTEX_MULTIPLE) && !vec_is_finite(file->uvw + 3 * i))
             return ffd_fail_file(error, FFD_E_INVALID, name,
                                  "u,v,w of vertex %zu is not finite, although its status is %u", i, s);
     }
@@ -295,7 +295,8 @@ void ffd_embedding_locate(const embedding_file *file, size_t vertex, const ffd_l
     const double *uvw = file->uvw + 3 * vertex;
     double at[3];
     *location = (ffd_location){.uvw = {NAN, NAN, NAN}, .status = file->statuses[vertex]};
-    if (location->status == FFD_OUTSIDE || location->status == FFD_POINT_INVALID || !vec_is_finite(uvw))
+    if (location->status == FFD_VERTEX_OUTSIDE || location->status == FFD_VERTEX_INVALID ||
+        !vec_is_finite(uvw))
         return;
     for (int a = 0; a < 3; a++)
         location->uvw[a] = ffd_knots_wrap(&lattice->knots[a], uvw[a]);

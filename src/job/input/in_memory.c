@@ -85,7 +85,7 @@ ffd_status ffd_in_memory_desc(job_memory *memory, ffd_deform_desc *desc, ffd_err
     if (!status)
         status = ffd_in_memory_output(desc->sink, desc->output, error);
     if (desc->sink)
-        desc->written = NULL;
+        desc->output_set = NULL;
     return status;
 }
 

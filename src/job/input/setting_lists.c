@@ -81,14 +81,14 @@ const char *ffd_setting_list_name(const ffd_member *member, void *base, const ch
 {
     list_head *const head = head_of(member, base);
     const size_t before = head->list.known.count;
-    uint32_t number;
+    uint32_t index;
     if (!ffd_grow((void **)&head->list.names, &head->list.name_capacity, head->list.name_count + 1,
                   sizeof *head->list.names) ||
-        !ffd_intern(&head->list.known, name, length, &number))
+        !ffd_intern(&head->list.known, name, length, &index))
         return NULL;
-    *is_new = number == before;
+    *is_new = index == before;
     if (!*is_new)
-        return head->list.names[number];
+        return head->list.names[index];
     char *const copy = ffd_alloc(length + 1, 1);
     if (!copy)
         return NULL;
@@ -120,16 +120,16 @@ void ffd_member_clear(const ffd_member *member, ffd_deform_desc *base)
 void ffd_deform_desc_clear(ffd_deform_desc *desc)
 {
     const ffd_member *member;
-    for (size_t number = 0; (member = ffd_deform_member(number)) != NULL; number++)
+    for (size_t index = 0; (member = ffd_deform_member(index)) != NULL; index++)
         ffd_member_clear(member, desc);
 }
 
 static const ffd_member *find(ffd_member_kind kind)
 {
-    size_t number = 0;
-    while (ffd_deform_member(number)->kind != kind)
-        number++;
-    return ffd_deform_member(number);
+    size_t index = 0;
+    while (ffd_deform_member(index)->kind != kind)
+        index++;
+    return ffd_deform_member(index);
 }
 
 bool ffd_setting_lattice_add(ffd_deform_desc *desc, const char *path)
@@ -145,14 +145,14 @@ bool ffd_setting_lattice_add(ffd_deform_desc *desc, const char *path)
 bool ffd_setting_morph_add(ffd_deform_desc *desc, const char *name, const char *path, bool *is_new)
 {
     const ffd_member *const morphs = find(FFD_MEMBER_MORPHS);
-    const size_t number = desc->lattice_count;
-    if (!grow(morphs, desc, number + 1))
+    const size_t index = desc->lattice_count;
+    if (!grow(morphs, desc, index + 1))
         return false;
     const char *const copy = ffd_setting_list_name(morphs, desc, name, strlen(name), is_new);
     if (!copy || !*is_new)
         return copy;
     if (!ffd_setting_lattice_add(desc, path))
         return false;
-    ((const char **)*items_of(morphs, desc))[number] = copy;
+    ((const char **)*items_of(morphs, desc))[index] = copy;
     return true;
 }

@@ -83,9 +83,9 @@ const job_rule ffd_job_rules[] = {
     {NULL, JOB_NEEDS, NULL, NULL},
 };
 
-const ffd_member *ffd_deform_member(size_t number)
+const ffd_member *ffd_deform_member(size_t index)
 {
-    return number < MEMBERS ? &members[number] : NULL;
+    return index < MEMBERS ? &members[index] : NULL;
 }
 
 bool ffd_member_is_list(const ffd_member *member)
@@ -176,8 +176,8 @@ bool ffd_setting_is_set(const ffd_deform_desc *desc, const char *setting)
         return false;
     if (!word)
         return true;
-    const size_t number = number_of(desc, &members[m]);
-    return ffd_member_is_list(&members[m]) ? number > 1 : strcmp(members[m].words[number], word) == 0;
+    const size_t index = number_of(desc, &members[m]);
+    return ffd_member_is_list(&members[m]) ? index > 1 : strcmp(members[m].words[index], word) == 0;
 }
 
 static ffd_status check_range(const ffd_deform_desc *desc, const ffd_member *member, ffd_error *error)

@@ -37,7 +37,7 @@ ffd_status ffd_source_format(const ffd_source *source, ffd_format *format, ffd_e
 }
 
 /* If a run has set the file aside, says so in the message: it is not lost. */
-static void tell_of_set_aside(const char *path, ffd_error *error)
+static void mention_set_aside(const char *path, ffd_error *error)
 {
     if (error && !ffd_file_is_stream(path) && !ffd_file_exists(path) && ffd_record_exists(path))
         ffd_fail_file(error, error->status, path,
@@ -72,7 +72,7 @@ ffd_status ffd_source_open(const ffd_source *source, int threads, mesh_document 
     if (!status) {
         status = ffd_file_take(source->path, source->bytes, &input, error);
         if (status && !source->bytes.data)
-            tell_of_set_aside(source->path, error);
+            mention_set_aside(source->path, error);
     }
     return status ? status : ffd_source_open_bytes(source, threads, &input, document, error);
 }

@@ -47,7 +47,7 @@ static ffd_status send(check_work *work, const lattice_chain *chain, size_t from
     later.links += from;
     later.count -= from;
     later.seam_count = 0;
-    later.share = NULL;
+    later.cache = NULL;
     ffd_displacement_scratch_clear(&work->scratch->displacement);
     return later.count == 0 ? FFD_OK : ffd_chain_apply(&later, later.count, &run, error);
 }

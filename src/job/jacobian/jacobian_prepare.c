@@ -39,7 +39,7 @@ static ffd_status find_extended(jacobian *j, const chain_link *link, const doubl
     embedding->falloff = link->falloff;
     for (size_t i = 0; i < j->count && !status; i++) {
         boundary_point nearest;
-        if (ffd_embedding_has(embedding, i) || embedding->status[i] == FFD_POINT_INVALID ||
+        if (ffd_embedding_has(embedding, i) || embedding->status[i] == FFD_VERTEX_INVALID ||
             !vec_is_finite(before + 3 * i))
             continue;
         status = ffd_deadline_check(error);
@@ -74,13 +74,13 @@ static ffd_status mark_selected(const jacobian *j, uint8_t *selected, ffd_error 
     return status;
 }
 
-static ffd_status extend(jacobian *j, size_t number, ffd_embedding *embedding, ffd_error *error)
+static ffd_status extend(jacobian *j, size_t index, ffd_embedding *embedding, ffd_error *error)
 {
-    const chain_link *const link = &j->job.chain.links[number];
+    const chain_link *const link = &j->job.chain.links[index];
     double *const before = ffd_alloc(j->count, 3 * sizeof *before);
     uint8_t *const selected = ffd_alloc(j->count, 1);
     ffd_status status =
-        before && selected ? ffd_jacobian_positions(j, number, before, error) : ffd_fail_memory(error);
+        before && selected ? ffd_jacobian_positions(j, index, before, error) : ffd_fail_memory(error);
     if (!status)
         status = mark_selected(j, selected, error);
     for (size_t i = 0; i < j->count && !status; i++)
@@ -139,7 +139,7 @@ static ffd_status find_later(const jacobian *j, jacobian_link *link, ffd_error *
     later.links += link->number + 1;
     later.count -= link->number + 1;
     later.seam_count = 0;
-    later.share = NULL;
+    later.cache = NULL;
     if (later.count == 0)
         return FFD_OK;
     double *const after = ffd_alloc(j->count, 3 * sizeof *after);

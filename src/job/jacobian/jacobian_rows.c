@@ -102,12 +102,12 @@ static void find_place(const ffd_lattice *lattice, const basis_row *basis, doubl
         x[c] /= sum;
 }
 
-static void add_link(const jacobian *j, size_t number, size_t vertex, jacobian_rows *rows)
+static void add_link(const jacobian *j, size_t index, size_t vertex, jacobian_rows *rows)
 {
-    const jacobian_link *const link = &j->links[number];
+    const jacobian_link *const link = &j->links[index];
     const ffd_lattice *const lattice = j->job.chain.links[link->number].lattice;
     double product[9], x[3];
-    ffd_basis_row(link->embedding, ffd_jacobian_weights(j, link), vertex, &rows->next[number], &rows->basis);
+    ffd_basis_row(link->embedding, ffd_jacobian_weights(j, link), vertex, &rows->next[index], &rows->basis);
     const double *const block = block_of(j, link, vertex, product);
     find_place(lattice, &rows->basis, x);
     for (size_t k = 0; k < link->tangents.columns && rows->basis.count > 0; k++) {

@@ -6,7 +6,7 @@
 
 /* Writes ": hand, foot, tail and 2 more". all: the number of things; 0: names are of parts that hold
    several. */
-static void tell_names(const ffd_behind *behind, uint64_t all, char *text, size_t capacity)
+static void write_names(const ffd_behind *behind, uint64_t all, char *text, size_t capacity)
 {
     size_t length = 0, named = 0;
     *text = 0;
@@ -18,7 +18,7 @@ static void tell_names(const ffd_behind *behind, uint64_t all, char *text, size_
 }
 
 /* Joints, pivots and sockets have a warning of their own (ffd_rig_warn). */
-static bool is_said_elsewhere(int kind, ffd_rig rig)
+static bool is_warned_elsewhere(int kind, ffd_rig rig)
 {
     return rig == FFD_RIG_KEEP &&
            (kind == FFD_BEHIND_JOINT || kind == FFD_BEHIND_PIVOT || kind == FFD_BEHIND_SOCKET);
@@ -33,9 +33,9 @@ void ffd_behind_warn(const ffd_job_result *result, ffd_rig rig, const mesh_log *
     char names[FFD_BEHIND_NAMES * (sizeof result->behind[0].names[0] + 2) + 40];
     for (int kind = 0; kind < FFD_BEHIND_SPLAT; kind++) {
         const ffd_behind *behind = &result->behind[kind];
-        if (behind->count == 0 || is_said_elsewhere(kind, rig))
+        if (behind->count == 0 || is_warned_elsewhere(kind, rig))
             continue;
-        tell_names(behind, behind->count, names, sizeof names);
+        write_names(behind, behind->count, names, sizeof names);
         ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " %s%s, though the lattice moves the mesh there%s",
                      behind->count, one[kind],
                      ffd_plural(behind->count, " stays where it is", "s stay where they are"), names);
@@ -43,7 +43,7 @@ void ffd_behind_warn(const ffd_job_result *result, ffd_rig rig, const mesh_log *
     const ffd_behind *splats = &result->behind[FFD_BEHIND_SPLAT];
     if (splats->count == 0)
         return;
-    tell_names(splats, 0, names, sizeof names);
+    write_names(splats, 0, names, sizeof names);
     ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " Gaussian splat%s%s", splats->count,
                  ffd_plural(splats->count, " moves, but its rotation and scale stay",
                             "s move, but their rotations and scales stay"),

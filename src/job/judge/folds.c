@@ -26,7 +26,7 @@ void ffd_folds_describe(const ffd_job_result *result, const ffd_lattice_source *
 
 /* Says how many faces are turned over, or if that is not known at how many vertices the mesh is inside out.
    text becomes "" if there are none. */
-static void tell_turned(const ffd_job_result *result, const pass_totals *totals, char *text, size_t capacity)
+static void write_turned(const ffd_job_result *result, const pass_totals *totals, char *text, size_t capacity)
 {
     *text = 0;
     if (result->has_flipped && result->flipped_faces)
@@ -44,7 +44,7 @@ void ffd_folds_warn(const ffd_job_result *result, const pass_totals *totals,
                     const ffd_lattice_source *lattices, const mesh_log *log)
 {
     char text[400], turned[200];
-    tell_turned(result, totals, turned, sizeof turned);
+    write_turned(result, totals, turned, sizeof turned);
     if (result->folds.is_known && result->folds.verdict != FFD_FOLDS_NONE) {
         ffd_folds_describe(result, lattices, text, sizeof text);
         ffd_log_line(log, FFD_LOG_WARNING, "the deformed volume %s%s%s", text, *turned ? "; " : "", turned);

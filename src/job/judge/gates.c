@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* Says which stored shapes have vertices outside. */
-static const char *tell_stored(const pass_totals *totals)
+static const char *stored_shapes_text(const pass_totals *totals)
 {
     return totals->shapes_outside ? "morph targets move vertices outside the lattice"
                                   : "without the default weights of morph targets vertices are outside the "
@@ -70,10 +70,10 @@ ffd_status ffd_policies_judge(const ffd_deform_desc *desc, const char *name, con
     if (desc->outside == FFD_OUTSIDE_ERROR && totals->outside_all + totals->unshown_outside > 0 && !by_target)
         return fail_outside(name, chain, totals, error);
     if (desc->outside == FFD_OUTSIDE_ERROR && stores_outside(totals))
-        return ffd_fail_file(error, FFD_E_EMBEDDING, name,
-                             "%s, the first is vertex %" PRIu64 " (counted from 0)", tell_stored(totals),
-                             totals->shapes_outside ? totals->first_shape_outside
-                                                    : totals->first_base_outside);
+        return ffd_fail_file(
+            error, FFD_E_EMBEDDING, name, "%s, the first is vertex %" PRIu64 " (counted from 0)",
+            stored_shapes_text(totals),
+            totals->shapes_outside ? totals->first_shape_outside : totals->first_base_outside);
     if (totals->first_overflow != UINT64_MAX)
         return ffd_fail_file(error, FFD_E_INVALID, name,
                              "the deformed position of vertex %" PRIu64
@@ -114,7 +114,7 @@ static void add_outside(complaint *line, const pass_totals *totals)
     snprintf(many, sizeof many, "are outside the lattice%s", as_shown(totals));
     add_count(line, totals->outside_all, totals, one, many, "outside");
     if (stores_outside(totals))
-        add(line, tell_stored(totals), "outside");
+        add(line, stored_shapes_text(totals), "outside");
 }
 
 /* A figure that exceeds the limit by at most this relative amount passes: the limit may come from another
@@ -169,10 +169,10 @@ ffd_status ffd_gates_judge(const ffd_deform_desc *desc, const char *name, const 
     if (desc->fail_on & FFD_GATE_MULTIPLE)
         add_count(&line, totals->multiple_any, totals, "has several u,v,w", "have several u,v,w", "multiple");
     if (desc->fail_on & FFD_GATE_SINGULAR)
-        add_count(&line, totals->counts[FFD_SINGULAR], totals, "is where the lattice has no inverse",
+        add_count(&line, totals->counts[FFD_VERTEX_SINGULAR], totals, "is where the lattice has no inverse",
                   "are where the lattice has no inverse", "singular");
     if (desc->fail_on & FFD_GATE_INVALID)
-        add_count(&line, totals->counts[FFD_POINT_INVALID], totals, "has a coordinate that is not finite",
+        add_count(&line, totals->counts[FFD_VERTEX_INVALID], totals, "has a coordinate that is not finite",
                   "have a coordinate that is not finite", "invalid");
     if (desc->fail_on & FFD_GATE_INVALID && totals->shapes_invalid)
         add(&line, "morph targets move vertices to coordinates that are not finite", "invalid");

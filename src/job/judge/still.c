@@ -60,7 +60,7 @@ static void warn_of_factor(const lattice_chain *chain, const mesh_log *log)
 }
 
 /* Writes where the mesh lies, for those who took its places for others; "" if it has no finite vertex. */
-static void tell_bounds(const ffd_bounds *box, char *text, size_t capacity)
+static void write_bounds(const ffd_bounds *box, char *text, size_t capacity)
 {
     *text = 0;
     if (box->min[0] <= box->max[0])
@@ -79,7 +79,7 @@ void ffd_still_warn(const pass_totals *totals, const lattice_chain *chain, const
 {
     const bool still = totals->moved == 0;
     /* That a morph target has offsets of zero is told when it is saved; why is told here. */
-    const bool is_told = is_target && is_written;
+    const bool is_logged = is_target && is_written;
     char where[200] = "";
     lattice_group idle = {0}, active = {0};
     uint64_t points = 0;
@@ -98,13 +98,13 @@ void ffd_still_warn(const pass_totals *totals, const lattice_chain *chain, const
     end_group(&idle);
     end_group(&active);
     if (still || !totals->is_visible)
-        tell_bounds(box, where, sizeof where);
+        write_bounds(box, where, sizeof where);
     if (idle.count > 0)
         ffd_log_line(log, FFD_LOG_WARNING, "%s%s of %s %s no control point%s",
-                     still && active.count == 0 && !is_told ? "no vertex moves: " : "",
+                     still && active.count == 0 && !is_logged ? "no vertex moves: " : "",
                      ffd_plural(idle.moves, "the move", "the moves"), idle.names,
                      ffd_plural(idle.moves, "moves", "move"), active.count == 0 ? where : "");
-    if (still && !is_told && active.count > 0 && !is_explained(totals))
+    if (still && !is_logged && active.count > 0 && !is_explained(totals))
         ffd_log_line(log, FFD_LOG_WARNING, "no vertex moves, though %s %s %" PRIu64 " control %s%s",
                      active.names, ffd_plural(active.count, "moves", "move"), points,
                      ffd_plural(points, "point", "points"), where);

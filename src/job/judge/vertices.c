@@ -30,9 +30,9 @@ static const char *left_alone(uint64_t count)
 
 /* Writes the kinds, such as "2 moved with the nearest boundary point, 1 left where it is beyond the falloff";
    without numbers if only one kind occurs. */
-static void tell_kinds(const pass_totals *totals, const chain_outside *outside, char *text, size_t capacity)
+static void write_kinds(const pass_totals *totals, const chain_outside *outside, char *text, size_t capacity)
 {
-    const uint64_t count = totals->counts[FFD_OUTSIDE], followed = totals->extended_moved;
+    const uint64_t count = totals->counts[FFD_VERTEX_OUTSIDE], followed = totals->extended_moved;
     const uint64_t still = totals->extended - followed, beyond = count - totals->extended;
     const struct {
         uint64_t count;
@@ -69,10 +69,10 @@ static void round_up(double distance, char text[ROUNDED])
 #define WORTH_A_WORD 10
 
 /* Says how near the vertices are that miss the lattice by next to nothing, if they are many. */
-static void tell_misses(const pass_totals *totals, char *text, size_t capacity)
+static void write_misses(const pass_totals *totals, char *text, size_t capacity)
 {
     const near_misses *const misses = &totals->misses;
-    const uint64_t outside = totals->counts[FFD_OUTSIDE];
+    const uint64_t outside = totals->counts[FFD_VERTEX_OUTSIDE];
     char who[60] = "it misses", by[ROUNDED];
     *text = 0;
     if (misses->count == 0 || WORTH_A_WORD * misses->count < misses->looked_at)
@@ -87,21 +87,21 @@ static void tell_misses(const pass_totals *totals, char *text, size_t capacity)
 }
 
 /* Describes what happened to the vertices outside. */
-static void tell_outside(const pass_totals *totals, const chain_outside *outside, bool deformed, char *text,
-                         size_t capacity)
+static void write_outside(const pass_totals *totals, const chain_outside *outside, bool deformed, char *text,
+                          size_t capacity)
 {
     char kinds[300] = "no u,v,w", misses[120];
     if (deformed)
-        tell_kinds(totals, outside, kinds, sizeof kinds);
-    tell_misses(totals, misses, sizeof misses);
-    snprintf(text, capacity, "%" PRIu64 " outside (%s%s)", totals->counts[FFD_OUTSIDE], kinds, misses);
+        write_kinds(totals, outside, kinds, sizeof kinds);
+    write_misses(totals, misses, sizeof misses);
+    snprintf(text, capacity, "%" PRIu64 " outside (%s%s)", totals->counts[FFD_VERTEX_OUTSIDE], kinds, misses);
 }
 
 /* Says why vertices are singular, unless the search gave up, which has a message of its own. */
-static void tell_degenerate(const pass_totals *totals, char *text, size_t capacity)
+static void write_degenerate(const pass_totals *totals, char *text, size_t capacity)
 {
     const size_t length = strlen(text);
-    if (totals->degenerate && totals->degenerate == totals->counts[FFD_SINGULAR])
+    if (totals->degenerate && totals->degenerate == totals->counts[FFD_VERTEX_SINGULAR])
         snprintf(text + length, capacity - length, " (where the lattice folds or collapses)");
     else if (totals->degenerate)
         snprintf(text + length, capacity - length, " (%" PRIu64 " where the lattice folds or collapses)",
@@ -109,22 +109,22 @@ static void tell_degenerate(const pass_totals *totals, char *text, size_t capaci
 }
 
 /* Lists the number of vertices of each status other than inside, and what happened to them. */
-static void tell_others(const pass_totals *totals, const chain_outside *outside, bool deformed, char *text,
-                        size_t capacity)
+static void write_others(const pass_totals *totals, const chain_outside *outside, bool deformed, char *text,
+                         size_t capacity)
 {
     *text = 0;
-    if (totals->counts[FFD_OUTSIDE])
-        tell_outside(totals, outside, deformed, text, capacity);
-    for (int s = FFD_OUTSIDE + 1; s < FFD_VERTEX_STATUS_COUNT; s++) {
+    if (totals->counts[FFD_VERTEX_OUTSIDE])
+        write_outside(totals, outside, deformed, text, capacity);
+    for (int s = FFD_VERTEX_OUTSIDE + 1; s < FFD_VERTEX_STATUS_COUNT; s++) {
         const size_t length = strlen(text);
         const uint64_t count = totals->counts[s];
-        const bool invalid = s == FFD_POINT_INVALID, stay = deformed && invalid;
+        const bool invalid = s == FFD_VERTEX_INVALID, stay = deformed && invalid;
         if (count)
             snprintf(text + length, capacity - length, "%s%" PRIu64 " %s%s%s%s%s", length ? ", " : "", count,
                      ffd_vertex_status_name((ffd_vertex_status)s), invalid ? " (not finite" : "",
                      stay ? "; " : "", stay ? left_alone(count) : "", invalid ? ")" : "");
-        if (s == FFD_SINGULAR)
-            tell_degenerate(totals, text, capacity);
+        if (s == FFD_VERTEX_SINGULAR)
+            write_degenerate(totals, text, capacity);
     }
 }
 
@@ -194,11 +194,12 @@ static void warn_of_splats(const pass_totals *totals, const mesh_log *log)
 void ffd_result_warn(const pass_totals *totals, const lattice_chain *chain, bool deformed,
                      const mesh_log *log)
 {
-    const uint64_t others = totals->vertices - totals->counts[FFD_INSIDE] - totals->unused - totals->hidden;
+    const uint64_t others =
+        totals->vertices - totals->counts[FFD_VERTEX_INSIDE] - totals->unused - totals->hidden;
     ffd_coverage_warn(chain, log);
     if (others) {
         char list[600], coverage[600] = "";
-        tell_others(totals, &chain->outside, deformed, list, sizeof list);
+        write_others(totals, &chain->outside, deformed, list, sizeof list);
         if (totals->outside_all)
             ffd_chain_coverage(chain, coverage, sizeof coverage);
         ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " of %" PRIu64 " %s %s not inside: %s%s%s", others,

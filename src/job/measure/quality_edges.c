@@ -93,9 +93,9 @@ static double *cells_of(const edge_work *work, edge_scratch *scratch, size_t edg
 /* Returns u as the number of its non-empty span plus the fraction within it. */
 static double cell_coordinate(const knot_vector *knots, double u)
 {
-    const size_t number = ffd_knots_span_number(knots, u);
-    const double from = knots->t[knots->spans[number]], to = knots->t[knots->spans[number] + 1];
-    return (double)number + (u - from) / (to - from);
+    const size_t index = ffd_knots_span_number(knots, u);
+    const double from = knots->t[knots->spans[index]], to = knots->t[knots->spans[index] + 1];
+    return (double)index + (u - from) / (to - from);
 }
 
 /* Returns the distance of two parameters in span cells, the shorter way round in a closed direction. HUGE_VAL
@@ -352,11 +352,11 @@ static ffd_status take_samples(const edge_work *work, edge_scratch *scratch)
     return status;
 }
 
-static ffd_status request_sample(const edge_work *work, edge_scratch *scratch, size_t number, size_t slot)
+static ffd_status request_sample(const edge_work *work, edge_scratch *scratch, size_t index, size_t slot)
 {
-    const sampled_edge *edge = &scratch->edges[number];
+    const sampled_edge *edge = &scratch->edges[index];
     const size_t request = scratch->requested++;
-    scratch->requests[request] = (sample_request){(uint16_t)number, (uint8_t)slot};
+    scratch->requests[request] = (sample_request){(uint16_t)index, (uint8_t)slot};
     for (size_t a = 0; a < 3; a++)
         scratch->x[3 * request + a] = edge->start[a] + parameter_of(edge, slot) * edge->along[a];
     return scratch->requested == BATCH ? take_samples(work, scratch) : FFD_OK;
@@ -398,11 +398,11 @@ static double parabola_peak(double left, double right, double sagitta)
     return (left + right) / 2 + sagitta + rise * rise / (16 * sagitta);
 }
 
-static bool must_halve(const edge_work *work, edge_scratch *scratch, size_t number, size_t l, size_t width)
+static bool must_halve(const edge_work *work, edge_scratch *scratch, size_t index, size_t l, size_t width)
 {
-    const sampled_edge *edge = &scratch->edges[number];
-    double(*offset)[3] = scratch->offset[number];
-    if (edge->is_long && (width > PIECES / 8 || extent(work, scratch, number, l, l + width) > WIDEST_PIECE))
+    const sampled_edge *edge = &scratch->edges[index];
+    double(*offset)[3] = scratch->offset[index];
+    if (edge->is_long && (width > PIECES / 8 || extent(work, scratch, index, l, l + width) > WIDEST_PIECE))
         return true;
     const double peak = parabola_peak(vec_length(offset[l]), vec_length(offset[l + width]),
                                       expected_sagitta(edge, offset, l, width));
@@ -411,38 +411,38 @@ static bool must_halve(const edge_work *work, edge_scratch *scratch, size_t numb
 
 /* Requests the midpoints of the open pieces that must be halved; their halves become open. All decisions come
    before the first request, because a request may take a full batch of samples. */
-static ffd_status halve_pieces(const edge_work *work, edge_scratch *scratch, size_t number, int level)
+static ffd_status halve_pieces(const edge_work *work, edge_scratch *scratch, size_t index, int level)
 {
-    sampled_edge *edge = &scratch->edges[number];
+    sampled_edge *edge = &scratch->edges[index];
     const size_t width = PIECES >> level;
     uint64_t halved = 0;
     ffd_status status = FFD_OK;
     for (size_t piece = 0; piece < PIECES / width && !edge->left_out; piece++)
-        if (edge->open >> piece & 1 && must_halve(work, scratch, number, piece * width, width))
+        if (edge->open >> piece & 1 && must_halve(work, scratch, index, piece * width, width))
             halved |= (uint64_t)1 << piece;
     edge->open = 0;
     for (size_t piece = 0; piece < PIECES / width && !status; piece++)
         if (halved >> piece & 1) {
             edge->open |= (uint64_t)3 << 2 * piece;
-            status = request_sample(work, scratch, number, piece * width + width / 2);
+            status = request_sample(work, scratch, index, piece * width + width / 2);
         }
     return status;
 }
 
 /* Requests the ends of a window that is shorter than the edge: there nothing moves, but the straight edge may
    deviate. */
-static ffd_status begin_window(const edge_work *work, edge_scratch *scratch, size_t number)
+static ffd_status begin_window(const edge_work *work, edge_scratch *scratch, size_t index)
 {
     static const double still[3] = {0, 0, 0};
     ffd_status status = FFD_OK;
     for (size_t slot = 0; slot <= PIECES && !status; slot += PIECES) {
-        sampled_edge *edge = &scratch->edges[number];
+        sampled_edge *edge = &scratch->edges[index];
         double offset[3];
         if (is_end(edge, slot) || edge->left_out)
             continue;
         find_offset(edge, parameter_of(edge, slot), still, offset);
         edge->largest = fmax(edge->largest, vec_length(offset));
-        status = request_sample(work, scratch, number, slot);
+        status = request_sample(work, scratch, index, slot);
     }
     return status;
 }

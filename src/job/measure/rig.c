@@ -18,7 +18,7 @@ typedef struct place_run {
 static void note_move(const mesh_place *place, const place_run *run, size_t i, mesh_place_move *move)
 {
     const point_outcome *const outcome = &run->outcomes[i];
-    *move = (mesh_place_move){.moves = outcome->moved, .singular = outcome->status == FFD_SINGULAR};
+    *move = (mesh_place_move){.moves = outcome->moved, .singular = outcome->status == FFD_VERTEX_SINGULAR};
     for (int a = 0; a < 3; a++) {
         move->became[a] = place->at[a];
         move->to[a] = place->at[a] + (outcome->moved ? run->delta[3 * i + (size_t)a] : 0);
@@ -97,10 +97,10 @@ double ffd_rig_lag(const mesh_place_move *move, double diagonal)
     return lag > LAG_ROUNDING * diagonal ? lag : 0;
 }
 
-static ffd_status name_worst(const mesh_document *document, size_t number, ffd_rig_figures *figures,
+static ffd_status name_worst(const mesh_document *document, size_t index, ffd_rig_figures *figures,
                              ffd_error *error)
 {
-    char *name = document->format->place_name(document, number);
+    char *name = document->format->place_name(document, index);
     if (!name)
         return ffd_fail_memory(error);
     ffd_name_shown(name, figures->worst, sizeof figures->worst);
@@ -162,7 +162,7 @@ ffd_status ffd_rig_figures_find(const mesh_document *document, const rig_places 
 }
 
 /* Writes a list, such as "the joints of 1 skin, 2 animated pivots and 1 socket". */
-static void tell_lagging(const ffd_rig_figures *figures, char *text, size_t capacity)
+static void write_lagging(const ffd_rig_figures *figures, char *text, size_t capacity)
 {
     const struct {
         uint64_t count;
@@ -193,7 +193,7 @@ static void warn_of_lag(const ffd_rig_figures *figures, bool morphed, const mesh
     char lagging[300];
     const uint64_t things = figures->lagging_joints + figures->lagging_pivots + figures->lagging_sockets;
     const bool animates = figures->lagging_skins + figures->lagging_pivots > 0;
-    tell_lagging(figures, lagging, sizeof lagging);
+    write_lagging(figures, lagging, sizeof lagging);
     ffd_log_line(log, FFD_LOG_WARNING, "%s %s up to %g off the %s (%s)%s%s", lagging,
                  figures->lagging_skins == 0 && things == 1 ? "lies" : "lie", figures->largest_lag,
                  morphed ? "mesh that the morph target shows" : "deformed mesh", figures->worst,

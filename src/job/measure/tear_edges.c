@@ -64,10 +64,10 @@ static bool may_jump(const list_work *work, uint32_t a, uint32_t b)
     if (!mesh->deformed || !mesh->gradients)
         return true;
     for (int end = 0; end < 2; end++) {
-        const size_t number = ffd_faces_number(mesh->faces, ends[end]);
+        const size_t index = ffd_faces_number(mesh->faces, ends[end]);
         for (int c = 0; c < 3; c++)
-            delta[end][c] = mesh->deformed[3 * number + (size_t)c] - position_of(work, ends[end])[c];
-        gradients[end] = mesh->gradients + 9 * number;
+            delta[end][c] = mesh->deformed[3 * index + (size_t)c] - position_of(work, ends[end])[c];
+        gradients[end] = mesh->gradients + 9 * index;
     }
     ffd_tear_along(work->mesh->faces, a, b, along);
     return ffd_tear_may_jump(along, (const double *const[]){delta[0], delta[1]}, gradients);
@@ -89,7 +89,7 @@ static bool boxes_meet(const bounds *a, const bounds *b)
 }
 
 /* Stops at a block that moves places of the edges, but not their ends. */
-static bool look_at_block(void *context, uint32_t block)
+static bool visit_block(void *context, uint32_t block)
 {
     const edge_way *const way = context;
     const list_work *const work = way->work;
@@ -177,7 +177,7 @@ static bool may_pass(const list_work *work, const uint32_t *corners, size_t coun
     for (size_t l = 0; l < chain->count && !chain->blocks; l++)
         if (may_meet(&way, l))
             return true;
-    return chain->blocks && !ffd_box_tree_visit_box(&chain->tree, &way.box, none, look_at_block, &way);
+    return chain->blocks && !ffd_box_tree_visit_box(&chain->tree, &way.box, none, visit_block, &way);
 }
 
 static bool precedes(const double a[3], const double b[3])

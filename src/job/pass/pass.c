@@ -44,22 +44,22 @@ static bool turns_over(const double f[9], double det)
     return det < 0 && det < -COLLAPSE * vec_length(f) * vec_length(f + 3) * vec_length(f + 6);
 }
 
-static void note_range(double det, bool outside, size_t number, pass_totals *totals)
+static void note_range(double det, bool outside, size_t index, pass_totals *totals)
 {
     totals->det_min = lesser_of(totals->det_min, det);
     totals->det_max = larger_of(totals->det_max, det);
     if (outside && det < totals->det_outside) {
         totals->det_outside = det;
-        totals->first_det_outside = number;
+        totals->first_det_outside = index;
     }
 }
 
-static void note_inversion(double det, size_t number, pass_totals *totals)
+static void note_inversion(double det, size_t index, pass_totals *totals)
 {
     totals->inverted++;
-    if (det < totals->det_inverted || (det == totals->det_inverted && number < totals->first_inverted)) {
+    if (det < totals->det_inverted || (det == totals->det_inverted && index < totals->first_inverted)) {
         totals->det_inverted = det;
-        totals->first_inverted = number;
+        totals->first_inverted = index;
     }
 }
 
@@ -67,7 +67,7 @@ static void note_inversion(double det, size_t number, pass_totals *totals)
 static bool has_gradient(const pass_tile *tile, const point_outcome *outcome, size_t v)
 {
     const bool singular = tile->part->skinned ? tile->scratch->transforms.singular[v] : tile->part->singular;
-    return !singular && outcome->status != FFD_SINGULAR && (outcome->located || outcome->extended);
+    return !singular && outcome->status != FFD_VERTEX_SINGULAR && (outcome->located || outcome->extended);
 }
 
 /* Looks at det F of all vertices of a tile (after spread). */
@@ -79,12 +79,12 @@ static void note_determinants(const pass_tile *tile)
         double f[9];
         mat_add_identity(base->gradient + 9 * i, f);
         const double det = mat_determinant(f);
-        const size_t number = (size_t)tile->first_number + i;
+        const size_t index = (size_t)tile->first_number + i;
         if (!has_gradient(tile, outcome, i))
             continue;
-        note_range(det, outcome->extended, number, tile->totals);
+        note_range(det, outcome->extended, index, tile->totals);
         if (!outcome->extended && turns_over(f, det))
-            note_inversion(det, number, tile->totals);
+            note_inversion(det, index, tile->totals);
     }
 }
 
@@ -112,20 +112,20 @@ static void fill_arrays(const pass_tile *tile)
     if (!pass->statuses && !pass->deformed && !pass->gradients)
         return;
     for (size_t i = 0; i < tile->count; i++) {
-        const size_t number = (size_t)tile->first_number + i;
+        const size_t index = (size_t)tile->first_number + i;
         const bool singular = ffd_vertex_transform_of(&tile->scratch->transforms, i).singular;
         const double *gradient = base->gradient + 9 * i;
         if (pass->statuses)
-            pass->statuses[number] = base->outcomes[i].status;
+            pass->statuses[index] = base->outcomes[i].status;
         if (pass->deformed) {
-            memcpy(pass->deformed + 3 * number, base->position + 3 * i, 3 * sizeof *base->position);
+            memcpy(pass->deformed + 3 * index, base->position + 3 * i, 3 * sizeof *base->position);
             if (singular)
-                fill_nan(pass->deformed + 3 * number, 3);
+                fill_nan(pass->deformed + 3 * index, 3);
         }
         if (pass->gradients) {
-            memcpy(pass->gradients + 9 * number, gradient, 9 * sizeof *gradient);
+            memcpy(pass->gradients + 9 * index, gradient, 9 * sizeof *gradient);
             if (singular)
-                fill_nan(pass->gradients + 9 * number, 9);
+                fill_nan(pass->gradients + 9 * index, 9);
         }
     }
 }
@@ -508,21 +508,21 @@ typedef struct part_work {
 } part_work;
 
 /* Returns a tile with vertices [first, last) of the part, without scratch memory. */
-static pass_tile make_tile(const part_work *work, size_t number, size_t first, size_t last)
+static pass_tile make_tile(const part_work *work, size_t index, size_t first, size_t last)
 {
     pass_tile tile = work->whole;
     tile.first = first;
     tile.count = last - first;
     tile.first_number += first;
-    tile.totals = &work->tiles[number];
+    tile.totals = &work->tiles[index];
     return tile;
 }
 
-static void run_tile(void *context, size_t number, size_t first, size_t last, int worker)
+static void run_tile(void *context, size_t index, size_t first, size_t last, int worker)
 {
     part_work *const work = context;
     tile_scratch *const scratch = &work->scratch[worker];
-    pass_tile tile = make_tile(work, number, first, last);
+    pass_tile tile = make_tile(work, index, first, last);
     tile.scratch = scratch;
     tile.pace = worker == 0 ? tile.pass->pace : NULL;
     ffd_totals_clear(tile.totals);

@@ -137,7 +137,7 @@ static void deform_positions(shape_scratch *s)
         const size_t v = ffd_tile_vertex(&s->moved, i);
         const double *const base = tile->scratch->base.delta + 3 * v, *const moved = s->moved.delta + 3 * i;
         double *const m = s->offsets + 3 * v;
-        if (s->moved.outcomes[i].status == FFD_POINT_INVALID) /* stays, like a vertex that is not finite */
+        if (s->moved.outcomes[i].status == FFD_VERTEX_INVALID) /* stays, like a vertex that is not finite */
             continue;
         for (int a = 0; a < 3; a++)
             take(m[a] + (moved[a] - base[a]), &m[a], &s->changed[v]);

@@ -24,7 +24,7 @@ ffd_status ffd_tile_find_misses(const pass_tile *tile, ffd_error *error)
     for (size_t i = 0; i < base->count && !status; i++) {
         double miss;
         bool searched;
-        if (base->outcomes[i].status != FFD_OUTSIDE ||
+        if (base->outcomes[i].status != FFD_VERTEX_OUTSIDE ||
             !ffd_part_shows(tile->part, tile->first + ffd_tile_vertex(base, i)))
             continue;
         status = ffd_link_miss(link, base->position + 3 * i, reach, &miss, &searched, error);

@@ -26,7 +26,7 @@ void ffd_tile_hold(tile_points *points, size_t i, size_t v)
     ffd_tile_place(points, i, v);
     memset(points->delta + 3 * i, 0, 3 * sizeof *points->delta);
     memset(points->gradient + 9 * i, 0, 9 * sizeof *points->gradient);
-    points->outcomes[i] = (point_outcome){.status = FFD_OUTSIDE};
+    points->outcomes[i] = (point_outcome){.status = FFD_VERTEX_OUTSIDE};
 }
 
 /* Adds the rounding cell of a vertex's offset; for SHAPE_SHOWN, the weighted cells of all targets. */

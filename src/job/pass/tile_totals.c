@@ -54,13 +54,13 @@ static void count_other(const mesh_part *part, unsigned other, uint64_t number, 
         totals->weighted_outside++;
         ffd_note_first(&totals->first_weighted_outside, number);
     }
-    if (status == FFD_OUTSIDE && other & OTHER_EXTENDED) {
+    if (status == FFD_VERTEX_OUTSIDE && other & OTHER_EXTENDED) {
         totals->extended++;
         totals->extended_moved += (other & OTHER_MOVED) != 0;
     }
     totals->multiple_any += (other & OTHER_MULTIPLE) != 0;
     totals->unresolved += (other & OTHER_UNRESOLVED) != 0;
-    totals->degenerate += status == FFD_SINGULAR && !(other & OTHER_UNRESOLVED);
+    totals->degenerate += status == FFD_VERTEX_SINGULAR && !(other & OTHER_UNRESOLVED);
 }
 
 static void count_unshown(unsigned other, bool hidden, uint64_t number, pass_totals *totals)
@@ -75,7 +75,7 @@ static void count_unshown(unsigned other, bool hidden, uint64_t number, pass_tot
 /* A vertex that is not finite counts even if nothing shows it: it is a fault of the mesh. */
 static bool counts(const mesh_part *part, size_t vertex, unsigned other)
 {
-    return (other & OTHER_STATUS) == FFD_POINT_INVALID || ffd_part_shows(part, vertex);
+    return (other & OTHER_STATUS) == FFD_VERTEX_INVALID || ffd_part_shows(part, vertex);
 }
 
 void ffd_totals_count_others(const pass_tile *tile)
@@ -107,12 +107,12 @@ static bool count_outcomes(const tile_points *base, pass_totals *totals)
         located += outcome->located;
         evaluations += outcome->evaluations;
         evaluations_max = outcome->evaluations > evaluations_max ? outcome->evaluations : evaluations_max;
-        if (outcome->status == FFD_INSIDE)
+        if (outcome->status == FFD_VERTEX_INSIDE)
             inside++;
         else
             noted = note_other(outcome, base->delta + 3 * i, ffd_tile_vertex(base, i), totals) && noted;
     }
-    totals->counts[FFD_INSIDE] += inside;
+    totals->counts[FFD_VERTEX_INSIDE] += inside;
     totals->located += located;
     totals->residual_square_max = larger_of(totals->residual_square_max, square_max);
     totals->residual_square_sum += square_sum;

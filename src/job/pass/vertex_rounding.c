@@ -49,7 +49,7 @@ void ffd_vertex_rounding_place(const vertex_transform *transform, double half[3]
 
 ffd_status ffd_vertex_owners_list(const mesh_document *document, vertex_owners *owners, ffd_error *error)
 {
-    size_t number = 0;
+    size_t index = 0;
     *owners = (vertex_owners){.document = document};
     owners->parts = ffd_alloc(document->part_count, sizeof *owners->parts);
     owners->first = ffd_alloc(document->part_count, sizeof *owners->first);
@@ -60,8 +60,8 @@ ffd_status ffd_vertex_owners_list(const mesh_document *document, vertex_owners *
         if (part->repeats_positions || part->vertex_count == 0)
             continue;
         owners->parts[owners->count] = i;
-        owners->first[owners->count++] = number;
-        number += part->vertex_count;
+        owners->first[owners->count++] = index;
+        index += part->vertex_count;
     }
     return FFD_OK;
 }

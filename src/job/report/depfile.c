@@ -87,11 +87,11 @@ static ffd_status put_names(byte_buffer *rules, const path_list *names, bool onc
     for (size_t i = 0; i < names->count && !status; i++) {
         const char *const name = names->paths[i];
         const size_t before = known.count;
-        uint32_t number;
+        uint32_t index;
         if (name[strcspn(name, "\r\n")])
             status = ffd_fail_file(error, FFD_E_IO, name,
                                    "cannot be written in a depfile: its name has a line break");
-        else if (once && !ffd_intern(&known, name, strlen(name), &number))
+        else if (once && !ffd_intern(&known, name, strlen(name), &index))
             status = ffd_fail_memory(error);
         if (status || (once && known.count == before))
             continue;

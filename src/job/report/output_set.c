@@ -1,10 +1,10 @@
 #include "job/report/output_set.h"
 #include "base/memory/memory.h"
 
-ffd_status ffd_written_create(ffd_written **written, ffd_error *error)
+ffd_status ffd_output_set_create(ffd_output_set **output_set, ffd_error *error)
 {
-    *written = ffd_alloc_zero(1, sizeof **written);
-    return *written ? FFD_OK : ffd_fail_memory(error);
+    *output_set = ffd_alloc_zero(1, sizeof **output_set);
+    return *output_set ? FFD_OK : ffd_fail_memory(error);
 }
 
 void ffd_known_users_free(known_users *known)
@@ -14,12 +14,12 @@ void ffd_known_users_free(known_users *known)
     *known = (known_users){0};
 }
 
-void ffd_written_destroy(ffd_written **written)
+void ffd_output_set_destroy(ffd_output_set **output_set)
 {
-    if (!written || !*written)
+    if (!output_set || !*output_set)
         return;
-    ffd_written_free(&(*written)->files);
-    ffd_known_users_free(&(*written)->users);
-    ffd_free(*written);
-    *written = NULL;
+    ffd_written_free(&(*output_set)->files);
+    ffd_known_users_free(&(*output_set)->users);
+    ffd_free(*output_set);
+    *output_set = NULL;
 }

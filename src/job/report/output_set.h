@@ -14,7 +14,7 @@ typedef struct known_users {
     bool is_complete;     /* no folder needs to be read, and the files of no input are missing */
 } known_users;
 
-struct ffd_written {
+struct ffd_output_set {
     written_files files;
     known_users users;
 };
@@ -23,9 +23,9 @@ struct ffd_written {
 void ffd_known_users_free(known_users *known);
 
 /* Returns the list for ffd_output_record. Accepts and returns NULL. */
-static inline written_files *ffd_written_list(ffd_written *written)
+static inline written_files *ffd_output_set_list(ffd_output_set *output_set)
 {
-    return written ? &written->files : NULL;
+    return output_set ? &output_set->files : NULL;
 }
 
 #endif

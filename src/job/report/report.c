@@ -31,18 +31,18 @@ static void write_outcome(json_text *json, const report_entry *entry)
 static bool copy_figures(json_text *json, const char *figures, bool stable)
 {
     const json_input input = {.text = figures, .size = strlen(figures), .name = ""};
-    json_span tree;
+    json_tree tree;
     if (ffd_json_parse(&input, &tree, NULL))
         return false;
-    for (uint32_t v = ffd_json_span_first(&tree, 0); v != JSON_NONE; v = ffd_json_span_after(&tree, v)) {
-        char *const key = ffd_json_span_key(&tree, v);
+    for (uint32_t v = ffd_json_tree_first(&tree, 0); v != JSON_NONE; v = ffd_json_tree_after(&tree, v)) {
+        char *const key = ffd_json_tree_key(&tree, v);
         json->out->failed = json->out->failed || !key;
         if (key && !(stable && strcmp(key, "seconds") == 0))
             ffd_json_raw(json, key, tree.text + tree.values[v].begin,
                          tree.values[v].end - tree.values[v].begin);
         ffd_free(key);
     }
-    ffd_json_span_free(&tree);
+    ffd_json_tree_free(&tree);
     return true;
 }
 

@@ -201,33 +201,33 @@ void ffd_figures_write_unknown(json_text *json)
     }
 }
 
-static uint64_t count_of(const json_span *tree, uint32_t object, const char *key)
+static uint64_t count_of(const json_tree *tree, uint32_t object, const char *key)
 {
     double number = 0;
-    const uint32_t value = ffd_json_span_member(tree, object, key);
-    if (value == JSON_NONE || !ffd_json_span_number(tree, value, &number))
+    const uint32_t value = ffd_json_tree_member(tree, object, key);
+    if (value == JSON_NONE || !ffd_json_tree_number(tree, value, &number))
         return 0;
     return number > 0 && number < 0x1p64 ? (uint64_t)number : 0;
 }
 
 /* Returns the number that a name stands for; 0 if there is none. */
-static int number_of(const json_span *tree, uint32_t value, figure_type type)
+static int number_of(const json_tree *tree, uint32_t value, figure_type type)
 {
     for (int number = 0; value != JSON_NONE; number++) {
         const char *const name = type == FIGURE_VERDICT ? ffd_fold_verdict_name((ffd_fold_verdict)number)
                                                         : ffd_fold_reference_name((ffd_fold_reference)number);
-        if (!name || ffd_json_span_string_is(tree, value, name))
+        if (!name || ffd_json_tree_string_is(tree, value, name))
             return name ? number : 0;
     }
     return 0;
 }
 
 /* Reads the figures from f to the end of its group, which object holds. */
-static void read_figures(const json_span *tree, uint32_t object, const figure *f, ffd_job_result *result)
+static void read_figures(const json_tree *tree, uint32_t object, const figure *f, ffd_job_result *result)
 {
     for (; is_of_report(f) && f->result.type != FIGURE_END; f = after(f)) {
         const char *const key = ffd_figure_key(f);
-        const uint32_t found = f->is_held_back ? JSON_NONE : ffd_json_span_member(tree, object, key);
+        const uint32_t found = f->is_held_back ? JSON_NONE : ffd_json_tree_member(tree, object, key);
         void *const value = (char *)result + f->result.at;
         if (f->needs[0].type == FIGURE_FLAG)
             *((bool *)result + f->needs[0].at) = found != JSON_NONE && tree->values[found].kind != JSON_NULL;
@@ -236,7 +236,7 @@ static void read_figures(const json_span *tree, uint32_t object, const figure *f
         else if (f->result.type == FIGURE_COUNT)
             *(uint64_t *)value = count_of(tree, object, key);
         else if (f->result.type == FIGURE_NUMBER &&
-                 (found == JSON_NONE || !ffd_json_span_number(tree, found, value)))
+                 (found == JSON_NONE || !ffd_json_tree_number(tree, found, value)))
             *(double *)value = NAN;
         else if (f->result.type == FIGURE_VERDICT)
             *(ffd_fold_verdict *)value = (ffd_fold_verdict)number_of(tree, found, f->result.type);
@@ -247,7 +247,7 @@ static void read_figures(const json_span *tree, uint32_t object, const figure *f
     }
 }
 
-void ffd_figures_read(const json_span *tree, uint32_t entry, ffd_job_result *result)
+void ffd_figures_read(const json_tree *tree, uint32_t entry, ffd_job_result *result)
 {
     ffd_result_clear(result);
     read_figures(tree, entry, ffd_figures, result);

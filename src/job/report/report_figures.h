@@ -3,8 +3,8 @@
 #ifndef FFD_JOB_REPORT_REPORT_FIGURES_H
 #define FFD_JOB_REPORT_REPORT_FIGURES_H
 
-#include "json/json_span.h"
 #include "json/json_text.h"
+#include "json/json_tree.h"
 #include <ffd/result.h>
 
 /* Writes all figures; stable: without times. */
@@ -13,6 +13,6 @@ void ffd_figures_write(json_text *json, const ffd_job_result *result, bool stabl
 void ffd_figures_write_unknown(json_text *json);
 /* Reads the counts, numbers and names of an entry. A number that it does not have becomes NaN. Texts and
    arrays are left out. */
-void ffd_figures_read(const json_span *tree, uint32_t entry, ffd_job_result *result);
+void ffd_figures_read(const json_tree *tree, uint32_t entry, ffd_job_result *result);
 
 #endif

@@ -95,7 +95,7 @@ typedef struct report_sink {
     void *user;
 } report_sink;
 
-static ffd_status open_file(ffd_report *report, ffd_written *written, const report_sink *sink,
+static ffd_status open_file(ffd_report *report, ffd_output_set *output_set, const report_sink *sink,
                             ffd_error *error)
 {
     byte_buffer *const head = &report->buffer;
@@ -105,7 +105,7 @@ static ffd_status open_file(ffd_report *report, ffd_written *written, const repo
         ffd_status status = ffd_output_create(&report->stream, error);
         if (status)
             return status;
-        ffd_output_record(report->stream, ffd_written_list(written));
+        ffd_output_record(report->stream, ffd_output_set_list(output_set));
         ffd_output_redirect(report->stream, sink->function, sink->user);
         status = ffd_output_begin(report->stream, report->path, true, error);
         if (!status && head->failed)
@@ -114,11 +114,11 @@ static ffd_status open_file(ffd_report *report, ffd_written *written, const repo
     }
     ffd_report_end_text(report->lines, true, head);
     return head->failed ? ffd_fail_memory(error)
-                        : ffd_growing_create(report->path, head->data, head->size, ffd_written_list(written),
-                                             &report->file, error);
+                        : ffd_growing_create(report->path, head->data, head->size,
+                                             ffd_output_set_list(output_set), &report->file, error);
 }
 
-static ffd_status create(const char *path, bool stable, ffd_written *written, report_sink sink,
+static ffd_status create(const char *path, bool stable, ffd_output_set *output_set, report_sink sink,
                          ffd_report **report, ffd_error *error)
 {
     ffd_report *made = ffd_alloc_zero(1, sizeof *made);
@@ -128,7 +128,7 @@ static ffd_status create(const char *path, bool stable, ffd_written *written, re
     }
     made->stable = stable;
     made->lines = ffd_report_has_lines(path);
-    const ffd_status status = open_file(made, written, &sink, error);
+    const ffd_status status = open_file(made, output_set, &sink, error);
     if (status)
         ffd_report_destroy(&made);
     *report = made;
@@ -147,12 +147,12 @@ ffd_status ffd_report_check(const char *path, ffd_error *error)
     return status ? status : ffd_output_check(path, true, error);
 }
 
-ffd_status ffd_report_create(const char *path, bool stable, ffd_written *written, ffd_report **report,
+ffd_status ffd_report_create(const char *path, bool stable, ffd_output_set *output_set, ffd_report **report,
                              ffd_error *error)
 {
     *report = NULL;
     const ffd_status status = check_kind(path, error);
-    return status ? status : create(path, stable, written, (report_sink){0}, report, error);
+    return status ? status : create(path, stable, output_set, (report_sink){0}, report, error);
 }
 
 ffd_status ffd_report_create_sink(const char *name, bool stable, ffd_sink_function sink, void *user,

@@ -113,39 +113,39 @@ static const struct {
     {"error", "a text or null", 1U << JSON_STRING | 1U << JSON_NULL},
 };
 
-static bool is_outcome(const json_span *tree, uint32_t value)
+static bool is_outcome(const json_tree *tree, uint32_t value)
 {
     for (int outcome = 0; outcome < REPORT_OUTCOMES; outcome++)
-        if (ffd_json_span_string_is(tree, value, ffd_report_outcome_name((report_outcome)outcome)))
+        if (ffd_json_tree_string_is(tree, value, ffd_report_outcome_name((report_outcome)outcome)))
             return true;
     return false;
 }
 
-static bool is_promised(const json_span *tree, uint32_t value, size_t which)
+static bool is_promised(const json_tree *tree, uint32_t value, size_t which)
 {
     double code;
     if (!(promised[which].kinds >> tree->values[value].kind & 1))
         return false;
     if (strcmp(promised[which].key, "status") == 0)
         return is_outcome(tree, value);
-    return !ffd_json_span_number(tree, value, &code) || (code >= 0 && code <= 7 && code == (int)code);
+    return !ffd_json_tree_number(tree, value, &code) || (code >= 0 && code <= 7 && code == (int)code);
 }
 
-static ffd_status refuse_value(const json_span *tree, uint32_t value, const char *what, const char *name,
+static ffd_status refuse_value(const json_tree *tree, uint32_t value, const char *what, const char *name,
                                ffd_error *error)
 {
     const json_value *const v = &tree->values[value];
     const uint32_t length = v->end - v->begin;
-    return ffd_json_span_fail(tree, value, name, FFD_E_INVALID, error, "must be %s, not %.*s", what,
+    return ffd_json_tree_fail(tree, value, name, FFD_E_INVALID, error, "must be %s, not %.*s", what,
                               (int)(length < VALUE_SHOWN ? length : VALUE_SHOWN), tree->text + v->begin);
 }
 
-static ffd_status check_members(const json_span *tree, const char *name, ffd_error *error)
+static ffd_status check_members(const json_tree *tree, const char *name, ffd_error *error)
 {
     for (size_t i = 0; i < sizeof promised / sizeof *promised; i++) {
-        const uint32_t value = ffd_json_span_member(tree, 0, promised[i].key);
+        const uint32_t value = ffd_json_tree_member(tree, 0, promised[i].key);
         if (value == JSON_NONE)
-            return ffd_json_span_fail(tree, 0, name, FFD_E_INVALID, error, "\"%s\" is missing",
+            return ffd_json_tree_fail(tree, 0, name, FFD_E_INVALID, error, "\"%s\" is missing",
                                       promised[i].key);
         if (!is_promised(tree, value, i))
             return refuse_value(tree, value, promised[i].what, name, error);
@@ -170,14 +170,14 @@ static ffd_status check_entry(const report_reader *reader, const report_entry_te
 {
     const json_input input = {
         .text = entry->bytes, .size = entry->size, .name = reader->name, .whole = reader->begin};
-    json_span tree;
+    json_tree tree;
     ffd_status status = ffd_json_parse(&input, &tree, error);
     const bool parsed = !status;
     if (!status)
         status = check_members(&tree, reader->name, error);
     if (status == FFD_E_INVALID && error && (parsed || error->pointer[0]))
         extend_pointer(reader, entry, error);
-    ffd_json_span_free(&tree);
+    ffd_json_tree_free(&tree);
     return status;
 }
 

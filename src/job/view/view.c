@@ -321,7 +321,7 @@ static ffd_status write_view(view_work *work, ffd_error *error)
     ffd_status status = ffd_output_create(&output, error);
     if (status)
         return status;
-    ffd_output_record(output, ffd_written_list(desc->job->written));
+    ffd_output_record(output, ffd_output_set_list(desc->job->output_set));
     ffd_output_redirect(output, desc->sink, desc->sink_user);
     status = ffd_output_begin(output, desc->output, desc->force, error);
     if (!status)

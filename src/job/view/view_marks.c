@@ -26,13 +26,13 @@ static ffd_status add_statuses(const job_details *details, const mesh_model *mod
     if (!scene->statuses || !scene->dets)
         return ffd_fail_memory(error);
     for (size_t v = 0; v < scene->vertex_count; v++) {
-        const size_t number = (size_t)number_of(scene, v);
+        const size_t index = (size_t)number_of(scene, v);
         double f[9];
-        scene->statuses[v] = details->statuses[number];
+        scene->statuses[v] = details->statuses[index];
         scene->dets[v] = NAN;
         if (!details->gradients)
             continue;
-        memcpy(f, details->gradients + 9 * number, sizeof f);
+        memcpy(f, details->gradients + 9 * index, sizeof f);
         for (size_t a = 0; a < 3; a++)
             f[4 * a] += 1;
         scene->dets[v] = mat_determinant(f);

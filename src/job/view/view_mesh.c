@@ -166,9 +166,9 @@ ffd_status ffd_view_place_after(const mesh_model *model, const double *deformed,
     if (!scene->after)
         return ffd_fail_memory(error);
     for (size_t v = 0; v < scene->vertex_count; v++) {
-        const size_t number = ffd_view_vertex_of(scene, 1, v);
-        const bool has_place = deformed && !isnan(deformed[3 * number]);
-        memcpy(scene->after + 3 * v, has_place ? deformed + 3 * number : scene->before + 3 * v, vertex);
+        const size_t index = ffd_view_vertex_of(scene, 1, v);
+        const bool has_place = deformed && !isnan(deformed[3 * index]);
+        memcpy(scene->after + 3 * v, has_place ? deformed + 3 * index : scene->before + 3 * v, vertex);
     }
     return FFD_OK;
 }

@@ -44,7 +44,7 @@ static ffd_status list_animations(view_scene *scene, ffd_error *error)
 }
 
 /* Writes: "a", "b", "c" and 4 more */
-static void tell_names(const view_scene *scene, char *text, size_t capacity)
+static void write_names(const view_scene *scene, char *text, size_t capacity)
 {
     size_t length = 0;
     for (size_t a = 0; a < scene->animation_count && a < SHOWN; a++) {
@@ -67,7 +67,7 @@ static ffd_status refuse_name(const view_rigs_desc *desc, const view_scene *scen
         ffd_nearest_offer(&nearest, scene->animations[a].name);
     ffd_name_shown(desc->animation, wanted, sizeof wanted);
     ffd_name_shown(nearest.best, shown, sizeof shown);
-    tell_names(scene, names, sizeof names);
+    write_names(scene, names, sizeof names);
     return ffd_fail_file(error, FFD_E_ARGUMENT, desc->before_name,
                          "{animation}: none is called \"%s\" (nearest: \"%s\"; there %s %s)", wanted, shown,
                          ffd_plural(scene->animation_count, "is", "are"), names);
@@ -99,11 +99,11 @@ static ffd_status number_names(const mesh_skeleton *skeleton, intern_table *name
     for (size_t a = 0; a < skeleton->animation_count; a++) {
         const char *const name = skeleton->animations[a].name ? skeleton->animations[a].name : "";
         const size_t known = names->count;
-        uint32_t number;
-        if (!ffd_intern(names, name, strlen(name), &number))
+        uint32_t index;
+        if (!ffd_intern(names, name, strlen(name), &index))
             return ffd_fail_memory(error);
-        if (number == known)
-            first[number] = a;
+        if (index == known)
+            first[index] = a;
     }
     return FFD_OK;
 }
@@ -127,12 +127,12 @@ static ffd_status match(const view_scene *scene, ffd_error *error)
     for (size_t a = 0; a < scene->animation_count && !status; a++) {
         const char *const name = own->animations[a].name ? own->animations[a].name : "";
         size_t *const of = &scene->animations[a].of[1];
-        uint32_t number;
+        uint32_t index;
         *of = RIG_NONE;
         if (a < count && has_name(&other->animations[a], name))
             *of = a;
-        else if (*name && ffd_intern_find(&names, name, strlen(name), &number))
-            *of = first[number];
+        else if (*name && ffd_intern_find(&names, name, strlen(name), &index))
+            *of = first[index];
     }
     ffd_intern_free(&names);
     ffd_free(first);

@@ -120,11 +120,11 @@ ffd_status ffd_lattice_list_open(const ffd_lattice_source *source, const ffd_set
     const spec_settings settings = {.values = values, .used = used, .count = count, .may_be_open = true};
     lattice_spec *spec;
     size_t size;
-    uint32_t number;
+    uint32_t index;
     ffd_status status = ffd_spec_load(source, &settings, &spec, &size, error);
     for (uint32_t i = 0; !status && i < spec->open.count; i++) {
         const char *const name = ffd_intern_key(&spec->open, i);
-        if (!ffd_intern(open, name, strlen(name), &number))
+        if (!ffd_intern(open, name, strlen(name), &index))
             status = ffd_fail_memory(error);
     }
     ffd_spec_free(spec);
@@ -201,7 +201,7 @@ size_t ffd_lattice_get_mesh_count(const ffd_lattice *lattice)
 ffd_status ffd_spec_mesh(const lattice_spec *spec, size_t i, char **path, ffd_error *error)
 {
     const char *const mesh = spec->meshes[i];
-    *path = ffd_path_is_absolute(mesh) ? ffd_text_copy(mesh) : ffd_path_beside(spec->name, mesh);
+    *path = ffd_path_is_absolute(mesh) ? ffd_text_copy(mesh) : ffd_path_sibling(spec->name, mesh);
     return *path ? FFD_OK : ffd_fail_memory(error);
 }
 

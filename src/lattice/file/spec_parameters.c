@@ -23,7 +23,7 @@ static ffd_status read_text(json_cursor parameter, const char *key, char **text)
         return FFD_OK;
     if (!ffd_cursor_is(member, JSON_STRING))
         return ffd_cursor_fail(member, "must be a text, not %s", ffd_json_describe(member).text);
-    *text = ffd_json_span_string(member.tree, member.value, NULL);
+    *text = ffd_json_tree_string(member.tree, member.value, NULL);
     return *text ? FFD_OK : ffd_fail_memory(parameter.file->error);
 }
 
@@ -41,11 +41,11 @@ static ffd_status copy_default(json_cursor cursor, char **text)
 }
 
 /* Finds a number in a value, which may be in nested arrays, that is out of bounds. */
-static bool find_outside(const json_span *tree, uint32_t value, const spec_parameter *parameter,
+static bool find_outside(const json_tree *tree, uint32_t value, const spec_parameter *parameter,
                          double *number)
 {
     for (uint32_t v = value; v < tree->values[value].next; v++)
-        if (ffd_json_span_number(tree, v, number) &&
+        if (ffd_json_tree_number(tree, v, number) &&
             !(*number >= parameter->min && *number <= parameter->max))
             return true;
     return false;
@@ -60,7 +60,7 @@ static ffd_status fail_outside(json_cursor cursor, const spec_parameter *paramet
                            parameter->unit ? " " : "", parameter->unit ? parameter->unit : "");
 }
 
-ffd_status ffd_spec_check_bounds(json_cursor cursor, const spec_parameter *parameter, const json_span *value)
+ffd_status ffd_spec_check_bounds(json_cursor cursor, const spec_parameter *parameter, const json_tree *value)
 {
     double number;
     return find_outside(value, 0, parameter, &number) ? fail_outside(cursor, parameter, number) : FFD_OK;
@@ -78,7 +78,7 @@ static ffd_status read_default(json_cursor cursor, spec_parameter *parameter)
 
 static ffd_status read_name(json_cursor cursor, spec_parameter *parameter)
 {
-    parameter->name = ffd_json_span_key(cursor.tree, cursor.value);
+    parameter->name = ffd_json_tree_key(cursor.tree, cursor.value);
     if (!parameter->name)
         return ffd_fail_memory(cursor.file->error);
     if (parameter->name[0] == '-')

@@ -286,7 +286,7 @@ static ffd_status read_tree(json_file *file, const spec_settings *settings, latt
     if (!status && ffd_cursor_exists(parameters))
         status = ffd_spec_parse_parameters(parameters, spec);
     if (!status)
-        status = ffd_spec_set(file, ffd_json_span_member(file->tree, 0, "moves"), settings, spec, &values);
+        status = ffd_spec_set(file, ffd_json_tree_member(file->tree, 0, "moves"), settings, spec, &values);
     if (settings->derives)
         file->trace = &trace;
     if (!status)
@@ -307,12 +307,12 @@ ffd_status ffd_spec_parse(const char *text, size_t size, const char *name, const
     static const spec_settings none = {.count = 0};
     const json_input input = {
         .text = text, .size = size, .name = name, .rules = JSON_ALLOW_MARK | JSON_NO_NUL | JSON_DOUBLES};
-    json_span tree = {0};
+    json_tree tree = {0};
     lattice_spec *result = NULL;
     *spec = NULL;
     ffd_status status = ffd_json_parse(&input, &tree, error);
     if (status) {
-        ffd_stand_in_tell(text, size, error);
+        ffd_stand_in_describe(text, size, error);
         goto out;
     }
     result = ffd_alloc_zero(1, sizeof *result);
@@ -330,6 +330,6 @@ out:
     if (status)
         ffd_fail_name_file(error, name);
     ffd_spec_free(result);
-    ffd_json_span_free(&tree);
+    ffd_json_tree_free(&tree);
     return status;
 }

@@ -43,7 +43,7 @@ static ffd_status read_indices(json_cursor cursor, size_t size, size_t *first, s
     if (ffd_cursor_is(cursor, JSON_STRING)) {
         *first = 0;
         *last = size - 1;
-        if (!ffd_json_span_string_is(cursor.tree, cursor.value, "all"))
+        if (!ffd_json_tree_string_is(cursor.tree, cursor.value, "all"))
             return ffd_cursor_fail(
                 cursor,
                 "is %s, not an index (0 is the first layer, -1 the last), a range [lo, hi] "

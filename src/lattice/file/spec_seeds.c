@@ -4,18 +4,18 @@
 #include <string.h>
 
 /* Returns whether a value is a number or an array of numbers. */
-static bool is_numbers(const json_span *tree)
+static bool is_numbers(const json_tree *tree)
 {
     double number;
-    if (ffd_json_span_number(tree, 0, &number))
+    if (ffd_json_tree_number(tree, 0, &number))
         return true;
     bool all = tree->values[0].kind == JSON_ARRAY;
     for (uint32_t v = 1; v < tree->count && all; v++)
-        all = ffd_json_span_number(tree, v, &number);
+        all = ffd_json_tree_number(tree, v, &number);
     return all;
 }
 
-static ffd_status fill_variable(const json_file *file, const char *name, const json_span *tree,
+static ffd_status fill_variable(const json_file *file, const char *name, const json_tree *tree,
                                 spec_variable *variable)
 {
     *variable = (spec_variable){.name = ffd_text_copy(name), .is_array = tree->values[0].kind == JSON_ARRAY};
@@ -25,12 +25,12 @@ static ffd_status fill_variable(const json_file *file, const char *name, const j
         return ffd_fail_memory(file->error);
     variable->size = size;
     for (size_t i = 0; i < size; i++)
-        ffd_json_span_number(tree, (uint32_t)(first + i), &variable->numbers[i]);
+        ffd_json_tree_number(tree, (uint32_t)(first + i), &variable->numbers[i]);
     return FFD_OK;
 }
 
 ffd_status ffd_spec_add_origin(const json_file *file, spec_origin origin, const char *name,
-                               const json_span *tree, lattice_spec *spec, spec_origins *origins)
+                               const json_tree *tree, lattice_spec *spec, spec_origins *origins)
 {
     for (origin.variable = 0; origin.variable < spec->variable_count; origin.variable++)
         if (strcmp(spec->variables[origin.variable].name, name) == 0)

@@ -22,7 +22,7 @@ typedef struct spec_origins {
 /* Adds a placeholder and, if its name is new, a variable with the numbers of tree, which are not multiplied
    by the factor. Errors: FFD_E_MEMORY. */
 ffd_status ffd_spec_add_origin(const json_file *file, spec_origin origin, const char *name,
-                               const json_span *tree, lattice_spec *spec, spec_origins *origins);
+                               const json_tree *tree, lattice_spec *spec, spec_origins *origins);
 
 /* Makes the seeds from the numbers that were read from placeholders. Errors: FFD_E_INVALID at a placeholder
    that is not numeric or selects control points, FFD_E_MEMORY. */

@@ -18,17 +18,17 @@ typedef struct spec_placeholder {
 
 /* Returns the string value of "$"; JSON_NONE if the value is not a placeholder. A factor and notes are
    allowed as further members. */
-static uint32_t placeholder_text(const json_span *tree, uint32_t value)
+static uint32_t placeholder_text(const json_tree *tree, uint32_t value)
 {
     static const char *const others[] = {"times", SPEC_NOTES};
     if (tree->values[value].kind != JSON_OBJECT)
         return JSON_NONE;
-    const uint32_t name = ffd_json_span_member(tree, value, "$");
+    const uint32_t name = ffd_json_tree_member(tree, value, "$");
     if (name == JSON_NONE || tree->values[name].kind != JSON_STRING)
         return JSON_NONE;
     size_t known = 1;
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        known += ffd_json_span_member(tree, value, others[i]) != JSON_NONE;
+        known += ffd_json_tree_member(tree, value, others[i]) != JSON_NONE;
     return tree->values[value].count == known ? name : JSON_NONE;
 }
 
@@ -36,10 +36,10 @@ static uint32_t placeholder_text(const json_span *tree, uint32_t value)
 static ffd_status read_placeholder(json_cursor cursor, uint32_t text, spec_placeholder *placeholder)
 {
     json_cursor times = cursor;
-    times.value = ffd_json_span_member(cursor.tree, cursor.value, "times");
+    times.value = ffd_json_tree_member(cursor.tree, cursor.value, "times");
     placeholder->at = cursor;
     placeholder->factor = 1;
-    placeholder->name = ffd_json_span_string(cursor.tree, text, NULL);
+    placeholder->name = ffd_json_tree_string(cursor.tree, text, NULL);
     if (!placeholder->name)
         return ffd_fail_memory(cursor.file->error);
     ffd_status status = ffd_spec_check_notes(cursor);
@@ -57,19 +57,19 @@ static ffd_status read_placeholder(json_cursor cursor, uint32_t text, spec_place
 static ffd_status list_names(const json_file *file, const spec_settings *settings, const lattice_spec *spec,
                              spec_values *values)
 {
-    uint32_t number;
+    uint32_t index;
     values->settings = ffd_alloc(settings->count, sizeof *values->settings);
     if (!values->settings)
         return ffd_fail_memory(file->error);
     for (size_t i = 0; i < settings->count; i++) {
         const size_t known = values->set.count;
-        if (!ffd_intern(&values->set, settings->values[i].name, strlen(settings->values[i].name), &number))
+        if (!ffd_intern(&values->set, settings->values[i].name, strlen(settings->values[i].name), &index))
             return ffd_fail_memory(file->error);
-        if (number == known)
-            values->settings[number] = i;
+        if (index == known)
+            values->settings[index] = i;
     }
     for (size_t i = 0; i < spec->parameter_count; i++)
-        if (!ffd_intern(&values->names, spec->parameters[i].name, strlen(spec->parameters[i].name), &number))
+        if (!ffd_intern(&values->names, spec->parameters[i].name, strlen(spec->parameters[i].name), &index))
             return ffd_fail_memory(file->error);
     return FFD_OK;
 }
@@ -78,8 +78,8 @@ static ffd_status list_names(const json_file *file, const spec_settings *setting
 static const spec_parameter *find_parameter(const char *name, const lattice_spec *spec,
                                             const spec_values *values)
 {
-    uint32_t number;
-    return ffd_intern_find(&values->names, name, strlen(name), &number) ? &spec->parameters[number] : NULL;
+    uint32_t index;
+    return ffd_intern_find(&values->names, name, strlen(name), &index) ? &spec->parameters[index] : NULL;
 }
 
 /* Returns the text of the value for a name, from a setting or else from the parameter's default; NULL if
@@ -101,14 +101,14 @@ static const char *find_text(const char *name, const spec_settings *settings, co
 
 /* Finds the value of a placeholder, without its factor; none if the placeholder is open. */
 static ffd_status find_value(const spec_placeholder *placeholder, const spec_settings *settings,
-                             const lattice_spec *spec, spec_values *values, const json_span **tree)
+                             const lattice_spec *spec, spec_values *values, const json_tree **tree)
 {
     const spec_parameter *const parameter = find_parameter(placeholder->name, spec, values);
-    size_t number;
-    const char *const text = find_text(placeholder->name, settings, spec, values, parameter, &number);
+    size_t index;
+    const char *const text = find_text(placeholder->name, settings, spec, values, parameter, &index);
     if (!text)
         return FFD_OK;
-    json_setting *const value = &values->values[number];
+    json_setting *const value = &values->values[index];
     ffd_status status = FFD_OK;
     if (!value->tree.values)
         status = ffd_json_setting_parse(text, JSON_NO_NUL | JSON_DOUBLES, value);
@@ -122,7 +122,7 @@ static ffd_status find_value(const spec_placeholder *placeholder, const spec_set
 }
 
 /* Writes a number or an array of numbers, multiplied by the factor. Returns false if the value is neither. */
-static bool write_product(byte_buffer *text, const json_span *tree, double factor)
+static bool write_product(byte_buffer *text, const json_tree *tree, double factor)
 {
     const bool is_array = tree->values[0].kind == JSON_ARRAY;
     double number = 0;
@@ -132,7 +132,7 @@ static bool write_product(byte_buffer *text, const json_span *tree, double facto
     if (is_array)
         ffd_json_array(&json, NULL, true);
     for (uint32_t v = is_array; v < tree->count && numbers; v++) {
-        numbers = ffd_json_span_number(tree, v, &number) && isfinite(factor * number);
+        numbers = ffd_json_tree_number(tree, v, &number) && isfinite(factor * number);
         ffd_json_number(&json, NULL, factor * number);
     }
     if (is_array)
@@ -141,7 +141,7 @@ static bool write_product(byte_buffer *text, const json_span *tree, double facto
 }
 
 /* Takes ownership of text. */
-static ffd_status add_product(spec_values *values, char *text, const json_span **tree)
+static ffd_status add_product(spec_values *values, char *text, const json_tree **tree)
 {
     spec_product *const product = text ? ffd_alloc_zero(1, sizeof *product) : NULL;
     if (!product || !ffd_grow((void **)&values->products, &values->product_capacity,
@@ -157,7 +157,7 @@ static ffd_status add_product(spec_values *values, char *text, const json_span *
 }
 
 /* Replaces the value by its product with the factor of the placeholder. */
-static ffd_status multiply(const spec_placeholder *placeholder, spec_values *values, const json_span **tree)
+static ffd_status multiply(const spec_placeholder *placeholder, spec_values *values, const json_tree **tree)
 {
     byte_buffer text = {0};
     if (write_product(&text, *tree, placeholder->factor))
@@ -174,8 +174,8 @@ static ffd_status multiply(const spec_placeholder *placeholder, spec_values *val
 /* Records the name of a placeholder without a value. */
 static ffd_status note_open(const spec_placeholder *placeholder, intern_table *open)
 {
-    uint32_t number;
-    return ffd_intern(open, placeholder->name, strlen(placeholder->name), &number)
+    uint32_t index;
+    return ffd_intern(open, placeholder->name, strlen(placeholder->name), &index)
                ? FFD_OK
                : ffd_fail_memory(placeholder->at.file->error);
 }
@@ -210,7 +210,7 @@ static ffd_status refuse_open(const json_file *file, uint32_t value, const inter
     return ffd_cursor_fail((json_cursor){file, file->tree, value, JSON_NONE}, "%s", text);
 }
 
-static ffd_status add_substitute(const json_file *file, uint32_t value, const json_span *tree,
+static ffd_status add_substitute(const json_file *file, uint32_t value, const json_tree *tree,
                                  spec_values *values)
 {
     if (!ffd_grow((void **)&values->substitutes, &values->substitute_capacity, values->substitute_count + 1,
@@ -225,7 +225,7 @@ static ffd_status fill(json_file *file, uint32_t v, uint32_t text, const spec_se
                        lattice_spec *spec, spec_values *values)
 {
     spec_placeholder placeholder = {0};
-    const json_span *value = NULL;
+    const json_tree *value = NULL;
     ffd_status status = read_placeholder((json_cursor){file, file->tree, v, JSON_NONE}, text, &placeholder);
     if (!status)
         status = find_value(&placeholder, settings, spec, values, &value);
@@ -243,7 +243,7 @@ static ffd_status fill(json_file *file, uint32_t v, uint32_t text, const spec_se
 ffd_status ffd_spec_set(json_file *file, uint32_t moves, const spec_settings *settings, lattice_spec *spec,
                         spec_values *values)
 {
-    const json_span *const tree = file->tree;
+    const json_tree *const tree = file->tree;
     const uint32_t end = moves == JSON_NONE ? 0 : tree->values[moves].next;
     ffd_status status = list_names(file, settings, spec, values);
     uint32_t first_open = JSON_NONE;

@@ -31,7 +31,7 @@ static ffd_status refuse_foreign(json_cursor cursor, const char *const *known, s
         {"direction", "axis"},   {"distance", "radius"},  {"size", "radius"}};
     for (size_t i = 0; i < COUNT_OF(words); i++) {
         json_cursor member = cursor;
-        member.value = ffd_json_span_member(cursor.tree, cursor.value, words[i].word);
+        member.value = ffd_json_tree_member(cursor.tree, cursor.value, words[i].word);
         if (ffd_cursor_exists(member) && is_known(words[i].key, known, count) &&
             !is_known(words[i].word, known, count))
             return ffd_cursor_fail(member, "unknown key \"%s\"; use \"%s\"", words[i].word, words[i].key);
@@ -45,7 +45,7 @@ ffd_status ffd_spec_check_notes(json_cursor object)
     for (size_t i = 0; i < COUNT_OF(keys); i++) {
         /* Read without substitutes, because notes have no placeholders. */
         json_cursor note = object;
-        note.value = ffd_json_span_member(object.tree, object.value, keys[i]);
+        note.value = ffd_json_tree_member(object.tree, object.value, keys[i]);
         if (ffd_cursor_exists(note) && !ffd_cursor_is(note, JSON_STRING))
             return ffd_cursor_fail(note, "must be a text, not %s", ffd_json_describe(note).text);
     }
@@ -79,7 +79,7 @@ ffd_status ffd_spec_read_path(json_cursor cursor, char **path)
     *path = NULL;
     if (!ffd_cursor_is(cursor, JSON_STRING))
         return ffd_cursor_fail(cursor, "is %s, not the name of a file", ffd_json_describe(cursor).text);
-    *path = ffd_json_span_string(cursor.tree, cursor.value, NULL);
+    *path = ffd_json_tree_string(cursor.tree, cursor.value, NULL);
     if (!*path)
         return ffd_fail_memory(cursor.file->error);
     if (**path && strcmp(*path, "-") != 0)
@@ -109,7 +109,7 @@ static ffd_status refuse_sign(json_cursor cursor)
 {
     static const char *const signs[] = {"-x", "-y", "-z", "-X", "-Y", "-Z"};
     for (size_t i = 0; i < COUNT_OF(signs); i++)
-        if (ffd_json_span_string_is(cursor.tree, cursor.value, signs[i]))
+        if (ffd_json_tree_string_is(cursor.tree, cursor.value, signs[i]))
             return ffd_cursor_fail(cursor, "the axis \"%s\" has a sign; write [%s] for that direction",
                                    signs[i],
                                    i % 3 == 0   ? "-1, 0, 0"

@@ -33,12 +33,12 @@ static size_t first_column(const lattice_spec *spec, size_t variable)
 }
 
 /* Sets the derivatives of the numbers of a move for each column. */
-static void seed_move(tangent_work *work, size_t number)
+static void seed_move(tangent_work *work, size_t index)
 {
     memset(work->seeded, 0, work->tangents->columns * sizeof *work->seeded);
     for (size_t i = 0; i < work->spec->seed_count; i++) {
         const spec_seed *const seed = &work->spec->seeds[i];
-        if (seed->move != number)
+        if (seed->move != index)
             continue;
         const size_t column = first_column(work->spec, seed->variable) + seed->component;
         double value;

@@ -53,9 +53,9 @@ static void store_index(unsigned char *bytes, size_t stride, uint32_t index)
 
 static uint32_t read_index(triangles *t)
 {
-    uint32_t number;
-    t->is_broken = !read_number(t->data, &number) || t->is_broken;
-    t->last += unfold_sign(number);
+    uint32_t index;
+    t->is_broken = !read_number(t->data, &index) || t->is_broken;
+    t->last += unfold_sign(index);
     return t->last;
 }
 
@@ -175,11 +175,11 @@ ffd_status ffd_meshopt_read_indices(const meshopt_view *view, meshopt_stream *fr
     const size_t count = (size_t)view->count, stride = (size_t)view->stride;
     uint32_t last[2] = {0};
     for (size_t i = 0; i < count; i++) {
-        uint32_t number;
-        if (!read_number(from, &number))
+        uint32_t index;
+        if (!read_number(from, &index))
             return ffd_fail(error, FFD_E_INVALID, "index %zu of the compressed data is broken", i);
-        uint32_t *const base = &last[number & 1];
-        *base += unfold_sign(number >> 1);
+        uint32_t *const base = &last[index & 1];
+        *base += unfold_sign(index >> 1);
         store_index(bytes + i * stride, stride, *base);
     }
     return FFD_OK;

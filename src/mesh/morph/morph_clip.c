@@ -223,13 +223,13 @@ static ffd_status refuse_target(const morph_clip *clip, const char *name, const 
 }
 
 /* names: of the clips before, `number` of them. */
-static ffd_status check_name(const morph_clip *clip, size_t number, intern_table *names, ffd_error *error)
+static ffd_status check_name(const morph_clip *clip, size_t index, intern_table *names, ffd_error *error)
 {
     uint32_t known;
     char shown[SHOWN];
     if (!ffd_intern(names, clip->name, strlen(clip->name), &known))
         return ffd_fail_memory(error);
-    if (known == number)
+    if (known == index)
         return FFD_OK;
     ffd_name_shown(clip->name, shown, sizeof shown);
     return ffd_fail(error, FFD_E_ARGUMENT, "{clips}: two clips are called \"%s\"", shown);
@@ -244,8 +244,8 @@ ffd_status ffd_morph_clips_check(const morph_clip *clips, size_t count, const in
         status = check_name(&clips[c], c, &names, error);
         for (uint32_t n = 0; n < clips[c].names.count && !status; n++) {
             const char *const name = ffd_intern_key(&clips[c].names, n);
-            uint32_t number;
-            if (!ffd_intern_find(known, name, strlen(name), &number))
+            uint32_t index;
+            if (!ffd_intern_find(known, name, strlen(name), &index))
                 status = refuse_target(&clips[c], name, known, error);
         }
     }

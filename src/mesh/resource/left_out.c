@@ -37,7 +37,7 @@ void ffd_left_add_unloaded(left_out *list, const char *path, const char *left)
     ffd_left_add(list, path, left ? left : refused);
 }
 
-void ffd_left_say(const left_out *left, const char *one, const char *many, const mesh_log *log)
+void ffd_left_out_log(const left_out *left, const char *one, const char *many, const mesh_log *log)
 {
     char text[sizeof left->shown + 60] = "";
     size_t length = 0;
@@ -51,8 +51,8 @@ void ffd_left_say(const left_out *left, const char *one, const char *many, const
                      text);
 }
 
-void ffd_left_say_of_stream(const left_out *left, const mesh_log *log)
+void ffd_left_out_log_stream(const left_out *left, const mesh_log *log)
 {
-    ffd_left_say(left, "file that the mesh names is not copied, as standard input has no folder",
-                 "files that the mesh names are not copied, as standard input has no folder", log);
+    ffd_left_out_log(left, "file that the mesh names is not copied, as standard input has no folder",
+                     "files that the mesh names are not copied, as standard input has no folder", log);
 }

@@ -25,8 +25,8 @@ ffd_status ffd_left_add_unreached(left_out *left, const char *to, const char *pa
 void ffd_left_add_unloaded(left_out *list, const char *path, const char *left);
 /* Logs the list unless it is empty: "2 WHAT: a is missing, b is no file". one, many: WHAT for one thing, and
    for several. */
-void ffd_left_say(const left_out *left, const char *one, const char *many, const mesh_log *log);
+void ffd_left_out_log(const left_out *left, const char *one, const char *many, const mesh_log *log);
 /* The same for files that a mesh from standard input names. */
-void ffd_left_say_of_stream(const left_out *left, const mesh_log *log);
+void ffd_left_out_log_stream(const left_out *left, const mesh_log *log);
 
 #endif

@@ -21,16 +21,16 @@ ffd_status ffd_images_find(material_images *images, const char *name, bool *is_k
                            ffd_error *error)
 {
     const size_t known = images->known.count;
-    uint32_t number;
+    uint32_t index;
     *image = MATERIAL_LOST;
-    if (!ffd_intern(&images->known, name, strlen(name), &number) ||
+    if (!ffd_intern(&images->known, name, strlen(name), &index) ||
         !ffd_grow((void **)&images->numbers, &images->capacity, images->known.count, sizeof *images->numbers))
         return ffd_fail_memory(error);
-    *is_known = number < known;
+    *is_known = index < known;
     if (*is_known)
-        *image = images->numbers[number];
+        *image = images->numbers[index];
     else
-        images->numbers[number] = MATERIAL_LOST;
+        images->numbers[index] = MATERIAL_LOST;
     return FFD_OK;
 }
 
@@ -108,8 +108,8 @@ ffd_status ffd_images_load(material_images *images, const char *path, uint32_t *
 
 void ffd_images_end(material_images *images, const mesh_log *log)
 {
-    ffd_left_say(&images->left, "image of a material cannot be shown", "images of materials cannot be shown",
-                 log);
+    ffd_left_out_log(&images->left, "image of a material cannot be shown",
+                     "images of materials cannot be shown", log);
     ffd_intern_free(&images->known);
     ffd_free(images->numbers);
 }

@@ -144,7 +144,7 @@ ffd_status ffd_resource_note(const resource_copier *c, const mesh_resource *reso
 {
     if (!c->copied)
         return FFD_OK;
-    char *const source = ffd_path_beside(c->mesh.file, resource->path);
+    char *const source = ffd_path_sibling(c->mesh.file, resource->path);
     const ffd_status status = source ? ffd_paths_add(c->copied, source, error) : ffd_fail_memory(error);
     ffd_free(source);
     return status;
@@ -154,7 +154,7 @@ static ffd_status copy_loaded(const resource_copier *c, const mesh_resource *res
                               const file_input *bytes, ffd_error *error)
 {
     char *const target =
-        c->sink_name ? ffd_path_beside(c->sink_name, resource->path) : ffd_path_join(c->to, resource->path);
+        c->sink_name ? ffd_path_sibling(c->sink_name, resource->path) : ffd_path_join(c->to, resource->path);
     ffd_status status = target ? write_copy(c, resource->kind, target, bytes, error) : ffd_fail_memory(error);
     if (!status)
         status = ffd_resource_note(c, resource, error);
@@ -230,7 +230,7 @@ static ffd_status copy(const resource_copier *c, const mesh_resource *resource, 
     return status;
 }
 
-static void say_unreached(const resource_copier *c, const mesh_resource *resource)
+static void log_unreached(const resource_copier *c, const mesh_resource *resource)
 {
     char shown[RESOURCE_SHOWN];
     ffd_name_shown(resource->path, shown, sizeof shown);
@@ -250,7 +250,7 @@ ffd_status ffd_resources_bring(const resource_copier *c, const resource_list *li
         if (copies)
             status = copy(c, &list->resources[i], error);
         else
-            say_unreached(c, &list->resources[i]);
+            log_unreached(c, &list->resources[i]);
     }
     return status;
 }

@@ -10,7 +10,7 @@ const resource_kind ffd_resource_image = {.name = "image",
                                           .other_name = "does not have the ending of an image",
                                           .other_content = "does not have the content of an image"};
 
-ffd_status ffd_resources_add(resource_list *list, const resource_kind *kind, size_t number, char *path,
+ffd_status ffd_resources_add(resource_list *list, const resource_kind *kind, size_t index, char *path,
                              ffd_error *error)
 {
     uint32_t key;
@@ -21,7 +21,7 @@ ffd_status ffd_resources_add(resource_list *list, const resource_kind *kind, siz
         ffd_free(path);
         return interned && !is_new ? FFD_OK : ffd_fail_memory(error);
     }
-    list->resources[list->count++] = (mesh_resource){path, kind, number};
+    list->resources[list->count++] = (mesh_resource){path, kind, index};
     return FFD_OK;
 }
 

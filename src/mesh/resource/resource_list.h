@@ -35,7 +35,7 @@ typedef struct resource_list {
 
 /* Adds a file unless it is in the list. Takes ownership of path, also after a failure. Errors:
    FFD_E_MEMORY. */
-ffd_status ffd_resources_add(resource_list *list, const resource_kind *kind, size_t number, char *path,
+ffd_status ffd_resources_add(resource_list *list, const resource_kind *kind, size_t index, char *path,
                              ffd_error *error);
 /* Sorts the files by path. */
 void ffd_resources_sort(resource_list *list);

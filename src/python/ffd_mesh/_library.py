@@ -139,20 +139,20 @@ def call(function: Any, *arguments: Any) -> None:
 
 
 class Run:
-    """An ffd_run, with the caller's progress function and the exception that it may raise."""
+    """An ffd_run_options, with the caller's progress function and the exception that it may raise."""
 
     def __init__(self, threads: int, isa: str, progress: Progress | None) -> None:
         if progress is not None and not callable(progress):
             raise TypeError(f"progress must be a function, not {type(progress).__name__}")
         self._said: list[Any] = [progress]
-        self.run = filled("ffd_run")
+        self.run = filled("ffd_run_options")
         self.run.threads = integer(threads, "threads")
         self.run.isa = number_of("ffd_isa", isa, "isa")
         self.run.progress = _native.progress
         self.run.user = id(self._said)
 
     def __call__(self, function: Any, *arguments: Any, last: tuple[Any, ...] = ()) -> None:
-        """Calls a function with arguments, an ffd_run, the arguments in last, and an ffd_error."""
+        """Calls a function with arguments, an ffd_run_options, the arguments in last, and an ffd_error."""
         try:
             call(function, *arguments, ctypes.byref(self.run), *last)
         except Cancelled:

@@ -43,10 +43,10 @@ static bool list_names_of(const gltf_document *d, size_t mesh, intern_table *all
     uint32_t *const names = ffd_gltf_list_target_names(d, mesh);
     bool added = names;
     for (size_t t = 0; t < count && added; t++) {
-        char *const name = names[t] == JSON_NONE ? NULL : ffd_json_span_string(&d->tree, names[t], NULL);
-        uint32_t number;
+        char *const name = names[t] == JSON_NONE ? NULL : ffd_json_tree_string(&d->tree, names[t], NULL);
+        uint32_t index;
         if (name)
-            added = ffd_intern(all, name, strlen(name), &number);
+            added = ffd_intern(all, name, strlen(name), &index);
         ffd_free(name);
     }
     ffd_free(names);
@@ -66,10 +66,10 @@ ffd_status ffd_gltf_check_clips(const gltf_document *d, const morph_clip *clips,
                                 const char *const *names, size_t name_count, ffd_error *error)
 {
     intern_table all = {0};
-    uint32_t number;
+    uint32_t index;
     bool listed = true;
     for (size_t i = 0; i < name_count && listed; i++)
-        listed = ffd_intern(&all, names[i], strlen(names[i]), &number);
+        listed = ffd_intern(&all, names[i], strlen(names[i]), &index);
     const ffd_status status = listed && list_names(d, &all) ? ffd_morph_clips_check(clips, count, &all, error)
                                                             : ffd_fail_memory(error);
     ffd_intern_free(&all);
@@ -119,7 +119,7 @@ static bool find_driven(clip_writer *w, size_t mesh, uint32_t *names, size_t cou
     bool any = false, failed = !values;
     for (size_t t = 0; t < count; t++) {
         const bool named = values && values[t] != JSON_NONE;
-        char *const name = named ? ffd_json_span_string(&d->tree, values[t], NULL) : NULL;
+        char *const name = named ? ffd_json_tree_string(&d->tree, values[t], NULL) : NULL;
         failed = failed || (named && !name);
         names[t] = KEEPS;
         if (name && ffd_intern_find(&w->clip->names, name, strlen(name), &names[t]))
@@ -152,7 +152,7 @@ static void find_defaults(const gltf_document *d, const uint32_t *names, size_t 
             continue;
         if (names[t] == KEEPS && !ffd_gltf_weight(d, default_value, &row[t]))
             row[t] = 0;
-        default_value = ffd_json_span_after(&d->tree, default_value);
+        default_value = ffd_json_tree_after(&d->tree, default_value);
     }
 }
 
@@ -220,11 +220,11 @@ static ffd_status add_channel(clip_writer *w, size_t node, uint32_t *names)
 /* Returns the animation of the clip's name; JSON_NONE: none. */
 static uint32_t find_animation(const clip_writer *w, uint32_t animations)
 {
-    const json_span *const tree = &w->file.document->tree;
-    for (uint32_t v = ffd_json_span_first(tree, animations); v != JSON_NONE;
-         v = ffd_json_span_after(tree, v)) {
-        const uint32_t name = ffd_json_span_member(tree, v, "name");
-        if (name != JSON_NONE && ffd_json_span_string_is(tree, name, w->clip->name))
+    const json_tree *const tree = &w->file.document->tree;
+    for (uint32_t v = ffd_json_tree_first(tree, animations); v != JSON_NONE;
+         v = ffd_json_tree_after(tree, v)) {
+        const uint32_t name = ffd_json_tree_member(tree, v, "name");
+        if (name != JSON_NONE && ffd_json_tree_string_is(tree, name, w->clip->name))
             return v;
     }
     return JSON_NONE;
@@ -265,7 +265,7 @@ static ffd_status warn_of_replaced(clip_writer *w, uint32_t old, const char *nam
 static ffd_status place_clip(clip_writer *w, uint32_t animations)
 {
     gltf_grown *const file = &w->file;
-    const json_span *const tree = &file->document->tree;
+    const json_tree *const tree = &file->document->tree;
     const uint32_t old = find_animation(w, animations);
     char shown[80];
     byte_buffer text = {0};
@@ -318,7 +318,7 @@ static ffd_status add_clip(clip_writer *w, const morph_clip *clip, uint32_t *nam
 static ffd_status add_all(clip_writer *w, const morph_clip *clips, size_t count, file_input *made)
 {
     const gltf_document *const d = w->file.document;
-    const uint32_t animations = ffd_json_span_member(&d->tree, 0, "animations");
+    const uint32_t animations = ffd_json_tree_member(&d->tree, 0, "animations");
     size_t most = 0;
     for (size_t m = 0; m < d->model.mesh_count; m++)
         most = d->mesh_uses[m].target_count > most ? d->mesh_uses[m].target_count : most;

@@ -43,7 +43,7 @@ static void add_bytes(gltf_grown *w)
                       bin ? 0 : d->buffer_values.count, bin ? bin_end(d) : 0, w->bytes.size);
     ffd_gltf_add_elements(d, &d->view_values, "bufferViews", &view, &w->edits);
     if (bin) {
-        const uint32_t length = ffd_json_span_member(&d->tree, d->buffer_values.values[0], "byteLength");
+        const uint32_t length = ffd_json_tree_member(&d->tree, d->buffer_values.values[0], "byteLength");
         if (length != JSON_NONE)
             ffd_edits_format(&w->edits, d->tree.values[length].begin, d->tree.values[length].end, "%zu",
                              bin_end(d) + w->bytes.size);

@@ -4,13 +4,13 @@
    top-level object end. */
 static uint32_t find_end(const gltf_document *d, const gltf_values *list, uint32_t array)
 {
-    const json_span *tree = &d->tree;
+    const json_tree *tree = &d->tree;
     if (list->count > 0)
         return tree->values[list->values[list->count - 1]].end;
     if (array != JSON_NONE)
         return tree->values[array].begin + 1;
     uint32_t last = JSON_NONE; /* "asset" always exists */
-    for (uint32_t v = ffd_json_span_first(tree, 0); v != JSON_NONE; v = ffd_json_span_after(tree, v))
+    for (uint32_t v = ffd_json_tree_first(tree, 0); v != JSON_NONE; v = ffd_json_tree_after(tree, v))
         last = v;
     return tree->values[last].end;
 }
@@ -24,7 +24,7 @@ typedef struct open_list {
 static open_list begin_list(const gltf_document *d, const gltf_values *list, const char *key,
                             json_edits *edits)
 {
-    const uint32_t array = ffd_json_span_member(&d->tree, 0, key);
+    const uint32_t array = ffd_json_tree_member(&d->tree, 0, key);
     const open_list opened = {find_end(d, list, array), array == JSON_NONE};
     if (opened.is_new)
         ffd_edits_format(edits, opened.at, opened.at, ",\"%s\":[", key);
@@ -66,9 +66,9 @@ void ffd_gltf_add_buffer(const gltf_document *d, size_t length, bool is_data, js
 void ffd_gltf_insert_last(const gltf_document *d, uint32_t container, const byte_buffer *text,
                           json_edits *edits)
 {
-    const json_span *tree = &d->tree;
+    const json_tree *tree = &d->tree;
     uint32_t last = JSON_NONE;
-    for (uint32_t v = ffd_json_span_first(tree, container); v != JSON_NONE; v = ffd_json_span_after(tree, v))
+    for (uint32_t v = ffd_json_tree_first(tree, container); v != JSON_NONE; v = ffd_json_tree_after(tree, v))
         last = v;
     const uint32_t at = last == JSON_NONE ? tree->values[container].begin + 1 : tree->values[last].end;
     edits->failed = edits->failed || text->failed;

@@ -52,14 +52,14 @@ static void add_bytes(const gltf_document *d, size_t buffer, size_t begin, size_
  */
 static void add_compressed(const gltf_document *d, size_t view, gltf_byte_runs *list)
 {
-    const json_span *const tree = &d->tree;
-    const uint32_t extensions = ffd_json_span_member(tree, d->view_values.values[view], "extensions");
-    for (uint32_t v = ffd_json_span_first(tree, extensions); v != JSON_NONE;
-         v = ffd_json_span_after(tree, v)) {
+    const json_tree *const tree = &d->tree;
+    const uint32_t extensions = ffd_json_tree_member(tree, d->view_values.values[view], "extensions");
+    for (uint32_t v = ffd_json_tree_first(tree, extensions); v != JSON_NONE;
+         v = ffd_json_tree_after(tree, v)) {
         const size_t buffer =
-            ffd_gltf_index(d, ffd_json_span_member(tree, v, "buffer"), d->buffer_values.count);
-        const size_t begin = ffd_gltf_index(d, ffd_json_span_member(tree, v, "byteOffset"), GLTF_NONE);
-        const size_t size = ffd_gltf_index(d, ffd_json_span_member(tree, v, "byteLength"), GLTF_NONE);
+            ffd_gltf_index(d, ffd_json_tree_member(tree, v, "buffer"), d->buffer_values.count);
+        const size_t begin = ffd_gltf_index(d, ffd_json_tree_member(tree, v, "byteOffset"), GLTF_NONE);
+        const size_t size = ffd_gltf_index(d, ffd_json_tree_member(tree, v, "byteLength"), GLTF_NONE);
         if (buffer != GLTF_NONE && size != GLTF_NONE)
             add_bytes(d, buffer, begin == GLTF_NONE ? 0 : begin, size, list);
     }

@@ -135,8 +135,8 @@ static void write_target(morph_writer *w, const gltf_primitive *primitive, size_
 
 static void replace_target(morph_writer *w, const gltf_primitive *primitive, size_t target, uint32_t targets)
 {
-    const json_span *const tree = &w->file.document->tree;
-    const json_value *const value = &tree->values[ffd_json_span_element(tree, targets, target)];
+    const json_tree *const tree = &w->file.document->tree;
+    const json_value *const value = &tree->values[ffd_json_tree_element(tree, targets, target)];
     byte_buffer text = {0};
     write_target(w, primitive, target, &text);
     if (!text.failed)
@@ -160,7 +160,7 @@ static void add_to_primitive(morph_writer *w, const gltf_primitive *primitive)
 {
     const gltf_document *d = w->file.document;
     const uint32_t value = primitive->value;
-    const uint32_t targets = ffd_json_span_member(&d->tree, value, "targets");
+    const uint32_t targets = ffd_json_tree_member(&d->tree, value, "targets");
     const size_t place = w->request->places[primitive->mesh];
     byte_buffer text = {0};
     if (place < primitive->target_count) {
@@ -183,11 +183,11 @@ static void add_to_primitive(morph_writer *w, const gltf_primitive *primitive)
 static void add_weights(gltf_grown *file, uint32_t value, size_t targets, bool make)
 {
     const gltf_document *const d = file->document;
-    const json_span *const tree = &d->tree;
-    const uint32_t weights = ffd_json_span_member(tree, value, "weights");
+    const json_tree *const tree = &d->tree;
+    const uint32_t weights = ffd_json_tree_member(tree, value, "weights");
     byte_buffer text = {0};
     if (is_array(d, weights) && tree->values[weights].count > targets) {
-        const json_value *const old = &tree->values[ffd_json_span_element(tree, weights, targets)];
+        const json_value *const old = &tree->values[ffd_json_tree_element(tree, weights, targets)];
         ffd_edits_replace(&file->edits, old->begin, old->end, "0", 1);
     } else if (is_array(d, weights)) {
         ffd_buffer_text(&text, "0");
@@ -202,7 +202,7 @@ static void add_weights(gltf_grown *file, uint32_t value, size_t targets, bool m
     ffd_buffer_free(&text);
 }
 
-static void tell_replaced(morph_writer *w, size_t mesh)
+static void log_replaced(morph_writer *w, size_t mesh)
 {
     size_t target, found;
     if (!ffd_gltf_find_target(w->file.document, mesh, w->request->morph->name, &target, &found))
@@ -227,7 +227,7 @@ static void add_to_meshes(morph_writer *w)
         for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, m, p));)
             add_to_primitive(w, p);
         if (!w->grow[m]) {
-            tell_replaced(w, m);
+            log_replaced(w, m);
             continue;
         }
         add_weights(&w->file, d->mesh_values.values[m], d->mesh_uses[m].target_count, true);

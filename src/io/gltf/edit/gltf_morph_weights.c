@@ -49,7 +49,7 @@ typedef struct weight_writer {
 static bool read_index(const gltf_grown *file, uint32_t object, const char *key, size_t count, size_t *index)
 {
     double number;
-    if (!ffd_json_span_number(&file->document->tree, ffd_json_span_member(&file->document->tree, object, key),
+    if (!ffd_json_tree_number(&file->document->tree, ffd_json_tree_member(&file->document->tree, object, key),
                               &number) ||
         !(number >= 0 && number < (double)count) || floor(number) < number)
         return false;
@@ -91,18 +91,18 @@ static driven find_target(gltf_grown *file, uint32_t target)
     const gltf_document *d = file->document;
     driven what = {GLTF_NONE, GLTF_NONE};
     const uint32_t pointer =
-        ffd_json_span_member(&d->tree, ffd_gltf_extension(d, target, "KHR_animation_pointer"), "pointer");
+        ffd_json_tree_member(&d->tree, ffd_gltf_extension(d, target, "KHR_animation_pointer"), "pointer");
     if (pointer != JSON_NONE && d->tree.values[pointer].kind == JSON_STRING) {
-        char *text = ffd_json_span_string(&d->tree, pointer, NULL);
+        char *text = ffd_json_tree_string(&d->tree, pointer, NULL);
         if (text)
             what = follow_pointer(d, text);
         file->edits.failed = file->edits.failed || !text;
         ffd_free(text);
         return what;
     }
-    const uint32_t path = ffd_json_span_member(&d->tree, target, "path");
+    const uint32_t path = ffd_json_tree_member(&d->tree, target, "path");
     size_t node;
-    if (path != JSON_NONE && ffd_json_span_string_is(&d->tree, path, "weights") &&
+    if (path != JSON_NONE && ffd_json_tree_string_is(&d->tree, path, "weights") &&
         read_index(file, target, "node", d->model.node_count, &node) && d->model.nodes[node].mesh >= 0)
         what.mesh = (size_t)d->model.nodes[node].mesh;
     return what;
@@ -119,11 +119,11 @@ static void end_animation(animation *a)
 
 static bool begin_animation(const gltf_grown *file, uint32_t value, animation *a)
 {
-    const json_span *tree = &file->document->tree;
-    a->samplers = ffd_json_span_member(tree, value, "samplers");
-    a->channels = ffd_json_span_member(tree, value, "channels");
-    a->sampler_count = ffd_json_span_count(tree, a->samplers);
-    a->channel_count = ffd_json_span_count(tree, a->channels);
+    const json_tree *tree = &file->document->tree;
+    a->samplers = ffd_json_tree_member(tree, value, "samplers");
+    a->channels = ffd_json_tree_member(tree, value, "channels");
+    a->sampler_count = ffd_json_tree_count(tree, a->samplers);
+    a->channel_count = ffd_json_tree_count(tree, a->channels);
     a->sampler_values = ffd_alloc(a->sampler_count, sizeof *a->sampler_values);
     a->first = ffd_alloc(a->sampler_count, sizeof *a->first);
     a->others = ffd_alloc_zero(a->sampler_count, sizeof *a->others);
@@ -131,8 +131,8 @@ static bool begin_animation(const gltf_grown *file, uint32_t value, animation *a
     if (!a->sampler_values || !a->first || !a->others || !a->wanted)
         return false;
     size_t i = 0;
-    for (uint32_t v = ffd_json_span_first(tree, a->samplers); v != JSON_NONE;
-         v = ffd_json_span_after(tree, v)) {
+    for (uint32_t v = ffd_json_tree_first(tree, a->samplers); v != JSON_NONE;
+         v = ffd_json_tree_after(tree, v)) {
         a->first[i] = GLTF_NONE;
         a->sampler_values[i++] = v;
     }
@@ -148,28 +148,28 @@ static size_t want_output(animation *a, size_t sampler, size_t targets, bool is_
         last = &a->outputs[*last].next;
     if (*last != GLTF_NONE)
         return *last;
-    const size_t number = a->output_count;
-    *last = number; /* before the array moves */
-    if (!ffd_grow((void **)&a->outputs, &a->output_capacity, number + 1, sizeof *a->outputs))
+    const size_t index = a->output_count;
+    *last = index; /* before the array moves */
+    if (!ffd_grow((void **)&a->outputs, &a->output_capacity, index + 1, sizeof *a->outputs))
         return GLTF_NONE;
     a->outputs[a->output_count++] =
         (wanted_output){sampler, targets, is_single, GLTF_NONE, sampler, GLTF_NONE};
-    return number;
+    return index;
 }
 
 /* Finds the channels that drive weights of the meshes. */
 static bool find_drivers(const weight_writer *w, animation *a)
 {
     gltf_grown *const file = w->file;
-    const json_span *tree = &file->document->tree;
+    const json_tree *tree = &file->document->tree;
     size_t c = 0;
-    for (uint32_t v = ffd_json_span_first(tree, a->channels); v != JSON_NONE;
-         v = ffd_json_span_after(tree, v), c++) {
+    for (uint32_t v = ffd_json_tree_first(tree, a->channels); v != JSON_NONE;
+         v = ffd_json_tree_after(tree, v), c++) {
         size_t sampler;
         a->wanted[c] = GLTF_NONE;
         if (!read_index(file, v, "sampler", a->sampler_count, &sampler))
             continue;
-        const driven what = find_target(file, ffd_json_span_member(tree, v, "target"));
+        const driven what = find_target(file, ffd_json_tree_member(tree, v, "target"));
         const bool grows = what.mesh != GLTF_NONE && w->meshes[what.mesh];
         const size_t targets = grows ? file->document->mesh_uses[what.mesh].target_count : 0;
         if (grows && (what.weight == GLTF_NONE || what.weight == targets)) {
@@ -196,9 +196,9 @@ static bool find_rows(const gltf_grown *file, uint32_t sampler, const wanted_out
                       output_rows *layout)
 {
     const gltf_document *d = file->document;
-    const uint32_t interpolation = ffd_json_span_member(&d->tree, sampler, "interpolation");
+    const uint32_t interpolation = ffd_json_tree_member(&d->tree, sampler, "interpolation");
     const bool cubic =
-        interpolation != JSON_NONE && ffd_json_span_string_is(&d->tree, interpolation, "CUBICSPLINE");
+        interpolation != JSON_NONE && ffd_json_tree_string_is(&d->tree, interpolation, "CUBICSPLINE");
     size_t input;
     if (!read_index(file, sampler, "output", d->model.accessor_count, &layout->accessor))
         return false;
@@ -247,11 +247,11 @@ static void write_output(const weight_writer *w, const output_rows *old, wanted_
 /* Returns the first channel that has a wanted output. */
 static uint32_t first_channel(const weight_writer *w, const animation *a, size_t wanted)
 {
-    const json_span *tree = &w->file->document->tree;
+    const json_tree *tree = &w->file->document->tree;
     size_t c = 0;
-    uint32_t v = ffd_json_span_first(tree, a->channels);
+    uint32_t v = ffd_json_tree_first(tree, a->channels);
     while (a->wanted[c] != wanted) {
-        v = ffd_json_span_after(tree, v);
+        v = ffd_json_tree_after(tree, v);
         c++;
     }
     return v;
@@ -284,11 +284,11 @@ static void make_outputs(weight_writer *w, animation *a)
 }
 
 /* Appends the text of a JSON value in which one number is replaced. */
-static void copy_with_number(const gltf_grown *file, uint32_t value, uint32_t number, size_t with,
+static void copy_with_number(const gltf_grown *file, uint32_t value, uint32_t index, size_t with,
                              byte_buffer *text)
 {
-    const json_span *tree = &file->document->tree;
-    const json_value *whole = &tree->values[value], *part = &tree->values[number];
+    const json_tree *tree = &file->document->tree;
+    const json_value *whole = &tree->values[value], *part = &tree->values[index];
     ffd_buffer_append(text, tree->text + whole->begin, part->begin - whole->begin);
     ffd_buffer_format(text, "%zu", with);
     ffd_buffer_append(text, tree->text + part->end, whole->end - part->end);
@@ -301,20 +301,20 @@ static void place_outputs(gltf_grown *file, animation *a)
     const gltf_document *d = file->document;
     byte_buffer copies = {0};
     for (size_t s = 0; s < a->sampler_count; s++) {
-        const uint32_t number = ffd_json_span_member(&d->tree, a->sampler_values[s], "output");
+        const uint32_t index = ffd_json_tree_member(&d->tree, a->sampler_values[s], "output");
         bool is_taken = a->others[s];
         for (size_t i = a->first[s]; i != GLTF_NONE; i = a->outputs[i].next) {
             wanted_output *const wanted = &a->outputs[i];
             if (wanted->made == GLTF_NONE)
                 continue;
             if (!is_taken) {
-                ffd_edits_format(&file->edits, d->tree.values[number].begin, d->tree.values[number].end,
-                                 "%zu", wanted->made);
+                ffd_edits_format(&file->edits, d->tree.values[index].begin, d->tree.values[index].end, "%zu",
+                                 wanted->made);
                 is_taken = true;
                 continue;
             }
             ffd_buffer_text(&copies, a->copy_count > 0 ? "," : "");
-            copy_with_number(file, a->sampler_values[s], number, wanted->made, &copies);
+            copy_with_number(file, a->sampler_values[s], index, wanted->made, &copies);
             wanted->place = a->sampler_count + a->copy_count++;
         }
     }
@@ -325,14 +325,14 @@ static void place_outputs(gltf_grown *file, animation *a)
 
 static void redirect_channels(gltf_grown *file, const animation *a)
 {
-    const json_span *tree = &file->document->tree;
+    const json_tree *tree = &file->document->tree;
     size_t c = 0;
-    for (uint32_t v = ffd_json_span_first(tree, a->channels); v != JSON_NONE;
-         v = ffd_json_span_after(tree, v), c++) {
+    for (uint32_t v = ffd_json_tree_first(tree, a->channels); v != JSON_NONE;
+         v = ffd_json_tree_after(tree, v), c++) {
         const wanted_output *const wanted = a->wanted[c] == GLTF_NONE ? NULL : &a->outputs[a->wanted[c]];
         if (!wanted || wanted->place == wanted->sampler)
             continue;
-        const json_value *number = &tree->values[ffd_json_span_member(tree, v, "sampler")];
+        const json_value *number = &tree->values[ffd_json_tree_member(tree, v, "sampler")];
         ffd_edits_format(&file->edits, number->begin, number->end, "%zu", wanted->place);
     }
 }
@@ -342,7 +342,7 @@ static void warn(const weight_writer *w, const channel_note *note, const char *o
     char pointer[160], more[40] = "";
     if (note->count == 0)
         return;
-    ffd_json_span_pointer(&w->file->document->tree, note->first, pointer, sizeof pointer);
+    ffd_json_tree_pointer(&w->file->document->tree, note->first, pointer, sizeof pointer);
     if (note->count > 1)
         snprintf(more, sizeof more, " and %zu more", note->count - 1);
     ffd_log_line(w->file->log, FFD_LOG_WARNING, "%zu %s: %s%s", note->count,
@@ -351,11 +351,11 @@ static void warn(const weight_writer *w, const channel_note *note, const char *o
 
 void ffd_gltf_extend_weights(gltf_grown *file, const bool *meshes)
 {
-    const json_span *tree = &file->document->tree;
-    const uint32_t animations = ffd_json_span_member(tree, 0, "animations");
+    const json_tree *tree = &file->document->tree;
+    const uint32_t animations = ffd_json_tree_member(tree, 0, "animations");
     weight_writer w = {.file = file, .meshes = meshes};
-    for (uint32_t v = ffd_json_span_first(tree, animations); v != JSON_NONE && !file->edits.failed;
-         v = ffd_json_span_after(tree, v)) {
+    for (uint32_t v = ffd_json_tree_first(tree, animations); v != JSON_NONE && !file->edits.failed;
+         v = ffd_json_tree_after(tree, v)) {
         animation a = {0};
         if (begin_animation(file, v, &a) && find_drivers(&w, &a)) {
             make_outputs(&w, &a);

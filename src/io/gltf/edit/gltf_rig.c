@@ -29,11 +29,11 @@ size_t ffd_gltf_add_content(gltf_rig *rig, gltf_rig_content *content)
         {&content->count, sizeof content->count},
         {content->values, content->count * content->width * sizeof *content->values}};
     const hash128 hash = ffd_hash_blocks(blocks, 3);
-    uint32_t number = 0;
-    const bool known = ffd_intern(&rig->known, &hash, sizeof hash, &number);
-    if (known && number < rig->content_count) {
+    uint32_t index = 0;
+    const bool known = ffd_intern(&rig->known, &hash, sizeof hash, &index);
+    if (known && index < rig->content_count) {
         ffd_gltf_free_elements(rig, content);
-        return number;
+        return index;
     }
     if (!known || !ffd_grow((void **)&rig->contents, &rig->content_capacity, rig->content_count + 1,
                             sizeof *rig->contents)) {

@@ -107,7 +107,7 @@ static ffd_status fill_values(const channel_work *w, const change_key *key,
         change_value(key, is_tangent, old, made);
         for (size_t c = 0; c < width; c++) {
             if (!(fabs(made[c]) <= FLT_MAX))
-                return ffd_json_span_fail(
+                return ffd_json_tree_fail(
                     &w->document->tree, sampler->value, w->document->name, FFD_E_INVALID, w->error,
                     "with the deformation, element %zu of the sampler's output is too large for floats", i);
             values[c] = as_stored(key, is_tangent, made[c]);
@@ -141,19 +141,19 @@ static ffd_status make_content(const channel_work *w, const change_key *key,
 static ffd_status find_content(channel_work *w, const gltf_channel *channel,
                                const gltf_animation_sampler *sampler, size_t *content)
 {
-    uint32_t number;
+    uint32_t index;
     *content = GLTF_NONE;
     if (sampler->key_count == 0)
         return FFD_OK;
     const change_key key = describe(w, channel, sampler);
     const size_t known = w->keys.count;
-    if (!ffd_intern(&w->keys, &key, sizeof key, &number) ||
+    if (!ffd_intern(&w->keys, &key, sizeof key, &index) ||
         !ffd_grow((void **)&w->results, &w->capacity, w->keys.count, sizeof *w->results))
         return ffd_fail_memory(w->error);
     ffd_status status = FFD_OK;
-    if (number == known)
-        status = make_content(w, &key, sampler, &w->results[number]);
-    *content = status ? GLTF_NONE : w->results[number];
+    if (index == known)
+        status = make_content(w, &key, sampler, &w->results[index]);
+    *content = status ? GLTF_NONE : w->results[index];
     return status;
 }
 
@@ -163,17 +163,17 @@ static bool choose_sampler(const gltf_animation *animation, size_t own, size_t c
                            intern_table *copies, gltf_rig_animation *change, size_t *chosen)
 {
     const size_t key[] = {own, content};
-    uint32_t number;
+    uint32_t index;
     if (!taken[own])
         change->contents[own] = content;
     taken[own] = true;
     *chosen = own;
     if (change->contents[own] == content)
         return true;
-    if (!ffd_intern(copies, key, sizeof key, &number))
+    if (!ffd_intern(copies, key, sizeof key, &index))
         return false;
-    *chosen = animation->sampler_count + number;
-    if (number < change->copy_count)
+    *chosen = animation->sampler_count + index;
+    if (index < change->copy_count)
         return true;
     if (!ffd_grow((void **)&change->copies, &change->copy_capacity, change->copy_count + 1,
                   sizeof *change->copies))

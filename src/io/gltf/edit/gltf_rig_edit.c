@@ -3,10 +3,10 @@
 #include "io/gltf/edit/gltf_rig.h"
 
 /* Inserts a text after the last member of an object. */
-static void insert_members(const json_span *tree, uint32_t object, const byte_buffer *text, json_edits *edits)
+static void insert_members(const json_tree *tree, uint32_t object, const byte_buffer *text, json_edits *edits)
 {
     uint32_t last = JSON_NONE;
-    for (uint32_t v = ffd_json_span_first(tree, object); v != JSON_NONE; v = ffd_json_span_after(tree, v))
+    for (uint32_t v = ffd_json_tree_first(tree, object); v != JSON_NONE; v = ffd_json_tree_after(tree, v))
         last = v;
     const uint32_t at = last == JSON_NONE ? tree->values[object].begin + 1 : tree->values[last].end;
     edits->failed = edits->failed || text->failed;
@@ -17,21 +17,21 @@ static void insert_members(const json_span *tree, uint32_t object, const byte_bu
     ffd_edits_replace(edits, at, at, text->data, text->size);
 }
 
-static void replace_number(const json_span *tree, uint32_t value, size_t number, json_edits *edits)
+static void replace_number(const json_tree *tree, uint32_t value, size_t index, json_edits *edits)
 {
-    ffd_edits_format(edits, tree->values[value].begin, tree->values[value].end, "%zu", number);
+    ffd_edits_format(edits, tree->values[value].begin, tree->values[value].end, "%zu", index);
 }
 
 /* Replaces those numbers of an array that differ. */
-static void edit_numbers(const json_span *tree, uint32_t array, const double *values, size_t count,
+static void edit_numbers(const json_tree *tree, uint32_t array, const double *values, size_t count,
                          json_edits *edits)
 {
     size_t i = 0;
-    for (uint32_t v = ffd_json_span_first(tree, array); v != JSON_NONE && i < count;
-         v = ffd_json_span_after(tree, v), i++) {
+    for (uint32_t v = ffd_json_tree_first(tree, array); v != JSON_NONE && i < count;
+         v = ffd_json_tree_after(tree, v), i++) {
         double old;
         char text[FFD_NUMBER_CAPACITY];
-        if (ffd_json_span_number(tree, v, &old) && old == values[i])
+        if (ffd_json_tree_number(tree, v, &old) && old == values[i])
             continue;
         const size_t size = ffd_number_format(values[i], text);
         ffd_edits_replace(edits, tree->values[v].begin, tree->values[v].end, text, size);
@@ -39,10 +39,10 @@ static void edit_numbers(const json_span *tree, uint32_t array, const double *va
 }
 
 /* Sets a member of a node: edits the numbers of an existing array, or appends the array to `added`. */
-static void set_array(const json_span *tree, uint32_t node, const char *key, const double *values,
+static void set_array(const json_tree *tree, uint32_t node, const char *key, const double *values,
                       size_t count, byte_buffer *added, json_edits *edits)
 {
-    const uint32_t member = ffd_json_span_member(tree, node, key);
+    const uint32_t member = ffd_json_tree_member(tree, node, key);
     if (member != JSON_NONE) {
         edit_numbers(tree, member, values, count, edits);
         return;
@@ -81,7 +81,7 @@ void ffd_gltf_edit_skins(const gltf_document *d, const size_t *outputs, json_edi
     for (size_t s = 0; d->rig && s < d->skin_values.count; s++) {
         const size_t content = d->rig->skin_contents[s];
         const uint32_t skin = d->skin_values.values[s];
-        const uint32_t member = ffd_json_span_member(&d->tree, skin, "inverseBindMatrices");
+        const uint32_t member = ffd_json_tree_member(&d->tree, skin, "inverseBindMatrices");
         byte_buffer added = {0};
         if (content == GLTF_NONE || outputs[content] == d->rig->contents[content].accessor)
             continue;
@@ -102,18 +102,18 @@ static size_t output_of(const gltf_animation_sampler *sampler, size_t content, c
 }
 
 /* Appends the JSON of a sampler with another output. */
-static void add_sampler(const json_span *tree, const gltf_animation_sampler *sampler, size_t output,
+static void add_sampler(const json_tree *tree, const gltf_animation_sampler *sampler, size_t output,
                         byte_buffer *text)
 {
     const json_value *const whole = &tree->values[sampler->value];
-    const json_value *const member = &tree->values[ffd_json_span_member(tree, sampler->value, "output")];
+    const json_value *const member = &tree->values[ffd_json_tree_member(tree, sampler->value, "output")];
     ffd_buffer_text(text, text->size > 0 ? "," : "");
     ffd_buffer_append(text, tree->text + whole->begin, member->begin - whole->begin);
     ffd_buffer_format(text, "%zu", output);
     ffd_buffer_append(text, tree->text + member->end, whole->end - member->end);
 }
 
-static void edit_animation(const json_span *tree, const gltf_animation *animation,
+static void edit_animation(const json_tree *tree, const gltf_animation *animation,
                            const gltf_rig_animation *change, const size_t *outputs, json_edits *edits)
 {
     byte_buffer text = {0};
@@ -121,17 +121,17 @@ static void edit_animation(const json_span *tree, const gltf_animation *animatio
         const gltf_animation_sampler *const sampler = &animation->samplers[s];
         const size_t output = output_of(sampler, change->contents[s], outputs);
         if (output != sampler->output)
-            replace_number(tree, ffd_json_span_member(tree, sampler->value, "output"), output, edits);
+            replace_number(tree, ffd_json_tree_member(tree, sampler->value, "output"), output, edits);
     }
     for (size_t c = 0; c < animation->channel_count; c++)
         if (change->channels[c] != animation->channels[c].sampler)
-            replace_number(tree, ffd_json_span_member(tree, animation->channels[c].value, "sampler"),
+            replace_number(tree, ffd_json_tree_member(tree, animation->channels[c].value, "sampler"),
                            change->channels[c], edits);
     for (size_t i = 0; i < change->copy_count; i++) {
         const gltf_animation_sampler *const sampler = &animation->samplers[change->copies[i].sampler];
         add_sampler(tree, sampler, output_of(sampler, change->copies[i].content, outputs), &text);
     }
-    insert_members(tree, ffd_json_span_member(tree, animation->value, "samplers"), &text, edits);
+    insert_members(tree, ffd_json_tree_member(tree, animation->value, "samplers"), &text, edits);
     ffd_buffer_free(&text);
 }
 

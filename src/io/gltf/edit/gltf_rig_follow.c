@@ -202,7 +202,7 @@ static void warn_of_vrm(const staying *found, const mesh_log *log)
 }
 
 /* Logs what changes. */
-static void tell(const gltf_document *d, const gltf_rig *rig, const mesh_log *log)
+static void log_changes(const gltf_document *d, const gltf_rig *rig, const mesh_log *log)
 {
     size_t skins = 0, animations = 0;
     for (size_t s = 0; s < d->skin_values.count; s++)
@@ -288,7 +288,7 @@ static ffd_status warn_of_rig(const gltf_document *d, const mesh_places *places,
     const ffd_status status = find_staying(d, places, rig, &found, following, error);
     if (status)
         return status;
-    tell(d, rig, log);
+    log_changes(d, rig, log);
     ffd_status warned = warn_of_left(d, rig, following, log, error);
     if (warned == FFD_OK)
         warned = warn_of_left_skins(d, rig, log, following, error);

@@ -140,7 +140,7 @@ static bool find_change(const gltf_document *d, const gltf_rig *rig, size_t join
 
 static ffd_status refuse_infinite(const gltf_document *d, size_t skin, size_t joint, ffd_error *error)
 {
-    return ffd_json_span_fail(&d->tree, d->skin_values.values[skin], d->name, FFD_E_INVALID, error,
+    return ffd_json_tree_fail(&d->tree, d->skin_values.values[skin], d->name, FFD_E_INVALID, error,
                               "with the deformation, inverse bind matrix %zu is too large for floats", joint);
 }
 

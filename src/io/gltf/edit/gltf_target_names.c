@@ -11,8 +11,8 @@ static bool is_array(const gltf_document *d, uint32_t value)
 /* Returns the list in the extras of a mesh or primitive; JSON_NONE: none, or it is no list. */
 static uint32_t list_of(const gltf_document *d, uint32_t value)
 {
-    const uint32_t extras = ffd_json_span_member(&d->tree, value, "extras");
-    const uint32_t names = ffd_json_span_member(&d->tree, extras, "targetNames");
+    const uint32_t extras = ffd_json_tree_member(&d->tree, value, "extras");
+    const uint32_t names = ffd_json_tree_member(&d->tree, extras, "targetNames");
     return is_array(d, names) ? names : JSON_NONE;
 }
 
@@ -20,8 +20,8 @@ static uint32_t list_of(const gltf_document *d, uint32_t value)
 static void take_names(const gltf_document *d, uint32_t list, uint32_t *names, size_t count)
 {
     size_t t = 0;
-    for (uint32_t v = ffd_json_span_first(&d->tree, list); v != JSON_NONE && t < count;
-         v = ffd_json_span_after(&d->tree, v), t++)
+    for (uint32_t v = ffd_json_tree_first(&d->tree, list); v != JSON_NONE && t < count;
+         v = ffd_json_tree_after(&d->tree, v), t++)
         if (names[t] == JSON_NONE && d->tree.values[v].kind == JSON_STRING)
             names[t] = v;
 }
@@ -48,7 +48,7 @@ bool ffd_gltf_find_target(const gltf_document *d, size_t mesh, const char *name,
     *target = GLTF_NONE;
     *found = 0;
     for (size_t t = 0; names && t < count; t++) {
-        if (names[t] == JSON_NONE || !ffd_json_span_string_is(&d->tree, names[t], name))
+        if (names[t] == JSON_NONE || !ffd_json_tree_string_is(&d->tree, names[t], name))
             continue;
         *target = *found == 0 ? t : *target;
         ++*found;
@@ -76,7 +76,7 @@ static void write_name(const char *name, byte_buffer *text)
 /* Writes the names of the targets from `first` on, and that of the further one. */
 static void write_names(const name_writer *w, size_t first, byte_buffer *text)
 {
-    const json_span *const tree = &w->file->document->tree;
+    const json_tree *const tree = &w->file->document->tree;
     for (size_t t = first; t < w->count; t++) {
         const json_value *const name = w->names[t] == JSON_NONE ? NULL : &tree->values[w->names[t]];
         if (name)
@@ -89,7 +89,7 @@ static void write_names(const name_writer *w, size_t first, byte_buffer *text)
 }
 
 /* Logs which targets of the mesh have got a name: those from `first` on that had none. */
-static void tell_named(const name_writer *w, size_t first)
+static void log_named(const name_writer *w, size_t first)
 {
     size_t count = 0, least = 0, last = 0;
     for (size_t t = first; t < w->count; t++) {
@@ -112,14 +112,14 @@ static void tell_named(const name_writer *w, size_t first)
 static void edit_list(const name_writer *w, uint32_t list)
 {
     gltf_grown *const file = w->file;
-    const json_span *const tree = &file->document->tree;
+    const json_tree *const tree = &file->document->tree;
     const size_t named = tree->values[list].count;
     byte_buffer text = {0};
     write_names(w, named < w->count ? named : w->count, &text);
     if (named <= w->count) {
         ffd_gltf_insert_last(file->document, list, &text, &file->edits);
     } else if (!text.failed) {
-        const json_value *value = &tree->values[ffd_json_span_element(tree, list, w->count)];
+        const json_value *value = &tree->values[ffd_json_tree_element(tree, list, w->count)];
         ffd_edits_replace(&file->edits, value->begin, value->end, text.data, text.size);
     }
     file->edits.failed = file->edits.failed || text.failed;
@@ -129,10 +129,10 @@ static void edit_list(const name_writer *w, uint32_t list)
 static void edit_mesh(const name_writer *w)
 {
     gltf_grown *const file = w->file;
-    const json_span *const tree = &file->document->tree;
+    const json_tree *const tree = &file->document->tree;
     const uint32_t value = file->document->mesh_values.values[w->mesh];
-    const uint32_t extras = ffd_json_span_member(tree, value, "extras");
-    const uint32_t names = ffd_json_span_member(tree, extras, "targetNames");
+    const uint32_t extras = ffd_json_tree_member(tree, value, "extras");
+    const uint32_t names = ffd_json_tree_member(tree, extras, "targetNames");
     byte_buffer text = {0};
     if ((extras != JSON_NONE && tree->values[extras].kind != JSON_OBJECT) ||
         (names != JSON_NONE && !is_array(file->document, names))) {
@@ -140,7 +140,7 @@ static void edit_mesh(const name_writer *w)
                      "mesh %zu: its extras cannot hold the name of the morph target", w->mesh);
         return;
     }
-    tell_named(w, names == JSON_NONE ? 0 : tree->values[names].count);
+    log_named(w, names == JSON_NONE ? 0 : tree->values[names].count);
     if (names != JSON_NONE) {
         edit_list(w, names);
         return;

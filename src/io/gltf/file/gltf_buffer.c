@@ -11,7 +11,7 @@
 #define GLB_PADDING 3
 
 typedef struct loader {
-    const json_span *tree;
+    const json_tree *tree;
     uint32_t value, uri; /* JSON values: the buffer and its uri */
     const file_folder *model;
     const char *name; /* for messages */
@@ -71,10 +71,10 @@ static ffd_status load_data_uri(const loader *l, char *uri, size_t size, gltf_bu
     data_uri_coding coding;
     const size_t head = ffd_data_uri_payload(uri, size, &coding);
     if (head == SIZE_MAX)
-        return ffd_json_span_fail(l->tree, l->uri, l->name, FFD_E_INVALID, l->error,
+        return ffd_json_tree_fail(l->tree, l->uri, l->name, FFD_E_INVALID, l->error,
                                   "the data URI has no comma");
     if (coding == DATA_PLAIN)
-        return ffd_json_span_fail(l->tree, l->uri, l->name, FFD_E_INVALID, l->error,
+        return ffd_json_tree_fail(l->tree, l->uri, l->name, FFD_E_INVALID, l->error,
                                   "the data URI of a buffer must say \";base64\" before its comma");
     size = ffd_uri_decode(uri + head, size - head);
     const size_t digits = take_blanks(uri + head, size);
@@ -86,17 +86,17 @@ static ffd_status load_data_uri(const loader *l, char *uri, size_t size, gltf_bu
     if (!buffer->decoded)
         return ffd_fail_memory(l->error);
     if (!ffd_base64_decode(uri + head, size, buffer->decoded, &buffer->size))
-        return ffd_json_span_fail(l->tree, l->uri, l->name, FFD_E_INVALID, l->error,
+        return ffd_json_tree_fail(l->tree, l->uri, l->name, FFD_E_INVALID, l->error,
                                   "the data URI is not valid base64");
     return FFD_OK;
 }
 
-ffd_status ffd_gltf_load_data_uri(const json_span *tree, uint32_t uri, const char *name, gltf_buffer *buffer,
+ffd_status ffd_gltf_load_data_uri(const json_tree *tree, uint32_t uri, const char *name, gltf_buffer *buffer,
                                   ffd_error *error)
 {
     const loader l = {.tree = tree, .uri = uri, .name = name, .error = error};
     size_t size;
-    char *const text = ffd_json_span_string(tree, uri, &size);
+    char *const text = ffd_json_tree_string(tree, uri, &size);
     *buffer = (gltf_buffer){.kind = BUFFER_EMPTY};
     const ffd_status status = text ? load_data_uri(&l, text, size, buffer) : ffd_fail_memory(error);
     if (status)
@@ -108,15 +108,15 @@ ffd_status ffd_gltf_load_data_uri(const json_span *tree, uint32_t uri, const cha
 static ffd_status load_file(const loader *l, char *uri, size_t size, gltf_buffer *buffer)
 {
     if (ffd_file_is_stream(l->model->file))
-        return ffd_json_span_fail(l->tree, l->uri, l->name, FFD_E_IO, l->error,
+        return ffd_json_tree_fail(l->tree, l->uri, l->name, FFD_E_IO, l->error,
                                   "the buffer is the file \"%s\", and standard input has no folder", uri);
     if (ffd_uri_is_absolute(uri))
-        return ffd_json_span_fail(l->tree, l->uri, l->name, FFD_E_IO, l->error,
+        return ffd_json_tree_fail(l->tree, l->uri, l->name, FFD_E_IO, l->error,
                                   "the buffer \"%s\" is outside the model's folder", uri);
     size = ffd_uri_decode(uri, size);
     uri[size] = 0;
     if (memchr(uri, 0, size))
-        return ffd_json_span_fail(l->tree, l->uri, l->name, FFD_E_INVALID, l->error,
+        return ffd_json_tree_fail(l->tree, l->uri, l->name, FFD_E_INVALID, l->error,
                                   "the buffer's name holds a NUL character");
     buffer->path = ffd_text_copy(uri);
     if (!buffer->path)
@@ -135,7 +135,7 @@ static ffd_status load_file(const loader *l, char *uri, size_t size, gltf_buffer
 static ffd_status load_uri(const loader *l, gltf_buffer *buffer)
 {
     size_t size;
-    char *uri = ffd_json_span_string(l->tree, l->uri, &size);
+    char *uri = ffd_json_tree_string(l->tree, l->uri, &size);
     if (!uri)
         return ffd_fail_memory(l->error);
     const ffd_status status =
@@ -144,14 +144,14 @@ static ffd_status load_uri(const loader *l, gltf_buffer *buffer)
     return status;
 }
 
-ffd_status ffd_gltf_load_buffer(const json_span *tree, uint32_t value, const unsigned char *bin,
+ffd_status ffd_gltf_load_buffer(const json_tree *tree, uint32_t value, const unsigned char *bin,
                                 size_t bin_size, const file_folder *model, const char *name,
                                 size_t *most_read, gltf_buffer *buffer, ffd_error *error)
 {
     *buffer = (gltf_buffer){.kind = BUFFER_EMPTY};
-    const loader l = {tree, value, ffd_json_span_member(tree, value, "uri"), model, name, most_read, error};
+    const loader l = {tree, value, ffd_json_tree_member(tree, value, "uri"), model, name, most_read, error};
     double length = 0;
-    ffd_json_span_number(tree, ffd_json_span_member(tree, value, "byteLength"), &length);
+    ffd_json_tree_number(tree, ffd_json_tree_member(tree, value, "byteLength"), &length);
     buffer->length = buffer->stated = (size_t)length;
     size_t padding = 0;
     ffd_status status = FFD_OK;

@@ -3,7 +3,7 @@
 #define FFD_IO_GLTF_FILE_GLTF_BUFFER_H
 
 #include "base/file/file_folder.h"
-#include "json/json_span.h"
+#include "json/json_tree.h"
 #include <stddef.h>
 
 typedef enum gltf_buffer_kind {
@@ -38,13 +38,13 @@ typedef struct gltf_buffer {
    the path of the model, or "-" for standard input, which has no folder; name stands for the file in
    messages. most_read: as in ffd_file_load_within. After a failure *buffer is empty. Errors: FFD_E_INVALID,
    FFD_E_IO, FFD_E_MEMORY. */
-ffd_status ffd_gltf_load_buffer(const json_span *tree, uint32_t value, const unsigned char *bin,
+ffd_status ffd_gltf_load_buffer(const json_tree *tree, uint32_t value, const unsigned char *bin,
                                 size_t bin_size, const file_folder *model, const char *name,
                                 size_t *most_read, gltf_buffer *buffer, ffd_error *error);
 
 /* Decodes a data URI, the JSON string `uri`, into *buffer, which is empty after a failure. Errors:
    FFD_E_INVALID, FFD_E_MEMORY. */
-ffd_status ffd_gltf_load_data_uri(const json_span *tree, uint32_t uri, const char *name, gltf_buffer *buffer,
+ffd_status ffd_gltf_load_data_uri(const json_tree *tree, uint32_t uri, const char *name, gltf_buffer *buffer,
                                   ffd_error *error);
 
 /* Frees what the buffer owns, and empties it. */

@@ -76,14 +76,14 @@ char *ffd_uri_encode(const char *path)
     return ffd_buffer_finish(&out);
 }
 
-ffd_status ffd_gltf_uri_path(const json_span *tree, uint32_t uri, const file_folder *mesh, char **path,
+ffd_status ffd_gltf_uri_path(const json_tree *tree, uint32_t uri, const file_folder *mesh, char **path,
                              ffd_error *error)
 {
     *path = NULL;
     if (uri == JSON_NONE || tree->values[uri].kind != JSON_STRING)
         return FFD_OK;
     size_t size;
-    char *text = ffd_json_span_string(tree, uri, &size);
+    char *text = ffd_json_tree_string(tree, uri, &size);
     if (!text)
         return ffd_fail_memory(error);
     ffd_status status = FFD_OK;
@@ -100,15 +100,15 @@ ffd_status ffd_gltf_uri_path(const json_span *tree, uint32_t uri, const file_fol
     return status;
 }
 
-ffd_status ffd_gltf_file_path(const json_span *tree, uint32_t value, const file_folder *mesh, char **path,
+ffd_status ffd_gltf_file_path(const json_tree *tree, uint32_t value, const file_folder *mesh, char **path,
                               ffd_error *error)
 {
-    return ffd_gltf_uri_path(tree, ffd_json_span_member(tree, value, "uri"), mesh, path, error);
+    return ffd_gltf_uri_path(tree, ffd_json_tree_member(tree, value, "uri"), mesh, path, error);
 }
 
-ffd_status ffd_gltf_add_beside(const file_folder *mesh, char *relative, path_list *files, ffd_error *error)
+ffd_status ffd_gltf_add_sibling(const file_folder *mesh, char *relative, path_list *files, ffd_error *error)
 {
-    char *const path = relative ? ffd_path_beside(mesh->file, relative) : NULL;
+    char *const path = relative ? ffd_path_sibling(mesh->file, relative) : NULL;
     const ffd_status status = path       ? ffd_paths_add(files, path, error)
                               : relative ? ffd_fail_memory(error)
                                          : FFD_OK;
@@ -118,28 +118,28 @@ ffd_status ffd_gltf_add_beside(const file_folder *mesh, char *relative, path_lis
 }
 
 /* Returns the extension inside which a value is; JSON_NONE: none. */
-static uint32_t extension_around(const json_span *tree, uint32_t v)
+static uint32_t extension_around(const json_tree *tree, uint32_t v)
 {
     uint32_t found = JSON_NONE;
     for (; tree->values[v].parent != JSON_NONE; v = tree->values[v].parent) {
-        if (ffd_json_span_key_is(tree, v, "extras"))
+        if (ffd_json_tree_key_is(tree, v, "extras"))
             return JSON_NONE;
-        if (found == JSON_NONE && ffd_json_span_key_is(tree, tree->values[v].parent, "extensions"))
+        if (found == JSON_NONE && ffd_json_tree_key_is(tree, tree->values[v].parent, "extensions"))
             found = v;
     }
     return found;
 }
 
 /* Whether a value is a string whose key is "uri" or ends with "Uri". */
-static bool is_uri(const json_span *tree, uint32_t v)
+static bool is_uri(const json_tree *tree, uint32_t v)
 {
     const json_value *const value = &tree->values[v];
     const char *const end = tree->text + value->key_end;
     return value->kind == JSON_STRING && value->key_end - value->key_begin >= sizeof "uri" + 1 &&
-           (memcmp(end - 4, "Uri\"", 4) == 0 || ffd_json_span_key_is(tree, v, "uri"));
+           (memcmp(end - 4, "Uri\"", 4) == 0 || ffd_json_tree_key_is(tree, v, "uri"));
 }
 
-uint32_t ffd_gltf_next_linked(const json_span *tree, uint32_t v, uint32_t *extension)
+uint32_t ffd_gltf_next_linked(const json_tree *tree, uint32_t v, uint32_t *extension)
 {
     *extension = JSON_NONE;
     for (; v < tree->count && *extension == JSON_NONE; v++)
@@ -147,7 +147,7 @@ uint32_t ffd_gltf_next_linked(const json_span *tree, uint32_t v, uint32_t *exten
     return *extension == JSON_NONE ? JSON_NONE : v - 1;
 }
 
-ffd_status ffd_gltf_find_linked(const json_span *tree, const file_folder *mesh, path_list *files,
+ffd_status ffd_gltf_find_linked(const json_tree *tree, const file_folder *mesh, path_list *files,
                                 ffd_error *error)
 {
     ffd_status status = FFD_OK;
@@ -156,7 +156,7 @@ ffd_status ffd_gltf_find_linked(const json_span *tree, const file_folder *mesh, 
         char *relative;
         status = ffd_gltf_uri_path(tree, v, mesh, &relative, error);
         if (!status)
-            status = ffd_gltf_add_beside(mesh, relative, files, error);
+            status = ffd_gltf_add_sibling(mesh, relative, files, error);
     }
     return status;
 }

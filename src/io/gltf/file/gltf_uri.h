@@ -4,7 +4,7 @@
 
 #include "base/file/file_folder.h"
 #include "base/file/path_list.h"
-#include "json/json_span.h"
+#include "json/json_tree.h"
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -26,18 +26,18 @@ char *ffd_uri_encode(const char *path);
 
 /* Finds the normalized path, relative to the model, of a value that is a URI; NULL with FFD_OK: it does not
    name a file beside the model. mesh: the model's folder. Errors: FFD_E_MEMORY. */
-ffd_status ffd_gltf_uri_path(const json_span *tree, uint32_t uri, const file_folder *mesh, char **path,
+ffd_status ffd_gltf_uri_path(const json_tree *tree, uint32_t uri, const file_folder *mesh, char **path,
                              ffd_error *error);
 /* The same for the member "uri" of an image or buffer. */
-ffd_status ffd_gltf_file_path(const json_span *tree, uint32_t value, const file_folder *mesh, char **path,
+ffd_status ffd_gltf_file_path(const json_tree *tree, uint32_t value, const file_folder *mesh, char **path,
                               ffd_error *error);
 /* Adds the path of a file beside the mesh, unless `relative` is NULL, and frees `relative`. */
-ffd_status ffd_gltf_add_beside(const file_folder *mesh, char *relative, path_list *files, ffd_error *error);
+ffd_status ffd_gltf_add_sibling(const file_folder *mesh, char *relative, path_list *files, ffd_error *error);
 
 /* Returns the first value from v on that is a URI inside of an extension; JSON_NONE: there is none. */
-uint32_t ffd_gltf_next_linked(const json_span *tree, uint32_t v, uint32_t *extension);
+uint32_t ffd_gltf_next_linked(const json_tree *tree, uint32_t v, uint32_t *extension);
 /* Adds the files that such values name. Errors: FFD_E_MEMORY. */
-ffd_status ffd_gltf_find_linked(const json_span *tree, const file_folder *mesh, path_list *files,
+ffd_status ffd_gltf_find_linked(const json_tree *tree, const file_folder *mesh, path_list *files,
                                 ffd_error *error);
 
 #endif

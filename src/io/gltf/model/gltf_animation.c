@@ -20,20 +20,20 @@ static gltf_path path_of(const char *text)
 static gltf_interpolation interpolation_of(const gltf_document *d, uint32_t sampler)
 {
     static const char *const names[GLTF_NO_INTERPOLATION] = {"STEP", "LINEAR", "CUBICSPLINE"};
-    const uint32_t member = ffd_json_span_member(&d->tree, sampler, "interpolation");
+    const uint32_t member = ffd_json_tree_member(&d->tree, sampler, "interpolation");
     size_t kind = 0;
     if (member == JSON_NONE)
         return GLTF_LINEAR;
     if (d->tree.values[member].kind != JSON_STRING)
         return GLTF_NO_INTERPOLATION;
-    while (kind < GLTF_NO_INTERPOLATION && !ffd_json_span_string_is(&d->tree, member, names[kind]))
+    while (kind < GLTF_NO_INTERPOLATION && !ffd_json_tree_string_is(&d->tree, member, names[kind]))
         kind++;
     return (gltf_interpolation)kind;
 }
 
 static size_t accessor_of(const gltf_document *d, uint32_t sampler, const char *key)
 {
-    return ffd_gltf_index(d, ffd_json_span_member(&d->tree, sampler, key), d->model.accessor_count);
+    return ffd_gltf_index(d, ffd_json_tree_member(&d->tree, sampler, key), d->model.accessor_count);
 }
 
 /* Takes the node and the path of a pointer like "/nodes/3/rotation". */
@@ -54,12 +54,12 @@ static void follow_pointer(const gltf_document *d, gltf_channel *channel, uint32
 static ffd_status read_pointer(const gltf_document *d, uint32_t extension, gltf_channel *channel,
                                ffd_error *error)
 {
-    const uint32_t pointer = ffd_json_span_member(&d->tree, extension, "pointer");
+    const uint32_t pointer = ffd_json_tree_member(&d->tree, extension, "pointer");
     channel->fault = pointer == JSON_NONE ? extension : pointer;
     if (pointer == JSON_NONE || d->tree.values[pointer].kind != JSON_STRING)
         return FFD_OK;
     channel->fault = JSON_NONE;
-    channel->pointer = ffd_json_span_string(&d->tree, pointer, NULL);
+    channel->pointer = ffd_json_tree_string(&d->tree, pointer, NULL);
     if (!channel->pointer)
         return ffd_fail_memory(error);
     follow_pointer(d, channel, pointer);
@@ -70,22 +70,22 @@ static ffd_status read_pointer(const gltf_document *d, uint32_t extension, gltf_
    extension: a channel that is not understood is left out, as the specification says. */
 static ffd_status read_path(const gltf_document *d, uint32_t target, gltf_channel *channel, ffd_error *error)
 {
-    const uint32_t node = ffd_json_span_member(&d->tree, target, "node");
-    const uint32_t path = ffd_json_span_member(&d->tree, target, "path");
+    const uint32_t node = ffd_json_tree_member(&d->tree, target, "node");
+    const uint32_t path = ffd_json_tree_member(&d->tree, target, "path");
     if (path == JSON_NONE || d->tree.values[path].kind != JSON_STRING) {
         channel->fault = path != JSON_NONE ? path : target != JSON_NONE ? target : channel->value;
         return FFD_OK;
     }
-    const size_t number = ffd_gltf_node(d, node);
-    if (node == JSON_NONE || number == GLTF_NONE) {
+    const size_t index = ffd_gltf_node(d, node);
+    if (node == JSON_NONE || index == GLTF_NONE) {
         channel->fault = node;
         return FFD_OK;
     }
-    char *text = ffd_json_span_string(&d->tree, path, NULL);
+    char *text = ffd_json_tree_string(&d->tree, path, NULL);
     if (!text)
         return ffd_fail_memory(error);
     channel->path = path_of(text);
-    channel->node = channel->path == GLTF_NO_PATH ? GLTF_NONE : number;
+    channel->node = channel->path == GLTF_NO_PATH ? GLTF_NONE : index;
     channel->fault = channel->path == GLTF_NO_PATH ? path : JSON_NONE;
     ffd_free(text);
     return FFD_OK;
@@ -113,10 +113,10 @@ static ffd_status read_channel(const gltf_document *d, gltf_animation *animation
                                ffd_error *error)
 {
     gltf_channel *const channel = &animation->channels[animation->channel_count++];
-    const uint32_t target = ffd_json_span_member(&d->tree, value, "target");
+    const uint32_t target = ffd_json_tree_member(&d->tree, value, "target");
     const uint32_t extension = ffd_gltf_extension(d, target, "KHR_animation_pointer");
     *channel = (gltf_channel){.value = value,
-                              .sampler = ffd_gltf_index(d, ffd_json_span_member(&d->tree, value, "sampler"),
+                              .sampler = ffd_gltf_index(d, ffd_json_tree_member(&d->tree, value, "sampler"),
                                                         animation->sampler_count),
                               .path = GLTF_NO_PATH,
                               .node = GLTF_NONE,
@@ -133,7 +133,7 @@ static ffd_status read_channel(const gltf_document *d, gltf_animation *animation
 
 static size_t count_of(const gltf_document *d, uint32_t object, const char *key)
 {
-    const uint32_t array = ffd_json_span_member(&d->tree, object, key);
+    const uint32_t array = ffd_json_tree_member(&d->tree, object, key);
     return array != JSON_NONE && d->tree.values[array].kind == JSON_ARRAY ? d->tree.values[array].count : 0;
 }
 
@@ -165,25 +165,25 @@ static ffd_status make_arrays(gltf_document *d, gltf_animations *of, gltf_animat
 static ffd_status read_animation(gltf_document *d, gltf_animations *of, gltf_animation *animation,
                                  ffd_error *error)
 {
-    const json_span *const tree = &d->tree;
-    const uint32_t name = ffd_json_span_member(tree, animation->value, "name");
+    const json_tree *const tree = &d->tree;
+    const uint32_t name = ffd_json_tree_member(tree, animation->value, "name");
     size_t s = 0;
     ffd_status status = make_arrays(d, of, animation, error);
     if (status)
         return status;
     if (name != JSON_NONE && tree->values[name].kind == JSON_STRING) {
-        animation->name = ffd_json_span_string(tree, name, NULL);
+        animation->name = ffd_json_tree_string(tree, name, NULL);
         if (!animation->name)
             return ffd_fail_memory(error);
     }
     for (uint32_t v = ffd_gltf_first(d, animation->value, "samplers"); v != JSON_NONE;
-         v = ffd_json_span_after(tree, v))
+         v = ffd_json_tree_after(tree, v))
         animation->samplers[s++] = (gltf_animation_sampler){.value = v,
                                                             .input = accessor_of(d, v, "input"),
                                                             .output = accessor_of(d, v, "output"),
                                                             .interpolation = interpolation_of(d, v)};
     for (uint32_t v = ffd_gltf_first(d, animation->value, "channels"); v != JSON_NONE && status == FFD_OK;
-         v = ffd_json_span_after(tree, v))
+         v = ffd_json_tree_after(tree, v))
         status = read_channel(d, animation, v, error);
     return status;
 }
@@ -199,7 +199,7 @@ ffd_status ffd_gltf_list_animations(gltf_document *d, gltf_animations *animation
     if (!animations->list)
         return ffd_fail_memory(error);
     for (uint32_t v = ffd_gltf_first(d, 0, "animations"); v != JSON_NONE && status == FFD_OK;
-         v = ffd_json_span_after(&d->tree, v)) {
+         v = ffd_json_tree_after(&d->tree, v)) {
         gltf_animation *const animation = &animations->list[animations->count++];
         animation->value = v;
         status = read_animation(d, animations, animation, error);
@@ -233,13 +233,13 @@ static ffd_status refuse(const gltf_document *d, uint32_t value, const char *key
 static ffd_status refuse(const gltf_document *d, uint32_t value, const char *key, ffd_error *error,
                          const char *format, ...)
 {
-    const uint32_t member = ffd_json_span_member(&d->tree, value, key);
+    const uint32_t member = ffd_json_tree_member(&d->tree, value, key);
     char message[256];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
-    return ffd_json_span_fail(&d->tree, member == JSON_NONE ? value : member, d->name, FFD_E_INVALID, error,
+    return ffd_json_tree_fail(&d->tree, member == JSON_NONE ? value : member, d->name, FFD_E_INVALID, error,
                               "%s", message);
 }
 
@@ -255,7 +255,7 @@ static ffd_status check_accessor(const gltf_document *d, const gltf_animation_sa
     const ffd_status status = view >= 0 ? ffd_gltf_refuse_view(d, (size_t)view, error) : FFD_OK;
     return status
                ? status
-               : ffd_json_span_fail(&d->tree, d->accessor_values.values[accessor], d->name, FFD_E_UNSUPPORTED,
+               : ffd_json_tree_fail(&d->tree, d->accessor_values.values[accessor], d->name, FFD_E_UNSUPPORTED,
                                     error, "an accessor without bytes is not supported");
 }
 

@@ -122,7 +122,7 @@ static ffd_status refuse_index(const gltf_document *d, const gltf_primitive *pri
     const gltf_accessor *positions = &d->model.accessors[primitive->accessor[GLTF_POSITION]];
     uint32_t index;
     ffd_gltf_read_drawn(d, primitive, i, 1, &index);
-    return ffd_json_span_fail(&d->tree, primitive->value, d->name, FFD_E_INVALID, error,
+    return ffd_json_tree_fail(&d->tree, primitive->value, d->name, FFD_E_INVALID, error,
                               "index %zu is %lu, but the count of vertices is %llu", i, (unsigned long)index,
                               (unsigned long long)positions->count);
 }
@@ -257,10 +257,10 @@ ffd_status ffd_gltf_corner_normals(const mesh_document *document, const mesh_fac
     size_t *first_normals = ffd_alloc(d->base.part_count, sizeof *first_normals), *first_vertices = NULL;
     ffd_status status =
         first_normals ? ffd_parts_number(document, &first_vertices, error) : ffd_fail_memory(error);
-    size_t number = 0, corner = 0;
+    size_t index = 0, corner = 0;
     for (size_t i = 0; i < d->base.part_count && status == FFD_OK; i++) {
-        first_normals[i] = number;
-        number += d->mesh_parts[i].normal_count;
+        first_normals[i] = index;
+        index += d->mesh_parts[i].normal_count;
     }
     for (size_t i = 0; i < d->instance_count && status == FFD_OK; i++) {
         const size_t count = 3 * count_drawing(d, d->instances[i].primitive).triangles;

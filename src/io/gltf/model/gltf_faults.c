@@ -25,24 +25,23 @@ static void add_value(fault_list *list, uint32_t value)
     if (list->count == 0)
         list->first = value;
     if (list->count < SHOWN)
-        ffd_json_span_pointer(&list->document->tree, value, list->shown[list->count],
+        ffd_json_tree_pointer(&list->document->tree, value, list->shown[list->count],
                               sizeof list->shown[list->count]);
     list->count++;
 }
 
 /* Adds an element of a list as "mesh NAME", or "mesh 3" if it has no name. */
-static ffd_status add_name(fault_list *list, uint32_t value, const char *kind, size_t number,
-                           ffd_error *error)
+static ffd_status add_name(fault_list *list, uint32_t value, const char *kind, size_t index, ffd_error *error)
 {
-    const json_span *const tree = &list->document->tree;
-    const uint32_t name = ffd_json_span_member(tree, value, "name");
-    char *const text = name == JSON_NONE ? NULL : ffd_json_span_string(tree, name, NULL);
+    const json_tree *const tree = &list->document->tree;
+    const uint32_t name = ffd_json_tree_member(tree, value, "name");
+    char *const text = name == JSON_NONE ? NULL : ffd_json_tree_string(tree, name, NULL);
     if (name != JSON_NONE && !text)
         return ffd_fail_memory(error);
     if (list->count < SHOWN) {
         char *const shown = list->shown[list->count];
         const size_t capacity = sizeof list->shown[list->count], used = strlen(kind) + 1;
-        snprintf(shown, capacity, "%s %zu", kind, number);
+        snprintf(shown, capacity, "%s %zu", kind, index);
         if (text && *text)
             ffd_name_shown(text, shown + used, capacity - used);
     }
@@ -52,7 +51,7 @@ static ffd_status add_name(fault_list *list, uint32_t value, const char *kind, s
 }
 
 /* Writes "a, b, c and 2 more". */
-static void tell(const fault_list *list, char *text, size_t capacity)
+static void write_list(const fault_list *list, char *text, size_t capacity)
 {
     size_t length = 0;
     for (size_t i = 0; i < SHOWN && i < list->count; i++)
@@ -65,14 +64,14 @@ static void tell(const fault_list *list, char *text, size_t capacity)
 /* Whether an object's default weights, if any, are one number per target. */
 static bool has_sound_weights(const gltf_document *d, uint32_t object, size_t targets)
 {
-    const uint32_t array = ffd_json_span_member(&d->tree, object, "weights");
+    const uint32_t array = ffd_json_tree_member(&d->tree, object, "weights");
     double weight;
     if (array == JSON_NONE)
         return true;
     if (d->tree.values[array].kind != JSON_ARRAY || d->tree.values[array].count != targets)
         return false;
-    for (uint32_t v = ffd_json_span_first(&d->tree, array); v != JSON_NONE;
-         v = ffd_json_span_after(&d->tree, v))
+    for (uint32_t v = ffd_json_tree_first(&d->tree, array); v != JSON_NONE;
+         v = ffd_json_tree_after(&d->tree, v))
         if (!ffd_gltf_weight(d, v, &weight))
             return false;
     return true;
@@ -93,7 +92,7 @@ static ffd_status warn_of_weights(const gltf_document *d, const mesh_log *log, f
     char names[sizeof list.shown + 60];
     if (status || list.count == 0)
         return status;
-    tell(&list, names, sizeof names);
+    write_list(&list, names, sizeof names);
     ffd_log_line(log, FFD_LOG_WARNING,
                  "the default weights of %s are not one finite number for each morph target: a missing or "
                  "other one counts as 0",
@@ -105,24 +104,24 @@ static void check_details(fault_list *list, uint32_t node)
 {
     const gltf_document *const d = list->document;
     const uint32_t extension = ffd_gltf_extension(d, node, "MSFT_lod");
-    const uint32_t ids = ffd_json_span_member(&d->tree, extension, "ids");
+    const uint32_t ids = ffd_json_tree_member(&d->tree, extension, "ids");
     if (extension == JSON_NONE)
         return;
     if (ids == JSON_NONE || d->tree.values[ids].kind != JSON_ARRAY) {
         add_value(list, ids == JSON_NONE ? extension : ids);
         return;
     }
-    for (uint32_t v = ffd_json_span_first(&d->tree, ids); v != JSON_NONE;
-         v = ffd_json_span_after(&d->tree, v))
+    for (uint32_t v = ffd_json_tree_first(&d->tree, ids); v != JSON_NONE;
+         v = ffd_json_tree_after(&d->tree, v))
         if (ffd_gltf_node(d, v) == GLTF_NONE)
             add_value(list, v);
 }
 
 static void check_visibility(fault_list *list, uint32_t node)
 {
-    const json_span *const tree = &list->document->tree;
+    const json_tree *const tree = &list->document->tree;
     const uint32_t extension = ffd_gltf_extension(list->document, node, "KHR_node_visibility");
-    const uint32_t visible = ffd_json_span_member(tree, extension, "visible");
+    const uint32_t visible = ffd_json_tree_member(tree, extension, "visible");
     if (extension == JSON_NONE)
         return;
     if (tree->values[extension].kind != JSON_OBJECT)
@@ -165,14 +164,14 @@ static void check_textures(fault_list *list)
 static ffd_status check_animations(fault_list *list, ffd_error *error)
 {
     const gltf_document *const d = list->document;
-    const json_span *const tree = &d->tree;
+    const json_tree *const tree = &d->tree;
     ffd_status status = FFD_OK;
-    for (uint32_t a = ffd_gltf_first(d, 0, "animations"); a != JSON_NONE; a = ffd_json_span_after(tree, a))
+    for (uint32_t a = ffd_gltf_first(d, 0, "animations"); a != JSON_NONE; a = ffd_json_tree_after(tree, a))
         for (uint32_t c = ffd_gltf_first(d, a, "channels"); c != JSON_NONE && status == FFD_OK;
-             c = ffd_json_span_after(tree, c)) {
+             c = ffd_json_tree_after(tree, c)) {
             size_t node;
             uint32_t fault;
-            status = ffd_gltf_animated_node(d, ffd_json_span_member(tree, c, "target"), &node, &fault, error);
+            status = ffd_gltf_animated_node(d, ffd_json_tree_member(tree, c, "target"), &node, &fault, error);
             if (status == FFD_OK && fault != JSON_NONE)
                 add_value(list, fault);
         }
@@ -192,9 +191,9 @@ ffd_status ffd_gltf_warn_of_faults(const mesh_document *document, const mesh_log
     if (status || list.count == 0)
         return status;
     if (d->base.flaws.strict)
-        return ffd_json_span_fail(&d->tree, list.first, d->name, FFD_E_INVALID, error,
+        return ffd_json_tree_fail(&d->tree, list.first, d->name, FFD_E_INVALID, error,
                                   "is not what glTF allows there");
-    tell(&list, places, sizeof places);
+    write_list(&list, places, sizeof places);
     ffd_log_line(log, FFD_LOG_WARNING, "%zu %s not what glTF allows there, and %s ignored: %s", list.count,
                  ffd_plural(list.count, "value is", "values are"), ffd_plural(list.count, "is", "are"),
                  places);

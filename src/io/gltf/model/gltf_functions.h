@@ -52,7 +52,7 @@ mesh_follow_function ffd_gltf_follow;
 /* Saves a document with its results in place of the deformed attributes. */
 mesh_save_function ffd_gltf_save_results;
 /* Counts the files of the buffers. */
-mesh_count_beside_function ffd_gltf_count_beside;
+mesh_count_sidecars_function ffd_gltf_count_sidecars;
 mesh_list_files_function ffd_gltf_list_images;
 mesh_list_files_function ffd_gltf_list_linked;
 mesh_find_resources_function ffd_gltf_find_resources;

@@ -51,26 +51,26 @@ static ffd_status find_attribute(const gltf_document *d, uint32_t attributes, co
                                  bool (*allowed)(const gltf_accessor *), size_t *found, uint64_t *count,
                                  ffd_error *error)
 {
-    const uint32_t value = ffd_json_span_member(&d->tree, attributes, key);
+    const uint32_t value = ffd_json_tree_member(&d->tree, attributes, key);
     *found = GLTF_NONE;
     if (value == JSON_NONE)
         return FFD_OK;
-    const size_t number = ffd_gltf_index(d, value, d->model.accessor_count);
-    if (number == GLTF_NONE)
-        return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_INVALID, error,
+    const size_t index = ffd_gltf_index(d, value, d->model.accessor_count);
+    if (index == GLTF_NONE)
+        return ffd_json_tree_fail(&d->tree, value, d->name, FFD_E_INVALID, error,
                                   "is not the number of an accessor, of which there are %zu",
                                   d->model.accessor_count);
-    const gltf_accessor *accessor = &d->model.accessors[number];
+    const gltf_accessor *accessor = &d->model.accessors[index];
     if (accessor->columns != 1 || accessor->rows != rows || !allowed(accessor))
-        return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_INVALID, error,
-                                  "accessor %zu is not a VEC%d of an allowed component type", number, rows);
+        return ffd_json_tree_fail(&d->tree, value, d->name, FFD_E_INVALID, error,
+                                  "accessor %zu is not a VEC%d of an allowed component type", index, rows);
     if (*count != UINT64_MAX && accessor->count != *count)
-        return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_INVALID, error,
-                                  "accessor %zu has %llu %s, another attribute has %llu", number,
+        return ffd_json_tree_fail(&d->tree, value, d->name, FFD_E_INVALID, error,
+                                  "accessor %zu has %llu %s, another attribute has %llu", index,
                                   (unsigned long long)accessor->count,
                                   ffd_plural(accessor->count, "element", "elements"),
                                   (unsigned long long)*count);
-    *found = number;
+    *found = index;
     *count = accessor->count;
     return FFD_OK;
 }
@@ -79,7 +79,7 @@ static ffd_status find_instances(const gltf_document *d, size_t node, gltf_insta
                                  ffd_error *error)
 {
     const uint32_t extension = ffd_gltf_extension(d, d->node_values.values[node], EXTENSION);
-    const uint32_t attributes = ffd_json_span_member(&d->tree, extension, "attributes");
+    const uint32_t attributes = ffd_json_tree_member(&d->tree, extension, "attributes");
     found->count = UINT64_MAX;
     ffd_status status =
         find_attribute(d, attributes, "TRANSLATION", 3, is_float, &found->translation, &found->count, error);
@@ -267,7 +267,7 @@ ffd_status ffd_gltf_check_reach(const mesh_document *document, const ffd_bounds 
     const gltf_document *d = ffd_gltf_of(document);
     for (size_t i = 0; i < d->instanced_node_count; i++)
         if (is_reached(d, &d->instanced_nodes[i], reach))
-            return ffd_json_span_fail(
+            return ffd_json_tree_fail(
                 &d->tree, ffd_gltf_extension(d, d->node_values.values[d->instanced_nodes[i].node], EXTENSION),
                 d->name, FFD_E_UNSUPPORTED, error,
                 EXTENSION

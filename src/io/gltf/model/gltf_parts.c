@@ -74,7 +74,7 @@ static int next_shown(const gltf_document *d, shown_walk *walk, double *weight)
     while (walk->target < primitive->target_count && walk->weight != JSON_NONE) {
         const int accessor = primitive->target_accessors[GLTF_DEFORMED * walk->target++ + walk->semantic];
         const uint32_t value = walk->weight;
-        walk->weight = ffd_json_span_after(&d->tree, value);
+        walk->weight = ffd_json_tree_after(&d->tree, value);
         if (accessor >= 0 && ffd_gltf_weight(d, value, weight) && *weight != 0)
             return accessor;
     }

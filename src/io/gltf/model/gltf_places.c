@@ -108,13 +108,13 @@ static ffd_status mark_target(const survey *s, uint32_t target, ffd_error *error
 
 static ffd_status mark_animated(const survey *s, ffd_error *error)
 {
-    const json_span *tree = &s->document->tree;
+    const json_tree *tree = &s->document->tree;
     ffd_status status = FFD_OK;
     for (uint32_t a = ffd_gltf_first(s->document, 0, "animations"); a != JSON_NONE && status == FFD_OK;
-         a = ffd_json_span_after(tree, a))
+         a = ffd_json_tree_after(tree, a))
         for (uint32_t c = ffd_gltf_first(s->document, a, "channels"); c != JSON_NONE && status == FFD_OK;
-             c = ffd_json_span_after(tree, c))
-            status = mark_target(s, ffd_json_span_member(tree, c, "target"), error);
+             c = ffd_json_tree_after(tree, c))
+            status = mark_target(s, ffd_json_tree_member(tree, c, "target"), error);
     return status;
 }
 
@@ -176,9 +176,9 @@ static bool refers(const gltf_document *d, size_t node, gltf_reference first, gl
 static size_t mesh_of_shape(const gltf_document *d, uint32_t shape)
 {
     static const char *const kinds[] = {"trimesh", "convex"};
-    uint32_t mesh = ffd_json_span_member(&d->tree, shape, "mesh");
+    uint32_t mesh = ffd_json_tree_member(&d->tree, shape, "mesh");
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds && mesh == JSON_NONE; k++)
-        mesh = ffd_json_span_member(&d->tree, ffd_json_span_member(&d->tree, shape, kinds[k]), "mesh");
+        mesh = ffd_json_tree_member(&d->tree, ffd_json_tree_member(&d->tree, shape, kinds[k]), "mesh");
     return ffd_gltf_index(d, mesh, d->model.mesh_count);
 }
 
@@ -231,7 +231,7 @@ static unsigned kinds_of(const survey *s, size_t n)
 static bool has_own(const gltf_document *d, size_t n)
 {
     return ffd_gltf_places_mesh(d, n) ||
-           ffd_json_span_member(&d->tree, d->node_values.values[n], "extensions") != JSON_NONE;
+           ffd_json_tree_member(&d->tree, d->node_values.values[n], "extensions") != JSON_NONE;
 }
 
 /* Tolerance of is_uneven, relative. */
@@ -348,14 +348,14 @@ ffd_status ffd_gltf_count_skins(const mesh_document *document, const mesh_places
     return allocated ? FFD_OK : ffd_fail_memory(error);
 }
 
-char *ffd_gltf_place_name(const mesh_document *document, size_t number)
+char *ffd_gltf_place_name(const mesh_document *document, size_t index)
 {
     const gltf_document *d = ffd_gltf_of(document);
-    const uint32_t name = ffd_json_span_member(&d->tree, d->node_values.values[number], "name");
+    const uint32_t name = ffd_json_tree_member(&d->tree, d->node_values.values[index], "name");
     byte_buffer text = {0};
     if (name != JSON_NONE && d->tree.values[name].kind == JSON_STRING &&
         d->tree.values[name].end - d->tree.values[name].begin > 2)
-        return ffd_json_span_string(&d->tree, name, NULL);
-    ffd_buffer_format(&text, "node %zu", number);
+        return ffd_json_tree_string(&d->tree, name, NULL);
+    ffd_buffer_format(&text, "node %zu", index);
     return ffd_buffer_finish(&text);
 }

@@ -174,7 +174,7 @@ static void set_default(const gltf_document *d, gltf_pose *pose)
         for (size_t w = pose->first_weight[n]; w < pose->first_weight[n + 1]; w++) {
             double weight = 0;
             pose->weights[w] = value != JSON_NONE && ffd_gltf_weight(d, value, &weight) ? weight : 0;
-            value = value == JSON_NONE ? value : ffd_json_span_after(&d->tree, value);
+            value = value == JSON_NONE ? value : ffd_json_tree_after(&d->tree, value);
         }
     }
 }

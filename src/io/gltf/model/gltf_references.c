@@ -35,7 +35,7 @@ uint32_t ffd_gltf_reference(const gltf_document *d, size_t node, gltf_reference 
     if (at->extension)
         value = ffd_gltf_extension(d, value, at->extension);
     for (size_t i = 0; i < sizeof at->inside / sizeof *at->inside && at->inside[i]; i++)
-        value = ffd_json_span_member(&d->tree, value, at->inside[i]);
+        value = ffd_json_tree_member(&d->tree, value, at->inside[i]);
     return value;
 }
 
@@ -44,7 +44,7 @@ static uint32_t list_of(const gltf_document *d, gltf_reference reference)
 {
     const place *const at = &places[reference];
     const uint32_t parent = at->list_extension ? ffd_gltf_extension(d, 0, at->list_extension) : 0;
-    const uint32_t list = ffd_json_span_member(&d->tree, parent, at->list);
+    const uint32_t list = ffd_json_tree_member(&d->tree, parent, at->list);
     return list != JSON_NONE && d->tree.values[list].kind == JSON_ARRAY ? list : JSON_NONE;
 }
 
@@ -52,7 +52,7 @@ uint32_t ffd_gltf_referred(const gltf_document *d, uint32_t value, gltf_referenc
 {
     const uint32_t list = list_of(d, reference);
     const size_t index = list == JSON_NONE ? GLTF_NONE : ffd_gltf_index(d, value, d->tree.values[list].count);
-    return index == GLTF_NONE ? JSON_NONE : ffd_json_span_element(&d->tree, list, index);
+    return index == GLTF_NONE ? JSON_NONE : ffd_json_tree_element(&d->tree, list, index);
 }
 
 bool ffd_gltf_refers(const gltf_document *d, uint32_t value, gltf_reference reference)
@@ -84,15 +84,15 @@ ffd_status ffd_gltf_animated_node(const gltf_document *d, uint32_t target, size_
                                   ffd_error *error)
 {
     const uint32_t extension = ffd_gltf_extension(d, target, "KHR_animation_pointer");
-    const uint32_t named = ffd_json_span_member(&d->tree, target, "node");
-    const uint32_t member = extension == JSON_NONE ? ffd_json_span_member(&d->tree, target, "path")
-                                                   : ffd_json_span_member(&d->tree, extension, "pointer");
+    const uint32_t named = ffd_json_tree_member(&d->tree, target, "node");
+    const uint32_t member = extension == JSON_NONE ? ffd_json_tree_member(&d->tree, target, "path")
+                                                   : ffd_json_tree_member(&d->tree, extension, "pointer");
     *node = GLTF_NONE;
     *fault = member == JSON_NONE ? target : member;
     if (member == JSON_NONE || d->tree.values[member].kind != JSON_STRING)
         return FFD_OK;
     bool known = true;
-    char *text = ffd_json_span_string(&d->tree, member, NULL);
+    char *text = ffd_json_tree_string(&d->tree, member, NULL);
     if (!text)
         return ffd_fail_memory(error);
     if (extension != JSON_NONE) {
@@ -120,7 +120,7 @@ size_t ffd_gltf_next_stand_in(gltf_stand_ins *walk)
     const gltf_document *const d = walk->document;
     while (walk->detail != JSON_NONE) {
         const size_t found = ffd_gltf_node(d, walk->detail);
-        walk->detail = ffd_json_span_after(&d->tree, walk->detail);
+        walk->detail = ffd_json_tree_after(&d->tree, walk->detail);
         if (found != GLTF_NONE)
             return found;
     }

@@ -136,11 +136,11 @@ static bool is_allowed(const ffd_source *source, const char *name)
 
 ffd_status ffd_gltf_find_required(gltf_document *d, const ffd_source *source, ffd_error *error)
 {
-    const uint32_t required = ffd_json_span_member(&d->tree, 0, "extensionsRequired");
+    const uint32_t required = ffd_json_tree_member(&d->tree, 0, "extensionsRequired");
     d->refused_extension = JSON_NONE;
-    for (uint32_t v = ffd_json_span_first(&d->tree, required);
-         v != JSON_NONE && d->refused_extension == JSON_NONE; v = ffd_json_span_after(&d->tree, v)) {
-        char *name = ffd_json_span_string(&d->tree, v, NULL);
+    for (uint32_t v = ffd_json_tree_first(&d->tree, required);
+         v != JSON_NONE && d->refused_extension == JSON_NONE; v = ffd_json_tree_after(&d->tree, v)) {
+        char *name = ffd_json_tree_string(&d->tree, v, NULL);
         if (!name)
             return ffd_fail_memory(error);
         const extension_effect effect = effect_of(name);
@@ -156,14 +156,14 @@ static ffd_status refuse_required(const gltf_document *d, ffd_error *error)
 {
     if (d->refused_extension == JSON_NONE)
         return FFD_OK;
-    char *name = ffd_json_span_string(&d->tree, d->refused_extension, NULL);
+    char *name = ffd_json_tree_string(&d->tree, d->refused_extension, NULL);
     if (!name)
         return ffd_fail_memory(error);
     const extension_effect effect = effect_of(name);
     const char *why = effect == EXTENSION_PLACES  ? "places vertices in a way that is not supported"
                       : effect == EXTENSION_HOLDS ? "holds geometry in a form that is not supported"
                                                   : "is not known";
-    const ffd_status status = ffd_json_span_fail(
+    const ffd_status status = ffd_json_tree_fail(
         &d->tree, d->refused_extension, d->name, FFD_E_UNSUPPORTED, error,
         "the required extension \"%s\" %s ({input.allow_extensions=%s} deforms %s)", name, why, name,
         effect == EXTENSION_HOLDS ? "what else the file holds" : "the file all the same");
@@ -174,7 +174,7 @@ static ffd_status refuse_required(const gltf_document *d, ffd_error *error)
 /* Whether a JSON value is an extension that holds geometry in an unsupported form. */
 static bool holds(const gltf_document *d, uint32_t extension)
 {
-    char *const name = ffd_json_span_key(&d->tree, extension);
+    char *const name = ffd_json_tree_key(&d->tree, extension);
     const bool found = name && holds_geometry(name);
     ffd_free(name);
     return found;
@@ -184,12 +184,12 @@ static bool holds(const gltf_document *d, uint32_t extension)
    values of an object lie between it and the next one. */
 static uint32_t find_holder(const gltf_document *d, uint32_t object)
 {
-    const uint32_t extensions = ffd_json_span_member(&d->tree, object, "extensions");
+    const uint32_t extensions = ffd_json_tree_member(&d->tree, object, "extensions");
     if (extensions == JSON_NONE)
         return JSON_NONE;
     for (uint32_t v = extensions + 1; v < d->tree.values[extensions].next; v++) {
         const uint32_t parent = d->tree.values[v].parent;
-        if ((parent == extensions || ffd_json_span_key_is(&d->tree, parent, "extensions")) && holds(d, v))
+        if ((parent == extensions || ffd_json_tree_key_is(&d->tree, parent, "extensions")) && holds(d, v))
             return v;
     }
     return JSON_NONE;
@@ -239,7 +239,7 @@ static ffd_status refuse_stated(const gltf_document *d, const gltf_primitive *pr
     for (size_t s = 0; s < gltf_vector_slots(primitive); s++) {
         const int a = gltf_slot_accessor(primitive, s);
         if (s != GLTF_POSITION && is_empty(d, a) && !d->layouts[a].readable && states_other_than_zeros(d, a))
-            return ffd_json_span_fail(&d->tree, d->accessor_values.values[a], d->name, FFD_E_UNSUPPORTED,
+            return ffd_json_tree_fail(&d->tree, d->accessor_values.values[a], d->name, FFD_E_UNSUPPORTED,
                                       error,
                                       "the accessor has no bytes, but its min and max are not 0: the %s are "
                                       "in a form that is not supported",
@@ -258,14 +258,14 @@ static ffd_status refuse_held_by(const gltf_document *d, const gltf_primitive *p
         return refuse_stated(d, primitive, error);
     const uint32_t holder = holder_of(d, primitive);
     if (holder == JSON_NONE)
-        return ffd_json_span_fail(&d->tree, d->accessor_values.values[a], d->name, FFD_E_UNSUPPORTED, error,
+        return ffd_json_tree_fail(&d->tree, d->accessor_values.values[a], d->name, FFD_E_UNSUPPORTED, error,
                                   "the accessor has no bytes, but its min and max are not 0: the positions "
                                   "are in a form that is not supported");
-    char *const name = ffd_json_span_key(&d->tree, holder);
+    char *const name = ffd_json_tree_key(&d->tree, holder);
     if (!name)
         return ffd_fail_memory(error);
     const ffd_status status =
-        ffd_json_span_fail(&d->tree, holder, d->name, FFD_E_UNSUPPORTED, error,
+        ffd_json_tree_fail(&d->tree, holder, d->name, FFD_E_UNSUPPORTED, error,
                            "the extension \"%s\" holds the geometry in a form that is not supported", name);
     ffd_free(name);
     return status;
@@ -273,10 +273,10 @@ static ffd_status refuse_held_by(const gltf_document *d, const gltf_primitive *p
 
 ffd_status ffd_gltf_warn_of_held(const gltf_document *d, const mesh_log *log, ffd_error *error)
 {
-    const uint32_t used = ffd_json_span_member(&d->tree, 0, "extensionsUsed");
-    for (uint32_t v = ffd_json_span_first(&d->tree, used); v != JSON_NONE;
-         v = ffd_json_span_after(&d->tree, v)) {
-        char *const name = ffd_json_span_string(&d->tree, v, NULL);
+    const uint32_t used = ffd_json_tree_member(&d->tree, 0, "extensionsUsed");
+    for (uint32_t v = ffd_json_tree_first(&d->tree, used); v != JSON_NONE;
+         v = ffd_json_tree_after(&d->tree, v)) {
+        char *const name = ffd_json_tree_string(&d->tree, v, NULL);
         if (!name)
             return ffd_fail_memory(error);
         if (holds_geometry(name))
@@ -291,7 +291,7 @@ ffd_status ffd_gltf_warn_of_held(const gltf_document *d, const mesh_log *log, ff
 
 static ffd_status refuse(const gltf_document *d, uint32_t value, ffd_error *error, const char *what)
 {
-    return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_UNSUPPORTED, error, "%s", what);
+    return ffd_json_tree_fail(&d->tree, value, d->name, FFD_E_UNSUPPORTED, error, "%s", what);
 }
 
 ffd_status ffd_gltf_refuse_unreadable(const gltf_document *d, const gltf_primitive *primitive, int accessor,
@@ -346,7 +346,7 @@ static ffd_status refuse_shared_child(const gltf_document *d, ffd_error *error)
 {
     if (d->shared_child == GLTF_NONE || d->space == FFD_SPACE_MESH)
         return FFD_OK;
-    return ffd_json_span_fail(&d->tree, d->node_values.values[d->shared_child], d->name, FFD_E_INVALID, error,
+    return ffd_json_tree_fail(&d->tree, d->node_values.values[d->shared_child], d->name, FFD_E_INVALID, error,
                               "the node is a child of both node %zu and node %zu", d->shared_by[0],
                               d->shared_by[1]);
 }
@@ -355,15 +355,15 @@ static ffd_status refuse_shared_child(const gltf_document *d, ffd_error *error)
 static ffd_status refuse_newer_version(const gltf_document *d, ffd_error *error)
 {
     const uint32_t version =
-        ffd_json_span_member(&d->tree, ffd_json_span_member(&d->tree, 0, "asset"), "minVersion");
+        ffd_json_tree_member(&d->tree, ffd_json_tree_member(&d->tree, 0, "asset"), "minVersion");
     if (version == JSON_NONE)
         return FFD_OK;
-    char *text = ffd_json_span_string(&d->tree, version, NULL);
+    char *text = ffd_json_tree_string(&d->tree, version, NULL);
     if (!text)
         return ffd_fail_memory(error);
     ffd_status status = FFD_OK;
     if (strcmp(text, "2.0") != 0)
-        status = ffd_json_span_fail(&d->tree, version, d->name, FFD_E_UNSUPPORTED, error,
+        status = ffd_json_tree_fail(&d->tree, version, d->name, FFD_E_UNSUPPORTED, error,
                                     "the file needs glTF %s, but only 2.0 is supported", text);
     ffd_free(text);
     return status;

@@ -11,7 +11,7 @@ static bool is_invisible(const gltf_document *d, size_t node)
 {
     const uint32_t value = ffd_gltf_extension(d, d->node_values.values[node], "KHR_node_visibility");
     const uint32_t visible =
-        value == JSON_NONE ? JSON_NONE : ffd_json_span_member(&d->tree, value, "visible");
+        value == JSON_NONE ? JSON_NONE : ffd_json_tree_member(&d->tree, value, "visible");
     return visible != JSON_NONE && d->tree.values[visible].kind == JSON_FALSE;
 }
 
@@ -125,7 +125,7 @@ static ffd_status refuse_cycles(const gltf_document *d, const size_t *parents, s
     ffd_status status = FFD_OK;
     for (size_t n = 0; n < d->model.node_count && reached < d->model.node_count && status == FFD_OK; n++)
         if (!seen[n])
-            status = ffd_json_span_fail(&d->tree, d->node_values.values[n], d->name, FFD_E_INVALID, error,
+            status = ffd_json_tree_fail(&d->tree, d->node_values.values[n], d->name, FFD_E_INVALID, error,
                                         "the node is its own ancestor, or below one that is");
     ffd_free(seen);
     return status;
@@ -330,7 +330,7 @@ static ffd_status refuse_infinite(const gltf_document *d, ffd_error *error)
     for (size_t n = 0; n < d->model.node_count; n++)
         for (int i = 0; d->in_scene[n] && i < 12; i++)
             if (!isfinite(d->world[12 * n + i]))
-                return ffd_json_span_fail(&d->tree, d->node_values.values[n], d->name, FFD_E_INVALID, error,
+                return ffd_json_tree_fail(&d->tree, d->node_values.values[n], d->name, FFD_E_INVALID, error,
                                           "the node's matrix in the scene is not finite");
     return FFD_OK;
 }

@@ -57,16 +57,16 @@ static uint64_t count_use(const gltf_document *d, mesh_use at, const size_t *fir
 }
 
 /* Writes "node:NAME". Returns false if the element has no name. */
-static bool write_name(const gltf_document *d, const char *array, const char *kind, size_t number, char *name,
+static bool write_name(const gltf_document *d, const char *array, const char *kind, size_t index, char *name,
                        size_t capacity)
 {
-    uint32_t value = ffd_json_span_first(&d->tree, ffd_json_span_member(&d->tree, 0, array));
-    for (size_t i = 0; i < number && value != JSON_NONE; i++)
-        value = ffd_json_span_after(&d->tree, value);
-    const uint32_t member = value == JSON_NONE ? JSON_NONE : ffd_json_span_member(&d->tree, value, "name");
+    uint32_t value = ffd_json_tree_first(&d->tree, ffd_json_tree_member(&d->tree, 0, array));
+    for (size_t i = 0; i < index && value != JSON_NONE; i++)
+        value = ffd_json_tree_after(&d->tree, value);
+    const uint32_t member = value == JSON_NONE ? JSON_NONE : ffd_json_tree_member(&d->tree, value, "name");
     if (member == JSON_NONE || d->tree.values[member].kind != JSON_STRING)
         return false;
-    char *const text = ffd_json_span_string(&d->tree, member, NULL);
+    char *const text = ffd_json_tree_string(&d->tree, member, NULL);
     const bool named = text && *text;
     if (named) {
         const size_t begun = (size_t)snprintf(name, capacity, "%s:", kind);
@@ -170,15 +170,15 @@ static ffd_status draw_pending(const surveying *s, size_t waiting)
     const gltf_document *d = s->document;
     ffd_status status = FFD_OK;
     while (waiting > 0 && status == FFD_OK) {
-        const size_t number = s->pending[--waiting];
-        const gltf_node *const node = &d->model.nodes[number];
+        const size_t index = s->pending[--waiting];
+        const gltf_node *const node = &d->model.nodes[index];
         const gltf_mesh_uses *const uses = node->mesh >= 0 ? &d->mesh_uses[node->mesh] : NULL;
-        const size_t use = uses && uses->nodes ? ffd_gltf_find_use(uses, number) : 0;
+        const size_t use = uses && uses->nodes ? ffd_gltf_find_use(uses, index) : 0;
         if (uses && use < uses->node_count)
             status = draw_mesh(s, (size_t)node->mesh, use, 1);
         for (size_t i = 0; i < node->child_count; i++)
             add_pending(s, (size_t)node->children[i], &waiting);
-        add_stand_ins(s, number, &waiting);
+        add_stand_ins(s, index, &waiting);
     }
     return status;
 }
@@ -214,22 +214,22 @@ static ffd_status draw_material(const surveying *s, size_t material)
     return status;
 }
 
-static ffd_status draw(const surveying *s, selector_kind kind, size_t number)
+static ffd_status draw(const surveying *s, selector_kind kind, size_t index)
 {
     if (kind == SELECT_NODE)
-        return draw_node(s, number);
-    return kind == SELECT_MESH ? draw_uses(s, number) : draw_material(s, number);
+        return draw_node(s, index);
+    return kind == SELECT_MESH ? draw_uses(s, index) : draw_material(s, index);
 }
 
 /* Finds the number of an element's name. */
 static bool read_name(const gltf_document *d, uint32_t element, kind_names *k, uint32_t *name)
 {
-    const uint32_t member = ffd_json_span_member(&d->tree, element, "name");
+    const uint32_t member = ffd_json_tree_member(&d->tree, element, "name");
     size_t size = 0;
     *name = NO_NAME;
     if (member == JSON_NONE || d->tree.values[member].kind != JSON_STRING)
         return true;
-    char *const text = ffd_json_span_string(&d->tree, member, &size);
+    char *const text = ffd_json_tree_string(&d->tree, member, &size);
     /* A name that cannot be a program's argument cannot be selected. */
     const bool usable = text && size > 0 && strlen(text) == size;
     const bool ok = text && (!usable || ffd_intern(&k->names, text, size, name));
@@ -288,8 +288,8 @@ static void read_materials(const surveying *s)
     const gltf_document *d = s->document;
     for (size_t i = 0; i < d->model.primitive_count; i++) {
         double number;
-        const uint32_t member = ffd_json_span_member(&d->tree, d->model.primitives[i].value, "material");
-        const bool has = ffd_json_span_number(&d->tree, member, &number) && number >= 0 &&
+        const uint32_t member = ffd_json_tree_member(&d->tree, d->model.primitives[i].value, "material");
+        const bool has = ffd_json_tree_number(&d->tree, member, &number) && number >= 0 &&
                          number < (double)d->material_values.count;
         s->materials[i] = has ? (size_t)number : GLTF_NONE;
     }
@@ -348,20 +348,20 @@ static uint32_t array_of(const gltf_document *d, selector_kind kind)
 {
     static const char *const keys[SELECTOR_KINDS] = {
         [SELECT_NODE] = "nodes", [SELECT_MESH] = "meshes", [SELECT_MATERIAL] = "materials"};
-    return ffd_json_span_member(&d->tree, 0, keys[kind]);
+    return ffd_json_tree_member(&d->tree, 0, keys[kind]);
 }
 
 static ffd_status refuse_unknown(const gltf_document *d, const mesh_selector *selector, ffd_error *error)
 {
     selector_nearest nearest = {.selector = selector};
     const uint32_t array = array_of(d, selector->kind);
-    for (uint32_t v = ffd_json_span_first(&d->tree, array); v != JSON_NONE;
-         v = ffd_json_span_after(&d->tree, v)) {
-        const uint32_t member = ffd_json_span_member(&d->tree, v, "name");
+    for (uint32_t v = ffd_json_tree_first(&d->tree, array); v != JSON_NONE;
+         v = ffd_json_tree_after(&d->tree, v)) {
+        const uint32_t member = ffd_json_tree_member(&d->tree, v, "name");
         if (member == JSON_NONE || d->tree.values[member].kind != JSON_STRING)
             continue;
         size_t size;
-        char *name = ffd_json_span_string(&d->tree, member, &size);
+        char *name = ffd_json_tree_string(&d->tree, member, &size);
         if (!name)
             return ffd_fail_memory(error);
         ffd_selector_offer(&nearest, name, size);
@@ -411,16 +411,16 @@ static void mark_mesh(const selecting *s, size_t mesh)
     mark_below(s, waiting);
 }
 
-static void mark(const selecting *s, selector_kind kind, size_t number)
+static void mark(const selecting *s, selector_kind kind, size_t index)
 {
     size_t waiting = 0;
     if (kind == SELECT_NODE) {
-        mark_node(s, number, &waiting);
+        mark_node(s, index, &waiting);
         mark_below(s, waiting);
     } else if (kind == SELECT_MESH) {
-        mark_mesh(s, number);
+        mark_mesh(s, index);
     } else {
-        s->materials[number] = true;
+        s->materials[index] = true;
     }
 }
 
@@ -429,15 +429,15 @@ static ffd_status mark_named(const selecting *s, const mesh_selector *selector, 
 {
     const gltf_document *d = s->document;
     const uint32_t array = array_of(d, selector->kind);
-    size_t number = 0;
+    size_t index = 0;
     bool found = false;
-    for (uint32_t v = ffd_json_span_first(&d->tree, array); v != JSON_NONE;
-         v = ffd_json_span_after(&d->tree, v), number++) {
-        const uint32_t name = ffd_json_span_member(&d->tree, v, "name");
-        if (name == JSON_NONE || !ffd_json_span_string_is(&d->tree, name, selector->name))
+    for (uint32_t v = ffd_json_tree_first(&d->tree, array); v != JSON_NONE;
+         v = ffd_json_tree_after(&d->tree, v), index++) {
+        const uint32_t name = ffd_json_tree_member(&d->tree, v, "name");
+        if (name == JSON_NONE || !ffd_json_tree_string_is(&d->tree, name, selector->name))
             continue;
         found = true;
-        mark(s, selector->kind, number);
+        mark(s, selector->kind, index);
     }
     return found ? FFD_OK : refuse_unknown(d, selector, error);
 }
@@ -455,7 +455,7 @@ static bool has_material(const selecting *s, const gltf_primitive *primitive)
 {
     const gltf_document *d = s->document;
     double number;
-    return ffd_json_span_number(&d->tree, ffd_json_span_member(&d->tree, primitive->value, "material"),
+    return ffd_json_tree_number(&d->tree, ffd_json_tree_member(&d->tree, primitive->value, "material"),
                                 &number) &&
            number >= 0 && number < (double)s->material_count && s->materials[(size_t)number];
 }
@@ -543,7 +543,7 @@ ffd_status ffd_gltf_select(mesh_document *document, const mesh_selector *selecto
     gltf_document *d = (gltf_document *)document;
     selecting s = {.document = d, .selectors = selectors, .count = count};
     const uint32_t materials = array_of(d, SELECT_MATERIAL);
-    s.material_count = ffd_json_span_count(&d->tree, materials);
+    s.material_count = ffd_json_tree_count(&d->tree, materials);
     s.nodes = ffd_alloc_zero(d->model.node_count, sizeof *s.nodes);
     s.pending = ffd_alloc(d->model.node_count, sizeof *s.pending);
     s.meshes = ffd_alloc_zero(d->model.mesh_count, sizeof *s.meshes);

@@ -163,7 +163,7 @@ static ffd_status add_shapes(gltf_document *d, const target_table *table, size_t
 
 uint32_t ffd_gltf_weights_of(const gltf_document *d, uint32_t object)
 {
-    const uint32_t array = ffd_json_span_member(&d->tree, object, "weights");
+    const uint32_t array = ffd_json_tree_member(&d->tree, object, "weights");
     return array != JSON_NONE && d->tree.values[array].kind == JSON_ARRAY ? array : JSON_NONE;
 }
 
@@ -173,12 +173,12 @@ uint32_t ffd_gltf_first_weight(const gltf_document *d, size_t mesh, size_t node)
         node == GLTF_NONE ? JSON_NONE : ffd_gltf_weights_of(d, d->node_values.values[node]);
     const uint32_t array =
         of_node == JSON_NONE ? ffd_gltf_weights_of(d, d->mesh_values.values[mesh]) : of_node;
-    return ffd_json_span_first(&d->tree, array);
+    return ffd_json_tree_first(&d->tree, array);
 }
 
 bool ffd_gltf_weight(const gltf_document *d, uint32_t value, double *weight)
 {
-    return ffd_json_span_number(&d->tree, value, weight) && fabs(*weight) <= FLT_MAX;
+    return ffd_json_tree_number(&d->tree, value, weight) && fabs(*weight) <= FLT_MAX;
 }
 
 /* Adds a primitive's weights to the shapes of its part; several of its targets may be the same shape. */
@@ -186,7 +186,7 @@ static void add_weights(gltf_document *d, const gltf_instance *instance)
 {
     uint32_t weight = ffd_gltf_first_weight(d, instance->primitive->mesh, instance->node);
     for (size_t t = 0; t < instance->primitive->target_count && weight != JSON_NONE;
-         t++, weight = ffd_json_span_after(&d->tree, weight)) {
+         t++, weight = ffd_json_tree_after(&d->tree, weight)) {
         const size_t part = d->targets[instance->first_target + t];
         double number;
         if (part != GLTF_NONE && ffd_gltf_weight(d, weight, &number))
@@ -293,7 +293,7 @@ static size_t find_offsets(const gltf_document *d, uint32_t target, const char *
                            size_t components)
 {
     double number;
-    if (!ffd_json_span_number(&d->tree, ffd_json_span_member(&d->tree, target, name), &number) ||
+    if (!ffd_json_tree_number(&d->tree, ffd_json_tree_member(&d->tree, target, name), &number) ||
         !(number >= 0) || !(number < (double)d->model.accessor_count))
         return GLTF_NONE;
     const size_t a = (size_t)number;
@@ -306,11 +306,11 @@ static size_t find_offsets(const gltf_document *d, uint32_t target, const char *
 bool ffd_gltf_add_shapes(const gltf_document *d, const gltf_primitive *primitive, size_t node,
                          const char *name, size_t count, size_t components, size_t stride, double *values)
 {
-    const uint32_t targets = ffd_json_span_member(&d->tree, primitive->value, "targets");
+    const uint32_t targets = ffd_json_tree_member(&d->tree, primitive->value, "targets");
     uint32_t weight = d->base.shown ? ffd_gltf_first_weight(d, primitive->mesh, node) : JSON_NONE;
     bool any = false;
-    for (uint32_t target = ffd_json_span_first(&d->tree, targets); target != JSON_NONE && weight != JSON_NONE;
-         target = ffd_json_span_after(&d->tree, target), weight = ffd_json_span_after(&d->tree, weight)) {
+    for (uint32_t target = ffd_json_tree_first(&d->tree, targets); target != JSON_NONE && weight != JSON_NONE;
+         target = ffd_json_tree_after(&d->tree, target), weight = ffd_json_tree_after(&d->tree, weight)) {
         const size_t a = find_offsets(d, target, name, count, components);
         double number;
         if (a == GLTF_NONE || !ffd_gltf_weight(d, weight, &number) || number == 0)

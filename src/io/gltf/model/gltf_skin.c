@@ -19,10 +19,10 @@ static ffd_status note_half(gltf_document *d, uint32_t primitive, const gltf_inf
                             ffd_error *error)
 {
     const bool joints = influence->joints >= 0;
-    const uint32_t attributes = ffd_json_span_member(&d->tree, primitive, "attributes");
+    const uint32_t attributes = ffd_json_tree_member(&d->tree, primitive, "attributes");
     char key[40];
     snprintf(key, sizeof key, "%s_%zu", joints ? "JOINTS" : "WEIGHTS", set);
-    return ffd_gltf_flaw(d, ffd_json_span_member(&d->tree, attributes, key), error,
+    return ffd_gltf_flaw(d, ffd_json_tree_member(&d->tree, attributes, key), error,
                          "%s_%zu without %s_%zu is ignored", joints ? "JOINTS" : "WEIGHTS", set,
                          joints ? "WEIGHTS" : "JOINTS", set);
 }
@@ -95,16 +95,16 @@ bool ffd_gltf_places_mesh(const gltf_document *d, size_t node)
 
 static ffd_status list_joints(const gltf_document *d, uint32_t value, gltf_skin *skin, ffd_error *error)
 {
-    const uint32_t joints = ffd_json_span_member(&d->tree, value, "joints");
+    const uint32_t joints = ffd_json_tree_member(&d->tree, value, "joints");
     skin->joints = ffd_alloc(d->tree.values[joints].count, sizeof *skin->joints);
     if (!skin->joints)
         return ffd_fail_memory(error);
-    for (uint32_t v = ffd_json_span_first(&d->tree, joints); v != JSON_NONE;
-         v = ffd_json_span_after(&d->tree, v)) {
+    for (uint32_t v = ffd_json_tree_first(&d->tree, joints); v != JSON_NONE;
+         v = ffd_json_tree_after(&d->tree, v)) {
         double node = 0;
-        ffd_json_span_number(&d->tree, v, &node);
+        ffd_json_tree_number(&d->tree, v, &node);
         if (!(node < (double)d->model.node_count))
-            return ffd_json_span_fail(&d->tree, v, d->name, FFD_E_INVALID, error, "there is no node %.0f%s",
+            return ffd_json_tree_fail(&d->tree, v, d->name, FFD_E_INVALID, error, "there is no node %.0f%s",
                                       node, ffd_only(d->model.node_count, "").text);
         skin->joints[skin->joint_count++] = (size_t)node;
     }
@@ -113,13 +113,13 @@ static ffd_status list_joints(const gltf_document *d, uint32_t value, gltf_skin 
 
 static ffd_status find_inverse_bind(const gltf_document *d, uint32_t value, gltf_skin *skin, ffd_error *error)
 {
-    const uint32_t member = ffd_json_span_member(&d->tree, value, "inverseBindMatrices");
+    const uint32_t member = ffd_json_tree_member(&d->tree, value, "inverseBindMatrices");
     double number;
     skin->inverse_bind = -1;
-    if (!ffd_json_span_number(&d->tree, member, &number))
+    if (!ffd_json_tree_number(&d->tree, member, &number))
         return FFD_OK;
     if (!(number < (double)d->model.accessor_count))
-        return ffd_json_span_fail(&d->tree, member, d->name, FFD_E_INVALID, error,
+        return ffd_json_tree_fail(&d->tree, member, d->name, FFD_E_INVALID, error,
                                   "there is no accessor %.0f%s", number,
                                   ffd_only(d->model.accessor_count, "").text);
     skin->inverse_bind = (int)number;
@@ -130,12 +130,12 @@ static ffd_status check_inverse_bind(const gltf_document *d, const gltf_skin *sk
 {
     const gltf_accessor *accessor = &d->model.accessors[skin->inverse_bind];
     const uint32_t member =
-        ffd_json_span_member(&d->tree, d->skin_values.values[skin - d->skins], "inverseBindMatrices");
+        ffd_json_tree_member(&d->tree, d->skin_values.values[skin - d->skins], "inverseBindMatrices");
     if (accessor->columns != 4 || accessor->rows != 4 || accessor->component != GLTF_FLOAT)
-        return ffd_json_span_fail(&d->tree, member, d->name, FFD_E_INVALID, error,
+        return ffd_json_tree_fail(&d->tree, member, d->name, FFD_E_INVALID, error,
                                   "accessor %d is not a MAT4 of floats", skin->inverse_bind);
     if (accessor->count < skin->joint_count)
-        return ffd_json_span_fail(&d->tree, member, d->name, FFD_E_INVALID, error,
+        return ffd_json_tree_fail(&d->tree, member, d->name, FFD_E_INVALID, error,
                                   "accessor %d has %llu %s for %zu joints", skin->inverse_bind,
                                   (unsigned long long)accessor->count,
                                   ffd_plural(accessor->count, "matrix", "matrices"), skin->joint_count);
@@ -180,10 +180,10 @@ static ffd_status read_inverse_bind(const gltf_document *d, const gltf_skin *ski
     }
     for (int i = 0; i < 12; i++)
         if (!isfinite(matrix[i]))
-            return ffd_json_span_fail(&d->tree, d->accessor_values.values[skin->inverse_bind], d->name,
+            return ffd_json_tree_fail(&d->tree, d->accessor_values.values[skin->inverse_bind], d->name,
                                       FFD_E_INVALID, error, "inverse bind matrix %zu is not finite", j);
     if (!affine || !(fabs(read[15] - 1) <= LAST_ROW_TOLERANCE))
-        return ffd_json_span_fail(&d->tree, d->accessor_values.values[skin->inverse_bind], d->name,
+        return ffd_json_tree_fail(&d->tree, d->accessor_values.values[skin->inverse_bind], d->name,
                                   FFD_E_INVALID, error,
                                   "the last row of inverse bind matrix %zu is %g %g %g %g, not 0 0 0 1", j,
                                   read[3], read[7], read[11], read[15]);
@@ -206,7 +206,7 @@ static ffd_status make_joint_matrix(const gltf_document *d, const gltf_skin *ski
     }
     for (int i = 0; i < 12; i++)
         if (!isfinite(matrix[i]))
-            return ffd_json_span_fail(&d->tree, d->node_values.values[skin->joints[j]], d->name,
+            return ffd_json_tree_fail(&d->tree, d->node_values.values[skin->joints[j]], d->name,
                                       FFD_E_INVALID, error, "the joint's matrix is not finite");
     return FFD_OK;
 }
@@ -248,11 +248,11 @@ static ffd_status make_joint_matrices(gltf_document *d, gltf_skin *skin, ffd_err
 static ffd_status refuse_attribute(const gltf_document *d, uint32_t primitive, const char *name, size_t set,
                                    const char *what, ffd_error *error)
 {
-    const uint32_t attributes = ffd_json_span_member(&d->tree, primitive, "attributes");
+    const uint32_t attributes = ffd_json_tree_member(&d->tree, primitive, "attributes");
     char key[40];
     snprintf(key, sizeof key, "%s_%zu", name, set);
-    const uint32_t member = ffd_json_span_member(&d->tree, attributes, key);
-    return ffd_json_span_fail(&d->tree, member == JSON_NONE ? attributes : member, d->name, FFD_E_INVALID,
+    const uint32_t member = ffd_json_tree_member(&d->tree, attributes, key);
+    return ffd_json_tree_fail(&d->tree, member == JSON_NONE ? attributes : member, d->name, FFD_E_INVALID,
                               error, "%s %s", key, what);
 }
 
@@ -314,7 +314,7 @@ static ffd_status check_beyond(gltf_document *d, const gltf_skin *skin, const gl
     const uint32_t value = d->accessor_values.values[influence->joints];
     if (!d->layouts[influence->joints].readable || !d->layouts[influence->weights].readable ||
         uses_beyond(d, influence, skin->joint_count, set == 0))
-        return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_INVALID, error,
+        return ffd_json_tree_fail(&d->tree, value, d->name, FFD_E_INVALID, error,
                                   "names joint %zu, but the skin has only %zu", joint, skin->joint_count);
     return ffd_gltf_flaw(d, value, error, "names joint %zu without a weight, but the skin has only %zu",
                          joint, skin->joint_count);
@@ -345,7 +345,7 @@ static ffd_status check_primitive(gltf_document *d, const gltf_skin *skin, const
     if (primitive->accessor[GLTF_POSITION] < 0)
         return FFD_OK;
     if (primitive->influence_count > MOST_SETS)
-        return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_LIMIT, error,
+        return ffd_json_tree_fail(&d->tree, value, d->name, FFD_E_LIMIT, error,
                                   "%zu sets of joints are more than the %zu that are supported",
                                   primitive->influence_count, MOST_SETS);
     for (size_t i = 0; i < primitive->influence_count && status == FFD_OK; i++)

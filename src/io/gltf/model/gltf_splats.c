@@ -60,12 +60,12 @@ static int find_degree(const size_t *accessors)
 
 static splat_attributes find_attributes(const gltf_document *d, const gltf_primitive *primitive)
 {
-    const uint32_t attributes = ffd_json_span_member(&d->tree, primitive->value, "attributes");
+    const uint32_t attributes = ffd_json_tree_member(&d->tree, primitive->value, "attributes");
     splat_attributes found = {.all_usable = true};
     for (size_t i = 0; i < GLTF_SPLAT_ATTRIBUTES; i++) {
         char name[GLTF_SPLAT_NAME];
         ffd_gltf_splat_name(i, name);
-        const uint32_t value = ffd_json_span_member(&d->tree, attributes, name);
+        const uint32_t value = ffd_json_tree_member(&d->tree, attributes, name);
         found.accessors[i] = ffd_gltf_index(d, value, d->model.accessor_count);
         if (found.accessors[i] != GLTF_NONE && !is_usable(d, found.accessors[i], i))
             found.all_usable = false;
@@ -97,12 +97,12 @@ static bool has_negative(const gltf_document *d, size_t a)
 static ffd_status find_flaws(gltf_document *d, const gltf_primitive *primitive, splat_attributes *found,
                              ffd_error *error)
 {
-    const uint32_t attributes = ffd_json_span_member(&d->tree, primitive->value, "attributes");
+    const uint32_t attributes = ffd_json_tree_member(&d->tree, primitive->value, "attributes");
     ffd_status status = FFD_OK;
     found->form.is_logarithmic = has_negative(d, found->accessors[GLTF_SPLAT_SCALE]);
     if (found->form.is_logarithmic)
         status =
-            ffd_gltf_flaw(d, ffd_json_span_member(&d->tree, attributes, SPLATTING ":SCALE"), error,
+            ffd_gltf_flaw(d, ffd_json_tree_member(&d->tree, attributes, SPLATTING ":SCALE"), error,
                           "scales of Gaussian splats are negative: they are read as logarithms, as in drafts "
                           "of " SPLATTING);
     for (int i = harmonics_count(found->form.degree); i < HARMONICS_MOST && status == FFD_OK; i++)

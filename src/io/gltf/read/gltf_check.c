@@ -14,7 +14,7 @@
 /* Returns a member of a value, or the value if it is absent. */
 static uint32_t place_of(const gltf_document *d, uint32_t value, const char *key)
 {
-    const uint32_t member = ffd_json_span_member(&d->tree, value, key);
+    const uint32_t member = ffd_json_tree_member(&d->tree, value, key);
     return member == JSON_NONE ? value : member;
 }
 
@@ -29,7 +29,7 @@ static ffd_status refuse(const gltf_document *d, uint32_t value, const char *key
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
-    return ffd_json_span_fail(&d->tree, place_of(d, value, key), d->name, FFD_E_INVALID, error, "%s",
+    return ffd_json_tree_fail(&d->tree, place_of(d, value, key), d->name, FFD_E_INVALID, error, "%s",
                               message);
 }
 
@@ -44,9 +44,9 @@ static ffd_status check_index(const gltf_document *d, uint32_t value, const char
 /* Reads a view's stride from the JSON that tinygltf does not get. Some programs write 0 for none. */
 static ffd_status read_stride(gltf_document *d, size_t i, ffd_error *error)
 {
-    const uint32_t value = ffd_json_span_member(&d->tree, d->view_values.values[i], "byteStride");
+    const uint32_t value = ffd_json_tree_member(&d->tree, d->view_values.values[i], "byteStride");
     double number;
-    if (!ffd_json_span_number(&d->tree, value, &number))
+    if (!ffd_json_tree_number(&d->tree, value, &number))
         return FFD_OK;
     d->model.views[i].stride = (uint64_t)number;
     if (d->model.views[i].stride > 0 && d->model.views[i].stride % 4 == 0)
@@ -68,7 +68,7 @@ static ffd_status check_view(gltf_document *d, size_t i, ffd_error *error)
     const uint64_t length = buffer->length;
     const bool is_outside = view->offset > length || view->length > length - view->offset;
     if (is_outside && buffer->flaws & BUFFER_SHORT)
-        return ffd_json_span_fail(&d->tree, d->buffer_values.values[view->buffer], d->name, FFD_E_INVALID,
+        return ffd_json_tree_fail(&d->tree, d->buffer_values.values[view->buffer], d->name, FFD_E_INVALID,
                                   error, "the buffer has %zu %s, less than its byteLength %zu", buffer->size,
                                   ffd_plural(buffer->size, "byte", "bytes"), buffer->stated);
     if (is_outside)
@@ -167,9 +167,9 @@ static ffd_status check_sparse(gltf_document *d, size_t i, ffd_error *error)
     const gltf_accessor *accessor = &d->model.accessors[i];
     const gltf_sparse *sparse = &accessor->sparse;
     gltf_layout *layout = &d->layouts[i];
-    const uint32_t value = ffd_json_span_member(&d->tree, d->accessor_values.values[i], "sparse");
-    const uint32_t indices = ffd_json_span_member(&d->tree, value, "indices");
-    const uint32_t values = ffd_json_span_member(&d->tree, value, "values");
+    const uint32_t value = ffd_json_tree_member(&d->tree, d->accessor_values.values[i], "sparse");
+    const uint32_t indices = ffd_json_tree_member(&d->tree, value, "indices");
+    const uint32_t values = ffd_json_tree_member(&d->tree, value, "values");
     if (sparse->count > accessor->count)
         return refuse(d, value, "count", error, "the sparse count %llu is more than the accessor's %llu",
                       (unsigned long long)sparse->count, (unsigned long long)accessor->count);
@@ -198,7 +198,7 @@ static ffd_status check_accessor(gltf_document *d, size_t i, ffd_error *error)
     measure(accessor, layout);
     layout->readable = true; /* zeros, unless it has a view */
     if (accessor->view >= 0 ||
-        ffd_json_span_member(&d->tree, d->accessor_values.values[i], "bufferView") != JSON_NONE) {
+        ffd_json_tree_member(&d->tree, d->accessor_values.values[i], "bufferView") != JSON_NONE) {
         ffd_status status = check_index(d, d->accessor_values.values[i], "bufferView", accessor->view,
                                         d->model.view_count, "bufferView", error);
         if (status)
@@ -238,7 +238,7 @@ static ffd_status check_shapes(const gltf_document *d, uint32_t value, int tange
     ffd_status status = FFD_OK;
     for (int s = 0; s < GLTF_DEFORMED && status == FFD_OK; s++)
         if (accessors[s] >= 0 &&
-            ffd_json_span_member(&d->tree, value, ffd_gltf_semantic_names[s]) == JSON_NONE)
+            ffd_json_tree_member(&d->tree, value, ffd_gltf_semantic_names[s]) == JSON_NONE)
             status =
                 refuse(d, value, "", error, "tinygltf read a %s that it has not", ffd_gltf_semantic_names[s]);
         else if (accessors[s] >= 0)
@@ -272,10 +272,10 @@ static ffd_status check_attributes(const gltf_document *d, uint32_t object, cons
    them. */
 static bool states_indices_elsewhere(const gltf_document *d, uint32_t primitive, int a, double *most)
 {
-    const uint32_t max = ffd_json_span_member(&d->tree, d->accessor_values.values[a], "max");
+    const uint32_t max = ffd_json_tree_member(&d->tree, d->accessor_values.values[a], "max");
     return d->model.accessors[a].view < 0 && !d->model.accessors[a].sparse.present &&
            !ffd_gltf_has_extension(d, primitive, "KHR_draco_mesh_compression") &&
-           ffd_json_span_number(&d->tree, ffd_json_span_first(&d->tree, max), most) && *most > 0;
+           ffd_json_tree_number(&d->tree, ffd_json_tree_first(&d->tree, max), most) && *most > 0;
 }
 
 /* Checks the accessor of a primitive's indices. */
@@ -308,8 +308,8 @@ static ffd_status check_indices(gltf_document *d, gltf_primitive *primitive, ffd
 static ffd_status check_primitive(gltf_document *d, gltf_primitive *primitive, ffd_error *error)
 {
     const uint32_t value = primitive->value;
-    const uint32_t attributes = ffd_json_span_member(&d->tree, value, "attributes");
-    const uint32_t targets = ffd_json_span_member(&d->tree, value, "targets");
+    const uint32_t attributes = ffd_json_tree_member(&d->tree, value, "attributes");
+    const uint32_t targets = ffd_json_tree_member(&d->tree, value, "targets");
     uint64_t vertices = UINT64_MAX;
     ffd_status status =
         check_attributes(d, attributes, primitive->attributes, primitive->attribute_count, &vertices, error);
@@ -319,8 +319,8 @@ static ffd_status check_primitive(gltf_document *d, gltf_primitive *primitive, f
     if (status == FFD_OK)
         status = check_shapes(d, attributes, 4, primitive->accessor, error);
     const int *accessors = primitive->target_accessors;
-    for (uint32_t v = ffd_json_span_first(&d->tree, targets); v != JSON_NONE && status == FFD_OK;
-         v = ffd_json_span_after(&d->tree, v), accessors += GLTF_DEFORMED)
+    for (uint32_t v = ffd_json_tree_first(&d->tree, targets); v != JSON_NONE && status == FFD_OK;
+         v = ffd_json_tree_after(&d->tree, v), accessors += GLTF_DEFORMED)
         status = check_shapes(d, v, 3, accessors, error);
     return status ? status : check_indices(d, primitive, error);
 }
@@ -353,7 +353,7 @@ static ffd_status limit_zeros(const gltf_document *d, ffd_error *error)
             continue;
         status = ffd_budget_take(&budget, accessor->count, ZERO_BYTES, &problem);
         if (status)
-            ffd_json_span_fail(&d->tree, d->accessor_values.values[i], d->name, status, error, "%s",
+            ffd_json_tree_fail(&d->tree, d->accessor_values.values[i], d->name, status, error, "%s",
                                problem.message);
     }
     return status;
@@ -379,9 +379,9 @@ static ffd_status check_node(gltf_document *d, size_t n, size_t skins, ffd_error
     const gltf_node *node = &d->model.nodes[n];
     const uint32_t value = d->node_values.values[n];
     ffd_status status = FFD_OK;
-    if (ffd_json_span_member(&d->tree, value, "mesh") != JSON_NONE)
+    if (ffd_json_tree_member(&d->tree, value, "mesh") != JSON_NONE)
         status = check_index(d, value, "mesh", node->mesh, d->model.mesh_count, "mesh", error);
-    if (status == FFD_OK && ffd_json_span_member(&d->tree, value, "skin") != JSON_NONE)
+    if (status == FFD_OK && ffd_json_tree_member(&d->tree, value, "skin") != JSON_NONE)
         status = check_index(d, value, "skin", node->skin, skins, "skin", error);
     for (size_t i = 0; i < node->child_count && status == FFD_OK; i++)
         status = check_index(d, value, "children", node->children[i], d->model.node_count, "node", error);
@@ -392,14 +392,14 @@ static ffd_status check_node(gltf_document *d, size_t n, size_t skins, ffd_error
 
 static ffd_status check_scenes(const gltf_document *d, ffd_error *error)
 {
-    const uint32_t scenes = ffd_json_span_member(&d->tree, 0, "scenes");
+    const uint32_t scenes = ffd_json_tree_member(&d->tree, 0, "scenes");
     ffd_status status = FFD_OK;
-    uint32_t value = ffd_json_span_first(&d->tree, scenes);
-    for (size_t s = 0; s < d->model.scene_count; s++, value = ffd_json_span_after(&d->tree, value))
+    uint32_t value = ffd_json_tree_first(&d->tree, scenes);
+    for (size_t s = 0; s < d->model.scene_count; s++, value = ffd_json_tree_after(&d->tree, value))
         for (size_t i = 0; i < d->model.scenes[s].node_count && status == FFD_OK; i++)
             status = check_index(d, value, "nodes", d->model.scenes[s].nodes[i], d->model.node_count, "node",
                                  error);
-    if (status == FFD_OK && ffd_json_span_member(&d->tree, 0, "scene") != JSON_NONE)
+    if (status == FFD_OK && ffd_json_tree_member(&d->tree, 0, "scene") != JSON_NONE)
         status = check_index(d, 0, "scene", d->model.scene, d->model.scene_count, "scene", error);
     return status;
 }
@@ -422,8 +422,8 @@ ffd_status ffd_gltf_check(gltf_document *d, ffd_error *error)
         status = ffd_gltf_decode_draco(d, error);
     if (status == FFD_OK)
         status = limit_zeros(d, error);
-    const uint32_t skins = ffd_json_span_member(&d->tree, 0, "skins");
-    const size_t skin_count = ffd_json_span_count(&d->tree, skins);
+    const uint32_t skins = ffd_json_tree_member(&d->tree, 0, "skins");
+    const size_t skin_count = ffd_json_tree_count(&d->tree, skins);
     for (size_t i = 0; i < d->model.node_count && status == FFD_OK; i++)
         status = check_node(d, i, skin_count, error);
     return status ? status : check_scenes(d, error);

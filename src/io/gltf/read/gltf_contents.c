@@ -41,14 +41,14 @@ ffd_status ffd_gltf_check_contents(const gltf_document *d, ffd_error *error)
             buffer->data ? ffd_content_sure_kind(buffer->data, buffer->size) : NULL;
         /* Each buffer that names one file maps it anew, and would keep the pages that were looked at. */
         ffd_file_release_pages(&buffer->file, buffer->file.data, buffer->file.size);
-        const uint32_t value = d->buffer_values.values[i], uri = ffd_json_span_member(&d->tree, value, "uri");
+        const uint32_t value = d->buffer_values.values[i], uri = ffd_json_tree_member(&d->tree, value, "uri");
         if (!kind || (!kind->is_stand_in && begins_with_other(d, i, is_read)))
             continue;
         if (buffer->path)
-            status = ffd_json_span_fail(&d->tree, uri, d->name, FFD_E_INVALID, error,
+            status = ffd_json_tree_fail(&d->tree, uri, d->name, FFD_E_INVALID, error,
                                         "the buffer \"%s\" seems to be %s", buffer->path, kind->name);
         else
-            status = ffd_json_span_fail(&d->tree, uri == JSON_NONE ? value : uri, d->name, FFD_E_INVALID,
+            status = ffd_json_tree_fail(&d->tree, uri == JSON_NONE ? value : uri, d->name, FFD_E_INVALID,
                                         error, "the buffer seems to be %s", kind->name);
     }
     ffd_free(is_read);
@@ -141,9 +141,9 @@ static range range_of(const gltf_document *d, size_t a)
 static bool read_stated(const gltf_document *d, uint32_t array, double numbers[3])
 {
     size_t count = 0;
-    for (uint32_t v = ffd_json_span_first(&d->tree, array); v != JSON_NONE;
-         v = ffd_json_span_after(&d->tree, v), count++)
-        if (count == 3 || !ffd_json_span_number(&d->tree, v, &numbers[count]) || !isfinite(numbers[count]))
+    for (uint32_t v = ffd_json_tree_first(&d->tree, array); v != JSON_NONE;
+         v = ffd_json_tree_after(&d->tree, v), count++)
+        if (count == 3 || !ffd_json_tree_number(&d->tree, v, &numbers[count]) || !isfinite(numbers[count]))
             return false;
     return count == 3;
 }
@@ -151,8 +151,8 @@ static bool read_stated(const gltf_document *d, uint32_t array, double numbers[3
 bool ffd_gltf_stated(const gltf_document *d, size_t a, double min[3], double max[3])
 {
     const uint32_t value = d->accessor_values.values[a];
-    return read_stated(d, ffd_json_span_member(&d->tree, value, "min"), min) &&
-           read_stated(d, ffd_json_span_member(&d->tree, value, "max"), max);
+    return read_stated(d, ffd_json_tree_member(&d->tree, value, "min"), min) &&
+           read_stated(d, ffd_json_tree_member(&d->tree, value, "max"), max);
 }
 
 static double farthest(const range *r)
@@ -166,8 +166,8 @@ static double farthest(const range *r)
 static ffd_status compare(gltf_document *d, size_t a, const range *found, ffd_error *error)
 {
     const uint32_t value = d->accessor_values.values[a];
-    const uint32_t min = ffd_json_span_member(&d->tree, value, "min");
-    const uint32_t max = ffd_json_span_member(&d->tree, value, "max");
+    const uint32_t min = ffd_json_tree_member(&d->tree, value, "min");
+    const uint32_t max = ffd_json_tree_member(&d->tree, value, "max");
     range stated;
     if (!ffd_gltf_stated(d, a, stated.min, stated.max))
         return FFD_OK;
@@ -175,7 +175,7 @@ static ffd_status compare(gltf_document *d, size_t a, const range *found, ffd_er
     for (size_t c = 0; c < 3; c++)
         largest = fmax(largest, fmax(fabs(stated.min[c]), fabs(stated.max[c])));
     if (largest > 0 && farthest(found) > LARGEST_RATIO * largest)
-        return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_INVALID, error,
+        return ffd_json_tree_fail(&d->tree, value, d->name, FFD_E_INVALID, error,
                                   "a coordinate of %g is more than 1e15 times the largest number of min and "
                                   "max, %g: the buffer does not hold the bytes of this mesh",
                                   farthest(found) > found->max[0] && farthest(found) > found->max[1] &&
@@ -217,7 +217,7 @@ static ffd_status check(gltf_document *d, int a, bool *is_checked, ffd_error *er
         return FFD_OK;
     is_checked[a] = true;
     if (is_text(&d->layouts[a], (size_t)d->model.accessors[a].count))
-        return ffd_json_span_fail(&d->tree, d->accessor_values.values[a], d->name, FFD_E_INVALID, error,
+        return ffd_json_tree_fail(&d->tree, d->accessor_values.values[a], d->name, FFD_E_INVALID, error,
                                   "text is where the floats of positions should be: the buffer does not hold "
                                   "the bytes of this mesh");
     const range found = range_of(d, (size_t)a);
@@ -251,11 +251,11 @@ typedef struct weight_sum {
     double total, least;
 } weight_sum;
 
-static ffd_status judge(gltf_document *d, size_t number, size_t vertex, const weight_sum *sum,
+static ffd_status judge(gltf_document *d, size_t index, size_t vertex, const weight_sum *sum,
                         ffd_error *error)
 {
-    const uint32_t accessor = d->accessor_values.values[number];
-    const double rounding = d->layouts[number].packing == GLTF_PLAIN ? WEIGHT_SUM_ROUNDING : PACKED_ROUNDING;
+    const uint32_t accessor = d->accessor_values.values[index];
+    const double rounding = d->layouts[index].packing == GLTF_PLAIN ? WEIGHT_SUM_ROUNDING : PACKED_ROUNDING;
     ffd_status status = FFD_OK;
     if (!isfinite(sum->total))
         return ffd_gltf_flaw(d, accessor, error, "the weights of vertex %zu are not finite: it has no place",

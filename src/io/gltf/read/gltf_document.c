@@ -20,7 +20,7 @@ const char *const ffd_gltf_semantic_names[GLTF_DEFORMED] = {"POSITION", "NORMAL"
 
 uint32_t ffd_gltf_extension(const gltf_document *d, uint32_t value, const char *extension)
 {
-    return ffd_json_span_member(&d->tree, ffd_json_span_member(&d->tree, value, "extensions"), extension);
+    return ffd_json_tree_member(&d->tree, ffd_json_tree_member(&d->tree, value, "extensions"), extension);
 }
 
 bool ffd_gltf_has_extension(const gltf_document *d, uint32_t value, const char *extension)
@@ -31,7 +31,7 @@ bool ffd_gltf_has_extension(const gltf_document *d, uint32_t value, const char *
 size_t ffd_gltf_index(const gltf_document *d, uint32_t value, size_t count)
 {
     double number;
-    const bool found = ffd_json_span_number(&d->tree, value, &number) && number >= 0 &&
+    const bool found = ffd_json_tree_number(&d->tree, value, &number) && number >= 0 &&
                        number < (double)count && floor(number) >= number;
     return found ? (size_t)number : GLTF_NONE;
 }
@@ -43,9 +43,9 @@ size_t ffd_gltf_node(const gltf_document *d, uint32_t value)
 
 uint32_t ffd_gltf_first(const gltf_document *d, uint32_t object, const char *key)
 {
-    const uint32_t array = ffd_json_span_member(&d->tree, object, key);
+    const uint32_t array = ffd_json_tree_member(&d->tree, object, key);
     const bool is_array = array != JSON_NONE && d->tree.values[array].kind == JSON_ARRAY;
-    return is_array ? ffd_json_span_first(&d->tree, array) : JSON_NONE;
+    return is_array ? ffd_json_tree_first(&d->tree, array) : JSON_NONE;
 }
 
 /* Documents whose files have fewer bytes together keep the pages of their mmap: finding a page again in the
@@ -99,7 +99,7 @@ ffd_status ffd_gltf_note_flaw(gltf_document *d, uint32_t value, ffd_error *error
     char pointer[sizeof error->pointer];
     if (ffd_flaw_repeats(&d->base.flaws, format))
         return FFD_OK;
-    ffd_json_span_pointer(&d->tree, value, pointer, sizeof pointer);
+    ffd_json_tree_pointer(&d->tree, value, pointer, sizeof pointer);
     return ffd_flaw_note(&d->base.flaws, d->name, 0, pointer, error, format, arguments);
 }
 

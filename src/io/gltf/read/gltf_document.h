@@ -6,7 +6,7 @@
 #include "io/gltf/file/gltf_buffer.h"
 #include "io/gltf/read/gltf_model.h"
 #include "mesh/mesh.h"
-#include "json/json_span.h"
+#include "json/json_tree.h"
 #include <stdarg.h>
 #include <stdatomic.h>
 
@@ -135,7 +135,7 @@ typedef struct gltf_document {
     bool is_present;  /* keeps the pages and was saved before: everything that saving reads is in memory */
     bool binary;
     glb_layout glb;
-    json_span tree;
+    json_tree tree;
     char *json; /* the text of tree, if the file is mapped; else NULL: tree.text is in input */
     gltf_values buffer_values, view_values, accessor_values, mesh_values, node_values, skin_values,
         material_values, image_values, texture_values, sampler_values;

@@ -37,13 +37,13 @@ uint32_t ffd_gltf_draco_value(const gltf_document *d, const gltf_primitive *prim
 static ffd_status fail(const gltf_document *d, uint32_t value, ffd_status status, ffd_error *error,
                        const char *what)
 {
-    return ffd_json_span_fail(&d->tree, value, d->name, status, error, "%s", what);
+    return ffd_json_tree_fail(&d->tree, value, d->name, status, error, "%s", what);
 }
 
 static uint64_t integer(const gltf_document *d, uint32_t value)
 {
     double number = 0;
-    ffd_json_span_number(&d->tree, value, &number);
+    ffd_json_tree_number(&d->tree, value, &number);
     return (uint64_t)number;
 }
 
@@ -99,8 +99,8 @@ static void mend_directions(unsigned char *bytes, size_t count, size_t stride, i
 /* Whether an attribute has directions as floats. */
 static bool has_directions(const gltf_document *d, uint32_t attribute, const gltf_accessor *accessor)
 {
-    const bool normals = accessor->rows == 3 && ffd_json_span_key_is(&d->tree, attribute, "NORMAL");
-    const bool tangents = accessor->rows == 4 && ffd_json_span_key_is(&d->tree, attribute, "TANGENT");
+    const bool normals = accessor->rows == 3 && ffd_json_tree_key_is(&d->tree, attribute, "NORMAL");
+    const bool tangents = accessor->rows == 4 && ffd_json_tree_key_is(&d->tree, attribute, "TANGENT");
     return accessor->component == GLTF_FLOAT && (normals || tangents);
 }
 
@@ -148,9 +148,9 @@ static ffd_status unpack_accessor(const unpacker *u, uint32_t value, size_t a, u
    none. */
 static size_t find_accessor(const gltf_document *d, uint32_t attributes, uint32_t attribute)
 {
-    for (uint32_t v = ffd_json_span_first(&d->tree, attributes); v != JSON_NONE;
-         v = ffd_json_span_after(&d->tree, v))
-        if (ffd_json_span_compare_keys(&d->tree, v, &d->tree, attribute) == 0)
+    for (uint32_t v = ffd_json_tree_first(&d->tree, attributes); v != JSON_NONE;
+         v = ffd_json_tree_after(&d->tree, v))
+        if (ffd_json_tree_compare_keys(&d->tree, v, &d->tree, attribute) == 0)
             return (size_t)integer(d, v);
     return GLTF_NONE;
 }
@@ -161,17 +161,17 @@ static ffd_status unpack_primitive(const unpacker *u, const packed_primitive *pa
     const gltf_primitive *primitive = packed->primitive;
     const uint32_t value = packed->primitive->value;
     const uint32_t draco = ffd_gltf_draco_value(d, packed->primitive);
-    const uint32_t attributes = ffd_json_span_member(&d->tree, value, "attributes");
+    const uint32_t attributes = ffd_json_tree_member(&d->tree, value, "attributes");
     ffd_status status = FFD_OK;
-    for (uint32_t v = ffd_json_span_first(&d->tree, ffd_json_span_member(&d->tree, draco, "attributes"));
-         v != JSON_NONE && status == FFD_OK; v = ffd_json_span_after(&d->tree, v)) {
+    for (uint32_t v = ffd_json_tree_first(&d->tree, ffd_json_tree_member(&d->tree, draco, "attributes"));
+         v != JSON_NONE && status == FFD_OK; v = ffd_json_tree_after(&d->tree, v)) {
         const size_t accessor = find_accessor(d, attributes, v);
         if (accessor == GLTF_NONE)
             return fail(d, v, FFD_E_INVALID, u->error, "the primitive has no such attribute");
         status = unpack_accessor(u, v, accessor, integer(d, v));
     }
     if (status == FFD_OK && primitive->indices >= 0)
-        status = unpack_accessor(u, ffd_json_span_member(&d->tree, value, "indices"),
+        status = unpack_accessor(u, ffd_json_tree_member(&d->tree, value, "indices"),
                                  (size_t)primitive->indices, INDICES_SOURCE);
     return status;
 }
@@ -183,12 +183,12 @@ static ffd_status read_claim(const gltf_document *d, const packed_primitive *pac
     const gltf_primitive *primitive = packed->primitive;
     const uint32_t value = ffd_gltf_draco_value(d, packed->primitive);
     if (packed->view >= d->model.view_count)
-        return fail(d, ffd_json_span_member(&d->tree, value, "bufferView"), FFD_E_INVALID, error,
+        return fail(d, ffd_json_tree_member(&d->tree, value, "bufferView"), FFD_E_INVALID, error,
                     "the bufferView does not exist");
     if (primitive->attribute_count == 0)
         return fail(d, value, FFD_E_INVALID, error, "the primitive has no attributes");
     if (primitive->indices >= 0 && primitive->mode != MODE_TRIANGLES)
-        return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_UNSUPPORTED, error,
+        return ffd_json_tree_fail(&d->tree, value, d->name, FFD_E_UNSUPPORTED, error,
                                   "indices of mode %d compressed by Draco are not supported, only triangles",
                                   primitive->mode);
     *claim = (draco_claim){d->model.accessors[primitive->attributes[0].accessor].count, UINT64_MAX};
@@ -248,7 +248,7 @@ static size_t list_packed(const gltf_document *d, packed_primitive *list)
         const uint32_t value = ffd_gltf_draco_value(d, &d->model.primitives[i]);
         if (value == JSON_NONE)
             continue;
-        const uint32_t view = ffd_json_span_member(&d->tree, value, "bufferView");
+        const uint32_t view = ffd_json_tree_member(&d->tree, value, "bufferView");
         list[count++] = (packed_primitive){(size_t)integer(d, view), &d->model.primitives[i]};
     }
     if (count > 0)
@@ -268,9 +268,9 @@ static void forget_primitive(gltf_document *d, const packed_primitive *packed)
 {
     const uint32_t value = packed->primitive->value;
     const uint32_t draco = ffd_gltf_draco_value(d, packed->primitive);
-    const uint32_t attributes = ffd_json_span_member(&d->tree, value, "attributes");
-    for (uint32_t v = ffd_json_span_first(&d->tree, ffd_json_span_member(&d->tree, draco, "attributes"));
-         v != JSON_NONE; v = ffd_json_span_after(&d->tree, v)) {
+    const uint32_t attributes = ffd_json_tree_member(&d->tree, value, "attributes");
+    for (uint32_t v = ffd_json_tree_first(&d->tree, ffd_json_tree_member(&d->tree, draco, "attributes"));
+         v != JSON_NONE; v = ffd_json_tree_after(&d->tree, v)) {
         const size_t accessor = find_accessor(d, attributes, v);
         if (accessor != GLTF_NONE)
             forget(d, accessor);
@@ -320,7 +320,7 @@ static ffd_status decode_all(gltf_document *d, const packed_primitive *list, siz
 static bool takes_from_draco(const gltf_document *d, uint32_t draco, uint32_t attribute)
 {
     return draco != JSON_NONE &&
-           find_accessor(d, ffd_json_span_member(&d->tree, draco, "attributes"), attribute) != GLTF_NONE;
+           find_accessor(d, ffd_json_tree_member(&d->tree, draco, "attributes"), attribute) != GLTF_NONE;
 }
 
 /* Whether the decoded elements of an accessor equal its uncompressed ones. */
@@ -339,9 +339,9 @@ static bool equals_fallback(const gltf_document *d, size_t a)
 static void mark_plain_uses(gltf_document *d, const gltf_primitive *primitive, bool *plain)
 {
     const uint32_t value = primitive->value, draco = ffd_gltf_draco_value(d, primitive);
-    const uint32_t attributes = ffd_json_span_member(&d->tree, value, "attributes");
-    for (uint32_t v = ffd_json_span_first(&d->tree, attributes); v != JSON_NONE;
-         v = ffd_json_span_after(&d->tree, v))
+    const uint32_t attributes = ffd_json_tree_member(&d->tree, value, "attributes");
+    for (uint32_t v = ffd_json_tree_first(&d->tree, attributes); v != JSON_NONE;
+         v = ffd_json_tree_after(&d->tree, v))
         if (!takes_from_draco(d, draco, v))
             plain[integer(d, v)] = true;
     for (size_t i = 0; i < primitive->target_attribute_count; i++)

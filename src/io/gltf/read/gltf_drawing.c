@@ -16,7 +16,7 @@ ffd_status ffd_gltf_drop_drawing(gltf_document *d, gltf_primitive *primitive, ui
     ffd_status status = FFD_OK;
     if (ffd_gltf_has_extension(d, primitive->value, "KHR_draco_mesh_compression")) {
         vsnprintf(message, sizeof message, format, arguments);
-        status = ffd_json_span_fail(&d->tree, value, d->name, FFD_E_INVALID, error, "%s", message);
+        status = ffd_json_tree_fail(&d->tree, value, d->name, FFD_E_INVALID, error, "%s", message);
     } else {
         status = ffd_gltf_note_flaw(d, value, error, format, arguments);
     }
@@ -30,12 +30,12 @@ ffd_status ffd_gltf_drop_drawing(gltf_document *d, gltf_primitive *primitive, ui
 static ffd_status read_drawing(gltf_document *d, gltf_primitive *primitive, ffd_error *error)
 {
     const uint32_t value = primitive->value;
-    const uint32_t mode = ffd_json_span_member(&d->tree, value, "mode");
+    const uint32_t mode = ffd_json_tree_member(&d->tree, value, "mode");
     double number;
-    if (ffd_json_span_number(&d->tree, ffd_json_span_member(&d->tree, value, "indices"), &number))
+    if (ffd_json_tree_number(&d->tree, ffd_json_tree_member(&d->tree, value, "indices"), &number))
         primitive->indices = (int)number;
     primitive->mode = MODE_TRIANGLES;
-    if (!ffd_json_span_number(&d->tree, mode, &number))
+    if (!ffd_json_tree_number(&d->tree, mode, &number))
         return FFD_OK;
     if (number >= MODE_POINTS && number <= MODE_FAN && floor(number) == number) {
         primitive->mode = (int)number;
@@ -56,10 +56,10 @@ ffd_status ffd_gltf_read_drawings(gltf_document *d, ffd_error *error)
 
 static bool is_declared(const gltf_document *d)
 {
-    const uint32_t used = ffd_json_span_member(&d->tree, 0, "extensionsUsed");
-    for (uint32_t v = ffd_json_span_first(&d->tree, used); v != JSON_NONE;
-         v = ffd_json_span_after(&d->tree, v))
-        if (ffd_json_span_string_is(&d->tree, v, "KHR_mesh_primitive_restart"))
+    const uint32_t used = ffd_json_tree_member(&d->tree, 0, "extensionsUsed");
+    for (uint32_t v = ffd_json_tree_first(&d->tree, used); v != JSON_NONE;
+         v = ffd_json_tree_after(&d->tree, v))
+        if (ffd_json_tree_string_is(&d->tree, v, "KHR_mesh_primitive_restart"))
             return true;
     return false;
 }

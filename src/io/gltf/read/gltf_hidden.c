@@ -19,7 +19,7 @@ static const struct {
     {"scenes", "extensions"},  /* likewise */
 };
 
-void ffd_gltf_show_integer(const json_span *tree, uint32_t value, double number, json_edits *edits)
+void ffd_gltf_show_integer(const json_tree *tree, uint32_t value, double number, json_edits *edits)
 {
     const json_value *const v = &tree->values[value];
     for (uint32_t i = v->begin; i < v->end; i++)
@@ -30,10 +30,10 @@ void ffd_gltf_show_integer(const json_span *tree, uint32_t value, double number,
 }
 
 /* Hides a member of each element of an array, which may be JSON_NONE: it loses its name. */
-static void hide_member(const json_span *tree, uint32_t array, const char *key, json_edits *edits)
+static void hide_member(const json_tree *tree, uint32_t array, const char *key, json_edits *edits)
 {
-    for (uint32_t v = ffd_json_span_first(tree, array); v != JSON_NONE; v = ffd_json_span_after(tree, v)) {
-        const uint32_t member = ffd_json_span_member(tree, v, key);
+    for (uint32_t v = ffd_json_tree_first(tree, array); v != JSON_NONE; v = ffd_json_tree_after(tree, v)) {
+        const uint32_t member = ffd_json_tree_member(tree, v, key);
         if (member != JSON_NONE)
             ffd_edits_format(edits, tree->values[member].key_begin, tree->values[member].key_end, "\"\"");
     }
@@ -43,27 +43,27 @@ static void hide_members(const gltf_document *d, json_edits *edits)
 {
     for (size_t i = 0; i < sizeof hidden / sizeof *hidden; i++)
         if (strcmp(hidden[i].list, "primitives") != 0)
-            hide_member(&d->tree, ffd_json_span_member(&d->tree, 0, hidden[i].list), hidden[i].member, edits);
+            hide_member(&d->tree, ffd_json_tree_member(&d->tree, 0, hidden[i].list), hidden[i].member, edits);
         else
             for (size_t m = 0; m < d->mesh_values.count; m++)
                 hide_member(&d->tree,
-                            ffd_json_span_member(&d->tree, d->mesh_values.values[m], hidden[i].list),
+                            ffd_json_tree_member(&d->tree, d->mesh_values.values[m], hidden[i].list),
                             hidden[i].member, edits);
 }
 
 /* Hides numbers beyond the range of double, which it refuses. Those that we read have been refused: what is
    left is of extras, extensions and unknown members. */
-static void hide_infinite(const json_span *tree, json_edits *edits)
+static void hide_infinite(const json_tree *tree, json_edits *edits)
 {
     for (uint32_t v = 0; v < tree->count; v++) {
         double number;
-        if (ffd_json_span_number(tree, v, &number) && !isfinite(number))
+        if (ffd_json_tree_number(tree, v, &number) && !isfinite(number))
             ffd_edits_format(edits, tree->values[v].begin, tree->values[v].end, "0");
     }
 }
 
 /* Replaces U+0000 in keys by its symbol, U+2400: tinygltf takes a key for one that ends there. */
-static void hide_nuls(const json_span *tree, json_edits *edits)
+static void hide_nuls(const json_tree *tree, json_edits *edits)
 {
     static const char nul[] = "\\u0000";
     const uint32_t size = sizeof nul - 1;
@@ -94,7 +94,7 @@ bool ffd_gltf_write_shown(const gltf_document *d, json_edits *edits, byte_buffer
                           i ? "," : "");
     ffd_buffer_text(text, "]");
     for (size_t i = 0; i < sizeof shown / sizeof *shown; i++) {
-        const uint32_t member = ffd_json_span_member(&d->tree, 0, shown[i]);
+        const uint32_t member = ffd_json_tree_member(&d->tree, 0, shown[i]);
         if (member == JSON_NONE)
             continue;
         ffd_buffer_format(text, ",\"%s\":", shown[i]);

@@ -8,7 +8,7 @@
 
 /* Edits an integer that is not written in plain digits ("12.0", "1e3", "-0"): tinygltf refuses it, or takes a
    default in its place. */
-void ffd_gltf_show_integer(const json_span *tree, uint32_t value, double number, json_edits *edits);
+void ffd_gltf_show_integer(const json_tree *tree, uint32_t value, double number, json_edits *edits);
 
 /* Writes the text. edits: the integers that ffd_gltf_show_integer edited; all that is hidden is added.
    Returns false if memory runs out. */

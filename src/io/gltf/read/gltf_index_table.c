@@ -65,11 +65,11 @@ static void follow(const walk *w, const char *pointer, uint32_t value);
 
 static void follow_all(const walk *w, const char *pointer, uint32_t container, bool repeats)
 {
-    const json_span *tree = &w->document->tree;
+    const json_tree *tree = &w->document->tree;
     if (container == JSON_NONE || (repeats && tree->values[container].kind != JSON_ARRAY))
         return;
-    for (uint32_t v = ffd_json_span_first(tree, container); v != JSON_NONE;
-         v = ffd_json_span_after(tree, v)) {
+    for (uint32_t v = ffd_json_tree_first(tree, container); v != JSON_NONE;
+         v = ffd_json_tree_after(tree, v)) {
         walk next = *w;
         if (repeats)
             next.place.repeats = v;
@@ -93,7 +93,7 @@ static void follow(const walk *w, const char *pointer, uint32_t value)
     if (strcmp(key, "*") == 0 || strcmp(key, "+") == 0)
         follow_all(w, rest, value, *key == '+');
     else
-        follow(w, rest, ffd_json_span_member(&w->document->tree, value, key));
+        follow(w, rest, ffd_json_tree_member(&w->document->tree, value, key));
 }
 
 static walk begin(const gltf_document *d, const row *r, gltf_index_visit *visit, void *context)
@@ -104,11 +104,11 @@ static walk begin(const gltf_document *d, const row *r, gltf_index_visit *visit,
 /* Follows a row that begins with a top-level list, element by element, to know their numbers. */
 static void visit_list(walk *w, const char *list, const char *rest)
 {
-    const json_span *tree = &w->document->tree;
+    const json_tree *tree = &w->document->tree;
     w->place.list = list;
     w->place.owner = 0;
-    for (uint32_t v = ffd_json_span_first(tree, ffd_json_span_member(tree, 0, list)); v != JSON_NONE;
-         v = ffd_json_span_after(tree, v)) {
+    for (uint32_t v = ffd_json_tree_first(tree, ffd_json_tree_member(tree, 0, list)); v != JSON_NONE;
+         v = ffd_json_tree_after(tree, v)) {
         follow(w, rest, v);
         w->place.owner++;
     }

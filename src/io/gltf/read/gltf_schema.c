@@ -33,7 +33,7 @@ typedef struct rule {
 } rule;
 
 typedef struct checker {
-    const json_span *tree;
+    const json_tree *tree;
     const char *name;
     json_edits *integers;
     ffd_error *error;
@@ -133,7 +133,7 @@ static ffd_status refuse(const checker *c, uint32_t value, const char *expected)
 {
     const json_value *v = &c->tree->values[value];
     const int shown = v->end - v->begin > 40 ? 40 : (int)(v->end - v->begin);
-    return ffd_json_span_fail(c->tree, value, c->name, FFD_E_INVALID, c->error, "%s is expected, not %.*s%s",
+    return ffd_json_tree_fail(c->tree, value, c->name, FFD_E_INVALID, c->error, "%s is expected, not %.*s%s",
                               expected, shown, c->tree->text + v->begin, shown == 40 ? "..." : "");
 }
 
@@ -145,7 +145,7 @@ static bool is_kind(const checker *c, uint32_t value, json_kind kind)
 static ffd_status check_stride(const checker *c, uint32_t value)
 {
     double number;
-    if (!ffd_json_span_number(c->tree, value, &number) || !(number >= 0 && number <= 252) ||
+    if (!ffd_json_tree_number(c->tree, value, &number) || !(number >= 0 && number <= 252) ||
         floor(number) != number)
         return refuse(c, value, "a multiple of 4 from 4 to 252");
     return FFD_OK;
@@ -154,7 +154,7 @@ static ffd_status check_stride(const checker *c, uint32_t value)
 static ffd_status check_mode(const checker *c, uint32_t value)
 {
     double number;
-    if (!ffd_json_span_number(c->tree, value, &number) || !isfinite(number))
+    if (!ffd_json_tree_number(c->tree, value, &number) || !isfinite(number))
         return refuse(c, value, "a mode from 0 to 6");
     return FFD_OK;
 }
@@ -162,7 +162,7 @@ static ffd_status check_mode(const checker *c, uint32_t value)
 /* Reads an integer of [0, largest], and shows it to tinygltf. */
 static bool read_integer(const checker *c, uint32_t value, double largest, double *number)
 {
-    if (!ffd_json_span_number(c->tree, value, number) || !(*number >= 0 && *number <= largest) ||
+    if (!ffd_json_tree_number(c->tree, value, number) || !(*number >= 0 && *number <= largest) ||
         floor(*number) != *number)
         return false;
     ffd_gltf_show_integer(c->tree, value, *number, c->integers);
@@ -170,11 +170,11 @@ static bool read_integer(const checker *c, uint32_t value, double largest, doubl
 }
 
 /* Whether the file lists an extension as used. */
-static bool is_used(const json_span *tree, const char *extension)
+static bool is_used(const json_tree *tree, const char *extension)
 {
-    const uint32_t used = ffd_json_span_member(tree, 0, "extensionsUsed");
-    for (uint32_t v = ffd_json_span_first(tree, used); v != JSON_NONE; v = ffd_json_span_after(tree, v))
-        if (ffd_json_span_string_is(tree, v, extension))
+    const uint32_t used = ffd_json_tree_member(tree, 0, "extensionsUsed");
+    for (uint32_t v = ffd_json_tree_first(tree, used); v != JSON_NONE; v = ffd_json_tree_after(tree, v))
+        if (ffd_json_tree_string_is(tree, v, extension))
             return true;
     return false;
 }
@@ -189,7 +189,7 @@ static ffd_status check_component(const checker *c, uint32_t value, bool known, 
     if (!(known && number >= COMPONENT_DOUBLE && number <= COMPONENT_DOUBLE) ||
         !is_used(c->tree, "KHR_accessor_float64"))
         return refuse(c, value, "a component type (5120 to 5123, 5125, 5126)");
-    return ffd_json_span_fail(c->tree, value, c->name, FFD_E_UNSUPPORTED, c->error,
+    return ffd_json_tree_fail(c->tree, value, c->name, FFD_E_UNSUPPORTED, c->error,
                               "component type %d, double precision, of KHR_accessor_float64 is not supported",
                               COMPONENT_DOUBLE);
 }
@@ -203,7 +203,7 @@ static ffd_status check_integer(const checker *c, uint32_t value, rule_kind kind
         return known ? FFD_OK : refuse(c, value, "an integer from 0 to 2147483647");
     case RULE_SIZE:
         if (known && number > (double)GLTF_LARGEST_SIZE)
-            return ffd_json_span_fail(
+            return ffd_json_tree_fail(
                 c->tree, value, c->name, FFD_E_LIMIT, c->error,
                 "%.0f is more than the %zu that a program with addresses of 32 bits holds", number,
                 GLTF_LARGEST_SIZE);
@@ -217,7 +217,7 @@ static ffd_status check_shape(const checker *c, uint32_t value)
 {
     static const char *const shapes[] = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
     for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++)
-        if (ffd_json_span_string_is(c->tree, value, shapes[i]))
+        if (ffd_json_tree_string_is(c->tree, value, shapes[i]))
             return FFD_OK;
     return refuse(c, value, "\"SCALAR\", \"VEC2\" to \"VEC4\" or \"MAT2\" to \"MAT4\"");
 }
@@ -225,9 +225,9 @@ static ffd_status check_shape(const checker *c, uint32_t value)
 static ffd_status check_members(const checker *c, uint32_t container, const rule *member)
 {
     ffd_status status = FFD_OK;
-    const json_span *tree = c->tree;
-    for (uint32_t v = ffd_json_span_first(tree, container); v != JSON_NONE && status == FFD_OK;
-         v = ffd_json_span_after(tree, v))
+    const json_tree *tree = c->tree;
+    for (uint32_t v = ffd_json_tree_first(tree, container); v != JSON_NONE && status == FFD_OK;
+         v = ffd_json_tree_after(tree, v))
         status = check_value(c, v, member);
     return status;
 }
@@ -235,11 +235,11 @@ static ffd_status check_members(const checker *c, uint32_t container, const rule
 static ffd_status check_object(const checker *c, uint32_t object, const rule *rules)
 {
     for (const rule *r = rules; r && r->key; r++) {
-        const uint32_t member = ffd_json_span_member(c->tree, object, r->key);
+        const uint32_t member = ffd_json_tree_member(c->tree, object, r->key);
         if (member == JSON_NONE && !r->required)
             continue;
         if (member == JSON_NONE)
-            return ffd_json_span_fail(c->tree, object, c->name, FFD_E_INVALID, c->error, "\"%s\" is missing",
+            return ffd_json_tree_fail(c->tree, object, c->name, FFD_E_INVALID, c->error, "\"%s\" is missing",
                                       r->key);
         const ffd_status status = check_value(c, member, r);
         if (status)
@@ -253,13 +253,13 @@ static ffd_status check_numbers(const checker *c, uint32_t value, size_t count)
     if (!is_kind(c, value, JSON_ARRAY))
         return refuse(c, value, "an array of numbers");
     if (count > 0 && c->tree->values[value].count != count)
-        return ffd_json_span_fail(c->tree, value, c->name, FFD_E_INVALID, c->error,
+        return ffd_json_tree_fail(c->tree, value, c->name, FFD_E_INVALID, c->error,
                                   "%zu numbers are expected, not %lu", count,
                                   (unsigned long)c->tree->values[value].count);
-    for (uint32_t v = ffd_json_span_first(c->tree, value); v != JSON_NONE;
-         v = ffd_json_span_after(c->tree, v)) {
+    for (uint32_t v = ffd_json_tree_first(c->tree, value); v != JSON_NONE;
+         v = ffd_json_tree_after(c->tree, v)) {
         double number;
-        if (!ffd_json_span_number(c->tree, v, &number) || !isfinite(number))
+        if (!ffd_json_tree_number(c->tree, v, &number) || !isfinite(number))
             return refuse(c, v, "a finite number");
     }
     return FFD_OK;
@@ -268,9 +268,9 @@ static ffd_status check_numbers(const checker *c, uint32_t value, size_t count)
 static ffd_status check_finite(const checker *c, uint32_t value)
 {
     double number;
-    for (uint32_t v = is_kind(c, value, JSON_ARRAY) ? ffd_json_span_first(c->tree, value) : JSON_NONE;
-         v != JSON_NONE; v = ffd_json_span_after(c->tree, v))
-        if (ffd_json_span_number(c->tree, v, &number) && !isfinite(number))
+    for (uint32_t v = is_kind(c, value, JSON_ARRAY) ? ffd_json_tree_first(c->tree, value) : JSON_NONE;
+         v != JSON_NONE; v = ffd_json_tree_after(c->tree, v))
+        if (ffd_json_tree_number(c->tree, v, &number) && !isfinite(number))
             return refuse(c, v, "a finite number");
     return FFD_OK;
 }
@@ -338,22 +338,22 @@ static bool is_version(const char *text)
 static ffd_status check_version(const checker *c)
 {
     const uint32_t version =
-        ffd_json_span_member(c->tree, ffd_json_span_member(c->tree, 0, "asset"), "version");
-    char *text = ffd_json_span_string(c->tree, version, NULL);
+        ffd_json_tree_member(c->tree, ffd_json_tree_member(c->tree, 0, "asset"), "version");
+    char *text = ffd_json_tree_string(c->tree, version, NULL);
     if (!text)
         return ffd_fail_memory(c->error);
     ffd_status status = FFD_OK;
     if (!is_version(text))
-        status = ffd_json_span_fail(c->tree, version, c->name, FFD_E_INVALID, c->error,
+        status = ffd_json_tree_fail(c->tree, version, c->name, FFD_E_INVALID, c->error,
                                     "\"%s\" is not a version of glTF like \"2.0\"", text);
     else if (strncmp(text, "2.", 2) != 0)
-        status = ffd_json_span_fail(c->tree, version, c->name, FFD_E_UNSUPPORTED, c->error,
+        status = ffd_json_tree_fail(c->tree, version, c->name, FFD_E_UNSUPPORTED, c->error,
                                     "glTF version \"%s\" is not known, only 2", text);
     ffd_free(text);
     return status;
 }
 
-ffd_status ffd_gltf_check_schema(const json_span *tree, const char *name, json_edits *integers,
+ffd_status ffd_gltf_check_schema(const json_tree *tree, const char *name, json_edits *integers,
                                  ffd_error *error)
 {
     const checker c = {.tree = tree, .name = name, .integers = integers, .error = error};

@@ -5,11 +5,11 @@
 #define FFD_IO_GLTF_READ_GLTF_SCHEMA_H
 
 #include "json/json_edit.h"
-#include "json/json_span.h"
+#include "json/json_tree.h"
 
 /* Checks the values, and edits integers for tinygltf (gltf_hidden.h). Errors: FFD_E_INVALID,
    FFD_E_UNSUPPORTED (another version of glTF), FFD_E_LIMIT (a size beyond the largest). */
-ffd_status ffd_gltf_check_schema(const json_span *tree, const char *name, json_edits *integers,
+ffd_status ffd_gltf_check_schema(const json_tree *tree, const char *name, json_edits *integers,
                                  ffd_error *error);
 
 #endif

@@ -13,7 +13,7 @@
 static bool read_count(const gltf_document *d, uint32_t value, double limit, size_t *count)
 {
     double number;
-    if (!ffd_json_span_number(&d->tree, value, &number) || !(number >= 0) || !(number < limit) ||
+    if (!ffd_json_tree_number(&d->tree, value, &number) || !(number >= 0) || !(number < limit) ||
         floor(number) != number)
         return false;
     *count = (size_t)number;
@@ -22,24 +22,24 @@ static bool read_count(const gltf_document *d, uint32_t value, double limit, siz
 
 /* Whether a JSON value is a textureInfo: in the material and in any of its extensions it is an object
    "...Texture" with an index. */
-static bool is_texture(const json_span *tree, uint32_t v)
+static bool is_texture(const json_tree *tree, uint32_t v)
 {
     static const char ending[] = "Texture\"";
     const json_value *value = &tree->values[v];
     const size_t size = sizeof ending - 1;
     return value->kind == JSON_OBJECT && value->key_end - value->key_begin > size &&
            memcmp(tree->text + value->key_end - size, ending, size) == 0 &&
-           ffd_json_span_member(tree, v, "index") != JSON_NONE;
+           ffd_json_tree_member(tree, v, "index") != JSON_NONE;
 }
 
 uint32_t ffd_gltf_next_texture(const gltf_document *d, uint32_t material, uint32_t v)
 {
-    const json_span *const tree = &d->tree;
+    const json_tree *const tree = &d->tree;
     const uint32_t end = tree->values[material].next;
     for (v++; v < end;) {
         if (is_texture(tree, v))
             return v;
-        v = ffd_json_span_key_is(tree, v, "extras") ? tree->values[v].next : v + 1;
+        v = ffd_json_tree_key_is(tree, v, "extras") ? tree->values[v].next : v + 1;
     }
     return JSON_NONE;
 }
@@ -52,7 +52,7 @@ static void add_fault(gltf_texture_faults *faults, uint32_t value)
 
 static void read_set(const gltf_document *d, uint32_t object, size_t *set, gltf_texture_faults *faults)
 {
-    const uint32_t value = ffd_json_span_member(&d->tree, object, "texCoord");
+    const uint32_t value = ffd_json_tree_member(&d->tree, object, "texCoord");
     if (value != JSON_NONE && !read_count(d, value, SETS_MAX, set))
         add_fault(faults, value);
 }
@@ -63,7 +63,7 @@ static void read_number(const gltf_document *d, uint32_t value, double *number, 
     double read;
     if (value == JSON_NONE)
         return;
-    if (ffd_json_span_number(&d->tree, value, &read) && fabs(read) < LARGEST)
+    if (ffd_json_tree_number(&d->tree, value, &read) && fabs(read) < LARGEST)
         *number = read;
     else
         add_fault(faults, value);
@@ -73,21 +73,21 @@ static void read_number(const gltf_document *d, uint32_t value, double *number, 
 static void read_pair(const gltf_document *d, uint32_t object, const char *name, double pair[2],
                       gltf_texture_faults *faults)
 {
-    const uint32_t array = ffd_json_span_member(&d->tree, object, name);
+    const uint32_t array = ffd_json_tree_member(&d->tree, object, name);
     const bool is_pair =
         array != JSON_NONE && d->tree.values[array].kind == JSON_ARRAY && d->tree.values[array].count == 2;
     if (array != JSON_NONE && !is_pair)
         add_fault(faults, array);
     for (size_t i = 0; i < 2 && is_pair; i++)
-        read_number(d, ffd_json_span_element(&d->tree, array, i), &pair[i], faults);
+        read_number(d, ffd_json_tree_element(&d->tree, array, i), &pair[i], faults);
 }
 
 void ffd_gltf_read_texture(const gltf_document *d, uint32_t texture, gltf_texture_use *use,
                            gltf_texture_faults *faults)
 {
-    const json_span *const tree = &d->tree;
+    const json_tree *const tree = &d->tree;
     const uint32_t transform = ffd_gltf_extension(d, texture, "KHR_texture_transform");
-    const uint32_t rotation = ffd_json_span_member(tree, transform, "rotation");
+    const uint32_t rotation = ffd_json_tree_member(tree, transform, "rotation");
     *use = (gltf_texture_use){.scale = {1, 1}};
     read_set(d, texture, &use->set, faults);
     if (transform != JSON_NONE && tree->values[transform].kind != JSON_OBJECT)
@@ -102,13 +102,13 @@ void ffd_gltf_read_texture(const gltf_document *d, uint32_t texture, gltf_textur
 
 static uint32_t attributes_of(const gltf_document *d, const gltf_primitive *primitive)
 {
-    return ffd_json_span_member(&d->tree, primitive->value, "attributes");
+    return ffd_json_tree_member(&d->tree, primitive->value, "attributes");
 }
 
 size_t ffd_gltf_attribute(const gltf_document *d, const gltf_primitive *primitive, const char *name,
                           int least, int most)
 {
-    const uint32_t value = ffd_json_span_member(&d->tree, attributes_of(d, primitive), name);
+    const uint32_t value = ffd_json_tree_member(&d->tree, attributes_of(d, primitive), name);
     const int positions = primitive->accessor[GLTF_POSITION];
     size_t a;
     if (positions < 0 || !read_count(d, value, (double)d->model.accessor_count, &a))
@@ -123,7 +123,7 @@ size_t ffd_gltf_attribute(const gltf_document *d, const gltf_primitive *primitiv
 static uint32_t material_of(const gltf_document *d, const gltf_primitive *primitive)
 {
     size_t material;
-    const uint32_t value = ffd_json_span_member(&d->tree, primitive->value, "material");
+    const uint32_t value = ffd_json_tree_member(&d->tree, primitive->value, "material");
     return read_count(d, value, (double)d->material_values.count, &material)
                ? d->material_values.values[material]
                : JSON_NONE;
@@ -132,13 +132,13 @@ static uint32_t material_of(const gltf_document *d, const gltf_primitive *primit
 /* Returns the base colour texture of a material, else another of its textures; JSON_NONE: none. */
 static uint32_t main_texture(const gltf_document *d, uint32_t material)
 {
-    const json_span *tree = &d->tree;
+    const json_tree *tree = &d->tree;
     if (material == JSON_NONE)
         return JSON_NONE;
-    uint32_t found = ffd_json_span_member(tree, ffd_json_span_member(tree, material, "pbrMetallicRoughness"),
+    uint32_t found = ffd_json_tree_member(tree, ffd_json_tree_member(tree, material, "pbrMetallicRoughness"),
                                           "baseColorTexture");
     if (found == JSON_NONE)
-        found = ffd_json_span_member(
+        found = ffd_json_tree_member(
             tree, ffd_gltf_extension(d, material, "KHR_materials_pbrSpecularGlossiness"), "diffuseTexture");
     return found == JSON_NONE ? ffd_gltf_next_texture(d, material, material) : found;
 }
@@ -183,9 +183,9 @@ size_t ffd_gltf_texcoords(const gltf_document *d, const gltf_primitive *primitiv
 static bool has_further_set(const gltf_document *d, const gltf_primitive *primitive,
                             const gltf_texcoords *texcoords)
 {
-    const json_span *tree = &d->tree;
-    for (uint32_t v = ffd_json_span_first(tree, attributes_of(d, primitive)); v != JSON_NONE;
-         v = ffd_json_span_after(tree, v)) {
+    const json_tree *tree = &d->tree;
+    for (uint32_t v = ffd_json_tree_first(tree, attributes_of(d, primitive)); v != JSON_NONE;
+         v = ffd_json_tree_after(tree, v)) {
         const char *key = tree->text + tree->values[v].key_begin + 1;
         size_t a = GLTF_NONE;
         if (strncmp(key, "TEXCOORD_", 9) == 0 &&

@@ -5,27 +5,27 @@
 static void mark_number(const gltf_document *d, uint32_t value, bool *used)
 {
     double number;
-    if (ffd_json_span_number(&d->tree, value, &number) && number >= 0 &&
+    if (ffd_json_tree_number(&d->tree, value, &number) && number >= 0 &&
         number < (double)d->model.accessor_count)
         used[(size_t)number] = true;
 }
 
 void ffd_gltf_mark_animation(const gltf_document *d, uint32_t animation, bool *used)
 {
-    const json_span *tree = &d->tree;
-    const uint32_t samplers = ffd_json_span_member(tree, animation, "samplers");
-    for (uint32_t s = ffd_json_span_first(tree, samplers); s != JSON_NONE; s = ffd_json_span_after(tree, s)) {
-        mark_number(d, ffd_json_span_member(tree, s, "input"), used);
-        mark_number(d, ffd_json_span_member(tree, s, "output"), used);
+    const json_tree *tree = &d->tree;
+    const uint32_t samplers = ffd_json_tree_member(tree, animation, "samplers");
+    for (uint32_t s = ffd_json_tree_first(tree, samplers); s != JSON_NONE; s = ffd_json_tree_after(tree, s)) {
+        mark_number(d, ffd_json_tree_member(tree, s, "input"), used);
+        mark_number(d, ffd_json_tree_member(tree, s, "output"), used);
     }
 }
 
 static void mark_skins(const gltf_document *d, bool *used)
 {
-    const uint32_t skins = ffd_json_span_member(&d->tree, 0, "skins");
-    for (uint32_t s = ffd_json_span_first(&d->tree, skins); s != JSON_NONE;
-         s = ffd_json_span_after(&d->tree, s))
-        mark_number(d, ffd_json_span_member(&d->tree, s, "inverseBindMatrices"), used);
+    const uint32_t skins = ffd_json_tree_member(&d->tree, 0, "skins");
+    for (uint32_t s = ffd_json_tree_first(&d->tree, skins); s != JSON_NONE;
+         s = ffd_json_tree_after(&d->tree, s))
+        mark_number(d, ffd_json_tree_member(&d->tree, s, "inverseBindMatrices"), used);
 }
 
 /* Where the accessors that extensions name are marked. */
@@ -67,9 +67,9 @@ static bool is_among(const gltf_values *list, uint32_t value)
 
 void ffd_gltf_mark_rig_users(const gltf_document *d, const gltf_values *but, bool *used)
 {
-    const uint32_t animations = ffd_json_span_member(&d->tree, 0, "animations");
-    for (uint32_t a = ffd_json_span_first(&d->tree, animations); a != JSON_NONE;
-         a = ffd_json_span_after(&d->tree, a))
+    const uint32_t animations = ffd_json_tree_member(&d->tree, 0, "animations");
+    for (uint32_t a = ffd_json_tree_first(&d->tree, animations); a != JSON_NONE;
+         a = ffd_json_tree_after(&d->tree, a))
         if (!is_among(but, a))
             ffd_gltf_mark_animation(d, a, used);
     mark_skins(d, used);
@@ -84,34 +84,34 @@ void ffd_gltf_mark_other_users(const gltf_document *d, bool *used)
 
 /* Whether the key of a value makes it the index of a bufferView: in images, sparse and compressed data, and
    in property tables of EXT_structural_metadata. */
-static bool names_view(const json_span *tree, uint32_t value)
+static bool names_view(const json_tree *tree, uint32_t value)
 {
     static const char *const keys[] = {"bufferView", "values", "arrayOffsets", "stringOffsets"};
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
-        if (ffd_json_span_key_is(tree, value, keys[i]))
+        if (ffd_json_tree_key_is(tree, value, keys[i]))
             return true;
     return false;
 }
 
 /* Whether the value is a member of an accessor, or of its sparse indices or values. */
-static bool is_of_accessor(const json_span *tree, uint32_t value, uint32_t accessors)
+static bool is_of_accessor(const json_tree *tree, uint32_t value, uint32_t accessors)
 {
     const uint32_t above = tree->values[tree->values[value].parent].parent;
     if (above == accessors)
         return true;
-    return above != JSON_NONE && ffd_json_span_key_is(tree, above, "sparse") &&
+    return above != JSON_NONE && ffd_json_tree_key_is(tree, above, "sparse") &&
            tree->values[tree->values[above].parent].parent == accessors;
 }
 
 void ffd_gltf_mark_other_views(const gltf_document *d, bool *used)
 {
-    const json_span *const tree = &d->tree;
-    const uint32_t accessors = ffd_json_span_member(tree, 0, "accessors");
+    const json_tree *const tree = &d->tree;
+    const uint32_t accessors = ffd_json_tree_member(tree, 0, "accessors");
     for (uint32_t v = 1; v < tree->count; v++) {
         double view;
         if (tree->values[v].kind != JSON_NUMBER || !names_view(tree, v) || is_of_accessor(tree, v, accessors))
             continue;
-        if (ffd_json_span_number(tree, v, &view) && view >= 0 && view < (double)d->model.view_count)
+        if (ffd_json_tree_number(tree, v, &view) && view >= 0 && view < (double)d->model.view_count)
             used[(size_t)view] = true;
     }
 }

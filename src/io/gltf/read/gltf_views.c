@@ -25,14 +25,14 @@ const unsigned char *ffd_gltf_view_bytes(const gltf_document *d, size_t view)
 
 static ffd_status refuse(const gltf_document *d, uint32_t value, ffd_error *error, const char *what)
 {
-    return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_INVALID, error, "%s", what);
+    return ffd_json_tree_fail(&d->tree, value, d->name, FFD_E_INVALID, error, "%s", what);
 }
 
 /* Returns a member that the schema has checked to be an integer; 0 if it is absent. */
 static uint64_t integer(const gltf_document *d, uint32_t object, const char *key)
 {
     double number = 0;
-    ffd_json_span_number(&d->tree, ffd_json_span_member(&d->tree, object, key), &number);
+    ffd_json_tree_number(&d->tree, ffd_json_tree_member(&d->tree, object, key), &number);
     return (uint64_t)number;
 }
 
@@ -41,7 +41,7 @@ static bool find_name(const gltf_document *d, uint32_t value, const char *const 
                       size_t *found)
 {
     for (size_t i = 0; i < count; i++)
-        if (ffd_json_span_string_is(&d->tree, value, names[i])) {
+        if (ffd_json_tree_string_is(&d->tree, value, names[i])) {
             *found = i;
             return true;
         }
@@ -52,16 +52,16 @@ static ffd_status read_words(const gltf_document *d, uint32_t value, meshopt_vie
 {
     static const char *const modes[] = {"ATTRIBUTES", "TRIANGLES", "INDICES"};
     static const char *const filters[] = {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"};
-    const uint32_t mode = ffd_json_span_member(&d->tree, value, "mode");
-    const uint32_t filter = ffd_json_span_member(&d->tree, value, "filter");
+    const uint32_t mode = ffd_json_tree_member(&d->tree, value, "mode");
+    const uint32_t filter = ffd_json_tree_member(&d->tree, value, "filter");
     size_t found = 0;
     if (!find_name(d, mode, modes, sizeof modes / sizeof *modes, &found))
-        return ffd_json_span_fail(&d->tree, mode, d->name, FFD_E_UNSUPPORTED, error,
+        return ffd_json_tree_fail(&d->tree, mode, d->name, FFD_E_UNSUPPORTED, error,
                                   "only the modes ATTRIBUTES, TRIANGLES and INDICES are known");
     view->mode = (meshopt_mode)found;
     found = 0;
     if (filter != JSON_NONE && !find_name(d, filter, filters, sizeof filters / sizeof *filters, &found))
-        return ffd_json_span_fail(
+        return ffd_json_tree_fail(
             &d->tree, filter, d->name, FFD_E_UNSUPPORTED, error,
             "only the filters NONE, OCTAHEDRAL, QUATERNION, EXPONENTIAL and COLOR are known");
     view->filter = (meshopt_filter)found;
@@ -74,10 +74,10 @@ static ffd_status find_bytes(const gltf_document *d, uint32_t value, meshopt_vie
     const uint64_t buffer = integer(d, value, "buffer");
     const uint64_t offset = integer(d, value, "byteOffset"), length = integer(d, value, "byteLength");
     if (buffer >= d->buffer_values.count || d->buffers[buffer].kind == BUFFER_EMPTY)
-        return refuse(d, ffd_json_span_member(&d->tree, value, "buffer"), error,
+        return refuse(d, ffd_json_tree_member(&d->tree, value, "buffer"), error,
                       "the buffer does not exist or has no bytes");
     if (offset > d->buffers[buffer].length || length > d->buffers[buffer].length - offset)
-        return refuse(d, ffd_json_span_member(&d->tree, value, "byteLength"), error,
+        return refuse(d, ffd_json_tree_member(&d->tree, value, "byteLength"), error,
                       "the compressed bytes are outside their buffer");
     view->bytes = d->buffers[buffer].data + offset;
     view->size = (size_t)length;
@@ -110,10 +110,10 @@ static ffd_status read_compression(const gltf_document *d, size_t i, meshopt_vie
     if (status == FFD_OK)
         status = ffd_meshopt_ready(view, &problem);
     if (status)
-        return ffd_json_span_fail(&d->tree, value, d->name, status, error, "%s", problem.message);
+        return ffd_json_tree_fail(&d->tree, value, d->name, status, error, "%s", problem.message);
     const uint64_t size = view->count * view->stride;
     if (size > length || length - size >= ALIGNMENT)
-        return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_INVALID, error,
+        return ffd_json_tree_fail(&d->tree, value, d->name, FFD_E_INVALID, error,
                                   "count %llu times byteStride %llu is not the bufferView's byteLength %llu",
                                   (unsigned long long)view->count, (unsigned long long)view->stride,
                                   (unsigned long long)length);
@@ -130,7 +130,7 @@ static ffd_status decode_view(gltf_document *d, size_t i, ffd_error *error)
         return status;
     status = ffd_budget_take(&d->base.budget, d->model.views[i].length, 1, &problem);
     if (status)
-        return ffd_json_span_fail(&d->tree, value, d->name, status, error, "%s", problem.message);
+        return ffd_json_tree_fail(&d->tree, value, d->name, status, error, "%s", problem.message);
     d->decoded_views[i] = ffd_alloc_zero((size_t)d->model.views[i].length, 1);
     if (!d->decoded_views[i])
         return ffd_fail_memory(error);
@@ -142,7 +142,7 @@ static ffd_status decode_view(gltf_document *d, size_t i, ffd_error *error)
         view.exponents = d->view_exponents[i];
     }
     status = ffd_meshopt_decode(&view, d->decoded_views[i], &problem);
-    return status ? ffd_json_span_fail(&d->tree, value, d->name, status, error, "%s", problem.message)
+    return status ? ffd_json_tree_fail(&d->tree, value, d->name, status, error, "%s", problem.message)
                   : FFD_OK;
 }
 

@@ -105,7 +105,7 @@ size_t ffd_gltf_warn_of_values(gltf_saver *saver, byte_buffer *values, const cha
         last = value;
         if (count++ >= NAMED)
             continue;
-        ffd_json_span_pointer(&saver->document->tree, value, pointer, sizeof pointer);
+        ffd_json_tree_pointer(&saver->document->tree, value, pointer, sizeof pointer);
         ffd_buffer_format(&names, "%s%s", count > 1 ? ", " : "", pointer);
     }
     if (count > NAMED)

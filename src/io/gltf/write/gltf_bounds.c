@@ -83,12 +83,12 @@ static bool says(double number, double wanted, int component)
 static void edit_bound(const gltf_saver *saver, uint32_t array, const double bound[16], int component,
                        json_edits *edits)
 {
-    const json_span *tree = &saver->document->tree;
+    const json_tree *tree = &saver->document->tree;
     size_t c = 0;
-    for (uint32_t v = ffd_json_span_first(tree, array); v != JSON_NONE && c < 16;
-         v = ffd_json_span_after(tree, v), c++) {
+    for (uint32_t v = ffd_json_tree_first(tree, array); v != JSON_NONE && c < 16;
+         v = ffd_json_tree_after(tree, v), c++) {
         double old;
-        if (ffd_json_span_number(tree, v, &old) && says(old, bound[c], component))
+        if (ffd_json_tree_number(tree, v, &old) && says(old, bound[c], component))
             continue;
         char text[FFD_NUMBER_CAPACITY];
         const size_t size = ffd_number_format(bound[c], text);
@@ -102,8 +102,8 @@ static void edit_bounds(const gltf_saver *saver, size_t a, const gltf_version *v
     const gltf_document *d = saver->document;
     const uint32_t accessor = d->accessor_values.values[a];
     const int component = version ? version->component : d->model.accessors[a].component;
-    const uint32_t min = ffd_json_span_member(&d->tree, accessor, "min");
-    const uint32_t max = ffd_json_span_member(&d->tree, accessor, "max");
+    const uint32_t min = ffd_json_tree_member(&d->tree, accessor, "min");
+    const uint32_t max = ffd_json_tree_member(&d->tree, accessor, "max");
     if (min == JSON_NONE && max == JSON_NONE)
         return;
     const stored_bounds bounds = find_bounds(d, a, version, elements);

@@ -6,14 +6,14 @@
 #include "io/gltf/file/gltf_uri.h"
 #include "io/gltf/model/gltf_functions.h"
 #include "io/gltf/write/gltf_saver.h"
-#include "mesh/resource/beside.h"
+#include "mesh/resource/sidecar.h"
 #include <string.h>
 
-static gltf_buffer_kind kind_in_glb(const gltf_buffer *buffer, size_t number)
+static gltf_buffer_kind kind_in_glb(const gltf_buffer *buffer, size_t index)
 {
     if (buffer->kind == BUFFER_EMPTY)
         return BUFFER_EMPTY;
-    return number == 0 ? BUFFER_BIN : BUFFER_DATA;
+    return index == 0 ? BUFFER_BIN : BUFFER_DATA;
 }
 
 static gltf_buffer_kind kind_in_text(const gltf_buffer *buffer, bool stream)
@@ -64,7 +64,7 @@ void ffd_gltf_move_buffers(gltf_saver *saver)
 {
     const gltf_document *d = saver->document;
     for (size_t b = 0; b < d->buffer_values.count; b++) {
-        const uint32_t uri = ffd_json_span_member(&d->tree, d->buffer_values.values[b], "uri");
+        const uint32_t uri = ffd_json_tree_member(&d->tree, d->buffer_values.values[b], "uri");
         const gltf_buffer_kind from = d->buffers[b].kind, to = saver->buffers[b].kind;
         if (from == to)
             continue;
@@ -87,7 +87,7 @@ static ffd_status refuse_own_file(const gltf_saver *saver, const char *target, f
     for (size_t i = 0; i < d->buffer_values.count; i++) {
         if (d->buffers[i].kind != BUFFER_FILE)
             continue;
-        char *own = ffd_path_beside(d->path, d->buffers[i].path);
+        char *own = ffd_path_sibling(d->path, d->buffers[i].path);
         const bool same = own && ffd_save_meets(saver->options, own, target), failed = !own;
         ffd_free(own);
         if (failed)
@@ -102,7 +102,7 @@ static ffd_status refuse_own_file(const gltf_saver *saver, const char *target, f
 static ffd_status set_uri(gltf_saver *saver, size_t b, const char *name, ffd_error *error)
 {
     const gltf_document *d = saver->document;
-    const uint32_t uri = ffd_json_span_member(&d->tree, d->buffer_values.values[b], "uri");
+    const uint32_t uri = ffd_json_tree_member(&d->tree, d->buffer_values.values[b], "uri");
     if (d->buffers[b].path && strcmp(d->buffers[b].path, name) == 0)
         return FFD_OK;
     char *encoded = ffd_uri_encode(name);
@@ -132,7 +132,7 @@ static bool is_own_file(const void *context, const char *target)
     for (size_t i = 0; i < d->buffer_values.count; i++) {
         if (d->buffers[i].kind != BUFFER_FILE)
             continue;
-        char *const file = ffd_path_beside(d->path, d->buffers[i].path);
+        char *const file = ffd_path_sibling(d->path, d->buffers[i].path);
         const bool same = file && ffd_file_same(file, target), is_known = file;
         ffd_free(file);
         if (!is_known || (same && i != of->number)) /* without memory it is not replaced */
@@ -142,16 +142,16 @@ static bool is_own_file(const void *context, const char *target)
     return own;
 }
 
-static ffd_status give_name(gltf_saver *saver, size_t b, beside_names *names, ffd_error *error)
+static ffd_status give_name(gltf_saver *saver, size_t b, sidecar_names *names, ffd_error *error)
 {
     const named_buffer of = {saver->document, b};
     const gltf_buffer *const buffer = &saver->document->buffers[b];
     const bool has_old = saver->in_place && buffer->kind == BUFFER_FILE;
-    char *const old = has_old ? ffd_path_beside(saver->document->path, buffer->path) : NULL;
+    char *const old = has_old ? ffd_path_sibling(saver->document->path, buffer->path) : NULL;
     char *target = NULL;
     names->old = old;
     ffd_status status =
-        old || !has_old ? ffd_beside_next(names, is_own_file, &of, &target, error) : ffd_fail_memory(error);
+        old || !has_old ? ffd_sidecar_next(names, is_own_file, &of, &target, error) : ffd_fail_memory(error);
     names->old = NULL;
     ffd_free(old);
     if (status) {
@@ -173,7 +173,7 @@ ffd_status ffd_gltf_name_buffers(gltf_saver *saver, ffd_error *error)
 {
     const gltf_document *d = saver->document;
     const bool stream = ffd_output_is_stream(saver->options->path);
-    beside_names names = {.options = saver->options, .log = saver->log, .in_place = saver->in_place};
+    sidecar_names names = {.options = saver->options, .log = saver->log, .in_place = saver->in_place};
     ffd_status status = FFD_OK;
     if (!stream && !saver->in_place)
         status = refuse_own_file(saver, saver->options->path, error);
@@ -181,7 +181,7 @@ ffd_status ffd_gltf_name_buffers(gltf_saver *saver, ffd_error *error)
         if (saver->buffers[b].kind != BUFFER_FILE || (saver->in_place && !saver->buffers[b].changed))
             continue;
         if (stream)
-            return ffd_json_span_fail(
+            return ffd_json_tree_fail(
                 &d->tree, d->buffer_values.values[b], d->name, FFD_E_ARGUMENT, error,
                 "the buffer is a file of its own, which standard output cannot hold: give a file "
                 "name as output");
@@ -192,7 +192,7 @@ ffd_status ffd_gltf_name_buffers(gltf_saver *saver, ffd_error *error)
 
 /* Counts the buffers as gltf_container.c places them if the model keeps its format, else as a converted model
    has them. */
-size_t ffd_gltf_count_beside(const file_input *bytes, ffd_format from, ffd_format to)
+size_t ffd_gltf_count_sidecars(const file_input *bytes, ffd_format from, ffd_format to)
 {
     const bool is_model = from == FFD_FORMAT_GLTF || from == FFD_FORMAT_GLB, to_text = to == FFD_FORMAT_GLTF;
     glb_layout layout;

@@ -172,14 +172,14 @@ static ffd_status list_appends(gltf_saver *saver, ffd_error *error)
     const gltf_document *d = saver->document;
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < saver->plan.appended_count && status == FFD_OK; i++) {
-        const size_t number = saver->plan.appended[i];
-        const gltf_version *version = &saver->plan.versions[number];
+        const size_t index = saver->plan.appended[i];
+        const gltf_version *version = &saver->plan.versions[index];
         const size_t stride = ffd_gltf_align(element_size(d, version));
         const size_t size = ffd_gltf_version_count(d, version) * stride;
         const gltf_stored_part *const sparse = &saver->sparse[i];
         const gltf_append append = {.size = sparse->bytes ? sparse->size : size,
                                     .stride = stride,
-                                    .version = number,
+                                    .version = index,
                                     .sparse = sparse->bytes};
         status = add_append(saver, ffd_gltf_append_buffer(d, version->accessor), append, error);
     }

@@ -44,11 +44,11 @@ static int output_component(const gltf_saver *saver, const attribute_set *set, c
 static bool are_quantized(gltf_saver *saver, const attribute_set *set)
 {
     const gltf_document *d = saver->document;
-    for (uint32_t v = ffd_json_span_first(&d->tree, set->attributes); v != JSON_NONE;
-         v = ffd_json_span_after(&d->tree, v)) {
+    for (uint32_t v = ffd_json_tree_first(&d->tree, set->attributes); v != JSON_NONE;
+         v = ffd_json_tree_after(&d->tree, v)) {
         double number;
-        char *name = ffd_json_span_key(&d->tree, v);
-        if (!name || !ffd_json_span_number(&d->tree, v, &number)) {
+        char *name = ffd_json_tree_key(&d->tree, v);
+        if (!name || !ffd_json_tree_number(&d->tree, v, &number)) {
             saver->edits.failed = true;
             ffd_free(name);
             return true;
@@ -67,13 +67,13 @@ static bool is_quantized_mesh(gltf_saver *saver, size_t mesh, size_t use)
 {
     const gltf_document *d = saver->document;
     for (const gltf_primitive *primitive = NULL; (primitive = ffd_gltf_next_primitive(d, mesh, primitive));) {
-        const uint32_t targets = ffd_json_span_member(&d->tree, primitive->value, "targets");
+        const uint32_t targets = ffd_json_tree_member(&d->tree, primitive->value, "targets");
         attribute_set set = {primitive, use, 0,
-                             ffd_json_span_member(&d->tree, primitive->value, "attributes")};
+                             ffd_json_tree_member(&d->tree, primitive->value, "attributes")};
         if (are_quantized(saver, &set))
             return true;
-        for (uint32_t t = ffd_json_span_first(&d->tree, targets); t != JSON_NONE;
-             t = ffd_json_span_after(&d->tree, t)) {
+        for (uint32_t t = ffd_json_tree_first(&d->tree, targets); t != JSON_NONE;
+             t = ffd_json_tree_after(&d->tree, t)) {
             set.first_slot += GLTF_DEFORMED;
             set.attributes = t;
             if (are_quantized(saver, &set))
@@ -105,8 +105,8 @@ static bool lost_quantization(gltf_saver *saver)
 static size_t take_out(gltf_saver *saver, const char *key, const char *const *names, size_t name_count,
                        uint32_t *empty)
 {
-    const json_span *tree = &saver->document->tree;
-    const uint32_t list = ffd_json_span_member(tree, 0, key);
+    const json_tree *tree = &saver->document->tree;
+    const uint32_t list = ffd_json_tree_member(tree, 0, key);
     if (list == JSON_NONE || tree->values[list].count == 0)
         return 0;
     uint32_t *gone = ffd_alloc(tree->values[list].count, sizeof *gone);
@@ -115,9 +115,9 @@ static size_t take_out(gltf_saver *saver, const char *key, const char *const *na
         saver->edits.failed = true;
         return 0;
     }
-    for (uint32_t v = ffd_json_span_first(tree, list); v != JSON_NONE; v = ffd_json_span_after(tree, v))
+    for (uint32_t v = ffd_json_tree_first(tree, list); v != JSON_NONE; v = ffd_json_tree_after(tree, v))
         for (size_t i = 0; i < name_count; i++)
-            if (ffd_json_span_string_is(tree, v, names[i])) {
+            if (ffd_json_tree_string_is(tree, v, names[i])) {
                 gone[count++] = v;
                 break;
             }
@@ -219,7 +219,7 @@ static void mark_all(stale_search *s, const gltf_saver *saver)
         mark_node(s, d->rig->nodes[i].node);
 }
 
-static bool is_named_as_bounds(const json_span *tree, const json_value *value)
+static bool is_named_as_bounds(const json_tree *tree, const json_value *value)
 {
     static const char *const words[] = {"bounds", "bounding", "bbox", "aabb"};
     char key[KEY_SIZE];
@@ -238,10 +238,10 @@ static bool is_named_as_bounds(const json_span *tree, const json_value *value)
     return false;
 }
 
-static bool is_in_extension(const json_span *tree, uint32_t value)
+static bool is_in_extension(const json_tree *tree, uint32_t value)
 {
     for (uint32_t v = tree->values[value].parent; v != JSON_NONE; v = tree->values[v].parent)
-        if (ffd_json_span_key_is(tree, v, "extensions") || ffd_json_span_key_is(tree, v, "extras"))
+        if (ffd_json_tree_key_is(tree, v, "extensions") || ffd_json_tree_key_is(tree, v, "extras"))
             return true;
     return false;
 }
@@ -262,7 +262,7 @@ static size_t number_in(const gltf_values *list, uint32_t element)
 static bool is_of_changed(const stale_search *s, uint32_t value)
 {
     static const char *const flat[] = {"materials", "textures", "images", "samplers"};
-    const json_span *const tree = &s->document->tree;
+    const json_tree *const tree = &s->document->tree;
     uint32_t element = value, list = tree->values[value].parent;
     for (; list != 0 && tree->values[list].parent != 0; list = tree->values[list].parent)
         element = list;
@@ -273,14 +273,14 @@ static bool is_of_changed(const stale_search *s, uint32_t value)
     if (mesh != GLTF_NONE)
         return s->meshes[mesh];
     for (size_t k = 0; k < sizeof flat / sizeof *flat; k++)
-        if (list != 0 && ffd_json_span_key_is(tree, list, flat[k]))
+        if (list != 0 && ffd_json_tree_key_is(tree, list, flat[k]))
             return false;
     return s->any;
 }
 
 static void search(const stale_search *s, byte_buffer *found)
 {
-    const json_span *const tree = &s->document->tree;
+    const json_tree *const tree = &s->document->tree;
     for (uint32_t v = 1; v < tree->count;) {
         const json_value *const value = &tree->values[v];
         const bool holds =

@@ -129,7 +129,7 @@ static void repeat(copies *c, const gltf_index_place *place, size_t copy, const 
     byte_buffer text = {0};
     c->status = ffd_budget_take(&c->budget, 1, size, &problem);
     if (c->status) {
-        ffd_json_span_fail(&d->tree, place->repeats, d->name, c->status, c->error, "%s", problem.message);
+        ffd_json_tree_fail(&d->tree, place->repeats, d->name, c->status, c->error, "%s", problem.message);
         return;
     }
     ffd_buffer_text(&text, ",");
@@ -180,7 +180,7 @@ static void follow_mesh(void *context, const gltf_index_place *place)
             follow_name(c, place, mesh, "");
     } else if (place->kind == GLTF_INDEX_POINTER && d->tree.values[place->value].kind == JSON_STRING) {
         const char *rest = "";
-        char *pointer = ffd_json_span_string(&d->tree, place->value, NULL);
+        char *pointer = ffd_json_tree_string(&d->tree, place->value, NULL);
         const size_t mesh = pointer ? ffd_gltf_pointed(pointer, "meshes", &rest) : GLTF_NONE;
         c->saver->edits.failed = c->saver->edits.failed || !pointer;
         if (mesh != GLTF_NONE)
@@ -199,12 +199,12 @@ static void warn_of_left(gltf_saver *saver)
         *saver->options->indices_left = count;
 }
 
-static void tell_repeated(const copies *c)
+static void log_repeated(const copies *c)
 {
     char pointer[POINTER_SIZE];
     if (c->repeated == 0)
         return;
-    ffd_json_span_pointer(&c->saver->document->tree, c->first, pointer, sizeof pointer);
+    ffd_json_tree_pointer(&c->saver->document->tree, c->first, pointer, sizeof pointer);
     ffd_log_line(c->saver->log, FFD_LOG_INFO, "%zu %s, as %s is", c->repeated,
                  ffd_plural(c->repeated, "element that names a mesh is repeated for a copy of it",
                             "elements that name meshes are repeated for copies of these"),
@@ -227,7 +227,7 @@ ffd_status ffd_gltf_follow_meshes(gltf_saver *saver, ffd_error *error)
         ffd_gltf_visit_indices(d, follow_mesh, &c);
     }
     ffd_free(c.of_node);
-    tell_repeated(&c);
+    log_repeated(&c);
     if (c.status == FFD_OK)
         warn_of_left(saver);
     return c.status;

@@ -234,10 +234,10 @@ static size_t list_groups(const gltf_document *d, size_t mesh, size_t first_copy
 
 /* Sets the leader of each group: the first group before it in the scene that it agrees with, or itself.
    Returns whether any group has another leader. */
-static bool find_leaders(const gltf_document *d, size_t number, const gltf_plan *plan, gltf_use_group *groups,
+static bool find_leaders(const gltf_document *d, size_t index, const gltf_plan *plan, gltf_use_group *groups,
                          const size_t *order, size_t count)
 {
-    const shared_mesh mesh = describe(d, plan, number);
+    const shared_mesh mesh = describe(d, plan, index);
     bool any = false;
     for (size_t i = 1; i < count; i++) {
         gltf_use_group *const group = &groups[order[i]];

@@ -58,11 +58,11 @@ static ffd_status open_list(mending *m, size_t a, influence_list *list)
 {
     const gltf_document *const d = m->saver->document;
     size_t begin;
-    const size_t number = unpacking_of(m->saver, a, &begin);
+    const size_t index = unpacking_of(m->saver, a, &begin);
     *list = (influence_list){&d->model.accessors[a], d->layouts[a].data, NULL, d->layouts[a].stride};
-    if (number == GLTF_NONE)
+    if (index == GLTF_NONE)
         return FFD_OK;
-    gltf_unpacking *const unpacking = &m->saver->unpackings[number];
+    gltf_unpacking *const unpacking = &m->saver->unpackings[index];
     if (!unpacking->own) {
         const ffd_status status = ffd_budget_take(&m->budget, unpacking->size, 1, m->error);
         if (status)

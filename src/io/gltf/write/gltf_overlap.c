@@ -56,7 +56,7 @@ static void add_accessor(const gltf_document *d, size_t a, user_list *list)
 static size_t size_member(const gltf_document *d, uint32_t object, const char *key)
 {
     double number = 0;
-    if (!ffd_json_span_number(&d->tree, ffd_json_span_member(&d->tree, object, key), &number) ||
+    if (!ffd_json_tree_number(&d->tree, ffd_json_tree_member(&d->tree, object, key), &number) ||
         !(number >= 0) || number > (double)GLTF_LARGEST_SIZE)
         return 0;
     return (size_t)number;
@@ -65,11 +65,11 @@ static size_t size_member(const gltf_document *d, uint32_t object, const char *k
 /* Adds the compressed bytes of EXT_meshopt_compression, and of any view extension that names a buffer. */
 static void add_compressed(const gltf_document *d, uint32_t view, user_list *list)
 {
-    const json_span *tree = &d->tree;
-    const uint32_t extensions = ffd_json_span_member(tree, view, "extensions");
-    for (uint32_t v = ffd_json_span_first(tree, extensions); v != JSON_NONE;
-         v = ffd_json_span_after(tree, v)) {
-        if (ffd_json_span_member(tree, v, "buffer") == JSON_NONE)
+    const json_tree *tree = &d->tree;
+    const uint32_t extensions = ffd_json_tree_member(tree, view, "extensions");
+    for (uint32_t v = ffd_json_tree_first(tree, extensions); v != JSON_NONE;
+         v = ffd_json_tree_after(tree, v)) {
+        if (ffd_json_tree_member(tree, v, "buffer") == JSON_NONE)
             continue;
         const size_t begin = size_member(d, v, "byteOffset"), length = size_member(d, v, "byteLength");
         add_user(list, (byte_user){size_member(d, v, "buffer"), begin, begin + length, 0, length, GLTF_NONE});

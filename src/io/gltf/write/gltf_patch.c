@@ -12,12 +12,12 @@ static const json_value *value_of(const gltf_saver *saver, uint32_t value)
 }
 
 /* Replaces the number of a member, if the object has it. */
-static void replace_number(const gltf_saver *saver, uint32_t object, const char *key, size_t number,
+static void replace_number(const gltf_saver *saver, uint32_t object, const char *key, size_t index,
                            json_edits *edits)
 {
-    const uint32_t member = ffd_json_span_member(&saver->document->tree, object, key);
+    const uint32_t member = ffd_json_tree_member(&saver->document->tree, object, key);
     if (member != JSON_NONE)
-        ffd_edits_format(edits, value_of(saver, member)->begin, value_of(saver, member)->end, "%zu", number);
+        ffd_edits_format(edits, value_of(saver, member)->begin, value_of(saver, member)->end, "%zu", index);
 }
 
 /* Edits the members of an object ("attributes" or a morph target) to name the accessors with the primitive's
@@ -58,13 +58,13 @@ static void edit_attributes(const gltf_saver *saver, size_t mesh, size_t use, js
 {
     const gltf_document *d = saver->document;
     for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, mesh, p));) {
-        const uint32_t targets = ffd_json_span_member(&d->tree, p->value, "targets");
-        const uint32_t attributes = ffd_json_span_member(&d->tree, p->value, "attributes");
+        const uint32_t targets = ffd_json_tree_member(&d->tree, p->value, "targets");
+        const uint32_t attributes = ffd_json_tree_member(&d->tree, p->value, "attributes");
         size_t first = 0;
         edit_slots(saver, p, attributes, first, use, edits);
         edit_splats(saver, p, attributes, use, edits);
-        for (uint32_t t = ffd_json_span_first(&d->tree, targets); t != JSON_NONE;
-             t = ffd_json_span_after(&d->tree, t)) {
+        for (uint32_t t = ffd_json_tree_first(&d->tree, targets); t != JSON_NONE;
+             t = ffd_json_tree_after(&d->tree, t)) {
             first += GLTF_DEFORMED;
             edit_slots(saver, p, t, first, use, edits);
         }
@@ -95,7 +95,7 @@ static void write_target(const gltf_saver *saver, const gltf_version *version, b
         ffd_buffer_text(text, ",\"target\":34962");
         return;
     }
-    const uint32_t target = ffd_json_span_member(&d->tree, d->view_values.values[view], "target");
+    const uint32_t target = ffd_json_tree_member(&d->tree, d->view_values.values[view], "target");
     if (target != JSON_NONE)
         ffd_buffer_format(text, ",\"target\":%.*s",
                           (int)(value_of(saver, target)->end - value_of(saver, target)->begin),
@@ -140,14 +140,14 @@ static void add_views(gltf_saver *saver)
 static void edit_storage(const gltf_saver *saver, const gltf_version *version, size_t view, json_edits *edits)
 {
     const gltf_document *d = saver->document;
-    const json_span *tree = &d->tree;
+    const json_tree *tree = &d->tree;
     const uint32_t accessor = d->accessor_values.values[version->accessor];
-    const uint32_t sparse = ffd_json_span_member(tree, accessor, "sparse");
-    const uint32_t normalized = ffd_json_span_member(tree, accessor, "normalized");
+    const uint32_t sparse = ffd_json_tree_member(tree, accessor, "sparse");
+    const uint32_t normalized = ffd_json_tree_member(tree, accessor, "normalized");
     const uint32_t inside = value_of(saver, accessor)->begin + 1;
     uint32_t gone[2];
     size_t gone_count = 0;
-    if (ffd_json_span_member(tree, accessor, "bufferView") == JSON_NONE)
+    if (ffd_json_tree_member(tree, accessor, "bufferView") == JSON_NONE)
         ffd_edits_format(edits, inside, inside, "\"bufferView\":%zu,", view);
     replace_number(saver, accessor, "bufferView", view, edits);
     replace_number(saver, accessor, "byteOffset", 0, edits);
@@ -244,7 +244,7 @@ static void add_meshes(gltf_saver *saver)
 static void edit_data_uri(gltf_saver *saver, size_t buffer)
 {
     const gltf_document *d = saver->document;
-    const uint32_t uri = ffd_json_span_member(&d->tree, d->buffer_values.values[buffer], "uri");
+    const uint32_t uri = ffd_json_tree_member(&d->tree, d->buffer_values.values[buffer], "uri");
     if (uri == JSON_NONE)
         return;
     const uint32_t first = value_of(saver, uri)->begin + 1, last = value_of(saver, uri)->end - 1;

@@ -32,16 +32,16 @@ static ffd_status image_path(const gltf_document *d, size_t image, char **path, 
 }
 
 /* Adds the images of a JSON text that may be copied, with their names. */
-static ffd_status find_images(const json_span *tree, const file_folder *mesh, path_list *files,
+static ffd_status find_images(const json_tree *tree, const file_folder *mesh, path_list *files,
                               ffd_error *error)
 {
     ffd_status status = FFD_OK;
-    uint32_t image = ffd_json_span_first(tree, ffd_json_span_member(tree, 0, "images"));
-    for (; image != JSON_NONE && !status; image = ffd_json_span_after(tree, image)) {
+    uint32_t image = ffd_json_tree_first(tree, ffd_json_tree_member(tree, 0, "images"));
+    for (; image != JSON_NONE && !status; image = ffd_json_tree_after(tree, image)) {
         char *relative, *path = NULL;
         status = ffd_gltf_file_path(tree, image, mesh, &relative, error);
         if (relative && ffd_image_has_name(relative) && !ffd_image_is_hidden(relative)) {
-            path = ffd_path_beside(mesh->file, relative);
+            path = ffd_path_sibling(mesh->file, relative);
             status = path ? ffd_paths_add(files, path, error) : ffd_fail_memory(error);
         }
         ffd_free(path);
@@ -68,7 +68,7 @@ static bool may_name_files(const char *text, size_t size)
 
 /* Parses the JSON text of a file that may name others. *is_model: false if it does not, or is not valid,
    which is no error. */
-static ffd_status parse(const char *path, const file_input *bytes, json_span *tree, bool *is_model,
+static ffd_status parse(const char *path, const file_input *bytes, json_tree *tree, bool *is_model,
                         ffd_error *error)
 {
     glb_layout layout;
@@ -89,27 +89,27 @@ ffd_status ffd_gltf_find_resources(const char *path, const file_input *bytes, pa
                                    ffd_error *error)
 {
     const file_folder mesh = {.file = path};
-    json_span tree;
+    json_tree tree;
     bool is_model;
     ffd_status status = parse(path, bytes, &tree, &is_model, error);
     if (is_model) {
         status = find_images(&tree, &mesh, files, error);
-        ffd_json_span_free(&tree);
+        ffd_json_tree_free(&tree);
     }
     return status;
 }
 
 /* Adds the files that the members of an array name. */
-static ffd_status find_files(const json_span *tree, const char *array, const file_folder *mesh,
+static ffd_status find_files(const json_tree *tree, const char *array, const file_folder *mesh,
                              path_list *files, ffd_error *error)
 {
     ffd_status status = FFD_OK;
-    uint32_t value = ffd_json_span_first(tree, ffd_json_span_member(tree, 0, array));
-    for (; value != JSON_NONE && !status; value = ffd_json_span_after(tree, value)) {
+    uint32_t value = ffd_json_tree_first(tree, ffd_json_tree_member(tree, 0, array));
+    for (; value != JSON_NONE && !status; value = ffd_json_tree_after(tree, value)) {
         char *relative;
         status = ffd_gltf_file_path(tree, value, mesh, &relative, error);
         if (!status)
-            status = ffd_gltf_add_beside(mesh, relative, files, error);
+            status = ffd_gltf_add_sibling(mesh, relative, files, error);
     }
     return status;
 }
@@ -118,7 +118,7 @@ ffd_status ffd_gltf_find_named(const char *path, const file_input *bytes, const 
                                ffd_error *error)
 {
     const file_folder mesh = {.file = path};
-    json_span tree;
+    json_tree tree;
     bool is_model;
     ffd_status status = parse(path, bytes, &tree, &is_model, error);
     if (!is_model)
@@ -132,7 +132,7 @@ ffd_status ffd_gltf_find_named(const char *path, const file_input *bytes, const 
         status = find_images(&tree, &mesh, named->copies, error);
     if (!status && named->linked)
         status = ffd_gltf_find_linked(&tree, &mesh, named->linked, error);
-    ffd_json_span_free(&tree);
+    ffd_json_tree_free(&tree);
     return status;
 }
 
@@ -144,7 +144,7 @@ ffd_status ffd_gltf_list_images(const mesh_document *document, path_list *files,
         char *relative = NULL;
         status = image_path(d, i, &relative, error);
         if (!status)
-            status = ffd_gltf_add_beside(&d->base.folder, relative, files, error);
+            status = ffd_gltf_add_sibling(&d->base.folder, relative, files, error);
     }
     return status;
 }
@@ -162,7 +162,7 @@ static ffd_status copy_image(const resources *r, const mesh_resource *image, ffd
     const ffd_status status = ffd_resource_copy(&r->copier, image, &refused, error);
     if (status || !refused.status)
         return status;
-    return ffd_json_span_fail(
+    return ffd_json_tree_fail(
         &d->tree, d->image_values.values[image->number], d->name, FFD_E_IO, error,
         "the image \"%s\" cannot be copied: %s; {resources=reference} refers to it where it is", image->path,
         refused.message);
@@ -171,7 +171,7 @@ static ffd_status copy_image(const resources *r, const mesh_resource *image, ffd
 static ffd_status refer_to_image(const resources *r, size_t image, const char *path, ffd_error *error)
 {
     const gltf_document *d = r->saver->document;
-    const uint32_t uri = ffd_json_span_member(&d->tree, d->image_values.values[image], "uri");
+    const uint32_t uri = ffd_json_tree_member(&d->tree, d->image_values.values[image], "uri");
     if (uri == JSON_NONE)
         return FFD_OK;
     char *from = ffd_path_resolve(r->from), *to = ffd_path_resolve(r->to);
@@ -194,8 +194,8 @@ static ffd_status refer_to_image(const resources *r, size_t image, const char *p
 /* Replaces the URI of an image by one that holds its bytes. */
 static ffd_status put_data_uri(resources *r, size_t image, const file_input *bytes, ffd_error *error)
 {
-    const json_span *const tree = &r->saver->document->tree;
-    const uint32_t uri = ffd_json_span_member(tree, r->saver->document->image_values.values[image], "uri");
+    const json_tree *const tree = &r->saver->document->tree;
+    const uint32_t uri = ffd_json_tree_member(tree, r->saver->document->image_values.values[image], "uri");
     const size_t size = ffd_base64_length(bytes->size);
     const ffd_status status = ffd_budget_take(&r->budget, size, 2, error); /* here, and among the edits */
     if (status || uri == JSON_NONE)
@@ -212,10 +212,10 @@ static ffd_status put_data_uri(resources *r, size_t image, const file_input *byt
     return FFD_OK;
 }
 
-static ffd_status embed_image(resources *r, size_t number, char *path, ffd_error *error)
+static ffd_status embed_image(resources *r, size_t index, char *path, ffd_error *error)
 {
     const gltf_document *d = r->saver->document;
-    const mesh_resource image = {path, &ffd_resource_image, number};
+    const mesh_resource image = {path, &ffd_resource_image, index};
     const char *left = ffd_resource_is_outside(&r->copier, path) ? "is outside the model's folder" : NULL;
     ffd_error refused = {0};
     file_input bytes = {0};
@@ -223,7 +223,7 @@ static ffd_status embed_image(resources *r, size_t number, char *path, ffd_error
     if (status)
         return status;
     if (refused.status)
-        return ffd_json_span_fail(&d->tree, d->image_values.values[number], d->name, FFD_E_IO, error,
+        return ffd_json_tree_fail(&d->tree, d->image_values.values[index], d->name, FFD_E_IO, error,
                                   "the image \"%s\" cannot be put into the output: %s; {resources=reference} "
                                   "refers to it where it is",
                                   path, refused.message);
@@ -234,7 +234,7 @@ static ffd_status embed_image(resources *r, size_t number, char *path, ffd_error
                      left);
         return FFD_OK;
     }
-    status = put_data_uri(r, number, &bytes, error);
+    status = put_data_uri(r, index, &bytes, error);
     if (!status)
         status = ffd_resource_note(&r->copier, &image, error);
     ffd_file_unload(&bytes);
@@ -245,9 +245,9 @@ static ffd_status embed_image(resources *r, size_t number, char *path, ffd_error
    an output which holds its images has not this one. */
 static ffd_status warn_of_uri(const resources *r, size_t image, ffd_error *error)
 {
-    const json_span *const tree = &r->saver->document->tree;
-    const uint32_t uri = ffd_json_span_member(tree, r->saver->document->image_values.values[image], "uri");
-    char *const text = uri == JSON_NONE ? NULL : ffd_json_span_string(tree, uri, NULL);
+    const json_tree *const tree = &r->saver->document->tree;
+    const uint32_t uri = ffd_json_tree_member(tree, r->saver->document->image_values.values[image], "uri");
+    char *const text = uri == JSON_NONE ? NULL : ffd_json_tree_string(tree, uri, NULL);
     if (uri == JSON_NONE || !text)
         return uri == JSON_NONE ? FFD_OK : ffd_fail_memory(error);
     const bool is_data = ffd_uri_is_data(text), is_absolute = ffd_uri_is_absolute(text);
@@ -285,11 +285,11 @@ static ffd_status bring_image(resources *r, size_t image, ffd_error *error)
 }
 
 /* Refuses to overwrite one of the model's images by a file of the output model. */
-static ffd_status refuse_image_name(const resources *r, size_t number, bool own_copy, ffd_error *error)
+static ffd_status refuse_image_name(const resources *r, size_t index, bool own_copy, ffd_error *error)
 {
     const gltf_saver *saver = r->saver;
-    mesh_resource image = {.kind = &ffd_resource_image, .number = number};
-    ffd_status status = image_path(saver->document, number, &image.path, error);
+    mesh_resource image = {.kind = &ffd_resource_image, .number = index};
+    ffd_status status = image_path(saver->document, index, &image.path, error);
     if (status || !image.path)
         return status;
     if (!saver->in_place && !ffd_output_is_stream(saver->options->path))
@@ -306,15 +306,15 @@ static ffd_status refuse_image_name(const resources *r, size_t number, bool own_
 static ffd_status leave_file(const resources *r, uint32_t uri, uint32_t extension, intern_table *known,
                              left_out *left, ffd_error *error)
 {
-    const json_span *const tree = &r->saver->document->tree;
+    const json_tree *const tree = &r->saver->document->tree;
     char *path;
     ffd_status status = ffd_gltf_uri_path(tree, uri, &r->saver->document->base.folder, &path, error);
     if (status || !path)
         return status;
-    char *const name = ffd_json_span_key(tree, extension);
+    char *const name = ffd_json_tree_key(tree, extension);
     const size_t before = known->count;
-    uint32_t number;
-    if (!name || !ffd_intern(known, path, strlen(path), &number)) {
+    uint32_t index;
+    if (!name || !ffd_intern(known, path, strlen(path), &index)) {
         status = ffd_fail_memory(error);
     } else if (known->count > before) {
         char why[120];
@@ -329,7 +329,7 @@ static ffd_status leave_file(const resources *r, uint32_t uri, uint32_t extensio
 /* Lists the files that extensions name, which are neither images nor buffers. */
 static ffd_status leave_linked(const resources *r, left_out *left, ffd_error *error)
 {
-    const json_span *const tree = &r->saver->document->tree;
+    const json_tree *const tree = &r->saver->document->tree;
     intern_table known = {0};
     ffd_status status = FFD_OK;
     uint32_t extension, v = ffd_gltf_next_linked(tree, 0, &extension);
@@ -345,8 +345,8 @@ static ffd_status warn_of_left(const resources *r, ffd_error *error)
     left_out left = {0};
     const ffd_status status = leave_linked(r, &left, error);
     if (status == FFD_OK)
-        ffd_left_say(&left, "file that an extension names is not copied",
-                     "files that extensions name are not copied", r->saver->log);
+        ffd_left_out_log(&left, "file that an extension names is not copied",
+                         "files that extensions name are not copied", r->saver->log);
     return status;
 }
 
@@ -371,7 +371,7 @@ static ffd_status warn_of_stream(gltf_saver *saver, ffd_error *error)
     if (status == FFD_OK)
         status = leave_linked(&r, &left, error);
     if (status == FFD_OK)
-        ffd_left_say_of_stream(&left, saver->log);
+        ffd_left_out_log_stream(&left, saver->log);
     ffd_free(r.to);
     return status;
 }

@@ -71,7 +71,7 @@ static ffd_status put_json(const gltf_saver *saver, size_t end, ffd_error *error
    text needs its own. */
 static size_t json_end(const gltf_saver *saver)
 {
-    const json_span *tree = &saver->document->tree;
+    const json_tree *tree = &saver->document->tree;
     const size_t value_end = tree->values[0].end;
     if (saver->binary != saver->document->binary)
         return value_end;

@@ -28,7 +28,7 @@ static bool is_redirected(const gltf_saver *saver, const gltf_primitive *primiti
     const gltf_document *d = saver->document;
     for (int s = 0; s < GLTF_DEFORMED; s++) {
         const size_t version = ffd_gltf_version_at(d, &saver->plan, primitive, (gltf_semantic)s, use);
-        if (version != GLTF_NONE && ffd_json_span_key_is(&d->tree, attribute, ffd_gltf_semantic_names[s]))
+        if (version != GLTF_NONE && ffd_json_tree_key_is(&d->tree, attribute, ffd_gltf_semantic_names[s]))
             return saver->plan.versions[version].output != saver->plan.versions[version].accessor;
     }
     return false;
@@ -46,7 +46,7 @@ static void add_unpacking(gltf_saver *saver, size_t *number, gltf_unpacking unpa
 static size_t stored_in(const gltf_document *d, size_t view)
 {
     double buffer = d->model.views[view].buffer;
-    ffd_json_span_number(&d->tree, ffd_json_span_member(&d->tree, ffd_gltf_meshopt_value(d, view), "buffer"),
+    ffd_json_tree_number(&d->tree, ffd_json_tree_member(&d->tree, ffd_gltf_meshopt_value(d, view), "buffer"),
                          &buffer);
     return (size_t)buffer;
 }
@@ -69,11 +69,11 @@ static void unpack_primitive(gltf_saver *saver, const gltf_primitive *primitive,
 {
     const gltf_document *d = saver->document;
     const int indices = primitive->indices;
-    const uint32_t attributes = ffd_json_span_member(&d->tree, primitive->value, "attributes");
-    for (uint32_t v = ffd_json_span_first(&d->tree, attributes); v != JSON_NONE;
-         v = ffd_json_span_after(&d->tree, v)) {
+    const uint32_t attributes = ffd_json_tree_member(&d->tree, primitive->value, "attributes");
+    for (uint32_t v = ffd_json_tree_first(&d->tree, attributes); v != JSON_NONE;
+         v = ffd_json_tree_after(&d->tree, v)) {
         double number = 0;
-        ffd_json_span_number(&d->tree, v, &number);
+        ffd_json_tree_number(&d->tree, v, &number);
         if (d->layouts[(size_t)number].packing == GLTF_DRACO && !is_redirected(saver, primitive, use, v))
             unpack_accessor(saver, (size_t)number, false);
     }
@@ -136,14 +136,14 @@ void ffd_gltf_free_unpackings(gltf_saver *saver)
 }
 
 /* Removes extensions from an object, and the member "extensions" itself if none are left. */
-static void remove_extensions(const json_span *tree, uint32_t object, const char *const *names, size_t count,
+static void remove_extensions(const json_tree *tree, uint32_t object, const char *const *names, size_t count,
                               json_edits *edits)
 {
-    const uint32_t extensions = ffd_json_span_member(tree, object, "extensions");
+    const uint32_t extensions = ffd_json_tree_member(tree, object, "extensions");
     uint32_t gone[2];
     size_t gone_count = 0;
     for (size_t i = 0; i < count; i++) {
-        const uint32_t extension = ffd_json_span_member(tree, extensions, names[i]);
+        const uint32_t extension = ffd_json_tree_member(tree, extensions, names[i]);
         if (extension != JSON_NONE)
             gone[gone_count++] = extension;
     }
@@ -170,15 +170,15 @@ void ffd_gltf_edit_compression(const gltf_saver *saver, size_t mesh, size_t use,
     }
 }
 
-static void set_number(const json_span *tree, uint32_t object, const char *key, size_t number,
+static void set_number(const json_tree *tree, uint32_t object, const char *key, size_t index,
                        json_edits *edits)
 {
-    const uint32_t member = ffd_json_span_member(tree, object, key);
+    const uint32_t member = ffd_json_tree_member(tree, object, key);
     const uint32_t inside = tree->values[object].begin + 1;
     if (member == JSON_NONE)
-        ffd_edits_format(edits, inside, inside, "\"%s\":%zu,", key, number);
+        ffd_edits_format(edits, inside, inside, "\"%s\":%zu,", key, index);
     else
-        ffd_edits_format(edits, tree->values[member].begin, tree->values[member].end, "%zu", number);
+        ffd_edits_format(edits, tree->values[member].begin, tree->values[member].end, "%zu", index);
 }
 
 static void edit_view(gltf_saver *saver, const gltf_unpacking *unpacking)
@@ -195,12 +195,12 @@ static void edit_view(gltf_saver *saver, const gltf_unpacking *unpacking)
 }
 
 /* number: that of its new bufferView. */
-static void edit_accessor(gltf_saver *saver, const gltf_unpacking *unpacking, size_t number)
+static void edit_accessor(gltf_saver *saver, const gltf_unpacking *unpacking, size_t index)
 {
     const gltf_document *d = saver->document;
     const uint32_t accessor = d->accessor_values.values[unpacking->accessor];
-    set_number(&d->tree, accessor, "bufferView", number, &saver->edits);
-    if (ffd_json_span_member(&d->tree, accessor, "byteOffset") != JSON_NONE)
+    set_number(&d->tree, accessor, "bufferView", index, &saver->edits);
+    if (ffd_json_tree_member(&d->tree, accessor, "byteOffset") != JSON_NONE)
         set_number(&d->tree, accessor, "byteOffset", 0, &saver->edits);
     /* The stated bounds are from before the compression, which may have rounded the values. */
     if (saver->plan.in_place[unpacking->accessor] == GLTF_NONE)

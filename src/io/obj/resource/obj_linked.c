@@ -77,11 +77,11 @@ ffd_status ffd_obj_leave_linked(const file_input *input, const char *name, const
 }
 
 /* Adds the path of a file beside the mesh. */
-static ffd_status add_beside(const file_folder *mesh, const char *name, path_list *files, ffd_error *error)
+static ffd_status add_sibling(const file_folder *mesh, const char *name, path_list *files, ffd_error *error)
 {
     char *path;
     ffd_status status = ffd_obj_find_path(mesh, "", name, &path, error);
-    char *const file = path ? ffd_path_beside(mesh->file, path) : NULL;
+    char *const file = path ? ffd_path_sibling(mesh->file, path) : NULL;
     if (path)
         status = file ? ffd_paths_add(files, file, error) : ffd_fail_memory(error);
     ffd_free(path);
@@ -97,7 +97,7 @@ ffd_status ffd_obj_find_linked(const file_input *input, const char *path, path_l
     for (int s = 0; s < STATEMENTS && !status; s++)
         status = list_names(input, path, s, &names, error);
     for (uint32_t i = 0; i < names.count && !status; i++)
-        status = add_beside(&mesh, ffd_intern_key(&names, i), files, error);
+        status = add_sibling(&mesh, ffd_intern_key(&names, i), files, error);
     ffd_intern_free(&names);
     return status;
 }

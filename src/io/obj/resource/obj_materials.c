@@ -37,18 +37,18 @@ static ffd_status begin(reader *r, text_scan *scan, definition *d)
 {
     text_word name = {0}, word;
     const size_t known = r->names.count;
-    uint32_t number;
+    uint32_t index;
     *d = (definition){.diffuse = {1, 1, 1}, .opacity = 1};
     while (ffd_text_word(scan, &word)) /* as usemtl has it: the first word to the last one */
         name = (text_word){name.first ? name.first : word.first, word.last};
     if (!name.first)
         return FFD_OK;
-    if (!ffd_intern(&r->names, name.first, (size_t)(name.last - name.first), &number))
+    if (!ffd_intern(&r->names, name.first, (size_t)(name.last - name.first), &index))
         return ffd_fail_memory(r->error);
-    d->counts = number == known;
+    d->counts = index == known;
     if (!d->counts)
         return FFD_OK;
-    return ffd_materials_add(r->materials, ffd_text_copy(ffd_intern_key(&r->names, number)), r->budget,
+    return ffd_materials_add(r->materials, ffd_text_copy(ffd_intern_key(&r->names, index)), r->budget,
                              r->error);
 }
 
@@ -213,8 +213,8 @@ ffd_status ffd_obj_list_materials(mesh_document *document, const mesh_log *log, 
         status = ffd_obj_list_libraries(&file->input, &mesh, &libraries, error);
     for (uint32_t i = 0; i < libraries.count && !status; i++)
         status = read_library(&r, ffd_intern_key(&libraries, i));
-    ffd_left_say(&r.left, "material library cannot be read, and its materials are unknown",
-                 "material libraries cannot be read, and their materials are unknown", log);
+    ffd_left_out_log(&r.left, "material library cannot be read, and its materials are unknown",
+                     "material libraries cannot be read, and their materials are unknown", log);
     ffd_images_end(&r.images, log);
     ffd_intern_free(&r.names);
     ffd_intern_free(&libraries);

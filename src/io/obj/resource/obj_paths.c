@@ -16,7 +16,7 @@ ffd_status ffd_obj_find_path(const file_folder *folder, const char *base, const 
     *path = NULL;
     if (is_absolute(name))
         return FFD_OK;
-    beside = ffd_path_beside(base, name);
+    beside = ffd_path_sibling(base, name);
     if (beside) {
         ffd_folder_turn_slashes(folder, beside);
         *path = ffd_path_normalize(beside);
@@ -59,8 +59,8 @@ ffd_status ffd_obj_find_map(const file_folder *folder, const char *library, cons
 ffd_status ffd_obj_add_name(intern_table *names, const char *name, size_t size, const char *file,
                             ffd_error *error)
 {
-    uint32_t number;
-    if (!ffd_intern(names, name, size, &number))
+    uint32_t index;
+    if (!ffd_intern(names, name, size, &index))
         return ffd_fail_memory(error);
     if (names->count > OBJ_RESOURCES_MAX)
         return ffd_fail_file(error, FFD_E_LIMIT, file, "names more than %d material libraries or maps",

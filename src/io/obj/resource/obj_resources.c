@@ -143,7 +143,7 @@ static ffd_status warn_of_stream(const file_input *input, bool names_files, cons
     if (!status && names_files)
         status = ffd_obj_leave_linked(input, mesh, &there, to, &left, error);
     if (!status)
-        ffd_left_say_of_stream(&left, log);
+        ffd_left_out_log_stream(&left, log);
     ffd_free(to);
     return status;
 }
@@ -155,8 +155,8 @@ static ffd_status warn_of_linked(const resource_copier *c, const file_input *inp
     const ffd_status status =
         ffd_obj_leave_linked(input, c->mesh.file, &c->mesh, c->sink_name ? NULL : c->to, &left, error);
     if (!status)
-        ffd_left_say(&left, "file that a statement names is not copied",
-                     "files that statements name are not copied", c->log);
+        ffd_left_out_log(&left, "file that a statement names is not copied",
+                         "files that statements name are not copied", c->log);
     return status;
 }
 
@@ -198,7 +198,7 @@ ffd_status ffd_obj_find_resources(const char *path, const file_input *bytes, pat
     if (!status)
         status = list_all(&copier, bytes, true, &list, error);
     for (size_t i = 0; i < list.count && !status; i++) {
-        char *const file = ffd_path_beside(path, list.resources[i].path);
+        char *const file = ffd_path_sibling(path, list.resources[i].path);
         status = file ? FFD_OK : ffd_fail_memory(error);
         if (!status && !ffd_path_leads_out(list.resources[i].path))
             status = ffd_paths_add(files, file, error);

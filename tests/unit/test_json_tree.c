@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-static ffd_status parse(const char *text, json_span *tree, ffd_error *error)
+static ffd_status parse(const char *text, json_tree *tree, ffd_error *error)
 {
     const json_input input = {.text = text, .size = strlen(text), .name = "t.json", .rules = JSON_ALLOW_MARK};
     return ffd_json_parse(&input, tree, error);
@@ -23,57 +23,57 @@ static void spans_are_those_of_the_text(void **state)
     (void)state;
     const char *text =
         "\xef\xbb\xbf { \"a\" : [1, -2.5e3,\t\"x\\u0041\"], \"b\\/~\":{\"c\":null}, \"\":true}\n";
-    json_span tree;
+    json_tree tree;
     assert_int_equal(parse(text, &tree, NULL), FFD_OK);
     assert_int_equal(tree.count, 8);
-    const uint32_t a = ffd_json_span_member(&tree, 0, "a"), b = ffd_json_span_member(&tree, 0, "b/~");
+    const uint32_t a = ffd_json_tree_member(&tree, 0, "a"), b = ffd_json_tree_member(&tree, 0, "b/~");
     assert_int_equal(tree.values[a].count, 3);
     double number;
-    assert_true(ffd_json_span_number(&tree, ffd_json_span_element(&tree, a, 1), &number));
+    assert_true(ffd_json_tree_number(&tree, ffd_json_tree_element(&tree, a, 1), &number));
     assert_true(number >= -2500 && number <= -2500);
-    const json_value *value = &tree.values[ffd_json_span_element(&tree, a, 1)];
+    const json_value *value = &tree.values[ffd_json_tree_element(&tree, a, 1)];
     assert_int_equal(value->end - value->begin, 6);
     assert_memory_equal(text + value->begin, "-2.5e3", 6);
-    char *string = ffd_json_span_string(&tree, ffd_json_span_element(&tree, a, 2), NULL);
+    char *string = ffd_json_tree_string(&tree, ffd_json_tree_element(&tree, a, 2), NULL);
     assert_string_equal(string, "xA");
     ffd_free(string);
-    assert_int_equal(ffd_json_span_element(&tree, a, 3), JSON_NONE);
-    assert_int_equal(ffd_json_span_member(&tree, a, "a"), JSON_NONE);
+    assert_int_equal(ffd_json_tree_element(&tree, a, 3), JSON_NONE);
+    assert_int_equal(ffd_json_tree_member(&tree, a, "a"), JSON_NONE);
     char pointer[64];
-    ffd_json_span_pointer(&tree, ffd_json_span_member(&tree, b, "c"), pointer, sizeof pointer);
+    ffd_json_tree_pointer(&tree, ffd_json_tree_member(&tree, b, "c"), pointer, sizeof pointer);
     assert_string_equal(pointer, "/b~1~0/c");
-    ffd_json_span_pointer(&tree, ffd_json_span_element(&tree, a, 2), pointer, sizeof pointer);
+    ffd_json_tree_pointer(&tree, ffd_json_tree_element(&tree, a, 2), pointer, sizeof pointer);
     assert_string_equal(pointer, "/a/2");
-    ffd_json_span_pointer(&tree, 0, pointer, sizeof pointer);
+    ffd_json_tree_pointer(&tree, 0, pointer, sizeof pointer);
     assert_string_equal(pointer, "");
-    ffd_json_span_free(&tree);
+    ffd_json_tree_free(&tree);
 }
 
 static void characters_are_decoded(void **state)
 {
     (void)state;
-    json_span tree;
+    json_tree tree;
     size_t size;
     assert_int_equal(parse("\"\\\"\\\\\\/\\b\\f\\n\\r\\t\\u00e4\\ud83d\\ude00\\u0000\xc3\xa4\"", &tree, NULL),
                      FFD_OK);
-    char *text = ffd_json_span_string(&tree, 0, &size);
+    char *text = ffd_json_tree_string(&tree, 0, &size);
     assert_int_equal(size, 17);
     assert_memory_equal(text, "\"\\/\b\f\n\r\t\xc3\xa4\xf0\x9f\x98\x80\0\xc3\xa4", 18);
     ffd_free(text);
-    ffd_json_span_free(&tree);
+    ffd_json_tree_free(&tree);
 }
 
 /* A C string neither ends at U+0000 nor hides that it is there. */
 static void nuls_are_shown(void **state)
 {
     (void)state;
-    json_span tree;
+    json_tree tree;
     assert_int_equal(parse("{\"\\u0000a\\u0000\\u0000\":\"POSITION\\u0000\",\"POSITION\\u0000\":\"\\u0000\"}",
                            &tree, NULL),
                      FFD_OK);
-    const uint32_t first = ffd_json_span_first(&tree, 0), second = ffd_json_span_after(&tree, first);
-    char *const texts[] = {ffd_json_span_key(&tree, first), ffd_json_span_string(&tree, first, NULL),
-                           ffd_json_span_key(&tree, second), ffd_json_span_string(&tree, second, NULL)};
+    const uint32_t first = ffd_json_tree_first(&tree, 0), second = ffd_json_tree_after(&tree, first);
+    char *const texts[] = {ffd_json_tree_key(&tree, first), ffd_json_tree_string(&tree, first, NULL),
+                           ffd_json_tree_key(&tree, second), ffd_json_tree_string(&tree, second, NULL)};
     /* The symbol for NUL, U+2400, in octal: an "a" after \x80 would be one more digit. */
     static const char *const expected[] = {"\342\220\200a\342\220\200\342\220\200", "POSITION\342\220\200",
                                            "POSITION\342\220\200", "\342\220\200"};
@@ -81,8 +81,8 @@ static void nuls_are_shown(void **state)
         assert_string_equal(texts[i], expected[i]);
         ffd_free(texts[i]);
     }
-    assert_int_equal(ffd_json_span_member(&tree, 0, "POSITION"), JSON_NONE);
-    ffd_json_span_free(&tree);
+    assert_int_equal(ffd_json_tree_member(&tree, 0, "POSITION"), JSON_NONE);
+    ffd_json_tree_free(&tree);
 }
 
 /* The decoded text, wherever the character occurs; NULL: it is refused. */
@@ -99,7 +99,7 @@ static void a_character_is_seen_anywhere(void **state)
         for (int before = 0; before < 20; before++)
             for (int behind = 0; behind < 20; behind++) {
                 char text[80], expected[80];
-                json_span tree;
+                json_tree tree;
                 snprintf(text, sizeof text, "\"%.*s%s%.*s\"", before, "aaaaaaaaaaaaaaaaaaaa",
                          characters[c][0], behind, "~~~~~~~~~~~~~~~~~~~~");
                 const ffd_status status = parse(text, &tree, NULL);
@@ -108,10 +108,10 @@ static void a_character_is_seen_anywhere(void **state)
                     continue;
                 snprintf(expected, sizeof expected, "%.*s%s%.*s", before, "aaaaaaaaaaaaaaaaaaaa",
                          characters[c][1], behind, "~~~~~~~~~~~~~~~~~~~~");
-                char *string = ffd_json_span_string(&tree, 0, NULL);
+                char *string = ffd_json_tree_string(&tree, 0, NULL);
                 assert_string_equal(string, expected);
                 ffd_free(string);
-                ffd_json_span_free(&tree);
+                ffd_json_tree_free(&tree);
             }
 }
 
@@ -148,7 +148,7 @@ static void broken_text_is_refused_with_its_line(void **state)
          "2: not valid JSON: duplicate key \"\\u0078\" in an object (column 1)"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        json_span tree;
+        json_tree tree;
         ffd_error error = {0};
         char line[512];
         assert_int_equal(parse(cases[i].text, &tree, &error), FFD_E_INVALID);
@@ -189,23 +189,23 @@ static void rules_are_kept(void **state)
         for (size_t r = 0; r < sizeof rules / sizeof *rules; r++) {
             const json_input input = {
                 .text = cases[i].text, .size = strlen(cases[i].text), .name = "t", .rules = rules[r]};
-            json_span tree;
+            json_tree tree;
             ffd_error error = {0};
             const ffd_status status = ffd_json_parse(&input, &tree, &error);
             assert_int_equal(status, rules[r] & cases[i].refused_by ? FFD_E_INVALID : FFD_OK);
             if (status)
                 assert_string_equal(error.message + strlen("not valid JSON: "), cases[i].message);
-            ffd_json_span_free(&tree);
+            ffd_json_tree_free(&tree);
         }
     /* 310 digits. */
     char digits[311];
     memset(digits, '1', sizeof digits);
     json_input input = {.text = digits, .size = sizeof digits - 1, .name = "t", .rules = JSON_DOUBLES};
-    json_span tree;
+    json_tree tree;
     assert_int_equal(ffd_json_parse(&input, &tree, NULL), FFD_E_INVALID);
     input.size = 308;
     assert_int_equal(ffd_json_parse(&input, &tree, NULL), FFD_OK);
-    ffd_json_span_free(&tree);
+    ffd_json_tree_free(&tree);
     input = (json_input){.text = "\xef\xbb\xbf"
                                  "1",
                          .size = 4,
@@ -213,7 +213,7 @@ static void rules_are_kept(void **state)
     assert_int_equal(ffd_json_parse(&input, &tree, NULL), FFD_E_INVALID);
     input.rules = JSON_ALLOW_MARK;
     assert_int_equal(ffd_json_parse(&input, &tree, NULL), FFD_OK);
-    ffd_json_span_free(&tree);
+    ffd_json_tree_free(&tree);
 }
 
 /* Lines and columns in a part of a text are those of the whole. */
@@ -222,7 +222,7 @@ static void parts_are_counted_from_the_beginning(void **state)
     (void)state;
     const char *const whole = "[\n 1, {\"a\": x}]";
     const json_input input = {.text = whole + 6, .size = 8, .name = "t", .whole = whole, .line = 7};
-    json_span tree;
+    json_tree tree;
     ffd_error error = {0};
     assert_int_equal(ffd_json_parse(&input, &tree, &error), FFD_E_INVALID);
     assert_int_equal(error.line, 8);
@@ -232,15 +232,15 @@ static void parts_are_counted_from_the_beginning(void **state)
 static void depth_is_limited(void **state)
 {
     (void)state;
-    char text[2 * JSON_SPAN_DEPTH + 3];
+    char text[2 * JSON_TREE_DEPTH + 3];
     for (int extra = 0; extra < 2; extra++) {
-        const size_t depth = JSON_SPAN_DEPTH + (size_t)extra;
+        const size_t depth = JSON_TREE_DEPTH + (size_t)extra;
         memset(text, '[', depth);
         memset(text + depth, ']', depth);
         text[2 * depth] = 0;
-        json_span tree;
+        json_tree tree;
         assert_int_equal(parse(text, &tree, NULL), extra ? FFD_E_INVALID : FFD_OK);
-        ffd_json_span_free(&tree);
+        ffd_json_tree_free(&tree);
     }
 }
 
@@ -252,10 +252,10 @@ static void many_members_are_compared(void **state)
         ffd_buffer_format(&text, "%c\"key%d\":%d", i ? ',' : '{', i, i);
     const size_t unique = text.size;
     ffd_buffer_text(&text, "}");
-    json_span tree;
+    json_tree tree;
     json_input input = {.text = text.data, .size = text.size, .name = "t"};
     assert_int_equal(ffd_json_parse(&input, &tree, NULL), FFD_OK);
-    ffd_json_span_free(&tree);
+    ffd_json_tree_free(&tree);
     text.size = unique;
     ffd_buffer_text(&text, ",\"key17\":0}");
     ffd_error error = {0};
@@ -270,13 +270,13 @@ static void memory_may_run_out_anywhere(void **state)
 {
     (void)state;
     for (long successes = 0;; successes++) {
-        json_span tree;
+        json_tree tree;
         ffd_error error = {0};
         ffd_alloc_fail_after(successes);
         const ffd_status status =
             parse("{\"a\":[1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17],\"b\":{}}", &tree, &error);
         ffd_alloc_fail_after(-1);
-        ffd_json_span_free(&tree);
+        ffd_json_tree_free(&tree);
         if (status == FFD_OK) {
             assert_true(successes > 0);
             return;
@@ -312,16 +312,16 @@ static void edits_replace_spans_only(void **state)
 /* Removes the children whose bits are set from an object or array of 4. */
 static void check_removal(const char *text, unsigned gone, const char *expected)
 {
-    json_span tree;
+    json_tree tree;
     json_edits edits = {0};
     byte_buffer out = {0};
     uint32_t values[4];
     size_t count = 0;
     assert_int_equal(parse(text, &tree, NULL), FFD_OK);
     for (size_t i = 0; i < 4; i++) {
-        uint32_t v = ffd_json_span_first(&tree, 0);
+        uint32_t v = ffd_json_tree_first(&tree, 0);
         for (size_t k = 0; k < i; k++)
-            v = ffd_json_span_after(&tree, v);
+            v = ffd_json_tree_after(&tree, v);
         if (gone >> i & 1)
             values[count++] = v;
     }
@@ -332,7 +332,7 @@ static void check_removal(const char *text, unsigned gone, const char *expected)
     assert_string_equal(made, expected);
     ffd_free(made);
     ffd_edits_free(&edits);
-    ffd_json_span_free(&tree);
+    ffd_json_tree_free(&tree);
 }
 
 static void members_go_with_their_commas(void **state)

@@ -1,4 +1,4 @@
-#include "json/json_span.h"
+#include "json/json_tree.h"
 #include "base/memory/memory.h"
 #include "base/spelling.h"
 #include "base/text/number.h"
@@ -11,61 +11,61 @@
 static int compare_members(const void *a, const void *b)
 {
     const json_member *x = a, *y = b;
-    return ffd_json_span_compare_keys(x->tree, x->value, y->tree, y->value);
+    return ffd_json_tree_compare_keys(x->tree, x->value, y->tree, y->value);
 }
 
-void ffd_json_span_sort_keys(json_member *members, size_t count)
+void ffd_json_tree_sort_keys(json_member *members, size_t count)
 {
     if (count > 1)
         qsort(members, count, sizeof *members, compare_members);
 }
 
-void ffd_json_span_sort(const json_span *tree, uint32_t object, json_member *members)
+void ffd_json_tree_sort(const json_tree *tree, uint32_t object, json_member *members)
 {
     size_t count = 0;
-    for (uint32_t v = ffd_json_span_first(tree, object); v != JSON_NONE; v = ffd_json_span_after(tree, v))
+    for (uint32_t v = ffd_json_tree_first(tree, object); v != JSON_NONE; v = ffd_json_tree_after(tree, v))
         members[count++] = (json_member){tree, v};
-    ffd_json_span_sort_keys(members, count);
+    ffd_json_tree_sort_keys(members, count);
 }
 
-void ffd_json_span_free(json_span *tree)
+void ffd_json_tree_free(json_tree *tree)
 {
     ffd_free(tree->values);
-    *tree = (json_span){0};
+    *tree = (json_tree){0};
 }
 
-uint32_t ffd_json_span_first(const json_span *tree, uint32_t container)
+uint32_t ffd_json_tree_first(const json_tree *tree, uint32_t container)
 {
     return container != JSON_NONE && tree->values[container].count > 0 ? container + 1 : JSON_NONE;
 }
 
-uint32_t ffd_json_span_after(const json_span *tree, uint32_t value)
+uint32_t ffd_json_tree_after(const json_tree *tree, uint32_t value)
 {
     const uint32_t next = tree->values[value].next, parent = tree->values[value].parent;
     return parent != JSON_NONE && next < tree->values[parent].next ? next : JSON_NONE;
 }
 
-uint32_t ffd_json_span_member(const json_span *tree, uint32_t object, const char *key)
+uint32_t ffd_json_tree_member(const json_tree *tree, uint32_t object, const char *key)
 {
     if (object == JSON_NONE || tree->values[object].kind != JSON_OBJECT)
         return JSON_NONE;
-    for (uint32_t v = ffd_json_span_first(tree, object); v != JSON_NONE; v = ffd_json_span_after(tree, v))
-        if (ffd_json_span_key_is(tree, v, key))
+    for (uint32_t v = ffd_json_tree_first(tree, object); v != JSON_NONE; v = ffd_json_tree_after(tree, v))
+        if (ffd_json_tree_key_is(tree, v, key))
             return v;
     return JSON_NONE;
 }
 
-uint32_t ffd_json_span_element(const json_span *tree, uint32_t array, size_t i)
+uint32_t ffd_json_tree_element(const json_tree *tree, uint32_t array, size_t i)
 {
     if (array == JSON_NONE || tree->values[array].kind != JSON_ARRAY)
         return JSON_NONE;
-    uint32_t v = ffd_json_span_first(tree, array);
+    uint32_t v = ffd_json_tree_first(tree, array);
     for (; v != JSON_NONE && i > 0; i--)
-        v = ffd_json_span_after(tree, v);
+        v = ffd_json_tree_after(tree, v);
     return v;
 }
 
-bool ffd_json_span_number(const json_span *tree, uint32_t value, double *number)
+bool ffd_json_tree_number(const json_tree *tree, uint32_t value, double *number)
 {
     if (value == JSON_NONE || tree->values[value].kind != JSON_NUMBER)
         return false;
@@ -93,7 +93,7 @@ static void show_nuls(char *text, size_t length)
 }
 
 /* Decodes the string whose quotes are at begin and end - 1. */
-static char *decode(const json_span *tree, uint32_t begin, uint32_t end, size_t *size)
+static char *decode(const json_tree *tree, uint32_t begin, uint32_t end, size_t *size)
 {
     const size_t capacity = end - begin; /* an escape is never shorter than the UTF-8 it stands for */
     char *const text = ffd_alloc(capacity, 1);
@@ -107,17 +107,17 @@ static char *decode(const json_span *tree, uint32_t begin, uint32_t end, size_t 
     return text;
 }
 
-char *ffd_json_span_string(const json_span *tree, uint32_t value, size_t *size)
+char *ffd_json_tree_string(const json_tree *tree, uint32_t value, size_t *size)
 {
     return decode(tree, tree->values[value].begin, tree->values[value].end, size);
 }
 
-char *ffd_json_span_key(const json_span *tree, uint32_t value)
+char *ffd_json_tree_key(const json_tree *tree, uint32_t value)
 {
     return decode(tree, tree->values[value].key_begin, tree->values[value].key_end, NULL);
 }
 
-static bool spells(const json_span *tree, uint32_t begin, uint32_t end, const char *text)
+static bool spells(const json_tree *tree, uint32_t begin, uint32_t end, const char *text)
 {
     const char *c = tree->text + begin + 1, *const last = tree->text + end - 1;
     const char *t = text, *const text_last = text + strlen(text);
@@ -138,13 +138,13 @@ static bool spells(const json_span *tree, uint32_t begin, uint32_t end, const ch
     return c == last && t == text_last;
 }
 
-bool ffd_json_span_key_is(const json_span *tree, uint32_t value, const char *text)
+bool ffd_json_tree_key_is(const json_tree *tree, uint32_t value, const char *text)
 {
     const json_value *v = &tree->values[value];
     return v->key_end > v->key_begin && spells(tree, v->key_begin, v->key_end, text);
 }
 
-bool ffd_json_span_string_is(const json_span *tree, uint32_t value, const char *text)
+bool ffd_json_tree_string_is(const json_tree *tree, uint32_t value, const char *text)
 {
     const json_value *v = &tree->values[value];
     return v->kind == JSON_STRING && spells(tree, v->begin, v->end, text);
@@ -163,14 +163,14 @@ static int compare_text(const char *x, const char *x_last, const char *y, const 
     return (x < x_last) - (y < y_last);
 }
 
-int ffd_json_span_compare_keys(const json_span *a, uint32_t x, const json_span *b, uint32_t y)
+int ffd_json_tree_compare_keys(const json_tree *a, uint32_t x, const json_tree *b, uint32_t y)
 {
     const json_value *v = &a->values[x], *w = &b->values[y];
     return compare_text(a->text + v->key_begin + 1, a->text + v->key_end - 1, b->text + w->key_begin + 1,
                         b->text + w->key_end - 1);
 }
 
-bool ffd_json_span_equal_strings(const json_span *a, uint32_t x, const json_span *b, uint32_t y)
+bool ffd_json_tree_equal_strings(const json_tree *a, uint32_t x, const json_tree *b, uint32_t y)
 {
     const json_value *v = &a->values[x], *w = &b->values[y];
     return compare_text(a->text + v->begin + 1, a->text + v->end - 1, b->text + w->begin + 1,
@@ -179,7 +179,7 @@ bool ffd_json_span_equal_strings(const json_span *a, uint32_t x, const json_span
 
 /* Appends one step of a JSON pointer, "/nodes" or "/3", with '~' and '/' escaped as ~0 and ~1. What does not
    fit is omitted. Returns the new length. */
-static size_t pointer_step(const json_span *tree, uint32_t value, char *text, size_t length, size_t capacity)
+static size_t pointer_step(const json_tree *tree, uint32_t value, char *text, size_t length, size_t capacity)
 {
     const json_value *v = &tree->values[value];
     if (v->key_end == v->key_begin) {
@@ -209,9 +209,9 @@ static size_t pointer_step(const json_span *tree, uint32_t value, char *text, si
     return length;
 }
 
-void ffd_json_span_pointer(const json_span *tree, uint32_t value, char *text, size_t capacity)
+void ffd_json_tree_pointer(const json_tree *tree, uint32_t value, char *text, size_t capacity)
 {
-    uint32_t path[JSON_SPAN_DEPTH + 1];
+    uint32_t path[JSON_TREE_DEPTH + 1];
     size_t depth = 0, length = 0;
     for (uint32_t v = value; tree->values[v].parent != JSON_NONE; v = tree->values[v].parent)
         path[depth++] = v;
@@ -220,13 +220,13 @@ void ffd_json_span_pointer(const json_span *tree, uint32_t value, char *text, si
         length = pointer_step(tree, path[--depth], text, length, capacity);
 }
 
-ffd_status ffd_json_span_fail(const json_span *tree, uint32_t value, const char *name, ffd_status status,
+ffd_status ffd_json_tree_fail(const json_tree *tree, uint32_t value, const char *name, ffd_status status,
                               ffd_error *error, const char *format, ...)
 {
     if (!error)
         return status;
     char pointer[sizeof error->pointer], message[sizeof error->message];
-    ffd_json_span_pointer(tree, value, pointer, sizeof pointer);
+    ffd_json_tree_pointer(tree, value, pointer, sizeof pointer);
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(message, sizeof message, SPELLED(format), arguments);

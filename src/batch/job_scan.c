@@ -1,28 +1,28 @@
-#include "batch/job_look.h"
+#include "batch/job_scan.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
-#include "batch/files/look.h"
+#include "batch/files/scan.h"
 #include "io/formats.h"
 #include "io/users.h"
 #include "job/input/source.h"
 
 /* Adds the lattices of a job, and the files of the meshes that their boxes go round. *has_boxes: there are
    some. */
-static ffd_status look_at_lattices(hash_cache *hashes, byte_buffer *found, const ffd_deform_desc *desc,
-                                   bool *has_boxes, ffd_error *error)
+static ffd_status scan_lattices(hash_cache *hashes, byte_buffer *found, const ffd_deform_desc *desc,
+                                bool *has_boxes, ffd_error *error)
 {
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < desc->lattice_count && !status; i++) {
         path_list meshes = {0};
-        ffd_look_add(found, LOOK_LATTICE, desc->lattices[i].path);
-        status = ffd_cache_box_meshes(hashes, desc->lattices[i].path, &meshes, error);
+        ffd_scan_add(found, SCAN_LATTICE, desc->lattices[i].path);
+        status = ffd_hash_cache_box_meshes(hashes, desc->lattices[i].path, &meshes, error);
         *has_boxes = *has_boxes || meshes.count > 0;
         for (size_t m = 0; m < meshes.count && !status; m++) {
             const ffd_source source = {.path = meshes.paths[m]};
             path_list named = {0};
-            ffd_look_add(found, LOOK_BOX, meshes.paths[m]);
-            status = ffd_cache_list_named(&source, &named, error);
-            ffd_look_add_all(found, LOOK_BOX, &named);
+            ffd_scan_add(found, SCAN_BOX, meshes.paths[m]);
+            status = ffd_hash_cache_list_named(&source, &named, error);
+            ffd_scan_add_all(found, SCAN_BOX, &named);
             ffd_paths_free(&named);
         }
         ffd_paths_free(&meshes);
@@ -47,10 +47,10 @@ static ffd_status survey(byte_buffer *found, const ffd_deform_desc *desc, ffd_er
     ffd_status status = folder ? FFD_OK : ffd_fail_memory(error);
     if (!status)
         status = ffd_users_list(folder, &pairs, error);
-    ffd_look_add(found, LOOK_FOLDER, folder ? folder : "");
+    ffd_scan_add(found, SCAN_FOLDER, folder ? folder : "");
     for (size_t i = 0; i + 1 < pairs.count && !status; i += 2) {
-        ffd_look_add(found, LOOK_MODEL, pairs.paths[i]);
-        ffd_look_add(found, LOOK_BUFFER, pairs.paths[i + 1]);
+        ffd_scan_add(found, SCAN_MODEL, pairs.paths[i]);
+        ffd_scan_add(found, SCAN_BUFFER, pairs.paths[i + 1]);
     }
     ffd_paths_free(&pairs);
     ffd_free(folder);
@@ -58,35 +58,35 @@ static ffd_status survey(byte_buffer *found, const ffd_deform_desc *desc, ffd_er
 }
 
 /* Adds the files that the mesh names. *beside: the number of those beside the output. */
-static ffd_status look_at_mesh(hash_cache *hashes, byte_buffer *found, const ffd_deform_desc *desc,
-                               size_t *beside, ffd_error *error)
+static ffd_status scan_mesh(hash_cache *hashes, byte_buffer *found, const ffd_deform_desc *desc,
+                            size_t *beside, ffd_error *error)
 {
     path_list named = {0}, copies = {0};
-    const ffd_status status =
-        ffd_cache_look(hashes, &desc->input, ffd_job_output_format(desc), beside, &named, &copies, error);
+    const ffd_status status = ffd_hash_cache_scan(hashes, &desc->input, ffd_job_output_format(desc), beside,
+                                                  &named, &copies, error);
     if (!status) {
-        ffd_look_add_all(found, LOOK_NAMED, &named);
-        ffd_look_add_all(found, LOOK_COPY, &copies);
+        ffd_scan_add_all(found, SCAN_NAMED, &named);
+        ffd_scan_add_all(found, SCAN_COPY, &copies);
     }
     ffd_paths_free(&named);
     ffd_paths_free(&copies);
     return status == FFD_E_MEMORY ? status : FFD_OK;
 }
 
-ffd_status ffd_job_look(hash_cache *hashes, const wire_task *task, const ffd_deform_desc *desc,
+ffd_status ffd_job_scan(hash_cache *hashes, const wire_task *task, const ffd_deform_desc *desc,
                         byte_buffer *found, wire_answer *answer, ffd_error *error)
 {
     size_t beside = 0;
     bool has_boxes = false;
-    ffd_status status = task->look_at_mesh ? look_at_mesh(hashes, found, desc, &beside, error) : FFD_OK;
+    ffd_status status = task->scan_mesh ? scan_mesh(hashes, found, desc, &beside, error) : FFD_OK;
     const bool has_names = found->size > 0;
-    if (!status && task->look_at_lattices)
-        status = look_at_lattices(hashes, found, desc, &has_boxes, error);
+    if (!status && task->scan_lattices)
+        status = scan_lattices(hashes, found, desc, &has_boxes, error);
     if (!status && task->survey)
         status = survey(found, desc, error);
     answer->beside = beside;
-    answer->looked = !status && (beside > 0 || has_names || has_boxes || task->look_only || task->survey);
-    if (!answer->looked)
+    answer->scanned = !status && (beside > 0 || has_names || has_boxes || task->scan_only || task->survey);
+    if (!answer->scanned)
         found->size = 0;
     return status;
 }

@@ -1,35 +1,35 @@
-#include "mesh/resource/beside.h"
+#include "mesh/resource/sidecar.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/text/words.h"
 
-char *ffd_beside_name(const char *output, size_t number)
+char *ffd_sidecar_name(const char *output, size_t index)
 {
     char *const stem = ffd_path_stem(output);
     byte_buffer name = {.failed = !stem};
     if (stem)
         ffd_buffer_text(&name, stem);
-    if (number > 0)
-        ffd_buffer_format(&name, "-%zu", number);
+    if (index > 0)
+        ffd_buffer_format(&name, "-%zu", index);
     ffd_buffer_text(&name, ".bin");
     ffd_free(stem);
     char *const finished = ffd_buffer_finish(&name);
-    char *const path = finished ? ffd_path_beside(output, finished) : NULL;
+    char *const path = finished ? ffd_path_sibling(output, finished) : NULL;
     ffd_free(finished);
     return path;
 }
 
 /* What is known of a file under a name. */
-typedef struct beside_file {
+typedef struct sidecar_file {
     bool exists, is_own; /* is_own: the output names it already */
     size_t others;       /* models that name it too */
     path_list names;     /* of the first of these */
-} beside_file;
+} sidecar_file;
 
-static ffd_status look(const beside_names *names, const char *path, beside_file *file, ffd_error *error)
+static ffd_status inspect(const sidecar_names *names, const char *path, sidecar_file *file, ffd_error *error)
 {
     const mesh_sharing *const sharing = names->options->sharing;
-    *file = (beside_file){.exists = !names->options->to_sink && ffd_file_exists(path)};
+    *file = (sidecar_file){.exists = !names->options->to_sink && ffd_file_exists(path)};
     if (!sharing || !(file->exists || names->passes || sharing->is_cheap))
         return FFD_OK;
     return sharing->find(sharing->context, path, names->options->path, &file->others, &file->is_own,
@@ -38,7 +38,7 @@ static ffd_status look(const beside_names *names, const char *path, beside_file 
 
 /* Notes that a file of other models stays: a buffer, an image, or what an extension names. is: "is" or "was"
    a file of them. */
-static ffd_status note_users(const char *path, const char *is, const beside_file *file, path_list *passed,
+static ffd_status note_users(const char *path, const char *is, const sidecar_file *file, path_list *passed,
                              ffd_error *error)
 {
     byte_buffer text = {0};
@@ -55,36 +55,37 @@ static ffd_status note_users(const char *path, const char *is, const beside_file
 
 /* Notes the users of the file that the output has had so far, if it is left to them. The run may have given a
    new file to them too. */
-static ffd_status note_old(const beside_names *names, const char *target, path_list *passed, ffd_error *error)
+static ffd_status note_old(const sidecar_names *names, const char *target, path_list *passed,
+                           ffd_error *error)
 {
-    beside_file file = {0};
+    sidecar_file file = {0};
     if (ffd_file_same(names->old, target))
         return FFD_OK;
-    ffd_status status = look(names, names->old, &file, error);
+    ffd_status status = inspect(names, names->old, &file, error);
     if (!status && file.others > 0)
         status = note_users(names->old, "was", &file, passed, error);
     ffd_paths_free(&file.names);
     return status;
 }
 
-static void say_passes(const beside_names *names, const path_list *passed, const char *target)
+static void log_passed_over(const sidecar_names *names, const path_list *passed, const char *target)
 {
     for (size_t i = 0; i < passed->count; i++)
         ffd_log_line(names->log, FFD_LOG_WARNING, "%s too, and stays: %s is written in place of it",
                      passed->paths[i], target);
 }
 
-ffd_status ffd_beside_next(beside_names *names, beside_own_function *own, const void *context, char **target,
-                           ffd_error *error)
+ffd_status ffd_sidecar_next(sidecar_names *names, sidecar_own_function *own, const void *context,
+                            char **target, ffd_error *error)
 {
     ffd_status status = FFD_OK;
     path_list passed = {0};
     bool is_own = false, old_is_noted = !names->old;
     *target = NULL;
     while (!*target && !status) {
-        char *path = ffd_beside_name(names->options->path, names->number++);
-        beside_file file = {0};
-        status = path ? look(names, path, &file, error) : ffd_fail_memory(error);
+        char *path = ffd_sidecar_name(names->options->path, names->number++);
+        sidecar_file file = {0};
+        status = path ? inspect(names, path, &file, error) : ffd_fail_memory(error);
         if (!status && file.others > 0) {
             status = note_users(path, "is", &file, &passed, error);
             names->passes++;
@@ -101,7 +102,7 @@ ffd_status ffd_beside_next(beside_names *names, beside_own_function *own, const 
     if (!status && !old_is_noted)
         status = note_old(names, *target, &passed, error);
     if (!status && !is_own) /* else it has that name already */
-        say_passes(names, &passed, *target);
+        log_passed_over(names, &passed, *target);
     ffd_paths_free(&passed);
     return status;
 }

@@ -1,24 +1,24 @@
-#include "batch/files/look.h"
+#include "batch/files/scan.h"
 #include <string.h>
 
-void ffd_look_add(byte_buffer *text, look_kind kind, const char *path)
+void ffd_scan_add(byte_buffer *text, scan_kind kind, const char *path)
 {
     const char mark = (char)kind;
     ffd_buffer_append(text, &mark, 1);
     ffd_buffer_append(text, path, strlen(path) + 1);
 }
 
-void ffd_look_add_all(byte_buffer *text, look_kind kind, const path_list *paths)
+void ffd_scan_add_all(byte_buffer *text, scan_kind kind, const path_list *paths)
 {
     for (size_t i = 0; i < paths->count; i++)
-        ffd_look_add(text, kind, paths->paths[i]);
+        ffd_scan_add(text, kind, paths->paths[i]);
 }
 
-const char *ffd_look_next(const byte_buffer *text, size_t *at, look_kind *kind)
+const char *ffd_scan_next(const byte_buffer *text, size_t *at, scan_kind *kind)
 {
     if (*at + 1 >= text->size)
         return NULL;
-    *kind = (look_kind)text->data[*at];
+    *kind = (scan_kind)text->data[*at];
     const char *const path = text->data + *at + 1, *const end = memchr(path, 0, text->size - *at - 1);
     *at = end ? (size_t)(end - text->data) + 1 : text->size;
     return end ? path : NULL;
